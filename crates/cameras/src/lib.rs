@@ -1,0 +1,1 @@
+//! Cameras: each makes rays and can be connected to

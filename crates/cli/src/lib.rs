@@ -1,0 +1,1 @@
+//! Etalon: a spectral renderer whose estimators are held to account by statistics

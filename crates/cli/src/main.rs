@@ -1,0 +1,2 @@
+//! The `etalon` command line.
+fn main() {}

@@ -1,0 +1,1 @@
+//! Reconstruction filters, exact accumulation per pixel, tile means, replicates

@@ -1,0 +1,1 @@
+//! Files in: Mitsuba XML, OBJ, PLY

@@ -1,0 +1,1 @@
+//! Shapes, instances and accelerators

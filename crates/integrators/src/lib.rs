@@ -1,0 +1,1 @@
+//! Estimators of light transport, one file each, and the render loop

@@ -1,0 +1,1 @@
+//! Light sources: each can be hit, sampled and made to emit

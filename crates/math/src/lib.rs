@@ -1,0 +1,1 @@
+//! Frames, transforms, densities with their measure, error bounds, polynomial roots

@@ -1,0 +1,1 @@
+//! The description tree: typed properties with source positions, used-marks and diagnostics

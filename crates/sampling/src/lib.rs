@@ -1,0 +1,1 @@
+//! Samplers, random streams, low-discrepancy sequences, warps, discrete and piecewise distributions

@@ -1,0 +1,1 @@
+//! Compiles a description tree into an immutable scene

@@ -1,0 +1,1 @@
+//! Wavelengths, spectra, colour matching, illuminants, RGB to spectrum, refractive indices

@@ -1,0 +1,1 @@
+//! Exact accumulators, moments, hypothesis and equivalence tests, multiplicity

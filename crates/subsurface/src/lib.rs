@@ -1,0 +1,1 @@
+//! Phase functions, media and subsurface scattering

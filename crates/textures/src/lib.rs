@@ -1,0 +1,1 @@
+//! Spectra and images that vary over surfaces

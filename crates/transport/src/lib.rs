@@ -1,0 +1,1 @@
+//! Nouns and contracts of light transport; no implementation

@@ -1,0 +1,1 @@
+//! Claims, references and the report of `cargo xtask validate`
