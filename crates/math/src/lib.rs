@@ -1,1 +1,18 @@
-//! Frames, transforms, densities with their measure, error bounds, polynomial roots
+//! Geometry-free mathematics of the renderer: frames, transforms, densities that carry their
+//! measure, error-bounded offsets, polynomial roots and reproducible elementary functions.
+//!
+//! Nothing here knows of light.
+
+pub mod density;
+pub mod float;
+pub mod float64;
+pub mod frame;
+pub mod offset;
+pub mod polynomial;
+pub mod transform;
+
+pub use density::{Area, Atom, Density, Length, Measure, SolidAngle};
+pub use frame::Frame;
+pub use glam::{DMat4, DVec2, DVec3, Vec2, Vec3, Vec4};
+pub use offset::{gamma, offset_origin};
+pub use transform::Transform;

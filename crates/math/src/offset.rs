@@ -1,0 +1,62 @@
+//! Where a ray that leaves a surface may safely start.
+//!
+//! A hit point is only known to within a box of half-widths `error`; a ray started inside that
+//! box may hit the surface it leaves. The origin is therefore moved along the normal by the
+//! box's extent in that direction, then rounded away from the surface (Pharr, Jakob, Humphreys
+//! 2023, "Physically Based Rendering", 4th ed., section 6.8). No epsilon scaled by the scene.
+
+use glam::Vec3;
+
+/// γₙ = n·ε / (1 − n·ε): the bound on the relative error of n rounded operations (Higham 2002),
+/// with ε the unit round-off of f32 (2⁻²⁴).
+#[inline]
+pub const fn gamma(n: u32) -> f32 {
+    const UNIT: f32 = f32::EPSILON * 0.5;
+    let x = n as f32 * UNIT;
+    x / (1.0 - x)
+}
+
+/// A start for a ray along `direction` out of the surface point `position`, known to within
+/// ±`error` in each coordinate, on a surface with unit geometric `normal` (either side).
+#[inline]
+pub fn offset_origin(position: Vec3, error: Vec3, normal: Vec3, direction: Vec3) -> Vec3 {
+    let distance = normal.abs().dot(error);
+    let mut offset = normal * distance;
+    if direction.dot(normal) < 0.0 {
+        offset = -offset;
+    }
+    let moved = position + offset;
+    // Round each coordinate away from the surface.
+    let away = |value: f32, step: f32| {
+        if step > 0.0 {
+            value.next_up()
+        } else if step < 0.0 {
+            value.next_down()
+        } else {
+            value
+        }
+    };
+    Vec3::new(
+        away(moved.x, offset.x),
+        away(moved.y, offset.y),
+        away(moved.z, offset.z),
+    )
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn origin_leaves_the_error_box_on_the_side_of_the_ray() {
+        let p = Vec3::new(1000.0, -3.0, 1e-3);
+        let error = Vec3::new(1e-3, 1e-5, 1e-6);
+        let n = Vec3::new(1.0, 2.0, -2.0) / 3.0;
+        for direction in [n, -n] {
+            let o = offset_origin(p, error, n, direction);
+            // The farthest corner of the box along the ray's side of the plane.
+            let extent = n.abs().dot(error);
+            assert!((o - p).dot(direction) >= extent * 0.999);
+        }
+    }
+}
