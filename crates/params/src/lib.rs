@@ -1,1 +1,19 @@
-//! The description tree: typed properties with source positions, used-marks and diagnostics
+//! The description tree: what a scene file said, before anything is known of light.
+//!
+//! A [`Node`] is one object (`<bsdf type="diffuse">`), with typed [`Property`] values. Every node,
+//! name and value keeps its [`Span`] in the [`Sources`], so that a mistake found much later can
+//! still be shown with its file, line, column and a caret. A plugin reads its node through
+//! [`Params`], which records every mistake in [`Diagnostics`] and knows which properties nobody
+//! asked for.
+
+pub mod diagnostic;
+pub mod node;
+pub mod read;
+pub mod source;
+pub mod suggest;
+
+pub use diagnostic::{Diagnostic, Diagnostics, Severity};
+pub use glam::{DMat4, DVec3};
+pub use node::{Class, Node, Property, Spanned, SpectrumText, Value};
+pub use read::Params;
+pub use source::{FileId, Sources, Span};

@@ -1,0 +1,160 @@
+//! Nodes, properties and values.
+
+use crate::Span;
+use glam::{DMat4, DVec3};
+use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
+
+/// What family of things an object belongs to (the XML tag).
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+#[allow(missing_docs)]
+pub enum Class {
+    Scene,
+    Bsdf,
+    Emitter,
+    Film,
+    Integrator,
+    Medium,
+    Phase,
+    ReconstructionFilter,
+    Sampler,
+    Sensor,
+    Shape,
+    /// A texture or a spectrum: one family, as in Mitsuba.
+    Texture,
+    Volume,
+}
+
+impl Class {
+    /// The name used in messages.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Scene => "scene",
+            Self::Bsdf => "bsdf",
+            Self::Emitter => "emitter",
+            Self::Film => "film",
+            Self::Integrator => "integrator",
+            Self::Medium => "medium",
+            Self::Phase => "phase",
+            Self::ReconstructionFilter => "rfilter",
+            Self::Sampler => "sampler",
+            Self::Sensor => "sensor",
+            Self::Shape => "shape",
+            Self::Texture => "texture",
+            Self::Volume => "volume",
+        }
+    }
+}
+
+/// A value with its place.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Spanned<T> {
+    /// The value.
+    pub value: T,
+    /// Where it stands.
+    pub span: Span,
+}
+
+/// The value of a `<spectrum>` tag, as written.
+#[derive(Clone, Debug, PartialEq)]
+pub enum SpectrumText {
+    /// One number: constant over wavelength.
+    Uniform(f64),
+    /// Pairs of wavelength (nm) and value, in ascending order of wavelength.
+    Samples(Vec<(f64, f64)>),
+}
+
+/// A typed property value.
+#[derive(Clone, Debug)]
+pub enum Value {
+    /// `<float>`.
+    Float(f64),
+    /// `<integer>`.
+    Integer(i64),
+    /// `<boolean>`.
+    Boolean(bool),
+    /// `<string>`.
+    String(String),
+    /// `<point>` or `<vector>`.
+    Vector(DVec3),
+    /// `<rgb>`: linear Rec.709, may lie outside [0, 1].
+    Rgb(DVec3),
+    /// `<spectrum value=…>` or `<spectrum filename=…>`.
+    Spectrum(SpectrumText),
+    /// `<transform>`.
+    Transform(DMat4),
+    /// A nested object or a reference to one; a shared object is one `Arc`.
+    Object(Arc<Node>),
+}
+
+impl Value {
+    /// What kind of value it is, for messages.
+    pub fn kind(&self) -> &'static str {
+        match self {
+            Self::Float(_) => "a float",
+            Self::Integer(_) => "an integer",
+            Self::Boolean(_) => "a boolean",
+            Self::String(_) => "a string",
+            Self::Vector(_) => "a point or vector",
+            Self::Rgb(_) => "an rgb colour",
+            Self::Spectrum(_) => "a spectrum",
+            Self::Transform(_) => "a transform",
+            Self::Object(node) => match node.class {
+                Class::Texture => "a texture",
+                _ => "an object",
+            },
+        }
+    }
+}
+
+/// One named value of a node.
+#[derive(Debug)]
+pub struct Property {
+    /// The name; children without a name have an empty one.
+    pub name: String,
+    /// Where the name stands (or the whole element, if it has none).
+    pub name_span: Span,
+    /// The value.
+    pub value: Value,
+    /// Where the value stands.
+    pub span: Span,
+    used: AtomicBool,
+}
+
+impl Property {
+    /// A property nobody has asked for yet.
+    pub fn new(name: impl Into<String>, name_span: Span, value: Value, span: Span) -> Self {
+        Self {
+            name: name.into(),
+            name_span,
+            value,
+            span,
+            used: AtomicBool::new(false),
+        }
+    }
+
+    /// Notes that somebody asked for it.
+    pub fn mark_used(&self) {
+        self.used.store(true, Ordering::Relaxed);
+    }
+
+    /// Whether anybody asked for it.
+    pub fn is_used(&self) -> bool {
+        self.used.load(Ordering::Relaxed)
+    }
+}
+
+/// One object of the description.
+#[derive(Debug)]
+pub struct Node {
+    /// Its family.
+    pub class: Class,
+    /// The plugin's name (`type="…"`) and where it stands.
+    pub plugin: Spanned<String>,
+    /// Its `id`, if it has one.
+    pub id: Option<String>,
+    /// The whole element.
+    pub span: Span,
+    /// Properties and children in the order of the file.
+    pub properties: Vec<Property>,
+}

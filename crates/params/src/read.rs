@@ -1,0 +1,281 @@
+//! Reading a node's properties, the one way every plugin does it.
+//!
+//! Each getter marks the property as used, checks its type and, on a mistake, records a
+//! diagnostic and returns a harmless value so that reading can go on and find further mistakes.
+//! The caller refuses the scene if [`Diagnostics::has_errors`]. [`Params::finish`] reports what
+//! nobody asked for.
+
+use crate::{Class, Diagnostic, Diagnostics, Node, Property, Value};
+use glam::{DMat4, DVec3};
+use std::cell::RefCell;
+use std::fmt::Display;
+use std::sync::Arc;
+
+/// A node being read by its plugin.
+pub struct Params<'a> {
+    /// The node.
+    pub node: &'a Node,
+    /// Where mistakes go.
+    pub diagnostics: &'a Diagnostics,
+    known: RefCell<Vec<String>>,
+}
+
+impl<'a> Params<'a> {
+    /// Begins to read `node`.
+    pub fn new(node: &'a Node, diagnostics: &'a Diagnostics) -> Self {
+        Self {
+            node,
+            diagnostics,
+            known: RefCell::new(Vec::new()),
+        }
+    }
+
+    /// The property called `name`, marked as used. The name becomes one that this plugin knows.
+    pub fn property(&self, name: &str) -> Option<&'a Property> {
+        if !self.known.borrow().iter().any(|k| k == name) {
+            self.known.borrow_mut().push(name.to_owned());
+        }
+        let found = self.node.properties.iter().find(|p| p.name == name)?;
+        found.mark_used();
+        Some(found)
+    }
+
+    /// Whether the property is present (does not mark it).
+    pub fn has(&self, name: &str) -> bool {
+        self.node.properties.iter().any(|p| p.name == name)
+    }
+
+    /// Records an error at the value of a property (or at the plugin's name if it is absent).
+    pub fn error_at(&self, name: &str, message: impl Into<String>) {
+        let property = self.node.properties.iter().find(|p| p.name == name);
+        let span = property.map_or(self.node.plugin.span, |p| p.span);
+        self.diagnostics.push(Diagnostic::error(span, message));
+    }
+
+    /// Records an error about the node as a whole.
+    pub fn error(&self, message: impl Into<String>) {
+        self.diagnostics
+            .push(Diagnostic::error(self.node.plugin.span, message));
+    }
+
+    fn wrong_kind(&self, property: &Property, wanted: &str) {
+        self.diagnostics.push(
+            Diagnostic::error(
+                property.span,
+                format!(
+                    "parameter `{}` of `{}` must be {wanted}, not {}",
+                    property.name,
+                    self.node.plugin.value,
+                    property.value.kind()
+                ),
+            )
+            .label(format!("expected {wanted}")),
+        );
+    }
+
+    /// A missing required property.
+    pub fn missing(&self, name: &str, wanted: &str) {
+        self.diagnostics.push(
+            Diagnostic::error(
+                self.node.plugin.span,
+                format!(
+                    "`{}` needs the parameter `{name}` ({wanted})",
+                    self.node.plugin.value
+                ),
+            )
+            .label(format!("`{name}` is missing")),
+        );
+    }
+
+    fn get<T>(
+        &self,
+        name: &str,
+        wanted: &str,
+        convert: impl Fn(&'a Value) -> Option<T>,
+    ) -> Option<T> {
+        let property = self.property(name)?;
+        let value = convert(&property.value);
+        if value.is_none() {
+            self.wrong_kind(property, wanted);
+        }
+        value
+    }
+
+    /// A number, if given.
+    pub fn float(&self, name: &str) -> Option<f64> {
+        self.get(name, "a number", |v| match v {
+            Value::Float(x) => Some(*x),
+            Value::Integer(i) => Some(*i as f64),
+            _ => None,
+        })
+    }
+
+    /// A number, or its default.
+    pub fn float_or(&self, name: &str, default: f64) -> f64 {
+        self.float(name).unwrap_or(default)
+    }
+
+    /// A number for which `accept` holds, or its default; `what` says what is accepted.
+    pub fn float_where(
+        &self,
+        name: &str,
+        default: f64,
+        what: &str,
+        accept: impl Fn(f64) -> bool,
+    ) -> f64 {
+        let value = self.float_or(name, default);
+        if accept(value) {
+            value
+        } else {
+            self.refuse(name, value, what);
+            default
+        }
+    }
+
+    /// Records that a value is outside of what is accepted.
+    pub fn refuse(&self, name: &str, value: impl Display, what: &str) {
+        let property = self.node.properties.iter().find(|p| p.name == name);
+        let span = property.map_or(self.node.plugin.span, |p| p.span);
+        self.diagnostics.push(
+            Diagnostic::error(
+                span,
+                format!(
+                    "parameter `{name}` of `{}` cannot be {value}",
+                    self.node.plugin.value
+                ),
+            )
+            .help(format!("accepted: {what}")),
+        );
+    }
+
+    /// An integer, if given.
+    pub fn integer(&self, name: &str) -> Option<i64> {
+        self.get(name, "an integer", |v| match v {
+            Value::Integer(i) => Some(*i),
+            _ => None,
+        })
+    }
+
+    /// An integer, or its default.
+    pub fn integer_or(&self, name: &str, default: i64) -> i64 {
+        self.integer(name).unwrap_or(default)
+    }
+
+    /// A truth value, or its default.
+    pub fn boolean_or(&self, name: &str, default: bool) -> bool {
+        self.get(name, "a boolean (`true` or `false`)", |v| match v {
+            Value::Boolean(b) => Some(*b),
+            _ => None,
+        })
+        .unwrap_or(default)
+    }
+
+    /// A string, if given.
+    pub fn string(&self, name: &str) -> Option<&'a str> {
+        self.get(name, "a string", |v| match v {
+            Value::String(s) => Some(s.as_str()),
+            _ => None,
+        })
+    }
+
+    /// One of a few words, or the default; anything else is an error that lists them.
+    pub fn choice(
+        &self,
+        name: &str,
+        default: &'static str,
+        choices: &[&'static str],
+    ) -> &'static str {
+        let Some(word) = self.string(name) else {
+            return default;
+        };
+        if let Some(found) = choices.iter().find(|c| c.eq_ignore_ascii_case(word)) {
+            return found;
+        }
+        let property = self.node.properties.iter().find(|p| p.name == name);
+        let span = property.map_or(self.node.plugin.span, |p| p.span);
+        self.diagnostics.push(
+            Diagnostic::error(span, format!("`{word}` is not a value of `{name}`"))
+                .suggest(word, choices.iter().copied()),
+        );
+        default
+    }
+
+    /// A point or vector, if given.
+    pub fn vector(&self, name: &str) -> Option<DVec3> {
+        self.get(name, "a point or vector", |v| match v {
+            Value::Vector(x) => Some(*x),
+            _ => None,
+        })
+    }
+
+    /// A transform, or the identity.
+    pub fn transform(&self, name: &str) -> DMat4 {
+        self.get(name, "a transform", |v| match v {
+            Value::Transform(m) => Some(*m),
+            _ => None,
+        })
+        .unwrap_or(DMat4::IDENTITY)
+    }
+
+    /// The nested objects of one class, named or not, in the order of the file; marked as used.
+    pub fn children(&self, class: Class) -> Vec<(&'a Property, &'a Arc<Node>)> {
+        let children: Vec<_> = self
+            .node
+            .properties
+            .iter()
+            .filter_map(|p| match &p.value {
+                Value::Object(node) if node.class == class => Some((p, node)),
+                _ => None,
+            })
+            .collect();
+        children.iter().for_each(|(p, _)| p.mark_used());
+        children
+    }
+
+    /// The only nested object of a class, if there is one; a second one is an error.
+    pub fn child(&self, class: Class) -> Option<&'a Arc<Node>> {
+        let children = self.children(class);
+        if let [_, (second, _), ..] = children.as_slice() {
+            self.diagnostics.push(Diagnostic::error(
+                second.name_span,
+                format!(
+                    "`{}` takes one {} only",
+                    self.node.plugin.value,
+                    class.name()
+                ),
+            ));
+        }
+        children.first().map(|(_, node)| *node)
+    }
+
+    /// Marks properties that are accepted but cannot affect pixels (see the documented list).
+    pub fn ignore(&self, names: &[&str]) {
+        for name in names {
+            self.property(name);
+        }
+    }
+
+    /// Reports every property that nobody asked for, with the nearest name that was.
+    pub fn finish(&self) {
+        let known = self.known.borrow();
+        for property in self.node.properties.iter().filter(|p| !p.is_used()) {
+            let message = if property.name.is_empty() {
+                format!(
+                    "`{}` does not take {}",
+                    self.node.plugin.value,
+                    property.value.kind()
+                )
+            } else {
+                format!(
+                    "`{}` has no parameter `{}`",
+                    self.node.plugin.value, property.name
+                )
+            };
+            self.diagnostics.push(
+                Diagnostic::error(property.name_span, message)
+                    .label("not a parameter of this plugin")
+                    .suggest(&property.name, known.iter().map(String::as_str)),
+            );
+        }
+    }
+}
