@@ -1,1 +1,41 @@
-//! Nouns and contracts of light transport; no implementation
+//! The nouns and contracts of light transport; no implementation.
+//!
+//! A shape, a scattering model, a light, a camera and an estimator meet only through what is
+//! defined here: an integrator never names a concrete material, a light never names a concrete
+//! shape. Read this crate first; it takes twenty minutes.
+//!
+//! Conventions: lengths in metres, wavelengths in nanometres, radiance in W·sr⁻¹·m⁻²·nm⁻¹.
+//! `wo` is the known direction and `wi` the sampled one; both leave the point. A `Vec4` holds one
+//! value per wavelength lane; lane 0 is the lane that chooses.
+
+pub mod assets;
+pub mod bsdf;
+pub mod build;
+pub mod camera;
+pub mod chance;
+pub mod film;
+pub mod ids;
+pub mod integrator;
+pub mod light;
+pub mod mesh;
+pub mod ray;
+pub mod shapes;
+pub mod textures;
+pub mod vertex;
+pub mod world;
+
+pub use assets::{AssetError, Assets, MeshFormat};
+pub use bsdf::{Bsdf, BsdfSample, Mode};
+pub use build::{Build, Role};
+pub use camera::{Camera, CameraRay, Connection};
+pub use chance::Chance;
+pub use film::{Channel, Film, Placement, Sink, TileSink};
+pub use ids::{InstanceId, LightId, MaterialId, ShapeId, TextureId};
+pub use integrator::{Integrator, PixelSite};
+pub use light::{Emission, LightSample};
+pub use mesh::{Attribute, MeshData};
+pub use ray::Ray;
+pub use shapes::{Shapes, SurfacePoint};
+pub use textures::{TexturePoint, Textures};
+pub use vertex::{Hit, Vertex};
+pub use world::World;

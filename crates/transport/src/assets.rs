@@ -1,0 +1,32 @@
+//! Files that a scene refers to.
+
+use crate::MeshData;
+use std::sync::Arc;
+
+/// Why an asset could not be had: one sentence that names the file.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[error("{message}")]
+pub struct AssetError {
+    /// What went wrong.
+    pub message: String,
+    /// What may help.
+    pub help: Option<String>,
+}
+
+/// A mesh file format.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum MeshFormat {
+    /// Wavefront OBJ.
+    Obj,
+    /// Stanford PLY.
+    Ply,
+}
+
+/// Lookup of files along the scene's search path.
+pub trait Assets: Sync {
+    /// The bytes of a file.
+    fn bytes(&self, path: &str) -> Result<Arc<Vec<u8>>, AssetError>;
+
+    /// A mesh. Texture coordinates are as in the file (not flipped).
+    fn mesh(&self, format: MeshFormat, path: &str) -> Result<MeshData, AssetError>;
+}

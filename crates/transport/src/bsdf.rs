@@ -1,0 +1,67 @@
+//! The contract of a scattering model at a point.
+
+use crate::Chance;
+use etalon_math::{Density, SolidAngle};
+use glam::{Vec2, Vec3, Vec4};
+
+/// What is being transported: radiance (paths from the camera) or importance (paths from the
+/// lights). Only refraction tells them apart: radiance is compressed by η² (Veach 1997,
+/// section 5.2), and so does a shading normal (ibid. 5.3).
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Mode {
+    /// `wi` points to where light comes from.
+    Radiance,
+    /// `wi` points to where light goes; `wo` to where it comes from.
+    Importance,
+}
+
+/// A sampled direction.
+#[derive(Clone, Copy, Debug)]
+pub struct BsdfSample {
+    /// The sampled direction (unit, leaving the point).
+    pub wi: Vec3,
+    /// f(wo, wi)·|cos θi| of *all* continuous lobes together if `chance` is continuous; the
+    /// energy carried by the sampled discrete direction if it is discrete.
+    pub value: Vec4,
+    /// Density of `wi` under all continuous lobes together, or probability of the discrete one,
+    /// for each lane had it been the one that chose.
+    pub chance: Chance,
+    /// η of the medium entered over that of the medium left (1 for reflection).
+    pub eta: f32,
+    /// Whether the ray goes straight on as if the surface were not there (`null`, `mask`).
+    pub passes: bool,
+}
+
+/// A scattering model at a point: plain data that knows neither textures nor scene.
+///
+/// Directions are in world space. Evaluation cannot fail.
+pub trait Bsdf {
+    /// f(wo, wi)·|cos θi| of the continuous lobes (sr⁻¹), per lane.
+    fn eval(&self, wo: Vec3, wi: Vec3, mode: Mode) -> Vec4;
+
+    /// The density with which [`Bsdf::sample`] finds the continuous direction `wi`. Includes
+    /// the probability of choosing a continuous lobe at all.
+    fn density(&self, wo: Vec3, wi: Vec3) -> Density<SolidAngle>;
+
+    /// [`Bsdf::eval`] and [`Bsdf::density`] together.
+    #[inline]
+    fn eval_and_density(&self, wo: Vec3, wi: Vec3, mode: Mode) -> (Vec4, Density<SolidAngle>) {
+        (self.eval(wo, wi, mode), self.density(wo, wi))
+    }
+
+    /// Samples a direction; `None` if the light is absorbed. Lane 0 of the wavelengths for
+    /// which the model was made chooses; `u_lobe` and `u` are uniform in [0, 1).
+    fn sample(&self, wo: Vec3, u_lobe: f32, u: Vec2, mode: Mode) -> Option<BsdfSample>;
+
+    /// Whether any lobe is continuous, i.e. whether light sampling can help.
+    fn has_continuous(&self) -> bool;
+
+    /// The fraction of light that goes straight on as if the surface were not there.
+    fn passing(&self) -> Vec4;
+
+    /// The probability with which [`Bsdf::sample`] passes straight on, per lane.
+    fn passing_probability(&self) -> Vec4;
+
+    /// Directional albedo or an approximation of it, for the `albedo` channel only.
+    fn albedo(&self, wo: Vec3) -> Vec4;
+}

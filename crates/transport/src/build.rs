@@ -1,0 +1,39 @@
+//! What a plugin may ask for while it is built from its description.
+
+use crate::{Assets, TextureId};
+use etalon_params::{Node, Params};
+use std::sync::Arc;
+
+/// How a colour is to be understood (Mitsuba's property rules in spectral mode).
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Role {
+    /// A reflectance or other quantity in [0, 1]: RGB is upsampled as is.
+    Reflectance,
+    /// Emitted light: RGB and plain numbers scale D65.
+    Emission,
+    /// A quantity without upper bound (η, k): RGB is upsampled with a scale.
+    Unbounded,
+}
+
+/// Services for plugins being built; implemented by the scene.
+pub trait Build {
+    /// The files of the scene.
+    fn assets(&self) -> &dyn Assets;
+
+    /// The texture or spectrum in the property `name`; the constant `default` if the property is
+    /// absent; a diagnostic if it is absent and there is no default. After a mistake, any valid
+    /// texture is returned and the mistake has been recorded.
+    fn texture(
+        &mut self,
+        params: &Params<'_>,
+        name: &str,
+        default: Option<f64>,
+        role: Role,
+    ) -> TextureId;
+
+    /// The texture described by a nested texture or spectrum object.
+    fn nested_texture(&mut self, node: &Arc<Node>, role: Role) -> TextureId;
+
+    /// A texture for a spectrum computed by the plugin itself (a named metal's η).
+    fn spectrum(&mut self, spectrum: etalon_spectrum::Spectrum) -> TextureId;
+}

@@ -1,0 +1,44 @@
+//! The contract of a camera: it makes rays, and it can be connected to.
+
+use crate::Ray;
+use glam::{Vec2, Vec3};
+
+/// A ray into the scene.
+#[derive(Clone, Copy, Debug)]
+pub struct CameraRay {
+    /// The ray; it starts at the near and ends at the far clipping distance.
+    pub ray: Ray,
+    /// The factor by which the radiance along it counts (1 for every camera so far).
+    pub weight: f32,
+}
+
+/// A connection of a scene point with the camera.
+#[derive(Clone, Copy, Debug)]
+pub struct Connection {
+    /// Where on the film (pixels; (0, 0) is the upper left corner of the whole, uncropped film).
+    pub raster: Vec2,
+    /// Unit direction from the point to the camera.
+    pub direction: Vec3,
+    /// The end of the shadow ray at the camera (on the near clipping plane's sphere).
+    pub target: Vec3,
+    /// Pixels² per unit of the beam's cross-section at the point (px²·m⁻²), over the density of
+    /// the lens point: dx/dω / r² for a perspective camera, dx/dA for an orthographic one. A
+    /// splat of β·f·|cos θ|·`weight` with a filter that integrates to one estimates the pixel.
+    pub weight: f32,
+}
+
+/// A camera. Measures are chosen so that a pixel is the mean radiance over its filter: the ray
+/// through a uniformly chosen raster point has weight one.
+pub trait Camera: Sync {
+    /// The ray through `raster` (pixels of the whole film), with `lens` in [0, 1)² choosing the
+    /// point on the aperture and `time` the moment.
+    fn ray(&self, raster: Vec2, lens: Vec2, time: f32) -> CameraRay;
+
+    /// Connects a scene point with the aperture point chosen by `lens`; `None` if the camera
+    /// does not see the point (behind it, clipped, or more than `margin` pixels outside of the
+    /// film).
+    fn connect(&self, point: Vec3, lens: Vec2, margin: f32) -> Option<Connection>;
+
+    /// Whether `lens` matters.
+    fn has_lens(&self) -> bool;
+}

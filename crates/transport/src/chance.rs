@@ -1,0 +1,31 @@
+//! How likely a sampled event was: a density or a discrete probability.
+
+use etalon_math::{Atom, Density, SolidAngle};
+use glam::Vec4;
+
+/// The density of a sampled direction, or the probability of a discrete one.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Chance {
+    /// One of a continuum of directions.
+    Continuous(Density<SolidAngle>),
+    /// A direction that has a probability of its own (a mirror's, a point light's).
+    Discrete(Atom),
+}
+
+impl Chance {
+    /// The per-lane values, whatever their measure. Ratios between lanes are meaningful for
+    /// both kinds; comparisons between kinds are not.
+    #[inline]
+    pub fn lanes(self) -> Vec4 {
+        match self {
+            Self::Continuous(density) => density.lanes(),
+            Self::Discrete(atom) => atom.0,
+        }
+    }
+
+    /// Whether the direction is discrete.
+    #[inline]
+    pub fn is_discrete(self) -> bool {
+        matches!(self, Self::Discrete(_))
+    }
+}

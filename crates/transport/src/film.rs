@@ -1,0 +1,65 @@
+//! Where results go.
+
+use glam::{UVec2, Vec2};
+
+/// A named channel beside the colour.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Channel(pub String);
+
+/// A film position drawn for a sample.
+#[derive(Clone, Copy, Debug)]
+pub struct Placement {
+    /// Pixels of the whole film.
+    pub raster: Vec2,
+    /// What the sample counts: 1, or ±(∫|f|) for filters with negative lobes.
+    pub weight: f32,
+}
+
+/// Takes what one sample found out.
+///
+/// Colours are linear Rec.709 on Mitsuba's scale. The sink applies the sample's weight, counts
+/// non-finite values instead of swallowing them, and normalises by the number of samples.
+pub trait Sink {
+    /// Adds the radiance found for the current pixel, and its alpha (0 or 1). Called exactly
+    /// once per camera sample.
+    fn radiance(&mut self, rgb: [f32; 3], alpha: f32);
+
+    /// Adds a contribution at any film position (already divided by everything that was
+    /// sampled); the sink spreads it with the film's filter.
+    fn splat(&mut self, raster: Vec2, rgb: [f32; 3]);
+
+    /// Adds a value to one of the integrator's named channels for the current pixel.
+    fn channel(&mut self, index: usize, value: f32);
+}
+
+/// A sink for the pixels of one tile.
+pub trait TileSink: Sink {
+    /// The samples that follow belong to `pixel` (of the whole film).
+    fn begin_pixel(&mut self, pixel: UVec2);
+    /// The next sample counts `weight` (see [`Placement`]).
+    fn begin_sample(&mut self, weight: f32);
+    /// All of the pixel's samples of this replicate are in.
+    fn end_pixel(&mut self);
+}
+
+/// A film: pixels that accumulate exactly.
+pub trait Film: Sync {
+    /// The sink of a tile.
+    type Tile<'f>: TileSink
+    where
+        Self: 'f;
+
+    /// First pixel of the cropped region.
+    fn origin(&self) -> UVec2;
+    /// Size of the cropped region (pixels).
+    fn size(&self) -> UVec2;
+    /// Draws a position for a sample of `pixel` from the reconstruction filter.
+    fn place(&self, pixel: UVec2, u: Vec2) -> Placement;
+    /// How far (pixels) beyond the film a splat can still matter.
+    fn margin(&self) -> f32;
+    /// A sink for the pixels in [`from`, `to`) of the whole film; it delivers on drop.
+    fn tile(&self, from: UVec2, to: UVec2) -> Self::Tile<'_>;
+    /// Ends a replicate of `samples` samples per pixel (as many light paths per pixel for
+    /// splats): its means join the statistics.
+    fn end_replicate(&mut self, samples: u32);
+}

@@ -1,0 +1,59 @@
+//! What others may ask of textures.
+
+use crate::{ShapeId, TextureId, Vertex};
+use glam::{Vec2, Vec3, Vec4};
+
+/// Where a texture is looked up.
+#[derive(Clone, Copy, Debug)]
+pub struct TexturePoint {
+    /// Texture coordinates.
+    pub uv: Vec2,
+    /// Shape, for mesh attributes.
+    pub shape: ShapeId,
+    /// Primitive of the shape.
+    pub primitive: u32,
+    /// Parameters on the primitive.
+    pub parameters: Vec2,
+}
+
+impl TexturePoint {
+    /// A point that has texture coordinates only.
+    pub fn at_uv(uv: Vec2) -> Self {
+        Self {
+            uv,
+            shape: ShapeId::NONE,
+            primitive: 0,
+            parameters: Vec2::ZERO,
+        }
+    }
+}
+
+impl From<&Vertex> for TexturePoint {
+    #[inline]
+    fn from(vertex: &Vertex) -> Self {
+        Self {
+            uv: vertex.uv,
+            shape: vertex.shape,
+            primitive: vertex.primitive,
+            parameters: vertex.parameters,
+        }
+    }
+}
+
+/// Lookup of textures and spectra.
+pub trait Textures {
+    /// The spectrum at a point, for the four wavelengths `lambda` (nm).
+    fn spectrum(&self, texture: TextureId, at: &TexturePoint, lambda: Vec4) -> Vec4;
+
+    /// A number at a point (roughness, opacity, blend weight): the luminance of colours.
+    fn number(&self, texture: TextureId, at: &TexturePoint) -> f32;
+
+    /// Three raw channels at a point (normal maps, emission tables).
+    fn colour(&self, texture: TextureId, at: &TexturePoint) -> Vec3;
+
+    /// The mean over the texture, for choosing among lobes and lights.
+    fn mean(&self, texture: TextureId) -> f32;
+
+    /// Whether the texture is the same everywhere.
+    fn is_constant(&self, texture: TextureId) -> bool;
+}

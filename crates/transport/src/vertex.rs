@@ -1,0 +1,76 @@
+//! Where a ray met a surface.
+
+use crate::{InstanceId, LightId, MaterialId, Ray, ShapeId};
+use etalon_math::{Frame, offset_origin};
+use glam::{Vec2, Vec3};
+
+/// What an accelerator knows of a hit: just enough to find everything else.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Hit {
+    /// Distance along the ray (m).
+    pub t: f32,
+    /// Parameters of the point on its primitive: barycentric coordinates (b₁, b₂) of a
+    /// triangle's second and third corner, or what the shape defines.
+    pub parameters: Vec2,
+    /// The shape that was hit.
+    pub shape: ShapeId,
+    /// The primitive within the shape (a triangle's index; 0 for a single-piece shape).
+    pub primitive: u32,
+    /// The instance through which the shape was reached.
+    pub instance: InstanceId,
+}
+
+/// A point of a surface with its differential geometry.
+#[derive(Clone, Copy, Debug)]
+pub struct Vertex {
+    /// Position (m, world).
+    pub position: Vec3,
+    /// Bound on the absolute error of each coordinate of `position`.
+    pub error: Vec3,
+    /// Unit geometric normal, on the side that the shape calls outside.
+    pub normal: Vec3,
+    /// Shading frame: `n` the interpolated normal (flipped with the shape), `s` along ∂p/∂u.
+    pub shading: Frame,
+    /// Texture coordinates.
+    pub uv: Vec2,
+    /// ∂p/∂u.
+    pub dp_du: Vec3,
+    /// ∂p/∂v.
+    pub dp_dv: Vec3,
+    /// Distance from the ray's origin (m).
+    pub t: f32,
+    /// The ray's time.
+    pub time: f32,
+    /// Parameters on the primitive, as in [`Hit`].
+    pub parameters: Vec2,
+    /// The shape.
+    pub shape: ShapeId,
+    /// The primitive within the shape.
+    pub primitive: u32,
+    /// The instance through which the shape was reached.
+    pub instance: InstanceId,
+    /// The material.
+    pub material: MaterialId,
+    /// The light this surface is, or [`LightId::NONE`].
+    pub light: LightId,
+}
+
+impl Vertex {
+    /// A half-line that leaves this surface.
+    #[inline]
+    pub fn spawn(&self, direction: Vec3) -> Ray {
+        let origin = offset_origin(self.position, self.error, self.normal, direction);
+        Ray::new(origin, direction, self.time)
+    }
+
+    /// The origin of a ray that leaves this surface toward `target`.
+    #[inline]
+    pub fn origin_toward(&self, target: Vec3) -> Vec3 {
+        offset_origin(
+            self.position,
+            self.error,
+            self.normal,
+            target - self.position,
+        )
+    }
+}

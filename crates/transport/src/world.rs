@@ -1,0 +1,71 @@
+//! The contract of a scene: all that an integrator may ask.
+
+use crate::{Bsdf, Camera, Emission, Hit, LightSample, Ray, Vertex};
+use etalon_math::{Density, SolidAngle};
+use etalon_spectrum::Wavelengths;
+use glam::{Vec2, Vec3, Vec4};
+
+/// A compiled, immutable scene.
+pub trait World: Sync {
+    /// A scattering model at a point.
+    type Bsdf<'w>: Bsdf + Copy
+    where
+        Self: 'w;
+    /// The camera.
+    type Camera: Camera;
+
+    /// The camera.
+    fn camera(&self) -> &Self::Camera;
+
+    /// Draws the wavelengths of a path.
+    fn wavelengths(&self, u: f32) -> Wavelengths;
+
+    /// The nearest surface along a ray.
+    fn intersect(&self, ray: &Ray) -> Option<Hit>;
+
+    /// The differential geometry of a hit.
+    fn vertex(&self, ray: &Ray, hit: &Hit) -> Vertex;
+
+    /// The fraction of light that travels straight along a segment, per lane: zero behind an
+    /// opaque surface, a product over at most `crossings` surfaces that let light pass straight
+    /// (`mask`, `null`).
+    fn transmittance(&self, ray: &Ray, wavelengths: &Wavelengths, crossings: u32) -> Vec4;
+
+    /// The scattering model at a vertex.
+    fn bsdf(&self, vertex: &Vertex, wo: Vec3, wavelengths: &Wavelengths) -> Self::Bsdf<'_>;
+
+    /// Radiance emitted by the surface at `vertex` toward `wo`.
+    fn emitted(&self, vertex: &Vertex, wo: Vec3, wavelengths: &Wavelengths) -> Vec4;
+
+    /// Radiance of the lights at infinity seen along the unit vector `direction`.
+    fn background(&self, direction: Vec3, wavelengths: &Wavelengths) -> Vec4;
+
+    /// Whether the scene has any light at infinity that a ray can hit.
+    fn has_background(&self) -> bool;
+
+    /// Chooses a light with `u_light` and a direction toward it from `from` with `u`. `None` if
+    /// nothing can arrive.
+    fn sample_light(
+        &self,
+        from: &Vertex,
+        wavelengths: &Wavelengths,
+        u_light: f32,
+        u: Vec2,
+    ) -> Option<LightSample>;
+
+    /// The density with which [`World::sample_light`] from the point `from` would have chosen
+    /// the emitting surface point `at`, seen along the unit vector `direction`.
+    fn light_density(&self, from: Vec3, at: &Vertex, direction: Vec3) -> Density<SolidAngle>;
+
+    /// The same for the lights at infinity.
+    fn background_density(&self, from: Vec3, direction: Vec3) -> Density<SolidAngle>;
+
+    /// Emits a particle from a light chosen with `u_light`.
+    fn emit(
+        &self,
+        wavelengths: &Wavelengths,
+        u_light: f32,
+        u_position: Vec2,
+        u_direction: Vec2,
+    ) -> Option<Emission>;
+}
