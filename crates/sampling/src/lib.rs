@@ -1,1 +1,21 @@
-//! Samplers, random streams, low-discrepancy sequences, warps, discrete and piecewise distributions
+//! Samplers, random streams, low-discrepancy sequences, warps, discrete and piecewise
+//! distributions, and multiple importance sampling.
+//!
+//! Everything random in an image begins here, and everything here is a pure function of
+//! (seed, replicate, pixel, sample, dimension): see [`PixelSample`].
+
+pub mod discrete;
+pub mod hash;
+pub mod independent;
+pub mod kind;
+pub mod mis;
+pub mod sampler;
+pub mod sobol;
+pub mod stratified;
+pub mod warps;
+
+pub use independent::Independent;
+pub use kind::{AnySampler, SamplerKind};
+pub use sampler::{PixelSample, Sampler};
+pub use sobol::Sobol;
+pub use stratified::Stratified;

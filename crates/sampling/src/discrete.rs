@@ -1,0 +1,1 @@
+//! Discrete distributions and piecewise tables.

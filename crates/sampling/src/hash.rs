@@ -1,0 +1,81 @@
+//! Mixing functions: from structured integers (seeds, pixels, dimensions) to random-looking
+//! bits, and from those to floats and permutations.
+//!
+//! None of this is cryptography. What is asked of it, and tested, is that neighbouring
+//! arguments give results without any correlation that an image could show.
+
+/// 2⁶⁴ divided by the golden ratio, made odd: successive multiples are spread evenly.
+pub const GOLDEN: u64 = 0x9e37_79b9_7f4a_7c15;
+
+/// Mixes 64 bits so that every input bit flips every output bit with probability ½ (a
+/// bijection; the finaliser of SplitMix64 with the multipliers that David Stafford found,
+/// his variant 13).
+#[inline]
+pub const fn mix64(mut x: u64) -> u64 {
+    x ^= x >> 30;
+    x = x.wrapping_mul(0xbf58_476d_1ce4_e5b9);
+    x ^= x >> 27;
+    x = x.wrapping_mul(0x94d0_49bb_1331_11eb);
+    x ^ (x >> 31)
+}
+
+/// The key of replicate `replicate` of the image with seed `seed`. The seed is mixed first,
+/// so that neighbouring seeds and neighbouring replicates have nothing in common.
+#[inline]
+pub const fn stream_key(seed: u64, replicate: u32) -> u64 {
+    mix64(mix64(seed.wrapping_add(GOLDEN)).wrapping_add(replicate as u64))
+}
+
+/// The `index`-th independent key derived from `key`.
+#[inline]
+pub const fn derived_key(key: u64, index: u32) -> u64 {
+    mix64(key.wrapping_add(GOLDEN.wrapping_mul(index as u64 + 1)))
+}
+
+/// The upper 24 of 32 random bits as a float in [0, 1): a multiple of 2⁻²⁴, so at most
+/// 1 − 2⁻²⁴, and every value equally likely.
+#[inline]
+pub fn random_float(bits: u32) -> f32 {
+    const STEP: f32 = 1.0 / (1 << 24) as f32;
+    (bits >> 8) as f32 * STEP
+}
+
+/// The largest float below 1 that [`random_float`] can return, 1 − 2⁻²⁴.
+pub const ONE_MINUS: f32 = 1.0 - 1.0 / (1 << 24) as f32;
+
+/// Where `index` goes in the random permutation of 0..`count` that `key` selects.
+///
+/// A bijection of the next power of two, walked until it lands inside (Kensler 2013,
+/// "Correlated Multi-Jittered Sampling", §3; the mixing is ours): fewer than two steps are
+/// needed on average. Requires `index < count`.
+#[inline]
+pub fn permute(index: u32, count: u32, key: u64) -> u32 {
+    debug_assert!(index < count);
+    let width = u32::BITS - (count - 1).leading_zeros();
+    if width == 0 {
+        return 0;
+    }
+    let mask = u32::MAX >> (u32::BITS - width);
+    let shift = width.div_ceil(2);
+    // An odd multiplier that differs by key in its low bits too, and three words to add.
+    let multiplier = (key >> 32) as u32 | 1;
+    let word = key as u32;
+    let mut x = index;
+    loop {
+        x = x.wrapping_add(word) & mask;
+        x ^= x >> shift;
+        x = x.wrapping_mul(multiplier) & mask;
+        x ^= x >> shift;
+        x = x.wrapping_add(word.rotate_left(11)) & mask;
+        x = x.wrapping_mul(0x9e48_5565) & mask;
+        x ^= x >> shift;
+        x = x.wrapping_mul(multiplier.rotate_right(16) | 1) & mask;
+        x ^= x >> shift;
+        x = x.wrapping_mul(0xef1d_6b47) & mask;
+        x ^= x >> shift;
+        x = x.wrapping_add(word.rotate_left(22)) & mask;
+        if x < count {
+            return x;
+        }
+    }
+}
