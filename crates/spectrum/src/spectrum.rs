@@ -1,0 +1,198 @@
+//! One type for every spectrum a scene can name, evaluated at the four wavelengths of a path.
+
+use crate::{Blackbody, Irregular, Regular, RgbSpectrum, SpectrumError, cie, colour_space, error};
+use crate::{LAMBDA_MAX, LAMBDA_MIN, illuminants};
+use glam::Vec4;
+use std::sync::{Arc, LazyLock};
+
+/// A function of the wavelength: a reflectance, an emission, an extinction, an index.
+///
+/// Cloning is cheap; tables are shared.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Spectrum {
+    /// The same value at every wavelength.
+    Uniform(f32),
+    /// Values at equally spaced wavelengths.
+    Regular(Arc<Regular>),
+    /// Values at any wavelengths.
+    Irregular(Arc<Irregular>),
+    /// The emission of a black body.
+    Blackbody(Arc<Blackbody>),
+    /// The smooth spectrum of an RGB colour.
+    Srgb(RgbSpectrum),
+    /// D65 (scaled to Y = 1) times the smooth spectrum of an RGB colour.
+    D65(RgbSpectrum),
+}
+
+/// D65 with Y = 1, shared by every spectrum that contains it.
+static D65: LazyLock<Regular> = LazyLock::new(illuminants::d65_spectrum);
+
+impl Spectrum {
+    /// The constant `value`.
+    pub fn uniform(value: f64) -> Result<Self, SpectrumError> {
+        Ok(Self::Uniform(error::finite("a spectrum", value)? as f32))
+    }
+
+    /// `values` at wavelengths equally spaced from `min` to `max` nm, zero outside.
+    pub fn regular(min: f64, max: f64, values: &[f64]) -> Result<Self, SpectrumError> {
+        Ok(Self::Regular(Arc::new(Regular::new(min, max, values)?)))
+    }
+
+    /// `values` at strictly increasing `wavelengths` (nm), zero outside.
+    pub fn irregular(wavelengths: &[f64], values: &[f64]) -> Result<Self, SpectrumError> {
+        Ok(Self::Irregular(Arc::new(Irregular::new(
+            wavelengths,
+            values,
+        )?)))
+    }
+
+    /// `values` at `wavelengths` (nm): [`Spectrum::Regular`] if they are equally spaced to within
+    /// a part in a million of the range, else [`Spectrum::Irregular`].
+    pub fn tabulated(wavelengths: &[f64], values: &[f64]) -> Result<Self, SpectrumError> {
+        let irregular = Irregular::new(wavelengths, values)?;
+        let (min, max) = (wavelengths[0], wavelengths[wavelengths.len() - 1]);
+        let step = (max - min) / (wavelengths.len() - 1) as f64;
+        let equally_spaced = wavelengths
+            .iter()
+            .enumerate()
+            .all(|(i, l)| (l - (min + step * i as f64)).abs() <= 1e-6 * (max - min));
+        if equally_spaced {
+            Self::regular(min, max, values)
+        } else {
+            Ok(Self::Irregular(Arc::new(irregular)))
+        }
+    }
+
+    /// The emission of a black body of `temperature` K between 360 and 830 nm,
+    /// W·m⁻²·sr⁻¹·nm⁻¹.
+    pub fn blackbody(temperature: f64) -> Result<Self, SpectrumError> {
+        Ok(Self::Blackbody(Arc::new(Blackbody::new(temperature)?)))
+    }
+
+    /// A reflectance of the linear Rec. 709 colour `rgb`, components in [0, 1].
+    pub fn reflectance(rgb: [f64; 3]) -> Result<Self, SpectrumError> {
+        Ok(Self::Srgb(RgbSpectrum::bounded(rgb)?))
+    }
+
+    /// A smooth spectrum of the linear Rec. 709 colour `rgb`, components 0 or more.
+    pub fn unbounded(rgb: [f64; 3]) -> Result<Self, SpectrumError> {
+        Ok(Self::Srgb(RgbSpectrum::unbounded(rgb)?))
+    }
+
+    /// An emission of the linear Rec. 709 colour `rgb`, components 0 or more: D65 times
+    /// [`Spectrum::unbounded`].
+    pub fn emission(rgb: [f64; 3]) -> Result<Self, SpectrumError> {
+        Ok(Self::D65(RgbSpectrum::unbounded(rgb)?))
+    }
+
+    /// D65 times `scale` (finite), white with luminance `scale`.
+    pub fn d65(scale: f64) -> Result<Self, SpectrumError> {
+        error::finite("the scale of D65", scale)?;
+        Ok(Self::D65(RgbSpectrum::WHITE.scaled(scale as f32)))
+    }
+
+    /// Values at four wavelengths in nm.
+    #[inline]
+    pub fn eval(&self, lambda: Vec4) -> Vec4 {
+        match self {
+            Self::Uniform(value) => Vec4::splat(*value),
+            Self::Regular(table) => table.eval(lambda),
+            Self::Irregular(table) => table.eval(lambda),
+            Self::Blackbody(body) => body.eval(lambda),
+            Self::Srgb(colour) => colour.eval(lambda),
+            Self::D65(colour) => D65.eval(lambda) * colour.eval(lambda),
+        }
+    }
+
+    /// Value at `lambda` nm, in the precision of [`Spectrum::eval`].
+    pub fn eval_at(&self, lambda: f64) -> f64 {
+        f64::from(self.eval(Vec4::splat(lambda as f32)).x)
+    }
+
+    /// The same spectrum times `factor`.
+    pub fn scaled(&self, factor: f32) -> Self {
+        match self {
+            Self::Uniform(value) => Self::Uniform(value * factor),
+            Self::Regular(table) => Self::Regular(Arc::new((**table).clone().scaled(factor))),
+            Self::Irregular(table) => Self::Irregular(Arc::new((**table).clone().scaled(factor))),
+            Self::Blackbody(body) => Self::Regular(Arc::new(body.table().clone().scaled(factor))),
+            Self::Srgb(colour) => Self::Srgb(colour.scaled(factor)),
+            Self::D65(colour) => Self::D65(colour.scaled(factor)),
+        }
+    }
+
+    /// The mean value over 360–830 nm.
+    pub fn mean(&self) -> f64 {
+        self.power() / (LAMBDA_MAX - LAMBDA_MIN)
+    }
+
+    /// ∫ dλ over 360–830 nm, by the trapezoidal rule at 0.5 nm.
+    pub fn power(&self) -> f64 {
+        let steps = 2 * (LAMBDA_MAX - LAMBDA_MIN) as usize;
+        let sum: f64 = (0..=steps)
+            .map(|i| {
+                let weight = if i == 0 || i == steps { 0.25 } else { 0.5 };
+                weight * self.eval_at(LAMBDA_MIN + 0.5 * i as f64)
+            })
+            .sum();
+        sum
+    }
+
+    /// Tristimulus value (X, Y, Z), for the spectrum as a radiance.
+    pub fn xyz(&self) -> [f64; 3] {
+        cie::xyz(|lambda| self.eval_at(lambda))
+    }
+
+    /// Luminance Y, for the spectrum as a radiance: 1 for D65.
+    pub fn luminance(&self) -> f64 {
+        self.xyz()[1]
+    }
+
+    /// Linear Rec. 709, for the spectrum as a radiance: (1, 1, 1) for D65.
+    pub fn rgb(&self) -> [f64; 3] {
+        colour_space::xyz_to_rgb(self.xyz())
+    }
+
+    /// Linear Rec. 709, for the spectrum as a reflectance lit by D65: (1, 1, 1) for the constant 1.
+    pub fn rgb_under_d65(&self) -> [f64; 3] {
+        colour_space::xyz_to_rgb(cie::xyz(|lambda| {
+            self.eval_at(lambda) * illuminants::d65(lambda)
+        }))
+    }
+
+    /// The largest value at the whole nanometres of 360–830 nm.
+    pub fn maximum(&self) -> f64 {
+        (0..cie::COUNT)
+            .map(|i| self.eval_at((cie::FIRST + i) as f64))
+            .fold(f64::NEG_INFINITY, f64::max)
+    }
+
+    /// Whether the spectrum is zero at every wavelength, by construction.
+    pub fn is_black(&self) -> bool {
+        match self {
+            Self::Uniform(value) => *value == 0.0,
+            Self::Regular(table) => table.values().iter().all(|v| *v == 0.0),
+            Self::Irregular(table) => table.knots().all(|(_, v)| v == 0.0),
+            Self::Blackbody(_) => false,
+            Self::Srgb(colour) | Self::D65(colour) => colour.is_black(),
+        }
+    }
+}
+
+impl From<Regular> for Spectrum {
+    fn from(table: Regular) -> Self {
+        Self::Regular(Arc::new(table))
+    }
+}
+
+impl From<Irregular> for Spectrum {
+    fn from(table: Irregular) -> Self {
+        Self::Irregular(Arc::new(table))
+    }
+}
+
+impl From<RgbSpectrum> for Spectrum {
+    fn from(colour: RgbSpectrum) -> Self {
+        Self::Srgb(colour)
+    }
+}

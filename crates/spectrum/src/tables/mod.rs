@@ -1,0 +1,4 @@
+//! Published numbers, as arrays; nothing here computes.
+
+pub(crate) mod cie1931;
+pub(crate) mod illuminants;

@@ -1,0 +1,210 @@
+//! Spectra given by values at wavelengths, linear in between: equally spaced ([`Regular`]) or not
+//! ([`Irregular`]).
+
+use crate::{SpectrumError, error};
+use glam::Vec4;
+
+/// What a tabulated spectrum is beyond its ends.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
+pub enum Outside {
+    /// Zero, as emission and reflectance are.
+    #[default]
+    Zero,
+    /// The value at the nearer end, as a refractive index is.
+    Hold,
+}
+
+/// Values at equally spaced wavelengths.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Regular {
+    min: f32,
+    max: f32,
+    /// Intervals per nanometre.
+    rate: f32,
+    /// The last value is repeated so that entry i + 1 exists for every i.
+    values: Box<[f32]>,
+}
+
+impl Regular {
+    /// `values` (two or more, finite) at wavelengths equally spaced from `min` to `max` nm.
+    pub fn new(min: f64, max: f64, values: &[f64]) -> Result<Self, SpectrumError> {
+        error::positive("the shortest wavelength", min)?;
+        error::finite("the longest wavelength", max)?;
+        if max <= min {
+            return Err(SpectrumError::OutOfRange {
+                what: "the longest wavelength",
+                value: max,
+                accepted: "above the shortest wavelength",
+            });
+        }
+        let last = check_values(values)?;
+        Ok(Self {
+            min: min as f32,
+            max: max as f32,
+            rate: ((values.len() - 1) as f64 / (max - min)) as f32,
+            values: values.iter().chain([&last]).map(|&v| v as f32).collect(),
+        })
+    }
+
+    /// Value at one wavelength in nm.
+    #[inline]
+    fn at(&self, lambda: f32) -> f32 {
+        if !(lambda >= self.min && lambda <= self.max) {
+            return 0.0;
+        }
+        let t = (lambda - self.min) * self.rate;
+        let i = (t as usize).min(self.values.len() - 2);
+        let low = self.values[i];
+        low + (self.values[i + 1] - low) * (t - i as f32)
+    }
+
+    /// Values at four wavelengths in nm; zero outside the table.
+    #[inline]
+    pub fn eval(&self, lambda: Vec4) -> Vec4 {
+        Vec4::from_array(lambda.to_array().map(|l| self.at(l)))
+    }
+
+    /// The same spectrum times `factor`.
+    pub fn scaled(mut self, factor: f32) -> Self {
+        self.values.iter_mut().for_each(|v| *v *= factor);
+        self
+    }
+
+    /// First and last wavelength, nm.
+    pub fn range(&self) -> [f32; 2] {
+        [self.min, self.max]
+    }
+
+    /// The tabulated values.
+    pub fn values(&self) -> &[f32] {
+        &self.values[..self.values.len() - 1]
+    }
+}
+
+/// Values at any strictly increasing wavelengths.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Irregular {
+    /// (wavelength nm, value, slope to the next knot nm⁻¹).
+    knots: Box<[[f32; 3]]>,
+    /// For each of equally wide buckets, the interval in which its lower end lies.
+    first: Box<[u32]>,
+    /// Buckets per nanometre.
+    rate: f32,
+    outside: Outside,
+}
+
+impl Irregular {
+    /// `values` at `wavelengths` (nm; two or more, finite, strictly increasing), zero outside.
+    pub fn new(wavelengths: &[f64], values: &[f64]) -> Result<Self, SpectrumError> {
+        Self::with_outside(wavelengths, values, Outside::Zero)
+    }
+
+    /// As [`Irregular::new`], with a rule for wavelengths beyond the ends.
+    pub fn with_outside(
+        wavelengths: &[f64],
+        values: &[f64],
+        outside: Outside,
+    ) -> Result<Self, SpectrumError> {
+        if wavelengths.len() != values.len() {
+            return Err(SpectrumError::LengthMismatch {
+                wavelengths: wavelengths.len(),
+                values: values.len(),
+            });
+        }
+        check_values(values)?;
+        for (index, &value) in wavelengths.iter().enumerate() {
+            error::positive("a wavelength", value)?;
+            if index > 0 && !(value as f32 > wavelengths[index - 1] as f32) {
+                return Err(SpectrumError::NotIncreasing { index, value });
+            }
+        }
+        let count = wavelengths.len();
+        let knots: Box<[[f32; 3]]> = (0..count)
+            .map(|i| {
+                let slope = if i + 1 < count {
+                    (values[i + 1] - values[i]) / (wavelengths[i + 1] - wavelengths[i])
+                } else {
+                    0.0
+                };
+                [wavelengths[i] as f32, values[i] as f32, slope as f32]
+            })
+            .collect();
+        let (min, max) = (knots[0][0], knots[count - 1][0]);
+        let buckets = (2 * count).min(1 << 20);
+        let rate = buckets as f32 / (max - min);
+        let first = (0..=buckets)
+            .map(|b| {
+                // One bucket early, so that rounding in `at` can never start past the interval.
+                let lambda = min + (b as f32 - 1.0) / rate;
+                let after = knots.partition_point(|k| k[0] <= lambda);
+                (after.saturating_sub(1)).min(count - 2) as u32
+            })
+            .collect();
+        Ok(Self {
+            knots,
+            first,
+            rate,
+            outside,
+        })
+    }
+
+    /// Value at one wavelength in nm.
+    #[inline]
+    fn at(&self, lambda: f32) -> f32 {
+        let [min, first_value, _] = self.knots[0];
+        let [max, last_value, _] = self.knots[self.knots.len() - 1];
+        if !(lambda >= min && lambda <= max) {
+            return match self.outside {
+                Outside::Zero => 0.0,
+                Outside::Hold if lambda > max => last_value,
+                Outside::Hold => first_value,
+            };
+        }
+        let bucket = ((lambda - min) * self.rate) as usize;
+        let mut i = self.first[bucket.min(self.first.len() - 1)] as usize;
+        while self.knots[i + 1][0] < lambda {
+            i += 1;
+        }
+        let [start, value, slope] = self.knots[i];
+        value + slope * (lambda - start)
+    }
+
+    /// Values at four wavelengths in nm.
+    #[inline]
+    pub fn eval(&self, lambda: Vec4) -> Vec4 {
+        Vec4::from_array(lambda.to_array().map(|l| self.at(l)))
+    }
+
+    /// The same spectrum times `factor`.
+    pub fn scaled(mut self, factor: f32) -> Self {
+        for knot in &mut self.knots {
+            knot[1] *= factor;
+            knot[2] *= factor;
+        }
+        self
+    }
+
+    /// First and last wavelength, nm.
+    pub fn range(&self) -> [f32; 2] {
+        [self.knots[0][0], self.knots[self.knots.len() - 1][0]]
+    }
+
+    /// The tabulated (wavelength nm, value) pairs.
+    pub fn knots(&self) -> impl ExactSizeIterator<Item = (f32, f32)> + '_ {
+        self.knots.iter().map(|k| (k[0], k[1]))
+    }
+}
+
+/// The last of two or more finite values.
+fn check_values(values: &[f64]) -> Result<f64, SpectrumError> {
+    for &value in values {
+        error::finite("a value of the spectrum", value)?;
+    }
+    match values {
+        [_, .., last] => Ok(*last),
+        _ => Err(SpectrumError::TooFewValues {
+            given: values.len(),
+            needed: 2,
+        }),
+    }
+}
