@@ -1,1 +1,22 @@
-//! Estimators of light transport, one file each, and the render loop
+//! Estimators of light transport, one file each, and the loop that runs them.
+//!
+//! Nothing concrete is named here: no material, shape, light or film. What an estimator needs
+//! of a scene it asks through [`etalon_transport::World`], so every estimator can be tested in a
+//! world without geometry.
+//!
+//! Adding an estimator: its file, and one line in [`list`].
+
+pub mod aov;
+pub mod depth;
+pub mod dimensions;
+pub mod direct;
+pub mod list;
+pub mod moment;
+pub mod path;
+pub mod prefix;
+pub mod ptracer;
+pub mod render;
+pub mod settings;
+
+pub use list::{AnyIntegrator, names};
+pub use render::{Outcome, Plan, Progress, render};

@@ -17,6 +17,8 @@ pub struct PixelSite {
     /// the film divides by the samples per pixel only, so a light path's splats are divided by
     /// this number.
     pub pixels: u32,
+    /// Mean distance between the samples of a pixel (pixels): 1/√spp.
+    pub spacing: f32,
 }
 
 /// An estimator: prepares once per replicate, then turns random numbers into contributions.

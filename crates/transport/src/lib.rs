@@ -38,4 +38,4 @@ pub use ray::Ray;
 pub use shapes::{Shapes, SurfacePoint};
 pub use textures::{TexturePoint, Textures};
 pub use vertex::{Hit, Vertex};
-pub use world::World;
+pub use world::{Passage, World};

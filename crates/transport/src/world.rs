@@ -5,6 +5,24 @@ use etalon_math::{Density, SolidAngle};
 use etalon_spectrum::Wavelengths;
 use glam::{Vec2, Vec3, Vec4};
 
+/// Straight travel along a segment.
+#[derive(Clone, Copy, Debug)]
+pub struct Passage {
+    /// The fraction of light that arrives, per lane.
+    pub transmittance: Vec4,
+    /// The probability with which scattering would have chosen to pass every surface on the
+    /// way, per lane: what a path found by scattering pays for the same journey.
+    pub probability: Vec4,
+}
+
+impl Passage {
+    /// Nothing in the way.
+    pub const FREE: Self = Self {
+        transmittance: Vec4::ONE,
+        probability: Vec4::ONE,
+    };
+}
+
 /// A compiled, immutable scene.
 pub trait World: Sync {
     /// A scattering model at a point.
@@ -26,16 +44,18 @@ pub trait World: Sync {
     /// The differential geometry of a hit.
     fn vertex(&self, ray: &Ray, hit: &Hit) -> Vertex;
 
-    /// The fraction of light that travels straight along a segment, per lane: zero behind an
-    /// opaque surface, a product over at most `crossings` surfaces that let light pass straight
-    /// (`mask`, `null`).
-    fn transmittance(&self, ray: &Ray, wavelengths: &Wavelengths, crossings: u32) -> Vec4;
+    /// How light travels straight along a segment, through at most `crossings` surfaces that
+    /// let it pass (`mask`, `null`); `None` if it does not arrive at all.
+    fn passage(&self, ray: &Ray, wavelengths: &Wavelengths, crossings: u32) -> Option<Passage>;
 
     /// The scattering model at a vertex.
     fn bsdf(&self, vertex: &Vertex, wo: Vec3, wavelengths: &Wavelengths) -> Self::Bsdf<'_>;
 
     /// Radiance emitted by the surface at `vertex` toward `wo`.
     fn emitted(&self, vertex: &Vertex, wo: Vec3, wavelengths: &Wavelengths) -> Vec4;
+
+    /// Whether the surface that was hit emits light at all.
+    fn is_emitter(&self, hit: &Hit) -> bool;
 
     /// Radiance of the lights at infinity seen along the unit vector `direction`.
     fn background(&self, direction: Vec3, wavelengths: &Wavelengths) -> Vec4;
@@ -68,4 +88,7 @@ pub trait World: Sync {
         u_position: Vec2,
         u_direction: Vec2,
     ) -> Option<Emission>;
+
+    /// How many rays the calling thread has traced since it last asked.
+    fn take_ray_count(&self) -> u64;
 }

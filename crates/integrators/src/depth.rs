@@ -1,0 +1,75 @@
+//! `depth`: the distance to the first surface.
+//!
+//! As in Mitsuba the distance is a spectrum that is constant over wavelength, so the sensor
+//! turns it into a colour; the expected colour of a constant spectrum 1 is known exactly, so no
+//! wavelength is drawn for it. Nothing hit counts as distance 0. The plain number is the `depth`
+//! channel of `aov`.
+
+use crate::path::camera_ray;
+use crate::settings::ignore_scheduling;
+use etalon_params::Params;
+use etalon_sampling::Sampler;
+use etalon_spectrum::sensor::response;
+use etalon_transport::{Channel, Integrator, PixelSite, Sink, World};
+use glam::Vec4;
+
+/// The distance integrator.
+#[derive(Clone, Debug)]
+pub struct Depth {
+    /// Linear Rec.709 of the spectrum that is 1 everywhere.
+    unit: [f32; 3],
+}
+
+impl Depth {
+    /// Reads the integrator from its description.
+    pub fn from_params(params: &Params<'_>) -> Self {
+        ignore_scheduling(params);
+        // Mitsuba accepts it for every sampling integrator; distance knows no lights.
+        params.ignore(&["hide_emitters"]);
+        Self::default()
+    }
+}
+
+impl Default for Depth {
+    fn default() -> Self {
+        // The response is linear between whole nanometres and zero outside of the observer's
+        // range, so the sum over whole nanometres is its integral up to half of the (tiny) ends.
+        let mut unit = [0.0_f64; 3];
+        for nm in 300..900 {
+            let [r, g, b, _] = response(Vec4::splat(nm as f32));
+            for (sum, value) in unit.iter_mut().zip([r, g, b]) {
+                *sum += f64::from(value.x);
+            }
+        }
+        Self {
+            unit: unit.map(|c| c as f32),
+        }
+    }
+}
+
+impl Integrator for Depth {
+    type State = ();
+
+    fn channels(&self) -> Vec<Channel> {
+        Vec::new()
+    }
+
+    fn splats(&self) -> bool {
+        false
+    }
+
+    fn prepare<W: World>(&self, _: &W, _: u64, _: u32) {}
+
+    fn sample<W: World, S: Sampler, K: Sink>(
+        &self,
+        world: &W,
+        (): &(),
+        site: &PixelSite,
+        sampler: &mut S,
+        sink: &mut K,
+    ) {
+        let (_, ray, _) = camera_ray(world, site, sampler);
+        let (t, alpha) = world.intersect(&ray).map_or((0.0, 0.0), |hit| (hit.t, 1.0));
+        sink.radiance(self.unit.map(|c| c * t), alpha);
+    }
+}

@@ -1,0 +1,222 @@
+//! `direct`: direct illumination with any number of light and scattering samples.
+//!
+//! ```text
+//! C = Le(x₁→x₀) + ∫ f(x₁, ω)·|cos θ|·Le(ω) dω
+//! ```
+//!
+//! The integral is estimated with nₗ directions sampled from the lights and nₛ from the
+//! scattering model, combined by the multi-sample balance heuristic over techniques and lanes
+//! (Veach & Guibas 1995, eq. 10): the density of a technique counts as often as it is used.
+
+use crate::dimensions as dim;
+use crate::path::{Rival, camera_ray, shadow};
+use crate::prefix::Prefix;
+use crate::settings::ignore_scheduling;
+use etalon_params::Params;
+use etalon_sampling::Sampler;
+use etalon_spectrum::{Wavelengths, sensor_response};
+use etalon_transport::{
+    Bsdf, Chance, Channel, Integrator, Mode, PixelSite, Ray, Sink, Vertex, World,
+};
+use glam::{Vec3, Vec4};
+
+/// The direct illumination integrator.
+#[derive(Clone, Debug)]
+pub struct Direct {
+    /// Directions sampled from the lights.
+    pub emitter_samples: u32,
+    /// Directions sampled from the scattering model.
+    pub bsdf_samples: u32,
+    /// Whether lights are invisible to the camera.
+    pub hide_emitters: bool,
+}
+
+impl Direct {
+    /// Reads the integrator from its description: `shading_samples` for both kinds, or
+    /// `emitter_samples` and `bsdf_samples`.
+    pub fn from_params(params: &Params<'_>) -> Self {
+        ignore_scheduling(params);
+        let count = |name: &str, default: u32| {
+            let value = params.integer_or(name, i64::from(default));
+            u32::try_from(value)
+                .ok()
+                .filter(|n| *n <= 1 << 16)
+                .unwrap_or_else(|| {
+                    params.refuse(name, value, "0, 1, … 65536");
+                    default
+                })
+        };
+        let both = count("shading_samples", 1);
+        if params.has("shading_samples")
+            && (params.has("emitter_samples") || params.has("bsdf_samples"))
+        {
+            params.error_at(
+                "shading_samples",
+                "give either `shading_samples` or `emitter_samples` and `bsdf_samples`",
+            );
+        }
+        let direct = Self {
+            emitter_samples: count("emitter_samples", both),
+            bsdf_samples: count("bsdf_samples", both),
+            hide_emitters: params.boolean_or("hide_emitters", false),
+        };
+        if direct.emitter_samples + direct.bsdf_samples == 0 {
+            params.error("`direct` needs at least one light or scattering sample");
+        }
+        direct
+    }
+
+    fn incident<W: World, S: Sampler>(
+        &self,
+        world: &W,
+        mut ray: Ray,
+        wavelengths: &Wavelengths,
+        sampler: &mut S,
+    ) -> (Vec4, f32) {
+        let visible = !self.hide_emitters;
+        let hit = loop {
+            let Some(hit) = world.intersect(&ray) else {
+                if visible && world.has_background() {
+                    let radiance = world.background(ray.direction, wavelengths);
+                    return (Prefix::START.estimate(radiance, Vec4::ZERO), 1.0);
+                }
+                return (Vec4::ZERO, 0.0);
+            };
+            if visible || !world.is_emitter(&hit) {
+                break hit;
+            }
+            ray = world.vertex(&ray, &hit).spawn(ray.direction);
+        };
+        let vertex = world.vertex(&ray, &hit);
+        let wo = -ray.direction;
+        let mut result = Vec4::ZERO;
+        if world.is_emitter(&hit) {
+            let radiance = world.emitted(&vertex, wo, wavelengths);
+            result += Prefix::START.estimate(radiance, Vec4::ZERO);
+        }
+        let bsdf = world.bsdf(&vertex, wo, wavelengths);
+        let mut event = 0;
+        if bsdf.has_continuous() {
+            for _ in 0..self.emitter_samples {
+                result += self.from_lights(world, wavelengths, &vertex, &bsdf, wo, sampler, event);
+                event += 1;
+            }
+        }
+        let mut alpha = 1.0;
+        event = 0;
+        for _ in 0..self.bsdf_samples {
+            let (value, passes) =
+                self.from_scattering(world, wavelengths, &vertex, &bsdf, wo, sampler, event);
+            result += value;
+            alpha = if passes { 0.0 } else { alpha };
+            event += 1;
+        }
+        (result, alpha)
+    }
+
+    #[allow(clippy::too_many_arguments)]
+    fn from_lights<W: World, S: Sampler>(
+        &self,
+        world: &W,
+        wavelengths: &Wavelengths,
+        vertex: &Vertex,
+        bsdf: &W::Bsdf<'_>,
+        wo: Vec3,
+        sampler: &mut S,
+        event: u32,
+    ) -> Vec4 {
+        let event = dim::scattering(event);
+        sampler.skip_to(event + dim::LIGHT);
+        let u = sampler.next_2d();
+        sampler.skip_to(event + dim::LIGHT_CHOICE);
+        let Some(light) = world.sample_light(vertex, wavelengths, sampler.next_1d(), u) else {
+            return Vec4::ZERO;
+        };
+        let (value, density) = bsdf.eval_and_density(wo, light.direction, Mode::Radiance);
+        let contribution = value * light.radiance;
+        if contribution == Vec4::ZERO {
+            return Vec4::ZERO;
+        }
+        let Some(passage) = shadow(world, wavelengths, vertex, light.direction, light.target, 0)
+        else {
+            return Vec4::ZERO;
+        };
+        let mut path = Prefix::START;
+        path.extend(contribution * passage.transmittance, light.chance.lanes());
+        path.ratio *= self.emitter_samples as f32;
+        let by_scattering = match light.chance {
+            Chance::Discrete(_) => Vec4::ZERO,
+            Chance::Continuous(chosen) => {
+                density.lanes() * (self.bsdf_samples as f32 / chosen.chooser())
+            }
+        };
+        path.estimate(Vec4::ONE, by_scattering)
+    }
+
+    #[allow(clippy::too_many_arguments)]
+    fn from_scattering<W: World, S: Sampler>(
+        &self,
+        world: &W,
+        wavelengths: &Wavelengths,
+        vertex: &Vertex,
+        bsdf: &W::Bsdf<'_>,
+        wo: Vec3,
+        sampler: &mut S,
+        event: u32,
+    ) -> (Vec4, bool) {
+        let event = dim::scattering(event);
+        sampler.skip_to(event + dim::DIRECTION);
+        let u = sampler.next_2d();
+        sampler.skip_to(event + dim::LOBE);
+        let Some(sample) = bsdf.sample(wo, sampler.next_1d(), u, Mode::Radiance) else {
+            return (Vec4::ZERO, false);
+        };
+        let mut path = Prefix::START;
+        let mut rival = Rival::NONE.after(&path, vertex.position, &sample);
+        path.extend(sample.value, sample.chance.lanes());
+        path.ratio *= self.bsdf_samples as f32;
+        rival.ratio *= self.emitter_samples as f32;
+        let ray = vertex.spawn(sample.wi);
+        let value = match world.intersect(&ray) {
+            None if world.has_background() => {
+                let radiance = world.background(ray.direction, wavelengths);
+                path.estimate(radiance, rival.at_background(world, ray.direction))
+            }
+            Some(hit) if world.is_emitter(&hit) => {
+                let end = world.vertex(&ray, &hit);
+                let radiance = world.emitted(&end, -ray.direction, wavelengths);
+                path.estimate(radiance, rival.at_surface(world, &end, ray.direction))
+            }
+            _ => Vec4::ZERO,
+        };
+        (value, sample.passes)
+    }
+}
+
+impl Integrator for Direct {
+    type State = ();
+
+    fn channels(&self) -> Vec<Channel> {
+        Vec::new()
+    }
+
+    fn splats(&self) -> bool {
+        false
+    }
+
+    fn prepare<W: World>(&self, _: &W, _: u64, _: u32) {}
+
+    fn sample<W: World, S: Sampler, K: Sink>(
+        &self,
+        world: &W,
+        (): &(),
+        site: &PixelSite,
+        sampler: &mut S,
+        sink: &mut K,
+    ) {
+        let (wavelengths, ray, weight) = camera_ray(world, site, sampler);
+        let (radiance, alpha) = self.incident(world, ray, &wavelengths, sampler);
+        let rgb = sensor_response(&wavelengths).rgb(radiance * weight);
+        sink.radiance(rgb.to_array(), alpha);
+    }
+}

@@ -1,0 +1,161 @@
+//! The list of integrators: one line each.
+
+use crate::aov::Aov;
+use crate::depth::Depth;
+use crate::direct::Direct;
+use crate::moment::Moment;
+use crate::path::Path;
+use crate::ptracer::ParticleTracer;
+use crate::render::{Outcome, Plan, Progress, render};
+use etalon_params::{Class, Diagnostics, Node, Params};
+use etalon_sampling::Sampler;
+use etalon_transport::{Channel, Film, Integrator, PixelSite, Sink, World};
+use glam::Vec2;
+
+macro_rules! integrators {
+    ($($name:literal => $variant:ident: $read:expr;)*) => {
+        /// Any integrator that a scene can ask for.
+        #[derive(Clone, Debug)]
+        #[allow(missing_docs)]
+        pub enum AnyIntegrator {
+            $($variant($variant),)*
+        }
+
+        /// The names under which scenes ask for integrators.
+        pub fn names() -> &'static [&'static str] {
+            &[$($name),*]
+        }
+
+        impl AnyIntegrator {
+            /// Reads an integrator from its description. `None` if there is no integrator of
+            /// that name, or after a mistake, which has been recorded.
+            pub fn from_node(node: &Node, diagnostics: &Diagnostics) -> Option<Self> {
+                let params = Params::new(node, diagnostics);
+                let read = match node.plugin.value.as_str() {
+                    $($name => {
+                        let read: fn(&Params<'_>) -> Option<$variant> = $read;
+                        read(&params).map(Self::$variant)
+                    })*
+                    _ => return None,
+                };
+                params.finish();
+                read
+            }
+
+            /// The channels it writes beside the colour.
+            pub fn channels(&self) -> Vec<Channel> {
+                match self {
+                    $(Self::$variant(integrator) => integrator.channels(),)*
+                }
+            }
+
+            /// Whether it splats to pixels other than the current one.
+            pub fn splats(&self) -> bool {
+                match self {
+                    $(Self::$variant(integrator) => integrator.splats(),)*
+                }
+            }
+
+            /// Renders with it: see [`render`].
+            pub fn render<W: World, F: Film, P: Progress>(
+                &self,
+                world: &W,
+                film: &mut F,
+                plan: &Plan,
+                progress: &P,
+            ) -> Outcome {
+                match self {
+                    $(Self::$variant(integrator) => render(world, integrator, film, plan, progress),)*
+                }
+            }
+
+            /// Draws one sample for an integrator that contains this one. Nested integrators
+            /// write to a sink behind a pointer, or their types would nest without end.
+            pub(crate) fn sample_nested<W: World, S: Sampler>(
+                &self,
+                world: &W,
+                site: &PixelSite,
+                sampler: &mut S,
+                sink: &mut dyn Sink,
+            ) {
+                let mut sink = Behind(sink);
+                match self {
+                    $(Self::$variant(integrator) => integrator.sample(world, &(), site, sampler, &mut sink),)*
+                }
+            }
+        }
+    };
+}
+
+integrators! {
+    "path" => Path: |p| Some(Path::from_params(p));
+    "direct" => Direct: |p| Some(Direct::from_params(p));
+    "depth" => Depth: |p| Some(Depth::from_params(p));
+    "ptracer" => ParticleTracer: |p| Some(ParticleTracer::from_params(p));
+    "aov" => Aov: Aov::from_params;
+    "moment" => Moment: Moment::from_params;
+}
+
+/// An integrator inside another.
+#[derive(Clone, Debug)]
+pub(crate) struct Nested {
+    /// Its name in the scene file, which begins its channels' names.
+    pub(crate) name: String,
+    /// The integrator.
+    pub(crate) integrator: AnyIntegrator,
+    /// How many channels it writes beside the colour.
+    pub(crate) channels: usize,
+}
+
+impl Nested {
+    /// The integrators nested in a description, in its order. Integrators that splat are
+    /// refused: their contributions belong to no sample of the pixel.
+    pub(crate) fn all(params: &Params<'_>) -> Option<Vec<Self>> {
+        let mut nested = Vec::new();
+        for (position, (property, node)) in
+            params.children(Class::Integrator).into_iter().enumerate()
+        {
+            let integrator = AnyIntegrator::from_node(node, params.diagnostics)?;
+            if integrator.splats() {
+                params.diagnostics.push(etalon_params::Diagnostic::error(
+                    node.plugin.span,
+                    format!(
+                        "`{}` cannot be nested in `{}`: its contributions land on any pixel",
+                        node.plugin.value, params.node.plugin.value
+                    ),
+                ));
+                return None;
+            }
+            let name = if property.name.is_empty() {
+                node.id
+                    .clone()
+                    .unwrap_or_else(|| format!("integrator{position}"))
+            } else {
+                property.name.clone()
+            };
+            nested.push(Self {
+                name,
+                channels: integrator.channels().len(),
+                integrator,
+            });
+        }
+        Some(nested)
+    }
+}
+
+/// A sink behind a pointer.
+struct Behind<'a>(&'a mut dyn Sink);
+
+impl Sink for Behind<'_> {
+    fn radiance(&mut self, rgb: [f32; 3], alpha: f32) {
+        self.0.radiance(rgb, alpha);
+    }
+
+    fn splat(&mut self, raster: Vec2, rgb: [f32; 3]) {
+        self.0.splat(raster, rgb);
+    }
+
+    fn channel(&mut self, index: usize, value: f32) {
+        self.0.channel(index, value);
+    }
+}

@@ -1,0 +1,160 @@
+//! The render loop: replicates × tiles × pixels × samples.
+//!
+//! A replicate is an independent estimate of the whole image. Tiles of a replicate run in
+//! parallel; since a sample is a pure function of its address and the film accumulates exactly,
+//! neither the number of threads nor the order of tiles changes a bit.
+
+use etalon_sampling::{Independent, PixelSample, Sampler, SamplerKind, Sobol, Stratified};
+use etalon_transport::{Film, Integrator, PixelSite, TileSink, World};
+use glam::UVec2;
+use rayon::prelude::*;
+use std::sync::atomic::{AtomicU64, Ordering};
+
+/// Side of a tile (pixels).
+pub const TILE: u32 = 16;
+
+/// How much to render.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Plan {
+    /// The seed of the image.
+    pub seed: u64,
+    /// Independent replicates.
+    pub replicates: u32,
+    /// Samples per pixel in each replicate.
+    pub samples_per_replicate: u32,
+    /// The kind of sampler.
+    pub sampler: SamplerKind,
+}
+
+/// What happened.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Outcome {
+    /// Replicates finished; fewer than planned if the render was cancelled.
+    pub replicates: u32,
+    /// Camera samples (and light paths, for integrators that splat).
+    pub samples: u64,
+    /// Rays traced.
+    pub rays: u64,
+}
+
+/// Watches a render.
+pub trait Progress: Sync {
+    /// A tile is done, with so many samples.
+    fn tile_done(&self, samples: u64);
+    /// Whether to stop after the replicate that is being rendered.
+    fn cancelled(&self) -> bool;
+}
+
+/// A watcher that does not care.
+impl Progress for () {
+    fn tile_done(&self, _: u64) {}
+    fn cancelled(&self) -> bool {
+        false
+    }
+}
+
+/// Renders replicates into `film` on the current thread pool.
+pub fn render<W: World, I: Integrator, F: Film, P: Progress>(
+    world: &W,
+    integrator: &I,
+    film: &mut F,
+    plan: &Plan,
+    progress: &P,
+) -> Outcome {
+    let origin = film.origin();
+    let size = film.size();
+    let tiles = UVec2::new(size.x.div_ceil(TILE), size.y.div_ceil(TILE));
+    let rays = AtomicU64::new(0);
+    let mut outcome = Outcome {
+        replicates: 0,
+        samples: 0,
+        rays: 0,
+    };
+    for replicate in 0..plan.replicates {
+        let state = integrator.prepare(world, plan.seed, replicate);
+        let tile = |index: u32| {
+            let corner = UVec2::new(index % tiles.x, index / tiles.x) * TILE;
+            let from = origin + corner;
+            let to = origin + (corner + TILE).min(size);
+            let run = TileRun {
+                world,
+                integrator,
+                state: &state,
+                film: &*film,
+                plan,
+                replicate,
+            };
+            match plan.sampler {
+                SamplerKind::Independent => run.render(from, to, Independent::start),
+                SamplerKind::Sobol => run.render(from, to, Sobol::start),
+                SamplerKind::Stratified { jitter } => {
+                    run.render(from, to, |sample| Stratified::with_jitter(sample, jitter));
+                }
+            }
+            rays.fetch_add(world.take_ray_count(), Ordering::Relaxed);
+            let pixels = u64::from(to.x - from.x) * u64::from(to.y - from.y);
+            progress.tile_done(pixels * u64::from(plan.samples_per_replicate));
+        };
+        (0..tiles.x * tiles.y)
+            .into_par_iter()
+            .with_max_len(1)
+            .for_each(tile);
+        film.end_replicate(plan.samples_per_replicate);
+        outcome.replicates += 1;
+        outcome.samples +=
+            u64::from(size.x) * u64::from(size.y) * u64::from(plan.samples_per_replicate);
+        if progress.cancelled() {
+            break;
+        }
+    }
+    outcome.rays = rays.into_inner();
+    outcome
+}
+
+/// One tile of one replicate.
+struct TileRun<'a, W: World, I: Integrator, F: Film> {
+    world: &'a W,
+    integrator: &'a I,
+    state: &'a I::State,
+    film: &'a F,
+    plan: &'a Plan,
+    replicate: u32,
+}
+
+impl<W: World, I: Integrator, F: Film> TileRun<'_, W, I, F> {
+    fn render<S: Sampler>(&self, from: UVec2, to: UVec2, start: impl Fn(&PixelSample) -> S) {
+        let size = self.film.size();
+        let samples = self.plan.samples_per_replicate;
+        let spp = samples as f32 * self.plan.replicates as f32;
+        let spacing = 1.0 / spp.sqrt();
+        let margin = self.film.margin();
+        let mut sink = self.film.tile(from, to);
+        for y in from.y..to.y {
+            for x in from.x..to.x {
+                let pixel = UVec2::new(x, y);
+                sink.begin_pixel(pixel);
+                for sample in 0..samples {
+                    let mut sampler = start(&PixelSample {
+                        seed: self.plan.seed,
+                        replicate: self.replicate,
+                        pixel: (x, y),
+                        sample,
+                        samples_per_replicate: samples,
+                    });
+                    let placement = self.film.place(pixel, sampler.next_2d());
+                    let site = PixelSite {
+                        pixel,
+                        raster: placement.raster,
+                        margin,
+                        pixels: size.x * size.y,
+                        spacing,
+                    };
+                    sink.begin_sample(placement.weight);
+                    self.integrator
+                        .sample(self.world, self.state, &site, &mut sampler, &mut sink);
+                }
+                sink.end_pixel();
+            }
+        }
+    }
+}

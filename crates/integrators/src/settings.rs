@@ -1,0 +1,49 @@
+//! Parameters that several integrators share.
+
+use etalon_params::Params;
+
+/// Path length limits and the visibility of lights, with Mitsuba's meaning.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct PathSettings {
+    /// Longest path in segments: 1 shows lights only, 2 adds direct light; unlimited is
+    /// `u32::MAX`.
+    pub max_depth: u32,
+    /// The depth at which Russian roulette begins.
+    pub rr_depth: u32,
+    /// Whether lights are invisible to the camera.
+    pub hide_emitters: bool,
+}
+
+impl Default for PathSettings {
+    fn default() -> Self {
+        Self {
+            max_depth: u32::MAX,
+            rr_depth: 5,
+            hide_emitters: false,
+        }
+    }
+}
+
+impl PathSettings {
+    /// Reads `max_depth`, `rr_depth` and `hide_emitters`.
+    pub fn from_params(params: &Params<'_>) -> Self {
+        let max_depth = params.integer_or("max_depth", -1);
+        if max_depth < -1 || max_depth > i64::from(i32::MAX) {
+            params.refuse("max_depth", max_depth, "-1 (unlimited), 0, 1, 2, …");
+        }
+        let rr_depth = params.integer_or("rr_depth", 5);
+        if rr_depth < 1 || rr_depth > i64::from(i32::MAX) {
+            params.refuse("rr_depth", rr_depth, "1, 2, …");
+        }
+        Self {
+            max_depth: u32::try_from(max_depth).unwrap_or(u32::MAX),
+            rr_depth: u32::try_from(rr_depth).unwrap_or(5),
+            hide_emitters: params.boolean_or("hide_emitters", false),
+        }
+    }
+}
+
+/// Parameters of every Mitsuba integrator that cannot affect pixels.
+pub fn ignore_scheduling(params: &Params<'_>) {
+    params.ignore(&["block_size", "samples_per_pass", "timeout"]);
+}
