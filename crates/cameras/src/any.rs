@@ -1,0 +1,101 @@
+//! The list of cameras a scene can ask for.
+
+use crate::{FilmWindow, Orthographic, Perspective, Shutter, ThinLens};
+use etalon_params::{Class, Diagnostic, Params};
+use etalon_transport::{Camera, CameraRay, Connection};
+use glam::{Vec2, Vec3};
+
+/// Sensors of Mitsuba that are known but not built yet.
+pub const NOT_BUILT: &[&str] = &[
+    "batch",
+    "distant",
+    "flat_sensor",
+    "irradiancemeter",
+    "radiancemeter",
+];
+
+macro_rules! cameras {
+    ($($(#[$doc:meta])* $plugin:literal => $variant:ident,)*) => {
+        /// Any camera.
+        #[derive(Clone, Copy, Debug, PartialEq)]
+        pub enum AnyCamera {
+            $($(#[$doc])* $variant($variant),)*
+        }
+
+        /// Names of the cameras that are built.
+        pub const BUILT: &[&str] = &[$($plugin),*];
+
+        impl AnyCamera {
+            fn by_plugin(params: &Params<'_>, window: FilmWindow) -> Option<Option<Self>> {
+                match params.node.plugin.value.as_str() {
+                    $($plugin => {
+                        Some($variant::from_params(params, window).map(Self::$variant))
+                    })*
+                    _ => None,
+                }
+            }
+        }
+
+        impl Camera for AnyCamera {
+            #[inline]
+            fn ray(&self, raster: Vec2, lens: Vec2, time: f32) -> CameraRay {
+                match self { $(Self::$variant(camera) => camera.ray(raster, lens, time),)* }
+            }
+
+            #[inline]
+            fn connect(&self, point: Vec3, lens: Vec2, margin: f32) -> Option<Connection> {
+                match self { $(Self::$variant(camera) => camera.connect(point, lens, margin),)* }
+            }
+
+            fn has_lens(&self) -> bool {
+                match self { $(Self::$variant(camera) => camera.has_lens(),)* }
+            }
+        }
+    };
+}
+
+cameras! {
+    /// A pinhole camera.
+    "perspective" => Perspective,
+    /// A perspective camera with an ideal lens.
+    "thinlens" => ThinLens,
+    /// Parallel rays.
+    "orthographic" => Orthographic,
+}
+
+impl AnyCamera {
+    /// Reads a sensor node for a film of `window`. The children `film` and `sampler` belong to
+    /// the scene, which reads them itself; they are marked as used here. Reports every mistake,
+    /// unknown properties included; `None` if no camera can be made of it.
+    pub fn from_params(params: &Params<'_>, window: FilmWindow) -> Option<(Self, Shutter)> {
+        let plugin = &params.node.plugin;
+        let Some(camera) = Self::by_plugin(params, window) else {
+            let diagnostic = if NOT_BUILT.contains(&plugin.value.as_str()) {
+                let message = format!("the sensor `{}` is known but not built yet", plugin.value);
+                Diagnostic::error(plugin.span, message).help(format!("built: {}", BUILT.join(", ")))
+            } else {
+                Diagnostic::error(plugin.span, format!("unknown sensor `{}`", plugin.value))
+                    .suggest(&plugin.value, BUILT.iter().copied())
+            };
+            params.diagnostics.push(diagnostic);
+            return None;
+        };
+        let shutter = Shutter::from_params(params);
+        if params.property("srf").is_some() {
+            params.error_at(
+                "srf",
+                "a sensor response function (`srf`) is known but not built yet",
+            );
+        }
+        for (property, _) in params.children(Class::Medium) {
+            let message = "a camera inside of a medium is known but not built yet";
+            params
+                .diagnostics
+                .push(Diagnostic::error(property.name_span, message));
+        }
+        params.children(Class::Film);
+        params.children(Class::Sampler);
+        params.finish();
+        Some((camera?, shutter))
+    }
+}

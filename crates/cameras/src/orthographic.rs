@@ -1,0 +1,97 @@
+//! `orthographic`: parallel rays through a window of the camera's xy plane.
+//!
+//! The film spans x ∈ [−1, 1] of camera space and, pixels being square, y ∈ [−h/w, h/w]; scale in
+//! the pose M resizes it. All rays run along d = M·ẑ/|M·ẑ|. A pixel of camera-space area a
+//! is a beam of cross-section a·|det M|/|M·ẑ|, so a connection weighs |M·ẑ|/(a·|det M|),
+//! whatever the distance.
+//!
+//! As in Mitsuba, rays start at the image of the near plane and end `far_clip − near_clip`
+//! farther in *world* units, also if the pose scales z.
+
+use crate::{ClipRange, FilmWindow, Pose};
+use etalon_params::Params;
+use etalon_transport::{Camera, CameraRay, Connection, Ray};
+use glam::{Vec2, Vec3};
+
+/// A camera without perspective.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Orthographic {
+    pose: Pose,
+    window: FilmWindow,
+    /// Camera-space point seen at raster (0, 0).
+    corner: Vec2,
+    /// Side of a pixel in camera space.
+    pixel: f32,
+    near: f32,
+    /// Length of the rays (m).
+    length: f32,
+    direction: Vec3,
+    /// |M·ẑ|.
+    stretch: f32,
+    weight: f32,
+}
+
+impl Orthographic {
+    /// An orthographic camera.
+    pub fn new(pose: Pose, window: FilmWindow, clip: ClipRange) -> Self {
+        let pixel = (2.0 / f64::from(window.size.x)) as f32;
+        let axis = pose.vector(Vec3::Z);
+        let stretch = axis.length();
+        Self {
+            pose,
+            window,
+            corner: Vec2::new(1.0, (1.0 / window.aspect()) as f32),
+            pixel,
+            near: clip.near as f32,
+            length: (clip.far - clip.near) as f32,
+            direction: axis / stretch,
+            stretch,
+            weight: stretch / (pixel * pixel * pose.volume),
+        }
+    }
+
+    /// Reads `near_clip`, `far_clip` and `to_world`.
+    pub fn from_params(params: &Params<'_>, window: FilmWindow) -> Option<Self> {
+        // Every projective camera of Mitsuba takes it; only a lens can be out of focus.
+        params.ignore(&["focus_distance"]);
+        let clip = ClipRange::from_params(params);
+        let pose = Pose::from_params(params, false)?;
+        Some(Self::new(pose, window, clip))
+    }
+}
+
+impl Camera for Orthographic {
+    #[inline]
+    fn ray(&self, raster: Vec2, _lens: Vec2, time: f32) -> CameraRay {
+        let local = (self.corner - raster * self.pixel).extend(self.near);
+        CameraRay {
+            ray: Ray {
+                origin: self.pose.position + self.pose.vector(local),
+                direction: self.direction,
+                t_max: self.length,
+                time,
+            },
+            weight: 1.0,
+        }
+    }
+
+    #[inline]
+    fn connect(&self, point: Vec3, _lens: Vec2, margin: f32) -> Option<Connection> {
+        let local = self.pose.to_camera(point);
+        let t = (local.z - self.near) * self.stretch;
+        if !(t > 0.0 && t < self.length) {
+            return None;
+        }
+        let raster = (self.corner - local.truncate()) / self.pixel;
+        self.window.contains(raster, margin).then(|| Connection {
+            raster,
+            direction: -self.direction,
+            target: point - self.direction * t,
+            weight: self.weight,
+        })
+    }
+
+    fn has_lens(&self) -> bool {
+        false
+    }
+}

@@ -1,0 +1,102 @@
+//! `perspective`: the pinhole camera.
+//!
+//! A raster position x sees along P = M·(X, Y, 1), with M the linear part of the pose. A
+//! pixel's worth of directions covers
+//!
+//! ```text
+//! dω = |det M| · dX dY / |P|³
+//! ```
+//!
+//! so a point at distance r and camera-space depth z, where |P| = r/z, is connected with weight
+//! (dx/dω)/r² = r / (z³ · |det M| · pixel area). This is the importance of Veach (1997, section
+//! 8.2) in units of pixels.
+
+use crate::field_of_view::half_width_from_params;
+use crate::{ClipRange, FilmWindow, ImagePlane, Pose};
+use etalon_params::Params;
+use etalon_transport::{Camera, CameraRay, Connection, Ray};
+use glam::{DVec2, Vec2, Vec3};
+
+/// A pinhole camera.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Perspective {
+    pose: Pose,
+    image: ImagePlane,
+    near: f32,
+    far: f32,
+}
+
+impl Perspective {
+    /// A pinhole camera with tan(φ/2) of the horizontal field of view on `image`.
+    pub fn new(pose: Pose, image: ImagePlane, clip: ClipRange) -> Self {
+        Self {
+            pose,
+            image,
+            near: clip.near as f32,
+            far: clip.far as f32,
+        }
+    }
+
+    /// Reads `fov`, `fov_axis`, `focal_length`, `near_clip`, `far_clip`,
+    /// `principal_point_offset_x`, `principal_point_offset_y` and `to_world`.
+    pub fn from_params(params: &Params<'_>, window: FilmWindow) -> Option<Self> {
+        let finite = |name| params.float_where(name, 0.0, "a finite number", f64::is_finite);
+        let offset = DVec2::new(
+            finite("principal_point_offset_x"),
+            finite("principal_point_offset_y"),
+        );
+        // Every projective camera of Mitsuba takes it; only a lens can be out of focus.
+        params.ignore(&["focus_distance"]);
+        let half_width = half_width_from_params(params, window.aspect());
+        let clip = ClipRange::from_params(params);
+        let pose = Pose::from_params(params, true)?;
+        Some(Self::new(
+            pose,
+            ImagePlane::new(window, half_width, offset),
+            clip,
+        ))
+    }
+}
+
+impl Camera for Perspective {
+    #[inline]
+    fn ray(&self, raster: Vec2, _lens: Vec2, time: f32) -> CameraRay {
+        let seen = self.pose.vector(self.image.point(raster).extend(1.0));
+        let length = seen.length();
+        CameraRay {
+            ray: Ray {
+                origin: self.pose.position + seen * self.near,
+                direction: seen / length,
+                t_max: (self.far - self.near) * length,
+                time,
+            },
+            weight: 1.0,
+        }
+    }
+
+    #[inline]
+    fn connect(&self, point: Vec3, _lens: Vec2, margin: f32) -> Option<Connection> {
+        let local = self.pose.to_camera(point);
+        let depth = local.z;
+        if !(depth > self.near && depth < self.far) {
+            return None;
+        }
+        let raster = self.image.raster(local.truncate() / depth);
+        if !self.image.window.contains(raster, margin) {
+            return None;
+        }
+        let to_point = point - self.pose.position;
+        let distance = to_point.length();
+        let seen = to_point / depth;
+        Some(Connection {
+            raster,
+            direction: -to_point / distance,
+            target: self.pose.position + seen * self.near,
+            weight: distance / (depth * depth * depth * self.pose.volume * self.image.pixel_area()),
+        })
+    }
+
+    fn has_lens(&self) -> bool {
+        false
+    }
+}

@@ -1,0 +1,36 @@
+//! The shutter: the interval of scene time that a picture averages over.
+
+use etalon_params::Params;
+
+/// The moments between which light is gathered. A ray's `time` in [0, 1] runs from `open` to
+/// `close`. As long as nothing in a scene moves, no pixel depends on it.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Shutter {
+    /// Scene time at which the shutter opens.
+    pub open: f64,
+    /// Scene time at which it closes; not before `open`.
+    pub close: f64,
+}
+
+impl Shutter {
+    /// Reads `shutter_open` and `shutter_close`.
+    pub fn from_params(params: &Params<'_>) -> Self {
+        let open = params.float_where("shutter_open", 0.0, "a finite number", f64::is_finite);
+        let close = params.float_or("shutter_close", 0.0);
+        if close >= open && close.is_finite() {
+            return Self { open, close };
+        }
+        let what = "a finite number not below `shutter_open`";
+        if params.has("shutter_close") {
+            params.refuse("shutter_close", close, what);
+        } else {
+            params.missing("shutter_close", what);
+        }
+        Self { open, close: open }
+    }
+
+    /// Scene time of a ray's `time` in [0, 1].
+    pub fn moment(&self, time: f32) -> f64 {
+        self.open + (self.close - self.open) * f64::from(time)
+    }
+}

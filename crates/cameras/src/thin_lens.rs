@@ -1,0 +1,129 @@
+//! `thinlens`: a perspective camera with an ideal thin lens (depth of field).
+//!
+//! A point a of the aperture (uniform on a disk of radius R in the plane z = 0) and a raster
+//! position see along P = M·((f·(X, Y) − a)/f, 1): all rays of one raster position meet at the
+//! focal plane z = f (Cook, Porter, Carpenter 1984). For a fixed a the lens is a pinhole at a
+//! whose image plane is shifted, so the Jacobian is that of the pinhole camera with r measured
+//! from a; the aperture point is drawn with the same density for rays and for connections, which
+//! therefore cancels.
+
+use crate::field_of_view::half_width_from_params;
+use crate::{ClipRange, FilmWindow, ImagePlane, Pose};
+use etalon_params::Params;
+use etalon_sampling::warps::square_to_concentric_disk;
+use etalon_transport::{Camera, CameraRay, Connection, Ray};
+use glam::{DVec2, Vec2, Vec3};
+
+/// A camera with an ideal lens.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct ThinLens {
+    pose: Pose,
+    image: ImagePlane,
+    near: f32,
+    far: f32,
+    aperture_radius: f32,
+    /// 1/f (m⁻¹).
+    focus: f32,
+}
+
+impl ThinLens {
+    /// A lens of `aperture_radius` (m; zero makes a pinhole) focused on the plane at
+    /// `focus_distance` (m, positive) along the camera's axis.
+    pub fn new(
+        pose: Pose,
+        image: ImagePlane,
+        clip: ClipRange,
+        aperture_radius: f64,
+        focus_distance: f64,
+    ) -> Self {
+        Self {
+            pose,
+            image,
+            near: clip.near as f32,
+            far: clip.far as f32,
+            aperture_radius: aperture_radius as f32,
+            focus: (1.0 / focus_distance) as f32,
+        }
+    }
+
+    /// Reads `aperture_radius`, `focus_distance` (default: the far clipping distance, as Mitsuba
+    /// has it) and the parameters of `perspective`. The principal point's offset is an
+    /// extension: Mitsuba's lens has none.
+    pub fn from_params(params: &Params<'_>, window: FilmWindow) -> Option<Self> {
+        const RADIUS: &str = "a finite number not below 0";
+        let finite = |name| params.float_where(name, 0.0, "a finite number", f64::is_finite);
+        let offset = DVec2::new(
+            finite("principal_point_offset_x"),
+            finite("principal_point_offset_y"),
+        );
+        if !params.has("aperture_radius") {
+            params.missing("aperture_radius", RADIUS);
+        }
+        let radius = params.float_where("aperture_radius", 0.0, RADIUS, |r| {
+            r >= 0.0 && r.is_finite()
+        });
+        let clip = ClipRange::from_params(params);
+        let focus =
+            params.float_where("focus_distance", clip.far, "a finite number above 0", |f| {
+                f > 0.0 && f.is_finite()
+            });
+        let half_width = half_width_from_params(params, window.aspect());
+        let pose = Pose::from_params(params, true)?;
+        let image = ImagePlane::new(window, half_width, offset);
+        Some(Self::new(pose, image, clip, radius, focus))
+    }
+
+    /// The aperture point (camera space, z = 0) chosen by `lens`.
+    #[inline]
+    fn aperture(&self, lens: Vec2) -> Vec2 {
+        square_to_concentric_disk(lens) * self.aperture_radius
+    }
+}
+
+impl Camera for ThinLens {
+    #[inline]
+    fn ray(&self, raster: Vec2, lens: Vec2, time: f32) -> CameraRay {
+        let aperture = self.aperture(lens);
+        let slope = self.image.point(raster) - aperture * self.focus;
+        let seen = self.pose.vector(slope.extend(1.0));
+        let length = seen.length();
+        let start = self.pose.vector(aperture.extend(0.0)) + seen * self.near;
+        CameraRay {
+            ray: Ray {
+                origin: self.pose.position + start,
+                direction: seen / length,
+                t_max: (self.far - self.near) * length,
+                time,
+            },
+            weight: 1.0,
+        }
+    }
+
+    #[inline]
+    fn connect(&self, point: Vec3, lens: Vec2, margin: f32) -> Option<Connection> {
+        let local = self.pose.to_camera(point);
+        let depth = local.z;
+        if !(depth > self.near && depth < self.far) {
+            return None;
+        }
+        let aperture = self.aperture(lens);
+        let slope = (local.truncate() - aperture) / depth;
+        let raster = self.image.raster(slope + aperture * self.focus);
+        if !self.image.window.contains(raster, margin) {
+            return None;
+        }
+        let origin = self.pose.position + self.pose.vector(aperture.extend(0.0));
+        let to_point = point - origin;
+        let distance = to_point.length();
+        Some(Connection {
+            raster,
+            direction: -to_point / distance,
+            target: origin + to_point * (self.near / depth),
+            weight: distance / (depth * depth * depth * self.pose.volume * self.image.pixel_area()),
+        })
+    }
+
+    fn has_lens(&self) -> bool {
+        self.aperture_radius > 0.0
+    }
+}
