@@ -134,6 +134,12 @@ pub fn erf(x: f32) -> f32 {
     libm::erff(x)
 }
 
+/// The complementary error function, 1 − erf(`x`), to full relative precision.
+#[inline]
+pub fn erfc(x: f32) -> f32 {
+    libm::erfcf(x)
+}
+
 /// Square root of `x`, zero for negative `x` (which rounding alone produces here).
 #[inline]
 pub fn safe_sqrt(x: f32) -> f32 {

@@ -101,6 +101,12 @@ pub fn erf(x: f64) -> f64 {
     libm::erf(x)
 }
 
+/// The complementary error function, 1 − erf(`x`), to full relative precision.
+#[inline]
+pub fn erfc(x: f64) -> f64 {
+    libm::erfc(x)
+}
+
 /// Square root of `x`, zero for negative `x` (which rounding alone produces here).
 #[inline]
 pub fn safe_sqrt(x: f64) -> f64 {

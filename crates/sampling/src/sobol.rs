@@ -102,7 +102,7 @@ impl Sampler for Sobol {
         let dimension = self.dimension;
         self.dimension += 1;
         let (index, key) = self.group(dimension).half(dimension / 2 % 2);
-        let bits = if dimension % 2 == 0 {
+        let bits = if dimension.is_multiple_of(2) {
             nested_uniform_scramble(index, key)
         } else {
             nested_uniform_scramble(pascal(index), key.rotate_left(32))

@@ -1,0 +1,66 @@
+//! The unit square and the unit disk, concentrically (Shirley & Chiu 1997).
+//!
+//! Concentric squares become concentric circles. With p = 2u − 1 and |pₓ| > |p_y|, the radius
+//! is pₓ and the angle (π/4)·p_y/pₓ; otherwise the roles of the axes are exchanged.
+
+use core::f32::consts::FRAC_1_PI;
+use etalon_math::float::{atan, sin_cos_turns};
+use glam::Vec2;
+
+/// The density of [`square_to_concentric_disk`] per unit of area, anywhere on the disk: 1/π.
+pub const CONCENTRIC_DISK_DENSITY: f32 = FRAC_1_PI;
+
+/// A point of the unit disk, uniform by area.
+#[inline]
+pub fn square_to_concentric_disk(u: Vec2) -> Vec2 {
+    square_to_polar(u).1
+}
+
+/// The signed radius of the point, in [−1, 1], and the point: the radius is exact, the point's
+/// own length only up to rounding.
+#[inline]
+pub(super) fn square_to_polar(u: Vec2) -> (f32, Vec2) {
+    let p = 2.0 * u - Vec2::ONE;
+    let wide = p.x.abs() > p.y.abs();
+    let (radius, lesser) = if wide { (p.x, p.y) } else { (p.y, p.x) };
+    if radius == 0.0 {
+        return (0.0, Vec2::ZERO);
+    }
+    // The angle from the nearest axis, at most an eighth of a turn.
+    let (sin, cos) = sin_cos_turns(0.125 * (lesser / radius));
+    let point = if wide {
+        Vec2::new(radius * cos, radius * sin)
+    } else {
+        Vec2::new(radius * sin, radius * cos)
+    };
+    (radius, point)
+}
+
+/// The point of the square that becomes `point`; the inverse of [`square_to_concentric_disk`].
+#[inline]
+pub fn concentric_disk_to_square(point: Vec2) -> Vec2 {
+    polar_to_square(point.length(), point)
+}
+
+/// As [`concentric_disk_to_square`], where the distance from the centre is known better than
+/// `point` tells: of `point` only its direction counts.
+#[inline]
+pub(super) fn polar_to_square(radius: f32, point: Vec2) -> Vec2 {
+    let wide = point.x.abs() > point.y.abs();
+    let (greater, lesser) = if wide {
+        (point.x, point.y)
+    } else {
+        (point.y, point.x)
+    };
+    if greater == 0.0 {
+        return Vec2::splat(0.5);
+    }
+    let radius = radius.copysign(greater);
+    let lesser = radius * (atan(lesser / greater) * (4.0 * FRAC_1_PI));
+    let p = if wide {
+        Vec2::new(radius, lesser)
+    } else {
+        Vec2::new(lesser, radius)
+    };
+    0.5 * (p + Vec2::ONE)
+}

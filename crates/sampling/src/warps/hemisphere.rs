@@ -1,0 +1,34 @@
+//! The hemisphere about +z, with density proportional to the cosine:
+//! p(ω) = cos θ / π (Malley's method: a disk, uniform by area, lifted to the hemisphere).
+
+use super::disk::{polar_to_square, square_to_polar};
+use core::f32::consts::FRAC_1_PI;
+use glam::{Vec2, Vec3};
+
+/// The least cosine that [`square_to_cosine_hemisphere`] returns, 2⁻¹². The rim of the disk,
+/// at the resolution of its 24-bit radius, stands for cosines up to 5·10⁻⁴; without the
+/// bound it would be 0, and with it the density of a direction that was in fact sampled.
+/// The direction's length changes by less than one rounding.
+const LEAST_COSINE: f32 = 1.0 / 4096.0;
+
+/// A unit direction with density cos θ / π; its z is always positive.
+#[inline]
+pub fn square_to_cosine_hemisphere(u: Vec2) -> Vec3 {
+    let (radius, point) = square_to_polar(u);
+    let z = ((1.0 - radius) * (1.0 + radius)).sqrt();
+    point.extend(z.max(LEAST_COSINE))
+}
+
+/// The inverse of [`square_to_cosine_hemisphere`], for a unit direction.
+#[inline]
+pub fn cosine_hemisphere_to_square(direction: Vec3) -> Vec2 {
+    let point = direction.truncate();
+    polar_to_square(point.length(), point)
+}
+
+/// The density of [`square_to_cosine_hemisphere`] per steradian at a direction with the given
+/// cosine; zero below the horizon.
+#[inline]
+pub fn cosine_hemisphere_density(cos_theta: f32) -> f32 {
+    cos_theta.max(0.0) * FRAC_1_PI
+}
