@@ -98,7 +98,7 @@ impl Direct {
         let mut event = 0;
         if bsdf.has_continuous() {
             for _ in 0..self.emitter_samples {
-                result += self.from_lights(world, wavelengths, &vertex, &bsdf, wo, sampler, event);
+                result += self.light_sample(world, wavelengths, &vertex, &bsdf, wo, sampler, event);
                 event += 1;
             }
         }
@@ -106,7 +106,7 @@ impl Direct {
         event = 0;
         for _ in 0..self.bsdf_samples {
             let (value, passes) =
-                self.from_scattering(world, wavelengths, &vertex, &bsdf, wo, sampler, event);
+                self.scattering_sample(world, wavelengths, &vertex, &bsdf, wo, sampler, event);
             result += value;
             alpha = if passes { 0.0 } else { alpha };
             event += 1;
@@ -115,7 +115,7 @@ impl Direct {
     }
 
     #[allow(clippy::too_many_arguments)]
-    fn from_lights<W: World, S: Sampler>(
+    fn light_sample<W: World, S: Sampler>(
         &self,
         world: &W,
         wavelengths: &Wavelengths,
@@ -154,7 +154,7 @@ impl Direct {
     }
 
     #[allow(clippy::too_many_arguments)]
-    fn from_scattering<W: World, S: Sampler>(
+    fn scattering_sample<W: World, S: Sampler>(
         &self,
         world: &W,
         wavelengths: &Wavelengths,

@@ -1,0 +1,400 @@
+//! A glowing sphere seen from its centre: the estimators against a geometric series.
+//!
+//! Inside a closed diffuse sphere of reflectance ρ that emits radiance 1 everywhere, the radiance
+//! along any ray is Σᵢ ρⁱ, i = 0 … n − 1 segments (the series 1/(1 − ρ) when unlimited). The
+//! world below has no scene, no materials and no shapes: what is tested is the estimator.
+
+use etalon_integrators::direct::Direct;
+use etalon_integrators::path::Path;
+use etalon_integrators::ptracer::ParticleTracer;
+use etalon_integrators::settings::PathSettings;
+use etalon_math::{Area, Density, Frame, SolidAngle};
+use etalon_sampling::{Independent, PixelSample, Sampler};
+use etalon_spectrum::{WavelengthDistribution, Wavelengths};
+use etalon_transport::*;
+use glam::{UVec2, Vec2, Vec3, Vec4};
+use std::f32::consts::PI;
+
+/// What is deliberately wrong with the world, to show that the tests would notice.
+#[derive(Clone, Copy, PartialEq)]
+enum Fault {
+    None,
+    /// The light's density is reported too high by a tenth.
+    LightDensity,
+    /// Scattering forgets its cosine in the density.
+    ScatteringDensity,
+    /// Emission is 2 % too strong.
+    Emission,
+    /// The camera's importance forgets a cosine.
+    Importance,
+}
+
+struct Sphere {
+    reflectance: f32,
+    fault: Fault,
+    distribution: WavelengthDistribution,
+    camera: Pinhole,
+}
+
+struct Pinhole {
+    fault: Fault,
+}
+
+impl Camera for Pinhole {
+    fn ray(&self, raster: Vec2, _: Vec2, time: f32) -> CameraRay {
+        let direction = (raster * 2.0 - 1.0).extend(1.0).normalize();
+        CameraRay {
+            ray: Ray::new(Vec3::ZERO, direction, time),
+            weight: 1.0,
+        }
+    }
+
+    fn connect(&self, point: Vec3, _: Vec2, _: f32) -> Option<Connection> {
+        let raster = (point.truncate() / point.z + 1.0) * 0.5;
+        let inside = point.z > 0.0 && raster.min_element() >= 0.0 && raster.max_element() <= 1.0;
+        let cos = point.z / point.length();
+        let power = if self.fault == Fault::Importance {
+            2
+        } else {
+            3
+        };
+        inside.then(|| Connection {
+            raster,
+            direction: -point.normalize(),
+            target: Vec3::ZERO,
+            weight: 0.25 / (cos.powi(power) * point.length_squared()),
+        })
+    }
+
+    fn has_lens(&self) -> bool {
+        false
+    }
+}
+
+#[derive(Clone, Copy)]
+struct Lambert {
+    reflectance: f32,
+    normal: Vec3,
+    fault: Fault,
+}
+
+impl Bsdf for Lambert {
+    fn eval(&self, _: Vec3, wi: Vec3, _: Mode) -> Vec4 {
+        Vec4::splat(self.reflectance / PI * self.normal.dot(wi).max(0.0))
+    }
+    fn density(&self, _: Vec3, wi: Vec3) -> Density<SolidAngle> {
+        let cos = self.normal.dot(wi).max(0.0);
+        Density::uniform(if self.fault == Fault::ScatteringDensity {
+            1.0 / PI
+        } else {
+            cos / PI
+        })
+    }
+    fn sample(&self, wo: Vec3, _: f32, u: Vec2, mode: Mode) -> Option<BsdfSample> {
+        let (r, phi) = (u.x.sqrt(), 2.0 * PI * u.y);
+        let (sin, cos) = etalon_math::float::sin_cos(phi);
+        let local = Vec3::new(r * cos, r * sin, (1.0 - u.x).sqrt());
+        let wi = Frame::from_normal(self.normal).to_world(local);
+        let density = self.density(wo, wi);
+        (density.chooser() > 0.0).then(|| BsdfSample {
+            wi,
+            value: self.eval(wo, wi, mode),
+            chance: Chance::Continuous(density),
+            eta: 1.0,
+            passes: false,
+        })
+    }
+    fn has_continuous(&self) -> bool {
+        true
+    }
+    fn passing(&self) -> Vec4 {
+        Vec4::ZERO
+    }
+    fn passing_probability(&self) -> Vec4 {
+        Vec4::ZERO
+    }
+    fn albedo(&self, _: Vec3) -> Vec4 {
+        Vec4::splat(self.reflectance)
+    }
+}
+
+fn on_sphere(u: Vec2) -> Vec3 {
+    let z = 1.0 - 2.0 * u.x;
+    let r = (1.0 - z * z).max(0.0).sqrt();
+    let (sin, cos) = etalon_math::float::sin_cos(2.0 * PI * u.y);
+    Vec3::new(r * cos, r * sin, z)
+}
+
+impl Sphere {
+    fn new(reflectance: f32, fault: Fault) -> Self {
+        Self {
+            reflectance,
+            fault,
+            distribution: WavelengthDistribution::default(),
+            camera: Pinhole { fault },
+        }
+    }
+
+    fn area_density(&self) -> f32 {
+        let factor = if self.fault == Fault::LightDensity {
+            1.1
+        } else {
+            1.0
+        };
+        factor / (4.0 * PI)
+    }
+
+    fn radiance(&self) -> f32 {
+        if self.fault == Fault::Emission {
+            1.02
+        } else {
+            1.0
+        }
+    }
+}
+
+impl World for Sphere {
+    type Bsdf<'w> = Lambert;
+    type Camera = Pinhole;
+
+    fn camera(&self) -> &Pinhole {
+        &self.camera
+    }
+    fn wavelengths(&self, u: f32) -> Wavelengths {
+        Wavelengths::sample(&self.distribution, u)
+    }
+    fn intersect(&self, ray: &Ray) -> Option<Hit> {
+        let b = ray.origin.dot(ray.direction);
+        let t = -b + (b * b + 1.0 - ray.origin.length_squared()).max(0.0).sqrt();
+        (t > 1e-4 && t < ray.t_max).then_some(Hit {
+            t,
+            parameters: Vec2::ZERO,
+            shape: ShapeId(0),
+            primitive: 0,
+            instance: InstanceId::NONE,
+        })
+    }
+    fn vertex(&self, ray: &Ray, hit: &Hit) -> Vertex {
+        let normal = -ray.at(hit.t).normalize();
+        Vertex {
+            position: -normal,
+            error: Vec3::splat(1e-6),
+            normal,
+            shading: Frame::from_normal(normal),
+            uv: Vec2::ZERO,
+            dp_du: Vec3::ZERO,
+            dp_dv: Vec3::ZERO,
+            t: hit.t,
+            time: 0.0,
+            parameters: Vec2::ZERO,
+            shape: ShapeId(0),
+            primitive: 0,
+            instance: InstanceId::NONE,
+            material: MaterialId(0),
+            light: LightId(0),
+        }
+    }
+    fn passage(&self, _: &Ray, _: &Wavelengths, _: u32) -> Option<Passage> {
+        Some(Passage::FREE)
+    }
+    fn bsdf(&self, vertex: &Vertex, _: Vec3, _: &Wavelengths) -> Lambert {
+        Lambert {
+            reflectance: self.reflectance,
+            normal: vertex.normal,
+            fault: self.fault,
+        }
+    }
+    fn emitted(&self, _: &Vertex, _: Vec3, _: &Wavelengths) -> Vec4 {
+        Vec4::splat(self.radiance())
+    }
+    fn is_emitter(&self, _: &Hit) -> bool {
+        true
+    }
+    fn background(&self, _: Vec3, _: &Wavelengths) -> Vec4 {
+        Vec4::ZERO
+    }
+    fn has_background(&self) -> bool {
+        false
+    }
+    fn sample_light(&self, from: &Vertex, w: &Wavelengths, _: f32, u: Vec2) -> Option<LightSample> {
+        let target = on_sphere(u);
+        let d = target - from.position;
+        let direction = d.try_normalize()?;
+        let at = self.vertex(
+            &Ray::new(target, Vec3::X, 0.0),
+            &Hit {
+                t: 0.0,
+                ..self.intersect(&Ray::new(Vec3::ZERO, target, 0.0))?
+            },
+        );
+        Some(LightSample {
+            direction,
+            target: Some(target),
+            radiance: Vec4::splat(self.radiance()),
+            chance: Chance::Continuous(self.light_density(from.position, &at, direction)),
+            light: LightId(0),
+        })
+        .filter(|_| w.lambda.x > 0.0)
+    }
+    fn light_density(&self, from: Vec3, at: &Vertex, direction: Vec3) -> Density<SolidAngle> {
+        let distance_squared = (at.position - from).length_squared();
+        Density::<Area>::uniform(self.area_density())
+            .to_solid_angle(distance_squared, at.normal.dot(direction))
+    }
+    fn background_density(&self, _: Vec3, _: Vec3) -> Density<SolidAngle> {
+        Density::ZERO
+    }
+    fn emit(&self, _: &Wavelengths, _: f32, p: Vec2, d: Vec2) -> Option<Emission> {
+        let origin = on_sphere(p);
+        let lambert = Lambert {
+            reflectance: 1.0,
+            normal: -origin,
+            fault: Fault::None,
+        };
+        let sample = lambert.sample(-origin, 0.0, d, Mode::Importance)?;
+        Some(Emission {
+            ray: Ray::new(origin * (1.0 - 1e-6), sample.wi, 0.0),
+            normal: -origin,
+            weight: Vec4::splat(self.radiance() * PI / self.area_density()),
+            light: LightId(0),
+        })
+    }
+    fn take_ray_count(&self) -> u64 {
+        0
+    }
+}
+
+/// Sums what an estimator says of the one pixel [0, 1)².
+#[derive(Default)]
+struct Meter {
+    value: f64,
+}
+
+impl Sink for Meter {
+    fn radiance(&mut self, rgb: [f32; 3], _: f32) {
+        self.value += f64::from(rgb[1]);
+    }
+    fn splat(&mut self, _: Vec2, rgb: [f32; 3]) {
+        self.value += f64::from(rgb[1]);
+    }
+    fn channel(&mut self, _: usize, _: f32) {}
+}
+
+/// z of the mean green value of `n` samples against `expected` (in units of a white spectrum's).
+fn z_score<I: Integrator<State = ()>>(
+    integrator: &I,
+    world: &Sphere,
+    expected: f64,
+    n: u32,
+) -> f64 {
+    // Green of the constant spectrum 1.
+    const UNIT: f64 = 0.948_3;
+    let (mut sum, mut squares) = (0.0, 0.0);
+    for sample in 0..n {
+        let mut sampler = Independent::start(&PixelSample {
+            seed: 7,
+            replicate: 0,
+            pixel: (0, 0),
+            sample,
+            samples_per_replicate: n,
+        });
+        let site = PixelSite {
+            pixel: UVec2::ZERO,
+            raster: sampler.next_2d(),
+            margin: 0.0,
+            pixels: 1,
+            spacing: 1.0,
+        };
+        let mut meter = Meter::default();
+        integrator.sample(world, &(), &site, &mut sampler, &mut meter);
+        sum += meter.value;
+        squares += meter.value * meter.value;
+    }
+    let n = f64::from(n);
+    let mean = sum / n;
+    let variance = (squares / n - mean * mean) / n;
+    (mean - expected * UNIT) / variance.sqrt()
+}
+
+fn settings(max_depth: u32) -> PathSettings {
+    PathSettings {
+        max_depth,
+        ..PathSettings::default()
+    }
+}
+
+/// Six comparisons at a family-wise α of 10⁻³ (two-sided normal quantile of 10⁻³/6 ≈ 3.76).
+const LIMIT: f64 = 3.76;
+const N: u32 = 150_000;
+
+fn series(reflectance: f64, segments: i32) -> f64 {
+    (0..segments).map(|i| reflectance.powi(i)).sum()
+}
+
+#[test]
+fn estimators_agree_with_the_geometric_series() {
+    let world = Sphere::new(0.6, Fault::None);
+    let limited = |n| settings(n);
+    let path = |n| Path {
+        settings: limited(n),
+    };
+    let light = |n| ParticleTracer {
+        settings: limited(n),
+    };
+    let direct = Direct {
+        emitter_samples: 2,
+        bsdf_samples: 1,
+        hide_emitters: false,
+    };
+    for (what, z) in [
+        (
+            "path, 1 segment",
+            z_score(&path(1), &world, series(0.6, 1), N),
+        ),
+        (
+            "path, 3 segments",
+            z_score(&path(3), &world, series(0.6, 3), N),
+        ),
+        ("path, unlimited", z_score(&path(u32::MAX), &world, 2.5, N)),
+        ("direct", z_score(&direct, &world, series(0.6, 2), N)),
+        (
+            "ptracer, 3 segments",
+            z_score(&light(3), &world, series(0.6, 3), N),
+        ),
+        (
+            "ptracer, unlimited",
+            z_score(&light(u32::MAX), &world, 2.5, N),
+        ),
+    ] {
+        assert!(z.abs() < LIMIT, "{what}: z = {z:.2}");
+    }
+}
+
+#[test]
+fn faults_are_noticed() {
+    let path = Path {
+        settings: settings(3),
+    };
+    let light = ParticleTracer {
+        settings: settings(3),
+    };
+    for fault in [
+        Fault::LightDensity,
+        Fault::ScatteringDensity,
+        Fault::Emission,
+    ] {
+        let world = Sphere::new(0.6, fault);
+        let z = z_score(&path, &world, series(0.6, 3), N);
+        assert!(
+            z.abs() > LIMIT,
+            "fault {} unnoticed: z = {z:.2}",
+            fault as u32
+        );
+    }
+    let world = Sphere::new(0.6, Fault::Importance);
+    let z = z_score(&light, &world, series(0.6, 3), N);
+    assert!(
+        z.abs() > LIMIT,
+        "importance without cosine unnoticed: z = {z:.2}"
+    );
+}
