@@ -1,0 +1,83 @@
+//! OpenEXR: float images with any channels, a crop's place, and one text of our own.
+//!
+//! Files written here are 32-bit float scan lines under lossless ZIP. Their bytes depend on the
+//! content alone: besides what the format demands there is exactly one attribute, [`ATTRIBUTE`],
+//! whose text (JSON, by convention) is the caller's.
+//!
+//! Read are scan lines and tiles, every lossless and lossy compression but HTJ2K, 16- and 32-bit
+//! floats and 32-bit integers, several parts, and the full resolution of mip maps. Deep and
+//! subsampled images are refused.
+
+mod bounds;
+mod header;
+mod read;
+mod write;
+
+use crate::{Frame, Image};
+
+pub use header::{
+    Attribute, Header, HeaderChannel, HeaderPart, SampleType, decode_header, read_header,
+};
+pub use read::{decode, read};
+pub use write::{encode, write, write_parts};
+
+/// The name of the attribute that holds the caller's text.
+pub const ATTRIBUTE: &str = "etalon";
+
+/// One image of a file.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Part {
+    /// Its name; files of several parts have one for each, files of one may.
+    pub name: Option<String>,
+    /// Its pixels.
+    pub image: Image,
+    /// Column and row of its upper left pixel in the whole picture.
+    pub offset: [i32; 2],
+}
+
+/// The content of a file.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Document {
+    /// The images, at least one.
+    pub parts: Vec<Part>,
+    /// Width and height of the whole picture.
+    pub size: [usize; 2],
+    /// The text of the attribute [`ATTRIBUTE`]; empty if there is none.
+    pub text: String,
+}
+
+impl Document {
+    /// The channels of all parts as one image, and its place.
+    ///
+    /// Channels of the first part keep their names; those of another part called `name` become
+    /// `name.channel`. Parts of another size or place than the first are left out, as are
+    /// channels whose name is already taken.
+    #[must_use]
+    pub fn flatten(self) -> (Image, Frame) {
+        let mut parts = self.parts.into_iter();
+        let first = parts.next().expect("a document has at least one part");
+        let frame = Frame {
+            offset: first.offset,
+            size: self.size,
+        };
+        let mut whole = first.image;
+        for part in parts {
+            let same_place = part.offset == first.offset
+                && part.image.width() == whole.width()
+                && part.image.height() == whole.height();
+            if !same_place {
+                continue;
+            }
+            for channel in part.image.into_channels() {
+                let name = match &part.name {
+                    Some(part) => format!("{part}.{}", channel.name),
+                    None => channel.name,
+                };
+                if whole.channel(&name).is_none() {
+                    whole.push(name, channel.samples);
+                }
+            }
+        }
+        (whole, frame)
+    }
+}

@@ -1,0 +1,178 @@
+//! Reading EXR files, pixels and all.
+
+use super::{Document, Part, bounds, header};
+use crate::{Error, Image};
+use ::exr::block::lines::LineRef;
+use ::exr::block::reader::{ChunksReader, Reader};
+use ::exr::block::{BlockIndex, UncompressedBlock};
+use ::exr::meta::attribute::SampleType;
+use ::exr::meta::{MetaData, header::Header};
+use ::exr::prelude::f16;
+use std::collections::HashSet;
+use std::io::Cursor;
+use std::path::Path;
+
+/// Reads a file.
+///
+/// # Errors
+/// [`Error::Read`] where the operating system refuses; otherwise as [`decode`].
+pub fn read(path: &Path) -> Result<Document, Error> {
+    let bytes = std::fs::read(path).map_err(|source| Error::read(path, source))?;
+    decode(&bytes, path)
+}
+
+/// Reads a file's bytes; `path` is only for messages.
+///
+/// All samples become 32-bit floats: 16-bit floats exactly, integers to the nearest.
+///
+/// # Errors
+/// [`Error::Invalid`] where the file is damaged or pixels are missing, [`Error::Unsupported`]
+/// for deep or subsampled images and unknown compressions, [`Error::TooLarge`] where it declares
+/// more than its length can justify.
+pub fn decode(bytes: &[u8], path: &Path) -> Result<Document, Error> {
+    // The header alone comes first: nothing large may be allocated before it has been judged.
+    let meta = header::metadata(bytes, path)?;
+    bounds::check(path, &meta.headers, bytes.len())?;
+
+    let mut planes: Vec<Planes> = meta.headers.iter().map(Planes::new).collect();
+    let chunks = Reader::read_from_buffered(Cursor::new(bytes), false)
+        .and_then(|reader| reader.all_chunks(false))
+        .map_err(|error| header::failure(path, error))?;
+    let insert = |meta: &MetaData, block: UncompressedBlock| {
+        let layer = block.index.layer;
+        planes[layer].insert(&meta.headers[layer], &block)
+    };
+    let samples: usize = meta.headers.iter().map(sample_count).sum();
+    if samples <= SMALL {
+        chunks.decompress_sequential(false, insert)
+    } else {
+        chunks.decompress_parallel(false, insert)
+    }
+    .map_err(|error| header::failure(path, error))?;
+
+    let mut parts = Vec::with_capacity(planes.len());
+    for (planes, header) in planes.into_iter().zip(&meta.headers) {
+        if planes.missing > 0 {
+            return Err(Error::invalid(
+                path,
+                format!("{} of its pixels are missing", planes.missing),
+            ));
+        }
+        parts.push(Part {
+            name: header.own_attributes.layer_name.as_ref().map(header::utf8),
+            image: planes.into_image(header, path)?,
+            offset: header::offset(header),
+        });
+    }
+    Ok(Document {
+        parts,
+        size: header::size(&meta),
+        text: header::text(&meta),
+    })
+}
+
+/// Files of up to this many samples are decompressed by the calling thread.
+const SMALL: usize = 1 << 20;
+
+fn sample_count(header: &Header) -> usize {
+    header.layer_size.area() * header.channels.list.len()
+}
+
+/// The channels of a part while they are read.
+struct Planes {
+    width: usize,
+    height: usize,
+    channels: Vec<Vec<f32>>,
+    /// Pixels not read yet.
+    missing: usize,
+    /// Upper left pixels of the blocks read so far.
+    seen: HashSet<(usize, usize)>,
+}
+
+impl Planes {
+    fn new(header: &Header) -> Self {
+        let pixels = header.layer_size.area();
+        Self {
+            width: header.layer_size.width(),
+            height: header.layer_size.height(),
+            channels: vec![vec![0.0; pixels]; header.channels.list.len()],
+            missing: pixels,
+            seen: HashSet::new(),
+        }
+    }
+
+    fn insert(&mut self, header: &Header, block: &UncompressedBlock) -> ::exr::error::UnitResult {
+        let BlockIndex {
+            pixel_position: at,
+            pixel_size: size,
+            level,
+            ..
+        } = block.index;
+        if level.x() != 0 || level.y() != 0 {
+            return Ok(());
+        }
+        let invalid = |reason: &'static str| Err(::exr::error::Error::Invalid(reason.into()));
+        let inside = |at: usize, size: usize, whole: usize| {
+            at.checked_add(size).is_some_and(|end| end <= whole)
+        };
+        if !inside(at.x(), size.width(), self.width) || !inside(at.y(), size.height(), self.height)
+        {
+            return invalid("a block lies outside the image");
+        }
+        if block.data.len() != size.area() * header.channels.bytes_per_pixel {
+            return invalid("a block has the wrong size");
+        }
+        if !self.seen.insert((at.x(), at.y())) {
+            return invalid("a block occurs twice");
+        }
+        self.missing = self.missing.saturating_sub(size.area());
+        for line in block.lines(&header.channels) {
+            let place = line.location;
+            let start = place.position.y() * self.width + place.position.x();
+            let target = &mut self.channels[place.channel][start..start + place.sample_count];
+            copy(
+                line,
+                header.channels.list[place.channel].sample_type,
+                target,
+            )?;
+        }
+        Ok(())
+    }
+
+    fn into_image(self, header: &Header, path: &Path) -> Result<Image, Error> {
+        let mut image = Image::new(self.width, self.height);
+        for (samples, channel) in self.channels.into_iter().zip(&header.channels.list) {
+            let name = header::utf8(&channel.name);
+            if image.channel(&name).is_some() {
+                return Err(Error::invalid(
+                    path,
+                    format!("it has two channels called {name:?}"),
+                ));
+            }
+            image.push(name, samples);
+        }
+        Ok(image)
+    }
+}
+
+/// Copies a row of samples, converting them to floats.
+fn copy(
+    line: LineRef<'_>,
+    sample_type: SampleType,
+    target: &mut [f32],
+) -> ::exr::error::UnitResult {
+    match sample_type {
+        SampleType::F32 => return line.read_samples_into_slice(target),
+        SampleType::F16 => {
+            for (target, sample) in target.iter_mut().zip(line.read_samples::<f16>()) {
+                *target = sample?.to_f32();
+            }
+        }
+        SampleType::U32 => {
+            for (target, sample) in target.iter_mut().zip(line.read_samples::<u32>()) {
+                *target = sample? as f32;
+            }
+        }
+    }
+    Ok(())
+}
