@@ -1,0 +1,197 @@
+//! The rules of the house that the compiler does not check (ARCHITECTURE.md, "Tidy rules").
+
+use std::collections::BTreeMap;
+use std::fs;
+use std::path::{Path, PathBuf};
+
+/// The floors of the house: a crate may depend only on crates of a lower floor.
+const FLOORS: [&[&str]; 7] = [
+    &["math", "statistics", "params"],
+    &["sampling", "spectrum", "images"],
+    &["transport"],
+    &["geometry", "textures", "bsdf", "subsurface", "lights", "cameras", "film"],
+    &["scene", "integrators"],
+    &["formats"],
+    &["cli", "validation", "benches", "xtask"],
+];
+
+/// Longest file, tables aside.
+const LINES: usize = 420;
+
+fn root() -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR"))
+        .parent()
+        .expect("xtask lies in the workspace")
+        .to_owned()
+}
+
+/// Folder of each crate by its room's name.
+fn rooms() -> BTreeMap<String, PathBuf> {
+    let root = root();
+    let mut rooms: BTreeMap<String, PathBuf> = fs::read_dir(root.join("crates"))
+        .expect("crates/ exists")
+        .map(|entry| entry.expect("readable").path())
+        .map(|path| (path.file_name().expect("named").to_string_lossy().into_owned(), path))
+        .collect();
+    for room in ["validation", "benches", "xtask"] {
+        rooms.insert(room.to_owned(), root.join(room));
+    }
+    rooms
+}
+
+fn floor_of(room: &str) -> usize {
+    FLOORS
+        .iter()
+        .position(|floor| floor.contains(&room))
+        .unwrap_or_else(|| panic!("room `{room}` stands on no floor"))
+}
+
+fn rust_files(folder: &Path, found: &mut Vec<PathBuf>) {
+    let Ok(entries) = fs::read_dir(folder) else {
+        return;
+    };
+    for entry in entries {
+        let path = entry.expect("readable").path();
+        if path.is_dir() {
+            if path.file_name().is_none_or(|name| name != "target") {
+                rust_files(&path, found);
+            }
+        } else if path.extension().is_some_and(|e| e == "rs") {
+            found.push(path);
+        }
+    }
+}
+
+fn all_rust_files() -> Vec<(PathBuf, String)> {
+    let mut files = Vec::new();
+    for folder in rooms().values() {
+        rust_files(folder, &mut files);
+    }
+    files
+        .into_iter()
+        .map(|path| {
+            let text = fs::read_to_string(&path).expect("UTF-8");
+            (path.strip_prefix(root()).expect("inside").to_owned(), text)
+        })
+        .collect()
+}
+
+fn manifest(folder: &Path) -> toml::Table {
+    fs::read_to_string(folder.join("Cargo.toml"))
+        .expect("every room has a manifest")
+        .parse()
+        .expect("valid TOML")
+}
+
+#[test]
+fn every_room_stands_on_a_floor() {
+    let mut expected: Vec<&str> = FLOORS.iter().flat_map(|f| f.iter().copied()).collect();
+    expected.sort_unstable();
+    let found: Vec<String> = rooms().into_keys().collect();
+    assert_eq!(found, expected);
+}
+
+#[test]
+fn arrows_point_down() {
+    for (room, folder) in rooms() {
+        let manifest = manifest(&folder);
+        let Some(dependencies) = manifest.get("dependencies").and_then(|d| d.as_table()) else {
+            continue;
+        };
+        for name in dependencies.keys() {
+            let target = match name.as_str() {
+                "etalon" => "cli",
+                other => match other.strip_prefix("etalon-") {
+                    Some(target) => target,
+                    None => continue,
+                },
+            };
+            let same_top = floor_of(&room) == FLOORS.len() - 1 && floor_of(target) == FLOORS.len() - 1;
+            assert!(
+                floor_of(target) < floor_of(&room) || same_top,
+                "`{room}` must not depend on `{target}`: an arrow may only point down"
+            );
+        }
+    }
+}
+
+#[test]
+fn integrators_name_nothing_concrete() {
+    let manifest = manifest(&root().join("crates/integrators"));
+    let dependencies = manifest["dependencies"].as_table().expect("a table");
+    for room in FLOORS[3] {
+        assert!(
+            !dependencies.contains_key(&format!("etalon-{room}")),
+            "integrators may not know `{room}`"
+        );
+    }
+}
+
+#[test]
+fn files_are_short_and_say_what_they_define() {
+    for (path, text) in all_rust_files() {
+        let shown = path.display();
+        assert!(text.starts_with("//!"), "{shown} does not open with `//!`");
+        let is_table = path.components().any(|c| c.as_os_str() == "tables");
+        let lines = text.lines().count();
+        assert!(
+            lines <= LINES || is_table,
+            "{shown} has {lines} lines, more than {LINES}: is it one concept?"
+        );
+        let stem = path.file_stem().expect("named").to_string_lossy().into_owned();
+        assert!(
+            !["utils", "util", "common", "helpers", "misc"].contains(&stem.as_str()),
+            "{shown} is named after nothing it defines"
+        );
+    }
+}
+
+#[test]
+fn obvhs_is_named_in_one_file() {
+    let word = concat!("obv", "hs::");
+    let files: Vec<_> = all_rust_files()
+        .into_iter()
+        .filter(|(_, text)| text.contains(word))
+        .map(|(path, _)| path)
+        .filter(|path| path.starts_with("crates"))
+        .collect();
+    assert!(files.len() <= 1, "obvhs is named in {files:?}");
+}
+
+#[test]
+fn nothing_unfinished_and_no_ignored_tests() {
+    let marks = [
+        concat!("TO", "DO"),
+        concat!("FIX", "ME"),
+        concat!("#[ign", "ore"),
+        concat!("should_", "panic"),
+        concat!("todo", "!("),
+        concat!("unimplemented", "!("),
+    ];
+    for (path, text) in all_rust_files() {
+        for mark in marks {
+            assert!(!text.contains(mark), "{} contains `{mark}`", path.display());
+        }
+    }
+}
+
+#[test]
+fn every_room_obeys_the_workspace_lints() {
+    for (room, folder) in rooms() {
+        let manifest = manifest(&folder);
+        let inherits = manifest
+            .get("lints")
+            .and_then(|l| l.get("workspace"))
+            .and_then(toml::Value::as_bool);
+        assert_eq!(inherits, Some(true), "`{room}` does not inherit the lints");
+    }
+}
+
+#[test]
+fn profiles_differ_in_build_time_only() {
+    let manifest = manifest(&root());
+    let fast = &manifest["profile"]["fast"];
+    assert_eq!(fast["inherits"].as_str(), Some("release"));
+    let keys: Vec<&str> = fast.as_table().expect("a table").keys().map(String::as_str).collect();
+    assert_eq!(keys, ["codegen-units", "incremental", "inherits", "lto"]);
+}
