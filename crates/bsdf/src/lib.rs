@@ -1,1 +1,33 @@
-//! Scattering models, one file each, and their resolution at a hit
+//! Scattering models, one file each, and their resolution at a hit.
+//!
+//! A [`Material`] is what a scene file said: a model's parameters with textures. At a hit it
+//! *resolves* ([`Material::resolve`]) into a [`Resolved`]: a small `Copy` value that knows neither
+//! textures nor scene and implements [`etalon_transport::Bsdf`]. `twosided` vanishes there;
+//! `mask` and `blendbsdf` flatten into at most [`MAX_LOBES`] weighted lobes plus the light that
+//! passes straight on.
+//!
+//! Each model is one file: its equation and source, its textured description, its plain
+//! [`Model`] in a local frame whose z is the shading normal, and its exemplars, by which the test
+//! harness holds it to account. The list of all of them is in [`models`].
+//!
+//! Everywhere `wo` is the known direction, `wi` the sampled one, both leave the point, and values
+//! include |cos θi|. A model's density is per wavelength lane: what it would have been had that
+//! lane been the one that chose.
+
+pub mod flatten;
+pub mod lobe;
+pub mod model;
+pub mod models;
+pub mod resolved;
+
+pub mod blendbsdf;
+pub mod diffuse;
+pub mod mask;
+pub mod null;
+pub mod twosided;
+
+pub use flatten::{Flattening, Site};
+pub use lobe::Lobe;
+pub use model::Model;
+pub use models::{Material, Scatter, plugin_names};
+pub use resolved::{MAX_LOBES, Resolved};

@@ -1,0 +1,56 @@
+//! A mixture of two materials:
+//!
+//! ```text
+//! f(wo, wi) = (1 − w) · f₀(wo, wi) + w · f₁(wo, wi)
+//! ```
+//!
+//! Mitsuba's plugin of that name. The nested materials are chosen with the probabilities 1 − w
+//! and w.
+
+use crate::models::Traits;
+use crate::{Flattening, Material, Site};
+use etalon_math::Frame;
+use etalon_params::Params;
+use etalon_transport::{Build, Role, TextureId, Textures};
+
+/// `blendbsdf` in a scene file.
+#[derive(Clone, Debug)]
+pub struct Description {
+    weight: TextureId,
+    nested: Box<[Material; 2]>,
+}
+
+impl Description {
+    /// Reads `weight` (required) and two nested materials.
+    pub fn from_params(params: &Params<'_>, build: &mut dyn Build) -> Option<Self> {
+        let weight = build.texture(params, "weight", None, Role::Reflectance);
+        let nested = Material::nested::<2>(params, build)?;
+        Some(Self {
+            weight,
+            nested: Box::new(nested),
+        })
+    }
+
+    /// What either can do, with the lobes of both.
+    pub fn traits(&self) -> Traits {
+        let [a, b] = [self.nested[0].traits(), self.nested[1].traits()];
+        Traits {
+            lobes: a.lobes + b.lobes,
+            passing: a.passing || b.passing,
+            transmission: a.transmission || b.transmission,
+        }
+    }
+
+    /// Both nested materials with their shares.
+    pub fn flatten<'a, T: Textures>(
+        &'a self,
+        site: &Site<'_, T>,
+        frame: Frame,
+        weight: f32,
+        into: &mut Flattening<'a>,
+    ) {
+        let share = site.share(self.weight);
+        self.nested[0].flatten(site, frame, weight * (1.0 - share), into);
+        self.nested[1].flatten(site, frame, weight * share, into);
+    }
+}

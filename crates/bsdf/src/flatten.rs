@@ -1,0 +1,85 @@
+//! How a material with textures becomes lobes at a point.
+
+use crate::{Lobe, MAX_LOBES, Resolved, Scatter};
+use etalon_math::Frame;
+use etalon_transport::{TextureId, TexturePoint, Textures};
+use glam::{Vec3, Vec4};
+
+/// Where a material is resolved: its textures at that point, for the path's wavelengths.
+#[derive(Clone, Copy, Debug)]
+pub struct Site<'t, T> {
+    /// The textures of the scene.
+    pub textures: &'t T,
+    /// The point.
+    pub at: TexturePoint,
+    /// The wavelengths (nm).
+    pub lambda: Vec4,
+    /// The known direction (world).
+    pub wo: Vec3,
+}
+
+impl<T: Textures> Site<'_, T> {
+    /// A spectrum here.
+    #[inline]
+    pub fn spectrum(&self, texture: TextureId) -> Vec4 {
+        self.textures.spectrum(texture, &self.at, self.lambda)
+    }
+
+    /// A number here.
+    #[inline]
+    pub fn number(&self, texture: TextureId) -> f32 {
+        self.textures.number(texture, &self.at)
+    }
+
+    /// A number here that is a share of the light: brought into [0, 1], as bitmaps may exceed it.
+    #[inline]
+    pub fn share(&self, texture: TextureId) -> f32 {
+        self.number(texture).clamp(0.0, 1.0)
+    }
+}
+
+/// Lobes being collected from a tree of materials.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Flattening<'a> {
+    lobes: [Option<Lobe<'a>>; MAX_LOBES],
+    count: usize,
+    passing: Vec4,
+    passing_probability: f32,
+}
+
+impl<'a> Flattening<'a> {
+    /// Adds a lobe that has the share `weight` of the light and is chosen with `probability`.
+    pub fn push(&mut self, scatter: Scatter<'a>, frame: Frame, weight: f32, probability: f32) {
+        if weight > 0.0 && self.count < MAX_LOBES {
+            self.lobes[self.count] = Some(Lobe {
+                scatter,
+                frame,
+                weight,
+                probability,
+            });
+            self.count += 1;
+        }
+    }
+
+    /// Adds light that passes straight on.
+    pub fn pass(&mut self, energy: Vec4, probability: f32) {
+        self.passing += energy;
+        self.passing_probability += probability;
+    }
+
+    /// What was collected.
+    pub fn resolved(&self, normal: Vec3) -> Resolved<'a> {
+        match (self.lobes[0], self.count) {
+            (Some(first), count) => {
+                let list = self.lobes.map(|lobe| lobe.unwrap_or(first));
+                Resolved::several(
+                    normal,
+                    self.passing,
+                    self.passing_probability,
+                    &list[..count],
+                )
+            }
+            (None, _) => Resolved::several(normal, self.passing, self.passing_probability, &[]),
+        }
+    }
+}

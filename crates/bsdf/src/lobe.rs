@@ -1,0 +1,80 @@
+//! One weighted lobe with its own frame.
+
+use crate::{Model, Scatter};
+use etalon_math::Frame;
+use etalon_transport::{BsdfSample, Chance, Mode};
+use glam::{Vec2, Vec3, Vec4};
+
+/// A model in its frame, with its share of the light.
+#[derive(Clone, Copy, Debug)]
+pub struct Lobe<'a> {
+    /// The model.
+    pub scatter: Scatter<'a>,
+    /// The frame of the model's local directions; `n` is the shading normal.
+    pub frame: Frame,
+    /// Factor of the model's value.
+    pub weight: f32,
+    /// The probability with which this lobe is chosen for sampling; the same for all lanes.
+    pub probability: f32,
+}
+
+impl Lobe<'_> {
+    /// Weighted value, and density times the probability of this lobe, for world directions.
+    #[inline]
+    pub fn eval_and_density(&self, normal: Vec3, wo: Vec3, wi: Vec3, mode: Mode) -> (Vec4, Vec4) {
+        let (value, density) =
+            self.scatter
+                .eval_and_density(self.frame.to_local(wo), self.frame.to_local(wi), mode);
+        let factor = match mode {
+            Mode::Radiance => self.weight,
+            Mode::Importance => self.weight * self.adjoint(normal, wo, wi),
+        };
+        (value * factor, density * self.probability)
+    }
+
+    /// A sampled world direction, as if this lobe were alone but weighted.
+    #[inline]
+    pub fn sample(
+        &self,
+        normal: Vec3,
+        wo: Vec3,
+        u_lobe: f32,
+        u: Vec2,
+        mode: Mode,
+    ) -> Option<BsdfSample> {
+        let local = self
+            .scatter
+            .sample(self.frame.to_local(wo), u_lobe, u, mode)?;
+        let wi = self.frame.to_world(local.wi);
+        let factor = match mode {
+            Mode::Radiance => self.weight,
+            Mode::Importance => self.weight * self.adjoint(normal, wo, wi),
+        };
+        let chance = match local.chance {
+            Chance::Continuous(density) => Chance::Continuous(density * self.probability),
+            Chance::Discrete(atom) => {
+                Chance::Discrete(etalon_math::Atom(atom.0 * self.probability))
+            }
+        };
+        Some(BsdfSample {
+            wi,
+            value: local.value * factor,
+            chance,
+            ..local
+        })
+    }
+
+    /// The factor by which a shading normal makes importance scatter differently from radiance,
+    /// |wo·nₛ| |wi·n_g| / (|wo·n_g| |wi·nₛ|) (Veach 1997, section 5.3, eq. 5.19): exactly 1
+    /// where the two normals agree, zero where the geometric normal sees a direction edge-on.
+    #[inline]
+    fn adjoint(&self, normal: Vec3, wo: Vec3, wi: Vec3) -> f32 {
+        let shading = self.frame.n;
+        let below = (wo.dot(normal) * wi.dot(shading)).abs();
+        if below > 0.0 {
+            (wo.dot(shading) * wi.dot(normal)).abs() / below
+        } else {
+            0.0
+        }
+    }
+}

@@ -1,0 +1,57 @@
+//! A material that is there with some opacity:
+//!
+//! ```text
+//! f(wo, wi) = o · f_nested(wo, wi) + (1 − o) · δ(wi = −wo)
+//! ```
+//!
+//! Mitsuba's plugin of that name. Light passes straight with the probability 1 − o.
+
+use crate::models::Traits;
+use crate::{Flattening, Material, Site};
+use etalon_math::Frame;
+use etalon_params::Params;
+use etalon_transport::{Build, Role, TextureId, Textures};
+use glam::Vec4;
+
+/// `mask` in a scene file.
+#[derive(Clone, Debug)]
+pub struct Description {
+    opacity: TextureId,
+    nested: Box<Material>,
+}
+
+impl Description {
+    /// Reads `opacity` (0.5) and one nested material.
+    pub fn from_params(params: &Params<'_>, build: &mut dyn Build) -> Option<Self> {
+        let opacity = build.texture(params, "opacity", Some(0.5), Role::Reflectance);
+        let nested = Material::nested::<1>(params, build)?;
+        let [nested] = nested;
+        Some(Self {
+            opacity,
+            nested: Box::new(nested),
+        })
+    }
+
+    /// What the nested material can do, and passing.
+    pub fn traits(&self) -> Traits {
+        Traits {
+            passing: true,
+            transmission: true,
+            ..self.nested.traits()
+        }
+    }
+
+    /// Passing light, and the nested material with the share o.
+    pub fn flatten<'a, T: Textures>(
+        &'a self,
+        site: &Site<'_, T>,
+        frame: Frame,
+        weight: f32,
+        into: &mut Flattening<'a>,
+    ) {
+        let opacity = site.share(self.opacity);
+        let passing = weight * (1.0 - opacity);
+        into.pass(Vec4::splat(passing), passing);
+        self.nested.flatten(site, frame, weight * opacity, into);
+    }
+}

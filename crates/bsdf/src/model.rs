@@ -1,0 +1,23 @@
+//! What every scattering model must do, in its local frame.
+
+use etalon_transport::{BsdfSample, Mode};
+use glam::{Vec2, Vec3, Vec4};
+
+/// A scattering model with plain parameters, in the local frame whose z is the shading normal.
+///
+/// Evaluation cannot fail: directions at or below the horizon, or degenerate ones, give zero.
+pub trait Model: Copy {
+    /// f(wo, wi)·|cos θi| of the continuous lobes (sr⁻¹), and the density per steradian with which
+    /// [`Model::sample`] finds the continuous direction `wi` — both per lane, and both zero for a
+    /// direction that the other says cannot be.
+    fn eval_and_density(&self, wo: Vec3, wi: Vec3, mode: Mode) -> (Vec4, Vec4);
+
+    /// Samples a direction, as [`etalon_transport::Bsdf::sample`] but in the local frame.
+    fn sample(&self, wo: Vec3, u_lobe: f32, u: Vec2, mode: Mode) -> Option<BsdfSample>;
+
+    /// Whether any lobe is continuous.
+    fn has_continuous(&self) -> bool;
+
+    /// Directional albedo or an approximation of it, for display only.
+    fn albedo(&self, wo: Vec3) -> Vec4;
+}

@@ -1,0 +1,299 @@
+//! The list of all materials, and their dispatch.
+//!
+//! To add a model, write its file and add one line to the list at the end of this one. The
+//! scene keyword, the documentation table and the whole test harness follow from it.
+
+use crate::{Flattening, Lobe, MAX_LOBES, Model, Resolved, Site};
+use etalon_math::Frame;
+use etalon_params::{Class, Diagnostic, Diagnostics, Node, Params};
+use etalon_spectrum::Wavelengths;
+use etalon_transport::{BsdfSample, Build, Mode, TexturePoint, Textures, Vertex};
+use glam::{Vec2, Vec3, Vec4};
+use std::sync::Arc;
+
+/// What a material can do, known when it is loaded.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Traits {
+    /// The most lobes it resolves into.
+    pub lobes: usize,
+    /// Whether light may go straight on (`null`, `mask`, `thindielectric`).
+    pub passing: bool,
+    /// Whether light may reach the other side at all.
+    pub transmission: bool,
+}
+
+impl Traits {
+    /// One lobe that reflects.
+    pub const REFLECTING: Self = Self {
+        lobes: 1,
+        passing: false,
+        transmission: false,
+    };
+    /// One lobe that also transmits.
+    pub const REFRACTING: Self = Self {
+        lobes: 1,
+        passing: false,
+        transmission: true,
+    };
+}
+
+macro_rules! models {
+    (
+        plain { $($plain_name:literal $plain:ident $plain_module:ident $traits:ident $(<$life:lifetime>)?,)* }
+        composed { $($composed_name:literal $composed:ident $composed_module:ident,)* }
+        lobes { $($lobe:ident $lobe_module:ident,)* }
+    ) => {
+        /// A material as the scene describes it: a model's parameters with their textures.
+        #[derive(Clone, Debug)]
+        pub enum Material {
+            $(#[doc = concat!("`", $plain_name, "`.")] $plain(crate::$plain_module::Description),)*
+            $(#[doc = concat!("`", $composed_name, "`.")] $composed(crate::$composed_module::Description),)*
+        }
+
+        /// A model with plain parameters.
+        #[derive(Clone, Copy, Debug)]
+        pub enum Scatter<'a> {
+            $(#[doc = concat!("See [`crate::", stringify!($plain_module), "`].")]
+            $plain(crate::$plain_module::$plain $(<$life>)?),)*
+            $(#[doc = concat!("See [`crate::", stringify!($lobe_module), "`].")]
+            $lobe(crate::$lobe_module::$lobe),)*
+            /// Holds the lifetime of models that borrow tables.
+            #[doc(hidden)]
+            Nothing(core::marker::PhantomData<&'a ()>),
+        }
+
+        /// The names of all BSDF plugins.
+        pub fn plugin_names() -> impl Iterator<Item = &'static str> {
+            [$($plain_name,)* $($composed_name,)*].into_iter()
+        }
+
+        impl Material {
+            fn from_named(
+                params: &Params<'_>,
+                build: &mut dyn Build,
+            ) -> Option<Option<Self>> {
+                Some(match params.node.plugin.value.as_str() {
+                    $($plain_name => crate::$plain_module::Description::from_params(params, build)
+                        .map(Self::$plain),)*
+                    $($composed_name => crate::$composed_module::Description::from_params(params, build)
+                        .map(Self::$composed),)*
+                    _ => return None,
+                })
+            }
+
+            /// What the material can do.
+            pub fn traits(&self) -> Traits {
+                match self {
+                    $(Self::$plain(_) => Traits::$traits,)*
+                    $(Self::$composed(description) => description.traits(),)*
+                }
+            }
+
+            /// The material at a point, for the known direction `wo` and the path's wavelengths.
+            #[inline]
+            pub fn resolve<T: Textures>(
+                &self,
+                textures: &T,
+                vertex: &Vertex,
+                wo: Vec3,
+                wavelengths: &Wavelengths,
+            ) -> Resolved<'_> {
+                let site = Site {
+                    textures,
+                    at: TexturePoint::from(vertex),
+                    lambda: wavelengths.lambda,
+                    wo,
+                };
+                let scatter = match self {
+                    $(Self::$plain(description) => Scatter::$plain(description.resolve(&site)),)*
+                    $(Self::$composed(_))|* => return self.resolve_composed(&site, vertex),
+                };
+                Resolved::one(
+                    vertex.normal,
+                    Lobe {
+                        scatter,
+                        frame: vertex.shading,
+                        weight: 1.0,
+                        probability: 1.0,
+                    },
+                )
+            }
+
+            /// Adds the material's lobes, together having the share `weight` of the light.
+            pub fn flatten<'a, T: Textures>(
+                &'a self,
+                site: &Site<'_, T>,
+                frame: Frame,
+                weight: f32,
+                into: &mut Flattening<'a>,
+            ) {
+                if !(weight > 0.0) {
+                    return;
+                }
+                match self {
+                    $(Self::$plain(description) => into.push(
+                        Scatter::$plain(description.resolve(site)),
+                        frame,
+                        weight,
+                        weight,
+                    ),)*
+                    $(Self::$composed(description) => description.flatten(site, frame, weight, into),)*
+                }
+            }
+        }
+
+        impl Model for Scatter<'_> {
+            #[inline]
+            fn eval_and_density(&self, wo: Vec3, wi: Vec3, mode: Mode) -> (Vec4, Vec4) {
+                match self {
+                    $(Self::$plain(model) => model.eval_and_density(wo, wi, mode),)*
+                    $(Self::$lobe(model) => model.eval_and_density(wo, wi, mode),)*
+                    Self::Nothing(_) => (Vec4::ZERO, Vec4::ZERO),
+                }
+            }
+
+            #[inline]
+            fn sample(&self, wo: Vec3, u_lobe: f32, u: Vec2, mode: Mode) -> Option<BsdfSample> {
+                match self {
+                    $(Self::$plain(model) => model.sample(wo, u_lobe, u, mode),)*
+                    $(Self::$lobe(model) => model.sample(wo, u_lobe, u, mode),)*
+                    Self::Nothing(_) => None,
+                }
+            }
+
+            #[inline]
+            fn has_continuous(&self) -> bool {
+                match self {
+                    $(Self::$plain(model) => model.has_continuous(),)*
+                    $(Self::$lobe(model) => model.has_continuous(),)*
+                    Self::Nothing(_) => false,
+                }
+            }
+
+            fn albedo(&self, wo: Vec3) -> Vec4 {
+                match self {
+                    $(Self::$plain(model) => model.albedo(wo),)*
+                    $(Self::$lobe(model) => model.albedo(wo),)*
+                    Self::Nothing(_) => Vec4::ZERO,
+                }
+            }
+        }
+    };
+}
+
+/// Mitsuba's BSDF plugins that are not built yet.
+const NOT_BUILT_YET: [&str; 11] = [
+    "bumpmap",
+    "circular",
+    "hair",
+    "measured",
+    "measured_polarized",
+    "normalmap",
+    "polarizer",
+    "pplastic",
+    "principled",
+    "principledthin",
+    "retarder",
+];
+
+impl Material {
+    /// The material that a node describes. After a mistake, which has been recorded, `None`.
+    pub fn from_params(
+        node: &Arc<Node>,
+        build: &mut dyn Build,
+        diagnostics: &Diagnostics,
+    ) -> Option<Self> {
+        let material = Self::from_node(node, build, diagnostics)?;
+        let lobes = material.traits().lobes;
+        if lobes > MAX_LOBES {
+            diagnostics.push(
+                Diagnostic::error(
+                    node.plugin.span,
+                    format!("this material mixes {lobes} models"),
+                )
+                .help(format!(
+                    "at most {MAX_LOBES} models can be mixed at a point"
+                )),
+            );
+            return None;
+        }
+        Some(material)
+    }
+
+    /// As [`Material::from_params`], for a material nested in another.
+    pub(crate) fn from_node(
+        node: &Arc<Node>,
+        build: &mut dyn Build,
+        diagnostics: &Diagnostics,
+    ) -> Option<Self> {
+        let name = node.plugin.value.as_str();
+        let params = Params::new(node, diagnostics);
+        match Self::from_named(&params, build) {
+            Some(material) => {
+                params.finish();
+                material
+            }
+            None => {
+                let error = if NOT_BUILT_YET.contains(&name) {
+                    Diagnostic::error(
+                        node.plugin.span,
+                        format!("Mitsuba's BSDF `{name}` is not built yet"),
+                    )
+                } else {
+                    Diagnostic::error(node.plugin.span, format!("unknown BSDF `{name}`"))
+                        .suggest(name, plugin_names())
+                };
+                diagnostics.push(error);
+                None
+            }
+        }
+    }
+
+    /// The `N` materials nested in a composed one, in the order of the file; a diagnostic if
+    /// there are more or fewer.
+    pub(crate) fn nested<const N: usize>(
+        params: &Params<'_>,
+        build: &mut dyn Build,
+    ) -> Option<[Self; N]> {
+        let children = params.children(Class::Bsdf);
+        let given = children.len();
+        let materials: Vec<Self> = children
+            .into_iter()
+            .filter_map(|(_, node)| Self::from_node(node, build, params.diagnostics))
+            .collect();
+        if given != N {
+            params.error(format!(
+                "`{}` needs {N} nested BSDF{}, not {given}",
+                params.node.plugin.value,
+                if N == 1 { "" } else { "s" },
+            ));
+            return None;
+        }
+        materials.try_into().ok()
+    }
+
+    /// Whether light may go straight on, so that shadow rays need a transmittance.
+    pub fn has_passing(&self) -> bool {
+        self.traits().passing
+    }
+
+    fn resolve_composed<T: Textures>(&self, site: &Site<'_, T>, vertex: &Vertex) -> Resolved<'_> {
+        let mut lobes = Flattening::default();
+        self.flatten(site, vertex.shading, 1.0, &mut lobes);
+        lobes.resolved(vertex.normal)
+    }
+}
+
+models! {
+    plain {
+        "diffuse" Diffuse diffuse REFLECTING,
+    }
+    composed {
+        "mask" Mask mask,
+        "twosided" TwoSided twosided,
+        "blendbsdf" Blend blendbsdf,
+        "null" Null null,
+    }
+    lobes {
+    }
+}

@@ -1,0 +1,41 @@
+//! An interface that light crosses as if it were not there: f = 1 in the direction −wo only.
+//!
+//! It separates media without scattering. Mitsuba's plugin of that name.
+
+use crate::models::Traits;
+use crate::{Flattening, Site};
+use etalon_math::Frame;
+use etalon_params::Params;
+use etalon_transport::{Build, Textures};
+use glam::Vec4;
+
+/// `null` in a scene file; it has no parameters.
+#[derive(Clone, Debug)]
+pub struct Description;
+
+impl Description {
+    /// Reads nothing.
+    pub fn from_params(_: &Params<'_>, _: &mut dyn Build) -> Option<Self> {
+        Some(Self)
+    }
+
+    /// Nothing but passing light.
+    pub fn traits(&self) -> Traits {
+        Traits {
+            lobes: 0,
+            passing: true,
+            transmission: true,
+        }
+    }
+
+    /// All of the share `weight` passes.
+    pub fn flatten<T: Textures>(
+        &self,
+        _: &Site<'_, T>,
+        _: Frame,
+        weight: f32,
+        into: &mut Flattening<'_>,
+    ) {
+        into.pass(Vec4::splat(weight), weight);
+    }
+}

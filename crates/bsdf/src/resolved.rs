@@ -1,0 +1,198 @@
+//! A material at one point: at most [`MAX_LOBES`] lobes, and light that passes straight on.
+
+use crate::{Lobe, Model};
+use etalon_math::{Atom, Density, SolidAngle};
+use etalon_transport::{Bsdf, BsdfSample, Chance, Mode};
+use glam::{Vec2, Vec3, Vec4};
+
+/// The most lobes a material may flatten into; a scene that needs more is refused when it loads.
+pub const MAX_LOBES: usize = 4;
+
+/// A material resolved at a point, for a known `wo` and four wavelengths.
+#[derive(Clone, Copy, Debug)]
+pub struct Resolved<'a> {
+    /// Unit geometric normal, for the adjoint of shading normals.
+    normal: Vec3,
+    /// The fraction of light that goes straight on.
+    passing: Vec4,
+    /// The probability with which sampling goes straight on.
+    passing_probability: f32,
+    lobes: Lobes<'a>,
+}
+
+/// The lobes; nearly every material has one.
+#[derive(Clone, Copy, Debug)]
+#[allow(clippy::large_enum_variant)] // Copied by value in the hot path: a box would allocate.
+enum Lobes<'a> {
+    None,
+    One(Lobe<'a>),
+    Many {
+        list: [Lobe<'a>; MAX_LOBES],
+        count: usize,
+    },
+}
+
+impl<'a> Resolved<'a> {
+    /// A single lobe that has all the light.
+    #[inline]
+    pub(crate) fn one(normal: Vec3, lobe: Lobe<'a>) -> Self {
+        Self {
+            normal,
+            passing: Vec4::ZERO,
+            passing_probability: 0.0,
+            lobes: Lobes::One(lobe),
+        }
+    }
+
+    /// Several weighted lobes and passing light.
+    pub(crate) fn several(
+        normal: Vec3,
+        passing: Vec4,
+        passing_probability: f32,
+        lobes: &[Lobe<'a>],
+    ) -> Self {
+        let lobes = match *lobes {
+            [] => Lobes::None,
+            [one] => Lobes::One(one),
+            [first, ..] => {
+                let count = lobes.len().min(MAX_LOBES);
+                let mut list = [first; MAX_LOBES];
+                list[..count].copy_from_slice(&lobes[..count]);
+                Lobes::Many { list, count }
+            }
+        };
+        Self {
+            normal,
+            passing,
+            passing_probability,
+            lobes,
+        }
+    }
+
+    /// The lobes.
+    #[inline]
+    pub fn lobes(&self) -> &[Lobe<'a>] {
+        match &self.lobes {
+            Lobes::None => &[],
+            Lobes::One(lobe) => core::slice::from_ref(lobe),
+            Lobes::Many { list, count } => &list[..*count],
+        }
+    }
+
+    fn pass(&self, wo: Vec3) -> BsdfSample {
+        BsdfSample {
+            wi: -wo,
+            value: self.passing,
+            chance: Chance::Discrete(Atom::uniform(self.passing_probability)),
+            eta: 1.0,
+            passes: true,
+        }
+    }
+
+    /// Chooses among several lobes. A continuous direction gets the value and density of all
+    /// of them together.
+    #[inline(never)]
+    fn sample_many(&self, wo: Vec3, mut u_lobe: f32, u: Vec2, mode: Mode) -> Option<BsdfSample> {
+        let lobes = self.lobes();
+        let mut chosen = None;
+        for (index, lobe) in lobes
+            .iter()
+            .enumerate()
+            .filter(|(_, l)| l.probability > 0.0)
+        {
+            chosen = Some((index, (u_lobe / lobe.probability).min(ONE_MINUS_EPSILON)));
+            if u_lobe < lobe.probability {
+                break;
+            }
+            u_lobe -= lobe.probability;
+        }
+        let (index, u_inner) = chosen?;
+        let mut sample = lobes[index].sample(self.normal, wo, u_inner, u, mode)?;
+        if let Chance::Continuous(density) = sample.chance {
+            let mut lanes = density.lanes();
+            for (_, other) in lobes.iter().enumerate().filter(|(i, _)| *i != index) {
+                let (value, density) = other.eval_and_density(self.normal, wo, sample.wi, mode);
+                sample.value += value;
+                lanes += density;
+            }
+            sample.chance = Chance::Continuous(Density::per_lane(lanes));
+        }
+        Some(sample)
+    }
+}
+
+/// The largest float below 1: what remains of a uniform number after its use stays below 1.
+pub(crate) const ONE_MINUS_EPSILON: f32 = 1.0 - f32::EPSILON * 0.5;
+
+impl Bsdf for Resolved<'_> {
+    #[inline]
+    fn eval(&self, wo: Vec3, wi: Vec3, mode: Mode) -> Vec4 {
+        self.eval_and_density(wo, wi, mode).0
+    }
+
+    #[inline]
+    fn density(&self, wo: Vec3, wi: Vec3) -> Density<SolidAngle> {
+        self.eval_and_density(wo, wi, Mode::Radiance).1
+    }
+
+    #[inline]
+    fn eval_and_density(&self, wo: Vec3, wi: Vec3, mode: Mode) -> (Vec4, Density<SolidAngle>) {
+        let (value, density) = match &self.lobes {
+            Lobes::One(lobe) => lobe.eval_and_density(self.normal, wo, wi, mode),
+            Lobes::None => (Vec4::ZERO, Vec4::ZERO),
+            Lobes::Many { list, count } => {
+                list[..*count]
+                    .iter()
+                    .fold((Vec4::ZERO, Vec4::ZERO), |(value, density), lobe| {
+                        let (v, d) = lobe.eval_and_density(self.normal, wo, wi, mode);
+                        (value + v, density + d)
+                    })
+            }
+        };
+        (value, Density::per_lane(density))
+    }
+
+    #[inline]
+    fn sample(&self, wo: Vec3, u_lobe: f32, u: Vec2, mode: Mode) -> Option<BsdfSample> {
+        let mut u_lobe = u_lobe;
+        if self.passing_probability > 0.0 {
+            if u_lobe < self.passing_probability {
+                return Some(self.pass(wo));
+            }
+            u_lobe -= self.passing_probability;
+        }
+        match &self.lobes {
+            Lobes::One(lobe) => {
+                let u_inner = if lobe.probability == 1.0 {
+                    u_lobe
+                } else {
+                    (u_lobe / lobe.probability).min(ONE_MINUS_EPSILON)
+                };
+                lobe.sample(self.normal, wo, u_inner, u, mode)
+            }
+            Lobes::None => None,
+            Lobes::Many { .. } => self.sample_many(wo, u_lobe, u, mode),
+        }
+    }
+
+    #[inline]
+    fn has_continuous(&self) -> bool {
+        self.lobes().iter().any(|l| l.scatter.has_continuous())
+    }
+
+    #[inline]
+    fn passing(&self) -> Vec4 {
+        self.passing
+    }
+
+    #[inline]
+    fn passing_probability(&self) -> Vec4 {
+        Vec4::splat(self.passing_probability)
+    }
+
+    fn albedo(&self, wo: Vec3) -> Vec4 {
+        self.lobes().iter().fold(Vec4::ZERO, |sum, lobe| {
+            sum + lobe.scatter.albedo(lobe.frame.to_local(wo)) * lobe.weight
+        })
+    }
+}

@@ -1,0 +1,79 @@
+//! One-sided materials on either side of a surface.
+//!
+//! The side is that of the known direction, by the shading normal; the back's material works in
+//! the frame turned about, so that both see the light from their own front. One material serves
+//! both sides unless a second is given for the back. Mitsuba's plugin of that name.
+
+use crate::models::Traits;
+use crate::{Flattening, Material, Site};
+use etalon_math::Frame;
+use etalon_params::{Class, Diagnostic, Params};
+use etalon_transport::{Build, Textures};
+
+/// `twosided` in a scene file.
+#[derive(Clone, Debug)]
+pub struct Description {
+    front: Box<Material>,
+    back: Option<Box<Material>>,
+}
+
+impl Description {
+    /// Reads one or two nested materials, which may let no light through unless
+    /// `allow_transmission` (false).
+    pub fn from_params(params: &Params<'_>, build: &mut dyn Build) -> Option<Self> {
+        let allowed = params.boolean_or("allow_transmission", false);
+        let (front, back) = if params.children(Class::Bsdf).len() > 1 {
+            let [front, back] = Material::nested::<2>(params, build)?;
+            (front, Some(Box::new(back)))
+        } else {
+            let [front] = Material::nested::<1>(params, build)?;
+            (front, None)
+        };
+        let description = Self {
+            front: Box::new(front),
+            back,
+        };
+        if description.traits().transmission && !allowed {
+            params.diagnostics.push(
+                Diagnostic::error(
+                    params.node.plugin.span,
+                    "`twosided` takes materials that let no light through",
+                )
+                .help(
+                    "put `mask` around `twosided`, not inside; drop `twosided` around a \
+                     dielectric; or set `allow_transmission`",
+                ),
+            );
+            return None;
+        }
+        Some(description)
+    }
+
+    /// What either side can do.
+    pub fn traits(&self) -> Traits {
+        let a = self.front.traits();
+        let b = self.back.as_ref().map_or(a, |back| back.traits());
+        Traits {
+            lobes: a.lobes.max(b.lobes),
+            passing: a.passing || b.passing,
+            transmission: a.transmission || b.transmission,
+        }
+    }
+
+    /// The material of the side where `wo` lies; none for a direction in the surface itself.
+    pub fn flatten<'a, T: Textures>(
+        &'a self,
+        site: &Site<'_, T>,
+        frame: Frame,
+        weight: f32,
+        into: &mut Flattening<'a>,
+    ) {
+        let cos = frame.n.dot(site.wo);
+        if cos > 0.0 {
+            self.front.flatten(site, frame, weight, into);
+        } else if cos < 0.0 {
+            let back = self.back.as_ref().unwrap_or(&self.front);
+            back.flatten(site, frame.flipped(), weight, into);
+        }
+    }
+}
