@@ -65,7 +65,7 @@ impl RefractiveIndex {
                 for i in 0..3 {
                     sum += squared * b[i] / (squared - c[i]);
                 }
-                Vec4::from_array(sum.to_array().map(f32::sqrt))
+                sum.sqrt()
             }
             Self::Tabulated(table) => table.eval(lambda),
         }
