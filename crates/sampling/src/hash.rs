@@ -32,6 +32,14 @@ pub const fn derived_key(key: u64, index: u32) -> u64 {
     mix64(key.wrapping_add(GOLDEN.wrapping_mul(index as u64 + 1)))
 }
 
+/// Both halves of the 128-bit product of two words, folded into one: the cheapest way to take
+/// several keys from one already mixed (one multiplication each, by different constants).
+#[inline]
+pub const fn fold_multiply(a: u64, b: u64) -> u64 {
+    let product = a as u128 * b as u128;
+    product as u64 ^ (product >> 64) as u64
+}
+
 /// The upper 24 of 32 random bits as a float in [0, 1): a multiple of 2⁻²⁴, so at most
 /// 1 − 2⁻²⁴, and every value equally likely.
 #[inline]

@@ -19,7 +19,7 @@
 //! nested uniform scrambling of its digits keeps every aligned block of 2ᵏ samples together,
 //! so all of the above holds for every prefix of 2ᵏ samples.
 
-use crate::hash::{derived_key, random_float};
+use crate::hash::{derived_key, fold_multiply, random_float};
 use crate::sampler::{PixelSample, Sampler};
 use glam::Vec2;
 
@@ -79,44 +79,57 @@ impl Group {
         }
     }
 
-    /// Index of the point of the pair `half` (0 or 1), and the key of its scrambling.
+    /// Index of the point of the pair `half` (0 or 1): digits of its first coordinate.
     #[inline]
-    fn half(&self, half: u32) -> (u32, u64) {
+    fn half(&self, half: u32) -> u32 {
         if half == 0 {
-            (self.index, self.key.wrapping_mul(SCRAMBLE_FIRST))
+            self.index
         } else {
-            (
-                pascal_gf4(self.index),
-                self.key.wrapping_mul(SCRAMBLE_SECOND),
-            )
+            pascal_gf4(self.index)
         }
+    }
+
+    /// The coordinate whose digits are `digits`, scrambled as dimension `place` of the group.
+    #[inline]
+    fn scramble(&self, digits: u32, place: u32) -> u32 {
+        nested_uniform_scramble(
+            digits,
+            fold_multiply(self.key, SCRAMBLES[place as usize % 4]),
+        )
     }
 }
 
-const SCRAMBLE_FIRST: u64 = 0xd6e8_feb8_6659_fd93;
-const SCRAMBLE_SECOND: u64 = 0xa076_1d64_78bd_642f;
+/// Odd constants with as many ones as zeros, one for the scrambling of each dimension of a group.
+const SCRAMBLES: [u64; 4] = [
+    0xd6e8_feb8_6659_fd93,
+    0xa076_1d64_78bd_642f,
+    0xe703_7ed1_a0b4_28db,
+    0x8ebc_6af0_9c88_c6e3,
+];
 
 impl Sampler for Sobol {
     #[inline]
     fn next_1d(&mut self) -> f32 {
         let dimension = self.dimension;
         self.dimension += 1;
-        let (index, key) = self.group(dimension).half(dimension / 2 % 2);
-        let bits = if dimension.is_multiple_of(2) {
-            nested_uniform_scramble(index, key)
+        let group = self.group(dimension);
+        let first = group.half(dimension / 2 % 2);
+        let digits = if dimension.is_multiple_of(2) {
+            first
         } else {
-            nested_uniform_scramble(pascal(index), key.rotate_left(32))
+            pascal(first)
         };
-        random_float(bits.reverse_bits())
+        random_float(group.scramble(digits, dimension).reverse_bits())
     }
 
     #[inline]
     fn next_2d(&mut self) -> Vec2 {
         let dimension = self.dimension.next_multiple_of(2);
         self.dimension = dimension + 2;
-        let (index, key) = self.group(dimension).half(dimension / 2 % 2);
-        let x = nested_uniform_scramble(index, key);
-        let y = nested_uniform_scramble(pascal(index), key.rotate_left(32));
+        let group = self.group(dimension);
+        let first = group.half(dimension / 2 % 2);
+        let x = group.scramble(first, dimension);
+        let y = group.scramble(pascal(first), dimension + 1);
         // One reversal of 64 bits is cheaper than two of 32; it exchanges the halves.
         let both = (u64::from(y) << 32 | u64::from(x)).reverse_bits();
         Vec2::new(random_float((both >> 32) as u32), random_float(both as u32))
@@ -172,15 +185,21 @@ fn times_omega_squared(a: u32) -> u32 {
 /// Owen's nested uniform scrambling of the digits of `x`, stored first digit lowest: each
 /// digit is flipped or not, at random, depending on all digits before it.
 ///
-/// Additions, odd multiplications and x ^= x·(even) pass information only upwards, which is
-/// all that nesting asks (Laine & Karras 2011; the form of Burley 2020).
+/// Additions, odd multiplications and x ^= x·(even) carry information only upwards, which is
+/// all that nesting asks (Laine & Karras 2011; Burley 2020). Published forms multiply by
+/// constants, which leaves the first digits few random bits to depend on; here the multipliers
+/// are parts of the key, and any two flips of the first six digits are independent to within
+/// what a million keys can tell. Pairs are what the variance of a scrambled net depends on.
 #[inline]
 fn nested_uniform_scramble(mut x: u32, key: u64) -> u32 {
     let (low, high) = (key as u32, (key >> 32) as u32);
-    x = x.wrapping_add(high);
-    x ^= x.wrapping_mul(0x3d20_adea);
     x = x.wrapping_add(low);
-    x = x.wrapping_mul((high >> 16) | 1);
-    x ^= x.wrapping_mul(0x0552_6c56);
-    x ^ x.wrapping_mul(0x53a2_2864)
+    x ^= x.wrapping_mul(high << 1);
+    x = x.wrapping_mul((high >> 15) | 1);
+    x = x.wrapping_add(high);
+    x ^= x.wrapping_mul((low >> 7) << 1);
+    x.wrapping_mul((low >> 15) | 1)
 }
+
+#[cfg(test)]
+mod tests;
