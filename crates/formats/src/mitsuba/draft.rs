@@ -1,0 +1,50 @@
+//! The objects of a scene while its files are still being read: references are names, and
+//! objects are numbers in one list.
+
+use etalon_params::{Class, Span, Spanned, Value};
+use std::collections::HashMap;
+
+/// An object by its place in [`Draft::objects`].
+pub(crate) type ObjectId = usize;
+
+/// What a property holds.
+#[derive(Clone, Debug)]
+pub(crate) enum DraftValue {
+    /// A finished value.
+    Plain(Value),
+    /// A nested object.
+    Object(ObjectId),
+    /// A reference that is not resolved yet.
+    Reference(String),
+}
+
+/// A property of an object.
+#[derive(Clone, Debug)]
+pub(crate) struct DraftProperty {
+    pub(crate) name: String,
+    pub(crate) name_span: Span,
+    pub(crate) value: DraftValue,
+    pub(crate) span: Span,
+    /// Counts as used from the start, so that no plugin complains about it.
+    pub(crate) excused: bool,
+}
+
+/// An object.
+#[derive(Debug)]
+pub(crate) struct DraftObject {
+    pub(crate) class: Class,
+    pub(crate) plugin: Spanned<String>,
+    pub(crate) id: Option<String>,
+    pub(crate) span: Span,
+    pub(crate) properties: Vec<DraftProperty>,
+}
+
+/// Everything read so far.
+#[derive(Debug, Default)]
+pub(crate) struct Draft {
+    pub(crate) objects: Vec<DraftObject>,
+    /// The object of each `id`, and where the `id` stands.
+    pub(crate) ids: HashMap<String, (ObjectId, Span)>,
+    /// `<alias>`es: new name, where it stands, and the name it stands for.
+    pub(crate) aliases: Vec<(Spanned<String>, Spanned<String>)>,
+}

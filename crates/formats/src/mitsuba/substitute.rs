@@ -1,0 +1,191 @@
+//! `$name` in attribute values.
+//!
+//! A value comes from `-D name=value` or, failing that, from the first `<default>` of that name
+//! that stands before its use. At each `$` the longest known name wins (`$sppx` is `$spp`
+//! followed by an `x` unless `sppx` is known); `\$` is a dollar sign. What was inserted is not
+//! looked at again.
+
+use etalon_params::Span;
+
+/// Where a parameter's value was written.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) enum Origin {
+    /// On the command line.
+    CommandLine,
+    /// In a `<default>`, at this value.
+    Default(Span),
+}
+
+#[derive(Debug)]
+struct Parameter {
+    name: String,
+    value: String,
+    origin: Origin,
+    used: bool,
+}
+
+/// The parameters known so far.
+#[derive(Debug, Default)]
+pub(crate) struct Parameters {
+    list: Vec<Parameter>,
+    /// Names of all `<default>`s and of everything asked for, to suggest from.
+    mentioned: Vec<String>,
+}
+
+/// A value in which every `$name` has been replaced.
+pub(crate) struct Substituted {
+    /// The text.
+    pub(crate) text: String,
+    /// Where the inserted values stand in the scene.
+    pub(crate) defaults: Vec<Span>,
+}
+
+/// A `$name` that nobody has defined.
+#[derive(Debug, PartialEq)]
+pub(crate) struct Undefined {
+    /// The name, which may be empty.
+    pub(crate) name: String,
+    /// Byte offset of the `$` in the text.
+    pub(crate) offset: usize,
+}
+
+impl Parameters {
+    /// The parameters of the command line. Of two with one name the later wins.
+    pub(crate) fn new(defines: &[(String, String)]) -> Self {
+        let mut parameters = Self::default();
+        for (name, value) in defines {
+            parameters.list.retain(|p| p.name != *name);
+            parameters.insert(name, value, Origin::CommandLine);
+        }
+        parameters
+    }
+
+    fn insert(&mut self, name: &str, value: &str, origin: Origin) {
+        self.list.push(Parameter {
+            name: name.to_owned(),
+            value: value.to_owned(),
+            origin,
+            used: false,
+        });
+        self.list.sort_by_key(|p| std::cmp::Reverse(p.name.len()));
+    }
+
+    /// A `<default>`: it counts unless the name is known already.
+    pub(crate) fn add_default(&mut self, name: &str, value: &str, span: Span) {
+        self.mention(name);
+        if !self.list.iter().any(|p| p.name == name) {
+            self.insert(name, value, Origin::Default(span));
+        }
+    }
+
+    fn mention(&mut self, name: &str) {
+        if !name.is_empty() && !self.mentioned.iter().any(|m| m == name) {
+            self.mentioned.push(name.to_owned());
+        }
+    }
+
+    /// Replaces every `$name` in `text`.
+    pub(crate) fn substitute(&mut self, text: &str) -> Result<Substituted, Undefined> {
+        let mut result = Substituted {
+            text: String::with_capacity(text.len()),
+            defaults: Vec::new(),
+        };
+        let mut rest = text;
+        while let Some(at) = rest.find('$') {
+            if let Some(before) = rest[..at].strip_suffix('\\') {
+                result.text.push_str(before);
+                result.text.push('$');
+                rest = &rest[at + 1..];
+                continue;
+            }
+            result.text.push_str(&rest[..at]);
+            rest = &rest[at + 1..];
+            let Some(found) = self
+                .list
+                .iter_mut()
+                .find(|p| !p.name.is_empty() && rest.starts_with(&p.name))
+            else {
+                let end = rest
+                    .find(|c: char| !c.is_ascii_alphanumeric() && c != '_')
+                    .unwrap_or(rest.len());
+                let name = rest[..end].to_owned();
+                self.mention(&name);
+                let offset = text.len() - rest.len() - 1;
+                return Err(Undefined { name, offset });
+            };
+            found.used = true;
+            result.text.push_str(&found.value);
+            rest = &rest[found.name.len()..];
+            if let Origin::Default(span) = found.origin {
+                result.defaults.push(span);
+            }
+        }
+        result.text.push_str(rest);
+        Ok(result)
+    }
+
+    /// The names that are defined.
+    pub(crate) fn names(&self) -> impl Iterator<Item = &str> {
+        self.list.iter().map(|p| p.name.as_str())
+    }
+
+    /// The names of the command line that the scene never asked for.
+    pub(crate) fn unused(&self) -> impl Iterator<Item = &str> {
+        self.list
+            .iter()
+            .filter(|p| p.origin == Origin::CommandLine && !p.used)
+            .map(|p| p.name.as_str())
+    }
+
+    /// The names that the scene mentions.
+    pub(crate) fn mentioned(&self) -> impl Iterator<Item = &str> {
+        self.mentioned.iter().map(String::as_str)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use etalon_params::FileId;
+
+    fn parameters() -> Parameters {
+        let mut p = Parameters::new(&[("spp".into(), "8".into()), ("a".into(), "$b".into())]);
+        let span = Span {
+            file: FileId(0),
+            start: 3,
+            end: 4,
+        };
+        p.add_default("spp", "4", span);
+        p.add_default("sppx", "long", span);
+        p.add_default("b", "bee", span);
+        p
+    }
+
+    fn text(p: &mut Parameters, text: &str) -> String {
+        p.substitute(text).map_or_else(
+            |u| format!("undefined `{}` at {}", u.name, u.offset),
+            |s| s.text,
+        )
+    }
+
+    #[test]
+    fn longest_name_wins_and_the_command_line_beats_a_default() {
+        let p = &mut parameters();
+        assert_eq!(text(p, "$spp $sppx $sppy $b."), "8 long 8y bee.");
+    }
+
+    #[test]
+    fn escapes_and_what_was_inserted_are_left_alone() {
+        let p = &mut parameters();
+        assert_eq!(text(p, r"\$spp a\$ $spp"), "$spp a$ 8");
+        assert_eq!(text(p, "$a"), "$b");
+    }
+
+    #[test]
+    fn unknown_names_are_reported_with_their_place() {
+        let p = &mut parameters();
+        assert_eq!(text(p, "x $resx"), "undefined `resx` at 2");
+        assert_eq!(text(p, "5 $"), "undefined `` at 2");
+        assert_eq!(p.unused().collect::<Vec<_>>(), ["spp", "a"]);
+    }
+}

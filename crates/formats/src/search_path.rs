@@ -1,0 +1,96 @@
+//! Where the files of a scene are looked for.
+
+use std::path::{Path, PathBuf};
+
+/// Folders in the order in which a relative path is tried against them.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct SearchPath {
+    folders: Vec<PathBuf>,
+}
+
+impl SearchPath {
+    /// A path of these folders.
+    pub fn new(folders: impl IntoIterator<Item = PathBuf>) -> Self {
+        let mut path = Self::default();
+        folders.into_iter().for_each(|folder| path.append(folder));
+        path
+    }
+
+    /// Puts a folder in front of all others.
+    pub fn prepend(&mut self, folder: PathBuf) {
+        self.folders.retain(|known| *known != folder);
+        self.folders.insert(0, folder);
+    }
+
+    /// Puts a folder behind all others, unless it is there already.
+    pub fn append(&mut self, folder: PathBuf) {
+        if !self.folders.contains(&folder) {
+            self.folders.push(folder);
+        }
+    }
+
+    /// The folders.
+    pub fn folders(&self) -> &[PathBuf] {
+        &self.folders
+    }
+
+    /// The first file or folder that `name` leads to. An absolute name stands for itself; a
+    /// name with backslashes that leads nowhere is tried with slashes.
+    pub fn find(&self, name: &str) -> Option<PathBuf> {
+        if name.is_empty() || name.contains('\0') {
+            return None;
+        }
+        self.find_exact(Path::new(name)).or_else(|| {
+            name.contains('\\')
+                .then(|| self.find_exact(Path::new(&name.replace('\\', "/"))))
+                .flatten()
+        })
+    }
+
+    fn find_exact(&self, name: &Path) -> Option<PathBuf> {
+        if name.is_absolute() {
+            return name.exists().then(|| name.to_owned());
+        }
+        self.folders
+            .iter()
+            .map(|folder| folder.join(name))
+            .find(|path| path.exists())
+    }
+
+    /// Where was looked, for messages.
+    pub fn describe(&self) -> String {
+        let folders: Vec<String> = self
+            .folders
+            .iter()
+            .map(|folder| match folder.to_string_lossy() {
+                name if name.is_empty() => "the current folder".to_owned(),
+                name => format!("`{name}`"),
+            })
+            .collect();
+        format!("looked in {}", folders.join(", "))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn earlier_folders_win() {
+        let root = tempfile::tempdir().expect("a temporary folder");
+        let (a, b) = (root.path().join("a"), root.path().join("b"));
+        for folder in [&a, &b] {
+            std::fs::create_dir(folder).expect("created");
+        }
+        std::fs::write(b.join("x.obj"), "").expect("written");
+        let mut path = SearchPath::new([a.clone(), b.clone()]);
+        assert_eq!(path.find("x.obj"), Some(b.join("x.obj")));
+        std::fs::write(a.join("x.obj"), "").expect("written");
+        assert_eq!(path.find("x.obj"), Some(a.join("x.obj")));
+        path.prepend(b.clone());
+        assert_eq!(path.find("x.obj"), Some(b.join("x.obj")));
+        assert_eq!(path.find("..\\b\\x.obj"), Some(b.join("../b/x.obj")));
+        assert_eq!(path.find("nothing.obj"), None);
+        assert_eq!(path.find(""), None);
+    }
+}
