@@ -1,1 +1,33 @@
-//! Reconstruction filters, exact accumulation per pixel, tile means, replicates
+//! Films: reconstruction filters, exact accumulation per pixel, replicates and tile means.
+//!
+//! [`ExactFilm`] implements [`etalon_transport::Film`]. Rendering fills it replicate by
+//! replicate; [`ExactFilm::develop`] turns what it holds into a [`Developed`] picture, which
+//! knows its own error and can be written to, and read from, an EXR file.
+
+mod exact_film;
+mod half_line;
+mod pixel_moments;
+mod splat;
+mod tile_sink;
+
+pub mod developed;
+pub mod faults;
+pub mod filters;
+pub mod fingerprint;
+pub mod metadata;
+pub mod pixel_filter;
+pub mod pixel_format;
+pub mod settings;
+pub mod tile_means;
+
+pub use developed::{Developed, ReadError, read_developed};
+pub use exact_film::{ExactFilm, STANDARD_ERROR};
+pub use faults::{FaultKind, FaultLog, Offence};
+pub use filters::{BoxFilter, CatmullRom, Filter, Gaussian, Lanczos, Mitchell, Tent};
+pub use fingerprint::floating_point_fingerprint;
+pub use metadata::{FilmFacts, Metadata, RenderFacts, recorded_seconds};
+pub use pixel_filter::PixelFilter;
+pub use pixel_format::PixelFormat;
+pub use settings::{FileFormat, FilmSettings};
+pub use tile_means::TileMeans;
+pub use tile_sink::ExactTile;

@@ -1,0 +1,170 @@
+//! A finished picture: means, standard errors and metadata; to and from EXR files.
+//!
+//! Every channel `NAME` is the mean over replicates. With two replicates or more it has a
+//! companion `standard_error.NAME`, the standard deviation of the replicates' means over the
+//! square root of their number; a confidence interval takes t quantiles with one degree of
+//! freedom less than there are replicates.
+
+use crate::exact_film::STANDARD_ERROR;
+use crate::{ExactFilm, Metadata, RenderFacts};
+use etalon_images::{Error, Frame, Image, exr};
+use rayon::prelude::*;
+use std::path::{Path, PathBuf};
+
+/// A picture with what is known of it.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Developed {
+    /// The channels, `standard_error.*` included.
+    pub image: Image,
+    /// Where the image lies in the whole film.
+    pub frame: Frame,
+    /// What the file says of itself; files of other programs say nothing.
+    pub metadata: Option<Metadata>,
+}
+
+/// Why a picture could not be read.
+#[derive(Debug)]
+pub enum ReadError {
+    /// The file could not be read as an image.
+    Image(Error),
+    /// The image could be read, but what it says of itself is wrong.
+    Metadata {
+        /// The file.
+        path: PathBuf,
+        /// What is wrong.
+        reason: String,
+    },
+}
+
+impl std::fmt::Display for ReadError {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        match self {
+            Self::Image(error) => error.fmt(f),
+            Self::Metadata { path, reason } => {
+                write!(
+                    f,
+                    "{}: its metadata cannot be used: {reason}",
+                    path.display()
+                )
+            }
+        }
+    }
+}
+
+impl std::error::Error for ReadError {}
+
+impl ExactFilm {
+    /// The picture after the replicates finished so far; NaN in all pixels if there is none.
+    pub fn develop(&self, facts: RenderFacts) -> Developed {
+        let settings = self.settings();
+        let [width, height] = settings.crop_size.to_array().map(|n| n as usize);
+        let mut image = Image::new(width, height);
+        let mut errors = Vec::new();
+        for (channel, name) in self.channels().iter().enumerate() {
+            let (mut mean, mut error) = (Vec::new(), Vec::new());
+            (0..width * height)
+                .into_par_iter()
+                .with_min_len(1024)
+                .map(|pixel| {
+                    let moments = self.moments(pixel, channel);
+                    let error = moments.standard_error().unwrap_or(f64::NAN);
+                    (moments.mean() as f32, error as f32)
+                })
+                .unzip_into_vecs(&mut mean, &mut error);
+            image.push(name.as_str(), mean);
+            if self.replicates() >= 2 {
+                errors.push((format!("{STANDARD_ERROR}{name}"), error));
+            }
+        }
+        for (name, error) in errors {
+            image.push(name, error);
+        }
+        Developed {
+            image,
+            frame: Frame {
+                offset: settings.crop_offset.to_array().map(|n| n as i32),
+                size: settings.size.to_array().map(|n| n as usize),
+            },
+            metadata: Some(Metadata::new(self, facts)),
+        }
+    }
+}
+
+impl Developed {
+    /// The standard errors of a channel, if there are any.
+    pub fn standard_error(&self, name: &str) -> Option<&[f32]> {
+        self.image.channel(&format!("{STANDARD_ERROR}{name}"))
+    }
+
+    /// One figure for the noise of the picture,
+    ///
+    /// √( mean over pixels and colour channels of  s² / (m² + 0.01) ),
+    ///
+    /// with m the mean and s its standard error. The constant keeps dark pixels from deciding
+    /// it. `None` without standard errors.
+    pub fn mean_relative_standard_error(&self) -> Option<f64> {
+        let mut sum = 0.0;
+        let mut count = 0u32;
+        for name in ["R", "G", "B", "X", "Y", "Z"] {
+            let (Some(means), Some(errors)) = (self.image.channel(name), self.standard_error(name))
+            else {
+                continue;
+            };
+            let squares = means.iter().zip(errors).map(|(&m, &s)| {
+                let (m, s) = (f64::from(m), f64::from(s));
+                s * s / (m * m + 0.01)
+            });
+            sum += squares.sum::<f64>() / means.len() as f64;
+            count += 1;
+        }
+        (count > 0).then(|| (sum / f64::from(count)).sqrt())
+    }
+
+    /// Writes an EXR file of 32-bit floats; equal pictures give equal bytes.
+    ///
+    /// # Errors
+    /// If the file cannot be written; nothing is left behind then.
+    pub fn write_exr(&self, path: &Path) -> Result<(), Error> {
+        let text = self
+            .metadata
+            .as_ref()
+            .map(Metadata::to_json)
+            .unwrap_or_default();
+        exr::write(path, &self.image, self.frame, &text)
+    }
+}
+
+/// Reads an EXR file, whoever wrote it.
+///
+/// # Errors
+/// If it is not an EXR file that can be read, or if it has metadata of ours that contradict
+/// themselves or the image.
+pub fn read_developed(path: &Path) -> Result<Developed, ReadError> {
+    let document = exr::read(path).map_err(ReadError::Image)?;
+    let text = document.text.clone();
+    let (image, frame) = document.flatten();
+    let metadata = if text.is_empty() {
+        None
+    } else {
+        let size = [image.width(), image.height()];
+        let metadata = Metadata::from_json(&text, size).and_then(|metadata| {
+            match metadata
+                .channels
+                .iter()
+                .find(|name| image.channel(name).is_none())
+            {
+                Some(name) => Err(format!("they name a channel `{name}` that is not there")),
+                None => Ok(metadata),
+            }
+        });
+        Some(metadata.map_err(|reason| ReadError::Metadata {
+            path: path.to_owned(),
+            reason,
+        })?)
+    };
+    Ok(Developed {
+        image,
+        frame,
+        metadata,
+    })
+}

@@ -1,0 +1,185 @@
+//! Reconstruction filters: how much a film position counts for a pixel.
+//!
+//! A pixel is ∬ f(x − cₓ) f(y − c_y) L(x, y) dx dy / (∫f)², with c its centre: all filters here
+//! are even, have a bounded support and apply to each axis alone. [`Filter::eval`] gives f as
+//! Mitsuba scales it (1, or nearly so, at the centre); [`crate::PixelFilter`] divides by ∫f.
+
+mod box_filter;
+mod catmull_rom;
+mod gaussian;
+mod lanczos;
+mod mitchell;
+mod tent;
+
+pub use box_filter::BoxFilter;
+pub use catmull_rom::CatmullRom;
+pub use gaussian::Gaussian;
+pub use lanczos::Lanczos;
+pub use mitchell::Mitchell;
+pub use tent::Tent;
+
+use etalon_params::{Diagnostic, Params};
+
+/// Any of the reconstruction filters.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Filter {
+    /// `box`.
+    Box(BoxFilter),
+    /// `tent`.
+    Tent(Tent),
+    /// `gaussian`.
+    Gaussian(Gaussian),
+    /// `mitchell`.
+    Mitchell(Mitchell),
+    /// `catmullrom`.
+    CatmullRom(CatmullRom),
+    /// `lanczos`.
+    Lanczos(Lanczos),
+}
+
+impl Filter {
+    /// The plugins of class `rfilter`.
+    pub const NAMES: [&str; 6] = [
+        "box",
+        "tent",
+        "gaussian",
+        "mitchell",
+        "catmullrom",
+        "lanczos",
+    ];
+
+    /// Reads a filter; mistakes go to `params.diagnostics`. Calling `finish` is left to the
+    /// caller, as everywhere.
+    pub fn from_params(params: &Params<'_>) -> Self {
+        let plugin = &params.node.plugin;
+        match plugin.value.as_str() {
+            "box" => Self::Box(BoxFilter),
+            "tent" => {
+                let radius = params.float_or("radius", Tent::DEFAULT_RADIUS);
+                Tent::new(radius).map_or_else(
+                    || refused(params, "radius", radius, "a radius above 0 (pixels)"),
+                    Self::Tent,
+                )
+            }
+            "gaussian" => {
+                let deviation = params.float_or("stddev", Gaussian::DEFAULT_DEVIATION);
+                Gaussian::new(deviation).map_or_else(
+                    || {
+                        refused(
+                            params,
+                            "stddev",
+                            deviation,
+                            "a standard deviation above 0 (pixels)",
+                        )
+                    },
+                    Self::Gaussian,
+                )
+            }
+            "mitchell" => {
+                let b = params.float_or("B", Mitchell::DEFAULT);
+                let c = params.float_or("C", Mitchell::DEFAULT);
+                Mitchell::new(b, c).map_or_else(
+                    || {
+                        let (name, value) = if Mitchell::new(b, 0.0).is_none() {
+                            ("B", b)
+                        } else {
+                            ("C", c)
+                        };
+                        refused(params, name, value, "a number from -100 to 100")
+                    },
+                    Self::Mitchell,
+                )
+            }
+            "catmullrom" => Self::CatmullRom(CatmullRom),
+            "lanczos" => {
+                let lobes = params.integer_or("lobes", Lanczos::DEFAULT_LOBES.into());
+                u32::try_from(lobes)
+                    .ok()
+                    .and_then(Lanczos::new)
+                    .map_or_else(
+                        || {
+                            let accepted =
+                                format!("a whole number from 1 to {}", Lanczos::MOST_LOBES);
+                            refused(params, "lobes", lobes, &accepted)
+                        },
+                        Self::Lanczos,
+                    )
+            }
+            other => {
+                params.diagnostics.push(
+                    Diagnostic::error(plugin.span, format!("there is no rfilter called `{other}`"))
+                        .suggest(other, Self::NAMES),
+                );
+                Self::default()
+            }
+        }
+    }
+
+    /// The name of its plugin.
+    pub fn name(&self) -> &'static str {
+        match self {
+            Self::Box(_) => "box",
+            Self::Tent(_) => "tent",
+            Self::Gaussian(_) => "gaussian",
+            Self::Mitchell(_) => "mitchell",
+            Self::CatmullRom(_) => "catmullrom",
+            Self::Lanczos(_) => "lanczos",
+        }
+    }
+
+    /// The value at `x` pixels from the centre, on Mitsuba's scale.
+    pub fn eval(&self, x: f64) -> f64 {
+        match self {
+            Self::Box(f) => f.eval(x),
+            Self::Tent(f) => f.eval(x),
+            Self::Gaussian(f) => f.eval(x),
+            Self::Mitchell(f) => f.eval(x),
+            Self::CatmullRom(f) => f.eval(x),
+            Self::Lanczos(f) => f.eval(x),
+        }
+    }
+
+    /// Beyond this many pixels from the centre the filter is zero.
+    pub fn radius(&self) -> f64 {
+        match self {
+            Self::Box(_) => BoxFilter::RADIUS,
+            Self::Tent(f) => f.radius(),
+            Self::Gaussian(f) => f.radius(),
+            Self::Mitchell(_) => Mitchell::RADIUS,
+            Self::CatmullRom(_) => CatmullRom::RADIUS,
+            Self::Lanczos(f) => f.radius(),
+        }
+    }
+}
+
+/// The name and the parameters, as `tent radius=1`.
+impl std::fmt::Display for Filter {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.write_str(self.name())?;
+        match self {
+            Self::Box(_) | Self::CatmullRom(_) => Ok(()),
+            Self::Tent(tent) => write!(f, " radius={}", tent.radius()),
+            Self::Gaussian(gaussian) => write!(f, " stddev={}", gaussian.deviation()),
+            Self::Mitchell(mitchell) => {
+                let [b, c] = mitchell.parameters();
+                write!(f, " B={b} C={c}")
+            }
+            Self::Lanczos(lanczos) => write!(f, " lobes={}", lanczos.lobes()),
+        }
+    }
+}
+
+/// Mitsuba's default filter of a film.
+impl Default for Filter {
+    fn default() -> Self {
+        Self::Gaussian(
+            Gaussian::new(Gaussian::DEFAULT_DEVIATION).expect("the default deviation is valid"),
+        )
+    }
+}
+
+/// Reports a refused value and goes on with the default.
+fn refused(params: &Params<'_>, name: &str, value: impl std::fmt::Display, what: &str) -> Filter {
+    params.refuse(name, value, what);
+    Filter::default()
+}

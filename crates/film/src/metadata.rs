@@ -1,0 +1,182 @@
+//! What a rendered file says of itself: JSON in the EXR attribute `etalon`.
+
+use crate::{FaultLog, FilmSettings, TileMeans, floating_point_fingerprint};
+use serde::{Deserialize, Serialize};
+use std::time::Duration;
+
+/// What only the caller knows of a render.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct RenderFacts {
+    /// The program's version.
+    pub version: String,
+    /// The scene file as it was named.
+    pub scene: String,
+    /// A hash of the scene's content.
+    pub scene_hash: String,
+    /// The integrator, innermost last (`aov/path`).
+    pub integrator: String,
+    /// The sampler.
+    pub sampler: String,
+    /// The seed.
+    pub seed: u64,
+    /// How long rendering took (s); see [`recorded_seconds`].
+    pub seconds: Option<f64>,
+}
+
+/// Seconds as they may be written into a file: none if `SOURCE_DATE_EPOCH` is set in the
+/// environment, which asks for output that depends on the input alone
+/// (reproducible-builds.org).
+pub fn recorded_seconds(elapsed: Duration) -> Option<f64> {
+    std::env::var_os("SOURCE_DATE_EPOCH")
+        .is_none()
+        .then_some(elapsed.as_secs_f64())
+}
+
+/// The film that was used.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct FilmFacts {
+    /// Width and height of the whole film (pixels).
+    pub size: [u32; 2],
+    /// The first pixel that was rendered.
+    pub crop_offset: [u32; 2],
+    /// Width and height of the part that was rendered.
+    pub crop_size: [u32; 2],
+    /// What is stored of a colour.
+    pub pixel_format: String,
+    /// The reconstruction filter and its parameters.
+    pub filter: String,
+}
+
+/// Everything a file says of itself.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Metadata {
+    /// The version of this description: [`Metadata::FORMAT`].
+    pub format: u32,
+    /// The version of the program.
+    pub version: String,
+    /// The scene file as it was named.
+    pub scene: String,
+    /// A hash of the scene's content.
+    pub scene_hash: String,
+    /// The integrator, innermost last.
+    pub integrator: String,
+    /// The sampler.
+    pub sampler: String,
+    /// Samples per pixel, all replicates together.
+    pub spp: u64,
+    /// Independent replicates. With one, there are no standard errors.
+    pub replicates: u32,
+    /// The seed.
+    pub seed: u64,
+    /// How long rendering took (s), unless the file was to be reproducible.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub seconds: Option<f64>,
+    /// [`floating_point_fingerprint`].
+    pub floating_point: String,
+    /// The film.
+    pub film: FilmFacts,
+    /// The channels with means, in the order of the tile means.
+    pub channels: Vec<String>,
+    /// Numbers that were refused.
+    pub faults: FaultLog,
+    /// Tile means of every replicate.
+    pub tile_means: Vec<TileMeans>,
+}
+
+impl Metadata {
+    /// The version of this description that is written, and the only one read so far.
+    pub const FORMAT: u32 = 1;
+
+    /// Puts together what the film and the caller know.
+    pub(crate) fn new(film: &crate::ExactFilm, facts: RenderFacts) -> Self {
+        let settings: &FilmSettings = film.settings();
+        Self {
+            format: Self::FORMAT,
+            version: facts.version,
+            scene: facts.scene,
+            scene_hash: facts.scene_hash,
+            integrator: facts.integrator,
+            sampler: facts.sampler,
+            spp: film.samples(),
+            replicates: film.replicates(),
+            seed: facts.seed,
+            seconds: facts.seconds,
+            floating_point: floating_point_fingerprint(),
+            film: FilmFacts {
+                size: settings.size.to_array(),
+                crop_offset: settings.crop_offset.to_array(),
+                crop_size: settings.crop_size.to_array(),
+                pixel_format: settings.pixel_format.name().to_owned(),
+                filter: settings.filter.to_string(),
+            },
+            channels: film.channels().to_vec(),
+            faults: film.faults(),
+            tile_means: film.tile_means().to_vec(),
+        }
+    }
+
+    /// The index of a channel in the tile means.
+    pub fn channel_index(&self, name: &str) -> Option<u32> {
+        let index = self.channels.iter().position(|channel| channel == name)?;
+        u32::try_from(index).ok()
+    }
+
+    /// The tile means for tiles of `side` pixels, or of the whole image for `None`.
+    pub fn tiles(&self, side: Option<u32>) -> Option<&TileMeans> {
+        self.tile_means.iter().find(|means| means.side() == side)
+    }
+
+    /// The JSON text. Equal metadata have equal texts.
+    pub fn to_json(&self) -> String {
+        serde_json::to_string(self).expect("metadata are representable in JSON")
+    }
+
+    /// Reads the JSON text that belongs to an image of `size` pixels.
+    ///
+    /// # Errors
+    /// Says what is wrong where the text is not ours, is of another version, or contradicts
+    /// itself or the image's size.
+    pub fn from_json(text: &str, size: [usize; 2]) -> Result<Self, String> {
+        /// The one field that every version has.
+        #[derive(Deserialize)]
+        struct Version {
+            format: u32,
+        }
+        let error = |error: serde_json::Error| error.to_string();
+        let Version { format } = serde_json::from_str(text).map_err(error)?;
+        if format != Self::FORMAT {
+            let known = Self::FORMAT;
+            return Err(format!(
+                "they are of format {format}, and only {known} is known"
+            ));
+        }
+        let metadata: Self = serde_json::from_str(text).map_err(error)?;
+        metadata.check(size)?;
+        Ok(metadata)
+    }
+
+    fn check(&self, size: [usize; 2]) -> Result<(), String> {
+        let film = &self.film;
+        if film.crop_size.map(|n| n as usize) != size {
+            let ([w, h], [x, y]) = (film.crop_size, size);
+            return Err(format!(
+                "they are of an image of {w} × {h} pixels, not {x} × {y}"
+            ));
+        }
+        for axis in 0..2 {
+            let end = film.crop_offset[axis].checked_add(film.crop_size[axis]);
+            if end.is_none_or(|end| end > film.size[axis]) {
+                return Err("their crop lies outside of the film".to_owned());
+            }
+        }
+        for means in &self.tile_means {
+            if !means.fits(film.crop_size)
+                || means.channels() as usize != self.channels.len()
+                || means.replicates() != self.replicates
+            {
+                return Err("their tile means do not belong to the image".to_owned());
+            }
+        }
+        Ok(())
+    }
+}

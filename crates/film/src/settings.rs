@@ -1,0 +1,174 @@
+//! The film of a scene: `hdrfilm`.
+
+use crate::{Filter, PixelFormat};
+use etalon_params::{Class, Diagnostic, Params};
+use glam::UVec2;
+
+/// The kind of file a scene asks for.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+pub enum FileFormat {
+    /// OpenEXR.
+    #[default]
+    OpenExr,
+    /// Radiance's RGBE (`.hdr`).
+    Rgbe,
+    /// Portable float map.
+    Pfm,
+}
+
+impl FileFormat {
+    /// The extension of its files, without a dot.
+    pub fn extension(self) -> &'static str {
+        match self {
+            Self::OpenExr => "exr",
+            Self::Rgbe => "hdr",
+            Self::Pfm => "pfm",
+        }
+    }
+}
+
+/// Size, crop, format and filter of a film.
+#[derive(Clone, Debug, PartialEq)]
+pub struct FilmSettings {
+    /// Width and height of the whole film (pixels).
+    pub size: UVec2,
+    /// The first pixel of the part that is rendered.
+    pub crop_offset: UVec2,
+    /// Width and height of the part that is rendered.
+    pub crop_size: UVec2,
+    /// What is stored of a colour.
+    pub pixel_format: PixelFormat,
+    /// What a file should be where nobody names one.
+    pub file_format: FileFormat,
+    /// The reconstruction filter.
+    pub filter: Filter,
+}
+
+impl FilmSettings {
+    /// The widest and highest film: beyond, a position in single precision no longer resolves
+    /// 1/128 of a pixel.
+    pub const LARGEST: u32 = 1 << 16;
+
+    /// Parameters that are accepted and cannot affect pixels.
+    pub const IGNORED: &'static [&'static str] = &["banner", "compensate"];
+
+    /// An uncropped RGB film.
+    pub fn new(width: u32, height: u32, filter: Filter) -> Self {
+        let size = UVec2::new(width, height);
+        Self {
+            size,
+            crop_offset: UVec2::ZERO,
+            crop_size: size,
+            pixel_format: PixelFormat::default(),
+            file_format: FileFormat::default(),
+            filter,
+        }
+    }
+
+    /// Reads an `hdrfilm` with Mitsuba's names and defaults; mistakes go to
+    /// `params.diagnostics`. Calling `finish` on `params` is left to the caller.
+    ///
+    /// `sample_border` is accepted, but all films behave as if it were true: samples of the
+    /// pixels beyond the border are not needed, since no sample is shared between pixels.
+    /// Numbers are always stored as 32-bit floats.
+    pub fn from_params(params: &Params<'_>) -> Self {
+        params.ignore(Self::IGNORED);
+        params.boolean_or("sample_border", false);
+        let side = |name, default| extent(params, name, default, 1);
+        let size = UVec2::new(side("width", 768), side("height", 576));
+        let offset = |name| extent(params, name, 0, 0);
+        let crop_offset = UVec2::new(offset("crop_offset_x"), offset("crop_offset_y"));
+        let crop_size = UVec2::new(side("crop_width", size.x), side("crop_height", size.y));
+        for (axis, end, whole) in [
+            ("x", crop_offset.x + crop_size.x, size.x),
+            ("y", crop_offset.y + crop_size.y, size.y),
+        ] {
+            if end > whole {
+                let names = match axis {
+                    "x" => ["crop_width", "crop_offset_x"],
+                    _ => ["crop_height", "crop_offset_y"],
+                };
+                let given = if params.has(names[0]) {
+                    names[0]
+                } else {
+                    names[1]
+                };
+                params.error_at(
+                    given,
+                    format!(
+                        "the crop window ends at {axis} = {end}, beyond the film, which ends at \
+                         {axis} = {whole}"
+                    ),
+                );
+            }
+        }
+        if params.diagnostics.has_errors() {
+            // Whatever was wrong has been reported; a film that is too large must not be built.
+            return Self {
+                crop_offset: UVec2::ZERO,
+                crop_size: size,
+                ..Self::rest(params, size)
+            };
+        }
+        Self {
+            crop_offset,
+            crop_size,
+            ..Self::rest(params, size)
+        }
+    }
+
+    /// All but the crop.
+    fn rest(params: &Params<'_>, size: UVec2) -> Self {
+        let names = PixelFormat::ALL.map(|(name, _)| name);
+        let name = params.choice("pixel_format", PixelFormat::default().name(), &names);
+        let pixel_format = PixelFormat::ALL
+            .into_iter()
+            .find(|(known, _)| *known == name);
+        let files = ["openexr", "exr", "rgbe", "pfm"];
+        let file_format = match params.choice("file_format", "openexr", &files) {
+            "rgbe" => FileFormat::Rgbe,
+            "pfm" => FileFormat::Pfm,
+            _ => FileFormat::OpenExr,
+        };
+        let components = ["float16", "float32", "uint32"];
+        let component = params.choice("component_format", "float32", &components);
+        if component != "float32" {
+            let property = params.property("component_format");
+            let span = property.map_or(params.node.plugin.span, |p| p.span);
+            let message = format!("`{component}` is not used: files hold 32-bit floats");
+            params.diagnostics.push(Diagnostic::note(span, message));
+        }
+        let filter = params
+            .child(Class::ReconstructionFilter)
+            .map(|node| {
+                let child = Params::new(node, params.diagnostics);
+                let filter = Filter::from_params(&child);
+                child.finish();
+                filter
+            })
+            .unwrap_or_default();
+        Self {
+            size,
+            crop_offset: UVec2::ZERO,
+            crop_size: size,
+            pixel_format: pixel_format.map_or_else(PixelFormat::default, |(_, format)| format),
+            file_format,
+            filter,
+        }
+    }
+}
+
+/// A number of pixels of at least `least`.
+fn extent(params: &Params<'_>, name: &str, default: u32, least: u32) -> u32 {
+    let Some(value) = params.integer(name) else {
+        return default;
+    };
+    match u32::try_from(value) {
+        Ok(value) if (least..=FilmSettings::LARGEST).contains(&value) => value,
+        _ => {
+            let accepted = format!("a whole number from {least} to {}", FilmSettings::LARGEST);
+            params.refuse(name, value, &accepted);
+            default
+        }
+    }
+}
