@@ -7,7 +7,9 @@
 //! asked for.
 
 pub mod diagnostic;
+pub mod ignored;
 pub mod node;
+pub mod plugins;
 pub mod read;
 pub mod source;
 pub mod suggest;

@@ -112,7 +112,7 @@ impl Value {
 pub struct Property {
     /// The name; children without a name have an empty one.
     pub name: String,
-    /// Where the name stands (or the whole element, if it has none).
+    /// Where the name stands (or the opening tag, if it has none).
     pub name_span: Span,
     /// The value.
     pub value: Value,

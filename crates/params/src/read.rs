@@ -255,10 +255,15 @@ impl<'a> Params<'a> {
         }
     }
 
-    /// Reports every property that nobody asked for, with the nearest name that was.
+    /// Reports every property that nobody asked for, with the nearest name that was. Parameters
+    /// in the list of [`crate::ignored`] are passed over.
     pub fn finish(&self) {
         let known = self.known.borrow();
-        for property in self.node.properties.iter().filter(|p| !p.is_used()) {
+        let (class, plugin) = (self.node.class, self.node.plugin.value.as_str());
+        let unused = self.node.properties.iter().filter(|p| {
+            !p.is_used() && !crate::ignored::is_ignored(class, plugin, &p.name, &p.value)
+        });
+        for property in unused {
             let message = if property.name.is_empty() {
                 format!(
                     "`{}` does not take {}",

@@ -1,0 +1,171 @@
+//! The one list of parameters that are accepted and change nothing.
+//!
+//! They belong to how Mitsuba works, not to what the picture is: its tiles, its acceleration
+//! structures, its accumulation. [`crate::Params::finish`] does not complain about them.
+//! `docs/ignored-parameters.md` is this list for people; a test keeps the two equal.
+
+use crate::{Class, Value};
+
+/// Parameters of one kind.
+#[derive(Clone, Copy, Debug)]
+pub struct Ignored {
+    /// The class of the plugins.
+    pub class: Class,
+    /// The plugins; none means every plugin of the class.
+    pub plugins: &'static [&'static str],
+    /// The parameters.
+    pub names: &'static [&'static str],
+    /// Which values are ignored; `None` means all.
+    pub only: Option<Only>,
+    /// Why they cannot change the picture.
+    pub reason: &'static str,
+}
+
+/// A condition on a parameter's value.
+#[derive(Clone, Copy, Debug)]
+pub struct Only {
+    /// The condition in words.
+    pub words: &'static str,
+    /// The condition.
+    pub holds: fn(&Value) -> bool,
+}
+
+/// The list.
+pub const IGNORED: [Ignored; 8] = [
+    Ignored {
+        class: Class::Scene,
+        plugins: &[],
+        names: &[
+            "embree_use_robust_intersections",
+            "kd_intersection_cost",
+            "kd_traversal_cost",
+            "kd_empty_space_bonus",
+            "kd_stop_prims",
+            "kd_max_depth",
+            "kd_min_max_bins",
+            "kd_clip",
+            "kd_retract_bad_splits",
+            "kd_exact_primitive_threshold",
+            "compact_acceleration_structures",
+        ],
+        only: None,
+        reason: "They tune Mitsuba's acceleration structures. Intersections here are always \
+                 watertight, whatever the structure.",
+    },
+    Ignored {
+        class: Class::Scene,
+        plugins: &[],
+        names: &["allow_thread_reordering"],
+        only: None,
+        reason: "It tunes the scheduling of GPU threads.",
+    },
+    Ignored {
+        class: Class::Film,
+        plugins: &[],
+        names: &["banner"],
+        only: None,
+        reason: "Mitsuba 3 ignores it, too; no banner is ever drawn into a picture.",
+    },
+    Ignored {
+        class: Class::Film,
+        plugins: &[],
+        names: &["compensate"],
+        only: None,
+        reason: "It asks for compensated summation. Accumulation here is exact.",
+    },
+    Ignored {
+        class: Class::Integrator,
+        plugins: &[],
+        names: &["block_size", "samples_per_pass"],
+        only: None,
+        reason: "They cut the work into tiles and passes. Pictures here do not depend on how the \
+                 work is cut.",
+    },
+    Ignored {
+        class: Class::Integrator,
+        plugins: &[],
+        names: &["timeout"],
+        only: Some(Only {
+            words: "not above 0, which means no limit",
+            holds: is_not_positive,
+        }),
+        reason: "Rendering ends when the samples are done, not when the time is up.",
+    },
+    Ignored {
+        class: Class::Shape,
+        plugins: &[],
+        names: &["silhouette_sampling_weight"],
+        only: None,
+        reason: "It weighs shapes in Mitsuba's estimation of derivatives.",
+    },
+    Ignored {
+        class: Class::Texture,
+        plugins: &["bitmap"],
+        names: &["accel", "format"],
+        only: None,
+        reason: "They choose how Mitsuba stores texels in memory. Here texels keep the precision \
+                 of 32-bit floats.",
+    },
+];
+
+fn is_not_positive(value: &Value) -> bool {
+    match value {
+        Value::Float(x) => *x <= 0.0,
+        Value::Integer(i) => *i <= 0,
+        _ => false,
+    }
+}
+
+/// Whether a parameter of a plugin with this value stands in the list.
+pub fn is_ignored(class: Class, plugin: &str, name: &str, value: &Value) -> bool {
+    IGNORED.iter().any(|entry| {
+        entry.class == class
+            && (entry.plugins.is_empty() || entry.plugins.contains(&plugin))
+            && entry.names.contains(&name)
+            && entry.only.is_none_or(|only| (only.holds)(value))
+    })
+}
+
+/// The list as Markdown.
+pub fn markdown() -> String {
+    let mut text = String::from(
+        "# Parameters that are accepted and ignored\n\n\
+         These parameters of Mitsuba 3 cannot change a picture made here. Every other parameter \
+         that a plugin does not know is an error.\n\n\
+         | object | parameter | why it changes nothing |\n|---|---|---|\n",
+    );
+    for entry in &IGNORED {
+        let class = entry.class.name();
+        let object = if entry.plugins.is_empty() {
+            format!("every `{class}`")
+        } else {
+            format!("`{class}` {}", code(entry.plugins))
+        };
+        let mut names = code(entry.names);
+        if let Some(only) = entry.only {
+            names = format!("{names} ({})", only.words);
+        }
+        text.push_str(&format!("| {object} | {names} | {} |\n", entry.reason));
+    }
+    text
+}
+
+fn code(names: &[&str]) -> String {
+    let quoted: Vec<String> = names.iter().map(|name| format!("`{name}`")).collect();
+    quoted.join(", ")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn only_what_is_listed_is_ignored() {
+        let yes = Value::Boolean(true);
+        assert!(is_ignored(Class::Film, "hdrfilm", "banner", &yes));
+        assert!(!is_ignored(Class::Sensor, "perspective", "banner", &yes));
+        assert!(!is_ignored(Class::Texture, "checkerboard", "accel", &yes));
+        let timeout = |x| is_ignored(Class::Integrator, "path", "timeout", &Value::Float(x));
+        assert!(timeout(-1.0) && !timeout(3.0));
+    }
+}

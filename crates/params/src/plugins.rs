@@ -1,0 +1,327 @@
+//! The names of Mitsuba 3's plugins, so that "not built yet" can be told from "misspelt".
+//!
+//! The tables follow Mitsuba 3.9. What is built here is decided by whoever builds it; this
+//! module only finds the right words for what is not.
+
+use crate::{Class, Diagnostic, Node};
+
+/// What is known about a plugin's name.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Status {
+    /// Mitsuba 3 has it in this class.
+    Mitsuba3,
+    /// Mitsuba 3 has it, but in this other class.
+    OtherClass(Class),
+    /// Only Mitsuba 0.6 had it.
+    Mitsuba06,
+    /// No Mitsuba has it.
+    Unknown,
+}
+
+/// The plugins of Mitsuba 3 in a class.
+pub fn names(class: Class) -> &'static [&'static str] {
+    match class {
+        Class::Scene => &["scene"],
+        Class::Bsdf => &[
+            "blendbsdf",
+            "bumpmap",
+            "circular",
+            "conductor",
+            "dielectric",
+            "diffuse",
+            "hair",
+            "mask",
+            "measured",
+            "measured_polarized",
+            "normalmap",
+            "null",
+            "plastic",
+            "polarizer",
+            "pplastic",
+            "principled",
+            "principledthin",
+            "retarder",
+            "roughconductor",
+            "roughdielectric",
+            "roughplastic",
+            "thindielectric",
+            "twosided",
+        ],
+        Class::Emitter => &[
+            "area",
+            "constant",
+            "directional",
+            "directionalarea",
+            "envmap",
+            "point",
+            "projector",
+            "spot",
+            "sunsky",
+            "timed_sunsky",
+        ],
+        Class::Film => &["hdrfilm", "specfilm"],
+        Class::Integrator => &[
+            "aov",
+            "depth",
+            "direct",
+            "direct_projective",
+            "moment",
+            "path",
+            "prb",
+            "prb_basic",
+            "prb_projective",
+            "prbvolpath",
+            "ptracer",
+            "stokes",
+            "volpath",
+            "volpathmis",
+            "volprim_rf_basic",
+        ],
+        Class::Medium => &["heterogeneous", "homogeneous"],
+        Class::Phase => &[
+            "blendphase",
+            "hg",
+            "isotropic",
+            "rayleigh",
+            "sggx",
+            "tabphase",
+        ],
+        Class::ReconstructionFilter => &[
+            "box",
+            "catmullrom",
+            "gaussian",
+            "lanczos",
+            "mitchell",
+            "tent",
+        ],
+        Class::Sampler => &[
+            "independent",
+            "ldsampler",
+            "multijitter",
+            "orthogonal",
+            "stratified",
+        ],
+        Class::Sensor => &[
+            "batch",
+            "distant",
+            "flat_sensor",
+            "irradiancemeter",
+            "orthographic",
+            "perspective",
+            "radiancemeter",
+            "thinlens",
+        ],
+        Class::Shape => &[
+            "bsplinecurve",
+            "cube",
+            "cylinder",
+            "disk",
+            "ellipsoids",
+            "ellipsoidsmesh",
+            "instance",
+            "linearcurve",
+            "merge",
+            "obj",
+            "ply",
+            "rectangle",
+            "sdfgrid",
+            "serialized",
+            "shapegroup",
+            "sphere",
+        ],
+        Class::Texture => &[
+            "bitmap",
+            "blackbody",
+            "checkerboard",
+            "d65",
+            "irregular",
+            "mesh_attribute",
+            "rawconstant",
+            "regular",
+            "srgb",
+            "uniform",
+            "volume",
+        ],
+        Class::Volume => &["constvolume", "gridvolume"],
+    }
+}
+
+/// Plugins that Mitsuba 0.6 had in a class and Mitsuba 3 has not.
+fn names_of_06(class: Class) -> &'static [&'static str] {
+    match class {
+        Class::Bsdf => &[
+            "coating",
+            "difftrans",
+            "hk",
+            "irawan",
+            "mixturebsdf",
+            "phong",
+            "roughcoating",
+            "roughdiffuse",
+            "ward",
+        ],
+        Class::Emitter => &["collimated", "sky", "sun"],
+        Class::Film => &["ldrfilm", "mfilm", "tiledhdrfilm"],
+        Class::Integrator => &[
+            "adaptive",
+            "ao",
+            "bdpt",
+            "dipole",
+            "erpt",
+            "irrcache",
+            "mlt",
+            "photonmapper",
+            "ppm",
+            "pssmlt",
+            "sppm",
+            "vpl",
+        ],
+        Class::Phase => &["kkay", "microflake", "mixturephase"],
+        Class::Sampler => &["halton", "hammersley", "sobol"],
+        Class::Sensor => &[
+            "fluencemeter",
+            "perspective_rdist",
+            "spherical",
+            "telecentric",
+        ],
+        Class::Shape => &["deformable", "hair", "heightfield"],
+        Class::Texture => &[
+            "curvature",
+            "gridtexture",
+            "scale",
+            "vertexcolors",
+            "wireframe",
+        ],
+        Class::Volume => &["hgridvolume", "volcache"],
+        Class::Scene | Class::Medium | Class::ReconstructionFilter => &[],
+    }
+}
+
+/// Every class, for looking a name up in all of them.
+const CLASSES: [Class; 13] = [
+    Class::Scene,
+    Class::Bsdf,
+    Class::Emitter,
+    Class::Film,
+    Class::Integrator,
+    Class::Medium,
+    Class::Phase,
+    Class::ReconstructionFilter,
+    Class::Sampler,
+    Class::Sensor,
+    Class::Shape,
+    Class::Texture,
+    Class::Volume,
+];
+
+/// What is known about the plugin `name` of a class.
+pub fn status(class: Class, name: &str) -> Status {
+    if names(class).contains(&name) {
+        return Status::Mitsuba3;
+    }
+    if names_of_06(class).contains(&name) {
+        return Status::Mitsuba06;
+    }
+    CLASSES
+        .into_iter()
+        .find(|&other| names(other).contains(&name))
+        .map_or(Status::Unknown, Status::OtherClass)
+}
+
+/// The diagnostic for a node whose plugin is not among those that are `built`.
+pub fn not_built<'a>(node: &Node, built: impl IntoIterator<Item = &'a str>) -> Diagnostic {
+    let (name, class) = (node.plugin.value.as_str(), node.class.name());
+    let built: Vec<&str> = built.into_iter().collect();
+    let error = |message: String| Diagnostic::error(node.plugin.span, message);
+    let list = || format!("built: {}", built.join(", "));
+    match status(node.class, name) {
+        Status::Mitsuba3 => {
+            let diagnostic = error(format!(
+                "the {class} plugin `{name}` is known to Mitsuba 3 but not built yet"
+            ));
+            if built.is_empty() {
+                diagnostic
+            } else {
+                diagnostic.help(list())
+            }
+        }
+        Status::OtherClass(other) => error(format!(
+            "`{name}` is a plugin of the class {}, not {class}",
+            other.name()
+        ))
+        .help(format!("write `<{} type=\"{name}\">`", other.name())),
+        Status::Mitsuba06 => error(format!(
+            "the {class} plugin `{name}` belongs to Mitsuba 0.6 and is absent from Mitsuba 3"
+        ))
+        .help(list()),
+        Status::Unknown => error(format!("unknown {class} plugin `{name}`")).suggest(
+            name,
+            names(node.class)
+                .iter()
+                .copied()
+                .filter(|known| !built.contains(known))
+                .chain(built.iter().copied()),
+        ),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::{FileId, Span, Spanned};
+
+    fn words(class: Class, name: &str) -> String {
+        let span = Span {
+            file: FileId(0),
+            start: 0,
+            end: 0,
+        };
+        let node = Node {
+            class,
+            plugin: Spanned {
+                value: name.into(),
+                span,
+            },
+            id: None,
+            span,
+            properties: Vec::new(),
+        };
+        let diagnostic = not_built(&node, ["diffuse", "dielectric", "velvet"]);
+        let help = diagnostic.help.unwrap_or_default();
+        format!("{} ({help})", diagnostic.message)
+    }
+
+    #[test]
+    fn names_are_sorted_and_in_one_list_only() {
+        for class in CLASSES {
+            for list in [names(class), names_of_06(class)] {
+                assert!(list.is_sorted(), "{}", class.name());
+            }
+            for name in names_of_06(class) {
+                assert!(!names(class).contains(name), "{name}");
+            }
+        }
+    }
+
+    #[test]
+    fn each_status_has_its_words() {
+        assert_eq!(
+            words(Class::Bsdf, "principled"),
+            "the bsdf plugin `principled` is known to Mitsuba 3 but not built yet \
+             (built: diffuse, dielectric, velvet)"
+        );
+        assert_eq!(
+            words(Class::Bsdf, "area"),
+            "`area` is a plugin of the class emitter, not bsdf (write `<emitter type=\"area\">`)"
+        );
+        assert!(words(Class::Bsdf, "ward").contains("belongs to Mitsuba 0.6"));
+        assert_eq!(
+            words(Class::Bsdf, "difuse"),
+            "unknown bsdf plugin `difuse` (did you mean `diffuse`?)"
+        );
+        assert_eq!(
+            words(Class::Bsdf, "velvett"),
+            "unknown bsdf plugin `velvett` (did you mean `velvet`?)"
+        );
+    }
+}
