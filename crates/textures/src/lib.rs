@@ -1,1 +1,40 @@
-//! Spectra and images that vary over surfaces
+//! Spectra and images that vary over surfaces.
+//!
+//! A [`Texture`] answers three questions at a point: which spectrum, which number, which raw
+//! colour. A scene keeps its textures in a [`TextureSet`] and refers to them by
+//! [`etalon_transport::TextureId`]; [`TextureReader`] makes them from a scene description with
+//! Mitsuba's rules (which plugin a number, an `rgb` or a `spectrum` property stands for).
+//!
+//! Texture coordinates follow Mitsuba: (0, 0) is the upper left corner of an image's first row,
+//! v grows with the rows, and the centre of texel (i, j) of a w × h image is at
+//! ((i + ½)/w, (j + ½)/h).
+
+pub mod bitmap;
+pub mod checkerboard;
+pub mod constant;
+pub mod decode;
+pub mod footprint;
+pub mod illuminated;
+pub mod mesh_attribute;
+pub mod pixels;
+pub mod plugins;
+pub mod reader;
+pub mod recovered;
+pub mod set;
+pub mod texture;
+pub mod uv_transform;
+
+pub use bitmap::Bitmap;
+pub use checkerboard::Checkerboard;
+pub use constant::Constant;
+pub use footprint::{Filter, Wrap};
+pub use illuminated::Illuminated;
+pub use mesh_attribute::MeshAttribute;
+pub use pixels::{Pixels, Texels};
+pub use reader::TextureReader;
+pub use set::TextureSet;
+pub use texture::Texture;
+pub use uv_transform::UvTransform;
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,116 @@
+//! Which texels of an image a lookup touches, and with which weights.
+
+use glam::{UVec2, Vec2};
+
+/// What an image is beyond its borders.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Wrap {
+    /// The image again.
+    Repeat,
+    /// The image mirrored.
+    Mirror,
+    /// The texel at the border.
+    Clamp,
+}
+
+/// What an image is between the centres of its texels.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Filter {
+    /// Interpolated between the four nearest centres.
+    Bilinear,
+    /// The texel that contains the point.
+    Nearest,
+}
+
+impl Wrap {
+    /// The texel in 0..n that stands for texel `i` of the endless image.
+    #[inline]
+    fn texel(self, i: i64, n: u32) -> usize {
+        let n = i64::from(n);
+        let folded = match self {
+            Self::Repeat => i.rem_euclid(n),
+            Self::Mirror => {
+                let j = i.rem_euclid(2 * n);
+                j.min(2 * n - 1 - j)
+            }
+            Self::Clamp => i.clamp(0, n - 1),
+        };
+        folded as usize
+    }
+}
+
+/// Four texels (as indices into rows of texels) and their weights, which sum to one.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Footprint {
+    /// Upper left, upper right, lower left, lower right.
+    pub texels: [usize; 4],
+    /// Their weights.
+    pub weights: [f32; 4],
+}
+
+impl Footprint {
+    /// The four texels around `uv` in an image of `size` texels.
+    #[inline]
+    pub fn bilinear(uv: Vec2, size: UVec2, wrap: Wrap) -> Self {
+        let p = uv * size.as_vec2() - 0.5;
+        let corner = p.floor();
+        let w = p - corner;
+        let (x, y) = (corner.x as i64, corner.y as i64);
+        let column = [x, x.saturating_add(1)].map(|i| wrap.texel(i, size.x));
+        let row = [y, y.saturating_add(1)].map(|i| wrap.texel(i, size.y) * size.x as usize);
+        Self {
+            texels: [
+                row[0] + column[0],
+                row[0] + column[1],
+                row[1] + column[0],
+                row[1] + column[1],
+            ],
+            weights: [
+                (1.0 - w.x) * (1.0 - w.y),
+                w.x * (1.0 - w.y),
+                (1.0 - w.x) * w.y,
+                w.x * w.y,
+            ],
+        }
+    }
+
+    /// The texel that contains `uv` in an image of `size` texels.
+    #[inline]
+    pub fn nearest(uv: Vec2, size: UVec2, wrap: Wrap) -> usize {
+        let p = (uv * size.as_vec2()).floor();
+        wrap.texel(p.y as i64, size.y) * size.x as usize + wrap.texel(p.x as i64, size.x)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn wrapping_far_away_stays_inside() {
+        for wrap in [Wrap::Repeat, Wrap::Mirror, Wrap::Clamp] {
+            for uv in [
+                Vec2::splat(1e30),
+                Vec2::splat(-1e30),
+                Vec2::NAN,
+                Vec2::INFINITY,
+            ] {
+                let size = UVec2::new(3, 2);
+                assert!(
+                    Footprint::bilinear(uv, size, wrap)
+                        .texels
+                        .iter()
+                        .all(|&t| t < 6)
+                );
+                assert!(Footprint::nearest(uv, size, wrap) < 6);
+            }
+        }
+    }
+
+    #[test]
+    fn mirrors_about_the_border() {
+        let row: Vec<usize> = (-4..7).map(|i| Wrap::Mirror.texel(i, 3)).collect();
+        assert_eq!(row, [2, 2, 1, 0, 0, 1, 2, 2, 1, 0, 0]);
+        assert_eq!(Wrap::Mirror.texel(5, 1), 0);
+    }
+}

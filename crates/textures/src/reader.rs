@@ -1,0 +1,218 @@
+//! From a scene description to textures: what a property that takes a texture may be.
+//!
+//! | written | reflectance | emission | unbounded |
+//! |---|---|---|---|
+//! | number x | constant x | x·D65 | constant x |
+//! | `rgb` c | smooth spectrum of c, in [0, 1] | D65 times the scaled spectrum of c | scaled spectrum of c |
+//! | `spectrum` as text | as written | as written | as written |
+//! | nested object | what the plugin says | likewise | likewise |
+//!
+//! These are Mitsuba's rules in spectral mode. In particular an image is *not* multiplied by D65
+//! when it emits, unless it is wrapped in a `d65` object. Values inside of nested textures follow
+//! the first column, whatever the outermost property is for.
+
+use crate::{Constant, Texture, TextureSet};
+use etalon_params::{Class, Diagnostic, Diagnostics, Node, Params, Property, Span, Value};
+use etalon_params::{DVec3, SpectrumText};
+use etalon_spectrum::{LAMBDA_MAX, LAMBDA_MIN, Spectrum, SpectrumError};
+use etalon_transport::{Assets, Role, TextureId};
+use std::sync::Arc;
+
+/// Reads textures into a set. Mistakes go to the diagnostics; a harmless texture stands in.
+pub struct TextureReader<'a> {
+    /// Where the textures go.
+    pub set: &'a mut TextureSet,
+    /// The scene's files.
+    pub assets: &'a dyn Assets,
+    /// Where mistakes go.
+    pub diagnostics: &'a Diagnostics,
+}
+
+/// A role, and whether the value stands inside of another texture.
+#[derive(Clone, Copy)]
+pub(crate) struct Use {
+    pub(crate) role: Role,
+    pub(crate) nested: bool,
+}
+
+impl TextureReader<'_> {
+    /// The texture in the property `name` of a plugin; the number `default` if it is absent; a
+    /// diagnostic if it is absent and there is no default.
+    pub fn parameter(
+        &mut self,
+        params: &Params<'_>,
+        name: &str,
+        default: Option<f64>,
+        role: Role,
+    ) -> TextureId {
+        let top = Use {
+            role,
+            nested: false,
+        };
+        self.parameter_in(params, name, default, top)
+    }
+
+    pub(crate) fn parameter_in(
+        &mut self,
+        params: &Params<'_>,
+        name: &str,
+        default: Option<f64>,
+        purpose: Use,
+    ) -> TextureId {
+        match (params.property(name), default) {
+            (Some(property), _) => self.value(property, purpose),
+            (None, Some(number)) => {
+                let spectrum = self.number(number, purpose, params.node.plugin.span);
+                self.add_constant(spectrum)
+            }
+            (None, None) => {
+                params.missing(name, "a colour, spectrum or texture");
+                self.stand_in()
+            }
+        }
+    }
+
+    /// The texture that a property's value stands for.
+    pub fn property(&mut self, property: &Property, role: Role) -> TextureId {
+        let top = Use {
+            role,
+            nested: false,
+        };
+        self.value(property, top)
+    }
+
+    pub(crate) fn value(&mut self, property: &Property, purpose: Use) -> TextureId {
+        property.mark_used();
+        let span = property.span;
+        let spectrum = match &property.value {
+            Value::Float(x) => self.number(*x, purpose, span),
+            Value::Integer(i) => self.number(*i as f64, purpose, span),
+            Value::Rgb(rgb) => self.colour(*rgb, purpose, span),
+            Value::Spectrum(text) => self.text(text, purpose, span),
+            Value::Object(node) if node.class == Class::Texture => {
+                return self.object(node, purpose);
+            }
+            other => {
+                let message = format!(
+                    "`{}` must be a number, a colour, a spectrum or a texture, not {}",
+                    property.name,
+                    other.kind()
+                );
+                self.diagnostics.push(Diagnostic::error(span, message));
+                None
+            }
+        };
+        self.add_constant(spectrum)
+    }
+
+    /// The texture described by an object. The same object in the same role is read once.
+    pub fn node(&mut self, node: &Arc<Node>, role: Role) -> TextureId {
+        let top = Use {
+            role,
+            nested: false,
+        };
+        self.object(node, top)
+    }
+
+    fn object(&mut self, node: &Arc<Node>, purpose: Use) -> TextureId {
+        let key = (Arc::as_ptr(node) as usize, purpose.role);
+        if let Some(&id) = self.set.read.get(&key) {
+            return id;
+        }
+        let texture = self.plugin(&Params::new(node, self.diagnostics), purpose);
+        let id = match texture {
+            Some(texture) => self.set.add(texture),
+            None => self.stand_in(),
+        };
+        if matches!(self.set.get(id), Texture::MeshAttribute(_)) {
+            self.set.note_attribute(id, node.plugin.span);
+        }
+        self.set.nodes.push(Arc::clone(node));
+        self.set.read.insert(key, id);
+        id
+    }
+
+    fn number(&self, x: f64, purpose: Use, span: Span) -> Option<Spectrum> {
+        let spectrum = if purpose.role == Role::Emission && !purpose.nested {
+            Spectrum::d65(x)
+        } else {
+            Spectrum::uniform(x)
+        };
+        if x < 0.0 && purpose.role != Role::Unbounded {
+            self.refuse(span, format!("{x} is negative"), "numbers not below 0");
+            return None;
+        }
+        self.checked(spectrum, span)
+    }
+
+    pub(crate) fn colour(&self, rgb: DVec3, purpose: Use, span: Span) -> Option<Spectrum> {
+        let values = rgb.to_array();
+        let bounded = values.iter().all(|x| (0.0..=1.0).contains(x));
+        let spectrum = match purpose.role {
+            Role::Emission if !purpose.nested => Spectrum::emission(values),
+            Role::Unbounded if !purpose.nested => Spectrum::unbounded(values),
+            Role::Emission | Role::Unbounded if !bounded => Spectrum::unbounded(values),
+            _ => Spectrum::reflectance(values),
+        };
+        self.checked(spectrum, span)
+    }
+
+    fn text(&self, text: &SpectrumText, purpose: Use, span: Span) -> Option<Spectrum> {
+        let spectrum = match text {
+            SpectrumText::Uniform(x) => Spectrum::uniform(*x),
+            SpectrumText::Samples(pairs) => {
+                let (wavelengths, values): (Vec<f64>, Vec<f64>) = pairs.iter().copied().unzip();
+                Spectrum::tabulated(&wavelengths, &values)
+            }
+        };
+        let spectrum = self.checked(spectrum, span)?;
+        self.not_negative(spectrum, purpose, span)
+    }
+
+    /// Refuses spectra below zero: no surface reflects and no light emits a negative amount.
+    pub(crate) fn not_negative(
+        &self,
+        spectrum: Spectrum,
+        purpose: Use,
+        span: Span,
+    ) -> Option<Spectrum> {
+        let lowest = (LAMBDA_MIN as i32..=LAMBDA_MAX as i32)
+            .map(|nm| spectrum.eval_at(f64::from(nm)))
+            .fold(f64::INFINITY, f64::min);
+        if lowest < 0.0 && purpose.role != Role::Unbounded {
+            self.refuse(
+                span,
+                format!("this spectrum falls to {lowest}"),
+                "values not below 0",
+            );
+            return None;
+        }
+        Some(spectrum)
+    }
+
+    pub(crate) fn refuse(&self, span: Span, message: String, accepted: &str) {
+        let diagnostic = Diagnostic::error(span, message).help(format!("accepted: {accepted}"));
+        self.diagnostics.push(diagnostic);
+    }
+
+    pub(crate) fn checked(
+        &self,
+        spectrum: Result<Spectrum, SpectrumError>,
+        span: Span,
+    ) -> Option<Spectrum> {
+        let diagnostic = |error: SpectrumError| Diagnostic::error(span, error.to_string());
+        self.diagnostics.keep(spectrum.map_err(diagnostic))
+    }
+
+    fn add_constant(&mut self, spectrum: Option<Spectrum>) -> TextureId {
+        match spectrum {
+            Some(spectrum) => self.set.add_spectrum(spectrum),
+            None => self.stand_in(),
+        }
+    }
+
+    /// After a mistake: something to go on with, so that further mistakes are found.
+    fn stand_in(&mut self) -> TextureId {
+        self.set.add(Texture::Constant(Constant::uniform(0.5)))
+    }
+}

@@ -1,0 +1,116 @@
+//! All textures of a scene.
+
+use crate::pixels::Image;
+use crate::{Constant, Texture};
+use etalon_params::{Node, Span};
+use etalon_spectrum::Spectrum;
+use etalon_transport::{Role, Shapes, TextureId, TexturePoint};
+use glam::{Vec3, Vec4};
+use std::collections::HashMap;
+use std::sync::Arc;
+
+/// Textures by id. A texture refers only to textures that were added before it, so lookups end.
+///
+/// A scene's implementation of [`etalon_transport::Textures`] forwards to the methods of the
+/// same names, which take the scene's shapes besides.
+#[derive(Debug, Default)]
+pub struct TextureSet {
+    textures: Vec<Texture>,
+    attributes: Vec<(TextureId, Span)>,
+    /// By address of the node.
+    pub(crate) read: HashMap<(usize, Role), TextureId>,
+    /// Keeps the nodes in `read` alive, so that no address is used twice.
+    pub(crate) nodes: Vec<Arc<Node>>,
+    pub(crate) images: HashMap<(String, bool, bool), Arc<Image>>,
+}
+
+impl TextureSet {
+    /// An empty set.
+    pub fn new() -> Self {
+        Self::default()
+    }
+
+    /// Adds a texture.
+    pub fn add(&mut self, texture: Texture) -> TextureId {
+        self.textures.push(texture);
+        TextureId(self.textures.len() as u32 - 1)
+    }
+
+    /// Adds a spectrum that is the same everywhere.
+    pub fn add_spectrum(&mut self, spectrum: Spectrum) -> TextureId {
+        self.add(Texture::Constant(Constant::new(spectrum)))
+    }
+
+    /// Notes where a mesh attribute was asked for.
+    pub(crate) fn note_attribute(&mut self, texture: TextureId, span: Span) {
+        self.attributes.push((texture, span));
+    }
+
+    /// The mesh attributes that textures ask for, with the places that do, so that the scene can
+    /// make sure that the shapes have them.
+    pub fn attributes(&self) -> impl Iterator<Item = (TextureId, &str, Span)> {
+        self.attributes
+            .iter()
+            .filter_map(|&(id, span)| match self.get(id) {
+                Texture::MeshAttribute(attribute) => Some((id, attribute.name.as_str(), span)),
+                _ => None,
+            })
+    }
+
+    /// Whether `texture` is `other` or refers to it.
+    pub fn uses(&self, texture: TextureId, other: TextureId) -> bool {
+        texture == other
+            || match self.get(texture) {
+                Texture::Checkerboard(t) => t.colours.iter().any(|&c| self.uses(c, other)),
+                Texture::Illuminated(t) => self.uses(t.inner, other),
+                _ => false,
+            }
+    }
+
+    /// Forgets what was needed only while reading (which nodes and files were read already).
+    pub fn finish_reading(&mut self) {
+        self.read = HashMap::new();
+        self.nodes = Vec::new();
+        self.images = HashMap::new();
+    }
+
+    /// A texture.
+    #[inline]
+    pub fn get(&self, id: TextureId) -> &Texture {
+        &self.textures[id.0 as usize]
+    }
+
+    /// The spectrum at a point, for the four wavelengths `lambda` (nm).
+    #[inline]
+    pub fn spectrum(
+        &self,
+        id: TextureId,
+        shapes: &impl Shapes,
+        at: &TexturePoint,
+        lambda: Vec4,
+    ) -> Vec4 {
+        self.get(id).spectrum(self, shapes, at, lambda)
+    }
+
+    /// A number at a point: the luminance of colours.
+    #[inline]
+    pub fn number(&self, id: TextureId, shapes: &impl Shapes, at: &TexturePoint) -> f32 {
+        self.get(id).number(self, shapes, at)
+    }
+
+    /// Three raw channels at a point.
+    #[inline]
+    pub fn colour(&self, id: TextureId, shapes: &impl Shapes, at: &TexturePoint) -> Vec3 {
+        self.get(id).colour(self, shapes, at)
+    }
+
+    /// The mean over the texture, for choosing among lobes and lights.
+    pub fn mean(&self, id: TextureId) -> f32 {
+        self.get(id).mean(self)
+    }
+
+    /// Whether the texture is the same everywhere.
+    pub fn is_constant(&self, id: TextureId) -> bool {
+        self.get(id).is_constant(self)
+    }
+}
