@@ -1,18 +1,36 @@
 //! Exact accumulators, moments, hypothesis and equivalence tests, multiplicity.
 //!
-//! This crate knows nothing of light: it sums numbers exactly, describes samples of independent
-//! replicates, and decides with stated error rates whether two of them agree.
+//! This crate knows nothing of light: it sums numbers exactly ([`Fixed128`], [`AtomicFixed128`],
+//! [`Moments`]), describes samples of independent replicates ([`Summary`]), and decides with
+//! stated error rates whether they agree ([`Estimate`], [`Family`], [`tiles`]).
 
 pub mod atomic;
+pub mod chi_squared;
+pub mod estimate;
 pub mod exact;
+pub mod family;
 pub mod fault;
+pub mod interval;
+pub mod kolmogorov_smirnov;
 pub mod moments;
+pub mod normal;
+pub mod proportion;
+pub mod regression;
+pub mod student_t;
 pub mod summary;
+pub mod tiles;
+pub mod verdict;
 pub mod wide;
 
 pub use atomic::AtomicFixed128;
+pub use estimate::Estimate;
 pub use exact::Fixed128;
+pub use family::{Decision, Family};
 pub use fault::{Fault, Faults};
+pub use interval::Interval;
 pub use moments::Moments;
+pub use regression::Line;
 pub use summary::Summary;
+pub use tiles::{Replicates, TileDecision, TileDifferences, TilesError};
+pub use verdict::Verdict;
 pub use wide::U256;

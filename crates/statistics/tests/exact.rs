@@ -201,7 +201,11 @@ fn threads_lose_no_carry() {
     // Each term's low word is near 2⁶⁴ or its high word negative, so nearly all of them carry.
     let term = |thread: u64, i: u64| {
         let low = u64::MAX - (thread * TERMS + i) * 7919;
-        let high = if (thread + i).is_multiple_of(2) { 3 } else { -4 };
+        let high = if (thread + i).is_multiple_of(2) {
+            3
+        } else {
+            -4
+        };
         Fixed128::from_bits((i128::from(high) << 64) | i128::from(low))
     };
     let atomic = AtomicFixed128::new();
