@@ -20,10 +20,27 @@ pub mod model;
 pub mod models;
 pub mod resolved;
 
+pub mod coating;
+pub mod fresnel;
+pub mod ior;
+pub mod metal;
+pub mod microfacet;
+pub mod refraction;
+pub mod rough_fresnel;
+pub mod roughness;
+
 pub mod blendbsdf;
+pub mod conductor;
+pub mod dielectric;
 pub mod diffuse;
 pub mod mask;
+pub mod mirror;
 pub mod null;
+pub mod plastic;
+pub mod roughconductor;
+pub mod roughdielectric;
+pub mod roughplastic;
+pub mod thindielectric;
 pub mod twosided;
 
 pub use flatten::{Flattening, Site};

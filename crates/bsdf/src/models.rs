@@ -57,9 +57,6 @@ macro_rules! models {
             $plain(crate::$plain_module::$plain $(<$life>)?),)*
             $(#[doc = concat!("See [`crate::", stringify!($lobe_module), "`].")]
             $lobe(crate::$lobe_module::$lobe),)*
-            /// Holds the lifetime of models that borrow tables.
-            #[doc(hidden)]
-            Nothing(core::marker::PhantomData<&'a ()>),
         }
 
         /// The names of all BSDF plugins.
@@ -148,7 +145,6 @@ macro_rules! models {
                 match self {
                     $(Self::$plain(model) => model.eval_and_density(wo, wi, mode),)*
                     $(Self::$lobe(model) => model.eval_and_density(wo, wi, mode),)*
-                    Self::Nothing(_) => (Vec4::ZERO, Vec4::ZERO),
                 }
             }
 
@@ -157,7 +153,6 @@ macro_rules! models {
                 match self {
                     $(Self::$plain(model) => model.sample(wo, u_lobe, u, mode),)*
                     $(Self::$lobe(model) => model.sample(wo, u_lobe, u, mode),)*
-                    Self::Nothing(_) => None,
                 }
             }
 
@@ -166,7 +161,6 @@ macro_rules! models {
                 match self {
                     $(Self::$plain(model) => model.has_continuous(),)*
                     $(Self::$lobe(model) => model.has_continuous(),)*
-                    Self::Nothing(_) => false,
                 }
             }
 
@@ -174,7 +168,6 @@ macro_rules! models {
                 match self {
                     $(Self::$plain(model) => model.albedo(wo),)*
                     $(Self::$lobe(model) => model.albedo(wo),)*
-                    Self::Nothing(_) => Vec4::ZERO,
                 }
             }
         }
@@ -287,13 +280,21 @@ impl Material {
 models! {
     plain {
         "diffuse" Diffuse diffuse REFLECTING,
+        "dielectric" Dielectric dielectric REFRACTING,
+        "roughdielectric" RoughDielectric roughdielectric REFRACTING,
+        "conductor" Conductor conductor REFLECTING,
+        "roughconductor" RoughConductor roughconductor REFLECTING,
+        "plastic" Plastic plastic REFLECTING,
+        "roughplastic" RoughPlastic roughplastic REFLECTING <'a>,
     }
     composed {
+        "thindielectric" ThinDielectric thindielectric,
         "mask" Mask mask,
         "twosided" TwoSided twosided,
         "blendbsdf" Blend blendbsdf,
         "null" Null null,
     }
     lobes {
+        Mirror mirror,
     }
 }

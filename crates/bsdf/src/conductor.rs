@@ -1,0 +1,82 @@
+//! A smooth conductor: a coloured mirror.
+//!
+//! ```text
+//! f(wo, wi) |cos θi| = ρ F(cos θo; η, k) δ(wi = mirror of wo)      from the front
+//! ```
+//!
+//! With F Fresnel's equations for a complex index (see [`crate::fresnel::conductor`]).
+
+use crate::metal::Metal;
+use crate::refraction::reflect;
+use crate::{Model, Site, fresnel};
+use etalon_math::Atom;
+use etalon_params::Params;
+use etalon_transport::{BsdfSample, Build, Chance, Mode, Role, TextureId, Textures};
+use glam::{Vec2, Vec3, Vec4};
+
+/// `conductor` in a scene file.
+#[derive(Clone, Debug)]
+pub struct Description {
+    metal: Metal,
+    reflectance: TextureId,
+}
+
+impl Description {
+    /// Reads the metal (see [`Metal`]) and `specular_reflectance` (1).
+    pub fn from_params(params: &Params<'_>, build: &mut dyn Build) -> Option<Self> {
+        let reflectance =
+            build.texture(params, "specular_reflectance", Some(1.0), Role::Reflectance);
+        Some(Self {
+            metal: Metal::from_params(params, build)?,
+            reflectance,
+        })
+    }
+
+    /// The model at a point.
+    pub fn resolve<T: Textures>(&self, site: &Site<'_, T>) -> Conductor {
+        let (eta, k) = self.metal.resolve(site);
+        Conductor {
+            eta,
+            k,
+            reflectance: site.spectrum(self.reflectance),
+        }
+    }
+}
+
+/// A coloured mirror.
+#[derive(Clone, Copy, Debug)]
+pub struct Conductor {
+    /// Real part of the index, per lane.
+    pub eta: Vec4,
+    /// Imaginary part of the index, per lane.
+    pub k: Vec4,
+    /// Factor of the reflectance, per lane.
+    pub reflectance: Vec4,
+}
+
+impl Model for Conductor {
+    fn eval_and_density(&self, _: Vec3, _: Vec3, _: Mode) -> (Vec4, Vec4) {
+        (Vec4::ZERO, Vec4::ZERO)
+    }
+
+    fn sample(&self, wo: Vec3, _: f32, _: Vec2, _: Mode) -> Option<BsdfSample> {
+        if !(wo.z > 0.0) {
+            return None;
+        }
+        Some(BsdfSample {
+            wi: reflect(wo, Vec3::Z),
+            value: self.albedo(wo),
+            chance: Chance::Discrete(Atom::uniform(1.0)),
+            eta: 1.0,
+            passes: false,
+        })
+    }
+
+    fn has_continuous(&self) -> bool {
+        false
+    }
+
+    fn albedo(&self, wo: Vec3) -> Vec4 {
+        self.reflectance * fresnel::conductor(wo.z.clamp(0.0, 1.0), self.eta, self.k)
+    }
+}

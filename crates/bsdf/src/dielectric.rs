@@ -1,0 +1,119 @@
+//! A smooth interface between two dielectrics.
+//!
+//! ```text
+//! f(wo, wi) |cos θi| = ρ F δ(wi = mirror of wo) + τ (1 − F) s δ(wi = refraction of wo)
+//! ```
+//!
+//! F by Fresnel's equations, the direction by Snell's law, s = 1/η² for radiance (which is
+//! compressed on its way into the denser medium) and 1 for importance (Veach 1997, section 5.2).
+//!
+//! With dispersion each lane has its own η. A refracted direction is that of lane 0; the lanes
+//! that would have gone elsewhere have probability and value zero there, so that one
+//! wavelength survives. Reflection keeps all four.
+
+use crate::ior::RelativeIndex;
+use crate::refraction::reflect;
+use crate::{Model, Site, fresnel};
+use etalon_math::Atom;
+use etalon_params::Params;
+use etalon_transport::{BsdfSample, Build, Chance, Mode, Role, TextureId, Textures};
+use glam::{Vec2, Vec3, Vec4};
+
+/// `dielectric` in a scene file.
+#[derive(Clone, Debug)]
+pub struct Description {
+    eta: RelativeIndex,
+    reflectance: TextureId,
+    transmittance: TextureId,
+}
+
+impl Description {
+    /// Reads `int_ior` (bk7), `ext_ior` (air), `specular_reflectance` (1) and
+    /// `specular_transmittance` (1).
+    pub fn from_params(params: &Params<'_>, build: &mut dyn Build) -> Option<Self> {
+        let mut factor = |name| build.texture(params, name, Some(1.0), Role::Reflectance);
+        let reflectance = factor("specular_reflectance");
+        let transmittance = factor("specular_transmittance");
+        Some(Self {
+            eta: RelativeIndex::from_params(params, build, "bk7")?,
+            reflectance,
+            transmittance,
+        })
+    }
+
+    /// The model at a point.
+    pub fn resolve<T: Textures>(&self, site: &Site<'_, T>) -> Dielectric {
+        Dielectric {
+            eta: self.eta.eval(site),
+            reflectance: site.spectrum(self.reflectance),
+            transmittance: site.spectrum(self.transmittance),
+        }
+    }
+}
+
+/// A smooth interface.
+#[derive(Clone, Copy, Debug)]
+pub struct Dielectric {
+    /// Index inside over index outside, per lane.
+    pub eta: Vec4,
+    /// Factor of the reflected light, per lane.
+    pub reflectance: Vec4,
+    /// Factor of the refracted light, per lane.
+    pub transmittance: Vec4,
+}
+
+impl Model for Dielectric {
+    fn eval_and_density(&self, _: Vec3, _: Vec3, _: Mode) -> (Vec4, Vec4) {
+        (Vec4::ZERO, Vec4::ZERO)
+    }
+
+    fn sample(&self, wo: Vec3, u_lobe: f32, _: Vec2, mode: Mode) -> Option<BsdfSample> {
+        if wo.z == 0.0 {
+            return None;
+        }
+        // Relative index of the medium entered, whichever side `wo` is on.
+        let eta = if wo.z > 0.0 {
+            self.eta
+        } else {
+            self.eta.recip()
+        };
+        let fresnel = fresnel::dielectric_lanes(wo.z.abs(), eta);
+        if u_lobe < fresnel.x {
+            return Some(BsdfSample {
+                wi: reflect(wo, Vec3::Z),
+                value: self.reflectance * fresnel,
+                chance: Chance::Discrete(Atom(fresnel)),
+                eta: 1.0,
+                passes: false,
+            });
+        }
+        let (_, cos_t) = fresnel::dielectric(wo.z.abs(), eta.x);
+        let together = Vec4::select(eta.cmpeq(Vec4::splat(eta.x)), Vec4::ONE, Vec4::ZERO);
+        let transmitted = (1.0 - fresnel) * together;
+        let scale = match mode {
+            Mode::Radiance => 1.0 / (eta.x * eta.x),
+            Mode::Importance => 1.0,
+        };
+        (transmitted.x > 0.0).then(|| BsdfSample {
+            wi: Vec3::new(-wo.x / eta.x, -wo.y / eta.x, cos_t.copysign(-wo.z)),
+            value: self.transmittance * transmitted * scale,
+            chance: Chance::Discrete(Atom(transmitted)),
+            eta: eta.x,
+            passes: false,
+        })
+    }
+
+    fn has_continuous(&self) -> bool {
+        false
+    }
+
+    fn albedo(&self, wo: Vec3) -> Vec4 {
+        let eta = if wo.z >= 0.0 {
+            self.eta
+        } else {
+            self.eta.recip()
+        };
+        let fresnel = fresnel::dielectric_lanes(wo.z.abs().min(1.0), eta);
+        self.reflectance * fresnel + self.transmittance * (1.0 - fresnel)
+    }
+}

@@ -1,0 +1,259 @@
+//! Reading refractive indices.
+//!
+//! `int_ior` and `ext_ior` are a number or the name of a dielectric, as in Mitsuba. Where a
+//! model can disperse they may also be a spectrum, or Cauchy's or Sellmeier's coefficients as a
+//! string (an extension: see `docs/extensions.md`).
+
+use etalon_params::{Class, Diagnostic, Params, Property, SpectrumText, Value};
+use etalon_spectrum::{LAMBDA_MAX, LAMBDA_MIN, RefractiveIndex, Spectrum, SpectrumError, ior};
+use etalon_transport::{Build, Role, TextureId, Textures};
+use glam::Vec4;
+
+use crate::Site;
+
+/// The index inside over the index outside.
+#[derive(Clone, Debug)]
+pub enum RelativeIndex {
+    /// The same at every wavelength.
+    Constant(f32),
+    /// A function of the wavelength.
+    Dispersive {
+        /// Inside: the side away from the normal.
+        interior: Index,
+        /// Outside.
+        exterior: Index,
+    },
+}
+
+/// One medium's index.
+#[derive(Clone, Debug)]
+pub enum Index {
+    /// A number, a formula or a table.
+    Formula(RefractiveIndex),
+    /// A nested spectrum.
+    Texture(TextureId),
+}
+
+impl Index {
+    fn eval<T: Textures>(&self, site: &Site<'_, T>) -> Vec4 {
+        match self {
+            Self::Formula(index) => index.eval(site.lambda),
+            Self::Texture(texture) => site.spectrum(*texture),
+        }
+    }
+}
+
+impl RelativeIndex {
+    /// Reads `int_ior` (a name by default) and `ext_ior` (air by default).
+    pub fn from_params(
+        params: &Params<'_>,
+        build: &mut dyn Build,
+        default_interior: &str,
+    ) -> Option<Self> {
+        let interior = read(params, build, "int_ior", default_interior);
+        let exterior = read(params, build, "ext_ior", "air");
+        Some(match (interior?, exterior?) {
+            (Given::Number(interior), Given::Number(exterior)) => {
+                Self::Constant((interior / exterior) as f32)
+            }
+            (interior, exterior) => Self::Dispersive {
+                interior: interior.into_index(),
+                exterior: exterior.into_index(),
+            },
+        })
+    }
+
+    /// The same for a model that has one index for all wavelengths, as f64.
+    pub fn constant_from_params(params: &Params<'_>, default_interior: &str) -> Option<f64> {
+        let interior = read_number(params, "int_ior", default_interior);
+        let exterior = read_number(params, "ext_ior", "air");
+        Some(interior? / exterior?)
+    }
+
+    /// The index at a point, per lane.
+    #[inline]
+    pub fn eval<T: Textures>(&self, site: &Site<'_, T>) -> Vec4 {
+        match self {
+            Self::Constant(eta) => Vec4::splat(*eta),
+            Self::Dispersive { interior, exterior } => interior.eval(site) / exterior.eval(site),
+        }
+    }
+}
+
+/// What a property gave.
+enum Given {
+    Number(f64),
+    Index(Index),
+}
+
+impl Given {
+    fn into_index(self) -> Index {
+        match self {
+            Self::Number(value) => Index::Formula(RefractiveIndex::Constant(value as f32)),
+            Self::Index(index) => index,
+        }
+    }
+}
+
+const ACCEPTED: &str = "a number above 0, the name of a dielectric, `cauchy: A B [C]` or \
+                        `sellmeier: B1 B2 B3 C1 C2 C3` (µm), or a spectrum";
+
+fn named(name: &str) -> Option<f64> {
+    ior::lookup(name.trim())
+}
+
+fn positive(params: &Params<'_>, name: &str, value: f64) -> Option<f64> {
+    if value > 0.0 && value.is_finite() {
+        return Some(value);
+    }
+    params.refuse(name, value, "a number above 0");
+    None
+}
+
+fn unknown_name(params: &Params<'_>, property: &Property, word: &str) {
+    params.diagnostics.push(
+        Diagnostic::error(
+            property.span,
+            format!("no refractive index is known for `{word}`"),
+        )
+        .suggest(word, ior::names()),
+    );
+}
+
+/// A number or a name.
+fn read_number(params: &Params<'_>, name: &str, default: &str) -> Option<f64> {
+    let Some(property) = params.property(name) else {
+        return named(default);
+    };
+    match &property.value {
+        Value::Float(value) => positive(params, name, *value),
+        Value::Integer(value) => positive(params, name, *value as f64),
+        Value::String(word) => {
+            let found = named(word);
+            if found.is_none() {
+                unknown_name(params, property, word);
+            }
+            found
+        }
+        other => {
+            params.diagnostics.push(
+                Diagnostic::error(
+                    property.span,
+                    format!(
+                        "`{name}` of `{}` is one index for all wavelengths: a number or a name, \
+                         not {}",
+                        params.node.plugin.value,
+                        other.kind()
+                    ),
+                )
+                .help("`dielectric` and `roughdielectric` can disperse"),
+            );
+            None
+        }
+    }
+}
+
+/// A number, a name, a formula or a spectrum.
+fn read(params: &Params<'_>, build: &mut dyn Build, name: &str, default: &str) -> Option<Given> {
+    let Some(property) = params.property(name) else {
+        return named(default).map(Given::Number);
+    };
+    match &property.value {
+        Value::String(text) if text.contains(':') => {
+            formula(params, property, text).map(|index| Given::Index(Index::Formula(index)))
+        }
+        Value::Spectrum(SpectrumText::Uniform(value)) => {
+            positive(params, name, *value).map(Given::Number)
+        }
+        Value::Spectrum(SpectrumText::Samples(samples)) => {
+            table(params, name, samples).map(|index| Given::Index(Index::Formula(index)))
+        }
+        Value::Object(node) if node.class == Class::Texture => Some(Given::Index(Index::Texture(
+            build.nested_texture(node, Role::Unbounded),
+        ))),
+        Value::Float(_) | Value::Integer(_) | Value::String(_) => {
+            read_number(params, name, default).map(Given::Number)
+        }
+        other => {
+            params.diagnostics.push(
+                Diagnostic::error(
+                    property.span,
+                    format!("`{name}` cannot be {}", other.kind()),
+                )
+                .help(format!("accepted: {ACCEPTED}")),
+            );
+            None
+        }
+    }
+}
+
+/// `cauchy: A B [C]` or `sellmeier: B1 B2 B3 C1 C2 C3`.
+fn formula(params: &Params<'_>, property: &Property, text: &str) -> Option<RefractiveIndex> {
+    let refuse = |message: String| {
+        params
+            .diagnostics
+            .push(Diagnostic::error(property.span, message).help(format!("accepted: {ACCEPTED}")));
+        None
+    };
+    let (kind, numbers) = text.split_once(':')?;
+    let mut coefficients = Vec::new();
+    for word in numbers
+        .split([' ', ',', '\t', '\n'])
+        .filter(|w| !w.is_empty())
+    {
+        match word.parse::<f64>() {
+            Ok(value) => coefficients.push(value),
+            Err(_) => return refuse(format!("`{word}` is not a number")),
+        }
+    }
+    let kind = kind.trim().to_ascii_lowercase();
+    let index: Result<RefractiveIndex, SpectrumError> = match (kind.as_str(), &coefficients[..]) {
+        ("cauchy", &[a, b]) => RefractiveIndex::cauchy(a, b, 0.0),
+        ("cauchy", &[a, b, c]) => RefractiveIndex::cauchy(a, b, c),
+        ("sellmeier", &[b1, b2, b3, c1, c2, c3]) => {
+            RefractiveIndex::sellmeier([b1, b2, b3], [c1, c2, c3])
+        }
+        ("cauchy" | "sellmeier", given) => {
+            return refuse(format!("`{kind}` cannot have {} coefficients", given.len()));
+        }
+        _ => return refuse(format!("`{kind}` is not a dispersion formula")),
+    };
+    match index {
+        Ok(index) => {
+            let mut wavelength = LAMBDA_MIN;
+            while wavelength <= LAMBDA_MAX {
+                let value = index.eval(Vec4::splat(wavelength as f32)).x;
+                if !(value > 0.0 && value.is_finite()) {
+                    return refuse(format!(
+                        "with these coefficients the index at {wavelength} nm is {value}"
+                    ));
+                }
+                wavelength += 1.0;
+            }
+            Some(index)
+        }
+        Err(error) => refuse(error.to_string()),
+    }
+}
+
+/// A table of (wavelength in nm, index); beyond its ends the index stays what it is there.
+fn table(params: &Params<'_>, name: &str, samples: &[(f64, f64)]) -> Option<RefractiveIndex> {
+    let mut wavelengths: Vec<f64> = samples.iter().map(|s| s.0).collect();
+    let mut values: Vec<f64> = samples.iter().map(|s| s.1).collect();
+    for value in &values {
+        positive(params, name, *value)?;
+    }
+    if let (&[first, ..], &[.., last]) = (&wavelengths[..], &wavelengths[..]) {
+        wavelengths.insert(0, first.min(LAMBDA_MIN) * 0.5);
+        values.insert(0, values[0]);
+        wavelengths.push(last.max(LAMBDA_MAX) * 2.0);
+        values.push(values[values.len() - 1]);
+    }
+    match Spectrum::irregular(&wavelengths, &values) {
+        Ok(spectrum) => Some(RefractiveIndex::Tabulated(spectrum)),
+        Err(error) => {
+            params.error_at(name, error.to_string());
+            None
+        }
+    }
+}

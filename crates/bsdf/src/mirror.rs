@@ -1,0 +1,39 @@
+//! A perfect mirror on both sides, times a factor: what is left of models whose refraction
+//! passes straight on.
+
+use crate::Model;
+use crate::refraction::reflect;
+use etalon_math::Atom;
+use etalon_transport::{BsdfSample, Chance, Mode};
+use glam::{Vec2, Vec3, Vec4};
+
+/// Reflects a fraction of the light, independent of direction.
+#[derive(Clone, Copy, Debug)]
+pub struct Mirror {
+    /// The fraction, per lane.
+    pub reflectance: Vec4,
+}
+
+impl Model for Mirror {
+    fn eval_and_density(&self, _: Vec3, _: Vec3, _: Mode) -> (Vec4, Vec4) {
+        (Vec4::ZERO, Vec4::ZERO)
+    }
+
+    fn sample(&self, wo: Vec3, _: f32, _: Vec2, _: Mode) -> Option<BsdfSample> {
+        Some(BsdfSample {
+            wi: reflect(wo, Vec3::Z),
+            value: self.reflectance,
+            chance: Chance::Discrete(Atom::uniform(1.0)),
+            eta: 1.0,
+            passes: false,
+        })
+    }
+
+    fn has_continuous(&self) -> bool {
+        false
+    }
+
+    fn albedo(&self, _: Vec3) -> Vec4 {
+        self.reflectance
+    }
+}

@@ -1,0 +1,106 @@
+//! A diffuse base under a smooth dielectric coat.
+//!
+//! ```text
+//! f(wo, wi) |cos θi| = ρs F(θo) δ(wi = mirror of wo) + f_base(wo, wi) cos θi
+//! ```
+//!
+//! from the front, with T = 1 − F in f_base (see [`crate::coating`]) and the internal
+//! reflectance of [`crate::fresnel::internal_diffuse_reflectance`]. Mitsuba's plugin of that
+//! name.
+
+use crate::coating::{Coat, Coating};
+use crate::refraction::reflect;
+use crate::{Model, Site, fresnel};
+use core::f32::consts::FRAC_1_PI;
+use etalon_math::{Atom, Density};
+use etalon_params::Params;
+use etalon_sampling::warps::square_to_cosine_hemisphere;
+use etalon_transport::{BsdfSample, Build, Chance, Mode, Textures};
+use glam::{Vec2, Vec3, Vec4};
+
+/// `plastic` in a scene file.
+#[derive(Clone, Debug)]
+pub struct Description {
+    coating: Coating,
+    internal: f32,
+}
+
+impl Description {
+    /// Reads what [`Coating`] does.
+    pub fn from_params(params: &Params<'_>, build: &mut dyn Build) -> Option<Self> {
+        let coating = Coating::from_params(params, build)?;
+        Some(Self {
+            internal: fresnel::internal_diffuse_reflectance(coating.eta) as f32,
+            coating,
+        })
+    }
+
+    /// The model at a point.
+    pub fn resolve<T: Textures>(&self, site: &Site<'_, T>) -> Plastic {
+        Plastic {
+            coat: self.coating.resolve(site, self.internal),
+        }
+    }
+}
+
+/// A diffuse base under a smooth coat.
+#[derive(Clone, Copy, Debug)]
+pub struct Plastic {
+    /// The coat and the base.
+    pub coat: Coat,
+}
+
+impl Plastic {
+    #[inline]
+    fn transmitted(&self, cos: f32) -> f32 {
+        1.0 - fresnel::dielectric(cos.min(1.0), self.coat.eta).0
+    }
+}
+
+impl Model for Plastic {
+    fn eval_and_density(&self, wo: Vec3, wi: Vec3, _: Mode) -> (Vec4, Vec4) {
+        if !(wo.z > 0.0 && wi.z > 0.0) {
+            return (Vec4::ZERO, Vec4::ZERO);
+        }
+        let transmitted = self.transmitted(wo.z);
+        let probability = 1.0 - self.coat.specular_probability(transmitted);
+        (
+            self.coat.base(transmitted, self.transmitted(wi.z), wi.z),
+            Vec4::splat(probability * wi.z * FRAC_1_PI),
+        )
+    }
+
+    fn sample(&self, wo: Vec3, u_lobe: f32, u: Vec2, mode: Mode) -> Option<BsdfSample> {
+        if !(wo.z > 0.0) {
+            return None;
+        }
+        let transmitted = self.transmitted(wo.z);
+        let specular = self.coat.specular_probability(transmitted);
+        if u_lobe < specular {
+            return Some(BsdfSample {
+                wi: reflect(wo, Vec3::Z),
+                value: self.coat.specular * (1.0 - transmitted),
+                chance: Chance::Discrete(Atom::uniform(specular)),
+                eta: 1.0,
+                passes: false,
+            });
+        }
+        let wi = square_to_cosine_hemisphere(u);
+        let (value, density) = self.eval_and_density(wo, wi, mode);
+        (density.x > 0.0).then_some(BsdfSample {
+            wi,
+            value,
+            chance: Chance::Continuous(Density::per_lane(density)),
+            eta: 1.0,
+            passes: false,
+        })
+    }
+
+    fn has_continuous(&self) -> bool {
+        true
+    }
+
+    fn albedo(&self, wo: Vec3) -> Vec4 {
+        self.coat.albedo(self.transmitted(wo.z.max(0.0)))
+    }
+}

@@ -1,0 +1,106 @@
+//! A rough conductor.
+//!
+//! ```text
+//! f(wo, wi) = ρ F(wo·m; η, k) D(m) G(wo, wi, m) / (4 cos θo cos θi)      m = half-way vector
+//! ```
+//!
+//! Torrance & Sparrow (1967), Cook & Torrance (1982); Walter, Marschner, Li & Torrance (2007),
+//! eq. 20. Sampled through the normals visible from `wo`: density visible(wo, m) / (4 wo·m).
+
+use crate::metal::Metal;
+use crate::microfacet::Microfacet;
+use crate::refraction::reflect;
+use crate::roughness::Roughness;
+use crate::{Model, Site, fresnel};
+use etalon_math::Density;
+use etalon_params::Params;
+use etalon_transport::{BsdfSample, Build, Chance, Mode, Role, TextureId, Textures};
+use glam::{Vec2, Vec3, Vec4};
+
+/// `roughconductor` in a scene file.
+#[derive(Clone, Debug)]
+pub struct Description {
+    metal: Metal,
+    reflectance: TextureId,
+    roughness: Roughness,
+}
+
+impl Description {
+    /// Reads the metal (see [`Metal`]), `specular_reflectance` (1) and the roughness (see
+    /// [`Roughness`]).
+    pub fn from_params(params: &Params<'_>, build: &mut dyn Build) -> Option<Self> {
+        let reflectance =
+            build.texture(params, "specular_reflectance", Some(1.0), Role::Reflectance);
+        let metal = Metal::from_params(params, build);
+        let roughness = Roughness::from_params(params, build);
+        Some(Self {
+            metal: metal?,
+            reflectance,
+            roughness: roughness?,
+        })
+    }
+
+    /// The model at a point.
+    pub fn resolve<T: Textures>(&self, site: &Site<'_, T>) -> RoughConductor {
+        let (eta, k) = self.metal.resolve(site);
+        RoughConductor {
+            eta,
+            k,
+            reflectance: site.spectrum(self.reflectance),
+            microfacet: self.roughness.resolve(site),
+        }
+    }
+}
+
+/// A rough metal.
+#[derive(Clone, Copy, Debug)]
+pub struct RoughConductor {
+    /// Real part of the index, per lane.
+    pub eta: Vec4,
+    /// Imaginary part of the index, per lane.
+    pub k: Vec4,
+    /// Factor of the reflectance, per lane.
+    pub reflectance: Vec4,
+    /// The distribution of normals.
+    pub microfacet: Microfacet,
+}
+
+impl Model for RoughConductor {
+    fn eval_and_density(&self, wo: Vec3, wi: Vec3, _: Mode) -> (Vec4, Vec4) {
+        if !(wo.z > 0.0 && wi.z > 0.0) {
+            return (Vec4::ZERO, Vec4::ZERO);
+        }
+        let m = (wo + wi).normalize();
+        let cos = wo.dot(m);
+        let d = self.microfacet.d(m);
+        let shadowing = self.microfacet.g1(wo, m) * self.microfacet.g1(wi, m);
+        let value = self.reflectance
+            * fresnel::conductor(cos, self.eta, self.k)
+            * (d * shadowing / (4.0 * wo.z));
+        let density = self.microfacet.density(wo, m, d) / (4.0 * cos);
+        (value, Vec4::splat(density))
+    }
+
+    fn sample(&self, wo: Vec3, _: f32, u: Vec2, mode: Mode) -> Option<BsdfSample> {
+        if !(wo.z > 0.0) {
+            return None;
+        }
+        let wi = reflect(wo, self.microfacet.sample(wo, u));
+        let (value, density) = self.eval_and_density(wo, wi, mode);
+        (density.x > 0.0).then_some(BsdfSample {
+            wi,
+            value,
+            chance: Chance::Continuous(Density::per_lane(density)),
+            eta: 1.0,
+            passes: false,
+        })
+    }
+
+    fn has_continuous(&self) -> bool {
+        true
+    }
+
+    fn albedo(&self, wo: Vec3) -> Vec4 {
+        self.reflectance * fresnel::conductor(wo.z.clamp(0.0, 1.0), self.eta, self.k)
+    }
+}

@@ -1,0 +1,100 @@
+//! Reading the roughness of a microfacet model.
+
+use crate::Site;
+use crate::microfacet::{Kind, LEAST_ALPHA, Microfacet};
+use etalon_params::{Params, Value};
+use etalon_transport::{Build, Role, TextureId, Textures};
+use glam::Vec2;
+
+/// What to say when a number is refused.
+const ACCEPTED: &str = "0 or more (a roughness below 0.0001 acts as 0.0001)";
+
+/// A textured roughness: `distribution` (beckmann), `alpha` (0.1) or `alpha_u` and `alpha_v`, and
+/// `sample_visible` (true).
+#[derive(Clone, Debug)]
+pub struct Roughness {
+    kind: Kind,
+    alpha_u: TextureId,
+    alpha_v: TextureId,
+    sample_visible: bool,
+}
+
+impl Roughness {
+    /// Reads the parameters of the type's documentation.
+    pub fn from_params(params: &Params<'_>, build: &mut dyn Build) -> Option<Self> {
+        let kind = kind(params);
+        let sample_visible = params.boolean_or("sample_visible", true);
+        let anisotropic = params.has("alpha_u") || params.has("alpha_v");
+        if anisotropic && params.has("alpha") {
+            params.error_at("alpha", "give either `alpha` or `alpha_u` and `alpha_v`");
+            params.ignore(&["alpha", "alpha_u", "alpha_v"]);
+            return None;
+        }
+        let (alpha_u, alpha_v) = if anisotropic {
+            // A missing one of the two is reported by `texture`.
+            (
+                read(params, build, "alpha_u", None)?,
+                read(params, build, "alpha_v", None)?,
+            )
+        } else {
+            let alpha = read(params, build, "alpha", Some(0.1))?;
+            (alpha, alpha)
+        };
+        Some(Self {
+            kind,
+            alpha_u,
+            alpha_v,
+            sample_visible,
+        })
+    }
+
+    /// The distribution at a point.
+    #[inline]
+    pub fn resolve<T: Textures>(&self, site: &Site<'_, T>) -> Microfacet {
+        let alpha_u = site.number(self.alpha_u);
+        let alpha_v = if self.alpha_v == self.alpha_u {
+            alpha_u
+        } else {
+            site.number(self.alpha_v)
+        };
+        Microfacet::new(self.kind, Vec2::new(alpha_u, alpha_v), self.sample_visible)
+    }
+}
+
+/// A distribution whose roughness is one number, as `roughplastic` has it.
+pub fn constant_from_params(params: &Params<'_>) -> Microfacet {
+    let alpha = params.float_where("alpha", 0.1, ACCEPTED, |a| a >= 0.0 && a.is_finite());
+    let sample_visible = params.boolean_or("sample_visible", true);
+    Microfacet::new(
+        kind(params),
+        Vec2::splat((alpha as f32).max(LEAST_ALPHA)),
+        sample_visible,
+    )
+}
+
+fn kind(params: &Params<'_>) -> Kind {
+    match params.choice("distribution", "beckmann", &["beckmann", "ggx"]) {
+        "ggx" => Kind::Ggx,
+        _ => Kind::Beckmann,
+    }
+}
+
+fn read(
+    params: &Params<'_>,
+    build: &mut dyn Build,
+    name: &str,
+    default: Option<f64>,
+) -> Option<TextureId> {
+    if let Some(property) = params.property(name) {
+        let number = match &property.value {
+            Value::Float(value) => *value,
+            Value::Integer(value) => *value as f64,
+            _ => 0.0,
+        };
+        if !(number >= 0.0 && number.is_finite()) {
+            params.refuse(name, number, ACCEPTED);
+            return None;
+        }
+    }
+    Some(build.texture(params, name, default, Role::Unbounded))
+}

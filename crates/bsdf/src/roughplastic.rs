@@ -1,0 +1,112 @@
+//! A diffuse base under a rough dielectric coat.
+//!
+//! ```text
+//! f(wo, wi) = ρs F(wo·m) D(m) G(wo, wi, m) / (4 cos θo cos θi) + f_base(wo, wi)
+//! ```
+//!
+//! from the front, with the rough interface's transmittance T and internal reflectance R in
+//! f_base (see [`crate::coating`] and [`crate::rough_fresnel`]). Mitsuba's plugin of that name.
+
+use crate::coating::{Coat, Coating};
+use crate::microfacet::Microfacet;
+use crate::refraction::reflect;
+use crate::rough_fresnel::RoughFresnel;
+use crate::{Model, Site, fresnel, roughness};
+use core::f32::consts::FRAC_1_PI;
+use etalon_math::Density;
+use etalon_params::Params;
+use etalon_sampling::warps::square_to_cosine_hemisphere;
+use etalon_transport::{BsdfSample, Build, Chance, Mode, Textures};
+use glam::{Vec2, Vec3, Vec4};
+
+/// `roughplastic` in a scene file.
+#[derive(Clone, Debug)]
+pub struct Description {
+    coating: Coating,
+    microfacet: Microfacet,
+    interface: Box<RoughFresnel>,
+}
+
+impl Description {
+    /// Reads what [`Coating`] does, `distribution` (beckmann), `alpha` (0.1, one number) and
+    /// `sample_visible` (true).
+    pub fn from_params(params: &Params<'_>, build: &mut dyn Build) -> Option<Self> {
+        let microfacet = roughness::constant_from_params(params);
+        let coating = Coating::from_params(params, build)?;
+        Some(Self {
+            interface: Box::new(RoughFresnel::new(microfacet, coating.eta as f32)),
+            coating,
+            microfacet,
+        })
+    }
+
+    /// The model at a point.
+    pub fn resolve<T: Textures>(&self, site: &Site<'_, T>) -> RoughPlastic<'_> {
+        RoughPlastic {
+            coat: self.coating.resolve(site, self.interface.internal),
+            microfacet: self.microfacet,
+            interface: &self.interface,
+        }
+    }
+}
+
+/// A diffuse base under a rough coat.
+#[derive(Clone, Copy, Debug)]
+pub struct RoughPlastic<'a> {
+    /// The coat and the base.
+    pub coat: Coat,
+    /// The coat's distribution of normals.
+    pub microfacet: Microfacet,
+    /// What the rough coat lets in.
+    pub interface: &'a RoughFresnel,
+}
+
+impl Model for RoughPlastic<'_> {
+    fn eval_and_density(&self, wo: Vec3, wi: Vec3, _: Mode) -> (Vec4, Vec4) {
+        if !(wo.z > 0.0 && wi.z > 0.0) {
+            return (Vec4::ZERO, Vec4::ZERO);
+        }
+        let m = (wo + wi).normalize();
+        let cos = wo.dot(m);
+        let d = self.microfacet.d(m);
+        let shadowing = self.microfacet.g1(wo, m) * self.microfacet.g1(wi, m);
+        let reflected = fresnel::dielectric(cos, self.coat.eta).0 * d * shadowing / (4.0 * wo.z);
+        let transmitted = self.interface.transmittance(wo.z);
+        let value = self.coat.specular * reflected
+            + self
+                .coat
+                .base(transmitted, self.interface.transmittance(wi.z), wi.z);
+        let specular = self.coat.specular_probability(transmitted);
+        let density = specular * self.microfacet.density(wo, m, d) / (4.0 * cos)
+            + (1.0 - specular) * wi.z * FRAC_1_PI;
+        (value, Vec4::splat(density))
+    }
+
+    fn sample(&self, wo: Vec3, u_lobe: f32, u: Vec2, mode: Mode) -> Option<BsdfSample> {
+        if !(wo.z > 0.0) {
+            return None;
+        }
+        let transmitted = self.interface.transmittance(wo.z);
+        let wi = if u_lobe < self.coat.specular_probability(transmitted) {
+            reflect(wo, self.microfacet.sample(wo, u))
+        } else {
+            square_to_cosine_hemisphere(u)
+        };
+        let (value, density) = self.eval_and_density(wo, wi, mode);
+        (density.x > 0.0).then_some(BsdfSample {
+            wi,
+            value,
+            chance: Chance::Continuous(Density::per_lane(density)),
+            eta: 1.0,
+            passes: false,
+        })
+    }
+
+    fn has_continuous(&self) -> bool {
+        true
+    }
+
+    fn albedo(&self, wo: Vec3) -> Vec4 {
+        self.coat.albedo(self.interface.transmittance(wo.z))
+    }
+}

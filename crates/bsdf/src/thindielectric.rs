@@ -1,0 +1,73 @@
+//! A thin pane of dielectric: two parallel interfaces so close that refraction cancels.
+//!
+//! ```text
+//! R' = 2R / (1 + R)      (all internal reflections summed; 1 − R' goes straight on)
+//! ```
+//!
+//! With R Fresnel's reflectance of one interface (Born & Wolf 1999, section 1.6, incoherent).
+//! Mitsuba's plugin of that name. The transmitted light passes straight on, so shadow rays
+//! see through the pane.
+
+use crate::ior::RelativeIndex;
+use crate::mirror::Mirror;
+use crate::models::Traits;
+use crate::{Flattening, Scatter, Site, fresnel};
+use etalon_math::Frame;
+use etalon_params::Params;
+use etalon_transport::{Build, Role, TextureId, Textures};
+
+/// `thindielectric` in a scene file.
+#[derive(Clone, Debug)]
+pub struct Description {
+    eta: f32,
+    reflectance: TextureId,
+    transmittance: TextureId,
+}
+
+impl Description {
+    /// Reads `int_ior` (bk7), `ext_ior` (air), `specular_reflectance` (1) and
+    /// `specular_transmittance` (1).
+    pub fn from_params(params: &Params<'_>, build: &mut dyn Build) -> Option<Self> {
+        let mut factor = |name| build.texture(params, name, Some(1.0), Role::Reflectance);
+        let reflectance = factor("specular_reflectance");
+        let transmittance = factor("specular_transmittance");
+        Some(Self {
+            eta: RelativeIndex::constant_from_params(params, "bk7")? as f32,
+            reflectance,
+            transmittance,
+        })
+    }
+
+    /// A mirror, and light that passes.
+    pub fn traits(&self) -> Traits {
+        Traits {
+            lobes: 1,
+            passing: true,
+            transmission: true,
+        }
+    }
+
+    /// The reflected light as a mirror, the rest passing.
+    pub fn flatten<T: Textures>(
+        &self,
+        site: &Site<'_, T>,
+        frame: Frame,
+        weight: f32,
+        into: &mut Flattening<'_>,
+    ) {
+        let cos = frame.n.dot(site.wo).abs().min(1.0);
+        if cos == 0.0 {
+            return;
+        }
+        let one = fresnel::dielectric(cos, self.eta).0;
+        let both = 2.0 * one / (1.0 + one);
+        let mirror = Mirror {
+            reflectance: site.spectrum(self.reflectance) * both,
+        };
+        into.push(Scatter::Mirror(mirror), frame, weight, weight * both);
+        into.pass(
+            site.spectrum(self.transmittance) * (weight * (1.0 - both)),
+            weight * (1.0 - both),
+        );
+    }
+}
