@@ -79,46 +79,23 @@ impl FilmSettings {
         let offset = |name| extent(params, name, 0, 0);
         let crop_offset = UVec2::new(offset("crop_offset_x"), offset("crop_offset_y"));
         let crop_size = UVec2::new(side("crop_width", size.x), side("crop_height", size.y));
-        for (axis, end, whole) in [
-            ("x", crop_offset.x + crop_size.x, size.x),
-            ("y", crop_offset.y + crop_size.y, size.y),
-        ] {
-            if end > whole {
-                let names = match axis {
-                    "x" => ["crop_width", "crop_offset_x"],
-                    _ => ["crop_height", "crop_offset_y"],
-                };
-                let given = if params.has(names[0]) {
-                    names[0]
-                } else {
-                    names[1]
-                };
-                params.error_at(
-                    given,
-                    format!(
-                        "the crop window ends at {axis} = {end}, beyond the film, which ends at \
-                         {axis} = {whole}"
-                    ),
-                );
+        let end = crop_offset + crop_size;
+        check_end(params, ["crop_width", "crop_offset_x"], "x", end.x, size.x);
+        check_end(params, ["crop_height", "crop_offset_y"], "y", end.y, size.y);
+        let whole = Self::uncropped(params, size);
+        if end.cmple(size).all() {
+            Self {
+                crop_offset,
+                crop_size,
+                ..whole
             }
-        }
-        if params.diagnostics.has_errors() {
-            // Whatever was wrong has been reported; a film that is too large must not be built.
-            return Self {
-                crop_offset: UVec2::ZERO,
-                crop_size: size,
-                ..Self::rest(params, size)
-            };
-        }
-        Self {
-            crop_offset,
-            crop_size,
-            ..Self::rest(params, size)
+        } else {
+            whole
         }
     }
 
     /// All but the crop.
-    fn rest(params: &Params<'_>, size: UVec2) -> Self {
+    fn uncropped(params: &Params<'_>, size: UVec2) -> Self {
         let names = PixelFormat::ALL.map(|(name, _)| name);
         let name = params.choice("pixel_format", PixelFormat::default().name(), &names);
         let pixel_format = PixelFormat::ALL
@@ -155,6 +132,19 @@ impl FilmSettings {
             file_format,
             filter,
         }
+    }
+}
+
+/// Reports a crop that ends beyond the film, at the first of these parameters that is given.
+fn check_end(params: &Params<'_>, names: [&str; 2], axis: &str, end: u32, whole: u32) {
+    if end > whole {
+        let given = if params.has(names[0]) {
+            names[0]
+        } else {
+            names[1]
+        };
+        let message = format!("the crop ends at {axis} = {end}, but the film at {axis} = {whole}");
+        params.error_at(given, message);
     }
 }
 
