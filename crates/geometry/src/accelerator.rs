@@ -1,0 +1,161 @@
+//! Accelerators: which primitives may a ray hit?
+//!
+//! An accelerator knows triangles, which it intersects itself in [`Block`]s of eight, and
+//! *others*: anything with a box and a primitive number, for which it calls back. It returns the
+//! nearest hit by the total order of [`Nearest`], so every accelerator gives the same bits.
+
+pub(crate) mod block;
+mod linear;
+
+use crate::nearest::Nearest;
+use crate::probe::Probe;
+use block::Block;
+use glam::Vec3;
+use linear::Linear;
+
+/// Which accelerator to build.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum AcceleratorKind {
+    /// Every ray is tested against everything: slow, and obviously right.
+    Linear,
+    /// A bounding volume hierarchy with eight children per node.
+    #[default]
+    Wide,
+}
+
+/// An axis-parallel box.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Bounds {
+    /// Lower corner.
+    pub min: Vec3,
+    /// Upper corner.
+    pub max: Vec3,
+}
+
+impl Bounds {
+    /// The box around nothing.
+    pub const EMPTY: Self = Self {
+        min: Vec3::INFINITY,
+        max: Vec3::NEG_INFINITY,
+    };
+
+    /// The smallest box around points.
+    #[inline]
+    pub fn around(points: &[Vec3]) -> Self {
+        points.iter().fold(Self::EMPTY, |b, &p| Self {
+            min: b.min.min(p),
+            max: b.max.max(p),
+        })
+    }
+
+    /// The smallest box around both.
+    #[inline]
+    pub fn union(self, other: Self) -> Self {
+        Self {
+            min: self.min.min(other.min),
+            max: self.max.max(other.max),
+        }
+    }
+
+    /// Whether there is nothing in it.
+    #[inline]
+    pub fn is_empty(&self) -> bool {
+        !(self.min.cmple(self.max).all())
+    }
+
+    /// The point in the middle; the origin for the empty box.
+    pub fn center(&self) -> Vec3 {
+        if self.is_empty() {
+            Vec3::ZERO
+        } else {
+            (self.min.as_dvec3() * 0.5 + self.max.as_dvec3() * 0.5).as_vec3()
+        }
+    }
+
+    /// The largest magnitude of a coordinate; 0 for the empty box.
+    pub fn extent(&self) -> f32 {
+        if self.is_empty() {
+            0.0
+        } else {
+            self.min.abs().max(self.max.abs()).max_element()
+        }
+    }
+}
+
+/// What an accelerator is built from: primitives numbered from 0, triangles and others.
+pub(crate) trait Primitives: Sync {
+    /// Number of primitives.
+    fn len(&self) -> usize;
+    /// The corners of a triangle; `None` for anything else.
+    fn triangle(&self, primitive: u32) -> Option<[Vec3; 3]>;
+    /// The box of a primitive that is not a triangle.
+    fn bounds(&self, primitive: u32) -> Bounds;
+}
+
+/// How an accelerator intersects what is not a triangle.
+pub(crate) trait Others {
+    /// Notes the nearest hit of `primitive`, if it wins over what is known.
+    fn intersect(&self, primitive: u32, probe: &Probe, nearest: &mut Nearest);
+    /// Whether the ray hits `primitive` before `t_max`.
+    fn occludes(&self, primitive: u32, probe: &Probe, t_max: f32) -> bool;
+}
+
+/// Whether a triangle has any area. One without is not part of any surface: rounding alone would
+/// decide whether a ray hits it.
+#[inline]
+pub(crate) fn has_area(corners: &[Vec3; 3]) -> bool {
+    let [a, b, c] = corners.map(|p| p.as_dvec3());
+    (b - a).cross(c - a).length_squared() > 0.0
+}
+
+/// An accelerator.
+#[derive(Debug)]
+pub(crate) enum Accelerator {
+    Linear(Linear),
+}
+
+impl Accelerator {
+    /// Builds an accelerator over all primitives but triangles without area.
+    pub(crate) fn build(kind: AcceleratorKind, primitives: &impl Primitives) -> Self {
+        match kind {
+            AcceleratorKind::Linear | AcceleratorKind::Wide => {
+                Self::Linear(Linear::build(primitives))
+            }
+        }
+    }
+
+    /// Notes the nearest hit, if it wins over what is known.
+    #[inline(always)]
+    pub(crate) fn intersect(&self, probe: &Probe, others: &impl Others, nearest: &mut Nearest) {
+        match self {
+            Self::Linear(linear) => linear.intersect(probe, others, nearest),
+        }
+    }
+
+    /// Whether anything is hit before `t_max`.
+    #[inline(always)]
+    pub(crate) fn occluded(&self, probe: &Probe, others: &impl Others, t_max: f32) -> bool {
+        match self {
+            Self::Linear(linear) => linear.occluded(probe, others, t_max),
+        }
+    }
+
+    /// Number of nodes.
+    pub(crate) fn nodes(&self) -> usize {
+        match self {
+            Self::Linear(_) => 0,
+        }
+    }
+
+    /// Memory held (bytes).
+    pub(crate) fn bytes(&self) -> usize {
+        match self {
+            Self::Linear(linear) => linear.bytes(),
+        }
+    }
+}
+
+/// Memory of blocks (bytes).
+fn block_bytes(blocks: &[Block]) -> usize {
+    size_of_val(blocks)
+}

@@ -1,0 +1,57 @@
+//! No acceleration: every ray is tested against every primitive. The oracle of the others.
+
+use super::block::{Block, LANES};
+use super::{Others, Primitives, block_bytes, has_area};
+use crate::nearest::Nearest;
+use crate::probe::Probe;
+
+/// All primitives in their order.
+#[derive(Debug)]
+pub(crate) struct Linear {
+    blocks: Vec<Block>,
+    others: Vec<u32>,
+}
+
+impl Linear {
+    pub(crate) fn build(primitives: &impl Primitives) -> Self {
+        let mut triangles = Vec::new();
+        let mut others = Vec::new();
+        for primitive in 0..primitives.len() as u32 {
+            match primitives.triangle(primitive) {
+                Some(corners) if has_area(&corners) => triangles.push((corners, primitive)),
+                Some(_) => {}
+                None => others.push(primitive),
+            }
+        }
+        Self {
+            blocks: triangles
+                .chunks(LANES)
+                .map(|chunk| Block::new(chunk.iter().copied()))
+                .collect(),
+            others,
+        }
+    }
+
+    #[inline]
+    pub(crate) fn intersect(&self, probe: &Probe, others: &impl Others, nearest: &mut Nearest) {
+        for block in &self.blocks {
+            block.intersect(probe, nearest);
+        }
+        for &primitive in &self.others {
+            others.intersect(primitive, probe, nearest);
+        }
+    }
+
+    #[inline]
+    pub(crate) fn occluded(&self, probe: &Probe, others: &impl Others, t_max: f32) -> bool {
+        self.blocks.iter().any(|block| block.occludes(probe, t_max))
+            || self
+                .others
+                .iter()
+                .any(|&primitive| others.occludes(primitive, probe, t_max))
+    }
+
+    pub(crate) fn bytes(&self) -> usize {
+        block_bytes(&self.blocks)
+    }
+}

@@ -1,0 +1,170 @@
+//! Putting a geometry together.
+
+use crate::accelerator::{Accelerator, AcceleratorKind, Bounds};
+use crate::geometry::{Attachment, Geometry, Group, Instance};
+use crate::placement::Placement;
+use crate::scope::{Contents, Scope, Thing};
+use crate::shapes::Shape;
+use etalon_transport::{InstanceId, LightId, MaterialId, ShapeId};
+use glam::DVec3;
+use rayon::prelude::*;
+
+/// A group of shapes that instances place.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub struct GroupId(pub u32);
+
+/// Collects shapes, groups and instances.
+///
+/// Hits at equal distance are decided by the order in which things were added: shapes first,
+/// then instances.
+#[derive(Debug, Default)]
+pub struct GeometryBuilder {
+    shapes: Vec<Shape>,
+    attachments: Vec<Attachment>,
+    world: Vec<ShapeId>,
+    groups: Vec<Vec<ShapeId>>,
+    instances: Vec<(GroupId, Placement)>,
+}
+
+impl GeometryBuilder {
+    /// Nothing yet.
+    pub fn new() -> Self {
+        Self::default()
+    }
+
+    fn push(&mut self, shape: Shape, material: MaterialId, light: LightId) -> ShapeId {
+        let id = ShapeId(self.shapes.len() as u32);
+        self.shapes.push(shape);
+        self.attachments.push(Attachment { material, light });
+        id
+    }
+
+    /// Adds a shape to the world.
+    pub fn add_shape(&mut self, shape: Shape, material: MaterialId, light: LightId) -> ShapeId {
+        let id = self.push(shape, material, light);
+        self.world.push(id);
+        id
+    }
+
+    /// Sets the light that a shape is, where lights are numbered after shapes.
+    pub fn set_light(&mut self, shape: ShapeId, light: LightId) {
+        self.attachments[shape.0 as usize].light = light;
+    }
+
+    /// A shape that was added.
+    pub fn shape(&self, shape: ShapeId) -> &Shape {
+        &self.shapes[shape.0 as usize]
+    }
+
+    /// Adds a group of shapes, which is only seen through instances. Its shapes cannot be lights.
+    pub fn add_group(&mut self, shapes: impl IntoIterator<Item = (Shape, MaterialId)>) -> GroupId {
+        let members = shapes
+            .into_iter()
+            .map(|(shape, material)| self.push(shape, material, LightId::NONE))
+            .collect();
+        self.groups.push(members);
+        GroupId(self.groups.len() as u32 - 1)
+    }
+
+    /// Places a group in the world.
+    pub fn add_instance(&mut self, group: GroupId, placement: Placement) -> InstanceId {
+        self.instances.push((group, placement));
+        InstanceId(self.instances.len() as u32 - 1)
+    }
+
+    /// Builds the accelerators.
+    pub fn build(self) -> Geometry {
+        self.build_with(AcceleratorKind::default())
+    }
+
+    /// Builds accelerators of a certain kind.
+    pub fn build_with(self, kind: AcceleratorKind) -> Geometry {
+        let Self {
+            shapes,
+            attachments,
+            world,
+            groups,
+            instances,
+        } = self;
+        let scope_of = |members: &[ShapeId]| {
+            let mut scope = Scope::default();
+            for &id in members {
+                let shape = &shapes[id.0 as usize];
+                let primitives = shape.mesh().map_or(1, |m| m.triangle_count() as u32);
+                scope.add(Thing::Shape(id), primitives, shape.bounds());
+            }
+            scope
+        };
+        let build = |scope: &Scope, instances: &[Bounds]| -> Accelerator {
+            Contents {
+                scope,
+                shapes: &shapes,
+                instances,
+            }
+            .build(kind)
+        };
+        let groups: Vec<Group> = groups
+            .par_iter()
+            .map(|members| {
+                let scope = scope_of(members);
+                let accelerator = build(&scope, &[]);
+                Group { scope, accelerator }
+            })
+            .collect();
+        let boxes: Vec<Bounds> = instances
+            .iter()
+            .map(|(group, placement)| {
+                placed_bounds(groups[group.0 as usize].scope.bounds, placement)
+            })
+            .collect();
+        let mut scope = scope_of(&world);
+        for (index, bounds) in boxes.iter().enumerate() {
+            if !bounds.is_empty() {
+                scope.add(Thing::Instance(InstanceId(index as u32)), 1, *bounds);
+            }
+        }
+        let accelerator = build(&scope, &boxes);
+        for (shape, attachment) in shapes.iter().zip(&attachments) {
+            if attachment.light.is_some() {
+                shape.prepare_sampling();
+            }
+        }
+        Geometry {
+            shapes,
+            attachments,
+            groups,
+            instances: instances
+                .into_iter()
+                .map(|(group, placement)| Instance { group, placement })
+                .collect(),
+            world: Group { scope, accelerator },
+        }
+    }
+}
+
+/// The box around the image of a box, widened for the rounding of rays taken into the instance.
+fn placed_bounds(bounds: Bounds, placement: &Placement) -> Bounds {
+    if bounds.is_empty() {
+        return Bounds::EMPTY;
+    }
+    let (min, max) = (bounds.min.as_dvec3(), bounds.max.as_dvec3());
+    let half = (max - min) * 0.5 + 1e-6 * min.abs().max(max.abs());
+    let m = placement.linear();
+    let reach = m.x_axis.abs() * half.x + m.y_axis.abs() * half.y + m.z_axis.abs() * half.z;
+    let center = placement.point((min + max) * 0.5);
+    let outward = |v: DVec3, up: bool| {
+        let round = |x: f64| {
+            let y = x as f32;
+            match (up, f64::from(y)) {
+                (true, z) if z < x => y.next_up(),
+                (false, z) if z > x => y.next_down(),
+                _ => y,
+            }
+        };
+        glam::Vec3::new(round(v.x), round(v.y), round(v.z))
+    };
+    Bounds {
+        min: outward(center - reach, false),
+        max: outward(center + reach, true),
+    }
+}

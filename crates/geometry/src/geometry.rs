@@ -1,0 +1,303 @@
+//! All surfaces of a scene: what a ray hits, and what is known of the point it hits.
+
+use crate::accelerator::{Accelerator, Bounds, Others};
+use crate::builder::GroupId;
+use crate::nearest::Nearest;
+use crate::placement::Placement;
+use crate::probe::Probe;
+use crate::scope::{GroupOthers, Scope, Thing, intersect_solid, occludes_solid};
+use crate::shapes::{Sampled, Shape};
+use crate::surface::Owner;
+use etalon_transport::{
+    Hit, InstanceId, LightId, MaterialId, Ray, ShapeId, Shapes, SurfacePoint, Vertex,
+};
+use glam::{Vec2, Vec3};
+
+/// What belongs to a shape but is not geometry.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Attachment {
+    pub(crate) material: MaterialId,
+    pub(crate) light: LightId,
+}
+
+/// Shapes with an accelerator of their own.
+#[derive(Debug)]
+pub(crate) struct Group {
+    pub(crate) scope: Scope,
+    pub(crate) accelerator: Accelerator,
+}
+
+/// A placed group.
+#[derive(Debug)]
+pub(crate) struct Instance {
+    pub(crate) group: GroupId,
+    pub(crate) placement: Placement,
+}
+
+/// All surfaces of a scene, immutable; made by a [`GeometryBuilder`](crate::GeometryBuilder).
+#[derive(Debug)]
+pub struct Geometry {
+    pub(crate) shapes: Vec<Shape>,
+    pub(crate) attachments: Vec<Attachment>,
+    pub(crate) groups: Vec<Group>,
+    pub(crate) instances: Vec<Instance>,
+    pub(crate) world: Group,
+}
+
+/// How much geometry there is.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct GeometryStatistics {
+    /// Triangles stored.
+    pub triangles: usize,
+    /// Triangles seen, those of instances counted each time.
+    pub instanced_triangles: usize,
+    /// Shapes stored.
+    pub shapes: usize,
+    /// Instances.
+    pub instances: usize,
+    /// Nodes of all accelerators.
+    pub nodes: usize,
+    /// Memory of meshes and accelerators (bytes).
+    pub bytes: usize,
+}
+
+/// Intersects what is not a triangle of the world: smooth shapes and instances.
+struct WorldOthers<'a>(&'a Geometry);
+
+impl WorldOthers<'_> {
+    /// The instance's group and the ray in its space.
+    #[inline]
+    fn enter(&self, instance: InstanceId, probe: &Probe) -> (&Group, Probe) {
+        let Instance { group, placement } = &self.0.instances[instance.0 as usize];
+        let group = &self.0.groups[group.0 as usize];
+        let origin = placement.local_point(probe.origin.as_dvec3()).as_vec3();
+        // Not normalised, so that t means the same inside as outside.
+        let direction = placement.local_vector(probe.direction.as_dvec3()).as_vec3();
+        (group, group.scope.probe(origin, direction))
+    }
+
+    fn inside<'a>(&'a self, group: &'a Group) -> GroupOthers<'a> {
+        GroupOthers {
+            scope: &group.scope,
+            shapes: &self.0.shapes,
+        }
+    }
+}
+
+impl Others for WorldOthers<'_> {
+    #[inline]
+    fn intersect(&self, primitive: u32, probe: &Probe, nearest: &mut Nearest) {
+        match self.0.world.scope.locate(primitive).0 {
+            Thing::Shape(shape) => {
+                if let Some(solid) = self.0.shapes[shape.0 as usize].solid() {
+                    intersect_solid(solid, primitive, probe, nearest);
+                }
+            }
+            Thing::Instance(instance) => {
+                let (group, local) = self.enter(instance, probe);
+                let mut inside = nearest.inside(primitive);
+                group
+                    .accelerator
+                    .intersect(&local, &self.inside(group), &mut inside);
+                if inside.found {
+                    *nearest = Nearest {
+                        primitive,
+                        inner: inside.primitive,
+                        ..inside
+                    };
+                }
+            }
+        }
+    }
+
+    #[inline]
+    fn occludes(&self, primitive: u32, probe: &Probe, t_max: f32) -> bool {
+        match self.0.world.scope.locate(primitive).0 {
+            Thing::Shape(shape) => self.0.shapes[shape.0 as usize]
+                .solid()
+                .is_some_and(|solid| occludes_solid(solid, probe, t_max)),
+            Thing::Instance(instance) => {
+                let (group, local) = self.enter(instance, probe);
+                group
+                    .accelerator
+                    .occluded(&local, &self.inside(group), t_max)
+            }
+        }
+    }
+}
+
+impl Geometry {
+    /// The nearest surface along a ray, strictly between its ends.
+    #[inline]
+    pub fn intersect(&self, ray: &Ray) -> Option<Hit> {
+        let probe = self.world.scope.probe(ray.origin, ray.direction);
+        let mut nearest = Nearest::within(ray.t_max);
+        self.world
+            .accelerator
+            .intersect(&probe, &WorldOthers(self), &mut nearest);
+        nearest.found.then(|| self.hit(&nearest))
+    }
+
+    #[inline]
+    fn hit(&self, nearest: &Nearest) -> Hit {
+        let hit = |shape, primitive, instance| Hit {
+            t: nearest.t,
+            parameters: nearest.parameters,
+            shape,
+            primitive,
+            instance,
+        };
+        match self.world.scope.locate(nearest.primitive) {
+            (Thing::Shape(shape), primitive) => hit(shape, primitive, InstanceId::NONE),
+            (Thing::Instance(instance), _) => {
+                let group = self.instances[instance.0 as usize].group;
+                let scope = &self.groups[group.0 as usize].scope;
+                match scope.locate(nearest.inner) {
+                    (Thing::Shape(shape), primitive) => hit(shape, primitive, instance),
+                    (Thing::Instance(_), _) => unreachable!("groups hold shapes only"),
+                }
+            }
+        }
+    }
+
+    /// Whether anything lies strictly between the ends of a ray.
+    #[inline]
+    pub fn occluded(&self, ray: &Ray) -> bool {
+        let probe = self.world.scope.probe(ray.origin, ray.direction);
+        self.world
+            .accelerator
+            .occluded(&probe, &WorldOthers(self), ray.t_max)
+    }
+
+    fn owner(&self, shape: ShapeId, instance: InstanceId) -> Owner {
+        let Attachment { material, light } = self.attachments[shape.0 as usize];
+        Owner {
+            shape,
+            instance,
+            material,
+            light,
+        }
+    }
+
+    /// The differential geometry of a hit.
+    pub fn vertex(&self, ray: &Ray, hit: &Hit) -> Vertex {
+        let shape = &self.shapes[hit.shape.0 as usize];
+        let placement = hit
+            .instance
+            .is_some()
+            .then(|| &self.instances[hit.instance.0 as usize].placement);
+        let mut parameters = hit.parameters;
+        let surface = match (shape.mesh(), shape.solid()) {
+            (Some(mesh), _) => mesh.surface(hit.primitive, hit.parameters),
+            (None, Some(solid)) => {
+                let mut p = ray.origin.as_dvec3() + ray.direction.as_dvec3() * f64::from(hit.t);
+                if let Some(placement) = placement {
+                    p = placement.local_point(p);
+                }
+                let surface = solid.surface_near(p);
+                parameters = surface.uv;
+                surface
+            }
+            (None, None) => unreachable!("a shape is a mesh or a solid"),
+        };
+        let surface = placement.map_or(surface, |placement| surface.placed(placement));
+        let owner = self.owner(hit.shape, hit.instance);
+        Vertex {
+            t: hit.t,
+            time: ray.time,
+            ..surface.vertex(&owner, hit.primitive, parameters)
+        }
+    }
+
+    /// The box around everything; empty if there is nothing.
+    pub fn bounds(&self) -> Bounds {
+        self.world.scope.bounds
+    }
+
+    /// Centre and radius (m) of a sphere around everything, for lights at infinity; radius 0 if
+    /// there is nothing.
+    pub fn bounding_sphere(&self) -> (Vec3, f32) {
+        let bounds = self.bounds();
+        if bounds.is_empty() {
+            return (Vec3::ZERO, 0.0);
+        }
+        let center = bounds.center();
+        let radius = (bounds.max - center).max(center - bounds.min).length();
+        (center, radius * (1.0 + 4.0 * f32::EPSILON))
+    }
+
+    /// A shape.
+    pub fn shape(&self, shape: ShapeId) -> &Shape {
+        &self.shapes[shape.0 as usize]
+    }
+
+    /// How much there is.
+    pub fn statistics(&self) -> GeometryStatistics {
+        let triangles = |shape: &Shape| shape.mesh().map_or(0, |m| m.triangle_count());
+        let accelerators = || {
+            let groups = self.groups.iter().map(|g| &g.accelerator);
+            groups.chain([&self.world.accelerator])
+        };
+        let seen = |scope: &Scope| scope.count() as usize;
+        let instanced: usize = self
+            .instances
+            .iter()
+            .map(|i| seen(&self.groups[i.group.0 as usize].scope))
+            .sum();
+        let meshes: usize = self
+            .shapes
+            .iter()
+            .filter_map(Shape::mesh)
+            .map(|m| m.bytes())
+            .sum();
+        GeometryStatistics {
+            triangles: self.shapes.iter().map(triangles).sum(),
+            instanced_triangles: instanced,
+            shapes: self.shapes.len(),
+            instances: self.instances.len(),
+            nodes: accelerators().map(Accelerator::nodes).sum(),
+            bytes: meshes + accelerators().map(Accelerator::bytes).sum::<usize>(),
+        }
+    }
+
+    fn point(&self, shape: ShapeId, sampled: Sampled) -> SurfacePoint {
+        let owner = self.owner(shape, InstanceId::NONE);
+        SurfacePoint {
+            vertex: sampled
+                .surface
+                .vertex(&owner, sampled.primitive, sampled.parameters),
+            density: sampled.density,
+        }
+    }
+}
+
+impl Shapes for Geometry {
+    fn area(&self, shape: ShapeId) -> f32 {
+        self.shape(shape).area() as f32
+    }
+
+    fn sample_area(&self, shape: ShapeId, u: Vec2) -> SurfacePoint {
+        self.point(shape, self.shape(shape).sample_area(u))
+    }
+
+    fn sample_toward(&self, shape: ShapeId, from: Vec3, u: Vec2) -> Option<SurfacePoint> {
+        let sampled = self.shape(shape).sample_toward(from, u)?;
+        Some(self.point(shape, sampled))
+    }
+
+    fn density_toward(&self, shape: ShapeId, from: Vec3, vertex: &Vertex) -> f32 {
+        self.shape(shape).density_toward(from, vertex)
+    }
+
+    fn attribute(
+        &self,
+        shape: ShapeId,
+        name: &str,
+        primitive: u32,
+        parameters: Vec2,
+    ) -> Option<Vec3> {
+        self.shape(shape)
+            .mesh()?
+            .attribute(name, primitive, parameters)
+    }
+}

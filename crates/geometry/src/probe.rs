@@ -1,0 +1,78 @@
+//! A ray made ready for boxes and triangles.
+
+use glam::Vec3;
+
+/// A ray with all that the intersection tests derive from it, in the space of one accelerator.
+///
+/// **Triangles** (Woop, Benthin & Wald 2013, "Watertight Ray/Triangle Intersection", JCGT 2(1)):
+/// the largest component of the direction is the axis `k[2]`; shearing by `shear` along it takes
+/// the ray to the axis itself. Every corner is sheared in the same way whatever triangle asks, so
+/// that triangles which share an edge agree on which side of it the ray passes.
+///
+/// **Boxes**: `t = plane · inverse − scaled_origin`, where both are conservative, see
+/// [`Probe::new`].
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Probe {
+    pub(crate) origin: Vec3,
+    pub(crate) direction: Vec3,
+    /// Axes: two small ones, then the direction's largest.
+    pub(crate) k: [usize; 3],
+    /// d[k₀]/d[k₂], d[k₁]/d[k₂], 1/d[k₂].
+    pub(crate) shear: [f32; 3],
+    /// Triangles nearer than this (in t) are checked for rounding, see
+    /// [`Block`](crate::accelerator::block::Block).
+    pub(crate) near: f32,
+    /// 1 for a negative direction, 0 otherwise, per axis.
+    pub(crate) sign: [usize; 3],
+    /// 1/d, finite.
+    pub(crate) inverse: [f32; 3],
+    /// (o + e)/d for the planes that are entered and (o − e)/d for those that are left.
+    pub(crate) entered: [f32; 3],
+    pub(crate) left: [f32; 3],
+}
+
+impl Probe {
+    /// Prepares a ray for geometry whose coordinates are all at most `extent` in magnitude.
+    ///
+    /// The triangle test errs by at most 2ε|p − o| in each coordinate of a corner. Every box is
+    /// therefore widened by e = 4ε(extent + max|o|), which also covers the rounding of the box
+    /// test itself but for the relative error of 1/d, which the caller adds to the far side. A
+    /// component of the direction is never so small that t could overflow: e/d stays far beyond
+    /// any scene, so a ray in the plane of a box's face is inside of it.
+    #[inline]
+    pub(crate) fn new(origin: Vec3, direction: Vec3, extent: f32) -> Self {
+        let d = direction.to_array();
+        let size = direction.abs();
+        let z = if size.x >= size.y && size.x >= size.z {
+            0
+        } else if size.y >= size.z {
+            1
+        } else {
+            2
+        };
+        let (x, y) = ((z + 1) % 3, (z + 2) % 3);
+        let reach = extent + origin.abs().max_element();
+        let pad = 4.0 * f32::EPSILON * reach + f32::MIN_POSITIVE;
+        let largest = (1e37 / reach).min(1e37);
+        let mut probe = Self {
+            origin,
+            direction,
+            k: [x, y, z],
+            shear: [d[x] / d[z], d[y] / d[z], 1.0 / d[z]],
+            near: 256.0 * f32::EPSILON * origin.abs().max_element() / size[z],
+            sign: [0; 3],
+            inverse: [0.0; 3],
+            entered: [0.0; 3],
+            left: [0.0; 3],
+        };
+        for axis in 0..3 {
+            let inverse = (1.0 / d[axis]).clamp(-largest, largest);
+            let outward = pad.copysign(d[axis]);
+            probe.sign[axis] = usize::from(d[axis].is_sign_negative());
+            probe.inverse[axis] = inverse;
+            probe.entered[axis] = (origin[axis] + outward) * inverse;
+            probe.left[axis] = (origin[axis] - outward) * inverse;
+        }
+        probe
+    }
+}

@@ -1,0 +1,181 @@
+//! The things that one accelerator knows: the world's, or those of a group.
+
+use crate::accelerator::{Accelerator, AcceleratorKind, Bounds, Others, Primitives};
+use crate::nearest::Nearest;
+use crate::probe::Probe;
+use crate::shapes::Shape;
+use crate::shapes::solid::Solid;
+use etalon_transport::{InstanceId, ShapeId};
+use glam::Vec3;
+
+/// A run of consecutive primitives that belong together.
+#[derive(Clone, Copy, Debug)]
+struct Member {
+    first: u32,
+    thing: Thing,
+}
+
+/// What primitives may be.
+#[derive(Clone, Copy, Debug)]
+pub(crate) enum Thing {
+    /// A shape: its triangles, or one primitive if it is in one piece.
+    Shape(ShapeId),
+    /// An instance: one primitive.
+    Instance(InstanceId),
+}
+
+/// Numbers the primitives of shapes and instances, in the order in which they were added.
+#[derive(Debug, Default)]
+pub(crate) struct Scope {
+    members: Vec<Member>,
+    count: u32,
+    /// Box of everything.
+    pub(crate) bounds: Bounds,
+    /// The largest magnitude of a coordinate.
+    extent: f32,
+}
+
+impl Default for Bounds {
+    fn default() -> Self {
+        Self::EMPTY
+    }
+}
+
+impl Scope {
+    /// Adds a thing of so many primitives.
+    pub(crate) fn add(&mut self, thing: Thing, primitives: u32, bounds: Bounds) {
+        if primitives == 0 {
+            return;
+        }
+        self.members.push(Member {
+            first: self.count,
+            thing,
+        });
+        self.count = self
+            .count
+            .checked_add(primitives)
+            .expect("fewer than 2³² primitives");
+        self.bounds = self.bounds.union(bounds);
+        self.extent = self.bounds.extent();
+    }
+
+    /// Number of primitives.
+    pub(crate) fn count(&self) -> u32 {
+        self.count
+    }
+
+    /// Whose primitive it is, and its number there.
+    #[inline]
+    pub(crate) fn locate(&self, primitive: u32) -> (Thing, u32) {
+        let after = self.members.partition_point(|m| m.first <= primitive);
+        let member = self.members[after - 1];
+        (member.thing, primitive - member.first)
+    }
+
+    /// A ray ready for this scope's accelerator.
+    #[inline]
+    pub(crate) fn probe(&self, origin: Vec3, direction: Vec3) -> Probe {
+        Probe::new(origin, direction, self.extent)
+    }
+}
+
+/// A scope with the boxes of its instances, as an accelerator wants to see it.
+pub(crate) struct Contents<'a> {
+    pub(crate) scope: &'a Scope,
+    pub(crate) shapes: &'a [Shape],
+    pub(crate) instances: &'a [Bounds],
+}
+
+impl Contents<'_> {
+    pub(crate) fn build(&self, kind: AcceleratorKind) -> Accelerator {
+        Accelerator::build(kind, self)
+    }
+}
+
+impl Primitives for Contents<'_> {
+    fn len(&self) -> usize {
+        self.scope.count as usize
+    }
+
+    fn triangle(&self, primitive: u32) -> Option<[Vec3; 3]> {
+        match self.scope.locate(primitive) {
+            (Thing::Shape(shape), index) => {
+                let mesh = self.shapes[shape.0 as usize].mesh()?;
+                Some(mesh.corners(index))
+            }
+            (Thing::Instance(_), _) => None,
+        }
+    }
+
+    fn bounds(&self, primitive: u32) -> Bounds {
+        match self.scope.locate(primitive) {
+            (Thing::Shape(shape), index) => {
+                let shape = &self.shapes[shape.0 as usize];
+                match shape.mesh() {
+                    Some(mesh) => Bounds::around(&mesh.corners(index)),
+                    None => shape.bounds(),
+                }
+            }
+            (Thing::Instance(instance), _) => self.instances[instance.0 as usize],
+        }
+    }
+}
+
+/// Intersects a group's smooth shapes; a group has no instances.
+pub(crate) struct GroupOthers<'a> {
+    pub(crate) scope: &'a Scope,
+    pub(crate) shapes: &'a [Shape],
+}
+
+impl GroupOthers<'_> {
+    #[inline]
+    fn solid(&self, primitive: u32) -> Option<&dyn Solid> {
+        match self.scope.locate(primitive).0 {
+            Thing::Shape(shape) => self.shapes[shape.0 as usize].solid(),
+            Thing::Instance(_) => None,
+        }
+    }
+}
+
+impl Others for GroupOthers<'_> {
+    #[inline]
+    fn intersect(&self, primitive: u32, probe: &Probe, nearest: &mut Nearest) {
+        if let Some(solid) = self.solid(primitive) {
+            intersect_solid(solid, primitive, probe, nearest);
+        }
+    }
+
+    #[inline]
+    fn occludes(&self, primitive: u32, probe: &Probe, t_max: f32) -> bool {
+        self.solid(primitive)
+            .is_some_and(|solid| occludes_solid(solid, probe, t_max))
+    }
+}
+
+/// Notes the nearest crossing of a smooth shape, if it wins.
+#[inline]
+pub(crate) fn intersect_solid(
+    solid: &dyn Solid,
+    primitive: u32,
+    probe: &Probe,
+    nearest: &mut Nearest,
+) {
+    for t in solid.crossings(probe.origin.as_dvec3(), probe.direction.as_dvec3()) {
+        let t = t as f32;
+        if t > 0.0 {
+            if nearest.loses_to(t, primitive) {
+                nearest.set(t, primitive, glam::Vec2::ZERO);
+            }
+            return;
+        }
+    }
+}
+
+/// Whether a smooth shape is crossed before `t_max`.
+#[inline]
+pub(crate) fn occludes_solid(solid: &dyn Solid, probe: &Probe, t_max: f32) -> bool {
+    solid
+        .crossings(probe.origin.as_dvec3(), probe.direction.as_dvec3())
+        .into_iter()
+        .any(|t| t > 0.0 && (t as f32) < t_max)
+}

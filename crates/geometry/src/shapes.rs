@@ -1,0 +1,284 @@
+//! Every shape, and the one list through which a plugin's name finds its shape.
+
+pub mod cube;
+pub mod cylinder;
+pub mod disk;
+mod file_mesh;
+pub mod mesh;
+pub mod rectangle;
+pub(crate) mod solid;
+pub mod sphere;
+mod vertex_normals;
+
+use crate::accelerator::Bounds;
+use crate::surface::Surface;
+use cylinder::Cylinder;
+use disk::Disk;
+use etalon_params::Params;
+use etalon_sampling::warps::{SphericalTriangle, square_to_triangle};
+use etalon_transport::{Build, Vertex};
+use glam::{DVec3, Vec2, Vec3};
+use mesh::Mesh;
+use rectangle::Rectangle;
+use solid::Solid;
+use sphere::Sphere;
+use vertex_normals::vertex_normals;
+
+/// A shape in the world (or in the space of the group it belongs to).
+#[derive(Debug)]
+pub enum Shape {
+    /// Triangles.
+    Mesh(Mesh),
+    /// A rectangle.
+    Rectangle(Rectangle),
+    /// A disk.
+    Disk(Disk),
+    /// A sphere.
+    Sphere(Sphere),
+    /// An open cylinder.
+    Cylinder(Cylinder),
+}
+
+type FromParams = fn(&Params<'_>, &mut dyn Build) -> Option<Shape>;
+
+/// The list of shape plugins.
+const PLUGINS: [(&str, FromParams); 7] = [
+    ("obj", |p, b| file_mesh::obj(p, b).map(Shape::Mesh)),
+    ("ply", |p, b| file_mesh::ply(p, b).map(Shape::Mesh)),
+    ("cube", |p, _| cube::from_params(p).map(Shape::Mesh)),
+    ("rectangle", |p, _| {
+        Rectangle::from_params(p).map(Shape::Rectangle)
+    }),
+    ("disk", |p, _| Disk::from_params(p).map(Shape::Disk)),
+    ("sphere", |p, _| Sphere::from_params(p).map(Shape::Sphere)),
+    ("cylinder", |p, _| {
+        Cylinder::from_params(p).map(Shape::Cylinder)
+    }),
+];
+
+/// Parameters of every shape that cannot affect pixels.
+const IGNORED: [&str; 1] = ["silhouette_sampling_weight"];
+
+/// A point sampled on a shape.
+pub(crate) struct Sampled {
+    pub(crate) surface: Surface,
+    pub(crate) primitive: u32,
+    pub(crate) parameters: Vec2,
+    /// Per unit area (m⁻²) or solid angle (sr⁻¹), as the function that returns it says.
+    pub(crate) density: f32,
+}
+
+impl Shape {
+    /// The names of the shape plugins.
+    pub fn plugins() -> impl Iterator<Item = &'static str> {
+        PLUGINS.iter().map(|(name, _)| *name)
+    }
+
+    /// Makes a shape from its description. Only the shape's own parameters are read; nested
+    /// materials, lights and media are the caller's, as is [`Params::finish`]. After a mistake,
+    /// which has been recorded, or if the plugin is not a shape of this list, `None`.
+    pub fn from_params(params: &Params<'_>, build: &mut dyn Build) -> Option<Self> {
+        params.ignore(&IGNORED);
+        let name = params.node.plugin.value.as_str();
+        let (_, from_params) = PLUGINS.iter().find(|(plugin, _)| *plugin == name)?;
+        from_params(params, build)
+    }
+
+    /// The triangles, if it is made of triangles.
+    #[inline]
+    pub(crate) fn mesh(&self) -> Option<&Mesh> {
+        match self {
+            Self::Mesh(mesh) => Some(mesh),
+            Self::Rectangle(rectangle) => Some(rectangle.mesh()),
+            _ => None,
+        }
+    }
+
+    /// The smooth shape, if it is one.
+    #[inline]
+    pub(crate) fn solid(&self) -> Option<&dyn Solid> {
+        match self {
+            Self::Disk(disk) => Some(disk),
+            Self::Sphere(sphere) => Some(sphere),
+            Self::Cylinder(cylinder) => Some(cylinder),
+            Self::Mesh(_) | Self::Rectangle(_) => None,
+        }
+    }
+
+    /// The smallest box around it.
+    pub fn bounds(&self) -> Bounds {
+        match (self.mesh(), self.solid()) {
+            (Some(mesh), _) => mesh.bounds(),
+            (None, Some(solid)) => {
+                // A box of rounded corners must still hold the shape.
+                let [min, max] = solid.bounds();
+                let slack = 1e-6 * min.abs().max(max.abs());
+                Bounds {
+                    min: (min - slack).as_vec3(),
+                    max: (max + slack).as_vec3(),
+                }
+            }
+            (None, None) => Bounds::EMPTY,
+        }
+    }
+
+    /// Makes now what sampling would make when first asked.
+    pub(crate) fn prepare_sampling(&self) {
+        if let Self::Mesh(mesh) = self {
+            mesh.by_area();
+        }
+    }
+
+    /// Surface area (m²).
+    pub fn area(&self) -> f64 {
+        match self {
+            Self::Mesh(mesh) => mesh.area(),
+            Self::Rectangle(rectangle) => rectangle.area(),
+            Self::Disk(disk) => disk.area(),
+            Self::Sphere(sphere) => sphere.area(),
+            Self::Cylinder(cylinder) => cylinder.area(),
+        }
+    }
+
+    /// A point chosen uniformly by area, with its density per unit area. A mesh without area
+    /// gives the origin, with density 0.
+    pub(crate) fn sample_area(&self, u: Vec2) -> Sampled {
+        let density = (1.0 / self.area()) as f32;
+        let smooth = |surface: Surface| Sampled {
+            surface,
+            primitive: 0,
+            parameters: surface.uv,
+            density,
+        };
+        match self {
+            Self::Mesh(mesh) => {
+                let Some(by_area) = mesh.by_area() else {
+                    return Sampled {
+                        surface: Surface::exact(
+                            DVec3::ZERO,
+                            DVec3::Z,
+                            Vec2::ZERO,
+                            DVec3::X,
+                            DVec3::Y,
+                        ),
+                        primitive: 0,
+                        parameters: Vec2::ZERO,
+                        density: 0.0,
+                    };
+                };
+                let choice = by_area.sample_fine(u);
+                let parameters = square_to_triangle(Vec2::new(choice.rest, u.y));
+                let primitive = choice.index as u32;
+                Sampled {
+                    surface: mesh.surface(primitive, parameters),
+                    primitive,
+                    parameters,
+                    density,
+                }
+            }
+            Self::Rectangle(rectangle) => {
+                let (surface, primitive, parameters) = rectangle.at(u);
+                Sampled {
+                    surface,
+                    primitive,
+                    parameters,
+                    density,
+                }
+            }
+            Self::Disk(disk) => smooth(disk.sample_area(u)),
+            Self::Sphere(sphere) => smooth(sphere.sample_area(u)),
+            Self::Cylinder(cylinder) => smooth(cylinder.sample_area(u)),
+        }
+    }
+
+    /// A point chosen for an observer at `from`, with its density per unit solid angle. `None`
+    /// if the chosen point is seen edge-on or the shape has no area.
+    pub(crate) fn sample_toward(&self, from: Vec3, u: Vec2) -> Option<Sampled> {
+        let sampled = match self {
+            Self::Sphere(sphere) => {
+                let (surface, density) = sphere.sample_toward(from, u);
+                Sampled {
+                    surface,
+                    primitive: 0,
+                    parameters: surface.uv,
+                    density,
+                }
+            }
+            Self::Rectangle(rectangle) => match rectangle.seen_from(from) {
+                Some(seen) => {
+                    let (surface, primitive, parameters) = rectangle.at(seen.sample_position(u));
+                    Sampled {
+                        surface,
+                        primitive,
+                        parameters,
+                        density: seen.density(),
+                    }
+                }
+                None => self.sample_area_toward(from, u),
+            },
+            Self::Mesh(mesh) => {
+                let choice = mesh.by_area()?.sample_fine(u);
+                let primitive = choice.index as u32;
+                let u = Vec2::new(choice.rest, u.y);
+                let (parameters, density) = match seen_triangle(mesh, primitive, from) {
+                    Some(seen) => (
+                        seen.barycentric(seen.sample(u)),
+                        Some(choice.probability * seen.density()),
+                    ),
+                    None => (square_to_triangle(u), None),
+                };
+                let surface = mesh.surface(primitive, parameters);
+                let density = density.unwrap_or_else(|| {
+                    area_density_toward(mesh.area(), from, surface.position, surface.normal)
+                });
+                Sampled {
+                    surface,
+                    primitive,
+                    parameters,
+                    density,
+                }
+            }
+            Self::Disk(_) | Self::Cylinder(_) => self.sample_area_toward(from, u),
+        };
+        (sampled.density > 0.0 && sampled.density.is_finite()).then_some(sampled)
+    }
+
+    /// [`Shape::sample_area`], with the density per unit solid angle at `from`.
+    fn sample_area_toward(&self, from: Vec3, u: Vec2) -> Sampled {
+        let mut sampled = self.sample_area(u);
+        let Surface {
+            position, normal, ..
+        } = sampled.surface;
+        sampled.density = area_density_toward(self.area(), from, position, normal);
+        sampled
+    }
+
+    /// The density per unit solid angle with which [`Shape::sample_toward`] from `from` chooses
+    /// `at`, a point of this shape.
+    pub(crate) fn density_toward(&self, from: Vec3, at: &Vertex) -> f32 {
+        let seen = match self {
+            Self::Sphere(sphere) => return sphere.density_toward(from, at.position, at.normal),
+            Self::Rectangle(rectangle) => rectangle.seen_from(from).map(|seen| seen.density()),
+            Self::Mesh(mesh) => seen_triangle(mesh, at.primitive, from).and_then(|seen| {
+                let chosen = mesh.by_area()?.probability(at.primitive as usize);
+                Some(chosen * seen.density())
+            }),
+            Self::Disk(_) | Self::Cylinder(_) => None,
+        };
+        let density =
+            seen.unwrap_or_else(|| area_density_toward(self.area(), from, at.position, at.normal));
+        if density.is_finite() { density } else { 0.0 }
+    }
+}
+
+fn seen_triangle(mesh: &Mesh, primitive: u32, from: Vec3) -> Option<SphericalTriangle> {
+    SphericalTriangle::new(mesh.corners(primitive).map(|p| p - from))
+}
+
+/// Uniform density by area as seen from a point: r² / (A |cos θ|), infinite edge-on.
+pub(crate) fn area_density_toward(area: f64, from: Vec3, position: Vec3, normal: Vec3) -> f32 {
+    let to = position - from;
+    let distance_squared = to.length_squared();
+    let cos_times_distance = normal.dot(to).abs();
+    distance_squared * distance_squared.sqrt() / (area as f32 * cos_times_distance)
+}

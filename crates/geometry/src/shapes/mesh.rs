@@ -1,0 +1,282 @@
+//! A triangle mesh in the world.
+//!
+//! ```text
+//! p(b₁, b₂) = (1 − b₁ − b₂) p₀ + b₁ p₁ + b₂ p₂
+//! ```
+//!
+//! Normals follow Mitsuba 3: a file's vertex normals are taken along by `to_world` (as
+//! covectors); if it has none, they are computed in the world, weighted by the angle at the
+//! vertex (Thürmer & Wüthrich 1998); `face_normals` discards both. The geometric normal is the
+//! one of the two perpendiculars that lies on the shading normal's side, so that "outside" never
+//! depends on the winding of a file that has normals.
+//!
+//! Texture coordinates give ∂p/∂u and ∂p/∂v; without them (u, v) = (b₁, b₂).
+
+use crate::accelerator::Bounds;
+use crate::placement::Placement;
+use crate::surface::Surface;
+use etalon_math::{Frame, gamma};
+use etalon_sampling::discrete::AliasTable;
+use etalon_transport::{Attribute, MeshData};
+use glam::{DVec3, Vec2, Vec3};
+use std::sync::OnceLock;
+
+/// How a mesh is read.
+#[derive(Clone, Copy, Debug)]
+pub struct MeshOptions {
+    /// Where it stands.
+    pub placement: Placement,
+    /// Shade with the triangles' own normals.
+    pub face_normals: bool,
+    /// Turn all normals around.
+    pub flip_normals: bool,
+    /// Replace v by 1 − v.
+    pub flip_tex_coords: bool,
+}
+
+impl Default for MeshOptions {
+    fn default() -> Self {
+        Self {
+            placement: Placement::IDENTITY,
+            face_normals: false,
+            flip_normals: false,
+            flip_tex_coords: false,
+        }
+    }
+}
+
+/// A triangle mesh in the world.
+#[derive(Debug)]
+pub struct Mesh {
+    positions: Vec<Vec3>,
+    /// Unit vertex normals, turned already; empty for face normals.
+    normals: Vec<Vec3>,
+    uvs: Vec<Vec2>,
+    triangles: Vec<[u32; 3]>,
+    attributes: Vec<Attribute>,
+    /// Whether the outside is where (p₁ − p₀) × (p₂ − p₀) does *not* point, if there are no
+    /// vertex normals.
+    reversed: bool,
+    by_area: OnceLock<Option<AliasTable>>,
+}
+
+impl Mesh {
+    /// Places a mesh; says what is wrong with data that no surface can have.
+    pub fn new(mut data: MeshData, options: &MeshOptions) -> Result<Self, String> {
+        check(&data)?;
+        let placement = &options.placement;
+        if *placement != Placement::IDENTITY {
+            for p in &mut data.positions {
+                *p = placement.point(p.as_dvec3()).as_vec3();
+                if !p.is_finite() {
+                    return Err("`to_world` takes a vertex out of the range of numbers".into());
+                }
+            }
+        }
+        let mut normals = core::mem::take(&mut data.normals);
+        if options.face_normals {
+            normals = Vec::new();
+        } else if normals.is_empty() {
+            normals = super::vertex_normals(&data.positions, &data.triangles);
+        } else {
+            for n in &mut normals {
+                let placed = placement.normal(n.as_dvec3());
+                *n = placed.try_normalize().unwrap_or(DVec3::ZERO).as_vec3();
+            }
+        }
+        if options.flip_normals {
+            normals.iter_mut().for_each(|n| *n = -*n);
+        }
+        if options.flip_tex_coords {
+            data.uvs.iter_mut().for_each(|uv| uv.y = 1.0 - uv.y);
+        }
+        Ok(Self {
+            positions: data.positions,
+            normals,
+            uvs: data.uvs,
+            triangles: data.triangles,
+            attributes: data.attributes,
+            reversed: options.flip_normals,
+            by_area: OnceLock::new(),
+        })
+    }
+
+    /// A mesh with face normals whose outside is given, not wound.
+    pub(crate) fn outside(mut self, against_winding: bool) -> Self {
+        self.reversed = against_winding;
+        self
+    }
+
+    /// Number of triangles.
+    #[inline]
+    pub fn triangle_count(&self) -> usize {
+        self.triangles.len()
+    }
+
+    /// The smallest box around it.
+    pub fn bounds(&self) -> Bounds {
+        Bounds::around(&self.positions)
+    }
+
+    /// Memory held (bytes).
+    pub fn bytes(&self) -> usize {
+        let attributes: usize = self.attributes.iter().map(|a| 4 * a.values.len()).sum();
+        12 * (self.positions.len() + self.normals.len() + self.triangles.len())
+            + 8 * self.uvs.len()
+            + attributes
+    }
+
+    /// The corners of a triangle.
+    #[inline]
+    pub fn corners(&self, primitive: u32) -> [Vec3; 3] {
+        self.triangles[primitive as usize].map(|i| self.positions[i as usize])
+    }
+
+    fn triangle_area(corners: [Vec3; 3]) -> f64 {
+        let [p0, p1, p2] = corners.map(|p| p.as_dvec3());
+        0.5 * (p1 - p0).cross(p2 - p0).length()
+    }
+
+    /// Surface area (m²).
+    pub fn area(&self) -> f64 {
+        self.by_area().map_or(0.0, AliasTable::total)
+    }
+
+    /// The triangles weighted by area; `None` if there is no area. Made when first asked for.
+    pub(crate) fn by_area(&self) -> Option<&AliasTable> {
+        self.by_area
+            .get_or_init(|| {
+                let areas: Vec<f64> = (0..self.triangles.len() as u32)
+                    .map(|i| Self::triangle_area(self.corners(i)))
+                    .collect();
+                AliasTable::new(&areas).ok()
+            })
+            .as_ref()
+    }
+
+    /// The surface point with barycentric coordinates `b` of a triangle's second and third
+    /// corner.
+    pub(crate) fn surface(&self, primitive: u32, b: Vec2) -> Surface {
+        let triangle = self.triangles[primitive as usize];
+        let [p0, p1, p2] = triangle.map(|i| self.positions[i as usize]);
+        let b0 = 1.0 - b.x - b.y;
+        let (e1, e2) = (p1.as_dvec3() - p0.as_dvec3(), p2.as_dvec3() - p0.as_dvec3());
+        let (b1, b2) = (f64::from(b.x), f64::from(b.y));
+        let position = (p0.as_dvec3() + e1 * b1 + e2 * b2).as_vec3();
+        // The position itself is rounded once; the rest is for the next ray's intersection,
+        // which rounds differences to the corners.
+        let error = (p0.abs() * b0.abs() + p1.abs() * b.x.abs() + p2.abs() * b.y.abs())
+            .max(position.abs())
+            * gamma(4)
+            + f32::MIN_POSITIVE;
+        let cross = e1.cross(e2).normalize().as_vec3();
+        let mut normal = if self.reversed { -cross } else { cross };
+        let mut shading_normal = normal;
+        if !self.normals.is_empty() {
+            let [n0, n1, n2] = triangle.map(|i| self.normals[i as usize]);
+            let sum = n0 * b0 + n1 * b.x + n2 * b.y;
+            shading_normal = sum.try_normalize().unwrap_or(normal);
+            if shading_normal.dot(normal) < 0.0 {
+                normal = -normal;
+            }
+        }
+        let (e1, e2) = (e1.as_vec3(), e2.as_vec3());
+        let (uv, dp_du, dp_dv) = if self.uvs.is_empty() {
+            (b, e1, e2)
+        } else {
+            let [t0, t1, t2] = triangle.map(|i| self.uvs[i as usize]);
+            let (d1, d2) = (t1 - t0, t2 - t0);
+            let inverse = 1.0 / d1.perp_dot(d2);
+            let uv = t0 * b0 + t1 * b.x + t2 * b.y;
+            if inverse.is_finite() {
+                let dp_du = (e1 * d2.y - e2 * d1.y) * inverse;
+                let dp_dv = (e2 * d1.x - e1 * d2.x) * inverse;
+                (uv, dp_du, dp_dv)
+            } else {
+                let frame = Frame::from_normal(normal);
+                (uv, frame.s, frame.t)
+            }
+        };
+        Surface {
+            position,
+            error,
+            normal,
+            shading_normal,
+            uv,
+            dp_du,
+            dp_dv,
+        }
+    }
+
+    /// The attribute `name` at a point of a triangle, as three channels.
+    pub(crate) fn attribute(&self, name: &str, primitive: u32, b: Vec2) -> Option<Vec3> {
+        let attribute = self.attributes.iter().find(|a| a.name == name)?;
+        let at = |index: usize| -> Vec3 {
+            let values = &attribute.values[index * attribute.channels..];
+            match attribute.channels {
+                1 => Vec3::splat(values[0]),
+                2 => Vec3::new(values[0], values[1], 0.0),
+                _ => Vec3::new(values[0], values[1], values[2]),
+            }
+        };
+        if name.starts_with("face_") {
+            return Some(at(primitive as usize));
+        }
+        let [a0, a1, a2] = self.triangles[primitive as usize].map(|i| at(i as usize));
+        Some(a0 * (1.0 - b.x - b.y) + a1 * b.x + a2 * b.y)
+    }
+
+    /// Whether there is an attribute called `name`.
+    pub fn has_attribute(&self, name: &str) -> bool {
+        self.attributes.iter().any(|a| a.name == name)
+    }
+}
+
+/// What no surface can have.
+fn check(data: &MeshData) -> Result<(), String> {
+    let count = data.positions.len();
+    if let Some(i) = data.positions.iter().position(|p| !p.is_finite()) {
+        return Err(format!("vertex {i} of the mesh is {}", data.positions[i]));
+    }
+    if let Some(i) = data.normals.iter().position(|n| !n.is_finite()) {
+        return Err(format!("normal {i} of the mesh is {}", data.normals[i]));
+    }
+    if let Some(i) = data.uvs.iter().position(|uv| !uv.is_finite()) {
+        return Err(format!(
+            "texture coordinate {i} of the mesh is {}",
+            data.uvs[i]
+        ));
+    }
+    let outside = |t: &[u32; 3]| t.iter().any(|&i| i as usize >= count);
+    if let Some(i) = data.triangles.iter().position(outside) {
+        return Err(format!(
+            "triangle {i} of the mesh refers to vertices {:?}, but there are only {count}",
+            data.triangles[i]
+        ));
+    }
+    for (what, length) in [
+        ("normals", data.normals.len()),
+        ("texture coordinates", data.uvs.len()),
+    ] {
+        if length != 0 && length != count {
+            return Err(format!("the mesh has {count} vertices but {length} {what}"));
+        }
+    }
+    for attribute in &data.attributes {
+        let of = if attribute.name.starts_with("face_") {
+            data.triangles.len()
+        } else {
+            count
+        };
+        if !(1..=4).contains(&attribute.channels)
+            || attribute.values.len() != attribute.channels * of
+            || !attribute.values.iter().all(|v| v.is_finite())
+        {
+            return Err(format!(
+                "the mesh attribute `{}` needs 1 to 4 finite values for each of {of}",
+                attribute.name
+            ));
+        }
+    }
+    Ok(())
+}

@@ -1,0 +1,23 @@
+//! What a shape in one smooth piece can do, as opposed to a mesh of triangles.
+
+use crate::surface::Surface;
+use etalon_params::Params;
+use glam::DVec3;
+
+/// A smooth shape that intersects rays by a formula of its own.
+pub(crate) trait Solid {
+    /// The parameters of up to two crossings with the line o + t·d, in ascending order; NaN
+    /// where there is none. The direction need not be a unit vector.
+    fn crossings(&self, origin: DVec3, direction: DVec3) -> [f64; 2];
+
+    /// The surface point at `p`, which is on the surface up to rounding; `p` is projected first.
+    fn surface_near(&self, p: DVec3) -> Surface;
+
+    /// The smallest axis-parallel box that holds the shape.
+    fn bounds(&self) -> [DVec3; 2];
+}
+
+/// Reads `flip_normals`.
+pub(crate) fn read_flip(params: &Params<'_>) -> bool {
+    params.boolean_or("flip_normals", false)
+}

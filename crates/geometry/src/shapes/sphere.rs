@@ -1,0 +1,175 @@
+//! The sphere |p − c| = R.
+//!
+//! ```text
+//! p(u, v) = c + R (cos 2πu sin πv, sin 2πu sin πv, cos πv)       in the shape's own axes
+//! ```
+//!
+//! Intersection solves the quadratic in double precision, with the discriminant taken from the
+//! ray's closest approach and the product of the roots from (|o − c| − R)(|o − c| + R), which
+//! loses nothing for far origins or for origins on the surface.
+
+use crate::placement::{Placement, perpendicular};
+use crate::shapes::solid::{Solid, read_flip};
+use crate::surface::Surface;
+use core::f64::consts::{PI, TAU};
+use etalon_math::float64;
+use etalon_params::Params;
+use etalon_sampling::warps::{SphereCone, square_to_uniform_sphere};
+use glam::{DMat3, DVec3, Vec2, Vec3};
+
+/// A sphere.
+#[derive(Clone, Copy, Debug)]
+pub struct Sphere {
+    center: DVec3,
+    radius: f64,
+    /// The shape's own axes in the world; left-handed if mirrored.
+    axes: DMat3,
+    inward: bool,
+}
+
+impl Sphere {
+    /// The image under `placement` of the sphere around `center` with radius `radius` ≠ 0 (m). As
+    /// in Mitsuba, a map that mirrors turns the sphere inside out; so do a negative radius (which
+    /// mirrors) and `flip`, and two of them cancel. `None` if the image is not a sphere.
+    pub fn new(placement: &Placement, center: DVec3, radius: f64, flip: bool) -> Option<Self> {
+        let m = placement.linear() * radius;
+        let [x, y, z] = [m.x_axis, m.y_axis, m.z_axis];
+        let round =
+            perpendicular(x, y, true) && perpendicular(y, z, true) && perpendicular(z, x, true);
+        let scale = (x.length() + y.length() + z.length()) / 3.0;
+        let sphere = Self {
+            center: placement.point(center),
+            radius: scale,
+            axes: DMat3::from_cols(x.normalize(), y.normalize(), z.normalize()),
+            inward: flip != (m.determinant() < 0.0),
+        };
+        (round && scale > 0.0 && scale.is_finite() && sphere.center.is_finite()).then_some(sphere)
+    }
+
+    /// Reads `center`, `radius`, `flip_normals` and `to_world`.
+    pub(crate) fn from_params(params: &Params<'_>) -> Option<Self> {
+        let placement = Placement::from_params(params);
+        let center = params.vector("center").unwrap_or(DVec3::ZERO);
+        let radius = params.float_where("radius", 1.0, "any finite number but 0", |r| {
+            r.is_finite() && r != 0.0
+        });
+        let flip = read_flip(params);
+        let sphere = Self::new(&placement?, center, radius, flip);
+        if sphere.is_none() {
+            params.error_at(
+                "to_world",
+                "a `sphere` must stay round: `to_world` scales it differently in different directions",
+            );
+        }
+        sphere
+    }
+
+    /// Surface area (m²).
+    pub fn area(&self) -> f64 {
+        2.0 * TAU * self.radius * self.radius
+    }
+
+    /// The point in the direction `normal` (unit) from the centre.
+    fn surface(&self, normal: DVec3) -> Surface {
+        let local = self.axes.transpose() * normal;
+        let (x, y, z) = (local.x, local.y, local.z);
+        let sin = float64::safe_sqrt(x * x + y * y);
+        let (cos_phi, sin_phi) = if sin > 0.0 {
+            (x / sin, y / sin)
+        } else {
+            (1.0, 0.0)
+        };
+        let phi = float64::atan2(sin_phi, cos_phi);
+        let u = if phi < 0.0 {
+            phi / TAU + 1.0
+        } else {
+            phi / TAU
+        };
+        let v = float64::atan2(sin, z) / PI;
+        // At the poles ∂p/∂u vanishes: the tangent of the meridian's neighbour is given length 0
+        // by the formula and direction by its limit, so that a frame can still be built.
+        let dp_du = DVec3::new(-sin_phi, cos_phi, 0.0) * (TAU * sin.max(1e-12));
+        let dp_dv = DVec3::new(z * cos_phi, z * sin_phi, -sin) * PI;
+        Surface::exact(
+            self.center + normal * self.radius,
+            normal,
+            glam::DVec2::new(u, v).as_vec2(),
+            self.axes * dp_du * self.radius,
+            self.axes * dp_dv * self.radius,
+        )
+        .flipped_if(self.inward)
+    }
+
+    /// A point chosen uniformly by area.
+    pub(crate) fn sample_area(&self, u: Vec2) -> Surface {
+        self.surface(square_to_uniform_sphere(u).as_dvec3().normalize())
+    }
+
+    /// The cone in which an observer outside sees the sphere.
+    fn cone(&self, from: Vec3) -> Option<SphereCone> {
+        let center = (self.center - from.as_dvec3()).as_vec3();
+        SphereCone::new(center, self.radius as f32)
+    }
+
+    /// A point chosen by solid angle from outside, by area from inside; with its density (sr⁻¹).
+    pub(crate) fn sample_toward(&self, from: Vec3, u: Vec2) -> (Surface, f32) {
+        let Some(cone) = self.cone(from) else {
+            let surface = self.sample_area(u);
+            let density = self.density_toward(from, surface.position, surface.normal);
+            return (surface, density);
+        };
+        let direction = cone.sample(u).as_dvec3();
+        // The nearer point along that direction: of the two on the line, the one before the
+        // closest approach (which rounding may put just outside of the sphere).
+        let to_center = self.center - from.as_dvec3();
+        let along = to_center.dot(direction) / direction.length_squared();
+        let perpendicular = direction * along - to_center;
+        let half = float64::safe_sqrt(self.radius * self.radius - perpendicular.length_squared());
+        let normal = perpendicular - direction.normalize() * half;
+        (self.surface(normal.normalize()), cone.density())
+    }
+
+    /// The density (sr⁻¹) of [`Sphere::sample_toward`] at a point of the sphere.
+    pub(crate) fn density_toward(&self, from: Vec3, position: Vec3, normal: Vec3) -> f32 {
+        match self.cone(from) {
+            // From outside, only the near side is ever chosen.
+            Some(cone) => {
+                let outward = position.as_dvec3() - self.center;
+                let near = outward.dot((from - position).as_dvec3()) >= 0.0;
+                if near { cone.density() } else { 0.0 }
+            }
+            None => super::area_density_toward(self.area(), from, position, normal),
+        }
+    }
+}
+
+impl Solid for Sphere {
+    fn crossings(&self, origin: DVec3, direction: DVec3) -> [f64; 2] {
+        const MISS: [f64; 2] = [f64::NAN; 2];
+        let o = origin - self.center;
+        let a = direction.length_squared();
+        let b = o.dot(direction);
+        let closest = o - direction * (b / a);
+        let disc = self.radius * self.radius - closest.length_squared();
+        if !(disc >= 0.0) {
+            return MISS;
+        }
+        let q = -(b + (a * disc).sqrt().copysign(b));
+        let distance = o.length();
+        let c = (distance - self.radius) * (distance + self.radius);
+        let (t0, t1) = (c / q, q / a);
+        if t0 <= t1 { [t0, t1] } else { [t1, t0] }
+    }
+
+    fn surface_near(&self, p: DVec3) -> Surface {
+        self.surface(
+            (p - self.center)
+                .try_normalize()
+                .unwrap_or(self.axes.z_axis),
+        )
+    }
+
+    fn bounds(&self) -> [DVec3; 2] {
+        [self.center - self.radius, self.center + self.radius]
+    }
+}
