@@ -1,4 +1,6 @@
-//! Spectra in files: `.spd` text and `.spb` binary, as Mitsuba 3 reads them.
+//! Spectra in text files, by custom named `.spd`.
+//!
+//! Mitsuba 3.9 reads every spectrum file as this text, `.spb` included, so there is no binary form.
 
 /// Wavelengths (nm) and values, of equal length.
 pub type Samples = (Vec<f64>, Vec<f64>);
@@ -39,16 +41,6 @@ pub fn parse_spd(text: &str) -> Result<Samples, (usize, String)> {
     Ok(samples)
 }
 
-/// Reads `.spb` binary: the bytes "SPB", a little-endian 32-bit count n, n wavelengths in
-/// nanometres and n values, each a little-endian 32-bit float.
-///
-/// # Errors
-/// The offset of the offending byte and what is wrong there.
-pub fn parse_spb(bytes: &[u8]) -> Result<Samples, (usize, String)> {
-    let _ = bytes;
-    Err((0, "not a binary spectrum".to_owned()))
-}
-
 /// A number, or what is wrong with `word`.
 fn parse(word: &str) -> Result<f64, String> {
     match word.parse::<f64>() {
@@ -85,5 +77,66 @@ fn check_count(samples: &Samples) -> Result<(), String> {
     match samples.0.len() {
         0 | 1 => Err("expected two or more wavelengths".to_owned()),
         _ => Ok(()),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use proptest::prelude::*;
+
+    #[test]
+    fn text_as_found_in_the_wild_is_read() {
+        let text = "# head\n\n 400\t0.25 # first\r\n500.5, 1e-1\n+600 -2\n";
+        let expected = (vec![400.0, 500.5, 600.0], vec![0.25, 0.1, -2.0]);
+        assert_eq!(parse_spd(text), Ok(expected));
+    }
+
+    #[test]
+    fn mistakes_are_named_with_their_line() {
+        for (text, line, part) in [
+            ("400 1\n500\n", 2, "stands alone"),
+            ("400 1\n#\n500 1 2\n", 3, "\"2\""),
+            ("400 1\nx 2\n", 2, "\"x\""),
+            ("400 1\n500 inf\n", 2, "not finite"),
+            ("400 nan\n", 1, "not finite"),
+            ("400 1\n400 2\n", 2, "increasing"),
+            ("500 1\n400 2\n", 2, "increasing"),
+            ("0 1\n400 2\n", 1, "above 0"),
+            ("400 1\n", 1, "two or more"),
+            ("", 1, "two or more"),
+        ] {
+            let (found, message) = parse_spd(text).expect_err(text);
+            assert_eq!(found, line, "{text:?}: {message}");
+            assert!(message.contains(part), "{text:?}: {message}");
+        }
+    }
+
+    proptest! {
+        #![proptest_config(ProptestConfig { cases: 256, failure_persistence: None,
+            rng_seed: proptest::test_runner::RngSeed::Fixed(2), ..ProptestConfig::default() })]
+
+        #[test]
+        fn no_text_panics(text in "[ -~\\n\\t#,.eE0-9+-]{0,80}") {
+            let lines = text.lines().count().max(1);
+            match parse_spd(&text) {
+                Ok((wavelengths, values)) => prop_assert_eq!(wavelengths.len(), values.len()),
+                Err((line, _)) => prop_assert!((1..=lines).contains(&line)),
+            }
+        }
+
+        #[test]
+        fn what_is_printed_is_read_back(start in 1.0_f64..500.0, steps in proptest::collection::vec((0.01_f64..50.0, -1e3_f64..1e3), 2..20)) {
+            let mut wavelength = start;
+            let mut expected = (Vec::new(), Vec::new());
+            let mut text = String::new();
+            for (step, value) in steps {
+                wavelength += step;
+                expected.0.push(wavelength);
+                expected.1.push(value);
+                text += &format!("{wavelength} {value}\n");
+            }
+            prop_assert_eq!(parse_spd(&text), Ok(expected));
+        }
     }
 }

@@ -5,7 +5,8 @@
 //! 3, with importance sampling by the inverse of F as in Radziszewski et al. 2009). Each lane alone
 //! is distributed with density p(λ), and rotating the lanes is adding ¼ to u.
 
-use crate::{LAMBDA_MAX, LAMBDA_MIN, SpectrumError, cie, error, sensor};
+use crate::tables::importance::IMPORTANCE;
+use crate::{LAMBDA_MAX, LAMBDA_MIN, SpectrumError, error};
 use glam::Vec4;
 
 /// The wavelengths a path carries, with the density each was drawn from.
@@ -139,9 +140,13 @@ impl Default for WavelengthDistribution {
     }
 }
 
-/// What a wavelength weighs in the image.
+/// What a wavelength in nm is worth for an image in linear Rec. 709 (see the table); beyond the
+/// table as little as at its ends.
 fn importance(lambda: f64) -> f64 {
-    let [r, g, b, _] = sensor::response(Vec4::splat(lambda as f32)).map(|v| f64::from(v.x));
-    let sum = r * r + g * g + b * b;
-    sum.sqrt() + 0.02 / cie::NORMALISATION
+    let t = ((lambda - LAMBDA_MIN) / 10.0).clamp(0.0, (IMPORTANCE.len() - 1) as f64);
+    let i = (t as usize).min(IMPORTANCE.len() - 2);
+    IMPORTANCE[i] + (t - i as f64) * (IMPORTANCE[i + 1] - IMPORTANCE[i])
 }
+
+#[cfg(test)]
+mod tests;

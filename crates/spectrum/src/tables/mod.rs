@@ -2,3 +2,4 @@
 
 pub(crate) mod cie1931;
 pub(crate) mod illuminants;
+pub(crate) mod importance;
