@@ -1,6 +1,6 @@
 //! Spectra in text files, by custom named `.spd`.
 //!
-//! Mitsuba 3.9 reads every spectrum file as this text, `.spb` included, so there is no binary form.
+//! Mitsuba 3.9 reads every spectrum file as this text whatever its name, `.spb` included.
 
 /// Wavelengths (nm) and values, of equal length.
 pub type Samples = (Vec<f64>, Vec<f64>);
@@ -39,6 +39,23 @@ pub fn parse_spd(text: &str) -> Result<Samples, (usize, String)> {
     }
     check_count(&samples).map_err(|m| (last_line, m))?;
     Ok(samples)
+}
+
+/// Reads a file named `.spb`: the text of [`parse_spd`], as UTF-8.
+///
+/// # Errors
+/// The offset of the first byte that is no text or of the offending line, and what is wrong there.
+pub fn parse_spb(bytes: &[u8]) -> Result<Samples, (usize, String)> {
+    let text = std::str::from_utf8(bytes).map_err(|e| {
+        (
+            e.valid_up_to(),
+            "not text: expected a wavelength in nm and a value on each line".to_owned(),
+        )
+    })?;
+    parse_spd(text).map_err(|(line, message)| {
+        let before = text.split_inclusive('\n').take(line - 1);
+        (before.map(str::len).sum(), message)
+    })
 }
 
 /// A number, or what is wrong with `word`.
@@ -110,6 +127,14 @@ mod tests {
             assert_eq!(found, line, "{text:?}: {message}");
             assert!(message.contains(part), "{text:?}: {message}");
         }
+    }
+
+    #[test]
+    fn spb_is_text_with_byte_offsets() {
+        let expected = (vec![400.0, 500.0], vec![1.0, 2.0]);
+        assert_eq!(parse_spb(b"400 1\n500 2\n"), Ok(expected));
+        assert_eq!(parse_spb(b"400 1\r\nx 2\n").map_err(|e| e.0), Err(7));
+        assert_eq!(parse_spb(b"400 1\n\xff").map_err(|e| e.0), Err(6));
     }
 
     proptest! {

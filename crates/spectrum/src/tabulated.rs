@@ -46,22 +46,18 @@ impl Regular {
         })
     }
 
-    /// Value at one wavelength in nm.
-    #[inline]
-    fn at(&self, lambda: f32) -> f32 {
-        if !(lambda >= self.min && lambda <= self.max) {
-            return 0.0;
-        }
-        let t = (lambda - self.min) * self.rate;
-        let i = (t as usize).min(self.values.len() - 2);
-        let low = self.values[i];
-        low + (self.values[i + 1] - low) * (t - i as f32)
-    }
-
     /// Values at four wavelengths in nm; zero outside the table.
     #[inline]
     pub fn eval(&self, lambda: Vec4) -> Vec4 {
-        Vec4::from_array(lambda.to_array().map(|l| self.at(l)))
+        let inside = lambda.cmpge(Vec4::splat(self.min)) & lambda.cmple(Vec4::splat(self.max));
+        let t = (lambda - self.min) * self.rate;
+        // A wavelength outside saturates to some entry; `inside` discards what it finds.
+        let last = self.values.len() - 2;
+        let index = t.to_array().map(|t| (t as usize).min(last));
+        let low = Vec4::from_array(index.map(|i| self.values[i]));
+        let high = Vec4::from_array(index.map(|i| self.values[i + 1]));
+        let fraction = t - Vec4::from_array(index.map(|i| i as f32));
+        Vec4::select(inside, low + (high - low) * fraction, Vec4::ZERO)
     }
 
     /// The same spectrum times `factor`.
@@ -130,7 +126,7 @@ impl Irregular {
             })
             .collect();
         let (min, max) = (knots[0][0], knots[count - 1][0]);
-        let buckets = (2 * count).min(1 << 20);
+        let buckets = (8 * count).min(1 << 20);
         let rate = buckets as f32 / (max - min);
         let first = (0..=buckets)
             .map(|b| {
