@@ -9,8 +9,16 @@
 pub mod atomic_file;
 pub mod error;
 pub mod exr;
+pub mod hdr;
+pub mod losses;
+pub mod pfm;
 pub mod plane;
+pub mod png;
+pub mod raster;
+pub mod srgb;
 
 pub use atomic_file::write_atomically;
 pub use error::Error;
+pub use losses::Losses;
 pub use plane::{Channel, Frame, Image};
+pub use raster::{Format, Raster, RasterHeader, Samples};

@@ -1,0 +1,119 @@
+//! Eight-bit sRGB pictures for people, as PNG.
+
+use crate::losses::Losses;
+use crate::{Error, Image, srgb, write_atomically};
+use image::codecs::png::PngEncoder;
+use image::{ExtendedColorType, ImageEncoder};
+use std::io;
+use std::path::Path;
+
+/// Writes the colour of an image, times 2^`exposure` and encoded as sRGB, with its alpha if it
+/// has any.
+///
+/// What is above 1 or below 0 is clipped, and what is not finite is painted magenta; the result
+/// counts both. Colour is taken to be premultiplied by alpha, as EXR has it, and PNG is not, so it
+/// is divided by alpha.
+///
+/// # Errors
+/// [`Error::Unsupported`] for an image without colour, [`Error::Write`] where the operating
+/// system refuses.
+pub fn write(path: &Path, image: &Image, exposure: f32) -> Result<Losses, Error> {
+    let (bytes, losses) = develop(image, exposure)
+        .ok_or_else(|| Error::unsupported(path, "the image has no channels R, G, B or Y"))?;
+    let colour = if image.alpha().is_some() {
+        ExtendedColorType::Rgba8
+    } else {
+        ExtendedColorType::Rgb8
+    };
+    write_bytes(path, &bytes, image.width(), image.height(), colour)?;
+    Ok(losses)
+}
+
+/// The bytes [`write()`] puts into a file: RGB, or RGBA if the image has alpha. `None` for an
+/// image without colour.
+#[must_use]
+pub fn develop(image: &Image, exposure: f32) -> Option<(Vec<u8>, Losses)> {
+    let colour = image.colour()?;
+    let alpha = image.alpha();
+    let gain = etalon_math::float::pow(2.0, exposure);
+    let mut losses = Losses::default();
+    let pixels = image.width() * image.height();
+    let mut bytes = Vec::with_capacity(pixels * if alpha.is_some() { 4 } else { 3 });
+    for pixel in 0..pixels {
+        let opacity = alpha.map(|alpha| alpha[pixel]);
+        let scale = match opacity {
+            Some(a) if a > 0.0 && a < 1.0 => gain / a,
+            _ => gain,
+        };
+        let rgb = colour.map(|plane| plane[pixel]);
+        if rgb.iter().chain(&opacity).all(|x| x.is_finite()) {
+            for x in rgb {
+                losses.negative += usize::from(x < 0.0);
+                losses.too_bright += usize::from(x * scale > 1.0);
+                bytes.push(srgb::encode_u8(x * scale));
+            }
+        } else {
+            losses.not_finite += 1;
+            bytes.extend([255, 0, 255]);
+        }
+        if let Some(a) = opacity {
+            bytes.push(if a.is_finite() {
+                (a * 255.0 + 0.5) as u8
+            } else {
+                255
+            });
+        }
+    }
+    Some((bytes, losses))
+}
+
+/// Encodes RGB bytes, three per pixel, as a PNG file in memory, for reports.
+///
+/// # Errors
+/// [`io::ErrorKind::InvalidInput`] unless there are three bytes for each of the pixels, at
+/// least one.
+pub fn encode_rgb(bytes: &[u8], width: usize, height: usize) -> io::Result<Vec<u8>> {
+    let mut file = Vec::new();
+    encode(&mut file, bytes, width, height, ExtendedColorType::Rgb8)?;
+    Ok(file)
+}
+
+fn write_bytes(
+    path: &Path,
+    bytes: &[u8],
+    width: usize,
+    height: usize,
+    colour: ExtendedColorType,
+) -> Result<(), Error> {
+    write_atomically(path, |file| encode(file, bytes, width, height, colour))
+        .map_err(|source| Error::write(path, source))
+}
+
+fn encode(
+    file: &mut impl io::Write,
+    bytes: &[u8],
+    width: usize,
+    height: usize,
+    colour: ExtendedColorType,
+) -> io::Result<()> {
+    let invalid = |reason: String| io::Error::new(io::ErrorKind::InvalidInput, reason);
+    let size = |n: usize| u32::try_from(n).map_err(|error| invalid(error.to_string()));
+    let channels = usize::from(colour.channel_count());
+    if width == 0
+        || width
+            .checked_mul(height)
+            .and_then(|n| n.checked_mul(channels))
+            != Some(bytes.len())
+    {
+        return Err(invalid(format!(
+            "{} bytes are not {width} × {height} pixels of {channels}",
+            bytes.len()
+        )));
+    }
+    PngEncoder::new(file)
+        .write_image(bytes, size(width)?, size(height)?, colour)
+        .map_err(|error| match error {
+            image::ImageError::IoError(source) => source,
+            other => invalid(other.to_string()),
+        })
+}
