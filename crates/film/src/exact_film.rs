@@ -47,7 +47,7 @@ impl ExactFilm {
     /// An empty film with channels for the colour and those that the integrator names.
     ///
     /// # Errors
-    /// If two channels of the file would have the same name.
+    /// If two channels of the file would have the same name, or the memory cannot be had.
     pub fn new(settings: FilmSettings, named: &[Channel]) -> Result<Self, Diagnostic> {
         let format = settings.pixel_format;
         let mut channels: Vec<String> = format.colours().iter().map(|&c| c.to_owned()).collect();
@@ -63,12 +63,20 @@ impl ExactFilm {
             channels.push(name.clone());
         }
         let size = settings.crop_size;
-        let count = size.x as usize * size.y as usize * channels.len();
+        let count = u64::from(size.x) * u64::from(size.y) * channels.len() as u64;
+        let (Some(mut current), Some(mut moments)) = (reserved(count), reserved(count)) else {
+            let (w, h, n) = (size.x, size.y, channels.len());
+            let message = format!("there is no memory for {w} × {h} pixels of {n} channels");
+            return Err(Diagnostic::error_nowhere(message)
+                .help("a film takes 64 bytes per pixel and channel; crop it or make it smaller"));
+        };
+        current.resize_with(count as usize, AtomicFixed128::new);
+        moments.resize(count as usize, PixelMoments::ZERO);
         let means = |side| TileMeans::new(side, size.to_array(), channels.len() as u32);
         Ok(Self {
             filter: PixelFilter::new(settings.filter),
-            current: (0..count).map(|_| AtomicFixed128::new()).collect(),
-            moments: vec![PixelMoments::ZERO; count],
+            current,
+            moments,
             replicates: 0,
             samples: 0,
             tiles: [means(Some(TILE)), means(Some(4 * TILE)), means(None)],
@@ -174,6 +182,15 @@ impl ExactFilm {
         let width = self.settings.crop_size.x as usize;
         (pixel.y as usize * width + pixel.x as usize) * self.channels.len()
     }
+}
+
+/// Room for `count` values, if there is memory for them.
+fn reserved<T>(count: u64) -> Option<Vec<T>> {
+    let mut values = Vec::new();
+    values
+        .try_reserve_exact(usize::try_from(count).ok()?)
+        .ok()?;
+    Some(values)
 }
 
 impl Film for ExactFilm {

@@ -104,8 +104,6 @@ impl Fnv {
 mod tests {
     use super::*;
 
-    /// The value itself is part of the promise of equal bits: it changes only where the
-    /// arithmetic does, and then knowingly.
     #[test]
     fn the_fingerprint_is_the_same_every_time() {
         let fingerprint = floating_point_fingerprint();

@@ -3,8 +3,9 @@
 //! The half line is cut into cells at equal steps and wherever f changes its sign. A cell is
 //! drawn with its exact share of ∫|f| (Gauss-Legendre quadrature), the place within it from the
 //! linear function between |f| at its ends, whose distribution is inverted in closed form. With
-//! 128 cells per pixel and more, the cumulative distribution is nowhere further than 10⁻⁷ from
-//! the true one. A guide table (Chen and Asau 1974) finds the cell in about two steps.
+//! the few hundred cells used, the cumulative distribution is nowhere further than 5·10⁻⁷ from
+//! the true one, the rounding of single precision included (tested). A guide table (Chen and
+//! Asau 1974) finds the cell in about two steps.
 
 /// One cell of the half line.
 #[derive(Clone, Copy, Debug)]

@@ -12,6 +12,8 @@ pub struct ExactTile<'f> {
     /// The pixel's sums: colours, alpha, the integrator's channels.
     sums: Vec<Fixed128>,
     colours: usize,
+    from: UVec2,
+    to: UVec2,
     pixel: UVec2,
     /// Samples begun in this pixel.
     samples: u32,
@@ -32,6 +34,8 @@ impl<'f> ExactTile<'f> {
             film,
             sums: vec![Fixed128::ZERO; film.channels().len()],
             colours: film.settings().pixel_format.colours().len(),
+            from,
+            to,
             pixel: from,
             samples: 0,
             weight: 1.0,
@@ -95,6 +99,10 @@ impl Sink for ExactTile<'_> {
 
 impl TileSink for ExactTile<'_> {
     fn begin_pixel(&mut self, pixel: UVec2) {
+        assert!(
+            pixel.cmpge(self.from).all() && pixel.cmplt(self.to).all(),
+            "pixel {pixel} is not in this tile"
+        );
         self.pixel = pixel;
         self.samples = 0;
     }
