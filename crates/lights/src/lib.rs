@@ -1,1 +1,39 @@
-//! Light sources: each can be hit, sampled and made to emit
+//! Light sources: each can be hit, sampled and made to emit.
+//!
+//! A [`Light`] is one source as described. A [`LightSet`] is all of a scene's lights made ready:
+//! it knows how large the scene is, how much each light emits, and which light to choose. It is
+//! what [`etalon_transport::World`]'s questions about light are forwarded to.
+//!
+//! | light | what its quantity is |
+//! |---|---|
+//! | `area` | radiance, W·m⁻²·sr⁻¹·nm⁻¹, on the outer side of a shape |
+//! | `point`, `spot` | radiant intensity, W·sr⁻¹·nm⁻¹ |
+//! | `directional` | irradiance on a surface perpendicular to the light, W·m⁻²·nm⁻¹ |
+//! | `constant`, `envmap` | radiance from infinity, W·m⁻²·sr⁻¹·nm⁻¹ |
+
+pub mod area;
+pub mod bounds;
+pub mod constant;
+pub mod directional;
+pub mod environment;
+pub mod latitude_longitude;
+pub mod light;
+pub mod point;
+pub mod pose;
+pub mod selector;
+pub mod set;
+pub mod spot;
+
+pub use area::AreaLight;
+pub use bounds::Bounds;
+pub use constant::ConstantLight;
+pub use directional::DirectionalLight;
+pub use environment::EnvironmentMap;
+pub use light::{Light, LightDescription};
+pub use point::PointLight;
+pub use selector::{LightChoice, LightSelector};
+pub use set::LightSet;
+pub use spot::SpotLight;
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,109 @@
+//! `area`: a shape that emits the radiance L(x, λ) from its outer side, the same in all
+//! directions:
+//!
+//! ```text
+//! Φ = π ∫ L dA
+//! ```
+//!
+//! Points toward an observer are chosen by the shape; emitted particles start uniformly over the
+//! area, with directions in proportion to cos θ.
+
+use etalon_math::Density;
+use etalon_params::Params;
+use etalon_sampling::warps::square_to_cosine_hemisphere;
+use etalon_spectrum::Wavelengths;
+use etalon_transport::{
+    Build, Chance, Emission, LightId, LightSample, Role, ShapeId, Shapes, TextureId, TexturePoint,
+    Textures, Vertex,
+};
+use glam::{Vec2, Vec3, Vec4};
+
+/// An emitting shape.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct AreaLight {
+    /// The shape.
+    pub shape: ShapeId,
+    /// Its radiance (W·m⁻²·sr⁻¹·nm⁻¹).
+    pub radiance: TextureId,
+}
+
+impl AreaLight {
+    /// Reads `radiance`.
+    pub fn from_params(params: &Params<'_>, shape: ShapeId, build: &mut dyn Build) -> Self {
+        Self {
+            shape,
+            radiance: build.texture(params, "radiance", Some(1.0), Role::Emission),
+        }
+    }
+
+    /// Radiance that leaves `vertex` along `wo`.
+    #[inline]
+    pub fn emitted(
+        &self,
+        textures: &impl Textures,
+        vertex: &Vertex,
+        wo: Vec3,
+        wavelengths: &Wavelengths,
+    ) -> Vec4 {
+        if vertex.normal.dot(wo) > 0.0 {
+            textures.spectrum(
+                self.radiance,
+                &TexturePoint::from(vertex),
+                wavelengths.lambda,
+            )
+        } else {
+            Vec4::ZERO
+        }
+    }
+
+    /// A direction from `from` to a point of the shape.
+    #[inline]
+    pub fn sample(
+        &self,
+        scene: &(impl Textures + Shapes),
+        from: &Vertex,
+        wavelengths: &Wavelengths,
+        u: Vec2,
+    ) -> Option<LightSample> {
+        let point = scene.sample_toward(self.shape, from.position, u)?;
+        let direction = (point.vertex.position - from.position).try_normalize()?;
+        if !(point.density > 0.0 && point.vertex.normal.dot(direction) < 0.0) {
+            return None;
+        }
+        Some(LightSample {
+            direction,
+            target: Some(point.vertex.origin_toward(from.position)),
+            radiance: self.emitted(scene, &point.vertex, -direction, wavelengths),
+            chance: Chance::Continuous(Density::uniform(point.density)),
+            light: LightId::NONE,
+        })
+    }
+
+    /// A particle.
+    #[inline]
+    pub fn emit(
+        &self,
+        scene: &(impl Textures + Shapes),
+        wavelengths: &Wavelengths,
+        u_position: Vec2,
+        u_direction: Vec2,
+    ) -> Option<Emission> {
+        let point = scene.sample_area(self.shape, u_position);
+        let frame = etalon_math::Frame::from_normal(point.vertex.normal);
+        let direction = frame.to_world(square_to_cosine_hemisphere(u_direction));
+        let radiance = self.emitted(scene, &point.vertex, direction, wavelengths);
+        // cos θ cancels against the density cos θ/π.
+        (point.density > 0.0).then(|| Emission {
+            ray: point.vertex.spawn(direction),
+            normal: point.vertex.normal,
+            weight: radiance * (core::f32::consts::PI / point.density),
+            light: LightId::NONE,
+        })
+    }
+
+    /// Emitted power, averaged over the wavelengths (W·nm⁻¹).
+    pub fn power(&self, scene: &(impl Textures + Shapes)) -> f64 {
+        let area = f64::from(scene.area(self.shape));
+        core::f64::consts::PI * area * f64::from(scene.mean(self.radiance))
+    }
+}

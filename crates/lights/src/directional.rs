@@ -1,0 +1,84 @@
+//! `directional`: parallel light from infinity with the irradiance E⊥(λ) on a surface that faces
+//! it. Its power is that on the scene's cross-section, Φ = E⊥ π r².
+
+use crate::Bounds;
+use crate::light::anywhere;
+use crate::pose::Pose;
+use etalon_math::Atom;
+use etalon_params::Params;
+use etalon_spectrum::Wavelengths;
+use etalon_transport::{Build, Chance, Emission, LightId, LightSample, Role, TextureId, Textures};
+use glam::{Vec2, Vec3, Vec4};
+
+/// Parallel light.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct DirectionalLight {
+    /// Where the light goes (unit).
+    pub direction: Vec3,
+    /// Irradiance on a surface perpendicular to it (W·m⁻²·nm⁻¹).
+    pub irradiance: TextureId,
+}
+
+impl DirectionalLight {
+    /// Reads `irradiance`, and `direction` or `to_world` (whose +z is where the light goes).
+    pub fn from_params(params: &Params<'_>, build: &mut dyn Build) -> Option<Self> {
+        let irradiance = build.texture(params, "irradiance", Some(1.0), Role::Emission);
+        let direction = match params.vector("direction") {
+            Some(direction) => {
+                if params.property("to_world").is_some() {
+                    let message = "give either `direction` or `to_world`, not both";
+                    params.error_at("direction", message);
+                }
+                let unit = direction.try_normalize();
+                if unit.is_none() {
+                    params.error_at("direction", "`direction` must not vanish");
+                }
+                unit?.as_vec3().normalize()
+            }
+            None => Pose::from_params(params)?.to_world(Vec3::Z),
+        };
+        Some(Self {
+            direction,
+            irradiance,
+        })
+    }
+
+    #[inline]
+    fn spectrum(&self, textures: &impl Textures, wavelengths: &Wavelengths) -> Vec4 {
+        textures.spectrum(self.irradiance, &anywhere(), wavelengths.lambda)
+    }
+
+    /// The direction to the light.
+    #[inline]
+    pub fn sample(&self, textures: &impl Textures, wavelengths: &Wavelengths) -> LightSample {
+        LightSample {
+            direction: -self.direction,
+            target: None,
+            radiance: self.spectrum(textures, wavelengths),
+            chance: Chance::Discrete(Atom::uniform(1.0)),
+            light: LightId::NONE,
+        }
+    }
+
+    /// A particle.
+    #[inline]
+    pub fn emit(
+        &self,
+        textures: &impl Textures,
+        bounds: &Bounds,
+        wavelengths: &Wavelengths,
+        u: Vec2,
+    ) -> Emission {
+        Emission {
+            ray: bounds.ray_into(self.direction, u),
+            normal: self.direction,
+            weight: self.spectrum(textures, wavelengths) * bounds.cross_section() as f32,
+            light: LightId::NONE,
+        }
+    }
+
+    /// Power that enters the scene, averaged over the wavelengths (W·nm⁻¹).
+    pub fn power(&self, textures: &impl Textures, bounds: &Bounds) -> f64 {
+        bounds.cross_section() * f64::from(textures.mean(self.irradiance))
+    }
+}

@@ -1,0 +1,316 @@
+//! `envmap`: radiance from infinity, given by a latitude-longitude image.
+//!
+//! The image has texels at u = (i + ½)/w and v = j/(h − 1): the first and last rows lie on the
+//! poles. As in Mitsuba, spectra and brightnesses of the four texels around a direction are
+//! interpolated each for itself,
+//!
+//! ```text
+//! L(ω, λ) = scale · D65(λ) · [Σ wᵢ sᵢ(λ)] · [Σ wᵢ mᵢ]
+//! ```
+//!
+//! where mᵢ is twice the largest component of texel i and sᵢ the smooth spectrum of rgbᵢ/mᵢ.
+//! Directions are chosen with a density bilinear in (u, v) through the nodes
+//! (r + g + b)/3 · sin θ; optionally less their mean (Karlík, Šik, Vévoda, Skřivan, Křivánek 2019,
+//! "MIS Compensation"), which leaves dark regions to other techniques.
+
+use crate::latitude_longitude as map;
+use crate::pose::Pose;
+use crate::{Bounds, latitude_longitude};
+use etalon_images::raster;
+use etalon_math::{Density, SolidAngle, float64};
+use etalon_params::{Diagnostic, Params};
+use etalon_sampling::discrete::Bilinear;
+use etalon_spectrum::{Regular, RgbCoefficients, Spectrum, Wavelengths, illuminants};
+use etalon_transport::{Build, Chance, Emission, LightId, LightSample};
+use glam::{UVec2, Vec2, Vec3, Vec4};
+use std::path::Path;
+use std::sync::{Arc, LazyLock};
+
+/// D65, scaled so that it looks white with luminance one.
+static WHITE: LazyLock<Regular> = LazyLock::new(illuminants::d65_spectrum);
+
+/// An image at infinity.
+#[derive(Clone, Debug)]
+pub struct EnvironmentMap {
+    pose: Pose,
+    scale: f32,
+    image: Arc<SkyImage>,
+    /// `None` if the image is black.
+    directions: Option<Arc<Bilinear>>,
+    /// Mean radiance over directions and wavelengths.
+    mean: f64,
+}
+
+/// Texels: three coefficients of a spectrum and its factor.
+#[derive(Debug)]
+struct SkyImage {
+    size: UVec2,
+    texels: Vec<Vec4>,
+}
+
+/// A place between four texels.
+struct Cell {
+    texels: [usize; 4],
+    weights: [f32; 4],
+}
+
+impl SkyImage {
+    /// The cell at a place of the unit square whose u begins at the centre of the first column.
+    #[inline]
+    fn cell(&self, place: Vec2) -> Cell {
+        let UVec2 { x: w, y: h } = self.size;
+        let x = place.x * w as f32;
+        let y = place.y * (h - 1) as f32;
+        let (i, j) = ((x as u32).min(w - 1), (y as u32).min(h - 2));
+        let (a, b) = (x - i as f32, y - j as f32);
+        let next = if i + 1 < w { i + 1 } else { 0 };
+        let index = |column: u32, row: u32| (row as usize) * w as usize + column as usize;
+        Cell {
+            texels: [
+                index(i, j),
+                index(next, j),
+                index(i, j + 1),
+                index(next, j + 1),
+            ],
+            weights: [(1.0 - a) * (1.0 - b), a * (1.0 - b), (1.0 - a) * b, a * b],
+        }
+    }
+}
+
+impl EnvironmentMap {
+    /// Reads `filename`, `scale`, `to_world` and `mis_compensation`.
+    pub fn from_params(params: &Params<'_>, build: &mut dyn Build) -> Option<Self> {
+        let scale = params.float_where("scale", 1.0, "a finite number not below 0", |x| {
+            x >= 0.0 && x.is_finite()
+        });
+        let compensated = params.boolean_or("mis_compensation", false);
+        let pose = Pose::from_params(params);
+        let Some(filename) = params.string("filename") else {
+            if !params.has("filename") {
+                params.missing("filename", "the name of an image file");
+            }
+            return None;
+        };
+        let span = params.property("filename")?.span;
+        let bytes = match build.assets().bytes(filename) {
+            Ok(bytes) => bytes,
+            Err(error) => {
+                let mut diagnostic = Diagnostic::error(span, error.message);
+                diagnostic.help = error.help;
+                params.diagnostics.push(diagnostic);
+                return None;
+            }
+        };
+        let pixels = match decode(&bytes, filename) {
+            Ok(pixels) => pixels,
+            Err(message) => {
+                let message = format!("`{filename}`: {message}");
+                params.diagnostics.push(Diagnostic::error(span, message));
+                return None;
+            }
+        };
+        if pixels.negative > 0 {
+            let message = format!(
+                "{} pixels of `{filename}` have negative components, which count as zero",
+                pixels.negative
+            );
+            params.diagnostics.push(Diagnostic::note(span, message));
+        }
+        Some(Self::new(pose?, scale as f32, &pixels, compensated))
+    }
+
+    fn new(pose: Pose, scale: f32, pixels: &Pixels, compensated: bool) -> Self {
+        let (width, height) = (pixels.size.x as usize, pixels.size.y as usize);
+        let sine = |row: usize| {
+            float64::sin(core::f64::consts::PI * row as f64 / (height - 1) as f64).max(0.0)
+        };
+        let brightness = |rgb: &[f32; 3]| rgb.iter().map(|&c| f64::from(c)).sum::<f64>() / 3.0;
+        let mut sums = [0.0; 3];
+        let mut least = f64::INFINITY;
+        for (row, texels) in pixels.rgb.chunks_exact(width).enumerate() {
+            for rgb in texels {
+                let value = brightness(rgb);
+                least = least.min(value);
+                sums[0] += value;
+                sums[1] += value * sine(row);
+                sums[2] += sine(row);
+            }
+        }
+        let average = sums[0] / pixels.rgb.len() as f64;
+        // Nothing would be left of an (almost) uniform image.
+        let offset = if compensated && average - least > 0.01 * average {
+            average
+        } else {
+            0.0
+        };
+        let mut nodes = Vec::with_capacity((width + 1) * height);
+        for (row, texels) in pixels.rgb.chunks_exact(width).enumerate() {
+            let node = |rgb: &[f32; 3]| ((brightness(rgb) - offset).max(0.0) * sine(row)) as f32;
+            nodes.extend(texels.iter().map(node));
+            // The image is periodic.
+            nodes.push(node(&texels[0]));
+        }
+        let texels = pixels.rgb.iter().map(|&rgb| texel(rgb)).collect();
+        let white = Spectrum::D65(etalon_spectrum::RgbSpectrum::WHITE).mean();
+        Self {
+            pose,
+            scale,
+            image: Arc::new(SkyImage {
+                size: pixels.size,
+                texels,
+            }),
+            directions: Bilinear::new(&nodes, width + 1).ok().map(Arc::new),
+            mean: sums[1] / sums[2] * white * f64::from(scale),
+        }
+    }
+
+    /// The unit square of `map`, moved so that u begins at the centre of the first column.
+    #[inline]
+    fn place(&self, local: Vec3) -> Vec2 {
+        let uv = map::to_square(local);
+        let u = uv.x - self.half_texel();
+        Vec2::new(if u < 0.0 { u + 1.0 } else { u }, uv.y)
+    }
+
+    #[inline]
+    fn half_texel(&self) -> f32 {
+        0.5 / self.image.size.x as f32
+    }
+
+    /// Radiance at a moved place.
+    #[inline]
+    fn radiance(&self, place: Vec2, wavelengths: &Wavelengths) -> Vec4 {
+        let Cell { texels, weights } = self.image.cell(place);
+        let mut spectrum = Vec4::ZERO;
+        let mut factor = 0.0;
+        for (texel, weight) in texels.into_iter().zip(weights) {
+            let [a, b, c, m] = self.image.texels[texel].to_array();
+            spectrum += RgbCoefficients([a, b, c]).eval(wavelengths.lambda) * weight;
+            factor += m * weight;
+        }
+        WHITE.eval(wavelengths.lambda) * spectrum * (factor * self.scale)
+    }
+
+    /// Radiance seen along the unit vector `direction`.
+    #[inline]
+    pub fn background(&self, direction: Vec3, wavelengths: &Wavelengths) -> Vec4 {
+        self.radiance(self.place(self.pose.to_local(direction)), wavelengths)
+    }
+
+    /// Density of the directions of [`EnvironmentMap::sample`]; zero at the very poles, which
+    /// are never sampled.
+    #[inline]
+    pub fn density(&self, direction: Vec3) -> Density<SolidAngle> {
+        let Some(directions) = &self.directions else {
+            return Density::ZERO;
+        };
+        let local = self.pose.to_local(direction);
+        let sin_theta = Vec2::new(local.x, local.z).length();
+        if !(sin_theta > 0.0) {
+            return Density::ZERO;
+        }
+        let per_area = directions.density(self.place(local));
+        Density::uniform(per_area / latitude_longitude::stretch(sin_theta))
+    }
+
+    /// A direction with its place and density (sr⁻¹).
+    #[inline]
+    fn choose(&self, u: Vec2) -> Option<(Vec3, Vec2, f32)> {
+        let directions = self.directions.as_ref()?;
+        let place = directions.sample(u);
+        let (local, sin_theta) = map::to_direction(place + Vec2::new(self.half_texel(), 0.0));
+        let density = directions.density(place) / map::stretch(sin_theta);
+        (sin_theta > 0.0 && density > 0.0).then(|| (self.pose.to_world(local), place, density))
+    }
+
+    /// A direction to the sky.
+    #[inline]
+    pub fn sample(&self, wavelengths: &Wavelengths, u: Vec2) -> Option<LightSample> {
+        let (direction, place, density) = self.choose(u)?;
+        Some(LightSample {
+            direction,
+            target: None,
+            radiance: self.radiance(place, wavelengths),
+            chance: Chance::Continuous(Density::uniform(density)),
+            light: LightId::NONE,
+        })
+    }
+
+    /// A particle.
+    #[inline]
+    pub fn emit(
+        &self,
+        bounds: &Bounds,
+        wavelengths: &Wavelengths,
+        u_position: Vec2,
+        u_direction: Vec2,
+    ) -> Option<Emission> {
+        let (toward, place, density) = self.choose(u_direction)?;
+        let factor = bounds.cross_section() as f32 / density;
+        Some(Emission {
+            ray: bounds.ray_into(-toward, u_position),
+            normal: -toward,
+            weight: self.radiance(place, wavelengths) * factor,
+            light: LightId::NONE,
+        })
+    }
+
+    /// Power that enters the scene, averaged over the wavelengths (W·nm⁻¹).
+    pub fn power(&self, bounds: &Bounds) -> f64 {
+        4.0 * core::f64::consts::PI * bounds.cross_section() * self.mean
+    }
+}
+
+/// A texel for a colour with components not below zero.
+fn texel(rgb: [f32; 3]) -> Vec4 {
+    let factor = 2.0 * rgb[0].max(rgb[1]).max(rgb[2]);
+    let part = if factor > 0.0 {
+        rgb.map(|c| c / factor)
+    } else {
+        [0.0; 3]
+    };
+    let RgbCoefficients([a, b, c]) = RgbCoefficients::from_rgb(part);
+    Vec4::new(a, b, c, factor)
+}
+
+/// Linear Rec.709 pixels, row after row from the top.
+struct Pixels {
+    size: UVec2,
+    rgb: Vec<[f32; 3]>,
+    /// How many had negative components (now zero).
+    negative: usize,
+}
+
+fn decode(bytes: &[u8], filename: &str) -> Result<Pixels, String> {
+    let raster = raster::decode(bytes, Path::new(filename)).map_err(|error| error.to_string())?;
+    let (width, height) = (raster.width(), raster.height());
+    if width < 2 || height < 3 {
+        return Err(format!(
+            "an environment map needs at least 2 × 3 pixels, not {width} × {height}"
+        ));
+    }
+    let channels = raster.channels();
+    let values = raster.to_linear();
+    let mut negative = 0;
+    let mut rgb = Vec::with_capacity(width * height);
+    for (i, pixel) in values.chunks_exact(channels).enumerate() {
+        let colour = if channels < 3 {
+            [pixel[0]; 3]
+        } else {
+            [pixel[0], pixel[1], pixel[2]]
+        };
+        if colour.iter().any(|c| !c.is_finite()) {
+            let (x, y) = (i % width, i / width);
+            return Err(format!(
+                "the pixel in column {x} of row {y} is not finite (both counted from 0)"
+            ));
+        }
+        negative += usize::from(colour.iter().any(|&c| c < 0.0));
+        rgb.push(colour.map(|c| c.max(0.0)));
+    }
+    Ok(Pixels {
+        size: UVec2::new(width as u32, height as u32),
+        rgb,
+        negative,
+    })
+}

@@ -1,0 +1,217 @@
+//! The list of lights, and how each is read.
+
+use crate::{
+    AreaLight, Bounds, ConstantLight, DirectionalLight, EnvironmentMap, PointLight, SpotLight,
+};
+use etalon_math::{Density, SolidAngle};
+use etalon_params::{Class, Diagnostic, Params, plugins};
+use etalon_spectrum::Wavelengths;
+use etalon_transport::{
+    Build, Emission, LightSample, ShapeId, Shapes, TexturePoint, Textures, Vertex,
+};
+use glam::{Vec2, Vec3, Vec4};
+
+/// Names of the lights that are built.
+pub const BUILT: &[&str] = &["area", "constant", "directional", "envmap", "point", "spot"];
+
+/// Any light.
+#[derive(Clone, Debug)]
+pub enum Light {
+    /// An emitting shape.
+    Area(AreaLight),
+    /// A light without extent.
+    Point(PointLight),
+    /// A light without extent, into a cone.
+    Spot(SpotLight),
+    /// Parallel light from infinity.
+    Directional(DirectionalLight),
+    /// The same from everywhere at infinity.
+    Constant(ConstantLight),
+    /// An image at infinity.
+    Environment(EnvironmentMap),
+}
+
+/// A light as described, and how often it is to be chosen.
+#[derive(Clone, Debug)]
+pub struct LightDescription {
+    /// The light.
+    pub light: Light,
+    /// How often it is chosen, relative to its power.
+    pub sampling_weight: f64,
+}
+
+impl LightDescription {
+    /// Reads an emitter node; `shape` is the shape it is a child of. Reports every mistake,
+    /// unknown properties included; `None` if no light can be made of it.
+    pub fn from_params(
+        params: &Params<'_>,
+        shape: Option<ShapeId>,
+        build: &mut dyn Build,
+    ) -> Option<Self> {
+        let name = params.node.plugin.value.as_str();
+        let light = match (name, shape) {
+            ("area", Some(shape)) => {
+                Some(Light::Area(AreaLight::from_params(params, shape, build)))
+            }
+            ("area", None) => {
+                params.error("an `area` light must be the child of a shape");
+                return None;
+            }
+            (name, Some(_)) if BUILT.contains(&name) => {
+                params.error(format!("a `{name}` light cannot be the child of a shape"));
+                return None;
+            }
+            ("point", None) => PointLight::from_params(params, build).map(Light::Point),
+            ("spot", None) => SpotLight::from_params(params, build).map(Light::Spot),
+            ("directional", None) => {
+                DirectionalLight::from_params(params, build).map(Light::Directional)
+            }
+            ("constant", None) => Some(Light::Constant(ConstantLight::from_params(params, build))),
+            ("envmap", None) => EnvironmentMap::from_params(params, build).map(Light::Environment),
+            _ => {
+                let built = BUILT.iter().copied();
+                params
+                    .diagnostics
+                    .push(plugins::not_built(params.node, built));
+                return None;
+            }
+        };
+        let what = "a finite number not below 0";
+        let sampling_weight =
+            params.float_where("sampling_weight", 1.0, what, |w| w >= 0.0 && w.is_finite());
+        for (property, _) in params.children(Class::Medium) {
+            let message = "a light inside of a medium is known but not built yet";
+            let diagnostic = Diagnostic::error(property.name_span, message);
+            params.diagnostics.push(diagnostic);
+        }
+        params.finish();
+        Some(Self {
+            light: light?,
+            sampling_weight,
+        })
+    }
+}
+
+impl Light {
+    /// Whether it is at infinity.
+    pub fn is_infinite(&self) -> bool {
+        match self {
+            Self::Area(_) | Self::Point(_) | Self::Spot(_) => false,
+            Self::Directional(_) | Self::Constant(_) | Self::Environment(_) => true,
+        }
+    }
+
+    /// Whether a ray that misses everything sees it.
+    pub fn is_background(&self) -> bool {
+        matches!(self, Self::Constant(_) | Self::Environment(_))
+    }
+
+    /// Radiance that leaves the surface point `vertex` along `wo`; zero for lights without
+    /// surface.
+    #[inline]
+    pub fn emitted(
+        &self,
+        textures: &impl Textures,
+        vertex: &Vertex,
+        wo: Vec3,
+        wavelengths: &Wavelengths,
+    ) -> Vec4 {
+        match self {
+            Self::Area(light) => light.emitted(textures, vertex, wo, wavelengths),
+            _ => Vec4::ZERO,
+        }
+    }
+
+    /// Radiance seen along the unit vector `direction` by a ray that misses everything.
+    #[inline]
+    pub fn background(
+        &self,
+        textures: &impl Textures,
+        direction: Vec3,
+        wavelengths: &Wavelengths,
+    ) -> Vec4 {
+        match self {
+            Self::Constant(light) => light.background(textures, wavelengths),
+            Self::Environment(light) => light.background(direction, wavelengths),
+            _ => Vec4::ZERO,
+        }
+    }
+
+    /// A direction from `from` to the light, as if it were the only one.
+    #[inline]
+    pub fn sample(
+        &self,
+        scene: &(impl Textures + Shapes),
+        from: &Vertex,
+        wavelengths: &Wavelengths,
+        u: Vec2,
+    ) -> Option<LightSample> {
+        match self {
+            Self::Area(light) => light.sample(scene, from, wavelengths, u),
+            Self::Point(light) => light.sample(scene, from.position, wavelengths),
+            Self::Spot(light) => light.sample(scene, from.position, wavelengths),
+            Self::Directional(light) => Some(light.sample(scene, wavelengths)),
+            Self::Constant(light) => Some(light.sample(scene, wavelengths, u)),
+            Self::Environment(light) => light.sample(wavelengths, u),
+        }
+    }
+
+    /// The density with which [`Light::sample`] from `from` finds the surface point `at`.
+    #[inline]
+    pub fn density(&self, shapes: &impl Shapes, from: Vec3, at: &Vertex) -> Density<SolidAngle> {
+        match self {
+            Self::Area(light) => Density::uniform(shapes.density_toward(light.shape, from, at)),
+            _ => Density::ZERO,
+        }
+    }
+
+    /// The density with which [`Light::sample`] finds the background in `direction`.
+    #[inline]
+    pub fn background_density(&self, direction: Vec3) -> Density<SolidAngle> {
+        match self {
+            Self::Constant(light) => light.density(),
+            Self::Environment(light) => light.density(direction),
+            _ => Density::ZERO,
+        }
+    }
+
+    /// A particle, as if this were the only light.
+    #[inline]
+    pub fn emit(
+        &self,
+        scene: &(impl Textures + Shapes),
+        bounds: &Bounds,
+        wavelengths: &Wavelengths,
+        u_position: Vec2,
+        u_direction: Vec2,
+    ) -> Option<Emission> {
+        match self {
+            Self::Area(light) => light.emit(scene, wavelengths, u_position, u_direction),
+            Self::Point(light) => Some(light.emit(scene, wavelengths, u_direction)),
+            Self::Spot(light) => Some(light.emit(scene, wavelengths, u_direction)),
+            Self::Directional(light) => Some(light.emit(scene, bounds, wavelengths, u_position)),
+            Self::Constant(light) => {
+                Some(light.emit(scene, bounds, wavelengths, u_position, u_direction))
+            }
+            Self::Environment(light) => light.emit(bounds, wavelengths, u_position, u_direction),
+        }
+    }
+
+    /// Emitted power (lights at infinity: what enters the scene), averaged over the wavelengths
+    /// (W·nm⁻¹). Exact unless a texture's mean stands for the texture.
+    pub fn power(&self, scene: &(impl Textures + Shapes), bounds: &Bounds) -> f64 {
+        match self {
+            Self::Area(light) => light.power(scene),
+            Self::Point(light) => light.power(scene),
+            Self::Spot(light) => light.power(scene),
+            Self::Directional(light) => light.power(scene, bounds),
+            Self::Constant(light) => light.power(scene, bounds),
+            Self::Environment(light) => light.power(bounds),
+        }
+    }
+}
+
+/// The place at which spectra that do not vary in space are looked up.
+pub(crate) fn anywhere() -> TexturePoint {
+    TexturePoint::at_uv(Vec2::ZERO)
+}

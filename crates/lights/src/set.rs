@@ -1,0 +1,191 @@
+//! All lights of a scene.
+
+use crate::{Bounds, Light, LightDescription, LightSelector};
+use etalon_math::{Atom, Density, SolidAngle};
+use etalon_spectrum::Wavelengths;
+use etalon_transport::{Chance, Emission, LightId, LightSample, Shapes, Textures, Vertex};
+use glam::{Vec2, Vec3, Vec4};
+
+/// Lights by id, made ready for a scene. The methods answer the questions of the same names that
+/// [`etalon_transport::World`] asks; densities and weights include the choice of the light.
+#[derive(Clone, Debug)]
+pub struct LightSet {
+    lights: Vec<Light>,
+    /// The lights that rays see at infinity.
+    backgrounds: Vec<LightId>,
+    powers: Vec<f64>,
+    selector: LightSelector,
+    bounds: Bounds,
+}
+
+impl LightSet {
+    /// Lights in the order of their ids, for a scene within `bounds`.
+    pub fn new(
+        descriptions: Vec<LightDescription>,
+        scene: &(impl Textures + Shapes),
+        bounds: Bounds,
+    ) -> Self {
+        let (lights, weights): (Vec<Light>, Vec<f64>) = descriptions
+            .into_iter()
+            .map(|description| (description.light, description.sampling_weight))
+            .unzip();
+        let powers: Vec<f64> = lights.iter().map(|l| l.power(scene, &bounds)).collect();
+        let backgrounds = (0..lights.len())
+            .filter(|&i| lights[i].is_background())
+            .map(|i| LightId(i as u32))
+            .collect();
+        Self {
+            selector: LightSelector::new(&lights, &powers, &weights),
+            lights,
+            backgrounds,
+            powers,
+            bounds,
+        }
+    }
+
+    /// A light.
+    #[inline]
+    pub fn get(&self, light: LightId) -> &Light {
+        &self.lights[light.0 as usize]
+    }
+
+    /// Number of lights.
+    pub fn len(&self) -> usize {
+        self.lights.len()
+    }
+
+    /// Whether there is no light.
+    pub fn is_empty(&self) -> bool {
+        self.lights.is_empty()
+    }
+
+    /// Emitted power of a light (see [`Light::power`]).
+    pub fn power(&self, light: LightId) -> f64 {
+        self.powers[light.0 as usize]
+    }
+
+    /// Which light to ask.
+    pub fn selector(&self) -> &LightSelector {
+        &self.selector
+    }
+
+    /// Radiance emitted by the surface at `vertex` toward `wo`.
+    #[inline]
+    pub fn emitted(
+        &self,
+        textures: &impl Textures,
+        vertex: &Vertex,
+        wo: Vec3,
+        wavelengths: &Wavelengths,
+    ) -> Vec4 {
+        if !vertex.light.is_some() {
+            return Vec4::ZERO;
+        }
+        self.get(vertex.light)
+            .emitted(textures, vertex, wo, wavelengths)
+    }
+
+    /// Whether any light at infinity can be seen.
+    #[inline]
+    pub fn has_background(&self) -> bool {
+        !self.backgrounds.is_empty()
+    }
+
+    /// Radiance of the lights at infinity seen along the unit vector `direction`.
+    #[inline]
+    pub fn background(
+        &self,
+        textures: &impl Textures,
+        direction: Vec3,
+        wavelengths: &Wavelengths,
+    ) -> Vec4 {
+        let radiance =
+            |&light: &LightId| self.get(light).background(textures, direction, wavelengths);
+        self.backgrounds.iter().map(radiance).sum()
+    }
+
+    /// Chooses a light and a direction toward it.
+    #[inline]
+    pub fn sample(
+        &self,
+        scene: &(impl Textures + Shapes),
+        from: &Vertex,
+        wavelengths: &Wavelengths,
+        u_light: f32,
+        u: Vec2,
+    ) -> Option<LightSample> {
+        let choice = self.selector.choose(from, u_light)?;
+        let sample = self.get(choice.light).sample(scene, from, wavelengths, u)?;
+        let scaled = match sample.chance {
+            // Several skies seen in one direction are one technique: whichever chose the
+            // direction, a ray that goes there sees all of them.
+            Chance::Continuous(_) if self.backgrounds.len() > 1 && sample.target.is_none() => {
+                LightSample {
+                    radiance: self.background(scene, sample.direction, wavelengths),
+                    chance: Chance::Continuous(
+                        self.background_density(from.position, sample.direction),
+                    ),
+                    ..sample
+                }
+            }
+            Chance::Continuous(density) => LightSample {
+                chance: Chance::Continuous(density * choice.probability),
+                ..sample
+            },
+            Chance::Discrete(Atom(p)) => LightSample {
+                chance: Chance::Discrete(Atom(p * choice.probability)),
+                ..sample
+            },
+        };
+        Some(LightSample {
+            light: choice.light,
+            ..scaled
+        })
+    }
+
+    /// The density with which [`LightSet::sample`] from `from` chooses the surface point `at`;
+    /// zero if it does not emit.
+    #[inline]
+    pub fn density(&self, shapes: &impl Shapes, from: Vec3, at: &Vertex) -> Density<SolidAngle> {
+        if !at.light.is_some() {
+            return Density::ZERO;
+        }
+        let probability = self.selector.probability(from, at.light);
+        self.get(at.light).density(shapes, from, at) * probability
+    }
+
+    /// The density with which [`LightSet::sample`] from `from` chooses the background in
+    /// `direction`.
+    #[inline]
+    pub fn background_density(&self, from: Vec3, direction: Vec3) -> Density<SolidAngle> {
+        self.backgrounds.iter().fold(Density::ZERO, |sum, &light| {
+            let probability = self.selector.probability(from, light);
+            sum + self.get(light).background_density(direction) * probability
+        })
+    }
+
+    /// Emits a particle.
+    #[inline]
+    pub fn emit(
+        &self,
+        scene: &(impl Textures + Shapes),
+        wavelengths: &Wavelengths,
+        u_light: f32,
+        u_position: Vec2,
+        u_direction: Vec2,
+    ) -> Option<Emission> {
+        let choice = self.selector.choose_to_emit(u_light)?;
+        let emission = self.get(choice.light).emit(
+            scene,
+            &self.bounds,
+            wavelengths,
+            u_position,
+            u_direction,
+        )?;
+        Some(Emission {
+            weight: emission.weight / choice.probability,
+            light: choice.light,
+            ..emission
+        })
+    }
+}

@@ -1,0 +1,159 @@
+//! `spot`: a point light whose intensity falls off with the angle θ from its axis,
+//!
+//! ```text
+//! I(θ) = I₀ · t(u, v) · f(θ)
+//! f(θ) = 1 for θ ≤ b,   (c − θ)/(c − b) for b < θ < c,   0 beyond
+//! ```
+//!
+//! with b the beam width and c the cutoff angle. The optional texture is projected along the
+//! axis: a direction (x, y, z) of the light's space sees u = ½ + x/(2 z tan c),
+//! v = ½ + y/(2 z tan c). Without texture the power is
+//!
+//! ```text
+//! Φ = 2π I₀ [1 − (sin c − sin b)/(c − b)]
+//! ```
+
+use crate::light::anywhere;
+use crate::pose::Pose;
+use etalon_math::{Atom, float, float64};
+use etalon_params::Params;
+use etalon_sampling::warps::{square_to_uniform_cone, uniform_cone_density};
+use etalon_spectrum::Wavelengths;
+use etalon_transport::{
+    Build, Chance, Emission, LightId, LightSample, Ray, Role, TextureId, TexturePoint, Textures,
+};
+use glam::{Vec2, Vec3, Vec4};
+
+/// A spot light.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct SpotLight {
+    pose: Pose,
+    intensity: TextureId,
+    texture: Option<TextureId>,
+    beam: f32,
+    cutoff: f32,
+    cos_cutoff: f32,
+    one_minus_cos_cutoff: f32,
+    /// 1/(c − b); zero if the edge is sharp.
+    inverse_transition: f32,
+    /// 1/(2 tan c).
+    projection: f32,
+    /// ∫ f dω (sr).
+    solid_angle: f64,
+}
+
+impl SpotLight {
+    /// Reads `intensity`, `cutoff_angle`, `beam_width`, `texture` and `to_world`.
+    pub fn from_params(params: &Params<'_>, build: &mut dyn Build) -> Option<Self> {
+        let intensity = build.texture(params, "intensity", Some(1.0), Role::Emission);
+        let texture = params
+            .has("texture")
+            .then(|| build.texture(params, "texture", None, Role::Reflectance));
+        let (limit, what) = if texture.is_some() {
+            (90.0, "degrees above 0 and below 90 (with `texture`)")
+        } else {
+            (180.0, "degrees above 0 and below 180")
+        };
+        let cutoff = params.float_where("cutoff_angle", 20.0, what, |a| a > 0.0 && a < limit);
+        let beam = params.float_where(
+            "beam_width",
+            0.75 * cutoff,
+            "degrees from 0 to `cutoff_angle`",
+            |b| b >= 0.0 && b <= cutoff,
+        );
+        let pose = Pose::from_params(params)?;
+        Some(Self::new(pose, intensity, texture, beam, cutoff))
+    }
+
+    /// A spot light with angles in degrees.
+    fn new(
+        pose: Pose,
+        intensity: TextureId,
+        texture: Option<TextureId>,
+        beam: f64,
+        cutoff: f64,
+    ) -> Self {
+        let (b, c) = (beam.to_radians(), cutoff.to_radians());
+        let half_sine = float64::sin(0.5 * c);
+        let slope = if c > b {
+            (float64::sin(c) - float64::sin(b)) / (c - b)
+        } else {
+            float64::cos(c)
+        };
+        Self {
+            pose,
+            intensity,
+            texture,
+            beam: b as f32,
+            cutoff: c as f32,
+            cos_cutoff: float64::cos(c) as f32,
+            one_minus_cos_cutoff: (2.0 * half_sine * half_sine) as f32,
+            inverse_transition: if c > b { (1.0 / (c - b)) as f32 } else { 0.0 },
+            projection: (0.5 / float64::tan(c)) as f32,
+            solid_angle: core::f64::consts::TAU * (1.0 - slope),
+        }
+    }
+
+    /// Intensity (W·sr⁻¹·nm⁻¹) along a unit direction of the light's space.
+    #[inline]
+    fn intensity(&self, textures: &impl Textures, local: Vec3, wavelengths: &Wavelengths) -> Vec4 {
+        if !(local.z > self.cos_cutoff) {
+            return Vec4::ZERO;
+        }
+        let angle = float::atan2(local.truncate().length(), local.z);
+        let falloff = if angle <= self.beam {
+            1.0
+        } else {
+            ((self.cutoff - angle) * self.inverse_transition).clamp(0.0, 1.0)
+        };
+        let mut intensity =
+            textures.spectrum(self.intensity, &anywhere(), wavelengths.lambda) * falloff;
+        if let Some(texture) = self.texture {
+            let uv = local.truncate() * (self.projection / local.z) + 0.5;
+            intensity *= textures.spectrum(texture, &TexturePoint::at_uv(uv), wavelengths.lambda);
+        }
+        intensity
+    }
+
+    /// The direction from `from` to the light.
+    #[inline]
+    pub fn sample(
+        &self,
+        textures: &impl Textures,
+        from: Vec3,
+        wavelengths: &Wavelengths,
+    ) -> Option<LightSample> {
+        let to_light = self.pose.position - from;
+        let direction = to_light.try_normalize()?;
+        let local = self.pose.to_local(-direction);
+        let intensity = self.intensity(textures, local, wavelengths);
+        (intensity != Vec4::ZERO).then(|| LightSample {
+            direction,
+            target: Some(self.pose.position),
+            radiance: intensity / to_light.length_squared(),
+            chance: Chance::Discrete(Atom::uniform(1.0)),
+            light: LightId::NONE,
+        })
+    }
+
+    /// A particle, with a direction uniform in the cone.
+    #[inline]
+    pub fn emit(&self, textures: &impl Textures, wavelengths: &Wavelengths, u: Vec2) -> Emission {
+        let local = square_to_uniform_cone(u, self.one_minus_cos_cutoff);
+        let direction = self.pose.to_world(local);
+        let intensity = self.intensity(textures, local, wavelengths);
+        Emission {
+            ray: Ray::new(self.pose.position, direction, 0.0),
+            normal: direction,
+            weight: intensity / uniform_cone_density(self.one_minus_cos_cutoff),
+            light: LightId::NONE,
+        }
+    }
+
+    /// Emitted power, averaged over the wavelengths (W·nm⁻¹); with a texture, as if it were its
+    /// mean everywhere.
+    pub fn power(&self, textures: &impl Textures) -> f64 {
+        let texture = self.texture.map_or(1.0, |t| textures.mean(t));
+        self.solid_angle * f64::from(textures.mean(self.intensity) * texture)
+    }
+}
