@@ -52,6 +52,8 @@ pub enum TableError {
     },
     /// All entries vanish.
     Zero,
+    /// The sum of the entries is beyond double precision.
+    Overflow,
 }
 
 impl fmt::Display for TableError {
@@ -77,6 +79,7 @@ impl fmt::Display for TableError {
                 )
             }
             Self::Zero => write!(f, "all entries of the table are zero"),
+            Self::Overflow => write!(f, "the sum of the entries of the table overflows"),
         }
     }
 }
@@ -110,8 +113,8 @@ fn cell_of(sums: &[f64], u: f64) -> usize {
     cell
 }
 
-/// Running sums of `weights`, from 0 to exactly 1, with the total. The final cells of no
-/// weight end at 1 as well, so that `cell_of` cannot choose them.
+/// Running sums of `weights`, from 0 to exactly 1, with the total. Final cells of no weight
+/// begin at 1, so that `cell_of` cannot choose them for u < 1.
 fn normalised_sums(weights: &[f64]) -> Result<(Vec<f64>, f64), TableError> {
     let mut sums = Vec::with_capacity(weights.len() + 1);
     let mut total = 0.0;
@@ -120,8 +123,11 @@ fn normalised_sums(weights: &[f64]) -> Result<(Vec<f64>, f64), TableError> {
         total += weight;
         sums.push(total);
     }
-    if !(total > 0.0 && total.is_finite()) {
+    if total == 0.0 {
         return Err(TableError::Zero);
+    }
+    if !total.is_finite() {
+        return Err(TableError::Overflow);
     }
     for sum in &mut sums {
         *sum /= total;

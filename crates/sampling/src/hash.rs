@@ -54,36 +54,47 @@ pub const ONE_MINUS: f32 = 1.0 - 1.0 / (1 << 24) as f32;
 /// Where `index` goes in the random permutation of 0..`count` that `key` selects.
 ///
 /// A bijection of the next power of two, walked until it lands inside (Kensler 2013,
-/// "Correlated Multi-Jittered Sampling", §3; the mixing is ours): fewer than two steps are
-/// needed on average. Requires `index < count`.
+/// "Correlated Multi-Jittered Sampling", §3): fewer than two steps are needed on average. The
+/// bijection is ours: six rounds, each adding and multiplying by other bits of the key; where any
+/// two indices go is then equally likely to within a percent. Of up to four things, where rounds
+/// converge slowest, the permutation is drawn by exchanging, and exact. Requires `index < count`.
 #[inline]
 pub fn permute(index: u32, count: u32, key: u64) -> u32 {
     debug_assert!(index < count);
-    let width = u32::BITS - (count - 1).leading_zeros();
-    if width == 0 {
-        return 0;
+    if count <= 4 {
+        return permute_few(index, count, key);
     }
+    let width = u32::BITS - (count - 1).leading_zeros();
     let mask = u32::MAX >> (u32::BITS - width);
     let shift = width.div_ceil(2);
-    // An odd multiplier that differs by key in its low bits too, and three words to add.
-    let multiplier = (key >> 32) as u32 | 1;
-    let word = key as u32;
     let mut x = index;
     loop {
-        x = x.wrapping_add(word) & mask;
-        x ^= x >> shift;
-        x = x.wrapping_mul(multiplier) & mask;
-        x ^= x >> shift;
-        x = x.wrapping_add(word.rotate_left(11)) & mask;
-        x = x.wrapping_mul(0x9e48_5565) & mask;
-        x ^= x >> shift;
-        x = x.wrapping_mul(multiplier.rotate_right(16) | 1) & mask;
-        x ^= x >> shift;
-        x = x.wrapping_mul(0xef1d_6b47) & mask;
-        x ^= x >> shift;
-        x = x.wrapping_add(word.rotate_left(22)) & mask;
+        let mut key = key;
+        for _ in 0..6 {
+            x = x.wrapping_add(key as u32);
+            x = x.wrapping_mul((key >> 32) as u32 | 1) & mask;
+            x ^= x >> shift;
+            key = key.rotate_left(23);
+        }
         if x < count {
             return x;
         }
     }
+}
+
+/// [`permute`] for a count of at most four: from the last place down, each is exchanged with
+/// one at or before it (Fisher & Yates), followed for `index` alone.
+#[inline]
+fn permute_few(index: u32, count: u32, key: u64) -> u32 {
+    let mut at = index;
+    for place in (1..count).rev() {
+        let bits = key >> (16 * (place - 1)) & 0xffff;
+        let partner = ((bits * u64::from(place + 1)) >> 16) as u32;
+        if at == place {
+            at = partner;
+        } else if at == partner {
+            at = place;
+        }
+    }
+    at
 }

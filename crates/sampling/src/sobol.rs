@@ -21,7 +21,7 @@
 
 use crate::hash::{derived_key, fold_multiply, random_float};
 use crate::sampler::{PixelSample, Sampler};
-use glam::Vec2;
+use glam::{UVec4, Vec2};
 
 /// Owen-scrambled Sobol' coordinates.
 ///
@@ -32,16 +32,10 @@ pub struct Sobol {
     key: u64,
     reversed_sample: u32,
     dimension: u32,
-    group: Group,
-}
-
-/// What the four dimensions of one group share.
-#[derive(Clone, Copy, Debug)]
-struct Group {
-    number: u32,
-    /// The shuffled index, least significant digit first (at the top).
-    index: u32,
-    key: u64,
+    group: u32,
+    /// The four coordinates of `group`. All are computed at once, in the lanes of one vector:
+    /// four cost little more than one.
+    coordinates: [f32; 4],
 }
 
 impl Sobol {
@@ -54,85 +48,42 @@ impl Sobol {
             key,
             reversed_sample,
             dimension: 0,
-            group: Group::new(key, reversed_sample, 0),
+            group: 0,
+            coordinates: coordinates(key, reversed_sample, 0),
         }
     }
 
+    /// Makes the group of `dimension` the current one.
     #[inline]
-    fn group(&mut self, dimension: u32) -> Group {
-        let number = dimension / 4;
-        if number != self.group.number {
-            self.group = Group::new(self.key, self.reversed_sample, number);
+    fn enter_group_of(&mut self, dimension: u32) {
+        let group = dimension / 4;
+        if group != self.group {
+            self.group = group;
+            self.coordinates = coordinates(self.key, self.reversed_sample, group);
         }
-        self.group
     }
 }
-
-impl Group {
-    #[inline]
-    fn new(pixel_key: u64, reversed_sample: u32, number: u32) -> Self {
-        let key = derived_key(pixel_key, number);
-        Self {
-            number,
-            index: nested_uniform_scramble(reversed_sample, key).reverse_bits(),
-            key,
-        }
-    }
-
-    /// Index of the point of the pair `half` (0 or 1): digits of its first coordinate.
-    #[inline]
-    fn half(&self, half: u32) -> u32 {
-        if half == 0 {
-            self.index
-        } else {
-            pascal_gf4(self.index)
-        }
-    }
-
-    /// The coordinate whose digits are `digits`, scrambled as dimension `place` of the group.
-    #[inline]
-    fn scramble(&self, digits: u32, place: u32) -> u32 {
-        nested_uniform_scramble(
-            digits,
-            fold_multiply(self.key, SCRAMBLES[place as usize % 4]),
-        )
-    }
-}
-
-/// Odd constants with as many ones as zeros, one for the scrambling of each dimension of a group.
-const SCRAMBLES: [u64; 4] = [
-    0xd6e8_feb8_6659_fd93,
-    0xa076_1d64_78bd_642f,
-    0xe703_7ed1_a0b4_28db,
-    0x8ebc_6af0_9c88_c6e3,
-];
 
 impl Sampler for Sobol {
     #[inline]
     fn next_1d(&mut self) -> f32 {
         let dimension = self.dimension;
         self.dimension += 1;
-        let group = self.group(dimension);
-        let first = group.half(dimension / 2 % 2);
-        let digits = if dimension.is_multiple_of(2) {
-            first
-        } else {
-            pascal(first)
-        };
-        random_float(group.scramble(digits, dimension).reverse_bits())
+        self.enter_group_of(dimension);
+        self.coordinates[dimension as usize % 4]
     }
 
     #[inline]
     fn next_2d(&mut self) -> Vec2 {
         let dimension = self.dimension.next_multiple_of(2);
         self.dimension = dimension + 2;
-        let group = self.group(dimension);
-        let first = group.half(dimension / 2 % 2);
-        let x = group.scramble(first, dimension);
-        let y = group.scramble(pascal(first), dimension + 1);
-        // One reversal of 64 bits is cheaper than two of 32; it exchanges the halves.
-        let both = (u64::from(y) << 32 | u64::from(x)).reverse_bits();
-        Vec2::new(random_float((both >> 32) as u32), random_float(both as u32))
+        self.enter_group_of(dimension);
+        let [x0, y0, x1, y1] = self.coordinates;
+        if dimension.is_multiple_of(4) {
+            Vec2::new(x0, y0)
+        } else {
+            Vec2::new(x1, y1)
+        }
     }
 
     #[inline]
@@ -144,6 +95,38 @@ impl Sampler for Sobol {
     fn skip_to(&mut self, dimension: u32) {
         self.dimension = dimension;
     }
+}
+
+/// Multipliers that derive the keys of the four scramblings of a group from the group's.
+const SCRAMBLES: [u64; 4] = [
+    0xd6e8_feb8_6659_fd93,
+    0xa076_1d64_78bd_642f,
+    0xe703_7ed1_a0b4_28db,
+    0x8ebc_6af0_9c88_c6e3,
+];
+
+/// The four coordinates of a group of dimensions.
+#[inline]
+fn coordinates(pixel_key: u64, reversed_sample: u32, group: u32) -> [f32; 4] {
+    let key = derived_key(pixel_key, group);
+    // The shuffled index, its least significant digit lowest: the first digit of x.
+    let index = nested_uniform_scramble(reversed_sample, key).reverse_bits();
+    let other = pascal_gf4(index);
+    let digits = UVec4::new(index, pascal(index), other, pascal(other));
+    let [a, b, c, d] = SCRAMBLES;
+    let (a, b) = (fold_multiply(key, a), fold_multiply(key, b));
+    let (c, d) = (fold_multiply(key, c), fold_multiply(key, d));
+    let low = UVec4::new(a as u32, b as u32, c as u32, d as u32);
+    let upper = |word: u64| (word >> 32) as u32;
+    let high = UVec4::new(upper(a), upper(b), upper(c), upper(d));
+    let scrambled = nested_uniform_scramble_lanes(digits, low, high);
+    let [x, y, z, w] = scrambled.to_array();
+    [
+        random_float(x.reverse_bits()),
+        random_float(y.reverse_bits()),
+        random_float(z.reverse_bits()),
+        random_float(w.reverse_bits()),
+    ]
 }
 
 /// Pascal's matrix over GF(2) applied to digits stored least significant first: bit i of the
@@ -199,6 +182,17 @@ fn nested_uniform_scramble(mut x: u32, key: u64) -> u32 {
     x = x.wrapping_add(high);
     x ^= x.wrapping_mul((low >> 7) << 1);
     x.wrapping_mul((low >> 15) | 1)
+}
+
+/// [`nested_uniform_scramble`] of four numbers at once, with keys in two halves.
+#[inline]
+fn nested_uniform_scramble_lanes(mut x: UVec4, low: UVec4, high: UVec4) -> UVec4 {
+    x = x.wrapping_add(low);
+    x ^= x.wrapping_mul(high << 1);
+    x = x.wrapping_mul((high >> 15) | UVec4::ONE);
+    x = x.wrapping_add(high);
+    x ^= x.wrapping_mul((low >> 7) << 1);
+    x.wrapping_mul((low >> 15) | UVec4::ONE)
 }
 
 #[cfg(test)]

@@ -109,7 +109,7 @@ fn the_variance_of_a_smooth_integrand_falls_as_the_cube_of_the_count() {
         let f = |p: glam::Vec2| f64::from(p.x * p.x * p.y);
         let (few, many) = (variance(8, dimension, f), variance(256, dimension, f));
         // log₂ of the ratio has a standard error of √2 · √(2/4000) / ln 2 / 5 = 0.01.
-        let slope = (many / few).log2() / 5.0;
+        let slope = etalon_math::float64::ln(many / few) / etalon_math::float64::ln(32.0);
         assert!(slope < -2.6, "dimension {dimension}: slope {slope}");
     }
 }

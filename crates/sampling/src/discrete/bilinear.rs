@@ -71,7 +71,7 @@ impl Bilinear {
         let [[a, b], [c, d]] = self.corners(patch);
         let y = inverse_of_linear(place.y, a + b, c + d);
         let x = inverse_of_linear(place.x, a + (c - a) * y, b + (d - b) * y);
-        ((patch.as_dvec2() + DVec2::new(x, y)) / self.patches.size().as_dvec2()).as_vec2()
+        self.patches.point_in(patch, DVec2::new(x, y))
     }
 
     /// The inverse of [`Bilinear::sample`].

@@ -5,6 +5,10 @@
 
 use super::{TableError, cell_of, check_weights, normalised_sums};
 
+/// The greatest place within a cell: below 1 by enough that adding the number of the cell, of up
+/// to 2²⁸ cells, does not round up into the next.
+const LAST_PLACE: f64 = 1.0 - 1.0 / (1 << 24) as f64;
+
 /// A piecewise constant density on [0, 1].
 #[derive(Clone, Debug)]
 pub struct PiecewiseConstant {
@@ -52,7 +56,7 @@ impl PiecewiseConstant {
     pub fn choose(&self, u: f64) -> (usize, f64) {
         let cell = cell_of(&self.sums, u);
         let place = (u - self.sums[cell]) / self.probability(cell);
-        (cell, place.clamp(0.0, 1.0 - f64::EPSILON))
+        (cell, place.clamp(0.0, LAST_PLACE))
     }
 
     /// A number in [0, 1) with this density.

@@ -58,7 +58,29 @@ impl PiecewiseConstant2d {
     #[inline]
     pub fn sample(&self, u: Vec2) -> Vec2 {
         let (cell, place) = self.choose(u.as_dvec2());
-        ((cell.as_dvec2() + place) / self.size().as_dvec2()).as_vec2()
+        self.point_in(cell, place)
+    }
+
+    /// The point at `place` ∈ [0, 1)² of a cell, in single precision but never rounded out of
+    /// its cell into another, whose density may be zero.
+    #[inline]
+    pub(super) fn point_in(&self, cell: UVec2, place: DVec2) -> Vec2 {
+        let size = self.size().as_dvec2();
+        let inside = |cell: f64, place: f64, size: f64| {
+            let x = ((cell + place) / size) as f32;
+            let back = f64::from(x) * size;
+            if back < cell {
+                x.next_up()
+            } else if back >= cell + 1.0 {
+                x.next_down()
+            } else {
+                x
+            }
+        };
+        Vec2::new(
+            inside(cell.x.into(), place.x, size.x),
+            inside(cell.y.into(), place.y, size.y),
+        )
     }
 
     /// The cell (column, row) in which `u` ∈ [0, 1)² falls, and where in it, in [0, 1)².

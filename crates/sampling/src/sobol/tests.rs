@@ -118,7 +118,7 @@ fn fast_matrices_are_their_definitions() {
 fn the_matrix_over_gf4_is_its_definition() {
     let times = |x: u32, y: u32| -> u32 {
         // Polynomials modulo ω² + ω + 1.
-        let product = (x & 1) * y ^ (x >> 1) * (y << 1);
+        let product = ((x & 1) * y) ^ ((x >> 1) * (y << 1));
         if product & 4 == 0 {
             product
         } else {
@@ -137,5 +137,21 @@ fn the_matrix_over_gf4_is_its_definition() {
             expected |= sum << (2 * row);
         }
         assert_eq!(pascal_gf4(a), expected);
+    }
+}
+
+#[test]
+fn four_lanes_scramble_as_one() {
+    for i in 0..1000u64 {
+        let keys: [u64; 4] = core::array::from_fn(|lane| mix64(4 * i + lane as u64));
+        let digits: [u32; 4] = keys.map(|key| mix64(!key) as u32);
+        let lanes = nested_uniform_scramble_lanes(
+            digits.into(),
+            keys.map(|key| key as u32).into(),
+            keys.map(|key| (key >> 32) as u32).into(),
+        );
+        let single: [u32; 4] =
+            core::array::from_fn(|lane| nested_uniform_scramble(digits[lane], keys[lane]));
+        assert_eq!(lanes.to_array(), single);
     }
 }
