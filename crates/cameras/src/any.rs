@@ -1,18 +1,9 @@
 //! The list of cameras a scene can ask for.
 
 use crate::{FilmWindow, Orthographic, Perspective, Shutter, ThinLens};
-use etalon_params::{Class, Diagnostic, Params};
+use etalon_params::{Class, Diagnostic, Params, plugins};
 use etalon_transport::{Camera, CameraRay, Connection};
 use glam::{Vec2, Vec3};
-
-/// Sensors of Mitsuba that are known but not built yet.
-pub const NOT_BUILT: &[&str] = &[
-    "batch",
-    "distant",
-    "flat_sensor",
-    "irradiancemeter",
-    "radiancemeter",
-];
 
 macro_rules! cameras {
     ($($(#[$doc:meta])* $plugin:literal => $variant:ident,)*) => {
@@ -68,16 +59,11 @@ impl AnyCamera {
     /// the scene, which reads them itself; they are marked as used here. Reports every mistake,
     /// unknown properties included; `None` if no camera can be made of it.
     pub fn from_params(params: &Params<'_>, window: FilmWindow) -> Option<(Self, Shutter)> {
-        let plugin = &params.node.plugin;
         let Some(camera) = Self::by_plugin(params, window) else {
-            let diagnostic = if NOT_BUILT.contains(&plugin.value.as_str()) {
-                let message = format!("the sensor `{}` is known but not built yet", plugin.value);
-                Diagnostic::error(plugin.span, message).help(format!("built: {}", BUILT.join(", ")))
-            } else {
-                Diagnostic::error(plugin.span, format!("unknown sensor `{}`", plugin.value))
-                    .suggest(&plugin.value, BUILT.iter().copied())
-            };
-            params.diagnostics.push(diagnostic);
+            let built = BUILT.iter().copied();
+            params
+                .diagnostics
+                .push(plugins::not_built(params.node, built));
             return None;
         };
         let shutter = Shutter::from_params(params);

@@ -4,11 +4,10 @@ use crate::pixels::{Image, Pixels, Values};
 use crate::reader::Use;
 use crate::{Bitmap, Checkerboard, Constant, Filter, Illuminated, MeshAttribute};
 use crate::{Texture, TextureReader, UvTransform, Wrap};
-use etalon_params::{Class, Diagnostic, Params, Value};
+use etalon_params::{Class, Diagnostic, Params, Value, plugins};
 use etalon_spectrum::{Blackbody, Spectrum};
 use etalon_transport::Role;
 use glam::{UVec2, Vec3};
-use std::path::Path;
 use std::sync::Arc;
 
 /// Names of the textures and spectra that are built.
@@ -24,9 +23,6 @@ pub const BUILT: &[&str] = &[
     "srgb",
     "uniform",
 ];
-
-/// Textures of Mitsuba that are known but not built yet.
-pub const NOT_BUILT: &[&str] = &["volume"];
 
 impl TextureReader<'_> {
     /// Reads a nested object; `None` after a mistake.
@@ -45,15 +41,10 @@ impl TextureReader<'_> {
                     .and_then(|spectrum| self.not_negative(spectrum, purpose, span))
                     .map(|spectrum| Texture::Constant(Constant::new(spectrum)))
             }
-            name => {
-                let diagnostic = if NOT_BUILT.contains(&name) {
-                    let message = format!("the texture `{name}` is known but not built yet");
-                    Diagnostic::error(plugin.span, message)
-                } else {
-                    Diagnostic::error(plugin.span, format!("unknown texture `{name}`"))
-                        .suggest(name, BUILT.iter().copied())
-                };
-                self.diagnostics.push(diagnostic);
+            _ => {
+                let built = BUILT.iter().copied();
+                self.diagnostics
+                    .push(plugins::not_built(params.node, built));
                 return None;
             }
         };
@@ -185,13 +176,6 @@ impl TextureReader<'_> {
             _ => Wrap::Repeat,
         };
         let to_uv = UvTransform::from_params(params);
-        // How texels are stored and fetched: nothing that shows.
-        params.choice(
-            "format",
-            "auto",
-            &["auto", "variant", "fp16", "float16", "uint8"],
-        );
-        params.ignore(&["accel"]);
         let Some(filename) = params.string("filename") else {
             if !params.has("filename") {
                 params.missing("filename", "the name of an image file");
@@ -232,10 +216,10 @@ impl TextureReader<'_> {
                 return None;
             }
         };
-        let pixels = match Pixels::decode(&bytes, raw, Path::new(filename)) {
+        let pixels = match Pixels::decode(&bytes, raw, filename) {
             Ok(pixels) => pixels,
             Err(message) => {
-                fail(format!("`{filename}`: {message}"), None);
+                fail(message, None);
                 return None;
             }
         };

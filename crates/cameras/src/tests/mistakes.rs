@@ -59,7 +59,7 @@ fn mistakes_are_refused() {
             "no parameter `fow`",
         ),
         ("distant", vec![], "not built yet"),
-        ("fisheye", vec![], "unknown sensor"),
+        ("fisheye", vec![], "unknown sensor plugin"),
     ] {
         let (_, messages) = read(plugin, &properties, FILM);
         assert!(

@@ -215,3 +215,20 @@ fn mistakes_are_refused() {
         );
     }
 }
+
+/// 8-bit files are sRGB unless `raw`, 16-bit ones too; the literals are Mitsuba's.
+#[test]
+fn integer_files_are_decoded_as_in_mitsuba() {
+    let mut files = Files::default();
+    let rgb = [0, 0, 0, 128, 128, 128, 200, 200, 200, 255, 255, 255];
+    let png = etalon_images::png::encode_rgb(&rgb, 2, 2).expect("four pixels");
+    files.0.insert("grey.png".into(), Arc::new(png));
+    let read = |raw| {
+        let properties = vec![("filename", text("grey.png")), ("raw", Value::Boolean(raw))];
+        One::new(&files, &node("bitmap", properties), Role::Reflectance)
+    };
+    assert!((read(true).number(0.75, 0.25) - 0.501_960_8).abs() < 1e-6);
+    let linear = read(false);
+    assert!(close(linear.spectrum(0.75, 0.25), [0.215_860_43; 4], 1e-3));
+    assert!(close(linear.spectrum(0.25, 0.75), [0.577_580_75; 4], 1e-3));
+}

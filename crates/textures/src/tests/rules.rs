@@ -271,7 +271,11 @@ fn mistakes_are_refused() {
             Role::Emission,
             "falls to",
         ),
-        (object("wood", vec![]), role, "unknown texture `wood`"),
+        (
+            object("wood", vec![]),
+            role,
+            "unknown texture plugin `wood`",
+        ),
         (object("volume", vec![]), role, "not built yet"),
         (
             object("srgb", vec![("color", number(0.5))]),
