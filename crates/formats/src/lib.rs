@@ -4,9 +4,16 @@
 //! files that a scene refers to. Nothing here trusts a file: sizes are checked before memory is
 //! asked for, and a broken file is a message, never a panic.
 
+mod file_assets;
+mod mesh_error;
 pub mod mitsuba;
+pub mod obj;
+pub mod ply;
+mod polygon;
 mod search_path;
 
+pub use file_assets::FileAssets;
+pub use mesh_error::{MeshError, Place};
 pub use search_path::SearchPath;
 
 use std::io::Read;

@@ -1,0 +1,187 @@
+//! The files of a scene, looked up along its search path.
+
+use crate::{SearchPath, obj, ply, read_bounded};
+use etalon_transport::{AssetError, Assets, MeshData, MeshFormat};
+use std::collections::{BTreeSet, HashMap};
+use std::path::{Path, PathBuf};
+use std::sync::{Arc, Mutex, MutexGuard, Weak};
+
+/// The largest file that is read.
+const MOST_BYTES: u64 = 16 << 30;
+
+/// Files up to this size stay in memory; larger ones only as long as somebody holds them.
+const SMALL_FILE: usize = 1 << 20;
+
+/// How much memory small files may take altogether.
+const MOST_CACHED: usize = 64 << 20;
+
+/// [`Assets`] in the file system.
+///
+/// Bytes are cached: while somebody holds a file's bytes, everybody gets the same ones, and
+/// small files are kept for good. Meshes are not: they are large and read once.
+#[derive(Debug, Default)]
+pub struct FileAssets {
+    search: SearchPath,
+    limit: u64,
+    state: Mutex<State>,
+}
+
+#[derive(Debug, Default)]
+struct State {
+    shared: HashMap<PathBuf, Weak<Vec<u8>>>,
+    kept: HashMap<PathBuf, Arc<Vec<u8>>>,
+    kept_bytes: usize,
+    used: BTreeSet<PathBuf>,
+}
+
+impl FileAssets {
+    /// Files along a search path.
+    pub fn new(search: SearchPath) -> Self {
+        Self {
+            search,
+            limit: MOST_BYTES,
+            state: Mutex::default(),
+        }
+    }
+
+    /// Refuses files of more than `limit` bytes.
+    pub fn with_limit(mut self, limit: u64) -> Self {
+        self.limit = limit;
+        self
+    }
+
+    /// The search path.
+    pub fn search(&self) -> &SearchPath {
+        &self.search
+    }
+
+    /// The files that were found and asked for so far, sorted.
+    pub fn used(&self) -> Vec<PathBuf> {
+        self.state().used.iter().cloned().collect()
+    }
+
+    fn state(&self) -> MutexGuard<'_, State> {
+        self.state.lock().unwrap_or_else(|e| e.into_inner())
+    }
+
+    fn find(&self, name: &str) -> Result<PathBuf, AssetError> {
+        let path = self.search.find(name).ok_or_else(|| AssetError {
+            message: format!("the file `{name}` was not found"),
+            help: Some(self.search.describe()),
+        })?;
+        self.state().used.insert(path.clone());
+        Ok(path)
+    }
+
+    fn read(&self, name: &str, path: &Path) -> Result<Vec<u8>, AssetError> {
+        read_bounded(path, self.limit).map_err(|reason| AssetError {
+            message: format!("cannot read `{name}`: {reason}"),
+            help: None,
+        })
+    }
+}
+
+impl Assets for FileAssets {
+    fn bytes(&self, name: &str) -> Result<Arc<Vec<u8>>, AssetError> {
+        let path = self.find(name)?;
+        if let Some(bytes) = self.state().shared.get(&path).and_then(Weak::upgrade) {
+            return Ok(bytes);
+        }
+        let bytes = Arc::new(self.read(name, &path)?);
+        let mut state = self.state();
+        // Another thread may have been faster; then its bytes are everybody's.
+        if let Some(first) = state.shared.get(&path).and_then(Weak::upgrade) {
+            return Ok(first);
+        }
+        state.shared.insert(path.clone(), Arc::downgrade(&bytes));
+        if bytes.len() <= SMALL_FILE && state.kept_bytes + bytes.len() <= MOST_CACHED {
+            state.kept_bytes += bytes.len();
+            state.kept.insert(path, bytes.clone());
+        }
+        Ok(bytes)
+    }
+
+    fn mesh(&self, format: MeshFormat, name: &str) -> Result<MeshData, AssetError> {
+        let path = self.find(name)?;
+        let bytes = self.read(name, &path)?;
+        let mesh = match format {
+            MeshFormat::Obj => obj::parse(&bytes),
+            MeshFormat::Ply => ply::parse(&bytes),
+        };
+        mesh.map_err(|error| AssetError {
+            message: format!("`{name}`, {error}"),
+            help: looks_like_another(format, &bytes),
+        })
+    }
+}
+
+/// A hint for files that were given to the wrong reader.
+fn looks_like_another(format: MeshFormat, bytes: &[u8]) -> Option<String> {
+    let is_ply = bytes.starts_with(b"ply\n") || bytes.starts_with(b"ply\r");
+    match format {
+        MeshFormat::Obj if is_ply => Some("this is a PLY file: use the shape `ply`".into()),
+        MeshFormat::Ply if bytes.starts_with(b"v ") || bytes.starts_with(b"# ") => {
+            Some("this may be an OBJ file: use the shape `obj`".into())
+        }
+        _ => None,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn folder() -> (tempfile::TempDir, FileAssets) {
+        let folder = tempfile::tempdir().expect("a temporary folder");
+        let write = |name: &str, text: &str| {
+            std::fs::write(folder.path().join(name), text).expect("written");
+        };
+        write("a.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
+        write("bad.obj", "v 0 0 0\nf 1 2 3\n");
+        write("x.ply", "ply\nformat ascii 1.0\nend_header\n");
+        write("small", "12345");
+        let assets = FileAssets::new(SearchPath::new([folder.path().to_owned()]));
+        (folder, assets)
+    }
+
+    #[test]
+    fn bytes_are_read_once() {
+        let (folder, assets) = folder();
+        let first = assets.bytes("small").expect("read");
+        std::fs::remove_file(folder.path().join("small")).expect("removed");
+        std::fs::write(folder.path().join("small"), "other").expect("written");
+        assert!(Arc::ptr_eq(&first, &assets.bytes("small").expect("cached")));
+        assert_eq!(assets.used(), [folder.path().join("small")]);
+    }
+
+    #[test]
+    fn meshes_are_read_by_format() {
+        let (_folder, assets) = folder();
+        let mesh = assets.mesh(MeshFormat::Obj, "a.obj").expect("read");
+        assert_eq!(mesh.triangles, [[0, 1, 2]]);
+    }
+
+    #[test]
+    fn errors_name_the_file() {
+        let (folder, assets) = folder();
+        let message = |name: &str| {
+            let error = assets.mesh(MeshFormat::Obj, name).expect_err("broken");
+            format!("{} ({})", error.message, error.help.unwrap_or_default())
+        };
+        assert_eq!(
+            message("bad.obj"),
+            "`bad.obj`, line 2: the face refers to position 2, but 1 are given so far ()"
+        );
+        let place = folder.path().display();
+        assert_eq!(
+            message("none.obj"),
+            format!("the file `none.obj` was not found (looked in `{place}`)")
+        );
+        assert!(message("x.ply").ends_with("(this is a PLY file: use the shape `ply`)"));
+        let assets = FileAssets::new(assets.search().clone()).with_limit(4);
+        assert_eq!(
+            assets.bytes("small").expect_err("too large").message,
+            "cannot read `small`: it has 5 bytes, more than the 4 that are accepted"
+        );
+    }
+}

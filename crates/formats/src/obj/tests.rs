@@ -1,0 +1,186 @@
+//! OBJ files, well-formed and not, and agreement with the crate `tobj`.
+
+use super::*;
+use proptest::prelude::*;
+use proptest::test_runner::RngSeed;
+
+const SQUARE: &str = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\n";
+
+fn square(rest: &str) -> Result<MeshData, MeshError> {
+    parse(format!("{SQUARE}{rest}").as_bytes())
+}
+
+fn message(rest: &str) -> String {
+    square(rest).expect_err("malformed on purpose").to_string()
+}
+
+#[test]
+fn polygons_groups_and_comments() {
+    let mesh = square("g a\nusemtl q # x\nf 1 2 3 4 # quad\r\n\no b\ns 1\nl 1 2\n").expect("read");
+    assert_eq!(mesh.triangles, [[0, 1, 2], [0, 2, 3]]);
+    assert_eq!(mesh.positions.len(), 4);
+    assert!(mesh.normals.is_empty() && mesh.uvs.is_empty() && mesh.attributes.is_empty());
+}
+
+#[test]
+fn vertices_are_shared_by_all_three_indices() {
+    // As Mitsuba 3.9.1 numbers them.
+    let mesh = square("vt 0 0\nvt 1 1\nf 1/1 2/1 3/1\nf 1/2 3/1 4/1\n").expect("read");
+    assert_eq!(mesh.triangles, [[0, 1, 2], [3, 2, 4]]);
+    assert_eq!(mesh.uvs[3], Vec2::ONE);
+}
+
+#[test]
+fn negative_indices_and_continuations() {
+    let mesh = square("f -4 \\\n -3 \\\r\n-2\n").expect("read");
+    assert_eq!(mesh.triangles, [[0, 1, 2]]);
+    assert_eq!(mesh.positions[2], Vec3::new(1.0, 1.0, 0.0));
+}
+
+#[test]
+fn mixed_corners_keep_what_is_given() {
+    let mesh = square("vt .5 .25\nvn 0 0 -1\nf 1/1 2 3\nf 1/1/1 3 4\n").expect("read");
+    assert_eq!(mesh.uvs[0], Vec2::new(0.5, 0.25));
+    assert_eq!(mesh.uvs[1], Vec2::ZERO);
+    assert_eq!(mesh.normals[3], -Vec3::Z);
+    assert_eq!(mesh.normals[1], Vec3::Z);
+}
+
+#[test]
+fn colours_of_vertices() {
+    let mesh = parse(b"v 0 0 0 1 .5 0\nv 1 0 0 0 1 0\nv 0 1 0 0 0 1\nf 1 2 3").expect("read");
+    assert_eq!(mesh.attributes[0].name, "vertex_color");
+    assert_eq!(mesh.attributes[0].values[..3], [1.0, 0.5, 0.0]);
+}
+
+#[test]
+fn mistakes_have_a_line() {
+    assert_eq!(
+        message("f 1 2 9\n"),
+        "line 5: the face refers to position 9, but 4 are given so far"
+    );
+    assert_eq!(
+        message("\nf 1 2 0\n"),
+        "line 6: the face refers to position 0, but 4 are given so far"
+    );
+    assert_eq!(message("v 1 x 0\n"), "line 5: `x` is not a number");
+    assert_eq!(
+        message("v 1 nan 0\n"),
+        "line 5: `nan` in this position is not finite"
+    );
+    assert_eq!(
+        message("v 1 1e39 0\n"),
+        "line 5: `1e39` in this position is not finite"
+    );
+    assert_eq!(
+        message("v 1 2\n"),
+        "line 5: a number of this position is missing"
+    );
+    assert_eq!(
+        message("f 1 2 3/4/5/6\n"),
+        "line 5: `3/4/5/6` is not a corner of a face"
+    );
+    assert_eq!(
+        message("f 1 2 /1\n"),
+        "line 5: `/1` is not a corner of a face"
+    );
+    assert_eq!(message("f 1 2 a\n"), "line 5: `a` is not an index");
+    assert_eq!(
+        message(""),
+        "the file contains no faces of three or more corners"
+    );
+    assert_eq!(
+        message("f 1 2\n"),
+        "the file contains no faces of three or more corners"
+    );
+}
+
+#[test]
+fn many_corners_of_one_position_stay_fast() {
+    let mut text = String::from(SQUARE);
+    for i in 0..60_000 {
+        text.push_str(&format!("vt {i} 0\nf 1/-1 2/-1 3/-1\n"));
+    }
+    let start = std::time::Instant::now();
+    let mesh = parse(text.as_bytes()).expect("read");
+    assert_eq!(mesh.positions.len(), 180_000);
+    assert!(start.elapsed() < std::time::Duration::from_secs(2));
+}
+
+/// A well-formed file: vertices, texture coordinates, normals and triangles over them.
+fn file() -> impl Strategy<Value = String> {
+    let number = -100.0f32..100.0;
+    let triple = prop::array::uniform3(number.clone());
+    (
+        prop::collection::vec(triple.clone(), 3..12),
+        prop::collection::vec([number.clone(), number], 1..6),
+        prop::collection::vec(triple, 1..6),
+        prop::collection::vec(any::<[[u8; 3]; 3]>(), 1..20),
+    )
+        .prop_map(|(v, vt, vn, faces)| {
+            let mut text = String::new();
+            for [x, y, z] in &v {
+                text.push_str(&format!("v {x} {y} {z}\n"));
+            }
+            for [x, y] in &vt {
+                text.push_str(&format!("vt {x} {y}\n"));
+            }
+            for [x, y, z] in &vn {
+                text.push_str(&format!("vn {x} {y} {z}\n"));
+            }
+            for face in faces {
+                text.push('f');
+                for [a, b, c] in face {
+                    let index = |i: u8, n: usize| usize::from(i) % n + 1;
+                    let (a, b, c) = (index(a, v.len()), index(b, vt.len()), index(c, vn.len()));
+                    text.push_str(&format!(" {a}/{b}/{c}"));
+                }
+                text.push('\n');
+            }
+            text
+        })
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig {
+        failure_persistence: None,
+        rng_seed: RngSeed::Fixed(7),
+        ..ProptestConfig::with_cases(200)
+    })]
+
+    #[test]
+    fn agrees_with_tobj(text in file()) {
+        let ours = parse(text.as_bytes()).expect("well-formed");
+        let (models, _) = tobj::load_obj_buf(
+            &mut text.as_bytes(),
+            &tobj::GPU_LOAD_OPTIONS,
+            |_| Err(tobj::LoadError::GenericFailure),
+        ).expect("well-formed");
+        let theirs = &models[0].mesh;
+        let triangles: Vec<u32> = ours.triangles.iter().flatten().copied().collect();
+        let positions: Vec<f32> = ours.positions.iter().flat_map(|p| p.to_array()).collect();
+        let normals: Vec<f32> = ours.normals.iter().flat_map(|p| p.to_array()).collect();
+        let uvs: Vec<f32> = ours.uvs.iter().flat_map(|p| p.to_array()).collect();
+        prop_assert_eq!(&triangles, &theirs.indices);
+        prop_assert_eq!(&positions, &theirs.positions);
+        prop_assert_eq!(&normals, &theirs.normals);
+        prop_assert_eq!(&uvs, &theirs.texcoords);
+    }
+
+    #[test]
+    fn broken_files_are_refused_quietly(
+        text in file(), cut in any::<prop::sample::Index>(), edits in prop::collection::vec(
+            (any::<prop::sample::Index>(), any::<u8>()), 0..8),
+    ) {
+        let mut bytes = text.into_bytes();
+        for (place, byte) in edits {
+            let place = place.index(bytes.len());
+            bytes[place] = byte;
+        }
+        bytes.truncate(cut.index(bytes.len() + 1));
+        if let Ok(mesh) = parse(&bytes) {
+            prop_assert!(mesh.positions.iter().all(|p| p.is_finite()));
+            prop_assert!(mesh.triangles.iter().flatten().all(|&i| (i as usize) < mesh.positions.len()));
+        }
+    }
+}
