@@ -4,7 +4,8 @@
 //! file's name.
 
 use crate::{Error, exr, pfm, srgb};
-use image::{ColorType, DynamicImage, ImageDecoder, ImageFormat, ImageReader, Limits};
+use image::codecs::{hdr::HdrDecoder, jpeg::JpegDecoder, png::PngDecoder};
+use image::{ColorType, DynamicImage, ImageDecoder, Limits};
 use std::io::Cursor;
 use std::path::Path;
 
@@ -233,9 +234,7 @@ pub fn decode_header(bytes: &[u8], path: &Path) -> Result<RasterHeader, Error> {
             (header.width, header.height, header.channels, 32)
         }
         foreign => {
-            let decoder = reader(bytes, foreign)
-                .into_decoder()
-                .map_err(|error| failure(path, error))?;
+            let decoder = decoder(bytes, foreign).map_err(|error| failure(path, error))?;
             let (width, height) = decoder.dimensions();
             let colour = decoder.color_type();
             let channels = usize::from(colour.channel_count());
@@ -294,25 +293,28 @@ fn from_exr(bytes: &[u8], path: &Path) -> Result<Raster, Error> {
     ))
 }
 
-fn reader(bytes: &[u8], format: Format) -> ImageReader<Cursor<&[u8]>> {
-    let format = match format {
-        Format::Png => ImageFormat::Png,
-        Format::Jpeg => ImageFormat::Jpeg,
-        _ => ImageFormat::Hdr,
-    };
-    let mut reader = ImageReader::with_format(Cursor::new(bytes), format);
+/// A decoder that refuses images too large for the file.
+fn decoder(bytes: &[u8], format: Format) -> image::ImageResult<Box<dyn ImageDecoder + '_>> {
     let mut limits = Limits::default();
     limits.max_alloc = Some((1 << 28).max(1100 * bytes.len() as u64));
-    reader.limits(limits);
-    reader
+    let bytes = Cursor::new(bytes);
+    let mut decoder: Box<dyn ImageDecoder> = match format {
+        Format::Png => Box::new(PngDecoder::with_limits(bytes, limits.clone())?),
+        Format::Jpeg => Box::new(JpegDecoder::new(bytes)?),
+        // Strictly, a file must begin with "#?RADIANCE"; many, Mitsuba's among them, do not.
+        _ => Box::new(HdrDecoder::new_nonstrict(bytes)?),
+    };
+    limits.reserve(decoder.total_bytes())?;
+    decoder.set_limits(limits)?;
+    Ok(decoder)
 }
 
 fn from_foreign(bytes: &[u8], format: Format, path: &Path) -> Result<Raster, Error> {
     if format == Format::Jpeg && !jpeg_ends(bytes) {
         return Err(Error::invalid(path, "the JPEG file ends too early"));
     }
-    let decoded = reader(bytes, format)
-        .decode()
+    let decoded = decoder(bytes, format)
+        .and_then(DynamicImage::from_decoder)
         .map_err(|error| failure(path, error))?;
     let (width, height) = (decoded.width() as usize, decoded.height() as usize);
     let channels = usize::from(decoded.color().channel_count());

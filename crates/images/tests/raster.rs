@@ -143,6 +143,15 @@ fn hdr_is_rounded_to_its_steps() {
     }
 }
 
+/// Many programs, Mitsuba among them, write this signature.
+#[test]
+fn hdr_by_other_programs() {
+    let mut bytes = b"#?RGBE\nFORMAT=32-bit_rle_rgbe\n\n-Y 1 +X 2\n".to_vec();
+    bytes.extend([128, 64, 0, 129, 255, 255, 255, 136]);
+    let picture = decode(&bytes);
+    assert_eq!(picture.to_linear(), [1.0, 0.5, 0.0, 255.0, 255.0, 255.0]);
+}
+
 #[test]
 fn hdr_counts_what_it_cannot_hold() {
     let folder = tempfile::tempdir().expect("a folder");

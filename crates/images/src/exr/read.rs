@@ -2,15 +2,18 @@
 
 use super::{Document, Part, bounds, header};
 use crate::{Error, Image};
+use ::exr::block::chunk::Chunk;
 use ::exr::block::lines::LineRef;
-use ::exr::block::reader::{ChunksReader, Reader};
+use ::exr::block::reader::Reader;
 use ::exr::block::{BlockIndex, UncompressedBlock};
+use ::exr::error::UnitResult;
 use ::exr::meta::attribute::SampleType;
 use ::exr::meta::{MetaData, header::Header};
 use ::exr::prelude::f16;
 use std::collections::HashSet;
 use std::io::Cursor;
 use std::path::Path;
+use std::sync::Mutex;
 
 /// Reads a file.
 ///
@@ -34,20 +37,16 @@ pub fn decode(bytes: &[u8], path: &Path) -> Result<Document, Error> {
     let meta = header::metadata(bytes, path)?;
     bounds::check(path, &meta.headers, bytes.len())?;
 
-    let mut planes: Vec<Planes> = meta.headers.iter().map(Planes::new).collect();
     let chunks = Reader::read_from_buffered(Cursor::new(bytes), false)
-        .and_then(|reader| reader.all_chunks(false))
+        .and_then(|reader| reader.all_chunks(false)?.collect::<Result<Vec<_>, _>>())
         .map_err(|error| header::failure(path, error))?;
-    let insert = |meta: &MetaData, block: UncompressedBlock| {
+    bounds::check_chunks(path, &meta.headers, &chunks)?;
+
+    let mut planes: Vec<Planes> = meta.headers.iter().map(Planes::new).collect();
+    decompress(&meta, chunks, |block| {
         let layer = block.index.layer;
         planes[layer].insert(&meta.headers[layer], &block)
-    };
-    let samples: usize = meta.headers.iter().map(sample_count).sum();
-    if samples <= SMALL {
-        chunks.decompress_sequential(false, insert)
-    } else {
-        chunks.decompress_parallel(false, insert)
-    }
+    })
     .map_err(|error| header::failure(path, error))?;
 
     let mut parts = Vec::with_capacity(planes.len());
@@ -71,11 +70,59 @@ pub fn decode(bytes: &[u8], path: &Path) -> Result<Document, Error> {
     })
 }
 
-/// Files of up to this many samples are decompressed by the calling thread.
+/// Files with up to this many samples are decompressed by one thread.
 const SMALL: usize = 1 << 20;
 
-fn sample_count(header: &Header) -> usize {
-    header.layer_size.area() * header.channels.list.len()
+/// Decompresses the chunks, on several threads if there is much to do, and hands each block to
+/// `insert`, in any order.
+///
+/// The decoder may panic on damaged data (its arithmetic overflows where that is checked). Such a
+/// panic ends its thread, not the process, and becomes an error.
+fn decompress(
+    meta: &MetaData,
+    chunks: Vec<Chunk>,
+    mut insert: impl FnMut(UncompressedBlock) -> UnitResult,
+) -> UnitResult {
+    let samples: usize = meta
+        .headers
+        .iter()
+        .map(|header| header.layer_size.area() * header.channels.list.len())
+        .sum();
+    let threads = if samples <= SMALL {
+        1
+    } else {
+        std::thread::available_parallelism().map_or(1, |n| n.get().min(16))
+    };
+    let chunks = Mutex::new(chunks.into_iter());
+    let take = || chunks.lock().ok()?.next();
+    let (sender, receiver) = std::sync::mpsc::sync_channel(2 * threads);
+    std::thread::scope(|scope| {
+        let workers: Vec<_> = (0..threads)
+            .map(|_| {
+                let sender = sender.clone();
+                scope.spawn(move || {
+                    while let Some(chunk) = take() {
+                        let block = UncompressedBlock::decompress_chunk(chunk, meta, false);
+                        if sender.send(block).is_err() {
+                            return;
+                        }
+                    }
+                })
+            })
+            .collect();
+        drop(sender);
+        let inserted = receiver.into_iter().try_for_each(|block| insert(block?));
+        let panicked = workers
+            .into_iter()
+            .map(|worker| worker.join().is_err())
+            .fold(false, |any, one| any || one);
+        if panicked {
+            return Err(::exr::error::Error::Invalid(
+                "its compressed pixels are damaged".into(),
+            ));
+        }
+        inserted
+    })
 }
 
 /// The channels of a part while they are read.
@@ -101,7 +148,7 @@ impl Planes {
         }
     }
 
-    fn insert(&mut self, header: &Header, block: &UncompressedBlock) -> ::exr::error::UnitResult {
+    fn insert(&mut self, header: &Header, block: &UncompressedBlock) -> UnitResult {
         let BlockIndex {
             pixel_position: at,
             pixel_size: size,
@@ -156,11 +203,7 @@ impl Planes {
 }
 
 /// Copies a row of samples, converting them to floats.
-fn copy(
-    line: LineRef<'_>,
-    sample_type: SampleType,
-    target: &mut [f32],
-) -> ::exr::error::UnitResult {
+fn copy(line: LineRef<'_>, sample_type: SampleType, target: &mut [f32]) -> UnitResult {
     match sample_type {
         SampleType::F32 => return line.read_samples_into_slice(target),
         SampleType::F16 => {
