@@ -10,14 +10,15 @@
 
 use crate::faults::{FaultLog, Offence};
 use crate::pixel_moments::PixelMoments;
-use crate::tile_means::{self, TileMeans, TileSums};
+use crate::replicate_end;
+use crate::tile_means::TileMeans;
 use crate::tile_sink::ExactTile;
 use crate::{FilmSettings, PixelFilter};
+use etalon_images::Image;
 use etalon_params::Diagnostic;
 use etalon_statistics::{AtomicFixed128, Fault, Fixed128, Moments};
 use etalon_transport::{Channel, Film, Placement};
 use glam::{UVec2, Vec2};
-use rayon::prelude::*;
 use std::sync::Mutex;
 
 /// What the name of a channel with standard errors begins with.
@@ -40,15 +41,18 @@ pub struct ExactFilm {
     faults: Mutex<FaultLog>,
 }
 
-/// Pixels on the side of the smallest tiles.
-const TILE: u32 = 16;
-
 impl ExactFilm {
     /// An empty film with channels for the colour and those that the integrator names.
     ///
     /// # Errors
-    /// If two channels of the file would have the same name, or the memory cannot be had.
+    /// If the crop is empty or not within the film, two channels of the file would have the same
+    /// name, or the memory cannot be had.
     pub fn new(settings: FilmSettings, named: &[Channel]) -> Result<Self, Diagnostic> {
+        if !settings.is_valid() {
+            let (o, c, w) = (settings.crop_offset, settings.crop_size, settings.size);
+            let message = format!("a crop of {c} pixels at {o} is not within a film of {w}");
+            return Err(Diagnostic::error_nowhere(message));
+        }
         let format = settings.pixel_format;
         let mut channels: Vec<String> = format.colours().iter().map(|&c| c.to_owned()).collect();
         if format.has_alpha() {
@@ -79,7 +83,7 @@ impl ExactFilm {
             moments,
             replicates: 0,
             samples: 0,
-            tiles: [means(Some(TILE)), means(Some(4 * TILE)), means(None)],
+            tiles: replicate_end::TILES.map(means),
             faults: Mutex::default(),
             channels,
             settings,
@@ -122,6 +126,65 @@ impl ExactFilm {
     /// Means over tiles of 16² and 64² pixels and over the whole image.
     pub fn tile_means(&self) -> &[TileMeans] {
         &self.tiles
+    }
+
+    /// Adds a replicate that was rendered elsewhere: an independent estimate of the whole crop,
+    /// of `samples` per pixel, with one channel for each of [`ExactFilm::channels`].
+    ///
+    /// This is how other renderers' images, one per seed, become a reference with standard
+    /// errors and tile means.
+    ///
+    /// # Errors
+    /// If the image has another size or lacks a channel.
+    pub fn add_replicate(&mut self, image: &Image, samples: u64) -> Result<(), String> {
+        let [width, height] = self.settings.crop_size.to_array();
+        let size = [image.width(), image.height()];
+        if size != [width, height].map(|n| n as usize) {
+            let [w, h] = size;
+            return Err(format!(
+                "the image has {w} × {h} pixels, not {width} × {height}"
+            ));
+        }
+        let planes = self.channels.iter().map(|name| {
+            let plane = image.channel(name);
+            plane.ok_or_else(|| format!("the image has no channel `{name}`"))
+        });
+        let planes: Vec<&[f32]> = planes.collect::<Result<_, String>>()?;
+        let mut log = FaultLog::default();
+        for (i, sums) in self.current.chunks_exact(planes.len()).enumerate() {
+            for ((sum, plane), name) in sums.iter().zip(&planes).zip(&self.channels) {
+                if let Err(fault) = sum.add(plane[i]) {
+                    let place = [i % size[0], i / size[0]].map(|n| n as u32);
+                    let pixel = UVec2::from(place) + self.settings.crop_offset;
+                    log.note(self.offence(pixel, None, name, fault));
+                }
+            }
+        }
+        self.report(log);
+        self.finish_replicate(1, samples);
+        Ok(())
+    }
+
+    /// Divides the current sums by `divisor`, and lets the means join the statistics as those
+    /// of `samples` per pixel.
+    fn finish_replicate(&mut self, divisor: u64, samples: u64) {
+        if divisor == 0 {
+            return;
+        }
+        let layout = replicate_end::Layout {
+            channels: &self.channels,
+            origin: self.settings.crop_offset,
+            size: self.settings.crop_size,
+            replicate: self.replicates,
+        };
+        let (sums, log) = layout.finish(&mut self.current, &mut self.moments, divisor);
+        let size = self.settings.crop_size.to_array();
+        for (means, sums) in self.tiles.iter_mut().zip(&sums) {
+            means.push(sums, divisor, size);
+        }
+        self.report(log);
+        self.replicates += 1;
+        self.samples += samples;
     }
 
     /// The finished replicates of one channel of one pixel, counted within the crop.
@@ -226,58 +289,6 @@ impl Film for ExactFilm {
     }
 
     fn end_replicate(&mut self, samples: u32) {
-        if samples == 0 {
-            return;
-        }
-        let channels = self.channels.len();
-        let width = self.settings.crop_size.x as usize;
-        let band = TILE as usize * width * channels;
-        let (names, origin, replicate) =
-            (&self.channels, self.settings.crop_offset, self.replicates);
-        let bands: Vec<(Vec<Option<Fixed128>>, FaultLog)> = self
-            .current
-            .par_chunks_mut(band)
-            .zip(self.moments.par_chunks_mut(band))
-            .enumerate()
-            .map(|(row, (current, moments))| {
-                let mut sums = vec![Some(Fixed128::ZERO); width.div_ceil(TILE as usize) * channels];
-                let mut log = FaultLog::default();
-                for (i, (sum, moments)) in current.iter_mut().zip(moments).enumerate() {
-                    let sum = sum.take();
-                    let (pixel, channel) = (i / channels, i % channels);
-                    let tile = pixel % width / TILE as usize * channels + channel;
-                    sums[tile] = tile_means::add(sums[tile], Some(sum));
-                    if let Err(fault) = moments.push(sum.mean_fixed(samples.into())) {
-                        let y = row * TILE as usize + pixel / width;
-                        let pixel = origin + UVec2::new((pixel % width) as u32, y as u32);
-                        log.note(Offence {
-                            replicate,
-                            pixel: pixel.to_array(),
-                            sample: None,
-                            source: names[channel].clone(),
-                            kind: fault.into(),
-                        });
-                    }
-                }
-                (sums, log)
-            })
-            .collect();
-        let mut finest = TileSums {
-            columns: self.settings.crop_size.x.div_ceil(TILE),
-            channels: channels as u32,
-            sums: Vec::new(),
-        };
-        for (sums, log) in bands {
-            finest.sums.extend(sums);
-            self.report(log);
-        }
-        let size = self.settings.crop_size.to_array();
-        let coarse = finest.coarser(4);
-        let whole = coarse.coarser(coarse.columns.max(size[1].div_ceil(4 * TILE)));
-        for (means, sums) in self.tiles.iter_mut().zip([&finest, &coarse, &whole]) {
-            means.push(sums, samples, size);
-        }
-        self.replicates += 1;
-        self.samples += u64::from(samples);
+        self.finish_replicate(samples.into(), samples.into());
     }
 }

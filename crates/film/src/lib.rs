@@ -7,6 +7,7 @@
 mod exact_film;
 mod half_line;
 mod pixel_moments;
+mod replicate_end;
 mod splat;
 mod tile_sink;
 

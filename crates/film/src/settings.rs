@@ -65,6 +65,16 @@ impl FilmSettings {
         }
     }
 
+    /// Whether the crop has pixels, lies within the film, and the film within
+    /// [`FilmSettings::LARGEST`].
+    pub fn is_valid(&self) -> bool {
+        let [offset, crop, whole] = [self.crop_offset, self.crop_size, self.size];
+        whole.cmple(UVec2::splat(Self::LARGEST)).all()
+            && crop.cmpge(UVec2::ONE).all()
+            && offset.cmple(whole).all()
+            && crop.cmple(whole - offset).all()
+    }
+
     /// Reads an `hdrfilm` with Mitsuba's names and defaults; mistakes go to
     /// `params.diagnostics`. Calling `finish` on `params` is left to the caller.
     ///

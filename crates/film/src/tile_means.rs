@@ -102,14 +102,13 @@ impl TileMeans {
         &self.values[plane * tiles..(plane + 1) * tiles]
     }
 
-    /// Adds a replicate: the sums of its tiles, `None` where they were out of range.
-    pub(crate) fn push(&mut self, sums: &TileSums, samples: u32, size: [u32; 2]) {
+    /// Adds a replicate: the sums of its tiles, to be divided by `divisor` and the number of
+    /// pixels; `None` where they were out of range.
+    pub(crate) fn push(&mut self, sums: &TileSums, divisor: u64, size: [u32; 2]) {
         for channel in 0..self.channels {
             for row in 0..self.rows {
                 for column in 0..self.columns {
-                    let count = u64::from(samples)
-                        * self.extent(column, size[0])
-                        * self.extent(row, size[1]);
+                    let count = divisor * self.extent(column, size[0]) * self.extent(row, size[1]);
                     let sum = sums.get(column, row, channel);
                     self.values
                         .push(sum.map_or(f32::NAN, |sum| sum.mean(count) as f32));

@@ -274,3 +274,75 @@ fn channels_need_different_names() {
         assert!(message.contains(bad[bad.len() - 1]), "{message}");
     }
 }
+
+/// Images added as replicates give what the same numbers give as samples.
+#[test]
+fn replicates_can_come_from_elsewhere() {
+    let settings = FilmSettings {
+        pixel_format: PixelFormat::Rgba,
+        crop_offset: UVec2::new(5, 6),
+        crop_size: UVec2::new(20, 18),
+        ..FilmSettings::new(32, 32, BOX)
+    };
+    let value = |x, y, r, _| uniform([x, y, r, 0]) * 4.0 - 1.0;
+    let mut rendered = ExactFilm::new(settings.clone(), &[]).expect("names");
+    feed(&mut rendered, 3, 1, value);
+    let mut imported = ExactFilm::new(settings, &[]).expect("names");
+    for replicate in 0..3 {
+        let plane = |f: &dyn Fn(f32) -> f32| -> Vec<f32> {
+            (0..360)
+                .map(|i| f(value(5 + i % 20, 6 + i / 20, replicate, 0)))
+                .collect()
+        };
+        let image = etalon_images::Image::new(20, 18)
+            .with("A", plane(&f32::round))
+            .with("R", plane(&|v| v))
+            .with("G", plane(&|v| v * v))
+            .with("B", plane(&|_| 1.0))
+            .with("unused", plane(&|_| f32::NAN));
+        imported.add_replicate(&image, 64).expect("fits");
+    }
+    let (mut rendered, imported) = (develop(&rendered), develop(&imported));
+    let spp = imported.metadata.as_ref().map(|m| m.spp);
+    assert_eq!(spp, Some(192));
+    rendered.metadata.as_mut().expect("metadata").spp = 192;
+    assert!(rendered == imported);
+
+    let mut film = ExactFilm::new(FilmSettings::new(2, 1, BOX), &[]).expect("names");
+    let image = etalon_images::Image::new(2, 1).with("R", vec![0.0; 2]);
+    assert!(
+        film.add_replicate(&image, 1)
+            .is_err_and(|e| e.contains("`G`"))
+    );
+    let image = etalon_images::Image::new(1, 2);
+    assert!(
+        film.add_replicate(&image, 1)
+            .is_err_and(|e| e.contains("1 × 2"))
+    );
+    assert_eq!(film.replicates(), 0);
+}
+
+#[test]
+fn a_crop_lies_within_the_film() {
+    let film = |offset: [u32; 2], crop: [u32; 2]| {
+        let (crop_offset, crop_size) = (UVec2::from(offset), UVec2::from(crop));
+        let settings = FilmSettings {
+            crop_offset,
+            crop_size,
+            ..FilmSettings::new(8, 4, BOX)
+        };
+        ExactFilm::new(settings, &[])
+    };
+    assert!(film([0, 0], [8, 4]).is_ok());
+    assert!(film([7, 3], [1, 1]).is_ok());
+    for (offset, crop) in [
+        ([0, 0], [0, 4]),
+        ([1, 0], [8, 4]),
+        ([8, 0], [1, 1]),
+        ([9, 0], [1, 1]),
+        ([u32::MAX, 0], [2, 1]),
+    ] {
+        assert!(film(offset, crop).is_err(), "{offset:?} {crop:?}");
+    }
+    assert!(ExactFilm::new(FilmSettings::new(1 << 17, 1, BOX), &[]).is_err());
+}

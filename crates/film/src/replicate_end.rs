@@ -1,0 +1,94 @@
+//! What happens when a replicate ends: its means join the statistics, and its tiles are summed.
+
+use crate::faults::{FaultLog, Offence};
+use crate::pixel_moments::PixelMoments;
+use crate::tile_means::{TileSums, add};
+use etalon_statistics::{AtomicFixed128, Fixed128};
+use glam::UVec2;
+use rayon::prelude::*;
+
+/// Sides of the tiles whose means are kept (pixels); the last is the whole image.
+pub(crate) const TILES: [Option<u32>; 3] = [Some(SIDE), Some(SIDE * FACTOR), None];
+
+/// Side of the smallest tiles.
+const SIDE: u32 = 16;
+/// How many of these make a side of the next.
+const FACTOR: u32 = 4;
+
+/// Where the numbers of a film belong.
+pub(crate) struct Layout<'f> {
+    pub(crate) channels: &'f [String],
+    pub(crate) origin: UVec2,
+    pub(crate) size: UVec2,
+    pub(crate) replicate: u32,
+}
+
+impl Layout<'_> {
+    /// Empties the current sums into the moments, each divided by `divisor`. Gives the sums over
+    /// the tiles of each size, and what did not fit.
+    pub(crate) fn finish(
+        &self,
+        current: &mut [AtomicFixed128],
+        moments: &mut [PixelMoments],
+        divisor: u64,
+    ) -> ([TileSums; 3], FaultLog) {
+        let channels = self.channels.len();
+        let band = SIDE as usize * self.size.x as usize * channels;
+        let bands: Vec<(Vec<Option<Fixed128>>, FaultLog)> = current
+            .par_chunks_mut(band)
+            .zip(moments.par_chunks_mut(band))
+            .enumerate()
+            .map(|(row, (current, moments))| self.band(row as u32, current, moments, divisor))
+            .collect();
+        let mut log = FaultLog::default();
+        let mut finest = TileSums {
+            columns: self.size.x.div_ceil(SIDE),
+            channels: channels as u32,
+            sums: Vec::new(),
+        };
+        for (sums, of_band) in bands {
+            finest.sums.extend(sums);
+            log.merge(of_band);
+        }
+        let coarse = finest.coarser(FACTOR);
+        let whole = coarse.coarser(coarse.columns.max(self.size.y.div_ceil(SIDE * FACTOR)));
+        ([finest, coarse, whole], log)
+    }
+
+    /// One row of tiles.
+    fn band(
+        &self,
+        row: u32,
+        current: &mut [AtomicFixed128],
+        moments: &mut [PixelMoments],
+        divisor: u64,
+    ) -> (Vec<Option<Fixed128>>, FaultLog) {
+        let channels = self.channels.len();
+        let columns = self.size.x.div_ceil(SIDE) as usize;
+        let mut sums = vec![Some(Fixed128::ZERO); columns * channels];
+        let mut log = FaultLog::default();
+        let pixels = current
+            .chunks_exact_mut(channels)
+            .zip(moments.chunks_exact_mut(channels));
+        for (i, (current, moments)) in (0u32..).zip(pixels) {
+            let (x, y) = (i % self.size.x, i / self.size.x);
+            let tile = (x / SIDE) as usize * channels;
+            let tile = &mut sums[tile..tile + channels];
+            for (channel, sum) in current.iter_mut().enumerate() {
+                let sum = sum.take();
+                tile[channel] = add(tile[channel], Some(sum));
+                if let Err(fault) = moments[channel].push(sum.mean_fixed(divisor)) {
+                    let pixel = self.origin + UVec2::new(x, row * SIDE + y);
+                    log.note(Offence {
+                        replicate: self.replicate,
+                        pixel: pixel.to_array(),
+                        sample: None,
+                        source: self.channels[channel].clone(),
+                        kind: fault.into(),
+                    });
+                }
+            }
+        }
+        (sums, log)
+    }
+}
