@@ -21,6 +21,9 @@
 //! so everything that counts negatively is the one interval [0, 2n(1−n)). Any sampler whose
 //! first coordinates are stratified therefore draws 2n(1−n)·N negative samples of N, give or
 //! take one, in every pixel: the sign, which would otherwise dominate the noise, is fixed.
+//! "Give or take one" still weighs much where a replicate has very few samples: with N = 2, a
+//! single negative sample cancels the other. Filters with negative lobes want more samples per
+//! replicate rather than more replicates.
 
 use crate::half_line::{HalfLine, part};
 use crate::{BoxFilter, Filter};
