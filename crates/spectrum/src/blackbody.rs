@@ -25,7 +25,11 @@ pub fn radiance(lambda: f64, temperature: f64) -> f64 {
     1e-9 * 2.0 * PLANCK * LIGHT_SPEED * LIGHT_SPEED / (fifth * (float64::exp(exponent) - 1.0))
 }
 
-/// The emission of a black body, tabulated at 1 nm over a range and zero outside it.
+/// Most steps of a table: bodies too cold to be seen need no more.
+const MAX_STEPS: f64 = 16_384.0;
+
+/// The emission of a black body over a range, zero outside it, tabulated at 1 nm or less so that
+/// interpolation errs by less than 10⁻⁴.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Blackbody {
     temperature: f64,
@@ -50,7 +54,11 @@ impl Blackbody {
                 accepted: "above the shortest wavelength",
             });
         }
-        let steps = ((max - min).ceil() as usize).clamp(1, 1 << 16);
+        // Linear interpolation at the step h errs by h² L″/(8 L), and L″/L is greatest at the blue
+        // end, where it is about (hc / (k T λ²))² under Wien's law: 5·10⁻⁵ bounds the error.
+        let slope = PLANCK * LIGHT_SPEED / (BOLTZMANN * temperature * min * min * 1e-9);
+        let step = (8.0_f64 * 5e-5).sqrt() / slope;
+        let steps = ((max - min) / step.min(1.0)).ceil().clamp(1.0, MAX_STEPS) as usize;
         let values: Vec<f64> = (0..=steps)
             .map(|i| radiance(min + (max - min) * i as f64 / steps as f64, temperature))
             .collect();

@@ -23,9 +23,9 @@ pub struct Fit {
 const CONVERGED: f64 = 1e-9;
 /// Most steps of the minimiser.
 const MAX_STEPS: usize = 200;
-/// Greatest magnitude of the sigmoid's argument at ±1 and 0: beyond it the spectrum is a step and
+/// Greatest magnitude of a coefficient: beyond it the spectrum is a step, or below 10⁻¹⁰, and
 /// the coefficients only drift.
-const MAX_COEFFICIENT: f64 = 500.0;
+const MAX_COEFFICIENT: f64 = 1e5;
 
 /// The quadrature of reflectance times D65 times the colour-matching functions.
 #[derive(Clone, Debug)]

@@ -32,9 +32,22 @@ pub(crate) fn shipped() -> &'static [f32] {
     bytemuck::cast_slice(&BYTES.0)
 }
 
-/// √z at the place `u` in [0, 1] of the first axis: dense near black and near full brightness.
+/// √z at the place `u` in [0, 1] of the first axis, the inverse of u = z^¼/(z^¼ + √(1 − z)): dense
+/// near black, where coefficients change slowly but without end, and near full brightness.
 fn root_of_brightness(u: f64) -> f64 {
-    u / (u * u + (1.0 - u) * (1.0 - u)).sqrt()
+    let (mut low, mut high) = (0.0_f64, 1.0_f64);
+    for _ in 0..60 {
+        let fourth_root = 0.5 * (low + high);
+        let squared = fourth_root * fourth_root;
+        let place = fourth_root / (fourth_root + (1.0 - squared * squared).sqrt());
+        if place < u {
+            low = fourth_root;
+        } else {
+            high = fourth_root;
+        }
+    }
+    let fourth_root = if u >= 1.0 { 1.0 } else { 0.5 * (low + high) };
+    fourth_root * fourth_root
 }
 
 /// The ratio of a component to the brightest one at the place `u` in [0, 1] of the other axes:
@@ -46,8 +59,8 @@ fn ratio(u: f64) -> f64 {
 /// Inverse of [`root_of_brightness`], from z.
 #[inline]
 fn place_of_brightness(z: f32) -> f32 {
-    let root = z.sqrt();
-    root / (root + (1.0 - z).sqrt())
+    let fourth_root = z.sqrt().sqrt();
+    fourth_root / (fourth_root + (1.0 - z).sqrt())
 }
 
 /// Inverse of [`ratio`].
@@ -180,9 +193,7 @@ fn fit_column(fitter: &Fitter, brightest: usize, j: usize, i: usize) -> Vec<[f64
         start = fit(root_of_brightness(k as f64 / last), start);
         *node = start;
     }
-    // Black itself has no finite coefficients: c √z is extrapolated to its limit.
-    let near = fit(0.02, start);
-    let nearer = fit(0.01, near);
-    column[0] = std::array::from_fn(|c| 2.0 * nearer[c] - near[c]);
+    // Black itself has no finite coefficients: its node holds those of z = 10⁻⁸.
+    column[0] = fit(1e-4, start);
     column
 }
