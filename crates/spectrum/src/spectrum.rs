@@ -196,3 +196,83 @@ impl From<RgbSpectrum> for Spectrum {
         Self::Srgb(colour)
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_kind_scales_and_integrates() {
+        let made = [
+            Spectrum::uniform(0.5),
+            Spectrum::regular(360.0, 830.0, &[0.0, 1.0, 0.25]),
+            Spectrum::irregular(&[300.0, 500.0, 900.0], &[0.1, 0.9, 0.2]),
+            Spectrum::blackbody(3000.0),
+            Spectrum::reflectance([0.8, 0.4, 0.1]),
+            Spectrum::emission([8.0, 0.4, 0.1]),
+            Spectrum::d65(2.0),
+        ];
+        for spectrum in made {
+            let spectrum = spectrum.expect("valid parameters");
+            let tripled = spectrum.scaled(3.0);
+            for (a, b) in [
+                (spectrum.luminance(), tripled.luminance()),
+                (spectrum.power(), tripled.power()),
+                (spectrum.maximum(), tripled.maximum()),
+                (spectrum.eval_at(512.3), tripled.eval_at(512.3)),
+            ] {
+                assert!(
+                    a > 0.0 && (b / a - 3.0).abs() < 1e-5,
+                    "{spectrum:?}: {a} {b}"
+                );
+            }
+            assert!(!spectrum.is_black());
+            assert!(spectrum.scaled(0.0).luminance() == 0.0);
+            assert!(spectrum.mean() <= spectrum.maximum());
+        }
+    }
+
+    #[test]
+    fn integrals_are_those_of_the_trapezoids() {
+        let uniform = Spectrum::uniform(0.5).expect("a finite value");
+        assert!((uniform.power() - 235.0).abs() < 1e-9 && (uniform.mean() - 0.5).abs() < 1e-12);
+        let ramp = Spectrum::regular(360.0, 830.0, &[0.0, 1.0]).expect("a valid table");
+        assert!((ramp.mean() - 0.5).abs() < 1e-6);
+        assert!((Spectrum::d65(1.0).expect("a finite scale").luminance() - 1.0).abs() < 1e-6);
+        let white = Spectrum::reflectance([1.0; 3]).expect("components in [0, 1]");
+        let rgb = white.rgb_under_d65();
+        assert!(rgb.iter().all(|c| (c - 1.0).abs() < 1e-9), "{rgb:?}");
+        let wall = Spectrum::reflectance([0.63, 0.065, 0.05]).expect("components in [0, 1]");
+        let rgb = wall.rgb_under_d65();
+        assert!(
+            (rgb[0] - 0.63).abs() < 1e-4 && (rgb[2] - 0.05).abs() < 1e-4,
+            "{rgb:?}"
+        );
+    }
+
+    #[test]
+    fn tables_are_regular_where_the_wavelengths_are() {
+        let even = Spectrum::tabulated(&[400.0, 500.0, 600.0], &[1.0, 2.0, 3.0]);
+        assert!(matches!(even, Ok(Spectrum::Regular(_))));
+        let uneven = Spectrum::tabulated(&[400.0, 500.0, 601.0], &[1.0, 2.0, 3.0]);
+        assert!(matches!(uneven, Ok(Spectrum::Irregular(_))));
+        assert!(Spectrum::tabulated(&[400.0, 300.0], &[1.0, 2.0]).is_err());
+    }
+
+    #[test]
+    fn black_is_recognised() {
+        assert!(Spectrum::Uniform(0.0).is_black());
+        for black in [
+            Spectrum::reflectance([0.0; 3]),
+            Spectrum::emission([0.0; 3]),
+            Spectrum::regular(400.0, 500.0, &[0.0, 0.0]),
+            Spectrum::irregular(&[400.0, 500.0], &[0.0, 0.0]),
+        ] {
+            assert!(black.expect("valid parameters").is_black());
+        }
+        assert!(Spectrum::uniform(f64::NAN).is_err() && Spectrum::d65(f64::INFINITY).is_err());
+        assert!(Spectrum::blackbody(0.0).is_err() && Spectrum::blackbody(f64::NAN).is_err());
+        assert!(Spectrum::reflectance([0.0, 1.5, 0.0]).is_err());
+        assert!(Spectrum::emission([0.0, -1.5, 0.0]).is_err());
+    }
+}

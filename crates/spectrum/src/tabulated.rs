@@ -204,3 +204,103 @@ fn check_values(values: &[f64]) -> Result<f64, SpectrumError> {
         }),
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use proptest::prelude::*;
+
+    /// Linear interpolation by search, in double precision.
+    fn reference(knots: &[(f64, f64)], lambda: f64) -> f64 {
+        let after = knots.partition_point(|k| k.0 < lambda);
+        if after == 0 {
+            return if lambda == knots[0].0 {
+                knots[0].1
+            } else {
+                0.0
+            };
+        }
+        let Some(b) = knots.get(after) else {
+            return 0.0;
+        };
+        let a = knots[after - 1];
+        a.1 + (b.1 - a.1) * (lambda - a.0) / (b.0 - a.0)
+    }
+
+    #[test]
+    fn ends_belong_to_the_table() {
+        let regular = Regular::new(400.0, 700.0, &[1.0, 2.0, 3.0, 4.0]).expect("a valid table");
+        let lambda = Vec4::new(400.0, 700.0, 399.99, 700.01);
+        assert_eq!(regular.eval(lambda), Vec4::new(1.0, 4.0, 0.0, 0.0));
+        assert_eq!(
+            regular.eval(Vec4::new(f32::NAN, 550.0, -1.0, f32::INFINITY)),
+            Vec4::new(0.0, 2.5, 0.0, 0.0)
+        );
+        assert_eq!(regular.values(), [1.0, 2.0, 3.0, 4.0]);
+        let knots = ([400.0, 410.0, 700.0], [1.0, 2.0, 4.0]);
+        let irregular = Irregular::new(&knots.0, &knots.1).expect("a valid table");
+        assert_eq!(irregular.eval(lambda), Vec4::new(1.0, 4.0, 0.0, 0.0));
+        let held =
+            Irregular::with_outside(&knots.0, &knots.1, Outside::Hold).expect("a valid table");
+        assert_eq!(
+            held.eval(Vec4::new(1.0, 9999.0, 405.0, 410.0)),
+            Vec4::new(1.0, 4.0, 1.5, 2.0)
+        );
+        assert_eq!(held.scaled(2.0).eval(Vec4::splat(405.0)), Vec4::splat(3.0));
+    }
+
+    #[test]
+    fn bad_tables_are_refused_with_reasons() {
+        let message =
+            |r: Result<Irregular, SpectrumError>| r.expect_err("must be refused").to_string();
+        assert!(message(Irregular::new(&[400.0], &[1.0])).contains("at least 2"));
+        assert!(
+            message(Irregular::new(&[400.0, 500.0], &[1.0])).contains("2 wavelengths for 1 values")
+        );
+        assert!(message(Irregular::new(&[400.0, 400.0], &[1.0, 1.0])).contains("number 2"));
+        assert!(message(Irregular::new(&[500.0, 400.0], &[1.0, 1.0])).contains("increasing"));
+        assert!(message(Irregular::new(&[0.0, 400.0], &[1.0, 1.0])).contains("greater than 0"));
+        assert!(message(Irregular::new(&[1.0, 2.0], &[1.0, f64::NAN])).contains("finite"));
+        assert!(Regular::new(700.0, 400.0, &[1.0, 2.0]).is_err());
+        assert!(Regular::new(400.0, 700.0, &[1.0]).is_err());
+        assert!(Regular::new(400.0, f64::NAN, &[1.0, 2.0]).is_err());
+    }
+
+    proptest! {
+        #![proptest_config(ProptestConfig { cases: 256, failure_persistence: None,
+            rng_seed: proptest::test_runner::RngSeed::Fixed(4), ..ProptestConfig::default() })]
+
+        #[test]
+        fn tables_interpolate_linearly(start in 100_u32..600,
+                                       steps in proptest::collection::vec((1_u32..4000, -1.0_f64..1.0), 2..60),
+                                       places in proptest::collection::vec(0.0_f64..1.2, 32)) {
+            // Knots on a grid of 1/64 nm are exact in single precision.
+            let mut lambda = f64::from(start);
+            let mut knots = Vec::new();
+            for (step, value) in steps {
+                knots.push((lambda, value));
+                lambda += f64::from(step) / 64.0;
+            }
+            let (wavelengths, values): (Vec<f64>, Vec<f64>) = knots.iter().copied().unzip();
+            let (min, max) = (wavelengths[0], wavelengths[wavelengths.len() - 1]);
+            let irregular = Irregular::new(&wavelengths, &values).expect("a valid table");
+            let regular = Regular::new(min, max, &values).expect("a valid table");
+            let step = (max - min) / (values.len() - 1) as f64;
+            let even: Vec<(f64, f64)> =
+                values.iter().enumerate().map(|(i, v)| (min + step * i as f64, *v)).collect();
+            for (place, knot) in places.iter().zip(wavelengths.iter().cycle()) {
+                for lambda in [(min - 5.0 + place * (max - min)) as f32, *knot as f32] {
+                    let exact = reference(&knots, f64::from(lambda));
+                    let found = f64::from(irregular.eval(Vec4::splat(lambda)).x);
+                    prop_assert!((found - exact).abs() < 2e-4, "{} {} {}", lambda, found, exact);
+                    if f64::from(lambda) < max - 0.01 && f64::from(lambda) > min + 0.01 {
+                        let exact = reference(&even, f64::from(lambda));
+                        let found = f64::from(regular.eval(Vec4::splat(lambda)).x);
+                        // Rounding of λ − min and of the rate, times the slope.
+                        prop_assert!((found - exact).abs() < 1e-3 / step.min(1.0), "{} {} {}", lambda, found, exact);
+                    }
+                }
+            }
+        }
+    }
+}
