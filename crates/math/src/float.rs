@@ -23,17 +23,19 @@ pub fn sin_cos(x: f32) -> (f32, f32) {
     libm::sincosf(x)
 }
 
-/// Sine and cosine of `turns` whole turns, that is of 2π·`turns`, for |`turns`| < 2²¹.
+/// Sine and cosine of `turns` whole turns, that is of 2π·`turns`, for |`turns`| < 2¹⁹.
 ///
-/// About five times as fast as `sin_cos(2π · turns)` and more accurate, since the reduction to
-/// an eighth of a turn is exact: the error is below 1.2 ulp of either result, and multiples of
-/// a quarter turn are exact. Polynomials fitted by ourselves (minimax, relative error < 10⁻¹⁰).
+/// Faster than `sin_cos(2π · turns)`, having no branch, and more accurate, since the reduction
+/// to an eighth of a turn is exact: the error is below 1.2 ulp of either result, and multiples
+/// of a quarter turn are exact. Polynomials fitted by ourselves (minimax, relative error < 10⁻¹⁰).
 #[inline]
 pub fn sin_cos_turns(turns: f32) -> (f32, f32) {
     // The angle is (quarter + t)·π/2 with |t| ≤ ½; the subtraction is exact.
     let quarters = 4.0 * turns;
-    let quarter = quarters.round_ties_even();
-    let t = quarters - quarter;
+    // Adding 1½·2²³ rounds to an integer and leaves it in the lowest bits.
+    const ROUNDING: f32 = 12_582_912.0;
+    let rounded = quarters + ROUNDING;
+    let t = quarters - (rounded - ROUNDING);
     let t2 = t * t;
     // sin(π/2 · t) = t·(π/2 + small), with π/2 in two parts.
     let tail = t2
@@ -47,12 +49,14 @@ pub fn sin_cos_turns(turns: f32) -> (f32, f32) {
         .mul_add(t2, 0.253_669_23)
         .mul_add(t2, -1.233_700_5)
         .mul_add(t2, 1.0);
-    let quadrant = quarter as i32;
-    let (s, c) = if quadrant & 1 == 0 { (sin, cos) } else { (cos, sin) };
-    let negative = |flag: i32| ((flag & 2) as u32) << 30;
+    let quadrant = rounded.to_bits();
+    // Odd quarters exchange the two: by bits, since a branch would be guessed wrong half the time.
+    let (sin, cos) = (sin.to_bits(), cos.to_bits());
+    let exchanged = (sin ^ cos) & (quadrant & 1).wrapping_neg();
+    let negative = |flag: u32| (flag & 2) << 30;
     (
-        f32::from_bits(s.to_bits() ^ negative(quadrant)),
-        f32::from_bits(c.to_bits() ^ negative(quadrant + 1)),
+        f32::from_bits(sin ^ exchanged ^ negative(quadrant)),
+        f32::from_bits(cos ^ exchanged ^ negative(quadrant.wrapping_add(1))),
     )
 }
 

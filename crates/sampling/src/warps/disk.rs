@@ -21,19 +21,22 @@ pub fn square_to_concentric_disk(u: Vec2) -> Vec2 {
 #[inline]
 pub(super) fn square_to_polar(u: Vec2) -> (f32, Vec2) {
     let p = 2.0 * u - Vec2::ONE;
-    let wide = p.x.abs() > p.y.abs();
-    let (radius, lesser) = if wide { (p.x, p.y) } else { (p.y, p.x) };
-    if radius == 0.0 {
-        return (0.0, Vec2::ZERO);
-    }
-    // The angle from the nearest axis, at most an eighth of a turn.
-    let (sin, cos) = sin_cos_turns(0.125 * (lesser / radius));
-    let point = if wide {
-        Vec2::new(radius * cos, radius * sin)
-    } else {
-        Vec2::new(radius * sin, radius * cos)
-    };
+    // Exchanged by bits: a branch would be guessed wrong half the time.
+    let tall = u32::from(p.x.abs() <= p.y.abs()).wrapping_neg();
+    let [radius, lesser] = exchanged(p.to_array(), tall);
+    // The angle from the nearest axis, at most an eighth of a turn; at the centre, any.
+    let ratio = if radius == 0.0 { 0.0 } else { lesser / radius };
+    let (sin, cos) = sin_cos_turns(0.125 * ratio);
+    let point = exchanged([radius * cos, radius * sin], tall).into();
     (radius, point)
+}
+
+/// The two numbers, exchanged where `mask` is all ones rather than zero.
+#[inline]
+fn exchanged([a, b]: [f32; 2], mask: u32) -> [f32; 2] {
+    let (a, b) = (a.to_bits(), b.to_bits());
+    let change = (a ^ b) & mask;
+    [f32::from_bits(a ^ change), f32::from_bits(b ^ change)]
 }
 
 /// The point of the square that becomes `point`; the inverse of [`square_to_concentric_disk`].
