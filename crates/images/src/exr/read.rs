@@ -112,11 +112,12 @@ fn decompress(
             .collect();
         drop(sender);
         let inserted = receiver.into_iter().try_for_each(|block| insert(block?));
-        let panicked = workers
+        // Each must be joined: a panic nobody has looked at would go on beyond the scope.
+        let panics = workers
             .into_iter()
-            .map(|worker| worker.join().is_err())
-            .fold(false, |any, one| any || one);
-        if panicked {
+            .filter_map(|worker| worker.join().err())
+            .count();
+        if panics > 0 {
             return Err(::exr::error::Error::Invalid(
                 "its compressed pixels are damaged".into(),
             ));
