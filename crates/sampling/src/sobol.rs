@@ -11,8 +11,8 @@
 //! four generators are, up to a scrambling of digits, P₀, P₁, P_ω, P_(ω+1): a (0,4)-sequence
 //! in base 4. So all four are jointly stratified (any 4ᵏ aligned points, every box of volume
 //! 4⁻ᵏ with sides that are powers of ¼), *and* each pair is a (0,2)-sequence in base 2,
-//! since F is unit upper triangular (the idea of Ahmed, Skopenkov, Hadwiger & Wonka 2024,
-//! "SZ Sequences").
+//! since F is unit upper triangular. (Compare the "SZ sequences" of Ahmed and others, 2024; the
+//! tests check both properties on every box.)
 //!
 //! Further groups of four are the same points in another order, scrambled anew (Burley 2020,
 //! "Practical Hash-based Owen Scrambling", §3: padding by shuffling). Shuffling the index by a
