@@ -1,1 +1,16 @@
-//! Etalon: a spectral renderer whose estimators are held to account by statistics
+//! Etalon: a spectral renderer whose estimators are held to account by statistics.
+//!
+//! The library behind the `etalon` binary: [`pipeline`] is the way from a scene file to an
+//! image; the commands are thin around it.
+
+pub mod args;
+pub mod commands;
+pub mod diagnose;
+pub mod judge;
+pub mod pipeline;
+pub mod progress;
+pub mod report;
+pub mod resources;
+
+/// The version of the program.
+pub const VERSION: &str = env!("CARGO_PKG_VERSION");

@@ -1,2 +1,9 @@
 //! The `etalon` command line.
-fn main() {}
+
+use clap::Parser;
+use std::process::ExitCode;
+
+fn main() -> ExitCode {
+    let cli = etalon::args::Cli::parse();
+    etalon::commands::run(&cli.command)
+}

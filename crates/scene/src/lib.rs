@@ -1,1 +1,16 @@
-//! Compiles a description tree into an immutable scene
+//! Compiles a description tree into an immutable scene.
+//!
+//! [`compile`] turns what a scene file said into a [`Compiled`]: the [`Scene`], which implements
+//! [`etalon_transport::World`] for the integrators, and what the caller needs to render it.
+
+pub mod builder;
+pub mod compile;
+pub mod lookup;
+mod rays;
+pub mod sampler;
+pub mod scene;
+pub mod surfaces;
+
+pub use compile::{Compiled, compile};
+pub use sampler::SamplerSettings;
+pub use scene::Scene;

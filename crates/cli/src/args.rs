@@ -1,0 +1,142 @@
+//! The command line.
+
+use clap::{Args, Parser, Subcommand};
+use std::path::PathBuf;
+
+/// A spectral renderer whose estimators are held to account by statistics.
+#[derive(Debug, Parser)]
+#[command(name = "etalon", version, about, max_term_width = 100)]
+pub struct Cli {
+    /// What to do.
+    #[command(subcommand)]
+    pub command: Command,
+}
+
+/// The commands.
+#[derive(Debug, Subcommand)]
+pub enum Command {
+    /// Render a Mitsuba 3 XML scene to an EXR with standard errors.
+    #[command(after_help = "\
+Examples:
+  etalon render scenes/cornell-box/scene.xml -o cornell.exr
+  etalon render scene.xml -o out.exr --spp 256 --seed 7 -D resx=512 -D resy=512
+  etalon render scene.xml -o direct.exr --integrator direct --stats stats.json")]
+    Render(RenderArgs),
+    /// Decide whether two images agree, tile by tile, from their replicates.
+    #[command(after_help = "\
+Exit code: 0 equivalent, 1 different, 3 inconclusive, 2 bad input.
+
+Examples:
+  etalon compare a.exr b.exr
+  etalon compare a.exr b.exr --report difference.html --bound 0.01")]
+    Compare(CompareArgs),
+    /// Turn an EXR into a picture one can look at (PNG, sRGB).
+    #[command(after_help = "\
+Examples:
+  etalon convert out.exr out.png
+  etalon convert out.exr bright.png --exposure 2
+  etalon convert out.exr noise.png --channels standard_error")]
+    Convert(ConvertArgs),
+    /// Say what is in a scene or an image.
+    #[command(after_help = "\
+Examples:
+  etalon info out.exr
+  etalon info scene.xml")]
+    Info(InfoArgs),
+}
+
+/// Arguments of `render`.
+#[derive(Debug, Args, Clone)]
+pub struct RenderArgs {
+    /// The scene (Mitsuba 3 XML).
+    pub scene: PathBuf,
+    /// The image to write (.exr; .hdr and .pfm without standard errors).
+    #[arg(short, long, value_name = "OUT.exr")]
+    pub output: PathBuf,
+    /// Samples per pixel; rounded up to what the sampler can stratify [default: the scene's].
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..))]
+    pub spp: Option<u32>,
+    /// Seed of all randomness [default: the scene's sampler's, or 0].
+    #[arg(long, value_name = "S")]
+    pub seed: Option<u64>,
+    /// Threads [default: one per processor].
+    #[arg(long, value_name = "T", value_parser = clap::value_parser!(u32).range(1..=1024))]
+    pub threads: Option<u32>,
+    /// Replace the type of the innermost integrator (keeps max_depth, rr_depth, hide_emitters).
+    #[arg(long, value_name = "NAME")]
+    pub integrator: Option<String>,
+    /// Give a scene parameter ($key) a value.
+    #[arg(short = 'D', value_name = "key=value", value_parser = parse_define)]
+    pub define: Vec<(String, String)>,
+    /// Independent replicates the image is the mean of [default: 8, or fewer if spp is less].
+    #[arg(long, value_name = "R", value_parser = clap::value_parser!(u32).range(1..=4096))]
+    pub replicates: Option<u32>,
+    /// Write time, rays, memory and more as JSON.
+    #[arg(long, value_name = "FILE.json")]
+    pub stats: Option<PathBuf>,
+    /// Folder with further data (`NAME.eta.spd` of metals, such as Mitsuba's data/ior).
+    #[arg(long, value_name = "DIR")]
+    pub data: Vec<PathBuf>,
+    /// Say nothing but errors.
+    #[arg(short, long)]
+    pub quiet: bool,
+}
+
+/// Arguments of `compare`.
+#[derive(Debug, Args, Clone)]
+pub struct CompareArgs {
+    /// One image, rendered by Etalon (or a reference).
+    pub a: PathBuf,
+    /// The other.
+    pub b: PathBuf,
+    /// Write a self-contained HTML report.
+    #[arg(long, value_name = "OUT.html")]
+    pub report: Option<PathBuf>,
+    /// Print the verdict as JSON.
+    #[arg(long)]
+    pub json: bool,
+    /// The bias of the image mean that would matter, relative to the channel's mean.
+    #[arg(long, value_name = "DELTA", default_value_t = 0.005)]
+    pub bound: f64,
+    /// The bias of a tile that would matter, relative to the tile's own mean (plus `--bound` of
+    /// the image's).
+    #[arg(long, value_name = "DELTA", default_value_t = 0.03)]
+    pub tile_bound: f64,
+    /// Probability of calling equal images different.
+    #[arg(long, value_name = "ALPHA", default_value_t = 0.001)]
+    pub alpha: f64,
+}
+
+/// Arguments of `convert`.
+#[derive(Debug, Args, Clone)]
+pub struct ConvertArgs {
+    /// The image to read (.exr, .hdr, .pfm).
+    pub input: PathBuf,
+    /// The picture to write (.png).
+    pub output: PathBuf,
+    /// Brighten by so many stops (a factor of 2 each).
+    #[arg(
+        long,
+        value_name = "EV",
+        default_value_t = 0.0,
+        allow_negative_numbers = true
+    )]
+    pub exposure: f32,
+    /// Show the channels PREFIX.R, PREFIX.G, PREFIX.B (or X, Y, Z) instead of R, G, B.
+    #[arg(long, value_name = "PREFIX")]
+    pub channels: Option<String>,
+}
+
+/// Arguments of `info`.
+#[derive(Debug, Args, Clone)]
+pub struct InfoArgs {
+    /// An image or a scene.
+    pub file: PathBuf,
+}
+
+fn parse_define(text: &str) -> Result<(String, String), String> {
+    match text.split_once('=') {
+        Some((key, value)) if !key.is_empty() => Ok((key.to_owned(), value.to_owned())),
+        _ => Err("expected key=value".to_owned()),
+    }
+}

@@ -1,0 +1,98 @@
+//! `etalon compare`.
+
+use super::fail;
+use crate::args::CompareArgs;
+use crate::judge::{self, Judgement, Rules};
+use crate::report;
+use etalon_film::read_developed;
+use etalon_images::write_atomically;
+use etalon_statistics::Verdict;
+use std::io::Write;
+use std::process::ExitCode;
+
+/// Exit code of images that differ.
+const DIFFERENT: u8 = 1;
+/// Exit code of a comparison that needs more samples.
+const INCONCLUSIVE: u8 = 3;
+
+/// Compares two images.
+pub fn run(args: &CompareArgs) -> ExitCode {
+    let good = |x: f64| x > 0.0 && x < 1.0;
+    if !(good(args.bound) && good(args.tile_bound) && good(args.alpha)) {
+        return fail("--bound, --tile-bound and --alpha must lie between 0 and 1");
+    }
+    let first = match read_developed(&args.a) {
+        Ok(image) => image,
+        Err(error) => return fail(error),
+    };
+    let second = match read_developed(&args.b) {
+        Ok(image) => image,
+        Err(error) => return fail(error),
+    };
+    let rules = Rules {
+        image_bound: args.bound,
+        tile_bound: args.tile_bound,
+        alpha: args.alpha,
+    };
+    let judgement = match judge::judge(&first, &second, rules) {
+        Ok(judgement) => judgement,
+        Err(message) => return fail(message),
+    };
+    if let Some(path) = &args.report {
+        let names = [args.a.display().to_string(), args.b.display().to_string()];
+        let html = report::comparison(&judgement, &first, &second, &names);
+        if let Err(error) = write_atomically(path, |file| file.write_all(html.as_bytes())) {
+            return fail(error);
+        }
+    }
+    if args.json {
+        println!("{:#}", serde_json::json!(judgement));
+    } else {
+        print!("{}", table(&judgement));
+    }
+    match judgement.verdict {
+        Verdict::Agrees => ExitCode::SUCCESS,
+        Verdict::Differs => ExitCode::from(DIFFERENT),
+        Verdict::Undecided => ExitCode::from(INCONCLUSIVE),
+    }
+}
+
+/// The judgement as a table for a terminal.
+fn table(judgement: &Judgement) -> String {
+    let mut text = String::from(
+        "channel        mean       other      bias              interval   could see  verdict\n",
+    );
+    for row in &judgement.images {
+        text += &format!(
+            "{:<8} {:>10.5}  {:>10.5}  {:>+7.3} %  [{:>+7.3}, {:>+7.3}] %  {:>6.3} %  {}\n",
+            row.channel,
+            row.mean,
+            row.other_mean,
+            100.0 * row.bias,
+            100.0 * row.interval[0],
+            100.0 * row.interval[1],
+            100.0 * row.smallest_detectable,
+            row.verdict,
+        );
+    }
+    for row in &judgement.tiles {
+        text += &format!(
+            "{:<8} {} tiles of {}²: worst {:+.2} % at ({}, {}), p = {:.2e} corrected, {} off\n",
+            row.channel,
+            row.tiles,
+            row.side,
+            100.0 * row.worst_bias,
+            row.worst[0],
+            row.worst[1],
+            row.p_exact,
+            row.differing,
+        );
+    }
+    text += &format!(
+        "{} (bound {} % of the mean, α = {})\n",
+        judgement.verdict,
+        100.0 * judgement.rules.image_bound,
+        judgement.rules.alpha
+    );
+    text
+}

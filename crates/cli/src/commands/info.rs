@@ -1,0 +1,94 @@
+//! `etalon info`.
+
+use super::{BAD_INPUT, fail};
+use crate::args::InfoArgs;
+use crate::diagnose;
+use crate::pipeline::{self, LoadOptions};
+use etalon_film::{Developed, read_developed};
+use std::path::Path;
+use std::process::ExitCode;
+
+/// Says what is in a scene or an image.
+pub fn run(args: &InfoArgs) -> ExitCode {
+    let extension = args
+        .file
+        .extension()
+        .map(|e| e.to_string_lossy().to_lowercase());
+    match extension.as_deref() {
+        Some("xml") => scene(&args.file),
+        Some("exr") => match read_developed(&args.file) {
+            Ok(developed) => {
+                print!("{}", image(&developed));
+                ExitCode::SUCCESS
+            }
+            Err(error) => fail(error),
+        },
+        _ => fail(format!(
+            "`{}` is neither a scene (.xml) nor an image (.exr)",
+            args.file.display()
+        )),
+    }
+}
+
+fn image(developed: &Developed) -> String {
+    let image = &developed.image;
+    let mut text = format!("{} × {} pixels\n", image.width(), image.height());
+    for channel in image.channels() {
+        let finite = channel.samples.iter().filter(|v| v.is_finite()).count();
+        let mean = channel.samples.iter().map(|v| f64::from(*v)).sum::<f64>()
+            / channel.samples.len().max(1) as f64;
+        text += &format!("  {:<20} mean {mean:.6}", channel.name);
+        if finite < channel.samples.len() {
+            text += &format!(", {} not finite", channel.samples.len() - finite);
+        }
+        text.push('\n');
+    }
+    let Some(m) = &developed.metadata else {
+        text += "no metadata of Etalon\n";
+        return text;
+    };
+    text += &format!("scene        {} ({})\n", m.scene, m.scene_hash);
+    text += &format!("integrator   {}\n", m.integrator);
+    text += &format!(
+        "samples      {} per pixel, {} replicates, {}, seed {}\n",
+        m.spp, m.replicates, m.sampler, m.seed
+    );
+    text += &format!("film         {}, {}\n", m.film.pixel_format, m.film.filter);
+    if let Some(seconds) = m.seconds {
+        text += &format!("time         {seconds:.2} s\n");
+    }
+    if let Some(error) = developed.mean_relative_standard_error() {
+        text += &format!(
+            "noise        {:.2} % mean relative standard error\n",
+            100.0 * error
+        );
+    }
+    text += &format!("version      {} ({})\n", m.version, m.floating_point);
+    if m.faults.total() > 0 {
+        text += &format!("not finite   {} contributions\n", m.faults.total());
+    }
+    text
+}
+
+fn scene(path: &Path) -> ExitCode {
+    match pipeline::load(path, &LoadOptions::default()) {
+        Ok(loaded) => {
+            diagnose::print(&loaded.notes, &loaded.sources);
+            let compiled = &loaded.compiled;
+            let size = compiled.film.size;
+            println!("scene        {} ({})", path.display(), loaded.hash);
+            println!("film         {} × {} pixels", size.x, size.y);
+            println!("integrator   {}", loaded.integrator_name);
+            println!(
+                "samples      {} per pixel, {:?}",
+                compiled.sampler.spp, compiled.sampler.kind
+            );
+            print!("{}", compiled.scene.summary());
+            ExitCode::SUCCESS
+        }
+        Err(refusal) => {
+            diagnose::print(&refusal.diagnostics, &refusal.sources);
+            ExitCode::from(BAD_INPUT)
+        }
+    }
+}

@@ -1,0 +1,28 @@
+//! The commands of the binary.
+
+pub mod compare;
+pub mod convert;
+pub mod info;
+pub mod render;
+
+use crate::args::Command;
+use std::process::ExitCode;
+
+/// Exit code for input that cannot be used.
+pub const BAD_INPUT: u8 = 2;
+
+/// Runs a command; failures have been explained on standard error.
+pub fn run(command: &Command) -> ExitCode {
+    match command {
+        Command::Render(args) => render::run(args),
+        Command::Compare(args) => compare::run(args),
+        Command::Convert(args) => convert::run(args),
+        Command::Info(args) => info::run(args),
+    }
+}
+
+/// Says why a command failed, in one line, and gives its exit code.
+fn fail(message: impl std::fmt::Display) -> ExitCode {
+    eprintln!("error: {message}");
+    ExitCode::from(BAD_INPUT)
+}

@@ -1,0 +1,185 @@
+//! `etalon render`.
+
+use super::{BAD_INPUT, fail};
+use crate::args::RenderArgs;
+use crate::pipeline::{self, LoadOptions, Loaded, RenderOptions, Rendered};
+use crate::progress::Bar;
+use crate::{diagnose, resources};
+use etalon_film::Developed;
+use etalon_images::{hdr, pfm, write_atomically};
+use std::io::Write;
+use std::path::Path;
+use std::process::ExitCode;
+use std::sync::atomic::{AtomicBool, Ordering};
+
+/// Set by Ctrl-C: finish the pass, write the image, stop.
+static CANCELLED: AtomicBool = AtomicBool::new(false);
+
+/// Exit code of a render that Ctrl-C ended early (128 + SIGINT, as shells have it).
+const INTERRUPTED: u8 = 130;
+
+/// Renders a scene to a file.
+pub fn run(args: &RenderArgs) -> ExitCode {
+    if let Err(message) = check_output(&args.output) {
+        return fail(message);
+    }
+    let loaded = match pipeline::load(
+        &args.scene,
+        &LoadOptions {
+            defines: args.define.clone(),
+            integrator: args.integrator.clone(),
+            data: args.data.clone(),
+        },
+    ) {
+        Ok(loaded) => loaded,
+        Err(refusal) => {
+            diagnose::print(&refusal.diagnostics, &refusal.sources);
+            return ExitCode::from(BAD_INPUT);
+        }
+    };
+    if !args.quiet {
+        diagnose::print(&loaded.notes, &loaded.sources);
+    }
+    listen_for_interrupts();
+    let rendered = match render(args, &loaded) {
+        Ok(rendered) => rendered,
+        Err(message) => return fail(message),
+    };
+    if let Err(message) = deliver(args, &loaded, &rendered) {
+        return fail(message);
+    }
+    if CANCELLED.load(Ordering::Relaxed) {
+        return ExitCode::from(INTERRUPTED);
+    }
+    ExitCode::SUCCESS
+}
+
+/// Refuses an output that could not be written anyway, before hours are spent on it.
+fn check_output(path: &Path) -> Result<(), String> {
+    let extension = path.extension().map(|e| e.to_string_lossy().to_lowercase());
+    match extension.as_deref() {
+        Some("exr" | "hdr" | "rgbe" | "pfm") => {}
+        _ => {
+            return Err(format!(
+                "cannot write `{}`: the name must end in .exr (or .hdr, .pfm)",
+                path.display()
+            ));
+        }
+    }
+    let folder = path.parent().filter(|p| !p.as_os_str().is_empty());
+    match folder {
+        Some(folder) if !folder.is_dir() => Err(format!(
+            "cannot write `{}`: there is no such folder",
+            path.display()
+        )),
+        _ => Ok(()),
+    }
+}
+
+fn listen_for_interrupts() {
+    // A second Ctrl-C does not wait.
+    let handler = || {
+        if CANCELLED.swap(true, Ordering::Relaxed) {
+            std::process::exit(i32::from(INTERRUPTED));
+        }
+    };
+    // Without a handler Ctrl-C still ends the program, only without an image.
+    if ctrlc::set_handler(handler).is_err() {
+        eprintln!("note: Ctrl-C will not write the image");
+    }
+}
+
+fn render(args: &RenderArgs, loaded: &Loaded) -> Result<Rendered, String> {
+    let plan = pipeline::plan(
+        loaded,
+        &RenderOptions {
+            spp: args.spp,
+            seed: args.seed,
+            replicates: args.replicates,
+            sampler: None,
+        },
+    );
+    let spp = u64::from(plan.replicates) * u64::from(plan.samples_per_replicate);
+    let asked = u64::from(args.spp.unwrap_or(loaded.compiled.sampler.spp));
+    if spp != asked && !args.quiet {
+        eprintln!(
+            "note: {spp} samples per pixel instead of {asked}: {} replicates of {}",
+            plan.replicates, plan.samples_per_replicate
+        );
+    }
+    let size = loaded.compiled.film.crop_size;
+    let samples = spp * u64::from(size.x) * u64::from(size.y);
+    let pool = rayon::ThreadPoolBuilder::new()
+        .num_threads(args.threads.unwrap_or(0) as usize)
+        .build()
+        .map_err(|error| format!("cannot start threads: {error}"))?;
+    let bar = Bar::new(samples, args.quiet, &CANCELLED);
+    let rendered = pool.install(|| pipeline::render(loaded, &plan, &bar));
+    bar.finish();
+    rendered.map_err(|diagnostic| diagnostic.message)
+}
+
+/// Writes the image and the statistics, and says how it went.
+fn deliver(args: &RenderArgs, loaded: &Loaded, rendered: &Rendered) -> Result<(), String> {
+    write_image(&args.output, &rendered.developed)?;
+    if let Some(path) = &args.stats {
+        let text = format!("{:#}\n", stats(args, loaded, rendered));
+        write_atomically(path, |file| file.write_all(text.as_bytes()))
+            .map_err(|error| error.to_string())?;
+    }
+    let metadata = rendered.developed.metadata.as_ref();
+    let faults = metadata.map_or(0, |m| m.faults.total());
+    if faults > 0 {
+        eprintln!("warning: {faults} contributions were not finite; see `etalon info`");
+    }
+    if !args.quiet {
+        let seconds = rendered.time.as_secs_f64();
+        let per_second = |n: u64| n as f64 * 1e-6 / seconds;
+        let error = match rendered.developed.mean_relative_standard_error() {
+            Some(error) => format!("mean relative standard error {:.2} %", 100.0 * error),
+            None => "no standard error (one replicate)".to_owned(),
+        };
+        eprintln!(
+            "{}: {seconds:.2} s, {:.2} M samples/s, {:.2} M rays/s, {error}",
+            args.output.display(),
+            per_second(rendered.outcome.samples),
+            per_second(rendered.outcome.rays),
+        );
+    }
+    Ok(())
+}
+
+/// Writes an EXR with everything, or the colours alone in a simpler format.
+fn write_image(path: &Path, developed: &Developed) -> Result<(), String> {
+    let extension = path.extension().map(|e| e.to_string_lossy().to_lowercase());
+    match extension.as_deref() {
+        Some("pfm") => pfm::write(path, &developed.image),
+        Some("hdr" | "rgbe") => hdr::write(path, &developed.image).map(|_| ()),
+        _ => developed.write_exr(path),
+    }
+    .map_err(|error| error.to_string())
+}
+
+fn stats(args: &RenderArgs, loaded: &Loaded, rendered: &Rendered) -> serde_json::Value {
+    let seconds = rendered.time.as_secs_f64();
+    let metadata = rendered.developed.metadata.as_ref();
+    serde_json::json!({
+        "scene": args.scene.display().to_string(),
+        "scene_hash": loaded.hash,
+        "integrator": loaded.integrator_name,
+        "load_seconds": loaded.load_time.as_secs_f64(),
+        "build_seconds": loaded.build_time.as_secs_f64(),
+        "render_seconds": seconds,
+        "samples": rendered.outcome.samples,
+        "rays": rendered.outcome.rays,
+        "samples_per_second": rendered.outcome.samples as f64 / seconds,
+        "rays_per_second": rendered.outcome.rays as f64 / seconds,
+        "spp": metadata.map(|m| m.spp),
+        "replicates": rendered.outcome.replicates,
+        "mean_relative_standard_error": rendered.developed.mean_relative_standard_error(),
+        "non_finite": metadata.map(|m| m.faults.total()),
+        "peak_memory_bytes": resources::peak_memory_bytes(),
+        "threads": args.threads.map_or_else(rayon::current_num_threads, |n| n as usize),
+        "seed": metadata.map(|m| m.seed),
+    })
+}

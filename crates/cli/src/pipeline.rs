@@ -1,0 +1,237 @@
+//! From a scene file to an image: the way every command and every claim takes.
+
+use crate::VERSION;
+use etalon_film::{Developed, ExactFilm, RenderFacts, recorded_seconds};
+use etalon_formats::FileAssets;
+use etalon_formats::mitsuba::{self, Document, ReadOptions, ReadOutcome};
+use etalon_integrators::{AnyIntegrator, Outcome, Plan, Progress};
+use etalon_params::{Class, Diagnostic, Diagnostics, Node, Params, Sources, Value};
+use etalon_sampling::SamplerKind;
+use etalon_scene::Compiled;
+use std::path::{Path, PathBuf};
+use std::time::{Duration, Instant};
+
+/// How to read a scene.
+#[derive(Clone, Debug, Default)]
+pub struct LoadOptions {
+    /// Values of scene parameters (`-D key=value`).
+    pub defines: Vec<(String, String)>,
+    /// Replaces the type of the innermost integrator.
+    pub integrator: Option<String>,
+    /// Further folders with data.
+    pub data: Vec<PathBuf>,
+}
+
+/// Why a scene cannot be used: what is wrong, and the texts in which it stands.
+#[derive(Debug)]
+pub struct Refusal {
+    /// The messages.
+    pub diagnostics: Vec<Diagnostic>,
+    /// The texts that they point into.
+    pub sources: Sources,
+}
+
+/// A scene ready to be rendered.
+pub struct Loaded {
+    /// The scene and what belongs to it.
+    pub compiled: Compiled,
+    /// The estimator.
+    pub integrator: AnyIntegrator,
+    /// Its name, nested ones after a slash.
+    pub integrator_name: String,
+    /// Remarks that do not prevent rendering.
+    pub notes: Vec<Diagnostic>,
+    /// The texts that the remarks point into.
+    pub sources: Sources,
+    /// The file as it was named.
+    pub path: PathBuf,
+    /// Hash over everything that was read.
+    pub hash: String,
+    /// Time to read files and compile the description, without `build_time`.
+    pub load_time: Duration,
+    /// Time to build the accelerator.
+    pub build_time: Duration,
+}
+
+/// Reads and compiles a scene.
+pub fn load(path: &Path, options: &LoadOptions) -> Result<Loaded, Refusal> {
+    let start = Instant::now();
+    let read = mitsuba::read(
+        path,
+        &ReadOptions {
+            defines: options.defines.clone(),
+            integrator: options.integrator.clone(),
+            search: options.data.clone(),
+        },
+    );
+    let sound = !read.has_errors();
+    let ReadOutcome {
+        sources,
+        diagnostics: mut messages,
+        document,
+    } = read;
+    // A scene with mistakes is compiled all the same, to find further ones.
+    let mut loaded = None;
+    if let Some(document) = document {
+        let diagnostics = Diagnostics::new();
+        let assets = FileAssets::new(document.search.clone());
+        let compiled = etalon_scene::compile(&document.root, &assets, &diagnostics);
+        let integrator = integrator(&document.root, &diagnostics);
+        if sound && !diagnostics.has_errors() {
+            loaded = compiled.zip(integrator).map(|(compiled, integrator)| {
+                (
+                    compiled,
+                    integrator,
+                    scene_hash(&document, &assets, options),
+                )
+            });
+        }
+        messages.extend(diagnostics.into_sorted());
+    }
+    let Some((compiled, (integrator, integrator_name), hash)) = loaded else {
+        return Err(Refusal {
+            diagnostics: messages,
+            sources,
+        });
+    };
+    let build_time = compiled.build_time;
+    Ok(Loaded {
+        compiled,
+        integrator,
+        integrator_name,
+        notes: messages,
+        hash,
+        sources,
+        path: path.to_owned(),
+        load_time: start.elapsed().saturating_sub(build_time),
+        build_time,
+    })
+}
+
+/// The scene's integrator, or a path tracer, with its name.
+fn integrator(root: &Node, diagnostics: &Diagnostics) -> Option<(AnyIntegrator, String)> {
+    let scene = Params::new(root, diagnostics);
+    let Some(node) = scene.child(Class::Integrator) else {
+        let path = etalon_integrators::path::Path::default();
+        return Some((AnyIntegrator::Path(path), "path".to_owned()));
+    };
+    Some((
+        AnyIntegrator::from_node(node, diagnostics)?,
+        full_name(node),
+    ))
+}
+
+/// The integrator's name, nested ones after a slash: `aov/path`.
+fn full_name(node: &Node) -> String {
+    let nested = node.properties.iter().filter_map(|p| match &p.value {
+        Value::Object(child) if child.class == Class::Integrator => Some(full_name(child)),
+        _ => None,
+    });
+    std::iter::once(node.plugin.value.clone())
+        .chain(nested)
+        .collect::<Vec<_>>()
+        .join("/")
+}
+
+/// A hash over everything that decides the scene: its files, the files it refers to, and what
+/// the command line said.
+fn scene_hash(document: &Document, assets: &FileAssets, options: &LoadOptions) -> String {
+    let mut hasher = blake3::Hasher::new();
+    let mut add = |bytes: &[u8]| {
+        hasher.update(&(bytes.len() as u64).to_le_bytes());
+        hasher.update(bytes);
+    };
+    for file in &document.files {
+        add(&file.bytes);
+    }
+    for path in assets.used() {
+        // Whatever cannot be read now could not be read before either.
+        add(&std::fs::read(path).unwrap_or_default());
+    }
+    for (key, value) in &options.defines {
+        add(key.as_bytes());
+        add(value.as_bytes());
+    }
+    if let Some(name) = &options.integrator {
+        add(name.as_bytes());
+    }
+    hasher.finalize().to_hex()[..16].to_owned()
+}
+
+/// How to render a loaded scene.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct RenderOptions {
+    /// Samples per pixel, if not the scene's.
+    pub spp: Option<u32>,
+    /// Seed, if not the scene's.
+    pub seed: Option<u64>,
+    /// Independent replicates, if not the default.
+    pub replicates: Option<u32>,
+    /// Kind of sampler, if not the scene's.
+    pub sampler: Option<SamplerKind>,
+}
+
+/// The default number of replicates: enough for a t distribution with light tails.
+const REPLICATES: u32 = 8;
+
+/// What will be rendered: replicates × samples, rounded up to what the sampler can stratify.
+pub fn plan(loaded: &Loaded, options: &RenderOptions) -> Plan {
+    let settings = &loaded.compiled.sampler;
+    let spp = options.spp.unwrap_or(settings.spp);
+    let replicates = options.replicates.unwrap_or_else(|| REPLICATES.min(spp));
+    let sampler = options.sampler.unwrap_or(settings.kind);
+    Plan {
+        seed: options.seed.unwrap_or(settings.seed),
+        replicates,
+        samples_per_replicate: sampler.round_up(spp.div_ceil(replicates)),
+        sampler,
+    }
+}
+
+/// A finished (or interrupted) render.
+pub struct Rendered {
+    /// The image with its statistics.
+    pub developed: Developed,
+    /// What was done.
+    pub outcome: Outcome,
+    /// How long it took.
+    pub time: Duration,
+}
+
+/// Renders a loaded scene on the current thread pool.
+pub fn render<P: Progress>(
+    loaded: &Loaded,
+    plan: &Plan,
+    progress: &P,
+) -> Result<Rendered, Diagnostic> {
+    let start = Instant::now();
+    let compiled = &loaded.compiled;
+    let channels = loaded.integrator.channels();
+    let mut film = ExactFilm::new(compiled.film.clone(), &channels)?;
+    let outcome = loaded
+        .integrator
+        .render(&compiled.scene, &mut film, plan, progress);
+    let time = start.elapsed();
+    let developed = film.develop(RenderFacts {
+        version: VERSION.to_owned(),
+        scene: loaded.path.display().to_string(),
+        scene_hash: loaded.hash.clone(),
+        integrator: loaded.integrator_name.clone(),
+        sampler: sampler_name(plan.sampler).to_owned(),
+        seed: plan.seed,
+        seconds: recorded_seconds(time),
+    });
+    Ok(Rendered {
+        developed,
+        outcome,
+        time,
+    })
+}
+
+fn sampler_name(kind: SamplerKind) -> &'static str {
+    match kind {
+        SamplerKind::Independent => "independent",
+        SamplerKind::Stratified { .. } => "stratified",
+        SamplerKind::Sobol => "sobol",
+    }
+}

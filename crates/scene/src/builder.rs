@@ -1,0 +1,60 @@
+//! Services for plugins while a scene is compiled.
+
+use etalon_params::{Diagnostics, Node, Params};
+use etalon_spectrum::Spectrum;
+use etalon_textures::{TextureReader, TextureSet};
+use etalon_transport::{Assets, Build, Role, TextureId};
+use std::sync::Arc;
+
+/// The scene under construction, as plugins see it.
+pub struct Builder<'a> {
+    /// The files of the scene.
+    pub assets: &'a dyn Assets,
+    /// Where mistakes go.
+    pub diagnostics: &'a Diagnostics,
+    /// The textures read so far.
+    pub textures: TextureSet,
+}
+
+impl<'a> Builder<'a> {
+    /// A scene without anything.
+    pub fn new(assets: &'a dyn Assets, diagnostics: &'a Diagnostics) -> Self {
+        Self {
+            assets,
+            diagnostics,
+            textures: TextureSet::new(),
+        }
+    }
+
+    fn reader(&mut self) -> TextureReader<'_> {
+        TextureReader {
+            set: &mut self.textures,
+            assets: self.assets,
+            diagnostics: self.diagnostics,
+        }
+    }
+}
+
+impl Build for Builder<'_> {
+    fn assets(&self) -> &dyn Assets {
+        self.assets
+    }
+
+    fn texture(
+        &mut self,
+        params: &Params<'_>,
+        name: &str,
+        default: Option<f64>,
+        role: Role,
+    ) -> TextureId {
+        self.reader().parameter(params, name, default, role)
+    }
+
+    fn nested_texture(&mut self, node: &Arc<Node>, role: Role) -> TextureId {
+        self.reader().node(node, role)
+    }
+
+    fn spectrum(&mut self, spectrum: Spectrum) -> TextureId {
+        self.textures.add_spectrum(spectrum)
+    }
+}

@@ -1,0 +1,178 @@
+//! From a description to a scene.
+
+use crate::builder::Builder;
+use crate::lookup::Lookup;
+use crate::sampler::SamplerSettings;
+use crate::scene::Scene;
+use crate::surfaces::{self, Emitting, Surfaces};
+use etalon_cameras::{AnyCamera, FilmWindow};
+use etalon_film::{FilmSettings, Filter};
+use etalon_lights::{Bounds, LightDescription, LightSet};
+use etalon_params::{Class, Diagnostic, Diagnostics, Node, Params};
+use etalon_transport::{Assets, LightId};
+use std::sync::Arc;
+use std::time::{Duration, Instant};
+
+/// Parameters of Mitsuba's `<scene>` that choose or tune its accelerators and its scheduling.
+const IGNORED: [&str; 16] = [
+    "embree_use_robust_intersections",
+    "kd_intersection_cost",
+    "kd_traversal_cost",
+    "kd_empty_space_bonus",
+    "kd_stop_prims",
+    "kd_max_depth",
+    "kd_min_max_bins",
+    "kd_clip",
+    "kd_retract_bad_splits",
+    "kd_exact_primitive_threshold",
+    "kd_parallel_build",
+    "kd_exact",
+    "kd_prim_clip",
+    "kd_intersection_count",
+    "allow_thread_reordering",
+    "compact_acceleration_structures",
+];
+
+/// A scene, and what its description says about rendering it.
+pub struct Compiled {
+    /// The scene.
+    pub scene: Scene,
+    /// The film of the sensor.
+    pub film: FilmSettings,
+    /// The sampler of the sensor.
+    pub sampler: SamplerSettings,
+    /// The integrator's description, if the scene has one.
+    pub integrator: Option<Arc<Node>>,
+    /// Time spent building the accelerator.
+    pub build_time: Duration,
+}
+
+/// Compiles the `<scene>` node `root`. `None` if anything was wrong; the mistakes, as many as
+/// could be found in one run, are in `diagnostics`.
+pub fn compile(root: &Node, assets: &dyn Assets, diagnostics: &Diagnostics) -> Option<Compiled> {
+    let params = Params::new(root, diagnostics);
+    params.ignore(&IGNORED);
+    let mut builder = Builder::new(assets, diagnostics);
+    let sensor = sensor(&params, diagnostics);
+    let integrator = params.child(Class::Integrator).cloned();
+    let mut surfaces = surfaces::read(&params, &mut builder);
+    let lights = lights(&params, &mut surfaces, &mut builder);
+    refuse_unknown_children(&params);
+    params.finish();
+    if diagnostics.has_errors() {
+        return None;
+    }
+    let (camera, film, sampler) = sensor?;
+    builder.textures.finish_reading();
+    let start = Instant::now();
+    let geometry = surfaces.geometry.build();
+    let build_time = start.elapsed();
+    let bounds = geometry.bounds();
+    let lookup = Lookup {
+        geometry,
+        textures: builder.textures,
+    };
+    let bounds = Bounds::of_box(bounds.min, bounds.max);
+    let lights = LightSet::new(lights, &lookup, bounds);
+    let scene = Scene::new(camera, lookup, surfaces.materials, lights);
+    Some(Compiled {
+        scene,
+        film,
+        sampler,
+        integrator,
+        build_time,
+    })
+}
+
+/// The lights: emitting shapes first, then those without shape, in the order of the file.
+fn lights(
+    params: &Params<'_>,
+    surfaces: &mut Surfaces,
+    builder: &mut Builder<'_>,
+) -> Vec<LightDescription> {
+    let diagnostics = builder.diagnostics;
+    let mut lights = Vec::new();
+    for Emitting { shape, emitter } in &surfaces.emitting {
+        let params = Params::new(emitter, diagnostics);
+        if let Some(light) = LightDescription::from_params(&params, Some(*shape), builder) {
+            surfaces
+                .geometry
+                .set_light(*shape, LightId(lights.len() as u32));
+            lights.push(light);
+        }
+    }
+    for (_, node) in params.children(Class::Emitter) {
+        let params = Params::new(node, diagnostics);
+        lights.extend(LightDescription::from_params(&params, None, builder));
+    }
+    lights
+}
+
+/// The first sensor: camera, film and sampler. A scene may describe several; the first counts.
+fn sensor(
+    params: &Params<'_>,
+    diagnostics: &Diagnostics,
+) -> Option<(AnyCamera, FilmSettings, SamplerSettings)> {
+    let sensors = params.children(Class::Sensor);
+    let Some((_, node)) = sensors.first() else {
+        diagnostics.push(
+            Diagnostic::error(params.node.span, "the scene has no sensor")
+                .help("add a <sensor type=\"perspective\">"),
+        );
+        return None;
+    };
+    for (property, _) in &sensors[1..] {
+        diagnostics.push(
+            Diagnostic::note(
+                property.name_span,
+                "only the scene's first sensor is rendered",
+            )
+            .label("not rendered"),
+        );
+    }
+    let sensor = Params::new(node, diagnostics);
+    let film = film(&sensor, diagnostics)?;
+    let sampler = SamplerSettings::from_sensor(&sensor);
+    let window = FilmWindow {
+        size: film.size,
+        origin: film.crop_offset,
+        crop: film.crop_size,
+    };
+    let (camera, _) = AnyCamera::from_params(&sensor, window)?;
+    Some((camera, film, sampler))
+}
+
+/// The film of a sensor, by default Mitsuba's `hdrfilm`.
+fn film(sensor: &Params<'_>, diagnostics: &Diagnostics) -> Option<FilmSettings> {
+    let Some(node) = sensor.child(Class::Film) else {
+        return Some(FilmSettings::new(768, 576, Filter::default()));
+    };
+    let name = node.plugin.value.as_str();
+    if name != "hdrfilm" {
+        let message = match name {
+            "specfilm" => format!("the film `{name}` is known to Mitsuba 3 but not built yet"),
+            _ => format!("unknown film `{name}`"),
+        };
+        diagnostics.push(Diagnostic::error(node.plugin.span, message).suggest(name, ["hdrfilm"]));
+        return None;
+    }
+    let params = Params::new(node, diagnostics);
+    let film = FilmSettings::from_params(&params);
+    params.finish();
+    Some(film)
+}
+
+/// Media, volumes, phase functions and the like at the top of a scene: known, not built yet.
+/// Textures and materials there are definitions for others to refer to.
+fn refuse_unknown_children(params: &Params<'_>) {
+    params.children(Class::Texture);
+    for class in [Class::Medium, Class::Volume, Class::Phase] {
+        for (_, node) in params.children(class) {
+            let name = &node.plugin.value;
+            let message = format!("the {} `{name}` is not built yet", class.name());
+            params
+                .diagnostics
+                .push(Diagnostic::error(node.plugin.span, message));
+        }
+    }
+}

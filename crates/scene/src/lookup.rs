@@ -1,0 +1,71 @@
+//! The scene's textures and shapes, as materials and lights see them.
+
+use etalon_geometry::Geometry;
+use etalon_textures::TextureSet;
+use etalon_transport::{ShapeId, Shapes, SurfacePoint, TextureId, TexturePoint, Textures, Vertex};
+use glam::{Vec2, Vec3, Vec4};
+
+/// Lookup by id of what materials and lights refer to.
+#[derive(Debug)]
+pub struct Lookup {
+    /// All shapes and their accelerators.
+    pub geometry: Geometry,
+    /// All textures.
+    pub textures: TextureSet,
+}
+
+impl Textures for Lookup {
+    #[inline]
+    fn spectrum(&self, texture: TextureId, at: &TexturePoint, lambda: Vec4) -> Vec4 {
+        self.textures.spectrum(texture, &self.geometry, at, lambda)
+    }
+
+    #[inline]
+    fn number(&self, texture: TextureId, at: &TexturePoint) -> f32 {
+        self.textures.number(texture, &self.geometry, at)
+    }
+
+    #[inline]
+    fn colour(&self, texture: TextureId, at: &TexturePoint) -> Vec3 {
+        self.textures.colour(texture, &self.geometry, at)
+    }
+
+    fn mean(&self, texture: TextureId) -> f32 {
+        self.textures.mean(texture)
+    }
+
+    fn is_constant(&self, texture: TextureId) -> bool {
+        self.textures.is_constant(texture)
+    }
+}
+
+impl Shapes for Lookup {
+    fn area(&self, shape: ShapeId) -> f32 {
+        self.geometry.area(shape)
+    }
+
+    #[inline]
+    fn sample_area(&self, shape: ShapeId, u: Vec2) -> SurfacePoint {
+        self.geometry.sample_area(shape, u)
+    }
+
+    #[inline]
+    fn sample_toward(&self, shape: ShapeId, from: Vec3, u: Vec2) -> Option<SurfacePoint> {
+        self.geometry.sample_toward(shape, from, u)
+    }
+
+    #[inline]
+    fn density_toward(&self, shape: ShapeId, from: Vec3, vertex: &Vertex) -> f32 {
+        self.geometry.density_toward(shape, from, vertex)
+    }
+
+    fn attribute(
+        &self,
+        shape: ShapeId,
+        name: &str,
+        primitive: u32,
+        parameters: Vec2,
+    ) -> Option<Vec3> {
+        self.geometry.attribute(shape, name, primitive, parameters)
+    }
+}

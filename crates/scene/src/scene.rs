@@ -1,0 +1,205 @@
+//! The compiled scene: everything an integrator may ask, answered.
+
+use crate::lookup::Lookup;
+use crate::rays;
+use etalon_bsdf::{Material, Resolved};
+use etalon_cameras::AnyCamera;
+use etalon_lights::LightSet;
+use etalon_math::{Density, SolidAngle};
+use etalon_spectrum::{WavelengthDistribution, Wavelengths};
+use etalon_transport::{Bsdf, Emission, Hit, LightSample, Passage, Ray, Vertex, World};
+use glam::{Vec2, Vec3, Vec4};
+
+/// A scene: immutable, shared by all threads.
+pub struct Scene {
+    camera: AnyCamera,
+    lookup: Lookup,
+    materials: Vec<Material>,
+    lights: LightSet,
+    wavelengths: WavelengthDistribution,
+    /// Whether any material lets light pass straight, so that shadow rays must ask.
+    has_passing: bool,
+}
+
+impl Scene {
+    /// Puts a scene together.
+    pub fn new(
+        camera: AnyCamera,
+        lookup: Lookup,
+        materials: Vec<Material>,
+        lights: LightSet,
+    ) -> Self {
+        let has_passing = materials.iter().any(Material::has_passing);
+        Self {
+            camera,
+            lookup,
+            materials,
+            lights,
+            wavelengths: WavelengthDistribution::default(),
+            has_passing,
+        }
+    }
+
+    /// How much there is, for people.
+    pub fn summary(&self) -> String {
+        let s = self.lookup.geometry.statistics();
+        format!(
+            "shapes       {} ({} triangles)\ninstances    {} ({} triangles)\n\
+             accelerator  {} nodes; geometry takes {:.1} MiB\nmaterials    {}\nlights       {}\n",
+            s.shapes,
+            s.triangles,
+            s.instances,
+            s.instanced_triangles,
+            s.nodes,
+            s.bytes as f64 / f64::from(1 << 20),
+            self.materials.len(),
+            self.lights.len(),
+        )
+    }
+
+    #[inline]
+    fn material(&self, vertex: &Vertex) -> &Material {
+        &self.materials[vertex.material.0 as usize]
+    }
+}
+
+impl World for Scene {
+    type Bsdf<'w> = Resolved<'w>;
+    type Camera = AnyCamera;
+
+    fn camera(&self) -> &AnyCamera {
+        &self.camera
+    }
+
+    #[inline]
+    fn wavelengths(&self, u: f32) -> Wavelengths {
+        Wavelengths::sample(&self.wavelengths, u)
+    }
+
+    #[inline]
+    fn intersect(&self, ray: &Ray) -> Option<Hit> {
+        rays::count();
+        self.lookup.geometry.intersect(ray)
+    }
+
+    #[inline]
+    fn vertex(&self, ray: &Ray, hit: &Hit) -> Vertex {
+        self.lookup.geometry.vertex(ray, hit)
+    }
+
+    #[inline]
+    fn passage(&self, ray: &Ray, wavelengths: &Wavelengths, crossings: u32) -> Option<Passage> {
+        if !self.has_passing {
+            rays::count();
+            return (!self.lookup.geometry.occluded(ray)).then_some(Passage::FREE);
+        }
+        self.passage_through(*ray, wavelengths, crossings)
+    }
+
+    #[inline]
+    fn bsdf(&self, vertex: &Vertex, wo: Vec3, wavelengths: &Wavelengths) -> Resolved<'_> {
+        self.material(vertex)
+            .resolve(&self.lookup, vertex, wo, wavelengths)
+    }
+
+    #[inline]
+    fn emitted(&self, vertex: &Vertex, wo: Vec3, wavelengths: &Wavelengths) -> Vec4 {
+        self.lights.emitted(&self.lookup, vertex, wo, wavelengths)
+    }
+
+    #[inline]
+    fn is_emitter(&self, hit: &Hit) -> bool {
+        self.lookup.geometry.light(hit).is_some()
+    }
+
+    #[inline]
+    fn background(&self, direction: Vec3, wavelengths: &Wavelengths) -> Vec4 {
+        self.lights.background(&self.lookup, direction, wavelengths)
+    }
+
+    #[inline]
+    fn has_background(&self) -> bool {
+        self.lights.has_background()
+    }
+
+    #[inline]
+    fn sample_light(
+        &self,
+        from: &Vertex,
+        wavelengths: &Wavelengths,
+        u_light: f32,
+        u: Vec2,
+    ) -> Option<LightSample> {
+        self.lights
+            .sample(&self.lookup, from, wavelengths, u_light, u)
+    }
+
+    #[inline]
+    fn light_density(&self, from: Vec3, at: &Vertex, _: Vec3) -> Density<SolidAngle> {
+        self.lights.density(&self.lookup, from, at)
+    }
+
+    #[inline]
+    fn background_density(&self, from: Vec3, direction: Vec3) -> Density<SolidAngle> {
+        self.lights.background_density(from, direction)
+    }
+
+    #[inline]
+    fn emit(
+        &self,
+        wavelengths: &Wavelengths,
+        u_light: f32,
+        u_position: Vec2,
+        u_direction: Vec2,
+    ) -> Option<Emission> {
+        self.lights
+            .emit(&self.lookup, wavelengths, u_light, u_position, u_direction)
+    }
+
+    fn take_ray_count(&self) -> u64 {
+        rays::take()
+    }
+}
+
+impl Scene {
+    /// A segment through surfaces that let light pass: each is met in turn and asked how much.
+    fn passage_through(
+        &self,
+        mut ray: Ray,
+        wavelengths: &Wavelengths,
+        mut crossings: u32,
+    ) -> Option<Passage> {
+        let end = ray.t_max;
+        let origin = ray.origin;
+        let mut passage = Passage::FREE;
+        while let Some(hit) = self.intersect(&ray) {
+            if crossings == 0 {
+                return None;
+            }
+            crossings -= 1;
+            let vertex = self.vertex(&ray, &hit);
+            let material = self.material(&vertex);
+            if !material.has_passing() {
+                return None;
+            }
+            let bsdf = material.resolve(&self.lookup, &vertex, -ray.direction, wavelengths);
+            passage.transmittance *= bsdf.passing();
+            passage.probability *= bsdf.passing_probability();
+            if passage.transmittance == Vec4::ZERO {
+                return None;
+            }
+            ray = Ray {
+                t_max: f32::INFINITY,
+                ..vertex.spawn(ray.direction)
+            };
+            if end.is_finite() {
+                // What is left of the segment, measured from where the ray goes on.
+                ray.t_max = end - (ray.origin - origin).dot(ray.direction);
+                if !(ray.t_max > 0.0) {
+                    break;
+                }
+            }
+        }
+        Some(passage)
+    }
+}

@@ -1,0 +1,231 @@
+//! Shapes, groups, instances and their materials.
+
+use crate::builder::Builder;
+use etalon_bsdf::Material;
+use etalon_geometry::{GeometryBuilder, GroupId, Placement, Shape};
+use etalon_params::{Class, Diagnostic, Node, Params, Span};
+use etalon_textures::{Constant, Texture};
+use etalon_transport::{LightId, MaterialId, ShapeId};
+use std::collections::HashMap;
+use std::sync::Arc;
+
+/// Plugins that gather or place other shapes.
+const COMPOSED: [&str; 2] = ["shapegroup", "instance"];
+
+/// Shapes of Mitsuba that are known but not built yet.
+const NOT_BUILT: [&str; 7] = [
+    "serialized",
+    "linearcurve",
+    "bsplinecurve",
+    "sdfgrid",
+    "ellipsoids",
+    "ellipsoidsmesh",
+    "merge",
+];
+
+/// A shape that emits light, with the description of the light.
+pub struct Emitting {
+    /// The shape.
+    pub shape: ShapeId,
+    /// The description of its emitter.
+    pub emitter: Arc<Node>,
+}
+
+/// Everything a ray can hit.
+#[derive(Default)]
+pub struct Surfaces {
+    /// Shapes, groups and instances.
+    pub geometry: GeometryBuilder,
+    /// Materials by id.
+    pub materials: Vec<Material>,
+    /// Shapes that emit.
+    pub emitting: Vec<Emitting>,
+    by_node: HashMap<usize, MaterialId>,
+    groups: HashMap<usize, GroupId>,
+    black: Option<MaterialId>,
+    grey: Option<MaterialId>,
+}
+
+/// Reads the shapes of a scene, and the materials defined at its top whether or not they are
+/// used, so that mistakes in them are found.
+pub fn read(scene: &Params<'_>, builder: &mut Builder<'_>) -> Surfaces {
+    let mut surfaces = Surfaces::default();
+    for (_, node) in scene.children(Class::Bsdf) {
+        surfaces.material(node, builder);
+    }
+    for (_, node) in scene.children(Class::Shape) {
+        surfaces.add(node, builder);
+    }
+    surfaces
+}
+
+/// What a shape carries besides its form.
+struct Carried {
+    material: MaterialId,
+    emitter: Option<Arc<Node>>,
+}
+
+impl Surfaces {
+    /// Adds a shape, group or instance of the world. Mistakes have been recorded.
+    fn add(&mut self, node: &Arc<Node>, builder: &mut Builder<'_>) {
+        match node.plugin.value.as_str() {
+            "shapegroup" => {
+                self.group(node, builder);
+            }
+            "instance" => self.instance(node, builder),
+            _ => {
+                let Some((shape, carried)) = self.shape(node, builder) else {
+                    return;
+                };
+                let id = self
+                    .geometry
+                    .add_shape(shape, carried.material, LightId::NONE);
+                if let Some(emitter) = carried.emitter {
+                    self.emitting.push(Emitting { shape: id, emitter });
+                }
+            }
+        }
+    }
+
+    /// One shape with its material and emitter.
+    fn shape(&mut self, node: &Arc<Node>, builder: &mut Builder<'_>) -> Option<(Shape, Carried)> {
+        let params = Params::new(node, builder.diagnostics);
+        if !Shape::plugins().any(|name| name == node.plugin.value) {
+            unknown_shape(&params);
+            return None;
+        }
+        let shape = Shape::from_params(&params, builder);
+        let emitter = params.child(Class::Emitter).cloned();
+        let material = match params.child(Class::Bsdf) {
+            Some(bsdf) => self.material(bsdf, builder),
+            None if emitter.is_some() => self.black(builder),
+            None => self.grey(builder),
+        };
+        for class in [Class::Medium, Class::Sensor] {
+            for (property, _) in params.children(class) {
+                builder.diagnostics.push(Diagnostic::error(
+                    property.span,
+                    format!("a {} on a shape is not built yet", class.name()),
+                ));
+            }
+        }
+        params.finish();
+        Some((shape?, Carried { material, emitter }))
+    }
+
+    /// The shapes of a group, read once however often they are placed.
+    fn group(&mut self, node: &Arc<Node>, builder: &mut Builder<'_>) -> GroupId {
+        let key = Arc::as_ptr(node) as usize;
+        if let Some(group) = self.groups.get(&key) {
+            return *group;
+        }
+        let params = Params::new(node, builder.diagnostics);
+        let mut members = Vec::new();
+        for (property, child) in params.children(Class::Shape) {
+            if COMPOSED.contains(&child.plugin.value.as_str()) {
+                let message = format!("a `shapegroup` cannot hold a `{}`", child.plugin.value);
+                builder
+                    .diagnostics
+                    .push(Diagnostic::error(property.name_span, message));
+                continue;
+            }
+            let Some((shape, carried)) = self.shape(child, builder) else {
+                continue;
+            };
+            if let Some(emitter) = carried.emitter {
+                let message = "a shape in a `shapegroup` cannot emit light";
+                builder
+                    .diagnostics
+                    .push(Diagnostic::error(emitter.span, message));
+                continue;
+            }
+            members.push((shape, carried.material));
+        }
+        // Mitsuba accepts a placement here and does not use it.
+        params.ignore(&["to_world"]);
+        params.finish();
+        let group = self.geometry.add_group(members);
+        self.groups.insert(key, group);
+        group
+    }
+
+    fn instance(&mut self, node: &Arc<Node>, builder: &mut Builder<'_>) {
+        let params = Params::new(node, builder.diagnostics);
+        let placement = Placement::from_params(&params);
+        match params.child(Class::Shape) {
+            Some(group) if group.plugin.value == "shapegroup" => {
+                let group = self.group(group, builder);
+                if let Some(placement) = placement {
+                    self.geometry.add_instance(group, placement);
+                }
+            }
+            Some(other) => params.error(format!(
+                "an `instance` places a `shapegroup`, not a `{}`",
+                other.plugin.value
+            )),
+            None => params.missing("shapegroup", "a reference to a shape group"),
+        }
+        params.finish();
+    }
+
+    /// The material of a BSDF node, read once however often it is used.
+    fn material(&mut self, node: &Arc<Node>, builder: &mut Builder<'_>) -> MaterialId {
+        let key = Arc::as_ptr(node) as usize;
+        if let Some(id) = self.by_node.get(&key) {
+            return *id;
+        }
+        let diagnostics = builder.diagnostics;
+        let id = match Material::from_params(node, builder, diagnostics) {
+            Some(material) => self.push(material),
+            // The mistake has been recorded; anything will do.
+            None => self.grey(builder),
+        };
+        self.by_node.insert(key, id);
+        id
+    }
+
+    fn push(&mut self, material: Material) -> MaterialId {
+        self.materials.push(material);
+        MaterialId(self.materials.len() as u32 - 1)
+    }
+
+    /// The material of shapes that name none: diffuse, reflectance one half.
+    fn grey(&mut self, builder: &mut Builder<'_>) -> MaterialId {
+        if self.grey.is_none() {
+            let material = diffuse(builder, 0.5);
+            self.grey = Some(self.push(material));
+        }
+        self.grey.unwrap_or(MaterialId::NONE)
+    }
+
+    /// The material of lights that name none: it reflects nothing.
+    fn black(&mut self, builder: &mut Builder<'_>) -> MaterialId {
+        if self.black.is_none() {
+            let material = diffuse(builder, 0.0);
+            self.black = Some(self.push(material));
+        }
+        self.black.unwrap_or(MaterialId::NONE)
+    }
+}
+
+fn diffuse(builder: &mut Builder<'_>, reflectance: f32) -> Material {
+    let constant = Texture::Constant(Constant::uniform(reflectance));
+    Material::Diffuse(etalon_bsdf::diffuse::Description::new(
+        builder.textures.add(constant),
+    ))
+}
+
+fn unknown_shape(params: &Params<'_>) {
+    let name = params.node.plugin.value.as_str();
+    let span: Span = params.node.plugin.span;
+    let known = Shape::plugins().chain(COMPOSED);
+    let diagnostic = if NOT_BUILT.contains(&name) {
+        Diagnostic::error(
+            span,
+            format!("the shape `{name}` is known to Mitsuba 3 but not built yet"),
+        )
+    } else {
+        Diagnostic::error(span, format!("unknown shape `{name}`")).suggest(name, known)
+    };
+    params.diagnostics.push(diagnostic);
+}
