@@ -147,10 +147,10 @@ impl Diagnostics {
         self.lock().iter().any(|d| d.severity == Severity::Error)
     }
 
-    /// All messages, in order of their place in the input.
+    /// All messages, in order of their place in the input; last those that have none.
     pub fn into_sorted(self) -> Vec<Diagnostic> {
         let mut list = self.list.into_inner().unwrap_or_else(|e| e.into_inner());
-        list.sort_by_key(|d| d.span.map(|s| (s.file, s.start)));
+        list.sort_by_key(|d| (d.span.is_none(), d.span.map(|s| (s.file, s.start))));
         list
     }
 

@@ -97,6 +97,7 @@ impl<'a> Attributes<'a> {
         let tag = node.tag_name().name();
         let bare = |name: &'static str| name.trim_start_matches('!');
         let mut complete = true;
+        let mut misspelt = Vec::new();
         let mut attributes = Self {
             list: Vec::with_capacity(4),
             tag_span: tag_span(file, node),
@@ -105,6 +106,8 @@ impl<'a> Attributes<'a> {
             let name_span = span(file, attribute.range_qname());
             let value_span = span(file, attribute.range_value());
             if !accepted.iter().any(|a| bare(a) == attribute.name()) {
+                let names = accepted.iter().map(|a| bare(a));
+                misspelt.extend(etalon_params::suggest::nearest(attribute.name(), names));
                 reader.report(
                     Diagnostic::error(
                         name_span,
@@ -144,6 +147,10 @@ impl<'a> Attributes<'a> {
         for needed in accepted.iter().filter_map(|a| a.strip_prefix('!')) {
             if !node.attributes().any(|a| a.name() == needed) {
                 complete = false;
+                // Said already where it is misspelt.
+                if misspelt.contains(&needed) {
+                    continue;
+                }
                 reader.report(
                     Diagnostic::error(
                         attributes.tag_span,

@@ -65,7 +65,7 @@ pub struct Document {
 pub struct ReadOutcome {
     /// The texts that all positions refer to.
     pub sources: Sources,
-    /// Mistakes and notes, in the order of the files.
+    /// Mistakes and notes, in the order of the files; last those that have no place.
     pub diagnostics: Vec<Diagnostic>,
     /// The scene. After mistakes it may still be there, with harmless values in place of the
     /// broken ones, so that further mistakes can be looked for in it; it must not be rendered.
@@ -101,7 +101,7 @@ pub fn read(path: &Path, options: &ReadOptions) -> ReadOutcome {
     let mut reader = Reader::new(options);
     let document = document(&mut reader, path);
     let mut diagnostics = reader.diagnostics;
-    diagnostics.sort_by_key(|d| d.span.map(|s| (s.file, s.start)));
+    diagnostics.sort_by_key(|d| (d.span.is_none(), d.span.map(|s| (s.file, s.start))));
     ReadOutcome {
         sources: reader.sources,
         diagnostics,

@@ -5,13 +5,19 @@ use roxmltree::{Error, TextPos};
 
 /// The diagnostic of a failed parse of `text`.
 pub(crate) fn diagnose(error: &Error, file: FileId, text: &str) -> Diagnostic {
-    let (message, help) = describe(error);
     let start = match error {
         Error::DtdDetected => text.find("<!DOCTYPE").unwrap_or(0),
         Error::NoRootNode => 0,
         Error::UnclosedRootNode | Error::UnexpectedEndOfStream => text.trim_end().len(),
         Error::NodesLimitReached | Error::AttributesLimitReached => 0,
         other => offset(text, other.pos()),
+    };
+    let (message, help) = match error {
+        Error::UnknownToken(_) if !text[..start].trim().is_empty() => (
+            "there is something behind the end of the outermost element".into(),
+            Some("a scene is one `<scene>`; comments are written `<!-- … -->`"),
+        ),
+        other => describe(other),
     };
     let end = text[start..]
         .chars()
@@ -76,6 +82,13 @@ fn describe(error: &Error) -> (String, Option<&'static str>) {
             ),
             None,
         ),
+        Error::InvalidChar2(expected, found, _) => (
+            format!(
+                "expected {expected}, found `{}`",
+                char::from(*found).escape_default()
+            ),
+            Some("attributes are written `name=\"value\"`; is a quote missing?"),
+        ),
         Error::InvalidString(expected, _) => (format!("expected `{expected}`"), None),
         Error::InvalidName(_) => ("a name was expected here".into(), None),
         Error::InvalidComment(_) => (
@@ -85,7 +98,7 @@ fn describe(error: &Error) -> (String, Option<&'static str>) {
         Error::InvalidCharacterData(_) => ("`]]>` cannot stand in text".into(), None),
         Error::UnknownToken(_) => (
             "this is not XML".into(),
-            Some("there is exactly one outermost element, and it is `<scene version=\"3.0.0\">`"),
+            Some("a scene begins with `<scene version=\"3.0.0\">`"),
         ),
         Error::NodesLimitReached | Error::AttributesLimitReached => {
             ("the file has too many elements".into(), None)
@@ -145,6 +158,7 @@ mod tests {
         assert!(message("<a>\n<b/>\n").starts_with("s:2:5: error: the file ends"));
         assert!(message("\n<!DOCTYPE a><a/>").starts_with("s:2:1: error: document type"));
         assert!(message("<a b='&q;'/>").starts_with("s:1:7: error: unknown entity `&q;`"));
-        assert!(message("<a/><a/>").starts_with("s:1:5: error: this is not XML"));
+        assert!(message("<a/><a/>").starts_with("s:1:5: error: there is something behind"));
+        assert!(message("hello").starts_with("s:1:1: error: this is not XML"));
     }
 }
