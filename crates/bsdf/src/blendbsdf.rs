@@ -13,6 +13,12 @@ use etalon_math::Frame;
 use etalon_params::Params;
 use etalon_transport::{Build, Role, TextureId, Textures};
 
+/// Parameters to test with (see [`crate::exemplars`]).
+pub const EXEMPLARS: &[&str] = &[
+    "blendbsdf weight=f:0.3 ( diffuse reflectance=u:0.8 ) ( roughconductor alpha=f:0.3 )",
+    "blendbsdf weight=f:0.6 ( mask opacity=f:0.5 ( plastic ) ) ( blendbsdf weight=f:0.5 ( roughdielectric alpha=f:0.4 int_ior=s:cauchy:1.4,0.05 ) ( diffuse ) )",
+];
+
 /// `blendbsdf` in a scene file.
 #[derive(Clone, Debug)]
 pub struct Description {

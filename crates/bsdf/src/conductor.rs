@@ -14,6 +14,12 @@ use etalon_params::Params;
 use etalon_transport::{BsdfSample, Build, Chance, Mode, Role, TextureId, Textures};
 use glam::{Vec2, Vec3, Vec4};
 
+/// Parameters to test with (see [`crate::exemplars`]).
+pub const EXEMPLARS: &[&str] = &[
+    "conductor",
+    "conductor eta=t:400:1.5,700:0.2 k=t:400:1.8,700:3.5",
+];
+
 /// `conductor` in a scene file.
 #[derive(Clone, Debug)]
 pub struct Description {

@@ -19,6 +19,13 @@ use etalon_params::Params;
 use etalon_transport::{BsdfSample, Build, Chance, Mode, Role, TextureId, Textures};
 use glam::{Vec2, Vec3, Vec4};
 
+/// Parameters to test with (see [`crate::exemplars`]).
+pub const EXEMPLARS: &[&str] = &[
+    "dielectric",
+    "dielectric int_ior=f:1 ext_ior=f:1.7",
+    "dielectric int_ior=s:cauchy:1.5,0.01 specular_reflectance=u:0.5 specular_transmittance=u:0.7",
+];
+
 /// `dielectric` in a scene file.
 #[derive(Clone, Debug)]
 pub struct Description {

@@ -14,6 +14,9 @@ use etalon_sampling::warps::square_to_cosine_hemisphere;
 use etalon_transport::{BsdfSample, Build, Chance, Mode, Role, TextureId, Textures};
 use glam::{Vec2, Vec3, Vec4};
 
+/// Parameters to test with (see [`crate::exemplars`]).
+pub const EXEMPLARS: &[&str] = &["diffuse", "diffuse reflectance=t:400:0.1,700:0.9"];
+
 /// `diffuse` in a scene file.
 #[derive(Clone, Debug)]
 pub struct Description {
@@ -21,6 +24,11 @@ pub struct Description {
 }
 
 impl Description {
+    /// With a given reflectance texture.
+    pub fn new(reflectance: TextureId) -> Self {
+        Self { reflectance }
+    }
+
     /// Reads `reflectance` (0.5).
     pub fn from_params(params: &Params<'_>, build: &mut dyn Build) -> Option<Self> {
         Some(Self {

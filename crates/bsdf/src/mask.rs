@@ -13,6 +13,12 @@ use etalon_params::Params;
 use etalon_transport::{Build, Role, TextureId, Textures};
 use glam::Vec4;
 
+/// Parameters to test with (see [`crate::exemplars`]).
+pub const EXEMPLARS: &[&str] = &[
+    "mask opacity=f:0.3 ( diffuse )",
+    "mask opacity=f:0.6 ( thindielectric )",
+];
+
 /// `mask` in a scene file.
 #[derive(Clone, Debug)]
 pub struct Description {

@@ -64,6 +64,16 @@ macro_rules! models {
             [$($plain_name,)* $($composed_name,)*].into_iter()
         }
 
+        /// Materials by which the tests hold every model to account, in a one-line notation:
+        /// `plugin key=kind:value … ( nested ) …`, with the kinds `f` number, `s` string, `b`
+        /// boolean, `u` uniform and `t` tabulated spectrum.
+        pub fn exemplars() -> impl Iterator<Item = &'static str> {
+            [$(crate::$plain_module::EXEMPLARS,)* $(crate::$composed_module::EXEMPLARS,)*]
+                .into_iter()
+                .flatten()
+                .copied()
+        }
+
         impl Material {
             fn from_named(
                 params: &Params<'_>,

@@ -9,6 +9,9 @@ use etalon_params::Params;
 use etalon_transport::{Build, Textures};
 use glam::Vec4;
 
+/// Parameters to test with (see [`crate::exemplars`]).
+pub const EXEMPLARS: &[&str] = &["null"];
+
 /// `null` in a scene file; it has no parameters.
 #[derive(Clone, Debug)]
 pub struct Description;

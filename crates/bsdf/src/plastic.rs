@@ -18,6 +18,12 @@ use etalon_sampling::warps::square_to_cosine_hemisphere;
 use etalon_transport::{BsdfSample, Build, Chance, Mode, Textures};
 use glam::{Vec2, Vec3, Vec4};
 
+/// Parameters to test with (see [`crate::exemplars`]).
+pub const EXEMPLARS: &[&str] = &[
+    "plastic",
+    "plastic nonlinear=b:true int_ior=f:1.9 diffuse_reflectance=t:400:0.1,700:0.9",
+];
+
 /// `plastic` in a scene file.
 #[derive(Clone, Debug)]
 pub struct Description {

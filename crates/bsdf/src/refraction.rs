@@ -15,3 +15,12 @@ pub fn reflect(wo: Vec3, m: Vec3) -> Vec3 {
 pub fn refract(wo: Vec3, m: Vec3, eta: f32, cos_t: f32) -> Vec3 {
     m * (wo.dot(m) / eta - cos_t) - wo / eta
 }
+
+/// The unit vector half-way between two directions on one side, and the cosine to either; `None`
+/// if they are opposite, both in the horizon.
+#[inline]
+pub fn half_way(wo: Vec3, wi: Vec3) -> Option<(Vec3, f32)> {
+    let m = (wo + wi).try_normalize()?;
+    let cos = wo.dot(m);
+    (cos > 0.0).then_some((m, cos))
+}

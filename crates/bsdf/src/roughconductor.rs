@@ -9,13 +9,22 @@
 
 use crate::metal::Metal;
 use crate::microfacet::Microfacet;
-use crate::refraction::reflect;
+use crate::refraction::{half_way, reflect};
 use crate::roughness::Roughness;
 use crate::{Model, Site, fresnel};
 use etalon_math::Density;
 use etalon_params::Params;
 use etalon_transport::{BsdfSample, Build, Chance, Mode, Role, TextureId, Textures};
 use glam::{Vec2, Vec3, Vec4};
+
+/// Parameters to test with (see [`crate::exemplars`]).
+pub const EXEMPLARS: &[&str] = &[
+    "roughconductor alpha=f:0.2",
+    "roughconductor alpha_u=f:0.6 alpha_v=f:0.2 eta=t:400:1.5,700:0.2 k=t:400:1.8,700:3.5",
+    "roughconductor alpha_u=f:0.15 alpha_v=f:0.5 distribution=s:ggx",
+    "roughconductor alpha=f:0.4 distribution=s:ggx sample_visible=b:false eta=u:0.2 k=u:3.9",
+    "roughconductor alpha=f:0.3 sample_visible=b:false",
+];
 
 /// `roughconductor` in a scene file.
 #[derive(Clone, Debug)]
@@ -70,8 +79,9 @@ impl Model for RoughConductor {
         if !(wo.z > 0.0 && wi.z > 0.0) {
             return (Vec4::ZERO, Vec4::ZERO);
         }
-        let m = (wo + wi).normalize();
-        let cos = wo.dot(m);
+        let Some((m, cos)) = half_way(wo, wi) else {
+            return (Vec4::ZERO, Vec4::ZERO);
+        };
         let d = self.microfacet.d(m);
         let shadowing = self.microfacet.g1(wo, m) * self.microfacet.g1(wi, m);
         let value = self.reflectance

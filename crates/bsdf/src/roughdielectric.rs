@@ -15,13 +15,22 @@
 
 use crate::ior::RelativeIndex;
 use crate::microfacet::Microfacet;
-use crate::refraction::{reflect, refract};
+use crate::refraction::{half_way, reflect, refract};
 use crate::roughness::Roughness;
 use crate::{Model, Site, fresnel};
 use etalon_math::Density;
 use etalon_params::Params;
 use etalon_transport::{BsdfSample, Build, Chance, Mode, Role, TextureId, Textures};
 use glam::{Vec2, Vec3, Vec4};
+
+/// Parameters to test with (see [`crate::exemplars`]).
+pub const EXEMPLARS: &[&str] = &[
+    "roughdielectric alpha=f:0.3",
+    "roughdielectric alpha_u=f:0.2 alpha_v=f:0.5 distribution=s:ggx int_ior=f:1.8",
+    "roughdielectric alpha=f:0.4 sample_visible=b:false specular_reflectance=u:0.8 specular_transmittance=u:0.6",
+    "roughdielectric alpha=f:0.3 distribution=s:ggx int_ior=s:cauchy:1.4,0.05",
+    "roughdielectric alpha=f:0.35 int_ior=s:sellmeier:1.03961212,0.231792344,1.01046945,0.00600069867,0.0200179144,103.560653 ext_ior=s:diamond",
+];
 
 /// `roughdielectric` in a scene file.
 #[derive(Clone, Debug)]
@@ -115,8 +124,9 @@ impl RoughDielectric {
 
     /// Reflection between two directions above.
     fn reflection(&self, wo: Vec3, wi: Vec3, eta: Vec4) -> (Vec4, Vec4) {
-        let m = (wo + wi).normalize();
-        let cos = wo.dot(m);
+        let Some((m, cos)) = half_way(wo, wi) else {
+            return (Vec4::ZERO, Vec4::ZERO);
+        };
         let (d, density) = self.normal_density(wo, m);
         let shadowing = self.microfacet.g1(wo, m) * self.microfacet.g1(wi, m);
         let fresnel = fresnel::dielectric_lanes(cos, eta);

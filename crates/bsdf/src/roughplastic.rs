@@ -9,7 +9,7 @@
 
 use crate::coating::{Coat, Coating};
 use crate::microfacet::Microfacet;
-use crate::refraction::reflect;
+use crate::refraction::{half_way, reflect};
 use crate::rough_fresnel::RoughFresnel;
 use crate::{Model, Site, fresnel, roughness};
 use core::f32::consts::FRAC_1_PI;
@@ -18,6 +18,14 @@ use etalon_params::Params;
 use etalon_sampling::warps::square_to_cosine_hemisphere;
 use etalon_transport::{BsdfSample, Build, Chance, Mode, Textures};
 use glam::{Vec2, Vec3, Vec4};
+
+/// Parameters to test with (see [`crate::exemplars`]).
+pub const EXEMPLARS: &[&str] = &[
+    "roughplastic alpha=f:0.2",
+    "roughplastic alpha=f:0.4 distribution=s:ggx nonlinear=b:true diffuse_reflectance=t:400:0.1,700:0.9",
+    "roughplastic alpha=f:0.3 diffuse_reflectance=u:0",
+    "roughplastic alpha=f:0.3 specular_reflectance=u:0 sample_visible=b:false",
+];
 
 /// `roughplastic` in a scene file.
 #[derive(Clone, Debug)]
@@ -66,8 +74,9 @@ impl Model for RoughPlastic<'_> {
         if !(wo.z > 0.0 && wi.z > 0.0) {
             return (Vec4::ZERO, Vec4::ZERO);
         }
-        let m = (wo + wi).normalize();
-        let cos = wo.dot(m);
+        let Some((m, cos)) = half_way(wo, wi) else {
+            return (Vec4::ZERO, Vec4::ZERO);
+        };
         let d = self.microfacet.d(m);
         let shadowing = self.microfacet.g1(wo, m) * self.microfacet.g1(wi, m);
         let reflected = fresnel::dielectric(cos, self.coat.eta).0 * d * shadowing / (4.0 * wo.z);

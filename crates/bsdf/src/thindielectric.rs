@@ -16,6 +16,12 @@ use etalon_math::Frame;
 use etalon_params::Params;
 use etalon_transport::{Build, Role, TextureId, Textures};
 
+/// Parameters to test with (see [`crate::exemplars`]).
+pub const EXEMPLARS: &[&str] = &[
+    "thindielectric",
+    "thindielectric int_ior=f:2 specular_transmittance=t:400:0.1,700:0.9",
+];
+
 /// `thindielectric` in a scene file.
 #[derive(Clone, Debug)]
 pub struct Description {

@@ -10,6 +10,12 @@ use etalon_math::Frame;
 use etalon_params::{Class, Diagnostic, Params};
 use etalon_transport::{Build, Textures};
 
+/// Parameters to test with (see [`crate::exemplars`]).
+pub const EXEMPLARS: &[&str] = &[
+    "twosided ( diffuse )",
+    "twosided ( roughconductor alpha_u=f:0.2 alpha_v=f:0.5 ) ( diffuse reflectance=u:0.2 )",
+];
+
 /// `twosided` in a scene file.
 #[derive(Clone, Debug)]
 pub struct Description {

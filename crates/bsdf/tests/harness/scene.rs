@@ -1,0 +1,196 @@
+//! The least scene that a material can be built and resolved in.
+
+use crate::notation;
+use etalon_bsdf::{Material, Resolved};
+use etalon_math::Frame;
+use etalon_params::{Diagnostic, Diagnostics, Node, Params, SpectrumText, Value};
+use etalon_spectrum::{Spectrum, Wavelengths};
+use etalon_transport::{
+    AssetError, Assets, Build, InstanceId, LightId, MaterialId, MeshData, MeshFormat, Role,
+    ShapeId, TextureId, TexturePoint, Textures, Vertex,
+};
+use glam::{Vec2, Vec3, Vec4};
+use std::sync::Arc;
+
+/// The wavelengths of every test that does not say otherwise (nm).
+pub(crate) const WAVELENGTHS: Wavelengths = Wavelengths {
+    lambda: Vec4::new(450.0, 500.0, 550.0, 600.0),
+    density: Vec4::splat(1.0 / 470.0),
+};
+
+/// Spectra by id, and files by name.
+#[derive(Default)]
+pub(crate) struct Scene {
+    spectra: Vec<Spectrum>,
+    files: Files,
+}
+
+#[derive(Default)]
+struct Files(Vec<(String, String)>);
+
+impl Assets for Files {
+    fn bytes(&self, path: &str) -> Result<Arc<Vec<u8>>, AssetError> {
+        let found = self.0.iter().find(|(name, _)| name == path);
+        found
+            .map(|(_, text)| Arc::new(text.clone().into_bytes()))
+            .ok_or_else(|| AssetError {
+                message: format!("no file {path}"),
+                help: None,
+            })
+    }
+
+    fn mesh(&self, _: MeshFormat, path: &str) -> Result<MeshData, AssetError> {
+        Err(AssetError {
+            message: format!("no mesh {path}"),
+            help: None,
+        })
+    }
+}
+
+impl Textures for Scene {
+    fn spectrum(&self, texture: TextureId, _: &TexturePoint, lambda: Vec4) -> Vec4 {
+        self.spectra[texture.0 as usize].eval(lambda)
+    }
+
+    fn number(&self, texture: TextureId, _: &TexturePoint) -> f32 {
+        self.spectra[texture.0 as usize].eval(Vec4::splat(550.0)).x
+    }
+
+    fn colour(&self, texture: TextureId, at: &TexturePoint) -> Vec3 {
+        Vec3::splat(self.number(texture, at))
+    }
+
+    fn mean(&self, texture: TextureId) -> f32 {
+        self.spectra[texture.0 as usize].mean() as f32
+    }
+
+    fn is_constant(&self, _: TextureId) -> bool {
+        true
+    }
+}
+
+impl Build for Scene {
+    fn assets(&self) -> &dyn Assets {
+        &self.files
+    }
+
+    fn texture(
+        &mut self,
+        params: &Params<'_>,
+        name: &str,
+        default: Option<f64>,
+        _: Role,
+    ) -> TextureId {
+        let spectrum = match (params.property(name).map(|p| &p.value), default) {
+            (Some(Value::Float(value)), _) => Spectrum::uniform(*value),
+            (None, Some(value)) => Spectrum::uniform(value),
+            (Some(Value::Spectrum(SpectrumText::Uniform(value))), _) => Spectrum::uniform(*value),
+            (Some(Value::Spectrum(SpectrumText::Samples(samples))), _) => {
+                let (wavelengths, values): (Vec<f64>, Vec<f64>) = samples.iter().copied().unzip();
+                Spectrum::irregular(&wavelengths, &values)
+            }
+            _ => {
+                params.missing(name, "a number or spectrum");
+                Spectrum::uniform(0.0)
+            }
+        };
+        self.spectrum(spectrum.expect("a valid spectrum"))
+    }
+
+    fn nested_texture(&mut self, _: &Arc<Node>, _: Role) -> TextureId {
+        unreachable!("the notation has no nested textures")
+    }
+
+    fn spectrum(&mut self, spectrum: Spectrum) -> TextureId {
+        self.spectra.push(spectrum);
+        TextureId(self.spectra.len() as u32 - 1)
+    }
+}
+
+impl Scene {
+    /// Adds a file.
+    pub(crate) fn with_file(mut self, name: &str, text: &str) -> Self {
+        self.files.0.push((name.to_owned(), text.to_owned()));
+        self
+    }
+
+    /// Reads a material, with what was said about it.
+    pub(crate) fn read(&mut self, text: &str) -> (Option<Material>, Vec<Diagnostic>) {
+        let diagnostics = Diagnostics::new();
+        let material = Material::from_params(&notation::node(text), self, &diagnostics);
+        (material, diagnostics.into_sorted())
+    }
+}
+
+/// A material in a scene of its own.
+pub(crate) struct Sample {
+    /// The notation it was read from.
+    pub(crate) text: String,
+    material: Material,
+    scene: Scene,
+}
+
+impl Sample {
+    /// Reads a material that must be right.
+    pub(crate) fn new(text: &str) -> Self {
+        Self::in_scene(text, Scene::default())
+    }
+
+    /// The same in a scene that has files.
+    pub(crate) fn in_scene(text: &str, mut scene: Scene) -> Self {
+        let (material, said) = scene.read(text);
+        assert!(said.is_empty(), "{text}: {said:?}");
+        Self {
+            text: text.to_owned(),
+            material: material.expect("no diagnostic, so a material"),
+            scene,
+        }
+    }
+
+    /// All exemplars of all models.
+    pub(crate) fn exemplars() -> Vec<Self> {
+        etalon_bsdf::exemplars().map(Self::new).collect()
+    }
+
+    /// The material at a point whose shading and geometric normals are +z.
+    pub(crate) fn at(&self, wo: Vec3) -> Resolved<'_> {
+        self.rotated(wo, 0)
+    }
+
+    /// The same when lane `turn` is the one that chooses.
+    pub(crate) fn rotated(&self, wo: Vec3, turn: usize) -> Resolved<'_> {
+        self.resolve(wo, &WAVELENGTHS.rotated(turn), Frame::IDENTITY)
+    }
+
+    /// The material at a point with the geometric normal +z and another shading frame.
+    pub(crate) fn resolve(
+        &self,
+        wo: Vec3,
+        wavelengths: &Wavelengths,
+        shading: Frame,
+    ) -> Resolved<'_> {
+        let vertex = Vertex {
+            position: Vec3::ZERO,
+            error: Vec3::ZERO,
+            normal: Vec3::Z,
+            shading,
+            uv: Vec2::ZERO,
+            dp_du: Vec3::X,
+            dp_dv: Vec3::Y,
+            t: 1.0,
+            time: 0.0,
+            parameters: Vec2::ZERO,
+            shape: ShapeId(0),
+            primitive: 0,
+            instance: InstanceId::NONE,
+            material: MaterialId(0),
+            light: LightId::NONE,
+        };
+        self.material.resolve(&self.scene, &vertex, wo, wavelengths)
+    }
+
+    /// What the material can do.
+    pub(crate) fn material(&self) -> &Material {
+        &self.material
+    }
+}
