@@ -49,19 +49,18 @@ pub fn sensor_response(wavelengths: &Wavelengths) -> SensorWeights {
 /// unit of radiance per nanometre. Zero outside 360–830 nm.
 #[inline]
 pub fn response(lambda: Vec4) -> [Vec4; 4] {
-    let lanes =
-        Mat4::from_cols(row(lambda.x), row(lambda.y), row(lambda.z), row(lambda.w)).transpose();
+    let t = lambda - FIRST as f32;
+    let inside = t.cmpge(Vec4::ZERO) & t.cmple(Vec4::splat((COUNT - 1) as f32));
+    // A wavelength outside saturates to some row; `inside` discards what it finds.
+    let lanes = Mat4::from_cols(row(t.x), row(t.y), row(t.z), row(t.w)).transpose();
     [lanes.x_axis, lanes.y_axis, lanes.z_axis, lanes.w_axis]
+        .map(|channel| Vec4::select(inside, channel, Vec4::ZERO))
 }
 
-/// (r̄, ḡ, b̄, ȳ)/N at `lambda` nm.
+/// (r̄, ḡ, b̄, ȳ)/N at 360 + `t` nm.
 #[inline]
-fn row(lambda: f32) -> Vec4 {
-    let t = lambda - FIRST as f32;
-    if !(t >= 0.0 && t <= (COUNT - 1) as f32) {
-        return Vec4::ZERO;
-    }
-    let i = t as usize;
+fn row(t: f32) -> Vec4 {
+    let i = (t as usize).min(COUNT - 1);
     let low = Vec4::from_array(RESPONSE[i]);
     let high = Vec4::from_array(RESPONSE[i + 1]);
     low + (high - low) * (t - i as f32)

@@ -82,7 +82,7 @@ impl Regular {
 pub struct Irregular {
     /// (wavelength nm, value, slope to the next knot nm⁻¹).
     knots: Box<[[f32; 3]]>,
-    /// For each of equally wide buckets, the interval in which its lower end lies.
+    /// For each of equally wide buckets, an interval at or below every wavelength in it.
     first: Box<[u32]>,
     /// Buckets per nanometre.
     rate: f32,
@@ -126,14 +126,20 @@ impl Irregular {
             })
             .collect();
         let (min, max) = (knots[0][0], knots[count - 1][0]);
-        let buckets = (8 * count).min(1 << 20);
-        let rate = buckets as f32 / (max - min);
-        let first = (0..=buckets)
+        // Buckets as wide as the closest two knots hold one knot each; more than a few thousand
+        // would not stay in the cache.
+        let closest = knots
+            .windows(2)
+            .map(|k| k[1][0] - k[0][0])
+            .fold(f32::INFINITY, f32::min);
+        let buckets = ((max - min) / closest).clamp(1.0, 4096.0).ceil();
+        let rate = buckets / (max - min);
+        let bucket = |lambda: f32| ((lambda - min) * rate) as usize;
+        let first = (0..=bucket(max))
             .map(|b| {
-                // One bucket early, so that rounding in `at` can never start past the interval.
-                let lambda = min + (b as f32 - 1.0) / rate;
-                let after = knots.partition_point(|k| k[0] <= lambda);
-                (after.saturating_sub(1)).min(count - 2) as u32
+                // `bucket` never decreases, so the knots of earlier buckets lie below all of b.
+                let below = knots.partition_point(|k| bucket(k[0]) < b);
+                below.saturating_sub(1).min(count - 2) as u32
             })
             .collect();
         Ok(Self {
@@ -144,31 +150,35 @@ impl Irregular {
         })
     }
 
-    /// Value at one wavelength in nm.
+    /// Values at four wavelengths in nm.
     #[inline]
-    fn at(&self, lambda: f32) -> f32 {
-        let [min, first_value, _] = self.knots[0];
-        let [max, last_value, _] = self.knots[self.knots.len() - 1];
-        if !(lambda >= min && lambda <= max) {
-            return match self.outside {
-                Outside::Zero => 0.0,
-                Outside::Hold if lambda > max => last_value,
-                Outside::Hold => first_value,
-            };
+    pub fn eval(&self, lambda: Vec4) -> Vec4 {
+        let [min, max] = self.range().map(Vec4::splat);
+        let within = lambda.max(min).min(max);
+        let t = (within - min) * self.rate;
+        let values = Vec4::new(
+            self.value(within.x, t.x),
+            self.value(within.y, t.y),
+            self.value(within.z, t.z),
+            self.value(within.w, t.w),
+        );
+        match self.outside {
+            Outside::Zero => Vec4::select(within.cmpeq(lambda), values, Vec4::ZERO),
+            Outside::Hold => values,
         }
-        let bucket = ((lambda - min) * self.rate) as usize;
-        let mut i = self.first[bucket.min(self.first.len() - 1)] as usize;
+    }
+
+    /// Value at `lambda` nm within the table, which lies `t` buckets from its beginning.
+    #[inline]
+    fn value(&self, lambda: f32, t: f32) -> f32 {
+        let mut i = self.first[t as usize] as usize;
+        // Almost always at most one step, taken without a branch.
+        i += usize::from(self.knots[i + 1][0] < lambda);
         while self.knots[i + 1][0] < lambda {
             i += 1;
         }
         let [start, value, slope] = self.knots[i];
         value + slope * (lambda - start)
-    }
-
-    /// Values at four wavelengths in nm.
-    #[inline]
-    pub fn eval(&self, lambda: Vec4) -> Vec4 {
-        Vec4::from_array(lambda.to_array().map(|l| self.at(l)))
     }
 
     /// The same spectrum times `factor`.

@@ -97,13 +97,15 @@ fn lookup_dark(table: &[f32], rgb: [f32; 3], max: f32) -> [f32; 3] {
     let (j, wy) = cubic(place_of_ratio(y));
     let (i, wx) = cubic(place_of_ratio(x));
     let corner = brightest * RESOLUTION * STRIDE[0] + k * STRIDE[0] + j * STRIDE[1] + i * STRIDE[2];
+    // One slice that holds all 4³ nodes, so that bounds are checked once.
+    let nodes = &table[corner..corner + 3 * STRIDE[0] + 3 * STRIDE[1] + 12];
     // Sums over z and y of the four nodes along x, three coefficients each.
     let mut row = [0.0_f32; 12];
     for (a, weight_z) in wz.iter().enumerate() {
         for (b, weight_y) in wy.iter().enumerate() {
             let weight = weight_z * weight_y;
-            let start = corner + a * STRIDE[0] + b * STRIDE[1];
-            for (sum, value) in row.iter_mut().zip(&table[start..start + 12]) {
+            let start = a * STRIDE[0] + b * STRIDE[1];
+            for (sum, value) in row.iter_mut().zip(&nodes[start..start + 12]) {
                 *sum += weight * value;
             }
         }
