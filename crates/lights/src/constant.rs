@@ -3,6 +3,7 @@
 
 use crate::Bounds;
 use crate::light::anywhere;
+use crate::uniformity::refuse_varying;
 use etalon_math::{Density, SolidAngle};
 use etalon_params::Params;
 use etalon_sampling::warps::{UNIFORM_SPHERE_DENSITY, square_to_uniform_sphere};
@@ -21,6 +22,7 @@ impl ConstantLight {
     /// Reads `radiance`. `to_world` turns a uniform sky into itself.
     pub fn from_params(params: &Params<'_>, build: &mut dyn Build) -> Self {
         params.ignore(&["to_world"]);
+        refuse_varying(params, "radiance");
         Self {
             radiance: build.texture(params, "radiance", Some(1.0), Role::Emission),
         }

@@ -4,6 +4,7 @@
 use crate::Bounds;
 use crate::light::anywhere;
 use crate::pose::Pose;
+use crate::uniformity::refuse_varying;
 use etalon_math::Atom;
 use etalon_params::Params;
 use etalon_spectrum::Wavelengths;
@@ -22,6 +23,7 @@ pub struct DirectionalLight {
 impl DirectionalLight {
     /// Reads `irradiance`, and `direction` or `to_world` (whose +z is where the light goes).
     pub fn from_params(params: &Params<'_>, build: &mut dyn Build) -> Option<Self> {
+        refuse_varying(params, "irradiance");
         let irradiance = build.texture(params, "irradiance", Some(1.0), Role::Emission);
         let direction = match params.vector("direction") {
             Some(direction) => {

@@ -11,7 +11,8 @@
 //! where mᵢ is twice the largest component of texel i and sᵢ the smooth spectrum of rgbᵢ/mᵢ.
 //! Directions are chosen with a density bilinear in (u, v) through the nodes
 //! (r + g + b)/3 · sin θ; optionally less their mean (Karlík, Šik, Vévoda, Skřivan, Křivánek 2019,
-//! "MIS Compensation"), which leaves dark regions to other techniques.
+//! "MIS Compensation"), which leaves dark regions to other techniques. An estimator that has no
+//! other technique, such as `direct` with `bsdf_samples` zero, then misses those regions.
 
 use crate::latitude_longitude as map;
 use crate::pose::Pose;
@@ -35,10 +36,19 @@ pub struct EnvironmentMap {
     pose: Pose,
     scale: f32,
     image: Arc<SkyImage>,
-    /// `None` if the image is black.
-    directions: Option<Arc<Bilinear>>,
+    tables: Tables,
     /// Mean radiance over directions and wavelengths.
     mean: f64,
+}
+
+/// Distributions of directions over the moved unit square; `None` if the image is black.
+#[derive(Clone, Debug)]
+struct Tables {
+    /// For directions toward the sky.
+    toward: Option<Arc<Bilinear>>,
+    /// For particles from the sky, whose every direction must be possible, since no other
+    /// technique makes up for what compensation leaves out.
+    from: Option<Arc<Bilinear>>,
 }
 
 /// Texels: three coefficients of a spectrum and its factor.
@@ -143,13 +153,23 @@ impl EnvironmentMap {
         } else {
             0.0
         };
-        let mut nodes = Vec::with_capacity((width + 1) * height);
-        for (row, texels) in pixels.rgb.chunks_exact(width).enumerate() {
-            let node = |rgb: &[f32; 3]| ((brightness(rgb) - offset).max(0.0) * sine(row)) as f32;
-            nodes.extend(texels.iter().map(node));
-            // The image is periodic.
-            nodes.push(node(&texels[0]));
-        }
+        let table = |offset: f64| {
+            let mut nodes = Vec::with_capacity((width + 1) * height);
+            for (row, texels) in pixels.rgb.chunks_exact(width).enumerate() {
+                let node =
+                    |rgb: &[f32; 3]| ((brightness(rgb) - offset).max(0.0) * sine(row)) as f32;
+                nodes.extend(texels.iter().map(node));
+                // The image is periodic.
+                nodes.push(node(&texels[0]));
+            }
+            Bilinear::new(&nodes, width + 1).ok().map(Arc::new)
+        };
+        let from = table(0.0);
+        let toward = if offset > 0.0 {
+            table(offset)
+        } else {
+            from.clone()
+        };
         let texels = pixels.rgb.iter().map(|&rgb| texel(rgb)).collect();
         let white = Spectrum::D65(etalon_spectrum::RgbSpectrum::WHITE).mean();
         Self {
@@ -159,7 +179,7 @@ impl EnvironmentMap {
                 size: pixels.size,
                 texels,
             }),
-            directions: Bilinear::new(&nodes, width + 1).ok().map(Arc::new),
+            tables: Tables { toward, from },
             mean: sums[1] / sums[2] * white * f64::from(scale),
         }
     }
@@ -201,7 +221,7 @@ impl EnvironmentMap {
     /// are never sampled.
     #[inline]
     pub fn density(&self, direction: Vec3) -> Density<SolidAngle> {
-        let Some(directions) = &self.directions else {
+        let Some(directions) = &self.tables.toward else {
             return Density::ZERO;
         };
         let local = self.pose.to_local(direction);
@@ -215,8 +235,7 @@ impl EnvironmentMap {
 
     /// A direction with its place and density (sr⁻¹).
     #[inline]
-    fn choose(&self, u: Vec2) -> Option<(Vec3, Vec2, f32)> {
-        let directions = self.directions.as_ref()?;
+    fn choose(&self, directions: &Bilinear, u: Vec2) -> Option<(Vec3, Vec2, f32)> {
         let place = directions.sample(u);
         let (local, sin_theta) = map::to_direction(place + Vec2::new(self.half_texel(), 0.0));
         let density = directions.density(place) / map::stretch(sin_theta);
@@ -226,7 +245,7 @@ impl EnvironmentMap {
     /// A direction to the sky.
     #[inline]
     pub fn sample(&self, wavelengths: &Wavelengths, u: Vec2) -> Option<LightSample> {
-        let (direction, place, density) = self.choose(u)?;
+        let (direction, place, density) = self.choose(self.tables.toward.as_ref()?, u)?;
         Some(LightSample {
             direction,
             target: None,
@@ -245,7 +264,7 @@ impl EnvironmentMap {
         u_position: Vec2,
         u_direction: Vec2,
     ) -> Option<Emission> {
-        let (toward, place, density) = self.choose(u_direction)?;
+        let (toward, place, density) = self.choose(self.tables.from.as_ref()?, u_direction)?;
         let factor = bounds.cross_section() as f32 / density;
         Some(Emission {
             ray: bounds.ray_into(-toward, u_position),

@@ -23,6 +23,7 @@ pub mod pose;
 pub mod selector;
 pub mod set;
 pub mod spot;
+mod uniformity;
 
 pub use area::AreaLight;
 pub use bounds::Bounds;

@@ -5,6 +5,7 @@
 //! ```
 
 use crate::light::anywhere;
+use crate::uniformity::refuse_varying;
 use etalon_math::Atom;
 use etalon_params::Params;
 use etalon_sampling::warps::{UNIFORM_SPHERE_DENSITY, square_to_uniform_sphere};
@@ -26,6 +27,7 @@ pub struct PointLight {
 impl PointLight {
     /// Reads `position` or `to_world`, and `intensity`.
     pub fn from_params(params: &Params<'_>, build: &mut dyn Build) -> Option<Self> {
+        refuse_varying(params, "intensity");
         let intensity = build.texture(params, "intensity", Some(1.0), Role::Emission);
         let translation = params.transform("to_world").w_axis.truncate();
         let position = params.vector("position");

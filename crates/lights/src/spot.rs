@@ -15,6 +15,7 @@
 
 use crate::light::anywhere;
 use crate::pose::Pose;
+use crate::uniformity::refuse_varying;
 use etalon_math::{Atom, float, float64};
 use etalon_params::Params;
 use etalon_sampling::warps::{square_to_uniform_cone, uniform_cone_density};
@@ -45,6 +46,7 @@ pub struct SpotLight {
 impl SpotLight {
     /// Reads `intensity`, `cutoff_angle`, `beam_width`, `texture` and `to_world`.
     pub fn from_params(params: &Params<'_>, build: &mut dyn Build) -> Option<Self> {
+        refuse_varying(params, "intensity");
         let intensity = build.texture(params, "intensity", Some(1.0), Role::Emission);
         let texture = params
             .has("texture")

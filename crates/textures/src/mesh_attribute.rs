@@ -20,10 +20,14 @@ pub struct MeshAttribute {
 }
 
 impl MeshAttribute {
-    /// The interpolated channels; black where the shape has no such attribute, which the scene
-    /// rules out when it is compiled (see [`crate::TextureSet::attributes`]).
+    /// The interpolated channels; black away from shapes and where the shape has no such
+    /// attribute, which the scene rules out when it is compiled (see
+    /// [`crate::TextureSet::attributes`]).
     #[inline]
     fn stored(&self, shapes: &impl Shapes, at: &TexturePoint) -> Vec3 {
+        if !at.shape.is_some() {
+            return Vec3::ZERO;
+        }
         shapes
             .attribute(at.shape, &self.name, at.primitive, at.parameters)
             .unwrap_or(Vec3::ZERO)

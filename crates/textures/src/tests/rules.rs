@@ -215,6 +215,7 @@ fn mesh_attributes_come_from_the_shape() {
         )
     };
     let at = TexturePoint {
+        shape: ShapeId(0),
         parameters: Vec2::new(0.25, 0.75),
         ..TexturePoint::at_uv(Vec2::ZERO)
     };

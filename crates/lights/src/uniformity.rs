@@ -1,0 +1,29 @@
+//! Lights without extent, and skies of one colour, have nothing over which a texture could vary.
+
+use etalon_params::{Class, Node, Params, Value};
+
+/// Refuses a texture that varies in space as the value of `name`.
+pub(crate) fn refuse_varying(params: &Params<'_>, name: &str) {
+    let property = params.node.properties.iter().find(|p| p.name == name);
+    if let Some(Value::Object(node)) = property.map(|p| &p.value)
+        && varies(node)
+    {
+        params.error_at(
+            name,
+            format!(
+                "`{name}` of `{}` must be a spectrum or colour that does not vary in space",
+                params.node.plugin.value
+            ),
+        );
+    }
+}
+
+/// Whether a texture, or one inside of it, varies in space.
+fn varies(node: &Node) -> bool {
+    let inside = |value: &Value| matches!(value, Value::Object(inner) if varies(inner));
+    node.class == Class::Texture
+        && (matches!(
+            node.plugin.value.as_str(),
+            "bitmap" | "checkerboard" | "mesh_attribute" | "volume"
+        ) || node.properties.iter().any(|p| inside(&p.value)))
+}
