@@ -54,7 +54,10 @@ pub fn run(arguments: &Arguments) -> Result<(), String> {
         .collect();
     write(&data.join("rgb2spec.bin"), &coefficients)?;
     match &arguments.refractiveindex {
-        Some(database) => write(&data.join("conductors.txt"), conductors(database)?.as_bytes()),
+        Some(database) => write(
+            &data.join("conductors.txt"),
+            conductors(database)?.as_bytes(),
+        ),
         None => {
             println!("conductors.txt stays as it is: no --refractiveindex DIR");
             Ok(())
@@ -107,7 +110,10 @@ fn tabulated_nk(yaml: &str) -> Result<Vec<[f64; 3]>, String> {
     for line in block {
         let numbers: Vec<f64> = line
             .split_whitespace()
-            .map(|word| word.parse().map_err(|_| format!("\"{word}\" is not a number")))
+            .map(|word| {
+                word.parse()
+                    .map_err(|_| format!("\"{word}\" is not a number"))
+            })
             .collect::<Result<_, String>>()?;
         let [micrometres, n, k] = numbers[..] else {
             return Err(format!("\"{line}\": expected a wavelength, n and k"));
