@@ -4,14 +4,19 @@
 //! *others*: anything with a box and a primitive number, for which it calls back. It returns the
 //! nearest hit by the total order of [`Nearest`], so every accelerator gives the same bits.
 
+mod binary;
 pub(crate) mod block;
+mod collapse;
 mod linear;
+mod node;
+mod wide;
 
 use crate::nearest::Nearest;
 use crate::probe::Probe;
 use block::Block;
 use glam::Vec3;
 use linear::Linear;
+use wide::Wide;
 
 /// Which accelerator to build.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -88,6 +93,8 @@ pub(crate) trait Primitives: Sync {
     fn len(&self) -> usize;
     /// The corners of a triangle; `None` for anything else.
     fn triangle(&self, primitive: u32) -> Option<[Vec3; 3]>;
+    /// Whether a primitive is a triangle.
+    fn is_triangle(&self, primitive: u32) -> bool;
     /// The box of a primitive that is not a triangle.
     fn bounds(&self, primitive: u32) -> Bounds;
 }
@@ -108,19 +115,22 @@ pub(crate) fn has_area(corners: &[Vec3; 3]) -> bool {
     (b - a).cross(c - a).length_squared() > 0.0
 }
 
+/// Binary trees deeper than this are not worked on recursively but built anew by halving.
+const MAX_BINARY_DEPTH: u32 = 200;
+
 /// An accelerator.
 #[derive(Debug)]
 pub(crate) enum Accelerator {
     Linear(Linear),
+    Wide(Wide),
 }
 
 impl Accelerator {
     /// Builds an accelerator over all primitives but triangles without area.
     pub(crate) fn build(kind: AcceleratorKind, primitives: &impl Primitives) -> Self {
         match kind {
-            AcceleratorKind::Linear | AcceleratorKind::Wide => {
-                Self::Linear(Linear::build(primitives))
-            }
+            AcceleratorKind::Linear => Self::Linear(Linear::build(primitives)),
+            AcceleratorKind::Wide => Self::Wide(Wide::build(primitives)),
         }
     }
 
@@ -129,6 +139,7 @@ impl Accelerator {
     pub(crate) fn intersect(&self, probe: &Probe, others: &impl Others, nearest: &mut Nearest) {
         match self {
             Self::Linear(linear) => linear.intersect(probe, others, nearest),
+            Self::Wide(wide) => wide.intersect(probe, others, nearest),
         }
     }
 
@@ -137,6 +148,7 @@ impl Accelerator {
     pub(crate) fn occluded(&self, probe: &Probe, others: &impl Others, t_max: f32) -> bool {
         match self {
             Self::Linear(linear) => linear.occluded(probe, others, t_max),
+            Self::Wide(wide) => wide.occluded(probe, others, t_max),
         }
     }
 
@@ -144,6 +156,7 @@ impl Accelerator {
     pub(crate) fn nodes(&self) -> usize {
         match self {
             Self::Linear(_) => 0,
+            Self::Wide(wide) => wide.nodes(),
         }
     }
 
@@ -151,6 +164,7 @@ impl Accelerator {
     pub(crate) fn bytes(&self) -> usize {
         match self {
             Self::Linear(linear) => linear.bytes(),
+            Self::Wide(wide) => wide.bytes(),
         }
     }
 }

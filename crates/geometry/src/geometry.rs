@@ -179,6 +179,12 @@ impl Geometry {
         }
     }
 
+    /// The light that the hit shape is, or [`LightId::NONE`].
+    #[inline]
+    pub fn light(&self, hit: &Hit) -> LightId {
+        self.attachments[hit.shape.0 as usize].light
+    }
+
     /// The differential geometry of a hit.
     pub fn vertex(&self, ray: &Ray, hit: &Hit) -> Vertex {
         let shape = &self.shapes[hit.shape.0 as usize];

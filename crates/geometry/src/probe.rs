@@ -17,6 +17,8 @@ pub(crate) struct Probe {
     pub(crate) direction: Vec3,
     /// Axes: two small ones, then the direction's largest.
     pub(crate) k: [usize; 3],
+    /// The origin's coordinates along those axes.
+    pub(crate) permuted: [f32; 3],
     /// d[k₀]/d[k₂], d[k₁]/d[k₂], 1/d[k₂].
     pub(crate) shear: [f32; 3],
     /// Triangles nearer than this (in t) are checked for rounding, see
@@ -39,7 +41,7 @@ impl Probe {
     /// test itself but for the relative error of 1/d, which the caller adds to the far side. A
     /// component of the direction is never so small that t could overflow: e/d stays far beyond
     /// any scene, so a ray in the plane of a box's face is inside of it.
-    #[inline]
+    #[inline(always)]
     pub(crate) fn new(origin: Vec3, direction: Vec3, extent: f32) -> Self {
         let d = direction.to_array();
         let size = direction.abs();
@@ -58,6 +60,7 @@ impl Probe {
             origin,
             direction,
             k: [x, y, z],
+            permuted: [origin[x], origin[y], origin[z]],
             shear: [d[x] / d[z], d[y] / d[z], 1.0 / d[z]],
             near: 256.0 * f32::EPSILON * origin.abs().max_element() / size[z],
             sign: [0; 3],

@@ -73,7 +73,7 @@ impl Scope {
     }
 
     /// A ray ready for this scope's accelerator.
-    #[inline]
+    #[inline(always)]
     pub(crate) fn probe(&self, origin: Vec3, direction: Vec3) -> Probe {
         Probe::new(origin, direction, self.extent)
     }
@@ -104,6 +104,13 @@ impl Primitives for Contents<'_> {
                 Some(mesh.corners(index))
             }
             (Thing::Instance(_), _) => None,
+        }
+    }
+
+    fn is_triangle(&self, primitive: u32) -> bool {
+        match self.scope.locate(primitive).0 {
+            Thing::Shape(shape) => self.shapes[shape.0 as usize].mesh().is_some(),
+            Thing::Instance(_) => false,
         }
     }
 

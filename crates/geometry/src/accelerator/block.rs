@@ -37,8 +37,10 @@ pub(crate) struct Block {
 /// The lanes that a ray hits, before rounding of t is looked at.
 struct Candidates {
     lanes: u32,
-    t: [f32; LANES],
-    edges: [f32x8; 3],
+    t: f32x8,
+    u: f32x8,
+    v: f32x8,
+    w: f32x8,
     det: f32x8,
 }
 
@@ -61,73 +63,98 @@ impl Block {
         }
     }
 
+    // Written out: `map` over arrays of vectors is not reliably inlined.
     #[inline(always)]
     fn candidates(&self, probe: &Probe, t_max: f32) -> Option<Candidates> {
         let [kx, ky, kz] = probe.k;
-        let origin = probe.origin.to_array();
-        let o = [kx, ky, kz].map(|axis| f32x8::splat(origin[axis]));
-        let [sx, sy, sz] = probe.shear.map(f32x8::splat);
-        let sheared = self.corners.map(|corner| {
-            let z = corner[kz] - o[2];
-            let x = sx.mul_neg_add(z, corner[kx] - o[0]);
-            let y = sy.mul_neg_add(z, corner[ky] - o[1]);
-            [x, y, z]
-        });
-        let [[ax, ay, az], [bx, by, bz], [cx, cy, cz]] = sheared;
+        let (kx, ky, kz) = (kx.min(2), ky.min(2), kz.min(2));
+        let ox = f32x8::splat(probe.permuted[0]);
+        let oy = f32x8::splat(probe.permuted[1]);
+        let oz = f32x8::splat(probe.permuted[2]);
+        let sx = f32x8::splat(probe.shear[0]);
+        let sy = f32x8::splat(probe.shear[1]);
+        let [a, b, c] = &self.corners;
+        let (az, bz, cz) = (a[kz] - oz, b[kz] - oz, c[kz] - oz);
+        let ax = sx.mul_neg_add(az, a[kx] - ox);
+        let ay = sy.mul_neg_add(az, a[ky] - oy);
+        let bx = sx.mul_neg_add(bz, b[kx] - ox);
+        let by = sy.mul_neg_add(bz, b[ky] - oy);
+        let cx = sx.mul_neg_add(cz, c[kx] - ox);
+        let cy = sy.mul_neg_add(cz, c[ky] - oy);
         let mut u = cx * by - cy * bx;
         let mut v = ax * cy - ay * cx;
         let mut w = bx * ay - by * ax;
         let zero = f32x8::ZERO;
-        let edge = (u.simd_eq(zero) | v.simd_eq(zero) | w.simd_eq(zero)).to_bitmask();
-        if edge != 0 {
-            [u, v, w] = exact_edges(edge, [u, v, w], &sheared);
-        }
-        let positive = u.simd_ge(zero) & v.simd_ge(zero) & w.simd_ge(zero);
-        let negative = u.simd_le(zero) & v.simd_le(zero) & w.simd_le(zero);
-        let inside = positive | negative;
+        // Not (some positive and some negative), false for NaN; and all lanes with a zero.
+        let low = u.fast_min(v).fast_min(w);
+        let high = u.fast_max(v).fast_max(w);
+        let mut inside = low.simd_ge(zero) | high.simd_le(zero);
         if !inside.any() {
+            // With a zero among them, two numbers still have opposite signs here; these do not
+            // depend on the zero's true sign.
             return None;
+        }
+        let edge = u.simd_eq(zero) | v.simd_eq(zero) | w.simd_eq(zero);
+        if edge.any() {
+            let sheared = [[ax, ay], [bx, by], [cx, cy]];
+            // Only those lanes: what is found must not depend on a triangle's neighbours.
+            let exact = exact_edges(edge.to_bitmask(), &sheared);
+            u = edge.select(exact[0], u);
+            v = edge.select(exact[1], v);
+            w = edge.select(exact[2], w);
+            let low = u.fast_min(v).fast_min(w);
+            let high = u.fast_max(v).fast_max(w);
+            inside = low.simd_ge(zero) | high.simd_le(zero);
         }
         let det = u + v + w;
         let scaled = u * az + v * bz + w * cz;
-        let t = scaled * sz / det;
+        let t = scaled * f32x8::splat(probe.shear[2]) / det;
         // False for NaN, and so for a triangle seen edge-on (0/0).
         let ahead = t.simd_gt(zero) & t.simd_le(f32x8::splat(t_max));
         let lanes = (inside & ahead).to_bitmask();
-        (lanes != 0).then(|| Candidates {
+        (lanes != 0).then_some(Candidates {
             lanes,
-            t: t.to_array(),
-            edges: [u, v, w],
+            t,
+            u,
+            v,
+            w,
             det,
         })
     }
 
     /// Whether the hit of `lane` at `t` is ahead of the ray's origin beyond doubt.
-    #[inline]
-    fn is_ahead(&self, probe: &Probe, lane: usize, t: f32, edges: [f32; 3], det: f32) -> bool {
+    #[inline(always)]
+    fn is_ahead(&self, probe: &Probe, lane: usize, candidates: &Candidates) -> bool {
+        let kz = probe.k[2].min(2);
+        let scale = probe.shear[2];
+        let depth =
+            |corner: usize| (self.corners[corner][kz].as_array()[lane] - probe.permuted[2]) * scale;
+        // t is a mean of the corners' depths, whatever the error of its weights.
+        depth(0).min(depth(1)).min(depth(2)) > probe.near
+            || self.is_far_enough(probe, lane, candidates)
+    }
+
+    /// Whether t exceeds the bound on its error.
+    #[inline(never)]
+    fn is_far_enough(&self, probe: &Probe, lane: usize, candidates: &Candidates) -> bool {
         let [kx, ky, kz] = probe.k;
         let relative = self.corners.map(|corner| {
             let at = |axis: usize| corner[axis].as_array()[lane] - probe.origin[axis];
             [at(kx), at(ky), at(kz)]
         });
-        let depth = relative.map(|[_, _, z]| z * probe.shear[2]);
-        // t is a mean of the corners' depths, whatever the error of its weights.
-        if depth[0].min(depth[1]).min(depth[2]) > probe.near {
-            return true;
-        }
-        let largest = |f: &dyn Fn(usize) -> f32| f(0).max(f(1)).max(f(2));
-        let max_z = largest(&|i| depth[i].abs());
-        let max_x = largest(&|i| (relative[i][0] - probe.shear[0] * relative[i][2]).abs());
-        let max_y = largest(&|i| (relative[i][1] - probe.shear[1] * relative[i][2]).abs());
-        let max_z_raw = largest(&|i| relative[i][2].abs());
+        let edges = [candidates.u, candidates.v, candidates.w].map(|e| e.as_array()[lane]);
+        let largest = |f: &dyn Fn(usize) -> f32| f(0).abs().max(f(1).abs()).max(f(2).abs());
+        let max_z = largest(&|i| relative[i][2]);
+        let max_x = largest(&|i| relative[i][0] - probe.shear[0] * relative[i][2]);
+        let max_y = largest(&|i| relative[i][1] - probe.shear[1] * relative[i][2]);
+        let max_e = largest(&|i| edges[i]);
         let delta_z = gamma(3) * max_z;
-        let delta_x = gamma(5) * (max_x + max_z_raw);
-        let delta_y = gamma(5) * (max_y + max_z_raw);
+        let delta_x = gamma(5) * (max_x + max_z);
+        let delta_y = gamma(5) * (max_y + max_z);
         let delta_e = 2.0 * (gamma(2) * max_x * max_y + delta_y * max_x + delta_x * max_y);
-        let max_e = largest(&|i| edges[i].abs());
-        let delta_t =
-            3.0 * (gamma(3) * max_e * max_z + delta_e * max_z + delta_z * max_e) / det.abs();
-        t > delta_t
+        let delta = gamma(3) * max_e * max_z + delta_e * max_z + delta_z * max_e;
+        let det = candidates.det.as_array()[lane];
+        candidates.t.as_array()[lane] > 3.0 * delta * (probe.shear[2] / det).abs()
     }
 
     /// Notes the nearest triangle that the ray hits, if it wins over what is known.
@@ -136,19 +163,16 @@ impl Block {
         let Some(candidates) = self.candidates(probe, nearest.t) else {
             return;
         };
-        let edges = candidates.edges.map(|e| e.to_array());
-        let det = candidates.det.to_array();
         let mut lanes = candidates.lanes;
         while lanes != 0 {
             let lane = lanes.trailing_zeros() as usize & (LANES - 1);
             lanes &= lanes - 1;
-            let t = candidates.t[lane];
-            let [u, v, w] = edges.map(|e| e[lane]);
-            if nearest.loses_to(t, self.primitives[lane])
-                && self.is_ahead(probe, lane, t, [u, v, w], det[lane])
-            {
-                let parameters = Vec2::new(v, w) / det[lane];
-                nearest.set(t, self.primitives[lane], parameters);
+            let t = candidates.t.as_array()[lane];
+            let primitive = self.primitives[lane];
+            if nearest.loses_to(t, primitive) && self.is_ahead(probe, lane, &candidates) {
+                let weights =
+                    Vec2::new(candidates.v.as_array()[lane], candidates.w.as_array()[lane]);
+                nearest.set(t, primitive, weights / candidates.det.as_array()[lane]);
             }
         }
     }
@@ -159,14 +183,11 @@ impl Block {
         let Some(candidates) = self.candidates(probe, t_max) else {
             return false;
         };
-        let edges = candidates.edges.map(|e| e.to_array());
-        let det = candidates.det.to_array();
         let mut lanes = candidates.lanes;
         while lanes != 0 {
             let lane = lanes.trailing_zeros() as usize & (LANES - 1);
             lanes &= lanes - 1;
-            let t = candidates.t[lane];
-            if t < t_max && self.is_ahead(probe, lane, t, edges.map(|e| e[lane]), det[lane]) {
+            if candidates.t.as_array()[lane] < t_max && self.is_ahead(probe, lane, &candidates) {
                 return true;
             }
         }
@@ -174,19 +195,16 @@ impl Block {
     }
 }
 
-/// Edge functions of some lanes in double precision: a product of two floats is exact there, so
-/// the sign of the difference is right.
+/// Edge functions of some lanes in double precision: a product of two floats is exact there, so the sign of the
+/// difference is right.
 #[cold]
 #[inline(never)]
-fn exact_edges(lanes: u32, edges: [f32x8; 3], sheared: &[[f32x8; 3]; 3]) -> [f32x8; 3] {
-    let mut edges = edges.map(|e| e.to_array());
-    for lane in (0..LANES).filter(|lane| lanes & (1 << lane) != 0) {
-        let corner = |i: usize| {
-            let at = |axis: usize| f64::from(sheared[i][axis].as_array()[lane]);
-            (at(0), at(1))
-        };
+fn exact_edges(lanes: u32, sheared: &[[f32x8; 2]; 3]) -> [f32x8; 3] {
+    let mut edges = [[0.0; LANES]; 3];
+    for lane in (0..LANES).filter(|lane| lanes >> lane & 1 != 0) {
+        let corner = |i: usize| sheared[i].map(|x| f64::from(x.as_array()[lane]));
         let (a, b, c) = (corner(0), corner(1), corner(2));
-        let cross = |p: (f64, f64), q: (f64, f64)| (p.0 * q.1 - p.1 * q.0) as f32;
+        let cross = |p: [f64; 2], q: [f64; 2]| (p[0] * q[1] - p[1] * q[0]) as f32;
         edges[0][lane] = cross(c, b);
         edges[1][lane] = cross(a, c);
         edges[2][lane] = cross(b, a);

@@ -1,0 +1,157 @@
+//! Which nodes of the binary tree become nodes of the wide one, and which become leaves: the
+//! choice of least expected cost (Ylitie, Karras & Laine 2017, "Efficient Incoherent Ray
+//! Traversal on GPUs Through Compressed Wide BVHs", section 3.2).
+//!
+//! With A(n) the surface area of n and C(n, i) the least cost of representing n's subtree as a
+//! forest of at most i trees,
+//!
+//! ```text
+//! C(n, 1) = min( leaf(n), A(n)·c_node + D(n, 8) )
+//! C(n, i) = min( D(n, i), C(n, i − 1) )
+//! D(n, i) = min over 0 < k < i of C(left, k) + C(right, i − k)
+//! ```
+//!
+//! A leaf of up to eight triangles is one block and costs A(n)·c_block, however full it is.
+
+use super::Primitives;
+use super::binary::{Binary, BinaryTree};
+use super::block::LANES;
+use core::sync::atomic::{AtomicU32, Ordering};
+
+/// Children of a wide node.
+pub(super) const WIDTH: usize = 8;
+/// Cost of intersecting a block, relative to that of a node.
+const BLOCK_COST: f32 = 1.1;
+/// Cost of anything but a triangle.
+const OTHER_COST: f32 = 3.0;
+/// Subtrees above this depth are worked on in parallel.
+const PARALLEL_DEPTH: u32 = 8;
+/// Counts more primitives than fit into a block, or something that is no triangle.
+const TOO_MANY: u32 = u32::MAX;
+
+/// The choices made for a binary tree.
+pub(super) struct Choices {
+    /// Per node: three bits for each number i = 2…8 of trees, the share of the left child (0: as
+    /// for i − 1); and [`LEAF`].
+    packed: Vec<AtomicU32>,
+}
+
+const LEAF: u32 = 1 << 31;
+
+#[derive(Clone, Copy)]
+struct Cost {
+    /// C(n, i) at index i.
+    forest: [f32; WIDTH],
+    triangles: u32,
+}
+
+impl Choices {
+    pub(super) fn make(tree: &BinaryTree, primitives: &impl Primitives) -> Self {
+        let choices = Self {
+            packed: (0..tree.len()).map(|_| AtomicU32::new(0)).collect(),
+        };
+        if !tree.is_empty() {
+            choices.visit(tree, primitives, 0, 0);
+        }
+        choices
+    }
+
+    /// Whether a node that stands for itself (one tree) is a leaf.
+    #[inline]
+    pub(super) fn is_leaf(&self, node: u32) -> bool {
+        self.packed[node as usize].load(Ordering::Relaxed) & LEAF != 0
+    }
+
+    #[inline]
+    fn share(&self, node: u32, trees: usize) -> usize {
+        let packed = self.packed[node as usize].load(Ordering::Relaxed);
+        (packed >> (3 * (trees - 2)) & 7) as usize
+    }
+
+    /// Calls `child` for each child of the wide node that the inner binary node `node` becomes.
+    pub(super) fn children(&self, tree: &BinaryTree, node: u32, child: &mut impl FnMut(u32)) {
+        if let Binary::Inner([left, right]) = tree.node(node) {
+            let share = self.share(node, WIDTH);
+            self.forest(tree, left, share, child);
+            self.forest(tree, right, WIDTH - share, child);
+        }
+    }
+
+    fn forest(&self, tree: &BinaryTree, node: u32, trees: usize, child: &mut impl FnMut(u32)) {
+        for trees in (2..=trees).rev() {
+            let share = self.share(node, trees);
+            if share != 0 {
+                if let Binary::Inner([left, right]) = tree.node(node) {
+                    self.forest(tree, left, share, child);
+                    self.forest(tree, right, trees - share, child);
+                }
+                return;
+            }
+        }
+        child(node);
+    }
+
+    fn visit(
+        &self,
+        tree: &BinaryTree,
+        primitives: &impl Primitives,
+        node: u32,
+        depth: u32,
+    ) -> Cost {
+        let area = tree.half_area(node);
+        let leaf = |triangles: u32, cost: f32| {
+            self.packed[node as usize].store(LEAF, Ordering::Relaxed);
+            Cost {
+                forest: [cost * area; WIDTH],
+                triangles,
+            }
+        };
+        let [left, right] = match tree.node(node) {
+            Binary::Leaf(primitive) if primitives.is_triangle(primitive) => {
+                return leaf(1, BLOCK_COST);
+            }
+            Binary::Leaf(_) => return leaf(TOO_MANY, OTHER_COST),
+            Binary::Gathered(all) => {
+                return leaf(TOO_MANY, BLOCK_COST * all.len().div_ceil(LANES) as f32);
+            }
+            Binary::Inner(children) => children,
+        };
+        let visit = |child| self.visit(tree, primitives, child, depth + 1);
+        let (left, right) = if depth < PARALLEL_DEPTH {
+            rayon::join(|| visit(left), || visit(right))
+        } else {
+            (visit(left), visit(right))
+        };
+
+        // D(n, i): the best share of the left child.
+        let distribute = |trees: usize| -> (f32, usize) {
+            let low = trees.saturating_sub(WIDTH - 1).max(1);
+            (low..=(trees - 1).min(WIDTH - 1))
+                .map(|share| (left.forest[share] + right.forest[trees - share], share))
+                .fold((f32::INFINITY, 1), |a, b| if b.0 < a.0 { b } else { a })
+        };
+        let (below, share) = distribute(WIDTH);
+        let mut packed = (share as u32) << (3 * (WIDTH - 2));
+        let triangles = left.triangles.saturating_add(right.triangles);
+        let as_leaf = if triangles as usize <= LANES {
+            BLOCK_COST * area
+        } else {
+            f32::INFINITY
+        };
+        let as_node = area + below;
+        if as_leaf <= as_node {
+            packed |= LEAF;
+        }
+        let mut forest = [as_leaf.min(as_node); WIDTH];
+        for trees in 2..WIDTH {
+            let (cost, share) = distribute(trees);
+            forest[trees] = forest[trees - 1];
+            if cost < forest[trees] {
+                forest[trees] = cost;
+                packed |= (share as u32) << (3 * (trees - 2));
+            }
+        }
+        self.packed[node as usize].store(packed, Ordering::Relaxed);
+        Cost { forest, triangles }
+    }
+}

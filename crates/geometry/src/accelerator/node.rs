@@ -1,0 +1,109 @@
+//! A node of the wide tree: eight boxes, tested at once.
+
+use super::Bounds;
+use super::collapse::WIDTH;
+use crate::probe::Probe;
+use wide::f32x8;
+
+/// What a node points to, in 32 bits.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) struct Link(pub(super) u32);
+
+/// A [`Link`], unpacked.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Target {
+    /// A node.
+    Node(usize),
+    /// A block of triangles.
+    Block(usize),
+    /// A primitive that is not a triangle.
+    Other(u32),
+}
+
+const KIND: u32 = 3 << 30;
+const BLOCK: u32 = 1 << 30;
+const OTHER: u32 = 2 << 30;
+/// The largest index a link can hold.
+pub(super) const MAX_INDEX: u32 = (1 << 30) - 1;
+
+impl Link {
+    pub(super) fn node(index: u32) -> Self {
+        Self(index)
+    }
+    pub(super) fn block(index: u32) -> Self {
+        Self(index | BLOCK)
+    }
+    pub(super) fn other(index: u32) -> Self {
+        Self(index | OTHER)
+    }
+
+    #[inline(always)]
+    pub(super) fn target(self) -> Target {
+        let index = self.0 & !KIND;
+        match self.0 & KIND {
+            0 => Target::Node(index as usize),
+            BLOCK => Target::Block(index as usize),
+            _ => Target::Other(index),
+        }
+    }
+}
+
+/// Up to eight children with their boxes; unused lanes have boxes that nothing enters.
+#[derive(Clone, Copy, Debug)]
+#[repr(align(64))]
+pub(super) struct Node {
+    /// Axis, lower or upper, lane.
+    planes: [[f32x8; 2]; 3],
+    links: [u32; WIDTH],
+}
+
+impl Node {
+    pub(super) fn new(children: &[(Bounds, Link)]) -> Self {
+        let mut planes = [[[f32::INFINITY; WIDTH], [f32::NEG_INFINITY; WIDTH]]; 3];
+        let mut links = [0; WIDTH];
+        for (lane, (bounds, link)) in children.iter().enumerate() {
+            let (min, max) = (bounds.min.to_array(), bounds.max.to_array());
+            for (axis, [lower, upper]) in planes.iter_mut().enumerate() {
+                lower[lane] = min[axis];
+                upper[lane] = max[axis];
+            }
+            links[lane] = link.0;
+        }
+        Self {
+            planes: planes.map(|axis| axis.map(f32x8::new)),
+            links,
+        }
+    }
+
+    #[inline(always)]
+    pub(super) fn link(&self, lane: usize) -> Link {
+        Link(self.links[lane & (WIDTH - 1)])
+    }
+
+    /// The lanes whose boxes the ray enters before `t_max`, and where. Conservative, see
+    /// [`Probe::new`]; the factor covers the relative rounding of 1/d and of t itself.
+    #[inline(always)]
+    pub(super) fn entered(&self, probe: &Probe, t_max: f32) -> (u32, f32x8) {
+        const OUTWARD: f32 = 1.0 + 4.0 * f32::EPSILON;
+        let enter = |axis: usize| {
+            self.planes[axis][probe.sign[axis] & 1].mul_sub(
+                f32x8::splat(probe.inverse[axis]),
+                f32x8::splat(probe.entered[axis]),
+            )
+        };
+        let leave = |axis: usize| {
+            self.planes[axis][(probe.sign[axis] & 1) ^ 1].mul_sub(
+                f32x8::splat(probe.inverse[axis]),
+                f32x8::splat(probe.left[axis]),
+            )
+        };
+        let near = enter(0)
+            .fast_max(enter(1))
+            .fast_max(enter(2).fast_max(f32x8::ZERO));
+        let far = leave(0)
+            .fast_min(leave(1))
+            .fast_min(leave(2).fast_min(f32x8::splat(t_max)));
+        let inside = near.simd_le(far * f32x8::splat(OUTWARD));
+        (inside.to_bitmask(), near)
+    }
+}
