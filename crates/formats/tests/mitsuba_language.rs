@@ -310,3 +310,19 @@ fn spans_lead_to_names_and_values() {
     assert!(text(node.span).starts_with("<bsdf") && text(node.span).ends_with("</bsdf>"));
     assert_eq!(text(node.plugin.span), "diffuse");
 }
+
+#[test]
+fn after_a_mistake_a_harmless_value_stands_in() {
+    let main = "<scene version='3.0.0'><shape type='obj' idd='x' id='broken'>
+        <string name='filename' value='$file'/><float name='radius'/>
+        <rgb name='c' value='a b c'/><ref id='typeless'/></shape>
+        <bsdf id='typeless'/><shape type='cube'><ref id='typeless'/></shape></scene>";
+    let outcome = outcome(&[("main.xml", main)], &ReadOptions::default());
+    assert_eq!(outcome.diagnostics.len(), 5, "{}", outcome.lines());
+    let document = outcome.document.expect("a document with mistakes");
+    let shape = &children(&document.root)[0];
+    assert!(matches!(&property(shape, "filename").value, Value::String(s) if s.is_empty()));
+    assert!(matches!(property(shape, "radius").value, Value::Float(1.0)));
+    assert!(matches!(property(shape, "c").value, Value::Rgb(_)));
+    assert!(children(shape).is_empty());
+}

@@ -121,6 +121,8 @@ impl Diagnostic {
 #[derive(Debug, Default)]
 pub struct Diagnostics {
     list: Mutex<Vec<Diagnostic>>,
+    /// Places about which nothing more is said.
+    silent: Vec<Span>,
 }
 
 impl Diagnostics {
@@ -129,8 +131,23 @@ impl Diagnostics {
         Self::default()
     }
 
+    /// A collection for a later reader of the same input: it says nothing about places at which
+    /// there is an error already, since what stands there now is only a harmless stand-in.
+    pub fn following(earlier: &[Diagnostic]) -> Self {
+        let errors = earlier.iter().filter(|d| d.severity == Severity::Error);
+        Self {
+            list: Mutex::default(),
+            silent: errors.filter_map(|d| d.span).collect(),
+        }
+    }
+
     /// Adds one message (once: an equal one at the same place is not repeated).
     pub fn push(&self, diagnostic: Diagnostic) {
+        if let Some(span) = diagnostic.span
+            && self.silent.iter().any(|s| s.touches(span))
+        {
+            return;
+        }
         let mut list = self.lock();
         if !list.contains(&diagnostic) {
             list.push(diagnostic);

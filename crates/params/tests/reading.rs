@@ -165,3 +165,17 @@ fn one_mistake_is_said_once_and_notes_are_no_errors() {
     assert_eq!((list.len(), list[0].severity), (1, Severity::Note));
     assert_eq!(list[0].one_line(&scene.sources), "s.xml:1:2: note: a note");
 }
+
+#[test]
+fn nothing_is_said_twice_about_one_place() {
+    let scene = Scene::new();
+    let error = |at, text: &str| etalon_params::Diagnostic::error(scene.span(at), text);
+    let diagnostics = Diagnostics::following(&[error(3, "not a number")]);
+    diagnostics.push(error(3, "cannot be 1"));
+    diagnostics.push(error(7, "something else"));
+    let list = diagnostics.into_sorted();
+    assert_eq!(
+        (list.len(), list[0].message.as_str()),
+        (1, "something else")
+    );
+}

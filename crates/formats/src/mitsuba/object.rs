@@ -63,6 +63,15 @@ pub(crate) fn object(
     });
     if let Some(id) = id {
         register(reader, &id.text, id.span, this);
+    } else if let Some(id) = node.attribute_node("id") {
+        // Broken attributes: references to the object are sound all the same.
+        let range = id.range_value();
+        let span = Span {
+            file: file.id,
+            start: range.start as u32,
+            end: range.end as u32,
+        };
+        register(reader, id.value(), span, this);
     }
     children(reader, file, this, node, level, is_root);
     finish(reader, file, this);
@@ -97,26 +106,46 @@ fn finish(reader: &mut Reader<'_>, file: &File, object: ObjectId) {
     if upgrade::is_old(file.version) {
         upgrade::upgrade(&mut reader.draft.objects[object]);
     }
-    let properties = std::mem::take(&mut reader.draft.objects[object].properties);
-    let mut first: HashMap<String, Span> = HashMap::new();
-    let mut kept = Vec::with_capacity(properties.len());
-    for property in properties {
-        if !property.name.is_empty() {
-            if let Some(&before) = first.get(&property.name) {
-                reader.report(
-                    Diagnostic::error(
-                        property.name_span,
-                        format!("the property `{}` is given twice", excerpt(&property.name)),
-                    )
-                    .related(before, "first given here"),
-                );
-                continue;
-            }
-            first.insert(property.name.clone(), property.name_span);
-        }
-        kept.push(property);
+    let duplicates = duplicates(&reader.draft.objects[object].properties);
+    for &(later, first) in duplicates.iter().rev() {
+        let properties = &mut reader.draft.objects[object].properties;
+        let before = properties[first].name_span;
+        let property = properties.remove(later);
+        reader.report(
+            Diagnostic::error(
+                property.name_span,
+                format!("the property `{}` is given twice", excerpt(&property.name)),
+            )
+            .related(before, "first given here"),
+        );
     }
-    reader.draft.objects[object].properties = kept;
+}
+
+/// The properties whose name was given before, each with the property that had it first.
+fn duplicates(properties: &[DraftProperty]) -> Vec<(usize, usize)> {
+    /// Up to this many, looking at each pair is quicker than a map.
+    const FEW: usize = 12;
+    let named = || {
+        properties
+            .iter()
+            .enumerate()
+            .filter(|(_, p)| !p.name.is_empty())
+    };
+    if properties.len() <= FEW {
+        return named()
+            .filter_map(|(later, property)| {
+                let first = properties.iter().position(|p| p.name == property.name)?;
+                (first < later).then_some((later, first))
+            })
+            .collect();
+    }
+    let mut firsts: HashMap<&str, usize> = HashMap::new();
+    named()
+        .filter_map(|(later, property)| {
+            let first = *firsts.entry(&property.name).or_insert(later);
+            (first < later).then_some((later, first))
+        })
+        .collect()
 }
 
 /// Reads everything that stands in an object.

@@ -21,6 +21,9 @@ pub(crate) fn property(
     node: Node<'_, '_>,
 ) {
     let Some(attributes) = Attributes::read(reader, file.id, node, tag.attributes()) else {
+        if let Some(property) = stand_in(file, tag, node) {
+            reader.draft.objects[parent].properties.push(property);
+        }
         return;
     };
     let name = attributes.required("name");
@@ -104,6 +107,40 @@ fn value(
         _ => Value::String(attributes.required("value").text.clone().into_owned()),
     };
     (value, span)
+}
+
+/// A property in place of one whose attributes are broken, if at least its name is sound.
+fn stand_in(file: &File, tag: Tag, node: Node<'_, '_>) -> Option<DraftProperty> {
+    let name = node.attribute_node("name")?;
+    let value = match tag {
+        Tag::Float => Value::Float(1.0),
+        Tag::Integer => Value::Integer(1),
+        Tag::Boolean => Value::Boolean(false),
+        Tag::Vector => Value::Vector(DVec3::Z),
+        Tag::Rgb => Value::Rgb(DVec3::splat(0.5)),
+        Tag::Spectrum => Value::Spectrum(SpectrumText::Uniform(0.5)),
+        Tag::Transform => Value::Transform(DMat4::IDENTITY),
+        _ => Value::String(String::new()),
+    };
+    let place = |attribute: roxmltree::Attribute<'_, '_>| {
+        let range = attribute.range_value();
+        Span {
+            file: file.id,
+            start: range.start as u32,
+            end: range.end as u32,
+        }
+    };
+    let written = ["value", "filename"]
+        .into_iter()
+        .find_map(|attribute| node.attribute_node(attribute));
+    let is_sound = !name.value().trim().is_empty() && !name.value().contains('$');
+    is_sound.then(|| DraftProperty {
+        name: name.value().to_owned(),
+        name_span: place(name),
+        value: DraftValue::Plain(value),
+        span: written.map_or_else(|| tag_span(file.id, node), place),
+        excused: false,
+    })
 }
 
 /// Elements that only have attributes.

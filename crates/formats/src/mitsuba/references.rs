@@ -20,17 +20,25 @@ pub(crate) fn resolve(reader: &mut Reader<'_>) {
         if reader.is_full() {
             return;
         }
-        let properties = std::mem::take(&mut reader.draft.objects[object].properties);
-        let properties = properties
-            .into_iter()
-            .filter_map(|mut property| {
-                if let DraftValue::Reference(id) = &property.value {
-                    property.value = DraftValue::Object(look_up(reader, id, property.span)?);
+        let mut next = 0;
+        while let Some(property) = reader.draft.objects[object].properties.get_mut(next) {
+            next += 1;
+            let DraftValue::Reference(id) = &mut property.value else {
+                continue;
+            };
+            let (id, span) = (std::mem::take(id), property.span);
+            // An object without a type has been reported where it stands.
+            let found = look_up(reader, &id, span)
+                .filter(|&found| !reader.draft.objects[found].plugin.value.is_empty());
+            let properties = &mut reader.draft.objects[object].properties;
+            match found {
+                Some(object) => properties[next - 1].value = DraftValue::Object(object),
+                None => {
+                    next -= 1;
+                    properties.remove(next);
                 }
-                Some(property)
-            })
-            .collect();
-        reader.draft.objects[object].properties = properties;
+            }
+        }
     }
 }
 

@@ -1,6 +1,6 @@
 //! Properties of all elements of one kind, picked out column by column.
 
-use super::header::{Element, Format, Kind, Number};
+use super::header::{Element, Format, Kind, Number, Property};
 use super::source::{Source, decode};
 use crate::mesh_error::{MeshError, Place};
 use glam::Vec3;
@@ -73,7 +73,9 @@ impl<'a> Columns<'a> {
                 Kind::List { .. } => None,
             })
             .collect();
-        let mut values = Vec::with_capacity(source.room_for(element.count, 1) * width.min(8));
+        let smallest = element.properties.iter().map(Property::smallest).sum();
+        let room = source.room_for(element.count, smallest, element.properties.len());
+        let mut values = Vec::with_capacity(room * width);
         let first_line = (!source.is_binary()).then(|| source.line());
         for _ in 0..element.count {
             for property in &element.properties {

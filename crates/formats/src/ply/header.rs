@@ -68,6 +68,16 @@ pub(super) struct Property {
     pub(super) kind: Kind,
 }
 
+impl Property {
+    /// The fewest bytes that it takes in a binary file.
+    pub(super) fn smallest(&self) -> usize {
+        match self.kind {
+            Kind::Number(number) => number.size(),
+            Kind::List { count, .. } => count.size(),
+        }
+    }
+}
+
 /// A kind of element.
 #[derive(Clone, Debug)]
 pub(super) struct Element {

@@ -171,9 +171,11 @@ fn faces(element: &Element, source: &mut Source<'_>, mesh: &mut MeshData) -> Res
     };
     let mut reader = FaceReader {
         positions: std::mem::take(&mut mesh.positions),
-        triangles: Vec::with_capacity(
-            source.room_for(element.count, count.size() + 3 * item.size()),
-        ),
+        triangles: Vec::with_capacity(source.room_for(
+            element.count,
+            count.size() + 3 * item.size(),
+            4,
+        )),
         corners: Vec::new(),
         polygon: Vec::new(),
     };

@@ -61,9 +61,10 @@ impl<'a> Source<'a> {
         self.error("the file ends before all its elements have come")
     }
 
-    /// `count`, but no more than the rest of the file has room for if each takes `size` bytes.
-    pub(super) fn room_for(&self, count: usize, size: usize) -> usize {
-        let size = if self.is_binary() { size } else { 2 };
+    /// `count`, but no more than the rest of the file has room for if each takes `size` bytes in
+    /// binary files and `words` words in text.
+    pub(super) fn room_for(&self, count: usize, size: usize, words: usize) -> usize {
+        let size = if self.is_binary() { size } else { 2 * words };
         count.min((self.bytes.len() - self.at) / size.max(1) + 1)
     }
 
