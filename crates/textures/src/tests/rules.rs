@@ -29,6 +29,7 @@ fn parameter(value: Option<Value>, default: Option<f64>, role: Role) -> Result<O
     let messages: Vec<_> = diagnostics
         .into_sorted()
         .into_iter()
+        .filter(|d| d.severity == etalon_params::Severity::Error)
         .map(|d| d.message)
         .collect();
     if messages.is_empty() {
