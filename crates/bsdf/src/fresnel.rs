@@ -24,17 +24,10 @@ pub fn dielectric(cos: f32, eta: f32) -> (f32, f32) {
     (0.5 * (s * s + p * p), cos_t)
 }
 
-/// [`dielectric`] for an index per lane; only the reflectances. A lane without a positive index
-/// reflects everything.
+/// [`dielectric`] for an index per lane; only the reflectances.
 #[inline]
 pub fn dielectric_lanes(cos: f32, eta: Vec4) -> Vec4 {
-    let reflectance = |eta: f32| {
-        if eta > 0.0 {
-            dielectric(cos, eta).0
-        } else {
-            1.0
-        }
-    };
+    let reflectance = |eta: f32| dielectric(cos, eta).0;
     if eta == Vec4::splat(eta.x) {
         return Vec4::splat(reflectance(eta.x));
     }

@@ -70,12 +70,17 @@ impl RelativeIndex {
         Some(interior? / exterior?)
     }
 
-    /// The index at a point, per lane.
+    /// The index at a point, per lane. Where a nested spectrum gives none (it is zero beyond its
+    /// table) the interface is taken to be absent: 1.
     #[inline]
     pub fn eval<T: Textures>(&self, site: &Site<'_, T>) -> Vec4 {
         match self {
             Self::Constant(eta) => Vec4::splat(*eta),
-            Self::Dispersive { interior, exterior } => interior.eval(site) / exterior.eval(site),
+            Self::Dispersive { interior, exterior } => {
+                let eta = interior.eval(site) / exterior.eval(site);
+                let given = eta.cmpgt(Vec4::ZERO) & eta.cmplt(Vec4::INFINITY);
+                Vec4::select(given, eta, Vec4::ONE)
+            }
         }
     }
 }

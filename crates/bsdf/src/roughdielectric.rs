@@ -140,7 +140,7 @@ impl RoughDielectric {
     fn transmission(&self, wo: Vec3, wi: Vec3, eta: f32, mode: Mode) -> (f32, f32) {
         let half = wo + wi * eta;
         let length = half.length();
-        if !(eta > 0.0 && length > 1e-12) {
+        if !(length > 1e-12) {
             return (0.0, 0.0);
         }
         let m = half / length.copysign(half.z);
@@ -198,7 +198,7 @@ impl Model for RoughDielectric {
         let up = wo * mirror;
         let m = self.sampled(up).sample(up, u);
         let cos = up.dot(m);
-        if !(cos > 0.0 && eta.x > 0.0) {
+        if !(cos > 0.0) {
             return None;
         }
         let (fresnel, cos_t) = fresnel::dielectric(cos, eta.x);

@@ -45,7 +45,7 @@ pub fn sample_slopes(u: Vec2) -> Vec2 {
 ///
 /// Along the azimuth of `v`, the slope x has the density ∝ (cos θ − x sin θ) exp(−x²) up to
 /// x = cot θ; its distribution function, times 2, is cos θ·c + sin θ exp(−x²)/√π with
-/// c = 1 + erf x, and is inverted by Newton's method in c, where it is concave (after W. Jakob
+/// c = 1 + erf x, and is inverted by Halley's method in c, where it is concave (after W. Jakob
 /// 2014, *An Improved Visible Normal Sampling Routine for the Beckmann Distribution*). Across,
 /// the slope is Gaussian.
 #[inline]
@@ -71,27 +71,33 @@ fn visible_slope(cos: f32, sin: f32, u: f32) -> f32 {
     let grazing = sin * FRAC_1_SQRT_PI;
     let target = u * (cos * limit + grazing * exp(-a * a));
     let (mut low, mut high) = (0.0, limit);
-    // Between what normal and grazing incidence would have.
-    let mut c = limit * (cos * u + (1.0 - cos) * u * u.sqrt());
-    let mut x = 0.0;
+    // Exact at normal incidence (p = 1); elsewhere p is fitted so that c is within 0.03.
+    let p = 1.0 + sin * (-0.795 + sin * (0.106 + sin * 0.133));
+    let mut c = limit * (1.0 - exp(p * ln(1.0 - u)));
     for _ in 0..12 {
         if !(c > low && c < high) {
             c = 0.5 * (low + high);
         }
-        x = inverse_erf_plus_one(c);
-        let error = cos * c + grazing * exp(-x * x) - target;
+        let x = inverse_erf_plus_one(c);
+        let gauss = exp(-x * x);
+        let error = cos * c + grazing * gauss - target;
         if error > 0.0 {
             high = c;
         } else {
             low = c;
         }
-        let step = error / (cos - sin * x);
-        c -= step;
-        if step.abs() <= 1e-6 * c {
-            break;
+        // dx/dc = (√π/2) exp(x²); the error's derivatives in c are cos − sin·x and −sin·dx/dc.
+        let slope = 1.0 / (FRAC_2_SQRT_PI * gauss);
+        let newton = error / (cos - sin * x);
+        let step = newton / (1.0 + 0.5 * newton * sin * slope / (cos - sin * x));
+        if step.abs() <= 2e-3 * c {
+            // What is left is the third power of that: two terms of Taylor's series will do.
+            let dx = -step * slope;
+            return x + dx * (1.0 + x * dx);
         }
+        c -= step;
     }
-    x
+    inverse_erf_plus_one(c)
 }
 
 /// The x for which 1 + erf x is `c`, in (0, 2): precise near 0 too. (M. Giles 2012,
