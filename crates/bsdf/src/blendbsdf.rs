@@ -12,6 +12,7 @@ use crate::{Flattening, Material, Site};
 use etalon_math::Frame;
 use etalon_params::Params;
 use etalon_transport::{Build, Role, TextureId, Textures};
+use glam::Vec4;
 
 /// Parameters to test with (see [`crate::exemplars`]).
 pub const EXEMPLARS: &[&str] = &[
@@ -58,5 +59,12 @@ impl Description {
         let share = site.share(self.weight);
         self.nested[0].flatten(site, frame, weight * (1.0 - share), into);
         self.nested[1].flatten(site, frame, weight * share, into);
+    }
+
+    /// The light that passes, without resolving lobes.
+    pub fn passing<T: Textures>(&self, site: &Site<'_, T>, frame: Frame) -> Vec4 {
+        let share = site.share(self.weight);
+        self.nested[0].passing(site, frame) * (1.0 - share)
+            + self.nested[1].passing(site, frame) * share
     }
 }

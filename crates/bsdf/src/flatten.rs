@@ -2,7 +2,8 @@
 
 use crate::{Lobe, MAX_LOBES, Resolved, Scatter};
 use etalon_math::Frame;
-use etalon_transport::{TextureId, TexturePoint, Textures};
+use etalon_spectrum::Wavelengths;
+use etalon_transport::{TextureId, TexturePoint, Textures, Vertex};
 use glam::{Vec3, Vec4};
 
 /// Where a material is resolved: its textures at that point, for the path's wavelengths.
@@ -18,7 +19,18 @@ pub struct Site<'t, T> {
     pub wo: Vec3,
 }
 
-impl<T: Textures> Site<'_, T> {
+impl<'t, T: Textures> Site<'t, T> {
+    /// A point of a surface.
+    #[inline]
+    pub fn new(textures: &'t T, vertex: &Vertex, wo: Vec3, wavelengths: &Wavelengths) -> Self {
+        Self {
+            textures,
+            at: TexturePoint::from(vertex),
+            lambda: wavelengths.lambda,
+            wo,
+        }
+    }
+
     /// A spectrum here.
     #[inline]
     pub fn spectrum(&self, texture: TextureId) -> Vec4 {
@@ -69,17 +81,16 @@ impl<'a> Flattening<'a> {
 
     /// What was collected.
     pub fn resolved(&self, normal: Vec3) -> Resolved<'a> {
+        let several = |lobes: &[Lobe<'a>]| {
+            Resolved::several(normal, self.passing, self.passing_probability, lobes)
+        };
         match (self.lobes[0], self.count) {
+            (None, _) => several(&[]),
+            (Some(only), 1) => several(&[only]),
             (Some(first), count) => {
                 let list = self.lobes.map(|lobe| lobe.unwrap_or(first));
-                Resolved::several(
-                    normal,
-                    self.passing,
-                    self.passing_probability,
-                    &list[..count],
-                )
+                several(&list[..count])
             }
-            (None, _) => Resolved::several(normal, self.passing, self.passing_probability, &[]),
         }
     }
 }

@@ -60,4 +60,14 @@ impl Description {
         into.pass(Vec4::splat(passing), passing);
         self.nested.flatten(site, frame, weight * opacity, into);
     }
+
+    /// The light that passes, without resolving lobes.
+    pub fn passing<T: Textures>(&self, site: &Site<'_, T>, frame: Frame) -> Vec4 {
+        let opacity = site.share(self.opacity);
+        let through = 1.0 - opacity;
+        if opacity == 0.0 {
+            return Vec4::ONE;
+        }
+        self.nested.passing(site, frame) * opacity + through
+    }
 }

@@ -7,7 +7,7 @@ use crate::{Flattening, Lobe, MAX_LOBES, Model, Resolved, Site};
 use etalon_math::Frame;
 use etalon_params::{Class, Diagnostic, Diagnostics, Node, Params};
 use etalon_spectrum::Wavelengths;
-use etalon_transport::{BsdfSample, Build, Mode, TexturePoint, Textures, Vertex};
+use etalon_transport::{BsdfSample, Build, Mode, Textures, Vertex};
 use glam::{Vec2, Vec3, Vec4};
 use std::sync::Arc;
 
@@ -105,12 +105,7 @@ macro_rules! models {
                 wo: Vec3,
                 wavelengths: &Wavelengths,
             ) -> Resolved<'_> {
-                let site = Site {
-                    textures,
-                    at: TexturePoint::from(vertex),
-                    lambda: wavelengths.lambda,
-                    wo,
-                };
+                let site = Site::new(textures, vertex, wo, wavelengths);
                 let scatter = match self {
                     $(Self::$plain(description) => Scatter::$plain(description.resolve(&site)),)*
                     $(Self::$composed(_))|* => return self.resolve_composed(&site, vertex),
@@ -124,6 +119,14 @@ macro_rules! models {
                         probability: 1.0,
                     },
                 )
+            }
+
+            /// The light that passes straight on, without resolving lobes.
+            pub(crate) fn passing<T: Textures>(&self, site: &Site<'_, T>, frame: Frame) -> Vec4 {
+                match self {
+                    $(Self::$plain(_))|* => Vec4::ZERO,
+                    $(Self::$composed(description) => description.passing(site, frame),)*
+                }
             }
 
             /// Adds the material's lobes, together having the share `weight` of the light.
@@ -278,6 +281,22 @@ impl Material {
     /// Whether light may go straight on, so that shadow rays need a transmittance.
     pub fn has_passing(&self) -> bool {
         self.traits().passing
+    }
+
+    /// The fraction of light that goes straight on toward `wo`, per lane:
+    /// [`etalon_transport::Bsdf::passing`] of the resolved material at a fraction of the cost, for
+    /// shadow rays.
+    pub fn transmittance<T: Textures>(
+        &self,
+        textures: &T,
+        vertex: &Vertex,
+        wo: Vec3,
+        wavelengths: &Wavelengths,
+    ) -> Vec4 {
+        self.passing(
+            &Site::new(textures, vertex, wo, wavelengths),
+            vertex.shading,
+        )
     }
 
     fn resolve_composed<T: Textures>(&self, site: &Site<'_, T>, vertex: &Vertex) -> Resolved<'_> {

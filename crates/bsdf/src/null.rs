@@ -41,4 +41,9 @@ impl Description {
     ) {
         into.pass(Vec4::splat(weight), weight);
     }
+
+    /// The light that passes, without resolving lobes.
+    pub fn passing<T: Textures>(&self, _: &Site<'_, T>, _: Frame) -> Vec4 {
+        Vec4::ONE
+    }
 }

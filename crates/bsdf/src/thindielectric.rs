@@ -15,6 +15,7 @@ use crate::{Flattening, Scatter, Site, fresnel};
 use etalon_math::Frame;
 use etalon_params::Params;
 use etalon_transport::{Build, Role, TextureId, Textures};
+use glam::Vec4;
 
 /// Parameters to test with (see [`crate::exemplars`]).
 pub const EXEMPLARS: &[&str] = &[
@@ -53,6 +54,13 @@ impl Description {
         }
     }
 
+    /// R', unless `wo` lies in the surface.
+    fn reflected<T: Textures>(&self, site: &Site<'_, T>, frame: Frame) -> Option<f32> {
+        let cos = frame.n.dot(site.wo).abs().min(1.0);
+        let one = fresnel::dielectric(cos, self.eta).0;
+        (cos > 0.0).then_some(2.0 * one / (1.0 + one))
+    }
+
     /// The reflected light as a mirror, the rest passing.
     pub fn flatten<T: Textures>(
         &self,
@@ -61,12 +69,9 @@ impl Description {
         weight: f32,
         into: &mut Flattening<'_>,
     ) {
-        let cos = frame.n.dot(site.wo).abs().min(1.0);
-        if cos == 0.0 {
+        let Some(both) = self.reflected(site, frame) else {
             return;
-        }
-        let one = fresnel::dielectric(cos, self.eta).0;
-        let both = 2.0 * one / (1.0 + one);
+        };
         let mirror = Mirror {
             reflectance: site.spectrum(self.reflectance) * both,
         };
@@ -75,5 +80,12 @@ impl Description {
             site.spectrum(self.transmittance) * (weight * (1.0 - both)),
             weight * (1.0 - both),
         );
+    }
+
+    /// The light that passes, without resolving lobes.
+    pub fn passing<T: Textures>(&self, site: &Site<'_, T>, frame: Frame) -> Vec4 {
+        self.reflected(site, frame).map_or(Vec4::ZERO, |both| {
+            site.spectrum(self.transmittance) * (1.0 - both)
+        })
     }
 }

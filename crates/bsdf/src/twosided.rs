@@ -9,6 +9,7 @@ use crate::{Flattening, Material, Site};
 use etalon_math::Frame;
 use etalon_params::{Class, Diagnostic, Params};
 use etalon_transport::{Build, Textures};
+use glam::Vec4;
 
 /// Parameters to test with (see [`crate::exemplars`]).
 pub const EXEMPLARS: &[&str] = &[
@@ -66,6 +67,18 @@ impl Description {
         }
     }
 
+    /// The material of the side where `wo` lies, and its frame.
+    fn side<T: Textures>(&self, site: &Site<'_, T>, frame: Frame) -> Option<(&Material, Frame)> {
+        let cos = frame.n.dot(site.wo);
+        if cos > 0.0 {
+            Some((&self.front, frame))
+        } else if cos < 0.0 {
+            Some((self.back.as_ref().unwrap_or(&self.front), frame.flipped()))
+        } else {
+            None
+        }
+    }
+
     /// The material of the side where `wo` lies; none for a direction in the surface itself.
     pub fn flatten<'a, T: Textures>(
         &'a self,
@@ -74,12 +87,16 @@ impl Description {
         weight: f32,
         into: &mut Flattening<'a>,
     ) {
-        let cos = frame.n.dot(site.wo);
-        if cos > 0.0 {
-            self.front.flatten(site, frame, weight, into);
-        } else if cos < 0.0 {
-            let back = self.back.as_ref().unwrap_or(&self.front);
-            back.flatten(site, frame.flipped(), weight, into);
+        if let Some((material, frame)) = self.side(site, frame) {
+            material.flatten(site, frame, weight, into);
+        }
+    }
+
+    /// The light that passes, without resolving lobes.
+    pub fn passing<T: Textures>(&self, site: &Site<'_, T>, frame: Frame) -> Vec4 {
+        match self.side(site, frame) {
+            Some((material, frame)) => material.passing(site, frame),
+            None => Vec4::ZERO,
         }
     }
 }

@@ -174,6 +174,31 @@ fn indices_disperse_as_their_formula_says() {
 }
 
 #[test]
+fn a_nested_index_counts_as_none_beyond_its_table() {
+    // 450 and 600 nm lie outside.
+    let text = "ext_ior=f:1 int_ior=n:475:1.6,575:1.5";
+    for plugin in ["dielectric", "roughdielectric alpha=f:0.3"] {
+        let sample = Sample::new(&format!("{plugin} {text}"));
+        for wo in crate::directions::known() {
+            for turn in 0..4 {
+                let bsdf = sample.rotated(wo, turn);
+                for u_lobe in [0.0, 0.02, 0.5, 0.99] {
+                    if let Some(s) = bsdf.sample(wo, u_lobe, Vec2::splat(0.3), Mode::Radiance) {
+                        assert!(s.value.is_finite() && s.chance.lanes().is_finite());
+                    }
+                }
+            }
+        }
+    }
+    let sample = Sample::new(&format!("dielectric {text}"));
+    let s = sample
+        .at(Vec3::Z)
+        .sample(Vec3::Z, 0.0, Vec2::ZERO, Mode::Radiance)
+        .expect("nothing is absorbed");
+    assert_eq!((s.wi, s.eta), (Vec3::NEG_Z, 1.0));
+}
+
+#[test]
 fn refraction_by_a_dispersive_interface_keeps_one_wavelength() {
     let sample = Sample::new("dielectric int_ior=s:cauchy:1.5,0.01");
     let wo = crate::directions::at(40.0, 0.0);

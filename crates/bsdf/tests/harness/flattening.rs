@@ -117,6 +117,23 @@ fn only_materials_that_pass_light_need_transmittance() {
 }
 
 #[test]
+fn shadow_rays_see_what_passes() {
+    let mut uniform = Uniform::new(12);
+    for sample in Sample::exemplars() {
+        for _ in 0..50 {
+            let wo = uniform.direction();
+            let (alone, with_lobes) = (sample.transmittance(wo), sample.at(wo).passing());
+            assert!(
+                (alone - with_lobes).abs().max_element() < 1e-6,
+                "{}",
+                sample.text
+            );
+            assert!(sample.material().has_passing() || alone == Vec4::ZERO);
+        }
+    }
+}
+
+#[test]
 fn as_many_lobes_as_promised() {
     let mut text = "diffuse".to_owned();
     for _ in 1..MAX_LOBES {

@@ -1,7 +1,8 @@
 //! A one-line notation for materials.
 //!
 //! `plugin key=kind:value … ( nested ) …` with the kinds `f` (number), `s` (string, `_` for a
-//! space), `b` (boolean), `u` (uniform spectrum) and `t` (tabulated spectrum, `nm:value,…`).
+//! space), `b` (boolean), `u` (uniform spectrum) and `t` (tabulated spectrum, `nm:value,…`)
+//! and `n` (the same as a nested object).
 
 use etalon_params::{Class, FileId, Node, Property, Span, Spanned, SpectrumText, Value};
 use std::sync::Arc;
@@ -67,6 +68,16 @@ fn value(kind: &str, text: &str) -> Value {
                 })
                 .collect(),
         )),
+        "n" => Value::Object(Arc::new(Node {
+            class: Class::Texture,
+            plugin: Spanned {
+                value: "irregular".to_owned(),
+                span: NOWHERE,
+            },
+            id: None,
+            span: NOWHERE,
+            properties: vec![Property::new("", NOWHERE, value("t", text), NOWHERE)],
+        })),
         _ => panic!("unknown kind {kind}"),
     }
 }

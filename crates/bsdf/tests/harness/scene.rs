@@ -97,8 +97,15 @@ impl Build for Scene {
         self.spectrum(spectrum.expect("a valid spectrum"))
     }
 
-    fn nested_texture(&mut self, _: &Arc<Node>, _: Role) -> TextureId {
-        unreachable!("the notation has no nested textures")
+    fn nested_texture(&mut self, node: &Arc<Node>, _: Role) -> TextureId {
+        match node.properties.first().map(|p| &p.value) {
+            Some(Value::Spectrum(SpectrumText::Samples(samples))) => {
+                let (wavelengths, values): (Vec<f64>, Vec<f64>) = samples.iter().copied().unzip();
+                let spectrum = Spectrum::irregular(&wavelengths, &values);
+                self.spectrum(spectrum.expect("a valid spectrum"))
+            }
+            _ => unreachable!("the notation nests tables only"),
+        }
     }
 
     fn spectrum(&mut self, spectrum: Spectrum) -> TextureId {
@@ -169,28 +176,39 @@ impl Sample {
         wavelengths: &Wavelengths,
         shading: Frame,
     ) -> Resolved<'_> {
-        let vertex = Vertex {
-            position: Vec3::ZERO,
-            error: Vec3::ZERO,
-            normal: Vec3::Z,
-            shading,
-            uv: Vec2::ZERO,
-            dp_du: Vec3::X,
-            dp_dv: Vec3::Y,
-            t: 1.0,
-            time: 0.0,
-            parameters: Vec2::ZERO,
-            shape: ShapeId(0),
-            primitive: 0,
-            instance: InstanceId::NONE,
-            material: MaterialId(0),
-            light: LightId::NONE,
-        };
-        self.material.resolve(&self.scene, &vertex, wo, wavelengths)
+        self.material
+            .resolve(&self.scene, &vertex(shading), wo, wavelengths)
+    }
+
+    /// The light that passes toward `wo`.
+    pub(crate) fn transmittance(&self, wo: Vec3) -> Vec4 {
+        self.material
+            .transmittance(&self.scene, &vertex(Frame::IDENTITY), wo, &WAVELENGTHS)
     }
 
     /// What the material can do.
     pub(crate) fn material(&self) -> &Material {
         &self.material
+    }
+}
+
+/// A point with the geometric normal +z.
+fn vertex(shading: Frame) -> Vertex {
+    Vertex {
+        position: Vec3::ZERO,
+        error: Vec3::ZERO,
+        normal: Vec3::Z,
+        shading,
+        uv: Vec2::ZERO,
+        dp_du: Vec3::X,
+        dp_dv: Vec3::Y,
+        t: 1.0,
+        time: 0.0,
+        parameters: Vec2::ZERO,
+        shape: ShapeId(0),
+        primitive: 0,
+        instance: InstanceId::NONE,
+        material: MaterialId(0),
+        light: LightId::NONE,
     }
 }
