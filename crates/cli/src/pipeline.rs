@@ -69,11 +69,12 @@ pub fn load(path: &Path, options: &LoadOptions) -> Result<Loaded, Refusal> {
         sources,
         diagnostics: mut messages,
         document,
+        stand_ins,
     } = read;
     // A scene with mistakes is compiled all the same, to find further ones.
     let mut loaded = None;
     if let Some(document) = document {
-        let diagnostics = Diagnostics::new();
+        let diagnostics = Diagnostics::silent_about(&stand_ins);
         let assets = FileAssets::new(document.search.clone());
         let compiled = etalon_scene::compile(&document.root, &assets, &diagnostics);
         let integrator = integrator(&document.root, &diagnostics);

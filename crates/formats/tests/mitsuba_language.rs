@@ -319,10 +319,14 @@ fn after_a_mistake_a_harmless_value_stands_in() {
         <bsdf id='typeless'/><shape type='cube'><ref id='typeless'/></shape></scene>";
     let outcome = outcome(&[("main.xml", main)], &ReadOptions::default());
     assert_eq!(outcome.diagnostics.len(), 5, "{}", outcome.lines());
-    let document = outcome.document.expect("a document with mistakes");
+    let document = outcome.document.as_ref().expect("a document with mistakes");
     let shape = &children(&document.root)[0];
     assert!(matches!(&property(shape, "filename").value, Value::String(s) if s.is_empty()));
     assert!(matches!(property(shape, "radius").value, Value::Float(1.0)));
     assert!(matches!(property(shape, "c").value, Value::Rgb(_)));
     assert!(children(shape).is_empty());
+    for name in ["filename", "radius", "c"] {
+        assert!(outcome.stand_ins.contains(&property(shape, name).span));
+    }
+    assert_eq!(outcome.stand_ins.len(), 3);
 }

@@ -131,20 +131,20 @@ impl Diagnostics {
         Self::default()
     }
 
-    /// A collection for a later reader of the same input: it says nothing about places at which
-    /// there is an error already, since what stands there now is only a harmless stand-in.
-    pub fn following(earlier: &[Diagnostic]) -> Self {
-        let errors = earlier.iter().filter(|d| d.severity == Severity::Error);
+    /// A collection that says nothing about some places: there stand harmless values in place of
+    /// broken ones, about which everything has been said.
+    pub fn silent_about(places: &[Span]) -> Self {
         Self {
             list: Mutex::default(),
-            silent: errors.filter_map(|d| d.span).collect(),
+            silent: places.to_vec(),
         }
     }
 
     /// Adds one message (once: an equal one at the same place is not repeated).
     pub fn push(&self, diagnostic: Diagnostic) {
-        if let Some(span) = diagnostic.span
-            && self.silent.iter().any(|s| s.touches(span))
+        if diagnostic
+            .span
+            .is_some_and(|span| self.silent.contains(&span))
         {
             return;
         }

@@ -17,13 +17,6 @@ pub struct Span {
     pub end: u32,
 }
 
-impl Span {
-    /// Whether two places overlap or adjoin.
-    pub fn touches(self, other: Self) -> bool {
-        self.file == other.file && self.start <= other.end && other.start <= self.end
-    }
-}
-
 /// The texts that spans refer to.
 #[derive(Clone, Debug, Default)]
 pub struct Sources {

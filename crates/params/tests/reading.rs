@@ -170,7 +170,7 @@ fn one_mistake_is_said_once_and_notes_are_no_errors() {
 fn nothing_is_said_twice_about_one_place() {
     let scene = Scene::new();
     let error = |at, text: &str| etalon_params::Diagnostic::error(scene.span(at), text);
-    let diagnostics = Diagnostics::following(&[error(3, "not a number")]);
+    let diagnostics = Diagnostics::silent_about(&[scene.span(3)]);
     diagnostics.push(error(3, "cannot be 1"));
     diagnostics.push(error(7, "something else"));
     let list = diagnostics.into_sorted();

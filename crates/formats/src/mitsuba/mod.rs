@@ -24,7 +24,7 @@ mod transform;
 mod upgrade;
 
 use crate::SearchPath;
-use etalon_params::{Diagnostic, Node, Severity, Sources};
+use etalon_params::{Diagnostic, Node, Severity, Sources, Span};
 use reader::Reader;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -70,6 +70,9 @@ pub struct ReadOutcome {
     /// The scene. After mistakes it may still be there, with harmless values in place of the
     /// broken ones, so that further mistakes can be looked for in it; it must not be rendered.
     pub document: Option<Document>,
+    /// Where such harmless values stand: whatever else is found there has no meaning (see
+    /// [`etalon_params::Diagnostics::silent_about`]).
+    pub stand_ins: Vec<Span>,
 }
 
 impl ReadOutcome {
@@ -106,6 +109,7 @@ pub fn read(path: &Path, options: &ReadOptions) -> ReadOutcome {
         sources: reader.sources,
         diagnostics,
         document,
+        stand_ins: reader.stand_ins,
     }
 }
 

@@ -22,6 +22,7 @@ pub(crate) fn property(
 ) {
     let Some(attributes) = Attributes::read(reader, file.id, node, tag.attributes()) else {
         if let Some(property) = stand_in(file, tag, node) {
+            reader.stand_ins.push(property.span);
             reader.draft.objects[parent].properties.push(property);
         }
         return;
@@ -32,6 +33,7 @@ pub(crate) fn property(
         reader.report(name.error_whole(format!("`<{tag_name}>` needs a name")));
         return;
     }
+    let mistakes = reader.mistakes();
     let (value, span) = if tag == Tag::Transform {
         let matrix = operations(reader, file, node).unwrap_or(DMat4::IDENTITY);
         (Value::Transform(matrix), attributes.tag_span)
@@ -39,6 +41,9 @@ pub(crate) fn property(
         no_children(reader, file, node);
         value(reader, file, tag, node, &attributes)
     };
+    if reader.mistakes() > mistakes {
+        reader.stand_ins.push(span);
+    }
     reader.draft.objects[parent].properties.push(DraftProperty {
         name: name.text.clone().into_owned(),
         name_span: name.span,

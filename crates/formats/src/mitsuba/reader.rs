@@ -30,6 +30,8 @@ pub(crate) struct Reader<'o> {
     pub(crate) chain: Vec<(PathBuf, Option<Span>)>,
     /// The folders of included files, searched last for what the scene refers to.
     pub(crate) included_folders: Vec<PathBuf>,
+    /// Where harmless values stand in place of broken ones.
+    pub(crate) stand_ins: Vec<Span>,
     errors: usize,
 }
 
@@ -51,6 +53,7 @@ impl<'o> Reader<'o> {
             files: Vec::new(),
             chain: Vec::new(),
             included_folders: Vec::new(),
+            stand_ins: Vec::new(),
             errors: 0,
         }
     }
@@ -76,6 +79,11 @@ impl<'o> Reader<'o> {
     /// Whether there were so many mistakes that reading should end.
     pub(crate) fn is_full(&self) -> bool {
         self.errors >= MOST_ERRORS
+    }
+
+    /// How many mistakes there were so far.
+    pub(crate) fn mistakes(&self) -> usize {
+        self.errors
     }
 
     /// Replaces `$name` in an attribute's value.
