@@ -61,10 +61,16 @@ impl Description {
         self.nested[1].flatten(site, frame, weight * share, into);
     }
 
-    /// The light that passes, without resolving lobes.
-    pub fn passing<T: Textures>(&self, site: &Site<'_, T>, frame: Frame) -> Vec4 {
+    /// The light that passes and its probability, without resolving lobes.
+    pub fn passing<T: Textures>(&self, site: &Site<'_, T>, frame: Frame) -> (Vec4, f32) {
         let share = site.share(self.weight);
-        self.nested[0].passing(site, frame) * (1.0 - share)
-            + self.nested[1].passing(site, frame) * share
+        let (a, b) = (
+            self.nested[0].passing(site, frame),
+            self.nested[1].passing(site, frame),
+        );
+        (
+            a.0 * (1.0 - share) + b.0 * share,
+            a.1 * (1.0 - share) + b.1 * share,
+        )
     }
 }

@@ -66,6 +66,8 @@ pub struct Coat {
     pub eta: f32,
     /// Factor of the light reflected by the coat, per lane.
     pub specular: Vec4,
+    /// ρ, per lane.
+    pub diffuse: Vec4,
     /// ρ / (1 − ρ' R) / (π η²), per lane.
     base: Vec4,
     /// The fraction of the light let in that comes out again, ρ (1 − R) / (1 − ρ' R), per lane.
@@ -85,6 +87,7 @@ impl Coat {
         Self {
             eta,
             specular,
+            diffuse,
             base: through * (FRAC_1_PI / (eta * eta)),
             returned: through * (1.0 - internal),
         }
@@ -94,12 +97,6 @@ impl Coat {
     #[inline]
     pub fn base(&self, transmitted_o: f32, transmitted_i: f32, cos_i: f32) -> Vec4 {
         self.base * (transmitted_o * transmitted_i * cos_i)
-    }
-
-    /// The directional albedo, where the coat lets in the fraction `transmitted`.
-    #[inline]
-    pub fn albedo(&self, transmitted: f32) -> Vec4 {
-        self.specular * (1.0 - transmitted) + self.returned * transmitted
     }
 
     /// The probability of sampling the coat's reflection rather than the base: their shares of

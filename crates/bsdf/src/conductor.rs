@@ -71,7 +71,7 @@ impl Model for Conductor {
         }
         Some(BsdfSample {
             wi: reflect(wo, Vec3::Z),
-            value: self.albedo(wo),
+            value: self.reflectance * fresnel::conductor(wo.z.min(1.0), self.eta, self.k),
             chance: Chance::Discrete(Atom::uniform(1.0)),
             eta: 1.0,
             passes: false,
@@ -80,9 +80,5 @@ impl Model for Conductor {
 
     fn has_continuous(&self) -> bool {
         false
-    }
-
-    fn albedo(&self, wo: Vec3) -> Vec4 {
-        self.reflectance * fresnel::conductor(wo.z.clamp(0.0, 1.0), self.eta, self.k)
     }
 }

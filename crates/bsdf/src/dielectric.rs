@@ -113,14 +113,4 @@ impl Model for Dielectric {
     fn has_continuous(&self) -> bool {
         false
     }
-
-    fn albedo(&self, wo: Vec3) -> Vec4 {
-        let eta = if wo.z >= 0.0 {
-            self.eta
-        } else {
-            self.eta.recip()
-        };
-        let fresnel = fresnel::dielectric_lanes(wo.z.abs().min(1.0), eta);
-        self.reflectance * fresnel + self.transmittance * (1.0 - fresnel)
-    }
 }

@@ -61,13 +61,11 @@ impl Description {
         self.nested.flatten(site, frame, weight * opacity, into);
     }
 
-    /// The light that passes, without resolving lobes.
-    pub fn passing<T: Textures>(&self, site: &Site<'_, T>, frame: Frame) -> Vec4 {
+    /// The light that passes and its probability, without resolving lobes.
+    pub fn passing<T: Textures>(&self, site: &Site<'_, T>, frame: Frame) -> (Vec4, f32) {
         let opacity = site.share(self.opacity);
         let through = 1.0 - opacity;
-        if opacity == 0.0 {
-            return Vec4::ONE;
-        }
-        self.nested.passing(site, frame) * opacity + through
+        let (energy, probability) = self.nested.passing(site, frame);
+        (energy * opacity + through, probability * opacity + through)
     }
 }

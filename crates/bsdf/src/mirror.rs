@@ -32,8 +32,4 @@ impl Model for Mirror {
     fn has_continuous(&self) -> bool {
         false
     }
-
-    fn albedo(&self, _: Vec3) -> Vec4 {
-        self.reflectance
-    }
 }

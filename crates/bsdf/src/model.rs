@@ -18,6 +18,9 @@ pub trait Model: Copy {
     /// Whether any lobe is continuous.
     fn has_continuous(&self) -> bool;
 
-    /// Directional albedo or an approximation of it, for display only.
-    fn albedo(&self, wo: Vec3) -> Vec4;
+    /// What the `albedo` channel shows, as in Mitsuba: the reflectance of a diffuse base whichever
+    /// side is seen; of other models the value toward the normal, times π; nothing of mirrors.
+    fn albedo(&self, wo: Vec3) -> Vec4 {
+        self.eval_and_density(wo, Vec3::Z, Mode::Radiance).0 * core::f32::consts::PI
+    }
 }

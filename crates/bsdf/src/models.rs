@@ -7,6 +7,7 @@ use crate::{Flattening, Lobe, MAX_LOBES, Model, Resolved, Site};
 use etalon_math::Frame;
 use etalon_params::{Class, Diagnostic, Diagnostics, Node, Params};
 use etalon_spectrum::Wavelengths;
+use etalon_transport::Passage;
 use etalon_transport::{BsdfSample, Build, Mode, Textures, Vertex};
 use glam::{Vec2, Vec3, Vec4};
 use std::sync::Arc;
@@ -121,10 +122,14 @@ macro_rules! models {
                 )
             }
 
-            /// The light that passes straight on, without resolving lobes.
-            pub(crate) fn passing<T: Textures>(&self, site: &Site<'_, T>, frame: Frame) -> Vec4 {
+            /// The light that passes straight on and its probability, without resolving lobes.
+            pub(crate) fn passing<T: Textures>(
+                &self,
+                site: &Site<'_, T>,
+                frame: Frame,
+            ) -> (Vec4, f32) {
                 match self {
-                    $(Self::$plain(_))|* => Vec4::ZERO,
+                    $(Self::$plain(_))|* => (Vec4::ZERO, 0.0),
                     $(Self::$composed(description) => description.passing(site, frame),)*
                 }
             }
@@ -283,20 +288,21 @@ impl Material {
         self.traits().passing
     }
 
-    /// The fraction of light that goes straight on toward `wo`, per lane:
-    /// [`etalon_transport::Bsdf::passing`] of the resolved material at a fraction of the cost, for
-    /// shadow rays.
-    pub fn transmittance<T: Textures>(
+    /// How light goes straight on toward `wo`: [`etalon_transport::Bsdf::passing`] and its
+    /// probability of the resolved material, at a fraction of the cost, for shadow rays.
+    pub fn passage<T: Textures>(
         &self,
         textures: &T,
         vertex: &Vertex,
         wo: Vec3,
         wavelengths: &Wavelengths,
-    ) -> Vec4 {
-        self.passing(
-            &Site::new(textures, vertex, wo, wavelengths),
-            vertex.shading,
-        )
+    ) -> Passage {
+        let site = Site::new(textures, vertex, wo, wavelengths);
+        let (transmittance, probability) = self.passing(&site, vertex.shading);
+        Passage {
+            transmittance,
+            probability: Vec4::splat(probability),
+        }
     }
 
     fn resolve_composed<T: Textures>(&self, site: &Site<'_, T>, vertex: &Vertex) -> Resolved<'_> {

@@ -106,7 +106,7 @@ impl Model for Plastic {
         true
     }
 
-    fn albedo(&self, wo: Vec3) -> Vec4 {
-        self.coat.albedo(self.transmitted(wo.z.max(0.0)))
+    fn albedo(&self, _: Vec3) -> Vec4 {
+        self.coat.diffuse
     }
 }

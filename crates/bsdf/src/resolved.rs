@@ -190,9 +190,15 @@ impl Bsdf for Resolved<'_> {
         Vec4::splat(self.passing_probability)
     }
 
+    /// The mean over the lobes; what passes does not count.
     fn albedo(&self, wo: Vec3) -> Vec4 {
-        self.lobes().iter().fold(Vec4::ZERO, |sum, lobe| {
-            sum + lobe.scatter.albedo(lobe.frame.to_local(wo)) * lobe.weight
-        })
+        let (sum, weight) = self
+            .lobes()
+            .iter()
+            .fold((Vec4::ZERO, 0.0), |(sum, weight), lobe| {
+                let albedo = lobe.scatter.albedo(lobe.frame.to_local(wo));
+                (sum + albedo * lobe.weight, weight + lobe.weight)
+            });
+        if weight > 0.0 { sum / weight } else { sum }
     }
 }

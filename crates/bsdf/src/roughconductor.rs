@@ -109,8 +109,4 @@ impl Model for RoughConductor {
     fn has_continuous(&self) -> bool {
         true
     }
-
-    fn albedo(&self, wo: Vec3) -> Vec4 {
-        self.reflectance * fresnel::conductor(wo.z.clamp(0.0, 1.0), self.eta, self.k)
-    }
 }

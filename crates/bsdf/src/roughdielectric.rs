@@ -224,10 +224,4 @@ impl Model for RoughDielectric {
     fn has_continuous(&self) -> bool {
         true
     }
-
-    fn albedo(&self, wo: Vec3) -> Vec4 {
-        let (eta, mirror) = self.above(wo);
-        let fresnel = fresnel::dielectric_lanes((wo * mirror).z.clamp(0.0, 1.0), eta);
-        self.reflectance * fresnel + self.transmittance * (1.0 - fresnel)
-    }
 }

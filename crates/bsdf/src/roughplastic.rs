@@ -115,7 +115,7 @@ impl Model for RoughPlastic<'_> {
         true
     }
 
-    fn albedo(&self, wo: Vec3) -> Vec4 {
-        self.coat.albedo(self.interface.transmittance(wo.z))
+    fn albedo(&self, _: Vec3) -> Vec4 {
+        self.coat.diffuse
     }
 }

@@ -82,10 +82,12 @@ impl Description {
         );
     }
 
-    /// The light that passes, without resolving lobes.
-    pub fn passing<T: Textures>(&self, site: &Site<'_, T>, frame: Frame) -> Vec4 {
-        self.reflected(site, frame).map_or(Vec4::ZERO, |both| {
-            site.spectrum(self.transmittance) * (1.0 - both)
-        })
+    /// The light that passes and its probability, without resolving lobes.
+    pub fn passing<T: Textures>(&self, site: &Site<'_, T>, frame: Frame) -> (Vec4, f32) {
+        self.reflected(site, frame)
+            .map_or((Vec4::ZERO, 0.0), |both| {
+                let through = 1.0 - both;
+                (site.spectrum(self.transmittance) * through, through)
+            })
     }
 }

@@ -92,11 +92,11 @@ impl Description {
         }
     }
 
-    /// The light that passes, without resolving lobes.
-    pub fn passing<T: Textures>(&self, site: &Site<'_, T>, frame: Frame) -> Vec4 {
+    /// The light that passes and its probability, without resolving lobes.
+    pub fn passing<T: Textures>(&self, site: &Site<'_, T>, frame: Frame) -> (Vec4, f32) {
         match self.side(site, frame) {
             Some((material, frame)) => material.passing(site, frame),
-            None => Vec4::ZERO,
+            None => (Vec4::ZERO, 0.0),
         }
     }
 }

@@ -86,6 +86,11 @@ fn values_agree_with_mitsuba() {
             if same_density(&sample.text) && !close(density.lanes(), Vec4::splat(pdf), relative) {
                 fail("density", format!("{}", density.lanes()));
             }
+        } else if head[0] == "albedo" {
+            let ours = bsdf.albedo(wo);
+            if !close(ours, value, relative) {
+                fail("albedo", format!("{ours}"));
+            }
         } else {
             // Mitsuba's passing light comes first or last, as the number for its lobe says; ours
             // is found by its direction.

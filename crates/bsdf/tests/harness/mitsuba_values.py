@@ -6,6 +6,7 @@ A line `material …` gives a material in the notation of `notation.rs`; the lin
 
     eval MODE ; wo ; wi ; value ; pdf
     sample MODE SAMPLE1 ; wo ; wi ; value ; pdf ; eta
+    albedo radiance ; wo ; wo ; value ; 0
 
 with one value, or four at 450, 500, 550 and 600 nm. Values include |cos|; a discrete sample's
 value is weight times pdf. `wo` is the known direction (Mitsuba's `wi`).
@@ -122,6 +123,10 @@ OUT = [0, 40, 75, 89.5, 100, 140]
 for text in CONTINUOUS:
     bsdf = mi.load_dict(parse(text.split()))
     print("material", text)
+    for theta in (40, 140):
+        wo = direction(theta, 30)
+        value = bsdf.eval_diffuse_reflectance(interaction(wo))
+        print(f"albedo radiance ; {show(wo)} ; {show(wo)} ; {lanes(value)} ; 0")
     zeros = 0
     for theta in OUT:
         wo = direction(theta, random.uniform(0, 360))

@@ -5,6 +5,7 @@ use etalon_bsdf::{Material, Resolved};
 use etalon_math::Frame;
 use etalon_params::{Diagnostic, Diagnostics, Node, Params, SpectrumText, Value};
 use etalon_spectrum::{Spectrum, Wavelengths};
+use etalon_transport::Passage;
 use etalon_transport::{
     AssetError, Assets, Build, InstanceId, LightId, MaterialId, MeshData, MeshFormat, Role,
     ShapeId, TextureId, TexturePoint, Textures, Vertex,
@@ -180,10 +181,10 @@ impl Sample {
             .resolve(&self.scene, &vertex(shading), wo, wavelengths)
     }
 
-    /// The light that passes toward `wo`.
-    pub(crate) fn transmittance(&self, wo: Vec3) -> Vec4 {
+    /// How light passes toward `wo`.
+    pub(crate) fn passage(&self, wo: Vec3) -> Passage {
         self.material
-            .transmittance(&self.scene, &vertex(Frame::IDENTITY), wo, &WAVELENGTHS)
+            .passage(&self.scene, &vertex(Frame::IDENTITY), wo, &WAVELENGTHS)
     }
 
     /// What the material can do.
