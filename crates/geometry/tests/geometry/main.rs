@@ -1,0 +1,8 @@
+//! Intersection, spawning and sampling of whole geometries.
+
+mod accelerators;
+mod instances;
+mod reintersection;
+mod sampling;
+mod things;
+mod watertight;
