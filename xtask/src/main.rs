@@ -1,2 +1,44 @@
-//! The tasks of the house.
-fn main() {}
+//! The tasks of the house: `cargo xtask validate`, `references`, `scenes`, `tables`.
+
+mod references;
+mod tables;
+mod validate;
+
+use clap::{Parser, Subcommand};
+use std::process::ExitCode;
+
+/// The tasks of the house.
+#[derive(Parser)]
+#[command(
+    name = "cargo xtask",
+    after_help = "Examples:\n  cargo xtask validate --quick\n  cargo xtask validate --only cornell-box\n  cargo xtask references --only veach-mis\n  cargo xtask tables"
+)]
+struct Arguments {
+    #[command(subcommand)]
+    task: Task,
+}
+
+#[derive(Subcommand)]
+enum Task {
+    /// Render every claim and decide whether it holds
+    Validate(validate::Arguments),
+    /// Render the references of claims with Mitsuba 3
+    References(references::Arguments),
+    /// Write the generated tables of the spectrum crate anew
+    Tables(tables::Arguments),
+}
+
+fn main() -> ExitCode {
+    let done = match Arguments::parse().task {
+        Task::Validate(arguments) => return validate::run(&arguments),
+        Task::References(arguments) => references::run(&arguments),
+        Task::Tables(arguments) => tables::run(&arguments),
+    };
+    match done {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(message) => {
+            eprintln!("error: {message}");
+            ExitCode::FAILURE
+        }
+    }
+}

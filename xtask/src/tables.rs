@@ -13,10 +13,10 @@ use std::path::{Path, PathBuf};
 
 /// What to write.
 #[derive(Clone, Debug, Default, clap::Args)]
-pub struct Arguments {
+pub(crate) struct Arguments {
     /// Root of a copy of the refractiveindex.info database (the folder that holds `database/`)
     #[arg(long, value_name = "DIR")]
-    pub refractiveindex: Option<PathBuf>,
+    pub(crate) refractiveindex: Option<PathBuf>,
 }
 
 /// Range that the table of every conductor covers, nm.
@@ -46,7 +46,7 @@ const CONDUCTORS: &[(&str, &str)] = &[
 ];
 
 /// Writes the tables, and says on standard output what it wrote.
-pub fn run(arguments: &Arguments) -> Result<(), String> {
+pub(crate) fn run(arguments: &Arguments) -> Result<(), String> {
     let data = Path::new(env!("CARGO_MANIFEST_DIR")).join("../crates/spectrum/data");
     let coefficients: Vec<u8> = table::build()
         .iter()

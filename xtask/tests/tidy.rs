@@ -9,7 +9,15 @@ const FLOORS: [&[&str]; 7] = [
     &["math", "statistics", "params"],
     &["sampling", "spectrum", "images"],
     &["transport"],
-    &["geometry", "textures", "bsdf", "subsurface", "lights", "cameras", "film"],
+    &[
+        "geometry",
+        "textures",
+        "bsdf",
+        "subsurface",
+        "lights",
+        "cameras",
+        "film",
+    ],
     &["scene", "integrators"],
     &["formats"],
     &["cli", "validation", "benches", "xtask"],
@@ -31,7 +39,15 @@ fn rooms() -> BTreeMap<String, PathBuf> {
     let mut rooms: BTreeMap<String, PathBuf> = fs::read_dir(root.join("crates"))
         .expect("crates/ exists")
         .map(|entry| entry.expect("readable").path())
-        .map(|path| (path.file_name().expect("named").to_string_lossy().into_owned(), path))
+        .map(|path| {
+            (
+                path.file_name()
+                    .expect("named")
+                    .to_string_lossy()
+                    .into_owned(),
+                path,
+            )
+        })
         .collect();
     for room in ["validation", "benches", "xtask"] {
         rooms.insert(room.to_owned(), root.join(room));
@@ -106,7 +122,8 @@ fn arrows_point_down() {
                     None => continue,
                 },
             };
-            let same_top = floor_of(&room) == FLOORS.len() - 1 && floor_of(target) == FLOORS.len() - 1;
+            let same_top =
+                floor_of(&room) == FLOORS.len() - 1 && floor_of(target) == FLOORS.len() - 1;
             assert!(
                 floor_of(target) < floor_of(&room) || same_top,
                 "`{room}` must not depend on `{target}`: an arrow may only point down"
@@ -138,7 +155,11 @@ fn files_are_short_and_say_what_they_define() {
             lines <= LINES || is_table,
             "{shown} has {lines} lines, more than {LINES}: is it one concept?"
         );
-        let stem = path.file_stem().expect("named").to_string_lossy().into_owned();
+        let stem = path
+            .file_stem()
+            .expect("named")
+            .to_string_lossy()
+            .into_owned();
         assert!(
             !["utils", "util", "common", "helpers", "misc"].contains(&stem.as_str()),
             "{shown} is named after nothing it defines"
@@ -192,6 +213,11 @@ fn profiles_differ_in_build_time_only() {
     let manifest = manifest(&root());
     let fast = &manifest["profile"]["fast"];
     assert_eq!(fast["inherits"].as_str(), Some("release"));
-    let keys: Vec<&str> = fast.as_table().expect("a table").keys().map(String::as_str).collect();
+    let keys: Vec<&str> = fast
+        .as_table()
+        .expect("a table")
+        .keys()
+        .map(String::as_str)
+        .collect();
     assert_eq!(keys, ["codegen-units", "incremental", "inherits", "lto"]);
 }

@@ -11,7 +11,7 @@
 //! The error level α is shared equally (Bonferroni) by all of these questions.
 
 use etalon_film::{Developed, Metadata, TileMeans};
-use etalon_statistics::{Estimate, Replicates, TileDifferences, Verdict};
+use etalon_statistics::{Replicates, TileDifferences, TilesError, Verdict};
 use serde::Serialize;
 
 /// How large a bias matters, and how sure the verdict must be.
@@ -24,6 +24,8 @@ pub struct Rules {
     pub tile_bound: f64,
     /// Probability of calling equal images different, over everything that is asked.
     pub alpha: f64,
+    /// What "no bias at all" leaves to rounding, relative to the mean; zero asks for equality.
+    pub rounding: f64,
 }
 
 impl Default for Rules {
@@ -32,6 +34,7 @@ impl Default for Rules {
             image_bound: 0.005,
             tile_bound: 0.03,
             alpha: 1e-3,
+            rounding: 0.0,
         }
     }
 }
@@ -124,45 +127,151 @@ impl Judgement {
 pub fn judge(first: &Developed, second: &Developed, rules: Rules) -> Result<Judgement, String> {
     let a = metadata(first, "the first image")?;
     let b = metadata(second, "the second image")?;
-    if a.film.crop_size != b.film.crop_size {
-        return Err(format!(
-            "the images differ in size: {} × {} and {} × {} pixels",
-            a.film.crop_size[0], a.film.crop_size[1], b.film.crop_size[0], b.film.crop_size[1]
-        ));
+    same_size(a.film.crop_size, b.film.crop_size)?;
+    let channels = shared_channels(a, |name| b.channel_index(name).is_some())?;
+    let mut comparisons = Vec::new();
+    for channel in &channels {
+        for side in sides(a).filter(|side| b.tiles(*side).is_some()) {
+            let (means, tiles) = replicates(b, channel, side)?;
+            let second = Replicates::new(&means, tiles).map_err(|e| e.to_string())?;
+            let oracle = (0..tiles).map(|tile| Ok(second.summary(tile)?.mean()));
+            let oracle = oracle
+                .collect::<Result<_, TilesError>>()
+                .map_err(|e| e.to_string())?;
+            comparisons.push(Comparison::new(a, channel, side, oracle, |first| {
+                TileDifferences::between(first, &second)
+            })?);
+        }
     }
-    let channels: Vec<String> = colours(a)
-        .into_iter()
-        .filter(|name| b.channel_index(name).is_some())
-        .collect();
+    decide(&comparisons, rules)
+}
+
+/// A picture that is known without error: the expected value of each pixel.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Known {
+    /// Width and height (pixels).
+    pub size: [u32; 2],
+    /// Channels with their pixels, row after row.
+    pub channels: Vec<(String, Vec<f64>)>,
+}
+
+impl Known {
+    /// The means over tiles of `side` pixels, or over the whole image, row after row.
+    fn tile_means(&self, pixels: &[f64], side: Option<u32>) -> Vec<f64> {
+        let [width, height] = self.size.map(|n| n as usize);
+        let side = side.map_or(width.max(height), |side| side as usize);
+        let mut means = Vec::new();
+        for top in (0..height).step_by(side) {
+            for left in (0..width).step_by(side) {
+                let (bottom, right) = ((top + side).min(height), (left + side).min(width));
+                let rows = (top..bottom).map(|y| &pixels[y * width + left..y * width + right]);
+                let sum: f64 = rows.map(|row| row.iter().sum::<f64>()).sum();
+                means.push(sum / ((bottom - top) * (right - left)) as f64);
+            }
+        }
+        means
+    }
+}
+
+/// Compares an image that carries tile means of at least two replicates with a known picture.
+///
+/// # Errors
+/// One sentence, if they cannot be compared.
+pub fn judge_known(image: &Developed, known: &Known, rules: Rules) -> Result<Judgement, String> {
+    let a = metadata(image, "the image")?;
+    same_size(a.film.crop_size, known.size)?;
+    let pixels = |name: &str| known.channels.iter().find(|(channel, _)| channel == name);
+    let mut comparisons = Vec::new();
+    for channel in shared_channels(a, |name| pixels(name).is_some())? {
+        let Some((_, pixels)) = pixels(&channel) else {
+            continue;
+        };
+        for side in sides(a) {
+            let oracle = known.tile_means(pixels, side);
+            let means = oracle.clone();
+            comparisons.push(Comparison::new(a, &channel, side, oracle, |first| {
+                TileDifferences::from_known(first, &means)
+            })?);
+        }
+    }
+    decide(&comparisons, rules)
+}
+
+/// One channel's tiles of one size, compared.
+struct Comparison {
+    channel: String,
+    /// Side of the tiles; `None` for the whole image.
+    side: Option<u32>,
+    columns: u32,
+    differences: TileDifferences,
+    /// What the tiles ought to be.
+    oracle: Vec<f64>,
+}
+
+impl Comparison {
+    fn new(
+        image: &Metadata,
+        channel: &str,
+        side: Option<u32>,
+        oracle: Vec<f64>,
+        compare: impl FnOnce(&Replicates<'_>) -> Result<TileDifferences, TilesError>,
+    ) -> Result<Self, String> {
+        let (means, tiles) = replicates(image, channel, side)?;
+        let first = Replicates::new(&means, tiles).map_err(|e| e.to_string())?;
+        Ok(Self {
+            channel: channel.to_owned(),
+            side,
+            columns: image.tiles(side).map_or(1, TileMeans::columns),
+            differences: compare(&first).map_err(|e| e.to_string())?,
+            oracle,
+        })
+    }
+}
+
+fn same_size([a, b]: [u32; 2], [c, d]: [u32; 2]) -> Result<(), String> {
+    if [a, b] == [c, d] {
+        return Ok(());
+    }
+    Err(format!(
+        "the images differ in size: {a} × {b} and {c} × {d} pixels"
+    ))
+}
+
+fn shared_channels(a: &Metadata, other: impl Fn(&str) -> bool) -> Result<Vec<String>, String> {
+    let mut channels = colours(a);
+    channels.retain(|name| other(name));
     if channels.is_empty() {
         return Err("the images have no colour channel in common".to_owned());
     }
-    let sides: Vec<u32> = a
-        .tile_means
-        .iter()
-        .filter_map(TileMeans::side)
-        .filter(|side| b.tiles(Some(*side)).is_some())
-        .collect();
-    let questions = channels.len() * (1 + sides.len());
-    let alpha = rules.alpha / questions as f64;
+    Ok(channels)
+}
 
-    let luminance = luminance(b)?;
+/// The sizes of tiles an image has means of, the whole image first.
+fn sides(a: &Metadata) -> impl Iterator<Item = Option<u32>> {
+    let sides = a.tile_means.iter().filter_map(TileMeans::side).map(Some);
+    std::iter::once(None).chain(sides)
+}
+
+/// Decides all comparisons together.
+fn decide(comparisons: &[Comparison], rules: Rules) -> Result<Judgement, String> {
+    let alpha = rules.alpha / comparisons.len() as f64;
+    let means: Vec<(&str, f64)> = comparisons
+        .iter()
+        .filter(|c| c.side.is_none())
+        .map(|c| (c.channel.as_str(), c.oracle[0]))
+        .collect();
+    let luminance = luminance(&means);
     let mut images = Vec::new();
     let mut tiles = Vec::new();
-    for name in &channels {
-        let whole = differences(a, b, name, None)?;
-        let estimate = &whole.estimates()[0];
-        let mean = mean_of(b, name)?;
-        images.push(image_row(
-            name,
-            estimate,
-            mean,
-            scale(mean, luminance),
-            rules,
-            alpha,
-        ));
-        for &side in &sides {
-            tiles.push(tile_row(a, b, name, side, mean.abs(), rules, alpha)?);
+    for comparison in comparisons {
+        let mean = means
+            .iter()
+            .find(|(name, _)| *name == comparison.channel)
+            .map_or(0.0, |(_, mean)| *mean);
+        let scale = scale(mean, luminance);
+        match comparison.side {
+            None => images.push(image_row(comparison, mean, scale, rules, alpha)),
+            Some(side) => tiles.push(tile_row(comparison, side, scale, rules, alpha)),
         }
     }
     let images_agree = images
@@ -179,10 +288,10 @@ pub fn judge(first: &Developed, second: &Developed, rules: Rules) -> Result<Judg
         .fold(1.0, f64::min);
     Ok(Judgement {
         rules,
+        p_exact: (smallest * comparisons.len() as f64).min(1.0),
         images,
         tiles,
         verdict,
-        p_exact: (smallest * questions as f64).min(1.0),
     })
 }
 
@@ -193,62 +302,50 @@ fn scale(mean: f64, luminance: f64) -> f64 {
     if scale > 0.0 { scale } else { 1.0 }
 }
 
-fn image_row(
-    name: &str,
-    estimate: &Estimate,
-    mean: f64,
-    scale: f64,
-    rules: Rules,
-    alpha: f64,
-) -> ImageRow {
+fn image_row(comparison: &Comparison, mean: f64, scale: f64, rules: Rules, alpha: f64) -> ImageRow {
+    let estimate = &comparison.differences.estimates()[0];
     let interval = estimate.interval(1.0 - alpha);
     ImageRow {
-        channel: name.to_owned(),
+        channel: comparison.channel.clone(),
         mean: mean + estimate.value(),
         other_mean: mean,
         bias: estimate.value() / scale,
         interval: [interval.low / scale, interval.high / scale],
         smallest_detectable: estimate.smallest_detectable(alpha, 0.95) / scale,
-        p_exact: estimate.p_differs(0.0),
+        p_exact: estimate.p_differs(rules.rounding * scale),
         verdict: interval.verdict(rules.image_bound * scale),
     }
 }
 
 fn tile_row(
-    a: &Metadata,
-    b: &Metadata,
-    name: &str,
+    comparison: &Comparison,
     side: u32,
-    image_mean: f64,
+    image_scale: f64,
     rules: Rules,
     alpha: f64,
-) -> Result<TileRow, String> {
-    let differences = differences(a, b, name, Some(side))?;
-    let (means, tiles) = replicates(b, name, Some(side))?;
-    let known = Replicates::new(&means, tiles).map_err(|e| e.to_string())?;
-    let mut own = Vec::with_capacity(tiles);
-    for tile in 0..tiles {
-        own.push(known.summary(tile).map_err(|e| e.to_string())?.mean().abs());
-    }
-    let tolerances: Vec<f64> = own
-        .iter()
-        .map(|mean| rules.tile_bound * mean + rules.image_bound * image_mean)
-        .collect();
-    let decision = differences.decide(&tolerances, alpha);
-    let exact = differences.decide(&vec![0.0; tiles], alpha);
+) -> TileRow {
+    let oracle = &comparison.oracle;
+    let tolerances = |own: f64, image: f64| -> Vec<f64> {
+        let tolerance = |mean: &f64| own * mean.abs() + image * image_scale;
+        oracle.iter().map(tolerance).collect()
+    };
+    let differences = &comparison.differences;
+    let decision = differences.decide(&tolerances(rules.tile_bound, rules.image_bound), alpha);
+    let exact = differences.decide(&tolerances(rules.rounding, rules.rounding), alpha);
     let worst = exact.worst;
-    let columns = a.tiles(Some(side)).map_or(1, TileMeans::columns);
     let estimates = differences.estimates();
-    let whole_scale = scale(own[worst], image_mean);
-    Ok(TileRow {
-        channel: name.to_owned(),
+    TileRow {
+        channel: comparison.channel.clone(),
         side,
-        tiles,
+        tiles: oracle.len(),
         p_differs: decision.p_differs,
         p_exact: exact.p_differs,
-        columns,
-        worst: [worst as u32 % columns, worst as u32 / columns],
-        worst_bias: estimates[worst].value() / whole_scale,
+        columns: comparison.columns,
+        worst: [
+            worst as u32 % comparison.columns,
+            worst as u32 / comparison.columns,
+        ],
+        worst_bias: estimates[worst].value() / scale(oracle[worst], image_scale),
         differing: decision.differing(alpha).count(),
         p_map: estimates.iter().map(|e| e.p_differs(0.0) as f32).collect(),
         verdict: match decision.verdict {
@@ -256,7 +353,7 @@ fn tile_row(
             _ if decision.differing(alpha).count() == 0 => Verdict::Agrees,
             _ => Verdict::Undecided,
         },
-    })
+    }
 }
 
 fn metadata<'a>(image: &'a Developed, which: &str) -> Result<&'a Metadata, String> {
@@ -295,34 +392,11 @@ pub fn replicates(
     Ok((values, (means.columns() * means.rows()) as usize))
 }
 
-fn differences(
-    a: &Metadata,
-    b: &Metadata,
-    channel: &str,
-    side: Option<u32>,
-) -> Result<TileDifferences, String> {
-    let (first, tiles) = replicates(a, channel, side)?;
-    let (second, other_tiles) = replicates(b, channel, side)?;
-    let first = Replicates::new(&first, tiles).map_err(|e| e.to_string())?;
-    let second = Replicates::new(&second, other_tiles).map_err(|e| e.to_string())?;
-    TileDifferences::between(&first, &second).map_err(|e| e.to_string())
-}
-
-fn mean_of(metadata: &Metadata, channel: &str) -> Result<f64, String> {
-    let (values, _) = replicates(metadata, channel, None)?;
-    Ok(values.iter().sum::<f64>() / values.len() as f64)
-}
-
-/// The mean luminance, or the mean of the green or only channel.
-fn luminance(metadata: &Metadata) -> Result<f64, String> {
-    let has = |name: &str| metadata.channel_index(name).is_some();
-    if ["R", "G", "B"].into_iter().all(has) {
-        let [r, g, b] = [
-            mean_of(metadata, "R")?,
-            mean_of(metadata, "G")?,
-            mean_of(metadata, "B")?,
-        ];
-        return Ok(etalon_spectrum::colour_space::luminance([r, g, b]));
+/// The luminance of channels' means, or the mean of the green or only channel.
+fn luminance(means: &[(&str, f64)]) -> f64 {
+    let of = |wanted: &str| means.iter().find(|(name, _)| *name == wanted).map(|m| m.1);
+    match (of("R"), of("G"), of("B")) {
+        (Some(r), Some(g), Some(b)) => etalon_spectrum::colour_space::luminance([r, g, b]),
+        _ => of("Y").or(of("G")).unwrap_or(0.0),
     }
-    mean_of(metadata, "Y")
 }

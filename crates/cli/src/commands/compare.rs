@@ -33,6 +33,7 @@ pub fn run(args: &CompareArgs) -> ExitCode {
         image_bound: args.bound,
         tile_bound: args.tile_bound,
         alpha: args.alpha,
+        rounding: 0.0,
     };
     let judgement = match judge::judge(&first, &second, rules) {
         Ok(judgement) => judgement,

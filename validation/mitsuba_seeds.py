@@ -1,0 +1,58 @@
+"""Renders a scene with Mitsuba 3, once per seed, for `cargo xtask references`.
+
+Writes the linear RGB pixels of every seed as little-endian 32-bit floats, seed after seed, row
+after row, into one file, and prints what rendered them as JSON.
+"""
+
+import argparse
+import json
+import sys
+
+import numpy as np
+
+
+def choose_variant(mi, wanted):
+    """The wanted variant, if it can be set up: the LLVM ones need a recent libLLVM."""
+    for variant in [wanted, "scalar_spectral"]:
+        try:
+            mi.set_variant(variant)
+            if variant.startswith("llvm"):
+                import drjit as dr
+
+                dr.eval(mi.Float(1) + 1)
+            return variant
+        except Exception as error:
+            print(f"{variant}: {error}", file=sys.stderr)
+    sys.exit("no spectral variant of Mitsuba works here")
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("scene")
+    parser.add_argument("output")
+    parser.add_argument("--spp", type=int, required=True)
+    parser.add_argument("--seeds", type=int, required=True)
+    parser.add_argument("--variant", default="llvm_ad_spectral")
+    parser.add_argument("-D", "--define", action="append", default=[], metavar="KEY=VALUE")
+    arguments = parser.parse_args()
+
+    import mitsuba as mi
+
+    variant = choose_variant(mi, arguments.variant)
+    defines = dict(pair.split("=", 1) for pair in arguments.define)
+    scene = mi.load_file(arguments.scene, **defines)
+    shape = None
+    with open(arguments.output, "wb") as output:
+        for seed in range(arguments.seeds):
+            pixels = np.array(mi.render(scene, spp=arguments.spp, seed=seed + 1))
+            rgb = np.ascontiguousarray(pixels[..., :3], dtype="<f4")
+            if not np.isfinite(rgb).all():
+                sys.exit(f"seed {seed + 1}: pixels that are not finite")
+            output.write(rgb.tobytes())
+            shape = rgb.shape
+    facts = {"mitsuba": mi.__version__, "variant": variant, "height": shape[0], "width": shape[1]}
+    print(json.dumps(facts))
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,277 @@
+//! A claim: a scene, an oracle, and the estimators that must agree with it.
+//!
+//! ```toml
+//! title = "The Cornell box, against Mitsuba 3"
+//! scene = "cornell-box/scene.xml"
+//!
+//! [defines]                    # scene parameters; closed forms take their numbers from here
+//! resx = 96
+//! resy = 96
+//!
+//! [oracle]
+//! kind = "reference"           # or "closed_form" with `formula`, or "agreement" with an estimator
+//! spp = 256                    # how `cargo xtask references` renders it
+//! seeds = 32
+//!
+//! [[estimators]]
+//! sampler = "sobol"
+//! quick = { spp = 512, replicates = 32 }
+//! default = { spp = 4096, replicates = 32 }
+//! mutants = ["dropped cosine"] # faults that this very comparison must find
+//! ```
+
+use crate::fault::Fault;
+use etalon_sampling::SamplerKind;
+use serde::Deserialize;
+use std::collections::BTreeMap;
+use std::path::{Path, PathBuf};
+
+/// A claim as its file states it.
+#[derive(Clone, Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Claim {
+    /// The name of its file, without extension.
+    #[serde(skip)]
+    pub name: String,
+    /// What is claimed, in a line.
+    pub title: String,
+    /// The scene, below `scenes/`.
+    pub scene: PathBuf,
+    /// Parameters of the scene, and the numbers of its closed form.
+    #[serde(default)]
+    pub defines: BTreeMap<String, toml::Value>,
+    /// What is known of the picture.
+    pub oracle: Oracle,
+    /// Who must agree with it.
+    pub estimators: Vec<Estimator>,
+    /// Bounds of what matters.
+    #[serde(default)]
+    pub bounds: Bounds,
+    /// Whether the quick run decides it, too.
+    #[serde(default = "yes")]
+    pub quick: bool,
+}
+
+fn yes() -> bool {
+    true
+}
+
+/// What an estimator is held against.
+#[derive(Clone, Debug, Deserialize)]
+#[serde(tag = "kind", rename_all = "snake_case", deny_unknown_fields)]
+pub enum Oracle {
+    /// A formula: the null hypothesis is equality.
+    ClosedForm {
+        /// Its name, see [`crate::closed_form`].
+        formula: String,
+    },
+    /// A picture by Mitsuba 3: the question is equivalence.
+    Reference {
+        /// Samples per pixel and seed.
+        spp: u32,
+        /// Independent seeds.
+        #[serde(default = "seeds")]
+        seeds: u32,
+    },
+    /// Another estimator of ours, chosen so that it converges here: the null hypothesis is
+    /// equality.
+    Agreement {
+        /// The estimator.
+        estimator: Box<Estimator>,
+    },
+}
+
+fn seeds() -> u32 {
+    32
+}
+
+impl Oracle {
+    /// Whether equality is claimed, not only equivalence.
+    pub fn is_exact(&self) -> bool {
+        !matches!(self, Self::Reference { .. })
+    }
+}
+
+/// How a picture is rendered.
+#[derive(Clone, Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Estimator {
+    /// The integrator, if not the scene's.
+    pub integrator: Option<String>,
+    /// The sampler, if not the scene's.
+    pub sampler: Option<Sampler>,
+    /// Further parameters of the scene, of this estimator only.
+    #[serde(default)]
+    pub defines: BTreeMap<String, toml::Value>,
+    /// Work of the quick run.
+    pub quick: Budget,
+    /// Work of the default run.
+    pub default: Budget,
+    /// Faults that must be found.
+    #[serde(default)]
+    pub mutants: Vec<Fault>,
+}
+
+/// The kinds of samplers claims may name.
+#[derive(Clone, Copy, Debug, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Sampler {
+    /// Pseudo-random numbers.
+    Independent,
+    /// Jittered strata.
+    Stratified,
+    /// Scrambled Sobol' points.
+    Sobol,
+}
+
+impl From<Sampler> for SamplerKind {
+    fn from(sampler: Sampler) -> Self {
+        match sampler {
+            Sampler::Independent => Self::Independent,
+            Sampler::Stratified => Self::Stratified { jitter: true },
+            Sampler::Sobol => Self::Sobol,
+        }
+    }
+}
+
+/// How much work to spend.
+#[derive(Clone, Copy, Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Budget {
+    /// Samples per pixel, all replicates together.
+    pub spp: u32,
+    /// Independent replicates.
+    pub replicates: u32,
+}
+
+/// Which biases matter.
+#[derive(Clone, Copy, Debug, Deserialize)]
+#[serde(default, deny_unknown_fields)]
+pub struct Bounds {
+    /// Of the image's mean, relative to it.
+    pub image: f64,
+    /// Of a tile's mean, relative to it (`image` of the image's mean is added).
+    pub tile: f64,
+    /// What equality leaves to rounding in single precision, relative to the mean.
+    pub rounding: f64,
+}
+
+impl Default for Bounds {
+    fn default() -> Self {
+        Self {
+            image: 0.005,
+            tile: 0.03,
+            rounding: 2e-5,
+        }
+    }
+}
+
+impl Estimator {
+    /// Its name in reports.
+    pub fn label(&self) -> String {
+        let integrator = self.integrator.as_deref().unwrap_or("path");
+        let sampler = match self.sampler {
+            Some(Sampler::Independent) => "independent",
+            Some(Sampler::Stratified) => "stratified",
+            Some(Sampler::Sobol) | None => "sobol",
+        };
+        let defines: String = pairs(&self.defines)
+            .map(|(key, value)| format!(", {key}={value}"))
+            .collect();
+        format!("{integrator}, {sampler}{defines}")
+    }
+
+    /// The budget that must suffice to find a fault: a quarter of the quick run's.
+    pub fn fault_budget(&self) -> Budget {
+        let Budget { spp, replicates } = self.quick;
+        Budget {
+            spp: (spp / 4).max(replicates),
+            replicates,
+        }
+    }
+
+    /// The budget of a run.
+    pub fn budget(&self, quick: bool) -> Budget {
+        if quick { self.quick } else { self.default }
+    }
+}
+
+/// Scene parameters as texts.
+pub fn pairs(
+    defines: &BTreeMap<String, toml::Value>,
+) -> impl Iterator<Item = (String, String)> + '_ {
+    defines.iter().map(|(key, value)| {
+        let text = match value {
+            toml::Value::String(text) => text.clone(),
+            other => other.to_string(),
+        };
+        (key.clone(), text)
+    })
+}
+
+impl Claim {
+    /// Reads the claim in a file.
+    ///
+    /// # Errors
+    /// Says what is wrong with the file, and where.
+    pub fn read(path: &Path) -> Result<Self, String> {
+        let error = |message: String| format!("{}: {message}", path.display());
+        let text = std::fs::read_to_string(path).map_err(|e| error(e.to_string()))?;
+        let mut claim: Self = toml::from_str(&text).map_err(|e| error(e.to_string()))?;
+        claim.name = path
+            .file_stem()
+            .unwrap_or_default()
+            .to_string_lossy()
+            .into_owned();
+        if claim.estimators.is_empty() {
+            return Err(error("a claim needs at least one estimator".to_owned()));
+        }
+        for estimator in &claim.estimators {
+            for budget in [estimator.quick, estimator.default] {
+                if budget.replicates < 2 || budget.spp < budget.replicates {
+                    return Err(error(
+                        "a budget needs at least 2 replicates of at least 1 sample".to_owned(),
+                    ));
+                }
+            }
+        }
+        Ok(claim)
+    }
+
+    /// Reads all claims in a folder, in the order of their names.
+    ///
+    /// # Errors
+    /// Says what is wrong with the first file that cannot be read.
+    pub fn read_all(folder: &Path) -> Result<Vec<Self>, String> {
+        let entries =
+            std::fs::read_dir(folder).map_err(|e| format!("{}: {e}", folder.display()))?;
+        let mut paths: Vec<PathBuf> = entries
+            .filter_map(|entry| Some(entry.ok()?.path()))
+            .filter(|path| path.extension().is_some_and(|e| e == "toml"))
+            .collect();
+        paths.sort();
+        paths.iter().map(|path| Self::read(path)).collect()
+    }
+
+    /// A number among the scene's parameters.
+    ///
+    /// # Errors
+    /// If it is not there or not a number.
+    pub fn number(&self, key: &str) -> Result<f64, String> {
+        let missing = || format!("`defines.{key}` must be a number: the closed form needs it");
+        let value = self.defines.get(key).ok_or_else(missing)?;
+        value
+            .as_float()
+            .or(value.as_integer().map(|n| n as f64))
+            .ok_or_else(missing)
+    }
+
+    /// A text among the scene's parameters.
+    ///
+    /// # Errors
+    /// If it is not there or not a text.
+    pub fn text(&self, key: &str) -> Result<&str, String> {
+        let value = self.defines.get(key).and_then(toml::Value::as_str);
+        value.ok_or_else(|| format!("`defines.{key}` must be a text: the closed form needs it"))
+    }
+}

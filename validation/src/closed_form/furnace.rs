@@ -1,0 +1,16 @@
+//! The grey furnace: a closed surface that emits L_e and reflects the fraction ρ diffusely.
+//!
+//! L = L_e + ρ L, hence L = L_e / (1 − ρ) everywhere and in every direction (Kirchhoff's law; for
+//! renderers: Jensen, *Realistic Image Synthesis Using Photon Mapping*, 2001, section 2.6).
+
+use super::light::{known, rgb};
+use crate::claim::Claim;
+use etalon::judge::Known;
+
+/// The picture of a furnace of `reflectance` that emits `radiance`.
+pub fn picture(claim: &Claim, size: [u32; 2]) -> Result<Known, String> {
+    let reflectance = claim.number("reflectance")?;
+    let radiance = claim.number("radiance")?;
+    let colour = rgb(|_| radiance / (1.0 - reflectance));
+    Ok(known(size, |_, _| colour))
+}

@@ -1,0 +1,205 @@
+//! Faults planted from outside: worlds that lie in one respect, to show that lies are found.
+//!
+//! A [`Faulty`] world passes every question on to a sound one and falsifies a kind of answer.
+//! The renderer itself has no hooks for this.
+
+use etalon_math::{Density, SolidAngle};
+use etalon_spectrum::Wavelengths;
+use etalon_transport::{
+    Bsdf, BsdfSample, Chance, Emission, Hit, LightSample, Mode, Passage, Ray, Vertex, World,
+};
+use glam::{Vec2, Vec3, Vec4};
+use serde::Deserialize;
+
+/// A physical fault.
+#[derive(Clone, Copy, Debug, Deserialize, PartialEq, Eq)]
+pub enum Fault {
+    /// Scattering without |cos θi|.
+    #[serde(rename = "dropped cosine")]
+    DroppedCosine,
+    /// Light sampling believes itself half as dense as it is where it samples, not where it is
+    /// asked: the multiple importance weights do not sum to one.
+    #[serde(rename = "wrong light density")]
+    WrongLightDensity,
+    /// All lights give 2 % too much.
+    #[serde(rename = "energy x 1.02")]
+    Energy,
+}
+
+impl std::fmt::Display for Fault {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.write_str(match self {
+            Self::DroppedCosine => "dropped cosine",
+            Self::WrongLightDensity => "wrong light density",
+            Self::Energy => "energy x 1.02",
+        })
+    }
+}
+
+/// A world with a fault.
+pub struct Faulty<'a, W> {
+    world: &'a W,
+    fault: Fault,
+}
+
+impl<'a, W: World> Faulty<'a, W> {
+    /// `world`, but for `fault`.
+    pub fn new(world: &'a W, fault: Fault) -> Self {
+        Self { world, fault }
+    }
+
+    fn energy(&self) -> f32 {
+        if self.fault == Fault::Energy {
+            1.02
+        } else {
+            1.0
+        }
+    }
+}
+
+/// A scattering model that may have lost its cosine.
+#[derive(Clone, Copy)]
+pub struct FaultyBsdf<B> {
+    model: B,
+    /// The normal whose cosine is missing.
+    missing: Option<Vec3>,
+}
+
+impl<B> FaultyBsdf<B> {
+    fn without_cosine(&self, wi: Vec3, value: Vec4) -> Vec4 {
+        match self.missing {
+            Some(normal) => value / normal.dot(wi).abs().max(1e-3),
+            None => value,
+        }
+    }
+}
+
+impl<B: Bsdf> Bsdf for FaultyBsdf<B> {
+    fn eval(&self, wo: Vec3, wi: Vec3, mode: Mode) -> Vec4 {
+        self.without_cosine(wi, self.model.eval(wo, wi, mode))
+    }
+
+    fn density(&self, wo: Vec3, wi: Vec3) -> Density<SolidAngle> {
+        self.model.density(wo, wi)
+    }
+
+    fn sample(&self, wo: Vec3, u_lobe: f32, u: Vec2, mode: Mode) -> Option<BsdfSample> {
+        let sample = self.model.sample(wo, u_lobe, u, mode)?;
+        if sample.chance.is_discrete() {
+            return Some(sample);
+        }
+        Some(BsdfSample {
+            value: self.without_cosine(sample.wi, sample.value),
+            ..sample
+        })
+    }
+
+    fn has_continuous(&self) -> bool {
+        self.model.has_continuous()
+    }
+
+    fn passing(&self) -> Vec4 {
+        self.model.passing()
+    }
+
+    fn passing_probability(&self) -> Vec4 {
+        self.model.passing_probability()
+    }
+
+    fn albedo(&self, wo: Vec3) -> Vec4 {
+        self.model.albedo(wo)
+    }
+}
+
+impl<W: World> World for Faulty<'_, W> {
+    type Bsdf<'w>
+        = FaultyBsdf<W::Bsdf<'w>>
+    where
+        Self: 'w;
+    type Camera = W::Camera;
+
+    fn camera(&self) -> &Self::Camera {
+        self.world.camera()
+    }
+
+    fn wavelengths(&self, u: f32) -> Wavelengths {
+        self.world.wavelengths(u)
+    }
+
+    fn intersect(&self, ray: &Ray) -> Option<Hit> {
+        self.world.intersect(ray)
+    }
+
+    fn vertex(&self, ray: &Ray, hit: &Hit) -> Vertex {
+        self.world.vertex(ray, hit)
+    }
+
+    fn passage(&self, ray: &Ray, wavelengths: &Wavelengths, crossings: u32) -> Option<Passage> {
+        self.world.passage(ray, wavelengths, crossings)
+    }
+
+    fn bsdf(&self, vertex: &Vertex, wo: Vec3, wavelengths: &Wavelengths) -> Self::Bsdf<'_> {
+        FaultyBsdf {
+            model: self.world.bsdf(vertex, wo, wavelengths),
+            missing: (self.fault == Fault::DroppedCosine).then_some(vertex.shading.n),
+        }
+    }
+
+    fn emitted(&self, vertex: &Vertex, wo: Vec3, wavelengths: &Wavelengths) -> Vec4 {
+        self.energy() * self.world.emitted(vertex, wo, wavelengths)
+    }
+
+    fn is_emitter(&self, hit: &Hit) -> bool {
+        self.world.is_emitter(hit)
+    }
+
+    fn background(&self, direction: Vec3, wavelengths: &Wavelengths) -> Vec4 {
+        self.energy() * self.world.background(direction, wavelengths)
+    }
+
+    fn has_background(&self) -> bool {
+        self.world.has_background()
+    }
+
+    fn sample_light(
+        &self,
+        from: &Vertex,
+        wavelengths: &Wavelengths,
+        u_light: f32,
+        u: Vec2,
+    ) -> Option<LightSample> {
+        let mut sample = self.world.sample_light(from, wavelengths, u_light, u)?;
+        sample.radiance *= self.energy();
+        if let (Fault::WrongLightDensity, Chance::Continuous(density)) = (self.fault, sample.chance)
+        {
+            sample.chance = Chance::Continuous(Density::per_lane(0.5 * density.lanes()));
+        }
+        Some(sample)
+    }
+
+    fn light_density(&self, from: Vec3, at: &Vertex, direction: Vec3) -> Density<SolidAngle> {
+        self.world.light_density(from, at, direction)
+    }
+
+    fn background_density(&self, from: Vec3, direction: Vec3) -> Density<SolidAngle> {
+        self.world.background_density(from, direction)
+    }
+
+    fn emit(
+        &self,
+        wavelengths: &Wavelengths,
+        u_light: f32,
+        u_position: Vec2,
+        u_direction: Vec2,
+    ) -> Option<Emission> {
+        let emission = (self.world).emit(wavelengths, u_light, u_position, u_direction)?;
+        Some(Emission {
+            weight: self.energy() * emission.weight,
+            ..emission
+        })
+    }
+
+    fn take_ray_count(&self) -> u64 {
+        self.world.take_ray_count()
+    }
+}

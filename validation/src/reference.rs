@@ -1,0 +1,144 @@
+//! References: pictures by Mitsuba 3 with standard errors and tile means, one replicate per seed.
+//!
+//! A reference is an EXR file of our own format whose replicates are Mitsuba's seeds, and a JSON
+//! file that says how it was made. `cargo xtask references` writes both.
+
+use crate::claim::Claim;
+use crate::folders;
+use crate::run;
+use etalon_film::{Developed, ExactFilm, RenderFacts, read_developed};
+use etalon_images::{Image, write_atomically};
+use serde::{Deserialize, Serialize};
+use std::io::Write;
+use std::path::PathBuf;
+
+/// How a reference was made.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Provenance {
+    /// The scene, below `scenes/`.
+    pub scene: String,
+    /// Its parameters.
+    pub defines: Vec<(String, String)>,
+    /// A hash over the scene's files and parameters.
+    pub scene_hash: String,
+    /// Mitsuba's version.
+    pub mitsuba: String,
+    /// Mitsuba's variant.
+    pub variant: String,
+    /// The seeds were 1 to this number.
+    pub seeds: u32,
+    /// Samples per pixel and seed.
+    pub spp: u32,
+}
+
+/// The picture's file.
+pub fn picture_path(name: &str) -> PathBuf {
+    folders::references().join(format!("{name}.exr"))
+}
+
+fn provenance_path(name: &str) -> PathBuf {
+    folders::references().join(format!("{name}.json"))
+}
+
+/// Reads a reference; `scene_hash` must be that of the scene at hand.
+///
+/// # Errors
+/// If there is none, it cannot be read, or it belongs to another state of the scene.
+pub fn read(name: &str, scene_hash: &str) -> Result<Developed, String> {
+    let again = format!("make it with `cargo xtask references --only {name}`");
+    let path = provenance_path(name);
+    let text =
+        std::fs::read_to_string(&path).map_err(|e| format!("{}: {e}; {again}", path.display()))?;
+    let provenance: Provenance =
+        serde_json::from_str(&text).map_err(|e| format!("{}: {e}; {again}", path.display()))?;
+    if provenance.scene_hash != scene_hash {
+        return Err(format!(
+            "the reference was made from another state of the scene; {again}"
+        ));
+    }
+    let picture = read_developed(&picture_path(name)).map_err(|e| format!("{e}; {again}"))?;
+    match &picture.metadata {
+        Some(metadata) if metadata.replicates == provenance.seeds => Ok(picture),
+        _ => Err(format!(
+            "{}: not as many replicates as seeds; {again}",
+            picture_path(name).display()
+        )),
+    }
+}
+
+/// What Mitsuba rendered.
+#[derive(Clone, Debug, Deserialize)]
+pub struct Rendered {
+    /// Its version.
+    pub mitsuba: String,
+    /// Its variant.
+    pub variant: String,
+    /// Width of the pictures (pixels).
+    pub width: usize,
+    /// Height of the pictures (pixels).
+    pub height: usize,
+}
+
+/// Writes the reference of a claim from the RGB pixels of all seeds, seed after seed. Returns
+/// the largest relative standard error of a channel's mean.
+///
+/// # Errors
+/// If the scene cannot be read, the pixels do not fit it, or a file cannot be written.
+pub fn write(claim: &Claim, rendered: &Rendered, spp: u32, pixels: &[f32]) -> Result<f64, String> {
+    let defines = run::defines(claim, None);
+    let loaded = run::load(claim, &defines, None)?;
+    let mut settings = loaded.compiled.film.clone();
+    settings.pixel_format = etalon_film::PixelFormat::Rgb;
+    let mut film = ExactFilm::new(settings, &[]).map_err(|e| e.message)?;
+    let size = rendered.width * rendered.height;
+    let mut seeds = 0;
+    for picture in pixels.chunks(3 * size) {
+        if picture.len() != 3 * size {
+            return Err("Mitsuba's pictures are incomplete".to_owned());
+        }
+        let plane = |c: usize| picture.iter().copied().skip(c).step_by(3).collect();
+        let image = Image::new(rendered.width, rendered.height)
+            .with("R", plane(0))
+            .with("G", plane(1))
+            .with("B", plane(2));
+        film.add_replicate(&image, u64::from(spp))?;
+        seeds += 1;
+    }
+    let provenance = Provenance {
+        scene: claim.scene.display().to_string(),
+        defines,
+        scene_hash: loaded.hash.clone(),
+        mitsuba: rendered.mitsuba.clone(),
+        variant: rendered.variant.clone(),
+        seeds,
+        spp,
+    };
+    let developed = film.develop(RenderFacts {
+        version: format!("Mitsuba {} {}", rendered.mitsuba, rendered.variant),
+        scene: provenance.scene.clone(),
+        scene_hash: loaded.hash,
+        integrator: loaded.integrator_name,
+        sampler: "independent".to_owned(),
+        seed: 1,
+        seconds: None,
+    });
+    developed
+        .write_exr(&picture_path(&claim.name))
+        .map_err(|e| e.to_string())?;
+    let path = provenance_path(&claim.name);
+    let text = format!("{:#}\n", serde_json::json!(provenance));
+    write_atomically(&path, |file| file.write_all(text.as_bytes())).map_err(|e| e.to_string())?;
+    relative_error(&developed)
+}
+
+/// The largest relative standard error of a channel's mean.
+fn relative_error(picture: &Developed) -> Result<f64, String> {
+    let metadata = picture.metadata.as_ref().ok_or("there are no statistics")?;
+    let mut largest = 0.0_f64;
+    for channel in ["R", "G", "B"] {
+        let (means, _) = etalon::judge::replicates(metadata, channel, None)?;
+        let summary = etalon_statistics::Summary::of(&means).ok_or("too few seeds")?;
+        largest = largest.max(summary.standard_error() / summary.mean().abs());
+    }
+    Ok(largest)
+}

@@ -1,0 +1,158 @@
+//! `cargo xtask references`: renders the references of claims with Mitsuba 3.
+//!
+//! Mitsuba runs in a Python environment of its own: the one whose interpreter `ETALON_PYTHON`
+//! names, or `target/venv`, which is made and given a pinned Mitsuba when it is not there. The
+//! LLVM variant is used if LLVM 17 or later is found (`DRJIT_LIBLLVM_PATH`), otherwise
+//! `scalar_spectral`.
+
+use etalon_validation::claim::{Claim, Oracle};
+use etalon_validation::reference::{self, Rendered};
+use etalon_validation::{folders, run};
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::process::Command;
+
+/// The version that references are made with.
+const MITSUBA: &str = "mitsuba==3.9.1";
+
+/// Where Debian and Ubuntu keep LLVM.
+const LIBRARIES: &str = "/usr/lib/x86_64-linux-gnu";
+
+/// Which references to make.
+#[derive(Clone, Debug, clap::Args)]
+#[command(
+    after_help = "Examples:\n  cargo xtask references\n  cargo xtask references --only cornell-box\n  ETALON_PYTHON=~/venv/bin/python cargo xtask references"
+)]
+pub(crate) struct Arguments {
+    /// Only the claims whose names contain this
+    #[arg(long, value_name = "NAME")]
+    only: Option<String>,
+    /// Only references that are missing or belong to another state of their scene
+    #[arg(long)]
+    stale: bool,
+    /// The variant of Mitsuba
+    #[arg(long, default_value = "llvm_ad_spectral")]
+    variant: String,
+}
+
+/// Makes references.
+pub(crate) fn run(arguments: &Arguments) -> Result<(), String> {
+    let claims = Claim::read_all(&folders::claims())?;
+    let python = python()?;
+    for claim in &claims {
+        let Oracle::Reference { spp, seeds } = claim.oracle else {
+            continue;
+        };
+        let wanted = |part: &String| claim.name.contains(part.as_str());
+        if !arguments.only.as_ref().is_none_or(wanted) {
+            continue;
+        }
+        let defines = run::defines(claim, None);
+        if arguments.stale {
+            let hash = run::load(claim, &defines, None)?.hash;
+            if reference::read(&claim.name, &hash).is_ok() {
+                continue;
+            }
+        }
+        let (rendered, pixels) =
+            render(&python, &arguments.variant, claim, &defines, [spp, seeds])?;
+        let error = reference::write(claim, &rendered, spp, &pixels)?;
+        println!(
+            "{}: {seeds} seeds of {spp} samples per pixel by {}; standard error of the mean {:.4} %",
+            claim.name,
+            rendered.variant,
+            100.0 * error
+        );
+    }
+    Ok(())
+}
+
+/// Renders all seeds of a claim's scene.
+fn render(
+    python: &Path,
+    variant: &str,
+    claim: &Claim,
+    defines: &[(String, String)],
+    [spp, seeds]: [u32; 2],
+) -> Result<(Rendered, Vec<f32>), String> {
+    let folder = folders::root().join("target/references");
+    fs::create_dir_all(&folder).map_err(|e| format!("{}: {e}", folder.display()))?;
+    let raw = folder.join(format!("{}.raw", claim.name));
+    let mut command = Command::new(python);
+    command
+        .arg(folders::root().join("validation/mitsuba_seeds.py"))
+        .arg(folders::scenes().join(&claim.scene))
+        .arg(&raw)
+        .args(["--spp", &spp.to_string(), "--seeds", &seeds.to_string()])
+        .args(["--variant", variant]);
+    for (key, value) in defines {
+        command.arg("-D").arg(format!("{key}={value}"));
+    }
+    if std::env::var_os("DRJIT_LIBLLVM_PATH").is_none()
+        && let Some(library) = llvm()
+    {
+        command.env("DRJIT_LIBLLVM_PATH", library);
+    }
+    let output = command
+        .stderr(std::process::Stdio::inherit())
+        .output()
+        .map_err(|e| format!("{}: {e}", python.display()))?;
+    if !output.status.success() {
+        return Err(format!("Mitsuba could not render `{}`", claim.name));
+    }
+    let text = String::from_utf8_lossy(&output.stdout);
+    let last = text.trim().lines().last().unwrap_or_default();
+    let rendered: Rendered = serde_json::from_str(last)
+        .map_err(|e| format!("what rendered `{}` is unclear: {e}", claim.name))?;
+    let bytes = fs::read(&raw).map_err(|e| format!("{}: {e}", raw.display()))?;
+    fs::remove_file(&raw).map_err(|e| format!("{}: {e}", raw.display()))?;
+    let pixels = bytes
+        .chunks_exact(4)
+        .map(|b| f32::from_le_bytes([b[0], b[1], b[2], b[3]]))
+        .collect();
+    Ok((rendered, pixels))
+}
+
+/// The newest LLVM that Mitsuba accepts, if the system has one.
+fn llvm() -> Option<PathBuf> {
+    (17..=21).rev().find_map(|version| {
+        let plain = format!("libLLVM.so.{version}");
+        let names = [format!("{plain}.1"), plain];
+        names
+            .iter()
+            .map(|name| Path::new(LIBRARIES).join(name))
+            .find(|path| path.exists())
+    })
+}
+
+/// A Python interpreter that has Mitsuba.
+fn python() -> Result<PathBuf, String> {
+    if let Some(python) = std::env::var_os("ETALON_PYTHON") {
+        return Ok(python.into());
+    }
+    let folder = folders::root().join("target/venv");
+    let python = folder.join("bin/python");
+    if !has_mitsuba(&python) {
+        println!("making {} with {MITSUBA}", folder.display());
+        check(Command::new("python3").args(["-m", "venv"]).arg(&folder))?;
+        let pip = ["-m", "pip", "install", "--quiet", MITSUBA, "numpy"];
+        check(Command::new(&python).args(pip))?;
+    }
+    Ok(python)
+}
+
+fn has_mitsuba(python: &Path) -> bool {
+    Command::new(python)
+        .args(["-c", "import mitsuba, numpy"])
+        .output()
+        .is_ok_and(|output| output.status.success())
+}
+
+fn check(command: &mut Command) -> Result<(), String> {
+    let name = command.get_program().to_string_lossy().into_owned();
+    match command.status() {
+        Ok(status) if status.success() => Ok(()),
+        Ok(status) => Err(format!("{name} failed: {status}")),
+        Err(error) => Err(format!("{name}: {error}")),
+    }
+}
