@@ -7,8 +7,7 @@
 //! Mitsuba's plugin of that name. The nested materials are chosen with the probabilities 1 − w
 //! and w.
 
-use crate::models::Traits;
-use crate::{Flattening, Material, Site};
+use crate::{Flattening, Material, Site, Traits};
 use etalon_math::Frame;
 use etalon_params::Params;
 use etalon_transport::{Build, Role, TextureId, Textures};
@@ -17,7 +16,8 @@ use glam::Vec4;
 /// Parameters to test with (see [`crate::exemplars`]).
 pub const EXEMPLARS: &[&str] = &[
     "blendbsdf weight=f:0.3 ( diffuse reflectance=u:0.8 ) ( roughconductor alpha=f:0.3 )",
-    "blendbsdf weight=f:0.6 ( mask opacity=f:0.5 ( plastic ) ) ( blendbsdf weight=f:0.5 ( roughdielectric alpha=f:0.4 int_ior=s:cauchy:1.4,0.05 ) ( diffuse ) )",
+    "blendbsdf weight=f:0.6 ( mask opacity=f:0.5 ( plastic ) ) ( blendbsdf weight=f:0.5 \
+     ( roughdielectric alpha=f:0.4 int_ior=s:cauchy:1.4,0.05 ) ( diffuse ) )",
 ];
 
 /// `blendbsdf` in a scene file.

@@ -19,6 +19,7 @@ pub mod lobe;
 pub mod model;
 pub mod models;
 pub mod resolved;
+pub mod traits;
 
 pub mod coating;
 pub mod fresnel;
@@ -49,3 +50,4 @@ pub use lobe::Lobe;
 pub use model::Model;
 pub use models::{Material, Scatter, exemplars, plugin_names};
 pub use resolved::{MAX_LOBES, Resolved};
+pub use traits::Traits;

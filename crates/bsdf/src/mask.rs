@@ -6,8 +6,7 @@
 //!
 //! Mitsuba's plugin of that name. Light passes straight with the probability 1 − o.
 
-use crate::models::Traits;
-use crate::{Flattening, Material, Site};
+use crate::{Flattening, Material, Site, Traits};
 use etalon_math::Frame;
 use etalon_params::Params;
 use etalon_transport::{Build, Role, TextureId, Textures};

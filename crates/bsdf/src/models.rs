@@ -3,52 +3,30 @@
 //! To add a model, write its file and add one line to the list at the end of this one. The
 //! scene keyword, the documentation table and the whole test harness follow from it.
 
-use crate::{Flattening, Lobe, MAX_LOBES, Model, Resolved, Site};
+use crate::{Flattening, Lobe, MAX_LOBES, Model, Resolved, Site, Traits};
 use etalon_math::Frame;
 use etalon_params::{Class, Diagnostic, Diagnostics, Node, Params};
 use etalon_spectrum::Wavelengths;
-use etalon_transport::Passage;
-use etalon_transport::{BsdfSample, Build, Mode, Textures, Vertex};
+use etalon_transport::{BsdfSample, Build, Mode, Passage, Textures, Vertex};
 use glam::{Vec2, Vec3, Vec4};
 use std::sync::Arc;
 
-/// What a material can do, known when it is loaded.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Traits {
-    /// The most lobes it resolves into.
-    pub lobes: usize,
-    /// Whether light may go straight on (`null`, `mask`, `thindielectric`).
-    pub passing: bool,
-    /// Whether light may reach the other side at all.
-    pub transmission: bool,
-}
-
-impl Traits {
-    /// One lobe that reflects.
-    pub const REFLECTING: Self = Self {
-        lobes: 1,
-        passing: false,
-        transmission: false,
-    };
-    /// One lobe that also transmits.
-    pub const REFRACTING: Self = Self {
-        lobes: 1,
-        passing: false,
-        transmission: true,
-    };
-}
-
 macro_rules! models {
     (
-        plain { $($plain_name:literal $plain:ident $plain_module:ident $traits:ident $(<$life:lifetime>)?,)* }
+        plain {
+            $($plain_name:literal $plain:ident $plain_module:ident $traits:ident
+                $(<$life:lifetime>)?,)*
+        }
         composed { $($composed_name:literal $composed:ident $composed_module:ident,)* }
         lobes { $($lobe:ident $lobe_module:ident,)* }
     ) => {
         /// A material as the scene describes it: a model's parameters with their textures.
         #[derive(Clone, Debug)]
         pub enum Material {
-            $(#[doc = concat!("`", $plain_name, "`.")] $plain(crate::$plain_module::Description),)*
-            $(#[doc = concat!("`", $composed_name, "`.")] $composed(crate::$composed_module::Description),)*
+            $(#[doc = concat!("`", $plain_name, "`.")]
+            $plain(crate::$plain_module::Description),)*
+            $(#[doc = concat!("`", $composed_name, "`.")]
+            $composed(crate::$composed_module::Description),)*
         }
 
         /// A model with plain parameters.

@@ -2,8 +2,7 @@
 //!
 //! It separates media without scattering. Mitsuba's plugin of that name.
 
-use crate::models::Traits;
-use crate::{Flattening, Site};
+use crate::{Flattening, Site, Traits};
 use etalon_math::Frame;
 use etalon_params::Params;
 use etalon_transport::{Build, Textures};

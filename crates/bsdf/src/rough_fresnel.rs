@@ -6,7 +6,8 @@
 //! ```
 //!
 //! The integrals run over the unit square that the visible normals are sampled from, by
-//! Gauss–Legendre quadrature, over half of it by symmetry. Single scattering only, so R + T < 1 for rough interfaces.
+//! Gauss–Legendre quadrature, over half of it by symmetry. Single scattering only, so R + T < 1
+//! for rough interfaces.
 
 use crate::fresnel;
 use crate::microfacet::Microfacet;

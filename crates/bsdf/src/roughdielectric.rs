@@ -27,9 +27,11 @@ use glam::{Vec2, Vec3, Vec4};
 pub const EXEMPLARS: &[&str] = &[
     "roughdielectric alpha=f:0.3",
     "roughdielectric alpha_u=f:0.2 alpha_v=f:0.5 distribution=s:ggx int_ior=f:1.8",
-    "roughdielectric alpha=f:0.4 sample_visible=b:false specular_reflectance=u:0.8 specular_transmittance=u:0.6",
+    "roughdielectric alpha=f:0.4 sample_visible=b:false specular_reflectance=u:0.8 \
+     specular_transmittance=u:0.6",
     "roughdielectric alpha=f:0.3 distribution=s:ggx int_ior=s:cauchy:1.4,0.05",
-    "roughdielectric alpha=f:0.35 int_ior=s:sellmeier:1.03961212,0.231792344,1.01046945,0.00600069867,0.0200179144,103.560653 ext_ior=s:diamond",
+    "roughdielectric alpha=f:0.35 ext_ior=s:diamond int_ior=s:sellmeier:1.03961212,0.231792344,\
+     1.01046945,0.00600069867,0.0200179144,103.560653",
 ];
 
 /// `roughdielectric` in a scene file.

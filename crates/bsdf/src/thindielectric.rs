@@ -10,8 +10,7 @@
 
 use crate::ior::RelativeIndex;
 use crate::mirror::Mirror;
-use crate::models::Traits;
-use crate::{Flattening, Scatter, Site, fresnel};
+use crate::{Flattening, Scatter, Site, Traits, fresnel};
 use etalon_math::Frame;
 use etalon_params::Params;
 use etalon_transport::{Build, Role, TextureId, Textures};

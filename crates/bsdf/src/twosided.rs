@@ -4,8 +4,7 @@
 //! the frame turned about, so that both see the light from their own front. One material serves
 //! both sides unless a second is given for the back. Mitsuba's plugin of that name.
 
-use crate::models::Traits;
-use crate::{Flattening, Material, Site};
+use crate::{Flattening, Material, Site, Traits};
 use etalon_math::Frame;
 use etalon_params::{Class, Diagnostic, Params};
 use etalon_transport::{Build, Textures};

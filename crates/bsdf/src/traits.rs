@@ -1,0 +1,27 @@
+//! What can be said of a material when it is loaded.
+
+/// What a material can do, known when it is loaded.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Traits {
+    /// The most lobes it resolves into.
+    pub lobes: usize,
+    /// Whether light may go straight on (`null`, `mask`, `thindielectric`).
+    pub passing: bool,
+    /// Whether light may reach the other side at all.
+    pub transmission: bool,
+}
+
+impl Traits {
+    /// One lobe that reflects.
+    pub const REFLECTING: Self = Self {
+        lobes: 1,
+        passing: false,
+        transmission: false,
+    };
+    /// One lobe that also transmits.
+    pub const REFRACTING: Self = Self {
+        lobes: 1,
+        passing: false,
+        transmission: true,
+    };
+}
