@@ -111,12 +111,10 @@ pub(crate) trait Others {
 /// decide whether a ray hits it.
 #[inline]
 pub(crate) fn has_area(corners: &[Vec3; 3]) -> bool {
-    let [a, b, c] = corners.map(|p| p.as_dvec3());
+    let [a, b, c] = corners;
+    let (a, b, c) = (a.as_dvec3(), b.as_dvec3(), c.as_dvec3());
     (b - a).cross(c - a).length_squared() > 0.0
 }
-
-/// Binary trees deeper than this are not worked on recursively but built anew by halving.
-const MAX_BINARY_DEPTH: u32 = 200;
 
 /// An accelerator.
 #[derive(Debug)]

@@ -3,7 +3,7 @@
 //!
 //! This is the only file that names `obvhs`. Clustering is quadratic in the number of *equal*
 //! boxes, so those are gathered into one leaf first; and should a tree still come out too deep to
-//! be worked on recursively, the primitives are halved instead, which always ends.
+//! be worked on recursively, [`BinaryTree::balanced`] makes another of the same leaves.
 
 use super::{Bounds, Primitives, has_area};
 use glam::{Vec3, Vec3A};
@@ -81,16 +81,22 @@ impl BinaryTree {
             leaves.retain(|leaf| leaf.prim_count != 0);
         }
         let gathered = gather(&mut leaves);
-        let mut tree = Self {
+        Self {
             nodes: cluster(leaves),
             gathered,
-        };
-        if tree.is_deep() {
-            let mut leaves: Vec<_> = tree.nodes.into_iter().filter(Bvh2Node::is_leaf).collect();
-            leaves.sort_unstable_by_key(|leaf| (leaf.first_index, leaf.prim_count));
-            tree.nodes = halve(leaves);
         }
-        tree
+    }
+
+    /// The same leaves, halved by their centres again and again: ⌈log₂ n⌉ levels.
+    pub(super) fn balanced(self) -> Self {
+        let mut leaves: Vec<_> = self.nodes.into_iter().filter(Bvh2Node::is_leaf).collect();
+        leaves.sort_unstable_by_key(|leaf| (leaf.first_index, leaf.prim_count));
+        let mut nodes = vec![Bvh2Node::default()];
+        halve_into(&mut nodes, 0, &mut leaves);
+        Self {
+            nodes,
+            gathered: self.gathered,
+        }
     }
 
     /// Whether there is nothing in it.
@@ -125,20 +131,6 @@ impl BinaryTree {
     #[inline]
     pub(super) fn half_area(&self, index: u32) -> f32 {
         self.nodes[index as usize].aabb().half_area()
-    }
-
-    /// Whether any leaf lies deeper than recursion may go.
-    fn is_deep(&self) -> bool {
-        let mut stack = vec![(0u32, 0u32)];
-        while let Some((index, depth)) = stack.pop() {
-            if depth > super::MAX_BINARY_DEPTH {
-                return true;
-            }
-            if let Some(Binary::Inner(children)) = (!self.is_empty()).then(|| self.node(index)) {
-                stack.extend(children.map(|child| (child, depth + 1)));
-            }
-        }
-        false
     }
 }
 
@@ -196,13 +188,6 @@ fn cluster(leaves: Vec<Bvh2Node>) -> Vec<Bvh2Node> {
 }
 
 /// Halves leaves by their centres along the longest axis, again and again.
-fn halve(mut leaves: Vec<Bvh2Node>) -> Vec<Bvh2Node> {
-    let mut nodes = vec![Bvh2Node::default()];
-    let count = leaves.len();
-    halve_into(&mut nodes, 0, &mut leaves[..count]);
-    nodes
-}
-
 fn halve_into(nodes: &mut Vec<Bvh2Node>, at: usize, leaves: &mut [Bvh2Node]) {
     if let [leaf] = leaves {
         nodes[at] = *leaf;
@@ -232,4 +217,79 @@ fn halve_into(nodes: &mut Vec<Bvh2Node>, at: usize, leaves: &mut [Bvh2Node]) {
     let (left, right) = leaves.split_at_mut(middle);
     halve_into(nodes, first, left);
     halve_into(nodes, first + 1, right);
+}
+
+#[cfg(test)]
+pub(super) mod tests {
+    use super::*;
+
+    /// Triangles side by side.
+    pub(crate) struct Row(pub(crate) u32);
+
+    impl Primitives for Row {
+        fn len(&self) -> usize {
+            self.0 as usize
+        }
+        fn triangle(&self, primitive: u32) -> Option<[Vec3; 3]> {
+            let at = Vec3::X * primitive as f32;
+            Some([at, at + Vec3::Y, at + Vec3::Z])
+        }
+        fn is_triangle(&self, _: u32) -> bool {
+            true
+        }
+        fn bounds(&self, primitive: u32) -> Bounds {
+            Bounds::around(&self.triangle(primitive).expect("a triangle"))
+        }
+    }
+
+    impl BinaryTree {
+        /// The most lopsided tree over a row.
+        pub(crate) fn chain(row: &Row) -> Self {
+            let leaf = |i: u32| Bvh2Node::new(aabb(&row.bounds(i)), 1, i);
+            let mut nodes = vec![leaf(0)];
+            for i in 1..row.0 {
+                // Node k of the chain is the left child, at an odd index.
+                let at = 2 * (i as usize - 1);
+                let here = if i == 1 { 0 } else { at - 1 };
+                let rest = (i - 1..row.0).map(|j| row.bounds(j)).reduce(Bounds::union);
+                let first = nodes.len() as u32;
+                nodes[here] = Bvh2Node::new(aabb(&rest.expect("not empty")), 0, first);
+                nodes.extend([leaf(i), leaf(i - 1)]);
+            }
+            Self {
+                nodes,
+                gathered: Vec::new(),
+            }
+        }
+
+        /// All primitives, in order, and the depth of the deepest.
+        pub(crate) fn leaves(&self) -> (Vec<u32>, u32) {
+            let (mut leaves, mut depth) = (Vec::new(), 0);
+            let mut stack = vec![(0, 0)];
+            while let Some((index, at)) = stack.pop() {
+                depth = depth.max(at);
+                match self.node(index) {
+                    Binary::Inner(children) => stack.extend(children.map(|c| (c, at + 1))),
+                    Binary::Leaf(primitive) => leaves.push(primitive),
+                    Binary::Gathered(all) => leaves.extend(all),
+                }
+            }
+            leaves.sort_unstable();
+            (leaves, depth)
+        }
+    }
+
+    #[test]
+    fn a_chain_is_balanced() {
+        let chain = BinaryTree::chain(&Row(1000));
+        let all: Vec<u32> = (0..1000).collect();
+        assert_eq!(chain.leaves(), (all.clone(), 999));
+        assert_eq!(chain.balanced().leaves(), (all, 10));
+    }
+
+    #[test]
+    fn clustering_loses_nothing() {
+        let tree = BinaryTree::build(&Row(5000));
+        assert_eq!(tree.leaves().0, (0..5000).collect::<Vec<u32>>());
+    }
 }

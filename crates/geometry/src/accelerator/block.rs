@@ -51,14 +51,17 @@ impl Block {
         let mut primitives = [u32::MAX; LANES];
         for (lane, (triangle, primitive)) in triangles.enumerate() {
             for (corner, p) in corners.iter_mut().zip(triangle) {
-                corner[0][lane] = p.x;
-                corner[1][lane] = p.y;
-                corner[2][lane] = p.z;
+                let [x, y, z] = corner;
+                (x[lane], y[lane], z[lane]) = (p.x, p.y, p.z);
             }
             primitives[lane] = primitive;
         }
+        let axes = |corner: usize| {
+            let [x, y, z] = corners[corner];
+            [f32x8::new(x), f32x8::new(y), f32x8::new(z)]
+        };
         Self {
-            corners: corners.map(|corner| corner.map(f32x8::new)),
+            corners: [axes(0), axes(1), axes(2)],
             primitives,
         }
     }

@@ -16,7 +16,7 @@
 use super::Primitives;
 use super::binary::{Binary, BinaryTree};
 use super::block::LANES;
-use core::sync::atomic::{AtomicU32, Ordering};
+use core::sync::atomic::{AtomicBool, AtomicU32, Ordering};
 
 /// Children of a wide node.
 pub(super) const WIDTH: usize = 8;
@@ -38,6 +38,16 @@ pub(super) struct Choices {
 
 const LEAF: u32 = 1 << 31;
 
+/// No leaf of a binary tree may lie deeper: it is worked on recursively, and a wide tree of as
+/// many levels must not overflow a ray's stack.
+pub(super) const MAX_DEPTH: u32 = 200;
+
+struct Visit<'a, P> {
+    tree: &'a BinaryTree,
+    primitives: &'a P,
+    too_deep: AtomicBool,
+}
+
 #[derive(Clone, Copy)]
 struct Cost {
     /// C(n, i) at index i.
@@ -46,14 +56,20 @@ struct Cost {
 }
 
 impl Choices {
-    pub(super) fn make(tree: &BinaryTree, primitives: &impl Primitives) -> Self {
+    /// The best choices; `None` if the tree is deeper than [`MAX_DEPTH`].
+    pub(super) fn make(tree: &BinaryTree, primitives: &impl Primitives) -> Option<Self> {
         let choices = Self {
             packed: (0..tree.len()).map(|_| AtomicU32::new(0)).collect(),
         };
+        let visit = Visit {
+            tree,
+            primitives,
+            too_deep: AtomicBool::new(false),
+        };
         if !tree.is_empty() {
-            choices.visit(tree, primitives, 0, 0);
+            choices.visit(&visit, 0, 0);
         }
-        choices
+        (!visit.too_deep.into_inner()).then_some(choices)
     }
 
     /// Whether a node that stands for itself (one tree) is a leaf.
@@ -91,13 +107,8 @@ impl Choices {
         child(node);
     }
 
-    fn visit(
-        &self,
-        tree: &BinaryTree,
-        primitives: &impl Primitives,
-        node: u32,
-        depth: u32,
-    ) -> Cost {
+    fn visit(&self, at: &Visit<'_, impl Primitives>, node: u32, depth: u32) -> Cost {
+        let tree = at.tree;
         let area = tree.half_area(node);
         let leaf = |triangles: u32, cost: f32| {
             self.packed[node as usize].store(LEAF, Ordering::Relaxed);
@@ -107,16 +118,20 @@ impl Choices {
             }
         };
         let [left, right] = match tree.node(node) {
-            Binary::Leaf(primitive) if primitives.is_triangle(primitive) => {
+            Binary::Leaf(primitive) if at.primitives.is_triangle(primitive) => {
                 return leaf(1, BLOCK_COST);
             }
             Binary::Leaf(_) => return leaf(TOO_MANY, OTHER_COST),
             Binary::Gathered(all) => {
                 return leaf(TOO_MANY, BLOCK_COST * all.len().div_ceil(LANES) as f32);
             }
+            Binary::Inner(_) if depth >= MAX_DEPTH => {
+                at.too_deep.store(true, Ordering::Relaxed);
+                return leaf(TOO_MANY, 0.0);
+            }
             Binary::Inner(children) => children,
         };
-        let visit = |child| self.visit(tree, primitives, child, depth + 1);
+        let visit = |child| self.visit(at, child, depth + 1);
         let (left, right) = if depth < PARALLEL_DEPTH {
             rayon::join(|| visit(left), || visit(right))
         } else {
@@ -153,5 +168,52 @@ impl Choices {
         }
         self.packed[node as usize].store(packed, Ordering::Relaxed);
         Cost { forest, triangles }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::accelerator::binary::tests::Row;
+
+    /// All wide nodes' numbers of children, and the primitives of all leaves.
+    fn walk(choices: &Choices, tree: &BinaryTree, node: u32, nodes: &mut Vec<usize>) -> u32 {
+        if choices.is_leaf(node) {
+            fn count(tree: &BinaryTree, node: u32) -> u32 {
+                match tree.node(node) {
+                    Binary::Inner([a, b]) => count(tree, a) + count(tree, b),
+                    Binary::Leaf(_) => 1,
+                    Binary::Gathered(all) => all.len() as u32,
+                }
+            }
+            let triangles = count(tree, node);
+            assert!(triangles as usize <= LANES);
+            return triangles;
+        }
+        let mut children = Vec::new();
+        choices.children(tree, node, &mut |child| children.push(child));
+        assert!((2..=WIDTH).contains(&children.len()));
+        nodes.push(children.len());
+        let walked = children.into_iter().map(|c| walk(choices, tree, c, nodes));
+        walked.sum()
+    }
+
+    #[test]
+    fn every_primitive_is_in_one_leaf_and_nodes_are_full() {
+        let row = Row(3000);
+        let tree = BinaryTree::build(&row);
+        let choices = Choices::make(&tree, &row).expect("shallow");
+        let mut nodes = Vec::new();
+        assert_eq!(walk(&choices, &tree, 0, &mut nodes), 3000);
+        let children: usize = nodes.iter().sum();
+        assert!(children as f64 > 5.0 * nodes.len() as f64, "{nodes:?}");
+    }
+
+    #[test]
+    fn deep_trees_are_refused() {
+        let row = Row(MAX_DEPTH + 2);
+        let chain = BinaryTree::chain(&row);
+        assert!(Choices::make(&chain, &row).is_none());
+        assert!(Choices::make(&chain.balanced(), &row).is_some());
     }
 }

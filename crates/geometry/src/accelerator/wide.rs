@@ -5,7 +5,7 @@
 
 use super::binary::{Binary, BinaryTree};
 use super::block::{Block, LANES};
-use super::collapse::{Choices, WIDTH};
+use super::collapse::{self, Choices, WIDTH};
 use super::node::{Link, MAX_INDEX, Node, Target};
 use super::{Bounds, Others, Primitives, block_bytes};
 use crate::nearest::Nearest;
@@ -28,9 +28,9 @@ const fn stack_for(depth: usize) -> usize {
 }
 const SMALL_STACK: usize = stack_for(9);
 const LARGE_STACK: usize = stack_for(MAX_DEPTH);
-/// No binary tree is deeper than [`super::MAX_BINARY_DEPTH`], and a wide one is not deeper than
-/// the binary one.
-const MAX_DEPTH: usize = super::MAX_BINARY_DEPTH as usize + 16;
+/// A wide tree is not deeper than the binary one, but for primitives with equal boxes, of which
+/// there are fewer than 8¹¹.
+const MAX_DEPTH: usize = collapse::MAX_DEPTH as usize + 12;
 
 /// Where a leaf's triangles come from.
 enum Leaf {
@@ -145,8 +145,11 @@ fn block(tree: &BinaryTree, primitives: &impl Primitives, leaf: &Leaf) -> Block 
 
 impl Wide {
     pub(crate) fn build(primitives: &impl Primitives) -> Self {
-        let tree = BinaryTree::build(primitives);
-        let choices = Choices::make(&tree, primitives);
+        let mut tree = BinaryTree::build(primitives);
+        let choices = Choices::make(&tree, primitives).unwrap_or_else(|| {
+            tree = core::mem::take(&mut tree).balanced();
+            Choices::make(&tree, primitives).expect("a balanced tree is shallow")
+        });
         let mut packer = Packer {
             tree: &tree,
             choices: &choices,

@@ -129,7 +129,9 @@ impl Mesh {
     /// The corners of a triangle.
     #[inline]
     pub fn corners(&self, primitive: u32) -> [Vec3; 3] {
-        self.triangles[primitive as usize].map(|i| self.positions[i as usize])
+        let [a, b, c] = self.triangles[primitive as usize];
+        let at = |i: u32| self.positions[i as usize];
+        [at(a), at(b), at(c)]
     }
 
     fn triangle_area(corners: [Vec3; 3]) -> f64 {
