@@ -67,8 +67,10 @@ impl Scope {
     /// Whose primitive it is, and its number there.
     #[inline]
     pub(crate) fn locate(&self, primitive: u32) -> (Thing, u32) {
-        let after = self.members.partition_point(|m| m.first <= primitive);
-        let member = self.members[after - 1];
+        let member = match self.members.as_slice() {
+            [only] => *only,
+            members => members[members.partition_point(|m| m.first <= primitive) - 1],
+        };
         (member.thing, primitive - member.first)
     }
 

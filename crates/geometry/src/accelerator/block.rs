@@ -141,16 +141,23 @@ impl Block {
     #[inline(never)]
     fn is_far_enough(&self, probe: &Probe, lane: usize, candidates: &Candidates) -> bool {
         let [kx, ky, kz] = probe.k;
-        let relative = self.corners.map(|corner| {
-            let at = |axis: usize| corner[axis].as_array()[lane] - probe.origin[axis];
-            [at(kx), at(ky), at(kz)]
-        });
-        let edges = [candidates.u, candidates.v, candidates.w].map(|e| e.as_array()[lane]);
-        let largest = |f: &dyn Fn(usize) -> f32| f(0).abs().max(f(1).abs()).max(f(2).abs());
-        let max_z = largest(&|i| relative[i][2]);
-        let max_x = largest(&|i| relative[i][0] - probe.shear[0] * relative[i][2]);
-        let max_y = largest(&|i| relative[i][1] - probe.shear[1] * relative[i][2]);
-        let max_e = largest(&|i| edges[i]);
+        let along = |corner: usize, axis: usize, origin: f32| {
+            self.corners[corner][axis.min(2)].as_array()[lane] - origin
+        };
+        let [ox, oy, oz] = probe.permuted;
+        let z = |i: usize| along(i, kz, oz);
+        let x = |i: usize| along(i, kx, ox) - probe.shear[0] * z(i);
+        let y = |i: usize| along(i, ky, oy) - probe.shear[1] * z(i);
+        let largest = |a: f32, b: f32, c: f32| a.abs().max(b.abs()).max(c.abs());
+        let max_x = largest(x(0), x(1), x(2));
+        let max_y = largest(y(0), y(1), y(2));
+        let max_z = largest(z(0), z(1), z(2));
+        let edge = |e: &f32x8| e.as_array()[lane];
+        let max_e = largest(
+            edge(&candidates.u),
+            edge(&candidates.v),
+            edge(&candidates.w),
+        );
         let delta_z = gamma(3) * max_z;
         let delta_x = gamma(5) * (max_x + max_z);
         let delta_y = gamma(5) * (max_y + max_z);

@@ -18,8 +18,8 @@ pub(crate) struct Wide {
     nodes: Vec<Node>,
     blocks: Vec<Block>,
     root: Option<Link>,
-    /// Levels of nodes.
-    depth: usize,
+    /// Whether [`SMALL_STACK`] is enough.
+    shallow: bool,
 }
 
 /// Room on a ray's stack: a node takes one entry off and puts up to eight on it.
@@ -178,14 +178,14 @@ impl Wide {
             nodes,
             blocks,
             root,
-            depth,
+            shallow: stack_for(depth) <= SMALL_STACK,
         }
     }
 
     /// Notes the nearest hit, if it wins over what is known.
     #[inline]
     pub(crate) fn intersect(&self, probe: &Probe, others: &impl Others, nearest: &mut Nearest) {
-        if stack_for(self.depth) <= SMALL_STACK {
+        if self.shallow {
             self.find_nearest::<SMALL_STACK>(probe, others, nearest);
         } else {
             self.find_nearest::<LARGE_STACK>(probe, others, nearest);
@@ -195,7 +195,7 @@ impl Wide {
     /// Whether anything is hit before `t_max`.
     #[inline]
     pub(crate) fn occluded(&self, probe: &Probe, others: &impl Others, t_max: f32) -> bool {
-        if stack_for(self.depth) <= SMALL_STACK {
+        if self.shallow {
             self.find_any::<SMALL_STACK>(probe, others, t_max)
         } else {
             self.find_any::<LARGE_STACK>(probe, others, t_max)
