@@ -37,3 +37,50 @@ pub fn to_direction(uv: Vec2) -> (Vec3, f32) {
 pub fn stretch(sin_theta: f32) -> f32 {
     2.0 * PI * PI * sin_theta
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use proptest::prelude::*;
+    use proptest::test_runner::RngSeed;
+
+    proptest! {
+        #![proptest_config(ProptestConfig {
+            failure_persistence: None,
+            rng_seed: RngSeed::Fixed(1),
+            ..ProptestConfig::with_cases(500)
+        })]
+
+        #[test]
+        fn square_and_sphere_correspond(u in 0.0f32..1.0, v in 0.02f32..0.98) {
+            let (direction, sin_theta) = to_direction(Vec2::new(u, v));
+            prop_assert!((direction.length() - 1.0).abs() < 1e-6);
+            let back = to_square(direction);
+            prop_assert!((0.0..1.0).contains(&back.x));
+            let turn = (back.x - u).abs();
+            // u is periodic; an angle's error grows as 1/sin θ toward the poles.
+            prop_assert!(turn.min(1.0 - turn) < 1e-6 / sin_theta && (back.y - v).abs() < 1e-6);
+        }
+
+        /// The stretch is the Jacobian, by central differences. Rejects a missing sin θ.
+        #[test]
+        fn stretch_is_the_jacobian(u in 0.1f32..0.9, v in 0.05f32..0.95) {
+            const STEP: f32 = 1.0 / 512.0;
+            let at = |du: f32, dv: f32| to_direction(Vec2::new(u + du, v + dv)).0;
+            let du = (at(STEP, 0.0) - at(-STEP, 0.0)) / (2.0 * STEP);
+            let dv = (at(0.0, STEP) - at(0.0, -STEP)) / (2.0 * STEP);
+            let jacobian = du.cross(dv).length();
+            let (_, sin_theta) = to_direction(Vec2::new(u, v));
+            // Central differences err by (2π·STEP)²/6 < 3·10⁻⁵ in either direction.
+            prop_assert!((jacobian / stretch(sin_theta) - 1.0).abs() < 2e-4);
+        }
+    }
+
+    #[test]
+    fn poles_and_axes() {
+        assert_eq!(to_square(Vec3::Y).y, 0.0);
+        assert!((to_square(Vec3::NEG_Y).y - 1.0).abs() < 1e-6);
+        assert!((to_square(Vec3::Z) - Vec2::splat(0.5)).abs().max_element() < 1e-6);
+        assert!((to_square(Vec3::X).x - 0.25).abs() < 1e-6);
+    }
+}

@@ -3,7 +3,7 @@
 use crate::recovered::luminance;
 use etalon_spectrum::{RgbCoefficients, RgbSpectrum};
 use etalon_transport::Role;
-use glam::{UVec2, Vec3};
+use glam::{DVec3, UVec2, Vec3};
 
 /// Linear (or raw) pixels without alpha, row after row from the top.
 #[derive(Clone, Debug, PartialEq)]
@@ -62,7 +62,7 @@ impl Image {
                 (Texels::Number(values), mean)
             }
             Values::Three(values) => {
-                let mean = mean(values.iter().map(|&rgb| luminance(Vec3::from_array(rgb))));
+                let mean = luminance(mean_colour(&values));
                 let texels = if raw {
                     Texels::Raw(values)
                 } else {
@@ -88,17 +88,50 @@ fn mean(values: impl ExactSizeIterator<Item = f32>) -> f32 {
     (values.map(f64::from).sum::<f64>() / count) as f32
 }
 
-/// Spectra of colours, each run of equal colours fitted once.
-fn upsample(values: Vec<[f32; 3]>, bright: bool, moved: &mut usize) -> Texels {
-    let mut last = None;
-    let mut fit = |rgb: [f32; 3]| match last {
-        Some((colour, coefficients)) if colour == rgb => coefficients,
-        _ => {
-            let RgbCoefficients(coefficients) = RgbCoefficients::from_rgb(rgb);
-            last = Some((rgb, coefficients));
-            coefficients
+/// The mean colour, summed in double precision.
+fn mean_colour(values: &[[f32; 3]]) -> Vec3 {
+    let sum = values.iter().fold(DVec3::ZERO, |sum, &rgb| {
+        sum + Vec3::from_array(rgb).as_dvec3()
+    });
+    (sum / values.len() as f64).as_vec3()
+}
+
+/// Coefficients of colours met lately: the images of the world repeat themselves.
+struct Recent {
+    /// Colours with their coefficients, each at the place that its hash gives it.
+    places: Vec<([f32; 3], [f32; 3])>,
+}
+
+impl Recent {
+    /// log₂ of the number of places: 96 KiB, which stay in a processor's second cache.
+    const BITS: u32 = 12;
+
+    fn new() -> Self {
+        let RgbCoefficients(black) = RgbCoefficients::from_rgb([0.0; 3]);
+        Self {
+            places: vec![([0.0; 3], black); 1 << Self::BITS],
         }
-    };
+    }
+
+    /// The coefficients of a colour.
+    #[inline]
+    fn coefficients(&mut self, rgb: [f32; 3]) -> [f32; 3] {
+        let [r, g, b] = rgb.map(f32::to_bits);
+        // Multiplicative hashing; the multipliers are odd and otherwise arbitrary.
+        let mixed = r.wrapping_mul(0x9e37_79b1) ^ g.wrapping_mul(0x85eb_ca77);
+        let hash = (mixed ^ b.wrapping_mul(0xc2b2_ae3d)).wrapping_mul(0x27d4_eb2f);
+        let place = &mut self.places[(hash >> (32 - Self::BITS)) as usize];
+        if place.0 != rgb {
+            *place = (rgb, RgbCoefficients::from_rgb(rgb).0);
+        }
+        place.1
+    }
+}
+
+/// Spectra of colours.
+fn upsample(values: Vec<[f32; 3]>, bright: bool, moved: &mut usize) -> Texels {
+    let mut recent = Recent::new();
+    let mut fit = |rgb: [f32; 3]| recent.coefficients(rgb);
     let mut inside = |rgb: [f32; 3], top: f32| {
         let clamped = rgb.map(|component| component.clamp(0.0, top));
         *moved += usize::from(clamped != rgb);
@@ -124,4 +157,35 @@ fn upsample(values: Vec<[f32; 3]>, bright: bool, moved: &mut usize) -> Texels {
         }
     });
     Texels::Bright(texels.collect())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Repetition and collisions do not change a texel: each is what its colour gives alone.
+    #[test]
+    fn texels_are_those_of_their_colours() {
+        let mut state = 1_u32;
+        let mut component = || {
+            state = state.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
+            (state >> 27) as f32 / 31.0
+        };
+        let colours: Vec<[f32; 3]> = (0..20_000)
+            .map(|_| [component(), component(), component()])
+            .collect();
+        let pixels = Pixels {
+            size: UVec2::new(20_000, 1),
+            values: Values::Three(colours.clone()),
+        };
+        let image = Image::new(pixels, false, Role::Reflectance);
+        let Texels::Colour(texels) = &image.texels else {
+            panic!("colours become coefficients");
+        };
+        for (colour, texel) in colours.iter().zip(texels) {
+            assert_eq!(RgbCoefficients::from_rgb(*colour).0, *texel);
+        }
+        assert_eq!(image.moved, 0);
+        assert!((image.mean - 0.5).abs() < 0.01);
+    }
 }

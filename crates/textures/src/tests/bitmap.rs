@@ -4,6 +4,8 @@ use super::*;
 use etalon_params::DMat4;
 use etalon_spectrum::Spectrum;
 use glam::DVec3;
+use proptest::prelude::*;
+use proptest::test_runner::RngSeed;
 
 /// 3 × 2 texels of one channel.
 const GREY: [f32; 6] = [0.1, 0.5, 0.9, 0.3, 0.7, 0.2];
@@ -231,4 +233,37 @@ fn integer_files_are_decoded_as_in_mitsuba() {
     let linear = read(false);
     assert!(close(linear.spectrum(0.75, 0.25), [0.215_860_43; 4], 1e-3));
     assert!(close(linear.spectrum(0.25, 0.75), [0.577_580_75; 4], 1e-3));
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig {
+        failure_persistence: None,
+        rng_seed: RngSeed::Fixed(1),
+        ..ProptestConfig::with_cases(300)
+    })]
+
+    /// An interpolated value lies between those of the texels, is continuous, and repeats with
+    /// the image (2 × 2 texels, so that whole turns are exact).
+    #[test]
+    fn interpolation_is_bounded_continuous_and_periodic(
+        u in -2.0f32..2.0, v in -2.0f32..2.0, turn in -3i32..3, mode in 0usize..3,
+    ) {
+        let wrap = ["repeat", "mirror", "clamp"][mode];
+        let texture = bitmap("colour.exr", vec![
+            ("raw", Value::Boolean(true)),
+            ("wrap_mode", text(wrap)),
+        ]);
+        let here = texture.colour(u, v);
+        prop_assert!(here.min_element() >= -1e-6 && here.max_element() <= 1.0 + 1e-6);
+        let near = texture.colour(u + 1e-4, v - 1e-4);
+        // At most 2 texels × the range 1 per unit of u or v.
+        prop_assert!((near - here).abs().max_element() < 5e-4);
+        let period = match mode {
+            0 => 1.0,
+            1 => 2.0,
+            _ => return Ok(()),
+        };
+        let far = texture.colour(u + period * turn as f32, v);
+        prop_assert!((far - here).abs().max_element() < 1e-5);
+    }
 }
