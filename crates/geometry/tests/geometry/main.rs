@@ -1,6 +1,7 @@
 //! Intersection, spawning and sampling of whole geometries.
 
 mod accelerators;
+mod description;
 mod instances;
 mod reintersection;
 mod sampling;

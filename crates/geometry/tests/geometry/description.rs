@@ -1,0 +1,189 @@
+//! Shapes from their descriptions: what is accepted, and what is said of the rest.
+
+use etalon_geometry::Shape;
+use etalon_params::{
+    Class, DMat4, DVec3, Diagnostics, FileId, Node, Params, Property, Span, Spanned, Value,
+};
+use etalon_transport::{AssetError, Assets, Build, MeshData, MeshFormat, Role, TextureId};
+use glam::{Vec2, Vec3};
+use std::sync::Arc;
+
+const HERE: Span = Span {
+    file: FileId(0),
+    start: 0,
+    end: 1,
+};
+
+/// A directory of four files.
+struct Files;
+
+impl Assets for Files {
+    fn bytes(&self, path: &str) -> Result<Arc<Vec<u8>>, AssetError> {
+        Err(AssetError {
+            message: format!("no file `{path}`"),
+            help: None,
+        })
+    }
+
+    fn mesh(&self, _: MeshFormat, path: &str) -> Result<MeshData, AssetError> {
+        let mut data = MeshData {
+            positions: vec![Vec3::ZERO, Vec3::X, Vec3::Y],
+            uvs: vec![Vec2::ZERO, Vec2::X, Vec2::new(0.0, 0.25)],
+            triangles: vec![[0, 1, 2]],
+            ..MeshData::default()
+        };
+        match path {
+            "good" => {}
+            "nan" => data.positions[1].y = f32::NAN,
+            "index" => data.triangles[0][2] = 3,
+            "empty" => data.triangles.clear(),
+            _ => {
+                return Err(AssetError {
+                    message: format!("no file `{path}`"),
+                    help: Some("try `good`".into()),
+                });
+            }
+        }
+        Ok(data)
+    }
+}
+
+struct Scene;
+
+impl Build for Scene {
+    fn assets(&self) -> &dyn Assets {
+        &Files
+    }
+    fn texture(&mut self, _: &Params<'_>, _: &str, _: Option<f64>, _: Role) -> TextureId {
+        TextureId::NONE
+    }
+    fn nested_texture(&mut self, _: &Arc<Node>, _: Role) -> TextureId {
+        TextureId::NONE
+    }
+    fn spectrum(&mut self, _: etalon_spectrum::Spectrum) -> TextureId {
+        TextureId::NONE
+    }
+}
+
+/// The shape, and every message in one string.
+fn make(plugin: &str, properties: Vec<(&str, Value)>) -> (Option<Shape>, String) {
+    let property = |(name, value): (&str, Value)| Property::new(name, HERE, value, HERE);
+    let node = Node {
+        class: Class::Shape,
+        plugin: Spanned {
+            value: plugin.into(),
+            span: HERE,
+        },
+        id: None,
+        span: HERE,
+        properties: properties.into_iter().map(property).collect(),
+    };
+    let diagnostics = Diagnostics::new();
+    let params = Params::new(&node, &diagnostics);
+    let shape = Shape::from_params(&params, &mut Scene);
+    params.finish();
+    let messages = diagnostics.into_sorted().into_iter();
+    let text = messages.map(|d| format!("{}; {}\n", d.message, d.help.unwrap_or_default()));
+    (shape, text.collect())
+}
+
+fn file(name: &str) -> (&str, Value) {
+    ("filename", Value::String(name.into()))
+}
+
+fn scale(x: f64, y: f64, z: f64) -> (&'static str, Value) {
+    let matrix = DMat4::from_scale(DVec3::new(x, y, z));
+    ("to_world", Value::Transform(matrix))
+}
+
+fn flag(name: &str, value: bool) -> (&str, Value) {
+    (name, Value::Boolean(value))
+}
+
+#[test]
+fn every_plugin_takes_its_parameters() {
+    for plugin in Shape::plugins() {
+        let mut properties = vec![
+            scale(2.0, 2.0, 2.0),
+            flag("flip_normals", true),
+            ("silhouette_sampling_weight", Value::Float(0.5)),
+        ];
+        match plugin {
+            "obj" | "ply" => properties.extend([
+                file("good"),
+                flag("face_normals", true),
+                flag("flip_tex_coords", true),
+            ]),
+            "sphere" => properties.extend([
+                ("center", Value::Vector(DVec3::ONE)),
+                ("radius", Value::Float(3.0)),
+            ]),
+            "cylinder" => properties.extend([
+                ("p0", Value::Vector(DVec3::ONE)),
+                ("p1", Value::Vector(DVec3::X)),
+                ("radius", Value::Integer(3)),
+            ]),
+            _ => {}
+        }
+        let (shape, messages) = make(plugin, properties);
+        assert!(
+            shape.is_some() && messages.is_empty(),
+            "{plugin}: {messages}"
+        );
+    }
+    assert!(make("teapot", vec![]).0.is_none());
+}
+
+#[test]
+fn mistakes_are_told() {
+    let refused = |plugin: &str, properties, needles: &[&str]| {
+        let (shape, messages) = make(plugin, properties);
+        assert!(shape.is_none(), "{plugin}");
+        for needle in needles {
+            assert!(messages.contains(needle), "{messages}");
+        }
+    };
+    refused("sphere", vec![scale(1.0, 1.0, 2.0)], &["must stay round"]);
+    refused("cylinder", vec![scale(1.0, 2.0, 1.0)], &["right circular"]);
+    refused(
+        "disk",
+        vec![scale(1.0, 0.0, 1.0)],
+        &["cannot be undone", "invertible"],
+    );
+    refused(
+        "cylinder",
+        vec![("p1", Value::Vector(DVec3::ZERO))],
+        &["must differ"],
+    );
+    refused("obj", vec![], &["`obj` needs the parameter `filename`"]);
+    refused(
+        "ply",
+        vec![file("nothing")],
+        &["no file `nothing`", "try `good`"],
+    );
+    refused(
+        "ply",
+        vec![file("nan")],
+        &["`nan` cannot be used", "vertex 1", "NaN"],
+    );
+    refused("ply", vec![file("index")], &["triangle 0", "only 3"]);
+    // A value that is refused is told, though reading goes on with the default.
+    let (_, messages) = make("sphere", vec![("radius", Value::Float(0.0))]);
+    assert!(messages.contains("cannot be 0"), "{messages}");
+    let (_, messages) = make("cylinder", vec![("radius", Value::Float(-1.0))]);
+    assert!(
+        messages.contains("cannot be -1") && messages.contains("positive"),
+        "{messages}"
+    );
+    let (_, messages) = make("cube", vec![flag("face_normal", true)]);
+    assert!(
+        messages.contains("no parameter `face_normal`"),
+        "{messages}"
+    );
+    // No triangles: worth saying, no mistake.
+    let (shape, messages) = make("ply", vec![file("empty")]);
+    assert!(
+        shape.is_some() && messages.contains("no triangles"),
+        "{messages}"
+    );
+}
