@@ -114,7 +114,6 @@ impl EnvironmentMap {
         let pixels = match decode(&bytes, filename) {
             Ok(pixels) => pixels,
             Err(message) => {
-                let message = format!("`{filename}`: {message}");
                 params.diagnostics.push(Diagnostic::error(span, message));
                 return None;
             }
@@ -305,7 +304,8 @@ fn decode(bytes: &[u8], filename: &str) -> Result<Pixels, String> {
     let (width, height) = (raster.width(), raster.height());
     if width < 2 || height < 3 {
         return Err(format!(
-            "an environment map needs at least 2 × 3 pixels, not {width} × {height}"
+            "`{filename}` is too small for an environment map: it needs at least 2 × 3 pixels, \
+             not {width} × {height}"
         ));
     }
     let channels = raster.channels();
@@ -321,7 +321,7 @@ fn decode(bytes: &[u8], filename: &str) -> Result<Pixels, String> {
         if colour.iter().any(|c| !c.is_finite()) {
             let (x, y) = (i % width, i / width);
             return Err(format!(
-                "the pixel in column {x} of row {y} is not finite (both counted from 0)"
+                "the pixel in column {x} of row {y} of `{filename}` is not finite (both counted from 0)"
             ));
         }
         negative += usize::from(colour.iter().any(|&c| c < 0.0));

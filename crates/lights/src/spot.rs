@@ -5,7 +5,7 @@
 //! f(θ) = 1 for θ ≤ b,   (c − θ)/(c − b) for b < θ < c,   0 beyond
 //! ```
 //!
-//! with b the beam width and c the cutoff angle. The optional texture is projected along the
+//! with b the beam width and c the cutoff angle; the edge is sharp if b ≥ c. The optional texture is projected along the
 //! axis: a direction (x, y, z) of the light's space sees u = ½ + x/(2 z tan c),
 //! v = ½ + y/(2 z tan c). Without texture the power is
 //!
@@ -51,17 +51,19 @@ impl SpotLight {
         let texture = params
             .has("texture")
             .then(|| build.texture(params, "texture", None, Role::Reflectance));
-        let (limit, what) = if texture.is_some() {
-            (90.0, "degrees above 0 and below 90 (with `texture`)")
+        let what = if texture.is_some() {
+            "degrees above 0 and below 90 (with `texture`)"
         } else {
-            (180.0, "degrees above 0 and below 180")
+            "degrees above 0, at most 180"
         };
-        let cutoff = params.float_where("cutoff_angle", 20.0, what, |a| a > 0.0 && a < limit);
+        let cutoff = params.float_where("cutoff_angle", 20.0, what, |angle| {
+            angle > 0.0 && angle <= 180.0 && (texture.is_none() || angle < 90.0)
+        });
         let beam = params.float_where(
             "beam_width",
             0.75 * cutoff,
-            "degrees from 0 to `cutoff_angle`",
-            |b| b >= 0.0 && b <= cutoff,
+            "a finite number of degrees not below 0",
+            |b| b >= 0.0 && b.is_finite(),
         );
         let pose = Pose::from_params(params)?;
         Some(Self::new(pose, intensity, texture, beam, cutoff))

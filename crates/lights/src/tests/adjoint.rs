@@ -217,12 +217,20 @@ fn analytic_powers() {
             ],
             2.0 * pi * (1.0 - 0.866_025_403_784_438_6 / (pi / 3.0)),
         ),
+        (
+            "spot",
+            vec![
+                ("cutoff_angle", Value::Float(180.0)),
+                ("beam_width", Value::Float(180.0)),
+            ],
+            4.0 * pi,
+        ),
         // A sharp edge: the cone's solid angle.
         (
             "spot",
             vec![
                 ("cutoff_angle", Value::Float(60.0)),
-                ("beam_width", Value::Float(60.0)),
+                ("beam_width", Value::Float(70.0)),
             ],
             pi,
         ),

@@ -24,8 +24,8 @@ fn mistakes_are_refused() {
             "must not vanish",
         ),
         ("spot", vec![("to_world", stretched)], "scale uniformly"),
-        ("spot", number("cutoff_angle", 180.0), "cannot be 180"),
-        ("spot", number("beam_width", 30.0), "cannot be 30"),
+        ("spot", number("cutoff_angle", 181.0), "cannot be 181"),
+        ("spot", number("beam_width", -1.0), "cannot be -1"),
         (
             "spot",
             vec![
