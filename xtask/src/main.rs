@@ -1,6 +1,7 @@
 //! The tasks of the house: `cargo xtask validate`, `references`, `scenes`, `tables`.
 
 mod references;
+mod scenes;
 mod tables;
 mod validate;
 
@@ -24,6 +25,8 @@ enum Task {
     Validate(validate::Arguments),
     /// Render the references of claims with Mitsuba 3
     References(references::Arguments),
+    /// Write the generated files of `scenes/` anew
+    Scenes,
     /// Write the generated tables of the spectrum crate anew
     Tables(tables::Arguments),
 }
@@ -32,6 +35,7 @@ fn main() -> ExitCode {
     let done = match Arguments::parse().task {
         Task::Validate(arguments) => return validate::run(&arguments),
         Task::References(arguments) => references::run(&arguments),
+        Task::Scenes => scenes::run(),
         Task::Tables(arguments) => tables::run(&arguments),
     };
     match done {

@@ -14,3 +14,10 @@ pub fn picture(claim: &Claim, size: [u32; 2]) -> Result<Known, String> {
     let colour = rgb(|_| radiance / (1.0 - reflectance));
     Ok(known(size, |_, _| colour))
 }
+
+/// The picture of things that absorb nothing under a sky of `radiance`: the sky alone.
+pub fn white(claim: &Claim, size: [u32; 2]) -> Result<Known, String> {
+    let radiance = claim.number("radiance")?;
+    let colour = rgb(|_| radiance);
+    Ok(known(size, |_, _| colour))
+}

@@ -1,0 +1,24 @@
+//! Means over pixels, by Gauss and Legendre's rule with 4 × 4 points.
+
+/// Nodes on [−1, 1] and their weights, halved (Abramowitz and Stegun 1964, table 25.4).
+const RULE: [(f64, f64); 4] = [
+    (-0.861_136_311_594_052_6, 0.173_927_422_568_726_93),
+    (-0.339_981_043_584_856_26, 0.326_072_577_431_273_07),
+    (0.339_981_043_584_856_26, 0.326_072_577_431_273_07),
+    (0.861_136_311_594_052_6, 0.173_927_422_568_726_93),
+];
+
+/// The mean of `f` over the pixel (`column`, `row`) of a film of `size`. The film's coordinates
+/// run from −1 to 1 to the right, and by as much per pixel upward, with 0 in the centre.
+pub fn mean(size: [u32; 2], [column, row]: [u32; 2], f: impl Fn(f64, f64) -> f64) -> f64 {
+    let [width, height] = size.map(f64::from);
+    let mut sum = 0.0;
+    for (u, wu) in RULE {
+        for (v, wv) in RULE {
+            let x = (2.0 * f64::from(column) + 1.0 + u - width) / width;
+            let y = (height - 2.0 * f64::from(row) - 1.0 - v) / width;
+            sum += wu * wv * f(x, y);
+        }
+    }
+    sum
+}

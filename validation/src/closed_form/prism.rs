@@ -1,0 +1,97 @@
+//! The prism: where a ray of each wavelength leaves it, and how much of it passes.
+//!
+//! Snell's law at both faces, sin θ = n(λ) sin θ′ with Cauchy's n = A + B/λ² (λ in µm), and
+//! Fresnel's transmittance for unpolarised light at both. A camera's ray that starts at x crosses
+//! the plane of the lamp at X = x·m(λ) + c(λ): faces are planes, so X is affine in x, and the part
+//! of a pixel that sees the lamp at a wavelength is an interval.
+
+use super::light::known;
+use crate::claim::Claim;
+use etalon::judge::Known;
+use etalon_math::float64::{cos, sin};
+use etalon_spectrum::{cie, colour_space};
+
+/// Half the width of what the camera sees (m).
+const HALF_WIDTH: f64 = 0.75;
+/// Tilt of each face against the camera's film: half the prism's angle (degrees).
+const TILT: f64 = 20.0;
+/// Height of the front face over the origin; the back face lies as far below.
+const FACE: f64 = 0.909_925_586;
+/// Height of the lamp.
+const LAMP: f64 = -5.0;
+/// Step of the integral over wavelengths (nm).
+const STEP: f64 = 0.05;
+
+/// The picture of the spectrum.
+pub fn picture(claim: &Claim, size: [u32; 2]) -> Result<Known, String> {
+    let (a, b) = (claim.number("cauchy_a")?, claim.number("cauchy_b")?);
+    let radiance = claim.number("radiance")?;
+    let (centre, half_width) = (claim.number("slit")?, claim.number("half_width")?);
+    let columns = size[0] as usize;
+    let mut xyz = vec![[0.0; 3]; columns];
+    let steps = (470.0 / STEP).round() as usize;
+    for step in 0..steps {
+        let lambda = 360.0 + (step as f64 + 0.5) * STEP;
+        let index = a + b / (lambda * lambda * 1e-6);
+        let (at_zero, transmittance) = trace(0.0, index);
+        let (at_one, _) = trace(1.0, index);
+        let slope = at_one - at_zero;
+        let ends = [centre - half_width, centre + half_width].map(|x| (x - at_zero) / slope);
+        let matching = cie::colour_matching(lambda);
+        let weight = radiance * transmittance * STEP / cie::NORMALISATION;
+        for (column, sum) in xyz.iter_mut().enumerate() {
+            let edge = |i: usize| HALF_WIDTH * (2.0 * i as f64 / columns as f64 - 1.0);
+            let (left, right) = (edge(column), edge(column + 1));
+            let seen = (right.min(ends[1]) - left.max(ends[0])).max(0.0) / (right - left);
+            for (sum, matching) in sum.iter_mut().zip(matching) {
+                *sum += weight * seen * matching;
+            }
+        }
+    }
+    let colours: Vec<[f64; 3]> = xyz.into_iter().map(colour_space::xyz_to_rgb).collect();
+    Ok(known(size, |column, _| colours[column as usize]))
+}
+
+/// Where the ray that starts at `x` and goes straight down crosses the lamp's plane, and how much
+/// of it passes both faces.
+fn trace(x: f64, index: f64) -> (f64, f64) {
+    let tilt = TILT.to_radians();
+    let front = [sin(tilt), cos(tilt)];
+    let back = [sin(tilt), -cos(tilt)];
+    let start = [x, 10.0];
+    let (entered, inside, first) = cross(start, [0.0, -1.0], front, FACE, 1.0 / index);
+    let (left, outside, second) = cross(entered, inside, back, -FACE, index);
+    let t = (LAMP - left[1]) / outside[1];
+    (left[0] + t * outside[0], first * second)
+}
+
+/// Crosses the plane through (0, `height`) with the outward normal `normal`: the point, the
+/// direction behind it, and the transmittance. `ratio` is the index before over the one behind.
+fn cross(
+    from: [f64; 2],
+    direction: [f64; 2],
+    normal: [f64; 2],
+    height: f64,
+    ratio: f64,
+) -> ([f64; 2], [f64; 2], f64) {
+    let dot = |a: [f64; 2], b: [f64; 2]| a[0] * b[0] + a[1] * b[1];
+    let across = dot(direction, normal);
+    let t = dot([-from[0], height - from[1]], normal) / across;
+    let point = [from[0] + t * direction[0], from[1] + t * direction[1]];
+    // The normal against the ray.
+    let facing = if across < 0.0 {
+        normal
+    } else {
+        normal.map(|c| -c)
+    };
+    let cosine = across.abs();
+    let behind = (1.0 - ratio * ratio * (1.0 - cosine * cosine)).sqrt();
+    let turn = ratio * cosine - behind;
+    let refracted = [
+        ratio * direction[0] + turn * facing[0],
+        ratio * direction[1] + turn * facing[1],
+    ];
+    let s = (ratio * cosine - behind) / (ratio * cosine + behind);
+    let p = (cosine - ratio * behind) / (cosine + ratio * behind);
+    (point, refracted, 1.0 - 0.5 * (s * s + p * p))
+}

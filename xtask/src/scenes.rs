@@ -1,0 +1,40 @@
+//! `cargo xtask scenes`: writes the generated files of `scenes/` anew: a sky, leaves, trees and
+//! where they stand, a thousand lamps.
+//!
+//! Nothing here is random: whatever should look irregular follows [`sequence`], so that the files
+//! are the same on every machine.
+
+mod forest;
+mod lamps;
+mod leaf;
+mod ply;
+mod sequence;
+mod sky;
+
+use etalon_validation::folders;
+use std::fs;
+use std::path::Path;
+
+/// Writes the files, and says on standard output what it wrote.
+pub(crate) fn run() -> Result<(), String> {
+    let scenes = folders::scenes();
+    let sky = scenes.join("spheres/sky.exr");
+    sky::write(&sky)?;
+    println!("{}", sky.display());
+    for (name, bytes) in leaf::pictures()? {
+        put(&scenes.join("foliage").join(name), &bytes)?;
+    }
+    for (name, bytes) in forest::files() {
+        put(&scenes.join("forest").join(name), &bytes)?;
+    }
+    put(
+        &scenes.join("many-lights/lamps.xml"),
+        lamps::fragment().as_bytes(),
+    )
+}
+
+fn put(path: &Path, bytes: &[u8]) -> Result<(), String> {
+    fs::write(path, bytes).map_err(|e| format!("{}: {e}", path.display()))?;
+    println!("{}: {} bytes", path.display(), bytes.len());
+    Ok(())
+}
