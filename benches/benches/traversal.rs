@@ -248,10 +248,14 @@ fn rate(rays: &[Ray], work: impl Fn(&Ray) -> bool + Sync) -> (f64, f64) {
 
 fn report(name: &str, geometry: &Geometry, rays: &[Ray]) {
     let near = rate(rays, |ray| geometry.intersect(ray).is_some());
+    let full = rate(rays, |ray| {
+        let hit = geometry.intersect(ray);
+        hit.is_some_and(|hit| geometry.vertex(ray, &hit).position.is_finite())
+    });
     let any = rate(rays, |ray| geometry.occluded(ray));
     println!(
-        "{name:<10} closest {:6.2} ({:6.2})   shadow {:6.2} ({:6.2})",
-        near.0, near.1, any.0, any.1
+        "{name:<10} closest {:6.2} ({:6.2})   with vertex {:6.2} ({:6.2})   shadow {:6.2} ({:6.2})",
+        near.0, near.1, full.0, full.1, any.0, any.1
     );
 }
 

@@ -169,6 +169,7 @@ impl Geometry {
             .occluded(&probe, &WorldOthers(self), ray.t_max)
     }
 
+    #[inline]
     fn owner(&self, shape: ShapeId, instance: InstanceId) -> Owner {
         let Attachment { material, light } = self.attachments[shape.0 as usize];
         Owner {
@@ -186,6 +187,7 @@ impl Geometry {
     }
 
     /// The differential geometry of a hit.
+    #[inline]
     pub fn vertex(&self, ray: &Ray, hit: &Hit) -> Vertex {
         let shape = &self.shapes[hit.shape.0 as usize];
         let placement = hit

@@ -2,6 +2,9 @@
 
 use glam::Vec3;
 
+/// Rays and geometry are nearer than this (m) to the origin of space, or not met.
+const FARTHEST: f32 = 1e30;
+
 /// A ray with all that the intersection tests derive from it, in the space of one accelerator.
 ///
 /// **Triangles** (Woop, Benthin & Wald 2013, "Watertight Ray/Triangle Intersection", JCGT 2(1)):
@@ -68,6 +71,13 @@ impl Probe {
             entered: [0.0; 3],
             left: [0.0; 3],
         };
+        if !(reach < FARTHEST && direction.is_finite()) {
+            // Enters every box at +∞ and leaves it at −∞: nothing is hit.
+            probe.inverse = [1.0; 3];
+            probe.entered = [f32::NEG_INFINITY; 3];
+            probe.left = [f32::INFINITY; 3];
+            return probe;
+        }
         for axis in 0..3 {
             let inverse = (1.0 / d[axis]).clamp(-largest, largest);
             let outward = pad.copysign(d[axis]);

@@ -148,13 +148,15 @@ impl Choices {
         let (below, share) = distribute(WIDTH);
         let mut packed = (share as u32) << (3 * (WIDTH - 2));
         let triangles = left.triangles.saturating_add(right.triangles);
-        let as_leaf = if triangles as usize <= LANES {
+        let fits = triangles as usize <= LANES;
+        let as_leaf = if fits {
             BLOCK_COST * area
         } else {
             f32::INFINITY
         };
         let as_node = area + below;
-        if as_leaf <= as_node {
+        // Boxes of more than 10¹⁹ m have infinite areas, so the costs alone do not decide.
+        if fits && as_leaf <= as_node {
             packed |= LEAF;
         }
         let mut forest = [as_leaf.min(as_node); WIDTH];

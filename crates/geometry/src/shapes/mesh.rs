@@ -158,9 +158,11 @@ impl Mesh {
 
     /// The surface point with barycentric coordinates `b` of a triangle's second and third
     /// corner.
+    #[inline]
     pub(crate) fn surface(&self, primitive: u32, b: Vec2) -> Surface {
-        let triangle = self.triangles[primitive as usize];
-        let [p0, p1, p2] = triangle.map(|i| self.positions[i as usize]);
+        let [i0, i1, i2] = self.triangles[primitive as usize].map(|i| i as usize);
+        let positions = &self.positions;
+        let (p0, p1, p2) = (positions[i0], positions[i1], positions[i2]);
         let b0 = 1.0 - b.x - b.y;
         let (e1, e2) = (p1.as_dvec3() - p0.as_dvec3(), p2.as_dvec3() - p0.as_dvec3());
         let (b1, b2) = (f64::from(b.x), f64::from(b.y));
@@ -175,7 +177,7 @@ impl Mesh {
         let mut normal = if self.reversed { -cross } else { cross };
         let mut shading_normal = normal;
         if !self.normals.is_empty() {
-            let [n0, n1, n2] = triangle.map(|i| self.normals[i as usize]);
+            let (n0, n1, n2) = (self.normals[i0], self.normals[i1], self.normals[i2]);
             let sum = n0 * b0 + n1 * b.x + n2 * b.y;
             shading_normal = sum.try_normalize().unwrap_or(normal);
             if shading_normal.dot(normal) < 0.0 {
@@ -186,7 +188,7 @@ impl Mesh {
         let (uv, dp_du, dp_dv) = if self.uvs.is_empty() {
             (b, e1, e2)
         } else {
-            let [t0, t1, t2] = triangle.map(|i| self.uvs[i as usize]);
+            let (t0, t1, t2) = (self.uvs[i0], self.uvs[i1], self.uvs[i2]);
             let (d1, d2) = (t1 - t0, t2 - t0);
             let inverse = 1.0 / d1.perp_dot(d2);
             let uv = t0 * b0 + t1 * b.x + t2 * b.y;

@@ -327,3 +327,41 @@ fn nothing_is_hit_where_nothing_is() {
     let pair = both_of(|| vec![mesh_of(Vec::new(), Vec::new())]);
     assert!(!agree(&pair, &Ray::new(Vec3::ZERO, Vec3::X, 0.0)));
 }
+
+#[test]
+fn rays_that_make_no_sense_do_no_harm() {
+    let pair = both(mixture);
+    let odd = [
+        0.0,
+        -0.0,
+        1.0,
+        f32::NAN,
+        f32::INFINITY,
+        f32::NEG_INFINITY,
+        f32::MIN_POSITIVE,
+        1e-40,
+        1e38,
+    ];
+    for x in odd {
+        for y in odd {
+            for z in odd {
+                for geometry in &pair {
+                    let p = Vec3::new(x, y, z);
+                    for ray in [
+                        Ray::new(p, Vec3::X, 0.0),
+                        Ray::new(Vec3::ONE, p, 0.0),
+                        Ray {
+                            t_max: x,
+                            ..Ray::new(p, p, 0.0)
+                        },
+                    ] {
+                        geometry.occluded(&ray);
+                        geometry
+                            .intersect(&ray)
+                            .map(|hit| geometry.vertex(&ray, &hit));
+                    }
+                }
+            }
+        }
+    }
+}
