@@ -1,5 +1,5 @@
 //! Point, spot and directional lights against `sample_direction` of Mitsuba 3.9.1
-//! (`scalar_spectral`); values are given over D65, which Mitsuba tabulates coarser.
+//! (`scalar_spectral`); values are given over D65, which Mitsuba scales a little differently.
 
 use super::*;
 use etalon_params::{DMat4, DVec3};
