@@ -102,7 +102,7 @@ impl Model for Dielectric {
             Mode::Importance => 1.0,
         };
         (transmitted.x > 0.0).then(|| BsdfSample {
-            wi: Vec3::new(-wo.x / eta.x, -wo.y / eta.x, cos_t.copysign(-wo.z)),
+            wi: Vec3::new(-wo.x / eta.x, -wo.y / eta.x, cos_t.copysign(-wo.z)).normalize(),
             value: self.transmittance * transmitted * scale,
             chance: Chance::Discrete(Atom(transmitted)),
             eta: eta.x,

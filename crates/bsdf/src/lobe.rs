@@ -66,13 +66,13 @@ impl Lobe<'_> {
 
     /// The factor by which a shading normal makes importance scatter differently from radiance,
     /// |wo·nₛ| |wi·n_g| / (|wo·n_g| |wi·nₛ|) (Veach 1997, section 5.3, eq. 5.19): exactly 1
-    /// where the two normals agree, zero where the geometric normal sees a direction edge-on.
+    /// where the two normals agree, zero where `wo` or `wi` is edge-on to within rounding.
     #[inline]
     fn adjoint(&self, normal: Vec3, wo: Vec3, wi: Vec3) -> f32 {
         let shading = self.frame.n;
-        let below = (wo.dot(normal) * wi.dot(shading)).abs();
-        if below > 0.0 {
-            (wo.dot(shading) * wi.dot(normal)).abs() / below
+        let (cos_o, cos_i) = (wo.dot(normal).abs(), wi.dot(shading).abs());
+        if cos_o.min(cos_i) > f32::EPSILON {
+            (wo.dot(shading) * wi.dot(normal)).abs() / (cos_o * cos_i)
         } else {
             0.0
         }

@@ -10,10 +10,11 @@ pub fn reflect(wo: Vec3, m: Vec3) -> Vec3 {
 
 /// The refracted direction for `wo` on the side of the unit normal `m`, the relative index `eta`
 /// (medium entered over medium left) and the cosine `cos_t` that Fresnel's equations gave
-/// (Snell's law in vector form).
+/// (Snell's law in vector form). Brought to unit length: a large ratio of indices magnifies the
+/// rounding of `wo`.
 #[inline]
 pub fn refract(wo: Vec3, m: Vec3, eta: f32, cos_t: f32) -> Vec3 {
-    m * (wo.dot(m) / eta - cos_t) - wo / eta
+    (m * (wo.dot(m) / eta - cos_t) - wo / eta).normalize()
 }
 
 /// The unit vector half-way between two directions on one side, and the cosine to either; `None`

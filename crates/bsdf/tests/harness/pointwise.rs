@@ -164,7 +164,7 @@ fn sound(v: Vec4) -> bool {
 
 proptest! {
     #![proptest_config(ProptestConfig {
-        cases: 3000,
+        cases: 1500,
         rng_seed: RngSeed::Fixed(20),
         failure_persistence: None,
         ..ProptestConfig::default()
@@ -200,5 +200,26 @@ proptest! {
 }
 
 thread_local! {
-    static EXEMPLARS: Vec<Sample> = Sample::exemplars();
+    static EXEMPLARS: Vec<Sample> = Sample::exemplars()
+        .into_iter()
+        .chain(EXTREMES.iter().map(|text| Sample::new(text)))
+        .collect();
 }
+
+/// Parameters at the ends of what is accepted.
+const EXTREMES: [&str; 14] = [
+    "diffuse reflectance=u:0",
+    "dielectric int_ior=f:1 ext_ior=f:1",
+    "dielectric int_ior=f:1000 ext_ior=f:0.001",
+    "thindielectric int_ior=f:1 ext_ior=f:1",
+    "roughconductor alpha=f:0",
+    "roughconductor alpha=f:0 distribution=s:ggx eta=u:1 k=u:0",
+    "roughconductor alpha_u=f:0 alpha_v=f:50 eta=u:1000 k=u:1000",
+    "roughdielectric alpha=f:0 int_ior=f:1.00001 ext_ior=f:1",
+    "roughdielectric alpha=f:50 int_ior=f:100 distribution=s:ggx",
+    "roughdielectric alpha=f:3 int_ior=f:0.01 sample_visible=b:false",
+    "plastic int_ior=f:1 ext_ior=f:1 specular_reflectance=u:0 diffuse_reflectance=u:0",
+    "plastic int_ior=f:50 nonlinear=b:true diffuse_reflectance=u:1",
+    "roughplastic alpha=f:0 int_ior=f:50 diffuse_reflectance=u:1",
+    "roughplastic alpha=f:5 distribution=s:ggx int_ior=f:0.1",
+];
