@@ -5,7 +5,14 @@ use std::path::PathBuf;
 
 /// A spectral renderer whose estimators are held to account by statistics.
 #[derive(Debug, Parser)]
-#[command(name = "etalon", version, about, max_term_width = 100)]
+#[command(
+    name = "etalon",
+    version,
+    about,
+    max_term_width = 100,
+    after_help = "\
+Exit codes: 0 done, 2 bad input or usage, 130 ended by Ctrl-C; `compare`: 1 different, 3 inconclusive."
+)]
 pub struct Cli {
     /// What to do.
     #[command(subcommand)]
@@ -17,6 +24,10 @@ pub struct Cli {
 pub enum Command {
     /// Render a Mitsuba 3 XML scene to an EXR with standard errors.
     #[command(after_help = "\
+Ctrl-C finishes the pass and writes the image; a second one ends at once, without image.
+
+Exit codes: 0 done, 2 bad input or usage, 130 ended by Ctrl-C.
+
 Examples:
   etalon render scenes/cornell-box/scene.xml -o cornell.exr
   etalon render scene.xml -o out.exr --spp 256 --seed 7 -D resx=512 -D resy=512
@@ -24,14 +35,16 @@ Examples:
     Render(RenderArgs),
     /// Decide whether two images agree, tile by tile, from their replicates.
     #[command(after_help = "\
-Exit code: 0 equivalent, 1 different, 3 inconclusive, 2 bad input.
+Exit codes: 0 equivalent, 1 different, 2 bad input or usage, 3 inconclusive.
 
 Examples:
   etalon compare a.exr b.exr
   etalon compare a.exr b.exr --report difference.html --bound 0.01")]
     Compare(CompareArgs),
-    /// Turn an EXR into a picture one can look at (PNG, sRGB).
+    /// Turn an image into a picture one can look at (PNG, sRGB), or into HDR or PFM.
     #[command(after_help = "\
+Exit codes: 0 done, 2 bad input or usage.
+
 Examples:
   etalon convert out.exr out.png
   etalon convert out.exr bright.png --exposure 2
@@ -39,6 +52,8 @@ Examples:
     Convert(ConvertArgs),
     /// Say what is in a scene or an image.
     #[command(after_help = "\
+Exit codes: 0 done, 2 bad input or usage.
+
 Examples:
   etalon info out.exr
   etalon info scene.xml")]
@@ -112,7 +127,7 @@ pub struct CompareArgs {
 pub struct ConvertArgs {
     /// The image to read (.exr, .hdr, .pfm).
     pub input: PathBuf,
-    /// The picture to write (.png).
+    /// The picture to write (.png, .hdr, .pfm).
     pub output: PathBuf,
     /// Brighten by so many stops (a factor of 2 each).
     #[arg(

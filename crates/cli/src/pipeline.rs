@@ -1,11 +1,11 @@
 //! From a scene file to an image: the way every command and every claim takes.
 
-use crate::VERSION;
-use etalon_film::{Developed, ExactFilm, RenderFacts, recorded_seconds};
+use crate::{VERSION, resources};
+use etalon_film::{Developed, ExactFilm, FilmSettings, Filter, RenderFacts, recorded_seconds};
 use etalon_formats::FileAssets;
 use etalon_formats::mitsuba::{self, Document, ReadOptions, ReadOutcome};
 use etalon_integrators::{AnyIntegrator, Outcome, Plan, Progress};
-use etalon_params::{Class, Diagnostic, Diagnostics, Node, Params, Sources, Value};
+use etalon_params::{Class, Diagnostic, Diagnostics, Node, Params, Sources, Span, Value};
 use etalon_sampling::SamplerKind;
 use etalon_scene::Compiled;
 use std::path::{Path, PathBuf};
@@ -51,9 +51,14 @@ pub struct Loaded {
     pub load_time: Duration,
     /// Time to build the accelerator.
     pub build_time: Duration,
+    /// Where the film is described, for messages about its size.
+    film_place: Span,
 }
 
 /// Reads and compiles a scene.
+///
+/// # Errors
+/// Everything that is wrong with it, as far as one reading can find.
 pub fn load(path: &Path, options: &LoadOptions) -> Result<Loaded, Refusal> {
     let start = Instant::now();
     let read = mitsuba::read(
@@ -78,18 +83,24 @@ pub fn load(path: &Path, options: &LoadOptions) -> Result<Loaded, Refusal> {
         let assets = FileAssets::new(document.search.clone());
         let compiled = etalon_scene::compile(&document.root, &assets, &diagnostics);
         let integrator = integrator(&document.root, &diagnostics);
+        if let (Some(compiled), Some((integrator, _))) = (&compiled, &integrator) {
+            let place = place(&document.root, &[Class::Integrator]);
+            diagnostics.keep(check_channels(&compiled.film, integrator, place));
+        }
         if sound && !diagnostics.has_errors() {
             loaded = compiled.zip(integrator).map(|(compiled, integrator)| {
                 (
                     compiled,
                     integrator,
                     scene_hash(&document, &assets, options),
+                    place(&document.root, &[Class::Sensor, Class::Film]),
                 )
             });
         }
         messages.extend(diagnostics.into_sorted());
+        messages.sort_by_key(|d| (d.span.is_none(), d.span.map(|s| (s.file, s.start))));
     }
-    let Some((compiled, (integrator, integrator_name), hash)) = loaded else {
+    let Some((compiled, (integrator, integrator_name), hash, film_place)) = loaded else {
         return Err(Refusal {
             diagnostics: messages,
             sources,
@@ -106,7 +117,47 @@ pub fn load(path: &Path, options: &LoadOptions) -> Result<Loaded, Refusal> {
         path: path.to_owned(),
         load_time: start.elapsed().saturating_sub(build_time),
         build_time,
+        film_place,
     })
+}
+
+/// Where the object at the end of a path of classes is named, or the last one that there is.
+fn place(root: &Node, classes: &[Class]) -> Span {
+    let mut node = root;
+    for class in classes {
+        let found = node.properties.iter().find_map(|p| match &p.value {
+            Value::Object(child) if child.class == *class => Some(child),
+            _ => None,
+        });
+        match found {
+            Some(child) => node = child,
+            None => break,
+        }
+    }
+    node.plugin.span
+}
+
+/// Refuses an integrator that would give two channels of the image the same name.
+fn check_channels(
+    film: &FilmSettings,
+    integrator: &AnyIntegrator,
+    place: Span,
+) -> Result<(), Diagnostic> {
+    let pixel = FilmSettings {
+        pixel_format: film.pixel_format,
+        ..FilmSettings::new(1, 1, Filter::default())
+    };
+    ExactFilm::new(pixel, &integrator.channels())
+        .map(|_| ())
+        .map_err(|error| at(error, place))
+}
+
+/// The same message, at a place.
+fn at(diagnostic: Diagnostic, place: Span) -> Diagnostic {
+    Diagnostic {
+        span: Some(place),
+        ..diagnostic
+    }
 }
 
 /// The scene's integrator, or a path tracer, with its name.
@@ -199,7 +250,34 @@ pub struct Rendered {
     pub time: Duration,
 }
 
+/// What a pixel takes in one channel while it is rendered, developed and written (bytes): the
+/// film's sums, the mean and its standard error, and both again on their way to the file.
+const PIXEL_BYTES: u64 = 64 + 8 + 8;
+
+/// Refuses a film that the memory cannot hold, rather than let the system end the process.
+fn check_memory(film: &FilmSettings, channels: usize, place: Span) -> Result<(), Diagnostic> {
+    let [width, height] = film.crop_size.to_array().map(u64::from);
+    let needed = (width * height).saturating_mul(channels as u64 * PIXEL_BYTES);
+    match resources::available_memory_bytes() {
+        Some(available) if needed > available => {
+            let gib = |bytes: u64| bytes as f64 / f64::from(1 << 30);
+            let message = format!(
+                "a film of {width} × {height} pixels with {channels} channels takes {:.1} GiB of \
+                 memory, and {:.1} GiB are free",
+                gib(needed),
+                gib(available)
+            );
+            Err(Diagnostic::error(place, message)
+                .help("render a smaller film, or crop it (`crop_width`, `crop_offset_x`, …)"))
+        }
+        _ => Ok(()),
+    }
+}
+
 /// Renders a loaded scene on the current thread pool.
+///
+/// # Errors
+/// If there is no memory for the film.
 pub fn render<P: Progress>(
     loaded: &Loaded,
     plan: &Plan,
@@ -208,7 +286,11 @@ pub fn render<P: Progress>(
     let start = Instant::now();
     let compiled = &loaded.compiled;
     let channels = loaded.integrator.channels();
-    let mut film = ExactFilm::new(compiled.film.clone(), &channels)?;
+    let format = compiled.film.pixel_format;
+    let planes = format.colours().len() + usize::from(format.has_alpha()) + channels.len();
+    check_memory(&compiled.film, planes, loaded.film_place)?;
+    let mut film = ExactFilm::new(compiled.film.clone(), &channels)
+        .map_err(|error| at(error, loaded.film_place))?;
     let outcome = loaded
         .integrator
         .render(&compiled.scene, &mut film, plan, progress);
@@ -229,7 +311,8 @@ pub fn render<P: Progress>(
     })
 }
 
-fn sampler_name(kind: SamplerKind) -> &'static str {
+/// The name by which scenes ask for a sampler.
+pub fn sampler_name(kind: SamplerKind) -> &'static str {
     match kind {
         SamplerKind::Independent => "independent",
         SamplerKind::Stratified { .. } => "stratified",

@@ -7,7 +7,7 @@ use crate::moment::Moment;
 use crate::path::Path;
 use crate::ptracer::ParticleTracer;
 use crate::render::{Outcome, Plan, Progress, render};
-use etalon_params::{Class, Diagnostics, Node, Params};
+use etalon_params::{Class, Diagnostics, Node, Params, plugins};
 use etalon_sampling::Sampler;
 use etalon_transport::{Channel, Film, Integrator, PixelSite, Sink, World};
 use glam::Vec2;
@@ -36,7 +36,10 @@ macro_rules! integrators {
                         let read: fn(&Params<'_>) -> Option<$variant> = $read;
                         read(&params).map(Self::$variant)
                     })*
-                    _ => return None,
+                    _ => {
+                        diagnostics.push(plugins::not_built(node, names().iter().copied()));
+                        return None;
+                    }
                 };
                 params.finish();
                 read

@@ -3,7 +3,7 @@
 //! The tables follow Mitsuba 3.9. What is built here is decided by whoever builds it; this
 //! module only finds the right words for what is not.
 
-use crate::{Class, Diagnostic, Node};
+use crate::{Class, Diagnostic, Node, suggest};
 
 /// What is known about a plugin's name.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -254,14 +254,14 @@ pub fn not_built<'a>(node: &Node, built: impl IntoIterator<Item = &'a str>) -> D
             "the {class} plugin `{name}` belongs to Mitsuba 0.6 and is absent from Mitsuba 3"
         ))
         .help(list()),
-        Status::Unknown => error(format!("unknown {class} plugin `{name}`")).suggest(
-            name,
-            names(node.class)
-                .iter()
-                .copied()
-                .filter(|known| !built.contains(known))
-                .chain(built.iter().copied()),
-        ),
+        Status::Unknown => {
+            let known = names(node.class).iter().chain(&built).copied();
+            let diagnostic = error(format!("unknown {class} plugin `{name}`"));
+            match suggest::nearest(name, known) {
+                Some(near) => diagnostic.help(format!("did you mean `{near}`?")),
+                None => diagnostic.help(list()),
+            }
+        }
     }
 }
 

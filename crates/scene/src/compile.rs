@@ -8,7 +8,7 @@ use crate::surfaces::{self, Emitting, Surfaces};
 use etalon_cameras::{AnyCamera, FilmWindow};
 use etalon_film::{FilmSettings, Filter};
 use etalon_lights::{Bounds, LightDescription, LightSet};
-use etalon_params::{Class, Diagnostic, Diagnostics, Node, Params};
+use etalon_params::{Class, Diagnostic, Diagnostics, Node, Params, plugins};
 use etalon_transport::{Assets, LightId};
 use std::sync::Arc;
 use std::time::{Duration, Instant};
@@ -147,13 +147,8 @@ fn film(sensor: &Params<'_>, diagnostics: &Diagnostics) -> Option<FilmSettings> 
     let Some(node) = sensor.child(Class::Film) else {
         return Some(FilmSettings::new(768, 576, Filter::default()));
     };
-    let name = node.plugin.value.as_str();
-    if name != "hdrfilm" {
-        let message = match name {
-            "specfilm" => format!("the film `{name}` is known to Mitsuba 3 but not built yet"),
-            _ => format!("unknown film `{name}`"),
-        };
-        diagnostics.push(Diagnostic::error(node.plugin.span, message).suggest(name, ["hdrfilm"]));
+    if node.plugin.value != "hdrfilm" {
+        diagnostics.push(plugins::not_built(node, ["hdrfilm"]));
         return None;
     }
     let params = Params::new(node, diagnostics);
@@ -168,11 +163,7 @@ fn refuse_unknown_children(params: &Params<'_>) {
     params.children(Class::Texture);
     for class in [Class::Medium, Class::Volume, Class::Phase] {
         for (_, node) in params.children(class) {
-            let name = &node.plugin.value;
-            let message = format!("the {} `{name}` is not built yet", class.name());
-            params
-                .diagnostics
-                .push(Diagnostic::error(node.plugin.span, message));
+            params.diagnostics.push(plugins::not_built(node, []));
         }
     }
 }

@@ -1,6 +1,6 @@
 //! The `sampler` of a sensor: kind, samples per pixel, seed.
 
-use etalon_params::{Class, Diagnostic, Diagnostics, Node, Params};
+use etalon_params::{Class, Diagnostic, Diagnostics, Node, Params, plugins};
 use etalon_sampling::SamplerKind;
 
 /// Samplers of Mitsuba that are known but not built yet; `sobol` stands in for them.
@@ -63,10 +63,7 @@ impl SamplerSettings {
                 SamplerKind::Sobol
             }
             _ => {
-                diagnostics.push(
-                    Diagnostic::error(node.plugin.span, format!("unknown sampler `{name}`"))
-                        .suggest(name, BUILT.iter().chain(&REPLACED).copied()),
-                );
+                diagnostics.push(plugins::not_built(node, BUILT.into_iter().chain(REPLACED)));
                 // Its parameters are not ours to judge.
                 return Self::default();
             }

@@ -3,7 +3,7 @@
 use crate::builder::Builder;
 use etalon_bsdf::Material;
 use etalon_geometry::{GeometryBuilder, GroupId, Placement, Shape};
-use etalon_params::{Class, Diagnostic, Node, Params, Span};
+use etalon_params::{Class, Diagnostic, Node, Params, plugins};
 use etalon_textures::{Constant, Texture};
 use etalon_transport::{LightId, MaterialId, ShapeId};
 use std::collections::HashMap;
@@ -11,17 +11,6 @@ use std::sync::Arc;
 
 /// Plugins that gather or place other shapes.
 const COMPOSED: [&str; 2] = ["shapegroup", "instance"];
-
-/// Shapes of Mitsuba that are known but not built yet.
-const NOT_BUILT: [&str; 7] = [
-    "serialized",
-    "linearcurve",
-    "bsplinecurve",
-    "sdfgrid",
-    "ellipsoids",
-    "ellipsoidsmesh",
-    "merge",
-];
 
 /// A shape that emits light, with the description of the light.
 pub struct Emitting {
@@ -91,7 +80,8 @@ impl Surfaces {
     fn shape(&mut self, node: &Arc<Node>, builder: &mut Builder<'_>) -> Option<(Shape, Carried)> {
         let params = Params::new(node, builder.diagnostics);
         if !Shape::plugins().any(|name| name == node.plugin.value) {
-            unknown_shape(&params);
+            let built = Shape::plugins().chain(COMPOSED);
+            builder.diagnostics.push(plugins::not_built(node, built));
             return None;
         }
         let shape = Shape::from_params(&params, builder);
@@ -213,19 +203,4 @@ fn diffuse(builder: &mut Builder<'_>, reflectance: f32) -> Material {
     Material::Diffuse(etalon_bsdf::diffuse::Description::new(
         builder.textures.add(constant),
     ))
-}
-
-fn unknown_shape(params: &Params<'_>) {
-    let name = params.node.plugin.value.as_str();
-    let span: Span = params.node.plugin.span;
-    let known = Shape::plugins().chain(COMPOSED);
-    let diagnostic = if NOT_BUILT.contains(&name) {
-        Diagnostic::error(
-            span,
-            format!("the shape `{name}` is known to Mitsuba 3 but not built yet"),
-        )
-    } else {
-        Diagnostic::error(span, format!("unknown shape `{name}`")).suggest(name, known)
-    };
-    params.diagnostics.push(diagnostic);
 }

@@ -3,7 +3,7 @@
 use super::fail;
 use crate::args::ConvertArgs;
 use etalon_images::raster::Raster;
-use etalon_images::{Image, exr, hdr, pfm, png, raster};
+use etalon_images::{Image, Losses, exr, hdr, pfm, png, raster};
 use std::path::Path;
 use std::process::ExitCode;
 
@@ -26,13 +26,12 @@ fn convert(args: &ConvertArgs) -> Result<Vec<String>, String> {
     if let Some(prefix) = &args.channels {
         image = chosen(&image, prefix)?;
     }
-    let mut notes = Vec::new();
     let losses = match extension(&args.output).as_str() {
         "png" => png::write(&args.output, &image, args.exposure),
         "hdr" | "rgbe" => hdr::write(&args.output, &brightened(image, args.exposure)),
         "pfm" => {
             let image = brightened(image, args.exposure);
-            pfm::write(&args.output, &image).map(|()| etalon_images::Losses::default())
+            pfm::write(&args.output, &image).map(|()| Losses::default())
         }
         _ => {
             return Err(format!(
@@ -42,10 +41,20 @@ fn convert(args: &ConvertArgs) -> Result<Vec<String>, String> {
         }
     }
     .map_err(|error| error.to_string())?;
-    if losses.not_finite > 0 {
-        notes.push(format!("{} samples are not finite", losses.not_finite));
-    }
-    Ok(notes)
+    Ok(losses_in_words(&losses))
+}
+
+/// What a simpler format could not hold, for people.
+pub(super) fn losses_in_words(losses: &Losses) -> Vec<String> {
+    let kinds = [
+        (losses.negative, "are negative and became 0"),
+        (losses.too_bright, "are brighter than the format's white"),
+        (losses.not_finite, "are not finite"),
+    ];
+    let notes = kinds.into_iter().filter(|(count, _)| *count > 0);
+    notes
+        .map(|(count, what)| format!("{count} samples {what}"))
+        .collect()
 }
 
 fn extension(path: &Path) -> String {

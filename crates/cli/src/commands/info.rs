@@ -80,8 +80,9 @@ fn scene(path: &Path) -> ExitCode {
             println!("film         {} × {} pixels", size.x, size.y);
             println!("integrator   {}", loaded.integrator_name);
             println!(
-                "samples      {} per pixel, {:?}",
-                compiled.sampler.spp, compiled.sampler.kind
+                "samples      {} per pixel, {}",
+                compiled.sampler.spp,
+                pipeline::sampler_name(compiled.sampler.kind)
             );
             print!("{}", compiled.scene.summary());
             ExitCode::SUCCESS

@@ -1,12 +1,16 @@
 //! `etalon render`.
 
+use super::convert::losses_in_words;
 use super::{BAD_INPUT, fail};
 use crate::args::RenderArgs;
 use crate::pipeline::{self, LoadOptions, Loaded, RenderOptions, Rendered};
 use crate::progress::Bar;
 use crate::{diagnose, resources};
 use etalon_film::Developed;
-use etalon_images::{hdr, pfm, write_atomically};
+use etalon_images::{Losses, hdr, pfm, write_atomically};
+use etalon_params::Diagnostic;
+use std::fmt::Display;
+use std::fs::OpenOptions;
 use std::io::Write;
 use std::path::Path;
 use std::process::ExitCode;
@@ -20,9 +24,20 @@ const INTERRUPTED: u8 = 130;
 
 /// Renders a scene to a file.
 pub fn run(args: &RenderArgs) -> ExitCode {
-    if let Err(message) = check_output(&args.output) {
+    if let Err(message) = check_output(args) {
         return fail(message);
     }
+    let threads = args.threads.unwrap_or(0) as usize;
+    let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build();
+    match pool {
+        // Everything happens on these threads: reading meshes and pictures, too.
+        Ok(pool) => pool.install(|| run_here(args)),
+        Err(error) => fail(format!("cannot start threads: {error}")),
+    }
+}
+
+/// Renders on the current thread pool.
+fn run_here(args: &RenderArgs) -> ExitCode {
     let loaded = match pipeline::load(
         &args.scene,
         &LoadOptions {
@@ -43,7 +58,10 @@ pub fn run(args: &RenderArgs) -> ExitCode {
     listen_for_interrupts();
     let rendered = match render(args, &loaded) {
         Ok(rendered) => rendered,
-        Err(message) => return fail(message),
+        Err(diagnostic) => {
+            diagnose::print(&[diagnostic], &loaded.sources);
+            return ExitCode::from(BAD_INPUT);
+        }
     };
     if let Err(message) = deliver(args, &loaded, &rendered) {
         return fail(message);
@@ -55,25 +73,46 @@ pub fn run(args: &RenderArgs) -> ExitCode {
 }
 
 /// Refuses an output that could not be written anyway, before hours are spent on it.
-fn check_output(path: &Path) -> Result<(), String> {
-    let extension = path.extension().map(|e| e.to_string_lossy().to_lowercase());
+fn check_output(args: &RenderArgs) -> Result<(), String> {
+    let extension = args
+        .output
+        .extension()
+        .map(|e| e.to_string_lossy().to_lowercase());
     match extension.as_deref() {
         Some("exr" | "hdr" | "rgbe" | "pfm") => {}
         _ => {
             return Err(format!(
-                "cannot write `{}`: the name must end in .exr (or .hdr, .pfm)",
-                path.display()
+                "cannot write {}: the name must end in .exr (or .hdr, .pfm)",
+                args.output.display()
             ));
         }
     }
-    let folder = path.parent().filter(|p| !p.as_os_str().is_empty());
-    match folder {
-        Some(folder) if !folder.is_dir() => Err(format!(
-            "cannot write `{}`: there is no such folder",
-            path.display()
-        )),
-        _ => Ok(()),
+    std::iter::once(&args.output)
+        .chain(&args.stats)
+        .try_for_each(|path| check_place(path))
+}
+
+/// Refuses a place where no file can be made.
+fn check_place(path: &Path) -> Result<(), String> {
+    let refuse = |reason: &dyn Display| Err(format!("cannot write {}: {reason}", path.display()));
+    if path.is_dir() {
+        return refuse(&"it is a folder");
     }
+    if path.exists() {
+        return Ok(());
+    }
+    let folder = path.parent().filter(|p| !p.as_os_str().is_empty());
+    if folder.is_some_and(|folder| !folder.is_dir()) {
+        return refuse(&"there is no such folder");
+    }
+    // Only trying tells whether a file can be made there.
+    let trial = path.with_file_name(format!(".etalon-{}.part", std::process::id()));
+    let made = OpenOptions::new()
+        .write(true)
+        .create_new(true)
+        .open(&trial)
+        .and_then(|_| std::fs::remove_file(&trial));
+    made.or_else(|error| refuse(&error))
 }
 
 fn listen_for_interrupts() {
@@ -89,7 +128,7 @@ fn listen_for_interrupts() {
     }
 }
 
-fn render(args: &RenderArgs, loaded: &Loaded) -> Result<Rendered, String> {
+fn render(args: &RenderArgs, loaded: &Loaded) -> Result<Rendered, Diagnostic> {
     let plan = pipeline::plan(
         loaded,
         &RenderOptions {
@@ -109,19 +148,19 @@ fn render(args: &RenderArgs, loaded: &Loaded) -> Result<Rendered, String> {
     }
     let size = loaded.compiled.film.crop_size;
     let samples = spp * u64::from(size.x) * u64::from(size.y);
-    let pool = rayon::ThreadPoolBuilder::new()
-        .num_threads(args.threads.unwrap_or(0) as usize)
-        .build()
-        .map_err(|error| format!("cannot start threads: {error}"))?;
     let bar = Bar::new(samples, args.quiet, &CANCELLED);
-    let rendered = pool.install(|| pipeline::render(loaded, &plan, &bar));
+    let rendered = pipeline::render(loaded, &plan, &bar);
     bar.finish();
-    rendered.map_err(|diagnostic| diagnostic.message)
+    rendered
 }
 
 /// Writes the image and the statistics, and says how it went.
 fn deliver(args: &RenderArgs, loaded: &Loaded, rendered: &Rendered) -> Result<(), String> {
-    write_image(&args.output, &rendered.developed)?;
+    let losses = write_image(&args.output, &rendered.developed)?;
+    if !args.quiet {
+        let notes = losses_in_words(&losses);
+        notes.iter().for_each(|note| eprintln!("note: {note}"));
+    }
     if let Some(path) = &args.stats {
         let text = format!("{:#}\n", stats(args, loaded, rendered));
         write_atomically(path, |file| file.write_all(text.as_bytes()))
@@ -150,12 +189,12 @@ fn deliver(args: &RenderArgs, loaded: &Loaded, rendered: &Rendered) -> Result<()
 }
 
 /// Writes an EXR with everything, or the colours alone in a simpler format.
-fn write_image(path: &Path, developed: &Developed) -> Result<(), String> {
+fn write_image(path: &Path, developed: &Developed) -> Result<Losses, String> {
     let extension = path.extension().map(|e| e.to_string_lossy().to_lowercase());
     match extension.as_deref() {
-        Some("pfm") => pfm::write(path, &developed.image),
-        Some("hdr" | "rgbe") => hdr::write(path, &developed.image).map(|_| ()),
-        _ => developed.write_exr(path),
+        Some("pfm") => pfm::write(path, &developed.image).map(|()| Losses::default()),
+        Some("hdr" | "rgbe") => hdr::write(path, &developed.image),
+        _ => developed.write_exr(path).map(|()| Losses::default()),
     }
     .map_err(|error| error.to_string())
 }
@@ -179,7 +218,7 @@ fn stats(args: &RenderArgs, loaded: &Loaded, rendered: &Rendered) -> serde_json:
         "mean_relative_standard_error": rendered.developed.mean_relative_standard_error(),
         "non_finite": metadata.map(|m| m.faults.total()),
         "peak_memory_bytes": resources::peak_memory_bytes(),
-        "threads": args.threads.map_or_else(rayon::current_num_threads, |n| n as usize),
+        "threads": rayon::current_num_threads(),
         "seed": metadata.map(|m| m.seed),
     })
 }

@@ -36,10 +36,17 @@ pub(crate) fn resolve(reader: &mut Reader<'_>) {
                 None => {
                     next -= 1;
                     properties.remove(next);
+                    excuse(reader, object);
                 }
             }
         }
     }
+}
+
+/// Nothing more is said about an object that lost a child: it cannot be blamed for lacking it.
+fn excuse(reader: &mut Reader<'_>, object: ObjectId) {
+    let span = reader.draft.objects[object].plugin.span;
+    reader.stand_ins.push(span);
 }
 
 fn look_up(reader: &mut Reader<'_>, id: &str, span: Span) -> Option<ObjectId> {
@@ -130,6 +137,7 @@ pub(crate) fn order(reader: &mut Reader<'_>, root: ObjectId) -> Option<Vec<Objec
                 let (object, position) = (*object, *next - 1);
                 report_circle(reader, &stack, child, span);
                 reader.draft.objects[object].properties.remove(position);
+                excuse(reader, object);
                 if let Some((_, next)) = stack.last_mut() {
                     *next -= 1;
                 }

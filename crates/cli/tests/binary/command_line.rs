@@ -1,0 +1,84 @@
+//! The command line itself: help, versions, and what is no command.
+
+use crate::workshop::Workshop;
+
+#[test]
+fn help_has_examples_and_exit_codes() {
+    let workshop = Workshop::new();
+    let help = workshop.run(&["--help"]).fine().stdout;
+    for command in ["render", "compare", "convert", "info"] {
+        assert!(help.contains(&format!("\n  {command} ")), "{help}");
+        let help = workshop.run(&[command, "--help"]).fine().stdout;
+        let examples = help.split("Examples:\n").nth(1).expect("examples");
+        let example = format!("  etalon {command} ");
+        assert!(examples.matches(&example).count() >= 2, "{help}");
+        assert!(help.contains("Exit codes:"), "{help}");
+    }
+    assert!(help.contains("Exit codes:"), "{help}");
+    // What is not built yet is not offered.
+    for absent in [
+        "merge",
+        "serve",
+        "denoise",
+        "--checkpoint",
+        "--resume",
+        "--time",
+    ] {
+        let all = ["render", "compare", "convert", "info"]
+            .map(|command| workshop.run(&[command, "--help"]).fine().stdout)
+            .concat();
+        assert!(!all.contains(absent) && !help.contains(absent), "{absent}");
+    }
+}
+
+#[test]
+fn the_version_is_told() {
+    let said = Workshop::new().run(&["--version"]).fine().stdout;
+    assert_eq!(said, format!("etalon {}\n", env!("CARGO_PKG_VERSION")));
+}
+
+#[test]
+fn nonsense_is_refused() {
+    let workshop = Workshop::new();
+    for arguments in [
+        &[][..],
+        &["rendr"],
+        &["render"],
+        &["render", "a.xml"],
+        &["render", "a.xml", "-o", "a.exr", "--spp", "0"],
+        &["render", "a.xml", "-o", "a.exr", "--spp", "-1"],
+        &["render", "a.xml", "-o", "a.exr", "--spp", "many"],
+        &["render", "a.xml", "-o", "a.exr", "--seed", "-1"],
+        &["render", "a.xml", "-o", "a.exr", "--threads", "0"],
+        &["render", "a.xml", "-o", "a.exr", "--replicates", "0"],
+        &["render", "a.xml", "-o", "a.exr", "-D", "=1"],
+        &["compare", "a.exr"],
+        &["convert", "a.exr"],
+        &["info"],
+    ] {
+        let ran = workshop.run(arguments).refused();
+        assert!(
+            ran.stderr.contains("Usage") || ran.stderr.contains("error: "),
+            "{arguments:?}"
+        );
+    }
+    assert!(workshop.files().is_empty());
+}
+
+#[test]
+fn messages_have_no_colours_where_nobody_looks() {
+    let workshop = Workshop::new();
+    workshop.write(
+        "bad.xml",
+        "<scene version=\"3.0.0\"><shape type=\"sphear\"/></scene>",
+    );
+    let ran = workshop
+        .run(&["render", "bad.xml", "-o", "a.exr"])
+        .refused();
+    assert!(!ran.stderr.contains('\u{1b}'), "{:?}", ran.stderr);
+    assert!(
+        ran.stderr.contains("did you mean `sphere`?"),
+        "{}",
+        ran.stderr
+    );
+}

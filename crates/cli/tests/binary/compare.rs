@@ -1,0 +1,114 @@
+//! `etalon compare`: verdicts and exit codes.
+
+use crate::workshop::{Ran, Workshop};
+use etalon_film::Developed;
+use etalon_images::{Frame, Image};
+use serde_json::Value;
+
+/// Two renders of the same picture, and one without indirect light.
+fn three_images() -> Workshop {
+    let workshop = Workshop::new();
+    let spp = ["--spp", "256", "-q"];
+    workshop.render("a.exr", &[&spp[..], &["--seed", "1"]].concat());
+    workshop.render("b.exr", &[&spp[..], &["--seed", "2"]].concat());
+    workshop.render("direct.exr", &[&spp[..], &["-D", "max_depth=2"]].concat());
+    workshop
+}
+
+fn compare(workshop: &Workshop, names: [&str; 2], further: &[&str]) -> Ran {
+    workshop.run(&[&["compare", names[0], names[1]], further].concat())
+}
+
+#[test]
+fn equal_pictures_agree_within_a_bound_that_their_noise_allows() {
+    let workshop = three_images();
+    let wide = ["--bound", "0.2", "--tile-bound", "0.5"];
+    let ran = compare(&workshop, ["a.exr", "b.exr"], &wide).fine();
+    assert!(ran.stdout.contains("\nagrees ("), "{}", ran.stdout);
+    for word in [
+        "channel",
+        "interval",
+        "could see",
+        "tiles of 16²",
+        "tiles of 64²",
+    ] {
+        assert!(ran.stdout.contains(word), "{}", ran.stdout);
+    }
+    // A bound far below the noise cannot be decided; that is no pass.
+    let narrow = ["--bound", "1e-6", "--tile-bound", "0.5"];
+    let ran = compare(&workshop, ["a.exr", "b.exr"], &narrow);
+    assert_eq!(ran.code, Some(3), "{}", ran.stdout);
+    assert!(ran.stdout.contains("\nundecided ("), "{}", ran.stdout);
+}
+
+#[test]
+fn missing_light_differs() {
+    let workshop = three_images();
+    let ran = compare(&workshop, ["direct.exr", "a.exr"], &[]);
+    assert_eq!(ran.code, Some(1), "{}", ran.stdout);
+    assert!(ran.stdout.contains("\ndiffers ("), "{}", ran.stdout);
+}
+
+#[test]
+fn json_says_the_same() {
+    let workshop = three_images();
+    let ran = compare(&workshop, ["direct.exr", "a.exr"], &["--json"]);
+    assert_eq!(ran.code, Some(1));
+    let verdict: Value = serde_json::from_str(&ran.stdout).expect("JSON");
+    assert_eq!(verdict["verdict"], "differs");
+    let images = verdict["images"].as_array().expect("rows");
+    let channels: Vec<&Value> = images.iter().map(|row| &row["channel"]).collect();
+    assert_eq!(channels, ["R", "G", "B"]);
+    for row in images {
+        assert!(row["bias"].as_f64().expect("a number") < -0.05, "{row}");
+        assert_eq!(row["interval"].as_array().map(Vec::len), Some(2));
+    }
+    assert_eq!(verdict["tiles"].as_array().map(Vec::len), Some(6));
+}
+
+#[test]
+fn the_report_is_one_file_that_fetches_nothing() {
+    let workshop = three_images();
+    let ran = compare(&workshop, ["direct.exr", "a.exr"], &["--report", "r.html"]);
+    assert_eq!(ran.code, Some(1));
+    let html = String::from_utf8(workshop.read("r.html")).expect("UTF-8");
+    assert!(html.starts_with("<!DOCTYPE html>"));
+    for foreign in ["http:", "https:", "<script", "<link", "src=\"/", "url("] {
+        assert!(!html.contains(foreign), "{foreign}");
+    }
+    // Both pictures, their difference, and p-maps for three channels.
+    assert_eq!(html.matches("src=\"data:image/png;base64,").count(), 6);
+    assert!(html.contains("<span class=\"differs\">"));
+    assert!(html.contains("direct.exr"));
+}
+
+#[test]
+fn what_cannot_be_compared_is_refused() {
+    let workshop = three_images();
+    let refused = |second: &str, words: &str| {
+        let ran = compare(&workshop, ["a.exr", second], &[]).refused();
+        assert!(ran.stderr.contains(words), "{}", ran.stderr);
+    };
+    refused("none.exr", "none.exr");
+    workshop.write("broken.exr", &workshop.read("b.exr")[..500]);
+    refused("broken.exr", "broken.exr");
+    workshop.render("large.exr", &["-D", "resx=25", "--spp", "2", "-q"]);
+    refused("large.exr", "differ in size: 24 × 20 and 25 × 20");
+    let mut image = Image::new(24, 20);
+    image.push("R", vec![1.0; 480]);
+    let foreign = Developed {
+        image,
+        frame: Frame {
+            offset: [0, 0],
+            size: [24, 20],
+        },
+        metadata: None,
+    };
+    foreign
+        .write_exr(&workshop.path("foreign.exr"))
+        .expect("written");
+    refused("foreign.exr", "not written by Etalon");
+    for option in ["--bound=0", "--bound=nan", "--tile-bound=-1", "--alpha=1"] {
+        compare(&workshop, ["a.exr", "b.exr"], &[option]).refused();
+    }
+}

@@ -1,0 +1,18 @@
+//! The binary from outside: what users type and what they get.
+//!
+//! One concern per file; [`workshop`] is the folder they work in.
+
+mod bad_files;
+mod bad_scenes;
+mod command_line;
+mod compare;
+mod convert;
+mod determinism;
+mod failure;
+mod info;
+mod integrators;
+mod interrupt;
+mod mutations;
+mod render;
+mod statistics;
+mod workshop;
