@@ -343,3 +343,48 @@ impl Wide {
         size_of_val(self.nodes.as_slice()) + block_bytes(&self.blocks)
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use glam::Vec3;
+
+    /// Small triangles all over a cube, some of them copies.
+    struct Scattered(u32);
+
+    impl Primitives for Scattered {
+        fn len(&self) -> usize {
+            self.0 as usize
+        }
+        fn triangle(&self, primitive: u32) -> Option<[Vec3; 3]> {
+            let key = u64::from(primitive - primitive % 9 % 2) + 1;
+            let number = |i: u64| {
+                let bits = (key * 8 + i).wrapping_mul(0x9e37_79b9_7f4a_7c15);
+                ((bits ^ (bits >> 29)) % (1 << 20)) as f32 / 1024.0
+            };
+            let at = Vec3::new(number(0), number(1), number(2));
+            Some([at, at + Vec3::new(number(3), 1.0, 9.0) * 1e-3, at + Vec3::X])
+        }
+        fn is_triangle(&self, _: u32) -> bool {
+            true
+        }
+        fn bounds(&self, _: u32) -> Bounds {
+            Bounds::EMPTY
+        }
+    }
+
+    #[test]
+    fn the_tree_does_not_depend_on_threads() {
+        // As many as it takes for every step of the build to go parallel.
+        let build = |threads: usize| {
+            let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build();
+            let wide = pool
+                .expect("threads")
+                .install(|| Wide::build(&Scattered(510_000)));
+            // Every plane and link of every node.
+            (format!("{:?}", wide.nodes), wide.blocks.len())
+        };
+        let one = build(1);
+        assert!(one == build(2) && one == build(7));
+    }
+}

@@ -297,28 +297,6 @@ fn mixtures_of_shapes_and_instances() {
 }
 
 #[test]
-fn the_tree_does_not_depend_on_threads() {
-    let (positions, triangles) = icosphere(6);
-    let build = |threads: usize| {
-        let pool = rayon::ThreadPoolBuilder::new()
-            .num_threads(threads)
-            .build()
-            .expect("threads");
-        pool.install(|| {
-            let mut builder = GeometryBuilder::new();
-            let mesh = mesh_of(positions.clone(), triangles.clone());
-            builder.add_shape(mesh, MaterialId(0), LightId::NONE);
-            builder.build()
-        })
-    };
-    // Debug output shows every plane, corner and link.
-    let one = format!("{:?}", build(1));
-    for threads in [2, 7] {
-        assert!(format!("{:?}", build(threads)) == one, "{threads} threads");
-    }
-}
-
-#[test]
 fn nothing_is_hit_where_nothing_is() {
     let pair = both_of(Vec::new);
     assert!(!agree(&pair, &Ray::new(Vec3::ZERO, Vec3::X, 0.0)));

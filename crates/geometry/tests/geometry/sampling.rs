@@ -135,8 +135,8 @@ fn densities_integrate_to_one() {
 /// returned, and a χ² test of directions against the density integrated over cells.
 ///
 /// α = 10⁻⁴ for each of 16 views (5 shapes from 3 places and one from inside), so a false alarm
-/// in one of 600 runs of another seed; the seed is fixed. Mutants refused: sampling a rectangle
-/// by area with the density of the solid angle; choosing triangles uniformly.
+/// in one of 600 runs of another seed; the seed is fixed. Mutant refused: sampling a rectangle
+/// by area with the density of the solid angle.
 #[test]
 fn samples_follow_their_density() {
     for (name, geometry, from) in views() {
