@@ -29,9 +29,11 @@ impl Metal {
             params.ignore(&["eta", "k"]);
             return None;
         }
+        // Whoever provides files for a name means them, even where data for it come with us.
+        let provided = build.assets().bytes(&file(name, "eta")).is_ok();
         let (eta, k) = match conductors::lookup(name) {
-            Some(found) => found,
-            None => (
+            Some(found) if !provided => found,
+            _ => (
                 from_file(params, build, name, "eta")?,
                 from_file(params, build, name, "k")?,
             ),
@@ -49,6 +51,11 @@ impl Metal {
     }
 }
 
+/// The name of the file with one part of a conductor's index.
+fn file(name: &str, part: &str) -> String {
+    format!("{name}.{part}.spd")
+}
+
 /// The spectrum in `NAME.PART.spd`, found as the scene's files are.
 fn from_file(
     params: &Params<'_>,
@@ -56,7 +63,7 @@ fn from_file(
     name: &str,
     part: &str,
 ) -> Option<Spectrum> {
-    let path = format!("{name}.{part}.spd");
+    let path = file(name, part);
     let refuse = |message: String, help: String| {
         let mut error = Diagnostic::error(
             params

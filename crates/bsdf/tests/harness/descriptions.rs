@@ -121,6 +121,11 @@ fn a_conductor_without_data_is_looked_up_in_files() {
     let expected = ((1.5f32 - 1.0).powi(2) + 4.0) / ((1.5f32 + 1.0).powi(2) + 4.0);
     let found = mirror("conductor material=s:Xx", scene());
     assert!((found - expected).abs().max_element() < 1e-6);
+    let own = scene()
+        .with_file("Cu.eta.spd", "400 1.5\n700 1.5\n")
+        .with_file("Cu.k.spd", "400 2\n700 2\n");
+    assert_eq!(mirror("conductor material=s:Cu", own), found);
+    assert_ne!(mirror("conductor material=s:Cu", Scene::default()), found);
     let broken = Scene::default()
         .with_file("Xx.eta.spd", "400 1.5\n700\n")
         .read("conductor material=s:Xx")
