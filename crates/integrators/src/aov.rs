@@ -41,7 +41,7 @@ pub enum Variable {
     DuvDy,
     /// Index of the primitive in its shape.
     PrimitiveIndex,
-    /// Index of the shape in the scene.
+    /// Number of the shape in the scene, from 1, in the order of the file; 0 is no shape.
     ShapeIndex,
 }
 
@@ -223,7 +223,7 @@ fn evaluate<W: World, S: Sampler>(
         Variable::DuvDx => duv(world, vertex, site, sampler, Vec2::X),
         Variable::DuvDy => duv(world, vertex, site, sampler, Vec2::Y),
         Variable::PrimitiveIndex => Vec3::splat(vertex.primitive as f32),
-        Variable::ShapeIndex => Vec3::splat(vertex.shape.0 as f32),
+        Variable::ShapeIndex => Vec3::splat((vertex.shape.0 + 1) as f32),
     }
 }
 

@@ -7,6 +7,10 @@
 //! The integral is estimated with nₗ directions sampled from the lights and nₛ from the
 //! scattering model, combined by the multi-sample balance heuristic over techniques and lanes
 //! (Veach & Guibas 1995, eq. 10): the density of a technique counts as often as it is used.
+//!
+//! As in Mitsuba, light that passes surfaces straight (`mask`, `null`) is a scattering sample
+//! like any other, shadow rays are stopped by such surfaces, and alpha is 1 wherever there is a
+//! surface, 0 before the background.
 
 use crate::dimensions as dim;
 use crate::path::{Rival, camera_ray, shadow};
@@ -76,11 +80,12 @@ impl Direct {
         let visible = !self.hide_emitters;
         let hit = loop {
             let Some(hit) = world.intersect(&ray) else {
-                if visible && world.has_background() {
-                    let radiance = world.background(ray.direction, wavelengths);
-                    return (Prefix::START.estimate(radiance, Vec4::ZERO), 1.0);
-                }
-                return (Vec4::ZERO, 0.0);
+                let radiance = if visible && world.has_background() {
+                    world.background(ray.direction, wavelengths)
+                } else {
+                    Vec4::ZERO
+                };
+                return (Prefix::START.estimate(radiance, Vec4::ZERO), 0.0);
             };
             if visible || !world.is_emitter(&hit) {
                 break hit;
@@ -102,16 +107,13 @@ impl Direct {
                 event += 1;
             }
         }
-        let mut alpha = 1.0;
         event = 0;
         for _ in 0..self.bsdf_samples {
-            let (value, passes) =
+            result +=
                 self.scattering_sample(world, wavelengths, &vertex, &bsdf, wo, sampler, event);
-            result += value;
-            alpha = if passes { 0.0 } else { alpha };
             event += 1;
         }
-        (result, alpha)
+        (result, 1.0)
     }
 
     #[allow(clippy::too_many_arguments)]
@@ -163,13 +165,13 @@ impl Direct {
         wo: Vec3,
         sampler: &mut S,
         event: u32,
-    ) -> (Vec4, bool) {
+    ) -> Vec4 {
         let event = dim::scattering(event);
         sampler.skip_to(event + dim::DIRECTION);
         let u = sampler.next_2d();
         sampler.skip_to(event + dim::LOBE);
         let Some(sample) = bsdf.sample(wo, sampler.next_1d(), u, Mode::Radiance) else {
-            return (Vec4::ZERO, false);
+            return Vec4::ZERO;
         };
         let mut path = Prefix::START;
         let mut rival = Rival::NONE.after(&path, vertex.position, &sample);
@@ -177,7 +179,7 @@ impl Direct {
         path.ratio *= self.bsdf_samples as f32;
         rival.ratio *= self.emitter_samples as f32;
         let ray = vertex.spawn(sample.wi);
-        let value = match world.intersect(&ray) {
+        match world.intersect(&ray) {
             None if world.has_background() => {
                 let radiance = world.background(ray.direction, wavelengths);
                 path.estimate(radiance, rival.at_background(world, ray.direction))
@@ -188,8 +190,7 @@ impl Direct {
                 path.estimate(radiance, rival.at_surface(world, &end, ray.direction))
             }
             _ => Vec4::ZERO,
-        };
-        (value, sample.passes)
+        }
     }
 }
 

@@ -179,8 +179,9 @@ impl Path {
         let mut eta = 1.0;
         let mut depth = 1;
         while depth <= max_depth {
-            let visible = depth > 1 || !hide_emitters;
             let Some(hit) = world.intersect(&ray) else {
+                // A hidden sky stays hidden to rays that only went straight.
+                let visible = !hide_emitters || found.alpha > 0.0;
                 if visible && world.has_background() {
                     found.alpha = 1.0;
                     let radiance = world.background(ray.direction, wavelengths);
@@ -190,7 +191,7 @@ impl Path {
                 break;
             };
             let emits = world.is_emitter(&hit);
-            if emits && !visible {
+            if emits && hide_emitters && depth == 1 {
                 // The camera looks through hidden lights.
                 let vertex = world.vertex(&ray, &hit);
                 ray = vertex.spawn(ray.direction);

@@ -11,7 +11,9 @@
 //! which lands on whatever pixel the camera sees yₖ in. The lights themselves (paths of one
 //! segment) are found by a camera ray per sample, since a connection from a point on a light to
 //! the camera would only repeat it with more noise. Nothing is found that reaches the camera off
-//! a smooth surface. Splats have no alpha; the camera ray's counts.
+//! a smooth surface. Splats have no alpha: what counts is how much of the camera ray's light is
+//! stopped, the background included. With `hide_emitters` lights are not seen directly; they
+//! still stand in the way of what is behind them, as in Mitsuba.
 
 use crate::dimensions as dim;
 use crate::path::camera_ray;
@@ -47,33 +49,28 @@ impl ParticleTracer {
     }
 
     /// The lights as the camera sees them: paths of one segment, or more through surfaces that
-    /// only let light pass.
+    /// only let light pass. With the fraction of light that does not come from behind it all.
     fn visible_lights<W: World>(
         &self,
         world: &W,
         mut ray: Ray,
         wavelengths: &Wavelengths,
     ) -> (Vec4, f32) {
+        let visible = !self.settings.hide_emitters;
         let mut prefix = Prefix::START;
         let mut radiance = Vec4::ZERO;
-        let visible = !self.settings.hide_emitters;
-        let mut depth = 1;
-        while depth <= self.settings.max_depth {
+        for depth in 1..=self.settings.max_depth {
             let Some(hit) = world.intersect(&ray) else {
-                if world.has_background() && visible {
+                if visible && world.has_background() {
                     let background = world.background(ray.direction, wavelengths);
                     radiance += prefix.estimate(background, Vec4::ZERO);
                     return (radiance, 1.0);
                 }
-                return (radiance, 0.0);
+                return (radiance, 1.0 - prefix.value.element_sum() * 0.25);
             };
             let vertex = world.vertex(&ray, &hit);
             let wo = -ray.direction;
-            if world.is_emitter(&hit) {
-                if !visible && depth == 1 {
-                    ray = vertex.spawn(ray.direction);
-                    continue;
-                }
+            if world.is_emitter(&hit) && (visible || depth > 1) {
                 let emitted = world.emitted(&vertex, wo, wavelengths);
                 radiance += prefix.estimate(emitted, Vec4::ZERO);
             }
@@ -83,9 +80,15 @@ impl ParticleTracer {
             }
             prefix.value *= passing;
             ray = vertex.spawn(ray.direction);
-            depth += 1;
         }
-        (radiance, 1.0)
+        (
+            radiance,
+            if self.settings.max_depth == 0 {
+                0.0
+            } else {
+                1.0
+            },
+        )
     }
 
     /// One particle, splatted wherever the camera sees it scatter.

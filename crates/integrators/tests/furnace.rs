@@ -10,7 +10,7 @@ use etalon_integrators::ptracer::ParticleTracer;
 use etalon_integrators::settings::PathSettings;
 use etalon_math::{Area, Density, Frame, SolidAngle};
 use etalon_sampling::{Independent, PixelSample, Sampler};
-use etalon_spectrum::{WavelengthDistribution, Wavelengths};
+use etalon_spectrum::{WavelengthDistribution, Wavelengths, sensor};
 use etalon_transport::*;
 use glam::{UVec2, Vec2, Vec3, Vec4};
 use std::f32::consts::PI;
@@ -280,6 +280,13 @@ impl Sink for Meter {
     fn channel(&mut self, _: usize, _: f32) {}
 }
 
+/// Green of the constant spectrum 1: the response is linear between whole nanometres, so that
+/// the trapezoid rule is exact.
+fn white() -> f64 {
+    let green = |nm: i32| f64::from(sensor::response(Vec4::splat(nm as f32))[1].x);
+    (360..830).map(|nm| 0.5 * (green(nm) + green(nm + 1))).sum()
+}
+
 /// z of the mean green value of `n` samples against `expected` (in units of a white spectrum's).
 fn z_score<I: Integrator<State = ()>>(
     integrator: &I,
@@ -287,8 +294,6 @@ fn z_score<I: Integrator<State = ()>>(
     expected: f64,
     n: u32,
 ) -> f64 {
-    // Green of the constant spectrum 1.
-    const UNIT: f64 = 0.948_3;
     let (mut sum, mut squares) = (0.0, 0.0);
     for sample in 0..n {
         let mut sampler = Independent::start(&PixelSample {
@@ -313,7 +318,7 @@ fn z_score<I: Integrator<State = ()>>(
     let n = f64::from(n);
     let mean = sum / n;
     let variance = (squares / n - mean * mean) / n;
-    (mean - expected * UNIT) / variance.sqrt()
+    (mean - expected * white()) / variance.sqrt()
 }
 
 fn settings(max_depth: u32) -> PathSettings {

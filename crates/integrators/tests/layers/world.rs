@@ -1,0 +1,405 @@
+//! The world of parallel planes.
+
+use etalon_math::{Atom, Density, Frame, SolidAngle, float};
+use etalon_spectrum::{WavelengthDistribution, Wavelengths};
+use etalon_transport::*;
+use glam::{Vec2, Vec3, Vec4};
+use std::f32::consts::PI;
+
+/// A function of wavelength (nm).
+pub(crate) type Curve = fn(f32) -> f32;
+
+/// The curve that is zero.
+pub(crate) const ZERO: Curve = |_| 0.0;
+
+/// An infinite plane, the same seen from above and from below unless it says otherwise.
+#[derive(Clone, Copy)]
+pub(crate) struct Plane {
+    pub height: f32,
+    /// Fraction of light that passes straight.
+    pub passing: Curve,
+    /// Fraction of the rest that is reflected.
+    pub reflectance: Curve,
+    /// Exponent n of the lobe (n + 1) cosⁿθ / 2π about the normal; 1 is a Lambertian surface.
+    pub exponent: Curve,
+    /// Share of reflection that goes into one discrete direction, which turns with wavelength.
+    pub smooth: f32,
+    /// Radiance emitted downward and upward.
+    pub emission: [Curve; 2],
+}
+
+impl Plane {
+    /// A grey Lambertian reflector.
+    pub(crate) const WHITE: Self = Self {
+        height: 0.0,
+        passing: ZERO,
+        reflectance: |_| 0.8,
+        exponent: |_| 1.0,
+        smooth: 0.0,
+        emission: [ZERO; 2],
+    };
+
+    /// A black plane.
+    pub(crate) const BLACK: Self = Self {
+        reflectance: ZERO,
+        ..Self::WHITE
+    };
+
+    fn emits(&self) -> bool {
+        self.emission.iter().any(|e| e(550.0) > 0.0)
+    }
+}
+
+/// What is deliberately wrong with a world, to show that tests would notice.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) enum Fault {
+    None,
+    /// Lobes report half of the density for the lanes that did not choose.
+    OtherLanes,
+    /// A discrete direction claims that every lane could have chosen it.
+    AtomForAll,
+    /// Shadow rays forget with what probability scattering passes.
+    FreePassage,
+    /// The density of a light forgets the choice among lights.
+    LightChoice,
+    /// The first lane always chooses.
+    FirstLane,
+}
+
+/// A stack of planes, from low to high, with a sky above and below.
+pub(crate) struct Stack {
+    pub planes: Vec<Plane>,
+    /// Radiance of the background.
+    pub sky: Curve,
+    /// The background's radiance falls off with the power of the cosine to the vertical.
+    pub sky_power: f32,
+    /// Where the camera is, and whether it looks up.
+    pub camera: Camera1D,
+    /// If given, every path carries a rotation of these wavelengths.
+    pub fixed: Option<Wavelengths>,
+    pub fault: Fault,
+    pub distribution: WavelengthDistribution,
+}
+
+/// A camera with one slanted ray.
+#[derive(Clone, Copy)]
+pub(crate) struct Camera1D {
+    pub height: f32,
+    pub up: bool,
+}
+
+impl Camera for Camera1D {
+    fn ray(&self, _: Vec2, _: Vec2, time: f32) -> CameraRay {
+        let z = if self.up { 0.8 } else { -0.8 };
+        CameraRay {
+            ray: Ray::new(Vec3::Z * self.height, Vec3::new(0.6, 0.0, z), time),
+            weight: 1.0,
+        }
+    }
+    fn connect(&self, _: Vec3, _: Vec2, _: f32) -> Option<Connection> {
+        None
+    }
+    fn has_lens(&self) -> bool {
+        false
+    }
+}
+
+fn curve(f: Curve, lambda: Vec4) -> Vec4 {
+    Vec4::from_array(lambda.to_array().map(f))
+}
+
+/// A plane at four wavelengths, seen from one side.
+#[derive(Clone, Copy)]
+pub(crate) struct Scatter {
+    passing: Vec4,
+    /// Fraction of light in the lobe and in the discrete direction.
+    lobe: Vec4,
+    atom: Vec4,
+    exponent: Vec4,
+    share: f32,
+    normal: Vec3,
+    tilt: Vec4,
+    fault: Fault,
+}
+
+impl Scatter {
+    fn lobe_density(&self, cos: f32) -> Vec4 {
+        if cos <= 0.0 {
+            return Vec4::ZERO;
+        }
+        let n = self.exponent;
+        let lobe = n
+            .to_array()
+            .map(|n| (n + 1.0) / (2.0 * PI) * float::pow(cos, n));
+        Vec4::from_array(lobe)
+    }
+
+    fn direction(&self, cos: f32, turn: f32) -> Vec3 {
+        let sin = (1.0 - cos * cos).max(0.0).sqrt();
+        let (y, x) = float::sin_cos(2.0 * PI * turn);
+        Frame::from_normal(self.normal).to_world(Vec3::new(x * sin, y * sin, cos))
+    }
+}
+
+impl Bsdf for Scatter {
+    fn eval(&self, _: Vec3, wi: Vec3, _: Mode) -> Vec4 {
+        self.lobe * self.lobe_density(self.normal.dot(wi))
+    }
+    fn density(&self, _: Vec3, wi: Vec3) -> Density<SolidAngle> {
+        let mut density = self.lobe_density(self.normal.dot(wi));
+        if self.fault == Fault::OtherLanes {
+            density *= Vec4::new(1.0, 0.5, 0.5, 0.5);
+        }
+        Density::per_lane(density * (1.0 - self.passing) * (1.0 - self.share))
+    }
+    fn sample(&self, wo: Vec3, u_lobe: f32, u: Vec2, mode: Mode) -> Option<BsdfSample> {
+        let sample = |wi, value, chance, passes| BsdfSample {
+            wi,
+            value,
+            chance,
+            eta: 1.0,
+            passes,
+        };
+        let pass = self.passing.x;
+        if u_lobe < pass {
+            let atom = Chance::Discrete(Atom(self.passing));
+            return Some(sample(-wo, self.passing, atom, true));
+        }
+        if (u_lobe - pass) / (1.0 - pass) < self.share {
+            // Another lane takes this direction only if it is its own.
+            let same = self.tilt.cmpeq(Vec4::splat(self.tilt.x));
+            let same = Vec4::select(same, Vec4::ONE, Vec4::ZERO);
+            let chance = if self.fault == Fault::AtomForAll {
+                Vec4::ONE
+            } else {
+                same
+            };
+            let atom = Chance::Discrete(Atom(chance * (1.0 - self.passing) * self.share));
+            return Some(sample(
+                self.direction(self.tilt.x, 0.3),
+                self.atom * same,
+                atom,
+                false,
+            ));
+        }
+        let cos = float::pow(1.0 - u.x, 1.0 / (self.exponent.x + 1.0));
+        let wi = self.direction(cos, u.y);
+        let density = self.density(wo, wi);
+        (density.chooser() > 0.0).then(|| {
+            sample(
+                wi,
+                self.eval(wo, wi, mode),
+                Chance::Continuous(density),
+                false,
+            )
+        })
+    }
+    fn has_continuous(&self) -> bool {
+        self.share < 1.0
+    }
+    fn passing(&self) -> Vec4 {
+        self.passing
+    }
+    fn passing_probability(&self) -> Vec4 {
+        self.passing
+    }
+    fn albedo(&self, _: Vec3) -> Vec4 {
+        self.lobe
+    }
+}
+
+impl Stack {
+    /// A world without fault, seen by a camera at `height`.
+    pub(crate) fn new(planes: Vec<Plane>, sky: Curve, height: f32, up: bool) -> Self {
+        Self {
+            planes,
+            sky,
+            sky_power: 0.0,
+            camera: Camera1D { height, up },
+            fixed: None,
+            fault: Fault::None,
+            distribution: WavelengthDistribution::default(),
+        }
+    }
+
+    /// The same world with a fault.
+    pub(crate) fn with(mut self, fault: Fault) -> Self {
+        self.fault = fault;
+        self
+    }
+
+    /// Lights: the planes that emit, and the sky.
+    fn lights(&self) -> usize {
+        self.planes.iter().filter(|p| p.emits()).count() + usize::from(self.has_background())
+    }
+
+    /// Directions toward a light are uniform over a hemisphere; the sky has two.
+    fn hemisphere_density(&self) -> f32 {
+        let choice = if self.fault == Fault::LightChoice {
+            1.0
+        } else {
+            self.lights() as f32
+        };
+        1.0 / (2.0 * PI * choice)
+    }
+}
+
+impl World for Stack {
+    type Bsdf<'w> = Scatter;
+    type Camera = Camera1D;
+
+    fn camera(&self) -> &Camera1D {
+        &self.camera
+    }
+    fn wavelengths(&self, u: f32) -> Wavelengths {
+        match self.fixed {
+            None => Wavelengths::sample(&self.distribution, u),
+            Some(fixed) if self.fault == Fault::FirstLane => fixed,
+            Some(fixed) => fixed.rotated((u * 4.0) as usize),
+        }
+    }
+    fn intersect(&self, ray: &Ray) -> Option<Hit> {
+        let hit = |(i, plane): (usize, &Plane)| {
+            let t = (plane.height - ray.origin.z) / ray.direction.z;
+            (t > 1e-3 && t < ray.t_max).then_some((t, i))
+        };
+        let nearest = self.planes.iter().enumerate().filter_map(hit);
+        let (t, i) = nearest.min_by(|a, b| a.0.total_cmp(&b.0))?;
+        Some(Hit {
+            t,
+            parameters: Vec2::ZERO,
+            shape: ShapeId(i as u32),
+            primitive: 0,
+            instance: InstanceId::NONE,
+        })
+    }
+    fn vertex(&self, ray: &Ray, hit: &Hit) -> Vertex {
+        let plane = &self.planes[hit.shape.0 as usize];
+        // Paths are confined to the axis, or they would lose precision far away from it; nothing
+        // in this world depends on where on a plane they are.
+        Vertex {
+            position: Vec3::Z * plane.height,
+            error: Vec3::ZERO,
+            normal: Vec3::Z,
+            shading: Frame::from_normal(Vec3::Z),
+            uv: Vec2::ZERO,
+            dp_du: Vec3::X,
+            dp_dv: Vec3::Y,
+            t: hit.t,
+            time: ray.time,
+            parameters: Vec2::ZERO,
+            shape: hit.shape,
+            primitive: 0,
+            instance: InstanceId::NONE,
+            material: MaterialId(hit.shape.0),
+            light: if plane.emits() {
+                LightId(hit.shape.0)
+            } else {
+                LightId::NONE
+            },
+        }
+    }
+    fn passage(&self, ray: &Ray, wavelengths: &Wavelengths, crossings: u32) -> Option<Passage> {
+        let mut passage = Passage::FREE;
+        let between = |plane: &&Plane| {
+            let t = (plane.height - ray.origin.z) / ray.direction.z;
+            t > 1e-3 && t < ray.t_max * 0.999
+        };
+        for (count, plane) in self.planes.iter().filter(between).enumerate() {
+            let passing = curve(plane.passing, wavelengths.lambda);
+            passage.transmittance *= passing;
+            passage.probability *= passing;
+            if count as u32 >= crossings || passage.transmittance == Vec4::ZERO {
+                return None;
+            }
+        }
+        if self.fault == Fault::FreePassage {
+            passage.probability = Vec4::ONE;
+        }
+        Some(passage)
+    }
+    fn bsdf(&self, vertex: &Vertex, wo: Vec3, wavelengths: &Wavelengths) -> Scatter {
+        let plane = &self.planes[vertex.shape.0 as usize];
+        let lambda = wavelengths.lambda;
+        let passing = curve(plane.passing, lambda);
+        let reflected = curve(plane.reflectance, lambda) * (1.0 - passing);
+        Scatter {
+            passing,
+            lobe: reflected * (1.0 - plane.smooth),
+            atom: reflected * plane.smooth,
+            exponent: curve(plane.exponent, lambda),
+            share: plane.smooth,
+            normal: Vec3::Z * wo.z.signum(),
+            tilt: lambda.map(tilt),
+            fault: self.fault,
+        }
+    }
+    fn emitted(&self, vertex: &Vertex, wo: Vec3, wavelengths: &Wavelengths) -> Vec4 {
+        let plane = &self.planes[vertex.shape.0 as usize];
+        curve(plane.emission[usize::from(wo.z > 0.0)], wavelengths.lambda)
+    }
+    fn is_emitter(&self, hit: &Hit) -> bool {
+        self.planes[hit.shape.0 as usize].emits()
+    }
+    fn background(&self, direction: Vec3, wavelengths: &Wavelengths) -> Vec4 {
+        curve(self.sky, wavelengths.lambda) * float::pow(direction.z.abs(), self.sky_power)
+    }
+    fn has_background(&self) -> bool {
+        (self.sky)(550.0) > 0.0
+    }
+    fn sample_light(&self, from: &Vertex, w: &Wavelengths, u: f32, v: Vec2) -> Option<LightSample> {
+        let lights = self.lights();
+        let choice = ((u * lights as f32) as usize).min(lights.checked_sub(1)?);
+        let mut emitting = self.planes.iter().enumerate().filter(|(_, p)| p.emits());
+        let uniform = |density: f32| Chance::Continuous(Density::uniform(density));
+        let on_sphere = |z: f32| {
+            let (y, x) = float::sin_cos(2.0 * PI * v.y);
+            let r = (1.0 - z * z).max(0.0).sqrt();
+            Vec3::new(x * r, y * r, z)
+        };
+        let Some((index, plane)) = emitting.nth(choice) else {
+            let direction = on_sphere(2.0 * v.x - 1.0);
+            return Some(LightSample {
+                direction,
+                target: None,
+                radiance: self.background(direction, w),
+                chance: uniform(self.hemisphere_density() * 0.5),
+                light: LightId(u32::MAX - 1),
+            });
+        };
+        let rise = plane.height - from.position.z;
+        if rise == 0.0 {
+            return None;
+        }
+        let direction = on_sphere((1.0 - v.x) * rise.signum());
+        Some(LightSample {
+            direction,
+            target: Some(from.position + direction * (rise / direction.z)),
+            radiance: curve(plane.emission[usize::from(direction.z < 0.0)], w.lambda),
+            chance: uniform(self.hemisphere_density()),
+            light: LightId(index as u32),
+        })
+    }
+    fn light_density(&self, from: Vec3, at: &Vertex, _: Vec3) -> Density<SolidAngle> {
+        let there = from.z != at.position.z && at.light.is_some();
+        Density::uniform(if there {
+            self.hemisphere_density()
+        } else {
+            0.0
+        })
+    }
+    fn background_density(&self, _: Vec3, _: Vec3) -> Density<SolidAngle> {
+        Density::uniform(self.hemisphere_density() * 0.5)
+    }
+    fn emit(&self, _: &Wavelengths, _: f32, _: Vec2, _: Vec2) -> Option<Emission> {
+        None
+    }
+    fn take_ray_count(&self) -> u64 {
+        0
+    }
+}
+
+/// Cosine of the discrete direction's angle with the normal, for a wavelength.
+pub(crate) fn tilt(lambda: f32) -> f32 {
+    0.3 + 0.6 * (lambda - 360.0) / 470.0
+}
