@@ -4,6 +4,9 @@
 //! low-discrepancy sampler spends its best dimensions on the choices that matter most. Pairs
 //! begin at even dimensions.
 
+use etalon_sampling::Sampler;
+use glam::Vec2;
+
 /// Film position (pair).
 pub const FILM: u32 = 0;
 /// Aperture position (pair).
@@ -12,25 +15,39 @@ pub const LENS: u32 = 2;
 pub const WAVELENGTHS: u32 = 4;
 /// Moment within the shutter interval.
 pub const TIME: u32 = 5;
-/// First dimension of the first scattering event.
-pub const SCATTERING: u32 = 6;
+/// First dimension of the first scattering event. A multiple of four: `Sobol` makes its
+/// coordinates in groups of four, which are stratified together.
+pub const SCATTERING: u32 = 8;
 /// Dimensions per scattering event.
 pub const PER_SCATTERING: u32 = 8;
 
-/// Within a scattering event: the direction toward a light (pair), or for a light path the
-/// aperture position to connect with.
-pub const LIGHT: u32 = 0;
-/// Within a scattering event: the scattered direction (pair).
-pub const DIRECTION: u32 = 2;
-/// Within a scattering event: which light.
-pub const LIGHT_CHOICE: u32 = 4;
-/// Within a scattering event: which lobe.
-pub const LOBE: u32 = 5;
-/// Within a scattering event: Russian roulette.
-pub const ROULETTE: u32 = 6;
+/// The random numbers of one scattering event, in the order of their dimensions. All of them
+/// are drawn, used or not: that is cheaper than skipping some.
+#[derive(Clone, Copy, Debug)]
+pub struct Event {
+    /// Direction toward a light, or for a light path the aperture position to connect with.
+    pub light: Vec2,
+    /// The scattered direction.
+    pub direction: Vec2,
+    /// Which light.
+    pub light_choice: f32,
+    /// Which lobe.
+    pub lobe: f32,
+    /// Russian roulette.
+    pub roulette: f32,
+}
 
-/// The first dimension of the scattering event with index `event` (from 0).
-#[inline]
-pub fn scattering(event: u32) -> u32 {
-    SCATTERING.wrapping_add(event.wrapping_mul(PER_SCATTERING))
+impl Event {
+    /// The numbers of the event with index `index` (from 0).
+    #[inline]
+    pub fn draw<S: Sampler>(sampler: &mut S, index: u32) -> Self {
+        sampler.skip_to(SCATTERING.wrapping_add(index.wrapping_mul(PER_SCATTERING)));
+        Self {
+            light: sampler.next_2d(),
+            direction: sampler.next_2d(),
+            light_choice: sampler.next_1d(),
+            lobe: sampler.next_1d(),
+            roulette: sampler.next_1d(),
+        }
+    }
 }

@@ -12,7 +12,7 @@
 //! like any other, shadow rays are stopped by such surfaces, and alpha is 1 wherever there is a
 //! surface, 0 before the background.
 
-use crate::dimensions as dim;
+use crate::dimensions::Event;
 use crate::path::{Rival, camera_ray, shadow};
 use crate::prefix::Prefix;
 use crate::settings::ignore_scheduling;
@@ -127,11 +127,9 @@ impl Direct {
         sampler: &mut S,
         event: u32,
     ) -> Vec4 {
-        let event = dim::scattering(event);
-        sampler.skip_to(event + dim::LIGHT);
-        let u = sampler.next_2d();
-        sampler.skip_to(event + dim::LIGHT_CHOICE);
-        let Some(light) = world.sample_light(vertex, wavelengths, sampler.next_1d(), u) else {
+        let event = Event::draw(sampler, event);
+        let Some(light) = world.sample_light(vertex, wavelengths, event.light_choice, event.light)
+        else {
             return Vec4::ZERO;
         };
         let (value, density) = bsdf.eval_and_density(wo, light.direction, Mode::Radiance);
@@ -166,11 +164,8 @@ impl Direct {
         sampler: &mut S,
         event: u32,
     ) -> Vec4 {
-        let event = dim::scattering(event);
-        sampler.skip_to(event + dim::DIRECTION);
-        let u = sampler.next_2d();
-        sampler.skip_to(event + dim::LOBE);
-        let Some(sample) = bsdf.sample(wo, sampler.next_1d(), u, Mode::Radiance) else {
+        let event = Event::draw(sampler, event);
+        let Some(sample) = bsdf.sample(wo, event.lobe, event.direction, Mode::Radiance) else {
             return Vec4::ZERO;
         };
         let mut path = Prefix::START;

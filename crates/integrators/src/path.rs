@@ -14,7 +14,7 @@
 //! neither stop shadow rays nor end light sampling's claim on a path: the density with which the
 //! *last real vertex* would have sampled the light is carried across them.
 
-use crate::dimensions as dim;
+use crate::dimensions::{self as dim, Event};
 use crate::prefix::Prefix;
 use crate::settings::{PathSettings, ignore_scheduling};
 use etalon_params::Params;
@@ -217,9 +217,9 @@ impl Path {
             }
 
             let bsdf = world.bsdf(&vertex, wo, wavelengths);
-            let event = dim::scattering(depth - 1);
+            let event = Event::draw(sampler, depth - 1);
             if bsdf.has_continuous() {
-                sampler.skip_to(event);
+                let crossings = max_depth - depth - 1;
                 found.radiance += sample_light(
                     world,
                     wavelengths,
@@ -227,16 +227,12 @@ impl Path {
                     &vertex,
                     &bsdf,
                     wo,
-                    max_depth - depth - 1,
-                    sampler,
-                    event,
+                    crossings,
+                    &event,
                 );
             }
 
-            sampler.skip_to(event + dim::DIRECTION);
-            let u = sampler.next_2d();
-            sampler.skip_to(event + dim::LOBE);
-            let Some(sample) = bsdf.sample(wo, sampler.next_1d(), u, Mode::Radiance) else {
+            let Some(sample) = bsdf.sample(wo, event.lobe, event.direction, Mode::Radiance) else {
                 found.alpha = 1.0;
                 break;
             };
@@ -249,7 +245,7 @@ impl Path {
             ray = vertex.spawn(sample.wi);
             if depth >= rr_depth {
                 let survival = (prefix.throughput() * eta * eta).min(0.95);
-                if !(sampler.next_1d() < survival) {
+                if !(event.roulette < survival) {
                     break;
                 }
                 prefix.survive(survival);
@@ -266,7 +262,7 @@ impl Path {
 /// Next-event estimation at a vertex: the light found, weighted against scattering.
 #[inline]
 #[allow(clippy::too_many_arguments)]
-pub(crate) fn sample_light<W: World, S: Sampler>(
+pub(crate) fn sample_light<W: World>(
     world: &W,
     wavelengths: &Wavelengths,
     prefix: &Prefix,
@@ -274,13 +270,10 @@ pub(crate) fn sample_light<W: World, S: Sampler>(
     bsdf: &W::Bsdf<'_>,
     wo: Vec3,
     crossings: u32,
-    sampler: &mut S,
-    event: u32,
+    event: &Event,
 ) -> Vec4 {
-    sampler.skip_to(event + dim::LIGHT);
-    let u = sampler.next_2d();
-    sampler.skip_to(event + dim::LIGHT_CHOICE);
-    let Some(light) = world.sample_light(vertex, wavelengths, sampler.next_1d(), u) else {
+    let Some(light) = world.sample_light(vertex, wavelengths, event.light_choice, event.light)
+    else {
         return Vec4::ZERO;
     };
     let (value, density) = bsdf.eval_and_density(wo, light.direction, Mode::Radiance);

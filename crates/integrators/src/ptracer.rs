@@ -15,7 +15,7 @@
 //! stopped, the background included. With `hide_emitters` lights are not seen directly; they
 //! still stand in the way of what is behind them, as in Mitsuba.
 
-use crate::dimensions as dim;
+use crate::dimensions::{self as dim, Event};
 use crate::path::camera_ray;
 use crate::prefix::Prefix;
 use crate::settings::{PathSettings, ignore_scheduling};
@@ -131,10 +131,8 @@ impl ParticleTracer {
             let vertex = world.vertex(&ray, &hit);
             let wo = -ray.direction;
             let bsdf = world.bsdf(&vertex, wo, wavelengths);
-            let event = dim::scattering(depth);
+            let event = Event::draw(sampler, depth);
             if bsdf.has_continuous() {
-                sampler.skip_to(event + dim::LIGHT);
-                let lens = sampler.next_2d();
                 let crossings = max_depth - depth - 1;
                 if let Some((raster, value)) = connect(
                     world,
@@ -144,17 +142,15 @@ impl ParticleTracer {
                     &vertex,
                     &bsdf,
                     wo,
-                    lens,
+                    event.light,
                     crossings,
                 ) {
                     let rgb = sensor.rgb(value) / site.pixels as f32;
                     sink.splat(raster, rgb.to_array());
                 }
             }
-            sampler.skip_to(event + dim::DIRECTION);
-            let u = sampler.next_2d();
-            sampler.skip_to(event + dim::LOBE);
-            let Some(sample) = bsdf.sample(wo, sampler.next_1d(), u, Mode::Importance) else {
+            let Some(sample) = bsdf.sample(wo, event.lobe, event.direction, Mode::Importance)
+            else {
                 return;
             };
             let before = prefix.throughput();
@@ -163,7 +159,7 @@ impl ParticleTracer {
             if depth >= rr_depth {
                 // Relative to the flux before: emitted flux has no natural scale.
                 let survival = (prefix.throughput() / before).min(0.95);
-                if !(sampler.next_1d() < survival) {
+                if !(event.roulette < survival) {
                     return;
                 }
                 prefix.survive(survival);

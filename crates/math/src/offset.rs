@@ -2,8 +2,8 @@
 //!
 //! A hit point is only known to within a box of half-widths `error`; a ray started inside that
 //! box may hit the surface it leaves. The origin is therefore moved along the normal by the
-//! box's extent in that direction, then rounded away from the surface (Pharr, Jakob, Humphreys
-//! 2023, "Physically Based Rendering", 4th ed., section 6.8). No epsilon scaled by the scene.
+//! box's extent in that direction, and by as much as rounding could take back (Pharr, Jakob,
+//! Humphreys 2023, "Physically Based Rendering", 4th ed., section 6.8). No epsilon scaled by the scene.
 
 use glam::Vec3;
 
@@ -20,27 +20,10 @@ pub const fn gamma(n: u32) -> f32 {
 /// ±`error` in each coordinate, on a surface with unit geometric `normal` (either side).
 #[inline]
 pub fn offset_origin(position: Vec3, error: Vec3, normal: Vec3, direction: Vec3) -> Vec3 {
-    let distance = normal.abs().dot(error);
-    let mut offset = normal * distance;
-    if direction.dot(normal) < 0.0 {
-        offset = -offset;
-    }
-    let moved = position + offset;
-    // Round each coordinate away from the surface.
-    let away = |value: f32, step: f32| {
-        if step > 0.0 {
-            value.next_up()
-        } else if step < 0.0 {
-            value.next_down()
-        } else {
-            value
-        }
-    };
-    Vec3::new(
-        away(moved.x, offset.x),
-        away(moved.y, offset.y),
-        away(moved.z, offset.z),
-    )
+    // |p|·ε covers the rounding of the sum below, twice over.
+    let reach = error + position.abs() * f32::EPSILON;
+    let distance = normal.abs().dot(reach);
+    position + normal * distance.copysign(direction.dot(normal))
 }
 
 #[cfg(test)]

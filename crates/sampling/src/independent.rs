@@ -62,9 +62,15 @@ impl Sampler for Independent {
 
     #[inline]
     fn skip_to(&mut self, dimension: u32) {
-        // The generator's period is 2⁶⁴: a step back is 2⁶⁴ − 1 steps ahead.
-        let steps = u64::from(dimension).wrapping_sub(u64::from(self.dimension));
-        self.generator.advance(steps);
+        // The generator's period is 2⁶⁴: a step back is 2⁶⁴ − 1 steps ahead, and a jump takes a
+        // step per bit of the distance.
+        match u64::from(dimension).wrapping_sub(u64::from(self.dimension)) {
+            0 => {}
+            1 => {
+                self.generator.next_u32();
+            }
+            steps => self.generator.advance(steps),
+        }
         self.dimension = dimension;
     }
 }
