@@ -3,7 +3,7 @@
 
 use crate::placement::Placement;
 use crate::shapes::mesh::{Mesh, MeshOptions};
-use crate::shapes::solid::read_flip;
+use crate::shapes::solid::{read_face_normals, read_flip};
 use etalon_params::Params;
 use etalon_transport::MeshData;
 use glam::{Vec2, Vec3};
@@ -52,10 +52,11 @@ pub fn cube(placement: &Placement, flip: bool) -> Result<Mesh, String> {
     Ok(Mesh::new(data, &options)?.outside(flip != placement.mirrors()))
 }
 
-/// Reads `flip_normals` and `to_world`.
+/// Reads `face_normals`, `flip_normals` and `to_world`.
 pub(crate) fn from_params(params: &Params<'_>) -> Option<Mesh> {
     let placement = Placement::from_params(params);
     let flip = read_flip(params);
+    read_face_normals(params);
     cube(&placement?, flip)
         .map_err(|message| params.error_at("to_world", message))
         .ok()

@@ -9,7 +9,7 @@
 
 use crate::placement::{Placement, perpendicular};
 use crate::shapes::mesh::{Mesh, MeshOptions};
-use crate::shapes::solid::read_flip;
+use crate::shapes::solid::{read_face_normals, read_flip};
 use crate::surface::Surface;
 use etalon_params::Params;
 use etalon_sampling::warps::SphericalRectangle;
@@ -54,10 +54,11 @@ impl Rectangle {
         })
     }
 
-    /// Reads `flip_normals` and `to_world`.
+    /// Reads `face_normals`, `flip_normals` and `to_world`.
     pub(crate) fn from_params(params: &Params<'_>) -> Option<Self> {
         let placement = Placement::from_params(params);
         let flip = read_flip(params);
+        read_face_normals(params);
         Self::new(&placement?, flip)
             .map_err(|message| params.error_at("to_world", message))
             .ok()

@@ -21,3 +21,8 @@ pub(crate) trait Solid {
 pub(crate) fn read_flip(params: &Params<'_>) -> bool {
     params.boolean_or("flip_normals", false)
 }
+
+/// Reads `face_normals` for a shape whose faces are flat anyway: it makes no difference there.
+pub(crate) fn read_face_normals(params: &Params<'_>) {
+    params.boolean_or("face_normals", false);
+}

@@ -123,6 +123,7 @@ fn every_plugin_takes_its_parameters() {
                 ("p1", Value::Vector(DVec3::X)),
                 ("radius", Value::Integer(3)),
             ]),
+            "cube" | "rectangle" => properties.push(flag("face_normals", true)),
             _ => {}
         }
         let (shape, messages) = make(plugin, properties);
