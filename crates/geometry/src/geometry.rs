@@ -268,6 +268,7 @@ impl Geometry {
         }
     }
 
+    #[inline]
     fn point(&self, shape: ShapeId, sampled: Sampled) -> SurfacePoint {
         let owner = self.owner(shape, InstanceId::NONE);
         SurfacePoint {
@@ -288,6 +289,7 @@ impl Shapes for Geometry {
         self.point(shape, self.shape(shape).sample_area(u))
     }
 
+    #[inline]
     fn sample_toward(&self, shape: ShapeId, from: Vec3, u: Vec2) -> Option<SurfacePoint> {
         let sampled = self.shape(shape).sample_toward(from, u)?;
         Some(self.point(shape, sampled))

@@ -193,6 +193,7 @@ impl Shape {
 
     /// A point chosen for an observer at `from`, with its density per unit solid angle. `None`
     /// if the chosen point is seen edge-on or the shape has no area.
+    #[inline]
     pub(crate) fn sample_toward(&self, from: Vec3, u: Vec2) -> Option<Sampled> {
         let sampled = match self {
             Self::Sphere(sphere) => {

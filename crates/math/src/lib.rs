@@ -3,6 +3,7 @@
 //!
 //! Nothing here knows of light.
 
+pub mod cross;
 pub mod density;
 pub mod float;
 pub mod float64;
@@ -11,6 +12,7 @@ pub mod offset;
 pub mod polynomial;
 pub mod transform;
 
+pub use cross::{cross, difference_of_products};
 pub use density::{Area, Atom, Density, Length, Measure, SolidAngle};
 pub use frame::Frame;
 pub use glam::{DMat4, DVec2, DVec3, Vec2, Vec3, Vec4};

@@ -43,6 +43,6 @@ pub use normal::{
     inverse_normal_cdf, normal_cdf, normal_density, square_to_normal, standard_normal_density,
 };
 pub use sphere_cone::SphereCone;
-pub use spherical_rectangle::SphericalRectangle;
+pub use spherical_rectangle::{RectangleSides, SphericalRectangle};
 pub use spherical_triangle::SphericalTriangle;
 pub use triangle::{square_to_triangle, triangle_density, triangle_to_square};

@@ -15,7 +15,7 @@
 use crate::accelerator::Bounds;
 use crate::placement::Placement;
 use crate::surface::Surface;
-use etalon_math::{Frame, gamma};
+use etalon_math::{Frame, cross, gamma};
 use etalon_sampling::discrete::AliasTable;
 use etalon_transport::{Attribute, MeshData};
 use glam::{DVec3, Vec2, Vec3};
@@ -160,31 +160,27 @@ impl Mesh {
     /// corner.
     #[inline]
     pub(crate) fn surface(&self, primitive: u32, b: Vec2) -> Surface {
-        let [i0, i1, i2] = self.triangles[primitive as usize].map(|i| i as usize);
-        let positions = &self.positions;
-        let (p0, p1, p2) = (positions[i0], positions[i1], positions[i2]);
+        // Corners are fetched one by one: `map` over arrays is not reliably inlined.
+        let [i0, i1, i2] = self.triangles[primitive as usize];
+        let (i0, i1, i2) = (i0 as usize, i1 as usize, i2 as usize);
+        let (p0, p1, p2) = (self.positions[i0], self.positions[i1], self.positions[i2]);
         let b0 = 1.0 - b.x - b.y;
-        let (e1, e2) = (p1.as_dvec3() - p0.as_dvec3(), p2.as_dvec3() - p0.as_dvec3());
-        let (b1, b2) = (f64::from(b.x), f64::from(b.y));
-        let position = (p0.as_dvec3() + e1 * b1 + e2 * b2).as_vec3();
-        // The position itself is rounded once; the rest is for the next ray's intersection,
-        // which rounds differences to the corners.
-        let error = (p0.abs() * b0.abs() + p1.abs() * b.x.abs() + p2.abs() * b.y.abs())
-            .max(position.abs())
-            * gamma(4)
+        let position = p0 * b0 + p1 * b.x + p2 * b.y;
+        // Seven roundings (Pharr, Jakob, Humphreys 2023, section 6.8.5); and the next ray's
+        // intersection rounds differences to the corners.
+        let error = (p0.abs() * b0.abs() + p1.abs() * b.x.abs() + p2.abs() * b.y.abs()) * gamma(9)
             + f32::MIN_POSITIVE;
-        let cross = e1.cross(e2).normalize().as_vec3();
+        let (e1, e2) = (p1 - p0, p2 - p0);
+        let cross = unit_normal(e1, e2);
         let mut normal = if self.reversed { -cross } else { cross };
         let mut shading_normal = normal;
         if !self.normals.is_empty() {
-            let (n0, n1, n2) = (self.normals[i0], self.normals[i1], self.normals[i2]);
-            let sum = n0 * b0 + n1 * b.x + n2 * b.y;
+            let sum = self.normals[i0] * b0 + self.normals[i1] * b.x + self.normals[i2] * b.y;
             shading_normal = sum.try_normalize().unwrap_or(normal);
             if shading_normal.dot(normal) < 0.0 {
                 normal = -normal;
             }
         }
-        let (e1, e2) = (e1.as_vec3(), e2.as_vec3());
         let (uv, dp_du, dp_dv) = if self.uvs.is_empty() {
             (b, e1, e2)
         } else {
@@ -283,4 +279,16 @@ fn check(data: &MeshData) -> Result<(), String> {
         }
     }
     Ok(())
+}
+
+/// The unit vector perpendicular to two edges.
+#[inline]
+fn unit_normal(e1: Vec3, e2: Vec3) -> Vec3 {
+    let n = cross(e1, e2);
+    let length_squared = n.length_squared();
+    if length_squared > 1e-30 && length_squared < 1e30 {
+        return n / length_squared.sqrt();
+    }
+    // Squares of tiny or huge triangles leave the range of single precision.
+    e1.as_dvec3().cross(e2.as_dvec3()).normalize().as_vec3()
 }

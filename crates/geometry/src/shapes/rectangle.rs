@@ -12,7 +12,7 @@ use crate::shapes::mesh::{Mesh, MeshOptions};
 use crate::shapes::solid::{read_face_normals, read_flip};
 use crate::surface::Surface;
 use etalon_params::Params;
-use etalon_sampling::warps::SphericalRectangle;
+use etalon_sampling::warps::{RectangleSides, SphericalRectangle};
 use etalon_transport::MeshData;
 use glam::{Vec2, Vec3};
 
@@ -21,7 +21,7 @@ use glam::{Vec2, Vec3};
 pub struct Rectangle {
     mesh: Mesh,
     corner: Vec3,
-    edges: [Vec3; 2],
+    sides: RectangleSides,
     area: f64,
     right_angled: bool,
 }
@@ -48,7 +48,7 @@ impl Rectangle {
         Ok(Self {
             mesh,
             corner,
-            edges,
+            sides: RectangleSides::new(edges),
             area: a.cross(b).length(),
             right_angled: perpendicular(a, b, false),
         })
@@ -76,6 +76,7 @@ impl Rectangle {
     }
 
     /// The point with texture coordinates `uv`: surface, triangle, barycentric coordinates.
+    #[inline]
     pub(crate) fn at(&self, uv: Vec2) -> (Surface, u32, Vec2) {
         let (primitive, b) = if uv.x + uv.y <= 1.0 {
             (0, uv)
@@ -86,10 +87,11 @@ impl Rectangle {
     }
 
     /// The rectangle as seen from a point, if it is to be sampled by solid angle.
+    #[inline]
     pub(crate) fn seen_from(&self, from: Vec3) -> Option<SphericalRectangle> {
         if !self.right_angled {
             return None;
         }
-        SphericalRectangle::new(self.corner - from, self.edges)
+        SphericalRectangle::seen(self.corner - from, &self.sides)
     }
 }

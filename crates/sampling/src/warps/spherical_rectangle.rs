@@ -18,6 +18,32 @@ use etalon_math::float::sin_cos_turns;
 use etalon_math::float64;
 use glam::{DVec2, DVec3, Vec2, Vec3};
 
+/// The sides of a rectangle: what does not depend on where it is seen from.
+#[derive(Clone, Copy, Debug)]
+pub struct RectangleSides {
+    edges: [Vec3; 2],
+    x: DVec3,
+    y: DVec3,
+    normal: DVec3,
+    size: DVec2,
+}
+
+impl RectangleSides {
+    /// Two perpendicular edges.
+    pub fn new(edges: [Vec3; 2]) -> Self {
+        let [x, y] = edges.map(Vec3::as_dvec3);
+        let size = DVec2::new(x.length(), y.length());
+        let (x, y) = (x / size.x, y / size.y);
+        Self {
+            edges,
+            x,
+            y,
+            normal: x.cross(y),
+            size,
+        }
+    }
+}
+
 /// A rectangle seen from a point.
 #[derive(Clone, Copy, Debug)]
 pub struct SphericalRectangle {
@@ -42,13 +68,23 @@ impl SphericalRectangle {
     /// the origin. `None` if its solid angle lies outside 10⁻⁶ … 6.2 sr: sample its area then.
     #[inline]
     pub fn new(corner: Vec3, edges: [Vec3; 2]) -> Option<Self> {
+        Self::seen(corner, &RectangleSides::new(edges))
+    }
+
+    /// The same, for sides that were made ready before.
+    #[inline]
+    pub fn seen(corner: Vec3, sides: &RectangleSides) -> Option<Self> {
         let origin = corner.as_dvec3();
-        let [x, y] = edges.map(Vec3::as_dvec3);
-        let size = DVec2::new(x.length(), y.length());
-        let (x, y) = (x / size.x, y / size.y);
+        let RectangleSides {
+            edges,
+            x,
+            y,
+            normal,
+            size,
+        } = *sides;
         let low = DVec2::new(origin.dot(x), origin.dot(y));
         let high = low + size;
-        let height = origin.dot(x.cross(y)).abs();
+        let height = origin.dot(normal).abs();
         let solid_angle = solid_angle(low, high, height);
         SOLID_ANGLES.contains(&solid_angle).then(|| {
             let z2 = height * height;
@@ -89,7 +125,9 @@ impl SphericalRectangle {
     pub fn sample_position(&self, u: Vec2) -> Vec2 {
         let turns = u.x * (self.solid_angle * (0.5 / core::f64::consts::PI)) as f32;
         let (sin, cos) = sin_cos_turns(turns);
-        let swept = DVec2::new(cos.into(), sin.into()).normalize();
+        let swept = DVec2::new(cos.into(), sin.into());
+        // One Newton step: the length is 1 but for the rounding of single precision.
+        let swept = swept * (1.5 - 0.5 * swept.length_squared());
         let angle = swept.rotate(self.k);
         let f = (angle.x * self.b.x - self.b.y) / angle.y;
         let z2 = self.height * self.height;
@@ -156,8 +194,9 @@ fn solid_angle(low: DVec2, high: DVec2, height: f64) -> f64 {
     let [lp, lr] = [p.length(), r.length()];
     let half = |m: DVec3| {
         let lm = m.length();
-        let sum = lp * lr * lm + p.dot(r) * lm + r.dot(m) * lp + m.dot(p) * lr;
-        float64::atan2(volume, sum)
+        lp * lr * lm + p.dot(r) * lm + r.dot(m) * lp + m.dot(p) * lr
     };
-    2.0 * (half(q) + half(s))
+    // The sum of two angles is the argument of a product: one arc tangent serves for both.
+    let (a, b) = (half(q), half(s));
+    2.0 * float64::atan2(volume * (a + b), a * b - volume * volume)
 }
