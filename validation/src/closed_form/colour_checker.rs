@@ -66,3 +66,17 @@ fn at(table: &[[f64; 2]], lambda: f64) -> f64 {
     };
     v0 + (v1 - v0) * (lambda - l0) / (l1 - l0)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn tables_are_linear_between_their_rows() {
+        let table = [[400.0, 1.0], [410.0, 3.0], [500.0, 0.0]];
+        assert_eq!(at(&table, 400.0), 1.0);
+        assert_eq!(at(&table, 405.0), 2.0);
+        assert_eq!(at(&table, 410.0), 3.0);
+        assert_eq!(at(&table, 500.0), 0.0);
+    }
+}

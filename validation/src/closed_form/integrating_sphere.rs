@@ -67,3 +67,32 @@ fn per_square(point: [f64; 3], lamp: [f64; 3], radius: f64) -> f64 {
 fn dot(a: [f64; 3], b: [f64; 3]) -> f64 {
     a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use etalon_math::float64::{cos, sin};
+
+    #[test]
+    fn the_wall_receives_what_the_lamp_gives() {
+        // The mean of cos θ/d² over the wall is 4π/(4π R²), wherever the lamp is.
+        let (n, radius) = (300, 1.3);
+        let mut sum = 0.0;
+        for i in 0..n * n {
+            let z = 2.0 * (f64::from(i % n) + 0.5) / f64::from(n) - 1.0;
+            let phi = 2.0 * PI * (f64::from(i / n) + 0.5) / f64::from(n);
+            let r = (1.0 - z * z).sqrt();
+            let point = [r * cos(phi), r * sin(phi), z].map(|c| radius * c);
+            sum += per_square(point, [0.3, 0.35, 0.1], radius);
+        }
+        let mean = sum / f64::from(n * n);
+        assert!((mean * radius * radius - 1.0).abs() < 1e-4, "{mean}");
+    }
+
+    #[test]
+    fn the_camera_sees_the_wall() {
+        let point = wall([0.4, -0.2, 1.0], 1.0);
+        assert!((dot(point, point) - 1.0).abs() < 1e-12);
+        assert!(point[2] > CAMERA[2]);
+    }
+}

@@ -89,3 +89,96 @@ fn lambert(corners: &[[f64; 3]]) -> f64 {
         })
         .sum()
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// ∫ cos θ cos θ'/d² dA over a light given by points, normals and areas: the definition.
+    fn by_definition(
+        lights: impl Iterator<Item = ([f64; 3], [f64; 3], f64)>,
+        x: f64,
+        y: f64,
+    ) -> f64 {
+        lights
+            .map(|(p, n, area)| {
+                let d = [p[0] - x, p[1] - y, p[2]];
+                let square = d[0] * d[0] + d[1] * d[1] + d[2] * d[2];
+                let facing = -(d[0] * n[0] + d[1] * n[1] + d[2] * n[2]);
+                facing.max(0.0) * d[2] / (square * square) * area
+            })
+            .sum()
+    }
+
+    fn claim(numbers: &[(&str, f64)]) -> Claim {
+        let defines: String = numbers
+            .iter()
+            .map(|(key, value)| format!("{key} = {value:?}\n"))
+            .collect();
+        toml::from_str(&format!(
+            "title = \"\"\nscene = \"\"\nestimators = []\n[defines]\n{defines}\n\
+             [oracle]\nkind = \"closed_form\"\nformula = \"\"\n"
+        ))
+        .expect("a claim")
+    }
+
+    const POINTS: [[f64; 2]; 3] = [[0.1, 0.0], [0.7, -0.4], [-1.6, 1.9]];
+    const N: usize = 400;
+
+    fn grid() -> impl Iterator<Item = (f64, f64)> {
+        let at = |i: usize| (i as f64 + 0.5) / N as f64;
+        (0..N * N).map(move |i| (at(i % N), at(i / N)))
+    }
+
+    #[test]
+    fn sphere_is_the_integral_over_its_surface() {
+        let irradiance = sphere(&claim(&[("height", 1.5), ("radius", 0.5)])).expect("numbers");
+        for [x, y] in POINTS {
+            let lights = grid().map(|(u, v)| {
+                let z = 2.0 * u - 1.0;
+                let (r, phi) = ((1.0 - z * z).sqrt(), 2.0 * PI * v);
+                let n = [r * cos(phi), r * sin(phi), z];
+                let p = [0.5 * n[0], 0.5 * n[1], 1.5 + 0.5 * n[2]];
+                (p, n, PI / (N * N) as f64)
+            });
+            let expected = by_definition(lights, x, y);
+            assert!((irradiance(x, y) / expected - 1.0).abs() < 1e-4);
+        }
+    }
+
+    #[test]
+    fn disk_is_the_integral_over_its_surface() {
+        let irradiance = disk(&claim(&[("height", 1.0), ("radius", 0.75)])).expect("numbers");
+        for [x, y] in POINTS {
+            let lights = grid().map(|(u, v)| {
+                let (r, phi) = (0.75 * u.sqrt(), 2.0 * PI * v);
+                let area = PI * 0.75 * 0.75 / (N * N) as f64;
+                ([r * cos(phi), r * sin(phi), 1.0], [0.0, 0.0, -1.0], area)
+            });
+            let expected = by_definition(lights, x, y);
+            assert!((irradiance(x, y) / expected - 1.0).abs() < 1e-4);
+        }
+    }
+
+    #[test]
+    fn rectangle_is_the_integral_over_its_surface() {
+        let numbers = [
+            ("height", 1.2),
+            ("half_width", 0.8),
+            ("half_depth", 0.4),
+            ("tilt", 30.0),
+        ];
+        let irradiance = rectangle(&claim(&numbers)).expect("numbers");
+        let tilt = 30f64.to_radians();
+        for [x, y] in POINTS {
+            let lights = grid().map(|(u, v)| {
+                let (a, b) = (0.8 * (2.0 * u - 1.0), 0.4 * (2.0 * v - 1.0));
+                let p = [a * cos(tilt), b, 1.2 - a * sin(tilt)];
+                let n = [-sin(tilt), 0.0, -cos(tilt)];
+                (p, n, 1.6 * 0.8 / (N * N) as f64)
+            });
+            let expected = by_definition(lights, x, y);
+            assert!((irradiance(x, y) / expected - 1.0).abs() < 1e-4);
+        }
+    }
+}

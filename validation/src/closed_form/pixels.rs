@@ -22,3 +22,16 @@ pub fn mean(size: [u32; 2], [column, row]: [u32; 2], f: impl Fn(f64, f64) -> f64
     }
     sum
 }
+
+#[cfg(test)]
+mod tests {
+    use super::mean;
+
+    #[test]
+    fn polynomials_are_exact() {
+        // Pixel (3, 0) of 4 × 2: x from 0.5 to 1, y from 0 to 0.5.
+        let found = mean([4, 2], [3, 0], |x, y| x * x * x * y + 1.0);
+        let expected = (1.0 - 0.0625) / 4.0 / 0.5 * 0.25 + 1.0;
+        assert!((found - expected).abs() < 1e-14, "{found} {expected}");
+    }
+}

@@ -95,3 +95,41 @@ fn cross(
     let p = (cosine - ratio * behind) / (cosine + ratio * behind);
     (point, refracted, 1.0 - 0.5 * (s * s + p * p))
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use etalon_math::float64::{asin, atan2};
+
+    #[test]
+    fn glass_like_air_changes_nothing() {
+        let (x, transmittance) = trace(0.3, 1.0);
+        assert!((x - 0.3).abs() < 1e-12 && (transmittance - 1.0).abs() < 1e-12);
+    }
+
+    #[test]
+    fn deviation_is_the_textbooks() {
+        // δ = θ + asin(sin A √(n² − sin² θ) − cos A sin θ) − A for the angle of incidence θ and the
+        // prism's angle A (Born and Wolf, *Principles of Optics*, section 4.7.2).
+        let (theta, apex) = (TILT.to_radians(), 2.0 * TILT.to_radians());
+        for index in [1.3, 1.5, 1.7] {
+            let turned = sin(apex) * (index * index - sin(theta) * sin(theta)).sqrt();
+            let expected = theta + asin(turned - cos(apex) * sin(theta)) - apex;
+            let front = [sin(theta), cos(theta)];
+            let back = [sin(theta), -cos(theta)];
+            let (at, inside, _) = cross([0.0, 9.0], [0.0, -1.0], front, FACE, 1.0 / index);
+            let (_, outside, _) = cross(at, inside, back, -FACE, index);
+            let deviation = atan2(-outside[0], -outside[1]);
+            assert!(
+                (deviation - expected).abs() < 1e-12,
+                "{deviation} {expected}"
+            );
+        }
+    }
+
+    #[test]
+    fn at_normal_incidence_fresnel_is_known() {
+        let (_, _, transmittance) = cross([0.0, 9.0], [0.0, -1.0], [0.0, 1.0], 0.0, 1.0 / 1.5);
+        assert!((transmittance - 0.96).abs() < 1e-12);
+    }
+}
