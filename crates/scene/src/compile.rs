@@ -8,8 +8,8 @@ use crate::surfaces::{self, Emitting, Surfaces};
 use etalon_cameras::{AnyCamera, FilmWindow};
 use etalon_film::{FilmSettings, Filter};
 use etalon_lights::{Bounds, LightDescription, LightSet};
-use etalon_params::{Class, Diagnostic, Diagnostics, Node, Params, plugins};
-use etalon_transport::{Assets, LightId};
+use etalon_params::{Class, Diagnostic, Diagnostics, Node, Params, Property, plugins};
+use etalon_transport::{Assets, Build, LightId, Role};
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 
@@ -57,6 +57,7 @@ pub fn compile(root: &Node, assets: &dyn Assets, diagnostics: &Diagnostics) -> O
     let integrator = params.child(Class::Integrator).cloned();
     let mut surfaces = surfaces::read(&params, &mut builder);
     let lights = lights(&params, &mut surfaces, &mut builder);
+    read_unused_textures(&params, &mut builder);
     refuse_unknown_children(&params);
     params.finish();
     if diagnostics.has_errors() {
@@ -131,8 +132,11 @@ fn sensor(
         );
     }
     let sensor = Params::new(node, diagnostics);
-    let film = film(&sensor, diagnostics)?;
+    let film = film(&sensor, diagnostics);
     let sampler = SamplerSettings::from_sensor(&sensor);
+    // After a mistake in the film, any film will do to find those of the camera.
+    let stand_in = || FilmSettings::new(768, 576, Filter::default());
+    let film = film.unwrap_or_else(stand_in);
     let window = FilmWindow {
         size: film.size,
         origin: film.crop_offset,
@@ -157,10 +161,19 @@ fn film(sensor: &Params<'_>, diagnostics: &Diagnostics) -> Option<FilmSettings> 
     Some(film)
 }
 
-/// Media, volumes, phase functions and the like at the top of a scene: known, not built yet.
-/// Textures and materials there are definitions for others to refer to.
+/// Textures at the top of a scene are definitions for others to refer to. Those that nobody
+/// refers to are read all the same, so that mistakes in them are found; as emission, which
+/// takes any colour.
+fn read_unused_textures(params: &Params<'_>, builder: &mut Builder<'_>) {
+    for (_, node) in params.children(Class::Texture) {
+        if !node.properties.iter().any(Property::is_used) {
+            builder.nested_texture(node, Role::Emission);
+        }
+    }
+}
+
+/// Media, volumes and phase functions at the top of a scene: known, not built yet.
 fn refuse_unknown_children(params: &Params<'_>) {
-    params.children(Class::Texture);
     for class in [Class::Medium, Class::Volume, Class::Phase] {
         for (_, node) in params.children(class) {
             params.diagnostics.push(plugins::not_built(node, []));

@@ -3,6 +3,7 @@
 //! [`compile`] turns what a scene file said into a [`Compiled`]: the [`Scene`], which implements
 //! [`etalon_transport::World`] for the integrators, and what the caller needs to render it.
 
+mod attributes;
 pub mod builder;
 pub mod compile;
 pub mod lookup;

@@ -1,5 +1,6 @@
 //! Shapes, groups, instances and their materials.
 
+use crate::attributes;
 use crate::builder::Builder;
 use etalon_bsdf::Material;
 use etalon_geometry::{GeometryBuilder, GroupId, Placement, Shape};
@@ -86,7 +87,13 @@ impl Surfaces {
         }
         let shape = Shape::from_params(&params, builder);
         let emitter = params.child(Class::Emitter).cloned();
-        let material = match params.child(Class::Bsdf) {
+        let bsdf = params.child(Class::Bsdf);
+        if let Some(shape) = &shape {
+            for user in emitter.iter().chain(bsdf) {
+                attributes::check(shape, node.plugin.span, user, builder.diagnostics);
+            }
+        }
+        let material = match bsdf {
             Some(bsdf) => self.material(bsdf, builder),
             None if emitter.is_some() => self.black(builder),
             None => self.grey(builder),

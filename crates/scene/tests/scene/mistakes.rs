@@ -1,0 +1,168 @@
+//! What is said of mistakes: all of them in one run, each where it stands.
+
+use crate::reading::{document, read, read_with};
+
+const OBJECTS: [(&str, &str); 10] = [
+    ("bsdf", "<bsdf type=\"diffuse\"/>"),
+    ("emitter", "<emitter type=\"constant\"/>"),
+    ("film", "<film type=\"hdrfilm\"/>"),
+    ("integrator", "<integrator type=\"path\"/>"),
+    ("rfilter", "<rfilter type=\"box\"/>"),
+    ("sampler", "<sampler type=\"independent\"/>"),
+    ("sensor", "<sensor type=\"perspective\"/>"),
+    ("shape", "<shape type=\"sphere\"/>"),
+    ("texture", "<texture type=\"checkerboard\"/>"),
+    ("phase", "<phase type=\"isotropic\"/>"),
+];
+
+/// For every kind of object, what it may hold without a name.
+const HOSTS: [(&str, &str, &[&str]); 9] = [
+    ("<shape type=\"sphere\">", "</shape>", &["bsdf"]),
+    ("<shape type=\"shapegroup\">", "</shape>", &["shape"]),
+    ("<bsdf type=\"diffuse\">", "</bsdf>", &[]),
+    ("<bsdf type=\"roughconductor\">", "</bsdf>", &[]),
+    ("<emitter type=\"point\">", "</emitter>", &[]),
+    ("<emitter type=\"constant\">", "</emitter>", &[]),
+    ("<texture type=\"checkerboard\">", "</texture>", &[]),
+    (
+        "<sensor type=\"perspective\">",
+        "</sensor>",
+        &["film", "sampler"],
+    ),
+    (
+        "<sensor type=\"perspective\"><film type=\"hdrfilm\">",
+        "</film></sensor>",
+        &["rfilter"],
+    ),
+];
+
+#[test]
+fn no_object_is_swallowed_where_it_has_no_meaning() {
+    for (open, close, accepted) in HOSTS {
+        for (class, object) in OBJECTS {
+            // A sensor in the first place: it is the one that is read.
+            let text = format!("<scene version=\"3.0.0\">\n{open}\n{object}{close}\n");
+            let rest = if open.starts_with("<sensor") {
+                "</scene>"
+            } else {
+                "<sensor type=\"perspective\"/></scene>"
+            };
+            let read = read_with(&(text + rest), &[]);
+            let refused = !read.errors.is_empty();
+            let meant = accepted.contains(&class);
+            assert_eq!(refused, !meant, "{class} in {open}: {:?}", read.errors);
+            // The object itself is pointed at, or what holds it.
+            let place = |e: &String| e.starts_with("3:") || e.starts_with("2:");
+            assert!(
+                read.errors.iter().all(place),
+                "{class} in {open}: {:?}",
+                read.errors
+            );
+        }
+    }
+}
+
+#[test]
+fn every_mistake_is_found_in_one_run() {
+    let read = read_with(
+        "<scene version=\"3.0.0\">\n\
+         <sensor type=\"perspective\">\n\
+         <float name=\"fof\" value=\"3\"/>\n\
+         <sampler type=\"independent\"><integer name=\"sample_count\" value=\"0\"/></sampler>\n\
+         <film type=\"hdrfim\"/></sensor>\n\
+         <bsdf type=\"diffuse\" id=\"unused\">\n<float name=\"alpha\" value=\"1\"/></bsdf>\n\
+         <shape type=\"sphere\">\n<bsdf type=\"mirror\"/></shape>\n\
+         <shape type=\"disk\">\n<float name=\"radius\" value=\"1\"/></shape>\n\
+         <emitter type=\"point\">\n<float name=\"sampling_weight\" value=\"-1\"/></emitter>\n\
+         <medium type=\"homogeneous\"/>\n\
+         <float name=\"gamma\" value=\"2.2\"/>\n\
+         </scene>",
+        &[],
+    );
+    assert!(read.compiled.is_none());
+    let lines: Vec<&str> = read
+        .errors
+        .iter()
+        .filter_map(|e| e.split(':').next())
+        .collect();
+    for line in ["3", "4", "5", "7", "9", "11", "13", "14", "15"] {
+        assert!(lines.contains(&line), "line {line}: {:#?}", read.errors);
+    }
+    assert_eq!(lines.len(), 9, "{:#?}", read.errors);
+}
+
+#[test]
+fn what_cannot_affect_pixels_is_accepted() {
+    let read = read(
+        "<integer name=\"kd_max_depth\" value=\"4\"/>\n\
+         <boolean name=\"embree_use_robust_intersections\" value=\"true\"/>",
+    );
+    assert_eq!(read.errors, Vec::<String>::new());
+}
+
+/// A triangle whose corners have colours.
+const COLOURED: &str = "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\n\
+    property float y\nproperty float z\nproperty float r\nproperty float g\nproperty float b\n\
+    element face 1\nproperty list uchar int vertex_indices\nend_header\n\
+    0 0 0 1 0 0\n1 0 0 0 1 0\n0 1 0 0 0 1\n3 0 1 2\n";
+
+#[test]
+fn mesh_attributes_must_exist() {
+    let texture = |name: &str, parameter: &str| {
+        format!(
+            "<texture type=\"mesh_attribute\" name=\"{parameter}\">\
+             <string name=\"name\" value=\"{name}\"/></texture>"
+        )
+    };
+    let diffuse = |name: &str| {
+        format!(
+            "<bsdf type=\"diffuse\">{}</bsdf>",
+            texture(name, "reflectance")
+        )
+    };
+    let shape = |head: &str, content: &str| format!("<shape type={head}\n{content}\n</shape>\n");
+    let mesh = "\"ply\"><string name=\"filename\" value=\"t.ply\"/>";
+    let found = |content: String| {
+        let read = read_with(&document(&content), &[("t.ply", COLOURED)]);
+        read.errors
+    };
+    assert_eq!(
+        found(shape(mesh, &diffuse("vertex_color"))),
+        Vec::<String>::new()
+    );
+
+    let wrong = found(shape(mesh, &diffuse("vertex_colour")));
+    assert_eq!(wrong.len(), 1, "{wrong:?}");
+    assert!(
+        wrong[0].starts_with("3:") && wrong[0].contains("vertex_colour"),
+        "{wrong:?}"
+    );
+
+    // Other shapes have none; a light asks as a material does; deep inside others is found too.
+    let sphere = "\"sphere\">";
+    assert_eq!(found(shape(sphere, &diffuse("vertex_color"))).len(), 1);
+    let light = format!(
+        "<emitter type=\"area\">{}</emitter>",
+        texture("face_glow", "radiance")
+    );
+    assert_eq!(found(shape(mesh, &light)).len(), 1);
+    let deep = format!("<bsdf type=\"twosided\">{}</bsdf>", diffuse("vertex_none"));
+    assert_eq!(found(shape(mesh, &deep)).len(), 1);
+
+    // A shared material is asked about for each of its shapes.
+    let shared = diffuse("vertex_color").replacen("<bsdf ", "<bsdf id=\"m\" ", 1) + "\n";
+    let reference = "<ref id=\"m\"/>";
+    assert_eq!(
+        found(shared.clone() + &shape(mesh, reference)),
+        Vec::<String>::new()
+    );
+    assert_eq!(
+        found(shared + &shape(mesh, reference) + &shape(sphere, reference)).len(),
+        1
+    );
+    let group = format!(
+        "<shape type=\"shapegroup\" id=\"g\">{}</shape>",
+        shape(sphere, &diffuse("vertex_color"))
+    );
+    assert_eq!(found(group).len(), 1);
+}

@@ -1,0 +1,116 @@
+//! Straight travel through surfaces that let light pass.
+
+use crate::reading::{LANES, scene};
+use etalon_transport::{Ray, World};
+use glam::{Vec3, Vec4};
+use proptest::prelude::*;
+use proptest::test_runner::{Config, RngSeed};
+
+/// A square of side 200 at a height.
+fn sheet(height: f32, bsdf: &str) -> String {
+    format!(
+        "<shape type=\"rectangle\"><transform name=\"to_world\"><scale value=\"100\"/>\
+         <translate z=\"{height}\"/></transform>{bsdf}</shape>\n"
+    )
+}
+
+fn mask(opacity: f32) -> String {
+    format!(
+        "<bsdf type=\"mask\"><float name=\"opacity\" value=\"{opacity}\"/>\
+         <bsdf type=\"diffuse\"/></bsdf>"
+    )
+}
+
+const NULL: &str = "<bsdf type=\"null\"/>";
+
+#[test]
+fn transmittances_multiply_and_crossings_are_limited() {
+    let world = scene(
+        &(sheet(1.0, &mask(0.25))
+            + &sheet(2.0, NULL)
+            + &sheet(3.0, &mask(0.5))
+            + &sheet(4.0, "<bsdf type=\"diffuse\"/>")),
+    );
+    let segment = |to: f32| {
+        let to = Vec3::new(0.3, 0.2, to);
+        Ray::between(Vec3::ZERO, to, 0.0).expect("two points")
+    };
+    let passage = |to, crossings| world.passage(&segment(to), &LANES, crossings);
+    for (to, crossed, transmittance) in [
+        (0.5, 0, 1.0),
+        (1.5, 1, 0.75),
+        (2.5, 2, 0.75),
+        (3.5, 3, 0.375),
+    ] {
+        let found = passage(to, crossed).expect("light arrives");
+        assert_eq!(found.transmittance, Vec4::splat(transmittance));
+        assert_eq!(found.probability, Vec4::splat(transmittance));
+        // One crossing less does not do; more change nothing.
+        assert!(crossed == 0 || passage(to, crossed - 1).is_none());
+        assert!(passage(to, u32::MAX).is_some());
+    }
+    assert!(passage(4.5, u32::MAX).is_none());
+    let out = Ray::new(Vec3::ZERO, Vec3::Z, 0.0);
+    assert!(world.passage(&out, &LANES, u32::MAX).is_none());
+    let away = Ray::new(Vec3::ZERO, -Vec3::Z, 0.0);
+    assert!(world.passage(&away, &LANES, 0).is_some());
+}
+
+#[test]
+fn a_scene_without_such_surfaces_only_asks_whether_anything_is_there() {
+    let world = scene(&sheet(1.0, ""));
+    let to = |z| Ray::between(Vec3::ZERO, Vec3::Z * z, 0.0).expect("two points");
+    assert!(world.passage(&to(0.9), &LANES, 0).is_some());
+    assert!(world.passage(&to(1.1), &LANES, 7).is_none());
+}
+
+proptest! {
+    #![proptest_config(Config {
+        cases: 48,
+        rng_seed: RngSeed::Fixed(11),
+        failure_persistence: None,
+        ..Config::default()
+    })]
+
+    /// Any stack of sheets, any slanted segment: the product over the sheets strictly between
+    /// its ends, whichever way it is travelled.
+    #[test]
+    fn a_segment_crosses_what_lies_between_its_ends(
+        opacities in prop::collection::vec(0.0_f32..1.0, 1..7),
+        ends in (0.0_f32..7.0, 0.0_f32..7.0),
+        slant in (-30.0_f32..30.0, -30.0_f32..30.0),
+        far in prop::bool::ANY,
+    ) {
+        // Far from the origin coordinates are coarser, and so are the offsets of rays.
+        let base = if far { 2000.0 } else { 0.0 };
+        let height = |i: usize| base + i as f32 + 0.5;
+        let near_a_sheet = |z: f32| ((z + 0.5).fract() - 0.0).abs() < 0.05 || (z + 0.5).fract() > 0.95;
+        prop_assume!(!near_a_sheet(ends.0) && !near_a_sheet(ends.1));
+        prop_assume!((ends.0 - ends.1).abs() > 0.01);
+        let sheets: String = opacities
+            .iter()
+            .enumerate()
+            .map(|(i, &opacity)| sheet(height(i), &mask(opacity)))
+            .collect();
+        let world = scene(&sheets);
+        let (low, high) = (ends.0.min(ends.1), ends.0.max(ends.1));
+        let mut crossed = 0;
+        let mut expected = 1.0_f64;
+        for (i, &opacity) in opacities.iter().enumerate() {
+            let at = i as f32 + 0.5;
+            if at > low && at < high {
+                crossed += 1;
+                expected *= 1.0 - f64::from(opacity);
+            }
+        }
+        let from = Vec3::new(0.0, 0.0, base + ends.0);
+        let to = Vec3::new(slant.0, slant.1, base + ends.1);
+        for (a, b) in [(from, to), (to, from)] {
+            let ray = Ray::between(a, b, 0.0).expect("two points");
+            let found = world.passage(&ray, &LANES, crossed).expect("light arrives");
+            let error = f64::from(found.transmittance.x) - expected;
+            prop_assert!(error.abs() < 1e-5, "{} for {expected}", found.transmittance);
+            prop_assert!(crossed == 0 || world.passage(&ray, &LANES, crossed - 1).is_none());
+        }
+    }
+}
