@@ -36,7 +36,9 @@ fn samplers(criterion: &mut Criterion) {
 
 /// A thousand points of the square.
 fn points() -> Vec<Vec2> {
-    (0..1000).map(|i| path(SamplerKind::Sobol, i) / 36.0).collect()
+    (0..1000)
+        .map(|i| path(SamplerKind::Sobol, i) / 36.0)
+        .collect()
 }
 
 fn maps(criterion: &mut Criterion) {
@@ -69,7 +71,12 @@ fn tables(criterion: &mut Criterion) {
     let alias = AliasTable::new(&weights[..4096]).expect("weights");
     let grid = PiecewiseConstant2d::new(&weights, 1024).expect("weights");
     criterion.bench_function("1000 × alias table of 4096", |bench| {
-        bench.iter(|| points.iter().map(|&u| alias.sample(u.x).index).sum::<usize>());
+        bench.iter(|| {
+            points
+                .iter()
+                .map(|&u| alias.sample(u.x).index)
+                .sum::<usize>()
+        });
     });
     criterion.bench_function("1000 × grid of 1024 × 512", |bench| {
         bench.iter(|| points.iter().map(|&u| grid.sample(u)).sum::<Vec2>());
