@@ -96,6 +96,15 @@ pub fn comparison(
     page("Comparison of two images", &body)
 }
 
+/// The report of `etalon compare` on images that hold the same numbers.
+pub fn identical([first, second]: [String; 2]) -> String {
+    let body = html! {
+        p { "Verdict: " (verdict(Verdict::Agrees)) ". " (first) " and " (second)
+            " hold the same numbers in every channel." }
+    };
+    page("Comparison of two images", &body)
+}
+
 /// Both images and their difference.
 pub fn pictures(first: &Developed, second: &Developed, names: &[String; 2]) -> Markup {
     html! {

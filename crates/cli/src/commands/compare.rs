@@ -4,8 +4,8 @@ use super::fail;
 use crate::args::CompareArgs;
 use crate::judge::{self, Judgement, Rules};
 use crate::report;
-use etalon_film::read_developed;
-use etalon_images::write_atomically;
+use etalon_film::{Developed, read_developed};
+use etalon_images::{Channel, Image, write_atomically};
 use etalon_statistics::Verdict;
 use std::io::Write;
 use std::process::ExitCode;
@@ -29,6 +29,15 @@ pub fn run(args: &CompareArgs) -> ExitCode {
         Ok(image) => image,
         Err(error) => return fail(error),
     };
+    if identical(&first.image, &second.image) {
+        return say_identical(args);
+    }
+    if let Some(seed) = shared_seed(&first, &second) {
+        eprintln!(
+            "note: both images were rendered with seed {seed}: what they share of their noise \
+             makes the comparison less sharp; `--seed` gives another one"
+        );
+    }
     let rules = Rules {
         image_bound: args.bound,
         tile_bound: args.tile_bound,
@@ -43,7 +52,7 @@ pub fn run(args: &CompareArgs) -> ExitCode {
         let names = [args.a.display().to_string(), args.b.display().to_string()];
         let html = report::comparison(&judgement, &first, &second, &names);
         if let Err(error) = write_atomically(path, |file| file.write_all(html.as_bytes())) {
-            return fail(error);
+            return fail(format!("cannot write {}: {error}", path.display()));
         }
     }
     if args.json {
@@ -56,6 +65,42 @@ pub fn run(args: &CompareArgs) -> ExitCode {
         Verdict::Differs => ExitCode::from(DIFFERENT),
         Verdict::Undecided => ExitCode::from(INCONCLUSIVE),
     }
+}
+
+/// Whether two images hold the same numbers in the same channels, bit for bit. Such images are
+/// not two estimates, and there is nothing to test.
+fn identical(a: &Image, b: &Image) -> bool {
+    let same = |(a, b): (&Channel, &Channel)| {
+        let bits = |c: &Channel| c.samples.iter().map(|v| v.to_bits()).collect::<Vec<u32>>();
+        a.name == b.name && bits(a) == bits(b)
+    };
+    (a.width(), a.height(), a.channels().len()) == (b.width(), b.height(), b.channels().len())
+        && a.channels().iter().zip(b.channels()).all(same)
+}
+
+fn say_identical(args: &CompareArgs) -> ExitCode {
+    if args.json {
+        let verdict = Verdict::Agrees.to_string();
+        println!(
+            "{:#}",
+            serde_json::json!({ "verdict": verdict, "identical": true })
+        );
+    } else {
+        println!("identical: the same numbers in every channel");
+    }
+    if let Some(path) = &args.report {
+        let html = report::identical([&args.a, &args.b].map(|path| path.display().to_string()));
+        if let Err(error) = write_atomically(path, |file| file.write_all(html.as_bytes())) {
+            return fail(format!("cannot write {}: {error}", path.display()));
+        }
+    }
+    ExitCode::SUCCESS
+}
+
+/// The seed of both images, if it is the same and they are renders of the same scene.
+fn shared_seed(a: &Developed, b: &Developed) -> Option<u64> {
+    let (a, b) = (a.metadata.as_ref()?, b.metadata.as_ref()?);
+    (a.seed == b.seed && a.sampler == b.sampler && a.scene == b.scene).then_some(a.seed)
 }
 
 /// The judgement as a table for a terminal.

@@ -164,7 +164,7 @@ fn deliver(args: &RenderArgs, loaded: &Loaded, rendered: &Rendered) -> Result<()
     if let Some(path) = &args.stats {
         let text = format!("{:#}\n", stats(args, loaded, rendered));
         write_atomically(path, |file| file.write_all(text.as_bytes()))
-            .map_err(|error| error.to_string())?;
+            .map_err(|error| format!("cannot write {}: {error}", path.display()))?;
     }
     let metadata = rendered.developed.metadata.as_ref();
     let faults = metadata.map_or(0, |m| m.faults.total());

@@ -50,6 +50,34 @@ fn missing_light_differs() {
 }
 
 #[test]
+fn an_image_is_identical_to_itself() {
+    let workshop = Workshop::new();
+    workshop.render("a.exr", &["--spp", "2", "-q"]);
+    workshop.render("b.exr", &["--spp", "2", "-q", "--threads", "3"]);
+    let ran = compare(&workshop, ["a.exr", "b.exr"], &["--report", "r.html"]).fine();
+    assert!(ran.stdout.starts_with("identical"), "{}", ran.stdout);
+    assert!(workshop.read("r.html").starts_with(b"<!DOCTYPE html>"));
+    let ran = compare(&workshop, ["a.exr", "b.exr"], &["--json"]).fine();
+    let verdict: Value = serde_json::from_str(&ran.stdout).expect("JSON");
+    assert_eq!(
+        (&verdict["identical"], &verdict["verdict"]),
+        (&true.into(), &"agrees".into())
+    );
+}
+
+#[test]
+fn a_shared_seed_is_pointed_out() {
+    let workshop = Workshop::new();
+    workshop.render("a.exr", &["--spp", "8", "-q"]);
+    workshop.render("b.exr", &["--spp", "16", "-q"]);
+    let ran = compare(&workshop, ["a.exr", "b.exr"], &[]);
+    assert!(
+        ran.stderr
+            .starts_with("note: both images were rendered with seed 0")
+    );
+}
+
+#[test]
 fn json_says_the_same() {
     let workshop = three_images();
     let ran = compare(&workshop, ["direct.exr", "a.exr"], &["--json"]);
