@@ -1,8 +1,8 @@
 //! Accelerators: which primitives may a ray hit?
 //!
-//! An accelerator knows triangles, which it intersects itself in [`Block`]s of eight, and
+//! An accelerator knows triangles, which it intersects itself in `Block`s of eight, and
 //! *others*: anything with a box and a primitive number, for which it calls back. It returns the
-//! nearest hit by the total order of [`Nearest`], so every accelerator gives the same bits.
+//! nearest hit by the total order of `Nearest`, so every accelerator gives the same bits.
 
 mod binary;
 pub(crate) mod block;

@@ -1,6 +1,6 @@
 //! Compiles a description tree into an immutable scene.
 //!
-//! [`compile`] turns what a scene file said into a [`Compiled`]: the [`Scene`], which implements
+//! [`compile()`] turns what a scene file said into a [`Compiled`]: the [`Scene`], which implements
 //! [`etalon_transport::World`] for the integrators, and what the caller needs to render it.
 
 mod attributes;

@@ -6,7 +6,7 @@
 //! into triangles, which inherit the attributes of their face. Other elements and lists are
 //! skipped.
 //!
-//! Attributes are grouped and named as in Mitsuba 3: see [`attributes`].
+//! Attributes are grouped and named as in Mitsuba 3: see `attributes.rs`.
 
 mod attributes;
 mod columns;
