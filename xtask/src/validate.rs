@@ -4,7 +4,7 @@ use etalon_validation::claim::Claim;
 use etalon_validation::outcome::{self, Outcome};
 use etalon_validation::run::{self, Options};
 use etalon_validation::{folders, html, table};
-use std::io::IsTerminal;
+use std::io::{IsTerminal, Write};
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 use std::time::Instant;
@@ -74,18 +74,22 @@ fn validate(arguments: &Arguments) -> Result<bool, String> {
     let rows = outcome::decide(compared);
     let seconds = start.elapsed().as_secs_f64();
 
-    println!("{}", table::head());
+    let mut text = table::head() + "\n";
     for row in &rows {
-        println!("{}", table::line(row));
+        text += &table::line(row);
+        text += "\n";
     }
-    println!("{}", table::summary(&rows, seconds));
+    text += &table::summary(&rows, seconds);
+    text += "\n";
+    // Whoever reads may stop reading; the report is written all the same.
+    let _ = std::io::stdout().write_all(text.as_bytes());
     let folder = arguments.report.clone().unwrap_or_else(folders::report);
     std::fs::create_dir_all(&folder).map_err(|e| format!("{}: {e}", folder.display()))?;
     let page = folder.join("report.html");
     write(&page, &html::page(&rows, options.seed, seconds))?;
     let json = table::to_json(&rows, options.seed, options.quick);
     write(&folder.join("report.json"), &format!("{json:#}\n"))?;
-    println!("report: {}", page.display());
+    let _ = writeln!(std::io::stdout(), "report: {}", page.display());
     Ok(rows.iter().all(|row| row.outcome == Outcome::Passed))
 }
 

@@ -1,0 +1,151 @@
+//! The decision itself: on synthetic pictures whose bias is known, and on a claim with and
+//! without faults.
+
+use etalon::judge::{Judgement, Known, Rules, judge, judge_known};
+use etalon_film::{BoxFilter, Developed, ExactFilm, FilmSettings, Filter, RenderFacts};
+use etalon_images::Image;
+use etalon_statistics::Verdict;
+use etalon_validation::claim::Claim;
+use etalon_validation::folders;
+use etalon_validation::outcome::{self, Outcome};
+use etalon_validation::run::{self, Options};
+
+const WIDTH: usize = 40;
+const HEIGHT: usize = 24;
+
+/// What a pixel is expected to be.
+fn truth(x: usize, y: usize) -> f64 {
+    0.2 + 0.01 * x as f64 + 0.02 * y as f64
+}
+
+/// Replicates with noise of 5 % per pixel, and a relative bias that depends on the place.
+fn picture(seed: u64, bias: impl Fn(usize, usize) -> f64) -> Developed {
+    let settings = FilmSettings::new(WIDTH as u32, HEIGHT as u32, Filter::Box(BoxFilter));
+    let mut film = ExactFilm::new(settings, &[]).expect("a small film");
+    let mut state = seed;
+    let mut noise = || {
+        // Sums of uniform numbers of a linear congruential generator (Knuth's MMIX).
+        let mut sum = 0.0;
+        for _ in 0..12 {
+            state = state
+                .wrapping_mul(6_364_136_223_846_793_005)
+                .wrapping_add(1_442_695_040_888_963_407);
+            sum += (state >> 11) as f64 / (1u64 << 53) as f64;
+        }
+        sum - 6.0
+    };
+    for _ in 0..16 {
+        let mut image = Image::new(WIDTH, HEIGHT);
+        for name in ["R", "G", "B"] {
+            let pixels = (0..WIDTH * HEIGHT)
+                .map(|i| {
+                    let (x, y) = (i % WIDTH, i / WIDTH);
+                    (truth(x, y) * (1.0 + bias(x, y) + 0.05 * noise())) as f32
+                })
+                .collect();
+            image.push(name, pixels);
+        }
+        film.add_replicate(&image, 1).expect("it fits");
+    }
+    film.develop(RenderFacts::default())
+}
+
+fn known() -> Known {
+    let pixels: Vec<f64> = (0..WIDTH * HEIGHT)
+        .map(|i| truth(i % WIDTH, i / WIDTH))
+        .collect();
+    Known {
+        size: [WIDTH as u32, HEIGHT as u32],
+        channels: ["R", "G", "B"]
+            .map(|name| (name.to_owned(), pixels.clone()))
+            .into(),
+    }
+}
+
+/// Against the truth, and against another sound picture.
+fn both(image: &Developed) -> [Judgement; 2] {
+    let rules = Rules::default();
+    [
+        judge_known(image, &known(), rules).expect("comparable"),
+        judge(image, &picture(99, |_, _| 0.0), rules).expect("comparable"),
+    ]
+}
+
+#[test]
+fn a_sound_picture_agrees() {
+    // α = 10⁻³ per judgement; the seed is fixed. Mutant rejected: a bias of 2 % (below).
+    for judgement in both(&picture(1, |_, _| 0.0)) {
+        assert_eq!(judgement.verdict, Verdict::Agrees);
+        assert!(judgement.p_exact > 1e-3);
+        for row in &judgement.images {
+            assert!(row.interval[0] < 0.0 && row.interval[1] > 0.0 || row.bias.abs() < 0.005);
+            assert!(row.smallest_detectable < 0.01);
+        }
+    }
+}
+
+#[test]
+fn a_bias_of_the_whole_picture_differs() {
+    for judgement in both(&picture(2, |_, _| 0.02)) {
+        assert_eq!(judgement.verdict, Verdict::Differs);
+        assert!(judgement.p_exact < 1e-3);
+        assert!((judgement.images[0].bias - 0.02).abs() < 0.005);
+    }
+}
+
+#[test]
+fn a_bias_in_a_tile_is_found_where_it_is() {
+    // The faint tile (2, 1) is 20 % off, and the rest makes up for it in the mean.
+    let inside = |x: usize, y: usize| x >= 32 && y >= 16;
+    let (mut tile, mut rest) = (0.0, 0.0);
+    for i in 0..WIDTH * HEIGHT {
+        let (x, y) = (i % WIDTH, i / WIDTH);
+        *(if inside(x, y) { &mut tile } else { &mut rest }) += truth(x, y);
+    }
+    let image = picture(3, |x, y| {
+        if inside(x, y) {
+            0.2
+        } else {
+            -0.2 * tile / rest
+        }
+    });
+    for judgement in both(&image) {
+        assert_eq!(judgement.verdict, Verdict::Differs);
+        for row in &judgement.images {
+            assert_eq!(row.verdict, Verdict::Agrees);
+        }
+        let small = judgement.tiles.iter().find(|row| row.side == 16);
+        assert_eq!(small.expect("tiles of 16²").worst, [2, 1]);
+    }
+}
+
+#[test]
+fn pictures_of_different_size_are_refused() {
+    let mut other = known();
+    other.size = [HEIGHT as u32, WIDTH as u32];
+    let message = judge_known(&picture(4, |_, _| 0.0), &other, Rules::default());
+    assert!(message.expect_err("refused").contains("differ in size"));
+}
+
+#[test]
+fn the_furnace_holds_and_its_mutants_are_found() {
+    // α = 10⁻³ over the four comparisons; rejected: dropped cosine, wrong light density,
+    // energy × 1.02.
+    let claims = Claim::read_all(&folders::claims()).expect("claims can be read");
+    let options = Options {
+        only: Some("furnace".to_owned()),
+        quick: true,
+        seed: 3,
+    };
+    let claims: Vec<Claim> = claims.into_iter().filter(|c| c.name == "furnace").collect();
+    let tasks = run::tasks(&claims, &options);
+    assert_eq!(tasks.len(), 4);
+    let alpha = outcome::ALPHA / tasks.len() as f64;
+    let compared = tasks
+        .into_iter()
+        .map(|task| (task, run::compare(&task, &options, alpha)))
+        .collect();
+    for row in outcome::decide(compared) {
+        assert_eq!(row.outcome, Outcome::Passed, "{:?}", row.task.fault);
+    }
+}
