@@ -91,7 +91,8 @@ pub(crate) fn camera_ray<W: World, S: Sampler>(
 pub(crate) struct Found {
     /// Per lane, over the sum of all densities' ratios (see [`Prefix::estimate`]).
     pub(crate) radiance: Vec4,
-    /// 1 if the path met anything that it did not pass straight, the background included.
+    /// 1 if the path met anything that it did not pass straight, the background included; where
+    /// its length ends at a surface, the probability of that.
     pub(crate) alpha: f32,
 }
 
@@ -197,11 +198,9 @@ impl Path {
                 ray = vertex.spawn(ray.direction);
                 continue;
             }
-            if depth == max_depth {
-                found.alpha = 1.0;
-                if !emits {
-                    break;
-                }
+            let last = depth == max_depth;
+            if last && !emits && found.alpha > 0.0 {
+                break;
             }
             let vertex = world.vertex(&ray, &hit);
             let wo = -ray.direction;
@@ -212,11 +211,14 @@ impl Path {
                     found.radiance += prefix.estimate(radiance, other);
                 }
             }
-            if depth == max_depth {
-                break;
-            }
 
             let bsdf = world.bsdf(&vertex, wo, wavelengths);
+            if last {
+                // Where the path would go on we do not ask; how likely straight on, we know.
+                let stopped = 1.0 - 0.25 * bsdf.passing_probability().element_sum();
+                found.alpha = found.alpha.max(stopped);
+                break;
+            }
             let event = Event::draw(sampler, depth - 1);
             if bsdf.has_continuous() {
                 let crossings = max_depth - depth - 1;

@@ -20,7 +20,7 @@ pub struct Placement {
 /// Colours are linear Rec.709 on Mitsuba's scale. The sink applies the sample's weight, counts
 /// non-finite values instead of swallowing them, and normalises by the number of samples.
 pub trait Sink {
-    /// Adds the radiance found for the current pixel, and its alpha (0 or 1). Called exactly
+    /// Adds the radiance found for the current pixel, and its alpha (from 0 to 1). Called exactly
     /// once per camera sample.
     fn radiance(&mut self, rgb: [f32; 3], alpha: f32);
 

@@ -7,8 +7,10 @@
 //! exactly, for any limit on the length of paths. See [`exact`].
 
 mod agreement;
+mod channels;
 mod exact;
 mod lanes;
+mod loops;
 mod measure;
 mod visibility;
 mod world;

@@ -88,6 +88,12 @@ fn alpha_is_what_does_not_go_straight_through() {
     // Standard deviation √(0.75 · 0.25 / N); α = 10⁻⁶ two-sided.
     let tolerance = 4.9 * (0.1875 / f64::from(N)).sqrt();
     assert!((alpha(ZERO, false) - 0.75).abs() < tolerance);
+    // However long paths may be, as long as they reach the second veil.
+    for (max_depth, expected) in [(0, 0.0), (1, 0.5), (2, 0.75), (3, 0.75)] {
+        let stack = Stack::new(vec![veil(1.0), veil(2.0)], ZERO, 0.0, true);
+        let found = measure(&path(max_depth), &stack, N).mean[3];
+        assert!((found - expected).abs() < tolerance, "{max_depth}: {found}");
+    }
     assert!((alpha(|_| 1.0, true) - 0.75).abs() < tolerance);
     assert_eq!(alpha(|_| 1.0, false), 1.0);
 

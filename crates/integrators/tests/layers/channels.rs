@@ -1,0 +1,254 @@
+//! `aov`, `moment` and `depth`: what they write, and under which names.
+
+use crate::world::{Plane, Stack};
+use etalon_integrators::AnyIntegrator;
+use etalon_integrators::aov::Aov;
+use etalon_integrators::depth::Depth;
+use etalon_integrators::moment::Moment;
+use etalon_params::{Class, Diagnostics, FileId, Node, Params, Property, Span, Spanned, Value};
+use etalon_sampling::{Independent, PixelSample, Sampler};
+use etalon_transport::{Channel, Integrator, PixelSite, Sink};
+use glam::{UVec2, Vec2};
+use std::collections::HashMap;
+use std::sync::Arc;
+
+/// A place somewhere in a file.
+const HERE: Span = Span {
+    file: FileId(0),
+    start: 0,
+    end: 1,
+};
+
+fn node(plugin: &str, properties: Vec<(&str, Value)>) -> Node {
+    Node {
+        class: Class::Integrator,
+        plugin: Spanned {
+            value: plugin.into(),
+            span: HERE,
+        },
+        id: None,
+        span: HERE,
+        properties: properties
+            .into_iter()
+            .map(|(name, value)| Property::new(name, HERE, value, HERE))
+            .collect(),
+    }
+}
+
+fn child(node: Node) -> Value {
+    Value::Object(Arc::new(node))
+}
+
+/// One sample's channels by name, with `picture.R` and so on for the picture.
+#[derive(Default)]
+struct Written {
+    names: Vec<String>,
+    values: HashMap<String, f32>,
+}
+
+impl Written {
+    fn put(&mut self, name: String, value: f32) {
+        let before = self.values.insert(name.clone(), value);
+        assert!(before.is_none(), "{name} was written twice");
+    }
+}
+
+impl Sink for Written {
+    fn radiance(&mut self, rgb: [f32; 3], alpha: f32) {
+        let [r, g, b] = rgb;
+        for (name, value) in ["R", "G", "B", "A"].into_iter().zip([r, g, b, alpha]) {
+            self.put(format!("picture.{name}"), value);
+        }
+    }
+    fn splat(&mut self, _: Vec2, _: [f32; 3]) {
+        unreachable!("nothing here splats");
+    }
+    fn channel(&mut self, index: usize, value: f32) {
+        self.put(self.names[index].clone(), value);
+    }
+}
+
+fn sample<I: Integrator<State = ()>>(integrator: &I, world: &Stack, sample: u32) -> Written {
+    let mut sampler = Independent::start(&PixelSample {
+        seed: 1,
+        replicate: 0,
+        pixel: (0, 0),
+        sample,
+        samples_per_replicate: 8,
+    });
+    let site = PixelSite {
+        pixel: UVec2::ZERO,
+        raster: sampler.next_2d(),
+        margin: 0.0,
+        pixels: 1,
+        spacing: 0.25,
+    };
+    let names = integrator.channels().into_iter().map(|Channel(name)| name);
+    let mut written = Written {
+        names: names.collect(),
+        ..Written::default()
+    };
+    integrator.sample(world, &(), &site, &mut sampler, &mut written);
+    written
+}
+
+fn read<I>(node: &Node, from: impl Fn(&Params<'_>) -> Option<I>) -> I {
+    let diagnostics = Diagnostics::new();
+    let params = Params::new(node, &diagnostics);
+    let read = from(&params);
+    params.finish();
+    assert!(!diagnostics.has_errors(), "{:?}", diagnostics.into_sorted());
+    read.expect("an integrator without mistakes")
+}
+
+/// A floor under a camera at height 2, or nothing.
+fn floor(planes: Vec<Plane>) -> Stack {
+    Stack::new(planes, |_| 1.0, 2.0, false)
+}
+
+#[test]
+fn variables_describe_the_first_surface() {
+    let list =
+        "d:depth, p:position,g:geo_normal,n:sh_normal,u:uv,a:albedo,i:prim_index,s:shape_index";
+    let path = node("path", vec![("max_depth", Value::Integer(2))]);
+    let depth = node("depth", Vec::new());
+    let aov = node(
+        "aov",
+        vec![
+            ("aovs", Value::String(list.into())),
+            ("first", child(path)),
+            ("", child(depth)),
+        ],
+    );
+    let aov = read(&aov, Aov::from_params);
+    let seen = sample(
+        &aov,
+        &floor(vec![
+            Plane::BLACK,
+            Plane {
+                height: -3.0,
+                ..Plane::WHITE
+            },
+        ]),
+        0,
+    );
+    // Every channel was written, once.
+    assert_eq!(seen.values.len(), seen.names.len() + 4);
+    let at = |name: &str| seen.values[name];
+    // Down along (0.6, 0, −0.8) from height 2.
+    assert!((at("d.T") - 2.5).abs() < 1e-5);
+    assert_eq!([at("p.X"), at("p.Y"), at("p.Z")], [0.0; 3]);
+    assert_eq!(
+        [at("g.Z"), at("n.Z"), at("u.U"), at("i.I"), at("s.I")],
+        [1.0, 1.0, 0.0, 0.0, 1.0]
+    );
+    assert_eq!([at("a.R"), at("a.G"), at("a.B")], [0.0; 3]);
+    // The picture is the first nested integrator's; the second is called by its place.
+    assert_eq!(at("picture.G"), at("first.G"));
+    for c in ["R", "G", "B", "A"] {
+        assert!(
+            seen.names.contains(&format!("integrator1.{c}")),
+            "{:?}",
+            seen.names
+        );
+    }
+    assert_eq!(at("integrator1.A"), 1.0);
+
+    let missed = sample(&aov, &floor(Vec::new()), 0);
+    for name in &missed.names {
+        let kept = name.starts_with("first.") || name.starts_with("integrator1.");
+        assert!(
+            kept || !missed.values.contains_key(name),
+            "{name} without a surface"
+        );
+    }
+}
+
+#[test]
+fn moments_are_squares_of_single_samples() {
+    let aov = node("aov", vec![("aovs", Value::String("d:depth".into()))]);
+    let path = node("path", Vec::new());
+    let moment = node("moment", vec![("p", child(path)), ("q", child(aov))]);
+    let moment = read(&moment, Moment::from_params);
+    let names: Vec<String> = moment.channels().into_iter().map(|Channel(n)| n).collect();
+    let first = ["p.X", "p.Y", "p.Z", "q.d.T", "q.X", "q.Y", "q.Z"];
+    assert_eq!(names[..7], first);
+    assert!(
+        names[7..]
+            .iter()
+            .zip(first)
+            .all(|(n, f)| *n == format!("m2_{f}"))
+    );
+
+    let world = floor(vec![Plane {
+        exponent: |nm| nm / 200.0,
+        ..Plane::WHITE
+    }]);
+    let mut luminances = Vec::new();
+    for i in 0..8 {
+        let seen = sample(&moment, &world, i);
+        for name in first {
+            let (value, square) = (seen.values[name], seen.values[&format!("m2_{name}")]);
+            assert_eq!(square, value * value, "{name}");
+        }
+        assert!((seen.values["q.d.T"] - 2.5).abs() < 1e-5);
+        let picture = |c: &str| f64::from(seen.values[&format!("picture.{c}")]);
+        // Rec.709's luminance.
+        let y = 0.2126 * picture("R") + 0.7152 * picture("G") + 0.0722 * picture("B");
+        assert!((f64::from(seen.values["p.Y"]) - y).abs() < 1e-3 * y);
+        luminances.push(seen.values["p.Y"]);
+    }
+    luminances.dedup();
+    assert!(luminances.len() > 1, "samples do not vary");
+}
+
+/// The colour of distance is that of a constant spectrum, without noise.
+#[test]
+fn depth_is_a_constant_spectrum() {
+    let world = floor(vec![Plane::WHITE]);
+    let white = crate::exact::integral(|_| 1.0);
+    for i in 0..4 {
+        let seen = sample(&Depth::default(), &world, i);
+        for (c, white) in ["R", "G", "B"].into_iter().zip(white) {
+            let value = f64::from(seen.values[&format!("picture.{c}")]);
+            assert!((value - 2.5 * white).abs() < 1e-4 * value, "{c}: {value}");
+        }
+    }
+    let missed = sample(&Depth::default(), &floor(Vec::new()), 0);
+    assert!(missed.values.values().all(|&v| v == 0.0));
+}
+
+#[test]
+fn mistakes_in_nesting_are_reported() {
+    let mistake = |node: Node| {
+        let diagnostics = Diagnostics::new();
+        let read = AnyIntegrator::from_node(&node, &diagnostics);
+        assert_eq!(read.is_some(), !diagnostics.has_errors());
+        read.is_none()
+    };
+    let list = || ("aovs", Value::String("d:depth".into()));
+    assert!(!mistake(node("aov", vec![list()])));
+    assert!(mistake(node("aov", Vec::new())));
+    for wrong in ["depth", "d:depht", "d:depth,e"] {
+        assert!(
+            mistake(node("aov", vec![("aovs", Value::String(wrong.into()))])),
+            "{wrong}"
+        );
+    }
+    let light = || child(node("ptracer", Vec::new()));
+    assert!(mistake(node("aov", vec![list(), ("", light())])));
+    assert!(mistake(node("moment", vec![("", light())])));
+    assert!(mistake(node("moment", Vec::new())));
+    let deep = node(
+        "moment",
+        vec![("", child(node("aov", vec![list(), ("", light())])))],
+    );
+    assert!(mistake(deep));
+    let wrong_inside = node("path", vec![("max_dept", Value::Integer(3))]);
+    let diagnostics = Diagnostics::new();
+    AnyIntegrator::from_node(
+        &node("moment", vec![("", child(wrong_inside))]),
+        &diagnostics,
+    );
+    assert!(diagnostics.has_errors());
+}

@@ -1,0 +1,282 @@
+//! The render loop: every sample once, the same bits in any order, replicates finished whole.
+
+use crate::world::{Plane, Stack, ZERO};
+use etalon_integrators::{Outcome, Plan, Progress, render};
+use etalon_sampling::{Sampler, SamplerKind};
+use etalon_transport::{Channel, Film, Integrator, PixelSite, Placement, Sink, TileSink, World};
+use glam::{UVec2, Vec2};
+use std::sync::Mutex;
+use std::sync::atomic::{AtomicU32, AtomicU64, Ordering};
+
+/// A film that adds whole numbers.
+struct Tally {
+    origin: UVec2,
+    size: UVec2,
+    /// Per pixel: sum, samples, splats.
+    pixels: Mutex<Vec<[i64; 3]>>,
+    /// The pixels after each replicate.
+    replicates: Vec<Vec<[i64; 3]>>,
+    /// First pixels of tiles in the order in which they were begun.
+    tiles: Mutex<Vec<UVec2>>,
+}
+
+impl Tally {
+    fn new(origin: UVec2, size: UVec2) -> Self {
+        Self {
+            origin,
+            size,
+            pixels: Mutex::new(vec![[0; 3]; (size.x * size.y) as usize]),
+            replicates: Vec::new(),
+            tiles: Mutex::default(),
+        }
+    }
+
+    fn index(&self, pixel: UVec2) -> usize {
+        let at = pixel - self.origin;
+        (at.y * self.size.x + at.x) as usize
+    }
+
+    fn add(&self, index: usize, part: usize, value: i64) {
+        self.pixels.lock().expect("no panic while it is held")[index][part] += value;
+    }
+}
+
+/// A value as a whole number of 2⁻²⁴.
+fn whole(value: f32) -> i64 {
+    (value * 16_777_216.0) as i64
+}
+
+struct TallyTile<'f> {
+    film: &'f Tally,
+    pixel: UVec2,
+    from: UVec2,
+    to: UVec2,
+}
+
+impl Sink for TallyTile<'_> {
+    fn radiance(&mut self, [value, ..]: [f32; 3], _: f32) {
+        let index = self.film.index(self.pixel);
+        self.film.add(index, 0, whole(value));
+        self.film.add(index, 1, 1);
+    }
+    fn splat(&mut self, raster: Vec2, [value, ..]: [f32; 3]) {
+        let index = self.film.index(raster.as_uvec2());
+        self.film.add(index, 2, whole(value));
+    }
+    fn channel(&mut self, _: usize, _: f32) {}
+}
+
+impl TileSink for TallyTile<'_> {
+    fn begin_pixel(&mut self, pixel: UVec2) {
+        assert!(pixel.cmpge(self.from).all() && pixel.cmplt(self.to).all());
+        self.pixel = pixel;
+    }
+    fn begin_sample(&mut self, weight: f32) {
+        assert_eq!(weight, 2.0);
+    }
+    fn end_pixel(&mut self) {}
+}
+
+impl Film for Tally {
+    type Tile<'f> = TallyTile<'f>;
+    fn origin(&self) -> UVec2 {
+        self.origin
+    }
+    fn size(&self) -> UVec2 {
+        self.size
+    }
+    fn place(&self, pixel: UVec2, u: Vec2) -> Placement {
+        Placement {
+            raster: pixel.as_vec2() + u,
+            weight: 2.0,
+        }
+    }
+    fn margin(&self) -> f32 {
+        1.5
+    }
+    fn tile(&self, from: UVec2, to: UVec2) -> TallyTile<'_> {
+        self.tiles
+            .lock()
+            .expect("no panic while it is held")
+            .push(from);
+        TallyTile {
+            film: self,
+            pixel: from,
+            from,
+            to,
+        }
+    }
+    fn end_replicate(&mut self, samples: u32) {
+        let pixels = self.pixels.get_mut().expect("no panic while it is held");
+        assert!(pixels.iter().all(|p| p[1] == i64::from(samples)));
+        let blank = vec![[0; 3]; pixels.len()];
+        self.replicates.push(std::mem::replace(pixels, blank));
+    }
+}
+
+/// Writes a random number where it is, and another one anywhere on the film.
+struct Marbles {
+    origin: UVec2,
+    size: UVec2,
+    prepared: AtomicU32,
+}
+
+impl Integrator for Marbles {
+    type State = u32;
+    fn channels(&self) -> Vec<Channel> {
+        Vec::new()
+    }
+    fn splats(&self) -> bool {
+        true
+    }
+    fn prepare<W: World>(&self, _: &W, seed: u64, replicate: u32) -> u32 {
+        assert_eq!(seed, 5);
+        assert_eq!(self.prepared.fetch_add(1, Ordering::Relaxed), replicate);
+        replicate
+    }
+    fn sample<W: World, S: Sampler, K: Sink>(
+        &self,
+        world: &W,
+        _: &u32,
+        site: &PixelSite,
+        sampler: &mut S,
+        sink: &mut K,
+    ) {
+        assert_eq!(site.margin, 1.5);
+        assert_eq!(site.pixels, self.size.x * self.size.y);
+        assert_eq!(site.raster.as_uvec2(), site.pixel);
+        // Two dimensions went into the film position.
+        assert_eq!(sampler.dimension(), 2);
+        let value = sampler.next_1d() + site.raster.x.fract();
+        sink.radiance([value; 3], 1.0);
+        sampler.skip_to(4);
+        let anywhere = self.origin.as_vec2() + sampler.next_2d() * self.size.as_vec2();
+        sink.splat(anywhere, [sampler.next_1d(); 3]);
+        world.intersect(&etalon_transport::Ray::new(
+            glam::Vec3::Z,
+            glam::Vec3::X,
+            0.0,
+        ));
+    }
+}
+
+/// Counts, and asks to stop once `patience` tiles are done. Lingers over some tiles, so that
+/// others overtake them.
+#[derive(Default)]
+struct Watch {
+    tiles: AtomicU32,
+    samples: AtomicU64,
+    patience: Option<u32>,
+}
+
+impl Progress for Watch {
+    fn tile_done(&self, samples: u64) {
+        let tiles = self.tiles.fetch_add(1, Ordering::Relaxed);
+        self.samples.fetch_add(samples, Ordering::Relaxed);
+        if tiles.is_multiple_of(3) {
+            std::thread::sleep(std::time::Duration::from_micros(300));
+        }
+    }
+    fn cancelled(&self) -> bool {
+        self.patience
+            .is_some_and(|p| self.tiles.load(Ordering::Relaxed) >= p)
+    }
+}
+
+fn run(
+    threads: usize,
+    sampler: SamplerKind,
+    window: (UVec2, UVec2),
+    watch: &Watch,
+) -> (Tally, Outcome) {
+    let (origin, size) = window;
+    let world = Stack::new(vec![Plane::WHITE], ZERO, 1.0, true);
+    let integrator = Marbles {
+        origin,
+        size,
+        prepared: AtomicU32::new(0),
+    };
+    let mut film = Tally::new(origin, size);
+    let plan = Plan {
+        seed: 5,
+        replicates: 3,
+        samples_per_replicate: 4,
+        sampler,
+    };
+    let pool = rayon::ThreadPoolBuilder::new()
+        .num_threads(threads)
+        .build()
+        .expect("threads");
+    let outcome = pool.install(|| render(&world, &integrator, &mut film, &plan, watch));
+    (film, outcome)
+}
+
+const WHOLE: (UVec2, UVec2) = (UVec2::ZERO, UVec2::new(53, 37));
+const CROP: (UVec2, UVec2) = (UVec2::new(7, 11), UVec2::new(20, 18));
+
+const KINDS: [SamplerKind; 4] = [
+    SamplerKind::Independent,
+    SamplerKind::Sobol,
+    SamplerKind::Stratified { jitter: true },
+    SamplerKind::Stratified { jitter: false },
+];
+
+#[test]
+fn any_number_of_threads_gives_the_same_bits() {
+    for sampler in KINDS {
+        let (one, outcome) = run(1, sampler, WHOLE, &Watch::default());
+        assert_eq!(outcome.replicates, 3);
+        assert_eq!(outcome.samples, 53 * 37 * 3 * 4);
+        for threads in [2, 16] {
+            let (many, other) = run(threads, sampler, WHOLE, &Watch::default());
+            assert_eq!(one.replicates, many.replicates);
+            assert_eq!(outcome, other);
+            // That they ran in some order is no proof unless every tile ran once.
+            let sorted = |film: &Tally| {
+                let mut tiles = film.tiles.lock().expect("no panic").clone();
+                tiles.sort_by_key(|t| (t.y, t.x));
+                tiles
+            };
+            assert_eq!(sorted(&one), sorted(&many));
+        }
+        // Replicates are different numbers.
+        assert_ne!(one.replicates[0], one.replicates[1]);
+        assert_ne!(one.replicates[1], one.replicates[2]);
+    }
+}
+
+/// A sample is a function of its pixel of the whole film.
+#[test]
+fn a_cropped_film_takes_the_same_samples() {
+    for sampler in KINDS {
+        let (whole, _) = run(2, sampler, WHOLE, &Watch::default());
+        let (crop, _) = run(2, sampler, CROP, &Watch::default());
+        for (a, b) in whole.replicates.iter().zip(&crop.replicates) {
+            for y in 0..CROP.1.y {
+                for x in 0..CROP.1.x {
+                    let pixel = CROP.0 + UVec2::new(x, y);
+                    assert_eq!(a[whole.index(pixel)][0], b[crop.index(pixel)][0]);
+                }
+            }
+        }
+    }
+}
+
+#[test]
+fn a_cancelled_render_finishes_its_replicate() {
+    let patient = Watch::default();
+    let (all, _) = run(2, SamplerKind::Sobol, WHOLE, &patient);
+    assert_eq!(patient.tiles.into_inner(), 3 * 4 * 3);
+    assert_eq!(patient.samples.into_inner(), 53 * 37 * 3 * 4);
+    for (patience, replicates) in [(0, 1), (1, 1), (12, 1), (13, 2), (36, 3)] {
+        let watch = Watch {
+            patience: Some(patience),
+            ..Watch::default()
+        };
+        let (film, outcome) = run(2, SamplerKind::Sobol, WHOLE, &watch);
+        assert_eq!(outcome.replicates, replicates, "after {patience} tiles");
+        assert_eq!(outcome.samples, 53 * 37 * 4 * u64::from(replicates));
+        // What is there is what would have been there.
+        assert_eq!(film.replicates, all.replicates[..replicates as usize]);
+    }
+}
