@@ -1,7 +1,8 @@
 //! What went wrong, where, and what would have been right.
 
 use crate::{Sources, Span};
-use std::sync::Mutex;
+use std::collections::HashSet;
+use std::sync::{Mutex, MutexGuard};
 
 /// How bad it is.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -120,9 +121,17 @@ impl Diagnostic {
 /// reported in one run.
 #[derive(Debug, Default)]
 pub struct Diagnostics {
-    list: Mutex<Vec<Diagnostic>>,
+    said: Mutex<Said>,
     /// Places about which nothing more is said.
     silent: Vec<Span>,
+}
+
+/// What has been said so far.
+#[derive(Debug, Default)]
+struct Said {
+    list: Vec<Diagnostic>,
+    /// Places and messages of `list`, to recognise what is said again: there may be very many.
+    known: HashSet<(Option<Span>, String)>,
 }
 
 impl Diagnostics {
@@ -135,12 +144,12 @@ impl Diagnostics {
     /// broken ones, about which everything has been said.
     pub fn silent_about(places: &[Span]) -> Self {
         Self {
-            list: Mutex::default(),
+            said: Mutex::default(),
             silent: places.to_vec(),
         }
     }
 
-    /// Adds one message (once: an equal one at the same place is not repeated).
+    /// Adds one message (once: the same message at the same place is not repeated).
     pub fn push(&self, diagnostic: Diagnostic) {
         if diagnostic
             .span
@@ -148,9 +157,10 @@ impl Diagnostics {
         {
             return;
         }
-        let mut list = self.lock();
-        if !list.contains(&diagnostic) {
-            list.push(diagnostic);
+        let mut said = self.lock();
+        let key = (diagnostic.span, diagnostic.message.clone());
+        if said.known.insert(key) {
+            said.list.push(diagnostic);
         }
     }
 
@@ -161,17 +171,19 @@ impl Diagnostics {
 
     /// Whether any error was reported.
     pub fn has_errors(&self) -> bool {
-        self.lock().iter().any(|d| d.severity == Severity::Error)
+        let said = self.lock();
+        said.list.iter().any(|d| d.severity == Severity::Error)
     }
 
     /// All messages, in order of their place in the input; last those that have none.
     pub fn into_sorted(self) -> Vec<Diagnostic> {
-        let mut list = self.list.into_inner().unwrap_or_else(|e| e.into_inner());
+        let said = self.said.into_inner().unwrap_or_else(|e| e.into_inner());
+        let mut list = said.list;
         list.sort_by_key(|d| (d.span.is_none(), d.span.map(|s| (s.file, s.start))));
         list
     }
 
-    fn lock(&self) -> std::sync::MutexGuard<'_, Vec<Diagnostic>> {
-        self.list.lock().unwrap_or_else(|e| e.into_inner())
+    fn lock(&self) -> MutexGuard<'_, Said> {
+        self.said.lock().unwrap_or_else(|e| e.into_inner())
     }
 }
