@@ -1,5 +1,6 @@
-//! The tasks of the house: `cargo xtask validate`, `references`, `scenes`, `tables`.
+//! The tasks of the house: `cargo xtask validate`, `references`, `bits`, `scenes`, `tables`.
 
+mod bits;
 mod references;
 mod scenes;
 mod tables;
@@ -25,6 +26,8 @@ enum Task {
     Validate(validate::Arguments),
     /// Render the references of claims with Mitsuba 3
     References(references::Arguments),
+    /// Check that threads and build profiles do not change a bit (builds `release`: minutes)
+    Bits,
     /// Write the generated files of `scenes/` anew
     Scenes,
     /// Write the generated tables of the spectrum crate anew
@@ -35,6 +38,7 @@ fn main() -> ExitCode {
     let done = match Arguments::parse().task {
         Task::Validate(arguments) => return validate::run(&arguments),
         Task::References(arguments) => references::run(&arguments),
+        Task::Bits => bits::run(),
         Task::Scenes => scenes::run(),
         Task::Tables(arguments) => tables::run(&arguments),
     };

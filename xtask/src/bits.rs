@@ -1,0 +1,92 @@
+//! `cargo xtask bits`: the same scene gives the same bits, for any number of threads and for the
+//! `fast` and the `release` build.
+//!
+//! Both binaries are built, each renders some scenes with 1, 2 and 16 threads, and the files are
+//! compared byte for byte (`SOURCE_DATE_EPOCH` leaves the render time out of them).
+
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::process::Command;
+
+/// Scene, and what else to say on the command line: every kind of estimator, and scenes that use
+/// as much of the house as possible.
+const RENDERS: [(&str, &[&str]); 6] = [
+    ("scenes/cornell-box/scene.xml", &["--integrator", "path"]),
+    ("scenes/cornell-box/scene.xml", &["--integrator", "ptracer"]),
+    ("scenes/cornell-box/scene.xml", &["--integrator", "direct"]),
+    ("scenes/spheres/scene.xml", &[]),
+    ("scenes/foliage/scene.xml", &[]),
+    ("scenes/prism/scene.xml", &[]),
+];
+
+const THREADS: [&str; 3] = ["1", "2", "16"];
+
+/// Builds, renders and compares. `Err` names the first files that differ.
+pub fn run() -> Result<(), String> {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR"))
+        .parent()
+        .ok_or("xtask lies in no workspace")?;
+    let out = root.join("target/bits");
+    fs::create_dir_all(&out).map_err(|error| format!("{}: {error}", out.display()))?;
+    let mut binaries = Vec::new();
+    for profile in ["fast", "release"] {
+        let mut build = Command::new("cargo");
+        build.args([
+            "build",
+            "--quiet",
+            "--package",
+            "etalon",
+            "--profile",
+            profile,
+        ]);
+        succeed(build.current_dir(root))?;
+        binaries.push((profile, root.join("target").join(profile).join("etalon")));
+    }
+    for (number, (scene, arguments)) in RENDERS.iter().enumerate() {
+        let mut first: Option<(PathBuf, Vec<u8>)> = None;
+        for (profile, binary) in &binaries {
+            for threads in THREADS {
+                let file = out.join(format!("{number}-{profile}-{threads}.exr"));
+                let mut render = Command::new(binary);
+                render
+                    .args([
+                        "render",
+                        scene,
+                        "--quiet",
+                        "--spp",
+                        "16",
+                        "--threads",
+                        threads,
+                    ])
+                    .args(["-D", "resx=48", "-D", "resy=32"])
+                    .args(*arguments)
+                    .arg("-o")
+                    .arg(&file)
+                    .env("SOURCE_DATE_EPOCH", "0");
+                succeed(render.current_dir(root))?;
+                let bytes =
+                    fs::read(&file).map_err(|error| format!("{}: {error}", file.display()))?;
+                match &first {
+                    None => first = Some((file, bytes)),
+                    Some((_, expected)) if *expected == bytes => {}
+                    Some((other, _)) => {
+                        return Err(format!("{} and {} differ", other.display(), file.display()));
+                    }
+                }
+            }
+        }
+        println!("{scene} {}: equal bits in 6 renders", arguments.join(" "));
+    }
+    Ok(())
+}
+
+fn succeed(command: &mut Command) -> Result<(), String> {
+    let status = command
+        .status()
+        .map_err(|error| format!("cannot run {command:?}: {error}"))?;
+    if status.success() {
+        Ok(())
+    } else {
+        Err(format!("{command:?} failed"))
+    }
+}
