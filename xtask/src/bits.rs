@@ -22,7 +22,7 @@ const RENDERS: [(&str, &[&str]); 6] = [
 const THREADS: [&str; 3] = ["1", "2", "16"];
 
 /// Builds, renders and compares. `Err` names the first files that differ.
-pub fn run() -> Result<(), String> {
+pub(crate) fn run() -> Result<(), String> {
     let root = Path::new(env!("CARGO_MANIFEST_DIR"))
         .parent()
         .ok_or("xtask lies in no workspace")?;
