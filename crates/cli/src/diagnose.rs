@@ -3,6 +3,7 @@
 //! Every message begins with a line of its own, `file:line:column: error: …` (or `note`), which
 //! editors and scripts can follow; what comes after it is for people.
 
+use crate::say;
 use etalon_params::{Diagnostic, Severity, Sources, Span};
 use miette::{GraphicalReportHandler, GraphicalTheme, LabeledSpan, NamedSource, SourceCode};
 use std::fmt;
@@ -220,7 +221,7 @@ fn harmless(text: &Arc<str>) -> Arc<str> {
 pub fn print(diagnostics: &[Diagnostic], sources: &Sources) {
     let refused = std::env::var_os("NO_COLOR").is_some_and(|value| !value.is_empty());
     let coloured = std::io::stderr().is_terminal() && !refused;
-    eprint!("{}", render(diagnostics, sources, coloured));
+    say::remark(&render(diagnostics, sources, coloured));
 }
 
 #[cfg(test)]

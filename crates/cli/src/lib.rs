@@ -11,6 +11,7 @@ pub mod pipeline;
 pub mod progress;
 pub mod report;
 pub mod resources;
+pub mod say;
 
 /// The version of the program.
 pub const VERSION: &str = env!("CARGO_PKG_VERSION");

@@ -248,6 +248,8 @@ pub struct Rendered {
     pub outcome: Outcome,
     /// How long it took.
     pub time: Duration,
+    /// The replicates that were planned; fewer are finished if the render was interrupted.
+    pub replicates: u32,
 }
 
 /// What a pixel takes in one channel while it is rendered, developed and written (bytes): the
@@ -308,6 +310,7 @@ pub fn render<P: Progress>(
         developed,
         outcome,
         time,
+        replicates: plan.replicates,
     })
 }
 

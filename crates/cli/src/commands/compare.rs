@@ -1,6 +1,6 @@
 //! `etalon compare`.
 
-use super::fail;
+use super::{answer, fail, note};
 use crate::args::CompareArgs;
 use crate::judge::{self, Judgement, Rules};
 use crate::report;
@@ -33,10 +33,10 @@ pub fn run(args: &CompareArgs) -> ExitCode {
         return say_identical(args);
     }
     if let Some(seed) = shared_seed(&first, &second) {
-        eprintln!(
-            "note: both images were rendered with seed {seed}: what they share of their noise \
+        note(format!(
+            "both images were rendered with seed {seed}: what they share of their noise \
              makes the comparison less sharp; `--seed` gives another one"
-        );
+        ));
     }
     let rules = Rules {
         image_bound: args.bound,
@@ -55,16 +55,16 @@ pub fn run(args: &CompareArgs) -> ExitCode {
             return fail(format!("cannot write {}: {error}", path.display()));
         }
     }
-    if args.json {
-        println!("{:#}", serde_json::json!(judgement));
-    } else {
-        print!("{}", table(&judgement));
-    }
-    match judgement.verdict {
+    let text = match args.json {
+        true => format!("{:#}\n", serde_json::json!(judgement)),
+        false => table(&judgement),
+    };
+    let code = match judgement.verdict {
         Verdict::Agrees => ExitCode::SUCCESS,
         Verdict::Differs => ExitCode::from(DIFFERENT),
         Verdict::Undecided => ExitCode::from(INCONCLUSIVE),
-    }
+    };
+    answer(&text, code)
 }
 
 /// Whether two images hold the same numbers in the same channels, bit for bit. Such images are
@@ -79,22 +79,21 @@ fn identical(a: &Image, b: &Image) -> bool {
 }
 
 fn say_identical(args: &CompareArgs) -> ExitCode {
-    if args.json {
-        let verdict = Verdict::Agrees.to_string();
-        println!(
-            "{:#}",
-            serde_json::json!({ "verdict": verdict, "identical": true })
-        );
-    } else {
-        println!("identical: the same numbers in every channel");
-    }
     if let Some(path) = &args.report {
         let html = report::identical([&args.a, &args.b].map(|path| path.display().to_string()));
         if let Err(error) = write_atomically(path, |file| file.write_all(html.as_bytes())) {
             return fail(format!("cannot write {}: {error}", path.display()));
         }
     }
-    ExitCode::SUCCESS
+    let verdict = Verdict::Agrees.to_string();
+    let text = match args.json {
+        true => format!(
+            "{:#}\n",
+            serde_json::json!({ "verdict": verdict, "identical": true })
+        ),
+        false => "identical: the same numbers in every channel\n".to_owned(),
+    };
+    answer(&text, ExitCode::SUCCESS)
 }
 
 /// The seed of both images, if it is the same and they are renders of the same scene.

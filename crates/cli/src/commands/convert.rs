@@ -1,6 +1,6 @@
 //! `etalon convert`.
 
-use super::fail;
+use super::{fail, note};
 use crate::args::ConvertArgs;
 use etalon_images::raster::Raster;
 use etalon_images::{Image, Losses, exr, hdr, pfm, png, raster};
@@ -11,7 +11,7 @@ use std::process::ExitCode;
 pub fn run(args: &ConvertArgs) -> ExitCode {
     match convert(args) {
         Ok(notes) => {
-            notes.iter().for_each(|note| eprintln!("note: {note}"));
+            notes.iter().for_each(note);
             ExitCode::SUCCESS
         }
         Err(message) => fail(message),

@@ -1,10 +1,10 @@
 //! `etalon info`.
 
-use super::{BAD_INPUT, fail};
+use super::{BAD_INPUT, answer, fail};
 use crate::args::InfoArgs;
 use crate::diagnose;
 use crate::pipeline::{self, LoadOptions};
-use etalon_film::{Developed, read_developed};
+use etalon_film::{Developed, FaultKind, Offence, read_developed};
 use std::path::Path;
 use std::process::ExitCode;
 
@@ -17,10 +17,7 @@ pub fn run(args: &InfoArgs) -> ExitCode {
     match extension.as_deref() {
         Some("xml") => scene(&args.file),
         Some("exr") => match read_developed(&args.file) {
-            Ok(developed) => {
-                print!("{}", image(&developed));
-                ExitCode::SUCCESS
-            }
+            Ok(developed) => answer(&image(&developed), ExitCode::SUCCESS),
             Err(error) => fail(error),
         },
         _ => fail(format!(
@@ -65,9 +62,29 @@ fn image(developed: &Developed) -> String {
     }
     text += &format!("version      {} ({})\n", m.version, m.floating_point);
     if m.faults.total() > 0 {
-        text += &format!("not finite   {} contributions\n", m.faults.total());
+        text += &format!("not finite   {} contributions, such as\n", m.faults.total());
+        text.extend(m.faults.first.iter().map(offence));
     }
     text
+}
+
+/// Where a number that was refused came from.
+fn offence(offence: &Offence) -> String {
+    let Offence {
+        replicate,
+        pixel: [x, y],
+        source,
+        ..
+    } = offence;
+    let kind = match offence.kind {
+        FaultKind::Nan => "not a number",
+        FaultKind::Infinite => "infinite",
+        FaultKind::Overflow => "out of range",
+    };
+    let sample = offence
+        .sample
+        .map_or_else(String::new, |sample| format!(", sample {sample}"));
+    format!("  pixel ({x}, {y}), replicate {replicate}{sample}: {source} is {kind}\n")
 }
 
 fn scene(path: &Path) -> ExitCode {
@@ -76,16 +93,22 @@ fn scene(path: &Path) -> ExitCode {
             diagnose::print(&loaded.notes, &loaded.sources);
             let compiled = &loaded.compiled;
             let size = compiled.film.size;
-            println!("scene        {} ({})", path.display(), loaded.hash);
-            println!("film         {} × {} pixels", size.x, size.y);
-            println!("integrator   {}", loaded.integrator_name);
-            println!(
-                "samples      {} per pixel, {}",
+            let text = format!(
+                "scene        {} ({})\n\
+                 film         {} × {} pixels\n\
+                 integrator   {}\n\
+                 samples      {} per pixel, {}\n\
+                 {}",
+                path.display(),
+                loaded.hash,
+                size.x,
+                size.y,
+                loaded.integrator_name,
                 compiled.sampler.spp,
-                pipeline::sampler_name(compiled.sampler.kind)
+                pipeline::sampler_name(compiled.sampler.kind),
+                compiled.scene.summary()
             );
-            print!("{}", compiled.scene.summary());
-            ExitCode::SUCCESS
+            answer(&text, ExitCode::SUCCESS)
         }
         Err(refusal) => {
             diagnose::print(&refusal.diagnostics, &refusal.sources);

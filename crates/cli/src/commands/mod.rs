@@ -6,6 +6,7 @@ pub mod info;
 pub mod render;
 
 use crate::args::Command;
+use crate::say;
 use std::process::ExitCode;
 
 /// Exit code for input that cannot be used.
@@ -21,8 +22,18 @@ pub fn run(command: &Command) -> ExitCode {
     }
 }
 
+/// Says the result of a command, and gives `code` if that was possible.
+fn answer(text: &str, code: ExitCode) -> ExitCode {
+    say::result(text).map_or_else(fail, |()| code)
+}
+
+/// Says something worth knowing.
+fn note(message: impl std::fmt::Display) {
+    say::remark(&format!("note: {message}\n"));
+}
+
 /// Says why a command failed, in one line, and gives its exit code.
 fn fail(message: impl std::fmt::Display) -> ExitCode {
-    eprintln!("error: {message}");
+    say::remark(&format!("error: {message}\n"));
     ExitCode::from(BAD_INPUT)
 }

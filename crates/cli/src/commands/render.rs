@@ -1,11 +1,11 @@
 //! `etalon render`.
 
 use super::convert::losses_in_words;
-use super::{BAD_INPUT, fail};
+use super::{BAD_INPUT, fail, note};
 use crate::args::RenderArgs;
 use crate::pipeline::{self, LoadOptions, Loaded, RenderOptions, Rendered};
 use crate::progress::Bar;
-use crate::{diagnose, resources};
+use crate::{diagnose, resources, say};
 use etalon_film::Developed;
 use etalon_images::{Losses, hdr, pfm, write_atomically};
 use etalon_params::Diagnostic;
@@ -24,7 +24,7 @@ const INTERRUPTED: u8 = 130;
 
 /// Renders a scene to a file.
 pub fn run(args: &RenderArgs) -> ExitCode {
-    if let Err(message) = check_output(args) {
+    if let Err(message) = check_paths(args) {
         return fail(message);
     }
     let threads = args.threads.unwrap_or(0) as usize;
@@ -72,8 +72,9 @@ fn run_here(args: &RenderArgs) -> ExitCode {
     ExitCode::SUCCESS
 }
 
-/// Refuses an output that could not be written anyway, before hours are spent on it.
-fn check_output(args: &RenderArgs) -> Result<(), String> {
+/// Refuses folders that are not there and outputs that could not be written anyway, before hours
+/// are spent on them.
+fn check_paths(args: &RenderArgs) -> Result<(), String> {
     let extension = args
         .output
         .extension()
@@ -86,6 +87,9 @@ fn check_output(args: &RenderArgs) -> Result<(), String> {
                 args.output.display()
             ));
         }
+    }
+    if let Some(folder) = args.data.iter().find(|folder| !folder.is_dir()) {
+        return Err(format!("there is no folder {}", folder.display()));
     }
     std::iter::once(&args.output)
         .chain(&args.stats)
@@ -124,7 +128,7 @@ fn listen_for_interrupts() {
     };
     // Without a handler Ctrl-C still ends the program, only without an image.
     if ctrlc::set_handler(handler).is_err() {
-        eprintln!("note: Ctrl-C will not write the image");
+        note("Ctrl-C will not write the image");
     }
 }
 
@@ -141,10 +145,10 @@ fn render(args: &RenderArgs, loaded: &Loaded) -> Result<Rendered, Diagnostic> {
     let spp = u64::from(plan.replicates) * u64::from(plan.samples_per_replicate);
     let asked = u64::from(args.spp.unwrap_or(loaded.compiled.sampler.spp));
     if spp != asked && !args.quiet {
-        eprintln!(
-            "note: {spp} samples per pixel instead of {asked}: {} replicates of {}",
+        note(format!(
+            "{spp} samples per pixel instead of {asked}: {} replicates of {}",
             plan.replicates, plan.samples_per_replicate
-        );
+        ));
     }
     let size = loaded.compiled.film.crop_size;
     let samples = spp * u64::from(size.x) * u64::from(size.y);
@@ -158,8 +162,7 @@ fn render(args: &RenderArgs, loaded: &Loaded) -> Result<Rendered, Diagnostic> {
 fn deliver(args: &RenderArgs, loaded: &Loaded, rendered: &Rendered) -> Result<(), String> {
     let losses = write_image(&args.output, &rendered.developed)?;
     if !args.quiet {
-        let notes = losses_in_words(&losses);
-        notes.iter().for_each(|note| eprintln!("note: {note}"));
+        losses_in_words(&losses).iter().for_each(note);
     }
     if let Some(path) = &args.stats {
         let text = format!("{:#}\n", stats(args, loaded, rendered));
@@ -169,7 +172,9 @@ fn deliver(args: &RenderArgs, loaded: &Loaded, rendered: &Rendered) -> Result<()
     let metadata = rendered.developed.metadata.as_ref();
     let faults = metadata.map_or(0, |m| m.faults.total());
     if faults > 0 {
-        eprintln!("warning: {faults} contributions were not finite; see `etalon info`");
+        say::remark(&format!(
+            "warning: {faults} contributions were not finite; see `etalon info`\n"
+        ));
     }
     if !args.quiet {
         let seconds = rendered.time.as_secs_f64();
@@ -178,12 +183,21 @@ fn deliver(args: &RenderArgs, loaded: &Loaded, rendered: &Rendered) -> Result<()
             Some(error) => format!("mean relative standard error {:.2} %", 100.0 * error),
             None => "no standard error (one replicate)".to_owned(),
         };
-        eprintln!(
-            "{}: {seconds:.2} s, {:.2} M samples/s, {:.2} M rays/s, {error}",
+        let stopped = match rendered.outcome.replicates {
+            done if done < rendered.replicates => {
+                format!(
+                    "stopped after {done} of {} replicates, ",
+                    rendered.replicates
+                )
+            }
+            _ => String::new(),
+        };
+        say::remark(&format!(
+            "{}: {stopped}{seconds:.2} s, {:.2} M samples/s, {:.2} M rays/s, {error}\n",
             args.output.display(),
             per_second(rendered.outcome.samples),
             per_second(rendered.outcome.rays),
-        );
+        ));
     }
     Ok(())
 }

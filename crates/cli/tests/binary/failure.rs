@@ -46,6 +46,53 @@ fn folders_in_which_no_file_can_be_made() {
 }
 
 #[test]
+fn folders_of_data_that_are_not_there() {
+    let workshop = Workshop::new();
+    let scene = cornell_box();
+    let ran = workshop.run(&["render", &scene, "-o", "a.exr", "--data", "nowhere"]);
+    assert_eq!(ran.refused().stderr, "error: there is no folder nowhere\n");
+}
+
+/// Readers may stop listening (`etalon info a.exr | head -1`); a full disk loses the result.
+#[cfg(target_os = "linux")]
+#[test]
+fn outputs_that_nobody_reads() {
+    let workshop = Workshop::new();
+    workshop.render("a.exr", &["--spp", "1", "-q"]);
+    let shell = |line: &str| {
+        let line = line.replace("etalon", env!("CARGO_BIN_EXE_etalon"));
+        let mut command = std::process::Command::new("bash");
+        let output = command
+            .args(["-o", "pipefail", "-c", &line])
+            .current_dir(workshop.path(""))
+            .output();
+        let output = output.expect("bash runs");
+        let said = String::from_utf8_lossy(&output.stderr).into_owned();
+        assert!(!said.contains("panicked"), "{said}");
+        (output.status.code(), said)
+    };
+    for command in [
+        "info a.exr",
+        "info none.exr 2>&1",
+        "compare a.exr a.exr --json",
+    ] {
+        shell(&format!("etalon {command} | true"));
+    }
+    let render = format!(
+        "etalon render {} -o b.exr --spp 1 2>&1 | true",
+        cornell_box()
+    );
+    assert_eq!(shell(&render).0, Some(0));
+    assert!(workshop.files().contains(&"b.exr".to_owned()));
+    let (code, said) = shell("etalon info a.exr > /dev/full");
+    assert_eq!(code, Some(2));
+    assert!(
+        said.starts_with("error: cannot write to standard output"),
+        "{said}"
+    );
+}
+
+#[test]
 fn scenes_that_are_not_there() {
     let workshop = Workshop::new();
     for scene in ["none.xml", ".", "scene.blend"] {

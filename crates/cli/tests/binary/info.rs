@@ -1,6 +1,8 @@
 //! `etalon info`: what is in a file.
 
 use crate::workshop::{Workshop, cornell_box};
+use etalon_film::{ExactFilm, FilmSettings, Filter, RenderFacts};
+use etalon_images::Image;
 
 #[test]
 fn of_an_image() {
@@ -17,6 +19,33 @@ fn of_an_image() {
     ] {
         assert!(said.contains(words), "{words:?} in {said}");
     }
+}
+
+#[test]
+fn numbers_that_were_refused_are_traced_to_their_sample() {
+    let workshop = Workshop::new();
+    let settings = FilmSettings::new(4, 4, Filter::default());
+    let mut film = ExactFilm::new(settings, &[]).expect("a small film");
+    let mut image = Image::new(4, 4);
+    for name in ["R", "G", "B"] {
+        let mut plane = vec![1.0; 16];
+        plane[6] = if name == "G" { f32::NAN } else { 1.0 };
+        image.push(name, plane);
+    }
+    film.add_replicate(&image, 1).expect("it fits");
+    let developed = film.develop(RenderFacts::default());
+    developed
+        .write_exr(&workshop.path("a.exr"))
+        .expect("written");
+    let said = workshop.run(&["info", "a.exr"]).fine().stdout;
+    assert!(
+        said.contains("not finite   1 contributions, such as\n"),
+        "{said}"
+    );
+    assert!(
+        said.contains("  pixel (2, 1), replicate 0: G is not a number\n"),
+        "{said}"
+    );
 }
 
 #[test]

@@ -14,7 +14,7 @@ fn long_render(workshop: &Workshop, replicates: &str) -> Child {
             "render", &scene, "-o", "a.exr", "-D", "resx=16", "-D", "resy=16",
         ])
         .args(["--spp", "16777216", "--replicates", replicates])
-        .stderr(Stdio::null())
+        .stderr(Stdio::piped())
         .spawn()
         .expect("it runs")
 }
@@ -67,7 +67,10 @@ fn ctrl_c_finishes_the_pass_and_writes_the_image() {
     wait_until_it_listens(&child);
     wait_until_it_renders(&child);
     send("-INT", &child);
-    assert_eq!(end(child).code(), Some(130));
+    let output = child.wait_with_output().expect("it ends");
+    assert_eq!(output.status.code(), Some(130));
+    let said = String::from_utf8_lossy(&output.stderr).into_owned();
+    assert!(said.contains("a.exr: stopped after "), "{said}");
     assert_eq!(workshop.files(), ["a.exr"]);
     let image = workshop.image("a.exr");
     let metadata = image.metadata.expect("metadata");
