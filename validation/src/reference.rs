@@ -25,8 +25,11 @@ pub struct Provenance {
     pub mitsuba: String,
     /// Mitsuba's variant.
     pub variant: String,
-    /// The seeds were 1 to this number.
+    /// How many seeds: 1, 2, …, without those skipped.
     pub seeds: u32,
+    /// Seeds left out because Mitsuba's picture had pixels that were not finite.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub skipped_seeds: Vec<u32>,
     /// Samples per pixel and seed.
     pub spp: u32,
 }
@@ -77,6 +80,9 @@ pub struct Rendered {
     pub width: usize,
     /// Height of the pictures (pixels).
     pub height: usize,
+    /// Seeds left out because the picture had pixels that were not finite.
+    #[serde(default)]
+    pub skipped_seeds: Vec<u32>,
 }
 
 /// Writes the reference of a claim from the RGB pixels of all seeds, seed after seed. Returns
@@ -111,6 +117,7 @@ pub fn write(claim: &Claim, rendered: &Rendered, spp: u32, pixels: &[f32]) -> Re
         mitsuba: rendered.mitsuba.clone(),
         variant: rendered.variant.clone(),
         seeds,
+        skipped_seeds: rendered.skipped_seeds.clone(),
         spp,
     };
     let developed = film.develop(RenderFacts {

@@ -63,6 +63,12 @@ pub(crate) fn run(arguments: &Arguments) -> Result<(), String> {
             rendered.variant,
             100.0 * error
         );
+        if !rendered.skipped_seeds.is_empty() {
+            println!(
+                "{}: left out the seeds {:?}, whose pictures have pixels that are not finite",
+                claim.name, rendered.skipped_seeds
+            );
+        }
     }
     Ok(())
 }
