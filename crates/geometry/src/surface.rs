@@ -75,7 +75,7 @@ impl Surface {
 
     /// The vertex at this point. Its shading frame's first tangent is as near to ∂p/∂u as the
     /// shading normal lets it be.
-    #[inline]
+    #[inline(always)] // Lights that are sampled need little of a vertex; see `Frame`.
     pub(crate) fn vertex(&self, owner: &Owner, primitive: u32, parameters: Vec2) -> Vertex {
         Vertex {
             position: self.position,

@@ -40,7 +40,7 @@ impl Frame {
 
     /// The frame with unit normal `n` whose first tangent is as near to `tangent` as it can be;
     /// any frame about `n` if the two are (nearly) parallel or `tangent` vanishes.
-    #[inline]
+    #[inline(always)] // Where the caller needs no frame, nothing of it should be computed.
     pub fn from_normal_and_tangent(n: Vec3, tangent: Vec3) -> Self {
         let projected = tangent - n * n.dot(tangent);
         let length_squared = projected.length_squared();

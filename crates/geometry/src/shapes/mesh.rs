@@ -158,7 +158,7 @@ impl Mesh {
 
     /// The surface point with barycentric coordinates `b` of a triangle's second and third
     /// corner.
-    #[inline]
+    #[inline(always)] // Lights that are sampled need little of it.
     pub(crate) fn surface(&self, primitive: u32, b: Vec2) -> Surface {
         // Corners are fetched one by one: `map` over arrays is not reliably inlined.
         let [i0, i1, i2] = self.triangles[primitive as usize];
