@@ -66,7 +66,7 @@ impl ParticleTracer {
                     radiance += prefix.estimate(background, Vec4::ZERO);
                     return (radiance, 1.0);
                 }
-                return (radiance, 1.0 - prefix.value.element_sum() * 0.25);
+                break;
             };
             let vertex = world.vertex(&ray, &hit);
             let wo = -ray.direction;
@@ -81,14 +81,7 @@ impl ParticleTracer {
             prefix.value *= passing;
             ray = vertex.spawn(ray.direction);
         }
-        (
-            radiance,
-            if self.settings.max_depth == 0 {
-                0.0
-            } else {
-                1.0
-            },
-        )
+        (radiance, 1.0 - 0.25 * prefix.value.element_sum())
     }
 
     /// One particle, splatted wherever the camera sees it scatter.

@@ -5,6 +5,7 @@ use crate::measure::{LIMIT, measure};
 use crate::world::{Plane, Stack, ZERO};
 use etalon_integrators::direct::Direct;
 use etalon_integrators::path::Path;
+use etalon_integrators::ptracer::ParticleTracer;
 use etalon_integrators::settings::PathSettings;
 
 const N: u32 = 40_000;
@@ -106,4 +107,38 @@ fn alpha_is_what_does_not_go_straight_through() {
     assert_eq!(measure(&direct, &seen, 100).mean[3], 1.0);
     let missed = Stack::new(vec![veil(1.0)], |_| 1.0, 0.0, false);
     assert_eq!(measure(&direct, &missed, 100).mean[3], 0.0);
+}
+
+/// No particle leaves the lights of this world, so that light tracing shows what it sees itself.
+#[test]
+fn light_tracing_sees_lights_through_veils() {
+    for hide_emitters in [false, true] {
+        for max_depth in [0, 1, 2, 3, 4, 9] {
+            let mut stack = veils();
+            stack.planes.iter_mut().for_each(|p| p.reflectance = ZERO);
+            let exact = Exact {
+                stack: &stack,
+                max_depth,
+                hidden: hide_emitters,
+            };
+            let settings = PathSettings {
+                max_depth,
+                hide_emitters,
+                ..PathSettings::default()
+            };
+            let found = measure(&ParticleTracer { settings }, &stack, N);
+            let z = found.z(exact.colour());
+            assert!(
+                z < LIMIT,
+                "hidden {hide_emitters}, depth {max_depth}: z = {z:.2}"
+            );
+            let passed = [1.0, 0.5, 0.1, 0.05]
+                .into_iter()
+                .chain(std::iter::repeat(0.05));
+            let through = passed.take(max_depth as usize + 1).last().unwrap_or(1.0);
+            let sky = max_depth >= 4 && !hide_emitters;
+            let alpha = if sky { 1.0 } else { 1.0 - through };
+            assert!((found.mean[3] - alpha).abs() < 1e-6, "{}", found.mean[3]);
+        }
+    }
 }
