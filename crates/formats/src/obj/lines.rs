@@ -3,6 +3,9 @@
 use crate::mesh_error::{MeshError, Place};
 use std::borrow::Cow;
 
+/// White space to the parser, but not to `u8::is_ascii_whitespace`.
+const VERTICAL_TAB: u8 = 0x0b;
+
 /// One logical line without its comment.
 pub(super) struct Line<'a> {
     text: Cow<'a, [u8]>,
@@ -13,7 +16,7 @@ impl Line<'_> {
     /// Its words.
     pub(super) fn words(&self) -> impl Iterator<Item = &[u8]> + Clone {
         self.text
-            .split(|b| b.is_ascii_whitespace())
+            .split(|&b| b.is_ascii_whitespace() || b == VERTICAL_TAB)
             .filter(|word| !word.is_empty())
     }
 

@@ -1,4 +1,4 @@
-//! OBJ files, well-formed and not, and agreement with the crate `tobj`.
+//! OBJ files, well-formed and not, and agreement with the vertices that `tobj` itself would make.
 
 use super::*;
 use proptest::prelude::*;
@@ -96,6 +96,86 @@ fn mistakes_have_a_line() {
 }
 
 #[test]
+fn indices_that_the_parser_would_misunderstand() {
+    let given = "vt 0 0\nvt 1 1\nvn 0 0 1\nvn 0 1 0\n";
+    // Zero, one before the first, and numbers that overflow when doubled or tripled.
+    for index in ["0", "-0", "+0", "-3", "-9223372036854775808", "4294967296"] {
+        assert_eq!(
+            message(&format!("{given}f 1/1 2/{index} 3/1\n"))
+                .split(" to ")
+                .next(),
+            Some("line 9: the face refers"),
+            "{index}"
+        );
+    }
+    for index in ["0", "-3", "6148914691236517207", "9223372036854775807"] {
+        assert_eq!(
+            message(&format!("{given}f 1//1 2//{index} 3//1\n")),
+            format!("line 9: the face refers to normal {index}, but 2 are given so far")
+        );
+    }
+    assert_eq!(
+        message("f 1/1 2/1 3/1\n"),
+        "line 5: the face refers to texture coordinate 1, but 0 are given so far"
+    );
+    assert_eq!(
+        message("f 1 2\u{a0}3 4\n"),
+        "line 5: `2\\u{a0}3` is not an index"
+    );
+    let mesh = square("f 1/-1 2/01 3/+1\nvt 0 0\n");
+    assert_eq!(
+        mesh.expect_err("nothing before it").to_string(),
+        "line 5: the face refers to texture coordinate -1, but 0 are given so far"
+    );
+    let mesh = square("vt 0 1\nf 1/-1 2/01 3/+1\n").expect("read");
+    assert_eq!(mesh.uvs, [Vec2::Y; 3]);
+}
+
+#[test]
+fn faces_before_what_they_refer_to() {
+    let mesh = parse(b"f 1/1 2/1 3/1\nv 0 0 0\nv 1 0 0\nv 0 1 0\nvt .5 .5\n").expect("read");
+    assert_eq!(mesh.uvs, [Vec2::splat(0.5); 3]);
+    let error = parse(b"f 1 2 3\nf 1 2 4\nv 0 0 0\nv 1 0 0\nv 0 1 0\n").expect_err("no fourth");
+    assert_eq!(error.place, Place::Line(2));
+}
+
+#[test]
+fn only_what_makes_a_mesh_is_read() {
+    let mut text = SQUARE.replace("v 1 0 0", "v 1 0 0 2").into_bytes();
+    text.extend_from_slice(b"g caf\xe9\nusemtl\nmtllib none.mtl\nvt .5\nvt 1 1 7\n");
+    text.extend_from_slice(b"l 1 2 3\nf 1/1 2/2 3/2 # \xe9\no b\nf 1/1 3/2 4/1\np 1\n");
+    let mesh = parse(&text).expect("read");
+    assert_eq!(mesh.triangles, [[0, 1, 2], [0, 2, 3]]);
+    assert_eq!(mesh.positions[1], Vec3::X);
+    assert_eq!(mesh.uvs[..2], [Vec2::new(0.5, 0.0), Vec2::ONE]);
+}
+
+#[test]
+fn concave_faces_are_not_fanned() {
+    let mesh = parse(b"v 2 0 0\nv .5 .5 0\nv 0 2 0\nv 0 0 0\nf 1 2 3 4\nf 1 2 4\n").expect("read");
+    assert!(
+        !mesh.triangles[..2].contains(&[0, 1, 2]),
+        "{:?}",
+        mesh.triangles
+    );
+    assert_eq!(mesh.triangles[2], [0, 1, 3]);
+}
+
+#[test]
+fn colours_of_some_vertices_only() {
+    for text in [
+        "v 0 0 0 1 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n",
+        "v 0 0 0\nv 1 0 0 1 0 0\nv 0 1 0\nf 1 2 3\n",
+    ] {
+        let mesh = parse(text.as_bytes()).expect("read");
+        assert!(mesh.attributes.is_empty());
+        assert_eq!(mesh.positions, [Vec3::ZERO, Vec3::X, Vec3::Y]);
+    }
+    let error = parse(b"v 0 0 0\nv 1 0 0 1 x 0\nv 0 1 0\nf 1 2 3\n").expect_err("no number");
+    assert_eq!(error.to_string(), "line 2: `x` is not a number");
+}
+
+#[test]
 fn many_corners_of_one_position_stay_fast() {
     let mut text = String::from(SQUARE);
     for i in 0..60_000 {
@@ -149,7 +229,7 @@ proptest! {
     })]
 
     #[test]
-    fn agrees_with_tobj(text in file()) {
+    fn vertices_are_those_of_tobj(text in file()) {
         let ours = parse(text.as_bytes()).expect("well-formed");
         let (models, _) = tobj::load_obj_buf(
             &mut text.as_bytes(),
