@@ -181,11 +181,11 @@ impl Estimator {
         format!("{integrator}, {sampler}{defines}")
     }
 
-    /// The budget that must suffice to find a fault: a quarter of the quick run's.
+    /// The budget that must suffice to find a fault: an eighth of the quick run's.
     pub fn fault_budget(&self) -> Budget {
         let Budget { spp, replicates } = self.quick;
         Budget {
-            spp: (spp / 4).max(replicates),
+            spp: (spp / 8).max(replicates),
             replicates,
         }
     }
