@@ -144,10 +144,6 @@ impl Integrator for Aov {
         names.into_iter().map(Channel).collect()
     }
 
-    fn splats(&self) -> bool {
-        false
-    }
-
     fn prepare<W: World>(&self, _: &W, _: u64, _: u32) {}
 
     fn sample<W: World, S: Sampler, K: Sink>(

@@ -10,7 +10,7 @@ use crate::settings::ignore_scheduling;
 use etalon_params::Params;
 use etalon_sampling::Sampler;
 use etalon_spectrum::sensor::response;
-use etalon_transport::{Channel, Integrator, PixelSite, Sink, World};
+use etalon_transport::{Integrator, PixelSite, Sink, World};
 use glam::Vec4;
 
 /// The distance integrator.
@@ -49,14 +49,6 @@ impl Default for Depth {
 
 impl Integrator for Depth {
     type State = ();
-
-    fn channels(&self) -> Vec<Channel> {
-        Vec::new()
-    }
-
-    fn splats(&self) -> bool {
-        false
-    }
 
     fn prepare<W: World>(&self, _: &W, _: u64, _: u32) {}
 

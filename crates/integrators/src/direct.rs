@@ -19,9 +19,7 @@ use crate::settings::ignore_scheduling;
 use etalon_params::Params;
 use etalon_sampling::Sampler;
 use etalon_spectrum::{Wavelengths, sensor_response};
-use etalon_transport::{
-    Bsdf, Chance, Channel, Integrator, Mode, PixelSite, Ray, Sink, Vertex, World,
-};
+use etalon_transport::{Bsdf, Chance, Integrator, Mode, PixelSite, Ray, Sink, Vertex, World};
 use glam::{Vec3, Vec4};
 
 /// The direct illumination integrator.
@@ -191,14 +189,6 @@ impl Direct {
 
 impl Integrator for Direct {
     type State = ();
-
-    fn channels(&self) -> Vec<Channel> {
-        Vec::new()
-    }
-
-    fn splats(&self) -> bool {
-        false
-    }
 
     fn prepare<W: World>(&self, _: &W, _: u64, _: u32) {}
 

@@ -55,10 +55,6 @@ impl Integrator for Moment {
         names.into_iter().chain(squares).map(Channel).collect()
     }
 
-    fn splats(&self) -> bool {
-        false
-    }
-
     fn prepare<W: World>(&self, _: &W, _: u64, _: u32) {}
 
     fn sample<W: World, S: Sampler, K: Sink>(

@@ -21,8 +21,7 @@ use etalon_params::Params;
 use etalon_sampling::Sampler;
 use etalon_spectrum::{Wavelengths, sensor_response};
 use etalon_transport::{
-    Bsdf, BsdfSample, Camera, Chance, Channel, Integrator, Mode, PixelSite, Ray, Sink, Vertex,
-    World,
+    Bsdf, BsdfSample, Camera, Chance, Integrator, Mode, PixelSite, Ray, Sink, Vertex, World,
 };
 use glam::{Vec3, Vec4};
 
@@ -45,14 +44,6 @@ impl Path {
 
 impl Integrator for Path {
     type State = ();
-
-    fn channels(&self) -> Vec<Channel> {
-        Vec::new()
-    }
-
-    fn splats(&self) -> bool {
-        false
-    }
 
     fn prepare<W: World>(&self, _: &W, _: u64, _: u32) {}
 

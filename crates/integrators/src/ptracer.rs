@@ -22,9 +22,7 @@ use crate::settings::{PathSettings, ignore_scheduling};
 use etalon_params::Params;
 use etalon_sampling::Sampler;
 use etalon_spectrum::{SensorWeights, Wavelengths, sensor_response};
-use etalon_transport::{
-    Bsdf, Camera, Channel, Integrator, Mode, PixelSite, Ray, Sink, Vertex, World,
-};
+use etalon_transport::{Bsdf, Camera, Integrator, Mode, PixelSite, Ray, Sink, Vertex, World};
 use glam::{Vec2, Vec3, Vec4};
 
 /// The light tracer.
@@ -193,10 +191,6 @@ fn connect<W: World>(
 
 impl Integrator for ParticleTracer {
     type State = ();
-
-    fn channels(&self) -> Vec<Channel> {
-        Vec::new()
-    }
 
     fn splats(&self) -> bool {
         true

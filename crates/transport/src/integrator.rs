@@ -31,10 +31,14 @@ pub trait Integrator: Sync {
     type State: Send + Sync;
 
     /// The channels it writes beside the colour, in the order of [`Sink::channel`]'s index.
-    fn channels(&self) -> Vec<Channel>;
+    fn channels(&self) -> Vec<Channel> {
+        Vec::new()
+    }
 
     /// Whether it splats to pixels other than the current one.
-    fn splats(&self) -> bool;
+    fn splats(&self) -> bool {
+        false
+    }
 
     /// Prepares one replicate.
     fn prepare<W: World>(&self, world: &W, seed: u64, replicate: u32) -> Self::State;
