@@ -13,26 +13,6 @@ use etalon_transport::{Assets, Build, LightId, Role};
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 
-/// Parameters of Mitsuba's `<scene>` that choose or tune its accelerators and its scheduling.
-const IGNORED: [&str; 16] = [
-    "embree_use_robust_intersections",
-    "kd_intersection_cost",
-    "kd_traversal_cost",
-    "kd_empty_space_bonus",
-    "kd_stop_prims",
-    "kd_max_depth",
-    "kd_min_max_bins",
-    "kd_clip",
-    "kd_retract_bad_splits",
-    "kd_exact_primitive_threshold",
-    "kd_parallel_build",
-    "kd_exact",
-    "kd_prim_clip",
-    "kd_intersection_count",
-    "allow_thread_reordering",
-    "compact_acceleration_structures",
-];
-
 /// A scene, and what its description says about rendering it.
 pub struct Compiled {
     /// The scene.
@@ -51,7 +31,6 @@ pub struct Compiled {
 /// could be found in one run, are in `diagnostics`.
 pub fn compile(root: &Node, assets: &dyn Assets, diagnostics: &Diagnostics) -> Option<Compiled> {
     let params = Params::new(root, diagnostics);
-    params.ignore(&IGNORED);
     let mut builder = Builder::new(assets, diagnostics);
     let sensor = sensor(&params, diagnostics);
     let integrator = params.child(Class::Integrator).cloned();
