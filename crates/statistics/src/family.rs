@@ -2,8 +2,14 @@
 //!
 //! Of a thousand true hypotheses tested at 1 %, ten are rejected. A [`Family`] keeps the
 //! probability of *any* false rejection at α by Holm's procedure (1979), which needs no
-//! independence: sorted p₍₁₎ ≤ … ≤ p₍ₘ₎, the adjusted p-value is
-//! max over j ≤ i of min(1, (m − j + 1) · p₍ⱼ₎).
+//! independence; other corrections are offered where their conditions hold ([`Correction`]).
+//!
+//! A hypothesis may be declared before its test has run, so that tests which were never made, or
+//! which broke, still count: the size of a family is decided by the plan, not by the outcomes.
+
+pub use crate::multiplicity::{
+    Correction, benjamini_hochberg, holm, sidak, sidak_level, sidak_step_down,
+};
 
 /// A p-value must be in [0, 1]; this one is not.
 #[derive(Clone, Debug, PartialEq)]
@@ -76,6 +82,33 @@ impl Family {
         Ok(self.names.len() - 1)
     }
 
+    /// Declares a hypothesis that has not been tested yet, and returns its index. Until
+    /// [`Family::record`] gives its p-value it counts with a p-value of 1: it cannot be rejected,
+    /// but the others pay for it.
+    pub fn declare(&mut self, name: impl Into<String>) -> usize {
+        self.names.push(name.into());
+        self.p_values.push(1.0);
+        self.names.len() - 1
+    }
+
+    /// Records the p-value of a declared hypothesis, in place of the last one.
+    ///
+    /// # Errors
+    /// [`NotAProbability`] for a p-value outside [0, 1], NaN included; nothing is changed then.
+    ///
+    /// # Panics
+    /// If no hypothesis has this index.
+    pub fn record(&mut self, index: usize, p_value: f64) -> Result<(), NotAProbability> {
+        if !(0.0..=1.0).contains(&p_value) {
+            return Err(NotAProbability {
+                name: self.names[index].clone(),
+                value: p_value,
+            });
+        }
+        self.p_values[index] = p_value;
+        Ok(())
+    }
+
     /// The level of the whole family.
     #[must_use]
     pub fn alpha(&self) -> f64 {
@@ -101,10 +134,17 @@ impl Family {
         self.alpha / self.names.len().max(1) as f64
     }
 
-    /// Decides every hypothesis, in the order they were added.
+    /// Decides every hypothesis by Holm's procedure, in the order they were added.
     #[must_use]
     pub fn decide(&self) -> Vec<Decision> {
-        holm(&self.p_values)
+        self.decide_by(Correction::Holm)
+    }
+
+    /// Decides every hypothesis by a procedure whose conditions the caller vouches for.
+    #[must_use]
+    pub fn decide_by(&self, correction: Correction) -> Vec<Decision> {
+        correction
+            .adjust(&self.p_values)
             .into_iter()
             .zip(self.names.iter().zip(&self.p_values))
             .map(|(adjusted, (name, &p_value))| Decision {
@@ -115,54 +155,4 @@ impl Family {
             })
             .collect()
     }
-}
-
-/// Holm's adjusted p-values, in the order given. Valid under any dependence.
-#[must_use]
-pub fn holm(p_values: &[f64]) -> Vec<f64> {
-    let order = ascending(p_values);
-    let mut adjusted = vec![0.0; p_values.len()];
-    let mut greatest = 0.0_f64;
-    for (rank, &index) in order.iter().enumerate() {
-        let remaining = (p_values.len() - rank) as f64;
-        greatest = greatest.max((remaining * p_values[index]).min(1.0));
-        adjusted[index] = greatest;
-    }
-    adjusted
-}
-
-/// Benjamini and Hochberg's (1995) adjusted p-values, in the order given: rejecting those at
-/// most q keeps the expected share of false rejections at q. Needs independence or positive
-/// dependence; meant for exploration, never for a verdict.
-#[must_use]
-pub fn benjamini_hochberg(p_values: &[f64]) -> Vec<f64> {
-    let order = ascending(p_values);
-    let count = p_values.len() as f64;
-    let mut adjusted = vec![0.0; p_values.len()];
-    let mut least = 1.0_f64;
-    for (rank, &index) in order.iter().enumerate().rev() {
-        least = least.min(p_values[index] * count / (rank + 1) as f64);
-        adjusted[index] = least;
-    }
-    adjusted
-}
-
-/// The probability that the smallest of `count` independent p-values is at most `p` (Šidák
-/// 1967): 1 − (1 − p)^count. Needs independence, so not for tiles of one image.
-#[must_use]
-pub fn sidak(p: f64, count: usize) -> f64 {
-    -libm::expm1(count as f64 * libm::log1p(-p))
-}
-
-/// The level at which to test each of `count` independent hypotheses for `alpha` together.
-#[must_use]
-pub fn sidak_level(alpha: f64, count: usize) -> f64 {
-    -libm::expm1(libm::log1p(-alpha) / count.max(1) as f64)
-}
-
-/// The indices of the p-values from the smallest to the greatest.
-fn ascending(p_values: &[f64]) -> Vec<usize> {
-    let mut order: Vec<_> = (0..p_values.len()).collect();
-    order.sort_by(|&a, &b| p_values[a].total_cmp(&p_values[b]));
-    order
 }

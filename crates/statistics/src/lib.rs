@@ -4,8 +4,10 @@
 //! [`Moments`]), describes samples of independent replicates ([`Summary`]), and decides with
 //! stated error rates whether they agree ([`Estimate`], [`Family`], [`tiles`]).
 
+pub mod anderson_darling;
 pub mod atomic;
 pub mod chi_squared;
+pub mod equivalence;
 pub mod estimate;
 pub mod exact;
 pub mod family;
@@ -13,9 +15,14 @@ pub mod fault;
 pub mod interval;
 pub mod kolmogorov_smirnov;
 pub mod moments;
+pub mod multiplicity;
+pub mod noncentral_t;
 pub mod normal;
+pub mod power;
 pub mod proportion;
+mod quadrature;
 pub mod regression;
+mod scale_error;
 pub mod student_t;
 pub mod summary;
 pub mod tiles;
@@ -23,12 +30,14 @@ pub mod verdict;
 pub mod wide;
 
 pub use atomic::AtomicFixed128;
+pub use equivalence::{Bias, Equivalence};
 pub use estimate::Estimate;
 pub use exact::Fixed128;
 pub use family::{Decision, Family};
 pub use fault::{Fault, Faults};
 pub use interval::Interval;
 pub use moments::Moments;
+pub use multiplicity::Correction;
 pub use regression::Line;
 pub use summary::Summary;
 pub use tiles::{Replicates, TileDecision, TileDifferences, TilesError};

@@ -6,7 +6,7 @@
 use etalon_statistics::chi_squared::{CountsError, goodness_of_fit};
 use etalon_statistics::family::{benjamini_hochberg, holm, sidak, sidak_level};
 use etalon_statistics::{
-    Estimate, Family, Interval, Line, Summary, Verdict, kolmogorov_smirnov, proportion,
+    Correction, Estimate, Family, Interval, Line, Summary, Verdict, kolmogorov_smirnov, proportion,
 };
 
 #[track_caller]
@@ -140,6 +140,50 @@ fn holm_by_hand() {
     assert_eq!(family.len(), 4);
     assert!(Family::new(0.0).is_none() && Family::new(f64::NAN).is_none());
     assert!(holm(&[]).is_empty());
+}
+
+#[test]
+fn declared_hypotheses_count() {
+    let mut family = Family::new(0.05).expect("a level");
+    let first = family.declare("tested");
+    let broken = family.declare("never ran");
+    family.record(first, 0.03).expect("a probability");
+    let decided = family.decide();
+    // 0.03 would be rejected alone; two were declared, so 0.06 is not.
+    near(decided[first].adjusted, 0.06, 1e-14);
+    assert!(!decided[first].rejected && !decided[broken].rejected);
+    assert!(family.record(broken, 1.5).is_err());
+    family.record(first, 0.02).expect("a probability");
+    assert!(family.decide()[first].rejected);
+}
+
+#[test]
+fn sidak_by_hand() {
+    // 1 − 0.995⁴, 1 − 0.99³, 1 − 0.97², 0.04 → 0.0591, exactly.
+    let mut family = Family::new(0.05).expect("a level");
+    for (name, p) in [("a", 0.01), ("b", 0.04), ("c", 0.03), ("d", 0.005)] {
+        family.push(name, p).expect("a probability");
+    }
+    let adjusted: Vec<_> = family
+        .decide_by(Correction::Sidak)
+        .into_iter()
+        .map(|d| d.adjusted)
+        .collect();
+    for (actual, expected) in adjusted
+        .iter()
+        .zip([0.029_701, 0.0591, 0.0591, 0.019_850_499_375])
+    {
+        near(*actual, expected, 1e-13);
+    }
+    let share = family.decide_by(Correction::BenjaminiHochberg);
+    assert!(share.iter().all(|d| d.rejected));
+    assert!(
+        share
+            .iter()
+            .zip(family.decide())
+            .all(|(b, h)| b.adjusted <= h.adjusted)
+    );
+    assert_eq!(Correction::Holm.adjust(&[0.5]), [0.5]);
 }
 
 #[test]
