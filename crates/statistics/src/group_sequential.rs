@@ -70,6 +70,9 @@ pub struct Bound {
     pub critical: f64,
     /// The two-sided level of that critical value alone, 2 Φ̄(c).
     pub nominal: f64,
+    /// What this look adds to what has been spent: a level that single looks may use under any
+    /// dependence between them.
+    pub granted: f64,
     /// What has been spent of α, this look included.
     pub spent: f64,
 }
@@ -108,6 +111,16 @@ impl Boundaries {
         &self.bounds
     }
 
+    /// Whether these are the looks of `earlier` and one more, at this share of the information.
+    pub(crate) fn follow(&self, earlier: &Self, information: f64) -> bool {
+        let last = self.bounds.split_last();
+        last.is_some_and(|(last, before)| {
+            last.information == information
+                && before == earlier.bounds
+                && (self.alpha, self.spending) == (earlier.alpha, earlier.spending)
+        })
+    }
+
     /// The critical value of the next look, at this share of the planned information. When the
     /// looks happen may depend on anything but the data themselves.
     ///
@@ -130,6 +143,7 @@ impl Boundaries {
             information,
             critical,
             nominal: 2.0 * normal::sf(critical),
+            granted: spent - before,
             spent,
         };
         self.bounds.push(bound);

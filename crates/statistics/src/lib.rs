@@ -1,11 +1,15 @@
-//! Exact accumulators, moments, hypothesis and equivalence tests, multiplicity.
+//! Statistics for testing simulations against each other: exact accumulators, hypothesis and
+//! equivalence tests, multiplicity, power, sequential plans, resampling, image metrics.
 //!
 //! This crate knows nothing of light: it sums numbers exactly ([`Fixed128`], [`AtomicFixed128`],
-//! [`Moments`]), describes samples of independent replicates ([`Summary`]), and decides with
-//! stated error rates whether they agree ([`Estimate`], [`Family`], [`tiles`]).
+//! [`Moments`]), describes samples of independent replicates ([`Summary`]), and decides with stated
+//! error rates whether they agree ([`Estimate`], [`Family`], [`tiles`]).
+//!
+#![doc = include_str!("../README.md")]
 
 pub mod anderson_darling;
 pub mod atomic;
+pub mod bias_variance;
 pub mod bootstrap;
 pub mod chi_squared;
 pub mod equivalence;
@@ -43,6 +47,7 @@ pub mod verdict;
 pub mod wide;
 
 pub use atomic::AtomicFixed128;
+pub use bias_variance::BiasVariance;
 pub use equivalence::{Bias, Equivalence};
 pub use estimate::Estimate;
 pub use exact::Fixed128;
@@ -54,7 +59,7 @@ pub use moments::Moments;
 pub use multiplicity::Correction;
 pub use picture::{Picture, PictureError};
 pub use ratio::Ratio;
-pub use regression::Line;
+pub use regression::{Line, LineWithErrors};
 pub use robust::Judgement;
 pub use sequential::{Campaign, Dependence, Look, SequentialClaim};
 pub use spending::Spending;

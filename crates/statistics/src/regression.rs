@@ -3,7 +3,14 @@
 //! y = a + b·x + ε with independent normal ε of one unknown variance: least squares, and
 //! t-distributed errors with n − 2 degrees of freedom. Fitted to logarithms, b is the exponent of
 //! a power law, such as the −1 of an independent sampler's squared error against its samples.
+//!
+//! Where each point's standard error is known, weights are their inverse squares, the line's errors
+//! follow from them alone (normal, not t), and Σ (residue/error)² is χ² with n − 2 degrees of
+//! freedom if the line is right (Press et al. 2007, section 15.2). A standard error s of y is one of
+//! s/y of ln y to first order; the mean of ln y is lower than the logarithm of the mean by
+//! s²/(2y²), which is added back.
 
+use crate::chi_squared;
 use crate::estimate::Estimate;
 
 /// A fitted line.
@@ -13,8 +20,21 @@ pub struct Line {
     pub slope: Estimate,
     /// a.
     pub intercept: Estimate,
-    /// The standard deviation of ε.
+    /// The standard deviation of ε, of a point of weight one.
     pub scatter: f64,
+    /// The weighted mean of x, where the line's height and slope do not depend on each other.
+    centre: f64,
+    /// The line there.
+    height: Estimate,
+}
+
+/// A line through points of known errors.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct LineWithErrors {
+    /// The line; its scatter is in units of the points' errors, one if they are right.
+    pub line: Line,
+    /// The probability of points at least this far off the line, in their errors, if it is right.
+    pub p_straight: f64,
 }
 
 impl Line {
@@ -57,19 +77,97 @@ impl Line {
                 freedom,
             )?,
             scatter: variance.sqrt(),
+            centre: mx,
+            height: Estimate::new(my, (variance / total).sqrt(), freedom)?,
         })
+    }
+
+    /// The height of the line at `x`: the mean of y there, not where a new point would fall.
+    /// `None` where that is not finite.
+    #[must_use]
+    pub fn at(&self, x: f64) -> Option<Estimate> {
+        let distance = x - self.centre;
+        let (height, tilt) = (
+            self.height.standard_error(),
+            distance * self.slope.standard_error(),
+        );
+        Estimate::new(
+            self.height.value() + distance * self.slope.value(),
+            (height * height + tilt * tilt).sqrt(),
+            self.height.degrees_of_freedom(),
+        )
+    }
+
+    /// Where a new point of weight one would fall at `x`: its interval is the prediction interval.
+    #[must_use]
+    pub fn new_point(&self, x: f64) -> Option<Estimate> {
+        let mean = self.at(x)?;
+        let error = mean.standard_error();
+        Estimate::new(
+            mean.value(),
+            (error * error + self.scatter * self.scatter).sqrt(),
+            mean.degrees_of_freedom(),
+        )
+    }
+
+    /// The line through points whose standard errors are known; `None` as for [`Line::fit`], or
+    /// for an error that is not positive.
+    #[must_use]
+    pub fn fit_with_errors(x: &[f64], y: &[f64], errors: &[f64]) -> Option<LineWithErrors> {
+        let weight: Vec<f64> = errors.iter().map(|s| 1.0 / (s * s)).collect();
+        let line = Self::fit_weighted(x, y, &weight)?;
+        let freedom = x.len() as f64 - 2.0;
+        let p_straight = chi_squared::sf(line.scatter * line.scatter * freedom, freedom);
+        // What the known errors alone say of the line.
+        let total: f64 = weight.iter().sum();
+        let spread: f64 = (weight.iter().zip(x))
+            .map(|(w, x)| w * (x - line.centre) * (x - line.centre))
+            .sum();
+        let intercept = 1.0 / total + line.centre * line.centre / spread;
+        let known = Estimate::with_known_error;
+        let line = Self {
+            slope: known(line.slope.value(), (1.0 / spread).sqrt())?,
+            intercept: known(line.intercept.value(), intercept.sqrt())?,
+            height: known(line.height.value(), (1.0 / total).sqrt())?,
+            ..line
+        };
+        Some(LineWithErrors { line, p_straight })
+    }
+
+    /// The power law y = exp(a)·xᵇ through points whose standard errors are known and small beside
+    /// y: `slope` is the exponent b. `None` as for [`Line::fit_with_errors`], or for numbers that
+    /// are not positive.
+    #[must_use]
+    pub fn fit_power_law_with_errors(
+        x: &[f64],
+        y: &[f64],
+        errors: &[f64],
+    ) -> Option<LineWithErrors> {
+        if errors.len() != y.len() {
+            return None;
+        }
+        let x = logarithms(x)?;
+        let relative: Vec<f64> = errors.iter().zip(y).map(|(s, y)| s / y).collect();
+        let y: Vec<f64> = logarithms(y)?
+            .iter()
+            .zip(&relative)
+            .map(|(y, s)| y + 0.5 * s * s)
+            .collect();
+        Self::fit_with_errors(&x, &y, &relative)
     }
 
     /// The power law y = exp(a)·xᵇ through these points, fitted to their logarithms: `slope` is
     /// the exponent b. `None` as for [`Line::fit`], or for numbers that are not positive.
     #[must_use]
     pub fn fit_power_law(x: &[f64], y: &[f64]) -> Option<Self> {
-        let logarithms = |numbers: &[f64]| -> Option<Vec<f64>> {
-            numbers
-                .iter()
-                .map(|&number| (number > 0.0).then(|| libm::log(number)))
-                .collect()
-        };
         Self::fit(&logarithms(x)?, &logarithms(y)?)
     }
+}
+
+/// `None` if any number is not positive.
+fn logarithms(numbers: &[f64]) -> Option<Vec<f64>> {
+    numbers
+        .iter()
+        .map(|&number| (number > 0.0).then(|| libm::log(number)))
+        .collect()
 }

@@ -30,7 +30,7 @@
 //! there is to lose: below 10⁻³ even the guaranteed bound is within 20 %.
 
 use crate::estimate::Estimate;
-use crate::group_sequential::{Boundaries, LookError};
+use crate::group_sequential::{Bound, Boundaries, LookError};
 use crate::interval::Interval;
 use crate::spending::Spending;
 use crate::student_t;
@@ -96,25 +96,44 @@ impl SequentialClaim {
     /// # Errors
     /// [`LookError`] if the claim is decided or the information did not grow; nothing is spent.
     pub fn look(&mut self, information: f64, estimate: &Estimate) -> Result<Look, LookError> {
+        self.look_with(information, |level| at_level(estimate, level))
+    }
+
+    /// As [`SequentialClaim::look`], with the interval that any method gives for a two-sided error
+    /// level: a bootstrap, a sign flip, a simultaneous interval of many tiles.
+    ///
+    /// # Errors
+    /// [`LookError`]; nothing is spent then.
+    pub fn look_with(
+        &mut self,
+        information: f64,
+        interval_at: impl FnOnce(f64) -> Interval,
+    ) -> Result<Look, LookError> {
         if self.verdict() != Verdict::Undecided {
             return Err(LookError::Decided);
         }
-        let before = self.looks.last().map_or(0.0, |look| look.spent);
         let bound = self.boundaries.look(information)?;
-        let nominal = match self.dependence {
+        Ok(self.judge(&bound, interval_at(self.nominal(&bound))))
+    }
+
+    /// The level of the interval at a bound.
+    fn nominal(&self, bound: &Bound) -> f64 {
+        match self.dependence {
             Dependence::Increments => bound.nominal,
-            Dependence::Any => bound.spent - before,
-        };
-        let interval = at_level(estimate, nominal);
+            Dependence::Any => bound.granted,
+        }
+    }
+
+    fn judge(&mut self, bound: &Bound, interval: Interval) -> Look {
         let look = Look {
-            information,
-            nominal,
+            information: bound.information,
+            nominal: self.nominal(bound),
             spent: bound.spent,
             interval,
             verdict: interval.verdict(self.margin),
         };
         self.looks.push(look);
-        Ok(look)
+        look
     }
 
     /// The looks made so far.
@@ -183,6 +202,8 @@ fn at_level(estimate: &Estimate, level: f64) -> Interval {
 pub struct Campaign {
     alpha: f64,
     claims: Vec<(String, SequentialClaim)>,
+    /// Boundaries computed so far; claims that are looked at alike share them.
+    made: Vec<Boundaries>,
 }
 
 impl Campaign {
@@ -210,7 +231,11 @@ impl Campaign {
                 ))
             })
             .collect::<Option<_>>()?;
-        Some(Self { alpha, claims })
+        Some(Self {
+            alpha,
+            claims,
+            made: Vec::new(),
+        })
     }
 
     /// The claims with their names.
@@ -239,7 +264,27 @@ impl Campaign {
             .claims
             .get_mut(index)
             .ok_or(LookError::NoSuchClaim { index })?;
-        claim.look(information, estimate)
+        if claim.verdict() != Verdict::Undecided {
+            return Err(LookError::Decided);
+        }
+        let made = &mut self.made;
+        let shared = made
+            .iter()
+            .position(|made| made.follow(&claim.boundaries, information));
+        let shared = match shared {
+            Some(place) => place,
+            None => {
+                let mut next = claim.boundaries.clone();
+                next.look(information)?;
+                made.push(next);
+                made.len() - 1
+            }
+        };
+        claim.boundaries = made[shared].clone();
+        // The last bound exists: the boundaries were just made.
+        let bound = claim.boundaries.looks()[claim.looks.len()];
+        let interval = at_level(estimate, claim.nominal(&bound));
+        Ok(claim.judge(&bound, interval))
     }
 
     /// The level of all claims together.

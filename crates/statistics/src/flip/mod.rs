@@ -7,7 +7,7 @@
 //! ΔE = ΔE_c^(1 − ΔE_f) ∈ [0, 1],
 //!
 //! - ΔE_c, colour: both images in the opponent space YC_xC_z are blurred by the eye's contrast
-//!   sensitivity ([`filters`]), clamped to the display's gamut, and compared in Hunt-adjusted L*a*b*
+//!   sensitivity (`filters`), clamped to the display's gamut, and compared in Hunt-adjusted L*a*b*
 //!   by the HyAB distance d; d^0.7 is stretched so that 0.4 of its greatest value (green against
 //!   blue) becomes 0.95;
 //! - ΔE_f, features: ((1/√2) max of the differences of edge and of point strength of Y)^½;
