@@ -4,12 +4,11 @@
 //! If both come from one distribution, every division of their union into two hands is equally
 //! probable. The statistic is |Welch's t|; studentised, the test also keeps its level in large
 //! samples where only the means are equal (Janssen 1997; Chung & Romano 2013). Up to [`EXACT`]
-//! divisions all are counted; beyond, B random ones with p = (1 + those at least as great) /
-//! (1 + B) (Phipson & Smyth 2010).
+//! divisions all are counted; beyond, random ones ([`crate::resampling_test`]).
 
 use crate::estimate::Estimate;
 use crate::random::SplitMix64;
-use crate::sign_flip::SignFlip;
+use crate::resampling_test::ResamplingTest;
 use crate::summary::Summary;
 
 /// The most divisions that are enumerated.
@@ -22,7 +21,7 @@ const TIE: f64 = 1e-9;
 /// `resamples` random divisions from `seed` where there are more than [`EXACT`]; `None` unless
 /// both have at least two numbers, all finite, and there are resamples.
 #[must_use]
-pub fn test(a: &[f64], b: &[f64], resamples: u32, seed: u64) -> Option<SignFlip> {
+pub fn test(a: &[f64], b: &[f64], resamples: u32, seed: u64) -> Option<ResamplingTest> {
     if a.len() < 2 || b.len() < 2 || resamples == 0 {
         return None;
     }
@@ -34,29 +33,20 @@ pub fn test(a: &[f64], b: &[f64], resamples: u32, seed: u64) -> Option<SignFlip>
         let count = divide(&united, a.len(), &mut hands, &|first, second| {
             statistic(first, second).is_some_and(|t| t >= limit)
         });
-        let mirrored = if a.len() == b.len() { 2.0 } else { 1.0 };
-        return Some(SignFlip {
-            p_value: count as f64 / divisions as f64,
-            least: mirrored / divisions as f64,
-            exact: true,
-        });
+        let images = if a.len() == b.len() { 2 } else { 1 };
+        return Some(ResamplingTest::exact(count, divisions, images));
     }
     let mut random = SplitMix64::new(seed);
-    let mut count = 0_u32;
+    let mut count = 0;
     for _ in 0..resamples {
         for i in 0..a.len() {
             let other = i + random.below(united.len() - i);
             united.swap(i, other);
         }
         let (first, second) = united.split_at(a.len());
-        count += u32::from(statistic(first, second).is_some_and(|t| t >= limit));
+        count += u64::from(statistic(first, second).is_some_and(|t| t >= limit));
     }
-    let possible = f64::from(resamples) + 1.0;
-    Some(SignFlip {
-        p_value: (f64::from(count) + 1.0) / possible,
-        least: 1.0 / possible,
-        exact: false,
-    })
+    Some(ResamplingTest::drawn(count, resamples.into()))
 }
 
 /// |t|: zero where the means are equal, infinite where they differ without any variance.

@@ -13,6 +13,7 @@
 
 use crate::bootstrap::{self, Plan};
 use crate::estimate::Estimate;
+use crate::resampling_test::ResamplingTest;
 use crate::sign_flip::{self, Side};
 use crate::summary::Summary;
 use crate::tails::{Limits, Refusal, Tails};
@@ -87,7 +88,7 @@ pub fn judge(
 /// Two one-sided tests at each edge of the margin, each at half of `alpha` so that the same
 /// interval stands behind both answers, as in the other methods.
 fn flip(sample: &[f64], margin: f64, alpha: f64, plan: &Plan) -> Option<(Verdict, Method)> {
-    let one_sided = |edge: f64, side: Side| -> Option<sign_flip::SignFlip> {
+    let one_sided = |edge: f64, side: Side| -> Option<ResamplingTest> {
         let shifted: Vec<f64> = sample.iter().map(|x| x - edge).collect();
         sign_flip::test(&shifted, side, plan.resamples, plan.seed)
     };
@@ -96,7 +97,7 @@ fn flip(sample: &[f64], margin: f64, alpha: f64, plan: &Plan) -> Option<(Verdict
     if above.least > level {
         return Some((Verdict::Undecided, Method::None));
     }
-    let rejects = |tested: sign_flip::SignFlip| tested.p_value <= level;
+    let rejects = |tested: ResamplingTest| tested.p_value <= level;
     let verdict = if rejects(above) || rejects(one_sided(-margin, Side::Less)?) {
         Verdict::Differs
     } else if rejects(one_sided(margin, Side::Less)?) && rejects(one_sided(-margin, Side::Greater)?)

@@ -3,11 +3,11 @@
 //! If x₁ … xₙ are independent and each is distributed symmetrically about zero (as differences
 //! of two exchangeable replicates are), all 2ⁿ choices of signs are equally probable, and the
 //! p-value is the share of them whose sum is at least as great as the observed one (Fisher 1935,
-//! section 21). Up to [`EXACT`] numbers all are counted; beyond, B random ones, with p = (1 + those
-//! at least as great) / (1 + B), which is valid for every B (Phipson & Smyth 2010). No level below
-//! [`SignFlip::least`] can be reached: a claim that needs one stays undecided.
+//! section 21). Up to [`EXACT`] numbers all are counted; beyond, random ones
+//! ([`crate::resampling_test`]).
 
 use crate::random::SplitMix64;
+use crate::resampling_test::ResamplingTest;
 
 /// The most numbers whose signs are enumerated: 2²⁰ sums.
 pub const EXACT: usize = 20;
@@ -26,22 +26,11 @@ pub enum Side {
     Both,
 }
 
-/// The outcome of a test by resampling.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct SignFlip {
-    /// The probability of an outcome at least as extreme, under the hypothesis.
-    pub p_value: f64,
-    /// The smallest p-value the test could have given.
-    pub least: f64,
-    /// Whether all possibilities were counted.
-    pub exact: bool,
-}
-
 /// Tests whether the numbers are symmetric about zero, with `resamples` random choices of signs
 /// from `seed` where there are more than [`EXACT`] of them; `None` of an empty sample, of
 /// non-finite numbers or of no resamples.
 #[must_use]
-pub fn test(sample: &[f64], side: Side, resamples: u32, seed: u64) -> Option<SignFlip> {
+pub fn test(sample: &[f64], side: Side, resamples: u32, seed: u64) -> Option<ResamplingTest> {
     let total: f64 = sample.iter().map(|x| x.abs()).sum();
     if sample.is_empty() || !total.is_finite() || resamples == 0 {
         return None;
@@ -54,26 +43,17 @@ pub fn test(sample: &[f64], side: Side, resamples: u32, seed: u64) -> Option<Sig
     let limit = measure(sample.iter().sum()) - TIE * total;
     let extreme = |sum: f64| measure(sum) >= limit;
     // Both sides have a mirror image each.
-    let mirrored = if side == Side::Both { 2.0 } else { 1.0 };
+    let images = if side == Side::Both { 2 } else { 1 };
     if sample.len() <= EXACT {
-        let choices = 1_u32 << sample.len();
         let count = enumerate(sample, extreme);
-        return Some(SignFlip {
-            p_value: f64::from(count) / f64::from(choices),
-            least: mirrored / f64::from(choices),
-            exact: true,
-        });
+        let choices = 1 << sample.len();
+        return Some(ResamplingTest::exact(count.into(), choices, images));
     }
     let mut random = SplitMix64::new(seed);
     let count = (0..resamples)
         .filter(|_| extreme(flipped(sample, &mut random)))
         .count();
-    let possible = f64::from(resamples) + 1.0;
-    Some(SignFlip {
-        p_value: (count as f64 + 1.0) / possible,
-        least: 1.0 / possible,
-        exact: false,
-    })
+    Some(ResamplingTest::drawn(count as u64, resamples.into()))
 }
 
 /// How many of all choices of signs are extreme. Successive choices of a Gray code differ in one
