@@ -133,20 +133,39 @@ fn fewest(most: u64, power: f64, probability: impl Fn(f64) -> f64) -> Option<u64
     Some(enough)
 }
 
-/// Where an increasing probability reaches `target`, from a first guess > 0: bracketed by
-/// doubling, then bisection, to twelve digits.
+/// Where an increasing probability reaches `target`, from a first guess > 0, to twelve digits:
+/// bracketed by doubling, then false position on the normal quantiles of the probability, which
+/// grow almost evenly, with bisection whenever that does not halve the bracket.
 fn increasing_root(guess: f64, target: f64, probability: impl Fn(f64) -> f64) -> f64 {
+    let wanted = normal::upper_quantile(target);
+    let height = |x: f64| wanted - normal::upper_quantile(probability(x));
     let (mut low, mut high) = (0.0, guess.max(1.0));
-    while probability(high) < target {
-        low = high;
+    let (mut below, mut above) = (f64::NEG_INFINITY, height(high));
+    while above < 0.0 {
+        (low, below) = (high, above);
         high *= 2.0;
+        above = height(high);
     }
     while high - low > 1e-12 * high {
-        let middle = 0.5 * (low + high);
-        if probability(middle) < target {
-            low = middle;
-        } else {
-            high = middle;
+        let width = high - low;
+        let chord = low + width * below / (below - above);
+        for x in [chord, 0.5 * (low + high)] {
+            // No chord where an end's quantile is infinite.
+            if !(x > low && x < high) {
+                continue;
+            }
+            let at = height(x);
+            if at == 0.0 {
+                return x;
+            }
+            if at < 0.0 {
+                (low, below) = (x, at);
+            } else {
+                (high, above) = (x, at);
+            }
+            if high - low < 0.5 * width {
+                break;
+            }
         }
     }
     0.5 * (low + high)

@@ -29,21 +29,15 @@ impl<T: Copy> Plane<T> {
         Self { values, width }
     }
 
-    /// What `fold` makes of the `taps` (an odd number) neighbours of each pixel in its row.
-    fn along_rows<U>(&self, taps: usize, fold: impl Fn(Window<'_, T>) -> U) -> Plane<U> {
-        let values = (0..self.values.len())
-            .map(|index| {
-                let x = index % self.width;
-                fold(Window {
-                    line: &self.values[index - x..index - x + self.width],
-                    stride: 1,
-                    last: self.width - 1,
-                    next: x,
-                    end: x + taps,
-                    half: taps / 2,
-                })
-            })
-            .collect();
+    /// What `fold` makes of the `taps` (an odd number) neighbours of each pixel in its row; beyond
+    /// the ends the last ones repeat.
+    fn along_rows<U>(&self, taps: usize, fold: impl Fn(&[T]) -> U) -> Plane<U> {
+        let mut values = Vec::with_capacity(self.values.len());
+        let mut padded = Vec::with_capacity(self.width + taps);
+        for row in self.values.chunks_exact(self.width) {
+            pad(row.iter().copied(), taps / 2, &mut padded);
+            values.extend(padded.windows(taps).map(&fold));
+        }
         Plane {
             values,
             width: self.width,
@@ -51,45 +45,32 @@ impl<T: Copy> Plane<T> {
     }
 
     /// As [`Plane::along_rows`], in its column.
-    fn along_columns<U>(&self, taps: usize, fold: impl Fn(Window<'_, T>) -> U) -> Vec<U> {
+    fn along_columns<U: Copy>(&self, taps: usize, fold: impl Fn(&[T]) -> U) -> Vec<U> {
+        let mut columns = Vec::with_capacity(self.values.len());
+        let mut padded = Vec::with_capacity(self.values.len() / self.width + taps);
+        for x in 0..self.width {
+            let column = self.values[x..].iter().step_by(self.width);
+            pad(column.copied(), taps / 2, &mut padded);
+            columns.extend(padded.windows(taps).map(&fold));
+        }
         let height = self.values.len() / self.width;
         (0..self.values.len())
-            .map(|index| {
-                let y = index / self.width;
-                fold(Window {
-                    line: &self.values[index % self.width..],
-                    stride: self.width,
-                    last: height - 1,
-                    next: y,
-                    end: y + taps,
-                    half: taps / 2,
-                })
-            })
+            .map(|index| columns[index % self.width * height + index / self.width])
             .collect()
     }
 }
 
-/// The neighbours of a pixel along a line, in order; beyond the ends the last ones repeat.
-struct Window<'a, T> {
-    line: &'a [T],
-    stride: usize,
-    last: usize,
-    /// The positions of the next neighbour and of the end, plus half a filter.
-    next: usize,
-    end: usize,
-    half: usize,
-}
-
-impl<T: Copy> Iterator for Window<'_, T> {
-    type Item = T;
-
-    fn next(&mut self) -> Option<T> {
-        if self.next == self.end {
-            return None;
+/// A line with its first and last value repeated `half` times beyond its ends.
+fn pad<T: Copy>(line: impl Iterator<Item = T>, half: usize, padded: &mut Vec<T>) {
+    padded.clear();
+    for value in line {
+        if padded.is_empty() {
+            padded.extend(std::iter::repeat_n(value, half));
         }
-        let at = self.next.saturating_sub(self.half).min(self.last);
-        self.next += 1;
-        Some(self.line[at * self.stride])
+        padded.push(value);
+    }
+    if let Some(&last) = padded.last() {
+        padded.extend(std::iter::repeat_n(last, half));
     }
 }
 
@@ -138,7 +119,7 @@ pub(super) fn spatially_filtered(image: &Plane<[f64; 3]>, pixels_per_degree: f64
     image
         .along_rows(taps.len(), |window| {
             let mut sum = [0.0; 4];
-            for ([y, cx, cz], tap) in window.zip(&taps) {
+            for (&[y, cx, cz], tap) in window.iter().zip(&taps) {
                 for (sum, term) in sum.iter_mut().zip([y, cx, cz, cz].iter().zip(tap)) {
                     *sum += term.0 * term.1;
                 }
@@ -147,7 +128,7 @@ pub(super) fn spatially_filtered(image: &Plane<[f64; 3]>, pixels_per_degree: f64
         })
         .along_columns(taps.len(), |window| {
             let mut sum = [0.0; 4];
-            for (value, tap) in window.zip(&taps) {
+            for (value, tap) in window.iter().zip(&taps) {
                 for (sum, term) in sum.iter_mut().zip(value.iter().zip(tap)) {
                     *sum += term.0 * term.1;
                 }
@@ -157,6 +138,7 @@ pub(super) fn spatially_filtered(image: &Plane<[f64; 3]>, pixels_per_degree: f64
 }
 
 /// How strongly a pixel is an edge, and a point.
+#[derive(Clone, Copy)]
 pub(super) struct Features {
     pub(super) edge: f64,
     pub(super) point: f64,
@@ -193,7 +175,7 @@ pub(super) fn feature_strengths(image: &Plane<[f64; 3]>, pixels_per_degree: f64)
     image
         .along_rows(taps.len(), |window| {
             let mut sum = [0.0; 3];
-            for ([y, _, _], tap) in window.zip(&taps) {
+            for ([y, _, _], tap) in window.iter().zip(&taps) {
                 let grey = (y + 16.0) / 116.0;
                 for (sum, weight) in sum.iter_mut().zip(tap) {
                     *sum += grey * weight;
@@ -203,7 +185,7 @@ pub(super) fn feature_strengths(image: &Plane<[f64; 3]>, pixels_per_degree: f64)
         })
         .along_columns(taps.len(), |window| {
             let (mut dx, mut ddx, mut dy, mut ddy) = (0.0, 0.0, 0.0, 0.0);
-            for ([smooth, first, second], [g, dg, ddg]) in window.zip(&taps) {
+            for ([smooth, first, second], [g, dg, ddg]) in window.iter().zip(&taps) {
                 dx += g * first;
                 ddx += g * second;
                 dy += dg * smooth;
