@@ -13,6 +13,7 @@
 //! A bootstrap knows no tail that the sample does not show: below some 20 replicates, or with
 //! B · (1 − confidence) < 10 beyond each end, it is refused.
 
+use crate::estimate::Estimate;
 use crate::interval::Interval;
 use crate::normal;
 use crate::random::SplitMix64;
@@ -202,27 +203,68 @@ pub fn studentised(sample: &[f64], plan: &Plan, confidence: f64) -> Option<Inter
     if sample.len() < FEWEST_FOR_STUDENTISED || plan.block != 1 || !plan.resolves(confidence) {
         return None;
     }
-    let observed = Summary::of(sample)?;
+    let observed = Estimate::mean(&Summary::of(sample)?);
     let mut values = resampled(sample.len(), plan, |indices| {
         Summary::of_iter(indices.iter().map(|&i| sample[i])).map_or(f64::NAN, |drawn| {
-            let distance = drawn.mean() - observed.mean();
-            if distance == 0.0 {
-                0.0
-            } else {
-                // Infinite where one number was drawn throughout, which is as far as can be.
-                distance / drawn.standard_error()
-            }
+            studentise(&Estimate::mean(&drawn), &observed)
         })
     })?;
+    turned(&mut values, &observed, confidence)
+}
+
+/// The studentised interval of the difference of two means, `a` − `b`, of independent samples
+/// whose distributions may differ; `None` as for [`studentised`], of either.
+#[must_use]
+pub fn studentised_difference(
+    a: &[f64],
+    b: &[f64],
+    plan: &Plan,
+    confidence: f64,
+) -> Option<Interval> {
+    let few = a.len().min(b.len()) < FEWEST_FOR_STUDENTISED;
+    if few || plan.block != 1 || !plan.resolves(confidence) {
+        return None;
+    }
+    let observed = Estimate::welch(&Summary::of(a)?, &Summary::of(b)?);
+    let mut random = SplitMix64::new(plan.seed);
+    let mut indices = Vec::new();
+    let mut summary = |sample: &[f64]| {
+        draw(sample.len(), 1, &mut random, &mut indices);
+        Summary::of_iter(indices.iter().map(|&i| sample[i]))
+    };
+    let mut values: Vec<f64> = (0..plan.resamples)
+        .map(|_| {
+            Some(studentise(
+                &Estimate::welch(&summary(a)?, &summary(b)?),
+                &observed,
+            ))
+        })
+        .collect::<Option<_>>()?;
+    turned(&mut values, &observed, confidence)
+}
+
+/// How many of its own standard errors a resampled estimate is from the observed one; infinite where
+/// it has none, which is as far as can be.
+fn studentise(drawn: &Estimate, observed: &Estimate) -> f64 {
+    let distance = drawn.value() - observed.value();
+    if distance == 0.0 {
+        0.0
+    } else {
+        distance / drawn.standard_error()
+    }
+}
+
+/// The observed estimate less the quantiles of its studentised resamples.
+fn turned(values: &mut [f64], observed: &Estimate, confidence: f64) -> Option<Interval> {
     if values.iter().any(|v| v.is_nan()) {
         return None;
     }
     values.sort_by(f64::total_cmp);
     let tail = 0.5 * (1.0 - confidence);
-    let reach = |share: f64| quantile(&values, share) * observed.standard_error();
+    let reach = |share: f64| quantile(values, share) * observed.standard_error();
     let interval = Interval {
-        low: observed.mean() - reach(1.0 - tail),
-        high: observed.mean() - reach(tail),
+        low: observed.value() - reach(1.0 - tail),
+        high: observed.value() - reach(tail),
     };
     (!interval.low.is_nan() && !interval.high.is_nan()).then_some(interval)
 }

@@ -9,7 +9,7 @@
 //! A *relative* bias is β over a denominator that must not vanish where a quantity is nearly
 //! absent: [`denominator`] is the greater of the quantity's own mean and 5 % of a companion's,
 //! such as the red channel's mean and the luminance's. It is taken as known; where it is itself
-//! uncertain, bootstrap the ratio.
+//! uncertain, see [`crate::ratio`].
 
 use crate::estimate::Estimate;
 use crate::interval::Interval;

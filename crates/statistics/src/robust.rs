@@ -1,20 +1,20 @@
-//! A verdict on a mean that does not lean on normality where the sample speaks against it.
+//! An interval for a mean that does not lean on normality where the sample speaks against it.
 //!
-//! A sample within the declared limits ([`crate::tails`]) is judged by Student's t. Beyond them a
-//! test takes over that needs no normal approximation:
+//! A sample within the declared limits ([`crate::tails`]) is judged by Student's t. Beyond them an
+//! interval takes over that needs no normal approximation:
 //!
-//! - [`Symmetry::Exchangeable`] (differences of two estimators' replicates, one to one): sign flips of
-//!   x ∓ margin, exact if the differences are symmetric about their mean;
-//! - [`Symmetry::Unknown`] (differences from a known number): the studentised bootstrap, for at least
-//!   20 replicates;
+//! - [`Symmetry::Exchangeable`] (differences of two estimators' replicates, one to one): the interval
+//!   of the sign-flip test, exact if the differences are symmetric about their mean;
+//! - [`Symmetry::Unknown`] (differences from a known number, or of two unlike estimators): the
+//!   studentised bootstrap, for at least 20 replicates;
 //!
 //! and where that cannot reach the level, for lack of replicates or of resamples, the verdict is
 //! *undecided*. A tail whose variance may not exist is undecided whatever the test.
 
 use crate::bootstrap::{self, Plan};
 use crate::estimate::Estimate;
-use crate::resampling_test::ResamplingTest;
-use crate::sign_flip::{self, Side};
+use crate::interval::Interval;
+use crate::sign_flip;
 use crate::summary::Summary;
 use crate::tails::{Limits, Refusal, Tails};
 use crate::verdict::Verdict;
@@ -28,7 +28,7 @@ pub enum Symmetry {
     Unknown,
 }
 
-/// How a verdict came about.
+/// How an interval came about.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Method {
     /// Student's t.
@@ -37,74 +37,110 @@ pub enum Method {
     SignFlip,
     /// The studentised bootstrap.
     Bootstrap,
-    /// No test could reach the level.
-    None,
 }
 
-/// A verdict with its reasons.
+/// An interval with its reasons.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Judgement {
-    /// Whether the mean is within ±margin.
-    pub verdict: Verdict,
-    /// The test that was used.
-    pub method: Method,
+    /// The interval and how it came about; absent where no method reaches the level.
+    pub interval: Option<(Interval, Method)>,
     /// Why Student's t was refused, if it was.
     pub refusal: Option<Refusal>,
 }
 
-/// Judges whether the mean of a population is within ±`margin`, from a sample of independent
-/// numbers, each answer false with probability at most `alpha`; `None` of a sample of fewer than
-/// three or of non-finite numbers.
+impl Judgement {
+    /// Whether the mean is within ±`margin`; undecided without an interval.
+    #[must_use]
+    pub fn verdict(&self, margin: f64) -> Verdict {
+        self.interval
+            .map_or(Verdict::Undecided, |(interval, _)| interval.verdict(margin))
+    }
+
+    /// The method, where there is an interval.
+    #[must_use]
+    pub fn method(&self) -> Option<Method> {
+        self.interval.map(|(_, method)| method)
+    }
+
+    fn new(
+        refusal: Option<Refusal>,
+        student: Estimate,
+        alpha: f64,
+        otherwise: impl FnOnce() -> Option<(Interval, Method)>,
+    ) -> Self {
+        let interval = match refusal {
+            None => Some((student.interval(1.0 - alpha), Method::Student)),
+            Some(Refusal::HeavyTail { .. }) => None,
+            Some(_) => otherwise(),
+        };
+        Self { interval, refusal }
+    }
+}
+
+/// The interval that misses a population's mean with probability at most `alpha`, from a sample of
+/// independent numbers; `None` of fewer than three or of non-finite ones.
 #[must_use]
 pub fn judge(
     sample: &[f64],
-    margin: f64,
     alpha: f64,
     symmetry: Symmetry,
     limits: &Limits,
     plan: &Plan,
 ) -> Option<Judgement> {
-    let tails = Tails::of(sample)?;
-    let refusal = tails.refusal(0.5 * alpha, limits);
-    let (verdict, method) = match (refusal, symmetry) {
-        (None, _) => {
-            let estimate = Estimate::mean(&Summary::of(sample)?);
-            (estimate.verdict(margin, 1.0 - alpha), Method::Student)
-        }
-        (Some(Refusal::HeavyTail { .. }), _) => (Verdict::Undecided, Method::None),
-        (Some(_), Symmetry::Exchangeable) => flip(sample, margin, alpha, plan)?,
-        (Some(_), Symmetry::Unknown) => match bootstrap::studentised(sample, plan, 1.0 - alpha) {
-            Some(interval) => (interval.verdict(margin), Method::Bootstrap),
-            None => (Verdict::Undecided, Method::None),
-        },
-    };
-    Some(Judgement {
-        verdict,
-        method,
-        refusal,
-    })
+    let refusal = Tails::of(sample)?.refusal(0.5 * alpha, limits);
+    let student = Estimate::mean(&Summary::of(sample)?);
+    Some(Judgement::new(refusal, student, alpha, || match symmetry {
+        Symmetry::Exchangeable => flipped(sample, alpha, plan),
+        Symmetry::Unknown => bootstrap::studentised(sample, plan, 1.0 - alpha)
+            .map(|interval| (interval, Method::Bootstrap)),
+    }))
 }
 
-/// Two one-sided tests at each edge of the margin, each at half of `alpha` so that the same
-/// interval stands behind both answers, as in the other methods.
-fn flip(sample: &[f64], margin: f64, alpha: f64, plan: &Plan) -> Option<(Verdict, Method)> {
-    let one_sided = |edge: f64, side: Side| -> Option<ResamplingTest> {
-        let shifted: Vec<f64> = sample.iter().map(|x| x - edge).collect();
-        sign_flip::test(&shifted, side, plan.resamples, plan.seed)
+/// As [`judge`], for the difference of the means of two independent samples, `a` − `b`. Within the
+/// limits it is Welch's interval. Beyond, exchangeable replicates are paired in the order given, if
+/// there are as many of each.
+///
+/// Skewness counts as far as it does not cancel: by the third cumulant of the difference. The other
+/// limits hold for each sample.
+#[must_use]
+pub fn judge_difference(
+    a: &[f64],
+    b: &[f64],
+    alpha: f64,
+    symmetry: Symmetry,
+    limits: &Limits,
+    plan: &Plan,
+) -> Option<Judgement> {
+    let (tails_a, tails_b) = (Tails::of(a)?, Tails::of(b)?);
+    let (summary_a, summary_b) = (Summary::of(a)?, Summary::of(b)?);
+    let student = Estimate::welch(&summary_a, &summary_b);
+    let variance = student.standard_error() * student.standard_error();
+    // Each skewness by its sample's share of the standard error.
+    let weight = |summary: &Summary| {
+        let share = if variance > 0.0 {
+            summary.variance_of_mean() / variance
+        } else {
+            0.0
+        };
+        share * share.sqrt()
     };
+    let (wa, wb) = (weight(&summary_a), weight(&summary_b));
+    let standard = tails_a.standardised_skewness() * wa - tails_b.standardised_skewness() * wb;
     let level = 0.5 * alpha;
-    let above = one_sided(margin, Side::Greater)?;
-    if above.least > level {
-        return Some((Verdict::Undecided, Method::None));
-    }
-    let rejects = |tested: ResamplingTest| tested.p_value <= level;
-    let verdict = if rejects(above) || rejects(one_sided(-margin, Side::Less)?) {
-        Verdict::Differs
-    } else if rejects(one_sided(margin, Side::Less)?) && rejects(one_sided(-margin, Side::Greater)?)
-    {
-        Verdict::Agrees
-    } else {
-        Verdict::Undecided
-    };
-    Some((verdict, Method::SignFlip))
+    let refusal = [&tails_a, &tails_b]
+        .into_iter()
+        .find_map(|tails| tails.refusal_given(standard, level, limits));
+    Some(Judgement::new(refusal, student, alpha, || match symmetry {
+        Symmetry::Exchangeable if a.len() == b.len() => {
+            let differences: Vec<f64> = a.iter().zip(b).map(|(a, b)| a - b).collect();
+            flipped(&differences, alpha, plan)
+        }
+        _ => bootstrap::studentised_difference(a, b, plan, 1.0 - alpha)
+            .map(|interval| (interval, Method::Bootstrap)),
+    }))
+}
+
+fn flipped(sample: &[f64], alpha: f64, plan: &Plan) -> Option<(Interval, Method)> {
+    sign_flip::interval(sample, 1.0 - alpha, plan.resamples, plan.seed)
+        .map(|interval| (interval, Method::SignFlip))
 }

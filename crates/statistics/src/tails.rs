@@ -210,20 +210,33 @@ impl Tails {
     /// Edgeworth term.
     #[must_use]
     pub fn distortion(&self, alpha: f64) -> f64 {
-        let z = normal::upper_quantile(alpha);
-        let density = libm::exp(-0.5 * z * z) / (2.0 * PI).sqrt();
-        self.skewness.abs() * (2.0 * z * z + 1.0) * density
-            / (6.0 * (self.count as f64).sqrt() * alpha)
+        distortion(self.standardised_skewness(), alpha)
+    }
+
+    /// The skewness of the mean, G₁/√n.
+    #[must_use]
+    pub fn standardised_skewness(&self) -> f64 {
+        self.skewness / (self.count as f64).sqrt()
     }
 
     /// Why a normal approximation is refused at one-sided level `alpha`, if it is.
     #[must_use]
     pub fn refusal(&self, alpha: f64, limits: &Limits) -> Option<Refusal> {
+        self.refusal_given(self.standardised_skewness(), alpha, limits)
+    }
+
+    /// As [`Tails::refusal`], where what is tested has this standardised skewness.
+    pub(crate) fn refusal_given(
+        &self,
+        standardised: f64,
+        alpha: f64,
+        limits: &Limits,
+    ) -> Option<Refusal> {
         if let Some(hill) = self.hill.filter(|&hill| hill <= limits.hill) {
             return Some(Refusal::HeavyTail { hill });
         }
         if self.count >= FEWEST {
-            let distortion = self.distortion(alpha);
+            let distortion = distortion(standardised, alpha);
             let visible = self.skewness.abs() > normal_skewness(self.count, limits.rarity);
             if visible && distortion > limits.distortion {
                 return Some(Refusal::Skewness {
@@ -244,6 +257,13 @@ impl Tails {
             share: self.energy_share,
         })
     }
+}
+
+/// The first Edgeworth term of the level of a one-sided t-test, relative to it.
+fn distortion(standardised: f64, alpha: f64) -> f64 {
+    let z = normal::upper_quantile(alpha);
+    let density = libm::exp(-0.5 * z * z) / (2.0 * PI).sqrt();
+    standardised.abs() * (2.0 * z * z + 1.0) * density / (6.0 * alpha)
 }
 
 /// The share of Σ|x| in the `top` greatest |x|; `None` of an empty or non-finite sample, 0 where

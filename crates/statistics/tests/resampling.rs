@@ -71,6 +71,49 @@ fn sign_flips() {
 }
 
 #[test]
+fn typical_values() {
+    // The means of the seven subsets of 0, 1, 5: 0, ½, 1, 2, 2½, 3, 5.
+    let sample = [5.0, 0.0, 1.0];
+    let half = |k: f64| sign_flip::interval(&sample, 1.0 - 2.0 * k / 8.0, 1, 0);
+    assert_eq!(
+        half(1.0),
+        Some(Interval {
+            low: 0.0,
+            high: 5.0
+        })
+    );
+    assert_eq!(
+        half(2.0),
+        Some(Interval {
+            low: 0.5,
+            high: 3.0
+        })
+    );
+    assert_eq!(
+        half(3.0),
+        Some(Interval {
+            low: 1.0,
+            high: 2.5
+        })
+    );
+    assert_eq!(half(0.5), None);
+    assert_eq!(sign_flip::interval(&[1.0, f64::NAN], 0.5, 1, 0), None);
+    // Random subsets of 30 numbers: close to Student's interval for evenly spread ones.
+    let spread: Vec<f64> = (0..30).map(f64::from).collect();
+    let drawn = sign_flip::interval(&spread, 0.95, 9_999, 4).expect("reachable");
+    let student = Estimate::mean(&Summary::of(&spread).expect("finite")).interval(0.95);
+    assert!(
+        (drawn.low - student.low).abs() < 0.3,
+        "{drawn:?} {student:?}"
+    );
+    assert!(
+        (drawn.high - student.high).abs() < 0.3,
+        "{drawn:?} {student:?}"
+    );
+    assert_eq!(sign_flip::interval(&spread, 0.9999, 9_999, 4), None);
+}
+
+#[test]
 fn permutations() {
     // 150 of 462 by enumeration of |t| (Python's itertools over SciPy's `ttest_ind`).
     let a = [27.5, 21.0, 19.0, 23.6, 17.0];
@@ -295,6 +338,24 @@ proptest! {
             prop_assert!((distance.abs() - t).abs() < 1e-8);
         }
         prop_assert!(interval.contains(a / b));
+    }
+
+    /// The interval holds just those numbers that the two one-sided tests do not reject.
+    #[test]
+    fn intervals_and_sign_flips_are_one(
+        sample in prop::collection::vec(-3.0..3.0_f64, 5..9), rank in 1..6_u32,
+    ) {
+        let level = f64::from(rank) / f64::from(1_u32 << sample.len());
+        let interval = sign_flip::interval(&sample, 1.0 - 2.0 * level, 1, 0).expect("reachable");
+        let rejects = |point: f64, side| {
+            let shifted: Vec<f64> = sample.iter().map(|x| x - point).collect();
+            let tested = sign_flip::test(&shifted, side, 1, 0).expect("finite");
+            tested.p_value <= level * (1.0 + 1e-12)
+        };
+        prop_assert!(rejects(interval.low - 1e-6, Side::Greater));
+        prop_assert!(!rejects(interval.low + 1e-6, Side::Greater));
+        prop_assert!(rejects(interval.high + 1e-6, Side::Less));
+        prop_assert!(!rejects(interval.high - 1e-6, Side::Less));
     }
 
     /// The two one-sided p-values of an exact sign-flip test add up to one plus the ties'.
