@@ -127,6 +127,49 @@ fn exponents_are_covered() {
     );
 }
 
+/// Points whose logarithms are lower than the law's by s²/2 are on it.
+#[test]
+fn logarithms_are_corrected() {
+    let relative = [0.1, 0.3, 0.2, 0.5];
+    let x = [1.0, 2.0, 4.0, 8.0];
+    let y: Vec<f64> = (x.iter().zip(relative))
+        .map(|(x, s)| 3.0 / x * libm::exp(-0.5 * s * s))
+        .collect();
+    let errors: Vec<f64> = y.iter().zip(relative).map(|(y, s)| y * s).collect();
+    let fit = Line::fit_power_law_with_errors(&x, &y, &errors).expect("positive");
+    near(fit.line.slope.value(), -1.0, 1e-13);
+    near(fit.line.intercept.value(), 1.098_612_288_668_109_7, 1e-13);
+    near(fit.p_straight, 1.0, 1e-12);
+}
+
+/// The jackknife by its definition: the estimates without each replicate, one by one.
+#[test]
+fn leaving_out_replicates() {
+    let replicates = [1.1, 2.3, 0.8, 1.9, 1.3, 2.2, 0.9, 1.6, 1.4, 2.1];
+    let truth = [1.0, 2.0];
+    let whole = BiasVariance::of(&replicates, &truth).expect("replicates");
+    let without: Vec<BiasVariance> = (0..5)
+        .map(|left_out| {
+            let (before, after) = replicates.split_at(2 * left_out);
+            let rest = [before, &after[2..]].concat();
+            BiasVariance::of(&rest, &truth).expect("replicates")
+        })
+        .collect();
+    for part in [
+        |parts: &BiasVariance| parts.mean_squared_error,
+        |parts: &BiasVariance| parts.bias_squared,
+        |parts: &BiasVariance| parts.variance,
+    ] {
+        let values: Vec<f64> = without.iter().map(|parts| part(parts).value()).collect();
+        let spread = Summary::of(&values).expect("finite").variance() * 4.0;
+        near(
+            part(&whole).standard_error(),
+            (spread * 4.0 / 5.0).sqrt(),
+            1e-10,
+        );
+    }
+}
+
 #[test]
 fn one_number_by_hand() {
     // For a single number bias² is (x̄ − t)² − s²/R and the variance s².

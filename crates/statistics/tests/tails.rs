@@ -268,3 +268,31 @@ fn differences_of_two_samples() {
         assert!(found >= 200, "{method:?} {found}");
     }
 }
+
+/// Equal skewness cancels from a difference of equally many replicates, opposite skewness adds up.
+#[test]
+fn skewness_cancels_from_differences() {
+    let skewed: Vec<f64> = (0..60)
+        .map(|i| -libm::log((f64::from(i) + 0.5) / 60.0))
+        .collect();
+    let mirrored: Vec<f64> = skewed.iter().map(|x| -x).collect();
+    let plan = Plan::independent(799, 6);
+    let refusal = |b: &[f64]| {
+        let judged = judge_difference(
+            &skewed,
+            b,
+            0.01,
+            Symmetry::Unknown,
+            &Limits::DECLARED,
+            &plan,
+        );
+        judged.expect("finite").refusal
+    };
+    assert_eq!(refusal(&skewed), None);
+    assert!(matches!(refusal(&mirrored), Some(Refusal::Skewness { .. })));
+    let alone = judge(&skewed, 0.01, Symmetry::Unknown, &Limits::DECLARED, &plan);
+    assert!(matches!(
+        alone.expect("finite").refusal,
+        Some(Refusal::Skewness { .. })
+    ));
+}
