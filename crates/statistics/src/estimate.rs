@@ -161,21 +161,11 @@ impl Estimate {
         self.interval(confidence).verdict(tolerance)
     }
 
-    /// The smallest |β| that a two-sided test at level `alpha` finds with probability `power`,
-    /// were the experiment done again with this standard error.
-    ///
-    /// A quick approximation, the sum of two t quantiles. It falls short of the exact
-    /// [`Estimate::minimal_detectable_effect`]: at α = 0.01 and power 0.9 by 4 % with 7 degrees
-    /// of freedom; at α = 10⁻⁵ by 9 % with 14.
+    /// The smallest |β| that a two-sided t-test at level `alpha` finds with probability `power`,
+    /// were the experiment done again with this standard error for the true one: by the noncentral
+    /// t distribution ([`crate::power::detectable`]). NaN unless 0 < `alpha` < `power` < 1.
     #[must_use]
     pub fn smallest_detectable(&self, alpha: f64, power: f64) -> f64 {
-        self.reach(0.5 * alpha) + self.reach(1.0 - power)
-    }
-
-    /// The smallest |β| that a two-sided t-test at level `alpha` finds with probability `power`,
-    /// by the noncentral t distribution, taking this standard error for the true one.
-    #[must_use]
-    pub fn minimal_detectable_effect(&self, alpha: f64, power: f64) -> f64 {
         if self.standard_error == 0.0 {
             return 0.0;
         }

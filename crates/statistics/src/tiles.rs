@@ -231,14 +231,30 @@ impl TileDifferences {
     }
 
     /// The largest of the tiles' smallest detectable differences at a level of `alpha` over the
-    /// number of tiles.
+    /// number of tiles; NaN unless 0 < that < `power` < 1.
     #[must_use]
     pub fn smallest_detectable(&self, alpha: f64, power: f64) -> f64 {
         let each = alpha / self.differences.len() as f64;
-        self.differences
+        let mut differences: Vec<&Estimate> = self.differences.iter().collect();
+        differences.sort_by(|a, b| b.standard_error().total_cmp(&a.standard_error()));
+        // In standard errors, fewer degrees of freedom see less. The fewest bound every tile, so
+        // that few are computed.
+        let fewest = differences
             .iter()
-            .map(|difference| difference.smallest_detectable(each, power))
-            .fold(0.0, f64::max)
+            .map(|difference| difference.degrees_of_freedom())
+            .fold(f64::INFINITY, f64::min);
+        let most = crate::power::detectable(fewest, each, power);
+        if most.is_nan() {
+            return most;
+        }
+        let mut greatest = 0.0;
+        for difference in differences {
+            if difference.standard_error() * most <= greatest {
+                break;
+            }
+            greatest = difference.smallest_detectable(each, power).max(greatest);
+        }
+        greatest
     }
 }
 

@@ -195,7 +195,15 @@ fn known_values_are_a_reference_too() {
     let wrong: Vec<f64> = truth.iter().map(|x| x * 1.05).collect();
     let wrong = TileDifferences::from_known(&replicates, &wrong).expect("same tiles");
     assert_eq!(wrong.decide(&[0.0; 16], 1e-3).verdict, Verdict::Differs);
-    assert!(wrong.smallest_detectable(1e-3, 0.9) > 0.0);
+    // The same as the greatest of the tiles' own.
+    let each = wrong
+        .estimates()
+        .iter()
+        .map(|estimate| estimate.smallest_detectable(1e-3 / 16.0, 0.9));
+    let greatest = each.fold(0.0, f64::max);
+    assert_eq!(wrong.smallest_detectable(1e-3, 0.9), greatest);
+    assert!(greatest > 0.0);
+    assert!(wrong.smallest_detectable(0.9, 1e-3).is_nan());
     assert_eq!(wrong.estimates().len(), 16);
 }
 

@@ -106,7 +106,7 @@ fn detectable_effects() {
     );
     let estimate = Estimate::new(0.0, 0.5, 7.0).expect("finite");
     near(
-        estimate.minimal_detectable_effect(0.01, 0.9),
+        estimate.smallest_detectable(0.01, 0.9),
         0.5 * 5.129_937_964_726_588_367_9,
         1e-10,
     );
