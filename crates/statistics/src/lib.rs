@@ -13,6 +13,7 @@ pub mod bias_variance;
 pub mod bootstrap;
 pub mod chi_squared;
 pub mod equivalence;
+pub mod error_rates;
 pub mod estimate;
 pub mod exact;
 pub mod family;
