@@ -9,9 +9,10 @@
 //! P(A² > z) = (1/π) Σₖ (−1)^{k+1} ∫ e^{−zu/2} √(πu / |cos(π s / 2)|) du / u, s = √(1 + 4u),
 //!
 //! u from (2k − 1) 2k to 2k (2k + 1), here by Gauss–Chebyshev quadrature to 12 digits. For finite
-//! n the correction of Marsaglia & Marsaglia (2004, section 3) is added; its error is that of
-//! their fit to simulations, some 10⁻⁵ absolute for n ≥ 10 in the body and 1/n *relative* in the
-//! tail. A single observation is exact.
+//! n the correction of Marsaglia & Marsaglia (2004, section 3), their fit to simulations, is added;
+//! it agrees with two million samples of 5, 10 and 40 numbers within the simulation's own error
+//! (10⁻³ in the body; in the far tail the correction is good to 1/n *relative*). A single observation
+//! is exact.
 
 use std::f64::consts::PI;
 

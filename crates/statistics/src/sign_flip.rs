@@ -64,7 +64,7 @@ pub fn test(sample: &[f64], side: Side, resamples: u32, seed: u64) -> Option<Res
 }
 
 /// The interval that encloses the point about which the numbers are symmetric, with probability
-/// `confidence` at least; `None` as for [`test`], or where that confidence cannot be reached.
+/// `confidence` at least; `None` as for [`fn@test`], or where that confidence cannot be reached.
 #[must_use]
 pub fn interval(sample: &[f64], confidence: f64, resamples: u32, seed: u64) -> Option<Interval> {
     let finite = sample.iter().all(|x| x.is_finite());
