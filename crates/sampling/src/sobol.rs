@@ -19,9 +19,10 @@
 //! nested uniform scrambling of its digits keeps every aligned block of 2ᵏ samples together,
 //! so all of the above holds for every prefix of 2ᵏ samples.
 
-use crate::hash::{derived_key, fold_multiply, random_float};
+use crate::hash::{derived_key, fold_multiply};
 use crate::sampler::{PixelSample, Sampler};
-use glam::{UVec4, Vec2};
+use glam::Vec2;
+use wide::{f32x4, u32x4};
 
 /// Owen-scrambled Sobol' coordinates.
 ///
@@ -112,33 +113,51 @@ fn coordinates(pixel_key: u64, reversed_sample: u32, group: u32) -> [f32; 4] {
     // The shuffled index, its least significant digit lowest: the first digit of x.
     let index = nested_uniform_scramble(reversed_sample, key).reverse_bits();
     let other = pascal_gf4(index);
-    let digits = UVec4::new(index, pascal(index), other, pascal(other));
+    let digits = pascal_of_odd_lanes(u32x4::new([index, index, other, other]));
     let [a, b, c, d] = SCRAMBLES;
     let (a, b) = (fold_multiply(key, a), fold_multiply(key, b));
     let (c, d) = (fold_multiply(key, c), fold_multiply(key, d));
-    let low = UVec4::new(a as u32, b as u32, c as u32, d as u32);
+    let low = u32x4::new([a as u32, b as u32, c as u32, d as u32]);
     let upper = |word: u64| (word >> 32) as u32;
-    let high = UVec4::new(upper(a), upper(b), upper(c), upper(d));
-    let scrambled = nested_uniform_scramble_lanes(digits, low, high);
-    let [x, y, z, w] = scrambled.to_array();
-    [
-        random_float(x.reverse_bits()),
-        random_float(y.reverse_bits()),
-        random_float(z.reverse_bits()),
-        random_float(w.reverse_bits()),
-    ]
+    let high = u32x4::new([upper(a), upper(b), upper(c), upper(d)]);
+    random_floats(reverse_bits(nested_uniform_scramble_lanes(
+        digits, low, high,
+    )))
 }
 
-/// Pascal's matrix over GF(2) applied to digits stored least significant first: bit i of the
-/// result is the parity of the bits j of `a` with C(j, i) odd. By Lucas' theorem the matrix is
-/// a product of five sparse ones, one per binary digit of j.
+/// Pascal's matrix over GF(2) applied, in the second and fourth lane, to digits stored least
+/// significant first: bit i of the result is the parity of the bits j of `a` with C(j, i) odd. By
+/// Lucas' theorem the matrix is a product of five sparse ones, one per binary digit of j.
 #[inline]
-fn pascal(mut a: u32) -> u32 {
-    a ^= (a >> 1) & 0x5555_5555;
-    a ^= (a >> 2) & 0x3333_3333;
-    a ^= (a >> 4) & 0x0f0f_0f0f;
-    a ^= (a >> 8) & 0x00ff_00ff;
-    a ^ (a >> 16)
+fn pascal_of_odd_lanes(mut a: u32x4) -> u32x4 {
+    let odd = |mask: u32| u32x4::new([0, mask, 0, mask]);
+    a ^= (a >> 1) & odd(0x5555_5555);
+    a ^= (a >> 2) & odd(0x3333_3333);
+    a ^= (a >> 4) & odd(0x0f0f_0f0f);
+    a ^= (a >> 8) & odd(0x00ff_00ff);
+    a ^ ((a >> 16) & odd(u32::MAX))
+}
+
+/// The bits of each lane in reverse order.
+#[inline]
+fn reverse_bits(mut a: u32x4) -> u32x4 {
+    let swap = |a: u32x4, shift: u32, mask: u32| {
+        let mask = u32x4::splat(mask);
+        ((a >> shift) & mask) | ((a & mask) << shift)
+    };
+    a = swap(a, 1, 0x5555_5555);
+    a = swap(a, 2, 0x3333_3333);
+    a = swap(a, 4, 0x0f0f_0f0f);
+    a = swap(a, 8, 0x00ff_00ff);
+    (a >> 16) | (a << 16)
+}
+
+/// [`crate::hash::random_float`] of four numbers.
+#[inline]
+fn random_floats(bits: u32x4) -> [f32; 4] {
+    const STEP: f32 = 1.0 / (1 << 24) as f32;
+    let bits: u32x4 = bits >> 8u32;
+    (bits.cast_signed().round_float() * f32x4::splat(STEP)).to_array()
 }
 
 /// Pascal's matrix over GF(4) with parameter ω, applied to the sixteen base-4 digits of `a`.
@@ -186,13 +205,14 @@ fn nested_uniform_scramble(mut x: u32, key: u64) -> u32 {
 
 /// [`nested_uniform_scramble`] of four numbers at once, with keys in two halves.
 #[inline]
-fn nested_uniform_scramble_lanes(mut x: UVec4, low: UVec4, high: UVec4) -> UVec4 {
-    x = x.wrapping_add(low);
-    x ^= x.wrapping_mul(high << 1);
-    x = x.wrapping_mul((high >> 15) | UVec4::ONE);
-    x = x.wrapping_add(high);
-    x ^= x.wrapping_mul((low >> 7) << 1);
-    x.wrapping_mul((low >> 15) | UVec4::ONE)
+fn nested_uniform_scramble_lanes(mut x: u32x4, low: u32x4, high: u32x4) -> u32x4 {
+    let one = u32x4::splat(1);
+    x += low;
+    x ^= x * (high << 1);
+    x *= (high >> 15) | one;
+    x += high;
+    x ^= x * ((low >> 7) << 1);
+    x * ((low >> 15) | one)
 }
 
 #[cfg(test)]

@@ -9,7 +9,7 @@
 //!   per unit of area, solid angle (sr) or length, as each says.
 //!
 //! Domains that depend on more than a number or two are types ([`SphericalTriangle`],
-//! [`SphericalRectangle`], [`SphereCone`]) with methods `sample`, `invert` and `density`.
+//! [`SphericalRectangle`], [`RectangleView`], [`SphereCone`]) with methods `sample`, `invert` and `density`.
 //! Their constructors return `None` where sampling by solid angle would be ill-conditioned;
 //! the condition depends on the geometry alone, so that `sample` and `density` of one light
 //! always agree on which technique is in force.
@@ -21,6 +21,7 @@ mod disk;
 mod hemisphere;
 mod line;
 mod normal;
+mod rectangle_view;
 mod sphere_cone;
 mod spherical_rectangle;
 mod spherical_triangle;
@@ -42,6 +43,7 @@ pub use line::{
 pub use normal::{
     inverse_normal_cdf, normal_cdf, normal_density, square_to_normal, standard_normal_density,
 };
+pub use rectangle_view::RectangleView;
 pub use sphere_cone::SphereCone;
 pub use spherical_rectangle::{RectangleSides, SphericalRectangle};
 pub use spherical_triangle::SphericalTriangle;

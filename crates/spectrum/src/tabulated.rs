@@ -2,7 +2,7 @@
 //! ([`Irregular`]).
 
 use crate::{SpectrumError, error};
-use glam::Vec4;
+use glam::{IVec4, Vec4};
 
 /// What a tabulated spectrum is beyond its ends.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
@@ -52,11 +52,13 @@ impl Regular {
         let inside = lambda.cmpge(Vec4::splat(self.min)) & lambda.cmple(Vec4::splat(self.max));
         let t = (lambda - self.min) * self.rate;
         // A wavelength outside saturates to some entry; `inside` discards what it finds.
-        let last = self.values.len() - 2;
-        let index = t.to_array().map(|t| (t as usize).min(last));
-        let low = Vec4::from_array(index.map(|i| self.values[i]));
-        let high = Vec4::from_array(index.map(|i| self.values[i + 1]));
-        let fraction = t - Vec4::from_array(index.map(|i| i as f32));
+        let last = self.values.len() as i32 - 2;
+        let index = t.as_ivec4().clamp(IVec4::ZERO, IVec4::splat(last));
+        let fraction = t - index.as_vec4();
+        let pair = |i: i32| &self.values[i as usize..][..2];
+        let [a, b, c, d] = index.to_array().map(pair);
+        let low = Vec4::new(a[0], b[0], c[0], d[0]);
+        let high = Vec4::new(a[1], b[1], c[1], d[1]);
         Vec4::select(inside, low + (high - low) * fraction, Vec4::ZERO)
     }
 

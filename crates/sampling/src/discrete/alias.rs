@@ -127,6 +127,13 @@ impl AliasTable {
 
     #[inline]
     fn choose(&self, u: f64) -> Choice {
+        if let [only] = self.columns.as_slice() {
+            return Choice {
+                index: 0,
+                probability: only.probability,
+                rest: (u as f32).min(crate::hash::ONE_MINUS),
+            };
+        }
         let scaled = u * self.columns.len() as f64;
         let column = (scaled as usize).min(self.columns.len() - 1);
         let place = scaled - column as f64;

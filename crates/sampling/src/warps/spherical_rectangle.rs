@@ -26,6 +26,8 @@ pub struct RectangleSides {
     y: DVec3,
     normal: DVec3,
     size: DVec2,
+    half_diagonal: Vec3,
+    diagonal_squared: f32,
 }
 
 impl RectangleSides {
@@ -40,7 +42,17 @@ impl RectangleSides {
             y,
             normal: x.cross(y),
             size,
+            half_diagonal: (edges[0] + edges[1]) * 0.5,
+            diagonal_squared: size.length_squared() as f32,
         }
+    }
+
+    /// Whether the origin is nearer to the middle of the rectangle than the length of a
+    /// diagonal, for the corner at `corner`: irradiance then varies over the rectangle in
+    /// ways that no simple density follows.
+    #[inline]
+    pub fn is_near(&self, corner: Vec3) -> bool {
+        (corner + self.half_diagonal).length_squared() < self.diagonal_squared
     }
 }
 
@@ -81,6 +93,7 @@ impl SphericalRectangle {
             y,
             normal,
             size,
+            ..
         } = *sides;
         let low = DVec2::new(origin.dot(x), origin.dot(y));
         let high = low + size;
