@@ -152,6 +152,13 @@ proptest! {
             atomic.add(x).expect("in range");
         }
         prop_assert_eq!(atomic.into_fixed(), sum(&terms));
+        // By a single writer as well; refused: a carry that is lost.
+        let alone = AtomicFixed128::new();
+        for &x in &terms {
+            let term = Fixed128::from_f32(x).expect("in range");
+            alone.merge_alone(term).expect("in range");
+        }
+        prop_assert_eq!(alone.into_fixed(), sum(&terms));
     }
 }
 
