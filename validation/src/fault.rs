@@ -6,7 +6,8 @@
 use etalon_math::{Density, SolidAngle};
 use etalon_spectrum::Wavelengths;
 use etalon_transport::{
-    Bsdf, BsdfSample, Chance, Emission, Hit, LightSample, Mode, Passage, Ray, Vertex, World,
+    Bsdf, BsdfSample, Chance, Emission, Hit, LightSample, Mode, Passage, Ray, Receiver, Vertex,
+    World,
 };
 use glam::{Vec2, Vec3, Vec4};
 use serde::Deserialize;
@@ -163,7 +164,7 @@ impl<W: World> World for Faulty<'_, W> {
 
     fn sample_light(
         &self,
-        from: &Vertex,
+        from: &Receiver,
         wavelengths: &Wavelengths,
         u_light: f32,
         u: Vec2,
@@ -177,11 +178,11 @@ impl<W: World> World for Faulty<'_, W> {
         Some(sample)
     }
 
-    fn light_density(&self, from: Vec3, at: &Vertex, direction: Vec3) -> Density<SolidAngle> {
+    fn light_density(&self, from: &Receiver, at: &Vertex, direction: Vec3) -> Density<SolidAngle> {
         self.world.light_density(from, at, direction)
     }
 
-    fn background_density(&self, from: Vec3, direction: Vec3) -> Density<SolidAngle> {
+    fn background_density(&self, from: &Receiver, direction: Vec3) -> Density<SolidAngle> {
         self.world.background_density(from, direction)
     }
 

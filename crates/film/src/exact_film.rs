@@ -193,10 +193,21 @@ impl ExactFilm {
     }
 
     /// Adds sums to a pixel of the whole film, and empties them.
-    pub(crate) fn deliver(&self, pixel: UVec2, sums: &mut [Fixed128], faults: &mut FaultLog) {
+    pub(crate) fn deliver(
+        &self,
+        pixel: UVec2,
+        alone: bool,
+        sums: &mut [Fixed128],
+        faults: &mut FaultLog,
+    ) {
         let first = self.index(pixel - self.settings.crop_offset);
         for (channel, sum) in sums.iter_mut().enumerate() {
-            let outcome = self.current[first + channel].merge(*sum);
+            let current = &self.current[first + channel];
+            let outcome = if alone {
+                current.merge_alone(*sum)
+            } else {
+                current.merge(*sum)
+            };
             *sum = Fixed128::ZERO;
             if let Err(fault) = outcome {
                 faults.note(self.offence(pixel, None, &self.channels[channel], fault));
@@ -284,8 +295,8 @@ impl Film for ExactFilm {
         self.filter.margin()
     }
 
-    fn tile(&self, from: UVec2, to: UVec2) -> ExactTile<'_> {
-        ExactTile::new(self, from, to)
+    fn tile(&self, from: UVec2, to: UVec2, alone: bool) -> ExactTile<'_> {
+        ExactTile::new(self, from, to, alone)
     }
 
     fn end_replicate(&mut self, samples: u32) {

@@ -9,6 +9,7 @@ use glam::{UVec2, Vec2};
 #[derive(Debug)]
 pub struct ExactTile<'f> {
     film: &'f ExactFilm,
+    alone: bool,
     /// The pixel's sums: colours, alpha, the integrator's channels.
     sums: Vec<Fixed128>,
     colours: usize,
@@ -23,7 +24,7 @@ pub struct ExactTile<'f> {
 }
 
 impl<'f> ExactTile<'f> {
-    pub(crate) fn new(film: &'f ExactFilm, from: UVec2, to: UVec2) -> Self {
+    pub(crate) fn new(film: &'f ExactFilm, from: UVec2, to: UVec2, alone: bool) -> Self {
         let begin = film.settings().crop_offset;
         let end = begin + film.settings().crop_size;
         assert!(
@@ -32,6 +33,7 @@ impl<'f> ExactTile<'f> {
         );
         Self {
             film,
+            alone,
             sums: vec![Fixed128::ZERO; film.channels().len()],
             colours: film.settings().pixel_format.colours().len(),
             from,
@@ -98,28 +100,39 @@ impl Sink for ExactTile<'_> {
 }
 
 impl TileSink for ExactTile<'_> {
+    #[inline]
+    fn begin_sample(&mut self, pixel: UVec2, weight: f32) {
+        if pixel != self.pixel || self.samples == 0 {
+            self.begin_pixel(pixel);
+        }
+        self.samples += 1;
+        self.weight = weight;
+    }
+}
+
+impl ExactTile<'_> {
+    #[cold]
     fn begin_pixel(&mut self, pixel: UVec2) {
         assert!(
             pixel.cmpge(self.from).all() && pixel.cmplt(self.to).all(),
             "pixel {pixel} is not in this tile"
         );
+        self.end_pixel();
         self.pixel = pixel;
-        self.samples = 0;
-    }
-
-    fn begin_sample(&mut self, weight: f32) {
-        self.samples += 1;
-        self.weight = weight;
     }
 
     fn end_pixel(&mut self) {
-        self.film
-            .deliver(self.pixel, &mut self.sums, &mut self.faults);
+        if self.samples > 0 {
+            self.film
+                .deliver(self.pixel, self.alone, &mut self.sums, &mut self.faults);
+            self.samples = 0;
+        }
     }
 }
 
 impl Drop for ExactTile<'_> {
     fn drop(&mut self) {
+        self.end_pixel();
         self.film.report(std::mem::take(&mut self.faults));
     }
 }

@@ -26,7 +26,6 @@ fn film() -> ExactFilm {
 
 /// A synthetic estimator that uses everything a sink offers.
 fn sample(film: &ExactFilm, tile: &mut impl TileSink, replicate: u32, pixel: UVec2) {
-    tile.begin_pixel(pixel);
     for sample in 0..SAMPLES {
         let mut sampler = Sobol::start(&PixelSample {
             seed: 7,
@@ -36,14 +35,13 @@ fn sample(film: &ExactFilm, tile: &mut impl TileSink, replicate: u32, pixel: UVe
             samples_per_replicate: SAMPLES,
         });
         let placement = film.place(pixel, sampler.next_2d());
-        tile.begin_sample(placement.weight);
+        tile.begin_sample(pixel, placement.weight);
         let [r, g, b] = [0, 1, 2].map(|_| sampler.next_1d());
         tile.radiance([r * 1e3, g * 1e-3, b], f32::from(r > 0.3));
         tile.channel(0, r + g);
         tile.channel(1, (r + g) * (r + g));
         tile.splat(sampler.next_2d() * 60.0, [g, b, r]);
     }
-    tile.end_pixel();
 }
 
 /// The film after two replicates, in tiles of `side` pixels taken in the order of `key`.
@@ -67,7 +65,7 @@ fn render(side: UVec2, threads: usize, key: impl Fn(usize) -> u64) -> ExactFilm 
         pool.install(|| {
             order.par_iter().with_max_len(1).for_each(|&i| {
                 let (from, to) = tiles[i];
-                let mut tile = film.tile(from, to);
+                let mut tile = film.tile(from, to, false);
                 for y in from.y..to.y {
                     for x in from.x..to.x {
                         sample(&film, &mut tile, replicate, UVec2::new(x, y));
@@ -127,13 +125,11 @@ proptest! {
 fn cancellation_is_exact() {
     let mut film = ExactFilm::new(FilmSettings::new(1, 1, Filter::default()), &[]).expect("names");
     {
-        let mut tile = film.tile(UVec2::ZERO, UVec2::ONE);
-        tile.begin_pixel(UVec2::ZERO);
+        let mut tile = film.tile(UVec2::ZERO, UVec2::ONE, false);
         for value in [1e14, 1.0, -1e14, 1e-7] {
-            tile.begin_sample(1.0);
+            tile.begin_sample(UVec2::ZERO, 1.0);
             tile.radiance([value; 3], 1.0);
         }
-        tile.end_pixel();
     }
     film.end_replicate(1);
     let image = film.develop(RenderFacts::default()).image;
@@ -147,7 +143,7 @@ fn an_unfinished_replicate_does_not_count() {
     let begun = render(UVec2::splat(16), 1, |i| i as u64);
     {
         let pixel = begun.origin();
-        let mut tile = begun.tile(pixel, pixel + 1);
+        let mut tile = begun.tile(pixel, pixel + 1, false);
         sample(&begun, &mut tile, 2, pixel);
     }
     assert_eq!(bits(&begun), bits(&finished));

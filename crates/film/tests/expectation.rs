@@ -73,11 +73,10 @@ fn estimate(filter: Filter, kind: SamplerKind, samples: u32, splats: bool) -> Ex
     let (from, to) = (film.origin(), film.origin() + film.size());
     let margin = film.margin();
     for replicate in 0..16 {
-        let mut tile = film.tile(from, to);
+        let mut tile = film.tile(from, to, false);
         for y in from.y..to.y {
             for x in from.x..to.x {
                 let pixel = UVec2::new(x, y);
-                tile.begin_pixel(pixel);
                 for sample in 0..samples {
                     let mut sampler = kind.start(&PixelSample {
                         seed: 3,
@@ -93,17 +92,16 @@ fn estimate(filter: Filter, kind: SamplerKind, samples: u32, splats: bool) -> Ex
                         let extent = film.size().as_vec2() + 2.0 * margin;
                         let raster = low + sampler.next_2d() * extent;
                         let scale = extent.x * extent.y / (SIDE * SIDE) as f32;
-                        tile.begin_sample(1.0);
+                        tile.begin_sample(pixel, 1.0);
                         let value = pattern(raster.as_dvec2()).map(|v| v as f32 * scale);
                         tile.splat(raster, value);
                     } else {
                         let placement = film.place(pixel, sampler.next_2d());
-                        tile.begin_sample(placement.weight);
+                        tile.begin_sample(pixel, placement.weight);
                         let value = pattern(placement.raster.as_dvec2()).map(|v| v as f32);
                         tile.radiance(value, 1.0);
                     }
                 }
-                tile.end_pixel();
             }
         }
         drop(tile);
@@ -172,9 +170,8 @@ fn a_constant_stays_constant() {
         let (from, to) = (film.origin(), film.origin() + film.size());
         let mut weight = 0.0f32;
         {
-            let mut tile = film.tile(from, to);
+            let mut tile = film.tile(from, to, false);
             for pixel in (from.y..to.y).flat_map(|y| (from.x..to.x).map(move |x| (x, y))) {
-                tile.begin_pixel(UVec2::from(pixel));
                 for sample in 0..samples {
                     let mut sampler = SamplerKind::Sobol.start(&PixelSample {
                         seed: 5,
@@ -185,10 +182,9 @@ fn a_constant_stays_constant() {
                     });
                     let placement = film.place(UVec2::from(pixel), sampler.next_2d());
                     weight = weight.max(placement.weight);
-                    tile.begin_sample(placement.weight);
+                    tile.begin_sample(UVec2::from(pixel), placement.weight);
                     tile.radiance([1.0; 3], 1.0);
                 }
-                tile.end_pixel();
             }
         }
         film.end_replicate(samples);
@@ -217,9 +213,8 @@ fn splats_of_a_constant_make_a_flat_image() {
         let per_pixel = 16;
         let margin = film.margin().ceil() as i32;
         {
-            let mut tile = film.tile(from, to);
-            tile.begin_pixel(from);
-            tile.begin_sample(1.0);
+            let mut tile = film.tile(from, to, false);
+            tile.begin_sample(from, 1.0);
             let area = 1.0 / (per_pixel * per_pixel) as f32;
             let lattice = |from: u32, to: u32| {
                 let (low, high) = (from as i32 - margin, to as i32 + margin);
@@ -231,7 +226,6 @@ fn splats_of_a_constant_make_a_flat_image() {
                     tile.splat(Vec2::new(x, y), [area; 3]);
                 }
             }
-            tile.end_pixel();
         }
         film.end_replicate(1);
         let image = film.develop(RenderFacts::default()).image;

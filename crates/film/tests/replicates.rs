@@ -25,16 +25,14 @@ fn feed(
 ) {
     let (from, to) = (film.origin(), film.origin() + film.size());
     for replicate in 0..replicates {
-        let mut tile = film.tile(from, to);
+        let mut tile = film.tile(from, to, false);
         for y in from.y..to.y {
             for x in from.x..to.x {
-                tile.begin_pixel(UVec2::new(x, y));
                 for sample in 0..samples {
-                    tile.begin_sample(1.0);
+                    tile.begin_sample(UVec2::new(x, y), 1.0);
                     let v = value(x, y, replicate, sample);
                     tile.radiance([v, v * v, 1.0], v.round());
                 }
-                tile.end_pixel();
             }
         }
         drop(tile);
@@ -171,15 +169,13 @@ fn formats_are_converted_before_they_are_squared() {
         };
         let mut film = ExactFilm::new(settings, &[Channel("depth.T".to_owned())]).expect("names");
         for replicate in 0..4 {
-            let mut tile = film.tile(UVec2::ZERO, UVec2::splat(4));
+            let mut tile = film.tile(UVec2::ZERO, UVec2::splat(4), false);
             for pixel in (0..16).map(|i| UVec2::new(i % 4, i / 4)) {
-                tile.begin_pixel(pixel);
-                tile.begin_sample(1.0);
+                tile.begin_sample(pixel, 1.0);
                 let noise = uniform([pixel.x, pixel.y, replicate, 0]) - 0.5;
                 let [wr, wg, _] = etalon_spectrum::colour_space::LUMINANCE_WEIGHTS;
                 tile.radiance([1.0 + noise, 1.0 - noise * (wr / wg) as f32, 1.0], 0.25);
                 tile.channel(0, 7.0);
-                tile.end_pixel();
             }
             drop(tile);
             film.end_replicate(1);
@@ -221,19 +217,17 @@ fn bad_numbers_are_counted_and_left_out() {
     };
     let mut film = ExactFilm::new(settings, &[Channel("depth.T".to_owned())]).expect("names");
     {
-        let mut tile = film.tile(film.origin(), film.origin() + film.size());
+        let mut tile = film.tile(film.origin(), film.origin() + film.size(), false);
         for pixel in [UVec2::new(3, 2), UVec2::new(2, 1)] {
-            tile.begin_pixel(pixel);
             for bad in [1.0, f32::NAN, f32::INFINITY, 1e30] {
-                tile.begin_sample(1.0);
+                tile.begin_sample(pixel, 1.0);
                 tile.radiance([1.0, bad, 1.0], 1.0);
             }
-            tile.begin_sample(1.0);
+            tile.begin_sample(pixel, 1.0);
             tile.radiance([1.0; 3], 1.0);
             tile.channel(0, f32::NEG_INFINITY);
             tile.splat(glam::Vec2::new(f32::NAN, 1.0), [1.0; 3]);
             tile.splat(glam::Vec2::new(2.5, 1.5), [f32::NAN, 0.0, 0.0]);
-            tile.end_pixel();
         }
     }
     film.end_replicate(1);

@@ -150,6 +150,15 @@ impl Accelerator {
         }
     }
 
+    /// The corners of the triangle that [`Accelerator::intersect`] found in `slot`.
+    #[inline]
+    pub(crate) fn corners(&self, slot: u32) -> [Vec3; 3] {
+        match self {
+            Self::Linear(linear) => Block::corners(linear.blocks(), slot),
+            Self::Wide(wide) => Block::corners(wide.blocks(), slot),
+        }
+    }
+
     /// Number of nodes.
     pub(crate) fn nodes(&self) -> usize {
         match self {

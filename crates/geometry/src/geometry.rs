@@ -6,10 +6,11 @@ use crate::nearest::Nearest;
 use crate::placement::Placement;
 use crate::probe::Probe;
 use crate::scope::{GroupOthers, Scope, Thing, intersect_solid, occludes_solid};
-use crate::shapes::{Sampled, Shape};
+use crate::shapes::Shape;
 use crate::surface::Owner;
 use etalon_transport::{
-    Hit, InstanceId, LightId, MaterialId, Ray, ShapeId, Shapes, SurfacePoint, Vertex,
+    Hit, InstanceId, LightId, MaterialId, Ray, Receiver, SampledPoint, ShapeId, Shapes,
+    SurfacePoint, Vertex,
 };
 use glam::{Vec2, Vec3};
 
@@ -146,6 +147,7 @@ impl Geometry {
             shape,
             primitive,
             instance,
+            slot: nearest.slot,
         };
         match self.world.scope.locate(nearest.primitive) {
             (Thing::Shape(shape), primitive) => hit(shape, primitive, InstanceId::NONE),
@@ -180,6 +182,16 @@ impl Geometry {
         }
     }
 
+    #[inline]
+    fn accelerator(&self, instance: InstanceId) -> &Accelerator {
+        if instance.is_some() {
+            let group = self.instances[instance.0 as usize].group;
+            &self.groups[group.0 as usize].accelerator
+        } else {
+            &self.world.accelerator
+        }
+    }
+
     /// The light that the hit shape is, or [`LightId::NONE`].
     #[inline]
     pub fn light(&self, hit: &Hit) -> LightId {
@@ -195,9 +207,14 @@ impl Geometry {
             .is_some()
             .then(|| &self.instances[hit.instance.0 as usize].placement);
         let mut parameters = hit.parameters;
-        let surface = match (shape.mesh(), shape.solid()) {
-            (Some(mesh), _) => mesh.surface(hit.primitive, hit.parameters),
-            (None, Some(solid)) => {
+        let surface = match (shape, shape.solid()) {
+            (Shape::Rectangle(rectangle), _) => rectangle.surface(hit.primitive, hit.parameters),
+            (Shape::Mesh(mesh), _) => {
+                // Tracing the ray has brought the accelerator's copy of the corners close.
+                let corners = self.accelerator(hit.instance).corners(hit.slot);
+                mesh.surface_between(corners, hit.primitive, hit.parameters)
+            }
+            (_, Some(solid)) => {
                 let mut p = ray.origin.as_dvec3() + ray.direction.as_dvec3() * f64::from(hit.t);
                 if let Some(placement) = placement {
                     p = placement.local_point(p);
@@ -206,7 +223,7 @@ impl Geometry {
                 parameters = surface.uv;
                 surface
             }
-            (None, None) => unreachable!("a shape is a mesh or a solid"),
+            (_, None) => unreachable!("a shape is a mesh or a solid"),
         };
         let surface = placement.map_or(surface, |placement| surface.placed(placement));
         let owner = self.owner(hit.shape, hit.instance);
@@ -267,17 +284,6 @@ impl Geometry {
             bytes: meshes + accelerators().map(Accelerator::bytes).sum::<usize>(),
         }
     }
-
-    #[inline]
-    fn point(&self, shape: ShapeId, sampled: Sampled) -> SurfacePoint {
-        let owner = self.owner(shape, InstanceId::NONE);
-        SurfacePoint {
-            vertex: sampled
-                .surface
-                .vertex(&owner, sampled.primitive, sampled.parameters),
-            density: sampled.density,
-        }
-    }
 }
 
 impl Shapes for Geometry {
@@ -285,18 +291,21 @@ impl Shapes for Geometry {
         self.shape(shape).area() as f32
     }
 
-    fn sample_area(&self, shape: ShapeId, u: Vec2) -> SurfacePoint {
-        self.point(shape, self.shape(shape).sample_area(u))
+    fn sample_area(&self, shape: ShapeId, u: Vec2) -> SampledPoint {
+        let mut sampled = self.shape(shape).sample_area(u);
+        sampled.point.texture.shape = shape;
+        sampled
     }
 
     #[inline]
-    fn sample_toward(&self, shape: ShapeId, from: Vec3, u: Vec2) -> Option<SurfacePoint> {
-        let sampled = self.shape(shape).sample_toward(from, u)?;
-        Some(self.point(shape, sampled))
+    fn sample_toward(&self, shape: ShapeId, from: &Receiver, u: Vec2) -> Option<SampledPoint> {
+        let mut sampled = self.shape(shape).sample_toward(from, u)?;
+        sampled.point.texture.shape = shape;
+        Some(sampled)
     }
 
-    fn density_toward(&self, shape: ShapeId, from: Vec3, vertex: &Vertex) -> f32 {
-        self.shape(shape).density_toward(from, vertex)
+    fn density_toward(&self, shape: ShapeId, from: &Receiver, at: &SurfacePoint) -> f32 {
+        self.shape(shape).density_toward(from, at)
     }
 
     fn attribute(

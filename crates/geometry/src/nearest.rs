@@ -16,6 +16,8 @@ pub(crate) struct Nearest {
     pub(crate) primitive: u32,
     /// Primitive of the group's accelerator, if `primitive` is an instance.
     pub(crate) inner: u32,
+    /// Where the accelerator keeps the triangle: its block times their size, plus its lane.
+    pub(crate) slot: u32,
     /// Barycentric coordinates on a triangle.
     pub(crate) parameters: Vec2,
     /// Whether anything was hit.
@@ -30,6 +32,7 @@ impl Nearest {
             t: t_max,
             primitive: 0,
             inner: 0,
+            slot: 0,
             parameters: Vec2::ZERO,
             found: false,
         }
@@ -54,11 +57,12 @@ impl Nearest {
 
     /// Notes a hit that wins.
     #[inline]
-    pub(crate) fn set(&mut self, t: f32, primitive: u32, parameters: Vec2) {
+    pub(crate) fn set(&mut self, t: f32, primitive: u32, slot: u32, parameters: Vec2) {
         *self = Self {
             t,
             primitive,
             inner: 0,
+            slot,
             parameters,
             found: true,
         };

@@ -1,6 +1,6 @@
 //! A ray made ready for boxes and triangles.
 
-use glam::Vec3;
+use glam::{Vec3, Vec3A};
 
 /// Rays and geometry are nearer than this (m) to the origin of space, or not met.
 const FARTHEST: f32 = 1e30;
@@ -56,35 +56,32 @@ impl Probe {
             2
         };
         let (x, y) = ((z + 1) % 3, (z + 2) % 3);
-        let reach = extent + origin.abs().max_element();
+        let farthest = origin.abs().max_element();
+        let reach = extent + farthest;
         let pad = 4.0 * f32::EPSILON * reach + f32::MIN_POSITIVE;
-        let largest = (1e37 / reach).min(1e37);
+        let largest = Vec3A::splat((1e37 / reach).min(1e37));
+        let wide = Vec3A::from(direction);
+        let inverse = wide.recip().clamp(-largest, largest);
+        let outward = Vec3A::splat(pad).copysign(wide);
+        let from = Vec3A::from(origin);
+        let negative = wide.is_negative_bitmask();
         let mut probe = Self {
             origin,
             direction,
             k: [x, y, z],
             permuted: [origin[x], origin[y], origin[z]],
-            shear: [d[x] / d[z], d[y] / d[z], 1.0 / d[z]],
-            near: 256.0 * f32::EPSILON * origin.abs().max_element() / size[z],
-            sign: [0; 3],
-            inverse: [0.0; 3],
-            entered: [0.0; 3],
-            left: [0.0; 3],
+            shear: (Vec3A::new(d[x], d[y], 1.0) / d[z]).to_array(),
+            near: 256.0 * f32::EPSILON * farthest / size[z],
+            sign: [0, 1, 2].map(|axis| (negative >> axis) as usize & 1),
+            inverse: inverse.to_array(),
+            entered: ((from + outward) * inverse).to_array(),
+            left: ((from - outward) * inverse).to_array(),
         };
         if !(reach < FARTHEST && direction.is_finite()) {
             // Enters every box at +∞ and leaves it at −∞: nothing is hit.
             probe.inverse = [1.0; 3];
             probe.entered = [f32::NEG_INFINITY; 3];
             probe.left = [f32::INFINITY; 3];
-            return probe;
-        }
-        for axis in 0..3 {
-            let inverse = (1.0 / d[axis]).clamp(-largest, largest);
-            let outward = pad.copysign(d[axis]);
-            probe.sign[axis] = usize::from(d[axis].is_sign_negative());
-            probe.inverse[axis] = inverse;
-            probe.entered[axis] = (origin[axis] + outward) * inverse;
-            probe.left[axis] = (origin[axis] - outward) * inverse;
         }
         probe
     }

@@ -173,7 +173,7 @@ pub(crate) fn intersect_solid(
         let t = t as f32;
         if t > 0.0 {
             if nearest.loses_to(t, primitive) {
-                nearest.set(t, primitive, glam::Vec2::ZERO);
+                nearest.set(t, primitive, 0, glam::Vec2::ZERO);
             }
             return;
         }

@@ -16,7 +16,7 @@ use cylinder::Cylinder;
 use disk::Disk;
 use etalon_params::Params;
 use etalon_sampling::warps::{SphericalTriangle, square_to_triangle};
-use etalon_transport::{Build, Vertex};
+use etalon_transport::{Build, Receiver, SampledPoint, SurfacePoint};
 use glam::{DVec3, Vec2, Vec3};
 use mesh::Mesh;
 use rectangle::Rectangle;
@@ -58,15 +58,6 @@ const PLUGINS: [(&str, FromParams); 7] = [
 
 /// Parameters of every shape that cannot affect pixels.
 const IGNORED: [&str; 1] = ["silhouette_sampling_weight"];
-
-/// A point sampled on a shape.
-pub(crate) struct Sampled {
-    pub(crate) surface: Surface,
-    pub(crate) primitive: u32,
-    pub(crate) parameters: Vec2,
-    /// Per unit area (m⁻²) or solid angle (sr⁻¹), as the function that returns it says.
-    pub(crate) density: f32,
-}
 
 impl Shape {
     /// The names of the shape plugins.
@@ -141,134 +132,109 @@ impl Shape {
     }
 
     /// A point chosen uniformly by area, with its density per unit area. A mesh without area
-    /// gives the origin, with density 0.
-    pub(crate) fn sample_area(&self, u: Vec2) -> Sampled {
-        let density = (1.0 / self.area()) as f32;
-        let smooth = |surface: Surface| Sampled {
-            surface,
-            primitive: 0,
-            parameters: surface.uv,
-            density,
-        };
-        match self {
+    /// gives the origin, with density 0. Whose point it is, the caller knows.
+    pub(crate) fn sample_area(&self, u: Vec2) -> SampledPoint {
+        let smooth = |surface: Surface| surface.point(0, surface.uv);
+        let point = match self {
             Self::Mesh(mesh) => {
                 let Some(by_area) = mesh.by_area() else {
-                    return Sampled {
-                        surface: Surface::exact(
+                    return SampledPoint {
+                        point: smooth(Surface::exact(
                             DVec3::ZERO,
                             DVec3::Z,
                             Vec2::ZERO,
                             DVec3::X,
                             DVec3::Y,
-                        ),
-                        primitive: 0,
-                        parameters: Vec2::ZERO,
+                        )),
                         density: 0.0,
                     };
                 };
                 let choice = by_area.sample_fine(u);
                 let parameters = square_to_triangle(Vec2::new(choice.rest, u.y));
                 let primitive = choice.index as u32;
-                Sampled {
-                    surface: mesh.surface(primitive, parameters),
-                    primitive,
-                    parameters,
-                    density,
-                }
+                mesh.surface(primitive, parameters)
+                    .point(primitive, parameters)
             }
-            Self::Rectangle(rectangle) => {
-                let (surface, primitive, parameters) = rectangle.at(u);
-                Sampled {
-                    surface,
-                    primitive,
-                    parameters,
-                    density,
-                }
-            }
+            Self::Rectangle(rectangle) => rectangle.at(u),
             Self::Disk(disk) => smooth(disk.sample_area(u)),
             Self::Sphere(sphere) => smooth(sphere.sample_area(u)),
             Self::Cylinder(cylinder) => smooth(cylinder.sample_area(u)),
+        };
+        SampledPoint {
+            point,
+            density: (1.0 / self.area()) as f32,
         }
     }
 
-    /// A point chosen for an observer at `from`, with its density per unit solid angle. `None`
-    /// if the chosen point is seen edge-on or the shape has no area.
+    /// A point chosen for a receiver, with its density per unit solid angle there. `None` if the
+    /// chosen point is seen edge-on or the shape has no area.
     #[inline]
-    pub(crate) fn sample_toward(&self, from: Vec3, u: Vec2) -> Option<Sampled> {
+    pub(crate) fn sample_toward(&self, from: &Receiver, u: Vec2) -> Option<SampledPoint> {
         let sampled = match self {
+            Self::Rectangle(rectangle) => rectangle.sample_toward(from, u),
             Self::Sphere(sphere) => {
-                let (surface, density) = sphere.sample_toward(from, u);
-                Sampled {
-                    surface,
-                    primitive: 0,
-                    parameters: surface.uv,
+                let (surface, density) = sphere.sample_toward(from.position, u);
+                SampledPoint {
+                    point: surface.point(0, surface.uv),
                     density,
                 }
             }
-            Self::Rectangle(rectangle) => match rectangle.seen_from(from) {
-                Some(seen) => {
-                    let (surface, primitive, parameters) = rectangle.at(seen.sample_position(u));
-                    Sampled {
-                        surface,
-                        primitive,
-                        parameters,
-                        density: seen.density(),
-                    }
-                }
-                None => self.sample_area_toward(from, u),
-            },
             Self::Mesh(mesh) => {
                 let choice = mesh.by_area()?.sample_fine(u);
                 let primitive = choice.index as u32;
                 let u = Vec2::new(choice.rest, u.y);
-                let (parameters, density) = match seen_triangle(mesh, primitive, from) {
-                    Some(seen) => (
-                        seen.barycentric(seen.sample(u)),
-                        Some(choice.probability * seen.density()),
-                    ),
-                    None => (square_to_triangle(u), None),
+                let seen = seen_triangle(mesh, primitive, from.position);
+                let parameters = match &seen {
+                    Some(seen) => seen.barycentric(seen.sample(u)),
+                    None => square_to_triangle(u),
                 };
-                let surface = mesh.surface(primitive, parameters);
-                let density = density.unwrap_or_else(|| {
-                    area_density_toward(mesh.area(), from, surface.position, surface.normal)
-                });
-                Sampled {
-                    surface,
-                    primitive,
-                    parameters,
-                    density,
+                let point = mesh
+                    .surface(primitive, parameters)
+                    .point(primitive, parameters);
+                SampledPoint {
+                    point,
+                    density: match seen {
+                        Some(seen) => choice.probability * seen.density(),
+                        None => self.area_density_toward(from.position, &point),
+                    },
                 }
             }
-            Self::Disk(_) | Self::Cylinder(_) => self.sample_area_toward(from, u),
+            Self::Disk(_) | Self::Cylinder(_) => {
+                let SampledPoint { point, .. } = self.sample_area(u);
+                SampledPoint {
+                    point,
+                    density: self.area_density_toward(from.position, &point),
+                }
+            }
         };
         (sampled.density > 0.0 && sampled.density.is_finite()).then_some(sampled)
     }
 
-    /// [`Shape::sample_area`], with the density per unit solid angle at `from`.
-    fn sample_area_toward(&self, from: Vec3, u: Vec2) -> Sampled {
-        let mut sampled = self.sample_area(u);
-        let Surface {
-            position, normal, ..
-        } = sampled.surface;
-        sampled.density = area_density_toward(self.area(), from, position, normal);
-        sampled
-    }
-
     /// The density per unit solid angle with which [`Shape::sample_toward`] from `from` chooses
     /// `at`, a point of this shape.
-    pub(crate) fn density_toward(&self, from: Vec3, at: &Vertex) -> f32 {
-        let seen = match self {
-            Self::Sphere(sphere) => return sphere.density_toward(from, at.position, at.normal),
-            Self::Rectangle(rectangle) => rectangle.seen_from(from).map(|seen| seen.density()),
-            Self::Mesh(mesh) => seen_triangle(mesh, at.primitive, from).and_then(|seen| {
-                let chosen = mesh.by_area()?.probability(at.primitive as usize);
-                Some(chosen * seen.density())
-            }),
-            Self::Disk(_) | Self::Cylinder(_) => None,
+    pub(crate) fn density_toward(&self, from: &Receiver, at: &SurfacePoint) -> f32 {
+        let density = match self {
+            Self::Rectangle(rectangle) => rectangle.density_toward(from, at),
+            Self::Sphere(sphere) => sphere.density_toward(from.position, at.position, at.normal),
+            Self::Mesh(mesh) => {
+                let primitive = at.texture.primitive;
+                match (
+                    mesh.by_area(),
+                    seen_triangle(mesh, primitive, from.position),
+                ) {
+                    (Some(by_area), Some(seen)) => {
+                        by_area.probability(primitive as usize) * seen.density()
+                    }
+                    _ => self.area_density_toward(from.position, at),
+                }
+            }
+            Self::Disk(_) | Self::Cylinder(_) => self.area_density_toward(from.position, at),
         };
-        let density =
-            seen.unwrap_or_else(|| area_density_toward(self.area(), from, at.position, at.normal));
         if density.is_finite() { density } else { 0.0 }
+    }
+
+    fn area_density_toward(&self, from: Vec3, at: &SurfacePoint) -> f32 {
+        area_density_toward(self.area(), from, at.position, at.normal)
     }
 }
 

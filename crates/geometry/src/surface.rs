@@ -2,7 +2,9 @@
 
 use crate::Placement;
 use etalon_math::{Frame, gamma};
-use etalon_transport::{InstanceId, LightId, MaterialId, ShapeId, Vertex};
+use etalon_transport::{
+    InstanceId, LightId, MaterialId, ShapeId, SurfacePoint, TexturePoint, Vertex,
+};
 use glam::{DVec3, Vec2, Vec3};
 
 /// A point of a surface, in the space of its shape or of the world.
@@ -14,8 +16,8 @@ pub(crate) struct Surface {
     pub(crate) error: Vec3,
     /// Unit geometric normal, outside.
     pub(crate) normal: Vec3,
-    /// Unit shading normal.
-    pub(crate) shading_normal: Vec3,
+    /// Shading frame, its first tangent as near to ∂p/∂u as the shading normal lets it be.
+    pub(crate) shading: Frame,
     /// Texture coordinates.
     pub(crate) uv: Vec2,
     /// ∂p/∂u.
@@ -30,13 +32,14 @@ impl Surface {
     pub(crate) fn exact(p: DVec3, normal: DVec3, uv: Vec2, dp_du: DVec3, dp_dv: DVec3) -> Self {
         let position = p.as_vec3();
         let normal = normal.as_vec3();
+        let dp_du = dp_du.as_vec3();
         Self {
             position,
             error: position.abs() * gamma(2) + f32::MIN_POSITIVE,
             normal,
-            shading_normal: normal,
+            shading: Frame::from_normal_and_tangent(normal, dp_du),
             uv,
-            dp_du: dp_du.as_vec3(),
+            dp_du,
             dp_dv: dp_dv.as_vec3(),
         }
     }
@@ -51,15 +54,16 @@ impl Surface {
         let local = (self.error + self.position.abs() * gamma(1)).as_dvec3();
         let spread = m.x_axis.abs() * local.x + m.y_axis.abs() * local.y + m.z_axis.abs() * local.z;
         let unit = |n: Vec3| placement.normal(n.as_dvec3()).normalize().as_vec3();
+        let dp_du = placement.vector(self.dp_du.as_dvec3()).as_vec3();
         Self {
             position,
             error: spread.as_vec3() * (1.0 + gamma(4))
                 + position.abs() * gamma(2)
                 + f32::MIN_POSITIVE,
             normal: unit(self.normal),
-            shading_normal: unit(self.shading_normal),
+            shading: Frame::from_normal_and_tangent(unit(self.shading.n), dp_du),
             uv: self.uv,
-            dp_du: placement.vector(self.dp_du.as_dvec3()).as_vec3(),
+            dp_du,
             dp_dv: placement.vector(self.dp_dv.as_dvec3()).as_vec3(),
         }
     }
@@ -68,20 +72,35 @@ impl Surface {
     pub(crate) fn flipped_if(mut self, flip: bool) -> Self {
         if flip {
             self.normal = -self.normal;
-            self.shading_normal = -self.shading_normal;
+            self.shading = self.shading.flipped();
         }
         self
     }
 
-    /// The vertex at this point. Its shading frame's first tangent is as near to ∂p/∂u as the
-    /// shading normal lets it be.
-    #[inline(always)] // Lights that are sampled need little of a vertex; see `Frame`.
+    /// As much of it as light needs, on a shape that is named later.
+    #[inline(always)] // So that nothing else of the surface is computed.
+    pub(crate) fn point(&self, primitive: u32, parameters: Vec2) -> SurfacePoint {
+        SurfacePoint {
+            position: self.position,
+            error: self.error,
+            normal: self.normal,
+            texture: TexturePoint {
+                uv: self.uv,
+                shape: ShapeId::NONE,
+                primitive,
+                parameters,
+            },
+        }
+    }
+
+    /// The vertex at this point.
+    #[inline]
     pub(crate) fn vertex(&self, owner: &Owner, primitive: u32, parameters: Vec2) -> Vertex {
         Vertex {
             position: self.position,
             error: self.error,
             normal: self.normal,
-            shading: Frame::from_normal_and_tangent(self.shading_normal, self.dp_du),
+            shading: self.shading,
             uv: self.uv,
             dp_du: self.dp_du,
             dp_dv: self.dp_dv,

@@ -13,13 +13,17 @@
 //! surface, 0 before the background.
 
 use crate::dimensions::Event;
-use crate::path::{Rival, camera_ray, shadow};
+use crate::path::camera_ray;
 use crate::prefix::Prefix;
+use crate::rival::Rival;
 use crate::settings::ignore_scheduling;
+use crate::walk::shadow_ray;
 use etalon_params::Params;
 use etalon_sampling::Sampler;
 use etalon_spectrum::{Wavelengths, sensor_response};
-use etalon_transport::{Bsdf, Chance, Integrator, Mode, PixelSite, Ray, Sink, Vertex, World};
+use etalon_transport::{
+    Bsdf, Chance, Integrator, Mode, PixelSite, Ray, Receiver, Sink, Vertex, World,
+};
 use glam::{Vec3, Vec4};
 
 /// The direct illumination integrator.
@@ -126,7 +130,8 @@ impl Direct {
         event: u32,
     ) -> Vec4 {
         let event = Event::draw(sampler, event);
-        let Some(light) = world.sample_light(vertex, wavelengths, event.light_choice, event.light)
+        let from = Receiver::from(vertex);
+        let Some(light) = world.sample_light(&from, wavelengths, event.light_choice, event.light)
         else {
             return Vec4::ZERO;
         };
@@ -135,8 +140,9 @@ impl Direct {
         if contribution == Vec4::ZERO {
             return Vec4::ZERO;
         }
-        let Some(passage) = shadow(world, wavelengths, vertex, light.direction, light.target, 0)
-        else {
+        let passage = shadow_ray(vertex, light.direction, light.target)
+            .and_then(|ray| world.passage(&ray, wavelengths, 0));
+        let Some(passage) = passage else {
             return Vec4::ZERO;
         };
         let mut path = Prefix::START;
@@ -167,7 +173,7 @@ impl Direct {
             return Vec4::ZERO;
         };
         let mut path = Prefix::START;
-        let mut rival = Rival::NONE.after(&path, vertex.position, &sample);
+        let mut rival = Rival::NONE.after(&path, vertex, &sample);
         path.extend(sample.value, sample.chance.lanes());
         path.ratio *= self.bsdf_samples as f32;
         rival.ratio *= self.emitter_samples as f32;

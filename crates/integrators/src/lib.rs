@@ -16,7 +16,9 @@ pub mod path;
 pub mod prefix;
 pub mod ptracer;
 pub mod render;
+mod rival;
 pub mod settings;
+mod walk;
 
 pub use list::{AnyIntegrator, names};
 pub use render::{Outcome, Plan, Progress, render};

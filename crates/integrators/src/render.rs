@@ -5,13 +5,16 @@
 //! neither the number of threads nor the order of tiles changes a bit.
 
 use etalon_sampling::{Independent, PixelSample, Sampler, SamplerKind, Sobol, Stratified};
-use etalon_transport::{Film, Integrator, PixelSite, TileSink, World};
+use etalon_transport::{Draft, Film, Integrator, PixelSite, World};
 use glam::UVec2;
 use rayon::prelude::*;
 use std::sync::atomic::{AtomicU64, Ordering};
 
 /// Side of a tile (pixels).
 pub const TILE: u32 = 16;
+
+/// How many samples are handed to the integrator at once.
+pub const TOGETHER: usize = 16;
 
 /// How much to render.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -128,11 +131,12 @@ impl<W: World, I: Integrator, F: Film> TileRun<'_, W, I, F> {
         let spp = samples as f32 * self.plan.replicates as f32;
         let spacing = 1.0 / spp.sqrt();
         let margin = self.film.margin();
-        let mut sink = self.film.tile(from, to);
+        let alone = !self.integrator.splats();
+        let mut sink = self.film.tile(from, to, alone);
+        let mut drafts = Vec::with_capacity(TOGETHER);
         for y in from.y..to.y {
             for x in from.x..to.x {
                 let pixel = UVec2::new(x, y);
-                sink.begin_pixel(pixel);
                 for sample in 0..samples {
                     let mut sampler = start(&PixelSample {
                         seed: self.plan.seed,
@@ -149,12 +153,21 @@ impl<W: World, I: Integrator, F: Film> TileRun<'_, W, I, F> {
                         pixels: size.x * size.y,
                         spacing,
                     };
-                    sink.begin_sample(placement.weight);
-                    self.integrator
-                        .sample(self.world, self.state, &site, &mut sampler, &mut sink);
+                    let weight = placement.weight;
+                    drafts.push(Draft {
+                        site,
+                        weight,
+                        sampler,
+                    });
+                    if drafts.len() == TOGETHER {
+                        self.integrator
+                            .sample_all(self.world, self.state, &mut drafts, &mut sink);
+                        drafts.clear();
+                    }
                 }
-                sink.end_pixel();
             }
         }
+        self.integrator
+            .sample_all(self.world, self.state, &mut drafts, &mut sink);
     }
 }

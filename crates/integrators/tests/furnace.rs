@@ -172,6 +172,7 @@ impl World for Sphere {
             shape: ShapeId(0),
             primitive: 0,
             instance: InstanceId::NONE,
+            slot: 0,
         })
     }
     fn vertex(&self, ray: &Ray, hit: &Hit) -> Vertex {
@@ -216,7 +217,13 @@ impl World for Sphere {
     fn has_background(&self) -> bool {
         false
     }
-    fn sample_light(&self, from: &Vertex, w: &Wavelengths, _: f32, u: Vec2) -> Option<LightSample> {
+    fn sample_light(
+        &self,
+        from: &Receiver,
+        w: &Wavelengths,
+        _: f32,
+        u: Vec2,
+    ) -> Option<LightSample> {
         let target = on_sphere(u);
         let d = target - from.position;
         let direction = d.try_normalize()?;
@@ -231,17 +238,17 @@ impl World for Sphere {
             direction,
             target: Some(target),
             radiance: Vec4::splat(self.radiance()),
-            chance: Chance::Continuous(self.light_density(from.position, &at, direction)),
+            chance: Chance::Continuous(self.light_density(from, &at, direction)),
             light: LightId(0),
         })
         .filter(|_| w.lambda.x > 0.0)
     }
-    fn light_density(&self, from: Vec3, at: &Vertex, direction: Vec3) -> Density<SolidAngle> {
-        let distance_squared = (at.position - from).length_squared();
+    fn light_density(&self, from: &Receiver, at: &Vertex, direction: Vec3) -> Density<SolidAngle> {
+        let distance_squared = (at.position - from.position).length_squared();
         Density::<Area>::uniform(self.area_density())
             .to_solid_angle(distance_squared, at.normal.dot(direction))
     }
-    fn background_density(&self, _: Vec3, _: Vec3) -> Density<SolidAngle> {
+    fn background_density(&self, _: &Receiver, _: Vec3) -> Density<SolidAngle> {
         Density::ZERO
     }
     fn emit(&self, _: &Wavelengths, _: f32, p: Vec2, d: Vec2) -> Option<Emission> {

@@ -13,8 +13,8 @@ use etalon_params::Params;
 use etalon_sampling::warps::square_to_cosine_hemisphere;
 use etalon_spectrum::Wavelengths;
 use etalon_transport::{
-    Build, Chance, Emission, LightId, LightSample, Role, ShapeId, Shapes, TextureId, TexturePoint,
-    Textures, Vertex,
+    Build, Chance, Emission, LightId, LightSample, Ray, Receiver, Role, SampledPoint, ShapeId,
+    Shapes, SurfacePoint, TextureId, Textures,
 };
 use glam::{Vec2, Vec3, Vec4};
 
@@ -36,21 +36,17 @@ impl AreaLight {
         }
     }
 
-    /// Radiance that leaves `vertex` along `wo`.
+    /// Radiance that leaves the point `at` along `wo`.
     #[inline]
     pub fn emitted(
         &self,
         textures: &impl Textures,
-        vertex: &Vertex,
+        at: &SurfacePoint,
         wo: Vec3,
         wavelengths: &Wavelengths,
     ) -> Vec4 {
-        if vertex.normal.dot(wo) > 0.0 {
-            textures.spectrum(
-                self.radiance,
-                &TexturePoint::from(vertex),
-                wavelengths.lambda,
-            )
+        if at.normal.dot(wo) > 0.0 {
+            textures.spectrum(self.radiance, &at.texture, wavelengths.lambda)
         } else {
             Vec4::ZERO
         }
@@ -61,20 +57,20 @@ impl AreaLight {
     pub fn sample(
         &self,
         scene: &(impl Textures + Shapes),
-        from: &Vertex,
+        from: &Receiver,
         wavelengths: &Wavelengths,
         u: Vec2,
     ) -> Option<LightSample> {
-        let point = scene.sample_toward(self.shape, from.position, u)?;
-        let direction = (point.vertex.position - from.position).try_normalize()?;
-        if !(point.density > 0.0 && point.vertex.normal.dot(direction) < 0.0) {
+        let SampledPoint { point, density } = scene.sample_toward(self.shape, from, u)?;
+        let direction = (point.position - from.position).try_normalize()?;
+        if !(density > 0.0 && point.normal.dot(direction) < 0.0) {
             return None;
         }
         Some(LightSample {
             direction,
-            target: Some(point.vertex.origin_toward(from.position)),
-            radiance: self.emitted(scene, &point.vertex, -direction, wavelengths),
-            chance: Chance::Continuous(Density::uniform(point.density)),
+            target: Some(point.origin_toward(from.position)),
+            radiance: self.emitted(scene, &point, -direction, wavelengths),
+            chance: Chance::Continuous(Density::uniform(density)),
             light: LightId::NONE,
         })
     }
@@ -88,15 +84,15 @@ impl AreaLight {
         u_position: Vec2,
         u_direction: Vec2,
     ) -> Option<Emission> {
-        let point = scene.sample_area(self.shape, u_position);
-        let frame = etalon_math::Frame::from_normal(point.vertex.normal);
+        let SampledPoint { point, density } = scene.sample_area(self.shape, u_position);
+        let frame = etalon_math::Frame::from_normal(point.normal);
         let direction = frame.to_world(square_to_cosine_hemisphere(u_direction));
-        let radiance = self.emitted(scene, &point.vertex, direction, wavelengths);
+        let radiance = self.emitted(scene, &point, direction, wavelengths);
         // cos θ cancels against the density cos θ/π.
-        (point.density > 0.0).then(|| Emission {
-            ray: point.vertex.spawn(direction),
-            normal: point.vertex.normal,
-            weight: radiance * (core::f32::consts::PI / point.density),
+        (density > 0.0).then(|| Emission {
+            ray: Ray::new(point.origin_along(direction), direction, 0.0),
+            normal: point.normal,
+            weight: radiance * (core::f32::consts::PI / density),
             light: LightId::NONE,
         })
     }

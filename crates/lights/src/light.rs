@@ -7,7 +7,8 @@ use etalon_math::{Density, SolidAngle};
 use etalon_params::{Class, Diagnostic, Params, plugins};
 use etalon_spectrum::Wavelengths;
 use etalon_transport::{
-    Build, Emission, LightSample, ShapeId, Shapes, TexturePoint, Textures, Vertex,
+    Build, Emission, LightSample, Receiver, ShapeId, Shapes, SurfacePoint, TexturePoint, Textures,
+    Vertex,
 };
 use glam::{Vec2, Vec3, Vec4};
 
@@ -117,7 +118,9 @@ impl Light {
         wavelengths: &Wavelengths,
     ) -> Vec4 {
         match self {
-            Self::Area(light) => light.emitted(textures, vertex, wo, wavelengths),
+            Self::Area(light) => {
+                light.emitted(textures, &SurfacePoint::from(vertex), wo, wavelengths)
+            }
             _ => Vec4::ZERO,
         }
     }
@@ -142,7 +145,7 @@ impl Light {
     pub fn sample(
         &self,
         scene: &(impl Textures + Shapes),
-        from: &Vertex,
+        from: &Receiver,
         wavelengths: &Wavelengths,
         u: Vec2,
     ) -> Option<LightSample> {
@@ -158,7 +161,12 @@ impl Light {
 
     /// The density with which [`Light::sample`] from `from` finds the surface point `at`.
     #[inline]
-    pub fn density(&self, shapes: &impl Shapes, from: Vec3, at: &Vertex) -> Density<SolidAngle> {
+    pub fn density(
+        &self,
+        shapes: &impl Shapes,
+        from: &Receiver,
+        at: &SurfacePoint,
+    ) -> Density<SolidAngle> {
         match self {
             Self::Area(light) => Density::uniform(shapes.density_toward(light.shape, from, at)),
             _ => Density::ZERO,

@@ -7,8 +7,7 @@
 
 use crate::light::Light;
 use etalon_sampling::discrete::AliasTable;
-use etalon_transport::{LightId, Vertex};
-use glam::Vec3;
+use etalon_transport::{LightId, Receiver};
 
 /// A chosen light.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -59,14 +58,14 @@ impl LightSelector {
 
     /// Chooses a light to ask for what arrives at `from`. `None` if there is none.
     #[inline]
-    pub fn choose(&self, _from: &Vertex, u: f32) -> Option<LightChoice> {
+    pub fn choose(&self, _from: &Receiver, u: f32) -> Option<LightChoice> {
         self.choose_to_emit(u)
     }
 
-    /// The probability with which [`LightSelector::choose`] chooses `light` for a point at
+    /// The probability with which [`LightSelector::choose`] chooses `light` for the point
     /// `_from`.
     #[inline]
-    pub fn probability(&self, _from: Vec3, light: LightId) -> f32 {
+    pub fn probability(&self, _from: &Receiver, light: LightId) -> f32 {
         self.table
             .as_ref()
             .map_or(0.0, |table| table.probability(light.0 as usize))

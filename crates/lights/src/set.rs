@@ -3,7 +3,9 @@
 use crate::{Bounds, Light, LightDescription, LightSelector};
 use etalon_math::{Atom, Density, SolidAngle};
 use etalon_spectrum::Wavelengths;
-use etalon_transport::{Chance, Emission, LightId, LightSample, Shapes, Textures, Vertex};
+use etalon_transport::{
+    Chance, Emission, LightId, LightSample, Receiver, Shapes, SurfacePoint, Textures, Vertex,
+};
 use glam::{Vec2, Vec3, Vec4};
 
 /// Lights by id, made ready for a scene. The methods answer the questions of the same names that
@@ -109,55 +111,51 @@ impl LightSet {
     pub fn sample(
         &self,
         scene: &(impl Textures + Shapes),
-        from: &Vertex,
+        from: &Receiver,
         wavelengths: &Wavelengths,
         u_light: f32,
         u: Vec2,
     ) -> Option<LightSample> {
         let choice = self.selector.choose(from, u_light)?;
-        let sample = self.get(choice.light).sample(scene, from, wavelengths, u)?;
-        let scaled = match sample.chance {
+        let mut sample = self.get(choice.light).sample(scene, from, wavelengths, u)?;
+        sample.light = choice.light;
+        match &mut sample.chance {
             // Several skies seen in one direction are one technique: whichever chose the
             // direction, a ray that goes there sees all of them.
-            Chance::Continuous(_) if self.backgrounds.len() > 1 && sample.target.is_none() => {
-                LightSample {
-                    radiance: self.background(scene, sample.direction, wavelengths),
-                    chance: Chance::Continuous(
-                        self.background_density(from.position, sample.direction),
-                    ),
-                    ..sample
-                }
+            Chance::Continuous(density)
+                if self.backgrounds.len() > 1 && sample.target.is_none() =>
+            {
+                sample.radiance = self.background(scene, sample.direction, wavelengths);
+                *density = self.background_density(from, sample.direction);
             }
-            Chance::Continuous(density) => LightSample {
-                chance: Chance::Continuous(density * choice.probability),
-                ..sample
-            },
-            Chance::Discrete(Atom(p)) => LightSample {
-                chance: Chance::Discrete(Atom(p * choice.probability)),
-                ..sample
-            },
-        };
-        Some(LightSample {
-            light: choice.light,
-            ..scaled
-        })
+            Chance::Continuous(density) => *density = *density * choice.probability,
+            Chance::Discrete(Atom(p)) => *p *= choice.probability,
+        }
+        Some(sample)
     }
 
     /// The density with which [`LightSet::sample`] from `from` chooses the surface point `at`;
     /// zero if it does not emit.
     #[inline]
-    pub fn density(&self, shapes: &impl Shapes, from: Vec3, at: &Vertex) -> Density<SolidAngle> {
+    pub fn density(
+        &self,
+        shapes: &impl Shapes,
+        from: &Receiver,
+        at: &Vertex,
+    ) -> Density<SolidAngle> {
         if !at.light.is_some() {
             return Density::ZERO;
         }
         let probability = self.selector.probability(from, at.light);
-        self.get(at.light).density(shapes, from, at) * probability
+        self.get(at.light)
+            .density(shapes, from, &SurfacePoint::from(at))
+            * probability
     }
 
     /// The density with which [`LightSet::sample`] from `from` chooses the background in
     /// `direction`.
     #[inline]
-    pub fn background_density(&self, from: Vec3, direction: Vec3) -> Density<SolidAngle> {
+    pub fn background_density(&self, from: &Receiver, direction: Vec3) -> Density<SolidAngle> {
         self.backgrounds.iter().fold(Density::ZERO, |sum, &light| {
             let probability = self.selector.probability(from, light);
             sum + self.get(light).background_density(direction) * probability

@@ -6,8 +6,8 @@ use etalon_params::{Class, Diagnostics, FileId, Node, Params, Property, Span, Sp
 use etalon_sampling::{Independent, Sampler};
 use etalon_spectrum::{Spectrum, Wavelengths};
 use etalon_transport::{
-    AssetError, Assets, Build, InstanceId, LightId, MaterialId, MeshData, MeshFormat, Role,
-    ShapeId, Shapes, SurfacePoint, TextureId, TexturePoint, Textures, Vertex,
+    AssetError, Assets, Build, InstanceId, LightId, MaterialId, MeshData, MeshFormat, Receiver,
+    Role, SampledPoint, ShapeId, Shapes, SurfacePoint, TextureId, TexturePoint, Textures, Vertex,
 };
 use glam::{Vec2, Vec3, Vec4};
 use std::collections::HashMap;
@@ -164,28 +164,33 @@ impl Shapes for SmallWorld {
         4.0
     }
 
-    fn sample_area(&self, shape: ShapeId, u: Vec2) -> SurfacePoint {
-        SurfacePoint {
-            vertex: self.vertex(shape, u),
+    fn sample_area(&self, shape: ShapeId, u: Vec2) -> SampledPoint {
+        SampledPoint {
+            point: SurfacePoint::from(&self.vertex(shape, u)),
             density: 0.25,
         }
     }
 
-    fn sample_toward(&self, shape: ShapeId, from: Vec3, u: Vec2) -> Option<SurfacePoint> {
-        let vertex = self.vertex(shape, u);
-        let density = self.density_toward(shape, from, &vertex);
-        Some(SurfacePoint { vertex, density })
+    fn sample_toward(&self, shape: ShapeId, from: &Receiver, u: Vec2) -> Option<SampledPoint> {
+        let point = SurfacePoint::from(&self.vertex(shape, u));
+        let density = self.density_toward(shape, from, &point);
+        Some(SampledPoint { point, density })
     }
 
-    fn density_toward(&self, _: ShapeId, from: Vec3, vertex: &Vertex) -> f32 {
-        let d = vertex.position - from;
-        let cosine = d.normalize().dot(vertex.normal).abs();
+    fn density_toward(&self, _: ShapeId, from: &Receiver, at: &SurfacePoint) -> f32 {
+        let d = at.position - from.position;
+        let cosine = d.normalize().dot(at.normal).abs();
         0.25 * d.length_squared() / cosine
     }
 
     fn attribute(&self, _: ShapeId, _: &str, _: u32, _: Vec2) -> Option<Vec3> {
         None
     }
+}
+
+/// A receiver with the given normal.
+fn receiver(position: Vec3, normal: Vec3) -> Receiver {
+    Receiver { position, normal }
 }
 
 /// A point of a surface with the given normal.

@@ -2,7 +2,9 @@
 
 use etalon_geometry::Geometry;
 use etalon_textures::TextureSet;
-use etalon_transport::{ShapeId, Shapes, SurfacePoint, TextureId, TexturePoint, Textures, Vertex};
+use etalon_transport::{
+    Receiver, SampledPoint, ShapeId, Shapes, SurfacePoint, TextureId, TexturePoint, Textures,
+};
 use glam::{Vec2, Vec3, Vec4};
 
 /// Lookup by id of what materials and lights refer to.
@@ -45,18 +47,18 @@ impl Shapes for Lookup {
     }
 
     #[inline]
-    fn sample_area(&self, shape: ShapeId, u: Vec2) -> SurfacePoint {
+    fn sample_area(&self, shape: ShapeId, u: Vec2) -> SampledPoint {
         self.geometry.sample_area(shape, u)
     }
 
     #[inline]
-    fn sample_toward(&self, shape: ShapeId, from: Vec3, u: Vec2) -> Option<SurfacePoint> {
+    fn sample_toward(&self, shape: ShapeId, from: &Receiver, u: Vec2) -> Option<SampledPoint> {
         self.geometry.sample_toward(shape, from, u)
     }
 
     #[inline]
-    fn density_toward(&self, shape: ShapeId, from: Vec3, vertex: &Vertex) -> f32 {
-        self.geometry.density_toward(shape, from, vertex)
+    fn density_toward(&self, shape: ShapeId, from: &Receiver, at: &SurfacePoint) -> f32 {
+        self.geometry.density_toward(shape, from, at)
     }
 
     fn attribute(

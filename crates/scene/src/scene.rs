@@ -7,7 +7,7 @@ use etalon_cameras::AnyCamera;
 use etalon_lights::LightSet;
 use etalon_math::{Density, SolidAngle};
 use etalon_spectrum::{WavelengthDistribution, Wavelengths};
-use etalon_transport::{Bsdf, Emission, Hit, LightSample, Passage, Ray, Vertex, World};
+use etalon_transport::{Bsdf, Emission, Hit, LightSample, Passage, Ray, Receiver, Vertex, World};
 use glam::{Vec2, Vec3, Vec4};
 
 /// A scene: immutable, shared by all threads.
@@ -125,7 +125,7 @@ impl World for Scene {
     #[inline]
     fn sample_light(
         &self,
-        from: &Vertex,
+        from: &Receiver,
         wavelengths: &Wavelengths,
         u_light: f32,
         u: Vec2,
@@ -135,12 +135,12 @@ impl World for Scene {
     }
 
     #[inline]
-    fn light_density(&self, from: Vec3, at: &Vertex, _: Vec3) -> Density<SolidAngle> {
+    fn light_density(&self, from: &Receiver, at: &Vertex, _: Vec3) -> Density<SolidAngle> {
         self.lights.density(&self.lookup, from, at)
     }
 
     #[inline]
-    fn background_density(&self, from: Vec3, direction: Vec3) -> Density<SolidAngle> {
+    fn background_density(&self, from: &Receiver, direction: Vec3) -> Density<SolidAngle> {
         self.lights.background_density(from, direction)
     }
 

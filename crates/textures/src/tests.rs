@@ -4,8 +4,8 @@ use crate::{TextureReader, TextureSet};
 use etalon_images::{Frame, Image, exr};
 use etalon_params::{Class, Diagnostics, FileId, Node, Property, Span, Spanned, Value};
 use etalon_transport::{
-    AssetError, Assets, MeshData, MeshFormat, Role, ShapeId, Shapes, SurfacePoint, TextureId,
-    TexturePoint, Vertex,
+    AssetError, Assets, MeshData, MeshFormat, Receiver, Role, SampledPoint, ShapeId, Shapes,
+    SurfacePoint, TextureId, TexturePoint, Vertex,
 };
 use glam::{Vec2, Vec3, Vec4};
 use std::collections::HashMap;
@@ -90,13 +90,13 @@ impl Shapes for OneShape {
     fn area(&self, _: ShapeId) -> f32 {
         1.0
     }
-    fn sample_area(&self, _: ShapeId, _: Vec2) -> SurfacePoint {
+    fn sample_area(&self, _: ShapeId, _: Vec2) -> SampledPoint {
         panic!("textures do not sample shapes")
     }
-    fn sample_toward(&self, _: ShapeId, _: Vec3, _: Vec2) -> Option<SurfacePoint> {
+    fn sample_toward(&self, _: ShapeId, _: &Receiver, _: Vec2) -> Option<SampledPoint> {
         None
     }
-    fn density_toward(&self, _: ShapeId, _: Vec3, _: &Vertex) -> f32 {
+    fn density_toward(&self, _: ShapeId, _: &Receiver, _: &SurfacePoint) -> f32 {
         0.0
     }
     fn attribute(&self, _: ShapeId, name: &str, _: u32, parameters: Vec2) -> Option<Vec3> {

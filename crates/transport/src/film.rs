@@ -34,12 +34,9 @@ pub trait Sink {
 
 /// A sink for the pixels of one tile.
 pub trait TileSink: Sink {
-    /// The samples that follow belong to `pixel` (of the whole film).
-    fn begin_pixel(&mut self, pixel: UVec2);
-    /// The next sample counts `weight` (see [`Placement`]).
-    fn begin_sample(&mut self, weight: f32);
-    /// All of the pixel's samples of this replicate are in.
-    fn end_pixel(&mut self);
+    /// What follows is found by a sample of `pixel` (of the whole film) that counts `weight` (see
+    /// [`Placement`]). The samples of a pixel come one after the other.
+    fn begin_sample(&mut self, pixel: UVec2, weight: f32);
 }
 
 /// A film: pixels that accumulate exactly.
@@ -57,8 +54,9 @@ pub trait Film: Sync {
     fn place(&self, pixel: UVec2, u: Vec2) -> Placement;
     /// How far (pixels) beyond the film a splat can still matter.
     fn margin(&self) -> f32;
-    /// A sink for the pixels in [`from`, `to`) of the whole film; it delivers on drop.
-    fn tile(&self, from: UVec2, to: UVec2) -> Self::Tile<'_>;
+    /// A sink for the pixels in [`from`, `to`) of the whole film; it delivers on drop. `alone`
+    /// promises that meanwhile nothing else adds to these pixels, no other tile and no splat.
+    fn tile(&self, from: UVec2, to: UVec2, alone: bool) -> Self::Tile<'_>;
     /// Ends a replicate of `samples` samples per pixel (as many light paths per pixel for
     /// splats): its means join the statistics.
     fn end_replicate(&mut self, samples: u32);

@@ -1,6 +1,6 @@
 //! The contract of an estimator of light transport.
 
-use crate::{Channel, Sink, World};
+use crate::{Channel, Sink, TileSink, World};
 use etalon_sampling::Sampler;
 use glam::{UVec2, Vec2};
 
@@ -19,6 +19,17 @@ pub struct PixelSite {
     pub pixels: u32,
     /// Mean distance between the samples of a pixel (pixels): 1/√spp.
     pub spacing: f32,
+}
+
+/// A sample about to be drawn.
+#[derive(Clone, Debug)]
+pub struct Draft<S> {
+    /// For which place.
+    pub site: PixelSite,
+    /// What it counts there, see [`crate::Placement::weight`].
+    pub weight: f32,
+    /// Its random numbers; those of the film position are used up.
+    pub sampler: S,
 }
 
 /// An estimator: prepares once per replicate, then turns random numbers into contributions.
@@ -52,4 +63,20 @@ pub trait Integrator: Sync {
         sampler: &mut S,
         sink: &mut K,
     );
+
+    /// Draws several samples, in any order or all at once, and delivers them in the order given.
+    /// To follow several paths together keeps a processor busy that would wait for one.
+    #[inline]
+    fn sample_all<W: World, S: Sampler, K: TileSink>(
+        &self,
+        world: &W,
+        state: &Self::State,
+        drafts: &mut [Draft<S>],
+        sink: &mut K,
+    ) {
+        for draft in drafts {
+            sink.begin_sample(draft.site.pixel, draft.weight);
+            self.sample(world, state, &draft.site, &mut draft.sampler, sink);
+        }
+    }
 }

@@ -1,16 +1,85 @@
 //! What others may ask of shapes.
 
-use crate::{ShapeId, Vertex};
+use crate::{ShapeId, TexturePoint, Vertex};
+use etalon_math::offset_origin;
 use glam::{Vec2, Vec3};
+
+/// The point whose light is asked for: all that choosing a light, and a point of it, may depend on.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Receiver {
+    /// Where (m, world).
+    pub position: Vec3,
+    /// Unit shading normal of the surface there, on either side, so that light from grazing
+    /// directions is chosen less often; zero where there is no surface.
+    pub normal: Vec3,
+}
+
+impl Receiver {
+    /// A point on no surface.
+    pub const fn in_space(position: Vec3) -> Self {
+        Self {
+            position,
+            normal: Vec3::ZERO,
+        }
+    }
+}
+
+impl From<&Vertex> for Receiver {
+    #[inline]
+    fn from(vertex: &Vertex) -> Self {
+        Self {
+            position: vertex.position,
+            normal: vertex.shading.n,
+        }
+    }
+}
+
+/// A point of a shape: as much of a [`Vertex`] as light that starts or ends there needs.
+#[derive(Clone, Copy, Debug)]
+pub struct SurfacePoint {
+    /// Position (m, world).
+    pub position: Vec3,
+    /// Bound on the absolute error of each coordinate of `position`.
+    pub error: Vec3,
+    /// Unit geometric normal, on the side that the shape calls outside.
+    pub normal: Vec3,
+    /// Where textures are looked up.
+    pub texture: TexturePoint,
+}
+
+impl SurfacePoint {
+    /// The origin of a ray that leaves the point along `direction`.
+    #[inline]
+    pub fn origin_along(&self, direction: Vec3) -> Vec3 {
+        offset_origin(self.position, self.error, self.normal, direction)
+    }
+
+    /// The origin of a ray that leaves the point toward `target`.
+    #[inline]
+    pub fn origin_toward(&self, target: Vec3) -> Vec3 {
+        self.origin_along(target - self.position)
+    }
+}
+
+impl From<&Vertex> for SurfacePoint {
+    #[inline]
+    fn from(vertex: &Vertex) -> Self {
+        Self {
+            position: vertex.position,
+            error: vertex.error,
+            normal: vertex.normal,
+            texture: TexturePoint::from(vertex),
+        }
+    }
+}
 
 /// A sampled point of a shape.
 #[derive(Clone, Copy, Debug)]
-pub struct SurfacePoint {
-    /// The point with its differential geometry (`t` and `time` zero; `material` and `light`
-    /// filled in by the scene).
-    pub vertex: Vertex,
+pub struct SampledPoint {
+    /// The point.
+    pub point: SurfacePoint,
     /// Its density: per unit area (m⁻²) from [`Shapes::sample_area`], per unit solid angle
-    /// (sr⁻¹) at the observer from [`Shapes::sample_toward`].
+    /// (sr⁻¹) at the receiver from [`Shapes::sample_toward`].
     pub density: f32,
 }
 
@@ -20,15 +89,15 @@ pub trait Shapes {
     fn area(&self, shape: ShapeId) -> f32;
 
     /// A point chosen uniformly by area.
-    fn sample_area(&self, shape: ShapeId, u: Vec2) -> SurfacePoint;
+    fn sample_area(&self, shape: ShapeId, u: Vec2) -> SampledPoint;
 
-    /// A point of the shape chosen for an observer at `from`, by solid angle where a good method
-    /// exists, by area otherwise (the density is per solid angle in any case). `None` if the
-    /// method finds nothing to see. Both sides of a surface count as visible.
-    fn sample_toward(&self, shape: ShapeId, from: Vec3, u: Vec2) -> Option<SurfacePoint>;
+    /// A point of the shape chosen for the light that it sends to `from`, as well as the shape
+    /// knows how (the density is per solid angle in any case). `None` if the method finds nothing
+    /// to see. Both sides of a surface count as visible.
+    fn sample_toward(&self, shape: ShapeId, from: &Receiver, u: Vec2) -> Option<SampledPoint>;
 
-    /// The density (sr⁻¹) with which [`Shapes::sample_toward`] from `from` chooses `vertex`.
-    fn density_toward(&self, shape: ShapeId, from: Vec3, vertex: &Vertex) -> f32;
+    /// The density (sr⁻¹) with which [`Shapes::sample_toward`] from `from` chooses `at`.
+    fn density_toward(&self, shape: ShapeId, from: &Receiver, at: &SurfacePoint) -> f32;
 
     /// The value of a mesh attribute at a point of a primitive (three channels; one-channel
     /// attributes are repeated). `None` if the shape has no such attribute.

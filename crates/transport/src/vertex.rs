@@ -18,6 +18,9 @@ pub struct Hit {
     pub primitive: u32,
     /// The instance through which the shape was reached.
     pub instance: InstanceId,
+    /// Where the accelerator keeps the primitive, whose corners are at hand there; it alone
+    /// knows what this means.
+    pub slot: u32,
 }
 
 /// A point of a surface with its differential geometry.

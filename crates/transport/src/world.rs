@@ -1,6 +1,6 @@
 //! The contract of a scene: all that an integrator may ask.
 
-use crate::{Bsdf, Camera, Emission, Hit, LightSample, Ray, Vertex};
+use crate::{Bsdf, Camera, Emission, Hit, LightSample, Ray, Receiver, Vertex};
 use etalon_math::{Density, SolidAngle};
 use etalon_spectrum::Wavelengths;
 use glam::{Vec2, Vec3, Vec4};
@@ -67,18 +67,18 @@ pub trait World: Sync {
     /// nothing can arrive.
     fn sample_light(
         &self,
-        from: &Vertex,
+        from: &Receiver,
         wavelengths: &Wavelengths,
         u_light: f32,
         u: Vec2,
     ) -> Option<LightSample>;
 
-    /// The density with which [`World::sample_light`] from the point `from` would have chosen
-    /// the emitting surface point `at`, seen along the unit vector `direction`.
-    fn light_density(&self, from: Vec3, at: &Vertex, direction: Vec3) -> Density<SolidAngle>;
+    /// The density with which [`World::sample_light`] from `from` would have chosen the emitting
+    /// surface point `at`, seen along the unit vector `direction`.
+    fn light_density(&self, from: &Receiver, at: &Vertex, direction: Vec3) -> Density<SolidAngle>;
 
     /// The same for the lights at infinity.
-    fn background_density(&self, from: Vec3, direction: Vec3) -> Density<SolidAngle>;
+    fn background_density(&self, from: &Receiver, direction: Vec3) -> Density<SolidAngle>;
 
     /// Emits a particle from a light chosen with `u_light`.
     fn emit(

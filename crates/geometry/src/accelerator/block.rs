@@ -66,6 +66,18 @@ impl Block {
         }
     }
 
+    /// The corners of the triangle in a slot of `blocks`.
+    #[inline]
+    pub(crate) fn corners(blocks: &[Self], slot: u32) -> [Vec3; 3] {
+        let Self { corners, .. } = &blocks[slot as usize / LANES];
+        let lane = slot as usize % LANES;
+        let corner = |c: usize| {
+            let [x, y, z] = &corners[c];
+            Vec3::new(x.as_array()[lane], y.as_array()[lane], z.as_array()[lane])
+        };
+        [corner(0), corner(1), corner(2)]
+    }
+
     // Written out: `map` over arrays of vectors is not reliably inlined.
     #[inline(always)]
     fn candidates(&self, probe: &Probe, t_max: f32) -> Option<Candidates> {
@@ -167,9 +179,10 @@ impl Block {
         candidates.t.as_array()[lane] > 3.0 * delta * (probe.shear[2] / det).abs()
     }
 
-    /// Notes the nearest triangle that the ray hits, if it wins over what is known.
+    /// Notes the nearest triangle that the ray hits, if it wins over what is known; this is block
+    /// number `index`.
     #[inline(always)]
-    pub(crate) fn intersect(&self, probe: &Probe, nearest: &mut Nearest) {
+    pub(crate) fn intersect(&self, index: usize, probe: &Probe, nearest: &mut Nearest) {
         let Some(candidates) = self.candidates(probe, nearest.t) else {
             return;
         };
@@ -182,7 +195,8 @@ impl Block {
             if nearest.loses_to(t, primitive) && self.is_ahead(probe, lane, &candidates) {
                 let weights =
                     Vec2::new(candidates.v.as_array()[lane], candidates.w.as_array()[lane]);
-                nearest.set(t, primitive, weights / candidates.det.as_array()[lane]);
+                let parameters = weights / candidates.det.as_array()[lane];
+                nearest.set(t, primitive, (index * LANES + lane) as u32, parameters);
             }
         }
     }

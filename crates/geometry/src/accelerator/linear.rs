@@ -34,8 +34,8 @@ impl Linear {
 
     #[inline]
     pub(crate) fn intersect(&self, probe: &Probe, others: &impl Others, nearest: &mut Nearest) {
-        for block in &self.blocks {
-            block.intersect(probe, nearest);
+        for (index, block) in self.blocks.iter().enumerate() {
+            block.intersect(index, probe, nearest);
         }
         for &primitive in &self.others {
             others.intersect(primitive, probe, nearest);
@@ -49,6 +49,10 @@ impl Linear {
                 .others
                 .iter()
                 .any(|&primitive| others.occludes(primitive, probe, t_max))
+    }
+
+    pub(crate) fn blocks(&self) -> &[Block] {
+        &self.blocks
     }
 
     pub(crate) fn bytes(&self) -> usize {

@@ -18,15 +18,19 @@ pub(crate) struct Wide {
     nodes: Vec<Node>,
     blocks: Vec<Block>,
     root: Option<Link>,
-    /// Whether [`SMALL_STACK`] is enough.
-    shallow: bool,
+    /// Levels of nodes.
+    depth: usize,
 }
 
 /// Room on a ray's stack: a node takes one entry off and puts up to eight on it.
 const fn stack_for(depth: usize) -> usize {
     (WIDTH - 1) * depth + 1
 }
-const SMALL_STACK: usize = stack_for(9);
+/// A stack is cleared for every ray, so it should not be larger than it must.
+const SMALL_STACK: usize = stack_for(SMALL_DEPTH);
+const SMALL_DEPTH: usize = 2;
+const MEDIUM_STACK: usize = stack_for(MEDIUM_DEPTH);
+const MEDIUM_DEPTH: usize = 9;
 const LARGE_STACK: usize = stack_for(MAX_DEPTH);
 /// A wide tree is not deeper than the binary one, but for primitives with equal boxes, of which
 /// there are fewer than 8¹¹.
@@ -169,7 +173,7 @@ impl Wide {
             depth <= MAX_DEPTH,
             "a tree of {depth} levels overflows the stack"
         );
-        assert!(leaves.len() <= MAX_INDEX as usize && nodes.len() <= MAX_INDEX as usize);
+        assert!(leaves.len() <= MAX_INDEX as usize / 2 && nodes.len() <= MAX_INDEX as usize);
         let blocks = leaves
             .par_iter()
             .map(|leaf| block(&tree, primitives, leaf))
@@ -178,27 +182,27 @@ impl Wide {
             nodes,
             blocks,
             root,
-            shallow: stack_for(depth) <= SMALL_STACK,
+            depth,
         }
     }
 
     /// Notes the nearest hit, if it wins over what is known.
     #[inline]
     pub(crate) fn intersect(&self, probe: &Probe, others: &impl Others, nearest: &mut Nearest) {
-        if self.shallow {
-            self.find_nearest::<SMALL_STACK>(probe, others, nearest);
-        } else {
-            self.find_nearest::<LARGE_STACK>(probe, others, nearest);
+        match self.depth {
+            0..=SMALL_DEPTH => self.find_nearest::<SMALL_STACK>(probe, others, nearest),
+            0..=MEDIUM_DEPTH => self.find_nearest::<MEDIUM_STACK>(probe, others, nearest),
+            _ => self.find_nearest::<LARGE_STACK>(probe, others, nearest),
         }
     }
 
     /// Whether anything is hit before `t_max`.
     #[inline]
     pub(crate) fn occluded(&self, probe: &Probe, others: &impl Others, t_max: f32) -> bool {
-        if self.shallow {
-            self.find_any::<SMALL_STACK>(probe, others, t_max)
-        } else {
-            self.find_any::<LARGE_STACK>(probe, others, t_max)
+        match self.depth {
+            0..=SMALL_DEPTH => self.find_any::<SMALL_STACK>(probe, others, t_max),
+            0..=MEDIUM_DEPTH => self.find_any::<MEDIUM_STACK>(probe, others, t_max),
+            _ => self.find_any::<LARGE_STACK>(probe, others, t_max),
         }
     }
 
@@ -267,7 +271,7 @@ impl Wide {
                         continue;
                     }
                 }
-                Target::Block(index) => self.blocks[index].intersect(probe, nearest),
+                Target::Block(index) => self.blocks[index].intersect(index, probe, nearest),
                 Target::Other(primitive) => others.intersect(primitive, probe, nearest),
             }
             loop {
@@ -331,6 +335,10 @@ impl Wide {
             top -= 1;
             link = Link(stack[top]);
         }
+    }
+
+    pub(crate) fn blocks(&self) -> &[Block] {
+        &self.blocks
     }
 
     /// Number of nodes.

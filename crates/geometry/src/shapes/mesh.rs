@@ -129,9 +129,14 @@ impl Mesh {
     /// The corners of a triangle.
     #[inline]
     pub fn corners(&self, primitive: u32) -> [Vec3; 3] {
+        self.at_corners(&self.positions, primitive)
+    }
+
+    /// What `of` has for the corners of a triangle.
+    #[inline(always)] // One by one: `map` over arrays is not reliably inlined.
+    fn at_corners<T: Copy>(&self, of: &[T], primitive: u32) -> [T; 3] {
         let [a, b, c] = self.triangles[primitive as usize];
-        let at = |i: u32| self.positions[i as usize];
-        [at(a), at(b), at(c)]
+        [of[a as usize], of[b as usize], of[c as usize]]
     }
 
     fn triangle_area(corners: [Vec3; 3]) -> f64 {
@@ -160,10 +165,17 @@ impl Mesh {
     /// corner.
     #[inline(always)] // Lights that are sampled need little of it.
     pub(crate) fn surface(&self, primitive: u32, b: Vec2) -> Surface {
-        // Corners are fetched one by one: `map` over arrays is not reliably inlined.
-        let [i0, i1, i2] = self.triangles[primitive as usize];
-        let (i0, i1, i2) = (i0 as usize, i1 as usize, i2 as usize);
-        let (p0, p1, p2) = (self.positions[i0], self.positions[i1], self.positions[i2]);
+        self.surface_between(self.corners(primitive), primitive, b)
+    }
+
+    /// [`Mesh::surface`] of a triangle whose corners are known.
+    #[inline(always)] // As above.
+    pub(crate) fn surface_between(
+        &self,
+        [p0, p1, p2]: [Vec3; 3],
+        primitive: u32,
+        b: Vec2,
+    ) -> Surface {
         let b0 = 1.0 - b.x - b.y;
         let position = p0 * b0 + p1 * b.x + p2 * b.y;
         // Seven roundings (Pharr, Jakob, Humphreys 2023, section 6.8.5); and the next ray's
@@ -175,7 +187,8 @@ impl Mesh {
         let mut normal = if self.reversed { -cross } else { cross };
         let mut shading_normal = normal;
         if !self.normals.is_empty() {
-            let sum = self.normals[i0] * b0 + self.normals[i1] * b.x + self.normals[i2] * b.y;
+            let [n0, n1, n2] = self.at_corners(&self.normals, primitive);
+            let sum = n0 * b0 + n1 * b.x + n2 * b.y;
             shading_normal = sum.try_normalize().unwrap_or(normal);
             if shading_normal.dot(normal) < 0.0 {
                 normal = -normal;
@@ -184,7 +197,7 @@ impl Mesh {
         let (uv, dp_du, dp_dv) = if self.uvs.is_empty() {
             (b, e1, e2)
         } else {
-            let (t0, t1, t2) = (self.uvs[i0], self.uvs[i1], self.uvs[i2]);
+            let [t0, t1, t2] = self.at_corners(&self.uvs, primitive);
             let (d1, d2) = (t1 - t0, t2 - t0);
             let inverse = 1.0 / d1.perp_dot(d2);
             let uv = t0 * b0 + t1 * b.x + t2 * b.y;
@@ -201,7 +214,7 @@ impl Mesh {
             position,
             error,
             normal,
-            shading_normal,
+            shading: Frame::from_normal_and_tangent(shading_normal, dp_du),
             uv,
             dp_du,
             dp_dv,

@@ -4,26 +4,41 @@
 //! p(u, v) = p₀₀ + 2u x + 2v y
 //! ```
 //!
-//! As a light it is chosen by solid angle (Ureña, Fajardo & King 2013) unless `to_world` shears
-//! it into a parallelogram or it is seen too small or too flat; then by area.
+//! As a light, seen from afar, its points are chosen nearly in proportion to the light that
+//! they send ([`RectangleView`], Hart et al. 2020). A receiver so near that the light varies more
+//! over it than that follows sees it by solid angle (Ureña, Fajardo & King 2013), unless
+//! `to_world` shears it into a parallelogram.
 
 use crate::placement::{Placement, perpendicular};
 use crate::shapes::mesh::{Mesh, MeshOptions};
 use crate::shapes::solid::{read_face_normals, read_flip};
 use crate::surface::Surface;
+use etalon_math::{Frame, gamma};
 use etalon_params::Params;
-use etalon_sampling::warps::{RectangleSides, SphericalRectangle};
-use etalon_transport::MeshData;
-use glam::{Vec2, Vec3};
+use etalon_sampling::warps::{RectangleSides, RectangleView, SphericalRectangle};
+use etalon_transport::{MeshData, Receiver, SampledPoint, ShapeId, SurfacePoint, TexturePoint};
+use glam::{BVec2, Vec2, Vec3};
 
 /// A rectangle or parallelogram.
 #[derive(Debug)]
 pub struct Rectangle {
     mesh: Mesh,
     corner: Vec3,
+    edges: [Vec3; 2],
+    /// Bound on the absolute error of each coordinate of a point.
+    error: Vec3,
+    /// Unit normal, outside.
+    normal: Vec3,
+    shading: Frame,
     sides: RectangleSides,
     area: f64,
     right_angled: bool,
+}
+
+/// How a receiver sees the rectangle.
+enum View {
+    Far(RectangleView),
+    Near(SphericalRectangle),
 }
 
 impl Rectangle {
@@ -45,9 +60,16 @@ impl Rectangle {
         let [corner, x, y] = mesh.corners(0);
         let edges = [x - corner, y - corner];
         let [a, b] = edges.map(|e| e.as_dvec3());
+        let normal = mesh.surface(0, Vec2::ZERO).normal;
+        let reach = corner.abs() + edges[0].abs() + edges[1].abs();
         Ok(Self {
+            normal,
+            shading: Frame::from_normal_and_tangent(normal, edges[0]),
+            // As for a triangle's point, see `Mesh::surface`.
+            error: reach * gamma(9) + f32::MIN_POSITIVE,
             mesh,
             corner,
+            edges,
             sides: RectangleSides::new(edges),
             area: a.cross(b).length(),
             right_angled: perpendicular(a, b, false),
@@ -75,23 +97,86 @@ impl Rectangle {
         self.area
     }
 
-    /// The point with texture coordinates `uv`: surface, triangle, barycentric coordinates.
+    /// The surface point with barycentric coordinates `b` of a triangle's second and third
+    /// corner. Nearly all of it is the same everywhere.
     #[inline]
-    pub(crate) fn at(&self, uv: Vec2) -> (Surface, u32, Vec2) {
-        let (primitive, b) = if uv.x + uv.y <= 1.0 {
-            (0, uv)
-        } else {
-            (1, 1.0 - uv)
-        };
-        (self.mesh.surface(primitive, b), primitive, b)
+    pub(crate) fn surface(&self, primitive: u32, b: Vec2) -> Surface {
+        let uv = if primitive == 0 { b } else { 1.0 - b };
+        Surface {
+            position: self.corner + self.edges[0] * uv.x + self.edges[1] * uv.y,
+            error: self.error,
+            normal: self.normal,
+            shading: self.shading,
+            uv,
+            dp_du: self.edges[0],
+            dp_dv: self.edges[1],
+        }
     }
 
-    /// The rectangle as seen from a point, if it is to be sampled by solid angle.
+    /// The point with texture coordinates `uv`.
     #[inline]
-    pub(crate) fn seen_from(&self, from: Vec3) -> Option<SphericalRectangle> {
-        if !self.right_angled {
-            return None;
+    pub(crate) fn at(&self, uv: Vec2) -> SurfacePoint {
+        // Where it falls cannot be foreseen, so a branch would cost more.
+        let first = BVec2::splat(uv.x + uv.y <= 1.0);
+        SurfacePoint {
+            position: self.corner + self.edges[0] * uv.x + self.edges[1] * uv.y,
+            error: self.error,
+            normal: self.normal,
+            texture: TexturePoint {
+                uv,
+                shape: ShapeId::NONE,
+                primitive: u32::from(!first.x),
+                parameters: Vec2::select(first, uv, 1.0 - uv),
+            },
         }
-        SphericalRectangle::seen(self.corner - from, &self.sides)
+    }
+
+    #[inline]
+    fn seen_from(&self, from: &Receiver) -> View {
+        let corner = self.corner - from.position;
+        if self.right_angled
+            && self.sides.is_near(corner)
+            && let Some(seen) = SphericalRectangle::seen(corner, &self.sides)
+        {
+            return View::Near(seen);
+        }
+        View::Far(RectangleView::new(corner, self.edges, from.normal))
+    }
+
+    /// The density (sr⁻¹) of a point chosen with the density `density` on the unit square.
+    #[inline]
+    fn per_solid_angle(&self, density: f32, from: Vec3, position: Vec3) -> f32 {
+        density * super::area_density_toward(self.area, from, position, self.normal)
+    }
+
+    /// A point chosen for a receiver, with its density (sr⁻¹).
+    #[inline]
+    pub(crate) fn sample_toward(&self, from: &Receiver, u: Vec2) -> SampledPoint {
+        match self.seen_from(from) {
+            View::Near(seen) => SampledPoint {
+                point: self.at(seen.sample_position(u)),
+                density: seen.density(),
+            },
+            View::Far(view) => {
+                let uv = view.sample(u);
+                let point = self.at(uv);
+                let density = view.density(uv);
+                SampledPoint {
+                    point,
+                    density: self.per_solid_angle(density, from.position, point.position),
+                }
+            }
+        }
+    }
+
+    /// The density (sr⁻¹) of [`Rectangle::sample_toward`] at a point of the rectangle.
+    pub(crate) fn density_toward(&self, from: &Receiver, at: &SurfacePoint) -> f32 {
+        match self.seen_from(from) {
+            View::Near(seen) => seen.density(),
+            View::Far(view) => {
+                let density = view.density(at.texture.uv);
+                self.per_solid_angle(density, from.position, at.position)
+            }
+        }
     }
 }

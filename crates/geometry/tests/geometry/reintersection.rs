@@ -3,7 +3,7 @@
 
 use crate::things::{Random, convex_shapes, geometry_of, moved};
 use etalon_geometry::{GeometryBuilder, Shape};
-use etalon_transport::{MaterialId, Ray, ShapeId, Shapes, Vertex};
+use etalon_transport::{MaterialId, Ray, Receiver, ShapeId, Shapes, SurfacePoint, Vertex};
 use glam::Vec3;
 
 /// Directions on the side of `normal`: anywhere, and close to the tangent plane.
@@ -146,14 +146,18 @@ fn sampled_points_lie_on_the_shape_and_are_seen() {
             let id = ShapeId(0);
             for _ in 0..1000 {
                 let from = shift + random.direction() * scale * (1.8 + 3.0 * random.number());
+                let receiver = Receiver {
+                    position: from,
+                    normal: random.direction(),
+                };
                 for point in [
                     Some(geometry.sample_area(id, random.square())),
-                    geometry.sample_toward(id, from, random.square()),
+                    geometry.sample_toward(id, &receiver, random.square()),
                 ]
                 .into_iter()
                 .flatten()
                 {
-                    let at = point.vertex;
+                    let at = point.point;
                     assert!(at.normal.is_normalized() && point.density > 0.0, "{name}");
                     // A ray straight at the point, from just outside, meets the shape there.
                     let step = at.normal * 0.01 * scale;
@@ -171,8 +175,8 @@ fn sampled_points_lie_on_the_shape_and_are_seen() {
                         scale
                     );
                 }
-                if let Some(point) = geometry.sample_toward(id, from, random.square()) {
-                    let at = point.vertex;
+                if let Some(point) = geometry.sample_toward(id, &receiver, random.square()) {
+                    let at = point.point;
                     let target = at.origin_toward(from);
                     // Convex: what faces the observer is not hidden by the shape itself.
                     let facing = at.normal.dot(from - at.position);
@@ -187,12 +191,12 @@ fn sampled_points_lie_on_the_shape_and_are_seen() {
 }
 
 /// Whether a point is so close to where its shape ends that a ray at it may miss.
-fn near_rim(name: &str, at: &Vertex) -> bool {
+fn near_rim(name: &str, at: &SurfacePoint) -> bool {
     let edge = |x: f32| !(1e-4..=1.0 - 1e-4).contains(&x);
     match name {
-        "disk" => edge(at.uv.x),
-        "cylinder" => edge(at.uv.y),
-        "rectangle" => edge(at.uv.x) || edge(at.uv.y),
+        "disk" => edge(at.texture.uv.x),
+        "cylinder" => edge(at.texture.uv.y),
+        "rectangle" => edge(at.texture.uv.x) || edge(at.texture.uv.y),
         _ => false,
     }
 }
@@ -205,7 +209,7 @@ fn a_box_of_every_shape_holds_it() {
             let bounds = Shape::bounds(&shape);
             let geometry = geometry_of([shape]);
             for _ in 0..500 {
-                let p = geometry.sample_area(ShapeId(0), random.square()).vertex;
+                let p = geometry.sample_area(ShapeId(0), random.square()).point;
                 let slack = p.error * 2.0;
                 let inside = p.position.cmpge(bounds.min - slack).all()
                     && p.position.cmple(bounds.max + slack).all();

@@ -7,7 +7,7 @@ use etalon_geometry::shapes::{disk::Disk, rectangle::Rectangle};
 use etalon_geometry::{Geometry, Placement, Shape};
 use etalon_math::Frame;
 use etalon_sampling::warps::{square_to_uniform_cone, uniform_cone_to_square};
-use etalon_transport::{Ray, ShapeId, Shapes};
+use etalon_transport::{Ray, Receiver, ShapeId, Shapes, SurfacePoint};
 use glam::{DVec3, Vec2, Vec3};
 
 const ID: ShapeId = ShapeId(0);
@@ -27,17 +27,24 @@ fn bowl() -> Shape {
     mesh_of(positions, triangles)
 }
 
-/// Shapes and observers that see all that can be chosen of them.
-fn views() -> Vec<(String, Geometry, Vec3)> {
+/// Shapes and receivers that see all that can be chosen of them. Where the choice depends on the
+/// receiver's surface, the first is on none, the second faces some of the shape and turns away
+/// from the rest, the third faces all of it.
+fn views() -> Vec<(String, Geometry, Receiver)> {
     let mut views = Vec::new();
     let observers = [
-        Vec3::new(0.3, 0.2, 2.0),
-        Vec3::new(-1.5, 2.5, 4.0),
-        Vec3::new(0.1, -0.2, 0.9),
+        (Vec3::new(0.3, 0.2, 2.0), Vec3::ZERO),
+        (Vec3::new(-1.5, 2.5, 4.0), Vec3::new(0.86, 0.51, 0.0)),
+        (Vec3::new(0.1, -0.2, 0.9), Vec3::new(0.3, -0.2, -0.9)),
     ];
-    for (i, from) in observers.into_iter().enumerate() {
+    for (i, (position, normal)) in observers.into_iter().enumerate() {
+        let from = Receiver {
+            position,
+            normal: normal.normalize_or_zero(),
+        };
         let mut add = |name: &str, shape: Shape| {
-            views.push((format!("{name} from {from}"), geometry_of([shape]), from));
+            let name = format!("{name} from {position}");
+            views.push((name, geometry_of([shape]), from));
         };
         add("bowl", bowl());
         let flat = |scale: Vec3| moved(Vec3::new(0.1, 0.0, -0.1), 0.4, scale);
@@ -99,15 +106,21 @@ impl Region {
 
     /// The density of chosen points over the midpoints of n² equal cells of directions, times
     /// the solid angle of a cell.
-    fn for_each(&self, geometry: &Geometry, from: Vec3, n: u32, mut each: impl FnMut(Vec2, f64)) {
+    fn for_each(
+        &self,
+        geometry: &Geometry,
+        from: &Receiver,
+        n: u32,
+        mut each: impl FnMut(Vec2, f64),
+    ) {
         let share = 2.0 * PI * f64::from(self.one_minus_cos) / f64::from(n * n);
         for (i, j) in (0..n).flat_map(|i| (0..n).map(move |j| (i, j))) {
             let u = (Vec2::new(i as f32, j as f32) + 0.5) / n as f32;
             let direction = square_to_uniform_cone(u, self.one_minus_cos);
-            let ray = Ray::new(from, self.frame.to_world(direction), 0.0);
+            let ray = Ray::new(from.position, self.frame.to_world(direction), 0.0);
             if let Some(hit) = geometry.intersect(&ray) {
                 let vertex = geometry.vertex(&ray, &hit);
-                let density = geometry.density_toward(ID, from, &vertex);
+                let density = geometry.density_toward(ID, from, &SurfacePoint::from(&vertex));
                 each(u, f64::from(density) * share);
             }
         }
@@ -125,8 +138,8 @@ impl Region {
 fn densities_integrate_to_one() {
     for (name, geometry, from) in views() {
         let mut integral = 0.0;
-        let region = Region::of(&geometry, from);
-        region.for_each(&geometry, from, 700, |_, share| integral += share);
+        let region = Region::of(&geometry, from.position);
+        region.for_each(&geometry, &from, 700, |_, share| integral += share);
         assert!((integral - 1.0).abs() < 0.005, "{name}: {integral}");
     }
 }
@@ -144,28 +157,28 @@ fn samples_follow_their_density() {
         let cells = 24;
         let samples = 40_000;
         let mut counts = vec![0u32; cells * cells];
-        let region = Region::of(&geometry, from);
+        let region = Region::of(&geometry, from.position);
         let cell = |u: Vec2| {
             let at = |x: f32| ((x * cells as f32) as usize).min(cells - 1);
             at(u.x) * cells + at(u.y)
         };
         for _ in 0..samples {
             let point = geometry
-                .sample_toward(ID, from, random.square())
+                .sample_toward(ID, &from, random.square())
                 .expect("seen");
-            let again = geometry.density_toward(ID, from, &point.vertex);
+            let again = geometry.density_toward(ID, &from, &point.point);
             assert!(
                 (again - point.density).abs() <= 2e-3 * point.density
-                    || near_outline(&name, from, &point.vertex),
+                    || near_outline(&name, from.position, &point.point),
                 "{name}: {again} {}",
                 point.density
             );
-            let direction = (point.vertex.position - from).normalize();
+            let direction = (point.point.position - from.position).normalize();
             counts[cell(region.square(direction))] += 1;
         }
         // The expected counts, by 50² directions per cell.
         let mut expected = vec![0.0f64; cells * cells];
-        region.for_each(&geometry, from, 50 * cells as u32, |u, share| {
+        region.for_each(&geometry, &from, 50 * cells as u32, |u, share| {
             expected[cell(u)] += share * f64::from(samples);
         });
         let (mut statistic, mut degrees) = (0.0, 0i32);
@@ -195,7 +208,7 @@ fn samples_follow_their_density() {
 }
 
 /// A sphere's outline as seen from outside: rounding decides which side a point is on.
-fn near_outline(name: &str, from: Vec3, at: &etalon_transport::Vertex) -> bool {
+fn near_outline(name: &str, from: Vec3, at: &SurfacePoint) -> bool {
     name.starts_with("sphere from (")
         || name.starts_with("sphere from [")
             && at.normal.dot((from - at.position).normalize()).abs() < 1e-3
@@ -238,7 +251,7 @@ fn points_are_uniform_by_area() {
             let point = geometry.sample_area(ID, random.square());
             let density = f64::from(point.density) * f64::from(geometry.area(ID));
             assert!((density - 1.0).abs() < 1e-6, "{name}");
-            let p = point.vertex.position.as_dvec3() - DVec3::new(1.0, 2.0, 3.0);
+            let p = point.point.position.as_dvec3() - DVec3::new(1.0, 2.0, 3.0);
             sum += p;
             squares += p * p;
         }

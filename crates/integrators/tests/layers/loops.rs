@@ -67,14 +67,11 @@ impl Sink for TallyTile<'_> {
 }
 
 impl TileSink for TallyTile<'_> {
-    fn begin_pixel(&mut self, pixel: UVec2) {
+    fn begin_sample(&mut self, pixel: UVec2, weight: f32) {
         assert!(pixel.cmpge(self.from).all() && pixel.cmplt(self.to).all());
         self.pixel = pixel;
-    }
-    fn begin_sample(&mut self, weight: f32) {
         assert_eq!(weight, 2.0);
     }
-    fn end_pixel(&mut self) {}
 }
 
 impl Film for Tally {
@@ -94,7 +91,7 @@ impl Film for Tally {
     fn margin(&self) -> f32 {
         1.5
     }
-    fn tile(&self, from: UVec2, to: UVec2) -> TallyTile<'_> {
+    fn tile(&self, from: UVec2, to: UVec2, _: bool) -> TallyTile<'_> {
         self.tiles
             .lock()
             .expect("no panic while it is held")

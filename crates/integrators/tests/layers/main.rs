@@ -12,5 +12,6 @@ mod exact;
 mod lanes;
 mod loops;
 mod measure;
+mod together;
 mod visibility;
 mod world;

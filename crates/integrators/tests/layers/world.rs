@@ -271,6 +271,7 @@ impl World for Stack {
             shape: ShapeId(i as u32),
             primitive: 0,
             instance: InstanceId::NONE,
+            slot: 0,
         })
     }
     fn vertex(&self, ray: &Ray, hit: &Hit) -> Vertex {
@@ -347,7 +348,13 @@ impl World for Stack {
     fn has_background(&self) -> bool {
         (self.sky)(550.0) > 0.0
     }
-    fn sample_light(&self, from: &Vertex, w: &Wavelengths, u: f32, v: Vec2) -> Option<LightSample> {
+    fn sample_light(
+        &self,
+        from: &Receiver,
+        w: &Wavelengths,
+        u: f32,
+        v: Vec2,
+    ) -> Option<LightSample> {
         let lights = self.lights();
         let choice = ((u * lights as f32) as usize).min(lights.checked_sub(1)?);
         let mut emitting = self.planes.iter().enumerate().filter(|(_, p)| p.emits());
@@ -380,15 +387,15 @@ impl World for Stack {
             light: LightId(index as u32),
         })
     }
-    fn light_density(&self, from: Vec3, at: &Vertex, _: Vec3) -> Density<SolidAngle> {
-        let there = from.z != at.position.z && at.light.is_some();
+    fn light_density(&self, from: &Receiver, at: &Vertex, _: Vec3) -> Density<SolidAngle> {
+        let there = from.position.z != at.position.z && at.light.is_some();
         Density::uniform(if there {
             self.hemisphere_density()
         } else {
             0.0
         })
     }
-    fn background_density(&self, _: Vec3, _: Vec3) -> Density<SolidAngle> {
+    fn background_density(&self, _: &Receiver, _: Vec3) -> Density<SolidAngle> {
         Density::uniform(self.hemisphere_density() * 0.5)
     }
     fn emit(&self, _: &Wavelengths, _: f32, _: Vec2, _: Vec2) -> Option<Emission> {

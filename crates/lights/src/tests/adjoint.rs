@@ -136,7 +136,7 @@ fn emitted_particles_carry_what_sampling_finds() {
         }
         for _ in 0..40_000 {
             let p = (random.next_2d() - 0.5).extend(0.0);
-            let from = upward(p, Vec3::Z);
+            let from = receiver(p, Vec3::Z);
             let (u_light, u) = (random.next_1d(), random.next_2d());
             let value = if compensated {
                 // Its own directions leave out what is dark; uniform ones do not.

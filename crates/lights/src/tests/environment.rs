@@ -181,7 +181,7 @@ fn directions_follow_the_density() {
         }
         let mut observed = vec![0_u64; ROWS * COLUMNS];
         let mut random = numbers(100 + index as u64);
-        let from = upward(Vec3::ZERO, Vec3::Z);
+        let from = receiver(Vec3::ZERO, Vec3::Z);
         for _ in 0..COUNT {
             let sample = light
                 .sample(&world, &from, &WAVELENGTHS, random.next_2d())
@@ -210,7 +210,7 @@ fn power_is_the_mean_radiance() {
     assert!((uniform.power(&world, &bounds) / expected - 1.0).abs() < 1e-5);
     let (world, black) = sky(2, &[[0.0; 3]; 6], vec![]);
     assert_eq!(black.power(&world, &bounds), 0.0);
-    let from = upward(Vec3::ZERO, Vec3::Z);
+    let from = receiver(Vec3::ZERO, Vec3::Z);
     assert!(
         black
             .sample(&world, &from, &WAVELENGTHS, Vec2::splat(0.3))

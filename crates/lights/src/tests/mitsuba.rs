@@ -29,9 +29,9 @@ fn vector(x: f64, y: f64, z: f64) -> Value {
 
 /// Direction, distance (infinite: none) and radiance over D65 toward a light from `from`.
 fn toward(world: &SmallWorld, light: &Light, from: Vec3) -> (Vec3, f32, f32) {
-    let vertex = upward(from, Vec3::Z);
+    let receiver = receiver(from, Vec3::Z);
     let sample = light
-        .sample(world, &vertex, &WAVELENGTHS, Vec2::splat(0.5))
+        .sample(world, &receiver, &WAVELENGTHS, Vec2::splat(0.5))
         .expect("the light is seen");
     assert!(matches!(sample.chance, Chance::Discrete(p) if p.0 == Vec4::ONE));
     let ratio = sample.radiance / white();
@@ -158,10 +158,10 @@ fn spot_falls_off_as_in_mitsuba() {
         4.002_499,
         0.124_844,
     );
-    let behind = upward(Vec3::new(0.0, 0.0, -1.0), Vec3::Z);
+    let behind = receiver(Vec3::new(0.0, 0.0, -1.0), Vec3::Z);
     let u = Vec2::splat(0.5);
     assert!(spot.sample(&world, &behind, &WAVELENGTHS, u).is_none());
-    let beside = upward(Vec3::new(1.0, 0.0, 1.0), Vec3::Z);
+    let beside = receiver(Vec3::new(1.0, 0.0, 1.0), Vec3::Z);
     assert!(spot.sample(&world, &beside, &WAVELENGTHS, u).is_none());
 }
 

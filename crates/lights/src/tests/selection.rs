@@ -29,7 +29,10 @@ fn sky(world: &mut SmallWorld, radiance: f64) -> LightDescription {
 
 fn probabilities(set: &LightSet) -> Vec<f32> {
     (0..set.len())
-        .map(|i| set.selector().probability(Vec3::ZERO, LightId(i as u32)))
+        .map(|i| {
+            set.selector()
+                .probability(&Receiver::in_space(Vec3::ZERO), LightId(i as u32))
+        })
         .collect()
 }
 
@@ -75,11 +78,11 @@ fn without_light_nothing_is_chosen() {
     let dark = vec![point(&mut world, 0.0, 1.0), sky(&mut world, 0.0)];
     for descriptions in [vec![], dark] {
         let set = LightSet::new(descriptions, &world, bounds());
-        let from = upward(Vec3::ZERO, Vec3::Z);
+        let from = receiver(Vec3::ZERO, Vec3::Z);
         let u = Vec2::splat(0.5);
         assert!(set.sample(&world, &from, &WAVELENGTHS, 0.5, u).is_none());
         assert!(set.emit(&world, &WAVELENGTHS, 0.5, u, u).is_none());
-        let density = set.background_density(Vec3::ZERO, Vec3::Z);
+        let density = set.background_density(&Receiver::in_space(Vec3::ZERO), Vec3::Z);
         assert_eq!(density.chooser(), 0.0);
     }
 }
@@ -111,7 +114,7 @@ fn sampled_density_equals_hit_density() {
     let mut random = numbers(1);
     let mut seen = [0; 4];
     for _ in 0..2000 {
-        let from = upward(Vec3::new(0.1, -0.2, 0.3), Vec3::Z);
+        let from = receiver(Vec3::new(0.1, -0.2, 0.3), Vec3::Z);
         let (u_light, u) = (random.next_1d(), random.next_2d());
         let Some(sample) = set.sample(&world, &from, &WAVELENGTHS, u_light, u) else {
             continue;
@@ -121,20 +124,24 @@ fn sampled_density_equals_hit_density() {
         assert!(sample.radiance.is_finite() && sample.radiance.min_element() >= 0.0);
         let (density, radiance) = match (sample.chance, sample.target) {
             (Chance::Discrete(p), Some(_)) => {
-                assert_eq!(p.0.x, set.selector().probability(Vec3::ZERO, sample.light));
+                assert_eq!(
+                    p.0.x,
+                    set.selector()
+                        .probability(&Receiver::in_space(Vec3::ZERO), sample.light)
+                );
                 continue;
             }
             (Chance::Continuous(density), Some(target)) => {
                 // The offset of the target is far below the tolerances.
                 let uv = (target - Vec3::new(0.3, 0.2, 2.0)).truncate() * 0.5 + 0.5;
                 let vertex = world.vertex(ShapeId(0), uv);
-                let hit = set.density(&world, from.position, &vertex);
+                let hit = set.density(&world, &from, &vertex);
                 assert!((density.chooser() / hit.chooser() - 1.0).abs() < 1e-4);
                 let radiance = set.emitted(&world, &vertex, -sample.direction, &WAVELENGTHS);
                 (hit, radiance)
             }
             (Chance::Continuous(density), None) => {
-                let hit = set.background_density(from.position, sample.direction);
+                let hit = set.background_density(&from, sample.direction);
                 assert!((density.chooser() / hit.chooser() - 1.0).abs() < 1e-3);
                 (hit, set.background(&world, sample.direction, &WAVELENGTHS))
             }
@@ -159,7 +166,7 @@ fn surfaces_emit_on_their_outer_side_only() {
     let emitted = |wo| set.emitted(&world, &vertex, wo, &WAVELENGTHS);
     assert_eq!(emitted(Vec3::NEG_Z), white());
     assert_eq!(emitted(Vec3::Z), Vec4::ZERO);
-    let behind = upward(Vec3::new(0.0, 0.0, 3.0), Vec3::NEG_Z);
+    let behind = receiver(Vec3::new(0.0, 0.0, 3.0), Vec3::NEG_Z);
     let u = Vec2::splat(0.5);
     assert!(set.sample(&world, &behind, &WAVELENGTHS, 0.5, u).is_none());
     let no_light = upward(Vec3::ZERO, Vec3::Z);
@@ -167,5 +174,9 @@ fn surfaces_emit_on_their_outer_side_only() {
         set.emitted(&world, &no_light, Vec3::Z, &WAVELENGTHS),
         Vec4::ZERO
     );
-    assert_eq!(set.density(&world, Vec3::ONE, &no_light).chooser(), 0.0);
+    assert_eq!(
+        set.density(&world, &Receiver::in_space(Vec3::ONE), &no_light)
+            .chooser(),
+        0.0
+    );
 }

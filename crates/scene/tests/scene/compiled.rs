@@ -3,7 +3,7 @@
 use crate::reading::{LANES, document, down, meet, read_with, scene};
 use etalon_sampling::SamplerKind;
 use etalon_scene::Scene;
-use etalon_transport::{Bsdf, LightId, Vertex, World};
+use etalon_transport::{Bsdf, LightId, Receiver, Vertex, World};
 use glam::{Vec3, Vec4};
 
 fn vertex(scene: &Scene, x: f32) -> Vertex {
@@ -88,7 +88,12 @@ fn every_light_is_its_shapes_own() {
         assert!(!seen.contains(&at.light));
         seen.push(at.light);
         // From above the light is among what light sampling finds.
-        assert!(world.light_density(Vec3::Z * 5.0, &at, -Vec3::Z).chooser() > 0.0);
+        assert!(
+            world
+                .light_density(&Receiver::in_space(Vec3::Z * 5.0), &at, -Vec3::Z)
+                .chooser()
+                > 0.0
+        );
     }
     for x in [0.0, 4.0] {
         let (hit, at) = meet(&world, &down(x, 0.0)).expect("a surface");

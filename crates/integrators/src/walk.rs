@@ -1,0 +1,235 @@
+//! One path of the path tracer, from surface to surface.
+
+use crate::dimensions::Event;
+use crate::path::camera_ray;
+use crate::prefix::Prefix;
+use crate::rival::Rival;
+use crate::settings::PathSettings;
+use etalon_sampling::Sampler;
+use etalon_spectrum::{Wavelengths, sensor_response};
+use etalon_transport::{Bsdf, Chance, Hit, Mode, PixelSite, Ray, Receiver, Sink, Vertex, World};
+use glam::{Vec3, Vec4};
+
+/// A path being followed.
+pub(crate) struct Walk<'a, S> {
+    sampler: &'a mut S,
+    wavelengths: Wavelengths,
+    /// The factor by which what is found counts.
+    weight: f32,
+    ray: Ray,
+    /// What `ray` hits, once that was asked.
+    hit: Option<Hit>,
+    prefix: Prefix,
+    rival: Rival,
+    /// The product of the indices of refraction passed.
+    eta: f32,
+    /// Number of segments, that of `ray` included.
+    depth: u32,
+    /// Whether the path goes on with `ray`.
+    goes_on: bool,
+    connection: Option<Connection>,
+    /// The radiance found, per lane, over the sum of all densities' ratios (see
+    /// [`Prefix::estimate`]).
+    radiance: Vec4,
+    /// 1 if the path met anything that it did not pass straight, the background included; where
+    /// its length ends at a surface, the probability of that.
+    alpha: f32,
+}
+
+/// A light sample before its shadow ray is traced.
+struct Connection {
+    ray: Ray,
+    crossings: u32,
+    /// Everything but what lies in between.
+    complete: Prefix,
+    /// pₜ,ₖ / p₀ of finding the same path by scattering, but for passing what lies in between.
+    by_scattering: Vec4,
+}
+
+impl<'a, S: Sampler> Walk<'a, S> {
+    /// The path of a sample, before its first surface is known.
+    #[inline]
+    pub(crate) fn start<W: World>(
+        world: &W,
+        settings: &PathSettings,
+        site: &PixelSite,
+        sampler: &'a mut S,
+    ) -> Self {
+        let (wavelengths, ray, weight) = camera_ray(world, site, sampler);
+        Self {
+            sampler,
+            wavelengths,
+            weight,
+            ray,
+            hit: None,
+            prefix: Prefix::START,
+            rival: Rival::NONE,
+            eta: 1.0,
+            depth: 1,
+            goes_on: settings.max_depth > 0,
+            connection: None,
+            radiance: Vec4::ZERO,
+            alpha: 0.0,
+        }
+    }
+
+    /// Whether the path goes on.
+    #[inline]
+    pub(crate) fn goes_on(&self) -> bool {
+        self.goes_on
+    }
+
+    /// Delivers what was found.
+    #[inline]
+    pub(crate) fn deliver(&self, sink: &mut impl Sink) {
+        let rgb = sensor_response(&self.wavelengths).rgb(self.radiance * self.weight);
+        sink.radiance(rgb.to_array(), self.alpha);
+    }
+
+    /// Finds the next surface.
+    #[inline]
+    pub(crate) fn advance<W: World>(&mut self, world: &W) {
+        self.hit = world.intersect(&self.ray);
+    }
+
+    /// Meets the surface found: adds what it emits, prepares a light sample, and scatters.
+    #[inline]
+    pub(crate) fn meet<W: World>(&mut self, world: &W, settings: &PathSettings) {
+        self.goes_on = false;
+        let direction = self.ray.direction;
+        let Some(hit) = self.hit else {
+            // A hidden sky stays hidden to rays that only went straight.
+            let visible = !settings.hide_emitters || self.alpha > 0.0;
+            if visible && world.has_background() {
+                self.alpha = 1.0;
+                let radiance = world.background(direction, &self.wavelengths);
+                let other = self.rival.at_background(world, direction);
+                self.radiance += self.prefix.estimate(radiance, other);
+            }
+            return;
+        };
+        let emits = world.is_emitter(&hit);
+        if emits && settings.hide_emitters && self.depth == 1 {
+            // The camera looks through hidden lights.
+            self.ray = world.vertex(&self.ray, &hit).spawn(direction);
+            self.goes_on = true;
+            return;
+        }
+        let last = self.depth == settings.max_depth;
+        if last && !emits && self.alpha > 0.0 {
+            return;
+        }
+        let vertex = world.vertex(&self.ray, &hit);
+        let wo = -direction;
+        if emits {
+            let radiance = world.emitted(&vertex, wo, &self.wavelengths);
+            if radiance != Vec4::ZERO {
+                let other = self.rival.at_surface(world, &vertex, direction);
+                self.radiance += self.prefix.estimate(radiance, other);
+            }
+        }
+        let bsdf = world.bsdf(&vertex, wo, &self.wavelengths);
+        if last {
+            // Where the path would go on we do not ask; how likely straight on, we know.
+            let stopped = 1.0 - 0.25 * bsdf.passing_probability().element_sum();
+            self.alpha = self.alpha.max(stopped);
+            return;
+        }
+        let event = Event::draw(self.sampler, self.depth - 1);
+        if bsdf.has_continuous() {
+            let crossings = settings.max_depth - self.depth - 1;
+            self.connection = self.connect(world, &vertex, &bsdf, wo, crossings, &event);
+        }
+        self.scatter(&vertex, &bsdf, wo, settings, &event);
+    }
+
+    /// Next-event estimation: the light chosen, weighted against scattering.
+    #[inline]
+    fn connect<W: World>(
+        &self,
+        world: &W,
+        vertex: &Vertex,
+        bsdf: &W::Bsdf<'_>,
+        wo: Vec3,
+        crossings: u32,
+        event: &Event,
+    ) -> Option<Connection> {
+        let from = Receiver::from(vertex);
+        let light =
+            world.sample_light(&from, &self.wavelengths, event.light_choice, event.light)?;
+        let (value, density) = bsdf.eval_and_density(wo, light.direction, Mode::Radiance);
+        let contribution = value * light.radiance;
+        if contribution == Vec4::ZERO {
+            return None;
+        }
+        let ray = shadow_ray(vertex, light.direction, light.target)?;
+        let mut complete = self.prefix;
+        complete.extend(contribution, light.chance.lanes());
+        let by_scattering = match light.chance {
+            // Scattering never finds a discrete light.
+            Chance::Discrete(_) => Vec4::ZERO,
+            Chance::Continuous(chosen) => self.prefix.ratio * density.lanes() / chosen.chooser(),
+        };
+        Some(Connection {
+            ray,
+            crossings,
+            complete,
+            by_scattering,
+        })
+    }
+
+    /// Takes the path around the corner, or ends it.
+    #[inline]
+    fn scatter(
+        &mut self,
+        vertex: &Vertex,
+        bsdf: &impl Bsdf,
+        wo: Vec3,
+        settings: &PathSettings,
+        event: &Event,
+    ) {
+        let Some(sample) = bsdf.sample(wo, event.lobe, event.direction, Mode::Radiance) else {
+            self.alpha = 1.0;
+            return;
+        };
+        if !sample.passes {
+            self.alpha = 1.0;
+        }
+        self.rival = self.rival.after(&self.prefix, vertex, &sample);
+        self.prefix.extend(sample.value, sample.chance.lanes());
+        self.eta *= sample.eta;
+        self.ray = vertex.spawn(sample.wi);
+        if self.depth >= settings.rr_depth {
+            let survival = (self.prefix.throughput() * self.eta * self.eta).min(0.95);
+            if !(event.roulette < survival) {
+                return;
+            }
+            self.prefix.survive(survival);
+        }
+        self.depth += 1;
+        self.goes_on = self.prefix.value != Vec4::ZERO;
+    }
+
+    /// Traces the shadow ray of the light sample that was prepared, if any.
+    #[inline]
+    pub(crate) fn see_light<W: World>(&mut self, world: &W) {
+        let Some(light) = self.connection.take() else {
+            return;
+        };
+        if let Some(passage) = world.passage(&light.ray, &self.wavelengths, light.crossings) {
+            let by_scattering = light.by_scattering * passage.probability;
+            self.radiance += light
+                .complete
+                .estimate(passage.transmittance, by_scattering);
+        }
+    }
+}
+
+/// The ray from a vertex to a light's point, or to infinity; `None` if the two coincide.
+#[inline]
+pub(crate) fn shadow_ray(vertex: &Vertex, direction: Vec3, target: Option<Vec3>) -> Option<Ray> {
+    match target {
+        None => Some(vertex.spawn(direction)),
+        Some(target) => Ray::between(vertex.origin_toward(target), target, vertex.time),
+    }
+}
