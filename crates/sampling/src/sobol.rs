@@ -22,7 +22,7 @@
 use crate::hash::{derived_key, fold_multiply};
 use crate::sampler::{PixelSample, Sampler};
 use glam::Vec2;
-use wide::{f32x4, u32x4};
+use wide::{f32x8, u32x8};
 
 /// Owen-scrambled Sobol' coordinates.
 ///
@@ -33,10 +33,10 @@ pub struct Sobol {
     key: u64,
     reversed_sample: u32,
     dimension: u32,
-    group: u32,
-    /// The four coordinates of `group`. All are computed at once, in the lanes of one vector:
-    /// four cost little more than one.
-    coordinates: [f32; 4],
+    pair: u32,
+    /// The eight coordinates of two groups, 2·`pair` and the next. All are computed at once, in
+    /// the lanes of one vector: eight cost little more than one.
+    coordinates: [f32; 8],
 }
 
 impl Sobol {
@@ -49,18 +49,18 @@ impl Sobol {
             key,
             reversed_sample,
             dimension: 0,
-            group: 0,
+            pair: 0,
             coordinates: coordinates(key, reversed_sample, 0),
         }
     }
 
-    /// Makes the group of `dimension` the current one.
+    /// Makes the groups of `dimension` the current ones.
     #[inline]
-    fn enter_group_of(&mut self, dimension: u32) {
-        let group = dimension / 4;
-        if group != self.group {
-            self.group = group;
-            self.coordinates = coordinates(self.key, self.reversed_sample, group);
+    fn enter_groups_of(&mut self, dimension: u32) {
+        let pair = dimension / 8;
+        if pair != self.pair {
+            self.pair = pair;
+            self.coordinates = coordinates(self.key, self.reversed_sample, pair);
         }
     }
 }
@@ -70,21 +70,17 @@ impl Sampler for Sobol {
     fn next_1d(&mut self) -> f32 {
         let dimension = self.dimension;
         self.dimension += 1;
-        self.enter_group_of(dimension);
-        self.coordinates[dimension as usize % 4]
+        self.enter_groups_of(dimension);
+        self.coordinates[dimension as usize % 8]
     }
 
     #[inline]
     fn next_2d(&mut self) -> Vec2 {
         let dimension = self.dimension.next_multiple_of(2);
         self.dimension = dimension + 2;
-        self.enter_group_of(dimension);
-        let [x0, y0, x1, y1] = self.coordinates;
-        if dimension.is_multiple_of(4) {
-            Vec2::new(x0, y0)
-        } else {
-            Vec2::new(x1, y1)
-        }
+        self.enter_groups_of(dimension);
+        let first = dimension as usize % 8;
+        Vec2::new(self.coordinates[first], self.coordinates[(first + 1) % 8])
     }
 
     #[inline]
@@ -106,31 +102,44 @@ const SCRAMBLES: [u64; 4] = [
     0x8ebc_6af0_9c88_c6e3,
 ];
 
-/// The four coordinates of a group of dimensions.
+/// The eight coordinates of the two groups 2·`pair` and 2·`pair` + 1, four lanes each.
 #[inline]
-fn coordinates(pixel_key: u64, reversed_sample: u32, group: u32) -> [f32; 4] {
-    let key = derived_key(pixel_key, group);
+fn coordinates(pixel_key: u64, reversed_sample: u32, pair: u32) -> [f32; 8] {
+    let keys = [2 * pair, 2 * pair + 1].map(|group| derived_key(pixel_key, group));
+    let [p, q] = keys;
     // The shuffled index, its least significant digit lowest: the first digit of x.
-    let index = nested_uniform_scramble(reversed_sample, key).reverse_bits();
-    let other = pascal_gf4(index);
-    let digits = pascal_of_odd_lanes(u32x4::new([index, index, other, other]));
+    let shuffled = nested_uniform_scramble(
+        u32x8::splat(reversed_sample),
+        halves([p, p, p, p, q, q, q, q]),
+    );
+    let digits = pascal_of_odd_lanes(pascal_gf4_of_upper_lanes(reverse_bits(shuffled)));
     let [a, b, c, d] = SCRAMBLES;
-    let (a, b) = (fold_multiply(key, a), fold_multiply(key, b));
-    let (c, d) = (fold_multiply(key, c), fold_multiply(key, d));
-    let low = u32x4::new([a as u32, b as u32, c as u32, d as u32]);
-    let upper = |word: u64| (word >> 32) as u32;
-    let high = u32x4::new([upper(a), upper(b), upper(c), upper(d)]);
-    random_floats(reverse_bits(nested_uniform_scramble_lanes(
-        digits, low, high,
-    )))
+    let scrambles = halves([
+        fold_multiply(p, a),
+        fold_multiply(p, b),
+        fold_multiply(p, c),
+        fold_multiply(p, d),
+        fold_multiply(q, a),
+        fold_multiply(q, b),
+        fold_multiply(q, c),
+        fold_multiply(q, d),
+    ]);
+    random_floats(reverse_bits(nested_uniform_scramble(digits, scrambles)))
 }
 
-/// Pascal's matrix over GF(2) applied, in the second and fourth lane, to digits stored least
-/// significant first: bit i of the result is the parity of the bits j of `a` with C(j, i) odd. By
-/// Lucas' theorem the matrix is a product of five sparse ones, one per binary digit of j.
+/// The low and the high halves of eight words.
 #[inline]
-fn pascal_of_odd_lanes(mut a: u32x4) -> u32x4 {
-    let odd = |mask: u32| u32x4::new([0, mask, 0, mask]);
+fn halves(words: [u64; 8]) -> [u32x8; 2] {
+    let half = |shift: u32| u32x8::new(words.map(|word| (word >> shift) as u32));
+    [half(0), half(32)]
+}
+
+/// Pascal's matrix over GF(2) applied, in every second lane, to digits stored least significant
+/// first: bit i of the result is the parity of the bits j of `a` with C(j, i) odd. By Lucas'
+/// theorem the matrix is a product of five sparse ones, one per binary digit of j.
+#[inline]
+fn pascal_of_odd_lanes(mut a: u32x8) -> u32x8 {
+    let odd = |mask: u32| u32x8::new([0, mask, 0, mask, 0, mask, 0, mask]);
     a ^= (a >> 1) & odd(0x5555_5555);
     a ^= (a >> 2) & odd(0x3333_3333);
     a ^= (a >> 4) & odd(0x0f0f_0f0f);
@@ -138,11 +147,38 @@ fn pascal_of_odd_lanes(mut a: u32x4) -> u32x4 {
     a ^ ((a >> 16) & odd(u32::MAX))
 }
 
+/// Pascal's matrix over GF(4) with parameter ω, applied, in the last two lanes of each four, to
+/// the sixteen base-4 digits of `a`. Its sparse factors, one per binary digit 2ˢ of j, carry
+/// ω^(2ˢ): ω, ω², ω, ω².
+#[inline]
+fn pascal_gf4_of_upper_lanes(mut a: u32x8) -> u32x8 {
+    let upper = |mask: u32| u32x8::new([0, 0, mask, mask, 0, 0, mask, mask]);
+    a ^= times_omega((a >> 2) & upper(0x3333_3333));
+    a ^= times_omega_squared((a >> 4) & upper(0x0f0f_0f0f));
+    a ^= times_omega((a >> 8) & upper(0x00ff_00ff));
+    a ^ times_omega_squared((a >> 16) & upper(u32::MAX))
+}
+
+/// Multiplies sixteen elements h·ω + l of GF(4), two bits each, by ω: ω² = ω + 1, so
+/// h·ω + l becomes (h + l)·ω + h.
+#[inline]
+fn times_omega(a: u32x8) -> u32x8 {
+    let low = u32x8::splat(0x5555_5555);
+    let high: u32x8 = (a >> 1) & low;
+    ((a & low) << 1) ^ (high << 1) ^ high
+}
+
+/// Multiplies sixteen elements of GF(4) by ω² = ω + 1.
+#[inline]
+fn times_omega_squared(a: u32x8) -> u32x8 {
+    times_omega(a) ^ a
+}
+
 /// The bits of each lane in reverse order.
 #[inline]
-fn reverse_bits(mut a: u32x4) -> u32x4 {
-    let swap = |a: u32x4, shift: u32, mask: u32| {
-        let mask = u32x4::splat(mask);
+fn reverse_bits(mut a: u32x8) -> u32x8 {
+    let swap = |a: u32x8, shift: u32, mask: u32| {
+        let mask = u32x8::splat(mask);
         ((a >> shift) & mask) | ((a & mask) << shift)
     };
     a = swap(a, 1, 0x5555_5555);
@@ -152,40 +188,9 @@ fn reverse_bits(mut a: u32x4) -> u32x4 {
     (a >> 16) | (a << 16)
 }
 
-/// [`crate::hash::random_float`] of four numbers.
-#[inline]
-fn random_floats(bits: u32x4) -> [f32; 4] {
-    const STEP: f32 = 1.0 / (1 << 24) as f32;
-    let bits: u32x4 = bits >> 8u32;
-    (bits.cast_signed().round_float() * f32x4::splat(STEP)).to_array()
-}
-
-/// Pascal's matrix over GF(4) with parameter ω, applied to the sixteen base-4 digits of `a`.
-/// Its sparse factors, one per binary digit 2ˢ of j, carry ω^(2ˢ): ω, ω², ω, ω².
-#[inline]
-fn pascal_gf4(mut a: u32) -> u32 {
-    a ^= times_omega((a >> 2) & 0x3333_3333);
-    a ^= times_omega_squared((a >> 4) & 0x0f0f_0f0f);
-    a ^= times_omega((a >> 8) & 0x00ff_00ff);
-    a ^ times_omega_squared(a >> 16)
-}
-
-/// Multiplies sixteen elements h·ω + l of GF(4), two bits each, by ω: ω² = ω + 1, so
-/// h·ω + l becomes (h + l)·ω + h.
-#[inline]
-fn times_omega(a: u32) -> u32 {
-    let high = (a >> 1) & 0x5555_5555;
-    ((a & 0x5555_5555) << 1) ^ (high << 1) ^ high
-}
-
-/// Multiplies sixteen elements of GF(4) by ω² = ω + 1.
-#[inline]
-fn times_omega_squared(a: u32) -> u32 {
-    times_omega(a) ^ a
-}
-
 /// Owen's nested uniform scrambling of the digits of `x`, stored first digit lowest: each
-/// digit is flipped or not, at random, depending on all digits before it.
+/// digit is flipped or not, at random, depending on all digits before it. Keys come in two
+/// halves, lower first.
 ///
 /// Additions, odd multiplications and x ^= x·(even) carry information only upwards, which is
 /// all that nesting asks (Laine & Karras 2011; Burley 2020). Published forms multiply by
@@ -193,26 +198,22 @@ fn times_omega_squared(a: u32) -> u32 {
 /// are parts of the key, and any two flips of the first six digits are independent to within
 /// what a million keys can tell. Pairs are what the variance of a scrambled net depends on.
 #[inline]
-fn nested_uniform_scramble(mut x: u32, key: u64) -> u32 {
-    let (low, high) = (key as u32, (key >> 32) as u32);
-    x = x.wrapping_add(low);
-    x ^= x.wrapping_mul(high << 1);
-    x = x.wrapping_mul((high >> 15) | 1);
-    x = x.wrapping_add(high);
-    x ^= x.wrapping_mul((low >> 7) << 1);
-    x.wrapping_mul((low >> 15) | 1)
-}
-
-/// [`nested_uniform_scramble`] of four numbers at once, with keys in two halves.
-#[inline]
-fn nested_uniform_scramble_lanes(mut x: u32x4, low: u32x4, high: u32x4) -> u32x4 {
-    let one = u32x4::splat(1);
+fn nested_uniform_scramble(mut x: u32x8, [low, high]: [u32x8; 2]) -> u32x8 {
+    let one = u32x8::splat(1);
     x += low;
     x ^= x * (high << 1);
     x *= (high >> 15) | one;
     x += high;
     x ^= x * ((low >> 7) << 1);
     x * ((low >> 15) | one)
+}
+
+/// [`crate::hash::random_float`] of eight numbers.
+#[inline]
+fn random_floats(bits: u32x8) -> [f32; 8] {
+    const STEP: f32 = 1.0 / (1 << 24) as f32;
+    let bits: u32x8 = bits >> 8u32;
+    (bits.cast_signed().round_float() * f32x8::splat(STEP)).to_array()
 }
 
 #[cfg(test)]
