@@ -102,6 +102,20 @@ impl TileMeans {
         &self.values[plane * tiles..(plane + 1) * tiles]
     }
 
+    /// Adds the replicates of another batch of the same estimator, after those there are.
+    ///
+    /// # Errors
+    /// If they are of other tiles or channels; nothing is added then.
+    pub fn append(&mut self, other: &Self) -> Result<(), String> {
+        let shape = |means: &Self| (means.side, means.columns, means.rows, means.channels);
+        if shape(self) != shape(other) {
+            return Err("the tile means are of different tiles or channels".to_owned());
+        }
+        self.values.extend_from_slice(&other.values);
+        self.replicates += other.replicates;
+        Ok(())
+    }
+
     /// Adds a replicate: the sums of its tiles, to be divided by `divisor` and the number of
     /// pixels; `None` where they were out of range.
     pub(crate) fn push(&mut self, sums: &TileSums, divisor: u64, size: [u32; 2]) {

@@ -7,6 +7,7 @@ use crate::scene::Scene;
 use crate::surfaces::{self, Emitting, Surfaces};
 use etalon_cameras::{AnyCamera, FilmWindow};
 use etalon_film::{FilmSettings, Filter};
+use etalon_geometry::AcceleratorKind;
 use etalon_lights::{Bounds, LightDescription, LightSet};
 use etalon_params::{Class, Diagnostic, Diagnostics, Node, Params, Property, plugins};
 use etalon_transport::{Assets, Build, LightId, Role};
@@ -30,6 +31,16 @@ pub struct Compiled {
 /// Compiles the `<scene>` node `root`. `None` if anything was wrong; the mistakes, as many as
 /// could be found in one run, are in `diagnostics`.
 pub fn compile(root: &Node, assets: &dyn Assets, diagnostics: &Diagnostics) -> Option<Compiled> {
+    compile_with(root, assets, diagnostics, AcceleratorKind::default())
+}
+
+/// As [`compile`], with accelerators of a certain kind.
+pub fn compile_with(
+    root: &Node,
+    assets: &dyn Assets,
+    diagnostics: &Diagnostics,
+    accelerator: AcceleratorKind,
+) -> Option<Compiled> {
     let params = Params::new(root, diagnostics);
     let mut builder = Builder::new(assets, diagnostics);
     let sensor = sensor(&params, diagnostics);
@@ -45,7 +56,7 @@ pub fn compile(root: &Node, assets: &dyn Assets, diagnostics: &Diagnostics) -> O
     let (camera, film, sampler) = sensor?;
     builder.textures.finish_reading();
     let start = Instant::now();
-    let geometry = surfaces.geometry.build();
+    let geometry = surfaces.geometry.build_with(accelerator);
     let build_time = start.elapsed();
     let bounds = geometry.bounds();
     let lookup = Lookup {

@@ -12,6 +12,7 @@ pub mod sampler;
 pub mod scene;
 pub mod surfaces;
 
-pub use compile::{Compiled, compile};
+pub use compile::{Compiled, compile, compile_with};
+pub use etalon_geometry::AcceleratorKind;
 pub use sampler::SamplerSettings;
 pub use scene::Scene;
