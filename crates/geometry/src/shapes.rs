@@ -207,7 +207,7 @@ impl Shape {
                 }
             }
         };
-        (sampled.density > 0.0 && sampled.density.is_finite()).then_some(sampled)
+        (sampled.density > 0.0 && sampled.density < f32::INFINITY).then_some(sampled)
     }
 
     /// The density per unit solid angle with which [`Shape::sample_toward`] from `from` chooses

@@ -62,10 +62,12 @@ impl AreaLight {
         u: Vec2,
     ) -> Option<LightSample> {
         let SampledPoint { point, density } = scene.sample_toward(self.shape, from, u)?;
-        let direction = (point.position - from.position).try_normalize()?;
-        if !(density > 0.0 && point.normal.dot(direction) < 0.0) {
+        let to = point.position - from.position;
+        // Also false where the two coincide, or are farther apart than numbers go.
+        if !(density > 0.0 && point.normal.dot(to) < 0.0) {
             return None;
         }
+        let direction = to / to.length();
         Some(LightSample {
             direction,
             target: Some(point.origin_toward(from.position)),

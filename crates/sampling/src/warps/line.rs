@@ -32,15 +32,8 @@ pub fn tent_density(x: f32) -> f32 {
 #[inline]
 pub fn interval_to_linear(u: f32, a: f32, b: f32) -> f32 {
     let root = (a * a + u * (b - a) * (b + a)).max(0.0).sqrt();
-    let x = u * (a + b) / (a + root);
-    // a = 0 and u = 0 is 0/0.
-    if x < 1.0 {
-        x
-    } else if x >= 1.0 {
-        1.0
-    } else {
-        0.0
-    }
+    // a = 0 and u = 0 would be 0/0.
+    (u * (a + b) / (a + root).max(f32::MIN_POSITIVE)).min(1.0)
 }
 
 /// The inverse of [`interval_to_linear`].
