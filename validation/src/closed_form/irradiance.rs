@@ -1,7 +1,10 @@
 //! The irradiance of the plane z = 0 under a light of radiance L, at the point (x, y).
 //!
 //! - Sphere of radius r at height h: E = π L (r/d)² h/d, with d the distance of its centre, as
-//!   long as all of it is above the plane.
+//!   long as all of it is above the plane. Of a sphere that the plane cuts only a part is seen
+//!   (Snyder, "Area light sources for real-time graphics", 1996): with cos ω = h/d, sin σ = r/d,
+//!   x = cot σ, y = −x cot ω, z = sin ω √(1 − y²),
+//!   E = L [(cos ω acos y − x z) sin² σ + atan(z/x)].
 //! - Parallel disk of radius r at height h, at the distance a from its axis:
 //!   E = π L · ½ [1 − (a² + h² − r²) / √((a² + h² + r²)² − 4 a² r²)].
 //! - Polygon with the corners rᵢ as seen from the point: E = L/2 · Σ γᵢ n·(rᵢ × rᵢ₊₁)/|rᵢ × rᵢ₊₁|
@@ -14,14 +17,14 @@ use super::light::{known, rgb};
 use super::pixels;
 use crate::claim::Claim;
 use etalon::judge::Known;
-use etalon_math::float64::{acos, cos, sin};
+use etalon_math::float64::{acos, atan, cos, sin};
 use std::f64::consts::PI;
 
 /// Half the width of what the camera sees (m).
 const HALF_WIDTH: f64 = 2.0;
 
 /// E/L at a point, as a function of the claim's numbers.
-type Irradiance = Box<dyn Fn(f64, f64) -> f64>;
+pub type Irradiance = Box<dyn Fn(f64, f64) -> f64>;
 
 /// The picture of the plane under a light of the given kind.
 pub fn picture(
@@ -29,13 +32,33 @@ pub fn picture(
     size: [u32; 2],
     light: impl Fn(&Claim) -> Result<Irradiance, String>,
 ) -> Result<Known, String> {
+    plane(claim, size, [0.0, HALF_WIDTH], &light(claim)?)
+}
+
+/// The picture of a part of the plane beside the light, `view_half_width` to either side of
+/// x = `view_x`.
+pub fn beside(
+    claim: &Claim,
+    size: [u32; 2],
+    light: impl Fn(&Claim) -> Result<Irradiance, String>,
+) -> Result<Known, String> {
+    let view = [claim.number("view_x")?, claim.number("view_half_width")?];
+    plane(claim, size, view, &light(claim)?)
+}
+
+/// The picture of the plane from `half_width` left of `centre` to as much right of it.
+fn plane(
+    claim: &Claim,
+    size: [u32; 2],
+    [centre, half_width]: [f64; 2],
+    irradiance: &Irradiance,
+) -> Result<Known, String> {
     let reflectance = claim.number("reflectance")?;
     let radiance = claim.number("radiance")?;
-    let irradiance = light(claim)?;
     let unit = rgb(|_| reflectance * radiance / PI);
     Ok(known(size, |column, row| {
         let mean = pixels::mean(size, [column, row], |x, y| {
-            irradiance(HALF_WIDTH * x, HALF_WIDTH * y)
+            irradiance(centre + half_width * x, half_width * y)
         });
         unit.map(|c| c * mean)
     }))
@@ -46,7 +69,15 @@ pub fn sphere(claim: &Claim) -> Result<Irradiance, String> {
     let (h, r) = (claim.number("height")?, claim.number("radius")?);
     Ok(Box::new(move |x, y| {
         let d = (x * x + y * y + h * h).sqrt();
-        PI * (r / d) * (r / d) * h / d
+        let (sine, cosine) = (r / d, h / d);
+        if h >= r {
+            return PI * sine * sine * cosine;
+        }
+        let across = (1.0 - cosine * cosine).sqrt();
+        let cot = (1.0 / (sine * sine) - 1.0).sqrt();
+        let y = -cot * cosine / across;
+        let z = across * (1.0 - y * y).sqrt();
+        (cosine * acos(y) - cot * z) * sine * sine + atan(z / cot)
     }))
 }
 
@@ -73,8 +104,9 @@ pub fn rectangle(claim: &Claim) -> Result<Irradiance, String> {
     }))
 }
 
-/// Lambert's sum for the normal (0, 0, 1).
-fn lambert(corners: &[[f64; 3]]) -> f64 {
+/// Lambert's sum for the normal (0, 0, 1) and the corners as seen from the point: twice E/L, with
+/// the sign of the turn.
+pub fn lambert(corners: &[[f64; 3]]) -> f64 {
     let dot = |a: [f64; 3], b: [f64; 3]| a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
     (0..corners.len())
         .map(|i| {
@@ -105,7 +137,7 @@ mod tests {
                 let d = [p[0] - x, p[1] - y, p[2]];
                 let square = d[0] * d[0] + d[1] * d[1] + d[2] * d[2];
                 let facing = -(d[0] * n[0] + d[1] * n[1] + d[2] * n[2]);
-                facing.max(0.0) * d[2] / (square * square) * area
+                facing.max(0.0) * d[2].max(0.0) / (square * square) * area
             })
             .sum()
     }
@@ -143,6 +175,23 @@ mod tests {
             });
             let expected = by_definition(lights, x, y);
             assert!((irradiance(x, y) / expected - 1.0).abs() < 1e-4);
+        }
+    }
+
+    #[test]
+    fn a_sphere_is_cut_by_the_plane() {
+        // (height, radius, distance along the plane, E/L): ∫ cos θ dω over the visible part of the
+        // cone, by mpmath's quadrature to 15 digits.
+        let numbers = [
+            (0.1, 0.3, 1.5, 0.010_382_056_894_715),
+            (0.0, 0.3, 0.5, 0.163_501_108_793_284),
+            (0.1, 0.3, 4.0, 0.000_548_419_568_318_992),
+        ];
+        for (height, radius, distance, expected) in numbers {
+            let numbers = [("height", height), ("radius", radius)];
+            let irradiance = sphere(&claim(&numbers)).expect("numbers");
+            let found = irradiance(0.6 * distance, -0.8 * distance);
+            assert!((found / expected - 1.0).abs() < 1e-12, "{found} {expected}");
         }
     }
 

@@ -3,13 +3,21 @@
 //! Every file holds one formula with its source. The numbers of a scene come from its claim's
 //! `defines`, so that scene and formula cannot disagree.
 
+pub mod blackbody;
 pub mod colour_checker;
+pub mod delta_lights;
+pub mod form_factors;
 pub mod furnace;
 pub mod integrating_sphere;
 pub mod irradiance;
 pub mod light;
+pub mod mesh_light;
+pub mod metamers;
+pub mod mirror_room;
+pub mod pile_of_plates;
 pub mod pixels;
 pub mod prism;
+pub mod spectra;
 
 use crate::claim::Claim;
 use etalon::judge::Known;
@@ -26,6 +34,22 @@ pub fn picture(formula: &str, claim: &Claim, size: [u32; 2]) -> Result<Known, St
         "irradiance of a sphere" => irradiance::picture(claim, size, irradiance::sphere),
         "irradiance of a disk" => irradiance::picture(claim, size, irradiance::disk),
         "irradiance of a rectangle" => irradiance::picture(claim, size, irradiance::rectangle),
+        "irradiance beside a sphere" => irradiance::beside(claim, size, irradiance::sphere),
+        "irradiance beside a disk" => irradiance::beside(claim, size, irradiance::disk),
+        "irradiance beside a rectangle" => irradiance::beside(claim, size, irradiance::rectangle),
+        "irradiance of a mesh" => irradiance::picture(claim, size, mesh_light::mesh),
+        "irradiance of a point light" => delta_lights::point(claim, size),
+        "irradiance of a spot light" => delta_lights::spot(claim, size),
+        "irradiance of a directional light" => delta_lights::directional(claim, size),
+        "form factor of parallel rectangles" => form_factors::parallel_picture(claim, size),
+        "form factor of perpendicular rectangles" => {
+            form_factors::perpendicular_picture(claim, size)
+        }
+        "pile of plates" => pile_of_plates::picture(claim, size),
+        "mirror room" => mirror_room::picture(claim, size),
+        "black body" => blackbody::picture(claim, size),
+        "metamers that match" => metamers::matching(claim, size),
+        "metamers" => metamers::picture(claim, size),
         "prism" => prism::picture(claim, size),
         "colour checker" => colour_checker::picture(claim, size),
         other => Err(format!("there is no closed form called `{other}`")),

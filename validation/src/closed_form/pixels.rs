@@ -23,9 +23,37 @@ pub fn mean(size: [u32; 2], [column, row]: [u32; 2], f: impl Fn(f64, f64) -> f64
     sum
 }
 
+/// As [`mean`], with the rule in each of `cells` × `cells` parts of the pixel: for functions with
+/// kinks.
+pub fn mean_of_cells(
+    size: [u32; 2],
+    [column, row]: [u32; 2],
+    cells: u32,
+    f: impl Fn(f64, f64) -> f64,
+) -> f64 {
+    let fine = size.map(|n| n * cells);
+    let sum: f64 = (0..cells * cells)
+        .map(|i| {
+            let cell = [column * cells + i % cells, row * cells + i / cells];
+            mean(fine, cell, &f)
+        })
+        .sum();
+    sum / f64::from(cells * cells)
+}
+
 #[cfg(test)]
 mod tests {
-    use super::mean;
+    use super::{mean, mean_of_cells};
+
+    #[test]
+    fn cells_make_up_the_pixel() {
+        let f = |x: f64, y: f64| x * x - 3.0 * x * y;
+        let (whole, parts) = (mean([6, 4], [4, 1], f), mean_of_cells([6, 4], [4, 1], 3, f));
+        assert!((whole - parts).abs() < 1e-14);
+        // |x| over the pixel from −1/3 to 1/3.
+        let kink = mean_of_cells([3, 3], [1, 1], 2, |x, _| x.abs());
+        assert!((kink - 1.0 / 6.0).abs() < 1e-14);
+    }
 
     #[test]
     fn polynomials_are_exact() {
