@@ -18,6 +18,7 @@ pub mod ptracer;
 pub mod render;
 mod rival;
 pub mod settings;
+pub mod signature;
 mod walk;
 
 pub use list::{AnyIntegrator, names};

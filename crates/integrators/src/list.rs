@@ -7,6 +7,7 @@ use crate::moment::Moment;
 use crate::path::Path;
 use crate::ptracer::ParticleTracer;
 use crate::render::{Outcome, Plan, Progress, render};
+use crate::signature::Signature;
 use etalon_params::{Class, Diagnostics, Node, Params, plugins};
 use etalon_sampling::Sampler;
 use etalon_transport::{Channel, Film, Integrator, PixelSite, Sink, World};
@@ -94,6 +95,7 @@ integrators! {
     "path" => Path: |p| Some(Path::from_params(p));
     "direct" => Direct: |p| Some(Direct::from_params(p));
     "depth" => Depth: |p| Some(Depth::from_params(p));
+    "signature" => Signature: |p| Some(Signature::from_params(p));
     "ptracer" => ParticleTracer: |p| Some(ParticleTracer::from_params(p));
     "aov" => Aov: Aov::from_params;
     "moment" => Moment: Moment::from_params;
