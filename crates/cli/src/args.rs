@@ -41,6 +41,19 @@ Examples:
   etalon compare a.exr b.exr
   etalon compare a.exr b.exr --report difference.html --bound 0.01")]
     Compare(CompareArgs),
+    /// Measure which of several estimators is better on a scene, and by how much.
+    ///
+    /// Every combination of the integrators, samplers and filters takes part. Ratios are to the
+    /// first. A short pilot fixes how much each renders before anything is measured.
+    #[command(after_help = "\
+Exit codes: 0 measured, 2 bad input or usage.
+
+Examples:
+  etalon estimators scene.xml --integrators path,ptracer --time 60
+  etalon estimators scene.xml --samplers independent,stratified,sobol --time 60 --report noise.html
+  etalon estimators scene.xml --integrators path,direct --reference converged.exr --time 30 \\
+    --json figures.json")]
+    Estimators(EstimatorsArgs),
     /// Turn an image into a picture one can look at (PNG, sRGB), or into HDR or PFM.
     #[command(after_help = "\
 Exit codes: 0 done, 2 bad input or usage.
@@ -120,6 +133,57 @@ pub struct CompareArgs {
     /// Probability of calling equal images different.
     #[arg(long, value_name = "ALPHA", default_value_t = 0.001)]
     pub alpha: f64,
+}
+
+/// Arguments of `estimators`.
+#[derive(Debug, Args, Clone)]
+pub struct EstimatorsArgs {
+    /// The scene (Mitsuba 3 XML).
+    pub scene: PathBuf,
+    /// Integrators, each in place of the scene's innermost one [default: the scene's].
+    #[arg(long, value_name = "A,B,…", value_delimiter = ',')]
+    pub integrators: Vec<String>,
+    /// Samplers: independent, stratified, sobol [default: the scene's].
+    #[arg(long, value_name = "A,B,…", value_delimiter = ',')]
+    pub samplers: Vec<String>,
+    /// Reconstruction filters: box, tent, gaussian, … [default: the scene's].
+    #[arg(long, value_name = "A,B,…", value_delimiter = ',')]
+    pub filters: Vec<String>,
+    /// Time for all rendering together (s).
+    #[arg(long, value_name = "SECONDS")]
+    pub time: f64,
+    /// A converged picture to measure errors against [default: rendered with the first estimator].
+    #[arg(long, value_name = "FILE.exr")]
+    pub reference: Option<PathBuf>,
+    /// Share of the time for rendering a reference.
+    #[arg(
+        long,
+        value_name = "SHARE",
+        default_value_t = 0.3,
+        conflicts_with = "reference"
+    )]
+    pub reference_share: f64,
+    /// Write a self-contained HTML report.
+    #[arg(long, value_name = "OUT.html")]
+    pub report: Option<PathBuf>,
+    /// Write everything that was found as JSON (docs/estimators-json.md).
+    #[arg(long, value_name = "FILE.json")]
+    pub json: Option<PathBuf>,
+    /// Seed of all randomness.
+    #[arg(long, value_name = "S", default_value_t = 0)]
+    pub seed: u64,
+    /// Threads [default: one per processor].
+    #[arg(long, value_name = "T", value_parser = clap::value_parser!(u32).range(1..=1024))]
+    pub threads: Option<u32>,
+    /// Give a scene parameter ($key) a value.
+    #[arg(short = 'D', value_name = "key=value", value_parser = parse_define)]
+    pub define: Vec<(String, String)>,
+    /// Folder with further data (`NAME.eta.spd` of metals, such as Mitsuba's data/ior).
+    #[arg(long, value_name = "DIR")]
+    pub data: Vec<PathBuf>,
+    /// Say nothing but the result and errors.
+    #[arg(short, long)]
+    pub quiet: bool,
 }
 
 /// Arguments of `convert`.

@@ -6,6 +6,7 @@
 pub mod args;
 pub mod commands;
 pub mod diagnose;
+pub mod estimators;
 pub mod judge;
 pub mod pipeline;
 pub mod progress;

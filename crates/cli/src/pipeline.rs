@@ -257,8 +257,8 @@ pub struct Rendered {
 const PIXEL_BYTES: u64 = 64 + 8 + 8;
 
 /// Refuses a film that the memory cannot hold, rather than let the system end the process.
-fn check_memory(film: &FilmSettings, channels: usize, place: Span) -> Result<(), Diagnostic> {
-    let [width, height] = film.crop_size.to_array().map(u64::from);
+pub(crate) fn check_memory(loaded: &Loaded, channels: usize) -> Result<(), Diagnostic> {
+    let [width, height] = loaded.compiled.film.crop_size.to_array().map(u64::from);
     let needed = (width * height).saturating_mul(channels as u64 * PIXEL_BYTES);
     match resources::available_memory_bytes() {
         Some(available) if needed > available => {
@@ -269,7 +269,7 @@ fn check_memory(film: &FilmSettings, channels: usize, place: Span) -> Result<(),
                 gib(needed),
                 gib(available)
             );
-            Err(Diagnostic::error(place, message)
+            Err(Diagnostic::error(loaded.film_place, message)
                 .help("render a smaller film, or crop it (`crop_width`, `crop_offset_x`, …)"))
         }
         _ => Ok(()),
@@ -290,7 +290,7 @@ pub fn render<P: Progress>(
     let channels = loaded.integrator.channels();
     let format = compiled.film.pixel_format;
     let planes = format.colours().len() + usize::from(format.has_alpha()) + channels.len();
-    check_memory(&compiled.film, planes, loaded.film_place)?;
+    check_memory(loaded, planes)?;
     let mut film = ExactFilm::new(compiled.film.clone(), &channels)
         .map_err(|error| at(error, loaded.film_place))?;
     let outcome = loaded

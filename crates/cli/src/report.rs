@@ -10,12 +10,14 @@ use maud::{DOCTYPE, Markup, PreEscaped, html};
 
 /// The look of all reports.
 pub const STYLE: &str = "\
-body{font:15px/1.5 system-ui,sans-serif;max-width:70rem;margin:2rem auto;padding:0 1rem;color:#222}\
-table{border-collapse:collapse;margin:1rem 0}td,th{padding:.25rem .7rem;border-bottom:1px solid #ddd;text-align:right}\
-th{font-weight:600;border-bottom:2px solid #999}td:first-child,th:first-child{text-align:left}\
-figure{display:inline-block;margin:.5rem}img{image-rendering:pixelated;min-width:256px;max-width:30rem}\
-figcaption{color:#555;font-size:.9em}.agrees{color:#176d2c}.differs{color:#b3261e;font-weight:600}\
-.undecided{color:#8a5a00}";
+:root{color-scheme:light dark;--text:#222;--quiet:#555;--line:#ddd;--rule:#999;--page:#fff;--good:#176d2c;--bad:#b3261e;--open:#8a5a00}\
+@media(prefers-color-scheme:dark){:root{--text:#e4e4e4;--quiet:#aaa;--line:#3a3a3a;--rule:#777;--page:#161616;--good:#7bd68f;--bad:#ff9a90;--open:#f0c060}}\
+body{font:15px/1.5 system-ui,sans-serif;max-width:70rem;margin:2rem auto;padding:0 1rem;color:var(--text);background:var(--page);overflow-wrap:break-word}\
+table{border-collapse:collapse;margin:1rem 0;display:block;overflow-x:auto}td,th{padding:.25rem .7rem;border-bottom:1px solid var(--line);text-align:right;vertical-align:top}\
+th{font-weight:600;border-bottom:2px solid var(--rule)}td:first-child,th:first-child{text-align:left}\
+figure{display:inline-block;margin:.5rem .5rem .5rem 0;max-width:100%}img{image-rendering:pixelated;min-width:min(256px,calc(100vw - 3rem));max-width:min(30rem,calc(100vw - 3rem))}\
+figcaption,small{color:var(--quiet);font-size:.9em}pre{overflow-x:auto}td,th{overflow-wrap:normal}small{white-space:nowrap}\
+.agrees{color:var(--good)}.differs{color:var(--bad);font-weight:600}.undecided{color:var(--open)}";
 
 /// A whole page.
 pub fn page(title: &str, body: &Markup) -> String {
@@ -24,6 +26,7 @@ pub fn page(title: &str, body: &Markup) -> String {
         html lang="en" {
             head {
                 meta charset="utf-8";
+                meta name="viewport" content="width=device-width, initial-scale=1";
                 title { (title) }
                 style { (PreEscaped(STYLE)) }
             }
@@ -101,6 +104,20 @@ pub fn identical([first, second]: [String; 2]) -> String {
     let body = html! {
         p { "Verdict: " (verdict(Verdict::Agrees)) ". " (first) " and " (second)
             " hold the same numbers in every channel." }
+    };
+    page("Comparison of two images", &body)
+}
+
+/// The report of `etalon compare` on images that cannot be judged, for this reason.
+pub fn inconclusive(
+    reason: &str,
+    first: &Developed,
+    second: &Developed,
+    names: &[String; 2],
+) -> String {
+    let body = html! {
+        p { "Verdict: " (verdict(Verdict::Undecided)) ", inconclusive: " (reason) "." }
+        (pictures(first, second, names))
     };
     page("Comparison of two images", &body)
 }

@@ -32,6 +32,14 @@ pub fn run(args: &CompareArgs) -> ExitCode {
     if identical(&first.image, &second.image) {
         return say_identical(args);
     }
+    let size = |image: &Image| (image.width(), image.height());
+    let unfit = [(&args.a, &first), (&args.b, &second)]
+        .into_iter()
+        .find_map(|(path, image)| Some(format!("{} {}", path.display(), unfit(image)?)));
+    // Images of different sizes are bad input, whatever they carry.
+    if let (Some(reason), true) = (unfit, size(&first.image) == size(&second.image)) {
+        return say_inconclusive(args, &reason, [&first, &second]);
+    }
     if let Some(seed) = shared_seed(&first, &second) {
         note(format!(
             "both images were rendered with seed {seed}: what they share of their noise \
@@ -65,6 +73,43 @@ pub fn run(args: &CompareArgs) -> ExitCode {
         Verdict::Undecided => ExitCode::from(INCONCLUSIVE),
     };
     answer(&text, code)
+}
+
+/// Why an image does not carry what a judgement is made of, if it does not.
+fn unfit(image: &Developed) -> Option<String> {
+    let Some(metadata) = &image.metadata else {
+        return Some("was not written by Etalon: it has no replicates to judge by".to_owned());
+    };
+    if metadata.replicates < 2 {
+        return Some(
+            "has a single replicate and so no standard error: render it with --replicates"
+                .to_owned(),
+        );
+    }
+    let whole = metadata.tiles(None);
+    whole
+        .is_none_or(|means| means.replicates() < 2)
+        .then(|| "carries no tile means of its replicates: there is nothing to judge by".to_owned())
+}
+
+/// Says that these images cannot be judged, which is no pass.
+fn say_inconclusive(args: &CompareArgs, reason: &str, images: [&Developed; 2]) -> ExitCode {
+    if let Some(path) = &args.report {
+        let names = [&args.a, &args.b].map(|path| path.display().to_string());
+        let html = report::inconclusive(reason, images[0], images[1], &names);
+        if let Err(error) = write_atomically(path, |file| file.write_all(html.as_bytes())) {
+            return fail(format!("cannot write {}: {error}", path.display()));
+        }
+    }
+    let verdict = Verdict::Undecided.to_string();
+    let text = match args.json {
+        true => format!(
+            "{:#}\n",
+            serde_json::json!({ "verdict": verdict, "reason": reason })
+        ),
+        false => format!("inconclusive: {reason}\n"),
+    };
+    answer(&text, ExitCode::from(INCONCLUSIVE))
 }
 
 /// Whether two images hold the same numbers in the same channels, bit for bit. Such images are

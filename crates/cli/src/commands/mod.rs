@@ -2,6 +2,7 @@
 
 pub mod compare;
 pub mod convert;
+pub mod estimators;
 pub mod info;
 pub mod render;
 
@@ -17,6 +18,7 @@ pub fn run(command: &Command) -> ExitCode {
     match command {
         Command::Render(args) => render::run(args),
         Command::Compare(args) => compare::run(args),
+        Command::Estimators(args) => estimators::run(args),
         Command::Convert(args) => convert::run(args),
         Command::Info(args) => info::run(args),
     }

@@ -97,7 +97,7 @@ fn check_paths(args: &RenderArgs) -> Result<(), String> {
 }
 
 /// Refuses a place where no file can be made.
-fn check_place(path: &Path) -> Result<(), String> {
+pub(super) fn check_place(path: &Path) -> Result<(), String> {
     let refuse = |reason: &dyn Display| Err(format!("cannot write {}: {reason}", path.display()));
     if path.is_dir() {
         return refuse(&"it is a folder");

@@ -6,7 +6,7 @@ use crate::workshop::Workshop;
 fn help_has_examples_and_exit_codes() {
     let workshop = Workshop::new();
     let help = workshop.run(&["--help"]).fine().stdout;
-    for command in ["render", "compare", "convert", "info"] {
+    for command in ["render", "compare", "estimators", "convert", "info"] {
         assert!(help.contains(&format!("\n  {command} ")), "{help}");
         let help = workshop.run(&[command, "--help"]).fine().stdout;
         let examples = help.split("Examples:\n").nth(1).expect("examples");
@@ -16,14 +16,7 @@ fn help_has_examples_and_exit_codes() {
     }
     assert!(help.contains("Exit codes:"), "{help}");
     // What is not built yet is not offered.
-    for absent in [
-        "merge",
-        "serve",
-        "denoise",
-        "--checkpoint",
-        "--resume",
-        "--time",
-    ] {
+    for absent in ["merge", "serve", "denoise", "--checkpoint", "--resume"] {
         let all = ["render", "compare", "convert", "info"]
             .map(|command| workshop.run(&[command, "--help"]).fine().stdout)
             .concat();
@@ -53,6 +46,8 @@ fn nonsense_is_refused() {
         &["render", "a.xml", "-o", "a.exr", "--replicates", "0"],
         &["render", "a.xml", "-o", "a.exr", "-D", "=1"],
         &["compare", "a.exr"],
+        &["estimators", "a.xml"],
+        &["estimators", "--time", "3"],
         &["convert", "a.exr"],
         &["info"],
     ] {

@@ -122,8 +122,20 @@ fn what_cannot_be_compared_is_refused() {
     refused("broken.exr", "broken.exr");
     workshop.render("large.exr", &["-D", "resx=25", "--spp", "2", "-q"]);
     refused("large.exr", "differ in size: 24 × 20 and 25 × 20");
+    for option in ["--bound=0", "--bound=nan", "--tile-bound=-1", "--alpha=1"] {
+        compare(&workshop, ["a.exr", "b.exr"], &[option]).refused();
+    }
+}
+
+#[test]
+fn what_carries_no_replicates_is_inconclusive() {
+    let workshop = Workshop::new();
+    workshop.render("a.exr", &["--spp", "16", "-q"]);
+    workshop.render("one.exr", &["--spp", "16", "--replicates", "1", "-q"]);
     let mut image = Image::new(24, 20);
-    image.push("R", vec![1.0; 480]);
+    for name in ["R", "G", "B"] {
+        image.push(name, vec![1.0; 480]);
+    }
     let foreign = Developed {
         image,
         frame: Frame {
@@ -132,11 +144,48 @@ fn what_cannot_be_compared_is_refused() {
         },
         metadata: None,
     };
-    foreign
-        .write_exr(&workshop.path("foreign.exr"))
-        .expect("written");
-    refused("foreign.exr", "not written by Etalon");
-    for option in ["--bound=0", "--bound=nan", "--tile-bound=-1", "--alpha=1"] {
-        compare(&workshop, ["a.exr", "b.exr"], &[option]).refused();
+    let written = foreign.write_exr(&workshop.path("foreign.exr"));
+    written.expect("written");
+    let mut bare = workshop.image("a.exr");
+    let channels = bare.image.clone();
+    bare.image = Image::new(24, 20);
+    for channel in channels.into_channels() {
+        let brighter = channel.samples.iter().map(|v| v * 1.001).collect();
+        bare.image.push(channel.name, brighter);
     }
+    let metadata = bare.metadata.as_mut().expect("metadata");
+    metadata.tile_means.clear();
+    bare.write_exr(&workshop.path("bare.exr")).expect("written");
+    for (name, words) in [
+        ("foreign.exr", "foreign.exr was not written by Etalon"),
+        ("one.exr", "one.exr has a single replicate"),
+        ("bare.exr", "bare.exr carries no tile means"),
+    ] {
+        // Whichever comes first.
+        for names in [["a.exr", name], [name, "a.exr"]] {
+            let ran = compare(&workshop, names, &[]);
+            assert_eq!(ran.code, Some(3), "{name}: {}{}", ran.stdout, ran.stderr);
+            let said = format!("inconclusive: {words}");
+            assert!(ran.stdout.starts_with(&said), "{}", ran.stdout);
+        }
+        let ran = compare(
+            &workshop,
+            ["a.exr", name],
+            &["--json", "--report", "r.html"],
+        );
+        assert_eq!(ran.code, Some(3));
+        let verdict: Value = serde_json::from_str(&ran.stdout).expect("JSON");
+        assert_eq!(verdict["verdict"], "undecided");
+        let reason = verdict["reason"].as_str().expect("a reason");
+        assert!(reason.starts_with(words), "{reason}");
+        let html = String::from_utf8(workshop.read("r.html")).expect("UTF-8");
+        assert!(html.contains("inconclusive"), "{name}");
+    }
+    // Two replicates are few: an interval, but so wide that nothing is decided.
+    workshop.render(
+        "two.exr",
+        &["--spp", "16", "--replicates", "2", "--seed", "4", "-q"],
+    );
+    let ran = compare(&workshop, ["a.exr", "two.exr"], &[]);
+    assert_eq!(ran.code, Some(3), "{}", ran.stdout);
 }

@@ -8,6 +8,7 @@ mod command_line;
 mod compare;
 mod convert;
 mod determinism;
+mod estimators;
 mod failure;
 mod info;
 mod integrators;

@@ -115,8 +115,9 @@ fn one_replicate_has_no_standard_error() {
     assert_eq!(image.image.channels().len(), 3);
     assert_eq!(image.metadata.expect("metadata").replicates, 1);
     workshop.render("b.exr", &["--spp", "8", "--seed", "1"]);
-    let compared = workshop.run(&["compare", "b.exr", "a.exr"]).refused();
-    assert!(compared.stderr.contains("single replicate"));
+    let compared = workshop.run(&["compare", "b.exr", "a.exr"]);
+    assert_eq!(compared.code, Some(3), "{}", compared.stderr);
+    assert!(compared.stdout.contains("single replicate"));
 }
 
 #[test]

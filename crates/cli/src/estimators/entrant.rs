@@ -1,0 +1,189 @@
+//! One estimator that takes part: an integrator, a sampler and a reconstruction filter.
+//!
+//! All share one compiled scene. An integrator is named as for `render --integrator`: it replaces
+//! the innermost one and keeps its depths. A sampler or filter that has the name of the scene's own
+//! is the scene's own, with its parameters; another has Mitsuba's defaults.
+
+use crate::pipeline::{self, LoadOptions, Loaded, Refusal};
+use etalon_film::{FilmSettings, Filter, PixelFormat};
+use etalon_integrators::AnyIntegrator;
+use etalon_params::{Class, Diagnostic, Diagnostics, Node, Params, Sources, Span, Spanned};
+use etalon_sampling::SamplerKind;
+use std::path::Path;
+
+/// An estimator.
+#[derive(Clone, Debug)]
+pub struct Entrant {
+    /// What tells it from the others: `ptracer`, `path, sobol`.
+    pub name: String,
+    /// The integrator.
+    pub integrator: AnyIntegrator,
+    /// Its name, nested ones after a slash.
+    pub integrator_name: String,
+    /// The sampler.
+    pub sampler: SamplerKind,
+    /// Size and crop of the scene's film, with this estimator's filter; always in RGB.
+    pub film: FilmSettings,
+}
+
+/// What takes part; an empty list stands for the scene's own.
+#[derive(Clone, Copy, Debug)]
+pub struct Lists<'a> {
+    /// Names of integrators.
+    pub integrators: &'a [String],
+    /// Names of samplers.
+    pub samplers: &'a [String],
+    /// Names of reconstruction filters.
+    pub filters: &'a [String],
+}
+
+/// Reads the scene, and makes every combination of what is listed.
+///
+/// # Errors
+/// What is wrong with the scene or the lists, as for [`pipeline::load`].
+pub fn gather(
+    path: &Path,
+    options: &LoadOptions,
+    lists: &Lists<'_>,
+) -> Result<(Loaded, Vec<Entrant>), Refusal> {
+    let load = |name: Option<&String>| {
+        let options = LoadOptions {
+            integrator: name.cloned(),
+            ..options.clone()
+        };
+        pipeline::load(path, &options)
+    };
+    for (option, names) in [
+        ("--integrators", lists.integrators),
+        ("--samplers", lists.samplers),
+        ("--filters", lists.filters),
+    ] {
+        refuse_repeated(option, names)?;
+    }
+    let scene = load(lists.integrators.first())?;
+    let mut integrators = vec![(scene.integrator.clone(), scene.integrator_name.clone())];
+    for name in lists.integrators.iter().skip(1) {
+        // Only the integrator is kept: all estimators see the very same scene.
+        let loaded = load(Some(name))?;
+        integrators.push((loaded.integrator, loaded.integrator_name));
+    }
+    let samplers = samplers(lists.samplers, scene.compiled.sampler.kind)?;
+    let filters = filters(lists.filters, scene.compiled.film.filter)?;
+    let mut entrants = Vec::new();
+    for (integrator, integrator_name) in &integrators {
+        for &sampler in &samplers {
+            for &filter in &filters {
+                let parts = [
+                    (integrators.len() > 1, integrator_name.as_str()),
+                    (samplers.len() > 1, pipeline::sampler_name(sampler)),
+                    (filters.len() > 1, filter.name()),
+                ];
+                let told: Vec<&str> = parts.iter().filter(|p| p.0).map(|p| p.1).collect();
+                entrants.push(Entrant {
+                    name: match told.is_empty() {
+                        true => integrator_name.clone(),
+                        false => told.join(", "),
+                    },
+                    integrator: integrator.clone(),
+                    integrator_name: integrator_name.clone(),
+                    sampler,
+                    film: FilmSettings {
+                        filter,
+                        pixel_format: PixelFormat::Rgb,
+                        ..scene.compiled.film.clone()
+                    },
+                });
+            }
+        }
+    }
+    Ok((scene, entrants))
+}
+
+/// A word of the command line that messages can point at.
+struct Word {
+    sources: Sources,
+    plugin: Spanned<String>,
+}
+
+impl Word {
+    fn new(option: &str, word: &str) -> Self {
+        let mut sources = Sources::default();
+        let file = sources.add(option, word);
+        let span = Span {
+            file,
+            start: 0,
+            end: word.len() as u32,
+        };
+        let plugin = Spanned {
+            value: word.to_owned(),
+            span,
+        };
+        Self { sources, plugin }
+    }
+
+    fn refuse(self, diagnostics: Vec<Diagnostic>) -> Refusal {
+        Refusal {
+            diagnostics,
+            sources: self.sources,
+        }
+    }
+}
+
+fn refuse_repeated(option: &str, names: &[String]) -> Result<(), Refusal> {
+    let repeated = (names.iter().enumerate()).find(|(i, name)| names[..*i].contains(name));
+    let Some((_, name)) = repeated else {
+        return Ok(());
+    };
+    let word = Word::new(option, name);
+    let message = format!("`{name}` is listed twice: there is nothing to compare it with");
+    let error = Diagnostic::error(word.plugin.span, message);
+    Err(word.refuse(vec![error]))
+}
+
+fn samplers(names: &[String], own: SamplerKind) -> Result<Vec<SamplerKind>, Refusal> {
+    const KINDS: [SamplerKind; 3] = [
+        SamplerKind::Independent,
+        SamplerKind::Stratified { jitter: true },
+        SamplerKind::Sobol,
+    ];
+    if names.is_empty() {
+        return Ok(vec![own]);
+    }
+    let found = names.iter().map(|name| {
+        let named = |kind: &SamplerKind| pipeline::sampler_name(*kind) == name;
+        let kind = [own].into_iter().chain(KINDS).find(named);
+        kind.ok_or_else(|| {
+            let word = Word::new("--samplers", name);
+            let error = Diagnostic::error(word.plugin.span, format!("unknown sampler `{name}`"))
+                .suggest(name, KINDS.map(pipeline::sampler_name));
+            word.refuse(vec![error])
+        })
+    });
+    found.collect()
+}
+
+fn filters(names: &[String], own: Filter) -> Result<Vec<Filter>, Refusal> {
+    if names.is_empty() {
+        return Ok(vec![own]);
+    }
+    let found = names.iter().map(|name| {
+        if name == own.name() {
+            return Ok(own);
+        }
+        let word = Word::new("--filters", name);
+        let diagnostics = Diagnostics::default();
+        let node = Node {
+            class: Class::ReconstructionFilter,
+            plugin: word.plugin.clone(),
+            id: None,
+            span: word.plugin.span,
+            properties: Vec::new(),
+        };
+        let filter = Filter::from_params(&Params::new(&node, &diagnostics));
+        match diagnostics.has_errors() {
+            true => Err(word.refuse(diagnostics.into_sorted())),
+            false => Ok(filter),
+        }
+    });
+    found.collect()
+}

@@ -1,0 +1,101 @@
+//! What a reader should know before believing the figures of a comparison.
+
+use super::findings::Findings;
+
+/// The reference's noise is small if it is less than this share of an error.
+const CONVERGED: f64 = 0.1;
+
+/// The share of relMSE from which on bias is worth a word.
+const MUCH_BIAS: f64 = 0.1;
+
+/// The p-value of a power law below which it is called none.
+const NO_LINE: f64 = 1e-3;
+
+/// All remarks, each one sentence.
+pub fn about(findings: &Findings) -> Vec<String> {
+    let mut remarks = Vec::new();
+    reference(findings, &mut remarks);
+    let first = findings.estimators.first().map_or("", |row| &row.name);
+    for row in &findings.estimators {
+        let shown = row.differences.iter().filter(|d| d.is_shown());
+        let worst = shown.max_by(|a, b| a.relative.abs().total_cmp(&b.relative.abs()));
+        if let Some(worst) = worst {
+            remarks.push(format!(
+                "`{}` and `{first}` do not estimate the same picture: their means of {} differ by {:+.3} %",
+                row.name,
+                worst.channel,
+                100.0 * worst.relative
+            ));
+        }
+        let bias = &row.equal_time.bias_squared;
+        let share = bias.value.zip(row.equal_time.rel_mse.value);
+        let share = share.map_or(0.0, |(bias, error)| bias / error);
+        if bias.interval.is_some_and(|[low, _]| low > 0.0) && share > MUCH_BIAS {
+            remarks.push(format!(
+                "{:.0} % of the relMSE of `{}` is bias, which no more samples take away",
+                100.0 * share.min(1.0),
+                row.name
+            ));
+        }
+        if row.convergence.exponent.value.is_none() {
+            remarks.push(format!(
+                "`{}` has no exponent: {} sizes do not make a line; give more time",
+                row.name,
+                row.convergence.steps.len()
+            ));
+        }
+        if let Some(p) = row.convergence.p_power_law.filter(|p| *p < NO_LINE) {
+            remarks.push(format!(
+                "the squared error of `{}` does not follow a power law (p = {p:.0e}): its exponent is \
+                 that of a line through a curve",
+                row.name
+            ));
+        }
+        if row.non_finite > 0 {
+            remarks.push(format!(
+                "`{}` had {} contributions that were not finite; they were left out",
+                row.name, row.non_finite
+            ));
+        }
+    }
+    filters(findings, &mut remarks);
+    remarks
+}
+
+/// Whether the reference is good enough.
+fn reference(findings: &Findings, remarks: &mut Vec<String>) {
+    let Some(noise) = findings.reference.rel_mse else {
+        remarks.push(
+            "the reference has no standard errors: its own noise counts as everybody's error"
+                .to_owned(),
+        );
+        return;
+    };
+    let errors = findings.estimators.iter();
+    let errors = errors.filter_map(|row| Some((row.equal_time.rel_mse.value?, &row.name)));
+    if let Some((error, name)) = errors.min_by(|a, b| a.0.total_cmp(&b.0))
+        && !(noise < CONVERGED * error)
+    {
+        let share = match error > 0.0 {
+            true => format!("{:.0} %", 100.0 * noise / error),
+            false => "more than all".to_owned(),
+        };
+        remarks.push(format!(
+            "the reference is not converged: its own relMSE, which was subtracted, is {share} of that \
+             of `{name}`; give it more of the time, or a better file"
+        ));
+    }
+}
+
+/// Filters estimate different pictures, by design.
+fn filters(findings: &Findings, remarks: &mut Vec<String>) {
+    let mut rows = findings.estimators.iter();
+    let Some(first) = rows.next() else { return };
+    if rows.any(|row| row.filter != first.filter) {
+        remarks.push(format!(
+            "the filters differ, and so do the pictures they aim at: against a reference by `{}`, what \
+             another filter blurs or sharpens counts as its bias",
+            first.filter
+        ));
+    }
+}

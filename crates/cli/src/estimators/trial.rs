@@ -1,0 +1,340 @@
+//! A comparison from the scene to the findings: read, try out, fix, measure.
+
+use super::analysis;
+use super::cell::{self, Cell};
+use super::entrant::{self, Entrant, Lists};
+use super::findings::Findings;
+use super::reference::Reference;
+use super::schedule::{Pace, Schedule, Share, Size};
+use crate::pipeline::{self, LoadOptions, Loaded, Refusal};
+use etalon_integrators::Progress;
+use etalon_params::Diagnostic;
+use etalon_sampling::hash::{derived_key, stream_key};
+use std::path::{Path, PathBuf};
+use std::time::Instant;
+
+/// What to compare, and for how long.
+#[derive(Clone, Debug)]
+pub struct Options {
+    /// How to read the scene; its integrator is replaced by each of `integrators`.
+    pub load: LoadOptions,
+    /// The integrators; none stands for the scene's own.
+    pub integrators: Vec<String>,
+    /// The samplers; none stands for the scene's own.
+    pub samplers: Vec<String>,
+    /// The reconstruction filters; none stands for the scene's own.
+    pub filters: Vec<String>,
+    /// The time for all rendering together (s).
+    pub seconds: f64,
+    /// The reference; without one it is rendered.
+    pub reference: Option<PathBuf>,
+    /// The share of the time that rendering a reference is given.
+    pub reference_share: f64,
+    /// Seed of all randomness.
+    pub seed: u64,
+}
+
+impl Default for Options {
+    fn default() -> Self {
+        Self {
+            load: LoadOptions::default(),
+            integrators: Vec::new(),
+            samplers: Vec::new(),
+            filters: Vec::new(),
+            seconds: 60.0,
+            reference: None,
+            reference_share: 0.3,
+            seed: 0,
+        }
+    }
+}
+
+/// Why there is no comparison.
+#[derive(Debug)]
+pub enum Failure {
+    /// The scene or the command line, with places.
+    Refused(Refusal),
+    /// Anything else, in one sentence.
+    Impossible(String),
+    /// Somebody asked to stop.
+    Cancelled,
+}
+
+impl std::fmt::Display for Failure {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        match self {
+            Self::Refused(refusal) => {
+                let first = refusal.diagnostics.first();
+                let text = first.map(|d| d.one_line(&refusal.sources));
+                f.write_str(&text.unwrap_or_else(|| "the scene was refused".to_owned()))
+            }
+            Self::Impossible(reason) => f.write_str(reason),
+            Self::Cancelled => f.write_str("cancelled"),
+        }
+    }
+}
+
+impl std::error::Error for Failure {}
+
+impl From<Refusal> for Failure {
+    fn from(refusal: Refusal) -> Self {
+        Self::Refused(refusal)
+    }
+}
+
+impl From<String> for Failure {
+    fn from(reason: String) -> Self {
+        Self::Impossible(reason)
+    }
+}
+
+/// A comparison that is ready to be measured: what will be rendered is fixed.
+pub struct Trial {
+    scene: Loaded,
+    entrants: Vec<Entrant>,
+    /// A reference from a file.
+    reference: Option<Reference>,
+    schedule: Schedule,
+    options: Options,
+}
+
+/// What the random numbers of a comparison are for.
+#[derive(Clone, Copy)]
+enum Purpose {
+    Pilot,
+    Reference,
+    Measurement,
+}
+
+/// A seed that nothing else has: of picture `index` for one purpose of one estimator.
+fn seed(options: &Options, purpose: Purpose, entrant: usize, cell: usize, index: u32) -> u64 {
+    let key = stream_key(options.seed, purpose as u32);
+    derived_key(
+        derived_key(derived_key(key, entrant as u32), cell as u32),
+        index,
+    )
+}
+
+impl Trial {
+    /// Reads the scene, renders a short pilot with every estimator on the current thread pool, and
+    /// fixes what will be measured.
+    ///
+    /// # Errors
+    /// [`Failure::Refused`] for a scene, integrator, sampler or filter that cannot be used;
+    /// [`Failure::Impossible`] for fewer than two estimators, for a reference that does not fit, or
+    /// if the time is not enough (it says what would be).
+    pub fn prepare(path: &Path, options: &Options) -> Result<Self, Failure> {
+        if !(options.seconds > 0.0 && options.seconds.is_finite()) {
+            return Err("the time must be a positive number of seconds"
+                .to_owned()
+                .into());
+        }
+        if !(0.01..=0.9).contains(&options.reference_share) {
+            return Err("the reference's share must lie between 0.01 and 0.9"
+                .to_owned()
+                .into());
+        }
+        let lists = Lists {
+            integrators: &options.integrators,
+            samplers: &options.samplers,
+            filters: &options.filters,
+        };
+        let (scene, entrants) = entrant::gather(path, &options.load, &lists)?;
+        if let [only] = entrants.as_slice() {
+            return Err(format!(
+                "`{}` alone is no comparison: name two or more integrators, samplers or filters",
+                only.name
+            )
+            .into());
+        }
+        let size = scene.compiled.film.crop_size.to_array().map(|n| n as usize);
+        let reference = options.reference.as_ref();
+        let reference = reference
+            .map(|path| Reference::read(path, size))
+            .transpose()?;
+        check_memory(&scene, &entrants)?;
+        let start = Instant::now();
+        let paces = pilot(&scene, &entrants, options)?;
+        let left = options.seconds - start.elapsed().as_secs_f64();
+        let share = reference.is_none().then_some(options.reference_share);
+        let schedule = Schedule::fix(&paces, left, share).map_err(|needed| {
+            let spent = options.seconds - left;
+            let enough = (1.2 * (needed + spent)).max(0.1);
+            format!(
+                "{} s are not enough for {} estimators: one sample per pixel takes up to {:.2} s, \
+                 and each renders 16 pictures or more; --time {} would do",
+                options.seconds,
+                paces.len(),
+                paces.iter().map(|p| p.seconds).fold(0.0, f64::max),
+                if enough < 1.0 {
+                    (enough * 10.0).ceil() / 10.0
+                } else {
+                    enough.ceil()
+                }
+            )
+        })?;
+        Ok(Self {
+            scene,
+            entrants,
+            reference,
+            schedule,
+            options: options.clone(),
+        })
+    }
+
+    /// The estimators.
+    pub fn entrants(&self) -> &[Entrant] {
+        &self.entrants
+    }
+
+    /// The scene.
+    pub fn scene(&self) -> &Loaded {
+        &self.scene
+    }
+
+    /// What will be rendered.
+    pub fn schedule(&self) -> &Schedule {
+        &self.schedule
+    }
+
+    /// The same with what was rendered another time, so that all pictures (but not their times) are
+    /// those of then; the pilot's schedule depends on the machine.
+    ///
+    /// # Errors
+    /// [`Failure::Impossible`] unless it is of as many estimators, each with at least two pictures of
+    /// every size and a step where samples are equal, and has a reference if and only if none is read.
+    pub fn with_schedule(self, schedule: Schedule) -> Result<Self, Failure> {
+        let enough = |size: &Size| size.samples >= 1 && size.replicates >= 2;
+        let fits = |share: &Share| {
+            let sizes = share.ladder.iter().chain([&share.equal_time]);
+            share.ladder.len() > schedule.equal_samples && sizes.into_iter().all(enough)
+        };
+        let sound = schedule.shares.len() == self.entrants.len()
+            && schedule.shares.iter().all(fits)
+            && schedule.reference.iter().all(enough)
+            && schedule.reference.is_none() == self.reference.is_some();
+        match sound {
+            true => Ok(Self { schedule, ..self }),
+            false => Err("this schedule is of another comparison".to_owned().into()),
+        }
+    }
+
+    /// Camera samples that [`Trial::run`] will take.
+    pub fn samples(&self) -> u64 {
+        let [width, height] = self.scene.compiled.film.crop_size.to_array();
+        self.schedule.samples() * u64::from(width) * u64::from(height)
+    }
+
+    /// Renders and measures everything on the current thread pool.
+    ///
+    /// # Errors
+    /// If memory runs out, a pixel is not finite, or `progress` says to stop.
+    pub fn run<P: Progress>(mut self, progress: &P) -> Result<Findings, Failure> {
+        let start = Instant::now();
+        let reference = match self.reference.take() {
+            Some(reference) => reference,
+            None => self.render_reference(progress)?,
+        };
+        let mut cells: Vec<Vec<Cell>> = (self.schedule.shares.iter())
+            .map(|share| {
+                let sizes = [share.equal_time].into_iter().chain(share.ladder.clone());
+                sizes.map(Cell::new).collect()
+            })
+            .collect();
+        for (entrant, cell, index) in order(&cells) {
+            let estimator = &self.entrants[entrant];
+            let target = &mut cells[entrant][cell];
+            let seed = seed(&self.options, Purpose::Measurement, entrant, cell, index);
+            let samples = target.size.samples;
+            let rendered = cell::render(&self.scene, estimator, samples, seed, progress)?;
+            if progress.cancelled() {
+                return Err(Failure::Cancelled);
+            }
+            let measured = target.add(rendered, &reference, cell == 0);
+            measured.map_err(|reason| format!("{}: {reason}", estimator.name))?;
+        }
+        let seconds = start.elapsed().as_secs_f64();
+        let measured = analysis::Measured {
+            scene: &self.scene,
+            entrants: &self.entrants,
+            options: &self.options,
+            equal_samples: self.schedule.equal_samples,
+            reference: &reference,
+            cells: &cells,
+            seconds,
+        };
+        Ok(analysis::findings(&measured))
+    }
+
+    fn render_reference<P: Progress>(&self, progress: &P) -> Result<Reference, Failure> {
+        let size = self.schedule.reference;
+        let size = size.expect("a schedule without reference is made where there is a file");
+        let seed = seed(&self.options, Purpose::Reference, 0, 0, 0);
+        let share = self.options.reference_share;
+        let entrant = &self.entrants[0];
+        let reference = Reference::render(&self.scene, entrant, size, seed, share, progress)?;
+        match progress.cancelled() {
+            true => Err(Failure::Cancelled),
+            false => Ok(reference),
+        }
+    }
+}
+
+/// Every picture as (estimator, cell, index), those of all cells spread evenly over the run.
+fn order(cells: &[Vec<Cell>]) -> Vec<(usize, usize, u32)> {
+    let mut order = Vec::new();
+    for (entrant, cells) in cells.iter().enumerate() {
+        for (cell, Cell { size, .. }) in cells.iter().enumerate() {
+            for index in 0..size.replicates {
+                let at = (f64::from(index) + 0.5) / f64::from(size.replicates);
+                order.push((at, (entrant, cell, index)));
+            }
+        }
+    }
+    order.sort_by(|a, b| a.0.total_cmp(&b.0));
+    order.into_iter().map(|(_, picture)| picture).collect()
+}
+
+fn check_memory(scene: &Loaded, entrants: &[Entrant]) -> Result<(), Failure> {
+    let planes = entrants.iter().map(|e| 3 + e.integrator.channels().len());
+    let refuse = |diagnostic: Diagnostic| {
+        Failure::Refused(Refusal {
+            diagnostics: vec![diagnostic],
+            sources: scene.sources.clone(),
+        })
+    };
+    pipeline::check_memory(scene, planes.max().unwrap_or(3)).map_err(refuse)
+}
+
+/// The share of the time that the pilot may take, all estimators together.
+const PILOT_SHARE: f64 = 0.05;
+
+/// The pictures of a pilot grow until one takes so long (s), or their share of the time is spent.
+const LONG_ENOUGH: f64 = 0.05;
+
+/// The pace of every estimator, from pictures of 1, 4, 16, … samples per pixel.
+fn pilot(scene: &Loaded, entrants: &[Entrant], options: &Options) -> Result<Vec<Pace>, Failure> {
+    let each = PILOT_SHARE * options.seconds / entrants.len() as f64;
+    let pace = |(entrant, estimator): (usize, &Entrant)| {
+        let sampler = estimator.sampler;
+        let render = |step: u32, samples: u32| {
+            let seed = seed(options, Purpose::Pilot, entrant, 0, step);
+            cell::render(scene, estimator, samples, seed, &())
+        };
+        // The first picture finds cold caches; its time is not used unless it is a long one.
+        let mut spent = render(0, 1)?.seconds;
+        let (mut step, mut samples) = (1, 1);
+        loop {
+            let seconds = render(step, samples)?.seconds;
+            spent += seconds;
+            if seconds >= LONG_ENOUGH || spent + 4.0 * seconds > each {
+                return Ok(Pace {
+                    seconds: (seconds / f64::from(samples)).max(1e-9),
+                    sampler,
+                });
+            }
+            (step, samples) = (step + 1, samples * 4);
+        }
+    };
+    entrants.iter().enumerate().map(pace).collect()
+}
