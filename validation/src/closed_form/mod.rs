@@ -17,6 +17,7 @@ pub mod mirror_room;
 pub mod pile_of_plates;
 pub mod pixels;
 pub mod prism;
+pub mod rgb_patches;
 pub mod spectra;
 
 use crate::claim::Claim;
@@ -48,6 +49,7 @@ pub fn picture(formula: &str, claim: &Claim, size: [u32; 2]) -> Result<Known, St
         "pile of plates" => pile_of_plates::picture(claim, size),
         "mirror room" => mirror_room::picture(claim, size),
         "black body" => blackbody::picture(claim, size),
+        "colours as given" => rgb_patches::picture(claim, size),
         "metamers that match" => metamers::matching(claim, size),
         "metamers" => metamers::picture(claim, size),
         "prism" => prism::picture(claim, size),
