@@ -14,7 +14,7 @@ pub const STYLE: &str = "\
 @media(prefers-color-scheme:dark){:root{--text:#e4e4e4;--quiet:#aaa;--line:#3a3a3a;--rule:#777;--page:#161616;--good:#7bd68f;--bad:#ff9a90;--open:#f0c060}}\
 body{font:15px/1.5 system-ui,sans-serif;max-width:70rem;margin:2rem auto;padding:0 1rem;color:var(--text);background:var(--page);overflow-wrap:break-word}\
 table{border-collapse:collapse;margin:1rem 0;display:block;overflow-x:auto}td,th{padding:.25rem .7rem;border-bottom:1px solid var(--line);text-align:right;vertical-align:top}\
-th{font-weight:600;border-bottom:2px solid var(--rule)}td:first-child,th:first-child{text-align:left}\
+th{font-weight:600;border-bottom:2px solid var(--rule)}td:first-child,th:first-child{text-align:left;position:sticky;left:0;background:var(--page)}\
 figure{display:inline-block;margin:.5rem .5rem .5rem 0;max-width:100%}img{image-rendering:pixelated;min-width:min(256px,calc(100vw - 3rem));max-width:min(30rem,calc(100vw - 3rem))}\
 figcaption,small{color:var(--quiet);font-size:.9em}pre{overflow-x:auto}td,th{overflow-wrap:normal}small{white-space:nowrap}\
 .agrees{color:var(--good)}.differs{color:var(--bad);font-weight:600}.undecided{color:var(--open)}";

@@ -17,7 +17,7 @@ svg.plot text{fill:var(--text)}svg.plot .grid{stroke:var(--line);stroke-width:1}
 svg.plot .curve{fill:none;stroke-width:1.8}svg.plot .fit{fill:none;stroke-width:1.3;stroke-dasharray:5 4;opacity:.75}\
 .s0{stroke:var(--s0);fill:var(--s0)}.s1{stroke:var(--s1);fill:var(--s1)}.s2{stroke:var(--s2);fill:var(--s2)}\
 .s3{stroke:var(--s3);fill:var(--s3)}.s4{stroke:var(--s4);fill:var(--s4)}.s5{stroke:var(--s5);fill:var(--s5)}\
-svg.plot .whisker{stroke:var(--text);stroke-width:1.6;fill:none}svg.plot text{stroke:none}";
+svg.plot .whisker{stroke:var(--text);stroke-width:1.6;fill:none}svg.plot text{stroke:none}svg.plot rect{fill-opacity:.55;stroke:none}";
 
 /// The number of colours.
 const COLOURS: usize = 6;
@@ -228,4 +228,44 @@ fn colour(index: usize) -> String {
 
 fn round(x: f64) -> f64 {
     (10.0 * x).round() / 10.0
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn ticks_are_round_and_few() {
+        let ticks = |low: f64, high: f64| -> Vec<String> {
+            let axis = Axis::new([low, high].into_iter(), [0.0, 100.0]).expect("positive");
+            axis.ticks().into_iter().map(label).collect()
+        };
+        assert_eq!(ticks(1.0, 16.0), ["1", "2", "5", "10"]);
+        assert_eq!(ticks(0.013, 0.21), ["0.02", "0.05", "0.1", "0.2"]);
+        assert_eq!(ticks(2e-4, 3.0), ["0.001", "0.01", "0.1", "1"]);
+        assert_eq!(ticks(1e-9, 1e3).len(), 7);
+        assert!(Axis::new([0.0, -1.0].into_iter(), [0.0, 1.0]).is_none());
+    }
+
+    #[test]
+    fn what_cannot_be_drawn_is_left_out() {
+        let curve = |points: &[[f64; 3]]| Curve {
+            name: "a <name>".to_owned(),
+            points: points.to_vec(),
+            fit: None,
+        };
+        let drawn = |points: &[[f64; 3]]| curves(&[curve(points)], "x", "y").into_string();
+        // An error that was corrected below zero has no logarithm.
+        let html = drawn(&[[1.0, 0.1, 0.01], [2.0, -0.01, 0.01], [4.0, 0.03, 0.05]]);
+        assert_eq!(
+            html.matches("<circle").count(),
+            2 + 1,
+            "two points, one in the legend"
+        );
+        assert!(!html.contains("NaN") && !html.contains("inf"), "{html}");
+        assert!(html.contains("a &lt;name&gt;"));
+        assert!(drawn(&[[1.0, -0.1, 0.01]]).contains("nothing positive"));
+        let nothing = bars(&[("a".to_owned(), Uncertain::default())], "what");
+        assert!(nothing.into_string().contains("nothing positive"));
+    }
 }

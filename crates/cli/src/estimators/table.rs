@@ -182,3 +182,53 @@ pub fn time(seconds: &Uncertain) -> String {
         _ => "unknown".to_owned(),
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn numbers_have_three_digits() {
+        let shown = [0.0, 123456.0, 99.94, 1.2345, 0.012345, -0.5, 3.2e-5, 4.5e7].map(Some);
+        assert_eq!(
+            shown.map(number),
+            [
+                "0", "123456", "99.9", "1.23", "0.0123", "-0.5000", "3.20e-5", "4.50e7"
+            ]
+        );
+        assert_eq!([None, Some(f64::NAN)].map(number), ["–", "–"]);
+    }
+
+    #[test]
+    fn what_is_not_known_is_said() {
+        let known = Uncertain {
+            value: Some(2.0),
+            interval: Some([1.5, 3.0]),
+            at_least: None,
+        };
+        let bound = Uncertain {
+            interval: None,
+            at_least: Some(1.2),
+            ..known
+        };
+        let never = Uncertain {
+            value: None,
+            at_least: Some(f64::INFINITY),
+            ..bound
+        };
+        let open = Uncertain::default();
+        assert_eq!(
+            [known, bound, open].map(|u| factor(&u)),
+            ["2.00 [1.50, 3.00]", "2.00 [≥ 1.20]", "unknown"]
+        );
+        let times = [known, bound, never, open].map(|u| time(&u));
+        assert_eq!(
+            times,
+            ["2.00 s [1.50, 3.00]", "2.00 s [≥ 1.20]", "never", "unknown"]
+        );
+        assert_eq!(
+            [known, open].map(|u| exponent(&u)),
+            ["2.00 [1.50, 3.00]", "–"]
+        );
+    }
+}

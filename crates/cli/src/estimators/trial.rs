@@ -321,15 +321,17 @@ fn pilot(scene: &Loaded, entrants: &[Entrant], options: &Options) -> Result<Vec<
             let seed = seed(options, Purpose::Pilot, entrant, 0, step);
             cell::render(scene, estimator, samples, seed, &())
         };
-        // The first picture finds cold caches; its time is not used unless it is a long one.
-        let mut spent = render(0, 1)?.seconds;
+        // The first picture finds cold caches; its time is spent, but does not count.
+        let cold = render(0, 1)?.seconds;
+        let (mut counted, mut taken) = (0.0, 0.0);
         let (mut step, mut samples) = (1, 1);
         loop {
             let seconds = render(step, samples)?.seconds;
-            spent += seconds;
-            if seconds >= LONG_ENOUGH || spent + 4.0 * seconds > each {
+            counted += seconds;
+            taken += f64::from(samples);
+            if seconds >= LONG_ENOUGH || cold + counted + 4.0 * seconds > each {
                 return Ok(Pace {
-                    seconds: (seconds / f64::from(samples)).max(1e-9),
+                    seconds: (counted / taken).max(1e-9),
                     sampler,
                 });
             }
