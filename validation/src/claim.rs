@@ -9,7 +9,7 @@
 //! resy = 96
 //!
 //! [oracle]
-//! kind = "reference"           # or "closed_form" with `formula`, or "agreement" with an estimator
+//! kind = "reference"           # or one of the others: see `Oracle`
 //! spp = 256                    # how `cargo xtask references` renders it
 //! seeds = 32
 //!
@@ -79,6 +79,50 @@ pub enum Oracle {
         /// The estimator.
         estimator: Box<Estimator>,
     },
+    /// A closed form that states what becomes of energy, as in a furnace: the null hypothesis is
+    /// that none is made and none is lost.
+    Energy {
+        /// The name of the closed form.
+        formula: String,
+    },
+    /// What must not change when something else does: see [`Change`]. The null hypothesis is
+    /// equality, of bits or of statistics.
+    Invariance {
+        /// The estimator without the change.
+        estimator: Box<Estimator>,
+    },
+    /// How fast the squared error falls: its exponent against samples per replicate must be shown
+    /// to lie within each estimator's `exponent`.
+    Convergence {
+        /// The closed form that tells the error.
+        formula: String,
+        /// Samples per replicate, powers of two for Sobol' points.
+        samples: Vec<u32>,
+    },
+    /// Whether standard errors are right: Student's intervals of 68, 95 and 99 % about a pixel's
+    /// mean must be shown to cover the truth at their rate.
+    Noise {
+        /// The closed form that tells the truth.
+        formula: String,
+        /// How many pictures, each with its own seed.
+        seeds: u32,
+        /// How far a rate may be from what it ought to be.
+        tolerance: f64,
+    },
+}
+
+/// What an invariance claim changes, beside an estimator's parameters.
+#[derive(Clone, Copy, Debug, Deserialize, PartialEq, Eq)]
+#[serde(rename_all = "snake_case")]
+pub enum Change {
+    /// 1, 2 and 16 threads: the same bits.
+    Threads,
+    /// The replicates' two halves one after the other or the other way round: the same bits.
+    Order,
+    /// A linear scan for the hierarchy of boxes: the same bits.
+    Accelerator,
+    /// Another of the four wavelengths of each path chooses: the same statistics.
+    Wavelengths,
 }
 
 fn seeds() -> u32 {
@@ -89,6 +133,19 @@ impl Oracle {
     /// Whether equality is claimed, not only equivalence.
     pub fn is_exact(&self) -> bool {
         !matches!(self, Self::Reference { .. })
+    }
+
+    /// The kind, as claims spell it.
+    pub fn kind(&self) -> &'static str {
+        match self {
+            Self::ClosedForm { .. } => "closed_form",
+            Self::Reference { .. } => "reference",
+            Self::Agreement { .. } => "agreement",
+            Self::Energy { .. } => "energy",
+            Self::Invariance { .. } => "invariance",
+            Self::Convergence { .. } => "convergence",
+            Self::Noise { .. } => "noise",
+        }
     }
 }
 
@@ -107,6 +164,10 @@ pub struct Estimator {
     pub quick: Budget,
     /// Work of the default run.
     pub default: Budget,
+    /// What is changed, in an invariance claim.
+    pub change: Option<Change>,
+    /// Between which numbers the exponent of the squared error must lie, in a convergence claim.
+    pub exponent: Option<[f64; 2]>,
     /// Faults that must be found.
     #[serde(default)]
     pub mutants: Vec<Fault>,
@@ -178,7 +239,14 @@ impl Estimator {
         let defines: String = pairs(&self.defines)
             .map(|(key, value)| format!(", {key}={value}"))
             .collect();
-        format!("{integrator}, {sampler}{defines}")
+        let change = match self.change {
+            None => "",
+            Some(Change::Threads) => ", threads",
+            Some(Change::Order) => ", order",
+            Some(Change::Accelerator) => ", accelerator",
+            Some(Change::Wavelengths) => ", wavelengths",
+        };
+        format!("{integrator}, {sampler}{defines}{change}")
     }
 
     /// The budget that must suffice to find a fault: an eighth of the quick run's.
@@ -188,11 +256,6 @@ impl Estimator {
             spp: (spp / 8).max(replicates),
             replicates,
         }
-    }
-
-    /// The budget of a run.
-    pub fn budget(&self, quick: bool) -> Budget {
-        if quick { self.quick } else { self.default }
     }
 }
 
@@ -223,25 +286,73 @@ impl Claim {
             .unwrap_or_default()
             .to_string_lossy()
             .into_owned();
-        if claim.estimators.is_empty() {
-            return Err(error("a claim needs at least one estimator".to_owned()));
+        claim.check().map_err(error)?;
+        Ok(claim)
+    }
+
+    /// What no type can say: numbers that make sense, and fields that belong to the kind.
+    fn check(&self) -> Result<(), String> {
+        if self.estimators.is_empty() {
+            return Err("a claim needs at least one estimator".to_owned());
         }
-        for estimator in &claim.estimators {
+        let sensible = |x: f64| x > 0.0 && x < 1.0;
+        if !sensible(self.bounds.image) || !sensible(self.bounds.tile) {
+            return Err("`bounds` must lie between 0 and 1".to_owned());
+        }
+        let oracle = match &self.oracle {
+            Oracle::Agreement { estimator } | Oracle::Invariance { estimator } => {
+                Some(estimator.as_ref())
+            }
+            Oracle::Convergence { samples, .. } => {
+                if samples.len() < 3 || samples.windows(2).any(|pair| pair[0] >= pair[1]) {
+                    return Err("`samples` must be three or more growing numbers".to_owned());
+                }
+                None
+            }
+            Oracle::Noise {
+                seeds, tolerance, ..
+            } => {
+                if *seeds == 0 || !sensible(*tolerance) {
+                    return Err("`seeds` and `tolerance` must be above 0".to_owned());
+                }
+                None
+            }
+            _ => None,
+        };
+        for estimator in self.estimators.iter().chain(oracle) {
             for budget in [estimator.quick, estimator.default] {
                 if budget.replicates < 2 || budget.spp < budget.replicates {
-                    return Err(error(
-                        "a budget needs at least 2 replicates of at least 1 sample".to_owned(),
-                    ));
+                    return Err(
+                        "a budget needs at least 2 replicates of at least 1 sample".to_owned()
+                    );
                 }
             }
         }
-        Ok(claim)
+        for estimator in &self.estimators {
+            let convergence = matches!(self.oracle, Oracle::Convergence { .. });
+            let invariance = matches!(self.oracle, Oracle::Invariance { .. });
+            match estimator.exponent {
+                Some([low, high]) if low < high && convergence => {}
+                None if !convergence => {}
+                _ => {
+                    return Err(
+                        "`exponent = [low, high]` belongs to every estimator of a convergence \
+                         claim, and to no other"
+                            .to_owned(),
+                    );
+                }
+            }
+            if estimator.change.is_some() && !invariance {
+                return Err("`change` belongs to invariance claims only".to_owned());
+            }
+        }
+        Ok(())
     }
 
     /// Reads all claims in a folder, in the order of their names.
     ///
     /// # Errors
-    /// Says what is wrong with the first file that cannot be read.
+    /// Says what is wrong with every file that cannot be read.
     pub fn read_all(folder: &Path) -> Result<Vec<Self>, String> {
         let entries =
             std::fs::read_dir(folder).map_err(|e| format!("{}: {e}", folder.display()))?;
@@ -250,7 +361,18 @@ impl Claim {
             .filter(|path| path.extension().is_some_and(|e| e == "toml"))
             .collect();
         paths.sort();
-        paths.iter().map(|path| Self::read(path)).collect()
+        let (mut claims, mut errors) = (Vec::new(), Vec::new());
+        for path in &paths {
+            match Self::read(path) {
+                Ok(claim) => claims.push(claim),
+                Err(message) => errors.push(message),
+            }
+        }
+        if errors.is_empty() {
+            Ok(claims)
+        } else {
+            Err(errors.join("\n"))
+        }
     }
 
     /// A number among the scene's parameters.

@@ -1,7 +1,8 @@
 //! Faults planted from outside: worlds that lie in one respect, to show that lies are found.
 //!
 //! A [`Faulty`] world passes every question on to a sound one and falsifies a kind of answer.
-//! The renderer itself has no hooks for this.
+//! The renderer itself has no hooks for this. It may also rotate the lanes of wavelengths, which
+//! is no fault: another wavelength chooses then, and the picture must be the same.
 
 use etalon_math::{Density, SolidAngle};
 use etalon_spectrum::Wavelengths;
@@ -25,6 +26,25 @@ pub enum Fault {
     /// All lights give 2 % too much.
     #[serde(rename = "energy x 1.02")]
     Energy,
+    /// Independent samples where others are claimed: for convergence claims.
+    #[serde(rename = "independent samples")]
+    IndependentSamples,
+    /// Standard errors are too small by √2: for noise claims.
+    #[serde(rename = "standard error / sqrt 2")]
+    StandardError,
+    /// What must be the same bits is of another seed: for invariance claims.
+    #[serde(rename = "another seed")]
+    AnotherSeed,
+}
+
+impl Fault {
+    /// Whether it is a fault of the world, and not of how it is sampled or what is reported.
+    pub fn is_physical(self) -> bool {
+        match self {
+            Self::DroppedCosine | Self::WrongLightDensity | Self::Energy => true,
+            Self::IndependentSamples | Self::StandardError | Self::AnotherSeed => false,
+        }
+    }
 }
 
 impl std::fmt::Display for Fault {
@@ -33,24 +53,32 @@ impl std::fmt::Display for Fault {
             Self::DroppedCosine => "dropped cosine",
             Self::WrongLightDensity => "wrong light density",
             Self::Energy => "energy x 1.02",
+            Self::IndependentSamples => "independent samples",
+            Self::StandardError => "standard error / sqrt 2",
+            Self::AnotherSeed => "another seed",
         })
     }
 }
 
-/// A world with a fault.
+/// A world with a fault, or with other lanes.
 pub struct Faulty<'a, W> {
     world: &'a W,
-    fault: Fault,
+    fault: Option<Fault>,
+    rotation: usize,
 }
 
 impl<'a, W: World> Faulty<'a, W> {
-    /// `world`, but for `fault`.
-    pub fn new(world: &'a W, fault: Fault) -> Self {
-        Self { world, fault }
+    /// `world`, but for `fault`, and with wavelengths' lanes rotated by `rotation`.
+    pub fn new(world: &'a W, fault: Option<Fault>, rotation: usize) -> Self {
+        Self {
+            world,
+            fault,
+            rotation,
+        }
     }
 
     fn energy(&self) -> f32 {
-        if self.fault == Fault::Energy {
+        if self.fault == Some(Fault::Energy) {
             1.02
         } else {
             1.0
@@ -124,7 +152,7 @@ impl<W: World> World for Faulty<'_, W> {
     }
 
     fn wavelengths(&self, u: f32) -> Wavelengths {
-        self.world.wavelengths(u)
+        self.world.wavelengths(u).rotated(self.rotation)
     }
 
     fn intersect(&self, ray: &Ray) -> Option<Hit> {
@@ -142,7 +170,7 @@ impl<W: World> World for Faulty<'_, W> {
     fn bsdf(&self, vertex: &Vertex, wo: Vec3, wavelengths: &Wavelengths) -> Self::Bsdf<'_> {
         FaultyBsdf {
             model: self.world.bsdf(vertex, wo, wavelengths),
-            missing: (self.fault == Fault::DroppedCosine).then_some(vertex.shading.n),
+            missing: (self.fault == Some(Fault::DroppedCosine)).then_some(vertex.shading.n),
         }
     }
 
@@ -171,7 +199,8 @@ impl<W: World> World for Faulty<'_, W> {
     ) -> Option<LightSample> {
         let mut sample = self.world.sample_light(from, wavelengths, u_light, u)?;
         sample.radiance *= self.energy();
-        if let (Fault::WrongLightDensity, Chance::Continuous(density)) = (self.fault, sample.chance)
+        if let (Some(Fault::WrongLightDensity), Chance::Continuous(density)) =
+            (self.fault, sample.chance)
         {
             sample.chance = Chance::Continuous(Density::per_lane(0.5 * density.lanes()));
         }

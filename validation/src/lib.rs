@@ -1,16 +1,27 @@
 //! Claims about pictures, and the decision whether they hold: `cargo xtask validate`.
 //!
 //! A [`claim`] is a TOML file in `validation/claims`: a scene, an oracle (a closed form, a
-//! reference by Mitsuba 3, or another estimator), and the estimators that must agree with it.
-//! [`run`] renders and judges all of them, [`outcome`] corrects over the whole run, and
-//! [`table`] and [`html`] tell people. [`fault`] plants faults to show that they are found.
+//! reference by Mitsuba 3, another estimator, a rate of convergence, …), and the estimators that
+//! must agree with it. [`run`] renders and judges one of them, [`outcome`] looks at all until they
+//! are decided and corrects over the whole run, and [`table`], [`json`] and [`html`] tell people.
+//! [`fault`] plants faults to show that they are found.
 
+pub mod accumulate;
 pub mod claim;
 pub mod closed_form;
+pub mod convergence;
 pub mod fault;
 pub mod folders;
 pub mod html;
+pub mod invariance;
+pub mod json;
+pub mod judged;
+pub mod measure;
+pub mod noise;
 pub mod outcome;
 pub mod reference;
+pub mod rendering;
 pub mod run;
+pub mod state;
 pub mod table;
+pub mod tier;

@@ -5,12 +5,12 @@
 
 use crate::claim::Claim;
 use crate::folders;
-use crate::run;
+use crate::rendering;
 use etalon_film::{Developed, ExactFilm, RenderFacts, read_developed};
 use etalon_images::{Image, write_atomically};
 use serde::{Deserialize, Serialize};
 use std::io::Write;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 /// How a reference was made.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -43,13 +43,32 @@ fn provenance_path(name: &str) -> PathBuf {
     folders::references().join(format!("{name}.json"))
 }
 
+/// How a reference was made.
+///
+/// # Errors
+/// If its description cannot be read.
+pub fn provenance(name: &str) -> Result<Provenance, String> {
+    let path = provenance_path(name);
+    let text = std::fs::read_to_string(&path).map_err(|e| format!("{}: {e}", path.display()))?;
+    serde_json::from_str(&text).map_err(|e| format!("{}: {e}", path.display()))
+}
+
 /// Reads a reference; `scene_hash` must be that of the scene at hand.
 ///
 /// # Errors
-/// If there is none, it cannot be read, or it belongs to another state of the scene.
+/// If there is none, it cannot be read, it belongs to another state of the scene, or it has
+/// numbers that are not finite.
 pub fn read(name: &str, scene_hash: &str) -> Result<Developed, String> {
+    read_in(&folders::references(), name, scene_hash)
+}
+
+/// As [`read`], from a certain folder.
+///
+/// # Errors
+/// As [`read`].
+pub fn read_in(folder: &Path, name: &str, scene_hash: &str) -> Result<Developed, String> {
     let again = format!("make it with `cargo xtask references --only {name}`");
-    let path = provenance_path(name);
+    let path = folder.join(format!("{name}.json"));
     let text =
         std::fs::read_to_string(&path).map_err(|e| format!("{}: {e}; {again}", path.display()))?;
     let provenance: Provenance =
@@ -59,14 +78,18 @@ pub fn read(name: &str, scene_hash: &str) -> Result<Developed, String> {
             "the reference was made from another state of the scene; {again}"
         ));
     }
-    let picture = read_developed(&picture_path(name)).map_err(|e| format!("{e}; {again}"))?;
-    match &picture.metadata {
-        Some(metadata) if metadata.replicates == provenance.seeds => Ok(picture),
-        _ => Err(format!(
-            "{}: not as many replicates as seeds; {again}",
-            picture_path(name).display()
-        )),
+    let path = folder.join(format!("{name}.exr"));
+    let picture = read_developed(&path).map_err(|e| format!("{e}; {again}"))?;
+    let error = |reason: &str| format!("{}: {reason}; {again}", path.display());
+    let metadata = (picture.metadata.as_ref())
+        .ok_or_else(|| error("it has no replicates and so no standard errors"))?;
+    if metadata.replicates != provenance.seeds {
+        return Err(error("not as many replicates as seeds"));
     }
+    if metadata.scene_hash != scene_hash {
+        return Err(error("its scene is not the one its description names"));
+    }
+    rendering::finite(picture).map_err(|reason| error(&reason))
 }
 
 /// What Mitsuba rendered.
@@ -91,8 +114,8 @@ pub struct Rendered {
 /// # Errors
 /// If the scene cannot be read, the pixels do not fit it, or a file cannot be written.
 pub fn write(claim: &Claim, rendered: &Rendered, spp: u32, pixels: &[f32]) -> Result<f64, String> {
-    let defines = run::defines(claim, None);
-    let loaded = run::load(claim, &defines, None)?;
+    let defines = rendering::defines(claim, None);
+    let loaded = rendering::load(claim, &defines, None)?;
     let mut settings = loaded.compiled.film.clone();
     settings.pixel_format = etalon_film::PixelFormat::Rgb;
     let mut film = ExactFilm::new(settings, &[]).map_err(|e| e.message)?;

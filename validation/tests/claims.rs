@@ -17,7 +17,10 @@ fn scenes_load_and_oracles_belong_to_them() {
             .unwrap_or_else(|message| panic!("{name}: {message}"));
         let size = loaded.compiled.film.crop_size.to_array();
         match &claim.oracle {
-            Oracle::ClosedForm { formula } => {
+            Oracle::ClosedForm { formula }
+            | Oracle::Energy { formula }
+            | Oracle::Convergence { formula, .. }
+            | Oracle::Noise { formula, .. } => {
                 let known = closed_form::picture(formula, &claim, size)
                     .unwrap_or_else(|message| panic!("{name}: {message}"));
                 let pixels = (size[0] * size[1]) as usize;
@@ -35,7 +38,7 @@ fn scenes_load_and_oracles_belong_to_them() {
                 assert!(size.iter().all(|n| *n <= 128), "{name} is too large");
                 assert!(*seeds >= 32, "{name} has too few seeds");
             }
-            Oracle::Agreement { .. } => {}
+            Oracle::Agreement { .. } | Oracle::Invariance { .. } => {}
         }
     }
 }
@@ -54,13 +57,65 @@ fn bounds_are_those_that_were_agreed() {
 }
 
 #[test]
+fn exponents_and_tolerances_are_those_that_were_agreed() {
+    let mut found = Vec::new();
+    for claim in claims() {
+        if let Oracle::Noise {
+            seeds, tolerance, ..
+        } = claim.oracle
+        {
+            found.push(format!("{}: {seeds} seeds, ±{tolerance}", claim.name));
+        }
+        for estimator in &claim.estimators {
+            if let Some([low, high]) = estimator.exponent {
+                found.push(format!("{}: {low} … {high}", claim.name));
+            }
+        }
+    }
+    assert_eq!(
+        found,
+        [
+            "convergence-independent: -1.1 … -0.9",
+            "convergence-sobol: -4 … -1.3",
+            "noise-furnace: 16 seeds, ±0.03",
+            "noise-irradiance: 16 seeds, ±0.03",
+        ]
+    );
+}
+
+#[test]
+fn every_kind_of_claim_has_a_mutant() {
+    for kind in [
+        "closed_form",
+        "reference",
+        "energy",
+        "invariance",
+        "convergence",
+        "noise",
+    ] {
+        let mutants = |claim: &Claim| claim.estimators.iter().any(|e| !e.mutants.is_empty());
+        let any = claims()
+            .iter()
+            .any(|claim| claim.oracle.kind() == kind && mutants(claim));
+        assert!(any, "no claim of kind {kind} has a mutant");
+    }
+}
+
+#[test]
 fn every_fault_is_planted_somewhere() {
     let planted: BTreeSet<String> = claims()
         .iter()
         .flat_map(|claim| claim.estimators.iter().flat_map(|e| &e.mutants))
         .map(ToString::to_string)
         .collect();
-    let expected = ["dropped cosine", "energy x 1.02", "wrong light density"];
+    let expected = [
+        "another seed",
+        "dropped cosine",
+        "energy x 1.02",
+        "independent samples",
+        "standard error / sqrt 2",
+        "wrong light density",
+    ];
     assert_eq!(planted, expected.map(str::to_owned).into());
 }
 
@@ -79,22 +134,33 @@ fn a_wrong_claim_says_what_is_wrong() {
             "2 replicates",
         ),
         (good.replace("[[estimators]]", "[estimator]"), "estimator"),
+        (
+            good.replace("quick =", "exponent = [-1.0, -2.0]\nquick ="),
+            "exponent",
+        ),
+        (
+            good.replace("quick =", "change = \"threads\"\nquick ="),
+            "change",
+        ),
+        (
+            good.replace(
+                "[[estimators]]",
+                "bounds = { image = -1.0 }\n[[estimators]]",
+            ),
+            "bounds",
+        ),
     ];
     for (text, expected) in cases {
         std::fs::write(&path, text).expect("written");
         let message = Claim::read(&path).expect_err("it is wrong");
+        assert!(
+            Claim::read_all(&folder).is_err(),
+            "one wrong claim stops the run"
+        );
         assert!(message.contains("wrong.toml"), "{message}");
         assert!(message.contains(expected), "{message}");
     }
     std::fs::write(&path, good).expect("written");
     Claim::read(&path).expect("it is right");
     std::fs::remove_dir_all(&folder).expect("removed");
-}
-
-#[test]
-fn a_missing_or_truncated_reference_is_an_error() {
-    let message = reference::read("no-such-claim", "0").expect_err("there is none");
-    assert!(message.contains("cargo xtask references --only no-such-claim"));
-    let message = reference::read("cornell-box", "0").expect_err("another scene's hash");
-    assert!(message.contains("another state of the scene"), "{message}");
 }

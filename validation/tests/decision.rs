@@ -7,8 +7,9 @@ use etalon_images::Image;
 use etalon_statistics::Verdict;
 use etalon_validation::claim::Claim;
 use etalon_validation::folders;
-use etalon_validation::outcome::{self, Outcome};
+use etalon_validation::outcome::{self, Conclusion, Outcome};
 use etalon_validation::run::{self, Options};
+use etalon_validation::tier::Tier;
 
 const WIDTH: usize = 40;
 const HEIGHT: usize = 24;
@@ -134,18 +135,108 @@ fn the_furnace_holds_and_its_mutants_are_found() {
     let claims = Claim::read_all(&folders::claims()).expect("claims can be read");
     let options = Options {
         only: Some("furnace".to_owned()),
-        quick: true,
+        tier: Tier::Quick,
         seed: 3,
     };
     let claims: Vec<Claim> = claims.into_iter().filter(|c| c.name == "furnace").collect();
     let tasks = run::tasks(&claims, &options);
     assert_eq!(tasks.len(), 4);
-    let alpha = outcome::ALPHA / tasks.len() as f64;
-    let compared = tasks
-        .into_iter()
-        .map(|task| (task, run::compare(&task, &options, alpha)))
-        .collect();
-    for row in outcome::decide(compared) {
+    let rows = outcome::run(tasks, &options, None, |_| ()).expect("a plan");
+    for row in &rows {
         assert_eq!(row.outcome, Outcome::Passed, "{:?}", row.task.fault);
     }
+    assert_eq!(Conclusion::of(&rows).exit_code(), 0);
+}
+
+#[test]
+fn batches_together_are_as_if_rendered_at_once() {
+    use etalon_validation::accumulate::merge;
+    let (a, b) = (picture(5, |_, _| 0.0), picture(6, |_, _| 0.0));
+    let both = merge(&a, &b).expect("batches of one estimator");
+    let facts = both.metadata.as_ref().expect("statistics");
+    assert_eq!(facts.replicates, 32);
+    for channel in ["R", "G", "B"] {
+        // The whole image's mean is a tile, and a mean of pixels.
+        let (means, _) = etalon::judge::replicates(facts, channel, None).expect("means");
+        assert_eq!(means.len(), 32);
+        let mean = means.iter().sum::<f64>() / 32.0;
+        let pixels = both.image.channel(channel).expect("a channel");
+        let other = pixels.iter().map(|x| f64::from(*x)).sum::<f64>() / pixels.len() as f64;
+        assert!((mean - other).abs() < 1e-6 * mean, "{mean} {other}");
+        // The noise is 5 % of the truth, over the root of 32 replicates; mutant rejected: standard
+        // errors averaged, which would be √2 times as great.
+        let errors = both.standard_error(channel).expect("standard errors");
+        let relative = (0..WIDTH * HEIGHT)
+            .map(|i| f64::from(errors[i]) / truth(i % WIDTH, i / WIDTH))
+            .sum::<f64>()
+            / (WIDTH * HEIGHT) as f64;
+        let expected = 0.05 / 32.0_f64.sqrt();
+        assert!(
+            (relative / expected - 1.0).abs() < 0.05,
+            "{relative} {expected}"
+        );
+    }
+    let one = merge(&both, &a).err();
+    assert_eq!(one, None, "more batches may follow");
+}
+
+#[test]
+fn an_undecided_comparison_gets_more_replicates_and_is_never_passed() {
+    // Far too few samples for a bound of 0.01 %: two looks, both undecided. α = 10⁻³.
+    let mut claims = Claim::read_all(&folders::claims()).expect("claims can be read");
+    claims.retain(|claim| claim.name == "irradiance-disk");
+    for claim in &mut claims {
+        claim.bounds.image = 1e-4;
+        claim.bounds.rounding = 0.0;
+        for estimator in &mut claim.estimators {
+            estimator.mutants.clear();
+            estimator.quick.spp = 64;
+        }
+    }
+    let options = Options {
+        only: None,
+        tier: Tier::Quick,
+        seed: 1,
+    };
+    let tasks = run::tasks(&claims, &options);
+    let rows = outcome::run(tasks, &options, None, |_| ()).expect("a plan");
+    assert_eq!(rows.len(), 1);
+    assert_eq!(rows[0].outcome, Outcome::Undecided);
+    assert_eq!(rows[0].looks, 2);
+    let compared = rows[0].compared.as_ref().expect("it can be compared");
+    assert_eq!((compared.spp, compared.replicates), (128, 64));
+    assert_eq!(Conclusion::of(&rows).exit_code(), 3);
+}
+
+#[test]
+fn the_json_is_the_one_that_is_described() {
+    use etalon_validation::json::{self, Provenance};
+    let page = std::fs::read_to_string(folders::root().join("docs/validation-json.md"));
+    let page = page.expect("the page can be read");
+    let claims = Claim::read_all(&folders::claims()).expect("claims can be read");
+    let claims: Vec<Claim> = (claims.into_iter())
+        .filter(|c| c.name == "furnace" || c.name == "invariance-bits")
+        .collect();
+    let options = Options {
+        only: None,
+        tier: Tier::Quick,
+        seed: 4,
+    };
+    let tasks = run::tasks(&claims, &options);
+    let rows = outcome::run(tasks, &options, None, |_| ()).expect("a plan");
+    let value = json::of(&rows, &Provenance::of(&options, 1.0));
+    assert_eq!(value["exit_code"], 0);
+    let object = |value: &serde_json::Value| -> Vec<String> {
+        let object = value.as_object().expect("an object");
+        object.keys().cloned().collect()
+    };
+    let row = &value["rows"][0];
+    for field in [object(&value), object(row), object(&value["provenance"])].concat() {
+        assert!(page.contains(&format!("`{field}`")), "{field}");
+    }
+    let command = row["command"].as_str().expect("a command");
+    assert_eq!(
+        command,
+        "cargo xtask validate --quick --only furnace --seed 4"
+    );
 }

@@ -1,23 +1,29 @@
 //! `cargo xtask validate`: renders every claim, decides it, and reports.
 
 use etalon_validation::claim::Claim;
-use etalon_validation::outcome::{self, Outcome};
+use etalon_validation::json::{self, Provenance};
+use etalon_validation::outcome::{self, Conclusion, Progress};
 use etalon_validation::run::{self, Options};
+use etalon_validation::state::State;
+use etalon_validation::tier::Tier;
 use etalon_validation::{folders, html, table};
 use std::io::{IsTerminal, Write};
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
-use std::time::Instant;
+use std::time::{Duration, Instant};
 
 /// What to validate.
 #[derive(Clone, Debug, clap::Args)]
 #[command(
-    after_help = "Exit code: 0 if every claim holds, 1 if any does not or is undecided, 2 if the run could not start.\n\nExamples:\n  cargo xtask validate --quick\n  cargo xtask validate --only irradiance --seed 7\n  cargo xtask validate --list"
+    after_help = "Exit code: 0 if every claim holds, 1 if any does not, 2 if the run or a comparison could not be made, 3 if anything is undecided.\n\nExamples:\n  cargo xtask validate --quick\n  cargo xtask validate --only irradiance --seed 7\n  cargo xtask validate --full\n  cargo xtask validate --quick --json\n  cargo xtask validate --list"
 )]
 pub(crate) struct Arguments {
     /// Small budgets: two minutes on two cores
-    #[arg(long)]
+    #[arg(long, conflicts_with = "full")]
     quick: bool,
+    /// Go on until every bias is bounded below 0.5 %: hours; goes on where it was interrupted
+    #[arg(long)]
+    full: bool,
     /// Only the claims whose names contain this
     #[arg(long, value_name = "NAME")]
     only: Option<String>,
@@ -30,67 +36,154 @@ pub(crate) struct Arguments {
     /// Where to put the report and its JSON [default: target/validation]
     #[arg(long, value_name = "DIR")]
     report: Option<PathBuf>,
+    /// Write the decision as JSON to this file, or to standard output (the table then goes to
+    /// standard error)
+    #[arg(long, value_name = "FILE", num_args = 0..=1, default_missing_value = "-")]
+    json: Option<PathBuf>,
+}
+
+impl Arguments {
+    /// Whether standard output is for JSON.
+    fn json_to_stdout(&self) -> bool {
+        self.json.as_deref() == Some(Path::new("-"))
+    }
+
+    /// Tells people. Whoever reads may stop reading; the reports are written all the same.
+    fn say(&self, text: &str) {
+        let _ = if self.json_to_stdout() {
+            writeln!(std::io::stderr(), "{text}")
+        } else {
+            writeln!(std::io::stdout(), "{text}")
+        };
+    }
+
+    /// Writes JSON where it was asked for.
+    fn write_json(&self, text: &str) -> Result<(), String> {
+        match &self.json {
+            Some(_) if self.json_to_stdout() => {
+                let _ = std::io::stdout().write_all(text.as_bytes());
+                Ok(())
+            }
+            Some(path) => write(path, text),
+            None => Ok(()),
+        }
+    }
 }
 
 /// Runs the validation.
 pub(crate) fn run(arguments: &Arguments) -> ExitCode {
     match validate(arguments) {
-        Ok(true) => ExitCode::SUCCESS,
-        Ok(false) => ExitCode::from(1),
+        Ok(conclusion) => ExitCode::from(conclusion.exit_code()),
         Err(message) => {
             eprintln!("error: {message}");
-            ExitCode::from(2)
+            ExitCode::from(Conclusion::Broken.exit_code())
         }
     }
 }
 
-fn validate(arguments: &Arguments) -> Result<bool, String> {
-    let claims = Claim::read_all(&folders::claims())?;
+fn validate(arguments: &Arguments) -> Result<Conclusion, String> {
+    let mut claims = Claim::read_all(&folders::claims())?;
     if arguments.list {
-        for claim in &claims {
-            println!("{:<26} {}", claim.name, claim.title);
+        if let Some(part) = &arguments.only {
+            claims.retain(|claim| claim.name.contains(part.as_str()));
         }
-        return Ok(true);
+        for claim in &claims {
+            arguments.say(&format!(
+                "{:<28} {:<12} {}",
+                claim.name,
+                claim.oracle.kind(),
+                claim.title
+            ));
+        }
+        arguments.write_json(&format!("{:#}\n", json::list(&claims)))?;
+        return Ok(Conclusion::Passed);
     }
     let options = Options {
         only: arguments.only.clone(),
-        quick: arguments.quick,
+        tier: match (arguments.quick, arguments.full) {
+            (true, _) => Tier::Quick,
+            (_, true) => Tier::Full,
+            _ => Tier::Default,
+        },
         seed: arguments.seed,
     };
     let tasks = run::tasks(&claims, &options);
     if tasks.is_empty() {
         return Err("no claim has such a name: see `cargo xtask validate --list`".to_owned());
     }
+    let state = match options.tier {
+        Tier::Full => Some(State::open(&folders::report().join("full"), options.seed)?),
+        Tier::Quick | Tier::Default => None,
+    };
+    if let Some(kept) = state.as_ref().map(State::len).filter(|kept| *kept > 0) {
+        eprintln!("going on with {kept} batches of an interrupted run");
+    }
     let start = Instant::now();
-    let alpha = outcome::ALPHA / tasks.len() as f64;
-    let count = tasks.len();
-    let mut compared = Vec::with_capacity(count);
-    for (index, task) in tasks.into_iter().enumerate() {
-        if std::io::stderr().is_terminal() {
-            eprint!("\r\x1b[K{} of {count}: {}\r", index + 1, task.claim.name);
-        }
-        compared.push((task, run::compare(&task, &options, alpha)));
+    let rows = outcome::run(tasks, &options, state.as_ref(), |progress| {
+        show(progress, options.tier);
+    })?;
+    if std::io::stderr().is_terminal() {
+        eprint!("\r\x1b[K");
     }
-    let rows = outcome::decide(compared);
-    let seconds = start.elapsed().as_secs_f64();
-
-    let mut text = table::head() + "\n";
+    let provenance = Provenance::of(&options, start.elapsed().as_secs_f64());
+    let mut text = table::head();
     for row in &rows {
-        text += &table::line(row);
         text += "\n";
+        text += &table::line(row);
     }
-    text += &table::summary(&rows, seconds);
     text += "\n";
-    // Whoever reads may stop reading; the report is written all the same.
-    let _ = std::io::stdout().write_all(text.as_bytes());
+    text += &table::summary(&rows, provenance.seconds);
+    arguments.say(&text);
     let folder = arguments.report.clone().unwrap_or_else(folders::report);
     std::fs::create_dir_all(&folder).map_err(|e| format!("{}: {e}", folder.display()))?;
     let page = folder.join("report.html");
-    write(&page, &html::page(&rows, options.seed, seconds))?;
-    let json = table::to_json(&rows, options.seed, options.quick);
-    write(&folder.join("report.json"), &format!("{json:#}\n"))?;
-    let _ = writeln!(std::io::stdout(), "report: {}", page.display());
-    Ok(rows.iter().all(|row| row.outcome == Outcome::Passed))
+    write(&page, &html::page(&rows, &provenance))?;
+    let json = format!("{:#}\n", json::of(&rows, &provenance));
+    write(&folder.join("report.json"), &json)?;
+    arguments.say(&format!("report: {}", page.display()));
+    arguments.write_json(&json)?;
+    if let Some(state) = state {
+        state.finish()?;
+    }
+    Ok(Conclusion::of(&rows))
+}
+
+/// Says how far the run is: on one line of a terminal, and line by line in a full run's log.
+fn show(progress: &Progress<'_>, tier: Tier) {
+    let terminal = std::io::stderr().is_terminal();
+    if !terminal && tier != Tier::Full {
+        return;
+    }
+    let remaining = progress.remaining.map_or(String::new(), |rest| {
+        format!(", about {} left for this look", duration(rest))
+    });
+    let line = format!(
+        "look {}, {} of {}: {} {} (after {}{remaining})",
+        progress.look,
+        progress.done + 1,
+        progress.total,
+        progress.task.claim.name,
+        progress.task.label(),
+        duration(progress.elapsed),
+    );
+    if terminal {
+        eprint!("\r\x1b[K{line}\r");
+    } else {
+        eprintln!("{line}");
+    }
+}
+
+/// Hours, minutes and seconds.
+fn duration(time: Duration) -> String {
+    let seconds = time.as_secs();
+    let (hours, minutes) = (seconds / 3600, seconds / 60 % 60);
+    if hours > 0 {
+        format!("{hours} h {minutes:02} min")
+    } else if minutes > 0 {
+        format!("{minutes} min {:02} s", seconds % 60)
+    } else {
+        format!("{seconds} s")
+    }
 }
 
 fn write(path: &Path, text: &str) -> Result<(), String> {

@@ -1,0 +1,95 @@
+//! Convergence: how fast the squared error falls with the samples of a replicate.
+//!
+//! E|x − t|² = c nᵇ, with b = −1 for independent samples; Owen-scrambled points in d dimensions
+//! reach b = −3 for smooth integrands (Owen 1997) and −1 − 1/d for discontinuous ones (He & Wang
+//! 2015). x are the pixels of one replicate of n samples, t those of the closed form; their mean
+//! squared distance, over pixels, channels and the replicates of a batch, is fitted by a power law
+//! in n. Batches are independent: the exponents of all of them are a sample, and their mean has a
+//! t-distributed error.
+
+use crate::claim::{Budget, Claim, Estimator, Sampler};
+use crate::closed_form;
+use crate::fault::Fault;
+use crate::measure::Measure;
+use crate::rendering;
+use etalon::judge::Known;
+use etalon_film::Developed;
+use etalon_sampling::SamplerKind;
+use etalon_statistics::{Estimate, Line, Summary};
+
+/// Replicates of a batch: two, the fewest that have standard errors.
+const BATCH: u32 = 2;
+
+/// The exponent of an estimator's squared error, judged at `alpha`; and the samples spent.
+///
+/// # Errors
+/// If a picture cannot be rendered or has no error at all.
+pub fn measure(
+    claim: &Claim,
+    (formula, samples): (&str, &[u32]),
+    estimator: &Estimator,
+    fault: Option<Fault>,
+    replicates: u32,
+    (seed, alpha): (u64, f64),
+) -> Result<(Vec<Measure>, u64), String> {
+    let accepted = estimator.exponent.ok_or("there is no `exponent`")?;
+    let estimator = match fault {
+        Some(Fault::IndependentSamples) => &Estimator {
+            sampler: Some(Sampler::Independent),
+            ..estimator.clone()
+        },
+        Some(other) => return Err(format!("`{other}` cannot be planted here")),
+        None => estimator,
+    };
+    let loaded = rendering::load_for(claim, estimator)?;
+    let size = loaded.compiled.film.crop_size.to_array();
+    let known = closed_form::picture(formula, claim, size)?;
+    let mut spent = 0;
+    let mut exponents = Vec::new();
+    for batch in 0..(replicates / BATCH).max(2) {
+        let (mut x, mut y) = (Vec::new(), Vec::new());
+        for (rung, n) in samples.iter().enumerate() {
+            let budget = Budget {
+                spp: n * BATCH,
+                replicates: BATCH,
+            };
+            // All are independent of each other.
+            let number = u64::from(batch) * samples.len() as u64 + rung as u64;
+            let seed = seed.wrapping_add((number + 1) << 32);
+            let plan = rendering::plan(&loaded, estimator, budget, seed);
+            let picture = rendering::picture(&loaded, &plan, None, None)?;
+            x.push(f64::from(plan.samples_per_replicate));
+            y.push(squared_error(&picture, &known)?);
+            spent += u64::from(plan.samples_per_replicate * BATCH);
+        }
+        let fit = Line::fit_power_law(&x, &y).ok_or("there is no error whose fall can be seen")?;
+        exponents.push(fit.slope.value());
+    }
+    let summary = Summary::of(&exponents).ok_or("too few batches")?;
+    let sampler = estimator.sampler.map_or(SamplerKind::Sobol, Into::into);
+    let name = format!(
+        "exponent of {} points",
+        etalon::pipeline::sampler_name(sampler)
+    );
+    let exponent = Measure::new(name, &Estimate::mean(&summary), accepted, alpha);
+    Ok((vec![exponent], spent))
+}
+
+/// The mean over pixels, channels and replicates of the squared error:
+/// (1/R) Σ (xᵢ − t)² = (R − 1) s² + (m − t)², with s the standard error of the mean m.
+fn squared_error(picture: &Developed, known: &Known) -> Result<f64, String> {
+    let missing = "the picture has no standard errors";
+    let metadata = picture.metadata.as_ref().ok_or(missing)?;
+    let freedom = f64::from(metadata.replicates) - 1.0;
+    let (mut sum, mut count) = (0.0, 0_u32);
+    for (channel, truth) in &known.channels {
+        let means = picture.image.channel(channel).ok_or(missing)?;
+        let errors = picture.standard_error(channel).ok_or(missing)?;
+        for ((mean, error), truth) in means.iter().zip(errors).zip(truth) {
+            let (error, off) = (f64::from(*error), f64::from(*mean) - truth);
+            sum += freedom * error * error + off * off;
+            count += 1;
+        }
+    }
+    Ok(sum / f64::from(count))
+}

@@ -1,0 +1,172 @@
+//! Invariance of bits: threads, the order of replicates, and the accelerator change nothing.
+//!
+//! Accumulation is exact and a sample is a pure function of its address, so these are promises
+//! about every bit of every channel and of every tile mean, and a single difference breaks them.
+
+use crate::claim::{Change, Claim, Estimator};
+use crate::fault::Fault;
+use crate::measure::Measure;
+use crate::rendering;
+use etalon::pipeline::Loaded;
+use etalon_film::{Developed, ExactFilm};
+use etalon_formats::FileAssets;
+use etalon_formats::mitsuba::{self, ReadOptions};
+use etalon_integrators::Plan;
+use etalon_params::Diagnostics;
+use etalon_scene::{AcceleratorKind, Compiled};
+
+/// Numbers of threads that must give the same bits.
+const THREADS: [usize; 3] = [1, 2, 16];
+
+/// How many numbers a change alters; `None` for a change whose statistics are compared.
+///
+/// # Errors
+/// If a picture cannot be rendered.
+pub fn measure(
+    claim: &Claim,
+    estimator: &Estimator,
+    loaded: &Loaded,
+    plan: &Plan,
+    fault: Option<Fault>,
+) -> Result<Option<(Vec<Measure>, Developed)>, String> {
+    // The fault: the changed picture is of another seed.
+    let other = match fault {
+        None => *plan,
+        Some(Fault::AnotherSeed) => Plan {
+            seed: plan.seed ^ 1,
+            ..*plan
+        },
+        Some(_) => return Ok(None),
+    };
+    let first = || rendering::picture(loaded, plan, None, None);
+    Ok(Some(match estimator.change {
+        None | Some(Change::Wavelengths) => return Ok(None),
+        Some(Change::Threads) => {
+            let first = on_threads(1, first)?;
+            let mut measures = Vec::new();
+            for count in &THREADS[1..] {
+                let changed =
+                    on_threads(*count, || rendering::picture(loaded, &other, None, None))?;
+                measures.push(Measure::certain(
+                    format!("numbers that {count} threads change"),
+                    differing(&first, &changed, 0),
+                ));
+            }
+            (measures, first)
+        }
+        Some(Change::Order) => {
+            let halves = halves(plan);
+            let changed = self::halves(&other);
+            let first = one_after_another(loaded, halves)?;
+            let swapped = one_after_another(loaded, [changed[1], changed[0]])?;
+            let count = differing(&first, &swapped, halves[0].replicates);
+            let name = "numbers that the order of replicates changes".to_owned();
+            (vec![Measure::certain(name, count)], first)
+        }
+        Some(Change::Accelerator) => {
+            let first = first()?;
+            let compiled = linear(claim, estimator, loaded)?;
+            let mut film = film(&compiled)?;
+            let scene = &compiled.scene;
+            loaded.integrator.render(scene, &mut film, &other, &());
+            let facts = rendering::facts(loaded, &other, loaded.integrator_name.clone());
+            let changed = rendering::finite(film.develop(facts))?;
+            let name = "numbers that a linear scan changes".to_owned();
+            (
+                vec![Measure::certain(name, differing(&first, &changed, 0))],
+                first,
+            )
+        }
+    }))
+}
+
+fn on_threads(
+    count: usize,
+    work: impl FnOnce() -> Result<Developed, String> + Send,
+) -> Result<Developed, String> {
+    let pool = rayon::ThreadPoolBuilder::new().num_threads(count).build();
+    pool.map_err(|e| e.to_string())?.install(work)
+}
+
+/// Two independent halves of a plan.
+fn halves(plan: &Plan) -> [Plan; 2] {
+    let half = Plan {
+        replicates: plan.replicates.div_ceil(2),
+        ..*plan
+    };
+    let rest = Plan {
+        seed: plan.seed ^ 0x5eed,
+        ..half
+    };
+    [half, rest]
+}
+
+fn film(compiled: &Compiled) -> Result<ExactFilm, String> {
+    ExactFilm::new(compiled.film.clone(), &[]).map_err(|e| e.message)
+}
+
+/// All replicates of one plan, then those of another, in one film.
+fn one_after_another(loaded: &Loaded, plans: [Plan; 2]) -> Result<Developed, String> {
+    let compiled = &loaded.compiled;
+    let mut film = film(compiled)?;
+    for plan in &plans {
+        let scene = &compiled.scene;
+        loaded.integrator.render(scene, &mut film, plan, &());
+    }
+    let facts = rendering::facts(loaded, &plans[0], loaded.integrator_name.clone());
+    rendering::finite(film.develop(facts))
+}
+
+/// The claim's scene behind a linear scan.
+fn linear(claim: &Claim, estimator: &Estimator, loaded: &Loaded) -> Result<Compiled, String> {
+    let read = mitsuba::read(
+        &loaded.path,
+        &ReadOptions {
+            defines: rendering::defines(claim, Some(estimator)),
+            integrator: estimator.integrator.clone(),
+            search: Vec::new(),
+        },
+    );
+    let refused = "the scene could not be compiled with a linear scan";
+    let document = read.document.ok_or(refused)?;
+    let assets = FileAssets::new(document.search.clone());
+    let diagnostics = Diagnostics::silent_about(&read.stand_ins);
+    let kind = AcceleratorKind::Linear;
+    etalon_scene::compile_with(&document.root, &assets, &diagnostics, kind)
+        .ok_or_else(|| refused.to_owned())
+}
+
+/// How many numbers of two pictures differ in their bits; the second's replicates begin with the
+/// first's replicate `shift`.
+fn differing(first: &Developed, second: &Developed, shift: u32) -> usize {
+    let (Some(a), Some(b)) = (&first.metadata, &second.metadata) else {
+        return 1;
+    };
+    if a.channels != b.channels || a.replicates != b.replicates {
+        return 1;
+    }
+    let unequal = |x: &[f32], y: &[f32]| {
+        let pairs = x.iter().zip(y);
+        pairs.filter(|(x, y)| x.to_bits() != y.to_bits()).count() + x.len().abs_diff(y.len())
+    };
+    let mut count = 0;
+    for name in &a.channels {
+        for name in [
+            name.clone(),
+            format!("{}{name}", etalon_film::STANDARD_ERROR),
+        ] {
+            let plane = |of: &Developed| of.image.channel(&name).map(<[f32]>::to_vec);
+            let (x, y) = (plane(first), plane(second));
+            count += unequal(&x.unwrap_or_default(), &y.unwrap_or_default());
+        }
+    }
+    for (x, y) in a.tile_means.iter().zip(&b.tile_means) {
+        for replicate in 0..x.replicates() {
+            let other = (replicate + shift) % x.replicates();
+            for channel in 0..x.channels() {
+                count += unequal(x.plane(replicate, channel), y.plane(other, channel));
+            }
+        }
+    }
+    count
+}

@@ -1,0 +1,132 @@
+//! The decision as JSON, and where its numbers come from. `docs/validation-json.md` describes it;
+//! a test holds that page to what is written here.
+
+use crate::outcome::{ALPHA, Conclusion, Row, counts};
+use crate::run::{Compared, Evidence, Options};
+use crate::table;
+use serde::Serialize;
+use serde_json::{Value, json};
+
+/// The version of the description.
+pub const FORMAT: u32 = 2;
+
+/// Where a run's numbers come from.
+#[derive(Clone, Debug, Serialize)]
+pub struct Provenance {
+    /// The version of the program.
+    pub version: String,
+    /// The fingerprint of its floating-point arithmetic.
+    pub floating_point: String,
+    /// Operating system and processor family.
+    pub machine: String,
+    /// Threads.
+    pub threads: usize,
+    /// The seed of everything.
+    pub seed: u64,
+    /// Quick, default or full.
+    pub tier: &'static str,
+    /// Seconds of the whole run.
+    pub seconds: f64,
+}
+
+impl Provenance {
+    /// Of a run on this machine.
+    pub fn of(options: &Options, seconds: f64) -> Self {
+        Self {
+            version: etalon::VERSION.to_owned(),
+            floating_point: etalon_film::floating_point_fingerprint(),
+            machine: format!("{} {}", std::env::consts::OS, std::env::consts::ARCH),
+            threads: rayon::current_num_threads(),
+            seed: options.seed,
+            tier: options.tier.name(),
+            seconds,
+        }
+    }
+}
+
+/// The command that makes a row's pictures again.
+pub fn command(row: &Row<'_>, provenance: &Provenance) -> String {
+    let tier = match provenance.tier {
+        "default" => String::new(),
+        other => format!(" --{other}"),
+    };
+    let (name, seed) = (&row.task.claim.name, provenance.seed);
+    format!("cargo xtask validate{tier} --only {name} --seed {seed}")
+}
+
+/// The whole run.
+pub fn of(rows: &[Row<'_>], provenance: &Provenance) -> Value {
+    let [passed, failed, undecided, broken] = counts(rows);
+    let [below, asked] = table::bounded(rows);
+    let conclusion = Conclusion::of(rows);
+    json!({
+        "format": FORMAT,
+        "provenance": provenance,
+        "alpha": ALPHA,
+        "exit_code": conclusion.exit_code(),
+        "counts": {
+            "passed": passed, "failed": failed, "undecided": undecided, "broken": broken,
+        },
+        "bounded_below_half_per_cent": { "rows": below, "of": asked },
+        "rows": rows.iter().map(|row| self::row(row, provenance)).collect::<Vec<_>>(),
+    })
+}
+
+fn row(row: &Row<'_>, provenance: &Provenance) -> Value {
+    let compared = row.compared.as_ref();
+    let refusals = compared.ok().and_then(|c| match &c.evidence {
+        Evidence::Pictures { refusals, .. } => Some(refusals),
+        Evidence::Measures(_) => None,
+    });
+    let reference = match row.task.claim.oracle {
+        crate::claim::Oracle::Reference { .. } => {
+            crate::reference::provenance(&row.task.claim.name).ok()
+        }
+        _ => None,
+    };
+    json!({
+        "claim": row.task.claim.name,
+        "title": row.task.claim.title,
+        "kind": row.task.claim.oracle.kind(),
+        "scene": row.task.claim.scene,
+        "scene_hash": compared.map(|c| &c.scene_hash).ok(),
+        "estimator": row.task.estimator.label(),
+        "mutant": row.task.fault.map(|fault| fault.to_string()),
+        "command": command(row, provenance),
+        "reference": reference,
+        "spp": compared.map(|c| c.spp).ok(),
+        "replicates": compared.map(|c| c.replicates).ok(),
+        "looks": row.looks,
+        "level": row.level,
+        "seconds": row.seconds,
+        "p_corrected": row.p_corrected,
+        "bias_bound": compared.ok().and_then(Compared::bias_bound),
+        "verdict": row.verdict.map(|v| v.to_string()),
+        "outcome": row.outcome,
+        "judgement": compared.ok().and_then(Compared::judgement),
+        "measures": compared.map(Compared::measures).ok(),
+        "refusals": refusals,
+        "error": compared.err(),
+    })
+}
+
+/// The claims of a run, without running it.
+pub fn list(claims: &[crate::claim::Claim]) -> Value {
+    let claims: Vec<Value> = claims
+        .iter()
+        .map(|claim| {
+            json!({
+                "claim": claim.name,
+                "title": claim.title,
+                "kind": claim.oracle.kind(),
+                "scene": claim.scene,
+                "quick": claim.quick,
+                "estimators": claim.estimators.iter().map(|e| json!({
+                    "estimator": e.label(),
+                    "mutants": e.mutants.iter().map(ToString::to_string).collect::<Vec<_>>(),
+                })).collect::<Vec<_>>(),
+            })
+        })
+        .collect();
+    json!({ "format": FORMAT, "claims": claims })
+}

@@ -1,0 +1,260 @@
+//! A picture against its oracle: etalon's decision, and whether the replicates allow it.
+//!
+//! [`etalon::judge`] decides by Student's t. Where the replicates of a mean are too far from normal
+//! for that (`etalon_statistics::tails`, with the declared limits), the bias of the image is judged
+//! by the studentised bootstrap instead, and where that cannot reach the level, it is undecided. A
+//! tile that t would call different keeps that verdict only if some such tile is within the limits
+//! or the bootstrap agrees.
+
+use etalon::judge::{self, Judgement, Known, Rules, TileRow};
+use etalon_film::{Developed, Metadata};
+use etalon_statistics::bootstrap::Plan;
+use etalon_statistics::robust::{self, Symmetry};
+use etalon_statistics::tails::Limits;
+use etalon_statistics::{Estimate, Interval, Replicates, Summary, Verdict};
+
+/// The most resamples of a bootstrap: enough for levels of 10⁻⁶.
+const RESAMPLES: f64 = 2e7;
+
+/// What a picture is held against.
+#[derive(Clone, Copy)]
+pub enum Against<'a> {
+    /// A formula.
+    Known(&'a Known),
+    /// Another picture with replicates.
+    Picture(&'a Developed),
+}
+
+/// A judgement with its p-value.
+pub struct Judged {
+    /// The decision of this look.
+    pub judgement: Judgement,
+    /// The p-value of "no fault": of equality for exact oracles, of a bias within the bounds for
+    /// others; corrected over all questions of the comparison.
+    pub p: f64,
+    /// Where the normal approximation was refused, and what took its place.
+    pub refusals: Vec<String>,
+}
+
+/// Judges a picture. `exact` claims equality, not only equivalence.
+///
+/// # Errors
+/// One sentence, if the two cannot be compared.
+pub fn judge(
+    picture: &Developed,
+    against: Against<'_>,
+    rules: Rules,
+    exact: bool,
+) -> Result<Judged, String> {
+    let mut judgement = match against {
+        Against::Known(known) => judge::judge_known(picture, known, rules)?,
+        Against::Picture(other) => judge::judge(picture, other, rules)?,
+    };
+    let questions = (judgement.images.len() + judgement.tiles.len()) as f64;
+    let alpha = rules.alpha / questions;
+    let metadata = picture.metadata.as_ref().ok_or("there are no statistics")?;
+    let mut refusals = Vec::new();
+    let mut smallest = 1.0_f64;
+    for row in &mut judgement.images {
+        let scale = scale_of(row.bias, row.mean - row.other_mean, row.other_mean);
+        let samples = Samples::of(metadata, against, &row.channel, None, 0)?;
+        let within = |tolerance: f64| samples.all_within(tolerance * scale);
+        let own = match samples.judge(alpha) {
+            // Deviations that do not matter need no distribution.
+            Some((refusal, _)) if within(rules.rounding) => {
+                let _ = refusal;
+                samples.p_differs(scale * rules.image_bound)
+            }
+            Some((refusal, interval)) => {
+                refusals.push(format!("{}: {refusal}", row.channel));
+                let interval = interval.unwrap_or(Interval {
+                    low: f64::NEG_INFINITY,
+                    high: f64::INFINITY,
+                });
+                row.interval = [interval.low / scale, interval.high / scale];
+                row.verdict = interval.verdict(rules.image_bound * scale);
+                let shown = |tolerance| interval.verdict(tolerance) == Verdict::Differs;
+                row.p_exact = if shown(rules.rounding * scale) {
+                    alpha
+                } else {
+                    1.0
+                };
+                if row.verdict == Verdict::Differs {
+                    alpha
+                } else {
+                    1.0
+                }
+            }
+            None => samples.p_differs(scale * rules.image_bound),
+        };
+        smallest = smallest.min(if exact { row.p_exact } else { own });
+    }
+    for row in &mut judgement.tiles {
+        let p = if exact { row.p_exact } else { row.p_differs };
+        if p <= alpha && !confirmed(metadata, against, row, alpha)? {
+            refusals.push(format!(
+                "{} tiles of {}²: those off are too far from normal",
+                row.channel, row.side
+            ));
+            row.verdict = Verdict::Undecided;
+            (row.p_exact, row.p_differs) = (1.0, 1.0);
+            continue;
+        }
+        smallest = smallest.min(p);
+    }
+    judgement.verdict = verdict(&judgement);
+    let p = (smallest * questions).min(1.0);
+    if exact {
+        judgement.p_exact = p;
+    }
+    Ok(Judged {
+        judgement,
+        p,
+        refusals,
+    })
+}
+
+/// All means must agree, and no tile may differ or be in doubt.
+fn verdict(judgement: &Judgement) -> Verdict {
+    let images = judgement.images.iter().map(|row| row.verdict);
+    let tiles = judgement.tiles.iter().map(|row| row.verdict);
+    images.chain(tiles).fold(Verdict::Agrees, Verdict::and)
+}
+
+/// What a relative bias was divided by.
+fn scale_of(bias: f64, difference: f64, mean: f64) -> f64 {
+    let scale = difference / bias;
+    if scale > 0.0 && scale.is_finite() {
+        scale
+    } else {
+        mean.abs()
+    }
+}
+
+/// Whether any tile that t calls different is so without a normal approximation, or allows it.
+fn confirmed(
+    metadata: &Metadata,
+    against: Against<'_>,
+    row: &TileRow,
+    alpha: f64,
+) -> Result<bool, String> {
+    let each = alpha / row.tiles as f64;
+    for (tile, p) in row.p_map.iter().enumerate() {
+        if f64::from(*p) > each {
+            continue;
+        }
+        let samples = Samples::of(metadata, against, &row.channel, Some(row.side), tile)?;
+        match samples.judge(each) {
+            None => return Ok(true),
+            Some((_, Some(interval))) if interval.verdict(0.0) == Verdict::Differs => {
+                return Ok(true);
+            }
+            Some(_) => {}
+        }
+    }
+    Ok(false)
+}
+
+/// The replicates of one mean, and of what it is held against.
+struct Samples {
+    own: Vec<f64>,
+    other: Other,
+}
+
+enum Other {
+    Known(f64),
+    Replicates(Vec<f64>),
+}
+
+impl Samples {
+    fn of(
+        metadata: &Metadata,
+        against: Against<'_>,
+        channel: &str,
+        side: Option<u32>,
+        tile: usize,
+    ) -> Result<Self, String> {
+        let of = |metadata: &Metadata| -> Result<Vec<f64>, String> {
+            let (means, tiles) = judge::replicates(metadata, channel, side)?;
+            let replicates = Replicates::new(&means, tiles).map_err(|e| e.to_string())?;
+            Ok(replicates.tile(tile).collect())
+        };
+        let other = match against {
+            Against::Known(known) => Other::Known(tile_mean(known, channel, side, tile)?),
+            Against::Picture(picture) => {
+                let metadata = picture.metadata.as_ref().ok_or("there are no statistics")?;
+                Other::Replicates(of(metadata)?)
+            }
+        };
+        Ok(Self {
+            own: of(metadata)?,
+            other,
+        })
+    }
+
+    /// Whether no replicate is farther than this from what it ought to be.
+    fn all_within(&self, tolerance: f64) -> bool {
+        match &self.other {
+            Other::Known(known) => self.own.iter().all(|x| (x - known).abs() <= tolerance),
+            Other::Replicates(_) => false,
+        }
+    }
+
+    /// The p-value, by Student's t, of a difference within ±`tolerance`.
+    fn p_differs(&self, tolerance: f64) -> f64 {
+        let estimate = Summary::of(&self.own).and_then(|own| match &self.other {
+            Other::Known(known) => Some(Estimate::excess(&own, *known)),
+            Other::Replicates(other) => Some(Estimate::welch(&own, &Summary::of(other)?)),
+        });
+        estimate.map_or(1.0, |estimate| estimate.p_differs(tolerance))
+    }
+
+    /// Why a normal approximation is refused, if it is, and the interval of the difference that
+    /// misses it with probability `alpha` at most, if there is one.
+    fn judge(&self, alpha: f64) -> Option<(String, Option<Interval>)> {
+        let resamples = (25.0 / alpha).clamp(9_999.0, RESAMPLES) as u32;
+        let plan = Plan::independent(resamples, 1);
+        let limits = &Limits::DECLARED;
+        let judged = match &self.other {
+            Other::Known(known) => {
+                let excess: Vec<f64> = self.own.iter().map(|x| x - known).collect();
+                robust::judge(&excess, alpha, Symmetry::Unknown, limits, &plan)
+            }
+            Other::Replicates(other) => {
+                robust::judge_difference(&self.own, other, alpha, Symmetry::Unknown, limits, &plan)
+            }
+        }?;
+        let refusal = judged.refusal?;
+        let instead = match judged.interval {
+            Some(_) => "bootstrap",
+            None => "undecided",
+        };
+        Some((
+            format!("{refusal} ({instead})"),
+            judged.interval.map(|(interval, _)| interval),
+        ))
+    }
+}
+
+/// The mean of a known picture over one tile of `side` pixels, or over the whole image.
+///
+/// # Errors
+/// If it has no such channel.
+fn tile_mean(known: &Known, channel: &str, side: Option<u32>, tile: usize) -> Result<f64, String> {
+    let missing = || format!("nothing is known of channel `{channel}`");
+    let found = known.channels.iter().find(|(name, _)| name == channel);
+    let (_, pixels) = found.ok_or_else(missing)?;
+    let [width, height] = known.size.map(|n| n as usize);
+    let side = side.map_or(width.max(height), |side| side as usize);
+    let columns = width.div_ceil(side);
+    let (left, top) = (tile % columns * side, tile / columns * side);
+    let (right, bottom) = ((left + side).min(width), (top + side).min(height));
+    let sum: f64 = (top..bottom)
+        .map(|y| {
+            pixels[y * width + left..y * width + right]
+                .iter()
+                .sum::<f64>()
+        })
+        .sum();
+    Ok(sum / ((bottom - top) * (right - left)) as f64)
+}

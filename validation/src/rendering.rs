@@ -1,0 +1,145 @@
+//! Rendering a claim's scene: with an estimator, perhaps with a fault or a change.
+
+use crate::claim::{self, Budget, Change, Claim, Estimator};
+use crate::fault::{Fault, Faulty};
+use crate::folders;
+use etalon::pipeline::{self, LoadOptions, Loaded, RenderOptions};
+use etalon_film::{Developed, ExactFilm, RenderFacts};
+use etalon_integrators::{AnyIntegrator, Plan};
+use etalon_sampling::SamplerKind;
+
+/// The scene parameters of a claim, and of one of its estimators.
+pub fn defines(claim: &Claim, estimator: Option<&Estimator>) -> Vec<(String, String)> {
+    let mut all: Vec<_> = claim::pairs(&claim.defines).collect();
+    if let Some(estimator) = estimator {
+        for (key, value) in claim::pairs(&estimator.defines) {
+            all.retain(|(other, _)| *other != key);
+            all.push((key, value));
+        }
+    }
+    all
+}
+
+/// Loads a claim's scene.
+///
+/// # Errors
+/// The scene's mistakes, one a line.
+pub fn load(
+    claim: &Claim,
+    defines: &[(String, String)],
+    integrator: Option<&str>,
+) -> Result<Loaded, String> {
+    let options = LoadOptions {
+        defines: defines.to_vec(),
+        integrator: integrator.map(str::to_owned),
+        data: Vec::new(),
+    };
+    pipeline::load(&folders::scenes().join(&claim.scene), &options).map_err(|refusal| {
+        let lines: Vec<String> = refusal
+            .diagnostics
+            .iter()
+            .map(|d| d.one_line(&refusal.sources))
+            .collect();
+        lines.join("\n")
+    })
+}
+
+/// An estimator's scene.
+///
+/// # Errors
+/// As [`load`].
+pub fn load_for(claim: &Claim, estimator: &Estimator) -> Result<Loaded, String> {
+    let defines = defines(claim, Some(estimator));
+    load(claim, &defines, estimator.integrator.as_deref())
+}
+
+/// How an estimator spends a budget.
+pub fn plan(loaded: &Loaded, estimator: &Estimator, budget: Budget, seed: u64) -> Plan {
+    pipeline::plan(
+        loaded,
+        &RenderOptions {
+            spp: Some(budget.spp),
+            seed: Some(seed),
+            replicates: Some(budget.replicates),
+            sampler: Some(estimator.sampler.map_or(SamplerKind::Sobol, Into::into)),
+        },
+    )
+}
+
+/// Renders a loaded scene as it is, or as a fault or a change makes it.
+///
+/// # Errors
+/// If it cannot be rendered so, or numbers are not finite.
+pub fn picture(
+    loaded: &Loaded,
+    plan: &Plan,
+    fault: Option<Fault>,
+    change: Option<Change>,
+) -> Result<Developed, String> {
+    let rotation = match change {
+        Some(Change::Wavelengths) => 1,
+        _ => 0,
+    };
+    let developed = if rotation > 0 || fault.is_some_and(Fault::is_physical) {
+        altered(loaded, plan, fault, rotation)?
+    } else {
+        let rendered = pipeline::render(loaded, plan, &()).map_err(|e| e.message)?;
+        rendered.developed
+    };
+    finite(developed)
+}
+
+/// The picture, unless it has numbers that are not finite.
+///
+/// # Errors
+/// Says how many there are.
+pub fn finite(picture: Developed) -> Result<Developed, String> {
+    let faults = picture.metadata.as_ref().map_or(0, |m| m.faults.total());
+    if faults > 0 {
+        return Err(format!("{faults} numbers were not finite or out of range"));
+    }
+    let colours = ["R", "G", "B", "X", "Y", "Z"];
+    let planes = colours
+        .into_iter()
+        .filter_map(|name| picture.image.channel(name));
+    let bad = planes.flatten().filter(|x| !x.is_finite()).count();
+    if bad > 0 {
+        return Err(format!("{bad} pixels of the picture are not finite"));
+    }
+    Ok(picture)
+}
+
+/// What a film knows of a render.
+pub fn facts(loaded: &Loaded, plan: &Plan, integrator: String) -> RenderFacts {
+    RenderFacts {
+        version: etalon::VERSION.to_owned(),
+        scene: loaded.path.display().to_string(),
+        scene_hash: loaded.hash.clone(),
+        integrator,
+        sampler: pipeline::sampler_name(plan.sampler).to_owned(),
+        seed: plan.seed,
+        seconds: None,
+    }
+}
+
+/// Renders the path tracer's picture of a world with a fault, or with its wavelengths' lanes
+/// rotated.
+fn altered(
+    loaded: &Loaded,
+    plan: &Plan,
+    fault: Option<Fault>,
+    rotation: usize,
+) -> Result<Developed, String> {
+    let AnyIntegrator::Path(path) = &loaded.integrator else {
+        return Err("faults and changes are made under `path` only".to_owned());
+    };
+    let compiled = &loaded.compiled;
+    let mut film = ExactFilm::new(compiled.film.clone(), &[]).map_err(|e| e.message)?;
+    let world = Faulty::new(&compiled.scene, fault, rotation);
+    etalon_integrators::render(&world, path, &mut film, plan, &());
+    let name = match fault {
+        Some(fault) => format!("path with the fault `{fault}`"),
+        None => "path with rotated wavelengths".to_owned(),
+    };
+    Ok(film.develop(facts(loaded, plan, name)))
+}

@@ -1,0 +1,76 @@
+//! What a full run has rendered so far, so that it can go on where it was interrupted.
+//!
+//! Every batch of replicates is kept as an EXR file with its tile means, in a folder that belongs
+//! to one build of the program and one seed. A batch is taken up again only if its scene, plan and
+//! seed are those asked for. The verdicts are computed anew from the batches: they, too, are the
+//! same as without the interruption.
+
+use etalon::pipeline::Loaded;
+use etalon_film::{Developed, read_developed};
+use etalon_integrators::Plan;
+use std::hash::{DefaultHasher, Hasher};
+use std::path::{Path, PathBuf};
+
+/// A folder with finished batches.
+pub struct State {
+    folder: PathBuf,
+}
+
+impl State {
+    /// The batches of this build and seed below `folder`, which is made if it is not there.
+    ///
+    /// # Errors
+    /// If the program cannot be read or the folder cannot be made.
+    pub fn open(folder: &Path, seed: u64) -> Result<Self, String> {
+        let program = std::env::current_exe().and_then(std::fs::read);
+        let program = program.map_err(|e| format!("the program itself cannot be read: {e}"))?;
+        let mut hasher = DefaultHasher::new();
+        hasher.write(&program);
+        let folder = folder.join(format!("{:016x}-{seed}", hasher.finish()));
+        std::fs::create_dir_all(&folder).map_err(|e| format!("{}: {e}", folder.display()))?;
+        Ok(Self { folder })
+    }
+
+    /// How many batches there are.
+    pub fn len(&self) -> usize {
+        std::fs::read_dir(&self.folder).map_or(0, Iterator::count)
+    }
+
+    /// Whether there are none.
+    pub fn is_empty(&self) -> bool {
+        self.len() == 0
+    }
+
+    /// A batch, if it is there, whole, and the one that is asked for.
+    pub fn read(&self, name: &str, plan: &Plan, loaded: &Loaded) -> Option<Developed> {
+        let batch = read_developed(&self.path(name)).ok()?;
+        let facts = batch.metadata.as_ref()?;
+        let spp = u64::from(plan.replicates) * u64::from(plan.samples_per_replicate);
+        let same = facts.scene_hash == loaded.hash
+            && facts.seed == plan.seed
+            && facts.replicates == plan.replicates
+            && facts.spp == spp;
+        same.then_some(batch)
+    }
+
+    /// Keeps a batch.
+    ///
+    /// # Errors
+    /// If it cannot be written.
+    pub fn write(&self, name: &str, batch: &Developed) -> Result<(), String> {
+        let path = self.path(name);
+        batch.write_exr(&path).map_err(|e| e.to_string())
+    }
+
+    /// Forgets everything: the run has ended.
+    ///
+    /// # Errors
+    /// If the folder cannot be removed.
+    pub fn finish(self) -> Result<(), String> {
+        std::fs::remove_dir_all(&self.folder).map_err(|e| format!("{}: {e}", self.folder.display()))
+    }
+
+    fn path(&self, name: &str) -> PathBuf {
+        self.folder.join(format!("{name}.exr"))
+    }
+}

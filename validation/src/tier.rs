@@ -1,0 +1,105 @@
+//! How thorough a run is: quick, default or full, and how often it may look again.
+//!
+//! Every comparison is looked at once with its budget. Those that are undecided get as many
+//! replicates again, and again, until they are decided or the plan ends: a group-sequential test
+//! whose levels are spent by Pocock's function over the planned replicates and never used twice.
+//! Each look is judged by what it alone is granted, so that nothing is assumed of how the looks
+//! depend on each other.
+
+use crate::claim::{Budget, Estimator};
+use etalon_statistics::{Boundaries, Spending};
+use serde::Serialize;
+use std::time::Duration;
+
+/// How thorough a run is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Tier {
+    /// Within two minutes on two cores.
+    Quick,
+    /// Within a quarter of an hour.
+    Default,
+    /// Until every bias is bounded below 0.5 %; hours, if need be.
+    Full,
+}
+
+/// The bias of an image's mean that a full run must exclude.
+pub const FULL_BOUND: f64 = 0.005;
+
+impl Tier {
+    /// Replicates at each look, in multiples of the budget's.
+    pub fn looks(self) -> &'static [u32] {
+        match self {
+            Self::Quick => &[1, 2],
+            Self::Default => &[1, 2, 4],
+            Self::Full => &[1, 2, 4, 8, 16, 32, 64],
+        }
+    }
+
+    /// When no further look begins that would end later. It depends on the clock alone, so the
+    /// error levels hold.
+    pub fn deadline(self) -> Option<Duration> {
+        match self {
+            Self::Quick => Some(Duration::from_secs(110)),
+            Self::Default => Some(Duration::from_secs(14 * 60)),
+            Self::Full => None,
+        }
+    }
+
+    /// The first look's budget of an estimator.
+    pub fn budget(self, estimator: &Estimator) -> Budget {
+        match self {
+            Self::Quick => estimator.quick,
+            Self::Default | Self::Full => estimator.default,
+        }
+    }
+
+    /// Its name, as on the command line.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Quick => "quick",
+            Self::Default => "default",
+            Self::Full => "full",
+        }
+    }
+}
+
+/// Looks at planted faults: up to what the quick run spends on the sound estimator.
+pub const FAULT_LOOKS: &[u32] = &[1, 2, 4, 8];
+
+/// What each look may spend of `alpha`, with `looks` in multiples of the first; they add up to it.
+///
+/// # Errors
+/// If the looks do not grow.
+pub fn granted(alpha: f64, looks: &[u32]) -> Result<Vec<f64>, String> {
+    let mut boundaries = Boundaries::new(alpha, Spending::Pocock).ok_or("no level to spend")?;
+    let last = looks.last().copied().unwrap_or(1);
+    looks
+        .iter()
+        .map(|look| {
+            let bound = boundaries.look(f64::from(*look) / f64::from(last));
+            bound.map(|b| b.granted).map_err(|e| e.to_string())
+        })
+        .collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn levels_add_up_and_the_first_look_is_granted_a_fair_share() {
+        for looks in [
+            Tier::Quick.looks(),
+            Tier::Default.looks(),
+            Tier::Full.looks(),
+        ] {
+            let levels = granted(1e-5, looks).expect("growing looks");
+            let sum: f64 = levels.iter().sum();
+            assert!((sum - 1e-5).abs() < 1e-17, "{levels:?}");
+            assert!(levels.iter().all(|level| *level > 2e-7), "{levels:?}");
+        }
+        // Mutant rejected: looks that shrink would spend twice.
+        assert!(granted(1e-5, &[2, 1]).is_err());
+    }
+}

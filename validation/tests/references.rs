@@ -1,0 +1,142 @@
+//! References that cannot be used: each gives a clear error, never a pass.
+
+use etalon_film::{BoxFilter, ExactFilm, FilmSettings, Filter, RenderFacts, read_developed};
+use etalon_images::Image;
+use etalon_validation::claim::Claim;
+use etalon_validation::judged::{self, Against};
+use etalon_validation::outcome::{self, Conclusion, Outcome};
+use etalon_validation::run::{self, Options};
+use etalon_validation::tier::Tier;
+use etalon_validation::{folders, reference};
+use std::path::PathBuf;
+
+/// A folder of its own for a test, removed at its end.
+struct Folder(PathBuf);
+
+impl Folder {
+    fn new(name: &str) -> Self {
+        let path = std::env::temp_dir().join(format!("etalon-{name}-{}", std::process::id()));
+        std::fs::create_dir_all(&path).expect("a temporary folder");
+        Self(path)
+    }
+
+    /// The cornell box's reference, copied; and the hash of its scene.
+    fn with_reference(name: &str) -> (Self, String) {
+        let folder = Self::new(name);
+        for extension in ["json", "exr"] {
+            let file = format!("cornell-box.{extension}");
+            std::fs::copy(folders::references().join(&file), folder.0.join(&file)).expect("copied");
+        }
+        let provenance = reference::provenance("cornell-box").expect("a description");
+        (folder, provenance.scene_hash)
+    }
+
+    fn read(&self, hash: &str) -> Result<etalon_film::Developed, String> {
+        reference::read_in(&self.0, "cornell-box", hash)
+    }
+}
+
+impl Drop for Folder {
+    fn drop(&mut self) {
+        let _ = std::fs::remove_dir_all(&self.0);
+    }
+}
+
+#[test]
+fn a_whole_reference_is_read() {
+    let (folder, hash) = Folder::with_reference("whole");
+    folder.read(&hash).expect("a reference");
+}
+
+#[test]
+fn a_missing_reference_is_an_error() {
+    let message = reference::read("no-such-claim", "0").expect_err("there is none");
+    assert!(message.contains("cargo xtask references --only no-such-claim"));
+    let (folder, hash) = Folder::with_reference("missing");
+    std::fs::remove_file(folder.0.join("cornell-box.exr")).expect("removed");
+    let message = folder.read(&hash).expect_err("the picture is gone");
+    assert!(message.contains("cornell-box.exr"), "{message}");
+}
+
+#[test]
+fn a_reference_of_another_state_of_the_scene_is_an_error() {
+    let message = reference::read("cornell-box", "0").expect_err("another scene's hash");
+    assert!(message.contains("another state of the scene"), "{message}");
+}
+
+#[test]
+fn a_truncated_reference_is_an_error() {
+    let (folder, hash) = Folder::with_reference("truncated");
+    let path = folder.0.join("cornell-box.exr");
+    let bytes = std::fs::read(&path).expect("a file");
+    for length in [0, 100, bytes.len() / 2, bytes.len() - 1] {
+        std::fs::write(&path, &bytes[..length]).expect("written");
+        let message = folder.read(&hash).expect_err("truncated");
+        assert!(message.contains("cornell-box.exr"), "{length}: {message}");
+    }
+}
+
+#[test]
+fn a_reference_with_a_nan_pixel_is_an_error() {
+    let (folder, hash) = Folder::with_reference("nan");
+    let path = folder.0.join("cornell-box.exr");
+    let mut picture = read_developed(&path).expect("a picture");
+    let mut image = Image::new(picture.image.width(), picture.image.height());
+    for name in ["R", "G", "B"] {
+        let mut plane = picture.image.channel(name).expect("a channel").to_vec();
+        if name == "G" {
+            plane[17] = f32::NAN;
+        }
+        image.push(name, plane);
+    }
+    picture.image = image;
+    picture.write_exr(&path).expect("written");
+    let message = folder.read(&hash).expect_err("a NaN pixel");
+    assert!(message.contains("not finite"), "{message}");
+}
+
+#[test]
+fn a_reference_of_another_size_is_an_error() {
+    let picture = |width: u32| {
+        let settings = FilmSettings::new(width, 8, Filter::Box(BoxFilter));
+        let mut film = ExactFilm::new(settings, &[]).expect("a small film");
+        for value in [0.5, 0.6, 0.7] {
+            let mut image = Image::new(width as usize, 8);
+            for name in ["R", "G", "B"] {
+                image.push(name, vec![value; width as usize * 8]);
+            }
+            film.add_replicate(&image, 1).expect("it fits");
+        }
+        film.develop(RenderFacts::default())
+    };
+    let against = picture(9);
+    let against = Against::Picture(&against);
+    let judged = judged::judge(&picture(8), against, Default::default(), false);
+    let message = judged.err().expect("refused");
+    assert!(message.contains("differ in size"), "{message}");
+}
+
+#[test]
+fn a_claim_without_its_reference_breaks_the_run() {
+    let claims = Claim::read_all(&folders::claims()).expect("claims can be read");
+    let mut claims: Vec<Claim> = (claims.into_iter())
+        .filter(|claim| claim.name == "foliage" || claim.name == "irradiance-disk")
+        .collect();
+    for claim in &mut claims {
+        if claim.name == "foliage" {
+            claim.name = "no-such-claim".to_owned();
+        }
+    }
+    let options = Options {
+        only: None,
+        tier: Tier::Quick,
+        seed: 1,
+    };
+    let tasks = run::tasks(&claims, &options);
+    let rows = outcome::run(tasks, &options, None, |_| ()).expect("a plan");
+    let broken = rows.iter().find(|row| row.outcome == Outcome::Broken);
+    let broken = broken.expect("it cannot be compared");
+    assert_eq!(broken.task.claim.name, "no-such-claim");
+    assert!(broken.p_corrected.is_none());
+    assert_eq!(Conclusion::of(&rows).exit_code(), 2);
+}
