@@ -2,6 +2,9 @@
 //!
 //! - Means (time, relMSE, variance, squared bias) have Student's interval, or the studentised
 //!   bootstrap's where the tails forbid that, or none ([`etalon_statistics::robust`]).
+//! - All pictures share one reference, whose noise is subtracted as it is on average. What it is in
+//!   this very reference does not show in the pictures' spread, so the squared bias's interval is
+//!   widened by that noise on either side: no bias is shown that a converged reference might deny.
 //! - Efficiency and every ratio have bootstrap percentiles over pictures; where the denominator
 //!   hangs on a single picture, only a lower bound ([`etalon_statistics::ratio`]).
 //! - The time to an error e: pictures of relMSE = bias² + variance that take T each, averaged k at
@@ -95,7 +98,7 @@ fn outcome(measured: &Measured<'_>, entrant: &Entrant, cells: &[Cell], plan: &Pl
     let first = &measured.cells[0];
     let is_first = std::ptr::eq(first.as_slice(), cells);
     let equal_samples = &ladder[measured.equal_samples];
-    let equal_time = at_size(timed, plan);
+    let equal_time = at_size(timed, measured.reference, plan);
     let [width, height] = measured.reference.size();
     let per_pixel = width as f64 * height as f64;
     let seconds = mean(&timed.of(|p| p.seconds));
@@ -130,7 +133,7 @@ fn outcome(measured: &Measured<'_>, entrant: &Entrant, cells: &[Cell], plan: &Pl
         },
         convergence: convergence(ladder),
         non_finite: cells.iter().map(|cell| cell.faults).sum(),
-        equal_samples: at_size(equal_samples, plan),
+        equal_samples: at_size(equal_samples, measured.reference, plan),
         equal_time,
     }
 }
@@ -167,6 +170,14 @@ impl Uncertain {
         }
     }
 
+    /// The same number, less certain by `doubt` either way.
+    fn widened(self, doubt: f64) -> Self {
+        Self {
+            interval: self.interval.map(|[low, high]| [low - doubt, high + doubt]),
+            ..self
+        }
+    }
+
     /// The same number in other units.
     fn times(self, factor: f64) -> Self {
         Self {
@@ -179,7 +190,7 @@ impl Uncertain {
     }
 }
 
-fn at_size(cell: &Cell, plan: &Plan) -> AtSize {
+fn at_size(cell: &Cell, reference: &Reference, plan: &Plan) -> AtSize {
     let pairs = |number: fn(&Pair) -> f64| -> Vec<f64> { cell.pairs.iter().map(number).collect() };
     AtSize {
         samples_per_pixel: cell.size.samples,
@@ -187,7 +198,8 @@ fn at_size(cell: &Cell, plan: &Plan) -> AtSize {
         seconds: Uncertain::mean(&cell.of(|p| p.seconds), plan),
         rel_mse: Uncertain::mean(&cell.of(|p| p.error), plan),
         variance: Uncertain::mean(&pairs(|pair| pair.variance), plan),
-        bias_squared: Uncertain::mean(&pairs(|pair| pair.bias_squared), plan),
+        bias_squared: Uncertain::mean(&pairs(|pair| pair.bias_squared), plan)
+            .widened(reference.noise.unwrap_or(0.0)),
     }
 }
 
