@@ -1,6 +1,7 @@
-//! The tasks of the house: `cargo xtask validate`, `references`, `bits`, `scenes`, `tables`.
+//! The tasks of the house: `cargo xtask validate`, `references`, `mutants`, `bits`, `scenes`, `tables`.
 
 mod bits;
+mod mutants;
 mod references;
 mod scenes;
 mod tables;
@@ -26,6 +27,8 @@ enum Task {
     Validate(validate::Arguments),
     /// Render the references of claims with Mitsuba 3
     References(references::Arguments),
+    /// Plant physical faults in a copy of the workspace, and show that the claims find them
+    Mutants(mutants::Arguments),
     /// Check that threads and build profiles do not change a bit (builds `release`: minutes)
     Bits,
     /// Write the generated files of `scenes/` anew
@@ -37,6 +40,7 @@ enum Task {
 fn main() -> ExitCode {
     let done = match Arguments::parse().task {
         Task::Validate(arguments) => return validate::run(&arguments),
+        Task::Mutants(arguments) => return mutants::run(&arguments),
         Task::References(arguments) => references::run(&arguments),
         Task::Bits => bits::run(),
         Task::Scenes => scenes::run(),

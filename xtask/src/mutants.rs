@@ -1,0 +1,327 @@
+//! `cargo xtask mutants`: plants physical faults in a copy of the workspace, one at a time, and
+//! shows that the claims of the validation find them.
+//!
+//! The list is `validation/mutants.toml`. Each mutant is built with the `fast` profile and put to
+//! the claims that must fail, then to the whole quick suite if those let it pass. A comparison
+//! that fails in the sound program, too, kills nobody.
+
+mod list;
+mod record;
+mod workspace;
+
+use list::{Expected, Mutant};
+use record::{Fate, Killer, Record, Records};
+use serde_json::{Value, json};
+use std::collections::BTreeSet;
+use std::process::ExitCode;
+use std::time::{Duration, Instant};
+use workspace::{Run, Workspace};
+
+/// The share of all mutants that must be killed.
+const LEAST_SHARE: f64 = 0.95;
+
+/// Which mutants to run.
+#[derive(Clone, Debug, clap::Args)]
+#[command(
+    after_help = "Exit code: 0 if every fault that moves energy and 95 % of all are killed, 1 otherwise, 2 if the run could not be made.\n\nExamples:\n  cargo xtask mutants --check\n  cargo xtask mutants --only fresnel\n  nice cargo xtask mutants --named-only"
+)]
+pub(crate) struct Arguments {
+    /// Only the mutants whose names contain this
+    #[arg(long, value_name = "NAME")]
+    only: Option<String>,
+    /// Say which mutants there are, and build nothing
+    #[arg(long)]
+    list: bool,
+    /// Only see whether every mutant applies to the sources as they are
+    #[arg(long, conflicts_with = "list")]
+    check: bool,
+    /// Only the claims that each mutant names, not the quick suite after them
+    #[arg(long)]
+    named_only: bool,
+    /// The seed of all pictures
+    #[arg(long, default_value_t = 1)]
+    seed: u64,
+    /// Forget earlier results, and begin with the last commit
+    #[arg(long)]
+    fresh: bool,
+    /// Seconds after which a run of claims is given up
+    #[arg(long, default_value_t = 900)]
+    timeout: u64,
+}
+
+/// Runs the mutants.
+pub(crate) fn run(arguments: &Arguments) -> ExitCode {
+    match mutants(arguments) {
+        Ok(true) => ExitCode::SUCCESS,
+        Ok(false) => ExitCode::FAILURE,
+        Err(message) => {
+            eprintln!("error: {message}");
+            ExitCode::from(2)
+        }
+    }
+}
+
+fn mutants(arguments: &Arguments) -> Result<bool, String> {
+    let mut mutants = list::read()?;
+    if arguments.check {
+        let mistakes = list::mistakes(&mutants, &etalon_validation::folders::root())?;
+        for mistake in &mistakes {
+            eprintln!("error: {mistake}");
+        }
+        println!("{} mutants, {} mistakes", mutants.len(), mistakes.len());
+        return Ok(mistakes.is_empty());
+    }
+    if let Some(part) = &arguments.only {
+        mutants.retain(|mutant| mutant.name.contains(part.as_str()));
+    }
+    if mutants.is_empty() {
+        return Err("no mutant has such a name: see `cargo xtask mutants --list`".to_owned());
+    }
+    if arguments.list {
+        for mutant in &mutants {
+            let energy = if mutant.moves_energy { "energy" } else { "" };
+            println!("{:<42} {energy:<6} {}", mutant.name, mutant.fault);
+        }
+        return Ok(true);
+    }
+    let records = put_to_the_claims(&mutants, arguments)?;
+    conclude(&mutants, &records, arguments.seed)
+}
+
+/// Runs what has no record yet; the records of all, in the order of the list.
+fn put_to_the_claims(mutants: &[Mutant], arguments: &Arguments) -> Result<Vec<Record>, String> {
+    let (seed, named_only) = (arguments.seed, arguments.named_only);
+    let limit = Duration::from_secs(arguments.timeout);
+    let workspace = Workspace::open(arguments.fresh, limit)?;
+    let path = workspace::folder().join("results.jsonl");
+    if arguments.fresh && path.exists() {
+        std::fs::remove_file(&path).map_err(|e| format!("{}: {e}", path.display()))?;
+    }
+    let mut records = Records::open(&path);
+    let waiting: Vec<&Mutant> = mutants
+        .iter()
+        .filter(|mutant| records.of(mutant, seed, named_only).is_none())
+        .collect();
+    eprintln!(
+        "commit {:.12}: {} mutants, {} of them already run",
+        workspace.commit,
+        mutants.len(),
+        mutants.len() - waiting.len()
+    );
+    let unsound = if waiting.is_empty() {
+        BTreeSet::new()
+    } else {
+        Unsound::of(&workspace, &waiting, arguments)?
+    };
+    let start = Instant::now();
+    for (done, mutant) in waiting.iter().enumerate() {
+        let record = examine(&workspace, mutant, arguments, &unsound)?;
+        let rate = start.elapsed().as_secs_f64() / (done + 1) as f64;
+        let rest = rate * (waiting.len() - done - 1) as f64 / 60.0;
+        eprintln!(
+            "{} of {}, about {rest:.0} min left: {}",
+            done + 1,
+            waiting.len(),
+            line(&record)
+        );
+        records.push(record)?;
+    }
+    let told = |mutant| records.of(mutant, seed, named_only).cloned();
+    Ok(mutants.iter().filter_map(told).collect())
+}
+
+/// A comparison: claim, estimator, and the planted fault it looks for.
+type Comparison = [String; 3];
+
+/// Comparisons of the sound program that do not pass.
+struct Unsound;
+
+impl Unsound {
+    fn of(
+        workspace: &Workspace,
+        waiting: &[&Mutant],
+        arguments: &Arguments,
+    ) -> Result<BTreeSet<Comparison>, String> {
+        eprintln!("the sound program first");
+        workspace.build()??;
+        let runs: BTreeSet<Option<&str>> = if arguments.named_only {
+            let named = waiting.iter().flat_map(|mutant| &mutant.claims);
+            let there = named.filter(|claim| workspace.has_claim(claim));
+            there.map(|claim| Some(claim.as_str())).collect()
+        } else {
+            BTreeSet::from([None])
+        };
+        let mut unsound = BTreeSet::new();
+        for only in runs {
+            match workspace.validate_sound(only, arguments.seed)? {
+                Run::Rows(rows) => unsound.extend(rows.iter().filter(|r| fails(r)).map(comparison)),
+                Run::TimedOut => return Err("the sound program's claims do not end".to_owned()),
+                Run::Crashed(said) => return Err(format!("the sound program: {said}")),
+            }
+        }
+        for [claim, estimator, fault] in &unsound {
+            eprintln!("warning: fails without a mutant: {claim} {estimator} {fault}");
+        }
+        Ok(unsound)
+    }
+}
+
+fn comparison(row: &Value) -> Comparison {
+    ["claim", "estimator", "mutant"].map(|key| row[key].as_str().unwrap_or_default().to_owned())
+}
+
+/// Whether a comparison says that something is wrong: undecided is no verdict.
+fn fails(row: &Value) -> bool {
+    matches!(row["outcome"].as_str(), Some("failed" | "broken"))
+}
+
+fn killer(row: &Value) -> Killer {
+    let text = |key: &str| row[key].as_str().map(str::to_owned);
+    Killer {
+        claim: text("claim").unwrap_or_default(),
+        estimator: text("estimator").unwrap_or_default(),
+        outcome: text("outcome").unwrap_or_default(),
+        verdict: text("verdict").or_else(|| text("error")),
+        p: row["p_corrected"].as_f64(),
+    }
+}
+
+/// Plants, builds and validates one mutant.
+fn examine(
+    workspace: &Workspace,
+    mutant: &Mutant,
+    arguments: &Arguments,
+    unsound: &BTreeSet<Comparison>,
+) -> Result<Record, String> {
+    let start = Instant::now();
+    let mut record = Record::new(mutant, arguments.seed, arguments.named_only);
+    match workspace.plant(mutant) {
+        Err(message) => {
+            record.fate = Fate::DoesNotApply;
+            record.message = Some(message);
+        }
+        Ok(_planted) => match workspace.build()? {
+            Err(message) => {
+                record.fate = Fate::DoesNotBuild;
+                record.message = Some(message);
+            }
+            Ok(()) => judge(workspace, mutant, arguments, unsound, &mut record)?,
+        },
+    }
+    record.seconds = start.elapsed().as_secs_f64();
+    Ok(record)
+}
+
+/// Runs claims until one fails.
+fn judge(
+    workspace: &Workspace,
+    mutant: &Mutant,
+    arguments: &Arguments,
+    unsound: &BTreeSet<Comparison>,
+    record: &mut Record,
+) -> Result<(), String> {
+    // The commit may be older than the list.
+    let there = mutant.claims.iter().filter(|c| workspace.has_claim(c));
+    let named = there.map(|claim| Some(claim.as_str()));
+    let suite = (!arguments.named_only).then_some(None);
+    for only in named.chain(suite) {
+        match workspace.validate(only, arguments.seed)? {
+            Run::Rows(rows) => {
+                let guilty = |row: &&Value| fails(row) && !unsound.contains(&comparison(row));
+                // A comparison without a planted fault says most.
+                let failing: Vec<&Value> = rows.iter().filter(guilty).collect();
+                let plain = failing.iter().find(|row| row["mutant"].is_null());
+                if let Some(row) = plain.or(failing.first()) {
+                    record.fate = Fate::Killed;
+                    record.killer = Some(killer(row));
+                    record.as_named = only.is_some();
+                    return Ok(());
+                }
+            }
+            Run::TimedOut => {
+                record.fate = Fate::TimedOut;
+                record.message = Some(format!("{} did not end", only.unwrap_or("the suite")));
+                return Ok(());
+            }
+            Run::Crashed(said) => {
+                record.fate = Fate::Killed;
+                record.as_named = only.is_some();
+                record.killer = Some(Killer {
+                    claim: only.unwrap_or("the suite").to_owned(),
+                    estimator: String::new(),
+                    outcome: "crashed".to_owned(),
+                    verdict: Some(said),
+                    p: None,
+                });
+                return Ok(());
+            }
+        }
+    }
+    Ok(())
+}
+
+/// A record in a line.
+fn line(record: &Record) -> String {
+    let by = match (&record.killer, &record.message) {
+        (Some(k), _) => {
+            let p = k.p.map_or(String::new(), |p| format!(", p = {p:.1e}"));
+            let verdict = k.verdict.as_deref().unwrap_or(&k.outcome);
+            let verdict = verdict.lines().next().unwrap_or_default();
+            let other = if record.as_named { "" } else { " (not named)" };
+            format!("by {} {}: {verdict}{p}{other}", k.claim, k.estimator)
+        }
+        (None, Some(message)) => message.lines().next().unwrap_or_default().to_owned(),
+        (None, None) => String::new(),
+    };
+    format!(
+        "{:<42} {:<14} {:>4.0} s  {by}",
+        record.name, record.fate, record.seconds
+    )
+}
+
+/// The table, its JSON, and whether enough was killed.
+fn conclude(mutants: &[Mutant], records: &[Record], seed: u64) -> Result<bool, String> {
+    println!("{:<42} {:<14}", "mutant", "fate");
+    for record in records {
+        println!("{}", line(record));
+    }
+    let fate = |mutant: &Mutant| {
+        let record = records.iter().find(|record| record.name == mutant.name);
+        record.map(|record| record.fate)
+    };
+    let killed = |mutant: &&Mutant| fate(mutant) == Some(Fate::Killed);
+    let energy: Vec<&Mutant> = mutants.iter().filter(|m| m.moves_energy).collect();
+    let of_energy = energy.iter().copied().filter(killed).count();
+    let all = mutants.iter().filter(killed).count();
+    println!(
+        "\n{all} of {} mutants killed, {of_energy} of {} that move energy",
+        mutants.len(),
+        energy.len()
+    );
+    for mutant in mutants.iter().filter(|m| !killed(m)) {
+        let reason = mutant.reason.as_deref().unwrap_or("not expected");
+        let state = fate(mutant).map_or("not run".to_owned(), |f| f.to_string());
+        println!("  {} {state}: {reason}", mutant.name);
+    }
+    for mutant in mutants.iter().filter(killed) {
+        if mutant.expected == Expected::Survives {
+            println!("  {} was expected to survive: amend the list", mutant.name);
+        }
+    }
+    let enough = all as f64 >= LEAST_SHARE * mutants.len() as f64;
+    let passed = enough && of_energy == energy.len();
+    let report = json!({
+        "seed": seed,
+        "passed": passed,
+        "mutants": mutants.len(),
+        "killed": all,
+        "moving_energy": energy.len(),
+        "moving_energy_killed": of_energy,
+        "records": records,
+    });
+    let path = workspace::folder().join("report.json");
+    std::fs::write(&path, format!("{report:#}\n"))
+        .map_err(|e| format!("{}: {e}", path.display()))?;
+    println!("report: {}", path.display());
+    Ok(passed)
+}
