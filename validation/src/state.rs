@@ -1,10 +1,11 @@
 //! What a full run has rendered so far, so that it can go on where it was interrupted.
 //!
 //! Every batch of replicates is kept as an EXR file with its tile means, in a folder that belongs
-//! to one build of the program and one seed. A batch is taken up again only if its scene, plan and
+//! to one build of the program, one seed and one choice of claims. A batch is taken up again only if its scene, plan and
 //! seed are those asked for. The verdicts are computed anew from the batches: they, too, are the
 //! same as without the interruption.
 
+use crate::run::Options;
 use etalon::pipeline::Loaded;
 use etalon_film::{Developed, read_developed};
 use etalon_integrators::Plan;
@@ -17,16 +18,18 @@ pub struct State {
 }
 
 impl State {
-    /// The batches of this build and seed below `folder`, which is made if it is not there.
+    /// The batches of this build, seed and choice of claims below `folder`, which is made if it is
+    /// not there.
     ///
     /// # Errors
     /// If the program cannot be read or the folder cannot be made.
-    pub fn open(folder: &Path, seed: u64) -> Result<Self, String> {
+    pub fn open(folder: &Path, options: &Options) -> Result<Self, String> {
         let program = std::env::current_exe().and_then(std::fs::read);
         let program = program.map_err(|e| format!("the program itself cannot be read: {e}"))?;
         let mut hasher = DefaultHasher::new();
         hasher.write(&program);
-        let folder = folder.join(format!("{:016x}-{seed}", hasher.finish()));
+        hasher.write(options.only.as_deref().unwrap_or_default().as_bytes());
+        let folder = folder.join(format!("{:016x}-{}", hasher.finish(), options.seed));
         std::fs::create_dir_all(&folder).map_err(|e| format!("{}: {e}", folder.display()))?;
         Ok(Self { folder })
     }

@@ -112,7 +112,7 @@ fn validate(arguments: &Arguments) -> Result<Conclusion, String> {
         return Err("no claim has such a name: see `cargo xtask validate --list`".to_owned());
     }
     let state = match options.tier {
-        Tier::Full => Some(State::open(&folders::report().join("full"), options.seed)?),
+        Tier::Full => Some(State::open(&folders::report().join("full"), &options)?),
         Tier::Quick | Tier::Default => None,
     };
     if let Some(kept) = state.as_ref().map(State::len).filter(|kept| *kept > 0) {
