@@ -1,4 +1,4 @@
-//! Pixel buffers; reading and writing EXR, PNG, JPEG and HDR, bounded against hostile files.
+//! Pixel buffers; reading and writing EXR, PNG, JPEG, BMP and HDR, bounded against hostile files.
 //!
 //! Renderings are [`Image`]s: named planes of 32-bit floats, read and written by [`exr`].
 //! Pictures for textures and screens are [`Raster`]s: interleaved pixels with the sample type

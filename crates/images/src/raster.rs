@@ -1,10 +1,10 @@
 //! Pictures with the samples they were stored with: what textures are made of.
 //!
-//! PNG, JPEG, Radiance HDR, PFM and EXR are told apart by their first bytes, never by the
+//! PNG, JPEG, BMP, Radiance HDR, PFM and EXR are told apart by their first bytes, never by the
 //! file's name.
 
 use crate::{Error, exr, pfm, srgb};
-use image::codecs::{hdr::HdrDecoder, jpeg::JpegDecoder, png::PngDecoder};
+use image::codecs::{bmp::BmpDecoder, hdr::HdrDecoder, jpeg::JpegDecoder, png::PngDecoder};
 use image::{ColorType, DynamicImage, ImageDecoder, Limits};
 use std::io::Cursor;
 use std::path::Path;
@@ -16,6 +16,8 @@ pub enum Format {
     Png,
     /// JPEG.
     Jpeg,
+    /// Windows bitmap.
+    Bmp,
     /// Radiance RGBE.
     Hdr,
     /// Portable float map.
@@ -28,9 +30,10 @@ impl Format {
     /// The format of a file that begins with these bytes.
     #[must_use]
     pub fn of(bytes: &[u8]) -> Option<Self> {
-        const BEGINNINGS: [(&[u8], Format); 7] = [
+        const BEGINNINGS: [(&[u8], Format); 8] = [
             (b"\x89PNG\r\n\x1a\n", Format::Png),
             (b"\xff\xd8\xff", Format::Jpeg),
+            (b"BM", Format::Bmp),
             (b"#?RADIANCE", Format::Hdr),
             (b"#?RGBE", Format::Hdr),
             (b"PF", Format::Pfm),
@@ -49,6 +52,7 @@ impl std::fmt::Display for Format {
         f.write_str(match self {
             Self::Png => "PNG",
             Self::Jpeg => "JPEG",
+            Self::Bmp => "BMP",
             Self::Hdr => "Radiance HDR",
             Self::Pfm => "PFM",
             Self::Exr => "OpenEXR",
@@ -255,7 +259,7 @@ fn format(bytes: &[u8], path: &Path) -> Result<Format, Error> {
     Format::of(bytes).ok_or_else(|| {
         Error::unsupported(
             path,
-            "it is none of PNG, JPEG, Radiance HDR, PFM and OpenEXR",
+            "it is none of PNG, JPEG, BMP, Radiance HDR, PFM and OpenEXR",
         )
     })
 }
@@ -301,6 +305,7 @@ fn decoder(bytes: &[u8], format: Format) -> image::ImageResult<Box<dyn ImageDeco
     let mut decoder: Box<dyn ImageDecoder> = match format {
         Format::Png => Box::new(PngDecoder::with_limits(bytes, limits.clone())?),
         Format::Jpeg => Box::new(JpegDecoder::new(bytes)?),
+        Format::Bmp => Box::new(BmpDecoder::new(bytes)?),
         // Strictly, a file must begin with "#?RADIANCE"; many, Mitsuba's among them, do not.
         _ => Box::new(HdrDecoder::new_nonstrict(bytes)?),
     };

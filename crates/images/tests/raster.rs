@@ -1,4 +1,4 @@
-//! PNG, JPEG, HDR, PFM and EXR pictures: what comes back, and damaged files.
+//! PNG, JPEG, BMP, HDR, PFM and EXR pictures: what comes back, and damaged files.
 
 use etalon_images::{Error, Format, Frame, Image, Losses, Raster, Samples};
 use etalon_images::{exr, hdr, pfm, png, raster};
@@ -72,6 +72,14 @@ fn integers_become_floats() {
     let wide = image::ImageBuffer::<image::Luma<u16>, _>::from_raw(1, 1, vec![30_235_u16]);
     let picture = decode(&file(wide.expect("sized"), ImageFormat::Png));
     assert!((picture.to_linear()[0] - 0.18).abs() < 1e-4);
+}
+
+#[test]
+fn bmp_comes_back() {
+    let buffer = image::RgbImage::from_raw(19, 11, noise(627)).expect("sized");
+    let picture = decode(&file(buffer.clone(), ImageFormat::Bmp));
+    assert_eq!(picture.format(), Format::Bmp);
+    assert_eq!(picture.samples(), &Samples::U8(buffer.into_raw()));
 }
 
 #[test]
@@ -293,6 +301,7 @@ fn samples() -> Vec<Vec<u8>> {
     let rgb = image::RgbImage::from_raw(19, 11, noise(627)).expect("sized");
     let mut files = vec![
         file(rgb.clone(), ImageFormat::Png),
+        file(rgb.clone(), ImageFormat::Bmp),
         file(rgb, ImageFormat::Jpeg),
     ];
     hdr::write(&path, &image).expect("writes");
