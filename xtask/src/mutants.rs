@@ -108,14 +108,13 @@ fn put_to_the_claims(mutants: &[Mutant], arguments: &Arguments) -> Result<Vec<Re
         mutants.len(),
         mutants.len() - waiting.len()
     );
-    let unsound = if waiting.is_empty() {
-        BTreeSet::new()
-    } else {
-        Unsound::of(&workspace, &waiting, arguments)?
-    };
+    if !waiting.is_empty() {
+        eprintln!("the sound program first");
+        workspace.build_sound()?;
+    }
     let start = Instant::now();
     for (done, mutant) in waiting.iter().enumerate() {
-        let record = examine(&workspace, mutant, arguments, &unsound)?;
+        let record = examine(&workspace, mutant, arguments)?;
         let rate = start.elapsed().as_secs_f64() / (done + 1) as f64;
         let rest = rate * (waiting.len() - done - 1) as f64 / 60.0;
         eprintln!(
@@ -133,36 +132,16 @@ fn put_to_the_claims(mutants: &[Mutant], arguments: &Arguments) -> Result<Vec<Re
 /// A comparison: claim, estimator, and the planted fault it looks for.
 type Comparison = [String; 3];
 
-/// Comparisons of the sound program that do not pass.
-struct Unsound;
-
-impl Unsound {
-    fn of(
-        workspace: &Workspace,
-        waiting: &[&Mutant],
-        arguments: &Arguments,
-    ) -> Result<BTreeSet<Comparison>, String> {
-        eprintln!("the sound program first");
-        workspace.build()??;
-        let runs: BTreeSet<Option<&str>> = if arguments.named_only {
-            let named = waiting.iter().flat_map(|mutant| &mutant.claims);
-            let there = named.filter(|claim| workspace.has_claim(claim));
-            there.map(|claim| Some(claim.as_str())).collect()
-        } else {
-            BTreeSet::from([None])
-        };
-        let mut unsound = BTreeSet::new();
-        for only in runs {
-            match workspace.validate_sound(only, arguments.seed)? {
-                Run::Rows(rows) => unsound.extend(rows.iter().filter(|r| fails(r)).map(comparison)),
-                Run::TimedOut => return Err("the sound program's claims do not end".to_owned()),
-                Run::Crashed(said) => return Err(format!("the sound program: {said}")),
-            }
-        }
-        for [claim, estimator, fault] in &unsound {
-            eprintln!("warning: fails without a mutant: {claim} {estimator} {fault}");
-        }
-        Ok(unsound)
+/// Comparisons that fail in the sound program, too, among the claims whose names contain `only`.
+fn unsound(
+    workspace: &Workspace,
+    only: Option<&str>,
+    seed: u64,
+) -> Result<BTreeSet<Comparison>, String> {
+    match workspace.validate_sound(only, seed)? {
+        Run::Rows(rows) => Ok(rows.iter().filter(|r| fails(r)).map(comparison).collect()),
+        Run::TimedOut => Err("the sound program's claims do not end".to_owned()),
+        Run::Crashed(said) => Err(format!("the sound program: {said}")),
     }
 }
 
@@ -191,7 +170,6 @@ fn examine(
     workspace: &Workspace,
     mutant: &Mutant,
     arguments: &Arguments,
-    unsound: &BTreeSet<Comparison>,
 ) -> Result<Record, String> {
     let start = Instant::now();
     let mut record = Record::new(mutant, arguments.seed, arguments.named_only);
@@ -205,7 +183,7 @@ fn examine(
                 record.fate = Fate::DoesNotBuild;
                 record.message = Some(message);
             }
-            Ok(()) => judge(workspace, mutant, arguments, unsound, &mut record)?,
+            Ok(()) => judge(workspace, mutant, arguments, &mut record)?,
         },
     }
     record.seconds = start.elapsed().as_secs_f64();
@@ -217,7 +195,6 @@ fn judge(
     workspace: &Workspace,
     mutant: &Mutant,
     arguments: &Arguments,
-    unsound: &BTreeSet<Comparison>,
     record: &mut Record,
 ) -> Result<(), String> {
     // The commit may be older than the list.
@@ -227,9 +204,12 @@ fn judge(
     for only in named.chain(suite) {
         match workspace.validate(only, arguments.seed)? {
             Run::Rows(rows) => {
-                let guilty = |row: &&Value| fails(row) && !unsound.contains(&comparison(row));
+                let mut failing: Vec<&Value> = rows.iter().filter(|row| fails(row)).collect();
+                if !failing.is_empty() {
+                    let unsound = unsound(workspace, only, arguments.seed)?;
+                    failing.retain(|row| !unsound.contains(&comparison(row)));
+                }
                 // A comparison without a planted fault says most.
-                let failing: Vec<&Value> = rows.iter().filter(guilty).collect();
                 let plain = failing.iter().find(|row| row["mutant"].is_null());
                 if let Some(row) = plain.or(failing.first()) {
                     record.fate = Fate::Killed;
@@ -244,6 +224,8 @@ fn judge(
                 return Ok(());
             }
             Run::Crashed(said) => {
+                // The sound program must not.
+                unsound(workspace, only, arguments.seed)?;
                 record.fate = Fate::Killed;
                 record.as_named = only.is_some();
                 record.killer = Some(Killer {

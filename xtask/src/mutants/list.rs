@@ -93,6 +93,9 @@ pub(crate) fn mistakes(mutants: &[Mutant], root: &Path) -> Result<Vec<String>, S
         if let Err(what) = mutant.applied(root) {
             complain(what);
         }
+        if mutant.file.extension().is_none_or(|e| e != "rs") {
+            complain("a fault is in a source file".to_owned());
+        }
         for claim in mutant.claims.iter().filter(|c| !claims.contains(*c)) {
             complain(format!("there is no claim `{claim}`"));
         }
