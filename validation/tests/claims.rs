@@ -78,7 +78,7 @@ fn exponents_and_tolerances_are_those_that_were_agreed() {
             "convergence-independent: -1.1 … -0.9",
             "convergence-sobol: -4 … -1.3",
             "noise-furnace: 16 seeds, ±0.03",
-            "noise-irradiance: 16 seeds, ±0.03",
+            "noise-irradiance: 32 seeds, ±0.03",
         ]
     );
 }
