@@ -26,6 +26,7 @@ use vertex_normals::vertex_normals;
 
 /// A shape in the world (or in the space of the group it belongs to).
 #[derive(Debug)]
+#[allow(clippy::large_enum_variant)] // Shapes are few; a box would be one more place to look.
 pub enum Shape {
     /// Triangles.
     Mesh(Mesh),

@@ -5,7 +5,7 @@ use etalon_images::{Frame, Image, exr};
 use etalon_params::{Class, Diagnostics, FileId, Node, Property, Span, Spanned, Value};
 use etalon_transport::{
     AssetError, Assets, MeshData, MeshFormat, Receiver, Role, SampledPoint, ShapeId, Shapes,
-    SurfacePoint, TextureId, TexturePoint, Vertex,
+    SurfacePoint, TextureId, TexturePoint,
 };
 use glam::{Vec2, Vec3, Vec4};
 use std::collections::HashMap;

@@ -191,8 +191,12 @@ impl Wide {
     #[inline]
     pub(crate) fn intersect(&self, probe: &Probe, others: &impl Others, nearest: &mut Nearest) {
         match self.depth {
-            0..=SMALL_DEPTH => self.find_nearest::<SMALL_STACK>(probe, others, nearest),
-            0..=MEDIUM_DEPTH => self.find_nearest::<MEDIUM_STACK>(probe, others, nearest),
+            depth if depth <= SMALL_DEPTH => {
+                self.find_nearest::<SMALL_STACK>(probe, others, nearest)
+            }
+            depth if depth <= MEDIUM_DEPTH => {
+                self.find_nearest::<MEDIUM_STACK>(probe, others, nearest)
+            }
             _ => self.find_nearest::<LARGE_STACK>(probe, others, nearest),
         }
     }
@@ -201,8 +205,8 @@ impl Wide {
     #[inline]
     pub(crate) fn occluded(&self, probe: &Probe, others: &impl Others, t_max: f32) -> bool {
         match self.depth {
-            0..=SMALL_DEPTH => self.find_any::<SMALL_STACK>(probe, others, t_max),
-            0..=MEDIUM_DEPTH => self.find_any::<MEDIUM_STACK>(probe, others, t_max),
+            depth if depth <= SMALL_DEPTH => self.find_any::<SMALL_STACK>(probe, others, t_max),
+            depth if depth <= MEDIUM_DEPTH => self.find_any::<MEDIUM_STACK>(probe, others, t_max),
             _ => self.find_any::<LARGE_STACK>(probe, others, t_max),
         }
     }
