@@ -3,15 +3,10 @@
 // Reference values keep the digits they were computed to.
 #![allow(clippy::excessive_precision)]
 
-use etalon_statistics::{anderson_darling, normal};
+mod checks;
 
-#[track_caller]
-fn near(actual: f64, expected: f64, relative: f64) {
-    assert!(
-        (actual / expected - 1.0).abs() <= relative,
-        "{actual:e} is not {expected:e}"
-    );
-}
+use checks::near;
+use etalon_statistics::{anderson_darling, normal};
 
 /// Smirnov's integrals by mpmath 1.4 (`quad`, 40 digits); Anderson & Darling (1954) give 1.933,
 /// 2.492 and 3.857 for 10, 5 and 1 %.

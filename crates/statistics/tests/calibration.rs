@@ -1,27 +1,13 @@
 //! Error rates of the tests under their hypotheses, and the faults they catch.
 
+mod checks;
+
+use checks::Random;
 use etalon_statistics::chi_squared::goodness_of_fit;
 use etalon_statistics::{
     Estimate, Replicates, Summary, TileDifferences, TilesError, Verdict, kolmogorov_smirnov,
-    normal, proportion,
+    proportion,
 };
-
-/// Numbers of a fixed sequence (PCG's output function over a plain counter's hash).
-struct Random(u64);
-
-impl Random {
-    fn uniform(&mut self) -> f64 {
-        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
-        let mut z = self.0;
-        z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-        z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-        ((z ^ (z >> 31)) >> 11) as f64 / (1_u64 << 53) as f64
-    }
-
-    fn normal(&mut self) -> f64 {
-        normal::upper_quantile(self.uniform().max(1e-300))
-    }
-}
 
 /// An image of 16 tiles that depend on each other strongly: one common error per replicate.
 fn image(random: &mut Random, replicates: usize, energy: f64) -> Vec<f64> {

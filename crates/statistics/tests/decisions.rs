@@ -3,19 +3,14 @@
 // Reference values keep the digits they were computed to.
 #![allow(clippy::excessive_precision)]
 
+mod checks;
+
+use checks::near;
 use etalon_statistics::chi_squared::{CountsError, goodness_of_fit};
 use etalon_statistics::family::{benjamini_hochberg, holm, sidak, sidak_level};
 use etalon_statistics::{
     Correction, Estimate, Family, Interval, Line, Summary, Verdict, kolmogorov_smirnov, proportion,
 };
-
-#[track_caller]
-fn near(actual: f64, expected: f64, relative: f64) {
-    assert!(
-        (actual / expected - 1.0).abs() <= relative,
-        "{actual:e} is not {expected:e}"
-    );
-}
 
 /// The example of Wikipedia's article on Welch's t-test (t = −2.46, ν = 25.0, p = 0.021), here
 /// with 20 digits from mpmath.

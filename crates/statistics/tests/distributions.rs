@@ -4,15 +4,10 @@
 // Reference values keep the digits they were computed to.
 #![allow(clippy::excessive_precision)]
 
-use etalon_statistics::{chi_squared, normal, student_t};
+mod checks;
 
-#[track_caller]
-fn near(actual: f64, expected: f64, relative: f64) {
-    assert!(
-        (actual / expected - 1.0).abs() <= relative,
-        "{actual:e} is not {expected:e}"
-    );
-}
+use checks::near;
+use etalon_statistics::{chi_squared, normal, student_t};
 
 #[test]
 fn normal_tails() {

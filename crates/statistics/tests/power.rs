@@ -4,17 +4,12 @@
 // Reference values keep the digits they were computed to.
 #![allow(clippy::excessive_precision)]
 
+mod checks;
+
+use checks::near;
 use etalon_statistics::equivalence::{self, Bias};
 use etalon_statistics::{Estimate, Verdict, noncentral_t, normal, power, student_t};
 use proptest::prelude::*;
-
-#[track_caller]
-fn near(actual: f64, expected: f64, relative: f64) {
-    assert!(
-        (actual / expected - 1.0).abs() <= relative,
-        "{actual:e} is not {expected:e}"
-    );
-}
 
 #[test]
 fn noncentral_t_tails() {

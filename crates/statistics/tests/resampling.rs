@@ -3,39 +3,14 @@
 // Reference values keep the digits they were computed to.
 #![allow(clippy::excessive_precision)]
 
+mod checks;
+
+use checks::{Random, near};
 use etalon_statistics::bootstrap::{self, Plan};
 use etalon_statistics::ratio::{self, Known};
 use etalon_statistics::sign_flip::{self, Side};
-use etalon_statistics::{Estimate, Interval, Summary, normal, permutation, proportion, student_t};
+use etalon_statistics::{Estimate, Interval, Summary, permutation, proportion, student_t};
 use proptest::prelude::*;
-
-#[track_caller]
-fn near(actual: f64, expected: f64, relative: f64) {
-    assert!(
-        (actual / expected - 1.0).abs() <= relative,
-        "{actual:e} is not {expected:e}"
-    );
-}
-
-struct Random(u64);
-
-impl Random {
-    fn uniform(&mut self) -> f64 {
-        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
-        let mut z = self.0;
-        z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-        z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-        (((z ^ (z >> 31)) >> 11) as f64 + 0.5) / (1_u64 << 53) as f64
-    }
-
-    fn normal(&mut self) -> f64 {
-        normal::upper_quantile(self.uniform())
-    }
-
-    fn exponential(&mut self) -> f64 {
-        -libm::log(self.uniform())
-    }
-}
 
 #[test]
 fn sign_flips() {

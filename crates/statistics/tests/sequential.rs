@@ -4,20 +4,15 @@
 // Reference values keep the digits they were computed to.
 #![allow(clippy::excessive_precision)]
 
+mod checks;
+
+use checks::{Random, near};
 use etalon_statistics::group_sequential::{Boundaries, LookError, stopping};
 use etalon_statistics::{
     Campaign, Dependence, Estimate, SequentialClaim, Spending, Summary, Verdict, normal, power,
     proportion, student_t,
 };
 use proptest::prelude::*;
-
-#[track_caller]
-fn near(actual: f64, expected: f64, relative: f64) {
-    assert!(
-        (actual / expected - 1.0).abs() <= relative,
-        "{actual:e} is not {expected:e}"
-    );
-}
 
 /// The constant C with which |Zₖ| > C · shape(k/K) has probability α over K equal looks.
 fn constant(looks: usize, alpha: f64, shape: fn(f64) -> f64) -> f64 {
@@ -267,19 +262,6 @@ fn a_campaign_adds_samples_to_open_claims_only() {
     assert!(campaign.spent() <= campaign.alpha());
     assert_eq!(campaign.claims().len(), 2);
     assert!(Campaign::new(0.02, Spending::Pocock, Dependence::Any, []).is_none());
-}
-
-struct Random(u64);
-
-impl Random {
-    fn normal(&mut self) -> f64 {
-        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
-        let mut z = self.0;
-        z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-        z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-        let uniform = ((z ^ (z >> 31)) >> 11) as f64 / (1_u64 << 53) as f64;
-        normal::upper_quantile(uniform.max(1e-300))
-    }
 }
 
 /// Claims of a zero bias with four looks at 8 … 32 replicates, at α = 0.05: the share of 20,000

@@ -1,7 +1,10 @@
 //! The maximum test against enumeration, and its error rate under dependence.
 
+mod checks;
+
+use checks::Random;
 use etalon_statistics::sign_flip::{self, Side};
-use etalon_statistics::{normal, proportion, westfall_young};
+use etalon_statistics::{proportion, westfall_young};
 
 #[track_caller]
 fn near(actual: f64, expected: f64) {
@@ -9,19 +12,6 @@ fn near(actual: f64, expected: f64) {
         (actual / expected - 1.0).abs() <= 1e-13,
         "{actual:e} {expected:e}"
     );
-}
-
-struct Random(u64);
-
-impl Random {
-    fn normal(&mut self) -> f64 {
-        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
-        let mut z = self.0;
-        z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-        z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-        let uniform = (((z ^ (z >> 31)) >> 11) as f64 + 0.5) / (1_u64 << 53) as f64;
-        normal::upper_quantile(uniform)
-    }
 }
 
 #[test]
