@@ -19,18 +19,27 @@ pub const LEVELS: [f64; 3] = [0.68, 0.95, 0.99];
 /// The channel that is counted.
 const CHANNEL: &str = "G";
 
-/// The coverages of an estimator, judged at `alpha` together; and the samples spent.
+/// How many pixels of a picture have intervals that cover the truth, level by level.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Counted {
+    /// Covered, for each of [`LEVELS`].
+    pub covered: [u64; LEVELS.len()],
+    /// Pixels.
+    pub trials: u64,
+}
+
+/// Counts the pixels covered in each of `seeds` pictures; and the samples spent.
 ///
 /// # Errors
 /// If a picture cannot be rendered, or an integrator makes pixels depend on each other.
-pub fn measure(
+pub fn count(
     claim: &Claim,
-    (formula, seeds, tolerance): (&str, u32, f64),
+    (formula, seeds): (&str, u32),
     estimator: &Estimator,
     fault: Option<Fault>,
     budget: Budget,
-    (seed, alpha): (u64, f64),
-) -> Result<(Vec<Measure>, u64), String> {
+    seed: u64,
+) -> Result<(Vec<Counted>, u64), String> {
     let shrink = match fault {
         None => 1.0,
         Some(Fault::StandardError) => std::f64::consts::FRAC_1_SQRT_2,
@@ -45,8 +54,7 @@ pub fn measure(
     let found = known.channels.iter().find(|(name, _)| name == CHANNEL);
     let (_, truth) = found.ok_or("nothing is known of channel `G`")?;
     let freedom = f64::from(budget.replicates) - 1.0;
-    let mut covered = [0_u64; LEVELS.len()];
-    let (mut trials, mut spent) = (0_u64, 0);
+    let (mut pictures, mut spent) = (Vec::new(), 0);
     for number in 0..seeds {
         let seed = seed.wrapping_add((u64::from(number) + 1) << 32);
         let plan = rendering::plan(&loaded, estimator, budget, seed);
@@ -54,18 +62,33 @@ pub fn measure(
         let missing = "the picture has no standard errors";
         let means = picture.image.channel(CHANNEL).ok_or(missing)?;
         let errors = picture.standard_error(CHANNEL).ok_or(missing)?;
+        let mut counted = Counted {
+            covered: [0; LEVELS.len()],
+            trials: 0,
+        };
         for ((mean, error), truth) in means.iter().zip(errors).zip(truth) {
             let error = f64::from(*error) * shrink;
             let estimate = Estimate::new(f64::from(*mean), error, freedom).ok_or(missing)?;
-            for (count, level) in covered.iter_mut().zip(LEVELS) {
+            for (count, level) in counted.covered.iter_mut().zip(LEVELS) {
                 *count += u64::from(estimate.interval(level).contains(*truth));
             }
-            trials += 1;
+            counted.trials += 1;
         }
+        pictures.push(counted);
         spent += u64::from(plan.samples_per_replicate) * u64::from(budget.replicates);
     }
+    Ok((pictures, spent))
+}
+
+/// The coverages over all pictures, judged at `alpha` together.
+///
+/// # Errors
+/// If there is nothing to count.
+pub fn judge(pictures: &[Counted], tolerance: f64, alpha: f64) -> Result<Vec<Measure>, String> {
+    let trials: u64 = pictures.iter().map(|picture| picture.trials).sum();
     let each = alpha / LEVELS.len() as f64;
-    let measures = LEVELS.iter().zip(covered).map(|(level, count)| {
+    let measures = LEVELS.iter().enumerate().map(|(index, level)| {
+        let count: u64 = pictures.iter().map(|p| p.covered[index]).sum();
         // The same number of a proportion's standard deviations at every level.
         let spread = |p: f64| (p * (1.0 - p)).sqrt();
         let tolerance = tolerance * spread(*level) / spread(LEVELS[0]);
@@ -86,5 +109,5 @@ pub fn measure(
             verdict: measure::verdict(bounds, accepted),
         })
     });
-    Ok((measures.collect::<Result<_, String>>()?, spent))
+    measures.collect()
 }
