@@ -24,7 +24,7 @@ pub(crate) struct Arguments {
     /// The budgets of the quick run, not of the default run
     #[arg(long)]
     quick: bool,
-    /// Only the claims whose names contain this take part in the null runs
+    /// Only the claim of this name, or those whose names contain it, take part in the null runs
     #[arg(long, value_name = "NAME")]
     only: Option<String>,
     /// Null runs of the whole decision

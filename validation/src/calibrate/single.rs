@@ -121,7 +121,8 @@ pub fn repeat(
         .zip(estimates)
         .map(|((what, _), estimates)| {
             let name = format!("{}: {what}, {against}", setting.claim);
-            tell(name, &estimates, confidence).ok_or_else(|| "nothing was repeated".to_owned())
+            Single::of(name, &estimates, confidence)
+                .ok_or_else(|| "nothing was repeated".to_owned())
         })
         .collect()
 }
@@ -134,17 +135,20 @@ fn summary(picture: &etalon_film::Developed, side: Option<u32>) -> Result<Summar
     replicates.summary(0).map_err(|e| e.to_string())
 }
 
-fn tell(name: String, estimates: &[Estimate], confidence: f64) -> Option<Single> {
-    let p_values: Vec<f64> = estimates.iter().map(|e| e.p_differs(0.0)).collect();
-    let coverages = COVERAGES.iter().map(|level| {
-        let intervals = estimates.iter().map(|e| e.interval(*level));
-        error_rates::coverage(intervals, 0.0, *level, confidence)
-    });
-    Some(Single {
-        name,
-        alarms: error_rates::alarms(&p_values, LEVEL, confidence)?,
-        coverages: coverages.collect::<Option<_>>()?,
-        uniform: kolmogorov_smirnov::test_uniform(&p_values)?.p_value,
-        p_values,
-    })
+impl Single {
+    /// What estimates of a difference that is zero came to; `None` without any.
+    pub fn of(name: String, estimates: &[Estimate], confidence: f64) -> Option<Self> {
+        let p_values: Vec<f64> = estimates.iter().map(|e| e.p_differs(0.0)).collect();
+        let coverages = COVERAGES.iter().map(|level| {
+            let intervals = estimates.iter().map(|e| e.interval(*level));
+            error_rates::coverage(intervals, 0.0, *level, confidence)
+        });
+        Some(Self {
+            name,
+            alarms: error_rates::alarms(&p_values, LEVEL, confidence)?,
+            coverages: coverages.collect::<Option<_>>()?,
+            uniform: kolmogorov_smirnov::test_uniform(&p_values)?.p_value,
+            p_values,
+        })
+    }
 }
