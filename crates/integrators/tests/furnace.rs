@@ -239,6 +239,8 @@ impl World for Sphere {
             target: Some(target),
             radiance: Vec4::splat(self.radiance()),
             chance: Chance::Continuous(self.light_density(from, &at, direction)),
+            cos: -at.normal.dot(direction),
+            origin: Origin::Surface,
             light: LightId(0),
         })
         .filter(|_| w.lambda.x > 0.0)
@@ -261,7 +263,12 @@ impl World for Sphere {
         let sample = lambert.sample(-origin, 0.0, d, Mode::Importance)?;
         Some(Emission {
             ray: Ray::new(origin * (1.0 - 1e-6), sample.wi, 0.0),
-            normal: -origin,
+            point: SurfacePoint {
+                position: origin,
+                error: Vec3::ZERO,
+                normal: -origin,
+                texture: TexturePoint::at_uv(Vec2::ZERO),
+            },
             weight: Vec4::splat(self.radiance() * PI / self.area_density()),
             density: EmissionDensity {
                 origin: self.area_density(),
@@ -271,14 +278,18 @@ impl World for Sphere {
             light: LightId(0),
         })
     }
-    fn emission_density(&self, at: &Vertex, direction: Vec3) -> EmissionDensity {
+    fn emission_density(&self, _: LightId, _: Vec3, cos: f32) -> EmissionDensity {
         EmissionDensity {
             origin: self.area_density(),
-            ray: at.normal.dot(direction).max(0.0) / PI,
+            ray: cos.max(0.0) / PI,
         }
     }
-    fn background_emission_density(&self, _: Vec3) -> EmissionDensity {
-        EmissionDensity::ZERO
+    fn sampled_density(&self, from: &Receiver, start: &Emission) -> f32 {
+        let to = start.point.position - from.position;
+        let cos = start.point.normal.dot(to.normalize());
+        Density::<Area>::uniform(self.area_density())
+            .to_solid_angle(to.length_squared(), cos)
+            .chooser()
     }
     fn take_ray_count(&self) -> u64 {
         0
