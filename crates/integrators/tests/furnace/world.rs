@@ -27,7 +27,7 @@ pub(crate) struct Sphere {
     pub(crate) camera: Pinhole,
 }
 
-struct Pinhole {
+pub(crate) struct Pinhole {
     fault: Fault,
 }
 
@@ -63,7 +63,7 @@ impl Camera for Pinhole {
 }
 
 #[derive(Clone, Copy)]
-struct Lambert {
+pub(crate) struct Lambert {
     reflectance: f32,
     normal: Vec3,
     fault: Fault,
