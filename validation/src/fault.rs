@@ -233,6 +233,10 @@ impl<W: World> World for Faulty<'_, W> {
         self.world.emission_density(light, direction, cos)
     }
 
+    fn background_emission_density(&self, direction: Vec3) -> EmissionDensity {
+        self.world.background_emission_density(direction)
+    }
+
     fn sampled_density(&self, from: &Receiver, start: &Emission) -> f32 {
         self.world.sampled_density(from, start)
     }

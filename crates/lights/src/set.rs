@@ -205,20 +205,32 @@ impl LightSet {
         direction: Vec3,
         cos: f32,
     ) -> EmissionDensity {
-        let of = |light: LightId| {
-            let chosen = self.get(light);
-            let mut density = chosen.emission_density(shapes, &self.bounds, direction, cos);
-            density.origin *= self.selector.probability_to_emit(light);
-            density
-        };
         if self.backgrounds.len() > 1 && self.get(light).is_background() {
-            let origins = self.backgrounds.iter().map(|&light| of(light).origin);
-            return EmissionDensity {
-                origin: origins.sum(),
-                ray: self.bounds.ray_density(),
-            };
+            return self.background_emission_density(shapes, -direction);
         }
-        of(light)
+        let chosen = self.get(light);
+        let mut density = chosen.emission_density(shapes, &self.bounds, direction, cos);
+        density.origin *= self.selector.probability_to_emit(light);
+        density
+    }
+
+    /// The densities with which [`LightSet::emit`] makes a particle come from the lights at infinity
+    /// seen along `direction`.
+    #[inline]
+    pub fn background_emission_density(
+        &self,
+        shapes: &impl Shapes,
+        direction: Vec3,
+    ) -> EmissionDensity {
+        let origins = self.backgrounds.iter().map(|&light| {
+            let sky = self.get(light);
+            let density = sky.emission_density(shapes, &self.bounds, -direction, 1.0);
+            density.origin * self.selector.probability_to_emit(light)
+        });
+        EmissionDensity {
+            origin: origins.sum(),
+            ray: self.bounds.ray_density(),
+        }
     }
 
     /// The density with which [`LightSet::sample`] from `from` chooses the point where a particle

@@ -166,6 +166,11 @@ impl World for Scene {
     }
 
     #[inline]
+    fn background_emission_density(&self, direction: Vec3) -> EmissionDensity {
+        (self.lights).background_emission_density(&self.lookup, direction)
+    }
+
+    #[inline]
     fn sampled_density(&self, from: &Receiver, start: &Emission) -> f32 {
         self.lights.sampled_density(&self.lookup, from, start)
     }

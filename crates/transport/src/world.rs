@@ -96,6 +96,9 @@ pub trait World: Sync {
     /// surface (1 where it has none). Lights at infinity that rays can hit count as one.
     fn emission_density(&self, light: LightId, direction: Vec3, cos: f32) -> EmissionDensity;
 
+    /// The same for a particle from the lights at infinity seen along the unit vector `direction`.
+    fn background_emission_density(&self, direction: Vec3) -> EmissionDensity;
+
     /// The density with which [`World::sample_light`] from `from` would have chosen the point
     /// where a particle began; the probability of its light if that is a point or a direction.
     fn sampled_density(&self, from: &Receiver, start: &Emission) -> f32;

@@ -275,6 +275,9 @@ impl World for Sphere {
             ray: cos.max(0.0) / PI,
         }
     }
+    fn background_emission_density(&self, _: Vec3) -> EmissionDensity {
+        EmissionDensity::ZERO
+    }
     fn sampled_density(&self, from: &Receiver, start: &Emission) -> f32 {
         let to = start.point.position - from.position;
         let cos = start.point.normal.dot(to.normalize());

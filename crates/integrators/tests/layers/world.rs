@@ -408,6 +408,9 @@ impl World for Stack {
     fn emission_density(&self, _: LightId, _: Vec3, _: f32) -> EmissionDensity {
         EmissionDensity::ZERO
     }
+    fn background_emission_density(&self, _: Vec3) -> EmissionDensity {
+        EmissionDensity::ZERO
+    }
     fn sampled_density(&self, _: &Receiver, _: &Emission) -> f32 {
         0.0
     }
