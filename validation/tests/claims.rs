@@ -106,13 +106,13 @@ fn what_edges_excuse_is_what_was_agreed() {
                 "{}",
                 claim.name
             );
-            assert!(!estimator.mutants.is_empty(), "{}", claim.name);
             for budget in [estimator.quick, estimator.default] {
                 let points = budget.spp / budget.replicates;
                 assert!([1, 36].contains(&points), "{}: {points}", claim.name);
             }
         }
-        assert!(claim.quick, "{}", claim.name);
+        let mutants = claim.estimators.iter().any(|e| !e.mutants.is_empty());
+        assert!(mutants && claim.quick, "{}", claim.name);
     }
     assert_eq!(
         found,
@@ -120,6 +120,7 @@ fn what_edges_excuse_is_what_was_agreed() {
             "povray-checkerboard: 0.3",
             "povray-hard-shadows: 0.22",
             "povray-meshes: 0.12",
+            "povray-parallel-light: 0.18",
             "povray-signature-orthographic: 0.12",
             "povray-signature-perspective: 0.12",
             "povray-signature-transforms: 0.12",
