@@ -133,6 +133,13 @@ pub enum Change {
     Wavelengths,
 }
 
+impl Change {
+    /// Whether every bit must stay the same, and not only the statistics.
+    pub fn is_of_bits(self) -> bool {
+        self != Self::Wavelengths
+    }
+}
+
 fn seeds() -> u32 {
     32
 }

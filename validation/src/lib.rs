@@ -8,6 +8,7 @@
 
 pub mod accumulate;
 mod batches;
+pub mod calibrate;
 pub mod claim;
 pub mod closed_form;
 pub mod convergence;

@@ -21,7 +21,7 @@ pub use crate::rendering::{defines, load};
 /// What to run.
 #[derive(Clone, Debug)]
 pub struct Options {
-    /// Only the claims whose names contain this.
+    /// Only the claim of this name, or those whose names contain it.
     pub only: Option<String>,
     /// How thoroughly.
     pub tier: Tier,
@@ -79,14 +79,27 @@ impl Task<'_> {
     }
 }
 
+/// The claim of this name, or, if there is none, those whose names contain it.
+pub fn named<'a>(claims: &'a [Claim], name: &str) -> Vec<&'a Claim> {
+    match claims.iter().find(|claim| claim.name == name) {
+        Some(claim) => vec![claim],
+        None => (claims.iter())
+            .filter(|claim| claim.name.contains(name))
+            .collect(),
+    }
+}
+
 /// The comparisons that a run consists of.
 pub fn tasks<'a>(claims: &'a [Claim], options: &Options) -> Vec<Task<'a>> {
-    let wanted = |claim: &&Claim| match &options.only {
-        Some(part) => claim.name.contains(part.as_str()),
-        None => claim.quick || options.tier != Tier::Quick,
+    let chosen: Vec<&Claim> = match &options.only {
+        Some(name) => named(claims, name),
+        None => {
+            let decided = |claim: &&Claim| claim.quick || options.tier != Tier::Quick;
+            claims.iter().filter(decided).collect()
+        }
     };
     let mut tasks = Vec::new();
-    for claim in claims.iter().filter(wanted) {
+    for claim in chosen {
         for (place, estimator) in claim.estimators.iter().enumerate() {
             let faults = estimator.mutants.iter().copied().map(Some);
             tasks.extend(std::iter::once(None).chain(faults).map(|fault| Task {

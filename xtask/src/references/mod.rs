@@ -4,7 +4,7 @@ mod mitsuba;
 mod povray;
 
 use etalon_validation::claim::{Claim, Oracle};
-use etalon_validation::folders;
+use etalon_validation::{folders, run};
 use mitsuba::Mitsuba;
 use povray::PovRay;
 
@@ -14,7 +14,8 @@ use povray::PovRay;
     after_help = "Examples:\n  cargo xtask references\n  cargo xtask references --only cornell-box\n  cargo xtask references --only povray --stale\n  ETALON_PYTHON=~/venv/bin/python cargo xtask references --only mitsuba"
 )]
 pub(crate) struct Arguments {
-    /// Only those by this renderer (`mitsuba` or `povray`), or of claims whose names contain this
+    /// Only those by this renderer (`mitsuba` or `povray`), or of the claim of this name or, if there
+    /// is none, of those whose names contain it
     #[arg(long, value_name = "RENDERER|NAME")]
     only: Option<String>,
     /// Only references that are missing or belong to another state of their scene
@@ -28,11 +29,10 @@ pub(crate) struct Arguments {
 /// Makes references.
 pub(crate) fn run(arguments: &Arguments) -> Result<(), String> {
     let claims = Claim::read_all(&folders::claims())?;
-    let wanted = |claim: &&Claim| is_wanted(claim, arguments.only.as_deref());
     // Each renderer is looked for when it is first needed.
     let (mut mitsuba, mut pov_ray) = (None, None);
     let mut found = false;
-    for claim in claims.iter().filter(wanted) {
+    for claim in wanted(&claims, arguments.only.as_deref()) {
         match claim.oracle {
             Oracle::Reference { spp, seeds } => {
                 found = true;
@@ -66,13 +66,17 @@ pub(crate) fn run(arguments: &Arguments) -> Result<(), String> {
     }
 }
 
-/// Whether a claim's reference is asked for: all are, or those of one renderer, or those of some
-/// names.
-fn is_wanted(claim: &Claim, only: Option<&str>) -> bool {
+/// The claims whose references are asked for, and others that have none.
+fn wanted<'a>(claims: &'a [Claim], only: Option<&str>) -> Vec<&'a Claim> {
+    let all = claims.iter();
     match only {
-        None => true,
-        Some("mitsuba") => matches!(claim.oracle, Oracle::Reference { .. }),
-        Some("povray") => matches!(claim.oracle, Oracle::Povray { .. }),
-        Some(part) => claim.name.contains(part),
+        None => all.collect(),
+        Some("mitsuba") => all
+            .filter(|claim| matches!(claim.oracle, Oracle::Reference { .. }))
+            .collect(),
+        Some("povray") => all
+            .filter(|claim| matches!(claim.oracle, Oracle::Povray { .. }))
+            .collect(),
+        Some(name) => run::named(claims, name),
     }
 }
