@@ -7,8 +7,8 @@
 use etalon_math::{Density, SolidAngle};
 use etalon_spectrum::Wavelengths;
 use etalon_transport::{
-    Bsdf, BsdfSample, Chance, Emission, EmissionDensity, Hit, LightSample, Mode, Passage, Ray,
-    Receiver, Vertex, World,
+    Bsdf, BsdfSample, Chance, Emission, EmissionDensity, Hit, LightId, LightSample, Mode, Passage,
+    Ray, Receiver, Vertex, World,
 };
 use glam::{Vec2, Vec3, Vec4};
 use serde::Deserialize;
@@ -246,12 +246,12 @@ impl<W: World> World for Faulty<'_, W> {
         })
     }
 
-    fn emission_density(&self, at: &Vertex, direction: Vec3) -> EmissionDensity {
-        self.world.emission_density(at, direction)
+    fn emission_density(&self, light: LightId, direction: Vec3, cos: f32) -> EmissionDensity {
+        self.world.emission_density(light, direction, cos)
     }
 
-    fn background_emission_density(&self, direction: Vec3) -> EmissionDensity {
-        self.world.background_emission_density(direction)
+    fn sampled_density(&self, from: &Receiver, start: &Emission) -> f32 {
+        self.world.sampled_density(from, start)
     }
 
     fn take_ray_count(&self) -> u64 {

@@ -371,6 +371,8 @@ impl World for Stack {
                 target: None,
                 radiance: self.background(direction, w),
                 chance: uniform(self.hemisphere_density() * 0.5),
+                cos: 1.0,
+                origin: Origin::Sky,
                 light: LightId(u32::MAX - 1),
             });
         };
@@ -384,6 +386,8 @@ impl World for Stack {
             target: Some(from.position + direction * (rise / direction.z)),
             radiance: curve(plane.emission[usize::from(direction.z < 0.0)], w.lambda),
             chance: uniform(self.hemisphere_density()),
+            cos: direction.z.abs(),
+            origin: Origin::Surface,
             light: LightId(index as u32),
         })
     }
@@ -401,11 +405,11 @@ impl World for Stack {
     fn emit(&self, _: &Wavelengths, _: f32, _: Vec2, _: Vec2) -> Option<Emission> {
         None
     }
-    fn emission_density(&self, _: &Vertex, _: Vec3) -> EmissionDensity {
+    fn emission_density(&self, _: LightId, _: Vec3, _: f32) -> EmissionDensity {
         EmissionDensity::ZERO
     }
-    fn background_emission_density(&self, _: Vec3) -> EmissionDensity {
-        EmissionDensity::ZERO
+    fn sampled_density(&self, _: &Receiver, _: &Emission) -> f32 {
+        0.0
     }
     fn take_ray_count(&self) -> u64 {
         0
