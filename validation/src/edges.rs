@@ -16,6 +16,7 @@
 use etalon_scene::Scene;
 use etalon_transport::{Bsdf, Camera, Hit, Mode, Ray, Receiver, Vertex, World};
 use glam::{UVec2, Vec2, Vec3};
+use rayon::prelude::*;
 
 /// How often each point asks for a light. Lights are chosen by what they give; with as many
 /// equally spaced draws every one is found that is chosen with a probability above 1/16.
@@ -35,6 +36,7 @@ struct Surface {
 pub fn edges(scene: &Scene, size: UVec2) -> Vec<bool> {
     let [width, height] = size.to_array();
     let sights: Vec<Sight> = (0..width * height)
+        .into_par_iter()
         .map(|i| {
             sight(
                 scene,
