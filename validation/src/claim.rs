@@ -21,10 +21,11 @@
 //! ```
 
 use crate::fault::Fault;
-use etalon_sampling::SamplerKind;
 use serde::Deserialize;
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
+
+pub use crate::sampler::Sampler;
 
 /// A claim as its file states it.
 #[derive(Clone, Debug, Deserialize)]
@@ -109,6 +110,13 @@ pub enum Oracle {
         /// How far a rate may be from what it ought to be.
         tolerance: f64,
     },
+    /// A picture by POV-Ray of the scene's twin: every pixel agrees, see [`crate::pixelwise`].
+    Povray {
+        /// The greatest share of pixels next to an edge.
+        edges: f64,
+        /// The greatest share of pixels that are next to an edge and differ.
+        excused: f64,
+    },
 }
 
 /// What an invariance claim changes, beside an estimator's parameters.
@@ -152,6 +160,7 @@ impl Oracle {
             Self::Invariance { .. } => "invariance",
             Self::Convergence { .. } => "convergence",
             Self::Noise { .. } => "noise",
+            Self::Povray { .. } => "povray",
         }
     }
 }
@@ -178,28 +187,6 @@ pub struct Estimator {
     /// Faults that must be found.
     #[serde(default)]
     pub mutants: Vec<Fault>,
-}
-
-/// The kinds of samplers claims may name.
-#[derive(Clone, Copy, Debug, Deserialize)]
-#[serde(rename_all = "snake_case")]
-pub enum Sampler {
-    /// Pseudo-random numbers.
-    Independent,
-    /// Jittered strata.
-    Stratified,
-    /// Scrambled Sobol' points.
-    Sobol,
-}
-
-impl From<Sampler> for SamplerKind {
-    fn from(sampler: Sampler) -> Self {
-        match sampler {
-            Sampler::Independent => Self::Independent,
-            Sampler::Stratified => Self::Stratified { jitter: true },
-            Sampler::Sobol => Self::Sobol,
-        }
-    }
 }
 
 /// How much work to spend.
@@ -238,11 +225,7 @@ impl Estimator {
     /// Its name in reports.
     pub fn label(&self) -> String {
         let integrator = self.integrator.as_deref().unwrap_or("path");
-        let sampler = match self.sampler {
-            Some(Sampler::Independent) => "independent",
-            Some(Sampler::Stratified) => "stratified",
-            Some(Sampler::Sobol) | None => "sobol",
-        };
+        let sampler = self.sampler.unwrap_or(Sampler::Sobol).name();
         let defines: String = pairs(&self.defines)
             .map(|(key, value)| format!(", {key}={value}"))
             .collect();
@@ -321,6 +304,14 @@ impl Claim {
             } => {
                 if *seeds == 0 || !sensible(*tolerance) {
                     return Err("`seeds` and `tolerance` must be above 0".to_owned());
+                }
+                None
+            }
+            Oracle::Povray { edges, excused } => {
+                if !sensible(*edges) || !sensible(*excused) || excused > edges {
+                    return Err(
+                        "`edges` and `excused` must be shares, the latter the smaller".to_owned(),
+                    );
                 }
                 None
             }

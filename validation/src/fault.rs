@@ -35,6 +35,15 @@ pub enum Fault {
     /// What must be the same bits is of another seed: for invariance claims.
     #[serde(rename = "another seed")]
     AnotherSeed,
+    /// The picture is one pixel too far to the right: for pixelwise claims.
+    #[serde(rename = "shifted by a pixel")]
+    ShiftedPixel,
+    /// Left and right are exchanged: for pixelwise claims.
+    #[serde(rename = "mirrored")]
+    Mirrored,
+    /// The picture is 1 % too bright: for pixelwise claims.
+    #[serde(rename = "energy x 1.01")]
+    SlightEnergy,
 }
 
 impl Fault {
@@ -42,7 +51,12 @@ impl Fault {
     pub fn is_physical(self) -> bool {
         match self {
             Self::DroppedCosine | Self::WrongLightDensity | Self::Energy => true,
-            Self::IndependentSamples | Self::StandardError | Self::AnotherSeed => false,
+            Self::IndependentSamples
+            | Self::StandardError
+            | Self::AnotherSeed
+            | Self::ShiftedPixel
+            | Self::Mirrored
+            | Self::SlightEnergy => false,
         }
     }
 }
@@ -56,6 +70,9 @@ impl std::fmt::Display for Fault {
             Self::IndependentSamples => "independent samples",
             Self::StandardError => "standard error / sqrt 2",
             Self::AnotherSeed => "another seed",
+            Self::ShiftedPixel => "shifted by a pixel",
+            Self::Mirrored => "mirrored",
+            Self::SlightEnergy => "energy x 1.01",
         })
     }
 }

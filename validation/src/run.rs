@@ -10,7 +10,7 @@ use crate::judged::{self, Against};
 use crate::measure::Measure;
 use crate::state::State;
 use crate::tier::{FULL_BOUND, Tier};
-use crate::{closed_form, convergence, invariance, noise, reference, rendering};
+use crate::{closed_form, convergence, invariance, noise, pixelwise, reference, rendering};
 use etalon::judge::{Judgement, Known, Rules};
 use etalon_film::Developed;
 use etalon_images::{Frame, Image};
@@ -69,6 +69,8 @@ impl Task<'_> {
     /// The budget of the first look.
     pub fn budget(&self, tier: Tier) -> Budget {
         match (self.fault, &self.claim.oracle) {
+            // With fewer points, the midpoint rule's own error would be found.
+            (Some(_), Oracle::Povray { .. }) => self.estimator.quick,
             // Faults of numbers are as costly to find as the numbers are to measure.
             (Some(fault), _) if !fault.is_physical() => self.estimator.quick,
             (Some(_), _) => self.estimator.fault_budget(),
@@ -142,6 +144,8 @@ pub struct Compared {
     pub replicates: u32,
     /// The hash of the scene's content.
     pub scene_hash: String,
+    /// Our picture and what it ought to be, where the measures were taken of pictures.
+    pub shown: Option<Box<[Developed; 2]>>,
 }
 
 impl Compared {
@@ -227,7 +231,18 @@ impl<'a> Comparison<'a> {
             spp: first.spp * multiple,
             replicates: first.replicates * multiple,
         };
+        let mut shown = None;
         let (measures, spp) = match &claim.oracle {
+            Oracle::Povray { edges, excused } => {
+                let limits = pixelwise::Limits {
+                    edges: *edges,
+                    excused: *excused,
+                };
+                let seeded = (options.seed, alpha);
+                let made = pixelwise::compare(claim, limits, estimator, fault, budget, seeded)?;
+                shown = Some(Box::new([made.picture, made.oracle]));
+                (made.measures, made.spp)
+            }
             Oracle::Convergence { formula, samples } => {
                 let rungs = (formula.as_str(), samples.as_slice());
                 let (replicates, seed) = (budget.replicates, options.seed);
@@ -267,6 +282,7 @@ impl<'a> Comparison<'a> {
             spp,
             replicates: budget.replicates,
             scene_hash: rendering::load_for(claim, estimator)?.hash,
+            shown,
         })
     }
 
@@ -323,7 +339,7 @@ impl<'a> Comparison<'a> {
                 self.oracle = Some(oracle.clone());
                 (judged, oracle)
             }
-            Oracle::Convergence { .. } | Oracle::Noise { .. } => {
+            Oracle::Convergence { .. } | Oracle::Noise { .. } | Oracle::Povray { .. } => {
                 return Err("this kind of claim compares no pictures".to_owned());
             }
         };
@@ -340,6 +356,7 @@ impl<'a> Comparison<'a> {
             spp,
             replicates,
             scene_hash,
+            shown: None,
         })
     }
 }

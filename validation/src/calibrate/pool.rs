@@ -7,7 +7,7 @@
 //! - A formula: replicates are drawn with replacement, and the formula is replaced by the mean over
 //!   all of them, which is the truth of the world that they are drawn from.
 //! - Exponents and coverages: batches and pictures are drawn with replacement.
-//! - Bits: nothing is left to chance, and nothing is dealt.
+//! - Bits, and pixels without noise: nothing is left to chance, and nothing is dealt.
 
 use crate::calibrate::CHANNEL;
 use crate::claim::{Budget, Oracle};
@@ -142,6 +142,7 @@ impl Pool {
             Oracle::Invariance { .. } if estimator.change.is_some_and(|c| c.is_of_bits()) => {
                 Kind::Certain
             }
+            Oracle::Povray { .. } => Kind::Certain,
             _ => Kind::Pictures(Box::new(Pictures::render(task, first, tier, seed, state)?)),
         };
         Ok(Self {
