@@ -14,13 +14,27 @@ use crate::measure::Measure;
 use crate::rendering;
 use etalon::judge::Known;
 use etalon_film::Developed;
+use etalon_math::float64;
 use etalon_sampling::SamplerKind;
 use etalon_statistics::{Estimate, Line, Summary};
+use serde::Serialize;
 
 /// Replicates of a batch: two, the fewest that have standard errors.
 const BATCH: u32 = 2;
 
-/// The exponent of an estimator's squared error, judged at `alpha`; and the samples spent.
+/// How the squared error of one replicate falls with its samples.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Fall {
+    /// Samples, squared error (the mean of the batches), and its standard error.
+    pub points: Vec<[f64; 3]>,
+    /// The mean of the batches' fitted exponents.
+    pub exponent: f64,
+    /// The fitted power law's squared error for one sample: the geometric mean of the batches'.
+    pub factor: f64,
+}
+
+/// The exponent of an estimator's squared error, judged at `alpha`; the samples spent; and how
+/// the error fell.
 ///
 /// # Errors
 /// If a picture cannot be rendered or has no error at all.
@@ -31,7 +45,7 @@ pub fn measure(
     fault: Option<Fault>,
     replicates: u32,
     (seed, alpha): (u64, f64),
-) -> Result<(Vec<Measure>, u64), String> {
+) -> Result<(Vec<Measure>, u64, Fall), String> {
     let accepted = estimator.exponent.ok_or("there is no `exponent`")?;
     let estimator = match fault {
         Some(Fault::IndependentSamples) => &Estimator {
@@ -45,7 +59,8 @@ pub fn measure(
     let size = loaded.compiled.film.crop_size.to_array();
     let known = closed_form::picture(formula, claim, size)?;
     let mut spent = 0;
-    let mut exponents = Vec::new();
+    let (mut exponents, mut logarithms) = (Vec::new(), Vec::new());
+    let mut errors = vec![Vec::new(); samples.len()];
     for batch in 0..(replicates / BATCH).max(2) {
         let (mut x, mut y) = (Vec::new(), Vec::new());
         for (rung, n) in samples.iter().enumerate() {
@@ -59,11 +74,14 @@ pub fn measure(
             let plan = rendering::plan(&loaded, estimator, budget, seed);
             let picture = rendering::picture(&loaded, &plan, None, None)?;
             x.push(f64::from(plan.samples_per_replicate));
-            y.push(squared_error(&picture, &known)?);
+            let error = squared_error(&picture, &known)?;
+            y.push(error);
+            errors[rung].push(error);
             spent += u64::from(plan.samples_per_replicate * BATCH);
         }
         let fit = Line::fit_power_law(&x, &y).ok_or("there is no error whose fall can be seen")?;
         exponents.push(fit.slope.value());
+        logarithms.push(fit.intercept.value());
     }
     let summary = Summary::of(&exponents).ok_or("too few batches")?;
     let sampler = estimator.sampler.map_or(SamplerKind::Sobol, Into::into);
@@ -72,7 +90,16 @@ pub fn measure(
         etalon::pipeline::sampler_name(sampler)
     );
     let exponent = Measure::new(name, &Estimate::mean(&summary), accepted, alpha);
-    Ok((vec![exponent], spent))
+    let point = |(n, errors): (&u32, &Vec<f64>)| {
+        let summary = Summary::of(errors)?;
+        Some([f64::from(*n), summary.mean(), summary.standard_error()])
+    };
+    let fall = Fall {
+        points: samples.iter().zip(&errors).filter_map(point).collect(),
+        exponent: summary.mean(),
+        factor: Summary::of(&logarithms).map_or(f64::NAN, |s| float64::exp(s.mean())),
+    };
+    Ok((vec![exponent], spent, fall))
 }
 
 /// The mean over pixels, channels and replicates of the squared error:

@@ -8,6 +8,7 @@
 //! divided by the share of the level that the look was granted, and goes through Holm's procedure.
 //! Planted faults are another family: their hypotheses are known to be false.
 
+use crate::look::Look;
 use crate::run::{Compared, Comparison, Options, Task};
 use crate::state::State;
 use crate::tier::{self, FAULT_LOOKS};
@@ -103,6 +104,8 @@ pub struct Row<'a> {
     pub level: f64,
     /// Seconds spent on it.
     pub seconds: f64,
+    /// What each look saw.
+    pub history: Vec<Look>,
 }
 
 /// How far a run is.
@@ -138,6 +141,7 @@ struct Member<'a> {
     /// The least p-value of the looks, each over the share it was granted.
     p: f64,
     looks: usize,
+    history: Vec<Look>,
 }
 
 impl Member<'_> {
@@ -166,6 +170,7 @@ impl<'a> Group<'a> {
                     last: None,
                     p: 1.0,
                     looks: 0,
+                    history: Vec::new(),
                 }
             })
             .collect();
@@ -197,6 +202,8 @@ impl<'a> Group<'a> {
             .look(self.looks[look], granted, options, state);
         if let Ok(compared) = &compared {
             member.p = member.p.min(compared.p / share);
+            let seconds = member.comparison.seconds;
+            member.history.extend(Look::of(compared, granted, seconds));
         }
         member.looks += 1;
         member.last = Some(compared);
@@ -219,6 +226,7 @@ impl<'a> Group<'a> {
                 comparison,
                 last,
                 looks,
+                history,
                 ..
             } = member;
             let compared = last.unwrap_or_else(|| Err("there was no time to look".to_owned()));
@@ -247,6 +255,7 @@ impl<'a> Group<'a> {
                 looks,
                 level: levels[looks.saturating_sub(1)],
                 seconds: comparison.seconds,
+                history,
             };
             (place, row)
         })

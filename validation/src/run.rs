@@ -5,6 +5,7 @@
 
 use crate::accumulate;
 use crate::claim::{Budget, Claim, Estimator, Oracle};
+use crate::convergence::Fall;
 use crate::fault::Fault;
 use crate::judged::{self, Against};
 use crate::measure::Measure;
@@ -115,6 +116,8 @@ pub struct Compared {
     pub replicates: u32,
     /// The hash of the scene's content.
     pub scene_hash: String,
+    /// How the squared error falls, for claims of convergence.
+    pub fall: Option<Fall>,
 }
 
 impl Compared {
@@ -207,11 +210,15 @@ impl<'a> Comparison<'a> {
             replicates: first.replicates * multiple,
         };
         let seeded = (options.seed, alpha);
+        let mut fall = None;
         let (measures, spp) = match &claim.oracle {
             Oracle::Convergence { formula, samples } => {
                 let rungs = (formula.as_str(), samples.as_slice());
                 let replicates = budget.replicates;
-                convergence::measure(claim, rungs, estimator, fault, replicates, seeded)?
+                let (measures, spent, found) =
+                    convergence::measure(claim, rungs, estimator, fault, replicates, seeded)?;
+                fall = Some(found);
+                (measures, spent)
             }
             Oracle::Noise {
                 formula,
@@ -242,6 +249,7 @@ impl<'a> Comparison<'a> {
             spp,
             replicates: budget.replicates,
             scene_hash: rendering::load_for(claim, estimator)?.hash,
+            fall,
         })
     }
 
@@ -324,6 +332,7 @@ impl<'a> Comparison<'a> {
             spp,
             replicates,
             scene_hash,
+            fall: None,
         })
     }
 }
