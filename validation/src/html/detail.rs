@@ -109,8 +109,6 @@ fn evidence(compared: &Compared, row: &Row<'_>, rows: &[Row<'_>], album: &mut Al
                 @if judgement.tiles.iter().any(|row| row.side == 16) {
                     h3 { "Tiles" }
                     (tiles::maps(judgement))
-                    p class="quiet" { "Map: dark where equality is hard to believe; the outlined tile has the least p. "
-                        "Histogram: equal pictures give bars about the dashed line, 95 % of them within the band." }
                 }
                 details { summary { "Statistics" } (tables::tables(judgement)) }
             }
@@ -172,7 +170,7 @@ fn fallen(fall: &Fall, name: &str) -> Markup {
     let ends = fall.points.first().zip(fall.points.last());
     let curve = Curve {
         name: format!(
-            "{name}: squared error of one replicate ∝ n^{:.3}",
+            "{name}: squared error of one replicate ∝ n^({:.3})",
             fall.exponent
         ),
         points: fall.points.clone(),

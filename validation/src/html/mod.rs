@@ -49,7 +49,7 @@ fn whole(rows: &[Row<'_>], provenance: &Provenance) -> Markup {
             li class=[(undecided > 0).then_some("undecided")] { b { (undecided) } span { "undecided" } }
             li class=[(broken > 0).then_some("broken")] { b { (broken) } span { "broken" } }
             @if asked > 0 {
-                li { b { (below) " of " (asked) } span { "references and agreements: bias bounded below 0.5 %" } }
+                li { b { (below) " of " (asked) } span title="of the references and agreements" { "bias bounded below 0.5 %" } }
             }
             @if mutants.clone().count() > 0 {
                 li { b { (found.count()) " of " (mutants.count()) } span { "planted faults found" } }

@@ -179,6 +179,15 @@
     return text.includes(`${second}: 0.2500  0.2500  0.2500`) && text.includes('%') ? true : text;
   });
 
+  check('arrow keys read pixels', () => {
+    map.focus();
+    const before = viewer.querySelector('.readout').textContent;
+    press(map, 'ArrowRight');
+    const place = (text) => text.match(/\((\d+), (\d+)\)/).slice(1).map(Number);
+    const [[x, y], [u, v]] = [before, viewer.querySelector('.readout').textContent].map(place);
+    return same([document.activeElement === map, u - x, v - y], [true, 1, 0]);
+  });
+
   const luminance = (colour) => {
     const canvas = document.createElement('canvas').getContext('2d', { willReadFrequently: true });
     canvas.fillStyle = colour;

@@ -98,9 +98,10 @@
   };
   // The least of the scales that 95 % of the pixels stay within.
   const suitable = (source, scales) => {
-    const sizes = [];
-    for (let i = 0; i < source.pixels; i++) if (Number.isFinite(source.at(i))) sizes.push(Math.abs(source.at(i)));
-    sizes.sort((a, b) => a - b);
+    // A hundred thousand pixels are enough to choose by.
+    const step = Math.ceil(source.pixels / 1e5), sizes = new Float32Array(Math.ceil(source.pixels / step));
+    for (let i = 0; i < sizes.length; i++) sizes[i] = Math.min(Math.abs(source.at(i * step)), 1e30);
+    sizes.sort(); // What is no number goes to the end.
     const most = sizes[Math.floor(0.95 * (sizes.length - 1))] || 0;
     return (scales.find(([x]) => x >= most) || scales[scales.length - 1])[0];
   };
@@ -205,17 +206,36 @@
     range.addEventListener('input', () => expose(range.value));
     choice.addEventListener('change', rescale);
     scale.addEventListener('change', remap);
-    const read = (event) => {
-      const box = event.currentTarget.getBoundingClientRect();
-      const [x, y] = [width * (event.clientX - box.left) / box.width, height * (event.clientY - box.top) / box.height].map(Math.floor);
-      if (x < 0 || y < 0 || x >= width || y >= height) return;
+    // The pixel under the pointer, or that the arrow keys went to, in both panes.
+    const cursors = all('.frame', viewer).map((frame) => {
+      const cursor = document.createElement('span');
+      cursor.className = 'cursor';
+      Object.assign(cursor.style, { width: `${100 / width}%`, height: `${100 / height}%` });
+      frame.append(cursor);
+      return cursor;
+    });
+    let [column, row] = [Math.floor(width / 2), Math.floor(height / 2)];
+    const read = (x, y) => {
+      if (!(x >= 0 && y >= 0 && x < width && y < height)) return;
+      [column, row] = [x, y];
+      cursors.forEach((cursor) => Object.assign(cursor.style, { display: 'block', left: `${100 * x / width}%`, top: `${100 * y / height}%` }));
       const pixel = y * width + x;
       const numbers = (source) => [0, 1, 2].map((plane) => shown(source.at(pixel, plane))).join('  ');
       const relative = picture(viewer.dataset.relative).at(pixel);
       const deviation = viewer.dataset.deviation ? `, ${signed(picture(viewer.dataset.deviation).at(pixel), 1)} standard errors` : '';
       readout.textContent = `(${x}, ${y})  ${names[0]}: ${numbers(first)} · ${names[1]}: ${numbers(second)} · ${signed(100 * relative, 2)} %${deviation}`;
     };
-    [pair, map].forEach((canvas) => canvas.addEventListener('pointermove', read));
+    [pair, map].forEach((canvas) => canvas.addEventListener('pointermove', (event) => {
+      const box = canvas.getBoundingClientRect();
+      read(Math.floor(width * (event.clientX - box.left) / box.width), Math.floor(height * (event.clientY - box.top) / box.height));
+    }));
+    map.addEventListener('keydown', (event) => {
+      const step = event.shiftKey ? 10 : 1;
+      const by = { ArrowLeft: [-step, 0], ArrowRight: [step, 0], ArrowUp: [0, -step], ArrowDown: [0, step] }[event.key];
+      if (!by || event.ctrlKey || event.altKey || event.metaKey) return;
+      read(clamp(column + by[0], 0, width - 1), clamp(row + by[1], 0, height - 1));
+      event.preventDefault();
+    });
     expose(viewer.dataset.exposure);
     rescale();
     move(50);

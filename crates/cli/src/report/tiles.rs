@@ -20,6 +20,9 @@ pub fn maps(judgement: &Judgement) -> Markup {
     let rows = judgement.tiles.iter().filter(|row| row.side == 16);
     html! {
         div class="tiles" { @for row in rows { (map(row)) } }
+        p class="legend-of-p" aria-hidden="true" { "p: 1" i {} "10⁻⁵" }
+        p class="quiet" { "Map: dark where equality is hard to believe; the outlined tile has the least p. "
+            "Histogram: equal pictures give bars about the dashed line, 95 % of them within the band." }
     }
 }
 

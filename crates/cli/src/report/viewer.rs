@@ -8,9 +8,6 @@ use super::album::{Album, FLOOR, exposure};
 use etalon_film::Developed;
 use maud::{Markup, html};
 
-/// Greatest and smallest exposure of the slider (stops).
-const STOPS: f64 = 24.0;
-
 /// Two pictures and their difference; nothing if either has no colour.
 pub fn viewer(
     album: &mut Album,
@@ -34,8 +31,7 @@ pub fn viewer(
             div class="tools" role="group" aria-label="Exposure and map" {
                 label class="exposure" {
                     "Exposure "
-                    input type="range" min=(automatic.min(0.0) - 8.0) max=(automatic.max(0.0) + 8.0) step="0.1" value=(automatic)
-                        data-limit=(STOPS);
+                    input type="range" min=(automatic.min(0.0) - 8.0) max=(automatic.max(0.0) + 8.0) step="0.1" value=(automatic);
                     output { (format!("{automatic:+.1} EV")) }
                 }
                 button type="button" data-do="auto" { "Auto" }
@@ -72,8 +68,8 @@ pub fn viewer(
                 }
                 figure {
                     div class="frame" style=(format!("aspect-ratio:{width}/{height}")) {
-                        canvas class="map" width=(width) height=(height) role="img"
-                            aria-label="Signed difference of each pixel" {}
+                        canvas class="map" width=(width) height=(height) role="img" tabindex="0"
+                            aria-label="Signed difference of each pixel; arrow keys go from pixel to pixel" {}
                     }
                     figcaption {
                         span class="scale" {
@@ -87,7 +83,7 @@ pub fn viewer(
                     }
                 }
             }
-            p class="readout" aria-live="off" { "Point at a pixel to read its numbers." }
+            p class="readout" role="status" { "Point at a pixel, or use the arrow keys on the map, to read its numbers." }
         }
         noscript { p { "Pictures are drawn by a script, which your browser does not run." } }
     }
