@@ -28,7 +28,8 @@ fn rank(outcome: Outcome) -> (u8, &'static str) {
 
 /// The number that speaks for a row: it reaches farthest towards what is not accepted.
 enum Speaks<'a> {
-    Bias(&'a ImageRow, f64),
+    /// Of this channel, with the bound, and how many tiles of all channels are shown to be off.
+    Bias(&'a ImageRow, f64, usize),
     Measure(&'a Measure),
     Nothing,
 }
@@ -40,7 +41,8 @@ fn speaks<'a>(row: &'a Row<'_>) -> Speaks<'a> {
     if let Some(judgement) = compared.judgement() {
         let bound = judgement.rules.image_bound;
         let widest = Judgement::widest(judgement);
-        return widest.map_or(Speaks::Nothing, |image| Speaks::Bias(image, bound));
+        let off = judgement.tiles.iter().map(|tiles| tiles.differing).sum();
+        return widest.map_or(Speaks::Nothing, |image| Speaks::Bias(image, bound, off));
     }
     let measures = compared.measures().iter();
     let worst = measures.min_by(|a, b| a.p.total_cmp(&b.p));
@@ -71,7 +73,7 @@ pub(super) fn line(index: usize, row: &Row<'_>) -> Markup {
             }
             td role="cell" class="text kind" data-key="kind" data-value=(kind) { (kind.replace('_', " ")) }
             (bias(&speaks))
-            @let sees = match &speaks { Speaks::Bias(image, _) => Some(image.smallest_detectable), _ => None };
+            @let sees = match &speaks { Speaks::Bias(image, ..) => Some(image.smallest_detectable), _ => None };
             td role="cell" data-key="sees" data-label="could see" data-value=[sees] {
                 @if let Some(sees) = sees { (format!("{:.3} %", 100.0 * sees)) }
             }
@@ -94,7 +96,7 @@ pub(super) fn line(index: usize, row: &Row<'_>) -> Markup {
 fn bias(speaks: &Speaks<'_>) -> Markup {
     let class = "text wide";
     match speaks {
-        Speaks::Bias(image, bound) => {
+        Speaks::Bias(image, bound, off) => {
             let [low, high] = image.interval;
             let reach = low.abs().max(high.abs()) / bound;
             let label = format!("bias of {}", image.channel);
@@ -102,6 +104,9 @@ fn bias(speaks: &Speaks<'_>) -> Markup {
                 td role="cell" class=(class) data-key="bias" data-label=(label) data-value=(sortable(reach)) {
                     (interval::bar(image.bias, image.interval, [-bound, *bound], &image.verdict.to_string()))
                     span class="numbers" { (image.channel) " " (format!("{:+.3} … {:+.3} %", 100.0 * low, 100.0 * high)) }
+                    @if *off > 0 {
+                        span class="numbers" { (off) @if *off == 1 { " tile" } @else { " tiles" } " off" }
+                    }
                 }
             }
         }

@@ -233,6 +233,10 @@
     ].map((e) => e.outerHTML.slice(0, 60));
     return same([ids.length - new Set(ids).size, nameless], [0, []]);
   });
+  check('pictures keep their shape', () => all('.frame canvas').every((canvas) => {
+    const rect = canvas.getBoundingClientRect();
+    return Math.abs(rect.width / rect.height - canvas.width / canvas.height) < 0.02;
+  }));
   check('no drawing has a number that is none', () => all('svg *').every((e) => [...e.attributes].every((a) => !/NaN|inf/i.test(a.value))));
   check('the skip link leads to the content', () => {
     const link = document.querySelector('a.skip');

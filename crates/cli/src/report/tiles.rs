@@ -32,8 +32,8 @@ fn map(row: &TileRow) -> Markup {
     let smallest = row.p_map.iter().copied().fold(1.0_f32, f32::min);
     html! {
         figure {
-            figcaption { strong { (row.channel) } ": " (row.p_map.len()) " tiles of 16² pixels, least p = "
-                (probability(f64::from(smallest))) " at (" (row.worst[0]) ", " (row.worst[1]) ")" }
+            figcaption { strong { (row.channel) } ": " (row.p_map.len()) " tiles of 16² pixels, least p "
+                (least(smallest)) " at (" (row.worst[0]) ", " (row.worst[1]) ")" }
             div class="pair-of" {
                 (p_map(row, columns, lines))
                 (histogram(&row.p_map))
@@ -69,6 +69,14 @@ fn p_map(row: &TileRow, columns: usize, lines: usize) -> Markup {
             rect class="worst" x=(unit * f64::from(row.worst[0]) + 1.0) y=(unit * f64::from(row.worst[1]) + 1.0)
                 width=(unit - 2.0) height=(unit - 2.0) {}
         }
+    }
+}
+
+/// The smallest p-value; a single-precision number ends at 10⁻⁴⁵.
+fn least(p: f32) -> String {
+    match p > 0.0 {
+        true => format!("= {}", probability(f64::from(p))),
+        false => "< 1e-45".to_owned(),
     }
 }
 

@@ -51,7 +51,7 @@ pub fn viewer(
             }
             div class="panes" {
                 figure {
-                    div class="frame" style=(format!("aspect-ratio:{width}/{height}")) {
+                    div class="frame" style=(format!("--w:{width};--h:{height}")) {
                         canvas class="pair" width=(width) height=(height) role="img"
                             aria-label=(format!("{} left of the slider, {} right of it", names[0], names[1])) {}
                         span class="name left" { (names[0]) }
@@ -67,7 +67,7 @@ pub fn viewer(
                     }
                 }
                 figure {
-                    div class="frame" style=(format!("aspect-ratio:{width}/{height}")) {
+                    div class="frame" style=(format!("--w:{width};--h:{height}")) {
                         canvas class="map" width=(width) height=(height) role="img" tabindex="0"
                             aria-label="Signed difference of each pixel; arrow keys go from pixel to pixel" {}
                     }
