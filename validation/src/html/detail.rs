@@ -122,11 +122,12 @@ fn evidence(compared: &Compared, row: &Row<'_>, rows: &[Row<'_>], album: &mut Al
 
 fn other_name(oracle: &Oracle) -> String {
     match oracle {
-        Oracle::ClosedForm { .. } | Oracle::Energy { .. } => "closed form",
-        Oracle::Reference { .. } => "reference",
-        _ => "oracle",
+        Oracle::ClosedForm { .. } | Oracle::Energy { .. } => "closed form".to_owned(),
+        Oracle::Agreement { estimator } | Oracle::Invariance { estimator } => {
+            format!("{} (oracle)", estimator.label())
+        }
+        _ => "reference".to_owned(),
     }
-    .to_owned()
 }
 
 /// Looks that saw this channel.
