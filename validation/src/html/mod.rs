@@ -106,7 +106,7 @@ fn filters(rows: &[Row<'_>]) -> Markup {
     }
     let names = ["passed", "failed", "undecided", "broken"];
     html! {
-        form class="filters" role="search" aria-label="Rows to show" hidden {
+        form class="filters" role="search" aria-label="Rows to show" {
             label class="search" { "Find " input type="search" name="text" placeholder="claim, estimator, scene …"; }
             fieldset {
                 legend { "Outcome" }
@@ -126,7 +126,7 @@ fn filters(rows: &[Row<'_>]) -> Markup {
             button type="reset" { "Reset" }
             button type="button" data-open="yes" { "Unfold all" }
             button type="button" data-open="no" { "Fold all" }
-            span class="count" role="status" { (rows.len()) " rows" }
+            span class="count" role="status" { (rows.len()) " of " (rows.len()) " rows shown" }
         }
     }
 }

@@ -21,6 +21,7 @@
   const at = (canvas, u, v) => [...copied(canvas, Math.floor(u * canvas.width), Math.floor(v * canvas.height), 1, 1)];
   const same = (found, expected) => (JSON.stringify(found) === JSON.stringify(expected) ? true : `${JSON.stringify(found)} for ${JSON.stringify(expected)}`);
   const press = (target, key, more = {}) => target.dispatchEvent(new KeyboardEvent('keydown', { key, bubbles: true, cancelable: true, ...more }));
+  const unseen = (element) => element.getClientRects().length === 0;
   const table = document.querySelector('table.decisions');
   const pause = (milliseconds) => new Promise((resolve) => { setTimeout(resolve, milliseconds); });
 
@@ -35,7 +36,7 @@
     };
     const box = (value) => form.querySelector(`[value=${value}]`);
     check('rows are folded and undrawn at first', () =>
-      rows.every((row) => row.querySelector('.detail').hidden) && all('.viewer').every((v) => !v.dataset.started));
+      rows.every((row) => unseen(row.querySelector('.detail'))) && all('.viewer').every((v) => !v.dataset.started));
     check('filters hide rows by outcome', () => {
       set(box('passed'), false);
       const found = visible();
@@ -79,18 +80,18 @@
       const toggle = document.querySelector('#row0 .toggle'), detail = document.querySelector('#row0 .detail');
       toggle.focus();
       const states = [document.activeElement === toggle];
-      for (let i = 0; i < 3; i++) { toggle.click(); states.push(!detail.hidden, toggle.getAttribute('aria-expanded')); }
+      for (let i = 0; i < 3; i++) { toggle.click(); states.push(!unseen(detail), toggle.getAttribute('aria-expanded')); }
       return same(states, [true, true, 'true', false, 'false', true, 'true']);
     });
     check('an address unfolds its row', () => {
       location.hash = '#row5';
       dispatchEvent(new HashChangeEvent('hashchange'));
-      const found = !document.querySelector('#row5 .detail').hidden;
+      const found = !unseen(document.querySelector('#row5 .detail'));
       history.replaceState(null, '', location.pathname);
       return found;
     });
     document.querySelector('[data-open=yes]').click();
-    check('all rows unfold', () => rows.every((row) => !row.querySelector('.detail').hidden));
+    check('all rows unfold', () => rows.every((row) => !unseen(row.querySelector('.detail'))));
     check('every plot is there', () => same(
       ['.running', '.plot .fit', '.plot rect.s1', '.p-map', '.histogram', '.interval', '.refusals'].map((s) => all(s).length > 0),
       Array(7).fill(true)));

@@ -44,9 +44,9 @@ pub fn page(title: &str, body: &Markup) -> String {
                 meta name="referrer" content="no-referrer";
                 title { (title) " – Etalon" }
                 style { (PreEscaped(STYLE)) }
-                // Chosen before anything is drawn, so that no page flashes.
+                // Before anything is drawn, so that nothing flashes or moves.
                 script { (PreEscaped(
-                    "try{var t=localStorage.getItem('etalon-theme');if(t)document.documentElement.dataset.theme=t}catch(e){}"
+                    "document.documentElement.classList.add('scripted');try{var t=localStorage.getItem('etalon-theme');if(t)document.documentElement.dataset.theme=t}catch(e){}"
                 )) }
             }
             body {
@@ -54,7 +54,7 @@ pub fn page(title: &str, body: &Markup) -> String {
                 header class="top" {
                     span class="brand" { "Etalon" }
                     h1 { (title) }
-                    button type="button" class="theme" hidden { "Theme: as the system" }
+                    button type="button" class="theme" { "Theme: as the system" }
                 }
                 main id="content" tabindex="-1" { (body) }
                 script { (PreEscaped(SCRIPT)) }

@@ -11,7 +11,6 @@
     const order = Object.keys(names);
     const root = document.documentElement;
     const show = () => { theme.textContent = `Theme: ${names[root.dataset.theme || '']}`; };
-    theme.hidden = false;
     theme.addEventListener('click', () => {
       const next = order[(order.indexOf(root.dataset.theme || '') + 1) % order.length];
       if (next) root.dataset.theme = next; else delete root.dataset.theme;
@@ -215,10 +214,11 @@
       return cursor;
     });
     let [column, row] = [Math.floor(width / 2), Math.floor(height / 2)];
-    const read = (x, y) => {
+    const read = (x, y, live) => {
       if (!(x >= 0 && y >= 0 && x < width && y < height)) return;
       [column, row] = [x, y];
       cursors.forEach((cursor) => Object.assign(cursor.style, { display: 'block', left: `${100 * x / width}%`, top: `${100 * y / height}%` }));
+      readout.setAttribute('aria-live', live); // Told when asked for by keys, not along every way of a mouse.
       const pixel = y * width + x;
       const numbers = (source) => [0, 1, 2].map((plane) => shown(source.at(pixel, plane))).join('  ');
       const relative = picture(viewer.dataset.relative).at(pixel);
@@ -227,13 +227,13 @@
     };
     [pair, map].forEach((canvas) => canvas.addEventListener('pointermove', (event) => {
       const box = canvas.getBoundingClientRect();
-      read(Math.floor(width * (event.clientX - box.left) / box.width), Math.floor(height * (event.clientY - box.top) / box.height));
+      read(Math.floor(width * (event.clientX - box.left) / box.width), Math.floor(height * (event.clientY - box.top) / box.height), 'off');
     }));
     map.addEventListener('keydown', (event) => {
       const step = event.shiftKey ? 10 : 1;
       const by = { ArrowLeft: [-step, 0], ArrowRight: [step, 0], ArrowUp: [0, -step], ArrowDown: [0, step] }[event.key];
       if (!by || event.ctrlKey || event.altKey || event.metaKey) return;
-      read(clamp(column + by[0], 0, width - 1), clamp(row + by[1], 0, height - 1));
+      read(clamp(column + by[0], 0, width - 1), clamp(row + by[1], 0, height - 1), 'polite');
       event.preventDefault();
     });
     expose(viewer.dataset.exposure);
@@ -251,10 +251,8 @@
   const table = document.querySelector('table.decisions');
   if (!table) return;
   const rows = [...table.tBodies], heads = all('th', table.tHead), form = document.querySelector('.filters');
-  form.hidden = false;
   const open = (row, wanted) => {
     row.classList.toggle('open', wanted);
-    row.querySelector('.detail').hidden = !wanted;
     row.querySelector('.toggle').setAttribute('aria-expanded', String(wanted));
     if (wanted) all('.viewer', row).forEach(start);
   };

@@ -8,6 +8,9 @@ use super::album::{Album, FLOOR, exposure};
 use etalon_film::Developed;
 use maud::{Markup, html};
 
+/// What the colours of the map mean.
+const COLOURS: &str = "Blue: darker than it ought to be; orange: brighter.";
+
 /// Two pictures and their difference; nothing if either has no colour.
 pub fn viewer(
     album: &mut Album,
@@ -25,6 +28,10 @@ pub fn viewer(
         return html! { p { "The pictures differ in size." } };
     }
     let automatic = exposure(&second.image);
+    let [one, other] = names;
+    let floor = 100.0 * FLOOR;
+    let about = format!("Luminance: ({one} − {other}) / ({other} + {floor:.0} % of its mean)");
+    let in_errors = format!("Green: ({one} − {other}) / its standard error");
     html! {
         div class="viewer" data-first=(a) data-second=(b) data-relative=[relative]
             data-deviation=[deviation.as_deref()] data-exposure=(automatic) {
@@ -76,10 +83,7 @@ pub fn viewer(
                             span class="low" { "−10 %" } span class="ramp" aria-hidden="true" {}
                             span class="high" { "+10 %" }
                         }
-                        span class="about" data-relative=(format!("Luminance: ({0} − {1}) / ({1} + {2:.0} % of its mean)", names[0], names[1], 100.0 * FLOOR))
-                            data-deviation=(format!("Green: ({} − {}) / its standard error", names[0], names[1])) {
-                            "blue: darker than it ought to be; orange: brighter"
-                        }
+                        span class="about" data-relative=(about) data-deviation=(in_errors) { (about) ". " (COLOURS) }
                     }
                 }
             }
