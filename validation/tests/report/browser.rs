@@ -1,6 +1,7 @@
 //! A page in a real browser, without a driver: a script that is put into the page exercises it and
-//! tells what it found to a frame around it, which Chromium prints when its (virtual) time is up.
-//! The frame has the size that is asked for; a window is never as narrow as a phone.
+//! tells what it found to a frame around it, which writes it to the console, that is to standard
+//! error, and closes the window. The frame has the size that is asked for; a window is never as
+//! narrow as a phone.
 
 use serde::Deserialize;
 use std::fs::{self, File};
@@ -85,60 +86,59 @@ pub(crate) fn exercise(
     fs::write(&page, html).expect("written");
     let around = folder.join("around.html");
     let frame = format!(
-        "<!DOCTYPE html><pre id=\"findings\"></pre><script>\
-         addEventListener('message',e=>{{findings.textContent=e.data}})</script>\
+        "<!DOCTYPE html><script>addEventListener('message',e=>{{\
+         for(const f of e.data)console.log('FINDING '+JSON.stringify(f));\
+         console.log('FINDINGS '+e.data.length);setTimeout(()=>window.close(),100)}})</script>\
          <iframe src=\"page.html\" width=\"{width}\" height=\"{height}\" style=\"border:0\"></iframe>"
     );
     fs::write(&around, frame).expect("written");
-    let [out, err] = ["dom.html", "log.txt"].map(|name| folder.join(name));
-    let mut command = Command::new(browser);
-    command
-        .args([
-            "--headless=new",
-            "--disable-gpu",
-            "--hide-scrollbars",
-            "--no-first-run",
-        ])
+    let log = folder.join("log.txt");
+    let profile = folder.join("profile");
+    let mut process = Command::new(browser)
+        .args(["--headless=new", "--disable-gpu", "--no-first-run"])
         // Root has no sandbox, as in containers. The page is ours.
         .args(["--no-sandbox", "--disable-dev-shm-usage"])
-        .args([
-            "--enable-logging=stderr",
-            "--v=0",
-            "--virtual-time-budget=20000",
-        ])
-        .arg(format!(
-            "--user-data-dir={}",
-            folder.join("profile").display()
-        ))
+        .args(["--enable-logging=stderr", "--v=0"])
+        .arg(format!("--user-data-dir={}", profile.display()))
         .arg(format!("--window-size={},{}", width + 50, height + 100))
-        .arg("--dump-dom")
         .arg(format!("file://{}", around.display()))
         .stdin(Stdio::null())
-        .stdout(File::create(&out).expect("a file"))
-        .stderr(File::create(&err).expect("a file"));
-    let mut process = command.spawn().expect("the browser starts");
+        .stdout(Stdio::null())
+        .stderr(File::create(&log).expect("a file"))
+        .spawn()
+        .expect("the browser starts");
     let start = Instant::now();
     while process.try_wait().expect("a process").is_none() {
         if start.elapsed() > LIMIT {
             let _ = process.kill();
             let _ = process.wait();
-            let log = fs::read_to_string(&err).unwrap_or_default();
+            let log = fs::read_to_string(&log).unwrap_or_default();
             panic!("the browser did not end within {LIMIT:?}: {log}");
         }
         std::thread::sleep(Duration::from_millis(20));
     }
-    let read =
-        |path: &Path| String::from_utf8_lossy(&fs::read(path).expect("readable")).into_owned();
-    let (dom, log) = (read(&out), read(&err));
-    let found = dom.split("<pre id=\"findings\">").nth(1);
-    let found = found.and_then(|rest| rest.split("</pre>").next());
-    let found = found.filter(|found| !found.is_empty());
-    let found = found.unwrap_or_else(|| panic!("the script did not end: {log}"));
-    let mut findings: Vec<Finding> = serde_json::from_str(found).expect("findings");
-    let said: Vec<&str> = log
-        .lines()
-        .filter(|line| line.contains(":CONSOLE:"))
-        .collect();
+    let log = fs::read(&log).expect("readable");
+    understood(&String::from_utf8_lossy(&log))
+}
+
+/// What the console was told.
+fn understood(log: &str) -> Vec<Finding> {
+    let (mut findings, mut announced, mut said) = (Vec::new(), None, Vec::new());
+    for line in log.lines().filter(|line| line.contains(":CONSOLE:")) {
+        let told = |what: &str| {
+            let (_, rest) = line.split_once(&format!("\"{what} "))?;
+            Some(rest.rsplit_once("\", source:")?.0)
+        };
+        if let Some(text) = told("FINDING") {
+            findings.push(serde_json::from_str(text).expect("a finding"));
+        } else if let Some(text) = told("FINDINGS") {
+            announced = text.parse().ok();
+        } else {
+            said.push(line);
+        }
+    }
+    let complete = announced == Some(findings.len());
+    assert!(complete, "the script did not end: {log}");
     findings.push(Finding {
         name: "the console is silent".to_owned(),
         fine: said.is_empty(),
