@@ -100,9 +100,11 @@
   const viewer = document.querySelector('.viewer');
   const pair = viewer.querySelector('canvas.pair'), map = viewer.querySelector('canvas.map'), divider = viewer.querySelector('[role=slider]');
   const range = viewer.querySelector('input[type=range]');
+  viewer.scrollIntoView();
   // Ten seconds are plenty.
   for (let i = 0; i < 500 && !viewer.dataset.started; i++) await pause(20);
   check('pictures are drawn once they are in sight', () => viewer.dataset.started === 'yes');
+  if (table) check('what is out of sight is not drawn', () => !all('.viewer').at(-1).dataset.started);
   const [first, second] = ['.left', '.right'].map((side) => viewer.querySelector(side).textContent);
   const press_button = (name) => viewer.querySelector(`[data-do=${name}]`).click();
   const stops = (value) => { range.value = value; range.dispatchEvent(new Event('input', { bubbles: true })); };
@@ -152,6 +154,7 @@
   });
   check('the map is signed, and its scale matters', () => {
     const target = document.querySelector(table ? '#row1 .viewer' : '.viewer');
+    if (table) for (let i = 0; i < 2; i++) document.querySelector('#row1 .toggle').click();
     const canvas = target.querySelector('canvas.map'), scale = target.querySelector('[data-do=scale]');
     // Brighter by 20 % in the right half, as dark on average in the left.
     scale.value = '0.3';
@@ -235,7 +238,7 @@
     ].map((e) => e.outerHTML.slice(0, 60));
     return same([ids.length - new Set(ids).size, nameless], [0, []]);
   });
-  check('pictures keep their shape', () => all('.frame canvas').every((canvas) => {
+  check('pictures keep their shape', () => all('.viewer[data-started] .frame canvas').every((canvas) => {
     const rect = canvas.getBoundingClientRect();
     return Math.abs(rect.width / rect.height - canvas.width / canvas.height) < 0.02;
   }));

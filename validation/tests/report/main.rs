@@ -7,7 +7,7 @@ mod browser;
 mod rows;
 
 use browser::{Folder, exercise, failures};
-use etalon::report::comparison;
+use etalon::report::{comparison, running};
 use etalon_validation::html;
 use etalon_validation::json::Provenance;
 use etalon_validation::judged::{self, Against};
@@ -57,7 +57,7 @@ fn a_report_works_at_a_desk_and_on_a_phone() {
         return;
     };
     let folder = Folder::new("report");
-    for (name, html, checks) in [("validate", validation(), 30), ("compare", compared(), 20)] {
+    for (name, html, checks) in [("validate", validation(), 31), ("compare", compared(), 20)] {
         for size in [DESK, PHONE] {
             let findings = exercise(&browser, folder.path(), &html, &script(size), size);
             assert_eq!(failures(&findings), [""; 0], "{name} at {size:?}");
@@ -82,6 +82,35 @@ fn a_report_is_one_file_of_a_sane_size() {
     assert!(html.contains("there is no &lt;reference&gt;"));
     // The default run has 120 rows of pictures as large as these or a little larger.
     assert!(html.len() < 7 * 100_000, "{}", html.len());
+}
+
+#[test]
+fn a_running_bias_ends_with_the_decision() {
+    let (known, truth) = rows::truth();
+    let picture = rows::picture(6, 0.001, 1.0);
+    let other = rows::picture(7, 0.0, 1.0);
+    for (against, drawn) in [
+        (Against::Known(&known), &truth),
+        (Against::Picture(&other), &other),
+    ] {
+        let judged = judged::judge(&picture, against, rows::RULES, true);
+        let judgement = judged.expect("comparable").judgement;
+        let widest = judgement.widest().expect("a channel");
+        let curve = running::of(&judgement, &picture, drawn).expect("replicates");
+        let last = curve.points.last().expect("points");
+        assert_eq!(
+            (curve.channel.as_str(), last.samples),
+            (widest.channel.as_str(), 128.0)
+        );
+        for (found, decided) in [
+            (last.bias, widest.bias),
+            (last.interval[0], widest.interval[0]),
+            (last.interval[1], widest.interval[1]),
+        ] {
+            // Mutant rejected: the level of the whole comparison in place of one question's.
+            assert!((found - decided).abs() < 1e-9, "{found} {decided}");
+        }
+    }
 }
 
 #[test]

@@ -251,10 +251,10 @@
   const table = document.querySelector('table.decisions');
   if (!table) return;
   const rows = [...table.tBodies], heads = all('th', table.tHead), form = document.querySelector('.filters');
-  const open = (row, wanted) => {
+  const open = (row, wanted, draw = wanted) => {
     row.classList.toggle('open', wanted);
     row.querySelector('.toggle').setAttribute('aria-expanded', String(wanted));
-    if (wanted) all('.viewer', row).forEach(start);
+    if (draw) all('.viewer', row).forEach(start);
   };
   rows.forEach((row) => {
     open(row, false);
@@ -282,7 +282,8 @@
   form.addEventListener('reset', () => setTimeout(filter));
   all('[data-open]').forEach((button) => button.addEventListener('click', () => {
     const wanted = button.dataset.open === 'yes';
-    rows.filter((row) => !wanted || !row.hidden).forEach((row) => open(row, wanted));
+    // What is in sight is drawn by itself.
+    rows.filter((row) => !wanted || !row.hidden).forEach((row) => open(row, wanted, false));
   }));
   const value = (row, key) => row.querySelector(`.line > [data-key="${key}"]`).dataset.value ?? '';
   heads.forEach((head) => head.querySelector('button').addEventListener('click', () => {
