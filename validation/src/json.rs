@@ -110,6 +110,8 @@ fn row(row: &Row<'_>, provenance: &Provenance) -> Value {
         "judgement": compared.ok().and_then(Compared::judgement),
         "measures": compared.map(Compared::measures).ok(),
         "refusals": refusals,
+        "history": row.history,
+        "fall": compared.ok().and_then(|c| c.fall.as_ref()),
         "error": compared.err(),
     })
 }

@@ -20,6 +20,7 @@ pub mod html;
 pub mod invariance;
 pub mod json;
 pub mod judged;
+pub mod look;
 pub mod measure;
 pub mod noise;
 pub mod outcome;

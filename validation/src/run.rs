@@ -5,6 +5,7 @@
 
 use crate::batches::Batches;
 use crate::claim::{Budget, Claim, Estimator, Oracle};
+use crate::convergence::Fall;
 use crate::fault::Fault;
 use crate::judged::{self, Against};
 use crate::measure::Measure;
@@ -146,6 +147,8 @@ pub struct Compared {
     pub scene_hash: String,
     /// Our picture and what it ought to be, where the measures were taken of pictures.
     pub shown: Option<Box<[Developed; 2]>>,
+    /// How the squared error falls, for claims of convergence.
+    pub fall: Option<Fall>,
 }
 
 impl Compared {
@@ -231,7 +234,7 @@ impl<'a> Comparison<'a> {
             spp: first.spp * multiple,
             replicates: first.replicates * multiple,
         };
-        let mut shown = None;
+        let (mut shown, mut fall) = (None, None);
         let (measures, spp) = match &claim.oracle {
             Oracle::Povray { edges, excused } => {
                 let limits = pixelwise::Limits {
@@ -246,10 +249,11 @@ impl<'a> Comparison<'a> {
             Oracle::Convergence { formula, samples } => {
                 let rungs = (formula.as_str(), samples.as_slice());
                 let (replicates, seed) = (budget.replicates, options.seed);
-                let (exponents, spp) =
-                    convergence::exponents(claim, rungs, estimator, fault, replicates, seed)?;
-                let measure = convergence::judge(&exponents, estimator, alpha)?;
-                (vec![measure], spp)
+                let batches =
+                    convergence::batches(claim, rungs, estimator, fault, replicates, seed)?;
+                let measure = convergence::judge(&batches.exponents, estimator, alpha)?;
+                fall = Some(batches.fall);
+                (vec![measure], batches.spp)
             }
             Oracle::Noise {
                 formula,
@@ -283,6 +287,7 @@ impl<'a> Comparison<'a> {
             replicates: budget.replicates,
             scene_hash: rendering::load_for(claim, estimator)?.hash,
             shown,
+            fall,
         })
     }
 
@@ -357,6 +362,7 @@ impl<'a> Comparison<'a> {
             replicates,
             scene_hash,
             shown: None,
+            fall: None,
         })
     }
 }

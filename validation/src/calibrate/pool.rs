@@ -130,9 +130,9 @@ impl Pool {
             Oracle::Convergence { formula, samples } => {
                 let rungs = (formula.as_str(), samples.as_slice());
                 let replicates = first.replicates;
-                let (exponents, _) =
-                    convergence::exponents(claim, rungs, estimator, None, replicates, seed)?;
-                Kind::Exponents(exponents)
+                let batches =
+                    convergence::batches(claim, rungs, estimator, None, replicates, seed)?;
+                Kind::Exponents(batches.exponents)
             }
             Oracle::Noise { formula, seeds, .. } => {
                 let counted = (formula.as_str(), *seeds);
