@@ -240,7 +240,12 @@ impl Samples {
 ///
 /// # Errors
 /// If it has no such channel.
-fn tile_mean(known: &Known, channel: &str, side: Option<u32>, tile: usize) -> Result<f64, String> {
+pub fn tile_mean(
+    known: &Known,
+    channel: &str,
+    side: Option<u32>,
+    tile: usize,
+) -> Result<f64, String> {
     let missing = || format!("nothing is known of channel `{channel}`");
     let found = known.channels.iter().find(|(name, _)| name == channel);
     let (_, pixels) = found.ok_or_else(missing)?;

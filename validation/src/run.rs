@@ -214,12 +214,18 @@ impl<'a> Comparison<'a> {
                 convergence::measure(claim, rungs, estimator, fault, replicates, seeded)?
             }
             Oracle::Noise {
+                of,
                 formula,
                 seeds,
                 tolerance,
             } => {
-                let counted = (formula.as_str(), seeds * multiple, *tolerance);
-                noise::measure(claim, counted, estimator, fault, first, seeded)?
+                let counted = noise::Counted {
+                    of: *of,
+                    formula,
+                    seeds: seeds * multiple,
+                    tolerance: *tolerance,
+                };
+                noise::measure(claim, &counted, estimator, fault, first, seeded)?
             }
             Oracle::Invariance { .. } => {
                 let loaded = rendering::load_for(claim, estimator)?;

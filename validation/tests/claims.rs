@@ -76,9 +76,11 @@ fn exponents_and_tolerances_are_those_that_were_agreed() {
         found,
         [
             "convergence-independent: -1.1 … -0.9",
+            "convergence-smooth: -3.2 … -2.8",
             "convergence-sobol: -4 … -1.3",
             "noise-furnace: 16 seeds, ±0.03",
             "noise-irradiance: 32 seeds, ±0.03",
+            "noise-tiles: 128 seeds, ±0.04",
         ]
     );
 }
