@@ -21,6 +21,7 @@
 //! ```
 
 use crate::fault::Fault;
+use crate::noise::Means;
 use etalon_sampling::SamplerKind;
 use serde::Deserialize;
 use std::collections::BTreeMap;
@@ -114,17 +115,6 @@ pub enum Oracle {
     },
 }
 
-/// The means whose errors a noise claim is about.
-#[derive(Clone, Copy, Debug, Default, Deserialize, PartialEq, Eq)]
-#[serde(rename_all = "snake_case")]
-pub enum Means {
-    /// Those of single pixels.
-    #[default]
-    Pixels,
-    /// Those of tiles of 16² pixels, which comparisons are decided by.
-    Tiles,
-}
-
 /// What an invariance claim changes, beside an estimator's parameters.
 #[derive(Clone, Copy, Debug, Deserialize, PartialEq, Eq)]
 #[serde(rename_all = "snake_case")]
@@ -140,6 +130,13 @@ pub enum Change {
     Crop,
     /// Another of the four wavelengths of each path chooses: the same statistics.
     Wavelengths,
+}
+
+impl Change {
+    /// Whether every bit must stay the same, and not only the statistics.
+    pub fn is_of_bits(self) -> bool {
+        self != Self::Wavelengths
+    }
 }
 
 fn seeds() -> u32 {

@@ -14,25 +14,24 @@ use crate::measure::Measure;
 use crate::rendering;
 use etalon::judge::Known;
 use etalon_film::Developed;
-use etalon_sampling::SamplerKind;
 use etalon_statistics::{Estimate, Line, Summary};
 
 /// Replicates of a batch: two, the fewest that have standard errors.
 const BATCH: u32 = 2;
 
-/// The exponent of an estimator's squared error, judged at `alpha`; and the samples spent.
+/// The exponents of an estimator's squared error, one of each independent batch, and the samples
+/// spent.
 ///
 /// # Errors
 /// If a picture cannot be rendered or has no error at all.
-pub fn measure(
+pub fn exponents(
     claim: &Claim,
     (formula, samples): (&str, &[u32]),
     estimator: &Estimator,
     fault: Option<Fault>,
     replicates: u32,
-    (seed, alpha): (u64, f64),
-) -> Result<(Vec<Measure>, u64), String> {
-    let accepted = estimator.exponent.ok_or("there is no `exponent`")?;
+    seed: u64,
+) -> Result<(Vec<f64>, u64), String> {
     let estimator = match fault {
         Some(Fault::IndependentSamples) => &Estimator {
             sampler: Some(Sampler::Independent),
@@ -65,14 +64,23 @@ pub fn measure(
         let fit = Line::fit_power_law(&x, &y).ok_or("there is no error whose fall can be seen")?;
         exponents.push(fit.slope.value());
     }
-    let summary = Summary::of(&exponents).ok_or("too few batches")?;
-    let sampler = estimator.sampler.map_or(SamplerKind::Sobol, Into::into);
-    let name = format!(
-        "exponent of {} points",
-        etalon::pipeline::sampler_name(sampler)
-    );
-    let exponent = Measure::new(name, &Estimate::mean(&summary), accepted, alpha);
-    Ok((vec![exponent], spent))
+    Ok((exponents, spent))
+}
+
+/// The exponent of all batches together, judged at `alpha`.
+///
+/// # Errors
+/// If there are fewer than two batches, or nothing is accepted of this estimator.
+pub fn judge(exponents: &[f64], estimator: &Estimator, alpha: f64) -> Result<Measure, String> {
+    let accepted = estimator.exponent.ok_or("there is no `exponent`")?;
+    let summary = Summary::of(exponents).ok_or("too few batches")?;
+    let name = "exponent of the squared error".to_owned();
+    Ok(Measure::new(
+        name,
+        &Estimate::mean(&summary),
+        accepted,
+        alpha,
+    ))
 }
 
 /// The mean over pixels, channels and replicates of the squared error:

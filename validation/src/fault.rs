@@ -7,8 +7,8 @@
 use etalon_math::{Density, SolidAngle};
 use etalon_spectrum::Wavelengths;
 use etalon_transport::{
-    Bsdf, BsdfSample, Chance, Emission, Hit, LightSample, Mode, Passage, Ray, Receiver, Vertex,
-    World,
+    Bsdf, BsdfSample, Chance, Emission, EmissionDensity, Hit, LightSample, Mode, Passage, Ray,
+    Receiver, Vertex, World,
 };
 use glam::{Vec2, Vec3, Vec4};
 use serde::Deserialize;
@@ -227,6 +227,14 @@ impl<W: World> World for Faulty<'_, W> {
             weight: self.energy() * emission.weight,
             ..emission
         })
+    }
+
+    fn emission_density(&self, at: &Vertex, direction: Vec3) -> EmissionDensity {
+        self.world.emission_density(at, direction)
+    }
+
+    fn background_emission_density(&self, direction: Vec3) -> EmissionDensity {
+        self.world.background_emission_density(direction)
     }
 
     fn take_ray_count(&self) -> u64 {

@@ -58,13 +58,10 @@ pub fn judge(
     for row in &mut judgement.images {
         let scale = scale_of(row.bias, row.mean - row.other_mean, row.other_mean);
         let samples = Samples::of(metadata, against, &row.channel, None, 0)?;
-        let within = |tolerance: f64| samples.all_within(tolerance * scale);
-        let own = match samples.judge(alpha) {
-            // Deviations that do not matter need no distribution.
-            Some((refusal, _)) if within(rules.rounding) => {
-                let _ = refusal;
-                samples.p_differs(scale * rules.image_bound)
-            }
+        // Deviations that do not matter need no distribution.
+        let harmless = samples.all_within(rules.rounding * scale);
+        let refused = if harmless { None } else { samples.judge(alpha) };
+        let own = match refused {
             Some((refusal, interval)) => {
                 refusals.push(format!("{}: {refusal}", row.channel));
                 let interval = interval.unwrap_or(Interval {
@@ -240,7 +237,7 @@ impl Samples {
 ///
 /// # Errors
 /// If it has no such channel.
-pub fn tile_mean(
+pub(crate) fn tile_mean(
     known: &Known,
     channel: &str,
     side: Option<u32>,

@@ -7,9 +7,12 @@
 //! [`fault`] plants faults to show that they are found.
 
 pub mod accumulate;
+mod batches;
+pub mod calibrate;
 pub mod claim;
 pub mod closed_form;
 pub mod convergence;
+pub mod decision;
 pub mod fault;
 pub mod folders;
 pub mod html;

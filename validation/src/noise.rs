@@ -16,7 +16,7 @@
 //! which share no pixel, unless the integrator splats. One channel is counted, as those of a pixel
 //! are not independent of each other. Errors are relative to the truth.
 
-use crate::claim::{Budget, Claim, Estimator, Means};
+use crate::claim::{Budget, Claim, Estimator};
 use crate::closed_form;
 use crate::fault::Fault;
 use crate::judged;
@@ -25,6 +25,7 @@ use crate::rendering;
 use etalon::judge::{self, Known};
 use etalon_film::Developed;
 use etalon_statistics::{Estimate, Summary, proportion};
+use serde::Deserialize;
 
 /// The levels whose intervals are counted.
 pub const LEVELS: [f64; 3] = [0.68, 0.95, 0.99];
@@ -38,16 +39,26 @@ const CHANNEL: &str = "G";
 /// The side of the tiles that are counted (pixels).
 const SIDE: Option<u32> = Some(16);
 
-/// What is counted.
-pub struct Counted<'a> {
-    /// Whose means.
-    pub of: Means,
-    /// The closed form that tells the truth.
-    pub formula: &'a str,
-    /// How many pictures.
-    pub seeds: u32,
-    /// How far a share of 68 % may be from what it ought to be; others in proportion to their spread.
-    pub tolerance: f64,
+/// The means whose errors a noise claim is about.
+#[derive(Clone, Copy, Debug, Default, Deserialize, PartialEq, Eq)]
+#[serde(rename_all = "snake_case")]
+pub enum Means {
+    /// Those of single pixels.
+    #[default]
+    Pixels,
+    /// Those of tiles of 16² pixels, which comparisons are decided by.
+    Tiles,
+}
+
+/// What is counted of a picture, or of several.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Counted {
+    /// Means whose intervals cover the truth, for each of [`LEVELS`].
+    pub covered: [u64; LEVELS.len()],
+    /// Means.
+    pub trials: u64,
+    /// Σ a, Σ b, Σ a², Σ ab, Σ b² of the squared errors a and the squares b of what is reported.
+    pub squares: [f64; 5],
 }
 
 /// A mean: how far it is from the truth, and its standard error; both relative to the truth.
@@ -56,19 +67,18 @@ struct Trial {
     error: f64,
 }
 
-/// The coverages and the squared error of an estimator, judged at `alpha` together; and the samples
-/// spent.
+/// Counts the means of each of `seeds` pictures; and the samples spent.
 ///
 /// # Errors
 /// If a picture cannot be rendered, or an integrator makes pixels depend on each other.
-pub fn measure(
+pub fn count(
     claim: &Claim,
-    counted: &Counted<'_>,
+    (of, formula, seeds): (Means, &str, u32),
     estimator: &Estimator,
     fault: Option<Fault>,
     budget: Budget,
-    (seed, alpha): (u64, f64),
-) -> Result<(Vec<Measure>, u64), String> {
+    seed: u64,
+) -> Result<(Vec<Counted>, u64), String> {
     let shrink = match fault {
         None => 1.0,
         Some(Fault::StandardError) => std::f64::consts::FRAC_1_SQRT_2,
@@ -79,106 +89,129 @@ pub fn measure(
         return Err("pixels of an integrator that splats depend on each other".to_owned());
     }
     let size = loaded.compiled.film.crop_size.to_array();
-    let known = closed_form::picture(counted.formula, claim, size)?;
-    let (mut trials, mut spent) = (Vec::new(), 0);
-    for number in 0..counted.seeds {
+    let known = closed_form::picture(formula, claim, size)?;
+    let freedom = f64::from(budget.replicates) - 1.0;
+    let (mut pictures, mut spent) = (Vec::new(), 0);
+    for number in 0..seeds {
         let seed = seed.wrapping_add((u64::from(number) + 1) << 32);
         let plan = rendering::plan(&loaded, estimator, budget, seed);
         let picture = rendering::picture(&loaded, &plan, None, None)?;
-        match counted.of {
-            Means::Pixels => pixels(&picture, &known, &mut trials)?,
-            Means::Tiles => tiles(&picture, &known, &mut trials)?,
+        let mut trials = match of {
+            Means::Pixels => pixels(&picture, &known)?,
+            Means::Tiles => tiles(&picture, &known)?,
+        };
+        for trial in &mut trials {
+            trial.error *= shrink;
         }
+        let counted = Counted::of(&trials, freedom);
+        pictures.push(counted.ok_or("a mean or its truth is not a number above 0")?);
         spent += u64::from(plan.samples_per_replicate) * u64::from(budget.replicates);
     }
-    for trial in &mut trials {
-        trial.error *= shrink;
-    }
-    let freedom = f64::from(budget.replicates) - 1.0;
-    let each = alpha / (LEVELS.len() + 1) as f64;
-    let coverages = LEVELS
-        .iter()
-        .map(|level| coverage(&trials, freedom, *level, counted.tolerance, each));
-    let ratio = std::iter::once_with(|| squared_error(&trials, each));
-    let measures: Option<Vec<Measure>> = coverages.chain(ratio).collect();
-    Ok((measures.ok_or("there is nothing to count")?, spent))
+    Ok((pictures, spent))
 }
 
-/// Adds the pixels of a picture.
-fn pixels(picture: &Developed, known: &Known, trials: &mut Vec<Trial>) -> Result<(), String> {
+/// The coverages and the squared error over all pictures, judged at `alpha` together.
+///
+/// # Errors
+/// If there is nothing to count.
+pub fn judge(pictures: &[Counted], tolerance: f64, alpha: f64) -> Result<Vec<Measure>, String> {
+    let all = (pictures.iter()).fold(Counted::default(), |all, picture| all.and(picture));
+    let each = alpha / (LEVELS.len() + 1) as f64;
+    let coverages = (0..LEVELS.len()).map(|index| all.coverage(index, tolerance, each));
+    let ratio = std::iter::once_with(|| all.squared_error(each));
+    let measures: Option<Vec<Measure>> = coverages.chain(ratio).collect();
+    measures.ok_or_else(|| "there is nothing to count".to_owned())
+}
+
+/// The pixels of a picture.
+fn pixels(picture: &Developed, known: &Known) -> Result<Vec<Trial>, String> {
     let missing = "the picture has no standard errors, or nothing is known of it";
     let found = known.channels.iter().find(|(name, _)| name == CHANNEL);
     let (_, truth) = found.ok_or(missing)?;
     let means = picture.image.channel(CHANNEL).ok_or(missing)?;
     let errors = picture.standard_error(CHANNEL).ok_or(missing)?;
-    for ((mean, error), truth) in means.iter().zip(errors).zip(truth) {
-        trials.push(Trial {
-            off: f64::from(*mean) / truth - 1.0,
-            error: f64::from(*error) / truth,
-        });
-    }
-    Ok(())
+    let all = means.iter().zip(errors).zip(truth);
+    let trials = all.map(|((mean, error), truth)| Trial {
+        off: f64::from(*mean) / truth - 1.0,
+        error: f64::from(*error) / truth,
+    });
+    Ok(trials.collect())
 }
 
-/// Adds the tiles of a picture.
-fn tiles(picture: &Developed, known: &Known, trials: &mut Vec<Trial>) -> Result<(), String> {
+/// The tiles of a picture.
+fn tiles(picture: &Developed, known: &Known) -> Result<Vec<Trial>, String> {
     let missing = "the picture has too few replicates";
     let metadata = picture.metadata.as_ref().ok_or(missing)?;
     let (means, count) = judge::replicates(metadata, CHANNEL, SIDE)?;
-    for tile in 0..count {
+    let trial = |tile: usize| {
         let truth = judged::tile_mean(known, CHANNEL, SIDE, tile)?;
         let relative = means.iter().skip(tile).step_by(count).map(|x| x / truth);
         let summary = Summary::of_iter(relative).ok_or(missing)?;
-        trials.push(Trial {
+        Ok(Trial {
             off: summary.mean() - 1.0,
             error: summary.standard_error(),
-        });
-    }
-    Ok(())
+        })
+    };
+    (0..count).map(trial).collect()
 }
 
-/// How often the interval of `level` covers the truth. The same number of a proportion's standard
-/// deviations is accepted at every level.
-fn coverage(
-    trials: &[Trial],
-    freedom: f64,
-    level: f64,
-    tolerance: f64,
-    alpha: f64,
-) -> Option<Measure> {
-    let mut count = 0;
-    for trial in trials {
-        let estimate = Estimate::new(trial.off, trial.error, freedom)?;
-        count += u64::from(estimate.interval(level).contains(0.0));
+impl Counted {
+    /// Of trials whose standard errors have `freedom` degrees of freedom.
+    fn of(trials: &[Trial], freedom: f64) -> Option<Self> {
+        let mut all = Self::default();
+        for trial in trials {
+            let estimate = Estimate::new(trial.off, trial.error, freedom)?;
+            for (count, level) in all.covered.iter_mut().zip(LEVELS) {
+                *count += u64::from(estimate.interval(level).contains(0.0));
+            }
+            all.trials += 1;
+            let (a, b) = (trial.off * trial.off, trial.error * trial.error);
+            for (sum, term) in all.squares.iter_mut().zip([a, b, a * a, a * b, b * b]) {
+                *sum += term;
+            }
+        }
+        Some(all)
     }
-    let spread = |p: f64| (p * (1.0 - p)).sqrt();
-    let tolerance = tolerance * spread(level) / spread(LEVELS[0]);
-    let accepted = [level - tolerance, (level + tolerance).min(1.0)];
-    let total = trials.len() as u64;
-    let interval = proportion::interval(count, total, 1.0 - alpha)?;
-    let bounds = [interval.low, interval.high];
-    Some(Measure {
-        name: format!("coverage of {:.0} % intervals", 100.0 * level),
-        value: count as f64 / total as f64,
-        interval: bounds,
-        accepted,
-        p: proportion::p_outside(count, total, accepted)?,
-        verdict: measure::verdict(bounds, accepted),
-    })
-}
 
-/// The mean squared error over the reported one.
-fn squared_error(trials: &[Trial], alpha: f64) -> Option<Measure> {
-    let squares = trials.iter().map(|t| (t.off * t.off, t.error * t.error));
-    let (errors, reported) = squares.fold((0.0, 0.0), |sum, t| (sum.0 + t.0, sum.1 + t.1));
-    let ratio = errors / reported;
-    let residuals: f64 = (trials.iter())
-        .map(|t| (t.off * t.off - ratio * t.error * t.error).powi(2))
-        .sum();
-    let estimate = Estimate::with_known_error(ratio, residuals.sqrt() / reported)?;
-    let accepted = [1.0 - RATIO_TOLERANCE, 1.0 + RATIO_TOLERANCE];
-    let name = "squared error over the reported".to_owned();
-    Some(Measure::new(name, &estimate, accepted, alpha))
+    /// Both.
+    fn and(self, other: &Self) -> Self {
+        Self {
+            covered: std::array::from_fn(|i| self.covered[i] + other.covered[i]),
+            trials: self.trials + other.trials,
+            squares: std::array::from_fn(|i| self.squares[i] + other.squares[i]),
+        }
+    }
+
+    /// How often the interval of a level covers the truth. The same number of a proportion's standard
+    /// deviations is accepted at every level.
+    fn coverage(&self, index: usize, tolerance: f64, alpha: f64) -> Option<Measure> {
+        let (count, level) = (self.covered[index], LEVELS[index]);
+        let spread = |p: f64| (p * (1.0 - p)).sqrt();
+        let tolerance = tolerance * spread(level) / spread(LEVELS[0]);
+        let accepted = [level - tolerance, (level + tolerance).min(1.0)];
+        let interval = proportion::interval(count, self.trials, 1.0 - alpha)?;
+        let bounds = [interval.low, interval.high];
+        Some(Measure {
+            name: format!("coverage of {:.0} % intervals", 100.0 * level),
+            value: count as f64 / self.trials as f64,
+            interval: bounds,
+            accepted,
+            p: proportion::p_outside(count, self.trials, accepted)?,
+            verdict: measure::verdict(bounds, accepted),
+        })
+    }
+
+    /// The mean squared error over the reported one.
+    fn squared_error(&self, alpha: f64) -> Option<Measure> {
+        let [errors, reported, aa, ab, bb] = self.squares;
+        let ratio = errors / reported;
+        // Σ (a − ratio b)².
+        let residuals = (aa - 2.0 * ratio * ab + ratio * ratio * bb).max(0.0);
+        let estimate = Estimate::with_known_error(ratio, residuals.sqrt() / reported)?;
+        let accepted = [1.0 - RATIO_TOLERANCE, 1.0 + RATIO_TOLERANCE];
+        let name = "squared error over the reported".to_owned();
+        Some(Measure::new(name, &estimate, accepted, alpha))
+    }
 }
 
 #[cfg(test)]
@@ -216,9 +249,11 @@ mod tests {
         // α = 10⁻⁴ in each measure.
         let mut trials = trials(16_384);
         let judged = |trials: &[Trial]| {
-            let shares = LEVELS.map(|level| coverage(trials, 7.0, level, 0.03, 1e-4));
-            let ratio = squared_error(trials, 1e-4).expect("trials");
-            (shares.map(|share| share.expect("trials").verdict), ratio)
+            let counted = Counted::of(trials, 7.0).expect("numbers");
+            let mut measures = judge(&[counted], 0.03, 4e-4).expect("trials");
+            let ratio = measures.pop().expect("four measures");
+            let shares: Vec<_> = measures.iter().map(|share| share.verdict).collect();
+            (shares, ratio)
         };
         let (shares, ratio) = judged(&trials);
         assert_eq!(shares, [etalon_statistics::Verdict::Agrees; 3]);

@@ -1,25 +1,13 @@
-//! What became of a run: every comparison looked at until it is decided, all corrected together.
-//!
-//! The error level of the whole run, α = 10⁻³, is the probability that a run without any fault
-//! in the renderer shows a failure. Every comparison is *declared* to one family before anything is
-//! rendered, so that the family's size is the plan's and not the outcome's: a comparison that
-//! breaks counts with a p-value of 1. Each gets the same share of α for its intervals (Bonferroni)
-//! and spends it over its looks ([`crate::tier`]); its p-value is the least of its looks', each
-//! divided by the share of the level that the look was granted, and goes through Holm's procedure.
-//! Planted faults are another family: their hypotheses are known to be false.
+//! What became of a run: every comparison rendered, looked at until it is decided, and judged
+//! together with all others ([`crate::decision`]).
 
+use crate::decision::{self, Decision, Seen};
 use crate::run::{Compared, Comparison, Options, Task};
 use crate::state::State;
-use crate::tier::{self, FAULT_LOOKS};
-use etalon_statistics::{Family, Verdict};
+use etalon_statistics::Verdict;
 use serde::Serialize;
-use std::time::{Duration, Instant};
 
-/// The probability that a run without faults shows a failure.
-pub const ALPHA: f64 = 1e-3;
-
-/// A further look that takes no longer than this is made even after the tier's deadline.
-const SHORT: Duration = Duration::from_secs(5);
+pub use crate::decision::{ALPHA, Progress};
 
 /// What a comparison came to.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
@@ -105,152 +93,15 @@ pub struct Row<'a> {
     pub seconds: f64,
 }
 
-/// How far a run is.
-#[derive(Clone, Copy, Debug)]
-pub struct Progress<'a> {
-    /// What begins now.
-    pub task: &'a Task<'a>,
-    /// Which look this is, from 1.
-    pub look: usize,
-    /// Comparisons of this look that are done.
-    pub done: usize,
-    /// Comparisons of this look.
-    pub total: usize,
-    /// Time since the run began.
-    pub elapsed: Duration,
-    /// Time until this look is over, by the work done so far; unknown at first.
-    pub remaining: Option<Duration>,
-}
-
-/// Comparisons that share a family and a plan of looks.
-struct Group<'a> {
-    family: Family,
-    looks: &'static [u32],
-    levels: Vec<f64>,
-    members: Vec<Member<'a>>,
-}
-
-struct Member<'a> {
-    /// Its place among all tasks.
-    place: usize,
-    comparison: Comparison<'a>,
-    last: Option<Result<Compared, String>>,
-    /// The least p-value of the looks, each over the share it was granted.
-    p: f64,
-    looks: usize,
-}
-
-impl Member<'_> {
-    /// Whether another look may decide it.
-    fn is_open(&self, level: f64) -> bool {
-        match &self.last {
-            None => true,
-            Some(Err(_)) => false,
-            Some(Ok(compared)) => compared.verdict == Verdict::Undecided && self.p > level,
+impl Outcome {
+    /// What a verdict on a task means; there is none if it could not be compared.
+    pub fn of(task: &Task<'_>, verdict: Option<Verdict>) -> Self {
+        match (verdict, task.fault) {
+            (None, _) => Self::Broken,
+            (Some(Verdict::Agrees), None) | (Some(Verdict::Differs), Some(_)) => Self::Passed,
+            (Some(Verdict::Undecided), None) => Self::Undecided,
+            (Some(_), _) => Self::Failed,
         }
-    }
-}
-
-impl<'a> Group<'a> {
-    fn new(
-        tasks: impl Iterator<Item = (usize, Task<'a>)>,
-        looks: &'static [u32],
-    ) -> Result<Self, String> {
-        let mut family = Family::new(ALPHA).ok_or("the level is none")?;
-        let members: Vec<Member<'a>> = tasks
-            .map(|(place, task)| {
-                family.declare(format!("{}: {}", task.claim.name, task.label()));
-                Member {
-                    place,
-                    comparison: Comparison::new(task),
-                    last: None,
-                    p: 1.0,
-                    looks: 0,
-                }
-            })
-            .collect();
-        let levels = tier::granted(family.level_of_each(), looks)?;
-        Ok(Self {
-            family,
-            looks,
-            levels,
-            members,
-        })
-    }
-
-    fn open(&self) -> Vec<usize> {
-        let level = self.family.level_of_each();
-        let members = self.members.iter().enumerate();
-        members
-            .filter(|(_, member)| member.is_open(level))
-            .map(|(index, _)| index)
-            .collect()
-    }
-
-    /// Looks at one comparison for the `look`-th time.
-    fn look(&mut self, index: usize, look: usize, options: &Options, state: Option<&State>) {
-        let granted = self.levels[look];
-        let share = granted / self.family.level_of_each();
-        let member = &mut self.members[index];
-        let compared = member
-            .comparison
-            .look(self.looks[look], granted, options, state);
-        if let Ok(compared) = &compared {
-            member.p = member.p.min(compared.p / share);
-        }
-        member.looks += 1;
-        member.last = Some(compared);
-    }
-
-    /// Corrects over all members.
-    fn rows(mut self) -> Vec<(usize, Row<'a>)> {
-        for (index, member) in self.members.iter().enumerate() {
-            // What broke keeps the p-value of 1 it was declared with.
-            if matches!(member.last, Some(Ok(_))) {
-                let _ = self.family.record(index, member.p.min(1.0));
-            }
-        }
-        let decisions = self.family.decide();
-        let levels = self.levels;
-        let rows = self.members.into_iter().zip(decisions);
-        rows.map(|(member, decision)| {
-            let Member {
-                place,
-                comparison,
-                last,
-                looks,
-                ..
-            } = member;
-            let compared = last.unwrap_or_else(|| Err("there was no time to look".to_owned()));
-            let verdict = compared.as_ref().ok().map(|compared| {
-                if decision.rejected {
-                    Verdict::Differs
-                } else {
-                    compared.verdict
-                }
-            });
-            let task = comparison.task;
-            let outcome = match (verdict, task.fault) {
-                (None, _) => Outcome::Broken,
-                (Some(Verdict::Agrees), None) | (Some(Verdict::Differs), Some(_)) => {
-                    Outcome::Passed
-                }
-                (Some(Verdict::Undecided), None) => Outcome::Undecided,
-                (Some(_), _) => Outcome::Failed,
-            };
-            let row = Row {
-                task,
-                p_corrected: verdict.map(|_| decision.adjusted),
-                compared,
-                verdict,
-                outcome,
-                looks,
-                level: levels[looks.saturating_sub(1)],
-                seconds: comparison.seconds,
-            };
-            (place, row)
-        })
-        .collect()
     }
 }
 
@@ -262,65 +113,46 @@ pub fn run<'a>(
     tasks: Vec<Task<'a>>,
     options: &Options,
     state: Option<&State>,
-    mut watch: impl FnMut(&Progress<'_>),
+    watch: impl FnMut(&Progress<'_>),
 ) -> Result<Vec<Row<'a>>, String> {
-    let start = Instant::now();
-    let deadline = options.tier.deadline();
-    let of = |with_fault: bool| {
-        let all = tasks.iter().copied().enumerate();
-        all.filter(move |(_, task)| task.fault.is_some() == with_fault)
-            .collect::<Vec<_>>()
-            .into_iter()
-    };
-    let mut groups = [
-        Group::new(of(false), options.tier.looks())?,
-        Group::new(of(true), FAULT_LOOKS)?,
-    ];
-    let most = groups.iter().map(|group| group.looks.len()).max();
-    for look in 0..most.unwrap_or(0) {
-        let open: Vec<(usize, usize)> = (groups.iter().enumerate())
-            .filter(|(_, group)| look < group.looks.len())
-            .flat_map(|(number, group)| group.open().into_iter().map(move |i| (number, i)))
-            .collect();
-        let work = |groups: &[Group<'_>; 2], (group, index): (usize, usize)| -> f64 {
-            let group: &Group<'_> = &groups[group];
-            let task = &group.members[index].comparison.task;
-            let before = if look > 0 { group.looks[look - 1] } else { 0 };
-            let more = f64::from(group.looks[look] - before);
-            more * f64::from(task.budget(options.tier).spp)
-        };
-        let all: f64 = open.iter().map(|at| work(&groups, *at)).sum();
-        let (began, mut finished) = (Instant::now(), 0.0);
-        for (done, at) in open.iter().copied().enumerate() {
-            let own = work(&groups, at);
-            let spent = began.elapsed();
-            let rest = (finished > 0.0).then(|| {
-                Duration::from_secs_f64(spent.as_secs_f64() * (all - finished) / finished)
+    let mut comparisons: Vec<Comparison<'a>> = tasks.iter().copied().map(Comparison::new).collect();
+    let mut last: Vec<Option<Result<Compared, String>>> = tasks.iter().map(|_| None).collect();
+    let decisions = decision::decide(
+        &tasks,
+        options.tier,
+        |look| {
+            let compared = comparisons[look.place].look(look.multiple, look.alpha, options, state);
+            let seen = compared.as_ref().ok().map(|compared| Seen {
+                verdict: compared.verdict,
+                p: compared.p,
             });
-            let (group, index) = at;
-            let seconds = groups[group].members[index].comparison.seconds;
-            // A further look takes as long as all before it, or a little longer. Short ones are
-            // always made.
-            let own_time = Duration::from_secs_f64(1.2 * seconds);
-            let late = deadline.is_some_and(|deadline| start.elapsed() + own_time > deadline);
-            if look > 0 && late && own_time > SHORT {
-                continue;
+            last[look.place] = Some(compared);
+            seen
+        },
+        watch,
+    )?;
+    let rows = tasks.into_iter().zip(last).zip(decisions);
+    Ok(rows
+        .map(|((task, compared), decision)| {
+            let Decision {
+                verdict,
+                p_corrected,
+                looks,
+                level,
+                seconds,
+            } = decision;
+            Row {
+                task,
+                compared: compared.unwrap_or_else(|| Err("there was no time to look".to_owned())),
+                p_corrected,
+                verdict,
+                outcome: Outcome::of(&task, verdict),
+                looks,
+                level,
+                seconds,
             }
-            watch(&Progress {
-                task: &groups[group].members[index].comparison.task,
-                look: look + 1,
-                done,
-                total: open.len(),
-                elapsed: start.elapsed(),
-                remaining: rest,
-            });
-            groups[group].look(index, look, options, state);
-            finished += own;
-        }
-    }
-    let mut rows: Vec<(usize, Row<'a>)> = groups.into_iter().flat_map(Group::rows).collect();
-    rows.sort_by_key(|(place, _)| *place);
-    Ok(rows.into_iter().map(|(_, row)| row).collect())
+        })
+        .collect())
 }
 
 /// How many rows came to each outcome: passed, failed, undecided, broken.

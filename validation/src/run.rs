@@ -3,7 +3,7 @@
 //! A [`Comparison`] is looked at once or several times; each look adds replicates with seeds of
 //! their own to those there are, and judges them all.
 
-use crate::accumulate;
+use crate::batches::Batches;
 use crate::claim::{Budget, Claim, Estimator, Oracle};
 use crate::fault::Fault;
 use crate::judged::{self, Against};
@@ -15,14 +15,13 @@ use etalon::judge::{Judgement, Known, Rules};
 use etalon_film::Developed;
 use etalon_images::{Frame, Image};
 use etalon_statistics::Verdict;
-use std::time::Instant;
 
 pub use crate::rendering::{defines, load};
 
 /// What to run.
 #[derive(Clone, Debug)]
 pub struct Options {
-    /// Only the claims whose names contain this.
+    /// Only the claim of this name, or those whose names contain it.
     pub only: Option<String>,
     /// How thoroughly.
     pub tier: Tier,
@@ -52,6 +51,21 @@ impl Task<'_> {
         }
     }
 
+    /// How pictures are judged at the level `alpha`.
+    pub fn rules(&self, tier: Tier, alpha: f64) -> Rules {
+        let bounds = self.claim.bounds;
+        let exact = self.claim.oracle.is_exact();
+        Rules {
+            image_bound: match tier {
+                Tier::Full => bounds.image.min(FULL_BOUND),
+                Tier::Quick | Tier::Default => bounds.image,
+            },
+            tile_bound: bounds.tile,
+            alpha,
+            rounding: if exact { bounds.rounding } else { 0.0 },
+        }
+    }
+
     /// The budget of the first look.
     pub fn budget(&self, tier: Tier) -> Budget {
         match (self.fault, &self.claim.oracle) {
@@ -63,14 +77,27 @@ impl Task<'_> {
     }
 }
 
+/// The claim of this name, or, if there is none, those whose names contain it.
+pub fn named<'a>(claims: &'a [Claim], name: &str) -> Vec<&'a Claim> {
+    match claims.iter().find(|claim| claim.name == name) {
+        Some(claim) => vec![claim],
+        None => (claims.iter())
+            .filter(|claim| claim.name.contains(name))
+            .collect(),
+    }
+}
+
 /// The comparisons that a run consists of.
 pub fn tasks<'a>(claims: &'a [Claim], options: &Options) -> Vec<Task<'a>> {
-    let wanted = |claim: &&Claim| match &options.only {
-        Some(part) => claim.name.contains(part.as_str()),
-        None => claim.quick || options.tier != Tier::Quick,
+    let chosen: Vec<&Claim> = match &options.only {
+        Some(name) => named(claims, name),
+        None => {
+            let decided = |claim: &&Claim| claim.quick || options.tier != Tier::Quick;
+            claims.iter().filter(decided).collect()
+        }
     };
     let mut tasks = Vec::new();
-    for claim in claims.iter().filter(wanted) {
+    for claim in chosen {
         for (place, estimator) in claim.estimators.iter().enumerate() {
             let faults = estimator.mutants.iter().copied().map(Some);
             tasks.extend(std::iter::once(None).chain(faults).map(|fault| Task {
@@ -143,10 +170,7 @@ impl Compared {
 
 /// A comparison and the replicates there are so far.
 pub struct Comparison<'a> {
-    /// What is compared.
-    pub task: Task<'a>,
-    /// Seconds spent on it.
-    pub seconds: f64,
+    task: Task<'a>,
     picture: Option<Developed>,
     oracle: Option<Developed>,
     /// Replicates so far, in multiples of the first look's.
@@ -161,7 +185,6 @@ impl<'a> Comparison<'a> {
     pub fn new(task: Task<'a>) -> Self {
         Self {
             task,
-            seconds: 0.0,
             picture: None,
             oracle: None,
             multiple: 0,
@@ -181,9 +204,7 @@ impl<'a> Comparison<'a> {
         options: &Options,
         state: Option<&State>,
     ) -> Result<Compared, String> {
-        let start = Instant::now();
         let compared = self.measured(multiple, alpha, options, state);
-        self.seconds += start.elapsed().as_secs_f64();
         self.multiple = multiple;
         compared
     }
@@ -206,12 +227,14 @@ impl<'a> Comparison<'a> {
             spp: first.spp * multiple,
             replicates: first.replicates * multiple,
         };
-        let seeded = (options.seed, alpha);
         let (measures, spp) = match &claim.oracle {
             Oracle::Convergence { formula, samples } => {
                 let rungs = (formula.as_str(), samples.as_slice());
-                let replicates = budget.replicates;
-                convergence::measure(claim, rungs, estimator, fault, replicates, seeded)?
+                let (replicates, seed) = (budget.replicates, options.seed);
+                let (exponents, spp) =
+                    convergence::exponents(claim, rungs, estimator, fault, replicates, seed)?;
+                let measure = convergence::judge(&exponents, estimator, alpha)?;
+                (vec![measure], spp)
             }
             Oracle::Noise {
                 of,
@@ -219,13 +242,10 @@ impl<'a> Comparison<'a> {
                 seeds,
                 tolerance,
             } => {
-                let counted = noise::Counted {
-                    of: *of,
-                    formula,
-                    seeds: seeds * multiple,
-                    tolerance: *tolerance,
-                };
-                noise::measure(claim, &counted, estimator, fault, first, seeded)?
+                let counted = (*of, formula.as_str(), seeds * multiple);
+                let (pictures, spp) =
+                    noise::count(claim, counted, estimator, fault, first, options.seed)?;
+                (noise::judge(&pictures, *tolerance, alpha)?, spp)
             }
             Oracle::Invariance { .. } => {
                 let loaded = rendering::load_for(claim, estimator)?;
@@ -268,16 +288,7 @@ impl<'a> Comparison<'a> {
             return Err("this fault cannot be planted here".to_owned());
         }
         let exact = claim.oracle.is_exact();
-        let image_bound = match options.tier {
-            Tier::Full => claim.bounds.image.min(FULL_BOUND),
-            Tier::Quick | Tier::Default => claim.bounds.image,
-        };
-        let rules = Rules {
-            image_bound,
-            tile_bound: claim.bounds.tile,
-            alpha,
-            rounding: if exact { claim.bounds.rounding } else { 0.0 },
-        };
+        let rules = self.task.rules(options.tier, alpha);
         let mut work = Batches {
             task: self.task,
             first: self.task.budget(options.tier),
@@ -331,65 +342,6 @@ impl<'a> Comparison<'a> {
             replicates,
             scene_hash,
         })
-    }
-}
-
-/// The replicates that a look adds.
-struct Batches<'a> {
-    task: Task<'a>,
-    first: Budget,
-    from: u32,
-    to: u32,
-    state: Option<&'a State>,
-}
-
-impl Batches<'_> {
-    /// The replicates so far and those to be added. A finished batch is taken from the state, if
-    /// there is one.
-    fn extend(
-        &self,
-        so_far: Option<Developed>,
-        estimator: &Estimator,
-        seed: u64,
-        who: &str,
-    ) -> Result<Developed, String> {
-        let more = self.to - self.from;
-        let budget = Budget {
-            spp: self.first.spp * more,
-            replicates: self.first.replicates * more,
-        };
-        // Batches are independent: each has its own seed.
-        let seed = seed.wrapping_add(u64::from(self.from) << 40);
-        let loaded = rendering::load_for(self.task.claim, estimator)?;
-        let plan = rendering::plan(&loaded, estimator, budget, seed);
-        let mut name = format!(
-            "{}-{}-{who}-{}",
-            self.task.claim.name, self.task.place, self.from
-        );
-        if let Some(fault) = self.task.fault {
-            name += &format!("-{fault}").replace([' ', '/'], "_");
-        }
-        let kept = self
-            .state
-            .and_then(|state| state.read(&name, &plan, &loaded));
-        let batch = match kept {
-            Some(batch) => rendering::finite(batch)?,
-            None => {
-                let change = match &self.task.claim.oracle {
-                    Oracle::Invariance { .. } if who == "own" => estimator.change,
-                    _ => None,
-                };
-                let batch = rendering::picture(&loaded, &plan, self.task.fault, change)?;
-                if let Some(state) = self.state {
-                    state.write(&name, &batch)?;
-                }
-                batch
-            }
-        };
-        match so_far {
-            Some(so_far) => accumulate::merge(&so_far, &batch),
-            None => Ok(batch),
-        }
     }
 }
 

@@ -1,6 +1,7 @@
-//! The tasks of the house: `cargo xtask validate`, `references`, `mutants`, `bits`, `scenes`, `tables`.
+//! The tasks of the house: `cargo xtask validate`, `references`, `mutants`, `calibrate`, `bits`, `scenes`, `tables`.
 
 mod bits;
+mod calibrate;
 mod mutants;
 mod references;
 mod scenes;
@@ -29,6 +30,8 @@ enum Task {
     References(references::Arguments),
     /// Plant physical faults in a copy of the workspace, and show that the claims find them
     Mutants(mutants::Arguments),
+    /// Show that the validation's error rates are what they are said to be (half an hour)
+    Calibrate(calibrate::Arguments),
     /// Check that threads and build profiles do not change a bit (builds `release`: minutes)
     Bits,
     /// Write the generated files of `scenes/` anew
@@ -41,6 +44,7 @@ fn main() -> ExitCode {
     let done = match Arguments::parse().task {
         Task::Validate(arguments) => return validate::run(&arguments),
         Task::Mutants(arguments) => return mutants::run(&arguments),
+        Task::Calibrate(arguments) => return calibrate::run(&arguments),
         Task::References(arguments) => references::run(&arguments),
         Task::Bits => bits::run(),
         Task::Scenes => scenes::run(),

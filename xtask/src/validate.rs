@@ -24,7 +24,7 @@ pub(crate) struct Arguments {
     /// Go on until every bias is bounded below 0.5 %: hours; goes on where it was interrupted
     #[arg(long)]
     full: bool,
-    /// Only the claims whose names contain this
+    /// Only the claim of this name or, if there is none, those whose names contain it
     #[arg(long, value_name = "NAME")]
     only: Option<String>,
     /// The seed of all pictures
@@ -84,8 +84,8 @@ pub(crate) fn run(arguments: &Arguments) -> ExitCode {
 fn validate(arguments: &Arguments) -> Result<Conclusion, String> {
     let mut claims = Claim::read_all(&folders::claims())?;
     if arguments.list {
-        if let Some(part) = &arguments.only {
-            claims.retain(|claim| claim.name.contains(part.as_str()));
+        if let Some(name) = &arguments.only {
+            claims = run::named(&claims, name).into_iter().cloned().collect();
         }
         for claim in &claims {
             arguments.say(&format!(

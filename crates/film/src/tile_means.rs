@@ -116,6 +116,22 @@ impl TileMeans {
         Ok(())
     }
 
+    /// Some of the replicates, in the order and as often as they are named: for resampling.
+    ///
+    /// # Panics
+    /// If there is no such replicate.
+    pub fn chosen(&self, replicates: &[u32]) -> Self {
+        let size = (self.channels * self.columns * self.rows) as usize;
+        let values = replicates
+            .iter()
+            .flat_map(|r| &self.values[*r as usize * size..(*r as usize + 1) * size]);
+        Self {
+            replicates: replicates.len() as u32,
+            values: values.copied().collect(),
+            ..*self
+        }
+    }
+
     /// Adds a replicate: the sums of its tiles, to be divided by `divisor` and the number of
     /// pixels; `None` where they were out of range.
     pub(crate) fn push(&mut self, sums: &TileSums, divisor: u64, size: [u32; 2]) {

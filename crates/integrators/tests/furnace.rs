@@ -263,8 +263,22 @@ impl World for Sphere {
             ray: Ray::new(origin * (1.0 - 1e-6), sample.wi, 0.0),
             normal: -origin,
             weight: Vec4::splat(self.radiance() * PI / self.area_density()),
+            density: EmissionDensity {
+                origin: self.area_density(),
+                ray: sample.chance.lanes().x,
+            },
+            origin: Origin::Surface,
             light: LightId(0),
         })
+    }
+    fn emission_density(&self, at: &Vertex, direction: Vec3) -> EmissionDensity {
+        EmissionDensity {
+            origin: self.area_density(),
+            ray: at.normal.dot(direction).max(0.0) / PI,
+        }
+    }
+    fn background_emission_density(&self, _: Vec3) -> EmissionDensity {
+        EmissionDensity::ZERO
     }
     fn take_ray_count(&self) -> u64 {
         0

@@ -13,8 +13,8 @@ use etalon_params::Params;
 use etalon_sampling::warps::square_to_cosine_hemisphere;
 use etalon_spectrum::Wavelengths;
 use etalon_transport::{
-    Build, Chance, Emission, LightId, LightSample, Ray, Receiver, Role, SampledPoint, ShapeId,
-    Shapes, SurfacePoint, TextureId, Textures,
+    Build, Chance, Emission, EmissionDensity, LightId, LightSample, Origin, Ray, Receiver, Role,
+    SampledPoint, ShapeId, Shapes, SurfacePoint, TextureId, Textures,
 };
 use glam::{Vec2, Vec3, Vec4};
 
@@ -95,8 +95,27 @@ impl AreaLight {
             ray: Ray::new(point.origin_along(direction), direction, 0.0),
             normal: point.normal,
             weight: radiance * (core::f32::consts::PI / density),
+            density: EmissionDensity {
+                origin: density,
+                ray: cosine_density(point.normal, direction),
+            },
+            origin: Origin::Surface,
             light: LightId::NONE,
         })
+    }
+
+    /// The densities with which [`AreaLight::emit`] makes a particle leave `at` along `direction`.
+    #[inline]
+    pub fn emission_density(
+        &self,
+        shapes: &impl Shapes,
+        at: &SurfacePoint,
+        direction: Vec3,
+    ) -> EmissionDensity {
+        EmissionDensity {
+            origin: 1.0 / shapes.area(self.shape),
+            ray: cosine_density(at.normal, direction),
+        }
     }
 
     /// Emitted power, averaged over the wavelengths (W·nm⁻¹).
@@ -104,4 +123,10 @@ impl AreaLight {
         let area = f64::from(scene.area(self.shape));
         core::f64::consts::PI * area * f64::from(scene.mean(self.radiance))
     }
+}
+
+/// cos θ/π on the outer side.
+#[inline]
+fn cosine_density(normal: Vec3, direction: Vec3) -> f32 {
+    normal.dot(direction).max(0.0) * core::f32::consts::FRAC_1_PI
 }

@@ -35,6 +35,14 @@ impl Bounds {
         core::f64::consts::PI * f64::from(self.radius) * f64::from(self.radius)
     }
 
+    /// The density of the rays of [`Bounds::ray_into`] over a cross-section (m⁻²); zero where there
+    /// is nothing to enter.
+    #[inline]
+    pub fn ray_density(&self) -> f32 {
+        let area = self.cross_section() as f32;
+        if area > 0.0 { 1.0 / area } else { 0.0 }
+    }
+
     /// A ray along `direction` that starts outside of the sphere and enters it, uniformly
     /// distributed over the sphere's cross-section: with density 1/(π r²) (m⁻²).
     #[inline]

@@ -8,7 +8,10 @@ use etalon_math::{Density, SolidAngle};
 use etalon_params::Params;
 use etalon_sampling::warps::{UNIFORM_SPHERE_DENSITY, square_to_uniform_sphere};
 use etalon_spectrum::Wavelengths;
-use etalon_transport::{Build, Chance, Emission, LightId, LightSample, Role, TextureId, Textures};
+use etalon_transport::{
+    Build, Chance, Emission, EmissionDensity, LightId, LightSample, Origin, Role, TextureId,
+    Textures,
+};
 use glam::{Vec2, Vec4};
 
 /// A uniform sky all around.
@@ -73,6 +76,11 @@ impl ConstantLight {
             ray: bounds.ray_into(direction, u_position),
             normal: direction,
             weight: self.background(textures, wavelengths) * factor,
+            density: EmissionDensity {
+                origin: UNIFORM_SPHERE_DENSITY,
+                ray: bounds.ray_density(),
+            },
+            origin: Origin::Sky,
             light: LightId::NONE,
         }
     }

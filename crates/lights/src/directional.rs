@@ -8,7 +8,10 @@ use crate::uniformity::refuse_varying;
 use etalon_math::Atom;
 use etalon_params::Params;
 use etalon_spectrum::Wavelengths;
-use etalon_transport::{Build, Chance, Emission, LightId, LightSample, Role, TextureId, Textures};
+use etalon_transport::{
+    Build, Chance, Emission, EmissionDensity, LightId, LightSample, Origin, Role, TextureId,
+    Textures,
+};
 use glam::{Vec2, Vec3, Vec4};
 
 /// Parallel light.
@@ -75,6 +78,11 @@ impl DirectionalLight {
             ray: bounds.ray_into(self.direction, u),
             normal: self.direction,
             weight: self.spectrum(textures, wavelengths) * bounds.cross_section() as f32,
+            density: EmissionDensity {
+                origin: 1.0,
+                ray: bounds.ray_density(),
+            },
+            origin: Origin::Parallel,
             light: LightId::NONE,
         }
     }

@@ -22,7 +22,7 @@ use etalon_math::{Density, SolidAngle, float64};
 use etalon_params::{Diagnostic, Params};
 use etalon_sampling::discrete::Bilinear;
 use etalon_spectrum::{Regular, RgbCoefficients, Spectrum, Wavelengths, illuminants};
-use etalon_transport::{Build, Chance, Emission, LightId, LightSample};
+use etalon_transport::{Build, Chance, Emission, EmissionDensity, LightId, LightSample, Origin};
 use glam::{UVec2, Vec2, Vec3, Vec4};
 use std::path::Path;
 use std::sync::{Arc, LazyLock};
@@ -220,16 +220,27 @@ impl EnvironmentMap {
     /// are never sampled.
     #[inline]
     pub fn density(&self, direction: Vec3) -> Density<SolidAngle> {
-        let Some(directions) = &self.tables.toward else {
-            return Density::ZERO;
+        Density::uniform(self.density_of(self.tables.toward.as_deref(), direction))
+    }
+
+    /// Density (sr⁻¹) with which [`EnvironmentMap::emit`] chooses the point of the sky in
+    /// `direction`.
+    #[inline]
+    pub fn emission_density(&self, direction: Vec3) -> f32 {
+        self.density_of(self.tables.from.as_deref(), direction)
+    }
+
+    #[inline]
+    fn density_of(&self, directions: Option<&Bilinear>, direction: Vec3) -> f32 {
+        let Some(directions) = directions else {
+            return 0.0;
         };
         let local = self.pose.to_local(direction);
         let sin_theta = Vec2::new(local.x, local.z).length();
         if !(sin_theta > 0.0) {
-            return Density::ZERO;
+            return 0.0;
         }
-        let per_area = directions.density(self.place(local));
-        Density::uniform(per_area / latitude_longitude::stretch(sin_theta))
+        directions.density(self.place(local)) / latitude_longitude::stretch(sin_theta)
     }
 
     /// A direction with its place and density (sr⁻¹).
@@ -269,6 +280,11 @@ impl EnvironmentMap {
             ray: bounds.ray_into(-toward, u_position),
             normal: -toward,
             weight: self.radiance(place, wavelengths) * factor,
+            density: EmissionDensity {
+                origin: density,
+                ray: bounds.ray_density(),
+            },
+            origin: Origin::Sky,
             light: LightId::NONE,
         })
     }

@@ -7,8 +7,8 @@ use etalon_math::{Density, SolidAngle};
 use etalon_params::{Class, Diagnostic, Params, plugins};
 use etalon_spectrum::Wavelengths;
 use etalon_transport::{
-    Build, Emission, LightSample, Receiver, ShapeId, Shapes, SurfacePoint, TexturePoint, Textures,
-    Vertex,
+    Build, Emission, EmissionDensity, LightSample, Receiver, ShapeId, Shapes, SurfacePoint,
+    TexturePoint, Textures, Vertex,
 };
 use glam::{Vec2, Vec3, Vec4};
 
@@ -180,6 +180,30 @@ impl Light {
             Self::Constant(light) => light.density(),
             Self::Environment(light) => light.density(direction),
             _ => Density::ZERO,
+        }
+    }
+
+    /// The densities with which [`Light::emit`] makes a particle leave the surface point `at`.
+    #[inline]
+    pub fn emission_density(
+        &self,
+        shapes: &impl Shapes,
+        at: &SurfacePoint,
+        direction: Vec3,
+    ) -> EmissionDensity {
+        match self {
+            Self::Area(light) => light.emission_density(shapes, at, direction),
+            _ => EmissionDensity::ZERO,
+        }
+    }
+
+    /// The density (sr⁻¹) with which [`Light::emit`] makes a particle come from `direction`.
+    #[inline]
+    pub fn background_emission_density(&self, direction: Vec3) -> f32 {
+        match self {
+            Self::Constant(light) => light.density().chooser(),
+            Self::Environment(light) => light.emission_density(direction),
+            _ => 0.0,
         }
     }
 

@@ -11,7 +11,8 @@ use etalon_params::Params;
 use etalon_sampling::warps::{UNIFORM_SPHERE_DENSITY, square_to_uniform_sphere};
 use etalon_spectrum::Wavelengths;
 use etalon_transport::{
-    Build, Chance, Emission, LightId, LightSample, Ray, Role, TextureId, Textures,
+    Build, Chance, Emission, EmissionDensity, LightId, LightSample, Origin, Ray, Role, TextureId,
+    Textures,
 };
 use glam::{Vec2, Vec3};
 
@@ -74,6 +75,11 @@ impl PointLight {
             ray: Ray::new(self.position, direction, 0.0),
             normal: direction,
             weight: intensity / UNIFORM_SPHERE_DENSITY,
+            density: EmissionDensity {
+                origin: 1.0,
+                ray: UNIFORM_SPHERE_DENSITY,
+            },
+            origin: Origin::Point,
             light: LightId::NONE,
         }
     }

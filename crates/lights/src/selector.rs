@@ -66,6 +66,12 @@ impl LightSelector {
     /// `_from`.
     #[inline]
     pub fn probability(&self, _from: &Receiver, light: LightId) -> f32 {
+        self.probability_to_emit(light)
+    }
+
+    /// The probability with which [`LightSelector::choose_to_emit`] chooses `light`.
+    #[inline]
+    pub fn probability_to_emit(&self, light: LightId) -> f32 {
         self.table
             .as_ref()
             .map_or(0.0, |table| table.probability(light.0 as usize))

@@ -4,7 +4,8 @@ use crate::{Bounds, Light, LightDescription, LightSelector};
 use etalon_math::{Atom, Density, SolidAngle};
 use etalon_spectrum::Wavelengths;
 use etalon_transport::{
-    Chance, Emission, LightId, LightSample, Receiver, Shapes, SurfacePoint, Textures, Vertex,
+    Chance, Emission, EmissionDensity, LightId, LightSample, Origin, Receiver, Shapes,
+    SurfacePoint, Textures, Vertex,
 };
 use glam::{Vec2, Vec3, Vec4};
 
@@ -173,17 +174,56 @@ impl LightSet {
         u_direction: Vec2,
     ) -> Option<Emission> {
         let choice = self.selector.choose_to_emit(u_light)?;
-        let emission = self.get(choice.light).emit(
+        let mut emission = self.get(choice.light).emit(
             scene,
             &self.bounds,
             wavelengths,
             u_position,
             u_direction,
         )?;
-        Some(Emission {
-            weight: emission.weight / choice.probability,
-            light: choice.light,
-            ..emission
-        })
+        emission.light = choice.light;
+        if emission.origin == Origin::Sky && self.backgrounds.len() > 1 {
+            // One technique, as in `sample`.
+            let toward = -emission.ray.direction;
+            emission.density = self.background_emission_density(toward);
+            let EmissionDensity { origin, ray } = emission.density;
+            emission.weight = self.background(scene, toward, wavelengths) / (origin * ray);
+        } else {
+            emission.weight /= choice.probability;
+            emission.density.origin *= choice.probability;
+        }
+        Some(emission)
+    }
+
+    /// The densities with which [`LightSet::emit`] makes a particle leave the surface point `at`
+    /// along `direction`.
+    #[inline]
+    pub fn emission_density(
+        &self,
+        shapes: &impl Shapes,
+        at: &Vertex,
+        direction: Vec3,
+    ) -> EmissionDensity {
+        if !at.light.is_some() {
+            return EmissionDensity::ZERO;
+        }
+        let light = self.get(at.light);
+        let mut density = light.emission_density(shapes, &SurfacePoint::from(at), direction);
+        density.origin *= self.selector.probability_to_emit(at.light);
+        density
+    }
+
+    /// The densities with which [`LightSet::emit`] makes a particle come from the sky in
+    /// `direction`.
+    #[inline]
+    pub fn background_emission_density(&self, direction: Vec3) -> EmissionDensity {
+        let origin = self.backgrounds.iter().map(|&light| {
+            let probability = self.selector.probability_to_emit(light);
+            probability * self.get(light).background_emission_density(direction)
+        });
+        EmissionDensity {
+            origin: origin.sum(),
+            ray: self.bounds.ray_density(),
+        }
     }
 }

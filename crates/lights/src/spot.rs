@@ -21,7 +21,8 @@ use etalon_params::Params;
 use etalon_sampling::warps::{square_to_uniform_cone, uniform_cone_density};
 use etalon_spectrum::Wavelengths;
 use etalon_transport::{
-    Build, Chance, Emission, LightId, LightSample, Ray, Role, TextureId, TexturePoint, Textures,
+    Build, Chance, Emission, EmissionDensity, LightId, LightSample, Origin, Ray, Role, TextureId,
+    TexturePoint, Textures,
 };
 use glam::{Vec2, Vec3, Vec4};
 
@@ -146,10 +147,16 @@ impl SpotLight {
         let local = square_to_uniform_cone(u, self.one_minus_cos_cutoff);
         let direction = self.pose.to_world(local);
         let intensity = self.intensity(textures, local, wavelengths);
+        let density = uniform_cone_density(self.one_minus_cos_cutoff);
         Emission {
             ray: Ray::new(self.pose.position, direction, 0.0),
             normal: direction,
-            weight: intensity / uniform_cone_density(self.one_minus_cos_cutoff),
+            weight: intensity / density,
+            density: EmissionDensity {
+                origin: 1.0,
+                ray: density,
+            },
+            origin: Origin::Point,
             light: LightId::NONE,
         }
     }

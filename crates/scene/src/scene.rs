@@ -7,7 +7,9 @@ use etalon_cameras::AnyCamera;
 use etalon_lights::LightSet;
 use etalon_math::{Density, SolidAngle};
 use etalon_spectrum::{WavelengthDistribution, Wavelengths};
-use etalon_transport::{Bsdf, Emission, Hit, LightSample, Passage, Ray, Receiver, Vertex, World};
+use etalon_transport::{
+    Bsdf, Emission, EmissionDensity, Hit, LightSample, Passage, Ray, Receiver, Vertex, World,
+};
 use glam::{Vec2, Vec3, Vec4};
 
 /// A scene: immutable, shared by all threads.
@@ -154,6 +156,16 @@ impl World for Scene {
     ) -> Option<Emission> {
         self.lights
             .emit(&self.lookup, wavelengths, u_light, u_position, u_direction)
+    }
+
+    #[inline]
+    fn emission_density(&self, at: &Vertex, direction: Vec3) -> EmissionDensity {
+        self.lights.emission_density(&self.lookup, at, direction)
+    }
+
+    #[inline]
+    fn background_emission_density(&self, direction: Vec3) -> EmissionDensity {
+        self.lights.background_emission_density(direction)
     }
 
     fn take_ray_count(&self) -> u64 {

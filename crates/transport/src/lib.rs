@@ -33,7 +33,7 @@ pub use chance::Chance;
 pub use film::{Channel, Film, Placement, Sink, TileSink};
 pub use ids::{InstanceId, LightId, MaterialId, ShapeId, TextureId};
 pub use integrator::{Draft, Integrator, PixelSite};
-pub use light::{Emission, LightSample};
+pub use light::{Emission, EmissionDensity, LightSample, Origin};
 pub use mesh::{Attribute, MeshData};
 pub use phase::{Phase, PhaseSample};
 pub use ray::Ray;

@@ -21,6 +21,53 @@ pub struct LightSample {
     pub light: LightId,
 }
 
+/// How likely a particle's start is, by the two choices that make it.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct EmissionDensity {
+    /// Of its origin, the choice of the light included: per unit area of an emitting surface
+    /// (m⁻²); per unit solid angle of a direction to the sky (sr⁻¹); the probability of a light
+    /// that is but a point or a direction.
+    pub origin: f32,
+    /// Of its ray, given the origin: per unit solid angle (sr⁻¹), or per unit cross-section of
+    /// the scene for a light at infinity (m⁻²).
+    pub ray: f32,
+}
+
+impl EmissionDensity {
+    /// Of what is never emitted.
+    pub const ZERO: Self = Self {
+        origin: 0.0,
+        ray: 0.0,
+    };
+}
+
+/// Where a particle comes from.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Origin {
+    /// A point of an emitting surface.
+    Surface,
+    /// A light that is a point: no path finds it by chance.
+    Point,
+    /// One of the directions of the sky.
+    Sky,
+    /// The one direction of a light at infinity: no path finds it by chance.
+    Parallel,
+}
+
+impl Origin {
+    /// Whether it is at infinity.
+    #[inline]
+    pub fn is_infinite(self) -> bool {
+        matches!(self, Self::Sky | Self::Parallel)
+    }
+
+    /// Whether a path can run into it.
+    #[inline]
+    pub fn can_be_hit(self) -> bool {
+        matches!(self, Self::Surface | Self::Sky)
+    }
+}
+
 /// A particle leaving a light.
 #[derive(Clone, Copy, Debug)]
 pub struct Emission {
@@ -31,6 +78,10 @@ pub struct Emission {
     /// Emitted flux per lane over the probability of all choices made: Le·|cos θ| / (p_A·p_ω·p_light)
     /// for a surface, so that averaging `weight` over emissions gives the scene's power.
     pub weight: Vec4,
+    /// The densities of those choices.
+    pub density: EmissionDensity,
+    /// What it comes from.
+    pub origin: Origin,
     /// The light.
     pub light: LightId,
 }

@@ -1,6 +1,6 @@
 //! The contract of a scene: all that an integrator may ask.
 
-use crate::{Bsdf, Camera, Emission, Hit, LightSample, Ray, Receiver, Vertex};
+use crate::{Bsdf, Camera, Emission, EmissionDensity, Hit, LightSample, Ray, Receiver, Vertex};
 use etalon_math::{Density, SolidAngle};
 use etalon_spectrum::Wavelengths;
 use glam::{Vec2, Vec3, Vec4};
@@ -88,6 +88,14 @@ pub trait World: Sync {
         u_position: Vec2,
         u_direction: Vec2,
     ) -> Option<Emission>;
+
+    /// The densities with which [`World::emit`] would have made a particle leave the emitting
+    /// surface point `at` along `direction`.
+    fn emission_density(&self, at: &Vertex, direction: Vec3) -> EmissionDensity;
+
+    /// The densities with which [`World::emit`] would have made a particle come from the lights
+    /// at infinity seen along the unit vector `direction`.
+    fn background_emission_density(&self, direction: Vec3) -> EmissionDensity;
 
     /// How many rays the calling thread has traced since it last asked.
     fn take_ray_count(&self) -> u64;

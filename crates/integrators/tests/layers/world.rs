@@ -401,6 +401,12 @@ impl World for Stack {
     fn emit(&self, _: &Wavelengths, _: f32, _: Vec2, _: Vec2) -> Option<Emission> {
         None
     }
+    fn emission_density(&self, _: &Vertex, _: Vec3) -> EmissionDensity {
+        EmissionDensity::ZERO
+    }
+    fn background_emission_density(&self, _: Vec3) -> EmissionDensity {
+        EmissionDensity::ZERO
+    }
     fn take_ray_count(&self) -> u64 {
         0
     }

@@ -8,7 +8,7 @@ use super::*;
 use crate::LightSet;
 use etalon_params::{DMat4, DVec3};
 use etalon_sampling::warps::square_to_uniform_hemisphere;
-use etalon_transport::Chance;
+use etalon_transport::{Chance, EmissionDensity, Origin, SurfacePoint, TexturePoint};
 
 /// Mean and squared standard error of numbers that are mostly zero.
 #[derive(Default)]
@@ -242,5 +242,82 @@ fn analytic_powers() {
             (power / expected - 1.0).abs() < 1e-6,
             "{name} {power} {expected}"
         );
+    }
+}
+
+/// weight · p(origin) · p(ray) is what the light sends along the ray, and both densities are those
+/// that the light reports of the same origin and ray. Rejects a density without the choice of
+/// the light, and one sky's density for all skies'.
+#[test]
+fn densities_of_emission_are_those_that_are_reported() {
+    let (world, mut lights) = lights();
+    // Two skies are one technique; the compensated one emits uncompensated.
+    lights.truncate(6);
+    let (names, descriptions): (Vec<_>, Vec<_>) = lights.into_iter().unzip();
+    let set = LightSet::new(descriptions, &world, bounds());
+    let mut random = numbers(3);
+    let mut seen = [false; 6];
+    for _ in 0..2_000 {
+        let (u, v) = (random.next_2d(), random.next_2d());
+        let emitted = set.emit(&world, &WAVELENGTHS, random.next_1d(), u, v);
+        let particle = emitted.expect("every light emits");
+        let light = particle.light.0 as usize;
+        seen[light] = true;
+        let EmissionDensity { origin, ray } = particle.density;
+        let sent = particle.weight.y * origin * ray;
+        let choice = set.selector().probability_to_emit(particle.light);
+        match particle.origin {
+            Origin::Sky => {
+                let toward = -particle.ray.direction;
+                let reported = set.background_emission_density(toward);
+                assert!((reported.origin / origin - 1.0).abs() < 1e-3, "{light}");
+                assert_eq!(reported.ray, ray);
+                let radiance = set.background(&world, toward, &WAVELENGTHS).y;
+                assert!(
+                    (sent / radiance - 1.0).abs() < 1e-3,
+                    "{light}: {sent} {radiance}"
+                );
+            }
+            Origin::Point | Origin::Parallel => {
+                assert_eq!(origin, choice, "{}", names[light]);
+                let back = receiver(particle.ray.at(1.0), -particle.ray.direction);
+                let sampled = set
+                    .get(particle.light)
+                    .sample(&world, &back, &WAVELENGTHS, v);
+                let radiance = sampled.map_or(0.0, |sample| sample.radiance.y);
+                assert!((sent - radiance).abs() < 1e-4 * radiance, "{light}");
+            }
+            Origin::Surface => unreachable!("no surface is among them"),
+        }
+    }
+    assert_eq!(seen, [true; 6]);
+}
+
+#[test]
+fn a_surface_emits_with_the_density_that_it_reports() {
+    let (world, lights) = lights();
+    let (_, description) = &lights[7];
+    let light = &description.light;
+    let mut random = numbers(4);
+    for _ in 0..100 {
+        let (u, v) = (random.next_2d(), random.next_2d());
+        let particle = light
+            .emit(&world, &bounds(), &WAVELENGTHS, u, v)
+            .expect("it emits");
+        assert_eq!(particle.origin, Origin::Surface);
+        let at = SurfacePoint {
+            position: particle.ray.origin,
+            error: Vec3::ZERO,
+            normal: particle.normal,
+            texture: TexturePoint::at_uv(Vec2::ZERO),
+        };
+        let reported = light.emission_density(&world, &at, particle.ray.direction);
+        assert!((reported.origin / particle.density.origin - 1.0).abs() < 1e-6);
+        assert_eq!(reported.ray, particle.density.ray);
+        let cos = particle.normal.dot(particle.ray.direction);
+        let sent = particle.weight.y * reported.origin * reported.ray;
+        // L cos θ: the light's radiance is 2.
+        let radiance = 2.0 * white().y;
+        assert!((sent / (radiance * cos) - 1.0).abs() < 1e-5, "{sent}");
     }
 }

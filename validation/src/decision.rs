@@ -1,0 +1,267 @@
+//! The decision of a whole run: every comparison looked at until it is decided, all corrected together.
+//!
+//! The error level of the whole run, α = 10⁻³, is the probability that a run without any fault
+//! in the renderer shows a failure. Every comparison is *declared* to one family before anything is
+//! rendered, so that the family's size is the plan's and not the outcome's: a comparison that
+//! breaks counts with a p-value of 1. Each gets the same share of α for its intervals (Bonferroni)
+//! and spends it over its looks ([`crate::tier`]); its p-value is the least of its looks', each
+//! divided by the share of the level that the look was granted, and goes through Holm's procedure.
+//! Planted faults are another family: their hypotheses are known to be false.
+//!
+//! How a look comes by its evidence is the caller's: [`crate::outcome`] renders, and
+//! [`crate::calibrate`] deals replicates that there are.
+
+use crate::run::Task;
+use crate::tier::{self, FAULT_LOOKS, Tier};
+use etalon_statistics::{Family, Verdict};
+use std::time::{Duration, Instant};
+
+/// The probability that a run without faults shows a failure.
+pub const ALPHA: f64 = 1e-3;
+
+/// A further look that takes no longer than this is made even after the tier's deadline.
+const SHORT: Duration = Duration::from_secs(5);
+
+/// A look that is to be made.
+#[derive(Clone, Copy, Debug)]
+pub struct Look {
+    /// The task's place among all tasks.
+    pub place: usize,
+    /// How many replicates there shall be, in multiples of the first look's.
+    pub multiple: u32,
+    /// The level that it is granted.
+    pub alpha: f64,
+}
+
+/// What a look came to.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Seen {
+    /// The decision at the look's level.
+    pub verdict: Verdict,
+    /// The p-value of "no fault" at this look.
+    pub p: f64,
+}
+
+/// What a comparison came to in the end.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Decision {
+    /// Agrees, differs or undecided, corrected over the whole run; absent for what broke.
+    pub verdict: Option<Verdict>,
+    /// The p-value of "no fault", corrected over the whole run.
+    pub p_corrected: Option<f64>,
+    /// How often it was looked at.
+    pub looks: usize,
+    /// The level of its intervals at the last look.
+    pub level: f64,
+    /// Seconds spent on it.
+    pub seconds: f64,
+}
+
+/// How far a run is.
+#[derive(Clone, Copy, Debug)]
+pub struct Progress<'a> {
+    /// What begins now.
+    pub task: &'a Task<'a>,
+    /// Which look this is, from 1.
+    pub look: usize,
+    /// Comparisons of this look that are done.
+    pub done: usize,
+    /// Comparisons of this look.
+    pub total: usize,
+    /// Time since the run began.
+    pub elapsed: Duration,
+    /// Time until this look is over, by the work done so far; unknown at first.
+    pub remaining: Option<Duration>,
+}
+
+/// Comparisons that share a family and a plan of looks.
+struct Group<'a> {
+    family: Family,
+    looks: &'static [u32],
+    levels: Vec<f64>,
+    members: Vec<Member<'a>>,
+}
+
+struct Member<'a> {
+    /// Its place among all tasks.
+    place: usize,
+    task: Task<'a>,
+    /// What the last look came to; `None` in it if that broke.
+    last: Option<Option<Verdict>>,
+    /// The least p-value of the looks, each over the share it was granted.
+    p: f64,
+    looks: usize,
+    seconds: f64,
+}
+
+impl Member<'_> {
+    /// Whether another look may decide it.
+    fn is_open(&self, level: f64) -> bool {
+        match self.last {
+            None => true,
+            Some(None) => false,
+            Some(Some(verdict)) => verdict == Verdict::Undecided && self.p > level,
+        }
+    }
+}
+
+impl<'a> Group<'a> {
+    fn new(
+        tasks: impl Iterator<Item = (usize, Task<'a>)>,
+        looks: &'static [u32],
+    ) -> Result<Self, String> {
+        let mut family = Family::new(ALPHA).ok_or("the level is none")?;
+        let members: Vec<Member<'a>> = tasks
+            .map(|(place, task)| {
+                family.declare(format!("{}: {}", task.claim.name, task.label()));
+                Member {
+                    place,
+                    task,
+                    last: None,
+                    p: 1.0,
+                    looks: 0,
+                    seconds: 0.0,
+                }
+            })
+            .collect();
+        let levels = tier::granted(family.level_of_each(), looks)?;
+        Ok(Self {
+            family,
+            looks,
+            levels,
+            members,
+        })
+    }
+
+    fn open(&self) -> Vec<usize> {
+        let level = self.family.level_of_each();
+        let members = self.members.iter().enumerate();
+        members
+            .filter(|(_, member)| member.is_open(level))
+            .map(|(index, _)| index)
+            .collect()
+    }
+
+    /// Looks at one comparison for the `number`-th time, from 0.
+    fn look(&mut self, index: usize, number: usize, make: impl FnOnce(Look) -> Option<Seen>) {
+        let granted = self.levels[number];
+        let share = granted / self.family.level_of_each();
+        let member = &mut self.members[index];
+        let start = Instant::now();
+        let seen = make(Look {
+            place: member.place,
+            multiple: self.looks[number],
+            alpha: granted,
+        });
+        member.seconds += start.elapsed().as_secs_f64();
+        if let Some(seen) = seen {
+            member.p = member.p.min(seen.p / share);
+        }
+        member.looks += 1;
+        member.last = Some(seen.map(|seen| seen.verdict));
+    }
+
+    /// Corrects over all members.
+    fn decide(mut self) -> Vec<(usize, Decision)> {
+        for (index, member) in self.members.iter().enumerate() {
+            // What broke keeps the p-value of 1 it was declared with.
+            if matches!(member.last, Some(Some(_))) {
+                let _ = self.family.record(index, member.p.min(1.0));
+            }
+        }
+        let decisions = self.family.decide();
+        let levels = self.levels;
+        let members = self.members.into_iter().zip(decisions);
+        members
+            .map(|(member, corrected)| {
+                let verdict = member.last.flatten().map(|verdict| {
+                    if corrected.rejected {
+                        Verdict::Differs
+                    } else {
+                        verdict
+                    }
+                });
+                let decision = Decision {
+                    verdict,
+                    p_corrected: verdict.map(|_| corrected.adjusted),
+                    looks: member.looks,
+                    level: levels[member.looks.saturating_sub(1)],
+                    seconds: member.seconds,
+                };
+                (member.place, decision)
+            })
+            .collect()
+    }
+}
+
+/// Decides all comparisons of a run together; `make` makes a look, and returns `None` if that
+/// cannot be done.
+///
+/// # Errors
+/// If the plan of the run makes no sense.
+pub fn decide<'a>(
+    tasks: &[Task<'a>],
+    tier: Tier,
+    mut make: impl FnMut(Look) -> Option<Seen>,
+    mut watch: impl FnMut(&Progress<'_>),
+) -> Result<Vec<Decision>, String> {
+    let start = Instant::now();
+    let deadline = tier.deadline();
+    let of = |with_fault: bool| {
+        let all = tasks.iter().copied().enumerate();
+        all.filter(move |(_, task)| task.fault.is_some() == with_fault)
+    };
+    let mut groups = [
+        Group::new(of(false), tier.looks())?,
+        Group::new(of(true), FAULT_LOOKS)?,
+    ];
+    let most = groups.iter().map(|group| group.looks.len()).max();
+    for look in 0..most.unwrap_or(0) {
+        let open: Vec<(usize, usize)> = (groups.iter().enumerate())
+            .filter(|(_, group)| look < group.looks.len())
+            .flat_map(|(number, group)| group.open().into_iter().map(move |i| (number, i)))
+            .collect();
+        let work = |groups: &[Group<'_>; 2], (group, index): (usize, usize)| -> f64 {
+            let group: &Group<'_> = &groups[group];
+            let task = &group.members[index].task;
+            let before = if look > 0 { group.looks[look - 1] } else { 0 };
+            let more = f64::from(group.looks[look] - before);
+            more * f64::from(task.budget(tier).spp)
+        };
+        let all: f64 = open.iter().map(|at| work(&groups, *at)).sum();
+        let (began, mut finished) = (Instant::now(), 0.0);
+        for (done, at) in open.iter().copied().enumerate() {
+            let own = work(&groups, at);
+            let spent = began.elapsed();
+            let rest = (finished > 0.0).then(|| {
+                Duration::from_secs_f64(spent.as_secs_f64() * (all - finished) / finished)
+            });
+            let (group, index) = at;
+            let seconds = groups[group].members[index].seconds;
+            // A further look takes as long as all before it, or a little longer. Short ones are
+            // always made.
+            let own_time = Duration::from_secs_f64(1.2 * seconds);
+            let late = deadline.is_some_and(|deadline| start.elapsed() + own_time > deadline);
+            if look > 0 && late && own_time > SHORT {
+                continue;
+            }
+            watch(&Progress {
+                task: &groups[group].members[index].task,
+                look: look + 1,
+                done,
+                total: open.len(),
+                elapsed: start.elapsed(),
+                remaining: rest,
+            });
+            groups[group].look(index, look, &mut make);
+            finished += own;
+        }
+    }
+    let mut decisions: Vec<(usize, Decision)> =
+        groups.into_iter().flat_map(Group::decide).collect();
+    decisions.sort_by_key(|(place, _)| *place);
+    Ok(decisions
+        .into_iter()
+        .map(|(_, decision)| decision)
+        .collect())
+}

@@ -1,0 +1,94 @@
+//! Calibration: it keeps silent about sound statistics, and speaks up about unsound ones.
+
+use etalon_statistics::{Estimate, Summary};
+use etalon_validation::calibrate::pool::Pool;
+use etalon_validation::calibrate::single::{SETTINGS, Single};
+use etalon_validation::calibrate::{CONFIDENCE, REPETITIONS, null, verdict};
+use etalon_validation::claim::Claim;
+use etalon_validation::folders;
+use etalon_validation::run::{self, Options};
+use etalon_validation::state::State;
+use etalon_validation::tier::Tier;
+use rand::{RngExt, SeedableRng};
+use rand_pcg::Pcg64Mcg;
+
+/// Differences from zero of the means of eight nearly normal numbers, as `estimate` has them.
+fn repeated(estimate: impl Fn(&Summary) -> Estimate) -> Single {
+    let mut random = Pcg64Mcg::seed_from_u64(5);
+    let mut normal = || {
+        let sum: f64 = (0..12).map(|_| random.random::<f64>()).sum();
+        sum - 6.0
+    };
+    let estimates: Vec<Estimate> = (0..REPETITIONS)
+        .map(|_| {
+            let sample: [f64; 8] = std::array::from_fn(|_| normal());
+            estimate(&Summary::of(&sample).expect("eight numbers"))
+        })
+        .collect();
+    let confidence = verdict::confidence_of_each(SETTINGS.len());
+    Single::of("a mean".to_owned(), &estimates, confidence).expect("there are repetitions")
+}
+
+fn kept(single: &Single) -> Vec<bool> {
+    let confidence = verdict::confidence_of_each(SETTINGS.len());
+    let promises = verdict::of_single(single, confidence);
+    promises.iter().map(|promise| promise.holds).collect()
+}
+
+#[test]
+fn students_t_keeps_its_promises() {
+    // Five promises, together at α = 10⁻² and the preset window of alarms; the seed is fixed.
+    assert_eq!(kept(&repeated(Estimate::mean)), [true; 5]);
+}
+
+#[test]
+fn a_normal_quantile_in_place_of_students_is_caught() {
+    // Mutant: seven degrees of freedom taken for infinitely many. Alarms at 1 % come in 3.7 %.
+    let unsound = |sample: &Summary| {
+        Estimate::with_known_error(sample.mean(), sample.standard_error()).expect("finite")
+    };
+    let kept = kept(&repeated(unsound));
+    assert!(!kept[0], "alarms come too often");
+    assert!(!kept[4], "99 % intervals cover too little");
+}
+
+#[test]
+fn a_standard_error_off_by_a_root_of_two_is_caught() {
+    let unsound = |sample: &Summary| {
+        let error = sample.standard_error() * std::f64::consts::SQRT_2;
+        Estimate::new(sample.mean(), error, 7.0).expect("finite")
+    };
+    let kept = kept(&repeated(unsound));
+    // Mutant: intervals that are too wide are as wrong as those that are too narrow.
+    assert!(!kept[1] && !kept[2] && !kept[3], "{kept:?}");
+}
+
+#[test]
+fn null_runs_raise_no_alarm() {
+    let claims = Claim::read_all(&folders::claims()).expect("claims can be read");
+    let options = Options {
+        only: Some("furnace".to_owned()),
+        tier: Tier::Quick,
+        seed: 1,
+    };
+    let mut tasks = run::tasks(&claims, &options);
+    tasks.retain(|task| task.fault.is_none());
+    let folder = tempfile::tempdir().expect("a folder");
+    let state = State::open(folder.path(), &options).expect("a state");
+    let pools: Vec<Pool> = tasks
+        .iter()
+        .map(|task| Pool::render(*task, Tier::Quick, 1, &state).expect("it renders"))
+        .collect();
+    let runs = null::run(&tasks, &pools, Tier::Quick, (200, 1), CONFIDENCE, |_| {});
+    let runs = runs.expect("it runs");
+    // The whole decision's α is 10⁻³: with 200 runs a rate of 5 % would be seen.
+    assert_eq!(runs.alarms.count, 0);
+    assert!(runs.alarms.interval.high < 0.05);
+    assert!(runs.comparisons.iter().all(|counts| counts.broken == 0));
+    let p_values = runs.p_values.iter().flat_map(|(_, p)| p);
+    let p_values: Vec<f64> = p_values.copied().collect();
+    assert_eq!(p_values.len(), 400, "an image mean and a tile of each run");
+    // α = 10⁻² for each. Mutant: two hands that share replicates would have too few small ones.
+    let rates = verdict::decades(&p_values);
+    assert!(rates[..3].iter().all(|rate| rate.is_kept()), "{rates:?}");
+}
