@@ -316,7 +316,11 @@ impl<'a> Comparison<'a> {
             }
             Oracle::Agreement { estimator } | Oracle::Invariance { estimator } => {
                 let seed = options.seed ^ ORACLE_SEED;
-                work.first = options.tier.budget(estimator);
+                // A fault must show against as much work as is spent on finding it.
+                work.first = match fault {
+                    Some(_) => estimator.fault_budget(),
+                    None => options.tier.budget(estimator),
+                };
                 work.task.fault = None;
                 let oracle = work.extend(self.oracle.take(), estimator, seed, "oracle")?;
                 let against = Against::Picture(&oracle);

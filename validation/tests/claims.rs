@@ -90,6 +90,7 @@ fn every_kind_of_claim_has_a_mutant() {
     for kind in [
         "closed_form",
         "reference",
+        "agreement",
         "energy",
         "invariance",
         "convergence",
