@@ -21,6 +21,7 @@
 //! ```
 
 use crate::fault::Fault;
+use crate::noise::Means;
 use serde::Deserialize;
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
@@ -100,9 +101,12 @@ pub enum Oracle {
         /// Samples per replicate, powers of two for Sobol' points.
         samples: Vec<u32>,
     },
-    /// Whether standard errors are right: Student's intervals of 68, 95 and 99 % about a pixel's
-    /// mean must be shown to cover the truth at their rate.
+    /// Whether standard errors are right: Student's intervals of 68, 95 and 99 % about a mean must be
+    /// shown to cover the truth at their rate, and squared errors to be as large as reported.
     Noise {
+        /// Whose means.
+        #[serde(default)]
+        of: Means,
         /// The closed form that tells the truth.
         formula: String,
         /// How many pictures, each with its own seed.
@@ -129,6 +133,9 @@ pub enum Change {
     Order,
     /// A linear scan for the hierarchy of boxes: the same bits.
     Accelerator,
+    /// A part of the film for the whole, as the estimator's `defines` cut it out: the same bits in
+    /// every pixel of the part.
+    Crop,
     /// Another of the four wavelengths of each path chooses: the same statistics.
     Wavelengths,
 }
@@ -234,6 +241,7 @@ impl Estimator {
             Some(Change::Threads) => ", threads",
             Some(Change::Order) => ", order",
             Some(Change::Accelerator) => ", accelerator",
+            Some(Change::Crop) => ", crop",
             Some(Change::Wavelengths) => ", wavelengths",
         };
         format!("{integrator}, {sampler}{defines}{change}")

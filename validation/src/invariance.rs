@@ -1,9 +1,10 @@
-//! Invariance of bits: threads, the order of replicates, and the accelerator change nothing.
+//! Invariance of bits: threads, the order of replicates, the accelerator and what else is on the film
+//! change nothing.
 //!
 //! Accumulation is exact and a sample is a pure function of its address, so these are promises
 //! about every bit of every channel and of every tile mean, and a single difference breaks them.
 
-use crate::claim::{Change, Claim, Estimator};
+use crate::claim::{Change, Claim, Estimator, Oracle};
 use crate::fault::Fault;
 use crate::measure::Measure;
 use crate::rendering;
@@ -76,6 +77,17 @@ pub fn measure(
                 vec![Measure::certain(name, differing(&first, &changed, 0))],
                 first,
             )
+        }
+        Some(Change::Crop) => {
+            let Oracle::Invariance { estimator: whole } = &claim.oracle else {
+                return Ok(None);
+            };
+            let whole = rendering::load_for(claim, whole)?;
+            let whole = rendering::picture(&whole, plan, None, None)?;
+            let part = rendering::picture(loaded, &other, None, None)?;
+            let name = "numbers of the part that differ from the whole".to_owned();
+            let count = differing_part(&whole, &part)?;
+            (vec![Measure::certain(name, count)], part)
         }
     }))
 }
@@ -169,4 +181,41 @@ fn differing(first: &Developed, second: &Developed, shift: u32) -> usize {
         }
     }
     count
+}
+
+/// How many means and standard errors of a part differ in their bits from the same pixels of the
+/// whole.
+///
+/// # Errors
+/// If it is not a part, but all of it or beyond it: nothing would be shown then.
+fn differing_part(whole: &Developed, part: &Developed) -> Result<usize, String> {
+    let missing = "a picture has no statistics";
+    let channels = &whole.metadata.as_ref().ok_or(missing)?.channels;
+    let [from, to] = [whole, part].map(|picture| picture.frame.offset);
+    let shift = [to[0] - from[0], to[1] - from[1]].map(usize::try_from);
+    let [Ok(left), Ok(top)] = shift else {
+        return Err("the part begins before the whole".to_owned());
+    };
+    let [outer, inner] = [whole, part].map(|p| [p.image.width(), p.image.height()]);
+    if left + inner[0] > outer[0] || top + inner[1] > outer[1] || inner == outer {
+        return Err("the part is not a part of the whole".to_owned());
+    }
+    let mut count = 0;
+    for name in channels {
+        for name in [
+            name.clone(),
+            format!("{}{name}", etalon_film::STANDARD_ERROR),
+        ] {
+            let plane = |of: &Developed| of.image.channel(&name).map(<[f32]>::to_vec);
+            let (x, y) = (plane(whole).ok_or(missing)?, plane(part).ok_or(missing)?);
+            for (row, pixels) in y.chunks_exact(inner[0]).enumerate() {
+                let begin = (top + row) * outer[0] + left;
+                let same = &x[begin..begin + inner[0]];
+                count += (same.iter().zip(pixels))
+                    .filter(|(x, y)| x.to_bits() != y.to_bits())
+                    .count();
+            }
+        }
+    }
+    Ok(count)
 }

@@ -71,16 +71,8 @@ pub fn judge(
                 row.interval = [interval.low / scale, interval.high / scale];
                 row.verdict = interval.verdict(rules.image_bound * scale);
                 let shown = |tolerance| interval.verdict(tolerance) == Verdict::Differs;
-                row.p_exact = if shown(rules.rounding * scale) {
-                    alpha
-                } else {
-                    1.0
-                };
-                if row.verdict == Verdict::Differs {
-                    alpha
-                } else {
-                    1.0
-                }
+                row.p_exact = p_of(shown(rules.rounding * scale), alpha);
+                p_of(row.verdict == Verdict::Differs, alpha)
             }
             None => samples.p_differs(scale * rules.image_bound),
         };
@@ -109,6 +101,13 @@ pub fn judge(
         p,
         refusals,
     })
+}
+
+/// The p-value that an interval at `alpha` stands for: 1, or a hair below `alpha` if it rejects. The
+/// corrections divide and multiply it by shares and numbers of hypotheses, and what rounding does to
+/// `alpha` itself on that way would take some rejections back.
+fn p_of(rejects: bool, alpha: f64) -> f64 {
+    if rejects { alpha * (1.0 - 1e-12) } else { 1.0 }
 }
 
 /// All means must agree, and no tile may differ or be in doubt.
@@ -259,4 +258,33 @@ pub(crate) fn tile_mean(
         })
         .sum();
     Ok(sum / ((bottom - top) * (right - left)) as f64)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::p_of;
+    use crate::decision::ALPHA;
+    use etalon_statistics::Family;
+
+    #[test]
+    fn a_rejected_interval_stays_rejected_through_every_correction() {
+        for size in 1_u32..300 {
+            for share in [0.23, 0.31, 0.41, 0.5, 0.77, 1.0] {
+                for questions in [3.0, 6.0, 9.0, 12.0] {
+                    let mut family = Family::new(ALPHA).expect("a level");
+                    (0..size).for_each(|i| {
+                        family.declare(i.to_string());
+                    });
+                    let level = family.level_of_each();
+                    let granted = level * share;
+                    // As `judge` and `decision` do. Mutant rejected: `alpha` itself, which one
+                    // combination in fifteen loses.
+                    let p = (p_of(true, granted / questions) * questions).min(1.0);
+                    let recorded = family.record(0, p / (granted / level));
+                    assert!(recorded.is_ok());
+                    assert!(family.decide()[0].rejected, "{size} {share} {questions}");
+                }
+            }
+        }
+    }
 }

@@ -1,40 +1,79 @@
-//! Noise: is the standard error that a picture reports right?
+//! Noise: is the standard error that is reported right?
 //!
-//! If a pixel's replicates are independent and nearly normal, mean ± t s covers the truth with the
-//! probability that Student's t with R − 1 degrees of freedom says. Over all pixels of pictures
-//! with different seeds the share of those covered is a binomial proportion (Clopper & Pearson
-//! 1934); pixels of estimators that do not splat are independent. One channel is counted: those
-//! of a pixel are not independent of each other.
+//! Two statements about a mean m of R independent replicates with the standard error s and the
+//! truth t, counted over many means of pictures with different seeds:
+//!
+//! - E (m − t)² = E s², whatever the distribution: the squared standard error is unbiased. Σ (m − t)²
+//!   over Σ s² is a ratio of sums over independent trials; its error is that of the mean residual
+//!   (m − t)² − ratio · s² (the delta method).
+//! - If replicates are nearly normal, m ± t s covers the truth with the probability that Student's t
+//!   with R − 1 degrees of freedom says. The share of those covered is a binomial proportion (Clopper
+//!   & Pearson 1934). Where replicates are skewed, fewer are covered, and that is no fault of s: so
+//!   this is claimed of the means of tiles, which comparisons are decided by, and of pixels only
+//!   where a replicate has many samples or their noise is known to be nearly normal.
+//!
+//! Trials are independent: those of different seeds are, and so are pixels of one picture, and tiles
+//! which share no pixel, unless the integrator splats. One channel is counted, as those of a pixel
+//! are not independent of each other. Errors are relative to the truth.
 
 use crate::claim::{Budget, Claim, Estimator};
 use crate::closed_form;
 use crate::fault::Fault;
+use crate::judged;
 use crate::measure::{self, Measure};
 use crate::rendering;
-use etalon_statistics::{Estimate, proportion};
+use etalon::judge::{self, Known};
+use etalon_film::Developed;
+use etalon_statistics::{Estimate, Summary, proportion};
+use serde::Deserialize;
 
 /// The levels whose intervals are counted.
 pub const LEVELS: [f64; 3] = [0.68, 0.95, 0.99];
 
+/// How far the mean squared error may be from the reported one, relative to it.
+pub const RATIO_TOLERANCE: f64 = 0.15;
+
 /// The channel that is counted.
 const CHANNEL: &str = "G";
 
-/// How many pixels of a picture have intervals that cover the truth, level by level.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Counted {
-    /// Covered, for each of [`LEVELS`].
-    pub covered: [u64; LEVELS.len()],
-    /// Pixels.
-    pub trials: u64,
+/// The side of the tiles that are counted (pixels).
+const SIDE: Option<u32> = Some(16);
+
+/// The means whose errors a noise claim is about.
+#[derive(Clone, Copy, Debug, Default, Deserialize, PartialEq, Eq)]
+#[serde(rename_all = "snake_case")]
+pub enum Means {
+    /// Those of single pixels.
+    #[default]
+    Pixels,
+    /// Those of tiles of 16² pixels, which comparisons are decided by.
+    Tiles,
 }
 
-/// Counts the pixels covered in each of `seeds` pictures; and the samples spent.
+/// What is counted of a picture, or of several.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Counted {
+    /// Means whose intervals cover the truth, for each of [`LEVELS`].
+    pub covered: [u64; LEVELS.len()],
+    /// Means.
+    pub trials: u64,
+    /// Σ a, Σ b, Σ a², Σ ab, Σ b² of the squared errors a and the squares b of what is reported.
+    pub squares: [f64; 5],
+}
+
+/// A mean: how far it is from the truth, and its standard error; both relative to the truth.
+struct Trial {
+    off: f64,
+    error: f64,
+}
+
+/// Counts the means of each of `seeds` pictures; and the samples spent.
 ///
 /// # Errors
 /// If a picture cannot be rendered, or an integrator makes pixels depend on each other.
 pub fn count(
     claim: &Claim,
-    (formula, seeds): (&str, u32),
+    (of, formula, seeds): (Means, &str, u32),
     estimator: &Estimator,
     fault: Option<Fault>,
     budget: Budget,
@@ -51,63 +90,180 @@ pub fn count(
     }
     let size = loaded.compiled.film.crop_size.to_array();
     let known = closed_form::picture(formula, claim, size)?;
-    let found = known.channels.iter().find(|(name, _)| name == CHANNEL);
-    let (_, truth) = found.ok_or("nothing is known of channel `G`")?;
     let freedom = f64::from(budget.replicates) - 1.0;
     let (mut pictures, mut spent) = (Vec::new(), 0);
     for number in 0..seeds {
         let seed = seed.wrapping_add((u64::from(number) + 1) << 32);
         let plan = rendering::plan(&loaded, estimator, budget, seed);
         let picture = rendering::picture(&loaded, &plan, None, None)?;
-        let missing = "the picture has no standard errors";
-        let means = picture.image.channel(CHANNEL).ok_or(missing)?;
-        let errors = picture.standard_error(CHANNEL).ok_or(missing)?;
-        let mut counted = Counted {
-            covered: [0; LEVELS.len()],
-            trials: 0,
+        let mut trials = match of {
+            Means::Pixels => pixels(&picture, &known)?,
+            Means::Tiles => tiles(&picture, &known)?,
         };
-        for ((mean, error), truth) in means.iter().zip(errors).zip(truth) {
-            let error = f64::from(*error) * shrink;
-            let estimate = Estimate::new(f64::from(*mean), error, freedom).ok_or(missing)?;
-            for (count, level) in counted.covered.iter_mut().zip(LEVELS) {
-                *count += u64::from(estimate.interval(level).contains(*truth));
-            }
-            counted.trials += 1;
+        for trial in &mut trials {
+            trial.error *= shrink;
         }
-        pictures.push(counted);
+        let counted = Counted::of(&trials, freedom);
+        pictures.push(counted.ok_or("a mean or its truth is not a number above 0")?);
         spent += u64::from(plan.samples_per_replicate) * u64::from(budget.replicates);
     }
     Ok((pictures, spent))
 }
 
-/// The coverages over all pictures, judged at `alpha` together.
+/// The coverages and the squared error over all pictures, judged at `alpha` together.
 ///
 /// # Errors
 /// If there is nothing to count.
 pub fn judge(pictures: &[Counted], tolerance: f64, alpha: f64) -> Result<Vec<Measure>, String> {
-    let trials: u64 = pictures.iter().map(|picture| picture.trials).sum();
-    let each = alpha / LEVELS.len() as f64;
-    let measures = LEVELS.iter().enumerate().map(|(index, level)| {
-        let count: u64 = pictures.iter().map(|p| p.covered[index]).sum();
-        // The same number of a proportion's standard deviations at every level.
+    let all = (pictures.iter()).fold(Counted::default(), |all, picture| all.and(picture));
+    let each = alpha / (LEVELS.len() + 1) as f64;
+    let coverages = (0..LEVELS.len()).map(|index| all.coverage(index, tolerance, each));
+    let ratio = std::iter::once_with(|| all.squared_error(each));
+    let measures: Option<Vec<Measure>> = coverages.chain(ratio).collect();
+    measures.ok_or_else(|| "there is nothing to count".to_owned())
+}
+
+/// The pixels of a picture.
+fn pixels(picture: &Developed, known: &Known) -> Result<Vec<Trial>, String> {
+    let missing = "the picture has no standard errors, or nothing is known of it";
+    let found = known.channels.iter().find(|(name, _)| name == CHANNEL);
+    let (_, truth) = found.ok_or(missing)?;
+    let means = picture.image.channel(CHANNEL).ok_or(missing)?;
+    let errors = picture.standard_error(CHANNEL).ok_or(missing)?;
+    let all = means.iter().zip(errors).zip(truth);
+    let trials = all.map(|((mean, error), truth)| Trial {
+        off: f64::from(*mean) / truth - 1.0,
+        error: f64::from(*error) / truth,
+    });
+    Ok(trials.collect())
+}
+
+/// The tiles of a picture.
+fn tiles(picture: &Developed, known: &Known) -> Result<Vec<Trial>, String> {
+    let missing = "the picture has too few replicates";
+    let metadata = picture.metadata.as_ref().ok_or(missing)?;
+    let (means, count) = judge::replicates(metadata, CHANNEL, SIDE)?;
+    let trial = |tile: usize| {
+        let truth = judged::tile_mean(known, CHANNEL, SIDE, tile)?;
+        let relative = means.iter().skip(tile).step_by(count).map(|x| x / truth);
+        let summary = Summary::of_iter(relative).ok_or(missing)?;
+        Ok(Trial {
+            off: summary.mean() - 1.0,
+            error: summary.standard_error(),
+        })
+    };
+    (0..count).map(trial).collect()
+}
+
+impl Counted {
+    /// Of trials whose standard errors have `freedom` degrees of freedom.
+    fn of(trials: &[Trial], freedom: f64) -> Option<Self> {
+        let mut all = Self::default();
+        for trial in trials {
+            let estimate = Estimate::new(trial.off, trial.error, freedom)?;
+            for (count, level) in all.covered.iter_mut().zip(LEVELS) {
+                *count += u64::from(estimate.interval(level).contains(0.0));
+            }
+            all.trials += 1;
+            let (a, b) = (trial.off * trial.off, trial.error * trial.error);
+            for (sum, term) in all.squares.iter_mut().zip([a, b, a * a, a * b, b * b]) {
+                *sum += term;
+            }
+        }
+        Some(all)
+    }
+
+    /// Both.
+    fn and(self, other: &Self) -> Self {
+        Self {
+            covered: std::array::from_fn(|i| self.covered[i] + other.covered[i]),
+            trials: self.trials + other.trials,
+            squares: std::array::from_fn(|i| self.squares[i] + other.squares[i]),
+        }
+    }
+
+    /// How often the interval of a level covers the truth. The same number of a proportion's standard
+    /// deviations is accepted at every level.
+    fn coverage(&self, index: usize, tolerance: f64, alpha: f64) -> Option<Measure> {
+        let (count, level) = (self.covered[index], LEVELS[index]);
         let spread = |p: f64| (p * (1.0 - p)).sqrt();
-        let tolerance = tolerance * spread(*level) / spread(LEVELS[0]);
+        let tolerance = tolerance * spread(level) / spread(LEVELS[0]);
         let accepted = [level - tolerance, (level + tolerance).min(1.0)];
-        let interval =
-            proportion::interval(count, trials, 1.0 - each).ok_or("there is nothing to count")?;
-        let share = count as f64 / trials as f64;
-        let error = spread(*level) / (trials as f64).sqrt();
-        let excess =
-            Estimate::with_known_error(share - level, error).ok_or("there is nothing to count")?;
+        let interval = proportion::interval(count, self.trials, 1.0 - alpha)?;
         let bounds = [interval.low, interval.high];
-        Ok(Measure {
+        Some(Measure {
             name: format!("coverage of {:.0} % intervals", 100.0 * level),
-            value: share,
+            value: count as f64 / self.trials as f64,
             interval: bounds,
             accepted,
-            p: excess.p_differs(tolerance),
+            p: proportion::p_outside(count, self.trials, accepted)?,
             verdict: measure::verdict(bounds, accepted),
         })
-    });
-    measures.collect()
+    }
+
+    /// The mean squared error over the reported one.
+    fn squared_error(&self, alpha: f64) -> Option<Measure> {
+        let [errors, reported, aa, ab, bb] = self.squares;
+        let ratio = errors / reported;
+        // Σ (a − ratio b)².
+        let residuals = (aa - 2.0 * ratio * ab + ratio * ratio * bb).max(0.0);
+        let estimate = Estimate::with_known_error(ratio, residuals.sqrt() / reported)?;
+        let accepted = [1.0 - RATIO_TOLERANCE, 1.0 + RATIO_TOLERANCE];
+        let name = "squared error over the reported".to_owned();
+        Some(Measure::new(name, &estimate, accepted, alpha))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Means of 8 normal numbers, by Box and Muller's method from a golden-ratio sequence's hash.
+    fn trials(count: u32) -> Vec<Trial> {
+        let mut state = 1_u64;
+        let mut uniform = || {
+            state = state
+                .wrapping_mul(6_364_136_223_846_793_005)
+                .wrapping_add(1_442_695_040_888_963_407);
+            ((state >> 11) as f64 + 0.5) / (1_u64 << 53) as f64
+        };
+        let mut normal = || {
+            let (u, v) = (uniform(), uniform());
+            let angle = std::f64::consts::TAU * v;
+            (-2.0 * etalon_math::float64::ln(u)).sqrt() * etalon_math::float64::cos(angle)
+        };
+        (0..count)
+            .map(|_| {
+                let replicates: [f64; 8] = std::array::from_fn(|_| normal());
+                let summary = Summary::of(&replicates).expect("eight numbers");
+                Trial {
+                    off: summary.mean(),
+                    error: summary.standard_error(),
+                }
+            })
+            .collect()
+    }
+
+    #[test]
+    fn normal_noise_passes_and_errors_that_are_too_small_do_not() {
+        // α = 10⁻⁴ in each measure.
+        let mut trials = trials(16_384);
+        let judged = |trials: &[Trial]| {
+            let counted = Counted::of(trials, 7.0).expect("numbers");
+            let mut measures = judge(&[counted], 0.03, 4e-4).expect("trials");
+            let ratio = measures.pop().expect("four measures");
+            let shares: Vec<_> = measures.iter().map(|share| share.verdict).collect();
+            (shares, ratio)
+        };
+        let (shares, ratio) = judged(&trials);
+        assert_eq!(shares, [etalon_statistics::Verdict::Agrees; 3]);
+        assert_eq!(ratio.verdict, etalon_statistics::Verdict::Agrees);
+        // Mutant rejected: standard errors too small by √2.
+        for trial in &mut trials {
+            trial.error *= std::f64::consts::FRAC_1_SQRT_2;
+        }
+        let (shares, ratio) = judged(&trials);
+        assert_eq!(shares, [etalon_statistics::Verdict::Differs; 3]);
+        assert!((ratio.value - 2.0).abs() < 0.1 && ratio.p < 1e-9);
+    }
 }

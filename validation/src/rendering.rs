@@ -5,7 +5,7 @@ use crate::fault::{Fault, Faulty};
 use crate::folders;
 use etalon::pipeline::{self, LoadOptions, Loaded, RenderOptions};
 use etalon_film::{Developed, ExactFilm, RenderFacts};
-use etalon_integrators::{AnyIntegrator, Plan};
+use etalon_integrators::Plan;
 use etalon_sampling::SamplerKind;
 
 /// The scene parameters of a claim, and of one of its estimators.
@@ -122,24 +122,22 @@ pub fn facts(loaded: &Loaded, plan: &Plan, integrator: String) -> RenderFacts {
     }
 }
 
-/// Renders the path tracer's picture of a world with a fault, or with its wavelengths' lanes
-/// rotated.
+/// Renders the picture of a world with a fault, or with its wavelengths' lanes rotated.
 fn altered(
     loaded: &Loaded,
     plan: &Plan,
     fault: Option<Fault>,
     rotation: usize,
 ) -> Result<Developed, String> {
-    let AnyIntegrator::Path(path) = &loaded.integrator else {
-        return Err("faults and changes are made under `path` only".to_owned());
-    };
     let compiled = &loaded.compiled;
-    let mut film = ExactFilm::new(compiled.film.clone(), &[]).map_err(|e| e.message)?;
+    let named = loaded.integrator.channels();
+    let mut film = ExactFilm::new(compiled.film.clone(), &named).map_err(|e| e.message)?;
     let world = Faulty::new(&compiled.scene, fault, rotation);
-    etalon_integrators::render(&world, path, &mut film, plan, &());
+    loaded.integrator.render(&world, &mut film, plan, &());
+    let of = &loaded.integrator_name;
     let name = match fault {
-        Some(fault) => format!("path with the fault `{fault}`"),
-        None => "path with rotated wavelengths".to_owned(),
+        Some(fault) => format!("{of} with the fault `{fault}`"),
+        None => format!("{of} with rotated wavelengths"),
     };
     Ok(film.develop(facts(loaded, plan, name)))
 }

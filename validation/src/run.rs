@@ -256,11 +256,12 @@ impl<'a> Comparison<'a> {
                 (vec![measure], batches.spp)
             }
             Oracle::Noise {
+                of,
                 formula,
                 seeds,
                 tolerance,
             } => {
-                let counted = (formula.as_str(), seeds * multiple);
+                let counted = (*of, formula.as_str(), seeds * multiple);
                 let (pictures, spp) =
                     noise::count(claim, counted, estimator, fault, first, options.seed)?;
                 (noise::judge(&pictures, *tolerance, alpha)?, spp)
@@ -336,7 +337,11 @@ impl<'a> Comparison<'a> {
             }
             Oracle::Agreement { estimator } | Oracle::Invariance { estimator } => {
                 let seed = options.seed ^ ORACLE_SEED;
-                work.first = options.tier.budget(estimator);
+                // A fault must show against as much work as is spent on finding it.
+                work.first = match fault {
+                    Some(_) => estimator.fault_budget(),
+                    None => options.tier.budget(estimator),
+                };
                 work.task.fault = None;
                 let oracle = work.extend(self.oracle.take(), estimator, seed, "oracle")?;
                 let against = Against::Picture(&oracle);

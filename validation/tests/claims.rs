@@ -82,9 +82,11 @@ fn exponents_and_tolerances_are_those_that_were_agreed() {
         found,
         [
             "convergence-independent: -1.1 … -0.9",
+            "convergence-smooth: -3.2 … -2.8",
             "convergence-sobol: -4 … -1.3",
             "noise-furnace: 16 seeds, ±0.03",
             "noise-irradiance: 32 seeds, ±0.03",
+            "noise-tiles: 128 seeds, ±0.04",
         ]
     );
 }
@@ -136,6 +138,7 @@ fn every_kind_of_claim_has_a_mutant() {
     for kind in [
         "closed_form",
         "reference",
+        "agreement",
         "energy",
         "invariance",
         "convergence",

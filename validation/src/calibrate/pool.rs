@@ -134,8 +134,10 @@ impl Pool {
                     convergence::batches(claim, rungs, estimator, None, replicates, seed)?;
                 Kind::Exponents(batches.exponents)
             }
-            Oracle::Noise { formula, seeds, .. } => {
-                let counted = (formula.as_str(), *seeds);
+            Oracle::Noise {
+                of, formula, seeds, ..
+            } => {
+                let counted = (*of, formula.as_str(), *seeds);
                 let (pictures, _) = noise::count(claim, counted, estimator, None, first, seed)?;
                 Kind::Coverages(pictures)
             }

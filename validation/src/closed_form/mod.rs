@@ -4,21 +4,25 @@
 //! `defines`, so that scene and formula cannot disagree.
 
 pub mod blackbody;
+pub mod blend;
 pub mod colour_checker;
 pub mod delta_lights;
 pub mod form_factors;
 pub mod furnace;
+pub mod glass;
 pub mod integrating_sphere;
 pub mod irradiance;
 pub mod light;
 pub mod mesh_light;
 pub mod metamers;
 pub mod mirror_room;
+pub mod narrow_sky;
 pub mod pile_of_plates;
 pub mod pixels;
 pub mod prism;
 pub mod rgb_patches;
 pub mod spectra;
+pub mod wrapped_bitmap;
 
 use crate::claim::Claim;
 use etalon::judge::Known;
@@ -53,6 +57,11 @@ pub fn picture(formula: &str, claim: &Claim, size: [u32; 2]) -> Result<Known, St
         "metamers that match" => metamers::matching(claim, size),
         "metamers" => metamers::picture(claim, size),
         "prism" => prism::picture(claim, size),
+        "blend" => blend::picture(claim, size),
+        "window between two media" => glass::window(claim, size),
+        "furnace within glass" => glass::furnace(claim, size),
+        "narrow sky" => narrow_sky::picture(claim, size),
+        "wrapped bitmap" => wrapped_bitmap::picture(claim, size),
         "colour checker" => colour_checker::picture(claim, size),
         other => Err(format!("there is no closed form called `{other}`")),
     }

@@ -38,7 +38,7 @@ pub fn picture(claim: &Claim, size: [u32; 2]) -> Result<Known, String> {
 }
 
 /// R of an interface to the relative index `index` for natural light.
-fn reflectance(cosine: f64, index: f64) -> f64 {
+pub fn reflectance(cosine: f64, index: f64) -> f64 {
     // The index times the cosine behind the interface, by Snell's law.
     let behind = (index * index - 1.0 + cosine * cosine).sqrt();
     let s = (cosine - behind) / (cosine + behind);
