@@ -14,6 +14,7 @@ mod mitsuba;
 mod mutants;
 mod notation;
 mod pointwise;
+mod reversal;
 mod scene;
 mod sphere;
 mod statistical;

@@ -26,12 +26,14 @@
 //!
 //! A technique that would connect a corner that scattered discretely has density zero. Through such
 //! a corner both walks have densities with the same Dirac functions, and these cancel: per unit
-//! *projected* solid angle, δ(ω_t − R(ω_i)) as a function of ω_t is η² times that of ω_i
-//! (Veach 1997, section 5.2), so the walk that enters the medium of greater η has it.
+//! *projected* solid angle, δ(ω_t − R(ω_i)) as a function of ω_t is η² times the same as a function
+//! of ω_i, with η the index on the side of ω_t over that on the side of ω_i (it follows from
+//! n² dσ⊥ being the same on both sides: Veach 1997, section 5.2). Each walk's density is given its own η,
+//! entering over leaving; their quotient has the square.
 //!
-//! Weights are functions of the path alone, however it was made: reflection's densities are taken
-//! in the direction that each walk would have gone, from models resolved once; Russian roulette is not part of
-//! them.
+//! Weights are functions of the path alone, however it was made, and so add up to one. A model resolved
+//! for one direction serves the way back, and a discrete direction is as likely one way as the
+//! other: the scattering models are tested for both. Russian roulette is not part of the weights.
 
 mod connect;
 mod corner;

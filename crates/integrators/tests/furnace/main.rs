@@ -6,6 +6,7 @@
 
 mod world;
 
+use etalon_integrators::bdpt::Bidirectional;
 use etalon_integrators::direct::Direct;
 use etalon_integrators::path::Path;
 use etalon_integrators::ptracer::ParticleTracer;
@@ -80,8 +81,8 @@ fn settings(max_depth: u32) -> PathSettings {
     }
 }
 
-/// Six comparisons at a family-wise α of 10⁻³ (two-sided normal quantile of 10⁻³/6 ≈ 3.76).
-const LIMIT: f64 = 3.76;
+/// Nine comparisons at a family-wise α of 10⁻³ (two-sided normal quantile of 10⁻³/9 ≈ 3.86).
+const LIMIT: f64 = 3.86;
 const N: u32 = 150_000;
 
 fn series(reflectance: f64, segments: i32) -> f64 {
@@ -96,6 +97,9 @@ fn estimators_agree_with_the_geometric_series() {
         settings: limited(n),
     };
     let light = |n| ParticleTracer {
+        settings: limited(n),
+    };
+    let both = |n| Bidirectional {
         settings: limited(n),
     };
     let direct = Direct {
@@ -122,6 +126,15 @@ fn estimators_agree_with_the_geometric_series() {
             "ptracer, unlimited",
             z_score(&light(u32::MAX), &world, 2.5, N),
         ),
+        (
+            "bdpt, 2 segments",
+            z_score(&both(2), &world, series(0.6, 2), N),
+        ),
+        (
+            "bdpt, 4 segments",
+            z_score(&both(4), &world, series(0.6, 4), N),
+        ),
+        ("bdpt, unlimited", z_score(&both(u32::MAX), &world, 2.5, N)),
     ] {
         assert!(z.abs() < LIMIT, "{what}: z = {z:.2}");
     }
@@ -135,6 +148,15 @@ fn faults_are_noticed() {
     let light = ParticleTracer {
         settings: settings(3),
     };
+    let both = Bidirectional {
+        settings: settings(3),
+    };
+    for fault in [Fault::ScatteringDensity, Fault::Emission, Fault::Importance] {
+        let world = Sphere::new(0.6, fault);
+        let z = z_score(&both, &world, series(0.6, 3), N);
+        let number = fault as u32;
+        assert!(z.abs() > LIMIT, "fault {number} unnoticed: z = {z:.2}");
+    }
     for fault in [
         Fault::LightDensity,
         Fault::ScatteringDensity,
