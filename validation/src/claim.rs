@@ -22,10 +22,11 @@
 
 use crate::fault::Fault;
 use crate::noise::Means;
-use etalon_sampling::SamplerKind;
 use serde::Deserialize;
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
+
+pub use crate::sampler::Sampler;
 
 /// A claim as its file states it.
 #[derive(Clone, Debug, Deserialize)]
@@ -113,6 +114,13 @@ pub enum Oracle {
         /// How far a rate may be from what it ought to be.
         tolerance: f64,
     },
+    /// A picture by POV-Ray of the scene's twin: every pixel agrees, see [`crate::pixelwise`].
+    Povray {
+        /// The greatest share of pixels next to an edge.
+        edges: f64,
+        /// The greatest share of pixels that are next to an edge and differ.
+        excused: f64,
+    },
 }
 
 /// What an invariance claim changes, beside an estimator's parameters.
@@ -159,6 +167,7 @@ impl Oracle {
             Self::Invariance { .. } => "invariance",
             Self::Convergence { .. } => "convergence",
             Self::Noise { .. } => "noise",
+            Self::Povray { .. } => "povray",
         }
     }
 }
@@ -185,28 +194,6 @@ pub struct Estimator {
     /// Faults that must be found.
     #[serde(default)]
     pub mutants: Vec<Fault>,
-}
-
-/// The kinds of samplers claims may name.
-#[derive(Clone, Copy, Debug, Deserialize)]
-#[serde(rename_all = "snake_case")]
-pub enum Sampler {
-    /// Pseudo-random numbers.
-    Independent,
-    /// Jittered strata.
-    Stratified,
-    /// Scrambled Sobol' points.
-    Sobol,
-}
-
-impl From<Sampler> for SamplerKind {
-    fn from(sampler: Sampler) -> Self {
-        match sampler {
-            Sampler::Independent => Self::Independent,
-            Sampler::Stratified => Self::Stratified { jitter: true },
-            Sampler::Sobol => Self::Sobol,
-        }
-    }
 }
 
 /// How much work to spend.
@@ -245,11 +232,7 @@ impl Estimator {
     /// Its name in reports.
     pub fn label(&self) -> String {
         let integrator = self.integrator.as_deref().unwrap_or("path");
-        let sampler = match self.sampler {
-            Some(Sampler::Independent) => "independent",
-            Some(Sampler::Stratified) => "stratified",
-            Some(Sampler::Sobol) | None => "sobol",
-        };
+        let sampler = self.sampler.unwrap_or(Sampler::Sobol).name();
         let defines: String = pairs(&self.defines)
             .map(|(key, value)| format!(", {key}={value}"))
             .collect();
@@ -329,6 +312,14 @@ impl Claim {
             } => {
                 if *seeds == 0 || !sensible(*tolerance) {
                     return Err("`seeds` and `tolerance` must be above 0".to_owned());
+                }
+                None
+            }
+            Oracle::Povray { edges, excused } => {
+                if !sensible(*edges) || !sensible(*excused) || excused > edges {
+                    return Err(
+                        "`edges` and `excused` must be shares, the latter the smaller".to_owned(),
+                    );
                 }
                 None
             }

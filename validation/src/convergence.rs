@@ -14,24 +14,46 @@ use crate::measure::Measure;
 use crate::rendering;
 use etalon::judge::Known;
 use etalon_film::Developed;
+use etalon_math::float64;
 use etalon_statistics::{Estimate, Line, Summary};
+use serde::Serialize;
 
 /// Replicates of a batch: two, the fewest that have standard errors.
 const BATCH: u32 = 2;
 
-/// The exponents of an estimator's squared error, one of each independent batch, and the samples
-/// spent.
+/// How the squared error of one replicate falls with its samples.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Fall {
+    /// Samples, squared error (the mean of the batches), and its standard error.
+    pub points: Vec<[f64; 3]>,
+    /// The mean of the batches' fitted exponents.
+    pub exponent: f64,
+    /// The fitted power law's squared error for one sample: the geometric mean of the batches'.
+    pub factor: f64,
+}
+
+/// What the batches of an estimator came to.
+pub struct Batches {
+    /// The exponent of each independent batch.
+    pub exponents: Vec<f64>,
+    /// How the error fell, over all of them.
+    pub fall: Fall,
+    /// The samples spent.
+    pub spp: u64,
+}
+
+/// The exponents of an estimator's squared error, one of each independent batch.
 ///
 /// # Errors
 /// If a picture cannot be rendered or has no error at all.
-pub fn exponents(
+pub fn batches(
     claim: &Claim,
     (formula, samples): (&str, &[u32]),
     estimator: &Estimator,
     fault: Option<Fault>,
     replicates: u32,
     seed: u64,
-) -> Result<(Vec<f64>, u64), String> {
+) -> Result<Batches, String> {
     let estimator = match fault {
         Some(Fault::IndependentSamples) => &Estimator {
             sampler: Some(Sampler::Independent),
@@ -44,7 +66,8 @@ pub fn exponents(
     let size = loaded.compiled.film.crop_size.to_array();
     let known = closed_form::picture(formula, claim, size)?;
     let mut spent = 0;
-    let mut exponents = Vec::new();
+    let (mut exponents, mut logarithms) = (Vec::new(), Vec::new());
+    let mut errors = vec![Vec::new(); samples.len()];
     for batch in 0..(replicates / BATCH).max(2) {
         let (mut x, mut y) = (Vec::new(), Vec::new());
         for (rung, n) in samples.iter().enumerate() {
@@ -58,13 +81,30 @@ pub fn exponents(
             let plan = rendering::plan(&loaded, estimator, budget, seed);
             let picture = rendering::picture(&loaded, &plan, None, None)?;
             x.push(f64::from(plan.samples_per_replicate));
-            y.push(squared_error(&picture, &known)?);
+            let error = squared_error(&picture, &known)?;
+            y.push(error);
+            errors[rung].push(error);
             spent += u64::from(plan.samples_per_replicate * BATCH);
         }
         let fit = Line::fit_power_law(&x, &y).ok_or("there is no error whose fall can be seen")?;
         exponents.push(fit.slope.value());
+        logarithms.push(fit.intercept.value());
     }
-    Ok((exponents, spent))
+    let point = |(n, errors): (&u32, &Vec<f64>)| {
+        let summary = Summary::of(errors)?;
+        Some([f64::from(*n), summary.mean(), summary.standard_error()])
+    };
+    let mean = |values: &[f64]| Summary::of(values).map_or(f64::NAN, |s| s.mean());
+    let fall = Fall {
+        points: samples.iter().zip(&errors).filter_map(point).collect(),
+        exponent: mean(&exponents),
+        factor: float64::exp(mean(&logarithms)),
+    };
+    Ok(Batches {
+        exponents,
+        fall,
+        spp: spent,
+    })
 }
 
 /// The exponent of all batches together, judged at `alpha`.

@@ -24,7 +24,7 @@ const SHORT: Duration = Duration::from_secs(5);
 
 /// A look that is to be made.
 #[derive(Clone, Copy, Debug)]
-pub struct Look {
+pub struct Turn {
     /// The task's place among all tasks.
     pub place: usize,
     /// How many replicates there shall be, in multiples of the first look's.
@@ -143,12 +143,12 @@ impl<'a> Group<'a> {
     }
 
     /// Looks at one comparison for the `number`-th time, from 0.
-    fn look(&mut self, index: usize, number: usize, make: impl FnOnce(Look) -> Option<Seen>) {
+    fn look(&mut self, index: usize, number: usize, make: impl FnOnce(Turn) -> Option<Seen>) {
         let granted = self.levels[number];
         let share = granted / self.family.level_of_each();
         let member = &mut self.members[index];
         let start = Instant::now();
-        let seen = make(Look {
+        let seen = make(Turn {
             place: member.place,
             multiple: self.looks[number],
             alpha: granted,
@@ -202,7 +202,7 @@ impl<'a> Group<'a> {
 pub fn decide<'a>(
     tasks: &[Task<'a>],
     tier: Tier,
-    mut make: impl FnMut(Look) -> Option<Seen>,
+    mut make: impl FnMut(Turn) -> Option<Seen>,
     mut watch: impl FnMut(&Progress<'_>),
 ) -> Result<Vec<Decision>, String> {
     let start = Instant::now();

@@ -7,8 +7,8 @@
 use etalon_math::{Density, SolidAngle};
 use etalon_spectrum::Wavelengths;
 use etalon_transport::{
-    Bsdf, BsdfSample, Chance, Emission, EmissionDensity, Hit, LightSample, Mode, Passage, Ray,
-    Receiver, Vertex, World,
+    Bsdf, BsdfSample, Chance, Emission, EmissionDensity, Hit, LightId, LightSample, Mode, Passage,
+    Ray, Receiver, Vertex, World,
 };
 use glam::{Vec2, Vec3, Vec4};
 use serde::Deserialize;
@@ -35,6 +35,15 @@ pub enum Fault {
     /// What must be the same bits is of another seed: for invariance claims.
     #[serde(rename = "another seed")]
     AnotherSeed,
+    /// The picture is one pixel too far to the right: for pixelwise claims.
+    #[serde(rename = "shifted by a pixel")]
+    ShiftedPixel,
+    /// Left and right are exchanged: for pixelwise claims.
+    #[serde(rename = "mirrored")]
+    Mirrored,
+    /// The picture is 1 % too bright: for pixelwise claims.
+    #[serde(rename = "energy x 1.01")]
+    SlightEnergy,
 }
 
 impl Fault {
@@ -42,7 +51,12 @@ impl Fault {
     pub fn is_physical(self) -> bool {
         match self {
             Self::DroppedCosine | Self::WrongLightDensity | Self::Energy => true,
-            Self::IndependentSamples | Self::StandardError | Self::AnotherSeed => false,
+            Self::IndependentSamples
+            | Self::StandardError
+            | Self::AnotherSeed
+            | Self::ShiftedPixel
+            | Self::Mirrored
+            | Self::SlightEnergy => false,
         }
     }
 }
@@ -56,6 +70,9 @@ impl std::fmt::Display for Fault {
             Self::IndependentSamples => "independent samples",
             Self::StandardError => "standard error / sqrt 2",
             Self::AnotherSeed => "another seed",
+            Self::ShiftedPixel => "shifted by a pixel",
+            Self::Mirrored => "mirrored",
+            Self::SlightEnergy => "energy x 1.01",
         })
     }
 }
@@ -229,12 +246,16 @@ impl<W: World> World for Faulty<'_, W> {
         })
     }
 
-    fn emission_density(&self, at: &Vertex, direction: Vec3) -> EmissionDensity {
-        self.world.emission_density(at, direction)
+    fn emission_density(&self, light: LightId, direction: Vec3, cos: f32) -> EmissionDensity {
+        self.world.emission_density(light, direction, cos)
     }
 
     fn background_emission_density(&self, direction: Vec3) -> EmissionDensity {
         self.world.background_emission_density(direction)
+    }
+
+    fn sampled_density(&self, from: &Receiver, start: &Emission) -> f32 {
+        self.world.sampled_density(from, start)
     }
 
     fn take_ray_count(&self) -> u64 {

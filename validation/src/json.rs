@@ -1,9 +1,10 @@
 //! The decision as JSON, and where its numbers come from. `docs/validation-json.md` describes it;
 //! a test holds that page to what is written here.
 
+use crate::claim::Oracle;
 use crate::outcome::{ALPHA, Conclusion, Row, counts};
 use crate::run::{Compared, Evidence, Options};
-use crate::table;
+use crate::{folders, povray, reference, table};
 use serde::Serialize;
 use serde_json::{Value, json};
 
@@ -78,9 +79,12 @@ fn row(row: &Row<'_>, provenance: &Provenance) -> Value {
         Evidence::Pictures { refusals, .. } => Some(refusals),
         Evidence::Measures(_) => None,
     });
+    let name = &row.task.claim.name;
     let reference = match row.task.claim.oracle {
-        crate::claim::Oracle::Reference { .. } => {
-            crate::reference::provenance(&row.task.claim.name).ok()
+        Oracle::Reference { .. } => reference::provenance(name).ok().map(|p| json!(p)),
+        Oracle::Povray { .. } => {
+            let made = povray::provenance(&folders::references(), name);
+            made.ok().map(|p| json!(p))
         }
         _ => None,
     };
@@ -106,6 +110,8 @@ fn row(row: &Row<'_>, provenance: &Provenance) -> Value {
         "judgement": compared.ok().and_then(Compared::judgement),
         "measures": compared.map(Compared::measures).ok(),
         "refusals": refusals,
+        "history": row.history,
+        "fall": compared.ok().and_then(|c| c.fall.as_ref()),
         "error": compared.err(),
     })
 }

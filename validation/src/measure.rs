@@ -46,6 +46,18 @@ impl Measure {
         }
     }
 
+    /// A number between two bounds, with the p-value of "what is accepted".
+    pub fn bounded(name: &str, value: f64, interval: [f64; 2], accepted: [f64; 2], p: f64) -> Self {
+        Self {
+            name: name.to_owned(),
+            value,
+            interval,
+            accepted,
+            p,
+            verdict: verdict(interval, accepted),
+        }
+    }
+
     /// A number without chance: how many things differ that must be equal.
     pub fn certain(name: String, differing: usize) -> Self {
         let value = differing as f64;

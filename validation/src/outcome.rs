@@ -1,11 +1,13 @@
 //! What became of a run: every comparison rendered, looked at until it is decided, and judged
 //! together with all others ([`crate::decision`]).
 
-use crate::decision::{self, Decision, Seen};
+use crate::decision::{self, Decision, Seen, Turn};
+use crate::look::Look;
 use crate::run::{Compared, Comparison, Options, Task};
 use crate::state::State;
 use etalon_statistics::Verdict;
 use serde::Serialize;
+use std::time::Instant;
 
 pub use crate::decision::{ALPHA, Progress};
 
@@ -91,6 +93,8 @@ pub struct Row<'a> {
     pub level: f64,
     /// Seconds spent on it.
     pub seconds: f64,
+    /// What each look saw.
+    pub history: Vec<Look>,
 }
 
 impl Outcome {
@@ -115,25 +119,16 @@ pub fn run<'a>(
     state: Option<&State>,
     watch: impl FnMut(&Progress<'_>),
 ) -> Result<Vec<Row<'a>>, String> {
-    let mut comparisons: Vec<Comparison<'a>> = tasks.iter().copied().map(Comparison::new).collect();
-    let mut last: Vec<Option<Result<Compared, String>>> = tasks.iter().map(|_| None).collect();
+    let mut works: Vec<Work<'a>> = tasks.iter().copied().map(Work::new).collect();
     let decisions = decision::decide(
         &tasks,
         options.tier,
-        |look| {
-            let compared = comparisons[look.place].look(look.multiple, look.alpha, options, state);
-            let seen = compared.as_ref().ok().map(|compared| Seen {
-                verdict: compared.verdict,
-                p: compared.p,
-            });
-            last[look.place] = Some(compared);
-            seen
-        },
+        |turn| works[turn.place].look(turn, options, state),
         watch,
     )?;
-    let rows = tasks.into_iter().zip(last).zip(decisions);
+    let rows = tasks.into_iter().zip(works).zip(decisions);
     Ok(rows
-        .map(|((task, compared), decision)| {
+        .map(|((task, work), decision)| {
             let Decision {
                 verdict,
                 p_corrected,
@@ -141,6 +136,7 @@ pub fn run<'a>(
                 level,
                 seconds,
             } = decision;
+            let compared = work.last;
             Row {
                 task,
                 compared: compared.unwrap_or_else(|| Err("there was no time to look".to_owned())),
@@ -150,9 +146,45 @@ pub fn run<'a>(
                 looks,
                 level,
                 seconds,
+                history: work.history,
             }
         })
         .collect())
+}
+
+/// A comparison being rendered.
+struct Work<'a> {
+    comparison: Comparison<'a>,
+    last: Option<Result<Compared, String>>,
+    history: Vec<Look>,
+    seconds: f64,
+}
+
+impl<'a> Work<'a> {
+    fn new(task: Task<'a>) -> Self {
+        Self {
+            comparison: Comparison::new(task),
+            last: None,
+            history: Vec::new(),
+            seconds: 0.0,
+        }
+    }
+
+    fn look(&mut self, turn: Turn, options: &Options, state: Option<&State>) -> Option<Seen> {
+        let start = Instant::now();
+        let compared = (self.comparison).look(turn.multiple, turn.alpha, options, state);
+        self.seconds += start.elapsed().as_secs_f64();
+        let seen = compared.as_ref().ok().map(|compared| {
+            let look = Look::of(compared, turn.alpha, self.seconds);
+            self.history.extend(look);
+            Seen {
+                verdict: compared.verdict,
+                p: compared.p,
+            }
+        });
+        self.last = Some(compared);
+        seen
+    }
 }
 
 /// How many rows came to each outcome: passed, failed, undecided, broken.

@@ -5,12 +5,13 @@
 
 use crate::batches::Batches;
 use crate::claim::{Budget, Claim, Estimator, Oracle};
+use crate::convergence::Fall;
 use crate::fault::Fault;
 use crate::judged::{self, Against};
 use crate::measure::Measure;
 use crate::state::State;
 use crate::tier::{FULL_BOUND, Tier};
-use crate::{closed_form, convergence, invariance, noise, reference, rendering};
+use crate::{closed_form, convergence, invariance, noise, pixelwise, reference, rendering};
 use etalon::judge::{Judgement, Known, Rules};
 use etalon_film::Developed;
 use etalon_images::{Frame, Image};
@@ -69,6 +70,8 @@ impl Task<'_> {
     /// The budget of the first look.
     pub fn budget(&self, tier: Tier) -> Budget {
         match (self.fault, &self.claim.oracle) {
+            // With fewer points, the midpoint rule's own error would be found.
+            (Some(_), Oracle::Povray { .. }) => self.estimator.quick,
             // Faults of numbers are as costly to find as the numbers are to measure.
             (Some(fault), _) if !fault.is_physical() => self.estimator.quick,
             (Some(_), _) => self.estimator.fault_budget(),
@@ -142,6 +145,10 @@ pub struct Compared {
     pub replicates: u32,
     /// The hash of the scene's content.
     pub scene_hash: String,
+    /// Our picture and what it ought to be, where the measures were taken of pictures.
+    pub shown: Option<Box<[Developed; 2]>>,
+    /// How the squared error falls, for claims of convergence.
+    pub fall: Option<Fall>,
 }
 
 impl Compared {
@@ -227,14 +234,26 @@ impl<'a> Comparison<'a> {
             spp: first.spp * multiple,
             replicates: first.replicates * multiple,
         };
+        let (mut shown, mut fall) = (None, None);
         let (measures, spp) = match &claim.oracle {
+            Oracle::Povray { edges, excused } => {
+                let limits = pixelwise::Limits {
+                    edges: *edges,
+                    excused: *excused,
+                };
+                let seeded = (options.seed, alpha);
+                let made = pixelwise::compare(claim, limits, estimator, fault, budget, seeded)?;
+                shown = Some(Box::new([made.picture, made.oracle]));
+                (made.measures, made.spp)
+            }
             Oracle::Convergence { formula, samples } => {
                 let rungs = (formula.as_str(), samples.as_slice());
                 let (replicates, seed) = (budget.replicates, options.seed);
-                let (exponents, spp) =
-                    convergence::exponents(claim, rungs, estimator, fault, replicates, seed)?;
-                let measure = convergence::judge(&exponents, estimator, alpha)?;
-                (vec![measure], spp)
+                let batches =
+                    convergence::batches(claim, rungs, estimator, fault, replicates, seed)?;
+                let measure = convergence::judge(&batches.exponents, estimator, alpha)?;
+                fall = Some(batches.fall);
+                (vec![measure], batches.spp)
             }
             Oracle::Noise {
                 of,
@@ -268,6 +287,8 @@ impl<'a> Comparison<'a> {
             spp,
             replicates: budget.replicates,
             scene_hash: rendering::load_for(claim, estimator)?.hash,
+            shown,
+            fall,
         })
     }
 
@@ -328,7 +349,7 @@ impl<'a> Comparison<'a> {
                 self.oracle = Some(oracle.clone());
                 (judged, oracle)
             }
-            Oracle::Convergence { .. } | Oracle::Noise { .. } => {
+            Oracle::Convergence { .. } | Oracle::Noise { .. } | Oracle::Povray { .. } => {
                 return Err("this kind of claim compares no pictures".to_owned());
             }
         };
@@ -345,6 +366,8 @@ impl<'a> Comparison<'a> {
             spp,
             replicates,
             scene_hash,
+            shown: None,
+            fall: None,
         })
     }
 }

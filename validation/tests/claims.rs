@@ -1,8 +1,8 @@
 //! What every claim must be: readable, about a scene that is there, with a reference that belongs
 //! to the scene's present state, and a number of mutants over all of them.
 
-use etalon_validation::claim::{Claim, Oracle};
-use etalon_validation::{closed_form, folders, reference, run};
+use etalon_validation::claim::{Claim, Oracle, Sampler};
+use etalon_validation::{closed_form, folders, povray, reference, run};
 use std::collections::BTreeSet;
 
 fn claims() -> Vec<Claim> {
@@ -37,6 +37,12 @@ fn scenes_load_and_oracles_belong_to_them() {
                 assert_eq!(metadata.film.crop_size, size, "{name}");
                 assert!(size.iter().all(|n| *n <= 128), "{name} is too large");
                 assert!(*seeds >= 32, "{name} has too few seeds");
+            }
+            Oracle::Povray { .. } => {
+                let twins = povray::twins(&claim).unwrap_or_else(|e| panic!("{name}: {e}"));
+                povray::read_in(&folders::references(), name, &twins)
+                    .unwrap_or_else(|message| panic!("{name}: {message}"));
+                assert!(size.iter().all(|n| *n <= 256), "{name} is too large");
             }
             Oracle::Agreement { .. } | Oracle::Invariance { .. } => {}
         }
@@ -86,6 +92,48 @@ fn exponents_and_tolerances_are_those_that_were_agreed() {
 }
 
 #[test]
+fn what_edges_excuse_is_what_was_agreed() {
+    let mut found = Vec::new();
+    for claim in claims() {
+        let Oracle::Povray { edges, excused } = claim.oracle else {
+            continue;
+        };
+        // One pixel in 2000 at most, and no noise to hide behind.
+        assert_eq!(excused, 0.0005, "{}", claim.name);
+        found.push(format!("{}: {edges}", claim.name));
+        for estimator in &claim.estimators {
+            assert_eq!(
+                estimator.sampler,
+                Some(Sampler::Midpoints),
+                "{}",
+                claim.name
+            );
+            for budget in [estimator.quick, estimator.default] {
+                let points = budget.spp / budget.replicates;
+                assert!([1, 36].contains(&points), "{}: {points}", claim.name);
+            }
+        }
+        let mutants = claim.estimators.iter().any(|e| !e.mutants.is_empty());
+        assert!(mutants && claim.quick, "{}", claim.name);
+    }
+    assert_eq!(
+        found,
+        [
+            "povray-checkerboard: 0.3",
+            "povray-hard-shadows: 0.22",
+            "povray-meshes: 0.12",
+            "povray-parallel-light: 0.18",
+            "povray-signature-orthographic: 0.12",
+            "povray-signature-perspective: 0.12",
+            "povray-signature-transforms: 0.12",
+            "povray-solids: 0.15",
+            "povray-spheres: 0.12",
+            "povray-transforms: 0.18",
+        ]
+    );
+}
+
+#[test]
 fn every_kind_of_claim_has_a_mutant() {
     for kind in [
         "closed_form",
@@ -95,6 +143,7 @@ fn every_kind_of_claim_has_a_mutant() {
         "invariance",
         "convergence",
         "noise",
+        "povray",
     ] {
         let mutants = |claim: &Claim| claim.estimators.iter().any(|e| !e.mutants.is_empty());
         let any = claims()
@@ -114,8 +163,11 @@ fn every_fault_is_planted_somewhere() {
     let expected = [
         "another seed",
         "dropped cosine",
+        "energy x 1.01",
         "energy x 1.02",
         "independent samples",
+        "mirrored",
+        "shifted by a pixel",
         "standard error / sqrt 2",
         "wrong light density",
     ];
@@ -132,6 +184,13 @@ fn a_wrong_claim_says_what_is_wrong() {
     let cases = [
         (good.replace("title", "tilte"), "tilte"),
         (good.replace("\"reference\"", "\"hearsay\""), "hearsay"),
+        (
+            good.replace(
+                "\"reference\", spp = 4",
+                "\"povray\", edges = 0.1, excused = 0.2",
+            ),
+            "`excused`",
+        ),
         (
             good.replace("replicates = 2", "replicates = 1"),
             "2 replicates",

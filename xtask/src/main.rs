@@ -26,7 +26,7 @@ struct Arguments {
 enum Task {
     /// Render every claim and decide whether it holds
     Validate(validate::Arguments),
-    /// Render the references of claims with Mitsuba 3
+    /// Render the references of claims with Mitsuba 3 and POV-Ray
     References(references::Arguments),
     /// Plant physical faults in a copy of the workspace, and show that the claims find them
     Mutants(mutants::Arguments),

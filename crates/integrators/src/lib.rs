@@ -7,6 +7,7 @@
 //! Adding an estimator: its file, and one line in [`list`].
 
 pub mod aov;
+pub mod bdpt;
 pub mod depth;
 pub mod dimensions;
 pub mod direct;

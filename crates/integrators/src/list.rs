@@ -1,6 +1,7 @@
 //! The list of integrators: one line each.
 
 use crate::aov::Aov;
+use crate::bdpt::Bidirectional;
 use crate::depth::Depth;
 use crate::direct::Direct;
 use crate::moment::Moment;
@@ -96,6 +97,7 @@ integrators! {
     "direct" => Direct: |p| Some(Direct::from_params(p));
     "depth" => Depth: |p| Some(Depth::from_params(p));
     "signature" => Signature: |p| Some(Signature::from_params(p));
+    "bdpt" => Bidirectional: |p| Some(Bidirectional::from_params(p));
     "ptracer" => ParticleTracer: |p| Some(ParticleTracer::from_params(p));
     "aov" => Aov: Aov::from_params;
     "moment" => Moment: Moment::from_params;

@@ -8,6 +8,7 @@
 //! Points toward an observer are chosen by the shape; emitted particles start uniformly over the
 //! area, with directions in proportion to cos θ.
 
+use core::f32::consts::FRAC_1_PI;
 use etalon_math::Density;
 use etalon_params::Params;
 use etalon_sampling::warps::square_to_cosine_hemisphere;
@@ -73,6 +74,8 @@ impl AreaLight {
             target: Some(point.origin_toward(from.position)),
             radiance: self.emitted(scene, &point, -direction, wavelengths),
             chance: Chance::Continuous(Density::uniform(density)),
+            cos: -point.normal.dot(direction),
+            origin: Origin::Surface,
             light: LightId::NONE,
         })
     }
@@ -93,28 +96,24 @@ impl AreaLight {
         // cos θ cancels against the density cos θ/π.
         (density > 0.0).then(|| Emission {
             ray: Ray::new(point.origin_along(direction), direction, 0.0),
-            normal: point.normal,
             weight: radiance * (core::f32::consts::PI / density),
             density: EmissionDensity {
                 origin: density,
-                ray: cosine_density(point.normal, direction),
+                ray: point.normal.dot(direction).max(0.0) * FRAC_1_PI,
             },
+            point,
             origin: Origin::Surface,
             light: LightId::NONE,
         })
     }
 
-    /// The densities with which [`AreaLight::emit`] makes a particle leave `at` along `direction`.
+    /// The densities with which [`AreaLight::emit`] makes a particle leave in a direction whose
+    /// angle with the normal has the cosine `cos`.
     #[inline]
-    pub fn emission_density(
-        &self,
-        shapes: &impl Shapes,
-        at: &SurfacePoint,
-        direction: Vec3,
-    ) -> EmissionDensity {
+    pub fn emission_density(&self, shapes: &impl Shapes, cos: f32) -> EmissionDensity {
         EmissionDensity {
             origin: 1.0 / shapes.area(self.shape),
-            ray: cosine_density(at.normal, direction),
+            ray: cos.max(0.0) * FRAC_1_PI,
         }
     }
 
@@ -123,10 +122,4 @@ impl AreaLight {
         let area = f64::from(scene.area(self.shape));
         core::f64::consts::PI * area * f64::from(scene.mean(self.radiance))
     }
-}
-
-/// cos θ/π on the outer side.
-#[inline]
-fn cosine_density(normal: Vec3, direction: Vec3) -> f32 {
-    normal.dot(direction).max(0.0) * core::f32::consts::FRAC_1_PI
 }

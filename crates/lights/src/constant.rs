@@ -56,6 +56,8 @@ impl ConstantLight {
             target: None,
             radiance: self.background(textures, wavelengths),
             chance: Chance::Continuous(self.density()),
+            cos: 1.0,
+            origin: Origin::Sky,
             light: LightId::NONE,
         }
     }
@@ -72,9 +74,10 @@ impl ConstantLight {
     ) -> Emission {
         let direction = square_to_uniform_sphere(u_direction);
         let factor = bounds.cross_section() as f32 / UNIFORM_SPHERE_DENSITY;
+        let ray = bounds.ray_into(direction, u_position);
         Emission {
-            ray: bounds.ray_into(direction, u_position),
-            normal: direction,
+            point: Emission::point_of(&ray),
+            ray,
             weight: self.background(textures, wavelengths) * factor,
             density: EmissionDensity {
                 origin: UNIFORM_SPHERE_DENSITY,

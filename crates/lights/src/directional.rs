@@ -61,6 +61,8 @@ impl DirectionalLight {
             target: None,
             radiance: self.spectrum(textures, wavelengths),
             chance: Chance::Discrete(Atom::uniform(1.0)),
+            cos: 1.0,
+            origin: Origin::Parallel,
             light: LightId::NONE,
         }
     }
@@ -74,9 +76,10 @@ impl DirectionalLight {
         wavelengths: &Wavelengths,
         u: Vec2,
     ) -> Emission {
+        let ray = bounds.ray_into(self.direction, u);
         Emission {
-            ray: bounds.ray_into(self.direction, u),
-            normal: self.direction,
+            point: Emission::point_of(&ray),
+            ray,
             weight: self.spectrum(textures, wavelengths) * bounds.cross_section() as f32,
             density: EmissionDensity {
                 origin: 1.0,

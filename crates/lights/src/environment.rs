@@ -261,6 +261,8 @@ impl EnvironmentMap {
             target: None,
             radiance: self.radiance(place, wavelengths),
             chance: Chance::Continuous(Density::uniform(density)),
+            cos: 1.0,
+            origin: Origin::Sky,
             light: LightId::NONE,
         })
     }
@@ -276,9 +278,10 @@ impl EnvironmentMap {
     ) -> Option<Emission> {
         let (toward, place, density) = self.choose(self.tables.from.as_ref()?, u_direction)?;
         let factor = bounds.cross_section() as f32 / density;
+        let ray = bounds.ray_into(-toward, u_position);
         Some(Emission {
-            ray: bounds.ray_into(-toward, u_position),
-            normal: -toward,
+            point: Emission::point_of(&ray),
+            ray,
             weight: self.radiance(place, wavelengths) * factor,
             density: EmissionDensity {
                 origin: density,

@@ -183,28 +183,25 @@ impl Light {
         }
     }
 
-    /// The densities with which [`Light::emit`] makes a particle leave the surface point `at`.
+    /// The densities with which [`Light::emit`] makes a particle travel along `direction`, whose
+    /// angle with the surface has the cosine `cos`.
     #[inline]
     pub fn emission_density(
         &self,
         shapes: &impl Shapes,
-        at: &SurfacePoint,
+        bounds: &Bounds,
         direction: Vec3,
+        cos: f32,
     ) -> EmissionDensity {
-        match self {
-            Self::Area(light) => light.emission_density(shapes, at, direction),
-            _ => EmissionDensity::ZERO,
-        }
-    }
-
-    /// The density (sr⁻¹) with which [`Light::emit`] makes a particle come from `direction`.
-    #[inline]
-    pub fn background_emission_density(&self, direction: Vec3) -> f32 {
-        match self {
-            Self::Constant(light) => light.density().chooser(),
-            Self::Environment(light) => light.emission_density(direction),
-            _ => 0.0,
-        }
+        let (origin, ray) = match self {
+            Self::Area(light) => return light.emission_density(shapes, cos),
+            Self::Point(light) => (1.0, light.direction_density()),
+            Self::Spot(light) => (1.0, light.direction_density(direction)),
+            Self::Directional(_) => (1.0, bounds.ray_density()),
+            Self::Constant(light) => (light.density().chooser(), bounds.ray_density()),
+            Self::Environment(light) => (light.emission_density(-direction), bounds.ray_density()),
+        };
+        EmissionDensity { origin, ray }
     }
 
     /// A particle, as if this were the only light.

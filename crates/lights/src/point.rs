@@ -62,6 +62,8 @@ impl PointLight {
             target: Some(self.position),
             radiance: intensity / distance_squared,
             chance: Chance::Discrete(Atom::uniform(1.0)),
+            cos: 1.0,
+            origin: Origin::Point,
             light: LightId::NONE,
         })
     }
@@ -71,17 +73,24 @@ impl PointLight {
     pub fn emit(&self, textures: &impl Textures, wavelengths: &Wavelengths, u: Vec2) -> Emission {
         let direction = square_to_uniform_sphere(u);
         let intensity = textures.spectrum(self.intensity, &anywhere(), wavelengths.lambda);
+        let ray = Ray::new(self.position, direction, 0.0);
         Emission {
-            ray: Ray::new(self.position, direction, 0.0),
-            normal: direction,
+            point: Emission::point_of(&ray),
+            ray,
             weight: intensity / UNIFORM_SPHERE_DENSITY,
             density: EmissionDensity {
                 origin: 1.0,
-                ray: UNIFORM_SPHERE_DENSITY,
+                ray: self.direction_density(),
             },
             origin: Origin::Point,
             light: LightId::NONE,
         }
+    }
+
+    /// The density of the directions of [`PointLight::emit`] (sr⁻¹).
+    #[inline]
+    pub fn direction_density(&self) -> f32 {
+        UNIFORM_SPHERE_DENSITY
     }
 
     /// Emitted power, averaged over the wavelengths (W·nm⁻¹).

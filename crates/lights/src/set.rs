@@ -185,7 +185,7 @@ impl LightSet {
         if emission.origin == Origin::Sky && self.backgrounds.len() > 1 {
             // One technique, as in `sample`.
             let toward = -emission.ray.direction;
-            emission.density = self.background_emission_density(toward);
+            emission.density = self.emission_density(scene, choice.light, -toward, 1.0);
             let EmissionDensity { origin, ray } = emission.density;
             emission.weight = self.background(scene, toward, wavelengths) / (origin * ray);
         } else {
@@ -195,35 +195,59 @@ impl LightSet {
         Some(emission)
     }
 
-    /// The densities with which [`LightSet::emit`] makes a particle leave the surface point `at`
-    /// along `direction`.
+    /// The densities with which [`LightSet::emit`] makes a particle of `light` travel along
+    /// `direction`, whose angle with the light's surface has the cosine `cos`.
     #[inline]
     pub fn emission_density(
         &self,
         shapes: &impl Shapes,
-        at: &Vertex,
+        light: LightId,
         direction: Vec3,
+        cos: f32,
     ) -> EmissionDensity {
-        if !at.light.is_some() {
-            return EmissionDensity::ZERO;
+        if self.backgrounds.len() > 1 && self.get(light).is_background() {
+            return self.background_emission_density(shapes, -direction);
         }
-        let light = self.get(at.light);
-        let mut density = light.emission_density(shapes, &SurfacePoint::from(at), direction);
-        density.origin *= self.selector.probability_to_emit(at.light);
+        let chosen = self.get(light);
+        let mut density = chosen.emission_density(shapes, &self.bounds, direction, cos);
+        density.origin *= self.selector.probability_to_emit(light);
         density
     }
 
-    /// The densities with which [`LightSet::emit`] makes a particle come from the sky in
-    /// `direction`.
+    /// The densities with which [`LightSet::emit`] makes a particle come from the lights at infinity
+    /// seen along `direction`.
     #[inline]
-    pub fn background_emission_density(&self, direction: Vec3) -> EmissionDensity {
-        let origin = self.backgrounds.iter().map(|&light| {
-            let probability = self.selector.probability_to_emit(light);
-            probability * self.get(light).background_emission_density(direction)
+    pub fn background_emission_density(
+        &self,
+        shapes: &impl Shapes,
+        direction: Vec3,
+    ) -> EmissionDensity {
+        let origins = self.backgrounds.iter().map(|&light| {
+            let sky = self.get(light);
+            let density = sky.emission_density(shapes, &self.bounds, -direction, 1.0);
+            density.origin * self.selector.probability_to_emit(light)
         });
         EmissionDensity {
-            origin: origin.sum(),
+            origin: origins.sum(),
             ray: self.bounds.ray_density(),
+        }
+    }
+
+    /// The density with which [`LightSet::sample`] from `from` chooses the point where a particle
+    /// began; the probability of its light if that is a point or a direction.
+    #[inline]
+    pub fn sampled_density(&self, shapes: &impl Shapes, from: &Receiver, start: &Emission) -> f32 {
+        let probability = || self.selector.probability(from, start.light);
+        match start.origin {
+            Origin::Surface => {
+                let density = self.get(start.light).density(shapes, from, &start.point);
+                density.chooser() * probability()
+            }
+            Origin::Sky => {
+                let toward = -start.ray.direction;
+                self.background_density(from, toward).chooser()
+            }
+            Origin::Point | Origin::Parallel => probability(),
         }
     }
 }

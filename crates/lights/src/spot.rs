@@ -137,6 +137,8 @@ impl SpotLight {
             target: Some(self.pose.position),
             radiance: intensity / to_light.length_squared(),
             chance: Chance::Discrete(Atom::uniform(1.0)),
+            cos: 1.0,
+            origin: Origin::Point,
             light: LightId::NONE,
         })
     }
@@ -148,9 +150,10 @@ impl SpotLight {
         let direction = self.pose.to_world(local);
         let intensity = self.intensity(textures, local, wavelengths);
         let density = uniform_cone_density(self.one_minus_cos_cutoff);
+        let ray = Ray::new(self.pose.position, direction, 0.0);
         Emission {
-            ray: Ray::new(self.pose.position, direction, 0.0),
-            normal: direction,
+            point: Emission::point_of(&ray),
+            ray,
             weight: intensity / density,
             density: EmissionDensity {
                 origin: 1.0,
@@ -158,6 +161,16 @@ impl SpotLight {
             },
             origin: Origin::Point,
             light: LightId::NONE,
+        }
+    }
+
+    /// The density of `direction` among those of [`SpotLight::emit`] (sr⁻¹).
+    #[inline]
+    pub fn direction_density(&self, direction: Vec3) -> f32 {
+        if self.pose.to_local(direction).z > self.cos_cutoff {
+            uniform_cone_density(self.one_minus_cos_cutoff)
+        } else {
+            0.0
         }
     }
 

@@ -8,7 +8,8 @@ use etalon_lights::LightSet;
 use etalon_math::{Density, SolidAngle};
 use etalon_spectrum::{WavelengthDistribution, Wavelengths};
 use etalon_transport::{
-    Bsdf, Emission, EmissionDensity, Hit, LightSample, Passage, Ray, Receiver, Vertex, World,
+    Bsdf, Emission, EmissionDensity, Hit, LightId, LightSample, Passage, Ray, Receiver, Vertex,
+    World,
 };
 use glam::{Vec2, Vec3, Vec4};
 
@@ -159,13 +160,19 @@ impl World for Scene {
     }
 
     #[inline]
-    fn emission_density(&self, at: &Vertex, direction: Vec3) -> EmissionDensity {
-        self.lights.emission_density(&self.lookup, at, direction)
+    fn emission_density(&self, light: LightId, direction: Vec3, cos: f32) -> EmissionDensity {
+        self.lights
+            .emission_density(&self.lookup, light, direction, cos)
     }
 
     #[inline]
     fn background_emission_density(&self, direction: Vec3) -> EmissionDensity {
-        self.lights.background_emission_density(direction)
+        (self.lights).background_emission_density(&self.lookup, direction)
+    }
+
+    #[inline]
+    fn sampled_density(&self, from: &Receiver, start: &Emission) -> f32 {
+        self.lights.sampled_density(&self.lookup, from, start)
     }
 
     fn take_ray_count(&self) -> u64 {

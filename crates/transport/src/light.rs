@@ -1,7 +1,7 @@
 //! What lights give to integrators.
 
-use crate::{Chance, LightId, Ray};
-use glam::{Vec3, Vec4};
+use crate::{Chance, LightId, Ray, SurfacePoint, TexturePoint};
+use glam::{Vec2, Vec3, Vec4};
 
 /// A direction toward a light, as seen from some point.
 #[derive(Clone, Copy, Debug)]
@@ -17,7 +17,12 @@ pub struct LightSample {
     /// Density of the direction (probability of the choice of light included), or its discrete
     /// probability.
     pub chance: Chance,
-    /// The light.
+    /// Cosine of the angle between the light's surface normal and the way to the observer; 1
+    /// where it has no surface.
+    pub cos: f32,
+    /// What it is a sample of.
+    pub origin: Origin,
+    /// The light; any of them for a sky that is the sum of several.
     pub light: LightId,
 }
 
@@ -73,8 +78,8 @@ impl Origin {
 pub struct Emission {
     /// The ray along which it leaves (its origin is off the light's surface).
     pub ray: Ray,
-    /// The light's surface normal there, or the ray's direction where it has none.
-    pub normal: Vec3,
+    /// Where it begins; of lights without surface the normal is the ray's direction.
+    pub point: SurfacePoint,
     /// Emitted flux per lane over the probability of all choices made: Le·|cos θ| / (p_A·p_ω·p_light)
     /// for a surface, so that averaging `weight` over emissions gives the scene's power.
     pub weight: Vec4,
@@ -84,4 +89,17 @@ pub struct Emission {
     pub origin: Origin,
     /// The light.
     pub light: LightId,
+}
+
+impl Emission {
+    /// The point at which the ray of a light without surface begins.
+    #[inline]
+    pub fn point_of(ray: &Ray) -> SurfacePoint {
+        SurfacePoint {
+            position: ray.origin,
+            error: Vec3::ZERO,
+            normal: ray.direction,
+            texture: TexturePoint::at_uv(Vec2::ZERO),
+        }
+    }
 }

@@ -1,6 +1,8 @@
 //! The contract of a scene: all that an integrator may ask.
 
-use crate::{Bsdf, Camera, Emission, EmissionDensity, Hit, LightSample, Ray, Receiver, Vertex};
+use crate::{
+    Bsdf, Camera, Emission, EmissionDensity, Hit, LightId, LightSample, Ray, Receiver, Vertex,
+};
 use etalon_math::{Density, SolidAngle};
 use etalon_spectrum::Wavelengths;
 use glam::{Vec2, Vec3, Vec4};
@@ -89,13 +91,17 @@ pub trait World: Sync {
         u_direction: Vec2,
     ) -> Option<Emission>;
 
-    /// The densities with which [`World::emit`] would have made a particle leave the emitting
-    /// surface point `at` along `direction`.
-    fn emission_density(&self, at: &Vertex, direction: Vec3) -> EmissionDensity;
+    /// The densities with which [`World::emit`] would have made a particle of `light` travel along
+    /// the unit vector `direction`, which makes an angle with the cosine `cos` with the light's
+    /// surface (1 where it has none). Lights at infinity that rays can hit count as one.
+    fn emission_density(&self, light: LightId, direction: Vec3, cos: f32) -> EmissionDensity;
 
-    /// The densities with which [`World::emit`] would have made a particle come from the lights
-    /// at infinity seen along the unit vector `direction`.
+    /// The same for a particle from the lights at infinity seen along the unit vector `direction`.
     fn background_emission_density(&self, direction: Vec3) -> EmissionDensity;
+
+    /// The density with which [`World::sample_light`] from `from` would have chosen the point
+    /// where a particle began; the probability of its light if that is a point or a direction.
+    fn sampled_density(&self, from: &Receiver, start: &Emission) -> f32;
 
     /// How many rays the calling thread has traced since it last asked.
     fn take_ray_count(&self) -> u64;

@@ -7,7 +7,7 @@
 //! - A formula: replicates are drawn with replacement, and the formula is replaced by the mean over
 //!   all of them, which is the truth of the world that they are drawn from.
 //! - Exponents and coverages: batches and pictures are drawn with replacement.
-//! - Bits: nothing is left to chance, and nothing is dealt.
+//! - Bits, and pixels without noise: nothing is left to chance, and nothing is dealt.
 
 use crate::calibrate::CHANNEL;
 use crate::claim::{Budget, Oracle};
@@ -130,9 +130,9 @@ impl Pool {
             Oracle::Convergence { formula, samples } => {
                 let rungs = (formula.as_str(), samples.as_slice());
                 let replicates = first.replicates;
-                let (exponents, _) =
-                    convergence::exponents(claim, rungs, estimator, None, replicates, seed)?;
-                Kind::Exponents(exponents)
+                let batches =
+                    convergence::batches(claim, rungs, estimator, None, replicates, seed)?;
+                Kind::Exponents(batches.exponents)
             }
             Oracle::Noise {
                 of, formula, seeds, ..
@@ -144,6 +144,7 @@ impl Pool {
             Oracle::Invariance { .. } if estimator.change.is_some_and(|c| c.is_of_bits()) => {
                 Kind::Certain
             }
+            Oracle::Povray { .. } => Kind::Certain,
             _ => Kind::Pictures(Box::new(Pictures::render(task, first, tier, seed, state)?)),
         };
         Ok(Self {

@@ -3,7 +3,7 @@
 use super::{answer, fail, note};
 use crate::args::CompareArgs;
 use crate::judge::{self, Judgement, Rules};
-use crate::report;
+use crate::report::comparison;
 use etalon_film::{Developed, read_developed};
 use etalon_images::{Channel, Image, write_atomically};
 use etalon_statistics::Verdict;
@@ -58,7 +58,7 @@ pub fn run(args: &CompareArgs) -> ExitCode {
     };
     if let Some(path) = &args.report {
         let names = [args.a.display().to_string(), args.b.display().to_string()];
-        let html = report::comparison(&judgement, &first, &second, &names);
+        let html = comparison::judged(&judgement, &first, &second, &names);
         if let Err(error) = write_atomically(path, |file| file.write_all(html.as_bytes())) {
             return fail(format!("cannot write {}: {error}", path.display()));
         }
@@ -96,7 +96,7 @@ fn unfit(image: &Developed) -> Option<String> {
 fn say_inconclusive(args: &CompareArgs, reason: &str, images: [&Developed; 2]) -> ExitCode {
     if let Some(path) = &args.report {
         let names = [&args.a, &args.b].map(|path| path.display().to_string());
-        let html = report::inconclusive(reason, images[0], images[1], &names);
+        let html = comparison::inconclusive(reason, images[0], images[1], &names);
         if let Err(error) = write_atomically(path, |file| file.write_all(html.as_bytes())) {
             return fail(format!("cannot write {}: {error}", path.display()));
         }
@@ -125,7 +125,7 @@ fn identical(a: &Image, b: &Image) -> bool {
 
 fn say_identical(args: &CompareArgs) -> ExitCode {
     if let Some(path) = &args.report {
-        let html = report::identical([&args.a, &args.b].map(|path| path.display().to_string()));
+        let html = comparison::identical([&args.a, &args.b].map(|path| path.display().to_string()));
         if let Err(error) = write_atomically(path, |file| file.write_all(html.as_bytes())) {
             return fail(format!("cannot write {}: {error}", path.display()));
         }

@@ -38,7 +38,6 @@ pub mod cell;
 pub mod entrant;
 pub mod findings;
 pub mod page;
-pub mod plot;
 pub mod reference;
 pub mod remarks;
 pub mod schedule;

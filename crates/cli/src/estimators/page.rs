@@ -1,16 +1,15 @@
 //! The findings as a self-contained HTML page.
 
 use super::findings::{Findings, Outcome, Uncertain};
-use super::plot::{self, Curve};
 use super::table::{difference, exponent, factor, number, reference, time};
 use crate::report;
+use crate::report::plot::{self, Curve};
 use etalon_images::Image;
-use maud::{Markup, PreEscaped, html};
+use maud::{Markup, html};
 
 /// The whole page; `command` is how to make it again.
 pub fn page(findings: &Findings, command: &str) -> String {
     let body = html! {
-        style { (PreEscaped(plot::STYLE)) }
         p { code { (findings.scene) } ", " (findings.size[0]) " × " (findings.size[1]) " pixels, "
             (findings.threads) " threads, " (number(Some(findings.seconds_taken))) " s. "
             "Intervals: " (100.0 * findings.confidence) " %." }

@@ -101,11 +101,26 @@ fn the_report_is_one_file_that_fetches_nothing() {
     assert_eq!(ran.code, Some(1));
     let html = String::from_utf8(workshop.read("r.html")).expect("UTF-8");
     assert!(html.starts_with("<!DOCTYPE html>"));
-    for foreign in ["http:", "https:", "<script", "<link", "src=\"/", "url("] {
-        assert!(!html.contains(foreign), "{foreign}");
+    for foreign in [
+        "http:",
+        "https:",
+        "<script src",
+        "<link",
+        "src=\"/",
+        "url(",
+        "fetch(",
+        "import",
+    ] {
+        assert!(
+            !html.replace("!important", "").contains(foreign),
+            "{foreign}"
+        );
     }
-    // Both pictures, their difference, and p-maps for three channels.
-    assert_eq!(html.matches("src=\"data:image/png;base64,").count(), 6);
+    // Both pictures, their relative difference, and that in standard errors; p-maps for three
+    // channels.
+    assert_eq!(html.matches("<script type=\"text/plain\"").count(), 4);
+    assert_eq!(html.matches("href=\"data:image/png;base64,").count(), 3);
+    assert!(html.contains("role=\"slider\""));
     assert!(html.contains("<span class=\"differs\">"));
     assert!(html.contains("direct.exr"));
 }

@@ -90,12 +90,12 @@ fn missing_light_counts_as_error() {
 
     let html = String::from_utf8(workshop.read("r.html")).expect("UTF-8");
     assert!(html.starts_with("<!DOCTYPE html>"));
-    for foreign in ["http:", "https:", "<script", "<link", "src=\"/", "url("] {
+    for foreign in ["http:", "https:", "<script src", "<link", "src=\"/", "url("] {
         assert!(!html.contains(foreign), "{foreign}");
     }
     for part in [
         "name=\"viewport\"",
-        "prefers-color-scheme:dark",
+        "light-dark(",
         "<svg class=\"plot\"",
         "etalon estimators ",
     ] {

@@ -3,7 +3,8 @@
 use crate::agreement::everything;
 use crate::exact::{Exact, integral, mean_of};
 use crate::measure::{LIMIT, measure};
-use crate::world::{Fault, Plane, Stack, tilt};
+use crate::scatter::tilt;
+use crate::world::{Fault, Plane, Stack};
 use etalon_integrators::path::Path;
 use etalon_integrators::settings::PathSettings;
 use etalon_spectrum::Wavelengths;

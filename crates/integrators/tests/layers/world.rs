@@ -1,6 +1,7 @@
 //! The world of parallel planes.
 
-use etalon_math::{Atom, Density, Frame, SolidAngle, float};
+use crate::scatter::{Scatter, tilt};
+use etalon_math::{Density, Frame, SolidAngle, float};
 use etalon_spectrum::{WavelengthDistribution, Wavelengths};
 use etalon_transport::*;
 use glam::{Vec2, Vec3, Vec4};
@@ -106,106 +107,6 @@ impl Camera for Camera1D {
 
 fn curve(f: Curve, lambda: Vec4) -> Vec4 {
     Vec4::from_array(lambda.to_array().map(f))
-}
-
-/// A plane at four wavelengths, seen from one side.
-#[derive(Clone, Copy)]
-pub(crate) struct Scatter {
-    passing: Vec4,
-    /// Fraction of light in the lobe and in the discrete direction.
-    lobe: Vec4,
-    atom: Vec4,
-    exponent: Vec4,
-    share: f32,
-    normal: Vec3,
-    tilt: Vec4,
-    fault: Fault,
-}
-
-impl Scatter {
-    fn lobe_density(&self, cos: f32) -> Vec4 {
-        if cos <= 0.0 {
-            return Vec4::ZERO;
-        }
-        let n = self.exponent;
-        let lobe = n
-            .to_array()
-            .map(|n| (n + 1.0) / (2.0 * PI) * float::pow(cos, n));
-        Vec4::from_array(lobe)
-    }
-
-    fn direction(&self, cos: f32, turn: f32) -> Vec3 {
-        let sin = (1.0 - cos * cos).max(0.0).sqrt();
-        let (y, x) = float::sin_cos(2.0 * PI * turn);
-        Frame::from_normal(self.normal).to_world(Vec3::new(x * sin, y * sin, cos))
-    }
-}
-
-impl Bsdf for Scatter {
-    fn eval(&self, _: Vec3, wi: Vec3, _: Mode) -> Vec4 {
-        self.lobe * self.lobe_density(self.normal.dot(wi))
-    }
-    fn density(&self, _: Vec3, wi: Vec3) -> Density<SolidAngle> {
-        let mut density = self.lobe_density(self.normal.dot(wi));
-        if self.fault == Fault::OtherLanes {
-            density *= Vec4::new(1.0, 0.5, 0.5, 0.5);
-        }
-        Density::per_lane(density * (1.0 - self.passing) * (1.0 - self.share))
-    }
-    fn sample(&self, wo: Vec3, u_lobe: f32, u: Vec2, mode: Mode) -> Option<BsdfSample> {
-        let sample = |wi, value, chance, passes| BsdfSample {
-            wi,
-            value,
-            chance,
-            eta: 1.0,
-            passes,
-        };
-        let pass = self.passing.x;
-        if u_lobe < pass {
-            let atom = Chance::Discrete(Atom(self.passing));
-            return Some(sample(-wo, self.passing, atom, true));
-        }
-        if (u_lobe - pass) / (1.0 - pass) < self.share {
-            // Another lane takes this direction only if it is its own.
-            let same = self.tilt.cmpeq(Vec4::splat(self.tilt.x));
-            let same = Vec4::select(same, Vec4::ONE, Vec4::ZERO);
-            let chance = if self.fault == Fault::AtomForAll {
-                Vec4::ONE
-            } else {
-                same
-            };
-            let atom = Chance::Discrete(Atom(chance * (1.0 - self.passing) * self.share));
-            return Some(sample(
-                self.direction(self.tilt.x, 0.3),
-                self.atom * same,
-                atom,
-                false,
-            ));
-        }
-        let cos = float::pow(1.0 - u.x, 1.0 / (self.exponent.x + 1.0));
-        let wi = self.direction(cos, u.y);
-        let density = self.density(wo, wi);
-        (density.chooser() > 0.0).then(|| {
-            sample(
-                wi,
-                self.eval(wo, wi, mode),
-                Chance::Continuous(density),
-                false,
-            )
-        })
-    }
-    fn has_continuous(&self) -> bool {
-        self.share < 1.0
-    }
-    fn passing(&self) -> Vec4 {
-        self.passing
-    }
-    fn passing_probability(&self) -> Vec4 {
-        self.passing
-    }
-    fn albedo(&self, _: Vec3) -> Vec4 {
-        self.lobe
-    }
 }
 
 impl Stack {
@@ -371,6 +272,8 @@ impl World for Stack {
                 target: None,
                 radiance: self.background(direction, w),
                 chance: uniform(self.hemisphere_density() * 0.5),
+                cos: 1.0,
+                origin: Origin::Sky,
                 light: LightId(u32::MAX - 1),
             });
         };
@@ -384,6 +287,8 @@ impl World for Stack {
             target: Some(from.position + direction * (rise / direction.z)),
             radiance: curve(plane.emission[usize::from(direction.z < 0.0)], w.lambda),
             chance: uniform(self.hemisphere_density()),
+            cos: direction.z.abs(),
+            origin: Origin::Surface,
             light: LightId(index as u32),
         })
     }
@@ -401,18 +306,16 @@ impl World for Stack {
     fn emit(&self, _: &Wavelengths, _: f32, _: Vec2, _: Vec2) -> Option<Emission> {
         None
     }
-    fn emission_density(&self, _: &Vertex, _: Vec3) -> EmissionDensity {
+    fn emission_density(&self, _: LightId, _: Vec3, _: f32) -> EmissionDensity {
         EmissionDensity::ZERO
     }
     fn background_emission_density(&self, _: Vec3) -> EmissionDensity {
         EmissionDensity::ZERO
     }
+    fn sampled_density(&self, _: &Receiver, _: &Emission) -> f32 {
+        0.0
+    }
     fn take_ray_count(&self) -> u64 {
         0
     }
-}
-
-/// Cosine of the discrete direction's angle with the normal, for a wavelength.
-pub(crate) fn tilt(lambda: f32) -> f32 {
-    0.3 + 0.6 * (lambda - 360.0) / 470.0
 }

@@ -8,7 +8,7 @@ use super::*;
 use crate::LightSet;
 use etalon_params::{DMat4, DVec3};
 use etalon_sampling::warps::square_to_uniform_hemisphere;
-use etalon_transport::{Chance, EmissionDensity, Origin, SurfacePoint, TexturePoint};
+use etalon_transport::{Chance, EmissionDensity, Origin};
 
 /// Mean and squared standard error of numbers that are mostly zero.
 #[derive(Default)]
@@ -269,7 +269,7 @@ fn densities_of_emission_are_those_that_are_reported() {
         match particle.origin {
             Origin::Sky => {
                 let toward = -particle.ray.direction;
-                let reported = set.background_emission_density(toward);
+                let reported = set.emission_density(&world, particle.light, -toward, 1.0);
                 assert!((reported.origin / origin - 1.0).abs() < 1e-3, "{light}");
                 assert_eq!(reported.ray, ray);
                 let radiance = set.background(&world, toward, &WAVELENGTHS).y;
@@ -305,16 +305,10 @@ fn a_surface_emits_with_the_density_that_it_reports() {
             .emit(&world, &bounds(), &WAVELENGTHS, u, v)
             .expect("it emits");
         assert_eq!(particle.origin, Origin::Surface);
-        let at = SurfacePoint {
-            position: particle.ray.origin,
-            error: Vec3::ZERO,
-            normal: particle.normal,
-            texture: TexturePoint::at_uv(Vec2::ZERO),
-        };
-        let reported = light.emission_density(&world, &at, particle.ray.direction);
+        let cos = particle.point.normal.dot(particle.ray.direction);
+        let reported = light.emission_density(&world, &bounds(), particle.ray.direction, cos);
         assert!((reported.origin / particle.density.origin - 1.0).abs() < 1e-6);
         assert_eq!(reported.ray, particle.density.ray);
-        let cos = particle.normal.dot(particle.ray.direction);
         let sent = particle.weight.y * reported.origin * reported.ray;
         // L cos θ: the light's radiance is 2.
         let radiance = 2.0 * white().y;

@@ -1,23 +1,12 @@
 //! Plots as inline SVG, in the colours of the page: curves over two logarithmic axes, and bars.
 //!
-//! Colour is never the only mark: curves have shapes of their own, and bars stand beside names. The
-//! styles are in [`STYLE`]; series `i` has the class `s0` … `s5`.
+//! Colour is never the only mark: curves have shapes of their own, and bars stand beside names. Series `i`
+//! has the class `s0` … `s5`.
 
-use super::findings::Uncertain;
-use super::table::number;
+use crate::estimators::findings::Uncertain;
+use crate::estimators::table::number;
 use etalon_math::float64;
 use maud::{Markup, PreEscaped, html};
-
-/// Colours, for light and for dark pages.
-pub const STYLE: &str = "\
-:root{--s0:#0b63b5;--s1:#b3261e;--s2:#176d2c;--s3:#7a3fb0;--s4:#8a5a00;--s5:#00707a}\
-@media(prefers-color-scheme:dark){:root{--s0:#7ab8ff;--s1:#ff9a90;--s2:#7bd68f;--s3:#cda6f5;--s4:#f0c060;--s5:#6fd3dc}}\
-div.plot{overflow-x:auto}svg.plot{width:100%;min-width:32rem;max-width:44rem;height:auto;display:block;font:13px system-ui,sans-serif}\
-svg.plot text{fill:var(--text)}svg.plot .grid{stroke:var(--line);stroke-width:1}\
-svg.plot .curve{fill:none;stroke-width:1.8}svg.plot .fit{fill:none;stroke-width:1.3;stroke-dasharray:5 4;opacity:.75}\
-.s0{stroke:var(--s0);fill:var(--s0)}.s1{stroke:var(--s1);fill:var(--s1)}.s2{stroke:var(--s2);fill:var(--s2)}\
-.s3{stroke:var(--s3);fill:var(--s3)}.s4{stroke:var(--s4);fill:var(--s4)}.s5{stroke:var(--s5);fill:var(--s5)}\
-svg.plot .whisker{stroke:var(--text);stroke-width:1.6;fill:none}svg.plot text{stroke:none}svg.plot rect{fill-opacity:.55;stroke:none}";
 
 /// The number of colours.
 const COLOURS: usize = 6;
@@ -41,7 +30,7 @@ const TOP: f64 = 12.0;
 const BOTTOM: f64 = 350.0;
 
 /// One logarithmic axis.
-struct Axis {
+pub(super) struct Axis {
     /// Logarithms to base 10 of the ends.
     ends: [f64; 2],
     /// Where they are in the picture.
@@ -49,7 +38,7 @@ struct Axis {
 }
 
 impl Axis {
-    fn new(values: impl Iterator<Item = f64>, places: [f64; 2]) -> Option<Self> {
+    pub(super) fn new(values: impl Iterator<Item = f64>, places: [f64; 2]) -> Option<Self> {
         let logs: Vec<f64> = values.filter(|v| *v > 0.0).map(log10).collect();
         let low = logs.iter().copied().fold(f64::INFINITY, f64::min);
         let high = logs.iter().copied().fold(f64::NEG_INFINITY, f64::max);
@@ -59,14 +48,14 @@ impl Axis {
         })
     }
 
-    fn place(&self, value: f64) -> f64 {
+    pub(super) fn place(&self, value: f64) -> f64 {
         let [low, high] = self.ends;
         let share = (log10(value) - low) / (high - low);
         self.places[0] + share * (self.places[1] - self.places[0])
     }
 
     /// Round numbers within the axis: powers of ten, or 1, 2 and 5 times them if those are few.
-    fn ticks(&self) -> Vec<f64> {
+    pub(super) fn ticks(&self) -> Vec<f64> {
         let [low, high] = self.ends;
         let within = |factors: &[f64]| -> Vec<f64> {
             let decades = (low.floor() as i32)..=(high.ceil() as i32);
@@ -210,7 +199,7 @@ pub fn bars(bars: &[(String, Uncertain)], what: &str) -> Markup {
 }
 
 /// A round number in few characters.
-fn label(tick: f64) -> String {
+pub(super) fn label(tick: f64) -> String {
     if (1e-3..1e5).contains(&tick) {
         // 0.05, not 0.05000000000000001.
         return ((tick * 1e6).round() / 1e6).to_string();

@@ -1,11 +1,11 @@
-//! `cargo xtask references`: renders the references of claims with Mitsuba 3.
+//! References by Mitsuba 3: every seed is a replicate.
 //!
 //! Mitsuba runs in a Python environment of its own: the one whose interpreter `ETALON_PYTHON`
 //! names, or `target/venv`, which is made and given a pinned Mitsuba when it is not there. The
 //! LLVM variant is used if LLVM 17 or later is found (`DRJIT_LIBLLVM_PATH`), otherwise
 //! `scalar_spectral`.
 
-use etalon_validation::claim::{Claim, Oracle};
+use etalon_validation::claim::Claim;
 use etalon_validation::reference::{self, Rendered};
 use etalon_validation::{folders, run};
 use std::fs;
@@ -18,44 +18,26 @@ const MITSUBA: &str = "mitsuba==3.9.1";
 /// Where Debian and Ubuntu keep LLVM.
 const LIBRARIES: &str = "/usr/lib/x86_64-linux-gnu";
 
-/// Which references to make.
-#[derive(Clone, Debug, clap::Args)]
-#[command(
-    after_help = "Examples:\n  cargo xtask references\n  cargo xtask references --only cornell-box\n  ETALON_PYTHON=~/venv/bin/python cargo xtask references"
-)]
-pub(crate) struct Arguments {
-    /// Only the claims whose names contain this
-    #[arg(long, value_name = "NAME")]
-    only: Option<String>,
-    /// Only references that are missing or belong to another state of their scene
-    #[arg(long)]
-    stale: bool,
-    /// The variant of Mitsuba
-    #[arg(long, default_value = "llvm_ad_spectral")]
+/// Mitsuba, made ready.
+pub(super) struct Mitsuba {
+    python: PathBuf,
     variant: String,
 }
 
-/// Makes references.
-pub(crate) fn run(arguments: &Arguments) -> Result<(), String> {
-    let claims = Claim::read_all(&folders::claims())?;
-    let python = python()?;
-    for claim in &claims {
-        let Oracle::Reference { spp, seeds } = claim.oracle else {
-            continue;
-        };
-        let wanted = |part: &String| claim.name.contains(part.as_str());
-        if !arguments.only.as_ref().is_none_or(wanted) {
-            continue;
-        }
+impl Mitsuba {
+    /// Finds it or installs it.
+    pub(super) fn new(variant: &str) -> Result<Self, String> {
+        Ok(Self {
+            python: python()?,
+            variant: variant.to_owned(),
+        })
+    }
+
+    /// Makes the reference of a claim.
+    pub(super) fn make(&self, claim: &Claim, spp: u32, seeds: u32) -> Result<(), String> {
         let defines = run::defines(claim, None);
-        if arguments.stale {
-            let hash = run::load(claim, &defines, None)?.hash;
-            if reference::read(&claim.name, &hash).is_ok() {
-                continue;
-            }
-        }
         let (rendered, pixels) =
-            render(&python, &arguments.variant, claim, &defines, [spp, seeds])?;
+            render(&self.python, &self.variant, claim, &defines, [spp, seeds])?;
         let error = reference::write(claim, &rendered, spp, &pixels)?;
         println!(
             "{}: {seeds} seeds of {spp} samples per pixel by {}; standard error of the mean {:.4} %",
@@ -69,8 +51,14 @@ pub(crate) fn run(arguments: &Arguments) -> Result<(), String> {
                 claim.name, rendered.skipped_seeds
             );
         }
+        Ok(())
     }
-    Ok(())
+}
+
+/// Whether a claim's reference belongs to the present state of its scene.
+pub(super) fn is_fresh(claim: &Claim) -> Result<bool, String> {
+    let hash = run::load(claim, &run::defines(claim, None), None)?.hash;
+    Ok(reference::read(&claim.name, &hash).is_ok())
 }
 
 /// Renders all seeds of a claim's scene.

@@ -1,23 +1,14 @@
-//! A glowing sphere seen from its centre: the estimators against a geometric series.
-//!
-//! Inside a closed diffuse sphere of reflectance ρ that emits radiance 1 everywhere, the radiance
-//! along any ray is Σᵢ ρⁱ, i = 0 … n − 1 segments (the series 1/(1 − ρ) when unlimited). The
-//! world below has no scene, no materials and no shapes: what is tested is the estimator.
+//! The sphere: a world without scene, materials and shapes.
 
-use etalon_integrators::direct::Direct;
-use etalon_integrators::path::Path;
-use etalon_integrators::ptracer::ParticleTracer;
-use etalon_integrators::settings::PathSettings;
 use etalon_math::{Area, Density, Frame, SolidAngle};
-use etalon_sampling::{Independent, PixelSample, Sampler};
-use etalon_spectrum::{WavelengthDistribution, Wavelengths, sensor};
+use etalon_spectrum::{WavelengthDistribution, Wavelengths};
 use etalon_transport::*;
-use glam::{UVec2, Vec2, Vec3, Vec4};
+use glam::{Vec2, Vec3, Vec4};
 use std::f32::consts::PI;
 
 /// What is deliberately wrong with the world, to show that the tests would notice.
 #[derive(Clone, Copy, PartialEq)]
-enum Fault {
+pub(crate) enum Fault {
     None,
     /// The light's density is reported too high by a tenth.
     LightDensity,
@@ -29,14 +20,14 @@ enum Fault {
     Importance,
 }
 
-struct Sphere {
-    reflectance: f32,
-    fault: Fault,
-    distribution: WavelengthDistribution,
-    camera: Pinhole,
+pub(crate) struct Sphere {
+    pub(crate) reflectance: f32,
+    pub(crate) fault: Fault,
+    pub(crate) distribution: WavelengthDistribution,
+    pub(crate) camera: Pinhole,
 }
 
-struct Pinhole {
+pub(crate) struct Pinhole {
     fault: Fault,
 }
 
@@ -72,7 +63,7 @@ impl Camera for Pinhole {
 }
 
 #[derive(Clone, Copy)]
-struct Lambert {
+pub(crate) struct Lambert {
     reflectance: f32,
     normal: Vec3,
     fault: Fault,
@@ -126,7 +117,7 @@ fn on_sphere(u: Vec2) -> Vec3 {
 }
 
 impl Sphere {
-    fn new(reflectance: f32, fault: Fault) -> Self {
+    pub(crate) fn new(reflectance: f32, fault: Fault) -> Self {
         Self {
             reflectance,
             fault,
@@ -239,6 +230,8 @@ impl World for Sphere {
             target: Some(target),
             radiance: Vec4::splat(self.radiance()),
             chance: Chance::Continuous(self.light_density(from, &at, direction)),
+            cos: -at.normal.dot(direction),
+            origin: Origin::Surface,
             light: LightId(0),
         })
         .filter(|_| w.lambda.x > 0.0)
@@ -261,7 +254,12 @@ impl World for Sphere {
         let sample = lambert.sample(-origin, 0.0, d, Mode::Importance)?;
         Some(Emission {
             ray: Ray::new(origin * (1.0 - 1e-6), sample.wi, 0.0),
-            normal: -origin,
+            point: SurfacePoint {
+                position: origin,
+                error: Vec3::ZERO,
+                normal: -origin,
+                texture: TexturePoint::at_uv(Vec2::ZERO),
+            },
             weight: Vec4::splat(self.radiance() * PI / self.area_density()),
             density: EmissionDensity {
                 origin: self.area_density(),
@@ -271,156 +269,23 @@ impl World for Sphere {
             light: LightId(0),
         })
     }
-    fn emission_density(&self, at: &Vertex, direction: Vec3) -> EmissionDensity {
+    fn emission_density(&self, _: LightId, _: Vec3, cos: f32) -> EmissionDensity {
         EmissionDensity {
             origin: self.area_density(),
-            ray: at.normal.dot(direction).max(0.0) / PI,
+            ray: cos.max(0.0) / PI,
         }
     }
     fn background_emission_density(&self, _: Vec3) -> EmissionDensity {
         EmissionDensity::ZERO
     }
+    fn sampled_density(&self, from: &Receiver, start: &Emission) -> f32 {
+        let to = start.point.position - from.position;
+        let cos = start.point.normal.dot(to.normalize());
+        Density::<Area>::uniform(self.area_density())
+            .to_solid_angle(to.length_squared(), cos)
+            .chooser()
+    }
     fn take_ray_count(&self) -> u64 {
         0
     }
-}
-
-/// Sums what an estimator says of the one pixel [0, 1)².
-#[derive(Default)]
-struct Meter {
-    value: f64,
-}
-
-impl Sink for Meter {
-    fn radiance(&mut self, rgb: [f32; 3], _: f32) {
-        self.value += f64::from(rgb[1]);
-    }
-    fn splat(&mut self, _: Vec2, rgb: [f32; 3]) {
-        self.value += f64::from(rgb[1]);
-    }
-    fn channel(&mut self, _: usize, _: f32) {}
-}
-
-/// Green of the constant spectrum 1: the response is linear between whole nanometres, so that
-/// the trapezoid rule is exact.
-fn white() -> f64 {
-    let green = |nm: i32| f64::from(sensor::response(Vec4::splat(nm as f32))[1].x);
-    (360..830).map(|nm| 0.5 * (green(nm) + green(nm + 1))).sum()
-}
-
-/// z of the mean green value of `n` samples against `expected` (in units of a white spectrum's).
-fn z_score<I: Integrator<State = ()>>(
-    integrator: &I,
-    world: &Sphere,
-    expected: f64,
-    n: u32,
-) -> f64 {
-    let (mut sum, mut squares) = (0.0, 0.0);
-    for sample in 0..n {
-        let mut sampler = Independent::start(&PixelSample {
-            seed: 7,
-            replicate: 0,
-            pixel: (0, 0),
-            sample,
-            samples_per_replicate: n,
-        });
-        let site = PixelSite {
-            pixel: UVec2::ZERO,
-            raster: sampler.next_2d(),
-            margin: 0.0,
-            pixels: 1,
-            spacing: 1.0,
-        };
-        let mut meter = Meter::default();
-        integrator.sample(world, &(), &site, &mut sampler, &mut meter);
-        sum += meter.value;
-        squares += meter.value * meter.value;
-    }
-    let n = f64::from(n);
-    let mean = sum / n;
-    let variance = (squares / n - mean * mean) / n;
-    (mean - expected * white()) / variance.sqrt()
-}
-
-fn settings(max_depth: u32) -> PathSettings {
-    PathSettings {
-        max_depth,
-        ..PathSettings::default()
-    }
-}
-
-/// Six comparisons at a family-wise α of 10⁻³ (two-sided normal quantile of 10⁻³/6 ≈ 3.76).
-const LIMIT: f64 = 3.76;
-const N: u32 = 150_000;
-
-fn series(reflectance: f64, segments: i32) -> f64 {
-    (0..segments).map(|i| reflectance.powi(i)).sum()
-}
-
-#[test]
-fn estimators_agree_with_the_geometric_series() {
-    let world = Sphere::new(0.6, Fault::None);
-    let limited = |n| settings(n);
-    let path = |n| Path {
-        settings: limited(n),
-    };
-    let light = |n| ParticleTracer {
-        settings: limited(n),
-    };
-    let direct = Direct {
-        emitter_samples: 2,
-        bsdf_samples: 1,
-        hide_emitters: false,
-    };
-    for (what, z) in [
-        (
-            "path, 1 segment",
-            z_score(&path(1), &world, series(0.6, 1), N),
-        ),
-        (
-            "path, 3 segments",
-            z_score(&path(3), &world, series(0.6, 3), N),
-        ),
-        ("path, unlimited", z_score(&path(u32::MAX), &world, 2.5, N)),
-        ("direct", z_score(&direct, &world, series(0.6, 2), N)),
-        (
-            "ptracer, 3 segments",
-            z_score(&light(3), &world, series(0.6, 3), N),
-        ),
-        (
-            "ptracer, unlimited",
-            z_score(&light(u32::MAX), &world, 2.5, N),
-        ),
-    ] {
-        assert!(z.abs() < LIMIT, "{what}: z = {z:.2}");
-    }
-}
-
-#[test]
-fn faults_are_noticed() {
-    let path = Path {
-        settings: settings(3),
-    };
-    let light = ParticleTracer {
-        settings: settings(3),
-    };
-    for fault in [
-        Fault::LightDensity,
-        Fault::ScatteringDensity,
-        Fault::Emission,
-    ] {
-        let world = Sphere::new(0.6, fault);
-        let z = z_score(&path, &world, series(0.6, 3), N);
-        assert!(
-            z.abs() > LIMIT,
-            "fault {} unnoticed: z = {z:.2}",
-            fault as u32
-        );
-    }
-    let world = Sphere::new(0.6, Fault::Importance);
-    let z = z_score(&light, &world, series(0.6, 3), N);
-    assert!(
-        z.abs() > LIMIT,
-        "importance without cosine unnoticed: z = {z:.2}"
-    );
 }

@@ -1,0 +1,356 @@
+//! The techniques: what each adds, and what it is weighed against.
+
+use super::corner::Corner;
+use super::subpath::FromLight;
+use super::weight::{CameraEnd, Ends, LightEnd, fewer, more};
+use crate::dimensions::Event;
+use crate::prefix::Prefix;
+use crate::settings::PathSettings;
+use crate::walk::shadow_ray;
+use etalon_spectrum::Wavelengths;
+use etalon_transport::{
+    Bsdf, Camera, Chance, Mode, Origin, PixelSite, Ray, Receiver, Vertex, World,
+};
+use glam::{Vec2, Vec3, Vec4};
+
+/// Connects the corners of one sample's walks.
+pub(super) struct Connector<'a, 'w, W: World> {
+    pub(super) world: &'w W,
+    pub(super) wavelengths: &'a Wavelengths,
+    pub(super) settings: &'a PathSettings,
+    pub(super) site: &'a PixelSite,
+    /// The aperture position of the camera's walk.
+    pub(super) lens: Vec2,
+    /// The light's walk, if anything was emitted.
+    pub(super) start: Option<&'a FromLight>,
+    pub(super) light: &'a [Corner<W::Bsdf<'w>>],
+    /// Whether the camera walk's first corner can be connected to the camera.
+    pub(super) camera_connects: bool,
+    /// What was found at the pixel, per lane.
+    pub(super) radiance: Vec4,
+}
+
+impl<'w, W: World> Connector<'_, 'w, W> {
+    /// Density per area, across the ray, of what the camera sees at `point`; zero if a light path
+    /// that arrives there could not be connected to it.
+    pub(super) fn camera_density(&self, point: Vec3) -> f32 {
+        let camera = self.world.camera();
+        let seen = camera.connect(point, self.lens, self.site.margin);
+        seen.map_or(0.0, |connection| connection.weight)
+    }
+
+    fn camera_end(&self) -> CameraEnd {
+        CameraEnd {
+            connects: self.camera_connects,
+            samples: self.site.pixels as f32,
+        }
+    }
+
+    fn light_end(&self, start: &FromLight, first: &Corner<W::Bsdf<'w>>) -> LightEnd {
+        LightEnd {
+            can_be_hit: start.emission.origin.can_be_hit(),
+            emitted: start.emission.density.origin,
+            sampled: first.direct,
+        }
+    }
+
+    /// s = 0: the camera's walk ran into an emitting surface.
+    pub(super) fn meet_light(
+        &mut self,
+        prefix: &Prefix,
+        arrival: f32,
+        passed: Vec4,
+        vertex: &Vertex,
+        wo: Vec3,
+        eye: &[Corner<W::Bsdf<'w>>],
+    ) {
+        let radiance = self.world.emitted(vertex, wo, self.wavelengths);
+        if radiance == Vec4::ZERO {
+            return;
+        }
+        let mut total = prefix.ratio.element_sum();
+        if let Some(first) = eye.last() {
+            let cos = vertex.normal.dot(wo).abs();
+            let distance_squared = vertex.position.distance_squared(first.vertex.position);
+            let emission = self.world.emission_density(vertex.light, wo, cos);
+            let from = Receiver::from(&first.vertex);
+            let sampled = self.world.light_density(&from, vertex, -wo).lanes();
+            let here = emission.ray * first.vertex.normal.dot(wo).abs() / distance_squared;
+            let sampled = sampled * (cos / distance_squared);
+            total += self.hit(eye, arrival, sampled, emission.origin, passed * here);
+        }
+        self.radiance += prefix.value * radiance / total;
+    }
+
+    /// s = 0: the camera's walk left the scene.
+    pub(super) fn meet_background(
+        &mut self,
+        prefix: &Prefix,
+        arrival: f32,
+        passed: Vec4,
+        direction: Vec3,
+        eye: &[Corner<W::Bsdf<'w>>],
+    ) {
+        let radiance = self.world.background(direction, self.wavelengths);
+        if radiance == Vec4::ZERO {
+            return;
+        }
+        let mut total = prefix.ratio.element_sum();
+        if let Some(first) = eye.last() {
+            let emission = self.world.background_emission_density(direction);
+            let from = Receiver::from(&first.vertex);
+            let sampled = self.world.background_density(&from, direction).lanes();
+            let here = emission.ray * first.vertex.normal.dot(direction).abs();
+            total += self.hit(eye, arrival, sampled, emission.origin, passed * here);
+        }
+        self.radiance += prefix.value * radiance / total;
+    }
+
+    /// What light sampling and walks from the light add to the weights of a path whose camera walk found the light
+    /// with the density `arrival`.
+    fn hit(
+        &self,
+        eye: &[Corner<W::Bsdf<'w>>],
+        arrival: f32,
+        sampled: Vec4,
+        emitted: f32,
+        here: Vec4,
+    ) -> f32 {
+        let [.., first] = eye else {
+            return 0.0;
+        };
+        let before = eye.len().checked_sub(2).map(|index| &eye[index]);
+        let ends = Ends {
+            here,
+            before: before.map_or(Vec4::ZERO, |corner| corner.opposite),
+        };
+        let connects = !first.leaves_discretely;
+        let mut total = 0.0;
+        if connects {
+            total += (first.prefix.ratio * sampled).element_sum() / arrival;
+        }
+        let product = Vec4::splat(emitted / arrival);
+        total + more(None, eye, product, ends, connects, self.camera_end())
+    }
+
+    /// All techniques that end at this corner of the camera's walk: light sampling and connections with the
+    /// corners of the light's walk.
+    pub(super) fn connect(
+        &mut self,
+        corner: &Corner<W::Bsdf<'w>>,
+        eye: &[Corner<W::Bsdf<'w>>],
+        event: &Event,
+    ) {
+        self.sample_light(corner, eye, event);
+        let Some(start) = self.start else {
+            return;
+        };
+        for (index, light) in self.light.iter().enumerate() {
+            let segments = corner.segments.saturating_add(light.segments);
+            if segments < self.settings.max_depth && light.bsdf.has_continuous() {
+                self.join(start, index, corner, eye);
+            }
+        }
+    }
+
+    /// Density per area of a walk from the light arriving at the vertex before `corner` on the camera's, having come
+    /// to `corner` along `from`.
+    fn beyond(
+        &self,
+        corner: &Corner<W::Bsdf<'w>>,
+        eye: &[Corner<W::Bsdf<'w>>],
+        from: Vec3,
+    ) -> Vec4 {
+        // The camera itself is never arrived at.
+        let Some(before) = eye.last() else {
+            return Vec4::ZERO;
+        };
+        let density = corner.bsdf.density(from, corner.wo).lanes();
+        let distance_squared = before
+            .vertex
+            .position
+            .distance_squared(corner.vertex.position);
+        density * corner.passed * before.per_area(corner.wo, distance_squared)
+    }
+
+    /// s = 1.
+    fn sample_light(
+        &mut self,
+        corner: &Corner<W::Bsdf<'w>>,
+        eye: &[Corner<W::Bsdf<'w>>],
+        event: &Event,
+    ) {
+        let (vertex, world) = (&corner.vertex, self.world);
+        let from = Receiver::from(vertex);
+        let (choice, u) = (event.light_choice, event.light);
+        let Some(light) = world.sample_light(&from, self.wavelengths, choice, u) else {
+            return;
+        };
+        let direction = light.direction;
+        let (value, scattered) = corner
+            .bsdf
+            .eval_and_density(corner.wo, direction, Mode::Radiance);
+        let contribution = value * light.radiance;
+        if contribution == Vec4::ZERO {
+            return;
+        }
+        let Some(ray) = shadow_ray(vertex, direction, light.target) else {
+            return;
+        };
+        let crossings = self.settings.max_depth - corner.segments - 1;
+        let Some(passage) = world.passage(&ray, self.wavelengths, crossings) else {
+            return;
+        };
+        let chance = light.chance.lanes();
+        let inverse = 1.0 / chance.x;
+        let rest = corner.prefix.ratio;
+        let mut total = (rest * chance).element_sum() * inverse;
+        if let Chance::Continuous(_) = light.chance {
+            total += (rest * scattered.lanes() * passage.probability).element_sum() * inverse;
+        }
+        // From the density of light sampling to that of emission, in the same measure.
+        let emission = world.emission_density(light.light, -direction, light.cos);
+        let cos = vertex.normal.dot(direction).abs();
+        let distance_squared = light
+            .target
+            .map_or(1.0, |target| target.distance_squared(vertex.position));
+        let origin = match light.origin {
+            Origin::Surface => emission.origin * distance_squared / light.cos,
+            _ => emission.origin,
+        };
+        let arrival = if light.origin.is_infinite() {
+            emission.ray * cos
+        } else {
+            emission.ray * cos / distance_squared
+        };
+        let ends = Ends {
+            here: passage.probability * arrival,
+            before: self.beyond(corner, eye, direction),
+        };
+        let product = Vec4::splat(origin * inverse);
+        total += more(Some(corner), eye, product, ends, true, self.camera_end());
+        let value = corner.prefix.value * contribution * passage.transmittance;
+        self.radiance += value * (inverse / total);
+    }
+
+    /// s ≥ 2, t ≥ 2: the light walk's corner with this index, and the camera walk's.
+    fn join(
+        &mut self,
+        start: &FromLight,
+        index: usize,
+        corner: &Corner<W::Bsdf<'w>>,
+        eye: &[Corner<W::Bsdf<'w>>],
+    ) {
+        let light = &self.light[index];
+        let between = corner.vertex.position - light.vertex.position;
+        let distance_squared = between.length_squared();
+        if !(distance_squared > 0.0) {
+            return;
+        }
+        let direction = between / distance_squared.sqrt();
+        let (here, to_eye) = light
+            .bsdf
+            .eval_and_density(light.wo, direction, Mode::Importance);
+        if here == Vec4::ZERO {
+            return;
+        }
+        let (there, to_light) = corner
+            .bsdf
+            .eval_and_density(corner.wo, -direction, Mode::Radiance);
+        let value = light.prefix.value * here * there * corner.prefix.value / distance_squared;
+        if value == Vec4::ZERO {
+            return;
+        }
+        let origin = light.vertex.origin_toward(corner.vertex.position);
+        let target = corner.vertex.origin_toward(light.vertex.position);
+        let Some(ray) = Ray::between(origin, target, corner.vertex.time) else {
+            return;
+        };
+        let crossings = self.settings.max_depth - corner.segments - light.segments - 1;
+        let Some(passage) = self.world.passage(&ray, self.wavelengths, crossings) else {
+            return;
+        };
+        let ends = Ends {
+            here: to_light.lanes()
+                * passage.probability
+                * light.per_area(direction, distance_squared),
+            before: self.behind(start, light, direction),
+        };
+        let [mine, theirs] = [light.prefix.ratio, corner.prefix.ratio];
+        let mut total = (mine * theirs).element_sum();
+        total += self.fewer(start, index, theirs, ends);
+        let ends = Ends {
+            here: to_eye.lanes()
+                * passage.probability
+                * corner.per_area(direction, distance_squared),
+            before: self.beyond(corner, eye, -direction),
+        };
+        total += more(Some(corner), eye, mine, ends, true, self.camera_end());
+        self.radiance += value * passage.transmittance / total;
+    }
+
+    /// Density of a walk from the camera, come to `light` along `from`, arriving at the vertex before it on the
+    /// light's walk.
+    fn behind(&self, start: &FromLight, light: &Corner<W::Bsdf<'w>>, from: Vec3) -> Vec4 {
+        let position = light.vertex.position;
+        let per_area = match light.parent {
+            None => start.per_area(start.distance_squared(position)),
+            Some(parent) => {
+                let before = &self.light[parent];
+                let distance_squared = before.vertex.position.distance_squared(position);
+                before.per_area(light.wo, distance_squared)
+            }
+        };
+        light.bsdf.density(from, light.wo).lanes() * light.passed * per_area
+    }
+
+    fn fewer(&self, start: &FromLight, last: usize, rest: Vec4, ends: Ends) -> f32 {
+        let mut first = last;
+        while let Some(parent) = self.light[first].parent {
+            first = parent;
+        }
+        let end = self.light_end(start, &self.light[first]);
+        fewer(self.light, last, rest, ends, end, start.opposite)
+    }
+
+    /// t = 1: every corner of the light's walk, seen by the camera.
+    pub(super) fn see_all(&self, mut splat: impl FnMut(Vec2, Vec4)) {
+        let Some(start) = self.start else {
+            return;
+        };
+        for (index, light) in self.light.iter().enumerate() {
+            if !light.bsdf.has_continuous() || light.segments >= self.settings.max_depth {
+                continue;
+            }
+            if let Some((raster, value)) = self.see(start, index, self.lens) {
+                splat(raster, value);
+            }
+        }
+    }
+
+    /// A corner of the light's walk as the camera sees it.
+    fn see(&self, start: &FromLight, index: usize, lens: Vec2) -> Option<(Vec2, Vec4)> {
+        let light = &self.light[index];
+        let vertex = &light.vertex;
+        let connection = (self.world.camera()).connect(vertex.position, lens, self.site.margin)?;
+        let direction = connection.direction;
+        let value = light.bsdf.eval(light.wo, direction, Mode::Importance);
+        if value == Vec4::ZERO {
+            return None;
+        }
+        let origin = vertex.origin_toward(connection.target);
+        let ray = Ray::between(origin, connection.target, vertex.time)?;
+        let crossings = self.settings.max_depth - light.segments - 1;
+        let passage = self.world.passage(&ray, self.wavelengths, crossings)?;
+        let cos = vertex.normal.dot(direction).abs();
+        let ends = Ends {
+            here: passage.probability * (connection.weight * cos),
+            before: self.behind(start, light, direction),
+        };
+        let samples = self.site.pixels as f32;
+        let total =
+            samples * light.prefix.ratio.element_sum() + self.fewer(start, index, Vec4::ONE, ends);
+        let value = light.prefix.value * value * passage.transmittance * connection.weight;
+        Some((connection.raster, value / total))
+    }
+}

@@ -1,0 +1,398 @@
+//! Walks from the camera and from a light, and the corners they leave behind.
+
+use super::connect::Connector;
+use super::corner::Corner;
+use crate::dimensions::Event;
+use crate::prefix::Prefix;
+use crate::settings::PathSettings;
+use etalon_sampling::Sampler;
+use etalon_spectrum::Wavelengths;
+use etalon_transport::{Bsdf, Emission, Mode, Origin, Ray, Receiver, Vertex, World};
+use glam::{Vec3, Vec4};
+
+/// The numbers of the camera walk's events, of the emission, and of the light walk's events lie
+/// side by side, the camera's first.
+fn camera_event(index: u32) -> u32 {
+    2 * index
+}
+
+fn light_event(index: u32) -> u32 {
+    2 * index + 1
+}
+
+/// Whether a walk survives Russian roulette.
+fn survives(prefix: &mut Prefix, survival: f32, u: f32) -> bool {
+    let survival = survival.min(0.95);
+    if !(u < survival) {
+        return false;
+    }
+    prefix.survive(survival);
+    true
+}
+
+/// What a walk carries from surface to surface.
+struct Carried {
+    ray: Ray,
+    prefix: Prefix,
+    /// Density of `ray`'s direction at the last corner, of the lane that chose.
+    density: f32,
+    /// Probability of passing surfaces since the last corner, per lane.
+    passed: Vec4,
+    /// Segments behind, that of `ray` included.
+    segments: u32,
+}
+
+impl Carried {
+    /// Goes straight on through a surface.
+    fn pass(&mut self, vertex: &Vertex, value: Vec4, chance: Vec4) {
+        self.prefix.extend(value, chance);
+        self.passed *= chance;
+        self.ray = vertex.spawn(self.ray.direction);
+        self.segments += 1;
+    }
+
+    /// The corner at `vertex`, arrived at with this density per solid angle at the last one.
+    fn corner<B>(&self, vertex: Vertex, bsdf: B, arrival: f32) -> Corner<B> {
+        Corner {
+            vertex,
+            bsdf,
+            wo: -self.ray.direction,
+            prefix: self.prefix,
+            arrival: arrival * self.passed.x,
+            opposite: Vec4::ZERO,
+            passed: self.passed,
+            leaves_discretely: false,
+            segments: self.segments,
+            parent: None,
+            direct: 0.0,
+        }
+    }
+}
+
+/// A particle's start, and what its first corner's neighbours say of it.
+pub(super) struct FromLight {
+    /// What was emitted.
+    pub(super) emission: Emission,
+    /// Density with which a walk from the camera arrives at the light from the first corner, per lane; known
+    /// once the particle has left that.
+    pub(super) opposite: Vec4,
+}
+
+impl FromLight {
+    /// Emits a particle.
+    pub(super) fn start<W: World>(
+        world: &W,
+        wavelengths: &Wavelengths,
+        settings: &PathSettings,
+        sampler: &mut impl Sampler,
+    ) -> Option<Self> {
+        if settings.max_depth < 2 {
+            return None;
+        }
+        let event = Event::draw(sampler, light_event(0));
+        let (choice, position, direction) = (event.light_choice, event.light, event.direction);
+        let emission = world.emit(wavelengths, choice, position, direction)?;
+        (emission.weight != Vec4::ZERO).then_some(Self {
+            emission,
+            opposite: Vec4::ZERO,
+        })
+    }
+
+    /// What makes a density per solid angle at the first corner one at the light: per area of a
+    /// surface; of the sky's directions it is one.
+    #[inline]
+    pub(super) fn per_area(&self, distance_squared: f32) -> f32 {
+        match self.emission.origin {
+            Origin::Surface => self.cos() / distance_squared,
+            Origin::Sky => 1.0,
+            Origin::Point | Origin::Parallel => 0.0,
+        }
+    }
+
+    /// Cosine of the angle of departure.
+    fn cos(&self) -> f32 {
+        let normal = self.emission.point.normal;
+        normal.dot(self.emission.ray.direction).abs()
+    }
+
+    /// Squared distance to a point of the first corner.
+    #[inline]
+    pub(super) fn distance_squared(&self, to: Vec3) -> f32 {
+        self.emission.point.position.distance_squared(to)
+    }
+
+    /// Density per area of arriving at the first corner, which sees the light along −`direction`.
+    #[inline]
+    pub(super) fn arrival<B>(
+        emission_ray: f32,
+        infinite: bool,
+        corner: &Corner<B>,
+        from: Vec3,
+    ) -> f32 {
+        let cos = corner.vertex.normal.dot(corner.wo).abs();
+        if infinite {
+            emission_ray * cos
+        } else {
+            emission_ray * cos / corner.vertex.position.distance_squared(from)
+        }
+    }
+
+    /// The density with which light sampling at the first corner would have chosen this start, in
+    /// the measure of the emission's.
+    #[inline]
+    pub(super) fn sampled<W: World>(&self, world: &W, at: &Vertex) -> f32 {
+        let density = world.sampled_density(&Receiver::from(at), &self.emission);
+        match self.emission.origin {
+            Origin::Surface => density * self.per_area(self.distance_squared(at.position)),
+            _ => density,
+        }
+    }
+
+    /// Follows the particle, and notes its corners.
+    pub(super) fn walk<'w, W: World>(
+        &mut self,
+        world: &'w W,
+        wavelengths: &Wavelengths,
+        settings: &PathSettings,
+        sampler: &mut impl Sampler,
+        corners: &mut Vec<Corner<W::Bsdf<'w>>>,
+    ) {
+        let emission = &self.emission;
+        let mut carried = Carried {
+            ray: emission.ray,
+            prefix: Prefix {
+                value: emission.weight,
+                ratio: Vec4::ONE,
+            },
+            density: emission.density.ray,
+            passed: Vec4::ONE,
+            segments: 1,
+        };
+        let mut parent: Option<usize> = None;
+        // One more segment, at least, leads from a corner to the camera.
+        while carried.segments < settings.max_depth {
+            let Some(hit) = world.intersect(&carried.ray) else {
+                return;
+            };
+            let vertex = world.vertex(&carried.ray, &hit);
+            let wo = -carried.ray.direction;
+            let bsdf = world.bsdf(&vertex, wo, wavelengths);
+            let mut corner = carried.corner(vertex, bsdf, 0.0);
+            corner.parent = parent;
+            corner.arrival = carried.passed.x
+                * match parent {
+                    None => Self::arrival(
+                        carried.density,
+                        self.emission.origin.is_infinite(),
+                        &corner,
+                        self.emission.point.position,
+                    ),
+                    Some(parent) => {
+                        let from = corners[parent].vertex.position;
+                        let distance_squared = vertex.position.distance_squared(from);
+                        carried.density * corner.per_area(wo, distance_squared)
+                    }
+                };
+            if !(corner.arrival > 0.0 && corner.arrival.is_finite()) {
+                return;
+            }
+            if parent.is_none() {
+                corner.direct = self.sampled(world, &vertex);
+            }
+            let place = corners.len();
+            if bsdf.has_continuous() {
+                corners.push(corner);
+            }
+            let event = Event::draw(sampler, light_event(carried.segments));
+            let sampled = bsdf.sample(wo, event.lobe, event.direction, Mode::Importance);
+            let Some(sample) = sampled else {
+                return;
+            };
+            if sample.passes {
+                carried.pass(&vertex, sample.value, sample.chance.lanes());
+                if carried.prefix.value == Vec4::ZERO {
+                    return;
+                }
+                continue;
+            }
+            if corners.len() == place {
+                corners.push(corner);
+            }
+            corners[place].leaves_discretely = sample.chance.is_discrete();
+            let [forward, back] = corner.both_densities(&sample);
+            match parent {
+                None => {
+                    let distance_squared = self.distance_squared(vertex.position);
+                    self.opposite = back * corner.passed * self.per_area(distance_squared);
+                }
+                Some(parent) => {
+                    let before = &mut corners[parent];
+                    let distance_squared = vertex.position.distance_squared(before.vertex.position);
+                    before.opposite = back * corner.passed * before.per_area(wo, distance_squared);
+                }
+            }
+            let before = carried.prefix.throughput();
+            carried.prefix.extend(sample.value, sample.chance.lanes());
+            if carried.prefix.value == Vec4::ZERO {
+                return;
+            }
+            if carried.segments >= settings.rr_depth {
+                // Relative to the flux before: emitted flux has no natural scale.
+                let survival = carried.prefix.throughput() / before;
+                if !survives(&mut carried.prefix, survival, event.roulette) {
+                    return;
+                }
+            }
+            carried.density = forward.x;
+            carried.passed = Vec4::ONE;
+            carried.ray = vertex.spawn(sample.wi);
+            carried.segments += 1;
+            parent = Some(place);
+        }
+    }
+}
+
+/// A walk from the camera.
+pub(super) struct FromCamera {
+    carried: Carried,
+    /// The product of the indices of refraction passed.
+    eta: f32,
+    /// Whether it has looked through a hidden light.
+    through_hidden: bool,
+    goes_on: bool,
+    /// 1 if the walk met anything that it did not pass straight, the background included; where
+    /// its length ends at a surface, the probability of that.
+    pub(super) alpha: f32,
+}
+
+impl FromCamera {
+    /// A walk along the camera's ray.
+    pub(super) fn start(ray: Ray, settings: &PathSettings) -> Self {
+        Self {
+            carried: Carried {
+                ray,
+                prefix: Prefix::START,
+                density: 0.0,
+                passed: Vec4::ONE,
+                segments: 1,
+            },
+            eta: 1.0,
+            through_hidden: false,
+            goes_on: settings.max_depth > 0,
+            alpha: 0.0,
+        }
+    }
+
+    /// Density per area of arriving at a point of a surface with this normal.
+    fn arrival<W: World, B>(
+        &self,
+        connector: &mut Connector<'_, '_, W>,
+        vertex: &Vertex,
+        corners: &[Corner<B>],
+    ) -> f32 {
+        let carried = &self.carried;
+        let cos = vertex.normal.dot(carried.ray.direction).abs();
+        match corners.last() {
+            None => {
+                // One sample per pixel makes one path per unit of the film.
+                let seen = connector.camera_density(vertex.position);
+                let weight = if self.through_hidden { 0.0 } else { seen };
+                connector.camera_connects = weight > 0.0;
+                weight * cos * carried.passed.x
+            }
+            Some(last) => {
+                let distance_squared = vertex.position.distance_squared(last.vertex.position);
+                carried.density * cos / distance_squared * carried.passed.x
+            }
+        }
+    }
+
+    /// Goes on to the next surface; whether there is more.
+    pub(super) fn advance<'w, W: World>(
+        &mut self,
+        world: &'w W,
+        wavelengths: &Wavelengths,
+        settings: &PathSettings,
+        sampler: &mut impl Sampler,
+        corners: &mut Vec<Corner<W::Bsdf<'w>>>,
+        connector: &mut Connector<'_, 'w, W>,
+    ) -> bool {
+        if !self.goes_on {
+            return false;
+        }
+        self.goes_on = false;
+        let direction = self.carried.ray.direction;
+        let Some(hit) = world.intersect(&self.carried.ray) else {
+            // A hidden sky stays hidden to rays that only went straight.
+            let visible = !settings.hide_emitters || self.alpha > 0.0;
+            if visible && world.has_background() {
+                self.alpha = 1.0;
+                let arrival = self.carried.density * self.carried.passed.x;
+                let passed = self.carried.passed;
+                let prefix = &self.carried.prefix;
+                connector.meet_background(prefix, arrival, passed, direction, corners);
+            }
+            return false;
+        };
+        let emits = world.is_emitter(&hit);
+        let vertex = world.vertex(&self.carried.ray, &hit);
+        if emits && settings.hide_emitters && self.carried.segments == 1 {
+            // The camera looks through hidden lights.
+            self.carried.ray = vertex.spawn(direction);
+            self.through_hidden = true;
+            self.goes_on = true;
+            return true;
+        }
+        let wo = -direction;
+        let arrival = self.arrival(connector, &vertex, corners);
+        if emits {
+            let (prefix, passed) = (&self.carried.prefix, self.carried.passed);
+            connector.meet_light(prefix, arrival, passed, &vertex, wo, corners);
+        }
+        let bsdf = world.bsdf(&vertex, wo, wavelengths);
+        if self.carried.segments == settings.max_depth {
+            let stopped = 1.0 - 0.25 * bsdf.passing_probability().element_sum();
+            self.alpha = self.alpha.max(stopped);
+            return false;
+        }
+        let event = Event::draw(sampler, camera_event(self.carried.segments - 1));
+        let mut corner = self.carried.corner(vertex, bsdf, 1.0);
+        corner.arrival = arrival;
+        if bsdf.has_continuous() {
+            connector.connect(&corner, corners, &event);
+        }
+        let Some(sample) = bsdf.sample(wo, event.lobe, event.direction, Mode::Radiance) else {
+            self.alpha = 1.0;
+            return false;
+        };
+        if sample.passes {
+            self.carried
+                .pass(&vertex, sample.value, sample.chance.lanes());
+            self.goes_on = self.carried.prefix.value != Vec4::ZERO;
+            return self.goes_on;
+        }
+        self.alpha = 1.0;
+        corner.leaves_discretely = sample.chance.is_discrete();
+        let [forward, back] = corner.both_densities(&sample);
+        if let Some(before) = corners.last_mut() {
+            let distance_squared = vertex.position.distance_squared(before.vertex.position);
+            before.opposite = back * corner.passed * before.per_area(wo, distance_squared);
+        }
+        let carried = &mut self.carried;
+        carried.prefix.extend(sample.value, sample.chance.lanes());
+        self.eta *= sample.eta;
+        if carried.segments >= settings.rr_depth {
+            let survival = carried.prefix.throughput() * self.eta * self.eta;
+            if !survives(&mut carried.prefix, survival, event.roulette) {
+                return false;
+            }
+        }
+        carried.density = forward.x;
+        carried.passed = Vec4::ONE;
+        carried.ray = vertex.spawn(sample.wi);
+        carried.segments += 1;
+        corners.push(corner);
+        self.goes_on = carried.prefix.value != Vec4::ZERO;
+        self.goes_on
+    }
+}

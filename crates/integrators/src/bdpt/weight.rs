@@ -1,0 +1,135 @@
+//! The sum over all techniques and wavelengths that weighs a path, relative to the one that made it.
+//!
+//! Written with the vertices x₀ (light), x₁ … x_{K−2} (surfaces) and x_{K−1} (camera), technique σ
+//! has σ vertices made from the light. Against the technique s that made the path,
+//!
+//! ```text
+//! p_σ,ₖ / p_s,₀ = Π_{i<min} aᵢ,ₖ/aᵢ,₀ · Π_{i ≥ max} bᵢ,ₖ/bᵢ,₀ · Π_{σ≤i<s} bᵢ,ₖ/aᵢ,₀   (or, for σ > s, Π_{s≤i<σ} aᵢ,ₖ/bᵢ,₀)
+//! ```
+//!
+//! The first two products are the density ratios that prefixes carry; the third grows by a factor a
+//! step. Only densities of lane 0, which really chose, are divided by.
+
+use super::corner::Corner;
+use glam::Vec4;
+
+/// What the end of a walk from the light knows of the techniques.
+#[derive(Clone, Copy)]
+pub(super) struct Ends {
+    /// Density of the other walk arriving at this end.
+    pub(super) here: Vec4,
+    /// Density of the other walk arriving at the vertex before it.
+    pub(super) before: Vec4,
+}
+
+/// The light's end of a path.
+#[derive(Clone, Copy)]
+pub(super) struct LightEnd {
+    /// Whether a path can run into it.
+    pub(super) can_be_hit: bool,
+    /// a₀ of emission.
+    pub(super) emitted: f32,
+    /// a₀ of light sampling.
+    pub(super) sampled: f32,
+}
+
+/// Σ over techniques with fewer light vertices than a path whose last corner from the light is
+/// `corners[last]`. `rest` is the density ratio of the camera's part, `ends` the camera walk's densities at
+/// the last corner and the one before it, `opposite` that at the light once it is farther away.
+pub(super) fn fewer<B>(
+    corners: &[Corner<B>],
+    last: usize,
+    rest: Vec4,
+    ends: Ends,
+    light: LightEnd,
+    opposite: Vec4,
+) -> f32 {
+    let mut sum = 0.0;
+    let mut product = rest;
+    let mut at = Some(last);
+    // Whether the vertex at hand may be an end of a connection: that of the path itself is one.
+    let mut connects = true;
+    for step in 0.. {
+        let Some(index) = at else {
+            break;
+        };
+        let corner = &corners[index];
+        let b = match step {
+            0 => ends.here,
+            1 => ends.before,
+            _ => corner.opposite,
+        };
+        product *= b / corner.arrival;
+        at = corner.parent;
+        let here = connects;
+        match at {
+            Some(parent) => {
+                connects = !corners[parent].leaves_discretely;
+                if here && connects {
+                    sum += (product * corners[parent].prefix.ratio).element_sum();
+                }
+            }
+            None => {
+                // σ = 1: light sampling from the first corner.
+                if here {
+                    sum += product.element_sum() * (light.sampled / light.emitted);
+                }
+                if light.can_be_hit {
+                    let b = if step == 0 { ends.before } else { opposite };
+                    sum += (product * b).element_sum() / light.emitted;
+                }
+            }
+        }
+    }
+    sum
+}
+
+/// The camera's end of a path.
+#[derive(Clone, Copy)]
+pub(super) struct CameraEnd {
+    /// Whether the camera walk's first corner can be connected to the camera.
+    pub(super) connects: bool,
+    /// How many samples can make a connection with the camera.
+    pub(super) samples: f32,
+}
+
+/// Σ over techniques with more light vertices than a path whose last corner from the camera is the last of
+/// `corners`, or `end` where that is not among them. `product` is the density ratio of the light's part and
+/// all factors so far, `connects` whether the last corner may be an end of a connection.
+pub(super) fn more<'c, B: 'c>(
+    end: Option<&'c Corner<B>>,
+    corners: &'c [Corner<B>],
+    mut product: Vec4,
+    ends: Ends,
+    mut connects: bool,
+    camera: CameraEnd,
+) -> f32 {
+    let mut sum = 0.0;
+    let mut walk = end.into_iter().chain(corners.iter().rev()).peekable();
+    let mut step = 0;
+    while let Some(corner) = walk.next() {
+        let next = walk.peek();
+        if next.is_none() && !camera.connects {
+            break;
+        }
+        let a = match step {
+            0 => ends.here,
+            1 => ends.before,
+            _ => corner.opposite,
+        };
+        product *= a / corner.arrival;
+        let here = connects;
+        match next {
+            Some(next) => {
+                connects = !next.leaves_discretely;
+                if here && connects {
+                    sum += (product * next.prefix.ratio).element_sum();
+                }
+            }
+            None if here => sum += camera.samples * product.element_sum(),
+            None => {}
+        }
+        step += 1;
+    }
+    sum
+}

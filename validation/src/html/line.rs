@@ -1,0 +1,141 @@
+//! One line of the table of decisions.
+
+use crate::measure::Measure;
+use crate::outcome::{Outcome, Row};
+use etalon::judge::{ImageRow, Judgement};
+use etalon::report::{self, interval, probability};
+use maud::{Markup, html};
+
+/// An outcome's name, as in the JSON.
+pub(super) fn name(outcome: Outcome) -> &'static str {
+    match outcome {
+        Outcome::Passed => "passed",
+        Outcome::Failed => "failed",
+        Outcome::Undecided => "undecided",
+        Outcome::Broken => "broken",
+    }
+}
+
+/// Its place when rows are sorted, what needs attention first, and a sign for it.
+fn rank(outcome: Outcome) -> (u8, &'static str) {
+    match outcome {
+        Outcome::Failed => (0, "✗"),
+        Outcome::Broken => (1, "!"),
+        Outcome::Undecided => (2, "?"),
+        Outcome::Passed => (3, "✓"),
+    }
+}
+
+/// The number that speaks for a row: it reaches farthest towards what is not accepted.
+enum Speaks<'a> {
+    /// Of this channel, with the bound, and how many tiles of all channels are shown to be off.
+    Bias(&'a ImageRow, f64, usize),
+    Measure(&'a Measure),
+    Nothing,
+}
+
+fn speaks<'a>(row: &'a Row<'_>) -> Speaks<'a> {
+    let Ok(compared) = &row.compared else {
+        return Speaks::Nothing;
+    };
+    if let Some(judgement) = compared.judgement() {
+        let bound = judgement.rules.image_bound;
+        let widest = Judgement::widest(judgement);
+        let off = judgement.tiles.iter().map(|tiles| tiles.differing).sum();
+        return widest.map_or(Speaks::Nothing, |image| Speaks::Bias(image, bound, off));
+    }
+    let measures = compared.measures().iter();
+    let worst = measures.min_by(|a, b| a.p.total_cmp(&b.p));
+    worst.map_or(Speaks::Nothing, Speaks::Measure)
+}
+
+/// The line.
+pub(super) fn line(index: usize, row: &Row<'_>) -> Markup {
+    let claim = row.task.claim;
+    let spp = row.compared.as_ref().ok().map(|compared| compared.spp);
+    let (rank, sign) = rank(row.outcome);
+    let speaks = speaks(row);
+    let kind = claim.oracle.kind();
+    html! {
+        tr role="row" class="line" {
+            td role="cell" class="text" data-key="outcome" data-value=(rank) {
+                button type="button" class={ "toggle " (name(row.outcome)) } aria-expanded="true"
+                    aria-controls=(format!("detail{index}"))
+                    aria-label=(format!("{}: {}, {}", name(row.outcome), claim.name, row.task.label())) {
+                    (sign) " " (name(row.outcome))
+                }
+            }
+            th role="rowheader" scope="row" class="text claim" data-key="claim" data-value=(claim.name) { (claim.name) }
+            td role="cell" class="text estimator wide" data-key="estimator" data-value=(row.task.label()) {
+                @if let Some(fault) = row.task.fault {
+                    span class="tag" { "mutant" } " " (fault)
+                } @else { (row.task.estimator.label()) }
+            }
+            td role="cell" class="text kind" data-key="kind" data-value=(kind) { (kind.replace('_', " ")) }
+            (bias(&speaks))
+            @let sees = match &speaks { Speaks::Bias(image, ..) => Some(image.smallest_detectable), _ => None };
+            td role="cell" data-key="sees" data-label="could see" data-value=[sees] {
+                @if let Some(sees) = sees { (format!("{:.3} %", 100.0 * sees)) }
+            }
+            td role="cell" data-key="p" data-label="p" data-value=[row.p_corrected] {
+                @if let Some(p) = row.p_corrected { (probability(p)) }
+            }
+            td role="cell" data-key="spp" data-label="samples" data-value=[spp] {
+                @if let Some(spp) = spp { (spp) }
+            }
+            td role="cell" data-key="looks" data-label="looks" data-value=(row.looks) { (row.looks) }
+            td role="cell" data-key="seconds" data-label="seconds" data-value=(row.seconds) { (format!("{:.1}", row.seconds)) }
+            @let verdict = row.verdict.map(|verdict| verdict.to_string());
+            td role="cell" class="text" data-key="verdict" data-label="verdict" data-value=[verdict] {
+                @if let Some(verdict) = row.verdict { (report::verdict(verdict)) }
+            }
+        }
+    }
+}
+
+fn bias(speaks: &Speaks<'_>) -> Markup {
+    let class = "text wide";
+    match speaks {
+        Speaks::Bias(image, bound, off) => {
+            let [low, high] = image.interval;
+            let reach = low.abs().max(high.abs()) / bound;
+            let label = format!("bias of {}", image.channel);
+            html! {
+                td role="cell" class=(class) data-key="bias" data-label=(label) data-value=(sortable(reach)) {
+                    (interval::bar(image.bias, image.interval, [-bound, *bound], &image.verdict.to_string()))
+                    span class="numbers" { (image.channel) " " (format!("{:+.3} … {:+.3} %", 100.0 * low, 100.0 * high)) }
+                    @if *off > 0 {
+                        span class="numbers" { (off) @if *off == 1 { " tile" } @else { " tiles" } " off" }
+                    }
+                }
+            }
+        }
+        Speaks::Measure(measure) => {
+            let [low, high] = measure.interval;
+            let [least, most] = measure.accepted;
+            let (middle, half) = (0.5 * (least + most), 0.5 * (most - least));
+            let reach = match half > 0.0 {
+                true => (low - middle).abs().max((high - middle).abs()) / half,
+                false => low.abs().max(high.abs()),
+            };
+            html! {
+                td role="cell" class=(class) data-key="bias" data-label=(measure.name) data-value=(sortable(reach)) {
+                    (interval::bar(measure.value, measure.interval, measure.accepted, &measure.verdict.to_string()))
+                    span class="numbers" {
+                        @if half > 0.0 { (format!("{low:.4} … {high:.4}")) } @else { (measure.value) " " (measure.name) }
+                    }
+                }
+            }
+        }
+        Speaks::Nothing => html! { td role="cell" class=(class) data-key="bias" {} },
+    }
+}
+
+/// A number that a script can sort by.
+fn sortable(x: f64) -> String {
+    if x.is_finite() {
+        format!("{x:.6}")
+    } else {
+        "1e99".to_owned()
+    }
+}
