@@ -7,6 +7,7 @@ pub mod blackbody;
 pub mod blend;
 pub mod colour_checker;
 pub mod delta_lights;
+pub mod directional_lobes;
 pub mod form_factors;
 pub mod furnace;
 pub mod glass;
@@ -60,6 +61,8 @@ pub fn picture(formula: &str, claim: &Claim, size: [u32; 2]) -> Result<Known, St
         "blend" => blend::picture(claim, size),
         "window between two media" => glass::window(claim, size),
         "furnace within glass" => glass::furnace(claim, size),
+        "directional lobes" => directional_lobes::picture(claim, size),
+        "coat under parallel light" => directional_lobes::coat(claim, size),
         "narrow sky" => narrow_sky::picture(claim, size),
         "wrapped bitmap" => wrapped_bitmap::picture(claim, size),
         "colour checker" => colour_checker::picture(claim, size),
