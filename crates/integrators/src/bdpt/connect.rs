@@ -1,5 +1,6 @@
 //! The techniques: what each adds, and what it is weighed against.
 
+use super::Technique;
 use super::corner::Corner;
 use super::subpath::FromLight;
 use super::weight::{CameraEnd, Ends, LightEnd, fewer, more};
@@ -18,6 +19,8 @@ pub(super) struct Connector<'a, 'w, W: World> {
     pub(super) world: &'w W,
     pub(super) wavelengths: &'a Wavelengths,
     pub(super) settings: &'a PathSettings,
+    /// The only technique that is asked for, if not all are.
+    pub(super) only: Option<Technique>,
     pub(super) site: &'a PixelSite,
     /// The aperture position of the camera's walk.
     pub(super) lens: Vec2,
@@ -37,6 +40,20 @@ impl<'w, W: World> Connector<'_, 'w, W> {
         let camera = self.world.camera();
         let seen = camera.connect(point, self.lens, self.site.margin);
         seen.map_or(0.0, |connection| connection.weight)
+    }
+
+    /// Whether a technique is to be weighed against the others; `None` if it is not asked for.
+    fn wanted(&self, light: usize, camera: usize) -> Option<bool> {
+        match self.only {
+            None => Some(true),
+            Some(only) => (only.light == light && only.camera == camera).then_some(only.weighted),
+        }
+    }
+
+    /// Vertices of the light's walk up to a corner, the light included.
+    fn vertices(&self, index: usize) -> usize {
+        let parents = |corner: &usize| self.light[*corner].parent;
+        1 + core::iter::successors(Some(index), parents).count()
     }
 
     fn camera_end(&self) -> CameraEnd {
@@ -68,8 +85,11 @@ impl<'w, W: World> Connector<'_, 'w, W> {
         if radiance == Vec4::ZERO {
             return;
         }
+        let Some(mixed) = self.wanted(0, eye.len() + 2) else {
+            return;
+        };
         let mut total = prefix.ratio.element_sum();
-        if let Some(first) = eye.last() {
+        if let Some(first) = eye.last().filter(|_| mixed) {
             let cos = vertex.normal.dot(wo).abs();
             let distance_squared = vertex.position.distance_squared(first.vertex.position);
             let emission = self.world.emission_density(vertex.light, wo, cos);
@@ -95,8 +115,11 @@ impl<'w, W: World> Connector<'_, 'w, W> {
         if radiance == Vec4::ZERO {
             return;
         }
+        let Some(mixed) = self.wanted(0, eye.len() + 2) else {
+            return;
+        };
         let mut total = prefix.ratio.element_sum();
-        if let Some(first) = eye.last() {
+        if let Some(first) = eye.last().filter(|_| mixed) {
             let emission = self.world.background_emission_density(direction);
             let from = Receiver::from(&first.vertex);
             let sampled = self.world.background_density(&from, direction).lanes();
@@ -180,6 +203,9 @@ impl<'w, W: World> Connector<'_, 'w, W> {
         eye: &[Corner<W::Bsdf<'w>>],
         event: &Event,
     ) {
+        let Some(mixed) = self.wanted(1, eye.len() + 2) else {
+            return;
+        };
         let (vertex, world) = (&corner.vertex, self.world);
         let from = Receiver::from(vertex);
         let (choice, u) = (event.light_choice, event.light);
@@ -205,6 +231,11 @@ impl<'w, W: World> Connector<'_, 'w, W> {
         let inverse = 1.0 / chance.x;
         let rest = corner.prefix.ratio;
         let mut total = (rest * chance).element_sum() * inverse;
+        let value = corner.prefix.value * contribution * passage.transmittance * inverse;
+        if !mixed {
+            self.radiance += value / total;
+            return;
+        }
         if let Chance::Continuous(_) = light.chance {
             total += (rest * scattered.lanes() * passage.probability).element_sum() * inverse;
         }
@@ -229,8 +260,7 @@ impl<'w, W: World> Connector<'_, 'w, W> {
         };
         let product = Vec4::splat(origin * inverse);
         total += more(Some(corner), eye, product, ends, true, self.camera_end());
-        let value = corner.prefix.value * contribution * passage.transmittance;
-        self.radiance += value * (inverse / total);
+        self.radiance += value / total;
     }
 
     /// s ≥ 2, t ≥ 2: the light walk's corner with this index, and the camera walk's.
@@ -242,6 +272,9 @@ impl<'w, W: World> Connector<'_, 'w, W> {
         eye: &[Corner<W::Bsdf<'w>>],
     ) {
         let light = &self.light[index];
+        let Some(mixed) = self.wanted(self.vertices(index), eye.len() + 2) else {
+            return;
+        };
         let between = corner.vertex.position - light.vertex.position;
         let distance_squared = between.length_squared();
         if !(distance_squared > 0.0) {
@@ -278,6 +311,10 @@ impl<'w, W: World> Connector<'_, 'w, W> {
         };
         let [mine, theirs] = [light.prefix.ratio, corner.prefix.ratio];
         let mut total = (mine * theirs).element_sum();
+        if !mixed {
+            self.radiance += value * passage.transmittance / total;
+            return;
+        }
         total += self.fewer(start, index, theirs, ends);
         let ends = Ends {
             here: to_eye.lanes()
@@ -331,6 +368,7 @@ impl<'w, W: World> Connector<'_, 'w, W> {
     /// A corner of the light's walk as the camera sees it.
     fn see(&self, start: &FromLight, index: usize, lens: Vec2) -> Option<(Vec2, Vec4)> {
         let light = &self.light[index];
+        let mixed = self.wanted(self.vertices(index), 1)?;
         let vertex = &light.vertex;
         let connection = (self.world.camera()).connect(vertex.position, lens, self.site.margin)?;
         let direction = connection.direction;
@@ -348,8 +386,10 @@ impl<'w, W: World> Connector<'_, 'w, W> {
             before: self.behind(start, light, direction),
         };
         let samples = self.site.pixels as f32;
-        let total =
-            samples * light.prefix.ratio.element_sum() + self.fewer(start, index, Vec4::ONE, ends);
+        let mut total = samples * light.prefix.ratio.element_sum();
+        if mixed {
+            total += self.fewer(start, index, Vec4::ONE, ends);
+        }
         let value = light.prefix.value * value * passage.transmittance * connection.weight;
         Some((connection.raster, value / total))
     }

@@ -52,19 +52,35 @@ use etalon_transport::{Draft, Integrator, PixelSite, Sink, TileSink, World};
 use glam::Vec4;
 use subpath::{FromCamera, FromLight};
 
+/// One technique.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Technique {
+    /// s: vertices made from the light.
+    pub light: usize,
+    /// t: vertices made from the camera, which is one of them.
+    pub camera: usize,
+    /// Whether it is weighed against the others; if not, it estimates all paths of its length that
+    /// it can make.
+    pub weighted: bool,
+}
+
 /// The bidirectional path tracer.
 #[derive(Clone, Debug, Default)]
 pub struct Bidirectional {
     /// Limits of the path.
     pub settings: PathSettings,
+    /// The only technique to use, for looking at them one by one.
+    pub only: Option<Technique>,
 }
 
 impl Bidirectional {
-    /// Reads the integrator from its description.
+    /// Reads the integrator from its description: Mitsuba's parameters of paths, and `s`, `t` and
+    /// `weighted` for a single technique.
     pub fn from_params(params: &Params<'_>) -> Self {
         ignore_scheduling(params);
         Self {
             settings: PathSettings::from_params(params),
+            only: technique(params),
         }
     }
 
@@ -91,6 +107,7 @@ impl Bidirectional {
             world,
             wavelengths: &wavelengths,
             settings,
+            only: self.only,
             site,
             lens: sampler.next_2d(),
             start: start.as_ref(),
@@ -108,6 +125,34 @@ impl Bidirectional {
             walk.alpha,
         );
     }
+}
+
+/// The single technique that a description asks for.
+fn technique(params: &Params<'_>) -> Option<Technique> {
+    let count = |name: &str, least: i64| {
+        let given = params.integer_or(name, least);
+        if given < least {
+            params.refuse(name, given, "a number of vertices");
+        }
+        usize::try_from(given).unwrap_or(0)
+    };
+    let asked = params.has("s") || params.has("t") || params.has("weighted");
+    let (light, camera) = (count("s", 0), count("t", 1));
+    let weighted = params.boolean_or("weighted", true);
+    if !asked {
+        return None;
+    }
+    if !(params.has("s") && params.has("t")) {
+        params.error("a single technique has both `s` and `t`: vertices made from the light and from the camera");
+    } else if light + camera < 2 || (light == 1 && camera == 1) {
+        let message = "there is no such technique: lights seen directly are found by s = 0, t = 2";
+        params.error_at("s", message);
+    }
+    Some(Technique {
+        light,
+        camera,
+        weighted,
+    })
 }
 
 impl Integrator for Bidirectional {

@@ -4,6 +4,7 @@
 //! along any ray is Σᵢ ρⁱ, i = 0 … n − 1 segments (the series 1/(1 − ρ) when unlimited). The
 //! world below has no scene, no materials and no shapes: what is tested is the estimator.
 
+mod techniques;
 mod world;
 
 use etalon_integrators::bdpt::Bidirectional;
@@ -101,6 +102,7 @@ fn estimators_agree_with_the_geometric_series() {
     };
     let both = |n| Bidirectional {
         settings: limited(n),
+        only: None,
     };
     let direct = Direct {
         emitter_samples: 2,
@@ -150,6 +152,7 @@ fn faults_are_noticed() {
     };
     let both = Bidirectional {
         settings: settings(3),
+        only: None,
     };
     for fault in [Fault::ScatteringDensity, Fault::Emission, Fault::Importance] {
         let world = Sphere::new(0.6, fault);
