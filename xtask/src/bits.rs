@@ -13,6 +13,7 @@ use std::process::Command;
 const RENDERS: [(&str, &[&str]); 6] = [
     ("scenes/cornell-box/scene.xml", &["--integrator", "path"]),
     ("scenes/cornell-box/scene.xml", &["--integrator", "ptracer"]),
+    ("scenes/cornell-box/scene.xml", &["--integrator", "bdpt"]),
     ("scenes/cornell-box/scene.xml", &["--integrator", "direct"]),
     ("scenes/spheres/scene.xml", &[]),
     ("scenes/foliage/scene.xml", &[]),

@@ -99,6 +99,9 @@ pub struct RenderArgs {
     /// Independent replicates the image is the mean of [default: 8, or fewer if spp is less].
     #[arg(long, value_name = "R", value_parser = clap::value_parser!(u32).range(1..=4096))]
     pub replicates: Option<u32>,
+    /// Also write every technique of `bdpt` alone, weighted and unweighted, and a page with all.
+    #[arg(long, value_name = "DIR")]
+    pub strategies: Option<PathBuf>,
     /// Write time, rays, memory and more as JSON.
     #[arg(long, value_name = "FILE.json")]
     pub stats: Option<PathBuf>,

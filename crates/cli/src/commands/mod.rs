@@ -5,6 +5,7 @@ pub mod convert;
 pub mod estimators;
 pub mod info;
 pub mod render;
+pub mod strategies;
 
 use crate::args::Command;
 use crate::say;

@@ -1,7 +1,7 @@
 //! `etalon render`.
 
 use super::convert::losses_in_words;
-use super::{BAD_INPUT, fail, note};
+use super::{BAD_INPUT, fail, note, strategies};
 use crate::args::RenderArgs;
 use crate::pipeline::{self, LoadOptions, Loaded, RenderOptions, Rendered};
 use crate::progress::Bar;
@@ -38,7 +38,7 @@ pub fn run(args: &RenderArgs) -> ExitCode {
 
 /// Renders on the current thread pool.
 fn run_here(args: &RenderArgs) -> ExitCode {
-    let loaded = match pipeline::load(
+    let mut loaded = match pipeline::load(
         &args.scene,
         &LoadOptions {
             defines: args.define.clone(),
@@ -55,6 +55,14 @@ fn run_here(args: &RenderArgs) -> ExitCode {
     if !args.quiet {
         diagnose::print(&loaded.notes, &loaded.sources);
     }
+    let techniques = args.strategies.as_ref().map(|folder| {
+        let integrator = strategies::integrator(&loaded)?;
+        Ok::<_, String>((folder, integrator))
+    });
+    let techniques = match techniques.transpose() {
+        Ok(techniques) => techniques,
+        Err(message) => return fail(message),
+    };
     listen_for_interrupts();
     let rendered = match render(args, &loaded) {
         Ok(rendered) => rendered,
@@ -65,6 +73,17 @@ fn run_here(args: &RenderArgs) -> ExitCode {
     };
     if let Err(message) = deliver(args, &loaded, &rendered) {
         return fail(message);
+    }
+    if let Some((folder, integrator)) = techniques {
+        let each = |loaded: &Loaded| Ok(render(args, loaded)?.developed);
+        match strategies::write(folder, args, &mut loaded, &integrator, each) {
+            Ok(Ok(())) => {}
+            Ok(Err(diagnostic)) => {
+                diagnose::print(&[diagnostic], &loaded.sources);
+                return ExitCode::from(BAD_INPUT);
+            }
+            Err(message) => return fail(message),
+        }
     }
     if CANCELLED.load(Ordering::Relaxed) {
         return ExitCode::from(INTERRUPTED);

@@ -16,4 +16,5 @@ mod interrupt;
 mod mutations;
 mod render;
 mod statistics;
+mod strategies;
 mod workshop;
