@@ -10,7 +10,7 @@ use std::process::Command;
 
 /// Scene, and what else to say on the command line: every kind of estimator, and scenes that use
 /// as much of the house as possible.
-const RENDERS: [(&str, &[&str]); 6] = [
+const RENDERS: [(&str, &[&str]); 7] = [
     ("scenes/cornell-box/scene.xml", &["--integrator", "path"]),
     ("scenes/cornell-box/scene.xml", &["--integrator", "ptracer"]),
     ("scenes/cornell-box/scene.xml", &["--integrator", "bdpt"]),
