@@ -14,6 +14,26 @@ use etalon_transport::{
 };
 use glam::{Vec2, Vec3, Vec4};
 
+/// The camera's walk at a light.
+pub(super) struct Arrival {
+    pub(super) prefix: Prefix,
+    /// Density of the arrival, of the lane that chose: per unit area, or per unit solid angle of
+    /// the sky, times the probability of passing what lies in between.
+    pub(super) density: f32,
+    /// That probability, per lane.
+    pub(super) passed: Vec4,
+}
+
+/// What would have made the last vertex of a path that ran into a light from the light's side.
+struct Rivals {
+    /// Density of light sampling, in the measure of the arrival.
+    sampled: Vec4,
+    /// The same of emission.
+    emitted: f32,
+    /// Density per unit area of the emitted ray arriving at the corner before.
+    ray: f32,
+}
+
 /// Connects the corners of one sample's walks.
 pub(super) struct Connector<'a, 'w, W: World> {
     pub(super) world: &'w W,
@@ -74,86 +94,79 @@ impl<'w, W: World> Connector<'_, 'w, W> {
     /// s = 0: the camera's walk ran into an emitting surface.
     pub(super) fn meet_light(
         &mut self,
-        prefix: &Prefix,
-        arrival: f32,
-        passed: Vec4,
+        arrival: &Arrival,
         vertex: &Vertex,
         wo: Vec3,
         eye: &[Corner<W::Bsdf<'w>>],
     ) {
-        let radiance = self.world.emitted(vertex, wo, self.wavelengths);
-        if radiance == Vec4::ZERO {
-            return;
-        }
-        let Some(mixed) = self.wanted(0, eye.len() + 2) else {
-            return;
-        };
-        let mut total = prefix.ratio.element_sum();
-        if let Some(first) = eye.last().filter(|_| mixed) {
+        let world = self.world;
+        let radiance = world.emitted(vertex, wo, self.wavelengths);
+        self.find(arrival, radiance, eye, |first| {
             let cos = vertex.normal.dot(wo).abs();
             let distance_squared = vertex.position.distance_squared(first.vertex.position);
-            let emission = self.world.emission_density(vertex.light, wo, cos);
             let from = Receiver::from(&first.vertex);
-            let sampled = self.world.light_density(&from, vertex, -wo).lanes();
-            let here = emission.ray * first.vertex.normal.dot(wo).abs() / distance_squared;
-            let sampled = sampled * (cos / distance_squared);
-            total += self.hit(eye, arrival, sampled, emission.origin, passed * here);
-        }
-        self.radiance += prefix.value * radiance / total;
+            let sampled = world.light_density(&from, vertex, -wo).lanes();
+            let emission = world.emission_density(vertex.light, wo, cos);
+            Rivals {
+                sampled: sampled * (cos / distance_squared),
+                emitted: emission.origin,
+                ray: emission.ray * first.per_area(wo, distance_squared),
+            }
+        });
     }
 
     /// s = 0: the camera's walk left the scene.
     pub(super) fn meet_background(
         &mut self,
-        prefix: &Prefix,
-        arrival: f32,
-        passed: Vec4,
+        arrival: &Arrival,
         direction: Vec3,
         eye: &[Corner<W::Bsdf<'w>>],
     ) {
-        let radiance = self.world.background(direction, self.wavelengths);
+        let world = self.world;
+        let radiance = world.background(direction, self.wavelengths);
+        self.find(arrival, radiance, eye, |first| {
+            let emission = world.background_emission_density(direction);
+            let from = Receiver::from(&first.vertex);
+            Rivals {
+                sampled: world.background_density(&from, direction).lanes(),
+                emitted: emission.origin,
+                ray: emission.ray * first.per_area(direction, 1.0),
+            }
+        });
+    }
+
+    /// Adds the radiance that the camera's walk arrived at, weighed against the techniques that would have made the
+    /// same path from the light.
+    fn find(
+        &mut self,
+        arrival: &Arrival,
+        radiance: Vec4,
+        eye: &[Corner<W::Bsdf<'w>>],
+        rivals: impl FnOnce(&Corner<W::Bsdf<'w>>) -> Rivals,
+    ) {
         if radiance == Vec4::ZERO {
             return;
         }
         let Some(mixed) = self.wanted(0, eye.len() + 2) else {
             return;
         };
-        let mut total = prefix.ratio.element_sum();
-        if let Some(first) = eye.last().filter(|_| mixed) {
-            let emission = self.world.background_emission_density(direction);
-            let from = Receiver::from(&first.vertex);
-            let sampled = self.world.background_density(&from, direction).lanes();
-            let here = emission.ray * first.vertex.normal.dot(direction).abs();
-            total += self.hit(eye, arrival, sampled, emission.origin, passed * here);
+        let mut total = arrival.prefix.ratio.element_sum();
+        if let [before @ .., first] = eye
+            && mixed
+        {
+            let rivals = rivals(first);
+            let connects = !first.leaves_discretely;
+            if connects {
+                total += (first.prefix.ratio * rivals.sampled).element_sum() / arrival.density;
+            }
+            let ends = Ends {
+                here: arrival.passed * rivals.ray,
+                before: before.last().map_or(Vec4::ZERO, |corner| corner.opposite),
+            };
+            let product = Vec4::splat(rivals.emitted / arrival.density);
+            total += more(None, eye, product, ends, connects, self.camera_end());
         }
-        self.radiance += prefix.value * radiance / total;
-    }
-
-    /// What light sampling and walks from the light add to the weights of a path whose camera walk found the light
-    /// with the density `arrival`.
-    fn hit(
-        &self,
-        eye: &[Corner<W::Bsdf<'w>>],
-        arrival: f32,
-        sampled: Vec4,
-        emitted: f32,
-        here: Vec4,
-    ) -> f32 {
-        let [.., first] = eye else {
-            return 0.0;
-        };
-        let before = eye.len().checked_sub(2).map(|index| &eye[index]);
-        let ends = Ends {
-            here,
-            before: before.map_or(Vec4::ZERO, |corner| corner.opposite),
-        };
-        let connects = !first.leaves_discretely;
-        let mut total = 0.0;
-        if connects {
-            total += (first.prefix.ratio * sampled).element_sum() / arrival;
-        }
-        let product = Vec4::splat(emitted / arrival);
-        total + more(None, eye, product, ends, connects, self.camera_end())
+        self.radiance += arrival.prefix.value * radiance / total;
     }
 
     /// All techniques that end at this corner of the camera's walk: light sampling and connections with the

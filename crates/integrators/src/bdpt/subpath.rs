@@ -1,6 +1,6 @@
 //! Walks from the camera and from a light, and the corners they leave behind.
 
-use super::connect::Connector;
+use super::connect::{Arrival, Connector};
 use super::corner::Corner;
 use crate::dimensions::Event;
 use crate::prefix::Prefix;
@@ -49,6 +49,15 @@ impl Carried {
         self.passed *= chance;
         self.ray = vertex.spawn(self.ray.direction);
         self.segments += 1;
+    }
+
+    /// The arrival at a light.
+    fn arrival(&self, density: f32) -> Arrival {
+        Arrival {
+            prefix: self.prefix,
+            density,
+            passed: self.passed,
+        }
     }
 
     /// The corner at `vertex`, arrived at with this density per solid angle at the last one.
@@ -327,10 +336,9 @@ impl FromCamera {
             let visible = !settings.hide_emitters || self.alpha > 0.0;
             if visible && world.has_background() {
                 self.alpha = 1.0;
-                let arrival = self.carried.density * self.carried.passed.x;
-                let passed = self.carried.passed;
-                let prefix = &self.carried.prefix;
-                connector.meet_background(prefix, arrival, passed, direction, corners);
+                let density = self.carried.density * self.carried.passed.x;
+                let arrival = self.carried.arrival(density);
+                connector.meet_background(&arrival, direction, corners);
             }
             return false;
         };
@@ -346,8 +354,8 @@ impl FromCamera {
         let wo = -direction;
         let arrival = self.arrival(connector, &vertex, corners);
         if emits {
-            let (prefix, passed) = (&self.carried.prefix, self.carried.passed);
-            connector.meet_light(prefix, arrival, passed, &vertex, wo, corners);
+            let arrival = self.carried.arrival(arrival);
+            connector.meet_light(&arrival, &vertex, wo, corners);
         }
         let bsdf = world.bsdf(&vertex, wo, wavelengths);
         if self.carried.segments == settings.max_depth {
