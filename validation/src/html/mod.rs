@@ -1,7 +1,7 @@
 //! The report: one HTML file with everything in it.
 //!
 //! At the top what the run came to; then the table of decisions, one [`line`] for each claim and
-//! estimator, which unfolds to all that is known of it: its [`detail`]. The frame, the pictures and
+//! estimator, which unfolds to all that is known of it: its `detail`. The frame, the pictures and
 //! the plots are those of `etalon::report`.
 
 mod detail;
