@@ -6,7 +6,14 @@ use crate::workshop::Workshop;
 fn help_has_examples_and_exit_codes() {
     let workshop = Workshop::new();
     let help = workshop.run(&["--help"]).fine().stdout;
-    for command in ["render", "merge", "compare", "estimators", "convert", "info"] {
+    for command in [
+        "render",
+        "merge",
+        "compare",
+        "estimators",
+        "convert",
+        "info",
+    ] {
         assert!(help.contains(&format!("\n  {command} ")), "{help}");
         let help = workshop.run(&[command, "--help"]).fine().stdout;
         let examples = help.split("Examples:\n").nth(1).expect("examples");
