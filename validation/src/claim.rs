@@ -131,6 +131,8 @@ pub enum Change {
     Threads,
     /// The replicates' two halves one after the other or the other way round: the same bits.
     Order,
+    /// Rendered in parts, which pass through files and are merged: the same bits.
+    Parts,
     /// A linear scan for the hierarchy of boxes: the same bits.
     Accelerator,
     /// A part of the film for the whole, as the estimator's `defines` cut it out: the same bits in
@@ -240,6 +242,7 @@ impl Estimator {
             None => "",
             Some(Change::Threads) => ", threads",
             Some(Change::Order) => ", order",
+            Some(Change::Parts) => ", parts",
             Some(Change::Accelerator) => ", accelerator",
             Some(Change::Crop) => ", crop",
             Some(Change::Wavelengths) => ", wavelengths",

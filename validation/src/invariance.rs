@@ -1,5 +1,5 @@
-//! Invariance of bits: threads, the order of replicates, the accelerator and what else is on the film
-//! change nothing.
+//! Invariance of bits: threads, the order of replicates, a split into parts, the accelerator and what
+//! else is on the film change nothing.
 //!
 //! Accumulation is exact and a sample is a pure function of its address, so these are promises
 //! about every bit of every channel and of every tile mean, and a single difference breaks them.
@@ -8,16 +8,21 @@ use crate::claim::{Change, Claim, Estimator, Oracle};
 use crate::fault::Fault;
 use crate::measure::Measure;
 use crate::rendering;
-use etalon::pipeline::Loaded;
-use etalon_film::{Developed, ExactFilm};
+use etalon::pipeline::{self, Loaded};
+use etalon_film::{Developed, ExactFilm, Part};
 use etalon_formats::FileAssets;
 use etalon_formats::mitsuba::{self, ReadOptions};
-use etalon_integrators::Plan;
+use etalon_integrators::{Plan, Share};
 use etalon_params::Diagnostics;
 use etalon_scene::{AcceleratorKind, Compiled};
+use std::io::Cursor;
+use std::path::Path;
 
 /// Numbers of threads that must give the same bits.
 const THREADS: [usize; 3] = [1, 2, 16];
+
+/// Numbers of parts whose merging must give the same bits.
+const PARTS: [u32; 2] = [2, 3];
 
 /// How many numbers a change alters; `None` for a change whose statistics are compared.
 ///
@@ -63,6 +68,18 @@ pub fn measure(
             let count = differing(&first, &swapped, halves[0].replicates);
             let name = "numbers that the order of replicates changes".to_owned();
             (vec![Measure::certain(name, count)], first)
+        }
+        Some(Change::Parts) => {
+            let first = first()?;
+            let mut measures = Vec::new();
+            for count in PARTS {
+                let changed = merged(loaded, &other, count)?;
+                measures.push(Measure::certain(
+                    format!("numbers that {count} parts change"),
+                    differing(&first, &changed, 0),
+                ));
+            }
+            (measures, first)
         }
         Some(Change::Accelerator) => {
             let first = first()?;
@@ -127,6 +144,34 @@ fn one_after_another(loaded: &Loaded, plans: [Plan; 2]) -> Result<Developed, Str
     }
     let facts = rendering::facts(loaded, &plans[0], loaded.integrator_name.clone());
     rendering::finite(film.develop(facts))
+}
+
+/// The picture of a plan that is rendered in so many parts. These pass through files' bytes and
+/// are merged, the last one first.
+fn merged(loaded: &Loaded, plan: &Plan, count: u32) -> Result<Developed, String> {
+    let mut merged: Option<Part> = None;
+    for index in (0..count).rev() {
+        let share = Share::of(plan.replicates, index, count);
+        let share = share.ok_or("there are more parts than replicates")?;
+        let plan = Plan {
+            share: Some(share),
+            ..*plan
+        };
+        let rendered = pipeline::render(loaded, &plan, &()).map_err(|e| e.message)?;
+        let part = rendered
+            .part
+            .ok_or("a share of the replicates is no part")?;
+        let mut file = Cursor::new(Vec::new());
+        part.encode(&mut file).map_err(|e| e.to_string())?;
+        let name = Path::new("part.exr");
+        let read = Part::decode(file.get_ref(), name).map_err(|e| e.to_string())?;
+        match &mut merged {
+            None => merged = Some(read),
+            Some(merged) => merged.absorb(&read).map_err(|e| e.to_string())?,
+        }
+    }
+    let whole = merged.and_then(|merged| merged.whole());
+    rendering::finite(whole.ok_or("replicates are missing")?)
 }
 
 /// The claim's scene behind a linear scan.

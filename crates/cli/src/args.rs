@@ -31,8 +31,19 @@ Exit codes: 0 done, 2 bad input or usage, 130 ended by Ctrl-C.
 Examples:
   etalon render scenes/cornell-box/scene.xml -o cornell.exr
   etalon render scene.xml -o out.exr --spp 256 --seed 7 -D resx=512 -D resy=512
-  etalon render scene.xml -o direct.exr --integrator direct --stats stats.json")]
+  etalon render scene.xml -o direct.exr --integrator direct --stats stats.json
+  etalon render scene.xml -o a.exr --part 1/2")]
     Render(RenderArgs),
+    /// Put the parts of a render together: to the bit what an unsplit render gives.
+    #[command(after_help = "\
+Exit codes: 0 done, 2 bad input or usage, or parts that do not belong together.
+
+Examples:
+  etalon render scene.xml -o a.exr --part 1/2   # on one machine
+  etalon render scene.xml -o b.exr --part 2/2   # on another
+  etalon merge a.exr b.exr -o whole.exr
+  etalon merge a.exr -o so-far.exr --partial")]
+    Merge(MergeArgs),
     /// Decide whether two images agree, tile by tile, from their replicates.
     #[command(after_help = "\
 Exit codes: 0 equivalent, 1 different, 2 bad input or usage, 3 inconclusive.
@@ -100,14 +111,34 @@ pub struct RenderArgs {
     #[arg(long, value_name = "R", value_parser = clap::value_parser!(u32).range(1..=4096))]
     pub replicates: Option<u32>,
     /// Also write every technique of `bdpt` alone, weighted and unweighted, and a page with all.
-    #[arg(long, value_name = "DIR")]
+    #[arg(long, value_name = "DIR", conflicts_with = "part")]
     pub strategies: Option<PathBuf>,
+    /// Render part I of N: its share of the replicates, for `etalon merge`.
+    #[arg(long, value_name = "I/N", value_parser = parse_part)]
+    pub part: Option<PartOfMany>,
     /// Write time, rays, memory and more as JSON.
     #[arg(long, value_name = "FILE.json")]
     pub stats: Option<PathBuf>,
     /// Folder with further data (`NAME.eta.spd` of metals, such as Mitsuba's data/ior).
     #[arg(long, value_name = "DIR")]
     pub data: Vec<PathBuf>,
+    /// Say nothing but errors.
+    #[arg(short, long)]
+    pub quiet: bool,
+}
+
+/// Arguments of `merge`.
+#[derive(Debug, Args, Clone)]
+pub struct MergeArgs {
+    /// The parts, in any order.
+    #[arg(required = true, value_name = "PART.exr")]
+    pub parts: Vec<PathBuf>,
+    /// The image to write.
+    #[arg(short, long, value_name = "OUT.exr")]
+    pub output: PathBuf,
+    /// Merge what there is, if parts are missing: into a larger part.
+    #[arg(long)]
+    pub partial: bool,
     /// Say nothing but errors.
     #[arg(short, long)]
     pub quiet: bool,
@@ -214,6 +245,28 @@ pub struct ConvertArgs {
 pub struct InfoArgs {
     /// An image or a scene.
     pub file: PathBuf,
+}
+
+/// One of the equal shares into which a render is split.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct PartOfMany {
+    /// Which one, counted from 1.
+    pub number: u32,
+    /// How many there are.
+    pub count: u32,
+}
+
+fn parse_part(text: &str) -> Result<PartOfMany, String> {
+    let part = text.split_once('/').and_then(|(number, count)| {
+        Some(PartOfMany {
+            number: number.parse().ok()?,
+            count: count.parse().ok()?,
+        })
+    });
+    part.filter(|part| (1..=part.count).contains(&part.number))
+        .ok_or_else(|| {
+            "expected I/N with I from 1 to N, such as 1/4 for the first of four".to_owned()
+        })
 }
 
 fn parse_define(text: &str) -> Result<(String, String), String> {

@@ -1,7 +1,9 @@
 //! From a scene file to an image: the way every command and every claim takes.
 
 use crate::{VERSION, resources};
-use etalon_film::{Developed, ExactFilm, FilmSettings, Filter, RenderFacts, recorded_seconds};
+use etalon_film::{
+    Developed, ExactFilm, FilmSettings, Filter, Part, RenderFacts, recorded_seconds,
+};
 use etalon_formats::FileAssets;
 use etalon_formats::mitsuba::{self, Document, ReadOptions, ReadOutcome};
 use etalon_integrators::{AnyIntegrator, Outcome, Plan, Progress};
@@ -235,6 +237,7 @@ pub fn plan(loaded: &Loaded, options: &RenderOptions) -> Plan {
     Plan {
         seed: options.seed.unwrap_or(settings.seed),
         replicates,
+        share: None,
         samples_per_replicate: sampler.round_up(spp.div_ceil(replicates)),
         sampler,
     }
@@ -244,11 +247,13 @@ pub fn plan(loaded: &Loaded, options: &RenderOptions) -> Plan {
 pub struct Rendered {
     /// The image with its statistics.
     pub developed: Developed,
+    /// The same with exact sums, if it is a share of the image's replicates.
+    pub part: Option<Part>,
     /// What was done.
     pub outcome: Outcome,
     /// How long it took.
     pub time: Duration,
-    /// The replicates that were planned; fewer are finished if the render was interrupted.
+    /// The replicates that were planned here; fewer are finished if the render was interrupted.
     pub replicates: u32,
 }
 
@@ -256,10 +261,17 @@ pub struct Rendered {
 /// film's sums, the mean and its standard error, and both again on their way to the file.
 const PIXEL_BYTES: u64 = 64 + 8 + 8;
 
+/// What it takes besides, in the file of a part: the planes of its exact sums.
+const PART_BYTES: u64 = 48;
+
 /// Refuses a film that the memory cannot hold, rather than let the system end the process.
 pub(crate) fn check_memory(loaded: &Loaded, channels: usize) -> Result<(), Diagnostic> {
+    check_bytes(loaded, channels, PIXEL_BYTES)
+}
+
+fn check_bytes(loaded: &Loaded, channels: usize, bytes: u64) -> Result<(), Diagnostic> {
     let [width, height] = loaded.compiled.film.crop_size.to_array().map(u64::from);
-    let needed = (width * height).saturating_mul(channels as u64 * PIXEL_BYTES);
+    let needed = (width * height).saturating_mul(channels as u64 * bytes);
     match resources::available_memory_bytes() {
         Some(available) if needed > available => {
             let gib = |bytes: u64| bytes as f64 / f64::from(1 << 30);
@@ -290,14 +302,17 @@ pub fn render<P: Progress>(
     let channels = loaded.integrator.channels();
     let format = compiled.film.pixel_format;
     let planes = format.colours().len() + usize::from(format.has_alpha()) + channels.len();
-    check_memory(loaded, planes)?;
+    let share = plan.share();
+    let further = if plan.share.is_some() { PART_BYTES } else { 0 };
+    check_bytes(loaded, planes, PIXEL_BYTES + further)?;
     let mut film = ExactFilm::new(compiled.film.clone(), &channels)
-        .map_err(|error| at(error, loaded.film_place))?;
+        .map_err(|error| at(error, loaded.film_place))?
+        .starting_at(share.first);
     let outcome = loaded
         .integrator
         .render(&compiled.scene, &mut film, plan, progress);
     let time = start.elapsed();
-    let developed = film.develop(RenderFacts {
+    let facts = RenderFacts {
         version: VERSION.to_owned(),
         scene: loaded.path.display().to_string(),
         scene_hash: loaded.hash.clone(),
@@ -305,12 +320,19 @@ pub fn render<P: Progress>(
         sampler: sampler_name(plan.sampler).to_owned(),
         seed: plan.seed,
         seconds: recorded_seconds(time),
-    });
+    };
+    let (developed, part) = if plan.share.is_some() {
+        let part = film.into_part(facts, plan.replicates);
+        (part.picture(), Some(part))
+    } else {
+        (film.develop(facts), None)
+    };
     Ok(Rendered {
         developed,
+        part,
         outcome,
         time,
-        replicates: plan.replicates,
+        replicates: share.count,
     })
 }
 

@@ -6,6 +6,8 @@
 //! freedom less than there are replicates.
 
 use crate::exact_film::STANDARD_ERROR;
+use crate::exact_sums::EXACT;
+use crate::pixel_moments::PixelMoments;
 use crate::{ExactFilm, Metadata, RenderFacts};
 use etalon_images::{Error, Frame, Image, exr};
 use rayon::prelude::*;
@@ -34,6 +36,13 @@ pub enum ReadError {
         /// What is wrong.
         reason: String,
     },
+    /// It is no part of an image, or a damaged one.
+    Part {
+        /// The file.
+        path: PathBuf,
+        /// What it is, and what would be accepted.
+        reason: String,
+    },
 }
 
 impl std::fmt::Display for ReadError {
@@ -47,40 +56,60 @@ impl std::fmt::Display for ReadError {
                     path.display()
                 )
             }
+            Self::Part { path, reason } => write!(f, "{}: {reason}", path.display()),
         }
     }
 }
 
 impl std::error::Error for ReadError {}
 
+impl ReadError {
+    pub(crate) fn metadata(path: &Path, reason: String) -> Self {
+        Self::Metadata {
+            path: path.to_owned(),
+            reason,
+        }
+    }
+}
+
+/// The means of channels, and their standard errors if there are two replicates or more.
+pub(crate) fn image_of(
+    channels: &[String],
+    moments: &[PixelMoments],
+    replicates: u32,
+    [width, height]: [usize; 2],
+) -> Image {
+    let mut image = Image::new(width, height);
+    let mut errors = Vec::new();
+    for (channel, name) in channels.iter().enumerate() {
+        let (mut mean, mut error) = (Vec::new(), Vec::new());
+        (0..width * height)
+            .into_par_iter()
+            .with_min_len(1024)
+            .map(|pixel| {
+                let moments = moments[pixel * channels.len() + channel].of(replicates);
+                let error = moments.standard_error().unwrap_or(f64::NAN);
+                (moments.mean() as f32, error as f32)
+            })
+            .unzip_into_vecs(&mut mean, &mut error);
+        image.push(name.as_str(), mean);
+        if replicates >= 2 {
+            errors.push((format!("{STANDARD_ERROR}{name}"), error));
+        }
+    }
+    for (name, error) in errors {
+        image.push(name, error);
+    }
+    image
+}
+
 impl ExactFilm {
     /// The picture after the replicates finished so far; NaN in all pixels if there is none.
     pub fn develop(&self, facts: RenderFacts) -> Developed {
         let settings = self.settings();
-        let [width, height] = settings.crop_size.to_array().map(|n| n as usize);
-        let mut image = Image::new(width, height);
-        let mut errors = Vec::new();
-        for (channel, name) in self.channels().iter().enumerate() {
-            let (mut mean, mut error) = (Vec::new(), Vec::new());
-            (0..width * height)
-                .into_par_iter()
-                .with_min_len(1024)
-                .map(|pixel| {
-                    let moments = self.moments(pixel, channel);
-                    let error = moments.standard_error().unwrap_or(f64::NAN);
-                    (moments.mean() as f32, error as f32)
-                })
-                .unzip_into_vecs(&mut mean, &mut error);
-            image.push(name.as_str(), mean);
-            if self.replicates() >= 2 {
-                errors.push((format!("{STANDARD_ERROR}{name}"), error));
-            }
-        }
-        for (name, error) in errors {
-            image.push(name, error);
-        }
+        let size = settings.crop_size.to_array().map(|n| n as usize);
         Developed {
-            image,
+            image: image_of(self.channels(), self.moments(), self.replicates(), size),
             frame: Frame {
                 offset: settings.crop_offset.to_array().map(|n| n as i32),
                 size: settings.size.to_array().map(|n| n as usize),
@@ -140,31 +169,37 @@ impl Developed {
 /// If it is not an EXR file that can be read, or if it has metadata of ours that contradict
 /// themselves or the image.
 pub fn read_developed(path: &Path) -> Result<Developed, ReadError> {
-    let document = exr::read(path).map_err(ReadError::Image)?;
+    // The exact sums of a part are not for looking at.
+    let (document, _) = exr::read_with_integers(path, EXACT).map_err(ReadError::Image)?;
+    of_document(document, path)
+}
+
+/// The picture of a file that was read.
+pub(crate) fn of_document(document: exr::Document, path: &Path) -> Result<Developed, ReadError> {
     let text = document.text.clone();
     let (image, frame) = document.flatten();
-    let metadata = if text.is_empty() {
-        None
-    } else {
-        let size = [image.width(), image.height()];
-        let metadata = Metadata::from_json(&text, size).and_then(|metadata| {
-            match metadata
-                .channels
-                .iter()
-                .find(|name| image.channel(name).is_none())
-            {
-                Some(name) => Err(format!("they name a channel `{name}` that is not there")),
-                None => Ok(metadata),
-            }
-        });
-        Some(metadata.map_err(|reason| ReadError::Metadata {
-            path: path.to_owned(),
-            reason,
-        })?)
-    };
+    let refused = |reason| ReadError::metadata(path, reason);
+    let metadata = metadata_of(&text, [image.width(), image.height()]).map_err(refused)?;
+    let missing = metadata.iter().flat_map(|metadata| &metadata.channels);
+    if let Some(name) = missing
+        .into_iter()
+        .find(|name| image.channel(name).is_none())
+    {
+        return Err(refused(format!(
+            "they name a channel `{name}` that is not there"
+        )));
+    }
     Ok(Developed {
         image,
         frame,
         metadata,
     })
+}
+
+/// What the text of a file says of an image of this size; nothing if there is none.
+pub(crate) fn metadata_of(text: &str, size: [usize; 2]) -> Result<Option<Metadata>, String> {
+    if text.is_empty() {
+        return Ok(None);
+    }
+    Metadata::from_json(text, size).map(Some)
 }

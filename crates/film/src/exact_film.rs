@@ -8,6 +8,7 @@
 //!
 //! Memory: 64 bytes per pixel and channel (48 MiB for 512 × 512 in RGB).
 
+use crate::exact_sums::{EXACT, ExactSums};
 use crate::faults::{FaultLog, Offence};
 use crate::pixel_moments::PixelMoments;
 use crate::replicate_end;
@@ -16,7 +17,7 @@ use crate::tile_sink::ExactTile;
 use crate::{FilmSettings, PixelFilter};
 use etalon_images::Image;
 use etalon_params::Diagnostic;
-use etalon_statistics::{AtomicFixed128, Fault, Fixed128, Moments};
+use etalon_statistics::{AtomicFixed128, Fault, Fixed128};
 use etalon_transport::{Channel, Film, Placement};
 use glam::{UVec2, Vec2};
 use std::sync::Mutex;
@@ -35,6 +36,8 @@ pub struct ExactFilm {
     current: Vec<AtomicFixed128>,
     /// Sums over finished replicates, in the same order.
     moments: Vec<PixelMoments>,
+    /// The number of the first replicate, and how many are finished.
+    first: u32,
     replicates: u32,
     samples: u64,
     tiles: [TileMeans; 3],
@@ -59,7 +62,10 @@ impl ExactFilm {
             channels.push("A".to_owned());
         }
         for Channel(name) in named {
-            if channels.contains(name) || name.starts_with(STANDARD_ERROR) || name.is_empty() {
+            let reserved = [STANDARD_ERROR, EXACT]
+                .iter()
+                .any(|of| name.starts_with(of));
+            if channels.contains(name) || reserved || name.is_empty() {
                 let message = format!("two channels of the film would be called `{name}`");
                 return Err(Diagnostic::error_nowhere(message)
                     .help("give the integrators and their `aovs` different names"));
@@ -81,6 +87,7 @@ impl ExactFilm {
             filter: PixelFilter::new(settings.filter),
             current,
             moments,
+            first: 0,
             replicates: 0,
             samples: 0,
             tiles: replicate_end::TILES.map(means),
@@ -88,6 +95,17 @@ impl ExactFilm {
             channels,
             settings,
         })
+    }
+
+    /// The same film, whose first replicate is the image's replicate `first`: for parts.
+    #[must_use]
+    pub fn starting_at(self, first: u32) -> Self {
+        Self { first, ..self }
+    }
+
+    /// The number of its first replicate within the whole image.
+    pub(crate) fn first_replicate(&self) -> u32 {
+        self.first
     }
 
     /// Size, crop, format and filter.
@@ -175,7 +193,7 @@ impl ExactFilm {
             channels: &self.channels,
             origin: self.settings.crop_offset,
             size: self.settings.crop_size,
-            replicate: self.replicates,
+            replicate: self.first + self.replicates,
         };
         let (sums, log) = layout.finish(&mut self.current, &mut self.moments, divisor);
         let size = self.settings.crop_size.to_array();
@@ -187,9 +205,14 @@ impl ExactFilm {
         self.samples += samples;
     }
 
-    /// The finished replicates of one channel of one pixel, counted within the crop.
-    pub(crate) fn moments(&self, pixel: usize, channel: usize) -> Moments {
-        self.moments[pixel * self.channels.len() + channel].of(self.replicates)
+    /// The finished replicates, by row, column and channel.
+    pub(crate) fn moments(&self) -> &[PixelMoments] {
+        &self.moments
+    }
+
+    /// What is left of it when nothing more is added.
+    pub(crate) fn into_sums(self) -> ExactSums {
+        ExactSums::new(self.channels.len(), self.moments)
     }
 
     /// Adds sums to a pixel of the whole film, and empties them.
@@ -233,7 +256,7 @@ impl ExactFilm {
         fault: Fault,
     ) -> Offence {
         Offence {
-            replicate: self.replicates,
+            replicate: self.first + self.replicates,
             pixel: pixel.to_array(),
             sample,
             source: source.to_owned(),

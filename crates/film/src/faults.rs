@@ -99,9 +99,9 @@ impl FaultLog {
 
     /// Adds another log; the order of additions does not matter.
     pub(crate) fn merge(&mut self, other: Self) {
-        self.nan += other.nan;
-        self.infinite += other.infinite;
-        self.overflow += other.overflow;
+        self.nan = self.nan.saturating_add(other.nan);
+        self.infinite = self.infinite.saturating_add(other.infinite);
+        self.overflow = self.overflow.saturating_add(other.overflow);
         other
             .first
             .into_iter()

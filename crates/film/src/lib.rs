@@ -2,9 +2,11 @@
 //!
 //! [`ExactFilm`] implements [`etalon_transport::Film`]. Rendering fills it replicate by
 //! replicate; [`ExactFilm::develop`] turns what it holds into a [`Developed`] picture, which
-//! knows its own error and can be written to, and read from, an EXR file.
+//! knows its own error and can be written to, and read from, an EXR file;
+//! [`ExactFilm::into_part`] gives a [`Part`], which can be merged with others.
 
 mod exact_film;
+mod exact_sums;
 mod half_line;
 mod pixel_moments;
 mod replicate_end;
@@ -15,20 +17,27 @@ pub mod developed;
 pub mod faults;
 pub mod filters;
 pub mod fingerprint;
+pub mod merge;
 pub mod metadata;
+pub mod part;
 pub mod pixel_filter;
 pub mod pixel_format;
+pub mod replicate_set;
 pub mod settings;
 pub mod tile_means;
 
 pub use developed::{Developed, ReadError, read_developed};
 pub use exact_film::{ExactFilm, STANDARD_ERROR};
+pub use exact_sums::EXACT;
 pub use faults::{FaultKind, FaultLog, Offence};
 pub use filters::{BoxFilter, CatmullRom, Filter, Gaussian, Lanczos, Mitchell, Tent};
 pub use fingerprint::floating_point_fingerprint;
+pub use merge::{Conflict, Disagreement, disagreements};
 pub use metadata::{FilmFacts, Metadata, RenderFacts, recorded_seconds};
+pub use part::{Part, PartFacts};
 pub use pixel_filter::PixelFilter;
 pub use pixel_format::PixelFormat;
+pub use replicate_set::ReplicateSet;
 pub use settings::{FileFormat, FilmSettings};
 pub use tile_means::TileMeans;
 pub use tile_sink::ExactTile;

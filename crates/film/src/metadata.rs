@@ -1,6 +1,6 @@
 //! What a rendered file says of itself: JSON in the EXR attribute `etalon`.
 
-use crate::{FaultLog, FilmSettings, TileMeans, floating_point_fingerprint};
+use crate::{FaultLog, FilmSettings, PartFacts, TileMeans, floating_point_fingerprint};
 use serde::{Deserialize, Serialize};
 use std::time::Duration;
 
@@ -66,6 +66,9 @@ pub struct Metadata {
     pub spp: u64,
     /// Independent replicates. With one, there are no standard errors.
     pub replicates: u32,
+    /// Which replicates these are, if they are a part of a picture's.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub part: Option<PartFacts>,
     /// The seed.
     pub seed: u64,
     /// How long rendering took (s), unless the file was to be reproducible.
@@ -99,6 +102,7 @@ impl Metadata {
             sampler: facts.sampler,
             spp: film.samples(),
             replicates: film.replicates(),
+            part: None,
             seed: facts.seed,
             seconds: facts.seconds,
             floating_point: floating_point_fingerprint(),
@@ -177,6 +181,9 @@ impl Metadata {
                 return Err("their tile means do not belong to the image".to_owned());
             }
         }
-        Ok(())
+        match &self.part {
+            Some(part) => part.check(self.replicates, self.spp),
+            None => Ok(()),
+        }
     }
 }

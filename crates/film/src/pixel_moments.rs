@@ -5,6 +5,9 @@
 
 use etalon_statistics::{Fault, Fixed128, Moments, U256};
 
+/// 32-bit words of both sums.
+pub(crate) const WORDS: usize = 12;
+
 /// Exact sums; the number of replicates is known to whoever holds them.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub(crate) struct PixelMoments {
@@ -36,5 +39,46 @@ impl PixelMoments {
     pub(crate) fn of(&self, count: u32) -> Moments {
         Moments::from_parts(count, self.sum, self.squares)
             .expect("as many replicates were pushed as the film has finished")
+    }
+
+    /// Adds other replicates; an error leaves everything as it was.
+    pub(crate) fn merge(&mut self, other: &Self) -> Result<(), Fault> {
+        let mut sum = self.sum;
+        sum.merge(other.sum)?;
+        let squares = self
+            .squares
+            .checked_add(other.squares)
+            .ok_or(Fault::OutOfRange)?;
+        *self = Self { sum, squares };
+        Ok(())
+    }
+
+    /// The words of the sum, then those of the squares, least significant first.
+    pub(crate) fn words(&self) -> [u32; WORDS] {
+        let (high, low) = self.squares.to_words();
+        let mut words = [0; WORDS];
+        let numbers = [self.sum.to_bits().cast_unsigned(), low, high];
+        for (words, number) in words.chunks_exact_mut(4).zip(numbers) {
+            for (place, word) in words.iter_mut().enumerate() {
+                *word = (number >> (32 * place)) as u32;
+            }
+        }
+        words
+    }
+
+    /// The sums with these words, if `count` replicates, each within the range of terms, can
+    /// have them.
+    pub(crate) fn from_words(words: [u32; WORDS], count: u32) -> Option<Self> {
+        let number = |first: usize| {
+            let words = words[first..first + 4].iter().rev();
+            words.fold(0, |number, &word| number << 32 | u128::from(word))
+        };
+        let sum = Fixed128::from_bits(number(0).cast_signed());
+        let squares = U256::from_words(number(8), number(4));
+        // Each replicate is below 2⁴⁸, which is 2¹¹² in units of the sum.
+        let in_range = sum.to_bits().unsigned_abs() >> 112 < u128::from(count)
+            && squares.to_words().0 >> 96 < u128::from(count);
+        Moments::from_parts(count, sum, squares)?;
+        in_range.then_some(Self { sum, squares })
     }
 }

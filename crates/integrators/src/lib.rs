@@ -23,4 +23,4 @@ pub mod signature;
 mod walk;
 
 pub use list::{AnyIntegrator, names};
-pub use render::{Outcome, Plan, Progress, render};
+pub use render::{Outcome, Plan, Progress, Share, render};

@@ -21,12 +21,50 @@ pub const TOGETHER: usize = 16;
 pub struct Plan {
     /// The seed of the image.
     pub seed: u64,
-    /// Independent replicates.
+    /// Independent replicates of the image.
     pub replicates: u32,
+    /// The replicates that are rendered here; `None` for all of them.
+    pub share: Option<Share>,
     /// Samples per pixel in each replicate.
     pub samples_per_replicate: u32,
     /// The kind of sampler.
     pub sampler: SamplerKind,
+}
+
+/// Some of an image's replicates, each what it would be in a render of all of them.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Share {
+    /// The first.
+    pub first: u32,
+    /// How many.
+    pub count: u32,
+}
+
+impl Share {
+    /// Share `index` of `count`, counted from 0, where `replicates` are dealt in order and as
+    /// evenly as they can be; `None` if there is no such share or it would be empty.
+    pub fn of(replicates: u32, index: u32, count: u32) -> Option<Self> {
+        if index >= count || count > replicates {
+            return None;
+        }
+        let begin = |index: u32| {
+            let before = u64::from(replicates) * u64::from(index) / u64::from(count);
+            u32::try_from(before).ok()
+        };
+        let first = begin(index)?;
+        let count = begin(index + 1)? - first;
+        Some(Self { first, count })
+    }
+}
+
+impl Plan {
+    /// The replicates that are rendered.
+    pub fn share(&self) -> Share {
+        self.share.unwrap_or(Share {
+            first: 0,
+            count: self.replicates,
+        })
+    }
 }
 
 /// What happened.
@@ -73,7 +111,8 @@ pub fn render<W: World, I: Integrator, F: Film, P: Progress>(
         samples: 0,
         rays: 0,
     };
-    for replicate in 0..plan.replicates {
+    let Share { first, count } = plan.share();
+    for replicate in first..first + count {
         let state = integrator.prepare(world, plan.seed, replicate);
         let tile = |index: u32| {
             let corner = UVec2::new(index % tiles.x, index / tiles.x) * TILE;

@@ -50,6 +50,13 @@ fn image(developed: &Developed) -> String {
         "samples      {} per pixel, {} replicates, {}, seed {}\n",
         m.spp, m.replicates, m.sampler, m.seed
     );
+    if let Some(part) = &m.part {
+        text += &format!(
+            "part         the replicates {} of 0 to {}, with exact sums for `etalon merge`\n",
+            part.replicates,
+            part.of.saturating_sub(1)
+        );
+    }
     text += &format!("film         {}, {}\n", m.film.pixel_format, m.film.filter);
     if let Some(seconds) = m.seconds {
         text += &format!("time         {seconds:.2} s\n");

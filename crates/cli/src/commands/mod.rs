@@ -4,6 +4,7 @@ pub mod compare;
 pub mod convert;
 pub mod estimators;
 pub mod info;
+pub mod merge;
 pub mod render;
 pub mod strategies;
 
@@ -18,6 +19,7 @@ pub const BAD_INPUT: u8 = 2;
 pub fn run(command: &Command) -> ExitCode {
     match command {
         Command::Render(args) => render::run(args),
+        Command::Merge(args) => merge::run(args),
         Command::Compare(args) => compare::run(args),
         Command::Estimators(args) => estimators::run(args),
         Command::Convert(args) => convert::run(args),

@@ -2,12 +2,13 @@
 
 use super::convert::losses_in_words;
 use super::{BAD_INPUT, fail, note, strategies};
-use crate::args::RenderArgs;
+use crate::args::{PartOfMany, RenderArgs};
 use crate::pipeline::{self, LoadOptions, Loaded, RenderOptions, Rendered};
 use crate::progress::Bar;
 use crate::{diagnose, resources, say};
 use etalon_film::Developed;
 use etalon_images::{Losses, hdr, pfm, write_atomically};
+use etalon_integrators::Share;
 use etalon_params::Diagnostic;
 use std::fmt::Display;
 use std::fs::OpenOptions;
@@ -107,6 +108,12 @@ fn check_paths(args: &RenderArgs) -> Result<(), String> {
             ));
         }
     }
+    if args.part.is_some() && extension.as_deref() != Some("exr") {
+        return Err(format!(
+            "cannot write {}: only .exr can hold a part's exact sums",
+            args.output.display()
+        ));
+    }
     if let Some(folder) = args.data.iter().find(|folder| !folder.is_dir()) {
         return Err(format!("there is no folder {}", folder.display()));
     }
@@ -152,7 +159,7 @@ fn listen_for_interrupts() {
 }
 
 fn render(args: &RenderArgs, loaded: &Loaded) -> Result<Rendered, Diagnostic> {
-    let plan = pipeline::plan(
+    let mut plan = pipeline::plan(
         loaded,
         &RenderOptions {
             spp: args.spp,
@@ -169,17 +176,41 @@ fn render(args: &RenderArgs, loaded: &Loaded) -> Result<Rendered, Diagnostic> {
             plan.replicates, plan.samples_per_replicate
         ));
     }
+    if let Some(part) = args.part {
+        plan.share = Some(share(part, plan.replicates)?);
+    }
     let size = loaded.compiled.film.crop_size;
-    let samples = spp * u64::from(size.x) * u64::from(size.y);
+    let here = u64::from(plan.share().count) * u64::from(plan.samples_per_replicate);
+    let samples = here * u64::from(size.x) * u64::from(size.y);
     let bar = Bar::new(samples, args.quiet, &CANCELLED);
     let rendered = pipeline::render(loaded, &plan, &bar);
     bar.finish();
     rendered
 }
 
+/// The replicates of one part of many.
+fn share(part: PartOfMany, replicates: u32) -> Result<Share, Diagnostic> {
+    let PartOfMany { number, count } = part;
+    Share::of(replicates, number - 1, count).ok_or_else(|| {
+        let message = format!(
+            "`--part {number}/{count}`: {replicates} replicates cannot be dealt to {count} parts"
+        );
+        Diagnostic::error_nowhere(message).help(format!(
+            "every part renders one replicate at least: split into {replicates} parts at most, or \
+             ask for more with `--replicates {count}` (the same for every part)"
+        ))
+    })
+}
+
 /// Writes the image and the statistics, and says how it went.
 fn deliver(args: &RenderArgs, loaded: &Loaded, rendered: &Rendered) -> Result<(), String> {
-    let losses = write_image(&args.output, &rendered.developed)?;
+    let losses = match &rendered.part {
+        Some(part) => part
+            .write_exr(&args.output)
+            .map(|()| Losses::default())
+            .map_err(|error| error.to_string()),
+        None => write_image(&args.output, &rendered.developed),
+    }?;
     if !args.quiet {
         losses_in_words(&losses).iter().for_each(note);
     }
@@ -248,6 +279,7 @@ fn stats(args: &RenderArgs, loaded: &Loaded, rendered: &Rendered) -> serde_json:
         "rays_per_second": rendered.outcome.rays as f64 / seconds,
         "spp": metadata.map(|m| m.spp),
         "replicates": rendered.outcome.replicates,
+        "part": metadata.and_then(|m| m.part.as_ref()),
         "mean_relative_standard_error": rendered.developed.mean_relative_standard_error(),
         "non_finite": metadata.map(|m| m.faults.total()),
         "peak_memory_bytes": resources::peak_memory_bytes(),

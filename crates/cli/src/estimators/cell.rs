@@ -43,6 +43,7 @@ pub fn render<P: Progress>(
     let plan = Plan {
         seed,
         replicates: 1,
+        share: None,
         samples_per_replicate: samples,
         sampler: entrant.sampler,
     };

@@ -116,6 +116,7 @@ impl Reference {
         let plan = Plan {
             seed,
             replicates: size.replicates,
+            share: None,
             samples_per_replicate: size.samples,
             sampler: entrant.sampler,
         };

@@ -6,7 +6,14 @@ use crate::workshop::Workshop;
 fn help_has_examples_and_exit_codes() {
     let workshop = Workshop::new();
     let help = workshop.run(&["--help"]).fine().stdout;
-    for command in ["render", "compare", "estimators", "convert", "info"] {
+    for command in [
+        "render",
+        "merge",
+        "compare",
+        "estimators",
+        "convert",
+        "info",
+    ] {
         assert!(help.contains(&format!("\n  {command} ")), "{help}");
         let help = workshop.run(&[command, "--help"]).fine().stdout;
         let examples = help.split("Examples:\n").nth(1).expect("examples");
@@ -16,8 +23,8 @@ fn help_has_examples_and_exit_codes() {
     }
     assert!(help.contains("Exit codes:"), "{help}");
     // What is not built yet is not offered.
-    for absent in ["merge", "serve", "denoise", "--checkpoint", "--resume"] {
-        let all = ["render", "compare", "convert", "info"]
+    for absent in ["serve", "denoise", "--checkpoint", "--resume"] {
+        let all = ["render", "merge", "compare", "convert", "info"]
             .map(|command| workshop.run(&[command, "--help"]).fine().stdout)
             .concat();
         assert!(!all.contains(absent) && !help.contains(absent), "{absent}");

@@ -13,6 +13,7 @@ mod failure;
 mod info;
 mod integrators;
 mod interrupt;
+mod merge;
 mod mutations;
 mod render;
 mod statistics;

@@ -1,6 +1,7 @@
 //! OpenEXR: float images with any channels, a crop's place, and one text of our own.
 //!
-//! Files written here are 32-bit float scan lines under lossless ZIP. Their bytes depend on the
+//! Files written here are scan lines of 32-bit floats under lossless ZIP (and of 32-bit whole
+//! numbers, where a caller has [`IntegerPlane`]s). Their bytes depend on the
 //! content alone: besides what the format demands there is exactly one attribute, [`ATTRIBUTE`],
 //! whose text (JSON, by convention) is the caller's.
 //!
@@ -18,8 +19,8 @@ use crate::{Frame, Image};
 pub use header::{
     Attribute, Header, HeaderChannel, HeaderPart, SampleType, decode_header, read_header,
 };
-pub use read::{decode, read};
-pub use write::{encode, write, write_parts};
+pub use read::{decode, decode_with_integers, read, read_with_integers};
+pub use write::{encode, encode_with_integers, write, write_parts, write_with_integers};
 
 /// The name of the attribute that holds the caller's text.
 pub const ATTRIBUTE: &str = "etalon";
@@ -33,6 +34,15 @@ pub struct Part {
     pub image: Image,
     /// Column and row of its upper left pixel in the whole picture.
     pub offset: [i32; 2],
+}
+
+/// A channel of whole numbers, which floats could not hold.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct IntegerPlane {
+    /// Its name.
+    pub name: String,
+    /// Its numbers, row after row.
+    pub samples: Vec<u32>,
 }
 
 /// The content of a file.

@@ -1,6 +1,6 @@
 //! Reading EXR files, pixels and all.
 
-use super::{Document, Part, bounds, header};
+use super::{Document, IntegerPlane, Part, bounds, header};
 use crate::{Error, Image};
 use ::exr::block::chunk::Chunk;
 use ::exr::block::lines::LineRef;
@@ -33,6 +33,39 @@ pub fn read(path: &Path) -> Result<Document, Error> {
 /// for deep or subsampled images and unknown compressions, [`Error::TooLarge`] where it declares
 /// more than its length can justify.
 pub fn decode(bytes: &[u8], path: &Path) -> Result<Document, Error> {
+    decode_apart(bytes, path, None).map(|(document, _)| document)
+}
+
+/// As [`read`], but channels of whole numbers whose names begin with `prefix` come apart, as
+/// they are.
+///
+/// # Errors
+/// As [`read`].
+pub fn read_with_integers(
+    path: &Path,
+    prefix: &str,
+) -> Result<(Document, Vec<IntegerPlane>), Error> {
+    let bytes = std::fs::read(path).map_err(|source| Error::read(path, source))?;
+    decode_with_integers(&bytes, path, prefix)
+}
+
+/// As [`read_with_integers`], of a file's bytes; `path` is only for messages.
+///
+/// # Errors
+/// As [`decode`].
+pub fn decode_with_integers(
+    bytes: &[u8],
+    path: &Path,
+    prefix: &str,
+) -> Result<(Document, Vec<IntegerPlane>), Error> {
+    decode_apart(bytes, path, Some(prefix))
+}
+
+fn decode_apart(
+    bytes: &[u8],
+    path: &Path,
+    prefix: Option<&str>,
+) -> Result<(Document, Vec<IntegerPlane>), Error> {
     // The header alone comes first: nothing large may be allocated before it has been judged.
     let meta = header::metadata(bytes, path)?;
     bounds::check(path, &meta.headers, bytes.len())?;
@@ -42,7 +75,9 @@ pub fn decode(bytes: &[u8], path: &Path) -> Result<Document, Error> {
         .map_err(|error| header::failure(path, error))?;
     bounds::check_chunks(path, &meta.headers, &chunks)?;
 
-    let mut planes: Vec<Planes> = meta.headers.iter().map(Planes::new).collect();
+    let mut planes: Vec<Planes> = (meta.headers.iter())
+        .map(|header| Planes::new(header, prefix))
+        .collect();
     decompress(&meta, chunks, |block| {
         let layer = block.index.layer;
         planes[layer].insert(&meta.headers[layer], &block)
@@ -50,6 +85,7 @@ pub fn decode(bytes: &[u8], path: &Path) -> Result<Document, Error> {
     .map_err(|error| header::failure(path, error))?;
 
     let mut parts = Vec::with_capacity(planes.len());
+    let mut integers = Vec::new();
     for (planes, header) in planes.into_iter().zip(&meta.headers) {
         if planes.missing > 0 {
             return Err(Error::invalid(
@@ -59,15 +95,16 @@ pub fn decode(bytes: &[u8], path: &Path) -> Result<Document, Error> {
         }
         parts.push(Part {
             name: header.own_attributes.layer_name.as_ref().map(header::utf8),
-            image: planes.into_image(header, path)?,
+            image: planes.into_image(header, path, &mut integers)?,
             offset: header::offset(header),
         });
     }
-    Ok(Document {
+    let document = Document {
         parts,
         size: header::size(&meta),
         text: header::text(&meta),
-    })
+    };
+    Ok((document, integers))
 }
 
 /// Files with up to this many samples are decompressed by one thread.
@@ -126,11 +163,18 @@ fn decompress(
     })
 }
 
+/// The samples of a channel.
+enum Samples {
+    Floats(Vec<f32>),
+    /// Of a channel that comes apart.
+    Integers(Vec<u32>),
+}
+
 /// The channels of a part while they are read.
 struct Planes {
     width: usize,
     height: usize,
-    channels: Vec<Vec<f32>>,
+    channels: Vec<Samples>,
     /// Pixels not read yet.
     missing: usize,
     /// Upper left pixels of the blocks read so far.
@@ -138,12 +182,21 @@ struct Planes {
 }
 
 impl Planes {
-    fn new(header: &Header) -> Self {
+    fn new(header: &Header, prefix: Option<&str>) -> Self {
         let pixels = header.layer_size.area();
+        let channels = header.channels.list.iter().map(|channel| {
+            let apart = channel.sample_type == SampleType::U32
+                && prefix.is_some_and(|p| channel.name.bytes().starts_with(p.as_bytes()));
+            if apart {
+                Samples::Integers(vec![0; pixels])
+            } else {
+                Samples::Floats(vec![0.0; pixels])
+            }
+        });
         Self {
             width: header.layer_size.width(),
             height: header.layer_size.height(),
-            channels: vec![vec![0.0; pixels]; header.channels.list.len()],
+            channels: channels.collect(),
             missing: pixels,
             seen: HashSet::new(),
         }
@@ -177,27 +230,42 @@ impl Planes {
         for line in block.lines(&header.channels) {
             let place = line.location;
             let start = place.position.y() * self.width + place.position.x();
-            let target = &mut self.channels[place.channel][start..start + place.sample_count];
-            copy(
-                line,
-                header.channels.list[place.channel].sample_type,
-                target,
-            )?;
+            let end = start + place.sample_count;
+            match &mut self.channels[place.channel] {
+                Samples::Floats(samples) => {
+                    let stored = header.channels.list[place.channel].sample_type;
+                    copy(line, stored, &mut samples[start..end])?;
+                }
+                Samples::Integers(samples) => {
+                    line.read_samples_into_slice(&mut samples[start..end])?;
+                }
+            }
         }
         Ok(())
     }
 
-    fn into_image(self, header: &Header, path: &Path) -> Result<Image, Error> {
+    /// The floats; whole numbers that come apart are added to `integers`.
+    fn into_image(
+        self,
+        header: &Header,
+        path: &Path,
+        integers: &mut Vec<IntegerPlane>,
+    ) -> Result<Image, Error> {
         let mut image = Image::new(self.width, self.height);
         for (samples, channel) in self.channels.into_iter().zip(&header.channels.list) {
             let name = header::utf8(&channel.name);
-            if image.channel(&name).is_some() {
+            let taken =
+                image.channel(&name).is_some() || integers.iter().any(|plane| plane.name == name);
+            if taken {
                 return Err(Error::invalid(
                     path,
                     format!("it has two channels called {name:?}"),
                 ));
             }
-            image.push(name, samples);
+            match samples {
+                Samples::Floats(samples) => image.push(name, samples),
+                Samples::Integers(samples) => integers.push(IntegerPlane { name, samples }),
+            }
         }
         Ok(image)
     }

@@ -1,6 +1,6 @@
 //! Writing EXR files with reproducible bytes.
 
-use super::{ATTRIBUTE, Part};
+use super::{ATTRIBUTE, IntegerPlane, Part};
 use crate::{Error, Frame, Image, write_atomically};
 use ::exr::block::writer::ChunksWriter;
 use ::exr::block::{self, UncompressedBlock};
@@ -19,19 +19,44 @@ use std::path::Path;
 /// [`Error::Write`] where the operating system refuses, [`Error::Invalid`] where an image cannot
 /// be an EXR file (see [`encode`]). The file is then as it was before.
 pub fn write(path: &Path, image: &Image, frame: Frame, text: &str) -> Result<(), Error> {
+    write_with_integers(path, image, &[], frame, text)
+}
+
+/// As [`write()`], with further channels of whole numbers, which stay what they are to the bit.
+///
+/// # Errors
+/// As [`write()`]; also where a plane has another size than the image.
+pub fn write_with_integers(
+    path: &Path,
+    image: &Image,
+    integers: &[IntegerPlane],
+    frame: Frame,
+    text: &str,
+) -> Result<(), Error> {
     write_atomically(path, |file| {
-        encode_borrowed(
-            file,
-            &[Borrowed {
-                name: None,
-                image,
-                offset: frame.offset,
-            }],
-            frame.size,
-            text,
-        )
+        encode_with_integers(file, image, integers, frame, text)
     })
     .map_err(|source| failure(path, source))
+}
+
+/// As [`write_with_integers`], to anything that can seek.
+///
+/// # Errors
+/// Those of the writer; [`io::ErrorKind::InvalidData`] as for [`encode`].
+pub fn encode_with_integers(
+    writer: impl Write + Seek,
+    image: &Image,
+    integers: &[IntegerPlane],
+    frame: Frame,
+    text: &str,
+) -> io::Result<()> {
+    let part = Borrowed {
+        name: None,
+        image,
+        integers,
+        offset: frame.offset,
+    };
+    encode_borrowed(writer, &[part], frame.size, text)
 }
 
 /// Writes several images to one file.
@@ -68,6 +93,7 @@ pub fn encode(
         .map(|part| Borrowed {
             name: part.name.as_deref(),
             image: &part.image,
+            integers: &[],
             offset: part.offset,
         })
         .collect();
@@ -78,7 +104,40 @@ pub fn encode(
 struct Borrowed<'a> {
     name: Option<&'a str>,
     image: &'a Image,
+    integers: &'a [IntegerPlane],
     offset: [i32; 2],
+}
+
+/// A channel as it will be stored.
+#[derive(Clone, Copy)]
+enum Plane<'a> {
+    Floats(&'a str, &'a [f32]),
+    Integers(&'a str, &'a [u32]),
+}
+
+impl<'a> Plane<'a> {
+    fn name(self) -> &'a str {
+        match self {
+            Self::Floats(name, _) | Self::Integers(name, _) => name,
+        }
+    }
+
+    /// Puts samples, four bytes each, into a line.
+    fn copy(self, start: usize, line: &mut [u8]) {
+        let line = line.chunks_exact_mut(4);
+        match self {
+            Self::Floats(_, samples) => {
+                for (bytes, sample) in line.zip(&samples[start..]) {
+                    bytes.copy_from_slice(&sample.to_ne_bytes());
+                }
+            }
+            Self::Integers(_, samples) => {
+                for (bytes, sample) in line.zip(&samples[start..]) {
+                    bytes.copy_from_slice(&sample.to_ne_bytes());
+                }
+            }
+        }
+    }
 }
 
 /// Images up to this many samples are compressed by the calling thread.
@@ -91,29 +150,28 @@ fn encode_borrowed(
     text: &str,
 ) -> io::Result<()> {
     // EXR files keep their channels in alphabetical order.
-    let orders: Vec<Vec<usize>> = parts.iter().map(|part| alphabetical(part.image)).collect();
+    let planes: Vec<Vec<Plane<'_>>> = parts.iter().map(alphabetical).collect();
     let headers = parts
         .iter()
-        .zip(&orders)
+        .zip(&planes)
         .enumerate()
-        .map(|(index, (part, order))| header(part, order, size, if index == 0 { text } else { "" }))
+        .map(|(index, (part, planes))| {
+            header(part, planes, size, if index == 0 { text } else { "" })
+        })
         .collect::<io::Result<Vec<_>>>()?;
     let samples: usize = parts
         .iter()
-        .map(|part| part.image.width() * part.image.height() * part.image.channels().len())
+        .zip(&planes)
+        .map(|(part, planes)| part.image.width() * part.image.height() * planes.len())
         .sum();
 
     let outcome = block::write(writer, headers.into(), true, |meta, chunks| {
         let blocks = meta.collect_ordered_blocks(|index| {
-            let (part, order) = (&parts[index.layer], &orders[index.layer]);
+            let width = parts[index.layer].image.width();
+            let planes = &planes[index.layer];
             UncompressedBlock::from_lines(&meta.headers[index.layer].channels, index, |line| {
                 let at = line.location;
-                let row = at.position.y() * part.image.width();
-                let channel = &part.image.channels()[order[at.channel]];
-                let source = &channel.samples[row..row + at.sample_count];
-                for (bytes, sample) in line.value.chunks_exact_mut(4).zip(source) {
-                    bytes.copy_from_slice(&sample.to_ne_bytes());
-                }
+                planes[at.channel].copy(at.position.y() * width, line.value);
             })
         });
         // Compressing consumes the writer, so it gets one that borrows ours.
@@ -130,36 +188,49 @@ fn encode_borrowed(
     })
 }
 
-/// The indices of the channels, sorted by name as bytes.
-fn alphabetical(image: &Image) -> Vec<usize> {
-    let channels = image.channels();
-    let mut order: Vec<_> = (0..channels.len()).collect();
-    order.sort_by(|&a, &b| channels[a].name.cmp(&channels[b].name));
-    order
+/// The channels, sorted by name as bytes.
+fn alphabetical<'a>(part: &Borrowed<'a>) -> Vec<Plane<'a>> {
+    let floats = part.image.channels().iter();
+    let integers = part.integers.iter();
+    let mut planes: Vec<_> = floats
+        .map(|channel| Plane::Floats(&channel.name, &channel.samples))
+        .chain(integers.map(|plane| Plane::Integers(&plane.name, &plane.samples)))
+        .collect();
+    planes.sort_by_key(|plane| plane.name());
+    planes
 }
 
 fn header(
     part: &Borrowed<'_>,
-    order: &[usize],
+    planes: &[Plane<'_>],
     size: [usize; 2],
     text: &str,
 ) -> io::Result<Header> {
     let invalid = |reason: String| Err(io::Error::new(io::ErrorKind::InvalidData, reason));
     let image = part.image;
-    if image.channels().is_empty() || image.width() == 0 || image.height() == 0 {
+    if planes.is_empty() || image.width() == 0 || image.height() == 0 {
         return invalid("an EXR image needs at least one pixel and one channel".to_owned());
     }
-    for channel in image.channels() {
-        let name = &channel.name;
+    let pixels = image.width() * image.height();
+    if let Some(plane) = (part.integers.iter()).find(|plane| plane.samples.len() != pixels) {
+        let name = &plane.name;
+        return invalid(format!("{name:?} has another size than the image"));
+    }
+    for plane in planes {
+        let name = plane.name();
         if name.is_empty() || name.len() > 255 || name.contains('\0') {
             return invalid(format!("{name:?} cannot be the name of an EXR channel"));
         }
     }
-    let channels = order
+    let channels = planes
         .iter()
-        .map(|&index| {
-            let name = Text::from_slice_unchecked(image.channels()[index].name.as_bytes());
-            ChannelDescription::new(name, SampleType::F32, true)
+        .map(|plane| {
+            let stored = match plane {
+                Plane::Floats(..) => SampleType::F32,
+                Plane::Integers(..) => SampleType::U32,
+            };
+            let name = Text::from_slice_unchecked(plane.name().as_bytes());
+            ChannelDescription::new(name, stored, true)
         })
         .collect();
     let mut header = Header::new(

@@ -1,7 +1,7 @@
 //! The render loop: every sample once, the same bits in any order, replicates finished whole.
 
 use crate::world::{Plane, Stack, ZERO};
-use etalon_integrators::{Outcome, Plan, Progress, render};
+use etalon_integrators::{Outcome, Plan, Progress, Share, render};
 use etalon_sampling::{Sampler, SamplerKind};
 use etalon_transport::{Channel, Film, Integrator, PixelSite, Placement, Sink, TileSink, World};
 use glam::{UVec2, Vec2};
@@ -144,7 +144,7 @@ impl Integrator for Marbles {
         assert_eq!(site.raster.as_uvec2(), site.pixel);
         // Two dimensions went into the film position.
         assert_eq!(sampler.dimension(), 2);
-        let value = sampler.next_1d() + site.raster.x.fract();
+        let value = sampler.next_1d() + site.raster.x.fract() + site.spacing;
         sink.radiance([value; 3], 1.0);
         sampler.skip_to(4);
         let anywhere = self.origin.as_vec2() + sampler.next_2d() * self.size.as_vec2();
@@ -186,17 +186,28 @@ fn run(
     window: (UVec2, UVec2),
     watch: &Watch,
 ) -> (Tally, Outcome) {
+    run_share(threads, sampler, window, watch, None)
+}
+
+fn run_share(
+    threads: usize,
+    sampler: SamplerKind,
+    window: (UVec2, UVec2),
+    watch: &Watch,
+    share: Option<Share>,
+) -> (Tally, Outcome) {
     let (origin, size) = window;
     let world = Stack::new(vec![Plane::WHITE], ZERO, 1.0, true);
     let integrator = Marbles {
         origin,
         size,
-        prepared: AtomicU32::new(0),
+        prepared: AtomicU32::new(share.map_or(0, |share| share.first)),
     };
     let mut film = Tally::new(origin, size);
     let plan = Plan {
         seed: 5,
         replicates: 3,
+        share,
         samples_per_replicate: 4,
         sampler,
     };
@@ -276,4 +287,44 @@ fn a_cancelled_render_finishes_its_replicate() {
         // What is there is what would have been there.
         assert_eq!(film.replicates, all.replicates[..replicates as usize]);
     }
+}
+
+/// A share renders its replicates under their own numbers, as samples of the whole image.
+#[test]
+fn shares_of_the_replicates_are_those_of_the_whole() {
+    for sampler in KINDS {
+        let (all, _) = run(2, sampler, CROP, &Watch::default());
+        for count in 1..=3 {
+            let mut dealt = Vec::new();
+            for index in 0..count {
+                let share = Share::of(3, index, count);
+                let (film, outcome) = run_share(2, sampler, CROP, &Watch::default(), share);
+                assert_eq!(Some(outcome.replicates), share.map(|share| share.count));
+                dealt.extend(film.replicates);
+            }
+            assert_eq!(dealt, all.replicates, "{count} shares");
+        }
+    }
+}
+
+#[test]
+fn replicates_are_dealt_evenly_and_in_order() {
+    for replicates in (1..40).chain([4095, 4096, u32::MAX]) {
+        for count in (1..=replicates.min(50)).chain([replicates]).take(50) {
+            let mut next = 0;
+            for index in 0..count {
+                let share = Share::of(replicates, index, count).expect("enough for all");
+                assert_eq!(share.first, next);
+                assert!([0, 1].contains(&(share.count - replicates / count)));
+                next += share.count;
+            }
+            assert_eq!(next, replicates);
+        }
+        assert_eq!(
+            Share::of(replicates, 0, replicates.saturating_add(1)).is_none(),
+            replicates < u32::MAX
+        );
+    }
+    assert_eq!(Share::of(4, 2, 2), None);
+    assert_eq!(Share::of(4, 0, 0), None);
 }
