@@ -53,10 +53,7 @@ fn film(first: u32, count: u32, seed: u64) -> ExactFilm {
                 let value = f32::from_bits((bits >> 41) as u32 | exponent << 23);
                 tile.radiance([value, -value * 0.3, 0.1], 1.0);
                 tile.channel(0, value);
-                tile.splat(
-                    pixel.as_vec2() + Vec2::splat(0.7),
-                    [0.3, value * 0.7, 1e-9],
-                );
+                tile.splat(pixel.as_vec2() + Vec2::splat(0.7), [0.3, value * 0.7, 1e-9]);
             }
         }
         drop(tile);
