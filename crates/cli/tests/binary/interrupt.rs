@@ -6,14 +6,15 @@ use std::process::{Child, Command, ExitStatus, Stdio};
 use std::time::{Duration, Instant};
 
 /// A render that would take very long.
-fn long_render(workshop: &Workshop, replicates: &str) -> Child {
+fn long_render(workshop: &Workshop, further: &[&str]) -> Child {
     let scene = cornell_box();
     workshop
         .command()
         .args([
             "render", &scene, "-o", "a.exr", "-D", "resx=16", "-D", "resy=16",
         ])
-        .args(["--spp", "16777216", "--replicates", replicates])
+        .args(["--spp", "16777216", "--replicates"])
+        .args(further)
         .stderr(Stdio::piped())
         .spawn()
         .expect("it runs")
@@ -63,7 +64,7 @@ fn end(mut child: Child) -> ExitStatus {
 #[test]
 fn ctrl_c_finishes_the_pass_and_writes_the_image() {
     let workshop = Workshop::new();
-    let child = long_render(&workshop, "4096");
+    let child = long_render(&workshop, &["4096"]);
     wait_until_it_listens(&child);
     wait_until_it_renders(&child);
     send("-INT", &child);
@@ -81,9 +82,27 @@ fn ctrl_c_finishes_the_pass_and_writes_the_image() {
 }
 
 #[test]
+fn a_part_that_ctrl_c_ended_says_what_it_has() {
+    let workshop = Workshop::new();
+    let child = long_render(&workshop, &["4096", "--part", "2/2"]);
+    wait_until_it_listens(&child);
+    wait_until_it_renders(&child);
+    send("-INT", &child);
+    assert_eq!(end(child).code(), Some(130));
+    let metadata = workshop.image("a.exr").metadata.expect("metadata");
+    let part = metadata.part.expect("it is a part");
+    assert_eq!(part.replicates.iter().next(), Some(2048));
+    assert_eq!(part.replicates.count(), metadata.replicates);
+    let said = workshop.run(&["merge", "a.exr", "-o", "m.exr"]).refused();
+    let missing = format!("missing: 0 to 2047, {} to 4095", part.replicates.end());
+    assert!(said.stderr.contains(&missing), "{}", said.stderr);
+    assert_eq!(workshop.files(), ["a.exr"]);
+}
+
+#[test]
 fn a_second_ctrl_c_does_not_wait() {
     let workshop = Workshop::new();
-    let child = long_render(&workshop, "1");
+    let child = long_render(&workshop, &["1"]);
     wait_until_it_listens(&child);
     wait_until_it_renders(&child);
     send("-INT", &child);
@@ -96,7 +115,7 @@ fn a_second_ctrl_c_does_not_wait() {
 #[test]
 fn a_killed_render_leaves_no_image() {
     let workshop = Workshop::new();
-    let child = long_render(&workshop, "4096");
+    let child = long_render(&workshop, &["4096"]);
     wait_until_it_renders(&child);
     send("-KILL", &child);
     assert_eq!(end(child).code(), None);
