@@ -13,7 +13,9 @@ use crate::settings::ignore_scheduling;
 use etalon_params::{Diagnostic, Params};
 use etalon_sampling::Sampler;
 use etalon_spectrum::{Wavelengths, sensor_response};
-use etalon_transport::{Bsdf, Camera, Channel, Integrator, PixelSite, Ray, Sink, Vertex, World};
+use etalon_transport::{
+    Bsdf, Camera, Channel, Integrator, Pass, PixelSite, Ray, Sink, Vertex, World,
+};
 use glam::{Vec2, Vec3};
 
 /// A variable of the first surface.
@@ -144,7 +146,7 @@ impl Integrator for Aov {
         names.into_iter().map(Channel).collect()
     }
 
-    fn prepare<W: World>(&self, _: &W, _: u64, _: u32) {}
+    fn prepare<W: World>(&self, _: &W, _: &Pass, _: Option<()>) {}
 
     fn sample<W: World, S: Sampler, K: Sink>(
         &self,

@@ -10,7 +10,7 @@ use crate::settings::ignore_scheduling;
 use etalon_params::Params;
 use etalon_sampling::Sampler;
 use etalon_spectrum::sensor::response;
-use etalon_transport::{Integrator, PixelSite, Sink, World};
+use etalon_transport::{Integrator, Pass, PixelSite, Sink, World};
 use glam::Vec4;
 
 /// The distance integrator.
@@ -50,7 +50,7 @@ impl Default for Depth {
 impl Integrator for Depth {
     type State = ();
 
-    fn prepare<W: World>(&self, _: &W, _: u64, _: u32) {}
+    fn prepare<W: World>(&self, _: &W, _: &Pass, _: Option<()>) {}
 
     fn sample<W: World, S: Sampler, K: Sink>(
         &self,

@@ -22,7 +22,7 @@ use etalon_params::Params;
 use etalon_sampling::Sampler;
 use etalon_spectrum::{Wavelengths, sensor_response};
 use etalon_transport::{
-    Bsdf, Chance, Integrator, Mode, PixelSite, Ray, Receiver, Sink, Vertex, World,
+    Bsdf, Chance, Integrator, Mode, Pass, PixelSite, Ray, Receiver, Sink, Vertex, World,
 };
 use glam::{Vec3, Vec4};
 
@@ -196,7 +196,7 @@ impl Direct {
 impl Integrator for Direct {
     type State = ();
 
-    fn prepare<W: World>(&self, _: &W, _: u64, _: u32) {}
+    fn prepare<W: World>(&self, _: &W, _: &Pass, _: Option<()>) {}
 
     fn sample<W: World, S: Sampler, K: Sink>(
         &self,

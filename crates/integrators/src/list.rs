@@ -9,6 +9,7 @@ use crate::path::Path;
 use crate::ptracer::ParticleTracer;
 use crate::render::{Outcome, Plan, Progress, render};
 use crate::signature::Signature;
+use core::any::Any;
 use etalon_params::{Class, Diagnostics, Node, Params, plugins};
 use etalon_sampling::Sampler;
 use etalon_transport::{Channel, Film, Integrator, PixelSite, Sink, World};
@@ -85,7 +86,18 @@ macro_rules! integrators {
             ) {
                 let mut sink = Behind(sink);
                 match self {
-                    $(Self::$variant(integrator) => integrator.sample(world, &(), site, sampler, &mut sink),)*
+                    $(Self::$variant(integrator) => {
+                        if let Some(state) = unprepared(integrator) {
+                            integrator.sample(world, state, site, sampler, &mut sink);
+                        }
+                    })*
+                }
+            }
+
+            /// Whether it learns anything before it samples.
+            pub fn prepares(&self) -> bool {
+                match self {
+                    $(Self::$variant(integrator) => unprepared(integrator).is_none(),)*
                 }
             }
         }
@@ -101,6 +113,11 @@ integrators! {
     "ptracer" => ParticleTracer: |p| Some(ParticleTracer::from_params(p));
     "aov" => Aov: Aov::from_params;
     "moment" => Moment: Moment::from_params;
+}
+
+/// The state of an integrator that learns nothing, `()`; `None` for others.
+fn unprepared<I: Integrator>(_: &I) -> Option<&'static I::State> {
+    (&() as &dyn Any).downcast_ref()
 }
 
 /// An integrator inside another.
@@ -123,11 +140,18 @@ impl Nested {
             params.children(Class::Integrator).into_iter().enumerate()
         {
             let integrator = AnyIntegrator::from_node(node, params.diagnostics)?;
-            if integrator.splats() {
+            let obstacle = if integrator.splats() {
+                Some("its contributions land on any pixel")
+            } else if integrator.prepares() {
+                Some("it learns before it samples, which is a render of its own")
+            } else {
+                None
+            };
+            if let Some(obstacle) = obstacle {
                 params.diagnostics.push(etalon_params::Diagnostic::error(
                     node.plugin.span,
                     format!(
-                        "`{}` cannot be nested in `{}`: its contributions land on any pixel",
+                        "`{}` cannot be nested in `{}`: {obstacle}",
                         node.plugin.value, params.node.plugin.value
                     ),
                 ));

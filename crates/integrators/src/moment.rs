@@ -9,7 +9,7 @@ use crate::settings::ignore_scheduling;
 use etalon_params::Params;
 use etalon_sampling::Sampler;
 use etalon_spectrum::colour_space::rgb_to_xyz;
-use etalon_transport::{Channel, Integrator, PixelSite, Sink, World};
+use etalon_transport::{Channel, Integrator, Pass, PixelSite, Sink, World};
 use glam::Vec2;
 
 /// The moment integrator.
@@ -55,7 +55,7 @@ impl Integrator for Moment {
         names.into_iter().chain(squares).map(Channel).collect()
     }
 
-    fn prepare<W: World>(&self, _: &W, _: u64, _: u32) {}
+    fn prepare<W: World>(&self, _: &W, _: &Pass, _: Option<()>) {}
 
     fn sample<W: World, S: Sampler, K: Sink>(
         &self,

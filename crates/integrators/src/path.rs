@@ -24,7 +24,7 @@ use crate::walk::Walk;
 use etalon_params::Params;
 use etalon_sampling::Sampler;
 use etalon_spectrum::Wavelengths;
-use etalon_transport::{Camera, Draft, Integrator, PixelSite, Ray, Sink, TileSink, World};
+use etalon_transport::{Camera, Draft, Integrator, Pass, PixelSite, Ray, Sink, TileSink, World};
 
 /// The path tracer.
 #[derive(Clone, Debug, Default)]
@@ -62,7 +62,7 @@ impl Path {
 impl Integrator for Path {
     type State = ();
 
-    fn prepare<W: World>(&self, _: &W, _: u64, _: u32) {}
+    fn prepare<W: World>(&self, _: &W, _: &Pass, _: Option<()>) {}
 
     fn sample<W: World, S: Sampler, K: Sink>(
         &self,

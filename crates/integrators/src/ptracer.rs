@@ -22,7 +22,7 @@ use crate::settings::{PathSettings, ignore_scheduling};
 use etalon_params::Params;
 use etalon_sampling::Sampler;
 use etalon_spectrum::{SensorWeights, Wavelengths, sensor_response};
-use etalon_transport::{Bsdf, Camera, Integrator, Mode, PixelSite, Ray, Sink, Vertex, World};
+use etalon_transport::{Bsdf, Camera, Integrator, Mode, Pass, PixelSite, Ray, Sink, Vertex, World};
 use glam::{Vec2, Vec3, Vec4};
 
 /// The light tracer.
@@ -196,7 +196,7 @@ impl Integrator for ParticleTracer {
         true
     }
 
-    fn prepare<W: World>(&self, _: &W, _: u64, _: u32) {}
+    fn prepare<W: World>(&self, _: &W, _: &Pass, _: Option<()>) {}
 
     fn sample<W: World, S: Sampler, K: Sink>(
         &self,

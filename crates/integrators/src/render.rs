@@ -1,11 +1,11 @@
-//! The render loop: replicates × tiles × pixels × samples.
+//! The render loop: replicates × passes × tiles × pixels × samples.
 //!
-//! A replicate is an independent estimate of the whole image. Tiles of a replicate run in
-//! parallel; since a sample is a pure function of its address and the film accumulates exactly,
+//! A replicate is an independent estimate of the whole image, made in one pass or in as many as the
+//! integrator asks for. Tiles of a pass run in parallel; since a sample is a pure function of its address and the film accumulates exactly,
 //! neither the number of threads nor the order of tiles changes a bit.
 
 use etalon_sampling::{Independent, PixelSample, Sampler, SamplerKind, Sobol, Stratified};
-use etalon_transport::{Draft, Film, Integrator, PixelSite, World};
+use etalon_transport::{Draft, Film, Integrator, Pass, PixelSite, World};
 use glam::UVec2;
 use rayon::prelude::*;
 use std::sync::atomic::{AtomicU64, Ordering};
@@ -112,8 +112,24 @@ pub fn render<W: World, I: Integrator, F: Film, P: Progress>(
         rays: 0,
     };
     let Share { first, count } = plan.share();
-    for replicate in first..first + count {
-        let state = integrator.prepare(world, plan.seed, replicate);
+    let lengths = integrator.samples_per_pass();
+    let length = lengths.map_or(plan.samples_per_replicate, |length| length.max(1));
+    let passes = plan.samples_per_replicate.div_ceil(length).max(1);
+    let mut before = None;
+    for (replicate, number) in (first..first + count)
+        .flat_map(|replicate| (0..passes).map(move |number| (replicate, number)))
+    {
+        let begin = number * length;
+        let pass = Pass {
+            seed: plan.seed,
+            replicate,
+            number,
+            count: passes,
+            samples: length.min(plan.samples_per_replicate - begin),
+            origin,
+            size,
+        };
+        let state = integrator.prepare(world, &pass, before.take());
         let tile = |index: u32| {
             let corner = UVec2::new(index % tiles.x, index / tiles.x) * TILE;
             let from = origin + corner;
@@ -124,7 +140,8 @@ pub fn render<W: World, I: Integrator, F: Film, P: Progress>(
                 state: &state,
                 film: &*film,
                 plan,
-                replicate,
+                pass: &pass,
+                begin,
             };
             match plan.sampler {
                 SamplerKind::Independent => run.render(from, to, Independent::start),
@@ -135,12 +152,16 @@ pub fn render<W: World, I: Integrator, F: Film, P: Progress>(
             }
             rays.fetch_add(world.take_ray_count(), Ordering::Relaxed);
             let pixels = u64::from(to.x - from.x) * u64::from(to.y - from.y);
-            progress.tile_done(pixels * u64::from(plan.samples_per_replicate));
+            progress.tile_done(pixels * u64::from(pass.samples));
         };
         (0..tiles.x * tiles.y)
             .into_par_iter()
             .with_max_len(1)
             .for_each(tile);
+        before = Some(state);
+        if number + 1 < passes {
+            continue;
+        }
         film.end_replicate(plan.samples_per_replicate);
         outcome.replicates += 1;
         outcome.samples +=
@@ -160,7 +181,9 @@ struct TileRun<'a, W: World, I: Integrator, F: Film> {
     state: &'a I::State,
     film: &'a F,
     plan: &'a Plan,
-    replicate: u32,
+    pass: &'a Pass,
+    /// The first sample of the pass.
+    begin: u32,
 }
 
 impl<W: World, I: Integrator, F: Film> TileRun<'_, W, I, F> {
@@ -176,12 +199,12 @@ impl<W: World, I: Integrator, F: Film> TileRun<'_, W, I, F> {
         for y in from.y..to.y {
             for x in from.x..to.x {
                 let pixel = UVec2::new(x, y);
-                for sample in 0..samples {
+                for sample in 0..self.pass.samples {
                     let mut sampler = start(&PixelSample {
                         seed: self.plan.seed,
-                        replicate: self.replicate,
+                        replicate: self.pass.replicate,
                         pixel: (x, y),
-                        sample,
+                        sample: self.begin + sample,
                         samples_per_replicate: samples,
                     });
                     let placement = self.film.place(pixel, sampler.next_2d());
@@ -191,6 +214,7 @@ impl<W: World, I: Integrator, F: Film> TileRun<'_, W, I, F> {
                         margin,
                         pixels: size.x * size.y,
                         spacing,
+                        sample,
                     };
                     let weight = placement.weight;
                     drafts.push(Draft {

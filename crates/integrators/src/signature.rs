@@ -17,7 +17,7 @@ use crate::path::camera_ray;
 use crate::settings::ignore_scheduling;
 use etalon_params::Params;
 use etalon_sampling::Sampler;
-use etalon_transport::{Hit, Integrator, PixelSite, Sink, World};
+use etalon_transport::{Hit, Integrator, Pass, PixelSite, Sink, World};
 
 /// The signature integrator.
 #[derive(Clone, Copy, Debug, Default)]
@@ -64,7 +64,7 @@ fn object(hit: &Hit) -> u32 {
 impl Integrator for Signature {
     type State = ();
 
-    fn prepare<W: World>(&self, _: &W, _: u64, _: u32) {}
+    fn prepare<W: World>(&self, _: &W, _: &Pass, _: Option<()>) {}
 
     fn sample<W: World, S: Sampler, K: Sink>(
         &self,

@@ -19,6 +19,27 @@ pub struct PixelSite {
     pub pixels: u32,
     /// Mean distance between the samples of a pixel (pixels): 1/√spp.
     pub spacing: f32,
+    /// Which of the pixel's samples in its pass this is, from 0.
+    pub sample: u32,
+}
+
+/// A pass over the film: some samples of every pixel, drawn after one preparation.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Pass {
+    /// The seed of the image.
+    pub seed: u64,
+    /// The replicate that the pass belongs to.
+    pub replicate: u32,
+    /// Which pass of the replicate this is, from 0.
+    pub number: u32,
+    /// How many there are in a replicate.
+    pub count: u32,
+    /// Samples per pixel in this pass.
+    pub samples: u32,
+    /// The first pixel of the cropped film.
+    pub origin: UVec2,
+    /// Size of the cropped film (pixels).
+    pub size: UVec2,
 }
 
 /// A sample about to be drawn.
@@ -32,14 +53,18 @@ pub struct Draft<S> {
     pub sampler: S,
 }
 
-/// An estimator: prepares once per replicate, then turns random numbers into contributions.
+/// An estimator: prepares before every pass, then turns random numbers into contributions.
+///
+/// A replicate is one pass, unless the estimator asks for more of them: whatever becomes less biased
+/// as it goes on (progressive photon mapping) passes many times, and a replicate is a whole
+/// progression.
 ///
 /// A sample is a pure function of the sampler's numbers; the estimator of an image is the mean
 /// over independent replicates (ARCHITECTURE.md, "Replicates").
 pub trait Integrator: Sync {
     /// What is learned before sampling starts (photon maps, guiding trees); `()` for a path
     /// tracer.
-    type State: Send + Sync;
+    type State: Send + Sync + 'static;
 
     /// The channels it writes beside the colour, in the order of [`Sink::channel`]'s index.
     fn channels(&self) -> Vec<Channel> {
@@ -51,8 +76,17 @@ pub trait Integrator: Sync {
         false
     }
 
-    /// Prepares one replicate.
-    fn prepare<W: World>(&self, world: &W, seed: u64, replicate: u32) -> Self::State;
+    /// Samples per pixel after which it must prepare again; `None` if a replicate is one pass.
+    fn samples_per_pass(&self) -> Option<u32> {
+        None
+    }
+
+    /// Prepares a pass. `before` is what the pass before it used, if the same process rendered one: to
+    /// be kept (what is learned once for the whole image), changed, or only its memory used
+    /// again. The result may depend on the world, the pass and the estimator alone, never on
+    /// whether there was a pass before, the number of threads, or time.
+    fn prepare<W: World>(&self, world: &W, pass: &Pass, before: Option<Self::State>)
+    -> Self::State;
 
     /// Draws one sample.
     fn sample<W: World, S: Sampler, K: Sink>(

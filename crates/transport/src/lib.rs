@@ -32,7 +32,7 @@ pub use camera::{Camera, CameraRay, Connection};
 pub use chance::Chance;
 pub use film::{Channel, Film, Placement, Sink, TileSink};
 pub use ids::{InstanceId, LightId, MaterialId, ShapeId, TextureId};
-pub use integrator::{Draft, Integrator, PixelSite};
+pub use integrator::{Draft, Integrator, Pass, PixelSite};
 pub use light::{Emission, EmissionDensity, LightSample, Origin};
 pub use mesh::{Attribute, MeshData};
 pub use phase::{Phase, PhaseSample};

@@ -48,7 +48,7 @@ use corner::Corner;
 use etalon_params::Params;
 use etalon_sampling::Sampler;
 use etalon_spectrum::sensor_response;
-use etalon_transport::{Draft, Integrator, PixelSite, Sink, TileSink, World};
+use etalon_transport::{Draft, Integrator, Pass, PixelSite, Sink, TileSink, World};
 use glam::Vec4;
 use subpath::{FromCamera, FromLight};
 
@@ -162,7 +162,7 @@ impl Integrator for Bidirectional {
         true
     }
 
-    fn prepare<W: World>(&self, _: &W, _: u64, _: u32) {}
+    fn prepare<W: World>(&self, _: &W, _: &Pass, _: Option<()>) {}
 
     fn sample<W: World, S: Sampler, K: Sink>(
         &self,

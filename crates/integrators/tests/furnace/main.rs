@@ -63,6 +63,7 @@ fn z_score<I: Integrator<State = ()>>(
             margin: 0.0,
             pixels: 1,
             spacing: 1.0,
+            sample: 0,
         };
         let mut meter = Meter::default();
         integrator.sample(world, &(), &site, &mut sampler, &mut meter);

@@ -82,6 +82,7 @@ fn sample<I: Integrator<State = ()>>(integrator: &I, world: &Stack, sample: u32)
         margin: 0.0,
         pixels: 1,
         spacing: 0.25,
+        sample: 0,
     };
     let names = integrator.channels().into_iter().map(|Channel(name)| name);
     let mut written = Written {

@@ -3,7 +3,9 @@
 use crate::world::{Plane, Stack, ZERO};
 use etalon_integrators::{Outcome, Plan, Progress, Share, render};
 use etalon_sampling::{Sampler, SamplerKind};
-use etalon_transport::{Channel, Film, Integrator, PixelSite, Placement, Sink, TileSink, World};
+use etalon_transport::{
+    Channel, Film, Integrator, Pass, PixelSite, Placement, Sink, TileSink, World,
+};
 use glam::{UVec2, Vec2};
 use std::sync::Mutex;
 use std::sync::atomic::{AtomicU32, AtomicU64, Ordering};
@@ -115,7 +117,8 @@ impl Film for Tally {
 struct Marbles {
     origin: UVec2,
     size: UVec2,
-    prepared: AtomicU32,
+    first_replicate: u32,
+    samples_per_pass: Option<u32>,
 }
 
 impl Integrator for Marbles {
@@ -126,10 +129,24 @@ impl Integrator for Marbles {
     fn splats(&self) -> bool {
         true
     }
-    fn prepare<W: World>(&self, _: &W, seed: u64, replicate: u32) -> u32 {
-        assert_eq!(seed, 5);
-        assert_eq!(self.prepared.fetch_add(1, Ordering::Relaxed), replicate);
-        replicate
+    fn samples_per_pass(&self) -> Option<u32> {
+        self.samples_per_pass
+    }
+    fn prepare<W: World>(&self, _: &W, pass: &Pass, before: Option<u32>) -> u32 {
+        let expected = Pass {
+            seed: 5,
+            origin: self.origin,
+            size: self.size,
+            ..*pass
+        };
+        assert_eq!(*pass, expected);
+        let length = self.samples_per_pass.unwrap_or(4).max(1);
+        assert_eq!(pass.count, 4_u32.div_ceil(length));
+        assert_eq!(pass.samples, length.min(4 - pass.number * length));
+        let turn = pass.replicate * pass.count + pass.number;
+        let first = self.first_replicate * pass.count;
+        assert_eq!(before, turn.checked_sub(1).filter(|_| turn > first));
+        turn
     }
     fn sample<W: World, S: Sampler, K: Sink>(
         &self,
@@ -139,6 +156,7 @@ impl Integrator for Marbles {
         sampler: &mut S,
         sink: &mut K,
     ) {
+        assert!(site.sample < self.samples_per_pass.unwrap_or(4).max(1));
         assert_eq!(site.margin, 1.5);
         assert_eq!(site.pixels, self.size.x * self.size.y);
         assert_eq!(site.raster.as_uvec2(), site.pixel);
@@ -186,22 +204,24 @@ fn run(
     window: (UVec2, UVec2),
     watch: &Watch,
 ) -> (Tally, Outcome) {
-    run_share(threads, sampler, window, watch, None)
+    run_passes(threads, sampler, window, watch, (None, None))
 }
 
-fn run_share(
+/// Renders a share in passes of so many samples.
+fn run_passes(
     threads: usize,
     sampler: SamplerKind,
     window: (UVec2, UVec2),
     watch: &Watch,
-    share: Option<Share>,
+    (share, samples_per_pass): (Option<Share>, Option<u32>),
 ) -> (Tally, Outcome) {
     let (origin, size) = window;
     let world = Stack::new(vec![Plane::WHITE], ZERO, 1.0, true);
     let integrator = Marbles {
         origin,
         size,
-        prepared: AtomicU32::new(share.map_or(0, |share| share.first)),
+        first_replicate: share.map_or(0, |share| share.first),
+        samples_per_pass,
     };
     let mut film = Tally::new(origin, size);
     let plan = Plan {
@@ -298,11 +318,28 @@ fn shares_of_the_replicates_are_those_of_the_whole() {
             let mut dealt = Vec::new();
             for index in 0..count {
                 let share = Share::of(3, index, count);
-                let (film, outcome) = run_share(2, sampler, CROP, &Watch::default(), share);
+                let (film, outcome) =
+                    run_passes(2, sampler, CROP, &Watch::default(), (share, None));
                 assert_eq!(Some(outcome.replicates), share.map(|share| share.count));
                 dealt.extend(film.replicates);
             }
             assert_eq!(dealt, all.replicates, "{count} shares");
+        }
+    }
+}
+
+/// However a replicate is cut into passes, its samples are the same.
+#[test]
+fn passes_draw_the_samples_of_a_replicate() {
+    for sampler in KINDS {
+        let (all, outcome) = run(2, sampler, CROP, &Watch::default());
+        for length in 0..=5 {
+            let watch = Watch::default();
+            let asked = (None, Some(length));
+            let (film, other) = run_passes(2, sampler, CROP, &watch, asked);
+            assert_eq!(film.replicates, all.replicates, "{length} samples per pass");
+            assert_eq!(outcome, other);
+            assert_eq!(watch.samples.into_inner(), outcome.samples);
         }
     }
 }

@@ -50,6 +50,7 @@ pub(crate) fn measure<I: Integrator<State = ()>>(
             margin: 0.0,
             pixels: 1,
             spacing: 1.0,
+            sample: 0,
         };
         let mut meter = Meter::default();
         integrator.sample(world, &(), &site, &mut sampler, &mut meter);

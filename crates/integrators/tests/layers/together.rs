@@ -48,6 +48,7 @@ fn drafts(count: u32) -> Vec<Draft<Sobol>> {
             margin: 0.0,
             pixels: 1,
             spacing: 0.5,
+            sample: 0,
         };
         Draft {
             site,
