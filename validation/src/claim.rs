@@ -138,12 +138,14 @@ pub enum Change {
     /// A part of the film for the whole, as the estimator's `defines` cut it out: the same bits in
     /// every pixel of the part.
     Crop,
+    /// Another seed: no replicate is like any other, of either picture.
+    Seed,
     /// Another of the four wavelengths of each path chooses: the same statistics.
     Wavelengths,
 }
 
 impl Change {
-    /// Whether every bit must stay the same, and not only the statistics.
+    /// Whether it is judged by bits, and not by statistics.
     pub fn is_of_bits(self) -> bool {
         self != Self::Wavelengths
     }
@@ -245,6 +247,7 @@ impl Estimator {
             Some(Change::Parts) => ", parts",
             Some(Change::Accelerator) => ", accelerator",
             Some(Change::Crop) => ", crop",
+            Some(Change::Seed) => ", seed",
             Some(Change::Wavelengths) => ", wavelengths",
         };
         format!("{integrator}, {sampler}{defines}{change}")
