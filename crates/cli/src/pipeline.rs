@@ -1,6 +1,6 @@
 //! From a scene file to an image: the way every command and every claim takes.
 
-use crate::{VERSION, resources};
+use crate::{VERSION, objections, resources};
 use etalon_film::{
     Developed, ExactFilm, FilmSettings, Filter, Part, RenderFacts, recorded_seconds,
 };
@@ -88,6 +88,9 @@ pub fn load(path: &Path, options: &LoadOptions) -> Result<Loaded, Refusal> {
         if let (Some(compiled), Some((integrator, _))) = (&compiled, &integrator) {
             let place = place(&document.root, &[Class::Integrator]);
             diagnostics.keep(check_channels(&compiled.film, integrator, place));
+            for objection in integrator.objections(&compiled.scene.sight()) {
+                diagnostics.push(objections::diagnostic(objection, &document.root));
+            }
         }
         if sound && !diagnostics.has_errors() {
             loaded = compiled.zip(integrator).map(|(compiled, integrator)| {
@@ -124,7 +127,7 @@ pub fn load(path: &Path, options: &LoadOptions) -> Result<Loaded, Refusal> {
 }
 
 /// Where the object at the end of a path of classes is named, or the last one that there is.
-fn place(root: &Node, classes: &[Class]) -> Span {
+pub(crate) fn place(root: &Node, classes: &[Class]) -> Span {
     let mut node = root;
     for class in classes {
         let found = node.properties.iter().find_map(|p| match &p.value {

@@ -12,7 +12,7 @@ use crate::signature::Signature;
 use core::any::Any;
 use etalon_params::{Class, Diagnostics, Node, Params, plugins};
 use etalon_sampling::Sampler;
-use etalon_transport::{Channel, Film, Integrator, PixelSite, Sink, World};
+use etalon_transport::{Channel, Film, Integrator, Objection, PixelSite, Sight, Sink, World};
 use glam::Vec2;
 
 macro_rules! integrators {
@@ -59,6 +59,13 @@ macro_rules! integrators {
             pub fn splats(&self) -> bool {
                 match self {
                     $(Self::$variant(integrator) => integrator.splats(),)*
+                }
+            }
+
+            /// What it objects to in a scene.
+            pub fn objections(&self, sight: &Sight) -> Vec<Objection> {
+                match self {
+                    $(Self::$variant(integrator) => integrator.objections(sight),)*
                 }
             }
 
@@ -132,6 +139,12 @@ pub(crate) struct Nested {
 }
 
 impl Nested {
+    /// What nested integrators object to.
+    pub(crate) fn objections(nested: &[Self], sight: &Sight) -> Vec<Objection> {
+        let each = nested.iter().map(|n| n.integrator.objections(sight));
+        each.flatten().collect()
+    }
+
     /// The integrators nested in a description, in its order. Integrators that splat are
     /// refused: their contributions belong to no sample of the pixel.
     pub(crate) fn all(params: &Params<'_>) -> Option<Vec<Self>> {

@@ -22,7 +22,10 @@ use crate::settings::{PathSettings, ignore_scheduling};
 use etalon_params::Params;
 use etalon_sampling::Sampler;
 use etalon_spectrum::{SensorWeights, Wavelengths, sensor_response};
-use etalon_transport::{Bsdf, Camera, Integrator, Mode, Pass, PixelSite, Ray, Sink, Vertex, World};
+use etalon_transport::{
+    Bsdf, Camera, Finding, Integrator, Mode, Objection, Pass, PixelSite, Ray, Sight, Sink, Vertex,
+    World,
+};
 use glam::{Vec2, Vec3, Vec4};
 
 /// The light tracer.
@@ -194,6 +197,10 @@ impl Integrator for ParticleTracer {
 
     fn splats(&self) -> bool {
         true
+    }
+
+    fn objections(&self, sight: &Sight) -> Vec<Objection> {
+        sight.objections(Finding::Choosing)
     }
 
     fn prepare<W: World>(&self, _: &W, _: &Pass, _: Option<()>) {}

@@ -1,6 +1,6 @@
 //! The contract of an estimator of light transport.
 
-use crate::{Channel, Sink, TileSink, World};
+use crate::{Channel, Finding, Objection, Sight, Sink, TileSink, World};
 use etalon_sampling::Sampler;
 use glam::{UVec2, Vec2};
 
@@ -74,6 +74,12 @@ pub trait Integrator: Sync {
     /// Whether it splats to pixels other than the current one.
     fn splats(&self) -> bool {
         false
+    }
+
+    /// What it objects to in a scene, asked before anything is rendered. By default that of an
+    /// estimator which can both run into lights and choose them.
+    fn objections(&self, sight: &Sight) -> Vec<Objection> {
+        sight.objections(Finding::Either)
     }
 
     /// Samples per pixel after which it must prepare again; `None` if a replicate is one pass.

@@ -48,7 +48,9 @@ use corner::Corner;
 use etalon_params::Params;
 use etalon_sampling::Sampler;
 use etalon_spectrum::sensor_response;
-use etalon_transport::{Draft, Integrator, Pass, PixelSite, Sink, TileSink, World};
+use etalon_transport::{
+    Draft, Finding, Integrator, Objection, Pass, PixelSite, Sight, Sink, Subject, TileSink, World,
+};
 use glam::Vec4;
 use subpath::{FromCamera, FromLight};
 
@@ -160,6 +162,30 @@ impl Integrator for Bidirectional {
 
     fn splats(&self) -> bool {
         true
+    }
+
+    fn objections(&self, sight: &Sight) -> Vec<Objection> {
+        let Some(only) = self.only else {
+            return sight.objections(Finding::Either);
+        };
+        let mut objections = sight.objections(match only.light {
+            0 => Finding::Hitting,
+            _ => Finding::Choosing,
+        });
+        let segments = only.light + only.camera - 1;
+        let max_depth = self.settings.max_depth;
+        if u32::try_from(segments).map_or(true, |segments| segments > max_depth) {
+            let message = format!(
+                "the technique s = {}, t = {} makes paths of {segments} segments, and `max_depth` is {max_depth}",
+                only.light, only.camera
+            );
+            let objection = Objection::fatal(Subject::Parameter("s"), message).help(format!(
+                "raise `max_depth` to {segments}, or ask for s + t of at most {}",
+                u64::from(max_depth) + 1
+            ));
+            objections.push(objection);
+        }
+        objections
     }
 
     fn prepare<W: World>(&self, _: &W, _: &Pass, _: Option<()>) {}
