@@ -29,6 +29,12 @@ macro_rules! integrators {
             &[$($name),*]
         }
 
+        /// The names of those that estimate all radiance without bias.
+        pub fn unbiased() -> Vec<&'static str> {
+            let all = [$(($name, $variant::UNBIASED)),*];
+            all.into_iter().filter_map(|(name, unbiased)| unbiased.then_some(name)).collect()
+        }
+
         impl AnyIntegrator {
             /// Reads an integrator from its description. `None` if there is no integrator of
             /// that name, or after a mistake, which has been recorded.

@@ -60,6 +60,8 @@ impl Path {
 }
 
 impl Integrator for Path {
+    const UNBIASED: bool = true;
+
     type State = ();
 
     fn prepare<W: World>(&self, _: &W, _: &Pass, _: Option<()>) {}

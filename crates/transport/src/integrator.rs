@@ -66,6 +66,10 @@ pub trait Integrator: Sync {
     /// tracer.
     type State: Send + Sync + 'static;
 
+    /// Whether it estimates the radiance of all light paths that it does not object to
+    /// ([`Integrator::objections`]) without bias, so that it must agree with any other that does.
+    const UNBIASED: bool = false;
+
     /// The channels it writes beside the colour, in the order of [`Sink::channel`]'s index.
     fn channels(&self) -> Vec<Channel> {
         Vec::new()

@@ -158,6 +158,8 @@ fn technique(params: &Params<'_>) -> Option<Technique> {
 }
 
 impl Integrator for Bidirectional {
+    const UNBIASED: bool = true;
+
     type State = ();
 
     fn splats(&self) -> bool {
