@@ -4,8 +4,10 @@ use crate::aov::Aov;
 use crate::bdpt::Bidirectional;
 use crate::depth::Depth;
 use crate::direct::Direct;
+use crate::mmlt::Multiplexed;
 use crate::moment::Moment;
 use crate::path::Path;
+use crate::pssmlt::PrimarySpace;
 use crate::ptracer::ParticleTracer;
 use crate::render::{Outcome, Plan, Progress, render};
 use crate::signature::Signature;
@@ -124,6 +126,8 @@ integrators! {
     "signature" => Signature: |p| Some(Signature::from_params(p));
     "bdpt" => Bidirectional: |p| Some(Bidirectional::from_params(p));
     "ptracer" => ParticleTracer: |p| Some(ParticleTracer::from_params(p));
+    "pssmlt" => PrimarySpace: |p| Some(PrimarySpace::from_params(p));
+    "mmlt" => Multiplexed: |p| Some(Multiplexed::from_params(p));
     "aov" => Aov: Aov::from_params;
     "moment" => Moment: Moment::from_params;
 }

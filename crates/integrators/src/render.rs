@@ -128,6 +128,7 @@ pub fn render<W: World, I: Integrator, F: Film, P: Progress>(
             samples: length.min(plan.samples_per_replicate - begin),
             origin,
             size,
+            margin: film.margin().ceil() as u32,
         };
         let state = integrator.prepare(world, &pass, before.take());
         let tile = |index: u32| {

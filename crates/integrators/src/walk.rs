@@ -5,6 +5,7 @@ use crate::path::camera_ray;
 use crate::prefix::Prefix;
 use crate::rival::Rival;
 use crate::settings::PathSettings;
+use core::ops::Range;
 use etalon_sampling::Sampler;
 use etalon_spectrum::{Wavelengths, sensor_response};
 use etalon_transport::{Bsdf, Chance, Hit, Mode, PixelSite, Ray, Receiver, Sink, Vertex, World};
@@ -25,6 +26,8 @@ pub(crate) struct Walk<'a, S> {
     eta: f32,
     /// Number of segments, that of `ray` included.
     depth: u32,
+    /// Surfaces behind at which it scattered, not counting those that it passed straight.
+    corners: u32,
     /// Whether the path goes on with `ray`.
     goes_on: bool,
     connection: Option<Connection>,
@@ -66,6 +69,7 @@ impl<'a, S: Sampler> Walk<'a, S> {
             rival: Rival::NONE,
             eta: 1.0,
             depth: 1,
+            corners: 0,
             goes_on: settings.max_depth > 0,
             connection: None,
             radiance: Vec4::ZERO,
@@ -82,8 +86,36 @@ impl<'a, S: Sampler> Walk<'a, S> {
     /// Delivers what was found.
     #[inline]
     pub(crate) fn deliver(&self, sink: &mut impl Sink) {
-        let rgb = sensor_response(&self.wavelengths).rgb(self.radiance * self.weight);
-        sink.radiance(rgb.to_array(), self.alpha);
+        sink.radiance(self.colour().to_array(), self.alpha);
+    }
+
+    /// The colour found.
+    #[inline]
+    pub(crate) fn colour(&self) -> Vec3 {
+        sensor_response(&self.wavelengths).rgb(self.radiance * self.weight)
+    }
+
+    /// Follows the path alone and to its end, but keeps of what it finds only the paths with as
+    /// many corners as `wanted` says.
+    pub(crate) fn follow<W: World>(
+        &mut self,
+        world: &W,
+        settings: &PathSettings,
+        wanted: &Range<u32>,
+    ) {
+        while self.goes_on && self.corners < wanted.end {
+            self.advance(world);
+            let (radiance, corners) = (self.radiance, self.corners);
+            self.meet(world, settings);
+            if corners < wanted.start {
+                self.radiance = radiance;
+            }
+            if wanted.contains(&(corners + 1)) {
+                self.see_light(world);
+            } else {
+                self.connection = None;
+            }
+        }
     }
 
     /// Finds the next surface.
@@ -194,6 +226,7 @@ impl<'a, S: Sampler> Walk<'a, S> {
         };
         if !sample.passes {
             self.alpha = 1.0;
+            self.corners += 1;
         }
         self.rival = self.rival.after(&self.prefix, vertex, &sample);
         self.prefix.extend(sample.value, sample.chance.lanes());

@@ -40,6 +40,9 @@ pub struct Pass {
     pub origin: UVec2,
     /// Size of the cropped film (pixels).
     pub size: UVec2,
+    /// How many pixels beyond the film a splat can still matter, rounded up (see
+    /// [`crate::Film::margin`]).
+    pub margin: u32,
 }
 
 /// A sample about to be drawn.

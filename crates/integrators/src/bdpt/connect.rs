@@ -177,6 +177,9 @@ impl<'w, W: World> Connector<'_, 'w, W> {
         eye: &[Corner<W::Bsdf<'w>>],
         event: &Event,
     ) {
+        if (self.only).is_some_and(|only| only.camera != eye.len() + 2) {
+            return;
+        }
         self.sample_light(corner, eye, event);
         let Some(start) = self.start else {
             return;

@@ -37,6 +37,7 @@
 
 mod connect;
 mod corner;
+pub(crate) mod single;
 mod subpath;
 mod weight;
 
@@ -102,7 +103,7 @@ impl Bidirectional {
         let settings = &self.settings;
         let mut start = FromLight::start(world, &wavelengths, settings, sampler);
         if let Some(start) = &mut start {
-            start.walk(world, &wavelengths, settings, sampler, light);
+            start.walk(world, &wavelengths, settings, sampler, light, usize::MAX);
         }
         sampler.skip_to(dim::LENS);
         let mut connector = Connector {
