@@ -14,12 +14,16 @@ pub mod direct;
 pub mod list;
 pub mod moment;
 pub mod path;
+pub mod photonmap;
+pub mod photons;
 pub mod prefix;
 pub mod ptracer;
 pub mod render;
 mod rival;
 pub mod settings;
 pub mod signature;
+pub mod sppm;
+pub mod vcm;
 mod walk;
 
 pub use list::{AnyIntegrator, names};

@@ -6,9 +6,12 @@ use crate::depth::Depth;
 use crate::direct::Direct;
 use crate::moment::Moment;
 use crate::path::Path;
+use crate::photonmap::PhotonMapper;
 use crate::ptracer::ParticleTracer;
 use crate::render::{Outcome, Plan, Progress, render};
 use crate::signature::Signature;
+use crate::sppm::Progressive;
+use crate::vcm::ConnectionMerging;
 use core::any::Any;
 use etalon_params::{Class, Diagnostics, Node, Params, plugins};
 use etalon_sampling::Sampler;
@@ -112,6 +115,9 @@ integrators! {
     "bdpt" => Bidirectional: |p| Some(Bidirectional::from_params(p));
     "ptracer" => ParticleTracer: |p| Some(ParticleTracer::from_params(p));
     "aov" => Aov: Aov::from_params;
+    "photonmap" => PhotonMapper: |p| Some(PhotonMapper::from_params(p));
+    "sppm" => Progressive: |p| Some(Progressive::from_params(p));
+    "vcm" => ConnectionMerging: |p| Some(ConnectionMerging::from_params(p));
     "moment" => Moment: Moment::from_params;
 }
 
