@@ -16,6 +16,8 @@ pub mod metropolis;
 pub mod mmlt;
 pub mod moment;
 pub mod path;
+pub mod photonmap;
+pub mod photons;
 pub mod prefix;
 pub mod pssmlt;
 pub mod ptracer;
@@ -23,6 +25,8 @@ pub mod render;
 mod rival;
 pub mod settings;
 pub mod signature;
+pub mod sppm;
+pub mod vcm;
 mod walk;
 
 pub use list::{AnyIntegrator, names};

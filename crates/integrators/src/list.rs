@@ -7,10 +7,13 @@ use crate::direct::Direct;
 use crate::mmlt::Multiplexed;
 use crate::moment::Moment;
 use crate::path::Path;
+use crate::photonmap::PhotonMapper;
 use crate::pssmlt::PrimarySpace;
 use crate::ptracer::ParticleTracer;
 use crate::render::{Outcome, Plan, Progress, render};
 use crate::signature::Signature;
+use crate::sppm::Progressive;
+use crate::vcm::ConnectionMerging;
 use core::any::Any;
 use etalon_params::{Class, Diagnostics, Node, Params, plugins};
 use etalon_sampling::Sampler;
@@ -129,6 +132,9 @@ integrators! {
     "pssmlt" => PrimarySpace: |p| Some(PrimarySpace::from_params(p));
     "mmlt" => Multiplexed: |p| Some(Multiplexed::from_params(p));
     "aov" => Aov: Aov::from_params;
+    "photonmap" => PhotonMapper: |p| Some(PhotonMapper::from_params(p));
+    "sppm" => Progressive: |p| Some(Progressive::from_params(p));
+    "vcm" => ConnectionMerging: |p| Some(ConnectionMerging::from_params(p));
     "moment" => Moment: Moment::from_params;
 }
 

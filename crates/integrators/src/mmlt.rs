@@ -114,6 +114,8 @@ impl<'w, W: World> Integrand for Techniques<'w, W> {
 }
 
 impl Integrator for Multiplexed {
+    const UNBIASED: bool = true;
+
     type State = State;
 
     fn splats(&self) -> bool {

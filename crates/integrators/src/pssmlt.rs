@@ -68,6 +68,8 @@ impl<W: World> Integrand for Paths<'_, W> {
 }
 
 impl Integrator for PrimarySpace {
+    const UNBIASED: bool = true;
+
     type State = State;
 
     fn splats(&self) -> bool {

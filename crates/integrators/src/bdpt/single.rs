@@ -63,6 +63,7 @@ pub(crate) fn sample<'w, W: World, S: Sampler>(
         world,
         wavelengths: &wavelengths,
         settings,
+        merging: None,
         only: Some(technique),
         site,
         lens: sampler.next_2d(),
