@@ -32,6 +32,7 @@ pub mod rough_fresnel;
 pub mod roughness;
 
 pub mod blendbsdf;
+pub mod classicphong;
 pub mod conductor;
 pub mod dielectric;
 pub mod diffuse;

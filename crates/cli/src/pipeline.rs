@@ -85,9 +85,10 @@ pub fn load(path: &Path, options: &LoadOptions) -> Result<Loaded, Refusal> {
         let assets = FileAssets::new(document.search.clone());
         let compiled = etalon_scene::compile(&document.root, &assets, &diagnostics);
         let integrator = integrator(&document.root, &diagnostics);
-        if let (Some(compiled), Some((integrator, _))) = (&compiled, &integrator) {
+        if let (Some(compiled), Some((integrator, name))) = (&compiled, &integrator) {
             let place = place(&document.root, &[Class::Integrator]);
             diagnostics.keep(check_channels(&compiled.film, integrator, place));
+            diagnostics.keep(check_ability(compiled, integrator, name, place));
         }
         if sound && !diagnostics.has_errors() {
             loaded = compiled.zip(integrator).map(|(compiled, integrator)| {
@@ -152,6 +153,29 @@ fn check_channels(
     ExactFilm::new(pixel, &integrator.channels())
         .map(|_| ())
         .map_err(|error| at(error, place))
+}
+
+/// Refuses an integrator that cannot show what is in the scene.
+fn check_ability(
+    compiled: &Compiled,
+    integrator: &AnyIntegrator,
+    name: &str,
+    place: Span,
+) -> Result<(), Diagnostic> {
+    if let (Some(material), false) = (compiled.classic, integrator.shows_classic()) {
+        let message = format!(
+            "the integrator `{name}` follows light, and this material says nothing of how it \
+             scatters light"
+        );
+        return Err(Diagnostic::error(material, message).help(
+            "the integrator `whitted` shows classic Phong materials; `phong` is a BSDF that every \
+             integrator shows",
+        ));
+    }
+    match integrator.obstacle(&compiled.scene) {
+        Some(obstacle) => Err(Diagnostic::error(place, obstacle)),
+        None => Ok(()),
+    }
 }
 
 /// The same message, at a place.

@@ -124,6 +124,14 @@ impl Aov {
 impl Integrator for Aov {
     type State = ();
 
+    fn shows_classic(&self) -> bool {
+        Nested::show_classic(&self.nested)
+    }
+
+    fn obstacle<W: World>(&self, world: &W) -> Option<String> {
+        Nested::obstacle(&self.nested, world)
+    }
+
     fn channels(&self) -> Vec<Channel> {
         let mut names = Vec::new();
         for Nested {

@@ -50,6 +50,10 @@ impl Default for Depth {
 impl Integrator for Depth {
     type State = ();
 
+    fn shows_classic(&self) -> bool {
+        true
+    }
+
     fn prepare<W: World>(&self, _: &W, _: &Pass, _: Option<()>) {}
 
     fn sample<W: World, S: Sampler, K: Sink>(

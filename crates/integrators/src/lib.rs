@@ -21,6 +21,7 @@ mod rival;
 pub mod settings;
 pub mod signature;
 mod walk;
+pub mod whitted;
 
 pub use list::{AnyIntegrator, names};
 pub use render::{Outcome, Plan, Progress, Share, render};

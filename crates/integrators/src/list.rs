@@ -9,6 +9,7 @@ use crate::path::Path;
 use crate::ptracer::ParticleTracer;
 use crate::render::{Outcome, Plan, Progress, render};
 use crate::signature::Signature;
+use crate::whitted::Whitted;
 use core::any::Any;
 use etalon_params::{Class, Diagnostics, Node, Params, plugins};
 use etalon_sampling::Sampler;
@@ -59,6 +60,20 @@ macro_rules! integrators {
             pub fn splats(&self) -> bool {
                 match self {
                     $(Self::$variant(integrator) => integrator.splats(),)*
+                }
+            }
+
+            /// Whether it can show materials that are no scattering model.
+            pub fn shows_classic(&self) -> bool {
+                match self {
+                    $(Self::$variant(integrator) => integrator.shows_classic(),)*
+                }
+            }
+
+            /// Why it cannot render a world; `None` if it can.
+            pub fn obstacle<W: World>(&self, world: &W) -> Option<String> {
+                match self {
+                    $(Self::$variant(integrator) => integrator.obstacle(world),)*
                 }
             }
 
@@ -113,6 +128,7 @@ integrators! {
     "ptracer" => ParticleTracer: |p| Some(ParticleTracer::from_params(p));
     "aov" => Aov: Aov::from_params;
     "moment" => Moment: Moment::from_params;
+    "whitted" => Whitted: |p| Some(Whitted::from_params(p));
 }
 
 /// The state of an integrator that learns nothing, `()`; `None` for others.
@@ -171,6 +187,16 @@ impl Nested {
             });
         }
         Some(nested)
+    }
+
+    /// Whether all of them can show materials that are no scattering model.
+    pub(crate) fn show_classic(nested: &[Self]) -> bool {
+        nested.iter().all(|n| n.integrator.shows_classic())
+    }
+
+    /// Why one of them cannot render a world.
+    pub(crate) fn obstacle<W: World>(nested: &[Self], world: &W) -> Option<String> {
+        nested.iter().find_map(|n| n.integrator.obstacle(world))
     }
 }
 

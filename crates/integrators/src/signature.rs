@@ -64,6 +64,10 @@ fn object(hit: &Hit) -> u32 {
 impl Integrator for Signature {
     type State = ();
 
+    fn shows_classic(&self) -> bool {
+        true
+    }
+
     fn prepare<W: World>(&self, _: &W, _: &Pass, _: Option<()>) {}
 
     fn sample<W: World, S: Sampler, K: Sink>(

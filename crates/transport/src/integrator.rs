@@ -76,6 +76,18 @@ pub trait Integrator: Sync {
         false
     }
 
+    /// Whether it can show materials that are no scattering model ([`World::classic`]), or does not
+    /// look at materials at all.
+    fn shows_classic(&self) -> bool {
+        false
+    }
+
+    /// Why it cannot render a world: what is said to the user in place of a wrong picture. `None` if
+    /// it can.
+    fn obstacle<W: World>(&self, _world: &W) -> Option<String> {
+        None
+    }
+
     /// Samples per pixel after which it must prepare again; `None` if a replicate is one pass.
     fn samples_per_pass(&self) -> Option<u32> {
         None
