@@ -85,14 +85,7 @@ impl Description {
     }
 
     /// Adds nothing.
-    pub fn flatten<T: Textures>(
-        &self,
-        _: &Site<'_, T>,
-        _: Frame,
-        _: f32,
-        _: &mut Flattening<'_>,
-    ) {
-    }
+    pub fn flatten<T: Textures>(&self, _: &Site<'_, T>, _: Frame, _: f32, _: &mut Flattening<'_>) {}
 
     /// Nothing passes as if the surface were not there.
     pub fn passing<T: Textures>(&self, _: &Site<'_, T>, _: Frame) -> (Vec4, f32) {

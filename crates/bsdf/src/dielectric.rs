@@ -88,13 +88,15 @@ impl Model for Dielectric {
         match index {
             0 => Some(self.reflected(wo, fresnel)),
             // Other lanes may refract where lane 0 is reflected, so there always are two.
-            1 => Some((self.refracted(wo, eta, fresnel, mode)).unwrap_or(BsdfSample {
-                wi: -wo,
-                value: Vec4::ZERO,
-                chance: Chance::Discrete(Atom(Vec4::ZERO)),
-                eta: 1.0,
-                passes: false,
-            })),
+            1 => Some(
+                (self.refracted(wo, eta, fresnel, mode)).unwrap_or(BsdfSample {
+                    wi: -wo,
+                    value: Vec4::ZERO,
+                    chance: Chance::Discrete(Atom(Vec4::ZERO)),
+                    eta: 1.0,
+                    passes: false,
+                }),
+            ),
             _ => None,
         }
     }

@@ -39,6 +39,7 @@ pub mod diffuse;
 pub mod mask;
 pub mod mirror;
 pub mod null;
+pub mod phong;
 pub mod plastic;
 pub mod roughconductor;
 pub mod roughdielectric;

@@ -334,6 +334,7 @@ models! {
         "roughconductor" RoughConductor roughconductor REFLECTING,
         "plastic" Plastic plastic REFLECTING,
         "roughplastic" RoughPlastic roughplastic REFLECTING <'a>,
+        "phong" Phong phong REFLECTING,
     }
     composed {
         "thindielectric" ThinDielectric thindielectric,

@@ -11,6 +11,7 @@ pub mod bdpt;
 pub mod depth;
 pub mod dimensions;
 pub mod direct;
+pub mod distribution;
 pub mod list;
 pub mod moment;
 pub mod path;

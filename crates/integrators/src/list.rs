@@ -4,6 +4,7 @@ use crate::aov::Aov;
 use crate::bdpt::Bidirectional;
 use crate::depth::Depth;
 use crate::direct::Direct;
+use crate::distribution::Distribution;
 use crate::moment::Moment;
 use crate::path::Path;
 use crate::ptracer::ParticleTracer;
@@ -128,6 +129,7 @@ integrators! {
     "ptracer" => ParticleTracer: |p| Some(ParticleTracer::from_params(p));
     "aov" => Aov: Aov::from_params;
     "moment" => Moment: Moment::from_params;
+    "distribution" => Distribution: |p| Some(Distribution::from_params(p));
     "whitted" => Whitted: |p| Some(Whitted::from_params(p));
 }
 

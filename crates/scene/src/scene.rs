@@ -8,8 +8,8 @@ use etalon_lights::LightSet;
 use etalon_math::{Density, SolidAngle};
 use etalon_spectrum::{WavelengthDistribution, Wavelengths};
 use etalon_transport::{
-    Bsdf, ClassicPhong, Emission, EmissionDensity, Hit, LightId, LightSample, Passage, Ray, Receiver, Vertex,
-    World,
+    Bsdf, ClassicPhong, Emission, EmissionDensity, Hit, LightId, LightSample, Passage, Ray,
+    Receiver, Vertex, World,
 };
 use glam::{Vec2, Vec3, Vec4};
 

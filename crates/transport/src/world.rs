@@ -1,7 +1,8 @@
 //! The contract of a scene: all that an integrator may ask.
 
 use crate::{
-    Bsdf, Camera, ClassicPhong, Emission, EmissionDensity, Hit, LightId, LightSample, Ray, Receiver, Vertex,
+    Bsdf, Camera, ClassicPhong, Emission, EmissionDensity, Hit, LightId, LightSample, Ray,
+    Receiver, Vertex,
 };
 use etalon_math::{Density, SolidAngle};
 use etalon_spectrum::Wavelengths;

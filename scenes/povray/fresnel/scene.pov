@@ -1,19 +1,11 @@
-// Things of glass by Fresnel's equations, among matt walls: no classic materials. Twin: scene.xml.
+// Things of glass by Fresnel's equations among shining walls: no classic materials. Twin: scene.xml.
 #version 3.7;
 global_settings { assumed_gamma 1.0 max_trace_level 14 adc_bailout 0 }
 
 // A right-handed world: the camera's x axis points to the left.
 camera { perspective location <0.3, -6, 2.4> sky z up y right -4/3*x angle 44 look_at <0, 0, 0.8> }
 
-// I/d² in the limit: POV-Ray's 2/(1 + (d/f)²) is 2f²/d² for f far below d.
-#declare F = 0.001;
-#macro Lamp(Position, Intensity)
-  light_source { Position rgb Intensity/(2*F*F) fade_distance F fade_power 2 }
-#end
-// Here lamps shine on Lambert's surfaces, which show 1/pi.
-#macro Matt(Reflectance)
-  texture { pigment { Reflectance } finish { ambient 0 diffuse 1/pi } }
-#end
+#declare Shining = finish { ambient 0 diffuse 0 emission 1 }
 #macro Glass()
   texture {
     pigment { color rgb 0 transmit 1 }
@@ -23,11 +15,20 @@ camera { perspective location <0.3, -6, 2.4> sky z up y right -4/3*x angle 44 lo
 #end
 
 polygon {
-  5, <-5, -5, 0>, <5, -5, 0>, <5, 5, 0>, <-5, 5, 0>, <-5, -5, 0>
-  Matt(checker color rgb <0.15, 0.3, 0.5> color rgb <0.6, 0.55, 0.3> translate <-5, -5, -0.5>)
+  5, <-5, -5, 0>, <0, -5, 0>, <0, 5, 0>, <-5, 5, 0>, <-5, -5, 0>
+  texture { pigment { color rgb <0.15, 0.3, 0.5> } finish { Shining } }
 }
-polygon { 5, <-5, 3, 0>, <5, 3, 0>, <5, 3, 3>, <-5, 3, 3>, <-5, 3, 0> Matt(color rgb <0.55, 0.25, 0.2>) }
+polygon {
+  5, <0, -5, 0>, <5, -5, 0>, <5, 5, 0>, <0, 5, 0>, <0, -5, 0>
+  texture { pigment { color rgb <0.6, 0.55, 0.3> } finish { Shining } }
+}
+polygon {
+  5, <-5, 3, 0>, <5, 3, 0>, <5, 3, 3>, <-5, 3, 3>, <-5, 3, 0>
+  texture { pigment { color rgb <0.55, 0.25, 0.2> } finish { Shining } }
+}
+polygon {
+  5, <-5, -5, 4>, <5, -5, 4>, <5, 5, 4>, <-5, 5, 4>, <-5, -5, 4>
+  texture { pigment { color rgb 0.9 } finish { Shining } }
+}
 sphere { <-0.9, 0.1, 0.95>, 0.85 Glass() }
 box { <-0.5, -0.5, -0.5>, <0.5, 0.5, 0.5> Glass() rotate 25*z translate <1.1, -0.2, 0.55> }
-Lamp(<2.2, -2.5, 4>, 40)
-Lamp(<-3, -1, 3.4>, 20)

@@ -11,7 +11,8 @@ camera { perspective location <0.3, -6, 2.8> sky z up y right -4/3*x angle 48 lo
   light_source { Position rgb Intensity/(2*F*F) fade_distance F fade_power 2 }
 #end
 // `transmit` blends the surface's own light with the light behind it; highlights and mirrored light
-// are added to both, so that they are reduced here.
+// are added to both, so that they are reduced here. Under total reflection POV-Ray shows all of the mirrored
+// light whatever `transmit` is, so that the box, in which there is total reflection, is quite transparent.
 #macro Clear(Diffuse, Specular, Exponent, Global, Alpha, Index)
   texture {
     pigment { color rgb Diffuse transmit Alpha }
@@ -36,7 +37,7 @@ polygon {
   texture { pigment { color rgb <0.55, 0.25, 0.2> } finish { ambient 0 diffuse 1 } }
 }
 sphere { <-1.1, 0.1, 0.95>, 0.85 Clear(0.3, 0.8, 80, 0.4, 0.85, 1.5) }
-box { <-0.5, -0.5, -0.5>, <0.5, 0.5, 0.5> Clear(0.3, 0.8, 80, 0.4, 0.85, 1.5) rotate 25*z translate <0.9, -0.2, 0.55> }
+box { <-0.5, -0.5, -0.5>, <0.5, 0.5, 0.5> Clear(0, 0, 1, 0, 1, 1.5) rotate 25*z translate <0.9, -0.2, 0.55> }
 sphere { <0.3, -1.9, 0.35>, 0.3 Clear(0.4, 0, 1, 0, 0.7, 1.33) }
 polygon {
   5, <-0.6, -0.7, 0>, <0.6, -0.7, 0>, <0.6, 0.7, 0>, <-0.6, 0.7, 0>, <-0.6, -0.7, 0>

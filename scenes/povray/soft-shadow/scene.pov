@@ -17,7 +17,8 @@ camera { perspective location <0.4, -6.5, 3> sky z up y right -4/3*x angle 46 lo
 polygon { 5, <-4, -4, 0>, <4, -4, 0>, <4, 4, 0>, <-4, 4, 0>, <-4, -4, 0> Phong(0.6, 0, 1) }
 sphere { <-0.6, 0.2, 1>, 0.6 Phong(<0.6, 0.15, 0.1>, 0.4, 25) }
 box { <-0.25, -0.25, -0.8>, <0.25, 0.25, 0.8> Phong(0.5, 0.3, 60) rotate 35*z translate <0.8, -0.5, 0.8> }
-light_source {
-  <1.4, -1.2, 3.2> rgb 20*0.9/(2*F*F) fade_distance F fade_power 2
-  area_light <0.9, 0, 0>, <0, 0.6, 0.3>, 5, 4 area_illumination on
-}
+#for (I, 0, 4)
+  #for (J, 0, 3)
+    Lamp(<1.4, -1.2, 3.2> + <0.9, 0, 0>*(I/4 - 0.5) + <0, 0.6, 0.3>*(J/3 - 0.5), 0.45)
+  #end
+#end

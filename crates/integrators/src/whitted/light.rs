@@ -68,7 +68,8 @@ impl Whitted {
                     };
                     let scattered = surface.shade(vertex, wo, lamp.direction);
                     if scattered != Vec4::ZERO {
-                        *shown = scattered * self.irradiance(&from, &lamp) * (packet.weight * share);
+                        *shown =
+                            scattered * self.irradiance(&from, &lamp) * (packet.weight * share);
                     }
                 }
                 if shown.iter().all(|&shown| shown == Vec4::ZERO) {

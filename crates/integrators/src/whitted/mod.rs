@@ -37,7 +37,8 @@ use etalon_params::Params;
 use etalon_sampling::Sampler;
 use etalon_transport::{Draft, Integrator, Pass, PixelSite, Sink, TileSink, World};
 use glam::UVec2;
-use pixel::Grid;
+pub use pixel::Grid;
+pub use tree::{Onward, onward};
 
 use crate::settings::ignore_scheduling;
 
@@ -112,16 +113,10 @@ impl Whitted {
             params.float_where(name, default, "a finite number not below 0", positive) as f32
         };
         let grid = Grid {
-            side: count("supersampling", 2, 1..=32),
+            side: count("supersampling", 2, 1..=pixel::MOST),
             levels: count("adaptive", 0, 0..=8),
             contrast: number("contrast", 0.05),
         };
-        if grid.levels > 0 && grid.side < 2 {
-            params.error_at(
-                "adaptive",
-                "neighbours are compared, so `supersampling` must be at least 2",
-            );
-        }
         Self {
             max_depth: u32::try_from(max_depth).unwrap_or(0),
             hide_emitters: params.boolean_or("hide_emitters", false),

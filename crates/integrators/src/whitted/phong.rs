@@ -69,3 +69,93 @@ pub(super) fn onward(
         _ => None,
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use etalon_math::Frame;
+    use etalon_transport::{InstanceId, LightId, MaterialId, ShapeId};
+    use glam::Vec2;
+
+    const MATERIAL: ClassicPhong = ClassicPhong {
+        ambient: Vec4::ZERO,
+        diffuse: Vec4::splat(0.5),
+        specular: Vec4::splat(0.25),
+        global: Vec4::splat(0.3),
+        exponent: 2.0,
+        transparency: 0.4,
+        eta: Vec4::splat(1.5),
+    };
+
+    fn vertex() -> Vertex {
+        Vertex {
+            position: Vec3::ZERO,
+            error: Vec3::ZERO,
+            normal: Vec3::Z,
+            shading: Frame::from_normal(Vec3::Z),
+            uv: Vec2::ZERO,
+            dp_du: Vec3::X,
+            dp_dv: Vec3::Y,
+            t: 1.0,
+            time: 0.0,
+            parameters: Vec2::ZERO,
+            shape: ShapeId(0),
+            primitive: 0,
+            instance: InstanceId::NONE,
+            material: MaterialId(0),
+            light: LightId::NONE,
+        }
+    }
+
+    fn close(a: Vec4, b: f32) -> bool {
+        (a - b).abs().max_element() < 1e-6
+    }
+
+    #[test]
+    fn a_lamp_is_shown_by_both_sides_and_not_through_the_surface() {
+        let wo = Vec3::new(0.6, 0.0, 0.8);
+        let mirrored = Vec3::new(-0.6, 0.0, 0.8);
+        for side in [1.0, -1.0] {
+            let turn = |v: Vec3| Vec3::new(v.x, v.y, v.z * side);
+            let seen = |wi: Vec3| shade(&MATERIAL, &vertex(), turn(wo), turn(wi));
+            // 0.6·(0.5 cos θ + 0.25 cos² ρ)
+            assert!(close(seen(mirrored), 0.6 * (0.4 + 0.25)));
+            assert!(close(seen(Vec3::Z), 0.6 * (0.5 + 0.25 * 0.64)));
+            assert!(close(seen(Vec3::new(0.6, 0.0, -0.8)), 0.0));
+        }
+    }
+
+    #[test]
+    fn refraction_obeys_snell_from_either_side() {
+        let sin = 0.6_f32;
+        let wo = Vec3::new(sin, 0.0, 0.8);
+        let in_glass = onward(&MATERIAL, &vertex(), wo, 1).expect("it is transparent");
+        assert!((in_glass.wi.x + sin / 1.5).abs() < 1e-6 && in_glass.wi.z < 0.0);
+        assert!(close(in_glass.value, 0.4));
+        let back = onward(&MATERIAL, &vertex(), in_glass.wi, 1).expect("it is transparent");
+        assert!((back.wi - wo).length() < 1e-6, "{}", back.wi);
+    }
+
+    #[test]
+    fn total_reflection_takes_the_place_of_refraction() {
+        let wo = Vec3::new(0.8, 0.0, -0.6);
+        let mirrored = onward(&MATERIAL, &vertex(), wo, 0).expect("there always is one");
+        assert_eq!(mirrored.wi, Vec3::new(-0.8, 0.0, -0.6));
+        assert!(close(mirrored.value, 0.3 * 0.6 + 0.4));
+        let refracted = onward(&MATERIAL, &vertex(), wo, 1).expect("other lanes may refract");
+        assert!(close(refracted.value, 0.0));
+        assert!(onward(&MATERIAL, &vertex(), wo, 2).is_none());
+    }
+
+    #[test]
+    fn each_wavelength_is_refracted_by_its_own_index() {
+        let material = ClassicPhong {
+            eta: Vec4::new(1.5, 1.5, 1.6, 1.7),
+            ..MATERIAL
+        };
+        let wo = Vec3::new(0.6, 0.0, 0.8);
+        let whole = onward(&material, &vertex(), wo, 1).expect("it is transparent");
+        assert_eq!(whole.together, Vec4::new(1.0, 1.0, 0.0, 0.0));
+        assert_eq!(whole.value, whole.together * 0.4);
+    }
+}

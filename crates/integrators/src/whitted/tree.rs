@@ -62,13 +62,13 @@ impl Packets {
 
 /// A ray that leaves a surface in a direction of its own.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Onward {
+pub struct Onward {
     /// Its direction.
-    pub(super) wi: Vec3,
+    pub wi: Vec3,
     /// What the radiance along it counts, per lane; zero for lanes that go elsewhere than lane 0.
-    pub(super) value: Vec4,
+    pub value: Vec4,
     /// Zero for lanes that go elsewhere, or nowhere.
-    pub(super) together: Vec4,
+    pub together: Vec4,
 }
 
 impl Whitted {
@@ -148,7 +148,8 @@ impl Whitted {
                     count += 1;
                 }
                 // Lane 0 chose; others that go elsewhere are asked one by one.
-                for lane in (1..4).filter(|&k| packet.weight[k] != 0.0 && whole.together[k] == 0.0) {
+                for lane in (1..4).filter(|&k| packet.weight[k] != 0.0 && whole.together[k] == 0.0)
+                {
                     let alone = packet.alone(lane);
                     let Some(own) = at(&alone).filter(|own| own.value.x != 0.0) else {
                         continue;
@@ -190,8 +191,8 @@ impl Whitted {
     }
 }
 
-/// The ray number `index` that leaves a surface, whatever it is made of.
-fn onward<W: World>(
+/// The ray number `index` that leaves a surface, whatever it is made of; `None` beyond the last.
+pub fn onward<W: World>(
     world: &W,
     vertex: &Vertex,
     wo: Vec3,
