@@ -210,9 +210,15 @@ pub struct Estimator {
 impl Estimator {
     /// Its name in reports.
     pub fn label(&self) -> String {
-        let integrator = self.integrator.as_deref().unwrap_or("path");
+        // A parameter of a scene may name the integrator, whose other parameters then stay.
+        let defined = self
+            .defines
+            .get("integrator")
+            .and_then(|name| name.as_str());
+        let integrator = self.integrator.as_deref().or(defined).unwrap_or("path");
         let sampler = self.sampler.unwrap_or(Sampler::Sobol).name();
         let defines: String = pairs(&self.defines)
+            .filter(|(key, _)| key != "integrator")
             .map(|(key, value)| format!(", {key}={value}"))
             .collect();
         let change = match self.change {

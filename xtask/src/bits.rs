@@ -10,7 +10,7 @@ use std::process::Command;
 
 /// Scene, and what else to say on the command line: every kind of estimator, and scenes that use
 /// as much of the house as possible.
-const RENDERS: [(&str, &[&str]); 9] = [
+const RENDERS: &[(&str, &[&str])] = &[
     ("scenes/cornell-box/scene.xml", &["--integrator", "path"]),
     ("scenes/cornell-box/scene.xml", &["--integrator", "ptracer"]),
     ("scenes/cornell-box/scene.xml", &["--integrator", "bdpt"]),
@@ -20,6 +20,11 @@ const RENDERS: [(&str, &[&str]); 9] = [
     ("scenes/spheres/scene.xml", &[]),
     ("scenes/foliage/scene.xml", &[]),
     ("scenes/prism/scene.xml", &[]),
+    ("scenes/povray/refraction/scene.xml", &[]),
+    (
+        "scenes/veach-mis/scene.xml",
+        &["--integrator", "distribution"],
+    ),
 ];
 
 const THREADS: [&str; 3] = ["1", "2", "16"];

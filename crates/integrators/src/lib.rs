@@ -11,6 +11,7 @@ pub mod bdpt;
 pub mod depth;
 pub mod dimensions;
 pub mod direct;
+pub mod distribution;
 pub mod list;
 pub mod metropolis;
 pub mod mmlt;
@@ -28,6 +29,7 @@ pub mod signature;
 pub mod sppm;
 pub mod vcm;
 mod walk;
+pub mod whitted;
 
 pub use list::{AnyIntegrator, names};
 pub use render::{Outcome, Plan, Progress, Share, render};

@@ -4,6 +4,7 @@ use crate::aov::Aov;
 use crate::bdpt::Bidirectional;
 use crate::depth::Depth;
 use crate::direct::Direct;
+use crate::distribution::Distribution;
 use crate::mmlt::Multiplexed;
 use crate::moment::Moment;
 use crate::path::Path;
@@ -14,6 +15,7 @@ use crate::render::{Outcome, Plan, Progress, render};
 use crate::signature::Signature;
 use crate::sppm::Progressive;
 use crate::vcm::ConnectionMerging;
+use crate::whitted::Whitted;
 use core::any::Any;
 use etalon_params::{Class, Diagnostics, Node, Params, plugins};
 use etalon_sampling::Sampler;
@@ -136,6 +138,8 @@ integrators! {
     "sppm" => Progressive: |p| Some(Progressive::from_params(p));
     "vcm" => ConnectionMerging: |p| Some(ConnectionMerging::from_params(p));
     "moment" => Moment: Moment::from_params;
+    "distribution" => Distribution: |p| Some(Distribution::from_params(p));
+    "whitted" => Whitted: |p| Some(Whitted::from_params(p));
 }
 
 /// The state of an integrator that learns nothing, `()`; `None` for others.

@@ -53,6 +53,14 @@ pub trait Bsdf {
     /// which the model was made chooses; `u_lobe` and `u` are uniform in [0, 1).
     fn sample(&self, wo: Vec3, u_lobe: f32, u: Vec2, mode: Mode) -> Option<BsdfSample>;
 
+    /// The discrete direction number `index`, as [`Bsdf::sample`] would sample it (what passes
+    /// straight on counts too); `None` beyond the last. There are as many whichever lane chooses:
+    /// one that lane 0 does not have has value and probability zero. For estimators that follow
+    /// every direction instead of choosing. A model without any keeps this.
+    fn discrete(&self, _wo: Vec3, _index: u32, _mode: Mode) -> Option<BsdfSample> {
+        None
+    }
+
     /// Whether any lobe is continuous, i.e. whether light sampling can help.
     fn has_continuous(&self) -> bool;
 
