@@ -6,13 +6,16 @@
 //!
 //! Adding an estimator: its file, and one line in [`list`].
 
+pub mod ao;
 pub mod aov;
 pub mod bdpt;
 pub mod depth;
 pub mod dimensions;
 pub mod direct;
+pub mod forward;
 pub mod list;
 pub mod moment;
+pub mod naive;
 pub mod path;
 pub mod prefix;
 pub mod ptracer;

@@ -1,10 +1,13 @@
 //! The list of integrators: one line each.
 
+use crate::ao::AmbientOcclusion;
 use crate::aov::Aov;
 use crate::bdpt::Bidirectional;
 use crate::depth::Depth;
 use crate::direct::Direct;
+use crate::forward::Forward;
 use crate::moment::Moment;
+use crate::naive::Naive;
 use crate::path::Path;
 use crate::ptracer::ParticleTracer;
 use crate::render::{Outcome, Plan, Progress, render};
@@ -113,11 +116,14 @@ macro_rules! integrators {
 
 integrators! {
     "path" => Path: |p| Some(Path::from_params(p));
+    "naive" => Naive: |p| Some(Naive::from_params(p));
     "direct" => Direct: |p| Some(Direct::from_params(p));
     "depth" => Depth: |p| Some(Depth::from_params(p));
     "signature" => Signature: |p| Some(Signature::from_params(p));
     "bdpt" => Bidirectional: |p| Some(Bidirectional::from_params(p));
     "ptracer" => ParticleTracer: |p| Some(ParticleTracer::from_params(p));
+    "forward" => Forward: |p| Some(Forward::from_params(p));
+    "ao" => AmbientOcclusion: |p| Some(AmbientOcclusion::from_params(p));
     "aov" => Aov: Aov::from_params;
     "moment" => Moment: Moment::from_params;
 }

@@ -12,6 +12,7 @@ mod exact;
 mod lanes;
 mod loops;
 mod measure;
+mod naive;
 mod scatter;
 mod together;
 mod visibility;
