@@ -18,6 +18,12 @@ const RENDERS: &[(&str, &[&str])] = &[
     ("scenes/cornell-box/scene.xml", &["--integrator", "pssmlt"]),
     ("scenes/cornell-box/scene.xml", &["--integrator", "mmlt"]),
     ("scenes/spheres/scene.xml", &[]),
+    ("scenes/spheres/scene.xml", &["--integrator", "naive"]),
+    (
+        "scenes/camera-obscura/scene.xml",
+        &["--integrator", "forward"],
+    ),
+    ("scenes/ambient-corner/scene.xml", &["--integrator", "ao"]),
     ("scenes/foliage/scene.xml", &[]),
     ("scenes/prism/scene.xml", &[]),
     ("scenes/povray/refraction/scene.xml", &[]),

@@ -167,6 +167,20 @@ macro_rules! models {
                 }
             }
 
+            fn has_discrete(&self) -> bool {
+                match self {
+                    $(Self::$plain(model) => model.has_discrete(),)*
+                    $(Self::$lobe(model) => model.has_discrete(),)*
+                }
+            }
+
+            fn transmits(&self) -> bool {
+                match self {
+                    $(Self::$plain(model) => model.transmits(),)*
+                    $(Self::$lobe(model) => model.transmits(),)*
+                }
+            }
+
             fn albedo(&self, wo: Vec3) -> Vec4 {
                 match self {
                     $(Self::$plain(model) => model.albedo(wo),)*

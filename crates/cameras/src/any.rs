@@ -39,10 +39,8 @@ macro_rules! cameras {
             }
 
             #[inline]
-            fn receive(&self, ray: &Ray, infinity: bool, margin: f32) -> Option<Reception> {
-                match self {
-                    $(Self::$variant(camera) => camera.receive(ray, infinity, margin),)*
-                }
+            fn receive(&self, ray: &Ray, margin: f32) -> Option<Reception> {
+                match self { $(Self::$variant(camera) => camera.receive(ray, margin),)* }
             }
 
             fn can_receive(&self) -> bool {

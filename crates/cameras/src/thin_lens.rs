@@ -132,11 +132,11 @@ impl Camera for ThinLens {
     }
 
     #[inline]
-    fn receive(&self, ray: &Ray, infinity: bool, margin: f32) -> Option<Reception> {
+    fn receive(&self, ray: &Ray, margin: f32) -> Option<Reception> {
         // In camera space the ray is o + t·d and the aperture lies in z = 0, looking toward +z.
         let origin = self.pose.to_camera(ray.origin);
         let direction = self.pose.to_camera(self.pose.position + ray.direction);
-        let seen = origin.z > self.near && (infinity || origin.z < self.far);
+        let seen = origin.z > self.near && origin.z < self.far;
         if !(seen && direction.z < 0.0 && self.aperture_radius > 0.0) {
             return None;
         }

@@ -6,16 +6,19 @@
 //!
 //! Adding an estimator: its file, and one line in [`list`].
 
+pub mod ao;
 pub mod aov;
 pub mod bdpt;
 pub mod depth;
 pub mod dimensions;
 pub mod direct;
 pub mod distribution;
+pub mod forward;
 pub mod list;
 pub mod metropolis;
 pub mod mmlt;
 pub mod moment;
+pub mod naive;
 pub mod path;
 pub mod photonmap;
 pub mod photons;

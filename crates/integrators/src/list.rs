@@ -1,12 +1,15 @@
 //! The list of integrators: one line each.
 
+use crate::ao::AmbientOcclusion;
 use crate::aov::Aov;
 use crate::bdpt::Bidirectional;
 use crate::depth::Depth;
 use crate::direct::Direct;
 use crate::distribution::Distribution;
+use crate::forward::Forward;
 use crate::mmlt::Multiplexed;
 use crate::moment::Moment;
+use crate::naive::Naive;
 use crate::path::Path;
 use crate::photonmap::PhotonMapper;
 use crate::pssmlt::PrimarySpace;
@@ -126,6 +129,7 @@ macro_rules! integrators {
 
 integrators! {
     "path" => Path: |p| Some(Path::from_params(p));
+    "naive" => Naive: |p| Some(Naive::from_params(p));
     "direct" => Direct: |p| Some(Direct::from_params(p));
     "depth" => Depth: |p| Some(Depth::from_params(p));
     "signature" => Signature: |p| Some(Signature::from_params(p));
@@ -133,6 +137,8 @@ integrators! {
     "ptracer" => ParticleTracer: |p| Some(ParticleTracer::from_params(p));
     "pssmlt" => PrimarySpace: |p| Some(PrimarySpace::from_params(p));
     "mmlt" => Multiplexed: |p| Some(Multiplexed::from_params(p));
+    "forward" => Forward: |p| Some(Forward::from_params(p));
+    "ao" => AmbientOcclusion: |p| Some(AmbientOcclusion::from_params(p));
     "aov" => Aov: Aov::from_params;
     "photonmap" => PhotonMapper: |p| Some(PhotonMapper::from_params(p));
     "sppm" => Progressive: |p| Some(Progressive::from_params(p));

@@ -23,8 +23,8 @@ use etalon_params::Params;
 use etalon_sampling::Sampler;
 use etalon_spectrum::{SensorWeights, Wavelengths, sensor_response};
 use etalon_transport::{
-    Bsdf, Camera, Finding, Integrator, Mode, Objection, Pass, PixelSite, Ray, Sight, Sink, Vertex,
-    World,
+    Bsdf, Camera, Emission, Finding, Integrator, Mode, Objection, Pass, PixelSite, Ray, Sight,
+    Sink, Vertex, World,
 };
 use glam::{Vec2, Vec3, Vec4};
 
@@ -104,13 +104,7 @@ impl ParticleTracer {
         if max_depth < 2 {
             return;
         }
-        sampler.skip_to(EMISSION_POSITION);
-        let u_position = sampler.next_2d();
-        sampler.skip_to(EMISSION_DIRECTION);
-        let u_direction = sampler.next_2d();
-        sampler.skip_to(EMISSION_LIGHT);
-        let u_light = sampler.next_1d();
-        let Some(start) = world.emit(wavelengths, u_light, u_position, u_direction) else {
+        let Some(start) = emit(world, wavelengths, sampler) else {
             return;
         };
         let mut prefix = Prefix::START;
@@ -164,6 +158,21 @@ impl ParticleTracer {
             depth += 1;
         }
     }
+}
+
+/// A particle, with the random numbers that are reserved for its start.
+pub(crate) fn emit<W: World, S: Sampler>(
+    world: &W,
+    wavelengths: &Wavelengths,
+    sampler: &mut S,
+) -> Option<Emission> {
+    sampler.skip_to(EMISSION_POSITION);
+    let u_position = sampler.next_2d();
+    sampler.skip_to(EMISSION_DIRECTION);
+    let u_direction = sampler.next_2d();
+    sampler.skip_to(EMISSION_LIGHT);
+    let u_light = sampler.next_1d();
+    world.emit(wavelengths, u_light, u_position, u_direction)
 }
 
 /// Connects a particle's vertex with the camera: where it lands, and its value per lane.

@@ -1,7 +1,7 @@
 //! The contract of a scattering model at a point.
 
 use crate::Chance;
-use etalon_math::{Density, SolidAngle};
+use etalon_math::{Density, Frame, SolidAngle};
 use glam::{Vec2, Vec3, Vec4};
 
 /// What is being transported: radiance (paths from the camera) or importance (paths from the
@@ -63,6 +63,18 @@ pub trait Bsdf {
 
     /// Whether any lobe is continuous, i.e. whether light sampling can help.
     fn has_continuous(&self) -> bool;
+
+    /// Whether any lobe may be discrete, passing straight on aside. `true` is always right, for those
+    /// who need to know which directions [`Bsdf::eval`] cannot speak of.
+    fn has_discrete(&self) -> bool {
+        true
+    }
+
+    /// The frame about whose normal all continuous directions `wi` lie on the same side as `wo`;
+    /// `None`, which is always right, if they may be anywhere.
+    fn hemisphere(&self) -> Option<Frame> {
+        None
+    }
 
     /// The fraction of light that goes straight on as if the surface were not there.
     fn passing(&self) -> Vec4;

@@ -55,10 +55,9 @@ pub trait Camera: Sync {
 
     /// Where a ray that travels through space happens to hit the aperture; `None` if it misses it,
     /// starts where the camera does not see, or arrives more than `margin` pixels outside of the
-    /// film. What starts at `infinity` may be beyond the far clipping distance. An aperture
-    /// without extent, or one through which each point of the film looks in one direction only, is never
-    /// hit.
-    fn receive(&self, _ray: &Ray, _infinity: bool, _margin: f32) -> Option<Reception> {
+    /// film. An aperture without extent, or one through which each point of
+    /// the film looks in one direction only, is never hit.
+    fn receive(&self, _ray: &Ray, _margin: f32) -> Option<Reception> {
         None
     }
 

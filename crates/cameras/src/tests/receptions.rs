@@ -29,7 +29,7 @@ fn a_reversed_ray_is_received_where_it_came_from() {
             let aperture = ray.at(-NEAR / cos);
             let back = Ray::new(ray.at(4.0), -ray.direction, 0.0);
             // Points on the very edge of the aperture may be off it by a rounding.
-            let Some(found) = camera.receive(&back, false, 1e-2) else {
+            let Some(found) = camera.receive(&back, 1e-2) else {
                 let centre = look_at().w_axis.truncate().as_vec3();
                 assert!(aperture.distance(centre) > 0.999 * RADIUS);
                 continue;
@@ -52,27 +52,26 @@ fn what_the_camera_does_not_see_is_not_received() {
     let camera = camera("thinlens", &lens_parameters(), FILM);
     let centre = look_at().w_axis.truncate().as_vec3();
     let ray = |depth: f32, direction: Vec3| Ray::new(centre + forward() * depth, direction, 0.0);
-    let receives = |depth, direction, infinity| {
+    let receives = |depth, direction| {
         let ray = ray(depth, direction);
-        camera.receive(&ray, infinity, 0.0).is_some()
+        camera.receive(&ray, 0.0).is_some()
     };
     let back = -forward();
-    assert!(receives(0.6, back, false) && receives(19.0, back, false));
+    assert!(receives(0.6, back) && receives(19.0, back));
     // Too near, too far, from behind, in the wrong direction.
-    assert!(!receives(0.4, back, false) && !receives(21.0, back, false));
-    assert!(receives(21.0, back, true));
-    assert!(!receives(-2.0, back, false) && !receives(-2.0, forward(), false));
-    assert!(!receives(4.0, forward(), false));
+    assert!(!receives(0.4, back) && !receives(21.0, back));
+    assert!(!receives(-2.0, back) && !receives(-2.0, forward()));
+    assert!(!receives(4.0, forward()));
     // Past the aperture, and from outside of the picture.
     let side = look_at().x_axis.truncate().as_vec3();
-    assert!(!receives(4.0, (back * 4.0 + side * 0.4).normalize(), false));
+    assert!(!receives(4.0, (back * 4.0 + side * 0.4).normalize()));
     let slanted = Ray::new(
         centre + forward() + side * 2.0,
         (back - side * 2.0).normalize(),
         0.0,
     );
-    assert!(camera.receive(&slanted, false, 1.0).is_none());
-    assert!(camera.receive(&slanted, false, 1e3).is_some());
+    assert!(camera.receive(&slanted, 1.0).is_none());
+    assert!(camera.receive(&slanted, 1e3).is_some());
 }
 
 #[test]
@@ -86,6 +85,6 @@ fn only_an_aperture_with_extent_can_receive() {
     for camera in pinholes {
         assert!(!camera.can_receive());
         let ray = Ray::new(Vec3::new(0.0, 0.0, 3.0), Vec3::NEG_Z, 0.0);
-        assert!(camera.receive(&ray, false, 1.0).is_none());
+        assert!(camera.receive(&ray, 1.0).is_none());
     }
 }

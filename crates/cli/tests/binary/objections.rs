@@ -54,7 +54,7 @@ fn says_nothing(ran: Ran) {
 #[test]
 fn a_scene_without_light_is_remarked_upon() {
     let black = "<shape type=\"sphere\"><emitter type=\"area\"><rgb name=\"radiance\" value=\"0, 0, 0\"/></emitter></shape>";
-    for integrator in ["path", "direct", "ptracer", "bdpt"] {
+    for integrator in ["path", "direct", "naive", "ptracer", "bdpt"] {
         for lights in ["", black] {
             let ran = render(&named(integrator), PINHOLE, lights);
             remarks(ran, "1:1", "nothing in this scene emits light");
@@ -63,7 +63,9 @@ fn a_scene_without_light_is_remarked_upon() {
     let nested = "<integrator type=\"moment\"><integrator type=\"path\"/></integrator>";
     remarks(render(nested, PINHOLE, ""), "1:1", "emits light");
     // What needs no light says nothing.
-    says_nothing(render(&named("depth"), PINHOLE, ""));
+    for integrator in ["depth", "signature", "ao"] {
+        says_nothing(render(&named(integrator), PINHOLE, ""));
+    }
     let aov = "<integrator type=\"aov\"><string name=\"aovs\" value=\"d:depth\"/></integrator>";
     says_nothing(render(aov, PINHOLE, ""));
 }
@@ -136,6 +138,42 @@ fn techniques_longer_than_the_longest_path_are_refused() {
 fn paths_without_segments_are_remarked_upon() {
     let path = "<integrator type=\"path\"><integer name=\"max_depth\" value=\"0\"/></integrator>";
     remarks(render(path, PINHOLE, POINT), "2:58", "0 segments");
+}
+
+#[test]
+fn forward_needs_an_aperture() {
+    for lights in [LAMP, "", POINT] {
+        let ran = render(&named("forward"), PINHOLE, lights);
+        assert!(ran.stderr.contains("thinlens"), "{}", ran.stderr);
+        refuses(ran, "3:15", "this camera has none");
+    }
+    let closed = LENS.replace("value=\"1\"", "value=\"0\"");
+    refuses(
+        render(&named("forward"), &closed, LAMP),
+        "3:15",
+        "this camera has none",
+    );
+    says_nothing(render(&named("forward"), LENS, LAMP));
+    says_nothing(render(&named("forward"), LENS, POINT));
+    remarks(render(&named("forward"), LENS, ""), "1:1", "emits light");
+}
+
+#[test]
+fn naive_needs_lights_with_extent() {
+    refuses(
+        render(&named("naive"), PINHOLE, POINT),
+        "2:19",
+        "running into them",
+    );
+    let sky = format!("{POINT}<emitter type=\"constant\"/>");
+    remarks(
+        render(&named("naive"), PINHOLE, &sky),
+        "2:19",
+        "1 of the scene's 2 lights",
+    );
+    says_nothing(render(&named("naive"), PINHOLE, LAMP));
+    let nested = "<integrator type=\"aov\"><string name=\"aovs\" value=\"d:depth\"/><integrator type=\"naive\"/></integrator>";
+    refuses(render(nested, PINHOLE, POINT), "2:19", "running into them");
 }
 
 #[test]

@@ -5,6 +5,7 @@
 //! world below has no scene, no materials and no shapes: what is tested is the estimator.
 
 mod chains;
+mod chance;
 mod photons;
 mod techniques;
 mod world;

@@ -12,6 +12,7 @@ mod exact;
 mod lanes;
 mod loops;
 mod measure;
+mod naive;
 mod recursive;
 mod scatter;
 mod together;
