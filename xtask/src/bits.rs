@@ -10,11 +10,13 @@ use std::process::Command;
 
 /// Scene, and what else to say on the command line: every kind of estimator, and scenes that use
 /// as much of the house as possible.
-const RENDERS: [(&str, &[&str]); 7] = [
+const RENDERS: [(&str, &[&str]); 9] = [
     ("scenes/cornell-box/scene.xml", &["--integrator", "path"]),
     ("scenes/cornell-box/scene.xml", &["--integrator", "ptracer"]),
     ("scenes/cornell-box/scene.xml", &["--integrator", "bdpt"]),
     ("scenes/cornell-box/scene.xml", &["--integrator", "direct"]),
+    ("scenes/cornell-box/scene.xml", &["--integrator", "guided"]),
+    ("scenes/luminaire/scene.xml", &["--integrator", "guided"]),
     ("scenes/spheres/scene.xml", &[]),
     ("scenes/foliage/scene.xml", &[]),
     ("scenes/prism/scene.xml", &[]),

@@ -8,9 +8,11 @@
 
 pub mod aov;
 pub mod bdpt;
+mod companion;
 pub mod depth;
 pub mod dimensions;
 pub mod direct;
+pub mod guided;
 pub mod list;
 pub mod moment;
 pub mod path;

@@ -4,6 +4,7 @@ use crate::aov::Aov;
 use crate::bdpt::Bidirectional;
 use crate::depth::Depth;
 use crate::direct::Direct;
+use crate::guided::Guided;
 use crate::moment::Moment;
 use crate::path::Path;
 use crate::ptracer::ParticleTracer;
@@ -107,6 +108,7 @@ macro_rules! integrators {
 integrators! {
     "path" => Path: |p| Some(Path::from_params(p));
     "direct" => Direct: |p| Some(Direct::from_params(p));
+    "guided" => Guided: |p| Some(Guided::from_params(p));
     "depth" => Depth: |p| Some(Depth::from_params(p));
     "signature" => Signature: |p| Some(Signature::from_params(p));
     "bdpt" => Bidirectional: |p| Some(Bidirectional::from_params(p));
