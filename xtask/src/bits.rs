@@ -17,6 +17,8 @@ const RENDERS: &[(&str, &[&str])] = &[
     ("scenes/cornell-box/scene.xml", &["--integrator", "direct"]),
     ("scenes/cornell-box/scene.xml", &["--integrator", "pssmlt"]),
     ("scenes/cornell-box/scene.xml", &["--integrator", "mmlt"]),
+    ("scenes/cornell-box/scene.xml", &["--integrator", "guided"]),
+    ("scenes/luminaire/scene.xml", &["--integrator", "guided"]),
     ("scenes/spheres/scene.xml", &[]),
     ("scenes/spheres/scene.xml", &["--integrator", "naive"]),
     (

@@ -9,11 +9,13 @@
 pub mod ao;
 pub mod aov;
 pub mod bdpt;
+mod companion;
 pub mod depth;
 pub mod dimensions;
 pub mod direct;
 pub mod distribution;
 pub mod forward;
+pub mod guided;
 pub mod list;
 pub mod metropolis;
 pub mod mmlt;

@@ -7,6 +7,7 @@ use crate::depth::Depth;
 use crate::direct::Direct;
 use crate::distribution::Distribution;
 use crate::forward::Forward;
+use crate::guided::Guided;
 use crate::mmlt::Multiplexed;
 use crate::moment::Moment;
 use crate::naive::Naive;
@@ -131,6 +132,7 @@ integrators! {
     "path" => Path: |p| Some(Path::from_params(p));
     "naive" => Naive: |p| Some(Naive::from_params(p));
     "direct" => Direct: |p| Some(Direct::from_params(p));
+    "guided" => Guided: |p| Some(Guided::from_params(p));
     "depth" => Depth: |p| Some(Depth::from_params(p));
     "signature" => Signature: |p| Some(Signature::from_params(p));
     "bdpt" => Bidirectional: |p| Some(Bidirectional::from_params(p));

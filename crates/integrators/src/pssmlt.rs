@@ -60,7 +60,7 @@ impl<W: World> Integrand for Paths<'_, W> {
         let PrimarySpace { settings, chains } = self.integrator;
         sampler.skip_to(dim::FILM);
         let site = field.site(sampler.next_2d());
-        let mut walk = Walk::start(self.world, settings, &site, sampler);
+        let mut walk = Walk::start(self.world, settings, &site, sampler, ());
         let wanted = chains.least_corners()..u32::MAX;
         walk.follow(self.world, settings, &wanted);
         found.add(site.raster, walk.colour() * field.area());

@@ -1,5 +1,6 @@
 //! One path of the path tracer, from surface to surface.
 
+use crate::companion::Companion;
 use crate::dimensions::Event;
 use crate::path::camera_ray;
 use crate::prefix::Prefix;
@@ -12,7 +13,7 @@ use etalon_transport::{Bsdf, Chance, Hit, Mode, PixelSite, Ray, Receiver, Sink, 
 use glam::{Vec3, Vec4};
 
 /// A path being followed.
-pub(crate) struct Walk<'a, S> {
+pub(crate) struct Walk<'a, S, C = ()> {
     sampler: &'a mut S,
     wavelengths: Wavelengths,
     /// The factor by which what is found counts.
@@ -37,6 +38,7 @@ pub(crate) struct Walk<'a, S> {
     /// 1 if the path met anything that it did not pass straight, the background included; where
     /// its length ends at a surface, the probability of that.
     alpha: f32,
+    companion: C,
 }
 
 /// A light sample before its shadow ray is traced.
@@ -49,7 +51,7 @@ struct Connection {
     by_scattering: Vec4,
 }
 
-impl<'a, S: Sampler> Walk<'a, S> {
+impl<'a, S: Sampler, C: Companion> Walk<'a, S, C> {
     /// The path of a sample, before its first surface is known.
     #[inline]
     pub(crate) fn start<W: World>(
@@ -57,6 +59,7 @@ impl<'a, S: Sampler> Walk<'a, S> {
         settings: &PathSettings,
         site: &PixelSite,
         sampler: &'a mut S,
+        companion: C,
     ) -> Self {
         let (wavelengths, ray, weight) = camera_ray(world, site, sampler);
         Self {
@@ -74,7 +77,14 @@ impl<'a, S: Sampler> Walk<'a, S> {
             connection: None,
             radiance: Vec4::ZERO,
             alpha: 0.0,
+            companion,
         }
+    }
+
+    /// The companion, at the end.
+    #[inline]
+    pub(crate) fn into_companion(self) -> C {
+        self.companion
     }
 
     /// Whether the path goes on.
@@ -136,7 +146,9 @@ impl<'a, S: Sampler> Walk<'a, S> {
                 self.alpha = 1.0;
                 let radiance = world.background(direction, &self.wavelengths);
                 let other = self.rival.at_background(world, direction);
-                self.radiance += self.prefix.estimate(radiance, other);
+                let estimate = self.prefix.estimate(radiance, other);
+                self.radiance += estimate;
+                self.companion.found(estimate);
             }
             return;
         };
@@ -157,10 +169,13 @@ impl<'a, S: Sampler> Walk<'a, S> {
             let radiance = world.emitted(&vertex, wo, &self.wavelengths);
             if radiance != Vec4::ZERO {
                 let other = self.rival.at_surface(world, &vertex, direction);
-                self.radiance += self.prefix.estimate(radiance, other);
+                let estimate = self.prefix.estimate(radiance, other);
+                self.radiance += estimate;
+                self.companion.found(estimate);
             }
         }
         let bsdf = world.bsdf(&vertex, wo, &self.wavelengths);
+        let bsdf = self.companion.steer(&vertex, wo, bsdf);
         if last {
             // Where the path would go on we do not ask; how likely straight on, we know.
             let stopped = 1.0 - 0.25 * bsdf.passing_probability().element_sum();
@@ -171,6 +186,7 @@ impl<'a, S: Sampler> Walk<'a, S> {
         if bsdf.has_continuous() {
             let crossings = settings.max_depth - self.depth - 1;
             self.connection = self.connect(world, &vertex, &bsdf, wo, crossings, &event);
+            self.companion.aimed();
         }
         self.scatter(&vertex, &bsdf, wo, settings, &event);
     }
@@ -181,7 +197,7 @@ impl<'a, S: Sampler> Walk<'a, S> {
         &self,
         world: &W,
         vertex: &Vertex,
-        bsdf: &W::Bsdf<'_>,
+        bsdf: &impl Bsdf,
         wo: Vec3,
         crossings: u32,
         event: &Event,
@@ -232,8 +248,9 @@ impl<'a, S: Sampler> Walk<'a, S> {
         self.prefix.extend(sample.value, sample.chance.lanes());
         self.eta *= sample.eta;
         self.ray = vertex.spawn(sample.wi);
+        (self.companion).scattered(vertex, bsdf, wo, &sample, &self.prefix);
         if self.depth >= settings.rr_depth {
-            let survival = (self.prefix.throughput() * self.eta * self.eta).min(0.95);
+            let survival = self.companion.survival(&self.prefix, self.eta);
             if !(event.roulette < survival) {
                 return;
             }
@@ -251,9 +268,9 @@ impl<'a, S: Sampler> Walk<'a, S> {
         };
         if let Some(passage) = world.passage(&light.ray, &self.wavelengths, light.crossings) {
             let by_scattering = light.by_scattering * passage.probability;
-            self.radiance += light
-                .complete
-                .estimate(passage.transmittance, by_scattering);
+            let estimate = (light.complete).estimate(passage.transmittance, by_scattering);
+            self.radiance += estimate;
+            self.companion.lit(estimate);
         }
     }
 }

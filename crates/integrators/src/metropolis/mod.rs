@@ -169,7 +169,7 @@ impl ChainSettings {
         sampler: &mut S,
         sink: &mut K,
     ) {
-        let mut walk = Walk::start(world, settings, site, sampler);
+        let mut walk = Walk::start(world, settings, site, sampler, ());
         walk.follow(world, settings, &(0..self.least_corners()));
         walk.deliver(sink);
     }

@@ -9,6 +9,7 @@
 mod agreement;
 mod channels;
 mod exact;
+mod guided;
 mod lanes;
 mod loops;
 mod measure;
