@@ -33,8 +33,10 @@ fn z_score<I: Integrator>(integrator: &I, world: &Sphere, expected: f64) -> f64 
             number: 0,
             count: 1,
             samples: SAMPLES,
+            image_samples: PASSES * SAMPLES,
             origin: UVec2::ZERO,
             size: UVec2::ONE,
+            margin: 0,
         };
         let state = integrator.prepare(world, &pass, None);
         let mut meter = Meter::default();

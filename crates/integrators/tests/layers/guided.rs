@@ -45,6 +45,7 @@ fn pass(replicate: u32) -> Pass {
         image_samples: 64,
         origin: UVec2::new(3, 5),
         size: UVec2::new(16, 24),
+        margin: 0,
     }
 }
 
