@@ -1,19 +1,21 @@
 //! The agreement matrix: every unbiased integrator against every oracle.
 //!
 //! A claim names the integrators that it is about. With a table `matrix` all others take part, too,
-//! each as one more comparison of the default and the full run: an integrator that is added to the
-//! house stands in all these rows without a word.
+//! each as one more comparison of the default and the full run, unless they object to the scene when
+//! they are asked ([`etalon::pipeline::Loaded::complete`]). An integrator that is added to the
+//! house so stands in all these rows without a word.
 //!
 //! ```toml
 //! [matrix]
 //! default = { spp = 256, replicates = 32 }
 //! bound = 0.02                 # of the bias of the image's mean; half a per cent in a full run
-//! cannot = ["naive"]           # cannot find all of this scene's light
-//! later = ["ptracer"]          # too noisy here for the default run: in the full run only
+//! without = ["ptracer"]        # sees nothing in a mirror
+//! later = ["naive"]            # too noisy here for the default run: in the full run only
 //! ```
 
 use crate::budget::Budget;
 use crate::claim::{Claim, Estimator, Oracle};
+use crate::rendering;
 use crate::tier::Tier;
 use etalon_integrators::list;
 use serde::Deserialize;
@@ -26,10 +28,9 @@ pub struct Matrix {
     pub default: Budget,
     /// Which bias of the image's mean the default run must exclude, relative to it.
     pub bound: f64,
-    /// Integrators that cannot find all the light of the scene. A test holds this against what
-    /// they say themselves.
+    /// Integrators that cannot render the scene, though they do not object.
     #[serde(default)]
-    pub cannot: Vec<String>,
+    pub without: Vec<String>,
     /// Integrators that only a full run asks.
     #[serde(default)]
     pub later: Vec<String>,
@@ -70,7 +71,7 @@ pub(crate) fn expand(claim: &mut Claim) -> Result<(), String> {
         return Err("`matrix` belongs to claims about pictures".to_owned());
     }
     let unbiased = list::unbiased();
-    for name in matrix.cannot.iter().chain(&matrix.later) {
+    for name in matrix.without.iter().chain(&matrix.later) {
         if !unbiased.contains(&name.as_str()) {
             return Err(format!(
                 "`matrix`: there is no unbiased integrator `{name}`"
@@ -92,9 +93,14 @@ pub(crate) fn expand(claim: &mut Claim) -> Result<(), String> {
         Oracle::Agreement { estimator } => estimator.integrator.as_deref(),
         _ => None,
     };
+    let defines = rendering::defines(claim, None);
     let rows: Vec<Estimator> = (unbiased.into_iter())
         .filter(|name| !listed(name) && oracle != Some(name))
-        .filter(|name| !matrix.cannot.iter().any(|other| other == name))
+        .filter(|name| !matrix.without.iter().any(|other| other == name))
+        .filter(|name| {
+            let loaded = rendering::load(claim, &defines, Some(name));
+            loaded.is_ok_and(|loaded| loaded.complete)
+        })
         .map(|name| Estimator {
             integrator: Some(name.to_owned()),
             sampler: None,

@@ -41,6 +41,8 @@ pub struct Loaded {
     pub integrator: AnyIntegrator,
     /// Its name, nested ones after a slash.
     pub integrator_name: String,
+    /// Whether the integrator objects to nothing: it finds all light that there is.
+    pub complete: bool,
     /// Remarks that do not prevent rendering.
     pub notes: Vec<Diagnostic>,
     /// The texts that the remarks point into.
@@ -80,6 +82,7 @@ pub fn load(path: &Path, options: &LoadOptions) -> Result<Loaded, Refusal> {
     } = read;
     // A scene with mistakes is compiled all the same, to find further ones.
     let mut loaded = None;
+    let mut complete = true;
     if let Some(document) = document {
         let diagnostics = Diagnostics::silent_about(&stand_ins);
         let assets = FileAssets::new(document.search.clone());
@@ -89,6 +92,7 @@ pub fn load(path: &Path, options: &LoadOptions) -> Result<Loaded, Refusal> {
             let place = place(&document.root, &[Class::Integrator]);
             diagnostics.keep(check_channels(&compiled.film, integrator, place));
             for objection in integrator.objections(&compiled.scene.sight()) {
+                complete = false;
                 let material = compiled.classic;
                 diagnostics.push(objections::diagnostic(objection, &document.root, material));
             }
@@ -117,6 +121,7 @@ pub fn load(path: &Path, options: &LoadOptions) -> Result<Loaded, Refusal> {
         compiled,
         integrator,
         integrator_name,
+        complete,
         notes: messages,
         hash,
         sources,
