@@ -10,7 +10,7 @@ use std::process::Command;
 
 /// Scene, and what else to say on the command line: every kind of estimator, and scenes that use
 /// as much of the house as possible.
-const RENDERS: [(&str, &[&str]); 7] = [
+const RENDERS: [(&str, &[&str]); 10] = [
     ("scenes/cornell-box/scene.xml", &["--integrator", "path"]),
     ("scenes/cornell-box/scene.xml", &["--integrator", "ptracer"]),
     ("scenes/cornell-box/scene.xml", &["--integrator", "bdpt"]),
@@ -18,6 +18,12 @@ const RENDERS: [(&str, &[&str]); 7] = [
     ("scenes/spheres/scene.xml", &[]),
     ("scenes/foliage/scene.xml", &[]),
     ("scenes/prism/scene.xml", &[]),
+    (
+        "scenes/caustic-sphere/scene.xml",
+        &["--integrator", "photonmap"],
+    ),
+    ("scenes/caustic-ring/scene.xml", &["--integrator", "sppm"]),
+    ("scenes/sds/scene.xml", &["--integrator", "vcm"]),
 ];
 
 const THREADS: [&str; 3] = ["1", "2", "16"];
