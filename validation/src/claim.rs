@@ -20,6 +20,7 @@
 //! mutants = ["dropped cosine"] # faults that this very comparison must find
 //! ```
 
+use crate::convergence::Part;
 use crate::fault::Fault;
 use crate::matrix::{self, Matrix};
 use crate::noise::Means;
@@ -97,8 +98,8 @@ pub enum Oracle {
         /// The estimator without the change.
         estimator: Box<Estimator>,
     },
-    /// How fast the squared error falls: its exponent against samples per replicate must be shown
-    /// to lie within each estimator's `exponent`.
+    /// How fast the squared error, or a `part` of it, falls: its exponent against samples per
+    /// replicate must be shown to lie within each estimator's `exponent`.
     Convergence {
         /// The closed form that tells the error.
         formula: String,
@@ -199,6 +200,9 @@ pub struct Estimator {
     pub change: Option<Change>,
     /// Between which numbers the exponent of the squared error must lie, in a convergence claim.
     pub exponent: Option<[f64; 2]>,
+    /// Which part of the squared error that is.
+    #[serde(default)]
+    pub part: Part,
     /// Faults that must be found.
     #[serde(default)]
     pub mutants: Vec<Fault>,
@@ -335,6 +339,9 @@ impl Claim {
                             .to_owned(),
                     );
                 }
+            }
+            if estimator.part != Part::Whole && !convergence {
+                return Err("`part` belongs to convergence claims only".to_owned());
             }
             if estimator.change.is_some() && !invariance {
                 return Err("`change` belongs to invariance claims only".to_owned());

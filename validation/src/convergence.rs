@@ -6,6 +6,14 @@
 //! squared distance, over pixels, channels and the replicates of a batch, is fitted by a power law
 //! in n. Batches are independent: the exponents of all of them are a sample, and their mean has a
 //! t-distributed error.
+//!
+//! Estimators that are biased but consistent have two exponents. With two replicates in a batch
+//!
+//! ```text
+//! E|x₁ − x₂|²/2 = Var x,   E (x₁ − t)(x₂ − t) = (E x − t)²
+//! ```
+//!
+//! tell the variance and the squared bias apart, neither biased by the other.
 
 use crate::claim::{Budget, Claim, Estimator, Sampler};
 use crate::closed_form;
@@ -16,10 +24,43 @@ use etalon::judge::Known;
 use etalon_film::Developed;
 use etalon_math::float64;
 use etalon_statistics::{Estimate, Line, Summary};
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
 /// Replicates of a batch: two, the fewest that have standard errors.
 const BATCH: u32 = 2;
+
+/// A part of the squared error.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Part {
+    /// All of it.
+    #[default]
+    Whole,
+    /// That of replicates about their mean.
+    Variance,
+    /// That of their mean about the truth.
+    SquaredBias,
+}
+
+impl Part {
+    /// Its name.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Whole => "squared error",
+            Self::Variance => "variance",
+            Self::SquaredBias => "squared bias",
+        }
+    }
+
+    /// This part for replicates whose mean is `off` the truth and has the standard error `error`.
+    fn of(self, replicates: f64, error: f64, off: f64) -> f64 {
+        match self {
+            Self::Whole => (replicates - 1.0) * error * error + off * off,
+            Self::Variance => replicates * error * error,
+            Self::SquaredBias => off * off - error * error,
+        }
+    }
+}
 
 /// How the squared error of one replicate falls with its samples.
 #[derive(Clone, Debug, PartialEq, Serialize)]
@@ -81,7 +122,7 @@ pub fn batches(
             let plan = rendering::plan(&loaded, estimator, budget, seed);
             let picture = rendering::picture(&loaded, &plan, None, None)?;
             x.push(f64::from(plan.samples_per_replicate));
-            let error = squared_error(&picture, &known)?;
+            let error = squared_error(&picture, &known, estimator.part)?;
             y.push(error);
             errors[rung].push(error);
             spent += u64::from(plan.samples_per_replicate * BATCH);
@@ -114,7 +155,7 @@ pub fn batches(
 pub fn judge(exponents: &[f64], estimator: &Estimator, alpha: f64) -> Result<Measure, String> {
     let accepted = estimator.exponent.ok_or("there is no `exponent`")?;
     let summary = Summary::of(exponents).ok_or("too few batches")?;
-    let name = "exponent of the squared error".to_owned();
+    let name = format!("exponent of the {}", estimator.part.name());
     Ok(Measure::new(
         name,
         &Estimate::mean(&summary),
@@ -123,19 +164,20 @@ pub fn judge(exponents: &[f64], estimator: &Estimator, alpha: f64) -> Result<Mea
     ))
 }
 
-/// The mean over pixels, channels and replicates of the squared error:
-/// (1/R) Σ (xᵢ − t)² = (R − 1) s² + (m − t)², with s the standard error of the mean m.
-fn squared_error(picture: &Developed, known: &Known) -> Result<f64, String> {
+/// The mean over pixels, channels and replicates of a part of the squared error. With s the standard error
+/// of the mean m, all of it is (1/R) Σ (xᵢ − t)² = (R − 1) s² + (m − t)², the variance R s², and the
+/// squared bias (m − t)² − s².
+fn squared_error(picture: &Developed, known: &Known, part: Part) -> Result<f64, String> {
     let missing = "the picture has no standard errors";
     let metadata = picture.metadata.as_ref().ok_or(missing)?;
-    let freedom = f64::from(metadata.replicates) - 1.0;
+    let replicates = f64::from(metadata.replicates);
     let (mut sum, mut count) = (0.0, 0_u32);
     for (channel, truth) in &known.channels {
         let means = picture.image.channel(channel).ok_or(missing)?;
         let errors = picture.standard_error(channel).ok_or(missing)?;
         for ((mean, error), truth) in means.iter().zip(errors).zip(truth) {
             let (error, off) = (f64::from(*error), f64::from(*mean) - truth);
-            sum += freedom * error * error + off * off;
+            sum += part.of(replicates, error, off);
             count += 1;
         }
     }

@@ -109,6 +109,7 @@ pub(crate) fn expand(claim: &mut Claim) -> Result<(), String> {
             default: matrix.default,
             change: None,
             exponent: None,
+            part: None,
             mutants: Vec::new(),
             in_matrix: Some(Place {
                 bound: matrix.bound,

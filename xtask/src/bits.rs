@@ -33,6 +33,12 @@ const RENDERS: &[(&str, &[&str])] = &[
         "scenes/veach-mis/scene.xml",
         &["--integrator", "distribution"],
     ),
+    (
+        "scenes/caustic-sphere/scene.xml",
+        &["--integrator", "photonmap"],
+    ),
+    ("scenes/caustic-ring/scene.xml", &["--integrator", "sppm"]),
+    ("scenes/sds/scene.xml", &["--integrator", "vcm"]),
 ];
 
 const THREADS: [&str; 3] = ["1", "2", "16"];

@@ -1,5 +1,5 @@
 //! `cargo xtask scenes`: writes the generated files of `scenes/` anew: a sky, leaves, trees and
-//! where they stand, a thousand lamps.
+//! where they stand, a thousand lamps, water.
 //!
 //! Nothing here is random: whatever should look irregular follows [`sequence`], so that the files
 //! are the same on every machine.
@@ -8,6 +8,7 @@ mod forest;
 mod lamps;
 mod leaf;
 mod ply;
+mod pool;
 mod sequence;
 mod sky;
 
@@ -27,6 +28,7 @@ pub(crate) fn run() -> Result<(), String> {
     for (name, bytes) in forest::files() {
         put(&scenes.join("forest").join(name), &bytes)?;
     }
+    put(&scenes.join("pool/water.obj"), pool::water().as_bytes())?;
     put(
         &scenes.join("many-lights/lamps.xml"),
         lamps::fragment().as_bytes(),

@@ -153,6 +153,7 @@ impl PhotonMapper {
             sets: &state.sets,
             layers: &layers,
             final_gather: self.final_gather,
+            sample_lights: true,
         })
     }
 }

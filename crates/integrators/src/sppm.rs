@@ -10,7 +10,7 @@
 //! without memory Knaus & Zwicker 2011, see [`crate::photons::radius`]). A sample is a pass, and a replicate a whole
 //! progression: more samples per replicate reduce its bias, more replicates do not.
 //!
-//! Direct light is sampled and not left to photons: what remains of the image is biased, the more
+//! Direct light is sampled and not left to photons, unless that is asked for. What photons bring is biased, the more
 //! so where illumination bends within the radius or near edges.
 
 use crate::photons::gather::{Kernel, Layer, Lookup, Plan, Scratch, follow};
@@ -34,6 +34,8 @@ pub struct Progressive {
     pub photons: Option<u32>,
     /// Sets of wavelengths per pass.
     pub sets: u32,
+    /// Whether direct light is sampled instead of being left to photons too.
+    pub sample_lights: bool,
 }
 
 impl Default for Progressive {
@@ -43,6 +45,7 @@ impl Default for Progressive {
             radius: Radius::default(),
             photons: None,
             sets: SETS,
+            sample_lights: true,
         }
     }
 }
@@ -60,8 +63,8 @@ pub struct State {
 }
 
 impl Progressive {
-    /// Reads the integrator from its description: Mitsuba's parameters of paths, `photons`, `radius`, `alpha` and
-    /// `wavelength_sets`.
+    /// Reads the integrator from its description: Mitsuba's parameters of paths, `photons`, `radius`, `alpha`,
+    /// `wavelength_sets` and `sample_lights`.
     pub fn from_params(params: &Params<'_>) -> Self {
         ignore_scheduling(params);
         Self {
@@ -69,10 +72,16 @@ impl Progressive {
             radius: Radius::from_params(params),
             photons: read_count(params),
             sets: read_sets(params, SETS),
+            sample_lights: params.boolean_or("sample_lights", true),
         }
     }
 
     fn plan<R>(&self, state: &State, with: impl FnOnce(&Plan<'_>) -> R) -> R {
+        let first: fn(Kind) -> bool = if self.sample_lights {
+            |kind| kind != Kind::Direct
+        } else {
+            |_| true
+        };
         let layers = [Layer {
             map: &state.map,
             lookup: Lookup {
@@ -81,7 +90,7 @@ impl Progressive {
                 kernel: Kernel::Box,
             },
             shot: state.shot,
-            first: |kind| kind != Kind::Direct,
+            first,
             second: |_| false,
         }];
         with(&Plan {
@@ -89,6 +98,7 @@ impl Progressive {
             sets: &state.sets,
             layers: &layers,
             final_gather: false,
+            sample_lights: self.sample_lights,
         })
     }
 }

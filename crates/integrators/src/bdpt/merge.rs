@@ -2,7 +2,7 @@
 //!
 //! A photon at xᵢ, made with the densities a₀ … aᵢ, and a camera's corner there, made with bᵢ … , are
 //! merged where they are less than r apart, with n photons to choose from: technique i's density times
-//! aᵢ n π r² (Georgiev, Křivánek, Davidovič, Slusallek 2012, eq. 7). Against it stand all others
+//! aᵢ n π r² (Georgiev, Křivánek, Davidovič, Slusallek 2012). Against it stand all others
 //! that would have made the path: those with more vertices from the light are weighed when the
 //! photon is found ([`super::weight::more`]); those with fewer depend on the camera's walk by its density at
 //! the photon's parent alone, in which they are linear. So a photon carries one factor per lane for them.

@@ -39,7 +39,7 @@ pub(crate) struct Lookup {
 pub(crate) enum Kernel {
     /// The same everywhere: 1 / (π r²).
     Box,
-    /// Falling with distance d: (1 − d/(k r)) / ((1 − 2/(3k)) π r²), Jensen 1996, section 4.2.
+    /// Falling with distance d: (1 − d/(k r)) / ((1 − 2/(3k)) π r²), Jensen 1996.
     Cone(f32),
 }
 
@@ -78,6 +78,8 @@ pub(crate) struct Plan<'a> {
     pub(crate) sets: &'a WavelengthSets,
     pub(crate) layers: &'a [Layer<'a>],
     pub(crate) final_gather: bool,
+    /// Whether direct light is sampled, not left to photons where a direction is not sharp.
+    pub(crate) sample_lights: bool,
 }
 
 /// Memory for walks.
@@ -256,7 +258,8 @@ impl<'w, W: World> Gatherer<'_, 'w, W> {
         };
         let (value, density) = bsdf.eval_and_density(wo, light.direction, Mode::Radiance);
         let contribution = value * light.radiance;
-        if contribution == Vec4::ZERO {
+        let sharp = is_sharp(density);
+        if contribution == Vec4::ZERO || !(sharp || self.plan.sample_lights) {
             return;
         }
         let Some(ray) = shadow_ray(vertex, light.direction, light.target) else {
@@ -269,7 +272,7 @@ impl<'w, W: World> Gatherer<'_, 'w, W> {
         let mut complete = self.prefix;
         complete.extend(contribution, light.chance.lanes());
         let by_scattering = match light.chance {
-            Chance::Continuous(chosen) if is_sharp(density) => {
+            Chance::Continuous(chosen) if sharp => {
                 self.prefix.ratio * density.lanes() * passage.probability / chosen.chooser()
             }
             _ => Vec4::ZERO,

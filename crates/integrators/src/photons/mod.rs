@@ -7,7 +7,7 @@
 //! L(x, ωₒ) ≈ Σᵢ K(|yᵢ − x|) · f(x, ωᵢ, ωₒ) · Φᵢ
 //! ```
 //!
-//! (Jensen 1996, "Global Illumination using Photon Maps", section 4). Φ is per wavelength: M photons, each traced
+//! (Jensen 1996, "Global Illumination using Photon Maps"). Φ is per wavelength: M photons, each traced
 //! with four wavelengths of one of the pass's sets ([`sets`]), estimate with the camera path z up to x
 //!
 //! ```text

@@ -6,9 +6,9 @@
 //! rᵢ₊₁² / rᵢ² = (i + α) / (i + 1),   i = 1, 2, …
 //! ```
 //!
-//! (Knaus & Zwicker 2011, "Progressive Photon Mapping: A Probabilistic Approach", eq. 16). It
+//! (Knaus & Zwicker 2011, "Progressive Photon Mapping: A Probabilistic Approach"). It
 //! depends on the number of the pass alone, and so passes are independent. The mean of N passes
-//! then has a variance of order N^−α and a bias of order N^(α−1) (ibid., section 3); with α = 2/3
+//! then has a variance of order N^−α and a bias of order N^(α−1) (ibid.); with α = 2/3
 //! the squared bias falls as the variance does, N^(−2/3), which is the best exponent of their sum
 //! (Kaplanyan & Dachsbacher 2013).
 //!
@@ -24,7 +24,7 @@ use glam::Vec2;
 pub(crate) const ALPHA: f64 = 2.0 / 3.0;
 
 /// The default radius in pixels.
-const PIXELS: f32 = 3.0;
+const PIXELS: f32 = 2.0;
 
 /// Rays along each side of the film that look for the size of pixels.
 const GRID: u32 = 16;
