@@ -109,7 +109,7 @@ pub(crate) fn expand(claim: &mut Claim) -> Result<(), String> {
             default: matrix.default,
             change: None,
             exponent: None,
-            part: None,
+            part: Default::default(),
             mutants: Vec::new(),
             in_matrix: Some(Place {
                 bound: matrix.bound,
