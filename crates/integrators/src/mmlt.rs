@@ -23,7 +23,7 @@
 use crate::bdpt::Technique;
 use crate::bdpt::single::{Lists, sample};
 use crate::dimensions as dim;
-use crate::metropolis::{ChainSettings, Field, Found, Integrand, Lengths, State};
+use crate::metropolis::{ChainSettings, Field, Found, Integrand, Kinds, State};
 use crate::settings::{PathSettings, ignore_scheduling};
 use etalon_params::Params;
 use etalon_sampling::Sampler;
@@ -78,7 +78,7 @@ struct Techniques<'w, W> {
 impl<'w, W: World> Integrand for Techniques<'w, W> {
     type Lists = Lists<W::Bsdf<'w>>;
 
-    fn lengths(&self) -> usize {
+    fn kinds(&self) -> usize {
         let Multiplexed { settings, chains } = self.integrator;
         // A path of n segments has at most n − 1 corners.
         let most = settings.max_depth.min(LONGEST);
@@ -88,7 +88,7 @@ impl<'w, W: World> Integrand for Techniques<'w, W> {
     fn find<S: Sampler>(
         &self,
         field: &Field,
-        lengths: &Lengths,
+        kinds: &Kinds,
         sampler: &mut S,
         lists: &mut Self::Lists,
         found: &mut Found,
@@ -96,9 +96,10 @@ impl<'w, W: World> Integrand for Techniques<'w, W> {
         let Multiplexed { settings, chains } = self.integrator;
         sampler.skip_to(CHOICE);
         let choice = sampler.next_2d();
-        let (length, probability) = lengths.choose(choice.y);
-        found.length = length;
-        let vertices = length + chains.least_corners() as usize + 2;
+        let (kind, probability) = kinds.choose(choice.y);
+        found.kind = kind;
+        // A kind of path is a number of corners.
+        let vertices = kind + chains.least_corners() as usize + 2;
         let light = ((choice.x * vertices as f32) as usize).min(vertices - 1);
         let technique = Technique {
             light,

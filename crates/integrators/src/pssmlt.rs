@@ -7,7 +7,7 @@
 //! integral without bias.
 
 use crate::dimensions as dim;
-use crate::metropolis::{ChainSettings, Field, Found, Integrand, Lengths, State};
+use crate::metropolis::{ChainSettings, Field, Found, Integrand, Kinds, State};
 use crate::settings::{PathSettings, ignore_scheduling};
 use crate::walk::Walk;
 use etalon_params::Params;
@@ -43,16 +43,16 @@ struct Paths<'a, W> {
 impl<W: World> Integrand for Paths<'_, W> {
     type Lists = ();
 
-    fn lengths(&self) -> usize {
+    fn kinds(&self) -> usize {
         let PrimarySpace { settings, chains } = self.integrator;
-        // All lengths together. A path has more segments than corners.
+        // All kinds together. A path has more segments than corners.
         usize::from(settings.max_depth > chains.least_corners())
     }
 
     fn find<S: Sampler>(
         &self,
         field: &Field,
-        _: &Lengths,
+        _: &Kinds,
         sampler: &mut S,
         (): &mut (),
         found: &mut Found,

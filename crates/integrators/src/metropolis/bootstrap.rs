@@ -1,10 +1,12 @@
-//! What a replicate begins with: brightness, seeds, and what was learned of path lengths.
+//! What a replicate begins with: brightness, seeds, and what was learned of path kinds.
 
+use super::emphasis::Emphasis;
 use super::found::{Contribution, Field, Found};
 use super::primary::PrimarySample;
 use super::{ChainSettings, Integrand};
 use etalon_sampling::hash::{derived_key, mix64, random_float, stream_key};
 use etalon_transport::Pass;
+use glam::Vec2;
 use rayon::prelude::*;
 
 /// Uniform samples of the pilot.
@@ -27,16 +29,17 @@ impl Stream {
     }
 }
 
-/// How often each path length is tried: in proportion to the light that it brings, but for a
-/// quarter of all samples that go to all alike.
+/// How often each kind of path is tried: in proportion to the root mean square of what it brings,
+/// which makes uniform samples tell most (Neyman 1934), but for an eighth of all that go to all
+/// alike.
 #[derive(Clone, Debug, PartialEq)]
-pub(crate) struct Lengths {
+pub(crate) struct Kinds {
     /// The sums of the probabilities up to and with each.
     sums: Vec<f32>,
 }
 
-impl Lengths {
-    /// Probabilities for lengths that bring so much light.
+impl Kinds {
+    /// Probabilities for kinds that bring so much light.
     fn new(brightness: &[f64]) -> Self {
         let count = brightness.len() as f64;
         let total: f64 = brightness.iter().sum();
@@ -63,7 +66,7 @@ impl Lengths {
         Self::new(&vec![0.0; count])
     }
 
-    /// The length that `u` chooses, and its probability.
+    /// The kind that `u` chooses, and its probability.
     pub(crate) fn choose(&self, u: f32) -> (usize, f32) {
         let chosen = self.sums.partition_point(|sum| *sum <= u);
         let before = chosen.checked_sub(1).map_or(0.0, |last| self.sums[last]);
@@ -75,7 +78,8 @@ impl Lengths {
 #[derive(Clone, Debug)]
 pub(super) struct Pilot {
     seed: u64,
-    pub(super) lengths: Lengths,
+    pub(super) kinds: Kinds,
+    pub(super) emphasis: Emphasis,
     /// c: the brightness that the balance heuristic assumes.
     pub(super) brightness: f64,
 }
@@ -155,7 +159,7 @@ impl State {
             scale: f64::from(pass.samples) / steps,
             contributions: Vec::new(),
         };
-        if integrand.lengths() > 0 {
+        if integrand.kinds() > 0 {
             state.begin(integrand, settings, seeds, chains as u32);
         }
         state
@@ -170,11 +174,14 @@ impl State {
         chains: u32,
     ) {
         let key = Stream::Seeds.key(self.seed, self.replicate);
+        let Pilot {
+            kinds, emphasis, ..
+        } = &self.pilot;
         let drawn = draw(
             integrand,
             settings,
             self.field,
-            &self.pilot.lengths,
+            (kinds, emphasis),
             key,
             seeds,
             |found, task: &mut (Vec<f64>, Vec<Contribution>)| {
@@ -213,32 +220,42 @@ impl State {
 
 impl Pilot {
     fn run<T: Integrand>(integrand: &T, settings: &ChainSettings, field: Field, seed: u64) -> Self {
-        let count = integrand.lengths();
-        let mut sums = vec![0.0; count];
-        if count > 0 {
-            let lengths = Lengths::alike(count);
-            let key = mix64(!mix64(seed));
-            let drawn = draw(
-                integrand,
-                settings,
-                field,
-                &lengths,
-                key,
-                PILOT,
-                |found, task: &mut Vec<(usize, f64)>| {
-                    if found.brightness() > 0.0 {
-                        task.push((found.length, found.brightness()));
-                    }
-                },
-            );
-            for (length, brightness) in drawn.into_iter().flatten() {
-                sums[length] += brightness;
+        let count = integrand.kinds();
+        if count == 0 {
+            return Self {
+                seed,
+                kinds: Kinds::alike(0),
+                emphasis: Emphasis::none(),
+                brightness: 0.0,
+            };
+        }
+        let learned = (&Kinds::alike(count), &Emphasis::none());
+        let key = mix64(!mix64(seed));
+        let note = |found: &Found, task: &mut Vec<(usize, Vec2, f64)>| {
+            if found.is_sound() {
+                let each = found.contributions().iter();
+                let each = each.map(|one| (found.kind, one.raster, f64::from(one.brightness())));
+                task.extend(each);
             }
+        };
+        let drawn: Vec<_> = draw(integrand, settings, field, learned, key, PILOT, note)
+            .into_iter()
+            .flatten()
+            .collect();
+        let emphasis = if settings.relative {
+            Emphasis::of(&field, drawn.iter().map(|(_, raster, own)| (*raster, *own)))
+        } else {
+            Emphasis::none()
+        };
+        let mut sums = vec![0.0; count];
+        for (kind, raster, own) in drawn {
+            sums[kind] += own * f64::from(emphasis.at(&field, raster));
         }
         Self {
             seed,
             brightness: sums.iter().sum::<f64>() / f64::from(PILOT),
-            lengths: Lengths::new(&sums),
+            kinds: Kinds::new(&sums),
+            emphasis,
         }
     }
 }
@@ -249,12 +266,11 @@ pub(super) fn start_key(key: u64, index: u32) -> u64 {
 }
 
 /// Draws `count` uniform samples and notes what they found, some to a task, in order.
-#[allow(clippy::too_many_arguments)]
 fn draw<T: Integrand, N: Default + Send>(
     integrand: &T,
     settings: &ChainSettings,
     field: Field,
-    lengths: &Lengths,
+    (kinds, emphasis): (&Kinds, &Emphasis),
     key: u64,
     count: u32,
     note: impl Fn(&Found, &mut N) + Sync,
@@ -269,7 +285,8 @@ fn draw<T: Integrand, N: Default + Send>(
             for index in task * TASK..count.min((task + 1) * TASK) {
                 sample.restart(start_key(key, index));
                 found.clear();
-                integrand.find(&field, lengths, &mut sample, &mut lists, &mut found);
+                integrand.find(&field, kinds, &mut sample, &mut lists, &mut found);
+                found.measure(&field, emphasis);
                 note(&found, &mut noted);
             }
             noted

@@ -55,8 +55,9 @@ impl State {
         let (mut current, mut proposed) = (Found::default(), Found::default());
         let mut find = |sample: &mut PrimarySample<_>, found: &mut Found| {
             found.clear();
-            let lengths = &self.pilot.lengths;
-            integrand.find(&self.field, lengths, sample, &mut lists, found);
+            let kinds = &self.pilot.kinds;
+            integrand.find(&self.field, kinds, sample, &mut lists, found);
+            found.measure(&self.field, &self.pilot.emphasis);
             found.brightness()
         };
         let mut here = find(&mut sample, &mut current);

@@ -1,5 +1,6 @@
 //! What a primary sample contributes, and where.
 
+use super::emphasis::Emphasis;
 use etalon_transport::{Pass, PixelSite};
 use glam::{UVec2, Vec2, Vec3};
 
@@ -15,7 +16,7 @@ pub(crate) struct Contribution {
 
 impl Contribution {
     /// Its part of the scalar I.
-    fn brightness(&self) -> f32 {
+    pub(super) fn brightness(&self) -> f32 {
         self.rgb.abs().element_sum() * (1.0 / 3.0)
     }
 }
@@ -25,8 +26,8 @@ impl Contribution {
 pub(crate) struct Found {
     contributions: Vec<Contribution>,
     brightness: f32,
-    /// The length of its path, counted from 0 among those that the integrand tells apart.
-    pub(crate) length: usize,
+    /// The kind of its path, counted from 0 among those that the integrand tells apart.
+    pub(crate) kind: usize,
 }
 
 impl Found {
@@ -34,16 +35,27 @@ impl Found {
     pub(crate) fn clear(&mut self) {
         self.contributions.clear();
         self.brightness = 0.0;
-        self.length = 0;
+        self.kind = 0;
     }
 
     /// Adds a contribution.
     pub(crate) fn add(&mut self, raster: Vec2, rgb: Vec3) {
         if rgb != Vec3::ZERO {
-            let contribution = Contribution { raster, rgb };
-            self.brightness += contribution.brightness();
-            self.contributions.push(contribution);
+            self.contributions.push(Contribution { raster, rgb });
         }
+    }
+
+    /// Adds up I, where places count as `emphasis` says.
+    pub(super) fn measure(&mut self, field: &Field, emphasis: &Emphasis) {
+        let each = self.contributions.iter();
+        self.brightness = each
+            .map(|one| one.brightness() * emphasis.at(field, one.raster))
+            .sum();
+    }
+
+    /// The contributions.
+    pub(super) fn contributions(&self) -> &[Contribution] {
+        &self.contributions
     }
 
     /// I: zero where a contribution is not a finite number, so that no chain goes there.
@@ -104,6 +116,16 @@ impl Field {
         self.size.x - 2 * self.margin
     }
 
+    /// Its upper left corner.
+    pub(crate) fn low(&self) -> Vec2 {
+        self.origin.as_vec2() - self.margin as f32
+    }
+
+    /// Its size.
+    pub(crate) fn size(&self) -> UVec2 {
+        self.size
+    }
+
     /// Its area (pixels²).
     pub(crate) fn area(&self) -> f32 {
         self.size.x as f32 * self.size.y as f32
@@ -114,7 +136,7 @@ impl Field {
     pub(crate) fn site(&self, u: Vec2) -> PixelSite {
         PixelSite {
             pixel: UVec2::ZERO,
-            raster: self.origin.as_vec2() - self.margin as f32 + u * self.size.as_vec2(),
+            raster: self.low() + u * self.size.as_vec2(),
             margin: self.margin as f32,
             pixels: self.size.x * self.size.y,
             spacing: 1.0,

@@ -2,8 +2,9 @@
 //!
 //! A primary sample u ∈ [0, 1)^∞ is turned into a path whose estimate F(u) lands somewhere on the
 //! film, so that a pixel with filter h is C = ∫ h·F du. A Markov chain visits samples in
-//! proportion to a scalar I(u), here the sum of |red|, |green| and |blue| of F over three: it is
-//! zero only where F is, all wavelengths count in it, and no quotient F/I is large. A step from x
+//! proportion to a scalar I(u), here the mean of |red|, |green| and |blue| of F times a factor
+//! that depends on the place (see `emphasis.rs`): it is zero only where F is, all wavelengths count
+//! in it, and no quotient F/I is large. A step from x
 //! to y is accepted with probability a = min(1, I(y)/I(x)) (Metropolis et al. 1953; Veach &
 //! Guibas 1997; Kelemen et al. 2002, see `primary.rs` for the steps). Both ends are credited with
 //! their expected share,
@@ -44,12 +45,13 @@
 
 mod bootstrap;
 mod chain;
+mod emphasis;
 mod found;
 pub(crate) mod primary;
 #[cfg(test)]
 mod tests;
 
-pub(crate) use bootstrap::Lengths;
+pub(crate) use bootstrap::Kinds;
 pub use bootstrap::State;
 pub(crate) use found::{Field, Found};
 
@@ -66,14 +68,14 @@ pub(crate) trait Integrand: Sync {
     /// Memory that one evaluation lends to the next.
     type Lists: Default;
 
-    /// How many path lengths it tells apart, for [`Lengths`]; none if there is nothing to find.
-    fn lengths(&self) -> usize;
+    /// How many kinds of paths it tells apart, for [`Kinds`]; none if there is nothing to find.
+    fn kinds(&self) -> usize;
 
     /// Turns a primary sample into contributions to the film.
     fn find<S: Sampler>(
         &self,
         field: &Field,
-        lengths: &Lengths,
+        kinds: &Kinds,
         sampler: &mut S,
         lists: &mut Self::Lists,
         found: &mut Found,
@@ -96,18 +98,22 @@ pub struct ChainSettings {
     pub seeds: Option<u32>,
     /// Whether direct light is left to ordinary samples.
     pub separate_direct: bool,
+    /// Whether all parts of the picture are to be visited alike, the dark ones too.
+    pub relative: bool,
 }
 
 impl Default for ChainSettings {
-    /// Steps as Kelemen et al. 2002 recommend them.
+    /// Steps as Kelemen et al. 2002 have them, but for the smallest (theirs is 1/1024): the
+    /// longer a path, the smaller a step must be to be accepted.
     fn default() -> Self {
         Self {
             large_step: 0.3,
-            smallest_step: 1.0 / 1024.0,
+            smallest_step: 1.0 / 8192.0,
             largest_step: 1.0 / 64.0,
             length: 4096,
             seeds: None,
             separate_direct: true,
+            relative: true,
         }
     }
 }
@@ -144,6 +150,7 @@ impl ChainSettings {
             length: count("chain_length", 1 << 24).unwrap_or(default.length),
             seeds: count("bootstrap_samples", 1 << 24),
             separate_direct: params.boolean_or("separate_direct", default.separate_direct),
+            relative: params.boolean_or("relative", default.relative),
         };
         if settings.smallest_step > settings.largest_step {
             params.error("`smallest_step` is more than `largest_step`");
@@ -152,7 +159,7 @@ impl ChainSettings {
     }
 
     fn step(&self) -> LogarithmicStep {
-        LogarithmicStep::new(self.smallest_step, self.largest_step)
+        LogarithmicStep::new(self.smallest_step, self.largest_step).reaching_far()
     }
 
     /// The least number of corners of a path that chains look for.

@@ -16,6 +16,7 @@
 //! equally likely to the last bit. They are made and moved only when they are asked for: a number
 //! that several accepted steps did not ask for catches up with all of them then.
 
+use crate::dimensions as dim;
 use etalon_math::float;
 use etalon_sampling::Sampler;
 use etalon_sampling::hash::{GOLDEN, derived_key, mix64, random_float};
@@ -23,23 +24,22 @@ use glam::Vec2;
 
 /// How far a small step moves a number.
 pub(crate) trait SmallStep {
-    /// The distance around the circle of 2³² places, from 64 random bits. A distance and its
-    /// opposite must be equally likely.
-    fn offset(&self, bits: u64) -> u32;
+    /// The distance around the circle of 2³² places that the number with this index moves, from 64
+    /// random bits. A distance and its opposite must be equally likely.
+    fn offset(&self, index: u32, bits: u64) -> u32;
 }
 
-/// Steps of all sizes between two, equally likely on a logarithmic scale.
+/// The sizes of steps.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) struct LogarithmicStep {
+struct Sizes {
     /// s₂ in 2⁻³².
     largest: f32,
     /// ln(s₂/s₁)
     range: f32,
 }
 
-impl LogarithmicStep {
-    /// Steps between `smallest` and `largest`, both in (0, ½].
-    pub(crate) fn new(smallest: f32, largest: f32) -> Self {
+impl Sizes {
+    fn new(smallest: f32, largest: f32) -> Self {
         const PLACES: f32 = 4_294_967_296.0;
         Self {
             largest: largest * PLACES,
@@ -48,11 +48,53 @@ impl LogarithmicStep {
     }
 }
 
+/// Steps of all sizes between two, equally likely on a logarithmic scale.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct LogarithmicStep {
+    smallest: f32,
+    largest: f32,
+    usual: Sizes,
+    /// For the film position.
+    film: Sizes,
+    /// For the wavelengths.
+    wavelengths: Sizes,
+}
+
+impl LogarithmicStep {
+    /// Steps between `smallest` and `largest`, both in (0, ½].
+    pub(crate) fn new(smallest: f32, largest: f32) -> Self {
+        let usual = Sizes::new(smallest, largest);
+        Self {
+            smallest,
+            largest,
+            usual,
+            film: usual,
+            wavelengths: usual,
+        }
+    }
+
+    /// The same, but up to an eighth of the film (Veach 1997, section 11.4.3.2, has up to 5 % of
+    /// its area), and to all wavelengths: neither changes much else of a path.
+    pub(crate) fn reaching_far(self) -> Self {
+        let up_to = |largest: f32| Sizes::new(self.smallest, self.largest.max(largest));
+        Self {
+            film: up_to(0.125),
+            wavelengths: up_to(0.5),
+            ..self
+        }
+    }
+}
+
 impl SmallStep for LogarithmicStep {
     #[inline]
-    fn offset(&self, bits: u64) -> u32 {
+    fn offset(&self, index: u32, bits: u64) -> u32 {
+        let sizes = match index {
+            0..dim::LENS => &self.film,
+            dim::WAVELENGTHS => &self.wavelengths,
+            _ => &self.usual,
+        };
         let u = random_float((bits >> 32) as u32);
-        let distance = (self.largest * float::exp(-u * self.range)) as u32;
+        let distance = (sizes.largest * float::exp(-u * sizes.range)) as u32;
         if bits & 1 == 0 {
             distance
         } else {
@@ -182,7 +224,7 @@ impl<M: SmallStep> PrimarySample<M> {
             } else {
                 for _ in number.time..self.time {
                     let bits = self.next_bits();
-                    number.bits = number.bits.wrapping_add(self.step.offset(bits));
+                    number.bits = number.bits.wrapping_add(self.step.offset(index, bits));
                 }
             }
             number.time = self.time;

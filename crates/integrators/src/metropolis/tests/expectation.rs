@@ -5,7 +5,7 @@
 //! it.
 
 use super::super::bootstrap::State;
-use super::super::{ChainSettings, Field, Found, Integrand, Lengths};
+use super::super::{ChainSettings, Field, Found, Integrand, Kinds};
 use etalon_sampling::Sampler;
 use etalon_transport::{Pass, Sink};
 use glam::{UVec2, Vec2, Vec3};
@@ -16,25 +16,25 @@ struct Peak;
 impl Integrand for Peak {
     type Lists = ();
 
-    fn lengths(&self) -> usize {
+    fn kinds(&self) -> usize {
         2
     }
 
     fn find<S: Sampler>(
         &self,
         field: &Field,
-        lengths: &Lengths,
+        kinds: &Kinds,
         sampler: &mut S,
         (): &mut (),
         found: &mut Found,
     ) {
         sampler.skip_to(0);
         let site = field.site(sampler.next_2d());
-        let (length, probability) = lengths.choose(sampler.next_1d());
-        found.length = length;
+        let (kind, probability) = kinds.choose(sampler.next_1d());
+        found.kind = kind;
         let x = sampler.next_1d();
-        // The peak is a path of the second length, and lies in the left pixel.
-        let value = if length == 0 {
+        // The peak is a path of the second kind, and lies in the left pixel.
+        let value = if kind == 0 {
             site.raster.x
         } else if x < 0.02 && site.raster.x < 1.0 {
             50.0

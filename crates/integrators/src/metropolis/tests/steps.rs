@@ -111,8 +111,8 @@ fn chains_stay_where_they_should() {
 struct Forward(LogarithmicStep);
 
 impl SmallStep for Forward {
-    fn offset(&self, bits: u64) -> u32 {
-        self.0.offset(bits & !1)
+    fn offset(&self, index: u32, bits: u64) -> u32 {
+        self.0.offset(index, bits & !1)
     }
 }
 
@@ -132,7 +132,7 @@ fn small_steps_have_the_sizes_that_they_should() {
     let mut forward = 0;
     let turns = 40_000_u64;
     for turn in 0..turns {
-        let offset = step.offset(etalon_sampling::hash::mix64(turn)) as i32;
+        let offset = step.offset(9, etalon_sampling::hash::mix64(turn)) as i32;
         forward += u64::from(offset > 0);
         let size = f64::from(offset.unsigned_abs()) / f64::from(2.0_f32.powi(32));
         // Each factor of two between 1/1024 and 1/64 is as likely as the others.
