@@ -20,6 +20,7 @@ pub mod path;
 pub mod prefix;
 pub mod ptracer;
 pub mod render;
+pub mod replay;
 mod rival;
 pub mod settings;
 pub mod signature;

@@ -11,6 +11,7 @@ use crate::naive::Naive;
 use crate::path::Path;
 use crate::ptracer::ParticleTracer;
 use crate::render::{Outcome, Plan, Progress, render};
+use crate::replay::{Address, Replay, replay};
 use crate::signature::Signature;
 use core::any::Any;
 use etalon_params::{Class, Diagnostics, Node, Params, plugins};
@@ -82,6 +83,19 @@ macro_rules! integrators {
             ) -> Outcome {
                 match self {
                     $(Self::$variant(integrator) => render(world, integrator, film, plan, progress),)*
+                }
+            }
+
+            /// Draws one sample again: see [`replay`].
+            pub fn replay<W: World, F: Film>(
+                &self,
+                world: &W,
+                film: &F,
+                plan: &Plan,
+                address: &Address,
+            ) -> Replay {
+                match self {
+                    $(Self::$variant(integrator) => replay(world, integrator, film, plan, address),)*
                 }
             }
 
