@@ -21,7 +21,8 @@ pub struct Emitting {
     pub emitter: Arc<Node>,
 }
 
-/// What people call the things of a scene, by their ids: the plugin, and its id in the file if it has one.
+/// What people call the things of a scene, by their ids: the plugin, and its id in the file if it
+/// has one.
 #[derive(Clone, Debug, Default)]
 pub struct Names {
     /// Of shapes, those in groups included.

@@ -124,7 +124,7 @@ fn check_paths(args: &RenderArgs) -> Result<(), String> {
     }
     std::iter::once(args.output())
         .chain(args.stats.as_deref())
-        .try_for_each(|path| check_place(path))
+        .try_for_each(check_place)
 }
 
 /// Refuses a place where no file can be made.

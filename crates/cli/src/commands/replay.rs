@@ -1,9 +1,9 @@
 //! `etalon render --replay`: one sample again, told vertex by vertex.
 //!
 //! Four numbers in brackets belong to the four wavelengths; lane 0, the first, chose. `f/p` is the
-//! contribution of the walk so far over the density p₀ of the lane that chose; `p/p₀` are the lanes'
-//! densities over the same (see [`etalon_integrators::prefix`]). Neither contains Russian roulette,
-//! which only the estimator knows of.
+//! contribution of the walk so far over the density p₀ of the lane that chose; `p/p₀` are the
+//! lanes' densities over the same (see [`etalon_integrators::prefix`]). Neither contains Russian
+//! roulette, which only the estimator knows of.
 
 use super::{answer, fail};
 use crate::args::{RenderArgs, ReplayAddress};

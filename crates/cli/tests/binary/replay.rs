@@ -13,8 +13,8 @@ fn delivered(said: &str) -> [f64; 4] {
     numbers.try_into().expect("four numbers")
 }
 
-/// A pixel is the mean of its samples, replayed one by one; rounding to single precision lies between.
-/// Mutants rejected: the sample's number or the replicate forgotten, another sampler.
+/// A pixel is the mean of its samples, replayed one by one; rounding to single precision lies
+/// between. Mutants rejected: the sample's number or the replicate forgotten, another sampler.
 #[test]
 fn a_pixel_is_the_mean_of_its_samples_replayed() {
     for sampler in ["independent", "stratified", "sobol"] {
@@ -22,7 +22,7 @@ fn a_pixel_is_the_mean_of_its_samples_replayed() {
             let workshop = Workshop::new();
             let scene = small_scene("").replace("independent", sampler).replace(
                 "<film type=\"hdrfilm\">",
-                "<film type=\"hdrfilm\"><rfilter type=\"box\"/>",
+                "<film type=\"hdrfilm\"><rfilter type=\"box\"/><string name=\"pixel_format\" value=\"rgba\"/>",
             );
             workshop.write("a.xml", scene);
             let common = [

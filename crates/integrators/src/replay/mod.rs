@@ -31,8 +31,8 @@ pub struct Address {
     pub sample: u32,
 }
 
-/// What the estimator was told, in the order of its questions. `walk` tells several walks apart, such as
-/// those from the camera and from a light; it is `None` for a ray that belongs to none.
+/// What the estimator was told, in the order of its questions. `walk` tells several walks apart,
+/// such as those from the camera and from a light; it is `None` for a ray that belongs to none.
 #[derive(Clone, Debug)]
 pub enum Event {
     /// The wavelengths of the path.
