@@ -6,30 +6,50 @@
 //! a pixel shows is therefore told by three things, its *sight*:
 //!
 //! - the object, as the integrator `signature` tells objects apart (shape, or instance);
-//! - the surface's albedo at four fixed wavelengths, bit by bit;
-//! - which lights light it: those to which the way is free and for which the surface's scattering
-//!   toward the camera is not zero.
+//! - the surface's albedo (of a classic material, all of its numbers) at four fixed wavelengths,
+//!   bit by bit;
+//! - which lights light it: those from which light arrives, through which objects, and for which
+//!   the surface's scattering toward the camera is not zero;
+//!
+//! and by the same of whatever is seen in it as in a mirror or through it, as long as that counts
+//! for more than a thousandth.
 //!
 //! An edge pixel is one whose 3 × 3 neighbourhood has more than one sight. Neither the edges of a
-//! box's faces nor those between triangles of a mesh are edges in this sense.
+//! box's faces nor those between triangles of a mesh are edges in this sense, but for where rays are
+//! mirrored or refracted in them: what is seen there jumps.
 
+use etalon_integrators::whitted::onward;
 use etalon_scene::Scene;
-use etalon_transport::{Bsdf, Camera, Hit, Mode, Ray, Receiver, Vertex, World};
+use etalon_spectrum::Wavelengths;
+use etalon_transport::{
+    Bsdf, Camera, ClassicPhong, Hit, LightId, Mode, Ray, Receiver, Vertex, World,
+};
 use glam::{UVec2, Vec2, Vec3};
 use rayon::prelude::*;
 
-/// How often each point asks for a light. Lights are chosen by what they give; with as many
-/// equally spaced draws every one is found that is chosen with a probability above 1/16.
-const DRAWS: u32 = 16;
+/// What counts for less than this is not looked at.
+const LEAST: f32 = 1e-3;
 
-/// What is seen through a pixel's centre; `None` if nothing is.
-type Sight = Option<Surface>;
+/// How many surfaces a ray may meet.
+const DEPTH: u32 = 16;
+
+/// All that is seen through a pixel's centre, in the order in which it is met.
+type Sight = Vec<Surface>;
 
 #[derive(Clone, Debug, PartialEq, Eq)]
 struct Surface {
+    /// How the ray came here: at each surface the number of the way taken.
+    way: u64,
     object: (u32, u32),
-    albedo: [u32; 4],
-    lights: Vec<u32>,
+    albedo: Vec<u32>,
+    lights: Vec<Lit>,
+}
+
+/// A light from which light arrives, and the objects that it passes on the way.
+#[derive(Clone, Debug, PartialEq, Eq)]
+struct Lit {
+    light: u32,
+    through: Vec<(u32, u32)>,
 }
 
 /// Which pixels of a film of `size` pixels, row by row, are next to an edge.
@@ -38,10 +58,11 @@ pub fn edges(scene: &Scene, size: UVec2) -> Vec<bool> {
     let sights: Vec<Sight> = (0..width * height)
         .into_par_iter()
         .map(|i| {
-            sight(
-                scene,
-                Vec2::new((i % width) as f32, (i / width) as f32) + 0.5,
-            )
+            let raster = Vec2::new((i % width) as f32, (i / width) as f32) + 0.5;
+            let ray = scene.camera().ray(raster, Vec2::splat(0.5), 0.0).ray;
+            let mut sight = Vec::new();
+            look(scene, &ray, (1, 1.0, DEPTH), &mut sight);
+            sight
         })
         .collect();
     let at = |x: u32, y: u32| &sights[(y * width + x) as usize];
@@ -58,38 +79,99 @@ pub fn edges(scene: &Scene, size: UVec2) -> Vec<bool> {
         .collect()
 }
 
-fn sight(scene: &Scene, raster: Vec2) -> Sight {
-    let ray = scene.camera().ray(raster, Vec2::splat(0.5), 0.0).ray;
-    let hit = scene.intersect(&ray)?;
-    let vertex = scene.vertex(&ray, &hit);
+/// Adds what a ray sees that came by `way`, counts `weight`, and may meet so many surfaces.
+fn look(scene: &Scene, ray: &Ray, (way, weight, depth): (u64, f32, u32), sight: &mut Sight) {
+    let Some(hit) = scene.intersect(ray) else {
+        return;
+    };
+    let vertex = scene.vertex(ray, &hit);
     let wo = -ray.direction;
     let wavelengths = scene.wavelengths(0.5);
-    let bsdf = scene.bsdf(&vertex, wo, &wavelengths);
-    // In space, so that no light is left out for shining from behind.
-    let from = Receiver::in_space(vertex.position);
-    let mut lights = Vec::new();
-    for draw in 0..DRAWS {
-        let u = (draw as f32 + 0.5) / DRAWS as f32;
-        let Some(light) = scene.sample_light(&from, &wavelengths, u, Vec2::splat(0.5)) else {
-            continue;
+    sight.push(Surface {
+        way,
+        object: object(&hit),
+        albedo: albedo(scene, &vertex, wo, &wavelengths),
+        lights: lights(scene, &vertex, wo, &wavelengths),
+    });
+    if depth == 1 {
+        return;
+    }
+    for index in 0.. {
+        let Some(next) = onward(scene, &vertex, wo, &wavelengths, index) else {
+            break;
         };
-        if lights.contains(&light.light.0)
-            || bsdf.eval(wo, light.direction, Mode::Radiance).max_element() <= 0.0
-        {
-            continue;
-        }
-        let free = toward(&vertex, light.direction, light.target)
-            .and_then(|ray| scene.passage(&ray, &wavelengths, 0));
-        if free.is_some() {
-            lights.push(light.light.0);
+        let weight = weight * next.value.max_element();
+        if weight > LEAST {
+            let way = way * 4 + u64::from(index.min(3));
+            look(
+                scene,
+                &vertex.spawn(next.wi),
+                (way, weight, depth - 1),
+                sight,
+            );
         }
     }
-    lights.sort_unstable();
-    Some(Surface {
-        object: object(&hit),
-        albedo: bsdf.albedo(wo).to_array().map(f32::to_bits),
-        lights,
-    })
+}
+
+fn albedo(scene: &Scene, vertex: &Vertex, wo: Vec3, wavelengths: &Wavelengths) -> Vec<u32> {
+    let numbers = match scene.classic(vertex, wavelengths) {
+        None => vec![scene.bsdf(vertex, wo, wavelengths).albedo(wo)],
+        Some(ClassicPhong {
+            ambient,
+            diffuse,
+            specular,
+            global,
+            ..
+        }) => vec![ambient, diffuse, specular, global],
+    };
+    let numbers = numbers.into_iter().flat_map(|lanes| lanes.to_array());
+    numbers.map(f32::to_bits).collect()
+}
+
+fn lights(scene: &Scene, vertex: &Vertex, wo: Vec3, wavelengths: &Wavelengths) -> Vec<Lit> {
+    // In space, so that no light is left out for shining from behind.
+    let from = Receiver::in_space(vertex.position);
+    let lit = |light: u32| {
+        let middle = Vec2::splat(0.5);
+        let sample = scene.sample_one_light(LightId(light), &from, wavelengths, middle)?;
+        let shows = if scene.classic(vertex, wavelengths).is_some() {
+            vertex.shading.n.dot(sample.direction) * vertex.shading.n.dot(wo) > 0.0
+        } else {
+            let bsdf = scene.bsdf(vertex, wo, wavelengths);
+            bsdf.eval(wo, sample.direction, Mode::Radiance)
+                .max_element()
+                > 0.0
+        };
+        if !shows {
+            return None;
+        }
+        let ray = toward(vertex, sample.direction, sample.target)?;
+        let through = passed(scene, ray, wavelengths)?;
+        Some(Lit { light, through })
+    };
+    (0..scene.light_count()).filter_map(lit).collect()
+}
+
+/// The objects that light passes on a segment; `None` if it does not arrive.
+fn passed(scene: &Scene, mut ray: Ray, wavelengths: &Wavelengths) -> Option<Vec<(u32, u32)>> {
+    let mut objects = Vec::new();
+    let end = ray.origin + ray.direction * ray.t_max;
+    while let Some(hit) = scene.intersect(&ray) {
+        let vertex = scene.vertex(&ray, &hit);
+        let open = match scene.classic(&vertex, wavelengths) {
+            Some(material) => material.transparency > 0.0,
+            None => {
+                let bsdf = scene.bsdf(&vertex, -ray.direction, wavelengths);
+                bsdf.passing().max_element() > 0.0
+            }
+        };
+        if !open {
+            return None;
+        }
+        objects.push(object(&hit));
+        ray = toward(&vertex, ray.direction, ray.t_max.is_finite().then_some(end))?;
+    }
+    Some(objects)
 }
 
 /// An instance is one object, whatever shapes it has.

@@ -7,8 +7,8 @@
 use etalon_math::{Density, SolidAngle};
 use etalon_spectrum::Wavelengths;
 use etalon_transport::{
-    Bsdf, BsdfSample, Chance, Emission, EmissionDensity, Hit, LightId, LightSample, Mode, Passage,
-    Ray, Receiver, Vertex, World,
+    Bsdf, BsdfSample, Chance, ClassicPhong, Emission, EmissionDensity, Hit, LightId, LightSample,
+    Mode, Passage, Ray, Receiver, Vertex, World,
 };
 use glam::{Vec2, Vec3, Vec4};
 use serde::Deserialize;
@@ -101,6 +101,16 @@ impl<'a, W: World> Faulty<'a, W> {
             1.0
         }
     }
+
+    fn faulty(&self, mut sample: LightSample) -> LightSample {
+        sample.radiance *= self.energy();
+        if let (Some(Fault::WrongLightDensity), Chance::Continuous(density)) =
+            (self.fault, sample.chance)
+        {
+            sample.chance = Chance::Continuous(Density::per_lane(0.5 * density.lanes()));
+        }
+        sample
+    }
 }
 
 /// A scattering model that may have lost its cosine.
@@ -138,6 +148,10 @@ impl<B: Bsdf> Bsdf for FaultyBsdf<B> {
             value: self.without_cosine(sample.wi, sample.value),
             ..sample
         })
+    }
+
+    fn discrete(&self, wo: Vec3, index: u32, mode: Mode) -> Option<BsdfSample> {
+        self.model.discrete(wo, index, mode)
     }
 
     fn has_continuous(&self) -> bool {
@@ -191,6 +205,10 @@ impl<W: World> World for Faulty<'_, W> {
         }
     }
 
+    fn classic(&self, vertex: &Vertex, wavelengths: &Wavelengths) -> Option<ClassicPhong> {
+        self.world.classic(vertex, wavelengths)
+    }
+
     fn emitted(&self, vertex: &Vertex, wo: Vec3, wavelengths: &Wavelengths) -> Vec4 {
         self.energy() * self.world.emitted(vertex, wo, wavelengths)
     }
@@ -214,14 +232,23 @@ impl<W: World> World for Faulty<'_, W> {
         u_light: f32,
         u: Vec2,
     ) -> Option<LightSample> {
-        let mut sample = self.world.sample_light(from, wavelengths, u_light, u)?;
-        sample.radiance *= self.energy();
-        if let (Some(Fault::WrongLightDensity), Chance::Continuous(density)) =
-            (self.fault, sample.chance)
-        {
-            sample.chance = Chance::Continuous(Density::per_lane(0.5 * density.lanes()));
-        }
-        Some(sample)
+        let sample = self.world.sample_light(from, wavelengths, u_light, u)?;
+        Some(self.faulty(sample))
+    }
+
+    fn light_count(&self) -> u32 {
+        self.world.light_count()
+    }
+
+    fn sample_one_light(
+        &self,
+        light: LightId,
+        from: &Receiver,
+        wavelengths: &Wavelengths,
+        u: Vec2,
+    ) -> Option<LightSample> {
+        let sample = (self.world).sample_one_light(light, from, wavelengths, u)?;
+        Some(self.faulty(sample))
     }
 
     fn light_density(&self, from: &Receiver, at: &Vertex, direction: Vec3) -> Density<SolidAngle> {

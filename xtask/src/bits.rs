@@ -10,11 +10,15 @@ use std::process::Command;
 
 /// Scene, and what else to say on the command line: every kind of estimator, and scenes that use
 /// as much of the house as possible.
-const RENDERS: [(&str, &[&str]); 10] = [
+const RENDERS: &[(&str, &[&str])] = &[
     ("scenes/cornell-box/scene.xml", &["--integrator", "path"]),
     ("scenes/cornell-box/scene.xml", &["--integrator", "ptracer"]),
     ("scenes/cornell-box/scene.xml", &["--integrator", "bdpt"]),
     ("scenes/cornell-box/scene.xml", &["--integrator", "direct"]),
+    ("scenes/cornell-box/scene.xml", &["--integrator", "pssmlt"]),
+    ("scenes/cornell-box/scene.xml", &["--integrator", "mmlt"]),
+    ("scenes/cornell-box/scene.xml", &["--integrator", "guided"]),
+    ("scenes/luminaire/scene.xml", &["--integrator", "guided"]),
     ("scenes/spheres/scene.xml", &[]),
     ("scenes/spheres/scene.xml", &["--integrator", "naive"]),
     (
@@ -24,6 +28,11 @@ const RENDERS: [(&str, &[&str]); 10] = [
     ("scenes/ambient-corner/scene.xml", &["--integrator", "ao"]),
     ("scenes/foliage/scene.xml", &[]),
     ("scenes/prism/scene.xml", &[]),
+    ("scenes/povray/refraction/scene.xml", &[]),
+    (
+        "scenes/veach-mis/scene.xml",
+        &["--integrator", "distribution"],
+    ),
 ];
 
 const THREADS: [&str; 3] = ["1", "2", "16"];

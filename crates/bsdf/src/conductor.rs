@@ -78,6 +78,12 @@ impl Model for Conductor {
         })
     }
 
+    fn discrete(&self, wo: Vec3, index: u32, mode: Mode) -> Option<BsdfSample> {
+        (index == 0)
+            .then(|| self.sample(wo, 0.0, Vec2::ZERO, mode))
+            .flatten()
+    }
+
     fn has_continuous(&self) -> bool {
         false
     }

@@ -75,25 +75,63 @@ impl Model for Dielectric {
     }
 
     fn sample(&self, wo: Vec3, u_lobe: f32, _: Vec2, mode: Mode) -> Option<BsdfSample> {
-        if wo.z == 0.0 {
-            return None;
+        let (eta, fresnel) = self.interface(wo)?;
+        if u_lobe < fresnel.x {
+            Some(self.reflected(wo, fresnel))
+        } else {
+            self.refracted(wo, eta, fresnel, mode)
         }
-        // Relative index of the medium entered, whichever side `wo` is on.
+    }
+
+    fn discrete(&self, wo: Vec3, index: u32, mode: Mode) -> Option<BsdfSample> {
+        let (eta, fresnel) = self.interface(wo)?;
+        match index {
+            0 => Some(self.reflected(wo, fresnel)),
+            // Other lanes may refract where lane 0 is reflected, so there always are two.
+            1 => Some(
+                (self.refracted(wo, eta, fresnel, mode)).unwrap_or(BsdfSample {
+                    wi: -wo,
+                    value: Vec4::ZERO,
+                    chance: Chance::Discrete(Atom(Vec4::ZERO)),
+                    eta: 1.0,
+                    passes: false,
+                }),
+            ),
+            _ => None,
+        }
+    }
+
+    fn has_continuous(&self) -> bool {
+        false
+    }
+}
+
+impl Dielectric {
+    /// The relative index of the medium entered, whichever side `wo` is on, and Fresnel's
+    /// reflectance; `None` for a direction in the surface.
+    #[inline]
+    fn interface(&self, wo: Vec3) -> Option<(Vec4, Vec4)> {
         let eta = if wo.z > 0.0 {
             self.eta
         } else {
             self.eta.recip()
         };
-        let fresnel = fresnel::dielectric_lanes(wo.z.abs(), eta);
-        if u_lobe < fresnel.x {
-            return Some(BsdfSample {
-                wi: reflect(wo, Vec3::Z),
-                value: self.reflectance * fresnel,
-                chance: Chance::Discrete(Atom(fresnel)),
-                eta: 1.0,
-                passes: false,
-            });
+        (wo.z != 0.0).then(|| (eta, fresnel::dielectric_lanes(wo.z.abs(), eta)))
+    }
+
+    #[inline]
+    fn reflected(&self, wo: Vec3, fresnel: Vec4) -> BsdfSample {
+        BsdfSample {
+            wi: reflect(wo, Vec3::Z),
+            value: self.reflectance * fresnel,
+            chance: Chance::Discrete(Atom(fresnel)),
+            eta: 1.0,
+            passes: false,
         }
+    }
+
+    #[inline]
+    fn refracted(&self, wo: Vec3, eta: Vec4, fresnel: Vec4, mode: Mode) -> Option<BsdfSample> {
         let (_, cos_t) = fresnel::dielectric(wo.z.abs(), eta.x);
         let together = Vec4::select(eta.cmpeq(Vec4::splat(eta.x)), Vec4::ONE, Vec4::ZERO);
         let transmitted = (1.0 - fresnel) * together;
@@ -108,9 +146,5 @@ impl Model for Dielectric {
             eta: eta.x,
             passes: false,
         })
-    }
-
-    fn has_continuous(&self) -> bool {
-        false
     }
 }

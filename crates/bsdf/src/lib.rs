@@ -32,12 +32,14 @@ pub mod rough_fresnel;
 pub mod roughness;
 
 pub mod blendbsdf;
+pub mod classicphong;
 pub mod conductor;
 pub mod dielectric;
 pub mod diffuse;
 pub mod mask;
 pub mod mirror;
 pub mod null;
+pub mod phong;
 pub mod plastic;
 pub mod roughconductor;
 pub mod roughdielectric;

@@ -45,6 +45,19 @@ impl Lobe<'_> {
         let local = self
             .scatter
             .sample(self.frame.to_local(wo), u_lobe, u, mode)?;
+        Some(self.in_world(normal, wo, mode, local))
+    }
+
+    /// The discrete direction number `index` of this lobe, weighted.
+    pub fn discrete(&self, normal: Vec3, wo: Vec3, index: u32, mode: Mode) -> Option<BsdfSample> {
+        let local = self
+            .scatter
+            .discrete(self.frame.to_local(wo), index, mode)?;
+        Some(self.in_world(normal, wo, mode, local))
+    }
+
+    #[inline]
+    fn in_world(&self, normal: Vec3, wo: Vec3, mode: Mode, local: BsdfSample) -> BsdfSample {
         let wi = self.frame.to_world(local.wi);
         let factor = match mode {
             Mode::Radiance => self.weight,
@@ -56,12 +69,12 @@ impl Lobe<'_> {
                 Chance::Discrete(etalon_math::Atom(atom.0 * self.probability))
             }
         };
-        Some(BsdfSample {
+        BsdfSample {
             wi,
             value: local.value * factor,
             chance,
             ..local
-        })
+        }
     }
 
     /// The factor by which a shading normal makes importance scatter differently from radiance,

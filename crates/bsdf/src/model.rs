@@ -15,6 +15,13 @@ pub trait Model: Copy {
     /// Samples a direction, as [`etalon_transport::Bsdf::sample`] but in the local frame.
     fn sample(&self, wo: Vec3, u_lobe: f32, u: Vec2, mode: Mode) -> Option<BsdfSample>;
 
+    /// The discrete direction number `index`, as [`Model::sample`] would sample it; `None` beyond
+    /// the last. A model without any keeps this.
+    #[inline]
+    fn discrete(&self, _wo: Vec3, _index: u32, _mode: Mode) -> Option<BsdfSample> {
+        None
+    }
+
     /// Whether any lobe is continuous.
     fn has_continuous(&self) -> bool;
 

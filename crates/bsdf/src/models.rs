@@ -7,7 +7,7 @@ use crate::{Flattening, Lobe, MAX_LOBES, Model, Resolved, Site, Traits};
 use etalon_math::Frame;
 use etalon_params::{Class, Diagnostic, Diagnostics, Node, Params};
 use etalon_spectrum::Wavelengths;
-use etalon_transport::{BsdfSample, Build, Mode, Passage, Textures, Vertex};
+use etalon_transport::{BsdfSample, Build, ClassicPhong, Mode, Passage, Textures, Vertex};
 use glam::{Vec2, Vec3, Vec4};
 use std::sync::Arc;
 
@@ -152,6 +152,13 @@ macro_rules! models {
                 }
             }
 
+            fn discrete(&self, wo: Vec3, index: u32, mode: Mode) -> Option<BsdfSample> {
+                match self {
+                    $(Self::$plain(model) => model.discrete(wo, index, mode),)*
+                    $(Self::$lobe(model) => model.discrete(wo, index, mode),)*
+                }
+            }
+
             #[inline]
             fn has_continuous(&self) -> bool {
                 match self {
@@ -260,6 +267,17 @@ impl Material {
     ) -> Option<[Self; N]> {
         let children = params.children(Class::Bsdf);
         let given = children.len();
+        for (_, node) in &children {
+            if node.plugin.value == crate::classicphong::NAME {
+                let message = format!(
+                    "`{}` takes BSDFs, and a classic Phong material is none",
+                    params.node.plugin.value
+                );
+                let diagnostic = Diagnostic::error(node.plugin.span, message);
+                (params.diagnostics).push(diagnostic.help("put it on a shape by itself"));
+                return None;
+            }
+        }
         let materials: Vec<Self> = children
             .into_iter()
             .filter_map(|(_, node)| Self::from_node(node, build, params.diagnostics))
@@ -273,6 +291,28 @@ impl Material {
             return None;
         }
         materials.try_into().ok()
+    }
+
+    /// Whether it is a classic Phong material, and no scattering model.
+    pub fn is_classic(&self) -> bool {
+        matches!(self, Self::ClassicPhong(_))
+    }
+
+    /// The classic Phong material at a point, if it is one and no scattering model.
+    pub fn classic<T: Textures>(
+        &self,
+        textures: &T,
+        vertex: &Vertex,
+        wavelengths: &Wavelengths,
+    ) -> Option<ClassicPhong> {
+        match self {
+            Self::ClassicPhong(description) => {
+                // No parameter depends on where it is seen from.
+                let site = Site::new(textures, vertex, vertex.normal, wavelengths);
+                Some(description.resolve(&site))
+            }
+            _ => None,
+        }
     }
 
     /// Whether light may go straight on, so that shadow rays need a transmittance.
@@ -313,6 +353,7 @@ models! {
         "roughconductor" RoughConductor roughconductor REFLECTING,
         "plastic" Plastic plastic REFLECTING,
         "roughplastic" RoughPlastic roughplastic REFLECTING <'a>,
+        "phong" Phong phong REFLECTING,
     }
     composed {
         "thindielectric" ThinDielectric thindielectric,
@@ -320,6 +361,7 @@ models! {
         "twosided" TwoSided twosided,
         "blendbsdf" Blend blendbsdf,
         "null" Null null,
+        "classicphong" ClassicPhong classicphong,
     }
     lobes {
         Mirror mirror,

@@ -61,6 +61,18 @@ impl Plastic {
     fn transmitted(&self, cos: f32) -> f32 {
         1.0 - fresnel::dielectric(cos.min(1.0), self.coat.eta).0
     }
+
+    /// The coat's reflection, where it is chosen with the probability `specular`.
+    #[inline]
+    fn mirrored(&self, wo: Vec3, transmitted: f32, specular: f32) -> BsdfSample {
+        BsdfSample {
+            wi: reflect(wo, Vec3::Z),
+            value: self.coat.specular * (1.0 - transmitted),
+            chance: Chance::Discrete(Atom::uniform(specular)),
+            eta: 1.0,
+            passes: false,
+        }
+    }
 }
 
 impl Model for Plastic {
@@ -83,13 +95,7 @@ impl Model for Plastic {
         let transmitted = self.transmitted(wo.z);
         let specular = self.coat.specular_probability(transmitted);
         if u_lobe < specular {
-            return Some(BsdfSample {
-                wi: reflect(wo, Vec3::Z),
-                value: self.coat.specular * (1.0 - transmitted),
-                chance: Chance::Discrete(Atom::uniform(specular)),
-                eta: 1.0,
-                passes: false,
-            });
+            return Some(self.mirrored(wo, transmitted, specular));
         }
         let wi = square_to_cosine_hemisphere(u);
         let (value, density) = self.eval_and_density(wo, wi, mode);
@@ -99,6 +105,13 @@ impl Model for Plastic {
             chance: Chance::Continuous(Density::per_lane(density)),
             eta: 1.0,
             passes: false,
+        })
+    }
+
+    fn discrete(&self, wo: Vec3, index: u32, _: Mode) -> Option<BsdfSample> {
+        (index == 0 && wo.z > 0.0).then(|| {
+            let transmitted = self.transmitted(wo.z);
+            self.mirrored(wo, transmitted, self.coat.specular_probability(transmitted))
         })
     }
 

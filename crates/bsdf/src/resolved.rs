@@ -175,6 +175,27 @@ impl Bsdf for Resolved<'_> {
         }
     }
 
+    fn discrete(&self, wo: Vec3, index: u32, mode: Mode) -> Option<BsdfSample> {
+        let mut index = index;
+        if self.passing_probability > 0.0 {
+            if index == 0 {
+                return Some(self.pass(wo));
+            }
+            index -= 1;
+        }
+        for lobe in self.lobes() {
+            let mut of_lobe = 0;
+            while let Some(found) = lobe.discrete(self.normal, wo, of_lobe, mode) {
+                if index == 0 {
+                    return Some(found);
+                }
+                index -= 1;
+                of_lobe += 1;
+            }
+        }
+        None
+    }
+
     #[inline]
     fn has_continuous(&self) -> bool {
         self.lobes().iter().any(|l| l.scatter.has_continuous())

@@ -4,13 +4,15 @@ use crate::pipeline::place;
 use etalon_params::{Class, Diagnostic, Node, Span, Value};
 use etalon_transport::{Objection, Subject};
 
-/// An objection as a message at the place in the scene file that it is about.
-pub(crate) fn diagnostic(objection: Objection, root: &Node) -> Diagnostic {
+/// An objection as a message at the place in the scene file that it is about; `classic` is where a
+/// classic Phong material is described.
+pub(crate) fn diagnostic(objection: Objection, root: &Node, classic: Option<Span>) -> Diagnostic {
     let span = match objection.subject {
         Subject::Integrator => place(root, &[Class::Integrator]),
         Subject::Parameter(name) => {
             parameter(root, name).unwrap_or_else(|| place(root, &[Class::Integrator]))
         }
+        Subject::Classic => classic.unwrap_or(root.plugin.span),
         Subject::Camera => place(root, &[Class::Sensor]),
         Subject::Scene => root.plugin.span,
     };

@@ -89,7 +89,8 @@ pub fn load(path: &Path, options: &LoadOptions) -> Result<Loaded, Refusal> {
             let place = place(&document.root, &[Class::Integrator]);
             diagnostics.keep(check_channels(&compiled.film, integrator, place));
             for objection in integrator.objections(&compiled.scene.sight()) {
-                diagnostics.push(objections::diagnostic(objection, &document.root));
+                let material = compiled.classic;
+                diagnostics.push(objections::diagnostic(objection, &document.root, material));
             }
         }
         if sound && !diagnostics.has_errors() {

@@ -186,6 +186,8 @@ impl Forward {
 }
 
 impl Integrator for Forward {
+    const UNBIASED: bool = true;
+
     type State = ();
 
     fn splats(&self) -> bool {

@@ -5,14 +5,22 @@ use crate::aov::Aov;
 use crate::bdpt::Bidirectional;
 use crate::depth::Depth;
 use crate::direct::Direct;
+use crate::distribution::Distribution;
 use crate::forward::Forward;
+use crate::guided::Guided;
+use crate::mmlt::Multiplexed;
 use crate::moment::Moment;
 use crate::naive::Naive;
 use crate::path::Path;
+use crate::photonmap::PhotonMapper;
+use crate::pssmlt::PrimarySpace;
 use crate::ptracer::ParticleTracer;
 use crate::render::{Outcome, Plan, Progress, render};
 use crate::replay::{Address, Replay, replay};
 use crate::signature::Signature;
+use crate::sppm::Progressive;
+use crate::vcm::ConnectionMerging;
+use crate::whitted::Whitted;
 use core::any::Any;
 use etalon_params::{Class, Diagnostics, Node, Params, plugins};
 use etalon_sampling::Sampler;
@@ -31,6 +39,12 @@ macro_rules! integrators {
         /// The names under which scenes ask for integrators.
         pub fn names() -> &'static [&'static str] {
             &[$($name),*]
+        }
+
+        /// The names of those that estimate all radiance without bias.
+        pub fn unbiased() -> Vec<&'static str> {
+            let all = [$(($name, $variant::UNBIASED)),*];
+            all.into_iter().filter_map(|(name, unbiased)| unbiased.then_some(name)).collect()
         }
 
         impl AnyIntegrator {
@@ -132,14 +146,22 @@ integrators! {
     "path" => Path: |p| Some(Path::from_params(p));
     "naive" => Naive: |p| Some(Naive::from_params(p));
     "direct" => Direct: |p| Some(Direct::from_params(p));
+    "guided" => Guided: |p| Some(Guided::from_params(p));
     "depth" => Depth: |p| Some(Depth::from_params(p));
     "signature" => Signature: |p| Some(Signature::from_params(p));
     "bdpt" => Bidirectional: |p| Some(Bidirectional::from_params(p));
     "ptracer" => ParticleTracer: |p| Some(ParticleTracer::from_params(p));
+    "pssmlt" => PrimarySpace: |p| Some(PrimarySpace::from_params(p));
+    "mmlt" => Multiplexed: |p| Some(Multiplexed::from_params(p));
     "forward" => Forward: |p| Some(Forward::from_params(p));
     "ao" => AmbientOcclusion: |p| Some(AmbientOcclusion::from_params(p));
     "aov" => Aov: Aov::from_params;
+    "photonmap" => PhotonMapper: |p| Some(PhotonMapper::from_params(p));
+    "sppm" => Progressive: |p| Some(Progressive::from_params(p));
+    "vcm" => ConnectionMerging: |p| Some(ConnectionMerging::from_params(p));
     "moment" => Moment: Moment::from_params;
+    "distribution" => Distribution: |p| Some(Distribution::from_params(p));
+    "whitted" => Whitted: |p| Some(Whitted::from_params(p));
 }
 
 /// The state of an integrator that learns nothing, `()`; `None` for others.

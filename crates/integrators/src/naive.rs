@@ -231,6 +231,8 @@ impl Naive {
 }
 
 impl Integrator for Naive {
+    const UNBIASED: bool = true;
+
     type State = ();
 
     fn objections(&self, sight: &Sight) -> Vec<Objection> {

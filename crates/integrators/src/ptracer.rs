@@ -202,6 +202,8 @@ fn connect<W: World>(
 }
 
 impl Integrator for ParticleTracer {
+    const UNBIASED: bool = true;
+
     type State = ();
 
     fn splats(&self) -> bool {

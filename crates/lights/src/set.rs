@@ -154,6 +154,21 @@ impl LightSet {
         Some(sample)
     }
 
+    /// A direction toward one light, as if it were the only one.
+    #[inline]
+    pub fn sample_one(
+        &self,
+        scene: &(impl Textures + Shapes),
+        light: LightId,
+        from: &Receiver,
+        wavelengths: &Wavelengths,
+        u: Vec2,
+    ) -> Option<LightSample> {
+        let mut sample = self.get(light).sample(scene, from, wavelengths, u)?;
+        sample.light = light;
+        Some(sample)
+    }
+
     /// The density with which [`LightSet::sample`] from `from` chooses the surface point `at`;
     /// zero if it does not emit.
     #[inline]

@@ -9,7 +9,7 @@ use etalon_cameras::{AnyCamera, FilmWindow};
 use etalon_film::{FilmSettings, Filter};
 use etalon_geometry::AcceleratorKind;
 use etalon_lights::{Bounds, LightDescription, LightSet};
-use etalon_params::{Class, Diagnostic, Diagnostics, Node, Params, Property, plugins};
+use etalon_params::{Class, Diagnostic, Diagnostics, Node, Params, Property, Span, plugins};
 use etalon_transport::{Assets, Build, LightId, Role};
 use std::sync::Arc;
 use std::time::{Duration, Instant};
@@ -22,6 +22,9 @@ pub struct Compiled {
     pub film: FilmSettings,
     /// The sampler of the sensor.
     pub sampler: SamplerSettings,
+    /// Where a classic Phong material is described, if any surface has one: it is no scattering
+    /// model, and few integrators can show it.
+    pub classic: Option<Span>,
     /// The integrator's description, if the scene has one.
     pub integrator: Option<Arc<Node>>,
     /// What its things are called.
@@ -72,6 +75,7 @@ pub fn compile_with(
         scene,
         film,
         sampler,
+        classic: surfaces.classic,
         integrator,
         names: surfaces.names,
         build_time,

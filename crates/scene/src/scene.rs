@@ -8,8 +8,8 @@ use etalon_lights::LightSet;
 use etalon_math::{Density, SolidAngle};
 use etalon_spectrum::{WavelengthDistribution, Wavelengths};
 use etalon_transport::{
-    Bsdf, Camera, Emission, EmissionDensity, Hit, LightId, LightSample, Passage, Ray, Receiver,
-    Sight, Vertex, World,
+    Bsdf, Camera, ClassicPhong, Emission, EmissionDensity, Hit, LightId, LightSample, Passage, Ray,
+    Receiver, Sight, Vertex, World,
 };
 use glam::{Vec2, Vec3, Vec4};
 
@@ -65,6 +65,8 @@ impl Scene {
         Sight {
             lights: self.lights.count(),
             aperture: self.camera.can_receive(),
+            sky: self.has_background(),
+            classic: self.materials.iter().any(Material::is_classic),
         }
     }
 
@@ -113,6 +115,11 @@ impl World for Scene {
             .resolve(&self.lookup, vertex, wo, wavelengths)
     }
 
+    fn classic(&self, vertex: &Vertex, wavelengths: &Wavelengths) -> Option<ClassicPhong> {
+        self.material(vertex)
+            .classic(&self.lookup, vertex, wavelengths)
+    }
+
     #[inline]
     fn emitted(&self, vertex: &Vertex, wo: Vec3, wavelengths: &Wavelengths) -> Vec4 {
         self.lights.emitted(&self.lookup, vertex, wo, wavelengths)
@@ -143,6 +150,22 @@ impl World for Scene {
     ) -> Option<LightSample> {
         self.lights
             .sample(&self.lookup, from, wavelengths, u_light, u)
+    }
+
+    fn light_count(&self) -> u32 {
+        self.lights.len() as u32
+    }
+
+    #[inline]
+    fn sample_one_light(
+        &self,
+        light: LightId,
+        from: &Receiver,
+        wavelengths: &Wavelengths,
+        u: Vec2,
+    ) -> Option<LightSample> {
+        self.lights
+            .sample_one(&self.lookup, light, from, wavelengths, u)
     }
 
     #[inline]

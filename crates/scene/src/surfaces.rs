@@ -2,9 +2,9 @@
 
 use crate::attributes;
 use crate::builder::Builder;
-use etalon_bsdf::Material;
+use etalon_bsdf::{Material, classicphong};
 use etalon_geometry::{GeometryBuilder, GroupId, Placement, Shape};
-use etalon_params::{Class, Diagnostic, Node, Params, plugins};
+use etalon_params::{Class, Diagnostic, Node, Params, Span, plugins};
 use etalon_textures::{Constant, Texture};
 use etalon_transport::{LightId, MaterialId, ShapeId};
 use std::collections::HashMap;
@@ -51,6 +51,8 @@ pub struct Surfaces {
     pub emitting: Vec<Emitting>,
     /// What all that is called.
     pub names: Names,
+    /// Where the first classic Phong material is described, if a shape has one.
+    pub classic: Option<Span>,
     by_node: HashMap<usize, MaterialId>,
     groups: HashMap<usize, GroupId>,
     black: Option<MaterialId>,
@@ -116,7 +118,12 @@ impl Surfaces {
             }
         }
         let material = match bsdf {
-            Some(bsdf) => self.material(bsdf, builder),
+            Some(bsdf) => {
+                if bsdf.plugin.value == classicphong::NAME {
+                    self.classic.get_or_insert(bsdf.plugin.span);
+                }
+                self.material(bsdf, builder)
+            }
             None if emitter.is_some() => self.black(builder),
             None => self.grey(builder),
         };

@@ -50,8 +50,17 @@ pub trait Bsdf {
     }
 
     /// Samples a direction; `None` if the light is absorbed. Lane 0 of the wavelengths for
-    /// which the model was made chooses; `u_lobe` and `u` are uniform in [0, 1).
+    /// which the model was made chooses; `u_lobe` and `u` are uniform in [0, 1). Light passes straight on
+    /// if `u_lobe` is below the chooser's [`Bsdf::passing_probability`], and only then.
     fn sample(&self, wo: Vec3, u_lobe: f32, u: Vec2, mode: Mode) -> Option<BsdfSample>;
+
+    /// The discrete direction number `index`, as [`Bsdf::sample`] would sample it (what passes
+    /// straight on counts too); `None` beyond the last. There are as many whichever lane chooses:
+    /// one that lane 0 does not have has value and probability zero. For estimators that follow
+    /// every direction instead of choosing. A model without any keeps this.
+    fn discrete(&self, _wo: Vec3, _index: u32, _mode: Mode) -> Option<BsdfSample> {
+        None
+    }
 
     /// Whether any lobe is continuous, i.e. whether light sampling can help.
     fn has_continuous(&self) -> bool;
@@ -74,6 +83,7 @@ pub trait Bsdf {
     /// The probability with which [`Bsdf::sample`] passes straight on, per lane.
     fn passing_probability(&self) -> Vec4;
 
-    /// Directional albedo or an approximation of it, for the `albedo` channel only.
+    /// Directional albedo or an approximation of it: for the `albedo` channel, and for choices that no
+    /// expectation depends on (Russian roulette).
     fn albedo(&self, wo: Vec3) -> Vec4;
 }

@@ -36,10 +36,15 @@ pub struct Pass {
     pub count: u32,
     /// Samples per pixel in this pass.
     pub samples: u32,
+    /// Samples per pixel in the whole image: all passes of all replicates, whoever renders them.
+    pub image_samples: u32,
     /// The first pixel of the cropped film.
     pub origin: UVec2,
     /// Size of the cropped film (pixels).
     pub size: UVec2,
+    /// How many pixels beyond the film a splat can still matter, rounded up (see
+    /// [`crate::Film::margin`]).
+    pub margin: u32,
 }
 
 /// A sample about to be drawn.
@@ -65,6 +70,10 @@ pub trait Integrator: Sync {
     /// What is learned before sampling starts (photon maps, guiding trees); `()` for a path
     /// tracer.
     type State: Send + Sync + 'static;
+
+    /// Whether it estimates the radiance of all light paths that it does not object to
+    /// ([`Integrator::objections`]) without bias, so that it must agree with any other that does.
+    const UNBIASED: bool = false;
 
     /// The channels it writes beside the colour, in the order of [`Sink::channel`]'s index.
     fn channels(&self) -> Vec<Channel> {

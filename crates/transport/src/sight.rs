@@ -23,6 +23,11 @@ pub struct Sight {
     pub lights: LightCount,
     /// Whether the camera has an aperture that a ray can hit, see [`crate::Camera::receive`].
     pub aperture: bool,
+    /// Whether there is light at infinity that a ray can hit.
+    pub sky: bool,
+    /// Whether a surface has a classic Phong material, which says nothing of how it scatters light
+    /// ([`crate::World::classic`]).
+    pub classic: bool,
 }
 
 /// How an estimator comes by light.
@@ -45,6 +50,8 @@ pub enum Subject {
     Parameter(&'static str),
     /// The camera.
     Camera,
+    /// A classic Phong material.
+    Classic,
     /// The scene as a whole.
     Scene,
 }
@@ -92,9 +99,24 @@ impl Objection {
 }
 
 impl Sight {
-    /// The objections of an estimator that finds light in one way: a remark if there is no light
-    /// at all, or if some of it will be missing; a refusal if all of it would.
+    /// The objections of an estimator that follows light and finds it in one way: a remark if there
+    /// is no light at all, or if some of it will be missing; a refusal if all of it would, or if a
+    /// material says nothing of how it scatters light.
     pub fn objections(&self, finding: Finding) -> Vec<Objection> {
+        let mut objections = self.missing(finding);
+        if self.classic {
+            let message = "this integrator follows light, and this material says nothing of how it \
+                           scatters light";
+            objections.push(Objection::fatal(Subject::Classic, message).help(
+                "the integrator `whitted` shows classic Phong materials; `phong` is a BSDF that \
+                 every integrator shows",
+            ));
+        }
+        objections
+    }
+
+    /// What is missing of the light for an estimator that finds it in one way.
+    fn missing(&self, finding: Finding) -> Vec<Objection> {
         let LightCount {
             all,
             hittable,
@@ -151,6 +173,8 @@ mod tests {
                 either,
             },
             aperture: false,
+            sky: false,
+            classic: false,
         }
     }
 

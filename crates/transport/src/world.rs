@@ -1,7 +1,8 @@
 //! The contract of a scene: all that an integrator may ask.
 
 use crate::{
-    Bsdf, Camera, Emission, EmissionDensity, Hit, LightId, LightSample, Ray, Receiver, Vertex,
+    Bsdf, Camera, ClassicPhong, Emission, EmissionDensity, Hit, LightId, LightSample, Ray,
+    Receiver, Vertex,
 };
 use etalon_math::{Density, SolidAngle};
 use etalon_spectrum::Wavelengths;
@@ -53,6 +54,12 @@ pub trait World: Sync {
     /// The scattering model at a vertex.
     fn bsdf(&self, vertex: &Vertex, wo: Vec3, wavelengths: &Wavelengths) -> Self::Bsdf<'_>;
 
+    /// The classic Phong material at a vertex, if it has one in place of a scattering model (its
+    /// [`World::bsdf`] is black). A world without such materials keeps this.
+    fn classic(&self, _vertex: &Vertex, _wavelengths: &Wavelengths) -> Option<ClassicPhong> {
+        None
+    }
+
     /// Radiance emitted by the surface at `vertex` toward `wo`.
     fn emitted(&self, vertex: &Vertex, wo: Vec3, wavelengths: &Wavelengths) -> Vec4;
 
@@ -72,6 +79,19 @@ pub trait World: Sync {
         from: &Receiver,
         wavelengths: &Wavelengths,
         u_light: f32,
+        u: Vec2,
+    ) -> Option<LightSample>;
+
+    /// How many lights there are. Their ids count from 0.
+    fn light_count(&self) -> u32;
+
+    /// A direction toward one light, as if it were the only one: without the probability of
+    /// choosing it. For estimators that ask every light.
+    fn sample_one_light(
+        &self,
+        light: LightId,
+        from: &Receiver,
+        wavelengths: &Wavelengths,
         u: Vec2,
     ) -> Option<LightSample>;
 

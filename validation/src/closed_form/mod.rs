@@ -19,6 +19,7 @@ pub mod mesh_light;
 pub mod metamers;
 pub mod mirror_room;
 pub mod narrow_sky;
+pub mod out_of_focus;
 pub mod pile_of_plates;
 pub mod pixels;
 pub mod prism;
@@ -64,6 +65,7 @@ pub fn picture(formula: &str, claim: &Claim, size: [u32; 2]) -> Result<Known, St
         "furnace within glass" => glass::furnace(claim, size),
         "directional lobes" => directional_lobes::picture(claim, size),
         "coat under parallel light" => directional_lobes::coat(claim, size),
+        "disk out of focus" => out_of_focus::picture(claim, size),
         "narrow sky" => narrow_sky::picture(claim, size),
         "wrapped bitmap" => wrapped_bitmap::picture(claim, size),
         "ambient corner" => ambient_corner::picture(claim, size),

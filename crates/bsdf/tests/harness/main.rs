@@ -8,6 +8,7 @@ mod adjoint;
 mod descriptions;
 mod determinant;
 mod directions;
+mod discrete;
 mod energy;
 mod flattening;
 mod mitsuba;

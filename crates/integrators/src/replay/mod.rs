@@ -138,8 +138,10 @@ pub fn replay<W: World, I: Integrator, F: Film>(
         number,
         count: samples.div_ceil(length).max(1),
         samples: length.min(samples - number * length),
+        image_samples: samples.saturating_mul(plan.replicates),
         origin: film.origin(),
         size,
+        margin: film.margin().ceil() as u32,
     };
     // What is learned does not depend on the passes before.
     let state = integrator.prepare(world, &pass, None);

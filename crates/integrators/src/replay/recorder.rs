@@ -5,8 +5,8 @@ use crate::prefix::Prefix;
 use etalon_math::{Density, Frame, SolidAngle};
 use etalon_spectrum::Wavelengths;
 use etalon_transport::{
-    Bsdf, BsdfSample, Camera, CameraRay, Connection, Emission, EmissionDensity, Hit, LightId,
-    LightSample, Mode, Passage, Ray, Receiver, Reception, ShapeId, Vertex, World,
+    Bsdf, BsdfSample, Camera, CameraRay, ClassicPhong, Connection, Emission, EmissionDensity, Hit,
+    LightId, LightSample, Mode, Passage, Ray, Receiver, Reception, ShapeId, Vertex, World,
 };
 use glam::{Vec2, Vec3, Vec4};
 use std::sync::{Arc, Mutex, PoisonError};
@@ -165,6 +165,21 @@ impl<B> RecordingBsdf<'_, B> {
             notes.events.push(Event::Evaluated { wi, value, density });
         });
     }
+
+    /// A direction was found that leads on from `place`.
+    fn scattered(&self, place: Option<Place>, sample: Option<BsdfSample>) {
+        self.notebook.write(|notes| {
+            if let (Some(Place { walk, prefix }), Some(sample)) = (place, &sample) {
+                let direction = sample.wi;
+                notes.walks[walk] = Walk { prefix, direction };
+            }
+            notes.events.push(Event::Scattered {
+                walk: place.map(|place| place.walk),
+                sample,
+                prefix: place.and_then(|place| place.prefix),
+            });
+        });
+    }
 }
 
 impl<B: Bsdf> Bsdf for RecordingBsdf<'_, B> {
@@ -186,23 +201,26 @@ impl<B: Bsdf> Bsdf for RecordingBsdf<'_, B> {
 
     fn sample(&self, wo: Vec3, u_lobe: f32, u: Vec2, mode: Mode) -> Option<BsdfSample> {
         let sample = self.model.sample(wo, u_lobe, u, mode);
-        self.notebook.write(|notes| {
-            let place = self.place.map(|mut place| {
-                if let (Some(prefix), Some(sample)) = (&mut place.prefix, &sample) {
-                    prefix.extend(sample.value, sample.chance.lanes());
-                }
-                place
-            });
-            if let (Some(Place { walk, prefix }), Some(sample)) = (place, &sample) {
-                let direction = sample.wi;
-                notes.walks[walk] = Walk { prefix, direction };
+        let place = self.place.map(|mut place| {
+            if let (Some(prefix), Some(sample)) = (&mut place.prefix, &sample) {
+                prefix.extend(sample.value, sample.chance.lanes());
             }
-            notes.events.push(Event::Scattered {
-                walk: place.map(|place| place.walk),
-                sample,
-                prefix: place.and_then(|place| place.prefix),
-            });
+            place
         });
+        self.scattered(place, sample);
+        sample
+    }
+
+    fn discrete(&self, wo: Vec3, index: u32, mode: Mode) -> Option<BsdfSample> {
+        let sample = self.model.discrete(wo, index, mode);
+        if sample.is_some() {
+            // All are followed: none has a probability by which to divide.
+            let place = self.place.map(|place| Place {
+                prefix: None,
+                ..place
+            });
+            self.scattered(place, sample);
+        }
         sample
     }
 
@@ -299,6 +317,10 @@ impl<'a, W: World> World for Recorder<'a, W> {
         }
     }
 
+    fn classic(&self, vertex: &Vertex, wavelengths: &Wavelengths) -> Option<ClassicPhong> {
+        self.world.classic(vertex, wavelengths)
+    }
+
     fn emitted(&self, vertex: &Vertex, wo: Vec3, wavelengths: &Wavelengths) -> Vec4 {
         let radiance = self.world.emitted(vertex, wo, wavelengths);
         self.notebook.note(Event::Emission(radiance));
@@ -327,6 +349,22 @@ impl<'a, W: World> World for Recorder<'a, W> {
         u: Vec2,
     ) -> Option<LightSample> {
         let sample = self.world.sample_light(from, wavelengths, u_light, u);
+        self.notebook.note(Event::Light(sample));
+        sample
+    }
+
+    fn light_count(&self) -> u32 {
+        self.world.light_count()
+    }
+
+    fn sample_one_light(
+        &self,
+        light: LightId,
+        from: &Receiver,
+        wavelengths: &Wavelengths,
+        u: Vec2,
+    ) -> Option<LightSample> {
+        let sample = self.world.sample_one_light(light, from, wavelengths, u);
         self.notebook.note(Event::Light(sample));
         sample
     }

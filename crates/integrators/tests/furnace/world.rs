@@ -264,6 +264,18 @@ impl World for Sphere {
         })
         .filter(|_| w.lambda.x > 0.0)
     }
+    fn light_count(&self) -> u32 {
+        1
+    }
+    fn sample_one_light(
+        &self,
+        _: LightId,
+        from: &Receiver,
+        w: &Wavelengths,
+        u: Vec2,
+    ) -> Option<LightSample> {
+        self.sample_light(from, w, 0.0, u)
+    }
     fn light_density(&self, from: &Receiver, at: &Vertex, direction: Vec3) -> Density<SolidAngle> {
         let distance_squared = (at.position - from.position).length_squared();
         Density::<Area>::uniform(self.area_density())

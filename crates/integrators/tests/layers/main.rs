@@ -9,11 +9,14 @@
 mod agreement;
 mod channels;
 mod exact;
+mod guided;
 mod lanes;
 mod loops;
 mod measure;
 mod naive;
+mod recursive;
 mod scatter;
 mod together;
+mod trees;
 mod visibility;
 mod world;

@@ -62,25 +62,10 @@ impl Bsdf for Scatter {
         };
         let pass = self.passing.x;
         if u_lobe < pass {
-            let atom = Chance::Discrete(Atom(self.passing));
-            return Some(sample(-wo, self.passing, atom, true));
+            return self.discrete(wo, 0, mode);
         }
         if (u_lobe - pass) / (1.0 - pass) < self.share {
-            // Another lane takes this direction only if it is its own.
-            let same = self.tilt.cmpeq(Vec4::splat(self.tilt.x));
-            let same = Vec4::select(same, Vec4::ONE, Vec4::ZERO);
-            let chance = if self.fault == Fault::AtomForAll {
-                Vec4::ONE
-            } else {
-                same
-            };
-            let atom = Chance::Discrete(Atom(chance * (1.0 - self.passing) * self.share));
-            return Some(sample(
-                self.direction(self.tilt.x, 0.3),
-                self.atom * same,
-                atom,
-                false,
-            ));
+            return self.discrete(wo, 1, mode);
         }
         let cos = float::pow(1.0 - u.x, 1.0 / (self.exponent.x + 1.0));
         let wi = self.direction(cos, u.y);
@@ -92,6 +77,32 @@ impl Bsdf for Scatter {
                 Chance::Continuous(density),
                 false,
             )
+        })
+    }
+    fn discrete(&self, wo: Vec3, index: u32, _: Mode) -> Option<BsdfSample> {
+        // Another lane takes the atom's direction only if it is its own.
+        let same = self.tilt.cmpeq(Vec4::splat(self.tilt.x));
+        let same = Vec4::select(same, Vec4::ONE, Vec4::ZERO);
+        let shared = if self.fault == Fault::AtomForAll {
+            Vec4::ONE
+        } else {
+            same
+        };
+        let (wi, value, atom) = match index {
+            0 => (-wo, self.passing, self.passing),
+            1 => (
+                self.direction(self.tilt.x, 0.3),
+                self.atom * same,
+                shared * (1.0 - self.passing) * self.share,
+            ),
+            _ => return None,
+        };
+        Some(BsdfSample {
+            wi,
+            value,
+            chance: Chance::Discrete(Atom(atom)),
+            eta: 1.0,
+            passes: index == 0,
         })
     }
     fn has_continuous(&self) -> bool {

@@ -296,6 +296,24 @@ impl World for Stack {
             light: LightId(index as u32),
         })
     }
+    fn light_count(&self) -> u32 {
+        self.lights() as u32
+    }
+    fn sample_one_light(
+        &self,
+        light: LightId,
+        from: &Receiver,
+        w: &Wavelengths,
+        v: Vec2,
+    ) -> Option<LightSample> {
+        let lights = self.lights() as f32;
+        let sample = self.sample_light(from, w, (light.0 as f32 + 0.5) / lights, v)?;
+        let density = sample.chance.lanes() * lights;
+        Some(LightSample {
+            chance: Chance::Continuous(Density::per_lane(density)),
+            ..sample
+        })
+    }
     fn light_density(&self, from: &Receiver, at: &Vertex, _: Vec3) -> Density<SolidAngle> {
         let there = from.position.z != at.position.z && at.light.is_some();
         Density::uniform(if there {

@@ -1,0 +1,94 @@
+//! The classic Phong material of recursive ray tracing, which is no BSDF.
+//!
+//! ```text
+//! L = (1 − α) (kₐ Lₐ + Σ E (k_d cos θ + kₛ cosⁿ ρ) + k_g L_mirror) + α L_refracted
+//! ```
+//!
+//! Phong (1975), *Illumination for Computer Generated Pictures*; Whitted (1980), *An Improved
+//! Illumination Model for Shaded Display*. Nothing scatters here: this file reads the parameters and
+//! looks their textures up, and who can show them asks for them ([`Material::classic`]). To
+//! everybody else such a surface would be black, so the scene is refused before it comes to that.
+//!
+//! [`Material::classic`]: crate::Material::classic
+
+use crate::ior::RelativeIndex;
+use crate::{Flattening, Site, Traits};
+use etalon_math::Frame;
+use etalon_params::Params;
+use etalon_transport::{Build, ClassicPhong, Role, TextureId, Textures};
+use glam::Vec4;
+
+/// Nothing for the harness of scattering models.
+pub const EXEMPLARS: &[&str] = &[];
+
+/// The name in scene files.
+pub const NAME: &str = "classicphong";
+
+/// `classicphong` in a scene file.
+#[derive(Clone, Debug)]
+pub struct Description {
+    ambient: TextureId,
+    diffuse: TextureId,
+    specular: TextureId,
+    global: TextureId,
+    exponent: f32,
+    transparency: TextureId,
+    eta: RelativeIndex,
+}
+
+impl Description {
+    /// Reads `ambient` (0), `diffuse` (0.5), `specular` (0), `global` (0), `exponent` (30),
+    /// `transparency` (0), `int_ior` (bk7) and `ext_ior` (air).
+    pub fn from_params(params: &Params<'_>, build: &mut dyn Build) -> Option<Self> {
+        // Ambient light is white: colours are what it shows, so they are those of emitted light.
+        let ambient = build.texture(params, "ambient", Some(0.0), Role::Emission);
+        let mut factor =
+            |name, default| build.texture(params, name, Some(default), Role::Reflectance);
+        let diffuse = factor("diffuse", 0.5);
+        let specular = factor("specular", 0.0);
+        let global = factor("global", 0.0);
+        let transparency = factor("transparency", 0.0);
+        let exponent = params.float_where("exponent", 30.0, "a finite number not below 0", |n| {
+            n >= 0.0 && n.is_finite()
+        });
+        Some(Self {
+            ambient,
+            diffuse,
+            specular,
+            global,
+            exponent: exponent as f32,
+            transparency,
+            eta: RelativeIndex::from_params(params, build, "bk7")?,
+        })
+    }
+
+    /// No lobes: it does not scatter.
+    pub fn traits(&self) -> Traits {
+        Traits {
+            lobes: 0,
+            passing: false,
+            transmission: true,
+        }
+    }
+
+    /// The material at a point.
+    pub fn resolve<T: Textures>(&self, site: &Site<'_, T>) -> ClassicPhong {
+        ClassicPhong {
+            ambient: site.spectrum(self.ambient),
+            diffuse: site.spectrum(self.diffuse),
+            specular: site.spectrum(self.specular),
+            global: site.spectrum(self.global),
+            exponent: self.exponent,
+            transparency: site.share(self.transparency),
+            eta: self.eta.eval(site),
+        }
+    }
+
+    /// Adds nothing.
+    pub fn flatten<T: Textures>(&self, _: &Site<'_, T>, _: Frame, _: f32, _: &mut Flattening<'_>) {}
+
+    /// Nothing passes as if the surface were not there.
+    pub fn passing<T: Textures>(&self, _: &Site<'_, T>, _: Frame) -> (Vec4, f32) {
+        (Vec4::ZERO, 0.0)
+    }
+}

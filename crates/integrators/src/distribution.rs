@@ -1,0 +1,332 @@
+//! `distribution`: distribution ray tracing, a tree of random rays (Cook, Porter & Carpenter 1984).
+//!
+//! ```text
+//! ⟨L(x, ω)⟩ = Lₑ + 1/N Σⱼ [ w_l(ωⱼ) f |cos θⱼ| Lₑ(ωⱼ) / p_l(ωⱼ) + f |cos θ'ⱼ| ⟨L(y, −ω'ⱼ)⟩ / p(ω'ⱼ) ]
+//! ```
+//!
+//! Where `path` goes on with one direction, this follows N of them from every surface that scatters
+//! into a continuum, and asks for N points of lights; y is what is seen along ω'ⱼ, and where it
+//! shines, that counts with the weight 1 − w_l. So penumbrae and glossy reflections become smooth at
+//! the price of a tree. Lens and shutter are sampled once for each tree. Smooth surfaces send one ray
+//! on, chosen at random.
+//!
+//! Weights are those of `path` ([`crate::prefix`]): they depend on a path alone and sum to one over
+//! techniques and lanes, so that any N is unbiased; with N = 1 it *is* `path`, but for the order of sums.
+//! The N directions at a point are stratified in one coordinate. Rays of later bounces matter less,
+//! so that N is divided at each (Cook et al., section 3.6, reduce it likewise).
+
+use crate::dimensions::Event;
+use crate::path::camera_ray;
+use crate::prefix::Prefix;
+use crate::rival::Rival;
+use crate::settings::{PathSettings, ignore_scheduling};
+use crate::walk::shadow_ray;
+use etalon_params::Params;
+use etalon_sampling::Sampler;
+use etalon_spectrum::{Wavelengths, sensor_response};
+use etalon_transport::{
+    Bsdf, Chance, Hit, Integrator, Mode, Pass, PixelSite, Ray, Receiver, Sink, Vertex, World,
+};
+use glam::{Vec2, Vec3, Vec4};
+
+/// The distribution ray tracer.
+#[derive(Clone, Debug)]
+pub struct Distribution {
+    /// Limits of each path through the tree.
+    pub settings: PathSettings,
+    /// N at the first surface that scatters into a continuum.
+    pub samples: u32,
+    /// By what N is divided at each such surface, down to 1.
+    pub decay: u32,
+}
+
+impl Distribution {
+    /// Reads what [`PathSettings`] does, `samples` (4) and `decay` (2).
+    pub fn from_params(params: &Params<'_>) -> Self {
+        ignore_scheduling(params);
+        let settings = PathSettings::from_params(params);
+        let count = |name: &str, default: u32| {
+            let value = params.integer_or(name, i64::from(default));
+            let good = u32::try_from(value).ok().filter(|n| (1..=4096).contains(n));
+            good.unwrap_or_else(|| {
+                params.refuse(name, value, "1, 2, … 4096");
+                default
+            })
+        };
+        let (samples, decay) = (count("samples", 4), count("decay", 2));
+        if samples > 1 && decay == 1 && settings.max_depth == u32::MAX {
+            params.error_at(
+                "decay",
+                "a tree that branches at every surface needs a `max_depth`",
+            );
+        }
+        Self {
+            settings,
+            samples,
+            decay,
+        }
+    }
+
+    /// N after so many surfaces that scatter into a continuum.
+    fn branches(&self, bounces: u32) -> u32 {
+        let divisor = (self.decay).checked_pow(bounces).unwrap_or(u32::MAX);
+        (self.samples / divisor).max(1)
+    }
+}
+
+/// A ray of the tree, and the path that led to it.
+#[derive(Clone, Copy)]
+struct Branch {
+    ray: Ray,
+    prefix: Prefix,
+    rival: Rival,
+    /// The product of the indices of refraction passed.
+    eta: f32,
+    /// Number of segments, that of `ray` included.
+    depth: u32,
+    /// Number of surfaces met that scatter into a continuum.
+    bounces: u32,
+    /// Whether it only went straight.
+    straight: bool,
+}
+
+/// What a branch found.
+#[derive(Clone, Copy, Default)]
+struct Found {
+    /// Per lane, over the sum of all densities' ratios (see [`Prefix::estimate`]).
+    radiance: Vec4,
+    /// 1 if it met anything that it did not pass straight, the background included.
+    alpha: f32,
+}
+
+/// A tree being grown.
+struct Tree<'a, W, S> {
+    integrator: &'a Distribution,
+    world: &'a W,
+    wavelengths: Wavelengths,
+    sampler: &'a mut S,
+    /// Scattering events so far; each has its own random numbers.
+    events: u32,
+}
+
+impl<W: World, S: Sampler> Tree<'_, W, S> {
+    /// The next surface of a branch; a camera ray looks through hidden lights.
+    fn meet(&self, branch: &mut Branch) -> Option<Hit> {
+        let hidden = self.integrator.settings.hide_emitters && branch.depth == 1;
+        loop {
+            let hit = self.world.intersect(&branch.ray)?;
+            if !(hidden && self.world.is_emitter(&hit)) {
+                return Some(hit);
+            }
+            let vertex = self.world.vertex(&branch.ray, &hit);
+            branch.ray = vertex.spawn(branch.ray.direction);
+        }
+    }
+
+    fn grow(&mut self, mut branch: Branch) -> Found {
+        let (world, settings) = (self.world, self.integrator.settings);
+        let mut found = Found {
+            alpha: f32::from(!branch.straight),
+            ..Found::default()
+        };
+        let Some(hit) = self.meet(&mut branch) else {
+            let visible = !settings.hide_emitters || !branch.straight;
+            if visible && world.has_background() {
+                let direction = branch.ray.direction;
+                let radiance = world.background(direction, &self.wavelengths);
+                let other = branch.rival.at_background(world, direction);
+                found.radiance = branch.prefix.estimate(radiance, other);
+                found.alpha = 1.0;
+            }
+            return found;
+        };
+        let emits = world.is_emitter(&hit);
+        let last = branch.depth == settings.max_depth;
+        if last && !emits && !branch.straight {
+            return found;
+        }
+        let vertex = world.vertex(&branch.ray, &hit);
+        let wo = -branch.ray.direction;
+        if emits {
+            let radiance = world.emitted(&vertex, wo, &self.wavelengths);
+            if radiance != Vec4::ZERO {
+                let other = (branch.rival).at_surface(world, &vertex, branch.ray.direction);
+                found.radiance += branch.prefix.estimate(radiance, other);
+            }
+        }
+        let bsdf = world.bsdf(&vertex, wo, &self.wavelengths);
+        if last {
+            // Where the path would go on we do not ask; how likely straight on, we know.
+            let stopped = 1.0 - 0.25 * bsdf.passing_probability().element_sum();
+            found.alpha = found.alpha.max(stopped);
+            return found;
+        }
+        let continuous = bsdf.has_continuous();
+        let count = if continuous {
+            self.integrator.branches(branch.bounces)
+        } else {
+            1
+        };
+        let share = 1.0 / count as f32;
+        let mut alpha = 0.0;
+        for number in 0..count {
+            let event = self.event(number, count);
+            let mut sum = Found::default();
+            if continuous {
+                sum.radiance += self.connect(&branch, &vertex, &bsdf, wo, &event);
+            }
+            match self.scatter(&branch, &vertex, &bsdf, wo, &event) {
+                Next::Absorbed => sum.alpha = 1.0,
+                Next::Ended { straight } => sum.alpha = f32::from(!straight),
+                Next::Branch(next) => {
+                    let next = self.grow(next);
+                    sum.radiance += next.radiance;
+                    sum.alpha = next.alpha;
+                }
+            }
+            found.radiance += sum.radiance * share;
+            alpha += sum.alpha * share;
+        }
+        found.alpha = found.alpha.max(alpha);
+        found
+    }
+
+    /// The random numbers of sample `number` of `count` at a point. One coordinate of each
+    /// direction is stratified; to stratify two in the same order would tie them to each other.
+    fn event(&mut self, number: u32, count: u32) -> Event {
+        let event = Event::draw(self.sampler, self.events);
+        self.events += 1;
+        if count == 1 {
+            return event;
+        }
+        let stratum = |u: Vec2| {
+            let x = (number as f32 + u.x) / count as f32;
+            Vec2::new(x.min(1.0 - 0.5 * f32::EPSILON), u.y)
+        };
+        Event {
+            light: stratum(event.light),
+            direction: stratum(event.direction),
+            ..event
+        }
+    }
+
+    /// Next-event estimation: one point of a light, weighted against scattering.
+    fn connect(
+        &self,
+        branch: &Branch,
+        vertex: &Vertex,
+        bsdf: &W::Bsdf<'_>,
+        wo: Vec3,
+        event: &Event,
+    ) -> Vec4 {
+        let (world, settings) = (self.world, self.integrator.settings);
+        let from = Receiver::from(vertex);
+        let light = world.sample_light(&from, &self.wavelengths, event.light_choice, event.light);
+        let Some(light) = light else {
+            return Vec4::ZERO;
+        };
+        let (value, density) = bsdf.eval_and_density(wo, light.direction, Mode::Radiance);
+        let contribution = value * light.radiance;
+        if contribution == Vec4::ZERO {
+            return Vec4::ZERO;
+        }
+        let crossings = settings.max_depth - branch.depth - 1;
+        let passage = shadow_ray(vertex, light.direction, light.target)
+            .and_then(|ray| world.passage(&ray, &self.wavelengths, crossings));
+        let Some(passage) = passage else {
+            return Vec4::ZERO;
+        };
+        let mut complete = branch.prefix;
+        complete.extend(contribution, light.chance.lanes());
+        let by_scattering = match light.chance {
+            // Scattering never finds a discrete light.
+            Chance::Discrete(_) => Vec4::ZERO,
+            Chance::Continuous(chosen) => branch.prefix.ratio * density.lanes() / chosen.chooser(),
+        };
+        complete.estimate(passage.transmittance, by_scattering * passage.probability)
+    }
+
+    /// The branch that leaves a surface.
+    fn scatter(
+        &self,
+        branch: &Branch,
+        vertex: &Vertex,
+        bsdf: &W::Bsdf<'_>,
+        wo: Vec3,
+        event: &Event,
+    ) -> Next {
+        let Some(sample) = bsdf.sample(wo, event.lobe, event.direction, Mode::Radiance) else {
+            return Next::Absorbed;
+        };
+        let mut next = Branch {
+            ray: vertex.spawn(sample.wi),
+            rival: branch.rival.after(&branch.prefix, vertex, &sample),
+            eta: branch.eta * sample.eta,
+            depth: branch.depth + 1,
+            bounces: branch.bounces + u32::from(bsdf.has_continuous()),
+            straight: branch.straight && sample.passes,
+            ..*branch
+        };
+        next.prefix.extend(sample.value, sample.chance.lanes());
+        let straight = next.straight;
+        if branch.depth >= self.integrator.settings.rr_depth {
+            let survival = (next.prefix.throughput() * next.eta * next.eta).min(0.95);
+            if !(event.roulette < survival) {
+                return Next::Ended { straight };
+            }
+            next.prefix.survive(survival);
+        }
+        if next.prefix.value == Vec4::ZERO {
+            return Next::Ended { straight };
+        }
+        Next::Branch(next)
+    }
+}
+
+/// What comes after a surface.
+enum Next {
+    Absorbed,
+    Ended { straight: bool },
+    Branch(Branch),
+}
+
+impl Integrator for Distribution {
+    const UNBIASED: bool = true;
+
+    type State = ();
+
+    fn prepare<W: World>(&self, _: &W, _: &Pass, _: Option<()>) {}
+
+    fn sample<W: World, S: Sampler, K: Sink>(
+        &self,
+        world: &W,
+        (): &(),
+        site: &PixelSite,
+        sampler: &mut S,
+        sink: &mut K,
+    ) {
+        let (wavelengths, ray, weight) = camera_ray(world, site, sampler);
+        let mut tree = Tree {
+            integrator: self,
+            world,
+            wavelengths,
+            sampler,
+            events: 0,
+        };
+        let found = if self.settings.max_depth > 0 {
+            tree.grow(Branch {
+                ray,
+                prefix: Prefix::START,
+                rival: Rival::NONE,
+                eta: 1.0,
+                depth: 1,
+                bounces: 0,
+                straight: true,
+            })
+        } else {
+            Found::default()
+        };
+        let rgb = sensor_response(&wavelengths).rgb(found.radiance * weight);
+        sink.radiance(rgb.to_array(), found.alpha);
+    }
+}

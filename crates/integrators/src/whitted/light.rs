@@ -1,0 +1,140 @@
+//! What arrives straight from the lights.
+
+use super::tree::{Packet, SETS};
+use super::{Falloff, Whitted, phong};
+use crate::walk::shadow_ray;
+use etalon_spectrum::Wavelengths;
+use etalon_transport::{
+    Bsdf, ClassicPhong, LightId, LightSample, Mode, Ray, Receiver, Vertex, World,
+};
+use glam::{Vec2, Vec3, Vec4};
+
+/// What lies at a surface, for one packet.
+enum Surface<B> {
+    Classic(ClassicPhong),
+    Scattering(B),
+}
+
+impl<B: Bsdf> Surface<B> {
+    /// What it shows of a lamp, per unit of irradiance.
+    fn shade(&self, vertex: &Vertex, wo: Vec3, wi: Vec3) -> Vec4 {
+        match self {
+            Self::Classic(material) => phong::shade(material, vertex, wo, wi),
+            Self::Scattering(bsdf) => bsdf.eval(wo, wi, Mode::Radiance),
+        }
+    }
+}
+
+impl Whitted {
+    /// The light of all lamps that the surface shows toward `wo`. Shadow rays may pass as many
+    /// surfaces straight as `crossings`.
+    #[inline(never)] // Its tables need not stay on the stack while rays go on.
+    pub(super) fn direct<W: World>(
+        &self,
+        world: &W,
+        vertex: &Vertex,
+        wo: Vec3,
+        packets: &[Packet],
+        crossings: u32,
+    ) -> Vec3 {
+        let surfaces: [Option<Surface<W::Bsdf<'_>>>; SETS] = core::array::from_fn(|i| {
+            let wavelengths = &packets.get(i)?.wavelengths;
+            Some(match world.classic(vertex, wavelengths) {
+                Some(material) => Surface::Classic(material),
+                None => Surface::Scattering(world.bsdf(vertex, wo, wavelengths)),
+            })
+        });
+        let from = Receiver::from(vertex);
+        let side = self.light_samples;
+        let mut sum = Vec3::ZERO;
+        for light in (0..world.light_count()).map(LightId) {
+            for point in 0..side * side {
+                let place = Vec2::new((point % side) as f32, (point / side) as f32) + 0.5;
+                let sample = |wavelengths: &Wavelengths| {
+                    world.sample_one_light(light, &from, wavelengths, place / side as f32)
+                };
+                let Some(first) = sample(&packets[0].wavelengths) else {
+                    continue;
+                };
+                let share = if first.chance.is_discrete() {
+                    1.0
+                } else {
+                    1.0 / (side * side) as f32
+                };
+                let mut shown = [Vec4::ZERO; SETS];
+                for ((shown, packet), surface) in shown.iter_mut().zip(packets).zip(&surfaces) {
+                    let (Some(surface), Some(lamp)) = (surface, sample(&packet.wavelengths)) else {
+                        continue;
+                    };
+                    let scattered = surface.shade(vertex, wo, lamp.direction);
+                    if scattered != Vec4::ZERO {
+                        *shown =
+                            scattered * self.irradiance(&from, &lamp) * (packet.weight * share);
+                    }
+                }
+                if shown.iter().all(|&shown| shown == Vec4::ZERO) {
+                    continue;
+                }
+                let ray = shadow_ray(vertex, first.direction, first.target);
+                if let Some(arrives) = ray.and_then(|ray| reach(world, ray, packets, crossings)) {
+                    for ((packet, shown), arrives) in packets.iter().zip(shown).zip(arrives) {
+                        sum += packet.response.rgb(shown * arrives);
+                    }
+                }
+                if first.chance.is_discrete() {
+                    break;
+                }
+            }
+        }
+        sum
+    }
+
+    /// The irradiance on a surface that faces the lamp.
+    fn irradiance(&self, from: &Receiver, lamp: &LightSample) -> Vec4 {
+        let irradiance = lamp.radiance / lamp.chance.lanes().x;
+        match (self.falloff, lamp.target) {
+            (Falloff::None, Some(target)) if lamp.chance.is_discrete() => {
+                irradiance * target.distance_squared(from.position)
+            }
+            _ => irradiance,
+        }
+    }
+}
+
+/// The fraction of light that travels a segment, for each packet; `None` if none does.
+fn reach<W: World>(
+    world: &W,
+    mut ray: Ray,
+    packets: &[Packet],
+    mut crossings: u32,
+) -> Option<[Vec4; SETS]> {
+    let (origin, end) = (ray.origin, ray.t_max);
+    let mut fractions = [Vec4::ONE; SETS];
+    while let Some(hit) = world.intersect(&ray) {
+        crossings = crossings.checked_sub(1)?;
+        let vertex = world.vertex(&ray, &hit);
+        let mut any = false;
+        for (fraction, packet) in fractions.iter_mut().zip(packets) {
+            *fraction *= match world.classic(&vertex, &packet.wavelengths) {
+                Some(material) => Vec4::splat(material.transparency),
+                None => {
+                    let bsdf = world.bsdf(&vertex, -ray.direction, &packet.wavelengths);
+                    bsdf.passing()
+                }
+            };
+            any |= *fraction != Vec4::ZERO;
+        }
+        if !any {
+            return None;
+        }
+        ray = vertex.spawn(ray.direction);
+        if end.is_finite() {
+            // What is left of the segment, measured from where the ray goes on.
+            ray.t_max = end - (ray.origin - origin).dot(ray.direction);
+            if !(ray.t_max > 0.0) {
+                break;
+            }
+        }
+    }
+    Some(fractions)
+}

@@ -1,0 +1,161 @@
+//! The classic Phong material: what it shows of a lamp, and where it sends rays.
+
+use super::tree::Onward;
+use etalon_math::float;
+use etalon_transport::{ClassicPhong, Vertex};
+use glam::{Vec3, Vec4};
+
+/// The shading normal on the side of `wo`.
+fn facing(vertex: &Vertex, wo: Vec3) -> Vec3 {
+    let n = vertex.shading.n;
+    if n.dot(wo) < 0.0 { -n } else { n }
+}
+
+/// What the surface itself shows of a lamp in direction `wi`, per unit of irradiance.
+pub(super) fn shade(material: &ClassicPhong, vertex: &Vertex, wo: Vec3, wi: Vec3) -> Vec4 {
+    let n = facing(vertex, wo);
+    let cos = n.dot(wi);
+    if !(cos > 0.0) {
+        return Vec4::ZERO;
+    }
+    let mirrored = mirror(n, wo).dot(wi).max(0.0);
+    let highlight = float::pow(mirrored, material.exponent);
+    let own = material.diffuse * cos + material.specular * highlight;
+    own * (1.0 - material.transparency)
+}
+
+fn mirror(n: Vec3, wo: Vec3) -> Vec3 {
+    n * (2.0 * n.dot(wo)) - wo
+}
+
+/// The ray number `index` that leaves the surface: the mirrored one, and the refracted one; `None`
+/// beyond the last.
+pub(super) fn onward(
+    material: &ClassicPhong,
+    vertex: &Vertex,
+    wo: Vec3,
+    index: u32,
+) -> Option<Onward> {
+    let n = facing(vertex, wo);
+    let cos = n.dot(wo);
+    // Index of the medium entered over that of the medium left.
+    let eta = if vertex.shading.n.dot(wo) < 0.0 {
+        material.eta.recip()
+    } else {
+        material.eta
+    };
+    // Snell's law; below zero there is no refracted ray, and all is reflected.
+    let cos2 = 1.0 - (1.0 - cos * cos) / (eta * eta);
+    let refracts = Vec4::select(cos2.cmpgt(Vec4::ZERO), Vec4::ONE, Vec4::ZERO);
+    let through = Vec4::splat(material.transparency);
+    match index {
+        0 => Some(Onward {
+            wi: mirror(n, wo),
+            value: material.global * (1.0 - through) + through * (1.0 - refracts),
+            together: Vec4::ONE,
+        }),
+        1 if material.transparency > 0.0 => {
+            // The direction is that of lane 0; other lanes go with it only if theirs is the same.
+            let same = Vec4::select(eta.cmpeq(Vec4::splat(eta.x)), Vec4::ONE, Vec4::ZERO);
+            let together = same * refracts.x;
+            let refracted = n * (cos / eta.x - cos2.x.max(0.0).sqrt()) - wo / eta.x;
+            Some(Onward {
+                wi: refracted.normalize(),
+                value: through * together,
+                // Under total reflection lanes of the same index have no ray, either.
+                together: same,
+            })
+        }
+        _ => None,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use etalon_math::Frame;
+    use etalon_transport::{InstanceId, LightId, MaterialId, ShapeId};
+    use glam::Vec2;
+
+    const MATERIAL: ClassicPhong = ClassicPhong {
+        ambient: Vec4::ZERO,
+        diffuse: Vec4::splat(0.5),
+        specular: Vec4::splat(0.25),
+        global: Vec4::splat(0.3),
+        exponent: 2.0,
+        transparency: 0.4,
+        eta: Vec4::splat(1.5),
+    };
+
+    fn vertex() -> Vertex {
+        Vertex {
+            position: Vec3::ZERO,
+            error: Vec3::ZERO,
+            normal: Vec3::Z,
+            shading: Frame::from_normal(Vec3::Z),
+            uv: Vec2::ZERO,
+            dp_du: Vec3::X,
+            dp_dv: Vec3::Y,
+            t: 1.0,
+            time: 0.0,
+            parameters: Vec2::ZERO,
+            shape: ShapeId(0),
+            primitive: 0,
+            instance: InstanceId::NONE,
+            material: MaterialId(0),
+            light: LightId::NONE,
+        }
+    }
+
+    fn close(a: Vec4, b: f32) -> bool {
+        (a - b).abs().max_element() < 1e-6
+    }
+
+    #[test]
+    fn a_lamp_is_shown_by_both_sides_and_not_through_the_surface() {
+        let wo = Vec3::new(0.6, 0.0, 0.8);
+        let mirrored = Vec3::new(-0.6, 0.0, 0.8);
+        for side in [1.0, -1.0] {
+            let turn = |v: Vec3| Vec3::new(v.x, v.y, v.z * side);
+            let seen = |wi: Vec3| shade(&MATERIAL, &vertex(), turn(wo), turn(wi));
+            // 0.6·(0.5 cos θ + 0.25 cos² ρ)
+            assert!(close(seen(mirrored), 0.6 * (0.4 + 0.25)));
+            assert!(close(seen(Vec3::Z), 0.6 * (0.5 + 0.25 * 0.64)));
+            assert!(close(seen(Vec3::new(0.6, 0.0, -0.8)), 0.0));
+        }
+    }
+
+    #[test]
+    fn refraction_obeys_snell_from_either_side() {
+        let sin = 0.6_f32;
+        let wo = Vec3::new(sin, 0.0, 0.8);
+        let in_glass = onward(&MATERIAL, &vertex(), wo, 1).expect("it is transparent");
+        assert!((in_glass.wi.x + sin / 1.5).abs() < 1e-6 && in_glass.wi.z < 0.0);
+        assert!(close(in_glass.value, 0.4));
+        let back = onward(&MATERIAL, &vertex(), in_glass.wi, 1).expect("it is transparent");
+        assert!((back.wi - wo).length() < 1e-6, "{}", back.wi);
+    }
+
+    #[test]
+    fn total_reflection_takes_the_place_of_refraction() {
+        let wo = Vec3::new(0.8, 0.0, -0.6);
+        let mirrored = onward(&MATERIAL, &vertex(), wo, 0).expect("there always is one");
+        assert_eq!(mirrored.wi, Vec3::new(-0.8, 0.0, -0.6));
+        assert!(close(mirrored.value, 0.3 * 0.6 + 0.4));
+        let refracted = onward(&MATERIAL, &vertex(), wo, 1).expect("other lanes may refract");
+        assert!(close(refracted.value, 0.0));
+        assert!(onward(&MATERIAL, &vertex(), wo, 2).is_none());
+    }
+
+    #[test]
+    fn each_wavelength_is_refracted_by_its_own_index() {
+        let material = ClassicPhong {
+            eta: Vec4::new(1.5, 1.5, 1.6, 1.7),
+            ..MATERIAL
+        };
+        let wo = Vec3::new(0.6, 0.0, 0.8);
+        let whole = onward(&material, &vertex(), wo, 1).expect("it is transparent");
+        assert_eq!(whole.together, Vec4::new(1.0, 1.0, 0.0, 0.0));
+        assert_eq!(whole.value, whole.together * 0.4);
+    }
+}
