@@ -1,7 +1,7 @@
 //! The command line.
 
 use clap::{Args, Parser, Subcommand};
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 /// A spectral renderer whose estimators are held to account by statistics.
 #[derive(Debug, Parser)]
@@ -32,7 +32,8 @@ Examples:
   etalon render scenes/cornell-box/scene.xml -o cornell.exr
   etalon render scene.xml -o out.exr --spp 256 --seed 7 -D resx=512 -D resy=512
   etalon render scene.xml -o direct.exr --integrator direct --stats stats.json
-  etalon render scene.xml -o a.exr --part 1/2")]
+  etalon render scene.xml -o a.exr --part 1/2
+  etalon render scene.xml --replay 12,7,0,3")]
     Render(RenderArgs),
     /// Put the parts of a render together: to the bit what an unsplit render gives.
     #[command(after_help = "\
@@ -86,12 +87,17 @@ Examples:
 
 /// Arguments of `render`.
 #[derive(Debug, Args, Clone)]
+#[command(group = clap::ArgGroup::new("wanted").required(true).args(["output", "replay"]))]
 pub struct RenderArgs {
     /// The scene (Mitsuba 3 XML).
     pub scene: PathBuf,
     /// The image to write (.exr; .hdr and .pfm without standard errors).
     #[arg(short, long, value_name = "OUT.exr")]
-    pub output: PathBuf,
+    pub output: Option<PathBuf>,
+    /// Draw one sample again, and say what happened vertex by vertex: sample S of replicate R of
+    /// the pixel in column X and row Y, counted from 0. Nothing is rendered.
+    #[arg(long, value_name = "X,Y,R,S", value_parser = parse_replay)]
+    pub replay: Option<ReplayAddress>,
     /// Samples per pixel; rounded up to what the sampler can stratify [default: the scene's].
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..))]
     pub spp: Option<u32>,
@@ -126,6 +132,13 @@ pub struct RenderArgs {
     /// Say nothing but errors.
     #[arg(short, long)]
     pub quiet: bool,
+}
+
+impl RenderArgs {
+    /// The image to write: there is one, unless a sample is replayed.
+    pub fn output(&self) -> &Path {
+        self.output.as_deref().unwrap_or_else(|| Path::new(""))
+    }
 }
 
 /// Arguments of `merge`.
@@ -246,6 +259,31 @@ pub struct ConvertArgs {
 pub struct InfoArgs {
     /// An image or a scene.
     pub file: PathBuf,
+}
+
+/// A sample to be drawn again.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct ReplayAddress {
+    /// Column and row of its pixel.
+    pub pixel: [u32; 2],
+    /// Its replicate.
+    pub replicate: u32,
+    /// Its number within pixel and replicate.
+    pub sample: u32,
+}
+
+fn parse_replay(text: &str) -> Result<ReplayAddress, String> {
+    let numbers: Option<Vec<u32>> = text.split(',').map(|n| n.trim().parse().ok()).collect();
+    match numbers.as_deref() {
+        Some(&[x, y, replicate, sample]) => Ok(ReplayAddress {
+            pixel: [x, y],
+            replicate,
+            sample,
+        }),
+        _ => Err(
+            "expected four numbers, such as 12,7,0,3: column, row, replicate, sample".to_owned(),
+        ),
+    }
 }
 
 /// One of the equal shares into which a render is split.

@@ -4,12 +4,13 @@
 //! AO(x) = 1/π ∫ V(x, ω)·cos θ dω  over the hemisphere that faces the camera
 //! ```
 //!
-//! where V is 1 if nothing stands within `distance` of x along ω, else 0 (Zhukov, Iones, Kronin 1998,
-//! with a step for the fall-off): the light that a white surface reflects under a white sky of
-//! radiance 1, near things apart. The picture is grey, whatever materials and lights there are; light passes `mask` and
-//! `null` as it should. `sampling` says how directions are drawn: `cosine` in proportion to cos θ,
-//! which needs no weight; `uniform`, weighted by 2 cos θ, is there to be compared. The hemisphere
-//! is that about the shading normal; of its directions those below the surface itself see nothing.
+//! where V is 1 if nothing stands within `distance` of x along ω, else 0 (Zhukov, Iones, Kronin
+//! 1998, with a step for the fall-off): the light that a white surface reflects under a white sky
+//! of radiance 1, near things apart. The picture is grey, whatever materials and lights there are;
+//! light passes `mask` and `null` as it should. `sampling` says how directions are drawn: `cosine`
+//! in proportion to cos θ, which needs no weight; `uniform`, weighted by 2 cos θ, is there to be
+//! compared. The hemisphere is that about the shading normal; of its directions those below the
+//! surface itself see nothing.
 
 use crate::dimensions::Event;
 use crate::path::camera_ray;

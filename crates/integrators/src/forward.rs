@@ -1,8 +1,8 @@
 //! `forward`: light particles that bounce until, by chance, they hit the camera's aperture.
 //!
-//! The simplest complete algorithm, and the world's own: a particle of flux Φ = Le·|cos θ| / p leaves
-//! a light, scatters like light, and whatever arrives on the aperture is counted where the lens
-//! focuses it,
+//! The simplest complete algorithm, and the world's own: a particle of flux Φ = Le·|cos θ| / p
+//! leaves a light, scatters like light, and whatever arrives on the aperture is counted where the
+//! lens focuses it,
 //!
 //! ```text
 //! splat = Φ · Π f·|cos θ| / p · dx/dω / (A·cos θ)
@@ -11,8 +11,8 @@
 //! with A the aperture's area, θ the angle of arrival, and dx/dω the film's area per solid angle
 //! through that point of the lens ([`etalon_transport::Reception`]). It is `ptracer` without the
 //! connections, and as slow as one would think: of the particles in a room of surface S a share of
-//! about A/S arrives per bounce. What it has over `ptracer` is that it sees through mirrors and glass. A pinhole
-//! is never hit; asked to render through one, it refuses.
+//! about A/S arrives per bounce. What it has over `ptracer` is that it sees through mirrors and
+//! glass. A pinhole is never hit; asked to render through one, it refuses.
 //!
 //! Particles start anywhere in the scene but for those from the sky, which start above it and would
 //! miss a camera outside: the sky behind everything (paths of one segment) is found by a camera

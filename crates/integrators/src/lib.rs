@@ -28,6 +28,7 @@ pub mod prefix;
 pub mod pssmlt;
 pub mod ptracer;
 pub mod render;
+pub mod replay;
 mod rival;
 pub mod settings;
 pub mod signature;

@@ -16,6 +16,7 @@ use crate::photonmap::PhotonMapper;
 use crate::pssmlt::PrimarySpace;
 use crate::ptracer::ParticleTracer;
 use crate::render::{Outcome, Plan, Progress, render};
+use crate::replay::{Address, Replay, replay};
 use crate::signature::Signature;
 use crate::sppm::Progressive;
 use crate::vcm::ConnectionMerging;
@@ -96,6 +97,19 @@ macro_rules! integrators {
             ) -> Outcome {
                 match self {
                     $(Self::$variant(integrator) => render(world, integrator, film, plan, progress),)*
+                }
+            }
+
+            /// Draws one sample again: see [`replay`].
+            pub fn replay<W: World, F: Film>(
+                &self,
+                world: &W,
+                film: &F,
+                plan: &Plan,
+                address: &Address,
+            ) -> Replay {
+                match self {
+                    $(Self::$variant(integrator) => replay(world, integrator, film, plan, address),)*
                 }
             }
 

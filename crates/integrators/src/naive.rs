@@ -19,10 +19,10 @@
 //!
 //! No such density finds a direction that has a probability of its own. So at a surface that may
 //! let light pass straight on (`mask`, `null`) the path passes with the model's probability; where
-//! any other lobe may be discrete, one half of the rest lets the model sample and keeps discrete directions only,
-//! and the other half draws from p; where nothing is continuous the model samples always. The density of a uniform or
-//! cosine direction is the same for every wavelength, that of a discrete one is not; the house's
-//! estimator ([`crate::prefix`]) takes one like the other.
+//! any other lobe may be discrete, one half of the rest lets the model sample and keeps discrete
+//! directions only, and the other half draws from p; where nothing is continuous the model samples
+//! always. The density of a uniform or cosine direction is the same for every wavelength, that of
+//! a discrete one is not; the house's estimator ([`crate::prefix`]) takes one like the other.
 
 use crate::dimensions::Event;
 use crate::path::camera_ray;
@@ -156,8 +156,8 @@ impl Naive {
         (frame.to_world(local), density * share)
     }
 
-    /// The radiance along a ray from the camera, per lane and over the sum of the densities' ratios,
-    /// and the alpha of what it met.
+    /// The radiance along a ray from the camera, per lane and over the sum of the densities'
+    /// ratios, and the alpha of what it met.
     fn incident<W: World, S: Sampler>(
         &self,
         world: &W,

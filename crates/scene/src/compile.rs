@@ -4,7 +4,7 @@ use crate::builder::Builder;
 use crate::lookup::Lookup;
 use crate::sampler::SamplerSettings;
 use crate::scene::Scene;
-use crate::surfaces::{self, Emitting, Surfaces};
+use crate::surfaces::{self, Emitting, Names, Surfaces};
 use etalon_cameras::{AnyCamera, FilmWindow};
 use etalon_film::{FilmSettings, Filter};
 use etalon_geometry::AcceleratorKind;
@@ -27,6 +27,8 @@ pub struct Compiled {
     pub classic: Option<Span>,
     /// The integrator's description, if the scene has one.
     pub integrator: Option<Arc<Node>>,
+    /// What its things are called.
+    pub names: Names,
     /// Time spent building the accelerator.
     pub build_time: Duration,
 }
@@ -75,6 +77,7 @@ pub fn compile_with(
         sampler,
         classic: surfaces.classic,
         integrator,
+        names: surfaces.names,
         build_time,
     })
 }

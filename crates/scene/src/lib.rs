@@ -16,3 +16,4 @@ pub use compile::{Compiled, compile, compile_with};
 pub use etalon_geometry::AcceleratorKind;
 pub use sampler::SamplerSettings;
 pub use scene::Scene;
+pub use surfaces::Names;

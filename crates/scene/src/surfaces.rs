@@ -21,6 +21,25 @@ pub struct Emitting {
     pub emitter: Arc<Node>,
 }
 
+/// What people call the things of a scene, by their ids: the plugin, and its id in the file if it
+/// has one.
+#[derive(Clone, Debug, Default)]
+pub struct Names {
+    /// Of shapes, those in groups included.
+    pub shapes: Vec<String>,
+    /// Of materials.
+    pub materials: Vec<String>,
+}
+
+/// What people call a thing.
+fn name(node: &Node) -> String {
+    let plugin = &node.plugin.value;
+    match &node.id {
+        Some(id) => format!("{plugin} `{id}`"),
+        None => plugin.clone(),
+    }
+}
+
 /// Everything a ray can hit.
 #[derive(Default)]
 pub struct Surfaces {
@@ -30,6 +49,8 @@ pub struct Surfaces {
     pub materials: Vec<Material>,
     /// Shapes that emit.
     pub emitting: Vec<Emitting>,
+    /// What all that is called.
+    pub names: Names,
     /// Where the first classic Phong material is described, if a shape has one.
     pub classic: Option<Span>,
     by_node: HashMap<usize, MaterialId>,
@@ -72,6 +93,7 @@ impl Surfaces {
                 let id = self
                     .geometry
                     .add_shape(shape, carried.material, LightId::NONE);
+                self.names.shapes.push(name(node));
                 if let Some(emitter) = carried.emitter {
                     self.emitting.push(Emitting { shape: id, emitter });
                 }
@@ -124,7 +146,7 @@ impl Surfaces {
             return *group;
         }
         let params = Params::new(node, builder.diagnostics);
-        let mut members = Vec::new();
+        let (mut members, mut names) = (Vec::new(), Vec::new());
         for (property, child) in params.children(Class::Shape) {
             if COMPOSED.contains(&child.plugin.value.as_str()) {
                 let message = format!("a `shapegroup` cannot hold a `{}`", child.plugin.value);
@@ -144,11 +166,13 @@ impl Surfaces {
                 continue;
             }
             members.push((shape, carried.material));
+            names.push(name(child));
         }
         // Mitsuba accepts a placement here and does not use it.
         params.ignore(&["to_world"]);
         params.finish();
         let group = self.geometry.add_group(members);
+        self.names.shapes.append(&mut names);
         self.groups.insert(key, group);
         group
     }
@@ -180,7 +204,7 @@ impl Surfaces {
         }
         let diagnostics = builder.diagnostics;
         let id = match Material::from_params(node, builder, diagnostics) {
-            Some(material) => self.push(material),
+            Some(material) => self.push(material, name(node)),
             // The mistake has been recorded; anything will do.
             None => self.grey(builder),
         };
@@ -188,8 +212,9 @@ impl Surfaces {
         id
     }
 
-    fn push(&mut self, material: Material) -> MaterialId {
+    fn push(&mut self, material: Material, name: String) -> MaterialId {
         self.materials.push(material);
+        self.names.materials.push(name);
         MaterialId(self.materials.len() as u32 - 1)
     }
 
@@ -197,7 +222,7 @@ impl Surfaces {
     fn grey(&mut self, builder: &mut Builder<'_>) -> MaterialId {
         if self.grey.is_none() {
             let material = diffuse(builder, 0.5);
-            self.grey = Some(self.push(material));
+            self.grey = Some(self.push(material, "diffuse (by default)".to_owned()));
         }
         self.grey.unwrap_or(MaterialId::NONE)
     }
@@ -206,7 +231,7 @@ impl Surfaces {
     fn black(&mut self, builder: &mut Builder<'_>) -> MaterialId {
         if self.black.is_none() {
             let material = diffuse(builder, 0.0);
-            self.black = Some(self.push(material));
+            self.black = Some(self.push(material, "black (by default)".to_owned()));
         }
         self.black.unwrap_or(MaterialId::NONE)
     }

@@ -65,8 +65,8 @@ pub trait Bsdf {
     /// Whether any lobe is continuous, i.e. whether light sampling can help.
     fn has_continuous(&self) -> bool;
 
-    /// Whether any lobe may be discrete, passing straight on aside. `true` is always right, for those
-    /// who need to know which directions [`Bsdf::eval`] cannot speak of.
+    /// Whether any lobe may be discrete, passing straight on aside. `true` is always right, for
+    /// those who need to know which directions [`Bsdf::eval`] cannot speak of.
     fn has_discrete(&self) -> bool {
         true
     }

@@ -1,8 +1,9 @@
 //! Ambient occlusion beside a wall that stands at a right angle on the floor.
 //!
-//! From a point of the floor at the distance a, a ray along the unit vector ω meets the wall, which has no
-//! end, within the distance D if ω·n ≥ s = a/D, with n horizontal toward the wall. By projected
-//! solid angle (Nusselt's analogy) that is the part of the unit disk beyond the chord at s,
+//! From a point of the floor at the distance a, a ray along the unit vector ω meets the wall,
+//! which has no end, within the distance D if ω·n ≥ s = a/D, with n horizontal toward the wall. By
+//! projected solid angle (Nusselt's analogy) that is the part of the unit disk beyond the chord at
+//! s,
 //!
 //! ```text
 //! occluded(s) = (acos s − s √(1 − s²)) / π,   0 for s > 1

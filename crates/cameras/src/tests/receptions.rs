@@ -14,7 +14,8 @@ fn forward() -> Vec3 {
 
 /// dx/dω is known from connections, whose Jacobian is tested by itself: their weight times the
 /// squared distance. A reception's is this over the aperture's area and the cosine of arrival. The
-/// tolerance is for roundings; a missing cosine is off by up to 15 %, a diameter for the radius by 4.
+/// tolerance is for roundings; a missing cosine is off by up to 15 %, a diameter for the radius by
+/// 4.
 #[test]
 fn a_reversed_ray_is_received_where_it_came_from() {
     for window in [FILM, CROPPED, TALL] {

@@ -88,10 +88,12 @@ fn offence(offence: &Offence) -> String {
         FaultKind::Infinite => "infinite",
         FaultKind::Overflow => "out of range",
     };
-    let sample = offence
-        .sample
-        .map_or_else(String::new, |sample| format!(", sample {sample}"));
-    format!("  pixel ({x}, {y}), replicate {replicate}{sample}: {source} is {kind}\n")
+    // With the options of the render, this draws the sample again.
+    let (sample, replay) = offence.sample.map_or_else(Default::default, |sample| {
+        let replay = format!(" (`--replay {x},{y},{replicate},{sample}`)");
+        (format!(", sample {sample}"), replay)
+    });
+    format!("  pixel ({x}, {y}), replicate {replicate}{sample}: {source} is {kind}{replay}\n")
 }
 
 fn scene(path: &Path) -> ExitCode {

@@ -6,6 +6,7 @@ pub mod estimators;
 pub mod info;
 pub mod merge;
 pub mod render;
+pub mod replay;
 pub mod strategies;
 
 use crate::args::Command;

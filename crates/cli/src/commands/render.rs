@@ -1,14 +1,14 @@
 //! `etalon render`.
 
 use super::convert::losses_in_words;
-use super::{BAD_INPUT, fail, note, strategies};
+use super::{BAD_INPUT, fail, note, replay, strategies};
 use crate::args::{PartOfMany, RenderArgs};
 use crate::pipeline::{self, LoadOptions, Loaded, RenderOptions, Rendered};
 use crate::progress::Bar;
 use crate::{diagnose, resources, say};
 use etalon_film::Developed;
 use etalon_images::{Losses, hdr, pfm, write_atomically};
-use etalon_integrators::Share;
+use etalon_integrators::{Plan, Share};
 use etalon_params::Diagnostic;
 use std::fmt::Display;
 use std::fs::OpenOptions;
@@ -25,7 +25,9 @@ const INTERRUPTED: u8 = 130;
 
 /// Renders a scene to a file.
 pub fn run(args: &RenderArgs) -> ExitCode {
-    if let Err(message) = check_paths(args) {
+    if args.replay.is_none()
+        && let Err(message) = check_paths(args)
+    {
         return fail(message);
     }
     let threads = args.threads.unwrap_or(0) as usize;
@@ -55,6 +57,9 @@ fn run_here(args: &RenderArgs) -> ExitCode {
     };
     if !args.quiet {
         diagnose::print(&loaded.notes, &loaded.sources);
+    }
+    if let Some(address) = &args.replay {
+        return replay::run(&loaded, &plan(args, &loaded), address);
     }
     let techniques = args.strategies.as_ref().map(|folder| {
         let integrator = strategies::integrator(&loaded)?;
@@ -96,7 +101,7 @@ fn run_here(args: &RenderArgs) -> ExitCode {
 /// are spent on them.
 fn check_paths(args: &RenderArgs) -> Result<(), String> {
     let extension = args
-        .output
+        .output()
         .extension()
         .map(|e| e.to_string_lossy().to_lowercase());
     match extension.as_deref() {
@@ -104,22 +109,22 @@ fn check_paths(args: &RenderArgs) -> Result<(), String> {
         _ => {
             return Err(format!(
                 "cannot write {}: the name must end in .exr (or .hdr, .pfm)",
-                args.output.display()
+                args.output().display()
             ));
         }
     }
     if args.part.is_some() && extension.as_deref() != Some("exr") {
         return Err(format!(
             "cannot write {}: only .exr can hold a part's exact sums",
-            args.output.display()
+            args.output().display()
         ));
     }
     if let Some(folder) = args.data.iter().find(|folder| !folder.is_dir()) {
         return Err(format!("there is no folder {}", folder.display()));
     }
-    std::iter::once(&args.output)
-        .chain(&args.stats)
-        .try_for_each(|path| check_place(path))
+    std::iter::once(args.output())
+        .chain(args.stats.as_deref())
+        .try_for_each(check_place)
 }
 
 /// Refuses a place where no file can be made.
@@ -158,8 +163,9 @@ fn listen_for_interrupts() {
     }
 }
 
-fn render(args: &RenderArgs, loaded: &Loaded) -> Result<Rendered, Diagnostic> {
-    let mut plan = pipeline::plan(
+/// What the command line asks for.
+fn plan(args: &RenderArgs, loaded: &Loaded) -> Plan {
+    pipeline::plan(
         loaded,
         &RenderOptions {
             spp: args.spp,
@@ -167,7 +173,11 @@ fn render(args: &RenderArgs, loaded: &Loaded) -> Result<Rendered, Diagnostic> {
             replicates: args.replicates,
             sampler: None,
         },
-    );
+    )
+}
+
+fn render(args: &RenderArgs, loaded: &Loaded) -> Result<Rendered, Diagnostic> {
+    let mut plan = plan(args, loaded);
     let spp = u64::from(plan.replicates) * u64::from(plan.samples_per_replicate);
     let asked = u64::from(args.spp.unwrap_or(loaded.compiled.sampler.spp));
     if spp != asked && !args.quiet {
@@ -206,10 +216,10 @@ fn share(part: PartOfMany, replicates: u32) -> Result<Share, Diagnostic> {
 fn deliver(args: &RenderArgs, loaded: &Loaded, rendered: &Rendered) -> Result<(), String> {
     let losses = match &rendered.part {
         Some(part) => part
-            .write_exr(&args.output)
+            .write_exr(args.output())
             .map(|()| Losses::default())
             .map_err(|error| error.to_string()),
-        None => write_image(&args.output, &rendered.developed),
+        None => write_image(args.output(), &rendered.developed),
     }?;
     if !args.quiet {
         losses_in_words(&losses).iter().for_each(note);
@@ -225,6 +235,11 @@ fn deliver(args: &RenderArgs, loaded: &Loaded, rendered: &Rendered) -> Result<()
         say::remark(&format!(
             "warning: {faults} contributions were not finite; see `etalon info`\n"
         ));
+        let first = metadata.iter().flat_map(|m| &m.faults.first);
+        let plan = plan(args, loaded);
+        if let Some(command) = first.filter_map(|o| replay::command(args, &plan, o)).next() {
+            say::remark(&format!("look at the first of them with\n  {command}\n"));
+        }
     }
     if !args.quiet {
         let seconds = rendered.time.as_secs_f64();
@@ -244,7 +259,7 @@ fn deliver(args: &RenderArgs, loaded: &Loaded, rendered: &Rendered) -> Result<()
         };
         say::remark(&format!(
             "{}: {stopped}{seconds:.2} s, {:.2} M samples/s, {:.2} M rays/s, {error}\n",
-            args.output.display(),
+            args.output().display(),
             per_second(rendered.outcome.samples),
             per_second(rendered.outcome.rays),
         ));

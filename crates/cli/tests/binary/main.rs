@@ -17,6 +17,7 @@ mod merge;
 mod mutations;
 mod objections;
 mod render;
+mod replay;
 mod statistics;
 mod strategies;
 mod workshop;

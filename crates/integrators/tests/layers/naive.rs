@@ -37,8 +37,8 @@ fn exact(stack: &Stack, max_depth: u32, hidden: bool) -> [f64; 3] {
     .colour()
 }
 
-/// 36 comparisons of the file's family. Directions are drawn from a hemisphere where `one_sided` says that
-/// this suffices, else from the sphere.
+/// 36 comparisons of the file's family. Directions are drawn from a hemisphere where `one_sided`
+/// says that this suffices, else from the sphere.
 #[test]
 fn naive_is_exact_for_every_limit_on_depth() {
     for (name, mut stack) in [("everything", everything()), ("rainbow", rainbow())] {
