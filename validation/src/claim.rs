@@ -21,11 +21,13 @@
 //! ```
 
 use crate::fault::Fault;
+use crate::matrix::{self, Matrix};
 use crate::noise::Means;
 use serde::Deserialize;
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
+pub use crate::budget::{Bounds, Budget};
 pub use crate::sampler::Sampler;
 
 /// A claim as its file states it.
@@ -46,6 +48,8 @@ pub struct Claim {
     pub oracle: Oracle,
     /// Who must agree with it.
     pub estimators: Vec<Estimator>,
+    /// How all other unbiased integrators must agree with it.
+    pub matrix: Option<Matrix>,
     /// Bounds of what matters.
     #[serde(default)]
     pub bounds: Bounds,
@@ -138,12 +142,14 @@ pub enum Change {
     /// A part of the film for the whole, as the estimator's `defines` cut it out: the same bits in
     /// every pixel of the part.
     Crop,
+    /// Another seed: no replicate is like any other, of either picture.
+    Seed,
     /// Another of the four wavelengths of each path chooses: the same statistics.
     Wavelengths,
 }
 
 impl Change {
-    /// Whether every bit must stay the same, and not only the statistics.
+    /// Whether it is judged by bits, and not by statistics.
     pub fn is_of_bits(self) -> bool {
         self != Self::Wavelengths
     }
@@ -196,38 +202,9 @@ pub struct Estimator {
     /// Faults that must be found.
     #[serde(default)]
     pub mutants: Vec<Fault>,
-}
-
-/// How much work to spend.
-#[derive(Clone, Copy, Debug, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct Budget {
-    /// Samples per pixel, all replicates together.
-    pub spp: u32,
-    /// Independent replicates.
-    pub replicates: u32,
-}
-
-/// Which biases matter.
-#[derive(Clone, Copy, Debug, Deserialize)]
-#[serde(default, deny_unknown_fields)]
-pub struct Bounds {
-    /// Of the image's mean, relative to it.
-    pub image: f64,
-    /// Of a tile's mean, relative to it (`image` of the image's mean is added).
-    pub tile: f64,
-    /// What equality leaves to rounding in single precision, relative to the mean.
-    pub rounding: f64,
-}
-
-impl Default for Bounds {
-    fn default() -> Self {
-        Self {
-            image: 0.005,
-            tile: 0.03,
-            rounding: 2e-5,
-        }
-    }
+    /// Whether it stands in the matrix of integrators only.
+    #[serde(skip)]
+    pub in_matrix: Option<matrix::Place>,
 }
 
 impl Estimator {
@@ -251,6 +228,7 @@ impl Estimator {
             Some(Change::Parts) => ", parts",
             Some(Change::Accelerator) => ", accelerator",
             Some(Change::Crop) => ", crop",
+            Some(Change::Seed) => ", seed",
             Some(Change::Wavelengths) => ", wavelengths",
         };
         format!("{integrator}, {sampler}{defines}{change}")
@@ -294,6 +272,7 @@ impl Claim {
             .to_string_lossy()
             .into_owned();
         claim.check().map_err(error)?;
+        matrix::expand(&mut claim).map_err(error)?;
         Ok(claim)
     }
 

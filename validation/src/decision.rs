@@ -13,11 +13,35 @@
 
 use crate::run::Task;
 use crate::tier::{self, FAULT_LOOKS, Tier};
+use etalon::resources;
 use etalon_statistics::{Family, Verdict};
 use std::time::{Duration, Instant};
 
 /// The probability that a run without faults shows a failure.
 pub const ALPHA: f64 = 1e-3;
+
+/// Time of two processors since a run began; time of the wall where the system does not tell.
+struct Clock {
+    start: Instant,
+    processors: Option<Duration>,
+}
+
+impl Clock {
+    fn start() -> Self {
+        Self {
+            start: Instant::now(),
+            processors: resources::processor_time(),
+        }
+    }
+
+    fn elapsed(&self) -> Duration {
+        let now = self.processors.zip(resources::processor_time());
+        now.map_or_else(
+            || self.start.elapsed(),
+            |(before, now)| now.saturating_sub(before) / 2,
+        )
+    }
+}
 
 /// A further look that takes no longer than this is made even after the tier's deadline.
 const SHORT: Duration = Duration::from_secs(5);
@@ -92,6 +116,8 @@ struct Member<'a> {
     p: f64,
     looks: usize,
     seconds: f64,
+    /// Time of two processors.
+    work: Duration,
 }
 
 impl Member<'_> {
@@ -121,6 +147,7 @@ impl<'a> Group<'a> {
                     p: 1.0,
                     looks: 0,
                     seconds: 0.0,
+                    work: Duration::ZERO,
                 }
             })
             .collect();
@@ -147,13 +174,14 @@ impl<'a> Group<'a> {
         let granted = self.levels[number];
         let share = granted / self.family.level_of_each();
         let member = &mut self.members[index];
-        let start = Instant::now();
+        let (start, clock) = (Instant::now(), Clock::start());
         let seen = make(Turn {
             place: member.place,
             multiple: self.looks[number],
             alpha: granted,
         });
         member.seconds += start.elapsed().as_secs_f64();
+        member.work += clock.elapsed();
         if let Some(seen) = seen {
             member.p = member.p.min(seen.p / share);
         }
@@ -205,7 +233,7 @@ pub fn decide<'a>(
     mut make: impl FnMut(Turn) -> Option<Seen>,
     mut watch: impl FnMut(&Progress<'_>),
 ) -> Result<Vec<Decision>, String> {
-    let start = Instant::now();
+    let (start, clock) = (Instant::now(), Clock::start());
     let deadline = tier.deadline();
     let of = |with_fault: bool| {
         let all = tasks.iter().copied().enumerate();
@@ -237,11 +265,11 @@ pub fn decide<'a>(
                 Duration::from_secs_f64(spent.as_secs_f64() * (all - finished) / finished)
             });
             let (group, index) = at;
-            let seconds = groups[group].members[index].seconds;
+            let before = groups[group].members[index].work;
             // A further look takes as long as all before it, or a little longer. Short ones are
             // always made.
-            let own_time = Duration::from_secs_f64(1.2 * seconds);
-            let late = deadline.is_some_and(|deadline| start.elapsed() + own_time > deadline);
+            let own_time = before.mul_f64(1.2);
+            let late = deadline.is_some_and(|deadline| clock.elapsed() + own_time > deadline);
             if look > 0 && late && own_time > SHORT {
                 continue;
             }

@@ -1,5 +1,5 @@
 //! Invariance of bits: threads, the order of replicates, a split into parts, the accelerator and what
-//! else is on the film change nothing.
+//! else is on the film change nothing; another seed changes everything.
 //!
 //! Accumulation is exact and a sample is a pure function of its address, so these are promises
 //! about every bit of every channel and of every tile mean, and a single difference breaks them.
@@ -8,8 +8,8 @@ use crate::claim::{Change, Claim, Estimator, Oracle};
 use crate::fault::Fault;
 use crate::measure::Measure;
 use crate::rendering;
-use etalon::pipeline::{self, Loaded};
-use etalon_film::{Developed, ExactFilm, Part};
+use etalon::pipeline::{self, Loaded, RenderOptions};
+use etalon_film::{Developed, ExactFilm, Part, TileMeans};
 use etalon_formats::FileAssets;
 use etalon_formats::mitsuba::{self, ReadOptions};
 use etalon_integrators::{Plan, Share};
@@ -94,6 +94,24 @@ pub fn measure(
                 vec![Measure::certain(name, differing(&first, &changed, 0))],
                 first,
             )
+        }
+        Some(Change::Seed) => {
+            // By the way that every seed takes. The fault is that of a seed that does not matter.
+            let seed = plan.seed ^ u64::from(fault.is_none());
+            let changed = pipeline::plan(
+                loaded,
+                &RenderOptions {
+                    spp: Some(plan.samples_per_replicate * plan.replicates),
+                    seed: Some(seed),
+                    replicates: Some(plan.replicates),
+                    sampler: Some(plan.sampler),
+                },
+            );
+            let pictures = [first()?, rendering::picture(loaded, &changed, None, None)?];
+            let name = "replicates that repeat another one".to_owned();
+            let measure = Measure::certain(name, repeated(&pictures)?);
+            let [first, _] = pictures;
+            (vec![measure], first)
         }
         Some(Change::Crop) => {
             let Oracle::Invariance { estimator: whole } = &claim.oracle else {
@@ -226,6 +244,32 @@ fn differing(first: &Developed, second: &Developed, shift: u32) -> usize {
         }
     }
     count
+}
+
+/// How many replicates of all pictures have the same bits in every tile's mean as another one.
+///
+/// # Errors
+/// If all is black, or a picture has no statistics.
+fn repeated(pictures: &[Developed]) -> Result<usize, String> {
+    let mut replicates: Vec<Vec<u32>> = Vec::new();
+    for picture in pictures {
+        let metadata = picture.metadata.as_ref();
+        let metadata = metadata.ok_or("a picture has no statistics")?;
+        replicates.extend((0..metadata.replicates).map(|replicate| {
+            let of = |tiles: &TileMeans| -> Vec<u32> {
+                let planes = (0..tiles.channels()).map(|c| tiles.plane(replicate, c));
+                planes.flatten().map(|mean| mean.to_bits()).collect()
+            };
+            metadata.tile_means.iter().flat_map(of).collect()
+        }));
+    }
+    if replicates.iter().flatten().all(|bits| *bits == 0) {
+        return Err("all pictures are black".to_owned());
+    }
+    let all = replicates.len();
+    replicates.sort_unstable();
+    replicates.dedup();
+    Ok(all - replicates.len())
 }
 
 /// How many means and standard errors of a part differ in their bits from the same pixels of the

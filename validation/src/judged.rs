@@ -13,7 +13,8 @@ use etalon_statistics::robust::{self, Symmetry};
 use etalon_statistics::tails::Limits;
 use etalon_statistics::{Estimate, Interval, Replicates, Summary, Verdict};
 
-/// The most resamples of a bootstrap: enough for levels of 10⁻⁶.
+/// The most resamples of a bootstrap: enough for levels of 10⁻⁶, beyond which tails of 32 replicates are
+/// not to be believed.
 const RESAMPLES: f64 = 2e7;
 
 /// What a picture is held against.

@@ -8,6 +8,7 @@
 
 pub mod accumulate;
 mod batches;
+pub mod budget;
 pub mod calibrate;
 pub mod claim;
 pub mod closed_form;
@@ -21,6 +22,7 @@ pub mod invariance;
 pub mod json;
 pub mod judged;
 pub mod look;
+pub mod matrix;
 pub mod measure;
 pub mod noise;
 pub mod outcome;

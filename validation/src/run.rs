@@ -55,11 +55,13 @@ impl Task<'_> {
     /// How pictures are judged at the level `alpha`.
     pub fn rules(&self, tier: Tier, alpha: f64) -> Rules {
         let bounds = self.claim.bounds;
+        let place = self.estimator.in_matrix;
+        let image = place.map_or(bounds.image, |place| place.bound);
         let exact = self.claim.oracle.is_exact();
         Rules {
             image_bound: match tier {
-                Tier::Full => bounds.image.min(FULL_BOUND),
-                Tier::Quick | Tier::Default => bounds.image,
+                Tier::Full => image.min(FULL_BOUND),
+                Tier::Quick | Tier::Default => image,
             },
             tile_bound: bounds.tile,
             alpha,
@@ -102,6 +104,10 @@ pub fn tasks<'a>(claims: &'a [Claim], options: &Options) -> Vec<Task<'a>> {
     let mut tasks = Vec::new();
     for claim in chosen {
         for (place, estimator) in claim.estimators.iter().enumerate() {
+            let row = estimator.in_matrix;
+            if row.is_some_and(|row| !row.belongs_to(options.tier)) {
+                continue;
+            }
             let faults = estimator.mutants.iter().copied().map(Some);
             tasks.extend(std::iter::once(None).chain(faults).map(|fault| Task {
                 claim,

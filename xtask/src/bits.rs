@@ -10,12 +10,22 @@ use std::process::Command;
 
 /// Scene, and what else to say on the command line: every kind of estimator, and scenes that use
 /// as much of the house as possible.
-const RENDERS: [(&str, &[&str]); 9] = [
+const RENDERS: &[(&str, &[&str])] = &[
     ("scenes/cornell-box/scene.xml", &["--integrator", "path"]),
     ("scenes/cornell-box/scene.xml", &["--integrator", "ptracer"]),
     ("scenes/cornell-box/scene.xml", &["--integrator", "bdpt"]),
     ("scenes/cornell-box/scene.xml", &["--integrator", "direct"]),
+    ("scenes/cornell-box/scene.xml", &["--integrator", "pssmlt"]),
+    ("scenes/cornell-box/scene.xml", &["--integrator", "mmlt"]),
+    ("scenes/cornell-box/scene.xml", &["--integrator", "guided"]),
+    ("scenes/luminaire/scene.xml", &["--integrator", "guided"]),
     ("scenes/spheres/scene.xml", &[]),
+    ("scenes/spheres/scene.xml", &["--integrator", "naive"]),
+    (
+        "scenes/camera-obscura/scene.xml",
+        &["--integrator", "forward"],
+    ),
+    ("scenes/ambient-corner/scene.xml", &["--integrator", "ao"]),
     ("scenes/foliage/scene.xml", &[]),
     ("scenes/prism/scene.xml", &[]),
     ("scenes/povray/refraction/scene.xml", &[]),

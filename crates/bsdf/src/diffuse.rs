@@ -84,6 +84,14 @@ impl Model for Diffuse {
         true
     }
 
+    fn has_discrete(&self) -> bool {
+        false
+    }
+
+    fn transmits(&self) -> bool {
+        false
+    }
+
     #[inline]
     fn albedo(&self, _: Vec3) -> Vec4 {
         self.reflectance

@@ -25,6 +25,16 @@ pub trait Model: Copy {
     /// Whether any lobe is continuous.
     fn has_continuous(&self) -> bool;
 
+    /// Whether any lobe may be discrete; `true` is always right.
+    fn has_discrete(&self) -> bool {
+        true
+    }
+
+    /// Whether a continuous lobe may lead to the other side; `true` is always right.
+    fn transmits(&self) -> bool {
+        true
+    }
+
     /// What the `albedo` channel shows, as in Mitsuba: the reflectance of a diffuse base whichever
     /// side is seen; of other models the value toward the normal, times π; nothing of mirrors.
     fn albedo(&self, wo: Vec3) -> Vec4 {

@@ -167,6 +167,20 @@ macro_rules! models {
                 }
             }
 
+            fn has_discrete(&self) -> bool {
+                match self {
+                    $(Self::$plain(model) => model.has_discrete(),)*
+                    $(Self::$lobe(model) => model.has_discrete(),)*
+                }
+            }
+
+            fn transmits(&self) -> bool {
+                match self {
+                    $(Self::$plain(model) => model.transmits(),)*
+                    $(Self::$lobe(model) => model.transmits(),)*
+                }
+            }
+
             fn albedo(&self, wo: Vec3) -> Vec4 {
                 match self {
                     $(Self::$plain(model) => model.albedo(wo),)*
@@ -277,6 +291,11 @@ impl Material {
             return None;
         }
         materials.try_into().ok()
+    }
+
+    /// Whether it is a classic Phong material, and no scattering model.
+    pub fn is_classic(&self) -> bool {
+        matches!(self, Self::ClassicPhong(_))
     }
 
     /// The classic Phong material at a point, if it is one and no scattering model.

@@ -119,6 +119,10 @@ impl Model for Plastic {
         true
     }
 
+    fn transmits(&self) -> bool {
+        false
+    }
+
     fn albedo(&self, _: Vec3) -> Vec4 {
         self.coat.diffuse
     }

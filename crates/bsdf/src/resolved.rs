@@ -1,7 +1,7 @@
 //! A material at one point: at most [`MAX_LOBES`] lobes, and light that passes straight on.
 
 use crate::{Lobe, Model};
-use etalon_math::{Atom, Density, SolidAngle};
+use etalon_math::{Atom, Density, Frame, SolidAngle};
 use etalon_transport::{Bsdf, BsdfSample, Chance, Mode};
 use glam::{Vec2, Vec3, Vec4};
 
@@ -199,6 +199,20 @@ impl Bsdf for Resolved<'_> {
     #[inline]
     fn has_continuous(&self) -> bool {
         self.lobes().iter().any(|l| l.scatter.has_continuous())
+    }
+
+    fn has_discrete(&self) -> bool {
+        self.lobes().iter().any(|l| l.scatter.has_discrete())
+    }
+
+    fn hemisphere(&self) -> Option<Frame> {
+        let mut continuous = self.lobes().iter().filter(|l| l.scatter.has_continuous());
+        let first = continuous.next()?;
+        let same = |lobe: &Lobe<'_>| {
+            let turned = lobe.frame.n != first.frame.n && lobe.frame.n != -first.frame.n;
+            !(turned || lobe.scatter.transmits())
+        };
+        (same(first) && continuous.all(same)).then_some(first.frame)
     }
 
     #[inline]

@@ -109,4 +109,12 @@ impl Model for RoughConductor {
     fn has_continuous(&self) -> bool {
         true
     }
+
+    fn has_discrete(&self) -> bool {
+        false
+    }
+
+    fn transmits(&self) -> bool {
+        false
+    }
 }

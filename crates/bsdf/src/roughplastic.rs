@@ -115,6 +115,14 @@ impl Model for RoughPlastic<'_> {
         true
     }
 
+    fn has_discrete(&self) -> bool {
+        false
+    }
+
+    fn transmits(&self) -> bool {
+        false
+    }
+
     fn albedo(&self, _: Vec3) -> Vec4 {
         self.coat.diffuse
     }

@@ -2,7 +2,7 @@
 
 use crate::{FilmWindow, Orthographic, Perspective, Shutter, ThinLens};
 use etalon_params::{Class, Diagnostic, Params, plugins};
-use etalon_transport::{Camera, CameraRay, Connection};
+use etalon_transport::{Camera, CameraRay, Connection, Ray, Reception};
 use glam::{Vec2, Vec3};
 
 macro_rules! cameras {
@@ -36,6 +36,15 @@ macro_rules! cameras {
             #[inline]
             fn connect(&self, point: Vec3, lens: Vec2, margin: f32) -> Option<Connection> {
                 match self { $(Self::$variant(camera) => camera.connect(point, lens, margin),)* }
+            }
+
+            #[inline]
+            fn receive(&self, ray: &Ray, margin: f32) -> Option<Reception> {
+                match self { $(Self::$variant(camera) => camera.receive(ray, margin),)* }
+            }
+
+            fn can_receive(&self) -> bool {
+                match self { $(Self::$variant(camera) => camera.can_receive(),)* }
             }
 
             fn has_lens(&self) -> bool {

@@ -8,6 +8,7 @@ use glam::UVec2;
 mod connections;
 mod mistakes;
 mod mitsuba;
+mod receptions;
 
 const NOWHERE: Span = Span {
     file: FileId(0),

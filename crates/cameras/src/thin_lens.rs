@@ -6,12 +6,20 @@
 //! whose image plane is shifted, so the Jacobian is that of the pinhole camera with r measured
 //! from a; the aperture point is drawn with the same density for rays and for connections, which
 //! therefore cancels.
+//!
+//! A particle that by chance arrives at a along −P carries flux through the aperture, whose area
+//! in the world is A = πR²·|M x̂ × M ŷ|. Since a pixel is the mean over A of the radiance, a unit of
+//! flux counts
+//!
+//! ```text
+//! dx/dω / (A·cos θ) = |P|⁴ / (πR²·|det M|²·pixel area),   as cos θ = |det M| / (|P|·|M x̂ × M ŷ|)
+//! ```
 
 use crate::field_of_view::half_width_from_params;
 use crate::{ClipRange, FilmWindow, ImagePlane, Pose};
 use etalon_params::Params;
 use etalon_sampling::warps::square_to_concentric_disk;
-use etalon_transport::{Camera, CameraRay, Connection, Ray};
+use etalon_transport::{Camera, CameraRay, Connection, Ray, Reception};
 use glam::{DVec2, Vec2, Vec3};
 
 /// A camera with an ideal lens.
@@ -121,6 +129,39 @@ impl Camera for ThinLens {
             target: origin + to_point * (self.near / depth),
             weight: distance / (depth * depth * depth * self.pose.volume * self.image.pixel_area()),
         })
+    }
+
+    #[inline]
+    fn receive(&self, ray: &Ray, margin: f32) -> Option<Reception> {
+        // In camera space the ray is o + t·d and the aperture lies in z = 0, looking toward +z.
+        let origin = self.pose.to_camera(ray.origin);
+        let direction = self.pose.to_camera(self.pose.position + ray.direction);
+        let seen = origin.z > self.near && origin.z < self.far;
+        if !(seen && direction.z < 0.0 && self.aperture_radius > 0.0) {
+            return None;
+        }
+        let slope = direction.truncate() / direction.z;
+        let aperture = origin.truncate() - slope * origin.z;
+        if !(aperture.length_squared() < self.aperture_radius * self.aperture_radius) {
+            return None;
+        }
+        let raster = self.image.raster(slope + aperture * self.focus);
+        if !self.image.window.contains(raster, margin) {
+            return None;
+        }
+        let depth_per_length = -direction.z;
+        let area = core::f32::consts::PI * self.aperture_radius * self.aperture_radius;
+        let volume = self.pose.volume;
+        let fourth_power = (depth_per_length * depth_per_length).powi(2);
+        Some(Reception {
+            raster,
+            t: (origin.z - self.near) / depth_per_length,
+            weight: 1.0 / (fourth_power * volume * volume * self.image.pixel_area() * area),
+        })
+    }
+
+    fn can_receive(&self) -> bool {
+        self.aperture_radius > 0.0
     }
 
     fn has_lens(&self) -> bool {

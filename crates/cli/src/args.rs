@@ -101,7 +101,8 @@ pub struct RenderArgs {
     /// Threads [default: one per processor].
     #[arg(long, value_name = "T", value_parser = clap::value_parser!(u32).range(1..=1024))]
     pub threads: Option<u32>,
-    /// Replace the type of the innermost integrator (keeps max_depth, rr_depth, hide_emitters).
+    /// Replace the type of the innermost integrator (keeps max_depth, rr_depth, hide_emitters; all
+    /// of its parameters if it has that type).
     #[arg(long, value_name = "NAME")]
     pub integrator: Option<String>,
     /// Give a scene parameter ($key) a value.

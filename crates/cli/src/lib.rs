@@ -8,6 +8,7 @@ pub mod commands;
 pub mod diagnose;
 pub mod estimators;
 pub mod judge;
+mod objections;
 pub mod pipeline;
 pub mod progress;
 pub mod report;

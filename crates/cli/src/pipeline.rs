@@ -1,6 +1,6 @@
 //! From a scene file to an image: the way every command and every claim takes.
 
-use crate::{VERSION, resources};
+use crate::{VERSION, objections, resources};
 use etalon_film::{
     Developed, ExactFilm, FilmSettings, Filter, Part, RenderFacts, recorded_seconds,
 };
@@ -41,6 +41,8 @@ pub struct Loaded {
     pub integrator: AnyIntegrator,
     /// Its name, nested ones after a slash.
     pub integrator_name: String,
+    /// Whether the integrator objects to nothing: it finds all light that there is.
+    pub complete: bool,
     /// Remarks that do not prevent rendering.
     pub notes: Vec<Diagnostic>,
     /// The texts that the remarks point into.
@@ -80,15 +82,20 @@ pub fn load(path: &Path, options: &LoadOptions) -> Result<Loaded, Refusal> {
     } = read;
     // A scene with mistakes is compiled all the same, to find further ones.
     let mut loaded = None;
+    let mut complete = true;
     if let Some(document) = document {
         let diagnostics = Diagnostics::silent_about(&stand_ins);
         let assets = FileAssets::new(document.search.clone());
         let compiled = etalon_scene::compile(&document.root, &assets, &diagnostics);
         let integrator = integrator(&document.root, &diagnostics);
-        if let (Some(compiled), Some((integrator, name))) = (&compiled, &integrator) {
+        if let (Some(compiled), Some((integrator, _))) = (&compiled, &integrator) {
             let place = place(&document.root, &[Class::Integrator]);
             diagnostics.keep(check_channels(&compiled.film, integrator, place));
-            diagnostics.keep(check_ability(compiled, integrator, name, place));
+            for objection in integrator.objections(&compiled.scene.sight()) {
+                complete = false;
+                let material = compiled.classic;
+                diagnostics.push(objections::diagnostic(objection, &document.root, material));
+            }
         }
         if sound && !diagnostics.has_errors() {
             loaded = compiled.zip(integrator).map(|(compiled, integrator)| {
@@ -114,6 +121,7 @@ pub fn load(path: &Path, options: &LoadOptions) -> Result<Loaded, Refusal> {
         compiled,
         integrator,
         integrator_name,
+        complete,
         notes: messages,
         hash,
         sources,
@@ -125,7 +133,7 @@ pub fn load(path: &Path, options: &LoadOptions) -> Result<Loaded, Refusal> {
 }
 
 /// Where the object at the end of a path of classes is named, or the last one that there is.
-fn place(root: &Node, classes: &[Class]) -> Span {
+pub(crate) fn place(root: &Node, classes: &[Class]) -> Span {
     let mut node = root;
     for class in classes {
         let found = node.properties.iter().find_map(|p| match &p.value {
@@ -153,29 +161,6 @@ fn check_channels(
     ExactFilm::new(pixel, &integrator.channels())
         .map(|_| ())
         .map_err(|error| at(error, place))
-}
-
-/// Refuses an integrator that cannot show what is in the scene.
-fn check_ability(
-    compiled: &Compiled,
-    integrator: &AnyIntegrator,
-    name: &str,
-    place: Span,
-) -> Result<(), Diagnostic> {
-    if let (Some(material), false) = (compiled.classic, integrator.shows_classic()) {
-        let message = format!(
-            "the integrator `{name}` follows light, and this material says nothing of how it \
-             scatters light"
-        );
-        return Err(Diagnostic::error(material, message).help(
-            "the integrator `whitted` shows classic Phong materials; `phong` is a BSDF that every \
-             integrator shows",
-        ));
-    }
-    match integrator.obstacle(&compiled.scene) {
-        Some(obstacle) => Err(Diagnostic::error(place, obstacle)),
-        None => Ok(()),
-    }
 }
 
 /// The same message, at a place.

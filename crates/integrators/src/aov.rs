@@ -14,7 +14,7 @@ use etalon_params::{Diagnostic, Params};
 use etalon_sampling::Sampler;
 use etalon_spectrum::{Wavelengths, sensor_response};
 use etalon_transport::{
-    Bsdf, Camera, Channel, Integrator, Pass, PixelSite, Ray, Sink, Vertex, World,
+    Bsdf, Camera, Channel, Integrator, Objection, Pass, PixelSite, Ray, Sight, Sink, Vertex, World,
 };
 use glam::{Vec2, Vec3};
 
@@ -124,12 +124,9 @@ impl Aov {
 impl Integrator for Aov {
     type State = ();
 
-    fn shows_classic(&self) -> bool {
-        Nested::show_classic(&self.nested)
-    }
-
-    fn obstacle<W: World>(&self, world: &W) -> Option<String> {
-        Nested::obstacle(&self.nested, world)
+    /// Those of the integrators inside.
+    fn objections(&self, sight: &Sight) -> Vec<Objection> {
+        Nested::objections(&self.nested, sight)
     }
 
     fn channels(&self) -> Vec<Channel> {

@@ -10,7 +10,7 @@ use crate::settings::ignore_scheduling;
 use etalon_params::Params;
 use etalon_sampling::Sampler;
 use etalon_spectrum::sensor::response;
-use etalon_transport::{Integrator, Pass, PixelSite, Sink, World};
+use etalon_transport::{Integrator, Objection, Pass, PixelSite, Sight, Sink, World};
 use glam::Vec4;
 
 /// The distance integrator.
@@ -50,8 +50,9 @@ impl Default for Depth {
 impl Integrator for Depth {
     type State = ();
 
-    fn shows_classic(&self) -> bool {
-        true
+    /// It asks for no light.
+    fn objections(&self, _: &Sight) -> Vec<Objection> {
+        Vec::new()
     }
 
     fn prepare<W: World>(&self, _: &W, _: &Pass, _: Option<()>) {}

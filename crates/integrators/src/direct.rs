@@ -22,7 +22,8 @@ use etalon_params::Params;
 use etalon_sampling::Sampler;
 use etalon_spectrum::{Wavelengths, sensor_response};
 use etalon_transport::{
-    Bsdf, Chance, Integrator, Mode, Pass, PixelSite, Ray, Receiver, Sink, Vertex, World,
+    Bsdf, Chance, Finding, Integrator, Mode, Objection, Pass, PixelSite, Ray, Receiver, Sight,
+    Sink, Vertex, World,
 };
 use glam::{Vec3, Vec4};
 
@@ -195,6 +196,13 @@ impl Direct {
 
 impl Integrator for Direct {
     type State = ();
+
+    fn objections(&self, sight: &Sight) -> Vec<Objection> {
+        sight.objections(match self.emitter_samples {
+            0 => Finding::Hitting,
+            _ => Finding::Either,
+        })
+    }
 
     fn prepare<W: World>(&self, _: &W, _: &Pass, _: Option<()>) {}
 

@@ -291,6 +291,8 @@ enum Next {
 }
 
 impl Integrator for Distribution {
+    const UNBIASED: bool = true;
+
     type State = ();
 
     fn prepare<W: World>(&self, _: &W, _: &Pass, _: Option<()>) {}

@@ -6,21 +6,33 @@
 //!
 //! Adding an estimator: its file, and one line in [`list`].
 
+pub mod ao;
 pub mod aov;
 pub mod bdpt;
+mod companion;
 pub mod depth;
 pub mod dimensions;
 pub mod direct;
 pub mod distribution;
+pub mod forward;
+pub mod guided;
 pub mod list;
+pub mod metropolis;
+pub mod mmlt;
 pub mod moment;
+pub mod naive;
 pub mod path;
+pub mod photonmap;
+pub mod photons;
 pub mod prefix;
+pub mod pssmlt;
 pub mod ptracer;
 pub mod render;
 mod rival;
 pub mod settings;
 pub mod signature;
+pub mod sppm;
+pub mod vcm;
 mod walk;
 pub mod whitted;
 

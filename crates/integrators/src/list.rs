@@ -1,20 +1,29 @@
 //! The list of integrators: one line each.
 
+use crate::ao::AmbientOcclusion;
 use crate::aov::Aov;
 use crate::bdpt::Bidirectional;
 use crate::depth::Depth;
 use crate::direct::Direct;
 use crate::distribution::Distribution;
+use crate::forward::Forward;
+use crate::guided::Guided;
+use crate::mmlt::Multiplexed;
 use crate::moment::Moment;
+use crate::naive::Naive;
 use crate::path::Path;
+use crate::photonmap::PhotonMapper;
+use crate::pssmlt::PrimarySpace;
 use crate::ptracer::ParticleTracer;
 use crate::render::{Outcome, Plan, Progress, render};
 use crate::signature::Signature;
+use crate::sppm::Progressive;
+use crate::vcm::ConnectionMerging;
 use crate::whitted::Whitted;
 use core::any::Any;
 use etalon_params::{Class, Diagnostics, Node, Params, plugins};
 use etalon_sampling::Sampler;
-use etalon_transport::{Channel, Film, Integrator, PixelSite, Sink, World};
+use etalon_transport::{Channel, Film, Integrator, Objection, PixelSite, Sight, Sink, World};
 use glam::Vec2;
 
 macro_rules! integrators {
@@ -29,6 +38,12 @@ macro_rules! integrators {
         /// The names under which scenes ask for integrators.
         pub fn names() -> &'static [&'static str] {
             &[$($name),*]
+        }
+
+        /// The names of those that estimate all radiance without bias.
+        pub fn unbiased() -> Vec<&'static str> {
+            let all = [$(($name, $variant::UNBIASED)),*];
+            all.into_iter().filter_map(|(name, unbiased)| unbiased.then_some(name)).collect()
         }
 
         impl AnyIntegrator {
@@ -64,17 +79,10 @@ macro_rules! integrators {
                 }
             }
 
-            /// Whether it can show materials that are no scattering model.
-            pub fn shows_classic(&self) -> bool {
+            /// What it objects to in a scene.
+            pub fn objections(&self, sight: &Sight) -> Vec<Objection> {
                 match self {
-                    $(Self::$variant(integrator) => integrator.shows_classic(),)*
-                }
-            }
-
-            /// Why it cannot render a world; `None` if it can.
-            pub fn obstacle<W: World>(&self, world: &W) -> Option<String> {
-                match self {
-                    $(Self::$variant(integrator) => integrator.obstacle(world),)*
+                    $(Self::$variant(integrator) => integrator.objections(sight),)*
                 }
             }
 
@@ -122,12 +130,21 @@ macro_rules! integrators {
 
 integrators! {
     "path" => Path: |p| Some(Path::from_params(p));
+    "naive" => Naive: |p| Some(Naive::from_params(p));
     "direct" => Direct: |p| Some(Direct::from_params(p));
+    "guided" => Guided: |p| Some(Guided::from_params(p));
     "depth" => Depth: |p| Some(Depth::from_params(p));
     "signature" => Signature: |p| Some(Signature::from_params(p));
     "bdpt" => Bidirectional: |p| Some(Bidirectional::from_params(p));
     "ptracer" => ParticleTracer: |p| Some(ParticleTracer::from_params(p));
+    "pssmlt" => PrimarySpace: |p| Some(PrimarySpace::from_params(p));
+    "mmlt" => Multiplexed: |p| Some(Multiplexed::from_params(p));
+    "forward" => Forward: |p| Some(Forward::from_params(p));
+    "ao" => AmbientOcclusion: |p| Some(AmbientOcclusion::from_params(p));
     "aov" => Aov: Aov::from_params;
+    "photonmap" => PhotonMapper: |p| Some(PhotonMapper::from_params(p));
+    "sppm" => Progressive: |p| Some(Progressive::from_params(p));
+    "vcm" => ConnectionMerging: |p| Some(ConnectionMerging::from_params(p));
     "moment" => Moment: Moment::from_params;
     "distribution" => Distribution: |p| Some(Distribution::from_params(p));
     "whitted" => Whitted: |p| Some(Whitted::from_params(p));
@@ -150,6 +167,12 @@ pub(crate) struct Nested {
 }
 
 impl Nested {
+    /// What nested integrators object to.
+    pub(crate) fn objections(nested: &[Self], sight: &Sight) -> Vec<Objection> {
+        let each = nested.iter().map(|n| n.integrator.objections(sight));
+        each.flatten().collect()
+    }
+
     /// The integrators nested in a description, in its order. Integrators that splat are
     /// refused: their contributions belong to no sample of the pixel.
     pub(crate) fn all(params: &Params<'_>) -> Option<Vec<Self>> {
@@ -189,16 +212,6 @@ impl Nested {
             });
         }
         Some(nested)
-    }
-
-    /// Whether all of them can show materials that are no scattering model.
-    pub(crate) fn show_classic(nested: &[Self]) -> bool {
-        nested.iter().all(|n| n.integrator.shows_classic())
-    }
-
-    /// Why one of them cannot render a world.
-    pub(crate) fn obstacle<W: World>(nested: &[Self], world: &W) -> Option<String> {
-        nested.iter().find_map(|n| n.integrator.obstacle(world))
     }
 }
 

@@ -9,7 +9,7 @@ use crate::settings::ignore_scheduling;
 use etalon_params::Params;
 use etalon_sampling::Sampler;
 use etalon_spectrum::colour_space::rgb_to_xyz;
-use etalon_transport::{Channel, Integrator, Pass, PixelSite, Sink, World};
+use etalon_transport::{Channel, Integrator, Objection, Pass, PixelSite, Sight, Sink, World};
 use glam::Vec2;
 
 /// The moment integrator.
@@ -40,12 +40,9 @@ impl Moment {
 impl Integrator for Moment {
     type State = ();
 
-    fn shows_classic(&self) -> bool {
-        Nested::show_classic(&self.nested)
-    }
-
-    fn obstacle<W: World>(&self, world: &W) -> Option<String> {
-        Nested::obstacle(&self.nested, world)
+    /// Those of the integrators inside.
+    fn objections(&self, sight: &Sight) -> Vec<Objection> {
+        Nested::objections(&self.nested, sight)
     }
 
     fn channels(&self) -> Vec<Channel> {

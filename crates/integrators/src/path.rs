@@ -17,6 +17,7 @@
 //! Several paths are followed in step: all of them look for their next surface, then all meet it,
 //! then all trace their shadow rays. What one path waits for, another has meanwhile.
 
+use crate::companion::Companion;
 use crate::dimensions as dim;
 use crate::render::TOGETHER;
 use crate::settings::{PathSettings, ignore_scheduling};
@@ -41,25 +42,58 @@ impl Path {
             settings: PathSettings::from_params(params),
         }
     }
+}
 
-    /// Follows paths to their ends.
-    #[inline]
-    fn follow<W: World, S: Sampler>(&self, world: &W, walks: &mut [Option<Walk<'_, S>>]) {
-        while walks.iter().flatten().any(Walk::goes_on) {
-            for walk in walks.iter_mut().flatten().filter(|w| w.goes_on()) {
-                walk.advance(world);
-            }
-            for walk in walks.iter_mut().flatten().filter(|w| w.goes_on()) {
-                walk.meet(world, &self.settings);
-            }
-            for walk in walks.iter_mut().flatten() {
-                walk.see_light(world);
-            }
+/// Follows paths to their ends.
+#[inline]
+pub(crate) fn follow<W: World, S: Sampler, C: Companion>(
+    world: &W,
+    settings: &PathSettings,
+    walks: &mut [Option<Walk<'_, S, C>>],
+) {
+    while walks.iter().flatten().any(Walk::goes_on) {
+        for walk in walks.iter_mut().flatten().filter(|w| w.goes_on()) {
+            walk.advance(world);
+        }
+        for walk in walks.iter_mut().flatten().filter(|w| w.goes_on()) {
+            walk.meet(world, settings);
+        }
+        for walk in walks.iter_mut().flatten() {
+            walk.see_light(world);
+        }
+    }
+}
+
+/// Draws samples by paths that are followed in step, each with a copy of `companion`.
+#[inline]
+pub(crate) fn follow_drafts<W: World, S: Sampler, K: TileSink, C: Companion + Copy>(
+    world: &W,
+    settings: &PathSettings,
+    companion: C,
+    drafts: &mut [Draft<S>],
+    sink: &mut K,
+) {
+    for drafts in drafts.chunks_mut(TOGETHER) {
+        let mut places = [None; TOGETHER];
+        let mut each = drafts.iter_mut().zip(&mut places);
+        let mut walks: [Option<Walk<'_, S, C>>; TOGETHER] = core::array::from_fn(|_| {
+            let (draft, place) = each.next()?;
+            *place = Some((draft.site.pixel, draft.weight));
+            let sampler = &mut draft.sampler;
+            let walk = Walk::start(world, settings, &draft.site, sampler, companion);
+            Some(walk)
+        });
+        follow(world, settings, &mut walks);
+        for (walk, (pixel, weight)) in walks.iter().flatten().zip(places.iter().flatten()) {
+            sink.begin_sample(*pixel, *weight);
+            walk.deliver(sink);
         }
     }
 }
 
 impl Integrator for Path {
+    const UNBIASED: bool = true;
+
     type State = ();
 
     fn prepare<W: World>(&self, _: &W, _: &Pass, _: Option<()>) {}
@@ -72,8 +106,9 @@ impl Integrator for Path {
         sampler: &mut S,
         sink: &mut K,
     ) {
-        let mut walks = [Some(Walk::start(world, &self.settings, site, sampler))];
-        self.follow(world, &mut walks);
+        let walk = Walk::start(world, &self.settings, site, sampler, ());
+        let mut walks = [Some(walk)];
+        follow(world, &self.settings, &mut walks);
         walks.iter().flatten().for_each(|walk| walk.deliver(sink));
     }
 
@@ -84,21 +119,7 @@ impl Integrator for Path {
         drafts: &mut [Draft<S>],
         sink: &mut K,
     ) {
-        for drafts in drafts.chunks_mut(TOGETHER) {
-            let mut places = [None; TOGETHER];
-            let mut each = drafts.iter_mut().zip(&mut places);
-            let mut walks: [Option<Walk<'_, S>>; TOGETHER] = core::array::from_fn(|_| {
-                let (draft, place) = each.next()?;
-                *place = Some((draft.site.pixel, draft.weight));
-                let sampler = &mut draft.sampler;
-                Some(Walk::start(world, &self.settings, &draft.site, sampler))
-            });
-            self.follow(world, &mut walks);
-            for (walk, (pixel, weight)) in walks.iter().flatten().zip(places.iter().flatten()) {
-                sink.begin_sample(*pixel, *weight);
-                walk.deliver(sink);
-            }
-        }
+        follow_drafts(world, &self.settings, (), drafts, sink);
     }
 }
 

@@ -22,7 +22,10 @@ use crate::settings::{PathSettings, ignore_scheduling};
 use etalon_params::Params;
 use etalon_sampling::Sampler;
 use etalon_spectrum::{SensorWeights, Wavelengths, sensor_response};
-use etalon_transport::{Bsdf, Camera, Integrator, Mode, Pass, PixelSite, Ray, Sink, Vertex, World};
+use etalon_transport::{
+    Bsdf, Camera, Emission, Finding, Integrator, Mode, Objection, Pass, PixelSite, Ray, Sight,
+    Sink, Vertex, World,
+};
 use glam::{Vec2, Vec3, Vec4};
 
 /// The light tracer.
@@ -101,13 +104,7 @@ impl ParticleTracer {
         if max_depth < 2 {
             return;
         }
-        sampler.skip_to(EMISSION_POSITION);
-        let u_position = sampler.next_2d();
-        sampler.skip_to(EMISSION_DIRECTION);
-        let u_direction = sampler.next_2d();
-        sampler.skip_to(EMISSION_LIGHT);
-        let u_light = sampler.next_1d();
-        let Some(start) = world.emit(wavelengths, u_light, u_position, u_direction) else {
+        let Some(start) = emit(world, wavelengths, sampler) else {
             return;
         };
         let mut prefix = Prefix::START;
@@ -163,6 +160,21 @@ impl ParticleTracer {
     }
 }
 
+/// A particle, with the random numbers that are reserved for its start.
+pub(crate) fn emit<W: World, S: Sampler>(
+    world: &W,
+    wavelengths: &Wavelengths,
+    sampler: &mut S,
+) -> Option<Emission> {
+    sampler.skip_to(EMISSION_POSITION);
+    let u_position = sampler.next_2d();
+    sampler.skip_to(EMISSION_DIRECTION);
+    let u_direction = sampler.next_2d();
+    sampler.skip_to(EMISSION_LIGHT);
+    let u_light = sampler.next_1d();
+    world.emit(wavelengths, u_light, u_position, u_direction)
+}
+
 /// Connects a particle's vertex with the camera: where it lands, and its value per lane.
 #[allow(clippy::too_many_arguments)]
 fn connect<W: World>(
@@ -190,10 +202,16 @@ fn connect<W: World>(
 }
 
 impl Integrator for ParticleTracer {
+    const UNBIASED: bool = true;
+
     type State = ();
 
     fn splats(&self) -> bool {
         true
+    }
+
+    fn objections(&self, sight: &Sight) -> Vec<Objection> {
+        sight.objections(Finding::Choosing)
     }
 
     fn prepare<W: World>(&self, _: &W, _: &Pass, _: Option<()>) {}

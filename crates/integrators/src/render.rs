@@ -126,8 +126,10 @@ pub fn render<W: World, I: Integrator, F: Film, P: Progress>(
             number,
             count: passes,
             samples: length.min(plan.samples_per_replicate - begin),
+            image_samples: plan.samples_per_replicate.saturating_mul(plan.replicates),
             origin,
             size,
+            margin: film.margin().ceil() as u32,
         };
         let state = integrator.prepare(world, &pass, before.take());
         let tile = |index: u32| {

@@ -1,6 +1,6 @@
 //! Parameters that several integrators share.
 
-use etalon_params::Params;
+use etalon_params::{Diagnostic, Params};
 
 /// Path length limits and the visibility of lights, with Mitsuba's meaning.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -30,6 +30,15 @@ impl PathSettings {
         let max_depth = params.integer_or("max_depth", -1);
         if max_depth < -1 || max_depth > i64::from(i32::MAX) {
             params.refuse("max_depth", max_depth, "-1 (unlimited), 0, 1, 2, …");
+        }
+        if max_depth == 0 {
+            let diagnostic = Diagnostic::note(
+                params
+                    .property("max_depth")
+                    .map_or(params.node.plugin.span, |p| p.span),
+                "no path has 0 segments: the picture will be black",
+            );
+            params.diagnostics.push(diagnostic);
         }
         let rr_depth = params.integer_or("rr_depth", 5);
         if rr_depth < 1 || rr_depth > i64::from(i32::MAX) {

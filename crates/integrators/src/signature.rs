@@ -17,7 +17,7 @@ use crate::path::camera_ray;
 use crate::settings::ignore_scheduling;
 use etalon_params::Params;
 use etalon_sampling::Sampler;
-use etalon_transport::{Hit, Integrator, Pass, PixelSite, Sink, World};
+use etalon_transport::{Hit, Integrator, Objection, Pass, PixelSite, Sight, Sink, World};
 
 /// The signature integrator.
 #[derive(Clone, Copy, Debug, Default)]
@@ -64,8 +64,9 @@ fn object(hit: &Hit) -> u32 {
 impl Integrator for Signature {
     type State = ();
 
-    fn shows_classic(&self) -> bool {
-        true
+    /// It asks for no light.
+    fn objections(&self, _: &Sight) -> Vec<Objection> {
+        Vec::new()
     }
 
     fn prepare<W: World>(&self, _: &W, _: &Pass, _: Option<()>) {}

@@ -1,17 +1,19 @@
 //! One path of the path tracer, from surface to surface.
 
+use crate::companion::Companion;
 use crate::dimensions::Event;
 use crate::path::camera_ray;
 use crate::prefix::Prefix;
 use crate::rival::Rival;
 use crate::settings::PathSettings;
+use core::ops::Range;
 use etalon_sampling::Sampler;
 use etalon_spectrum::{Wavelengths, sensor_response};
 use etalon_transport::{Bsdf, Chance, Hit, Mode, PixelSite, Ray, Receiver, Sink, Vertex, World};
 use glam::{Vec3, Vec4};
 
 /// A path being followed.
-pub(crate) struct Walk<'a, S> {
+pub(crate) struct Walk<'a, S, C = ()> {
     sampler: &'a mut S,
     wavelengths: Wavelengths,
     /// The factor by which what is found counts.
@@ -25,6 +27,8 @@ pub(crate) struct Walk<'a, S> {
     eta: f32,
     /// Number of segments, that of `ray` included.
     depth: u32,
+    /// Surfaces behind at which it scattered, not counting those that it passed straight.
+    corners: u32,
     /// Whether the path goes on with `ray`.
     goes_on: bool,
     connection: Option<Connection>,
@@ -34,6 +38,7 @@ pub(crate) struct Walk<'a, S> {
     /// 1 if the path met anything that it did not pass straight, the background included; where
     /// its length ends at a surface, the probability of that.
     alpha: f32,
+    companion: C,
 }
 
 /// A light sample before its shadow ray is traced.
@@ -46,7 +51,7 @@ struct Connection {
     by_scattering: Vec4,
 }
 
-impl<'a, S: Sampler> Walk<'a, S> {
+impl<'a, S: Sampler, C: Companion> Walk<'a, S, C> {
     /// The path of a sample, before its first surface is known.
     #[inline]
     pub(crate) fn start<W: World>(
@@ -54,6 +59,7 @@ impl<'a, S: Sampler> Walk<'a, S> {
         settings: &PathSettings,
         site: &PixelSite,
         sampler: &'a mut S,
+        companion: C,
     ) -> Self {
         let (wavelengths, ray, weight) = camera_ray(world, site, sampler);
         Self {
@@ -66,11 +72,19 @@ impl<'a, S: Sampler> Walk<'a, S> {
             rival: Rival::NONE,
             eta: 1.0,
             depth: 1,
+            corners: 0,
             goes_on: settings.max_depth > 0,
             connection: None,
             radiance: Vec4::ZERO,
             alpha: 0.0,
+            companion,
         }
+    }
+
+    /// The companion, at the end.
+    #[inline]
+    pub(crate) fn into_companion(self) -> C {
+        self.companion
     }
 
     /// Whether the path goes on.
@@ -82,8 +96,36 @@ impl<'a, S: Sampler> Walk<'a, S> {
     /// Delivers what was found.
     #[inline]
     pub(crate) fn deliver(&self, sink: &mut impl Sink) {
-        let rgb = sensor_response(&self.wavelengths).rgb(self.radiance * self.weight);
-        sink.radiance(rgb.to_array(), self.alpha);
+        sink.radiance(self.colour().to_array(), self.alpha);
+    }
+
+    /// The colour found.
+    #[inline]
+    pub(crate) fn colour(&self) -> Vec3 {
+        sensor_response(&self.wavelengths).rgb(self.radiance * self.weight)
+    }
+
+    /// Follows the path alone and to its end, but keeps of what it finds only the paths with as
+    /// many corners as `wanted` says.
+    pub(crate) fn follow<W: World>(
+        &mut self,
+        world: &W,
+        settings: &PathSettings,
+        wanted: &Range<u32>,
+    ) {
+        while self.goes_on && self.corners < wanted.end {
+            self.advance(world);
+            let (radiance, corners) = (self.radiance, self.corners);
+            self.meet(world, settings);
+            if corners < wanted.start {
+                self.radiance = radiance;
+            }
+            if wanted.contains(&(corners + 1)) {
+                self.see_light(world);
+            } else {
+                self.connection = None;
+            }
+        }
     }
 
     /// Finds the next surface.
@@ -104,7 +146,9 @@ impl<'a, S: Sampler> Walk<'a, S> {
                 self.alpha = 1.0;
                 let radiance = world.background(direction, &self.wavelengths);
                 let other = self.rival.at_background(world, direction);
-                self.radiance += self.prefix.estimate(radiance, other);
+                let estimate = self.prefix.estimate(radiance, other);
+                self.radiance += estimate;
+                self.companion.found(estimate);
             }
             return;
         };
@@ -125,10 +169,13 @@ impl<'a, S: Sampler> Walk<'a, S> {
             let radiance = world.emitted(&vertex, wo, &self.wavelengths);
             if radiance != Vec4::ZERO {
                 let other = self.rival.at_surface(world, &vertex, direction);
-                self.radiance += self.prefix.estimate(radiance, other);
+                let estimate = self.prefix.estimate(radiance, other);
+                self.radiance += estimate;
+                self.companion.found(estimate);
             }
         }
         let bsdf = world.bsdf(&vertex, wo, &self.wavelengths);
+        let bsdf = self.companion.steer(&vertex, wo, bsdf);
         if last {
             // Where the path would go on we do not ask; how likely straight on, we know.
             let stopped = 1.0 - 0.25 * bsdf.passing_probability().element_sum();
@@ -139,6 +186,7 @@ impl<'a, S: Sampler> Walk<'a, S> {
         if bsdf.has_continuous() {
             let crossings = settings.max_depth - self.depth - 1;
             self.connection = self.connect(world, &vertex, &bsdf, wo, crossings, &event);
+            self.companion.aimed();
         }
         self.scatter(&vertex, &bsdf, wo, settings, &event);
     }
@@ -149,7 +197,7 @@ impl<'a, S: Sampler> Walk<'a, S> {
         &self,
         world: &W,
         vertex: &Vertex,
-        bsdf: &W::Bsdf<'_>,
+        bsdf: &impl Bsdf,
         wo: Vec3,
         crossings: u32,
         event: &Event,
@@ -194,13 +242,15 @@ impl<'a, S: Sampler> Walk<'a, S> {
         };
         if !sample.passes {
             self.alpha = 1.0;
+            self.corners += 1;
         }
         self.rival = self.rival.after(&self.prefix, vertex, &sample);
         self.prefix.extend(sample.value, sample.chance.lanes());
         self.eta *= sample.eta;
         self.ray = vertex.spawn(sample.wi);
+        (self.companion).scattered(vertex, bsdf, wo, &sample, &self.prefix);
         if self.depth >= settings.rr_depth {
-            let survival = (self.prefix.throughput() * self.eta * self.eta).min(0.95);
+            let survival = self.companion.survival(&self.prefix, self.eta);
             if !(event.roulette < survival) {
                 return;
             }
@@ -218,9 +268,9 @@ impl<'a, S: Sampler> Walk<'a, S> {
         };
         if let Some(passage) = world.passage(&light.ray, &self.wavelengths, light.crossings) {
             let by_scattering = light.by_scattering * passage.probability;
-            self.radiance += light
-                .complete
-                .estimate(passage.transmittance, by_scattering);
+            let estimate = (light.complete).estimate(passage.transmittance, by_scattering);
+            self.radiance += estimate;
+            self.companion.lit(estimate);
         }
     }
 }

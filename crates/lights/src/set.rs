@@ -4,7 +4,7 @@ use crate::{Bounds, Light, LightDescription, LightSelector};
 use etalon_math::{Atom, Density, SolidAngle};
 use etalon_spectrum::Wavelengths;
 use etalon_transport::{
-    Chance, Emission, EmissionDensity, LightId, LightSample, Origin, Receiver, Shapes,
+    Chance, Emission, EmissionDensity, LightCount, LightId, LightSample, Origin, Receiver, Shapes,
     SurfacePoint, Textures, Vertex,
 };
 use glam::{Vec2, Vec3, Vec4};
@@ -70,6 +70,25 @@ impl LightSet {
     /// Which light to ask.
     pub fn selector(&self) -> &LightSelector {
         &self.selector
+    }
+
+    /// How many of the lights that emit anything can be found in which way.
+    pub fn count(&self) -> LightCount {
+        let mut count = LightCount::default();
+        for (index, light) in self.lights.iter().enumerate() {
+            // The power of a light at infinity is what enters the scene, if there is one.
+            let into_nothing = light.is_infinite() && self.bounds.radius == 0.0;
+            if !(self.powers[index] > 0.0 || into_nothing) {
+                continue;
+            }
+            let hittable = light.is_background() || matches!(light, Light::Area(_));
+            let chosen = self.selector.probability_to_emit(LightId(index as u32)) > 0.0;
+            count.all += 1;
+            count.hittable += u32::from(hittable);
+            count.chosen += u32::from(chosen);
+            count.either += u32::from(hittable || chosen);
+        }
+        count
     }
 
     /// Radiance emitted by the surface at `vertex` toward `wo`.

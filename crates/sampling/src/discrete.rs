@@ -10,6 +10,7 @@ mod bilinear;
 mod piecewise_constant;
 mod piecewise_constant_2d;
 mod piecewise_linear;
+mod quadtree;
 mod signed;
 
 pub use alias::{AliasTable, Choice};
@@ -17,6 +18,7 @@ pub use bilinear::Bilinear;
 pub use piecewise_constant::PiecewiseConstant;
 pub use piecewise_constant_2d::PiecewiseConstant2d;
 pub use piecewise_linear::PiecewiseLinear;
+pub use quadtree::{Quadtree, Refinement};
 pub use signed::{SignedPiecewiseLinear, SignedSample};
 
 use core::fmt;

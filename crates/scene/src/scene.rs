@@ -8,8 +8,8 @@ use etalon_lights::LightSet;
 use etalon_math::{Density, SolidAngle};
 use etalon_spectrum::{WavelengthDistribution, Wavelengths};
 use etalon_transport::{
-    Bsdf, ClassicPhong, Emission, EmissionDensity, Hit, LightId, LightSample, Passage, Ray,
-    Receiver, Vertex, World,
+    Bsdf, Camera, ClassicPhong, Emission, EmissionDensity, Hit, LightId, LightSample, Passage, Ray,
+    Receiver, Sight, Vertex, World,
 };
 use glam::{Vec2, Vec3, Vec4};
 
@@ -58,6 +58,16 @@ impl Scene {
             self.materials.len(),
             self.lights.len(),
         )
+    }
+
+    /// What an estimator can see of it.
+    pub fn sight(&self) -> Sight {
+        Sight {
+            lights: self.lights.count(),
+            aperture: self.camera.can_receive(),
+            sky: self.has_background(),
+            classic: self.materials.iter().any(Material::is_classic),
+        }
     }
 
     #[inline]

@@ -3,27 +3,19 @@
 //! Numbers are drawn anew from the sample, with replacement, in blocks of ℓ successive ones (the
 //! last followed by the first: Politis & Romano's (1992) circular blocks), and the statistic is
 //! computed of each of B such samples. ℓ = 1 is Efron's (1979) bootstrap of independent numbers;
-//! for a dependent series [`block_length`] is a rule. Two intervals are offered:
+//! for a dependent series [`block_length`] is a rule. The interval of a statistic is BCa (Efron 1987):
+//! percentiles at Φ(z₀ + (z₀ + z)/(1 − a(z₀ + z))), z₀ from the share of statistics below the observed
+//! one and a from the jackknife over blocks. Means have a better one: [`crate::studentised`].
 //!
-//! - the BCa interval (Efron 1987): percentiles at Φ(z₀ + (z₀ + z)/(1 − a(z₀ + z))), z₀ from the share
-//!   of statistics below the observed one and a from the jackknife over blocks;
-//! - the studentised interval of a mean, x̄ − t*·s, with t* the percentiles of (x̄* − x̄)/s*, which
-//!   corrects for skewness to second order (Hall 1992, section 3.5).
-//!
-//! A bootstrap knows no tail that the sample does not show: below some 20 replicates, or with
-//! B · (1 − confidence) < 10 beyond each end, it is refused.
+//! A bootstrap knows no tail that the sample does not show: below [`FEWEST_BLOCKS`] blocks, or with
+//! fewer than ten resamples beyond each end, it is refused.
 
-use crate::estimate::Estimate;
 use crate::interval::Interval;
 use crate::normal;
 use crate::random::SplitMix64;
-use crate::summary::Summary;
 
 /// The fewest blocks that are resampled.
 pub const FEWEST_BLOCKS: usize = 8;
-
-/// The fewest numbers whose tails a studentised interval is based on.
-pub const FEWEST_FOR_STUDENTISED: usize = 20;
 
 /// How to resample.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -194,77 +186,4 @@ pub fn percentile(
         low: quantile(&values, tail),
         high: quantile(&values, 1.0 - tail),
     })
-}
-
-/// The studentised interval of the mean of independent numbers; `None` of fewer than
-/// [`FEWEST_FOR_STUDENTISED`], of non-finite ones, or where the plan cannot resolve the confidence.
-#[must_use]
-pub fn studentised(sample: &[f64], plan: &Plan, confidence: f64) -> Option<Interval> {
-    if sample.len() < FEWEST_FOR_STUDENTISED || plan.block != 1 || !plan.resolves(confidence) {
-        return None;
-    }
-    let observed = Estimate::mean(&Summary::of(sample)?);
-    let mut values = resampled(sample.len(), plan, |indices| {
-        Summary::of_iter(indices.iter().map(|&i| sample[i])).map_or(f64::NAN, |drawn| {
-            studentise(&Estimate::mean(&drawn), &observed)
-        })
-    })?;
-    turned(&mut values, &observed, confidence)
-}
-
-/// The studentised interval of the difference of two means, `a` − `b`, of independent samples
-/// whose distributions may differ; `None` as for [`studentised`], of either.
-#[must_use]
-pub fn studentised_difference(
-    a: &[f64],
-    b: &[f64],
-    plan: &Plan,
-    confidence: f64,
-) -> Option<Interval> {
-    let few = a.len().min(b.len()) < FEWEST_FOR_STUDENTISED;
-    if few || plan.block != 1 || !plan.resolves(confidence) {
-        return None;
-    }
-    let observed = Estimate::welch(&Summary::of(a)?, &Summary::of(b)?);
-    let mut random = SplitMix64::new(plan.seed);
-    let mut indices = Vec::new();
-    let mut summary = |sample: &[f64]| {
-        draw(sample.len(), 1, &mut random, &mut indices);
-        Summary::of_iter(indices.iter().map(|&i| sample[i]))
-    };
-    let mut values: Vec<f64> = (0..plan.resamples)
-        .map(|_| {
-            Some(studentise(
-                &Estimate::welch(&summary(a)?, &summary(b)?),
-                &observed,
-            ))
-        })
-        .collect::<Option<_>>()?;
-    turned(&mut values, &observed, confidence)
-}
-
-/// How many of its own standard errors a resampled estimate is from the observed one; infinite where
-/// it has none, which is as far as can be.
-fn studentise(drawn: &Estimate, observed: &Estimate) -> f64 {
-    let distance = drawn.value() - observed.value();
-    if distance == 0.0 {
-        0.0
-    } else {
-        distance / drawn.standard_error()
-    }
-}
-
-/// The observed estimate less the quantiles of its studentised resamples.
-fn turned(values: &mut [f64], observed: &Estimate, confidence: f64) -> Option<Interval> {
-    if values.iter().any(|v| v.is_nan()) {
-        return None;
-    }
-    values.sort_by(f64::total_cmp);
-    let tail = 0.5 * (1.0 - confidence);
-    let reach = |share: f64| quantile(values, share) * observed.standard_error();
-    let interval = Interval {
-        low: observed.value() - reach(1.0 - tail),
-        high: observed.value() - reach(tail),
-    };
-    (!interval.low.is_nan() && !interval.high.is_nan()).then_some(interval)
 }

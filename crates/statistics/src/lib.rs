@@ -42,6 +42,7 @@ pub mod sequential;
 pub mod sign_flip;
 pub mod spending;
 pub mod student_t;
+pub mod studentised;
 pub mod summary;
 pub mod tails;
 pub mod tiles;

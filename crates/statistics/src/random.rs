@@ -12,6 +12,7 @@ impl SplitMix64 {
         Self(seed)
     }
 
+    #[inline]
     pub(crate) fn next(&mut self) -> u64 {
         self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
         let mut z = self.0;
@@ -23,6 +24,13 @@ impl SplitMix64 {
     /// An index below `n` > 0, by the upper half of a 128-bit product; its bias is below n · 2⁻⁶⁴.
     pub(crate) fn below(&mut self, n: usize) -> usize {
         ((u128::from(self.next()) * n as u128) >> 64) as usize
+    }
+
+    /// Two indices below `n` < 2³², of one number; their bias is below n · 2⁻³².
+    #[inline]
+    pub(crate) fn two_below(&mut self, n: usize) -> [usize; 2] {
+        let both = self.next();
+        [both >> 32, both & 0xffff_ffff].map(|half| ((half * n as u64) >> 32) as usize)
     }
 }
 
@@ -44,5 +52,6 @@ mod tests {
             assert_eq!(random.next(), expected);
         }
         assert!((0..1000).all(|_| random.below(7) < 7));
+        assert!((0..1000).all(|_| random.two_below(7).iter().all(|i| *i < 7)));
     }
 }

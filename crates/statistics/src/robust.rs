@@ -11,10 +11,11 @@
 //! and where that cannot reach the level, for lack of replicates or of resamples, the verdict is
 //! *undecided*. A tail whose variance may not exist is undecided whatever the test.
 
-use crate::bootstrap::{self, Plan};
+use crate::bootstrap::Plan;
 use crate::estimate::Estimate;
 use crate::interval::Interval;
 use crate::sign_flip;
+use crate::studentised;
 use crate::summary::Summary;
 use crate::tails::{Limits, Refusal, Tails};
 use crate::verdict::Verdict;
@@ -91,7 +92,7 @@ pub fn judge(
     let student = Estimate::mean(&Summary::of(sample)?);
     Some(Judgement::new(refusal, student, alpha, || match symmetry {
         Symmetry::Exchangeable => flipped(sample, alpha, plan),
-        Symmetry::Unknown => bootstrap::studentised(sample, plan, 1.0 - alpha)
+        Symmetry::Unknown => studentised::mean(sample, plan, 1.0 - alpha)
             .map(|interval| (interval, Method::Bootstrap)),
     }))
 }
@@ -135,7 +136,7 @@ pub fn judge_difference(
             let differences: Vec<f64> = a.iter().zip(b).map(|(a, b)| a - b).collect();
             flipped(&differences, alpha, plan)
         }
-        _ => bootstrap::studentised_difference(a, b, plan, 1.0 - alpha)
+        _ => studentised::difference(a, b, plan, 1.0 - alpha)
             .map(|interval| (interval, Method::Bootstrap)),
     }))
 }

@@ -9,7 +9,9 @@ use checks::{Random, near};
 use etalon_statistics::bootstrap::{self, Plan};
 use etalon_statistics::ratio::{self, Known};
 use etalon_statistics::sign_flip::{self, Side};
-use etalon_statistics::{Estimate, Interval, Summary, permutation, proportion, student_t};
+use etalon_statistics::{
+    Estimate, Interval, Summary, permutation, proportion, student_t, studentised,
+};
 use proptest::prelude::*;
 
 #[test]
@@ -173,12 +175,12 @@ fn studentised_interval() {
         .map(|i| -libm::log((f64::from(i) + 0.5) / 24.0))
         .collect();
     let plan = Plan::independent(40_000, 2);
-    let interval = bootstrap::studentised(&sample, &plan, 0.95).expect("resolved");
+    let interval = studentised::mean(&sample, &plan, 0.95).expect("resolved");
     assert!((interval.low - 0.65258).abs() < 0.01, "{interval:?}");
     assert!((interval.high - 1.54672).abs() < 0.03, "{interval:?}");
-    assert_eq!(bootstrap::studentised(&sample[..19], &plan, 0.95), None);
+    assert_eq!(studentised::mean(&sample[..19], &plan, 0.95), None);
     assert_eq!(
-        bootstrap::studentised(&[1.0; 30], &plan, 0.95).map(|i| i.width()),
+        studentised::mean(&[1.0; 30], &plan, 0.95).map(|i| i.width()),
         Some(0.0)
     );
 }
@@ -193,7 +195,7 @@ fn skewed_means_are_covered() {
     for run in 0..600 {
         let sample: Vec<f64> = (0..30).map(|_| random.exponential()).collect();
         let plan = Plan::independent(999, run);
-        let interval = bootstrap::studentised(&sample, &plan, 0.95).expect("resolved");
+        let interval = studentised::mean(&sample, &plan, 0.95).expect("resolved");
         covered += u64::from(interval.contains(1.0));
         let plain = Estimate::mean(&Summary::of(&sample).expect("finite")).interval(0.95);
         student[0] += u32::from(plain.low > 1.0);

@@ -1,7 +1,7 @@
 //! The contract of a scattering model at a point.
 
 use crate::Chance;
-use etalon_math::{Density, SolidAngle};
+use etalon_math::{Density, Frame, SolidAngle};
 use glam::{Vec2, Vec3, Vec4};
 
 /// What is being transported: radiance (paths from the camera) or importance (paths from the
@@ -50,7 +50,8 @@ pub trait Bsdf {
     }
 
     /// Samples a direction; `None` if the light is absorbed. Lane 0 of the wavelengths for
-    /// which the model was made chooses; `u_lobe` and `u` are uniform in [0, 1).
+    /// which the model was made chooses; `u_lobe` and `u` are uniform in [0, 1). Light passes straight on
+    /// if `u_lobe` is below the chooser's [`Bsdf::passing_probability`], and only then.
     fn sample(&self, wo: Vec3, u_lobe: f32, u: Vec2, mode: Mode) -> Option<BsdfSample>;
 
     /// The discrete direction number `index`, as [`Bsdf::sample`] would sample it (what passes
@@ -64,12 +65,25 @@ pub trait Bsdf {
     /// Whether any lobe is continuous, i.e. whether light sampling can help.
     fn has_continuous(&self) -> bool;
 
+    /// Whether any lobe may be discrete, passing straight on aside. `true` is always right, for those
+    /// who need to know which directions [`Bsdf::eval`] cannot speak of.
+    fn has_discrete(&self) -> bool {
+        true
+    }
+
+    /// The frame about whose normal all continuous directions `wi` lie on the same side as `wo`;
+    /// `None`, which is always right, if they may be anywhere.
+    fn hemisphere(&self) -> Option<Frame> {
+        None
+    }
+
     /// The fraction of light that goes straight on as if the surface were not there.
     fn passing(&self) -> Vec4;
 
     /// The probability with which [`Bsdf::sample`] passes straight on, per lane.
     fn passing_probability(&self) -> Vec4;
 
-    /// Directional albedo or an approximation of it, for the `albedo` channel only.
+    /// Directional albedo or an approximation of it: for the `albedo` channel, and for choices that no
+    /// expectation depends on (Russian roulette).
     fn albedo(&self, wo: Vec3) -> Vec4;
 }

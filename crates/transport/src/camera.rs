@@ -27,6 +27,20 @@ pub struct Connection {
     pub weight: f32,
 }
 
+/// A ray's arrival on the camera's aperture.
+#[derive(Clone, Copy, Debug)]
+pub struct Reception {
+    /// Where on the film (pixels of the whole film).
+    pub raster: Vec2,
+    /// How far along the ray the camera begins (m): at the near clipping plane. Nothing may stand
+    /// before that; what is nearer to the aperture the camera does not see.
+    pub t: f32,
+    /// Pixels² per unit of flux (px²·m⁻²·sr⁻¹): dx/dω over the aperture's area and the cosine of
+    /// arrival. A splat of Φ·`weight` with a filter that integrates to one estimates the pixel,
+    /// for a particle of flux Φ.
+    pub weight: f32,
+}
+
 /// A camera. Measures are chosen so that a pixel is the mean radiance over its filter: the ray
 /// through a uniformly chosen raster point has weight one.
 pub trait Camera: Sync {
@@ -38,6 +52,19 @@ pub trait Camera: Sync {
     /// does not see the point (behind it, clipped, or more than `margin` pixels outside of the
     /// film).
     fn connect(&self, point: Vec3, lens: Vec2, margin: f32) -> Option<Connection>;
+
+    /// Where a ray that travels through space happens to hit the aperture; `None` if it misses it,
+    /// starts where the camera does not see, or arrives more than `margin` pixels outside of the
+    /// film. An aperture without extent, or one through which each point of
+    /// the film looks in one direction only, is never hit.
+    fn receive(&self, _ray: &Ray, _margin: f32) -> Option<Reception> {
+        None
+    }
+
+    /// Whether [`Camera::receive`] can ever receive anything.
+    fn can_receive(&self) -> bool {
+        false
+    }
 
     /// Whether `lens` matters.
     fn has_lens(&self) -> bool;

@@ -1,6 +1,6 @@
 //! The contract of an estimator of light transport.
 
-use crate::{Channel, Sink, TileSink, World};
+use crate::{Channel, Finding, Objection, Sight, Sink, TileSink, World};
 use etalon_sampling::Sampler;
 use glam::{UVec2, Vec2};
 
@@ -36,10 +36,15 @@ pub struct Pass {
     pub count: u32,
     /// Samples per pixel in this pass.
     pub samples: u32,
+    /// Samples per pixel in the whole image: all passes of all replicates, whoever renders them.
+    pub image_samples: u32,
     /// The first pixel of the cropped film.
     pub origin: UVec2,
     /// Size of the cropped film (pixels).
     pub size: UVec2,
+    /// How many pixels beyond the film a splat can still matter, rounded up (see
+    /// [`crate::Film::margin`]).
+    pub margin: u32,
 }
 
 /// A sample about to be drawn.
@@ -66,6 +71,10 @@ pub trait Integrator: Sync {
     /// tracer.
     type State: Send + Sync + 'static;
 
+    /// Whether it estimates the radiance of all light paths that it does not object to
+    /// ([`Integrator::objections`]) without bias, so that it must agree with any other that does.
+    const UNBIASED: bool = false;
+
     /// The channels it writes beside the colour, in the order of [`Sink::channel`]'s index.
     fn channels(&self) -> Vec<Channel> {
         Vec::new()
@@ -76,16 +85,10 @@ pub trait Integrator: Sync {
         false
     }
 
-    /// Whether it can show materials that are no scattering model ([`World::classic`]), or does not
-    /// look at materials at all.
-    fn shows_classic(&self) -> bool {
-        false
-    }
-
-    /// Why it cannot render a world: what is said to the user in place of a wrong picture. `None` if
-    /// it can.
-    fn obstacle<W: World>(&self, _world: &W) -> Option<String> {
-        None
+    /// What it objects to in a scene, asked before anything is rendered. By default that of an
+    /// estimator which can both run into lights and choose them.
+    fn objections(&self, sight: &Sight) -> Vec<Objection> {
+        sight.objections(Finding::Either)
     }
 
     /// Samples per pixel after which it must prepare again; `None` if a replicate is one pass.

@@ -3,6 +3,7 @@
 //! Every file holds one formula with its source. The numbers of a scene come from its claim's
 //! `defines`, so that scene and formula cannot disagree.
 
+pub mod ambient_corner;
 pub mod blackbody;
 pub mod blend;
 pub mod colour_checker;
@@ -18,6 +19,7 @@ pub mod mesh_light;
 pub mod metamers;
 pub mod mirror_room;
 pub mod narrow_sky;
+pub mod out_of_focus;
 pub mod pile_of_plates;
 pub mod pixels;
 pub mod prism;
@@ -63,8 +65,10 @@ pub fn picture(formula: &str, claim: &Claim, size: [u32; 2]) -> Result<Known, St
         "furnace within glass" => glass::furnace(claim, size),
         "directional lobes" => directional_lobes::picture(claim, size),
         "coat under parallel light" => directional_lobes::coat(claim, size),
+        "disk out of focus" => out_of_focus::picture(claim, size),
         "narrow sky" => narrow_sky::picture(claim, size),
         "wrapped bitmap" => wrapped_bitmap::picture(claim, size),
+        "ambient corner" => ambient_corner::picture(claim, size),
         "colour checker" => colour_checker::picture(claim, size),
         other => Err(format!("there is no closed form called `{other}`")),
     }

@@ -25,8 +25,18 @@ pub(crate) fn inconsistency(bsdf: &impl Bsdf, wo: Vec3, seed: u64) -> Option<Str
                 continue;
             };
             let Chance::Continuous(sampled) = s.chance else {
+                if !s.passes && !bsdf.has_discrete() {
+                    return Some(format!("{s:?} is discrete, and nothing should be"));
+                }
                 continue;
             };
+            for wi in [s.wi, uniform.direction()] {
+                let value = bsdf.eval(wo, wi, mode);
+                let frame = bsdf.hemisphere();
+                if value != Vec4::ZERO && frame.is_some_and(|f| wo.dot(f.n) * wi.dot(f.n) <= 0.0) {
+                    return Some(format!("{value} toward {wi}, outside of the hemisphere"));
+                }
+            }
             let (value, density) = bsdf.eval_and_density(wo, s.wi, mode);
             if !close(value, s.value) || !close(density.lanes(), sampled.lanes()) {
                 return Some(format!("{s:?} but {value} and {density:?}"));

@@ -24,7 +24,9 @@ fn same_bits(workshop: &Workshop, scene: &str, further: &[&str]) -> usize {
 fn of_the_integrators_for_light() {
     let workshop = Workshop::new();
     let scene = cornell_box();
-    for integrator in ["path", "direct", "ptracer", "bdpt", "depth"] {
+    for integrator in [
+        "path", "direct", "ptracer", "bdpt", "pssmlt", "mmlt", "depth",
+    ] {
         let size = ["-D", "resx=40", "-D", "resy=36", "--spp", "16"];
         let further = [&size[..], &["--integrator", integrator]].concat();
         assert_eq!(same_bits(&workshop, &scene, &further), 6, "{integrator}");

@@ -42,6 +42,27 @@ fn the_innermost_is_replaced() {
 }
 
 #[test]
+fn what_is_of_that_type_already_keeps_its_parameters() {
+    let workshop = Workshop::new();
+    let naive =
+        "<integrator type=\"naive\"><string name=\"directions\" value=\"uniform\"/></integrator>";
+    workshop.write("uniform.xml", small_scene(naive));
+    let render = |further: &[&str]| {
+        let arguments = [
+            &["render", "uniform.xml", "-o", "a.exr", "--spp", "4"],
+            further,
+        ]
+        .concat();
+        workshop.run(&arguments).fine();
+        workshop.image("a.exr").image
+    };
+    let said = render(&[]);
+    assert_eq!(said, render(&["--integrator", "naive"]));
+    workshop.write("uniform.xml", small_scene("<integrator type=\"naive\"/>"));
+    assert_ne!(said, render(&[]));
+}
+
+#[test]
 fn another_may_replace_one_that_does_not_exist() {
     let workshop = Workshop::new();
     let volpath = "<integrator type=\"volpath\"><integer name=\"max_depth\" value=\"3\"/>\
@@ -60,6 +81,8 @@ fn unknown_names_are_refused() {
     let scene = cornell_box();
     for (name, words) in [
         ("pathh", "did you mean `path`?"),
+        ("forwards", "did you mean `forward`?"),
+        ("nave", "did you mean `naive`?"),
         ("volpath", "not built yet"),
     ] {
         let arguments = ["render", &scene, "-o", "a.exr", "--integrator", name];

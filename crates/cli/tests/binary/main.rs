@@ -15,6 +15,7 @@ mod integrators;
 mod interrupt;
 mod merge;
 mod mutations;
+mod objections;
 mod render;
 mod statistics;
 mod strategies;

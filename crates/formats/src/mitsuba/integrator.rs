@@ -2,8 +2,8 @@
 //!
 //! The innermost integrator (inside of `aov` and `moment`) becomes one of the type `NAME`. Of its
 //! properties only `max_depth`, `rr_depth` and `hide_emitters` are kept; an integrator that does
-//! not know one of these leaves it unused without complaint. A scene without an integrator gets
-//! one.
+//! not know one of these leaves it unused without complaint. One that has the type already keeps
+//! all. A scene without an integrator gets one.
 
 use super::draft::{DraftObject, DraftProperty, DraftValue, ObjectId};
 use super::reader::Reader;
@@ -27,6 +27,9 @@ pub(crate) fn replace(reader: &mut Reader<'_>, root: ObjectId, name: &str) {
     let innermost = innermost(reader, root);
     for &id in &innermost {
         let object = &mut reader.draft.objects[id];
+        if object.plugin.value == name {
+            continue;
+        }
         object.plugin = plugin.clone();
         object.properties.retain_mut(|property| {
             property.excused = true;

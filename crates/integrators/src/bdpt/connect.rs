@@ -2,6 +2,7 @@
 
 use super::Technique;
 use super::corner::Corner;
+use super::merge::Merging;
 use super::subpath::FromLight;
 use super::weight::{CameraEnd, Ends, LightEnd, fewer, more};
 use crate::dimensions::Event;
@@ -49,6 +50,8 @@ pub(super) struct Connector<'a, 'w, W: World> {
     pub(super) light: &'a [Corner<W::Bsdf<'w>>],
     /// Whether the camera walk's first corner can be connected to the camera.
     pub(super) camera_connects: bool,
+    /// The photons to merge with, if any.
+    pub(super) merging: Option<&'a Merging>,
     /// What was found at the pixel, per lane.
     pub(super) radiance: Vec4,
 }
@@ -76,10 +79,11 @@ impl<'w, W: World> Connector<'_, 'w, W> {
         1 + core::iter::successors(Some(index), parents).count()
     }
 
-    fn camera_end(&self) -> CameraEnd {
+    pub(super) fn camera_end(&self) -> CameraEnd {
         CameraEnd {
             connects: self.camera_connects,
             samples: self.site.pixels as f32,
+            merging: self.area(),
         }
     }
 
@@ -88,6 +92,7 @@ impl<'w, W: World> Connector<'_, 'w, W> {
             can_be_hit: start.emission.origin.can_be_hit(),
             emitted: start.emission.density.origin,
             sampled: first.direct,
+            merging: self.area(),
         }
     }
 
@@ -169,15 +174,19 @@ impl<'w, W: World> Connector<'_, 'w, W> {
         self.radiance += arrival.prefix.value * radiance / total;
     }
 
-    /// All techniques that end at this corner of the camera's walk: light sampling and connections with the
-    /// corners of the light's walk.
+    /// All techniques that end at this corner of the camera's walk: light sampling, merging with photons, and
+    /// connections with the corners of the light's walk.
     pub(super) fn connect(
         &mut self,
         corner: &Corner<W::Bsdf<'w>>,
         eye: &[Corner<W::Bsdf<'w>>],
         event: &Event,
     ) {
+        if (self.only).is_some_and(|only| only.camera != eye.len() + 2) {
+            return;
+        }
         self.sample_light(corner, eye, event);
+        self.merge(corner, eye);
         let Some(start) = self.start else {
             return;
         };
@@ -191,7 +200,7 @@ impl<'w, W: World> Connector<'_, 'w, W> {
 
     /// Density per area of a walk from the light arriving at the vertex before `corner` on the camera's, having come
     /// to `corner` along `from`.
-    fn beyond(
+    pub(super) fn beyond(
         &self,
         corner: &Corner<W::Bsdf<'w>>,
         eye: &[Corner<W::Bsdf<'w>>],
@@ -360,7 +369,7 @@ impl<'w, W: World> Connector<'_, 'w, W> {
             first = parent;
         }
         let end = self.light_end(start, &self.light[first]);
-        fewer(self.light, last, rest, ends, end, start.opposite)
+        fewer(self.light, last, rest, ends, end, start.opposite, true)
     }
 
     /// t = 1: every corner of the light's walk, seen by the camera.

@@ -6,7 +6,7 @@ use glam::{Vec3, Vec4};
 
 /// A surface that a subpath met. What it scatters next is known to the corner after it.
 #[derive(Clone, Copy)]
-pub(super) struct Corner<B> {
+pub(crate) struct Corner<B> {
     /// The surface.
     pub(super) vertex: Vertex,
     /// The scattering model there, for `wo`.

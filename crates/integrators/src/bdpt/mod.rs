@@ -37,6 +37,8 @@
 
 mod connect;
 mod corner;
+pub(crate) mod merge;
+pub(crate) mod single;
 mod subpath;
 mod weight;
 
@@ -44,12 +46,16 @@ use crate::dimensions as dim;
 use crate::path::camera_ray;
 use crate::settings::{PathSettings, ignore_scheduling};
 use connect::Connector;
-use corner::Corner;
+pub(crate) use corner::Corner;
 use etalon_params::Params;
 use etalon_sampling::Sampler;
-use etalon_spectrum::sensor_response;
-use etalon_transport::{Draft, Integrator, Pass, PixelSite, Sink, TileSink, World};
+use etalon_spectrum::{Wavelengths, sensor_response};
+use etalon_transport::{
+    Draft, Finding, Integrator, Objection, Pass, PixelSite, Ray, Sight, Sink, Subject, TileSink,
+    World,
+};
 use glam::Vec4;
+use merge::Merging;
 use subpath::{FromCamera, FromLight};
 
 /// One technique.
@@ -84,47 +90,85 @@ impl Bidirectional {
         }
     }
 
-    /// One sample; the lists are only lent, so that they need not be made anew.
-    fn sample_with<'w, W: World, S: Sampler, K: Sink>(
+    /// What a sample starts with.
+    fn start<W: World>(
         &self,
-        world: &'w W,
+        world: &W,
         site: &PixelSite,
-        sampler: &mut S,
-        sink: &mut K,
-        [eye, light]: [&mut Vec<Corner<W::Bsdf<'w>>>; 2],
-    ) {
+        sampler: &mut impl Sampler,
+    ) -> Start<'_> {
         let (wavelengths, ray, weight) = camera_ray(world, site, sampler);
-        let sensor = sensor_response(&wavelengths);
-        eye.clear();
-        light.clear();
-        let settings = &self.settings;
-        let mut start = FromLight::start(world, &wavelengths, settings, sampler);
-        if let Some(start) = &mut start {
-            start.walk(world, &wavelengths, settings, sampler, light);
-        }
-        sampler.skip_to(dim::LENS);
-        let mut connector = Connector {
-            world,
-            wavelengths: &wavelengths,
-            settings,
+        Start {
+            settings: &self.settings,
             only: self.only,
-            site,
-            lens: sampler.next_2d(),
-            start: start.as_ref(),
-            light,
-            camera_connects: false,
-            radiance: Vec4::ZERO,
-        };
-        let mut walk = FromCamera::start(ray, settings);
-        while walk.advance(world, &wavelengths, settings, sampler, eye, &mut connector) {}
-        connector.see_all(|raster, value| {
-            sink.splat(raster, sensor.rgb(value).to_array());
-        });
-        sink.radiance(
-            sensor.rgb(connector.radiance * weight).to_array(),
-            walk.alpha,
-        );
+            wavelengths,
+            ray,
+            weight,
+            merging: None,
+        }
     }
+}
+
+/// What a sample starts with.
+pub(crate) struct Start<'a> {
+    pub(crate) settings: &'a PathSettings,
+    /// The only technique that is asked for, if not all are.
+    pub(crate) only: Option<Technique>,
+    pub(crate) wavelengths: Wavelengths,
+    /// The camera's ray, and what it counts.
+    pub(crate) ray: Ray,
+    pub(crate) weight: f32,
+    /// The photons to merge with, if any.
+    pub(crate) merging: Option<&'a Merging>,
+}
+
+/// One sample; the lists are only lent, so that they need not be made anew.
+pub(crate) fn estimate<'w, W: World, S: Sampler, K: Sink>(
+    world: &'w W,
+    begin: &Start<'_>,
+    site: &PixelSite,
+    sampler: &mut S,
+    sink: &mut K,
+    [eye, light]: [&mut Vec<Corner<W::Bsdf<'w>>>; 2],
+) {
+    let Start {
+        settings,
+        only,
+        wavelengths,
+        ray,
+        weight,
+        merging,
+    } = begin;
+    let sensor = sensor_response(wavelengths);
+    eye.clear();
+    light.clear();
+    let mut start = FromLight::start(world, wavelengths, settings, sampler);
+    if let Some(start) = &mut start {
+        start.walk(world, wavelengths, settings, sampler, light, usize::MAX);
+    }
+    sampler.skip_to(dim::LENS);
+    let mut connector = Connector {
+        world,
+        wavelengths,
+        settings,
+        only: *only,
+        site,
+        lens: sampler.next_2d(),
+        start: start.as_ref(),
+        light,
+        camera_connects: false,
+        merging: *merging,
+        radiance: Vec4::ZERO,
+    };
+    let mut walk = FromCamera::start(*ray, settings);
+    while walk.advance(world, wavelengths, settings, sampler, eye, &mut connector) {}
+    connector.see_all(|raster, value| {
+        sink.splat(raster, sensor.rgb(value).to_array());
+    });
+    sink.radiance(
+        sensor.rgb(connector.radiance * *weight).to_array(),
+        walk.alpha,
+    );
 }
 
 /// The single technique that a description asks for.
@@ -156,10 +200,36 @@ fn technique(params: &Params<'_>) -> Option<Technique> {
 }
 
 impl Integrator for Bidirectional {
+    const UNBIASED: bool = true;
+
     type State = ();
 
     fn splats(&self) -> bool {
         true
+    }
+
+    fn objections(&self, sight: &Sight) -> Vec<Objection> {
+        let Some(only) = self.only else {
+            return sight.objections(Finding::Either);
+        };
+        let mut objections = sight.objections(match only.light {
+            0 => Finding::Hitting,
+            _ => Finding::Choosing,
+        });
+        let segments = only.light + only.camera - 1;
+        let max_depth = self.settings.max_depth;
+        if u32::try_from(segments).map_or(true, |segments| segments > max_depth) {
+            let message = format!(
+                "the technique s = {}, t = {} makes paths of {segments} segments, and `max_depth` is {max_depth}",
+                only.light, only.camera
+            );
+            let objection = Objection::fatal(Subject::Parameter("s"), message).help(format!(
+                "raise `max_depth` to {segments}, or ask for s + t of at most {}",
+                u64::from(max_depth) + 1
+            ));
+            objections.push(objection);
+        }
+        objections
     }
 
     fn prepare<W: World>(&self, _: &W, _: &Pass, _: Option<()>) {}
@@ -173,7 +243,14 @@ impl Integrator for Bidirectional {
         sink: &mut K,
     ) {
         let lists = [&mut Vec::new(), &mut Vec::new()];
-        self.sample_with(world, site, sampler, sink, lists);
+        estimate(
+            world,
+            &self.start(world, site, sampler),
+            site,
+            sampler,
+            sink,
+            lists,
+        );
     }
 
     fn sample_all<W: World, S: Sampler, K: TileSink>(
@@ -187,7 +264,8 @@ impl Integrator for Bidirectional {
         for draft in drafts {
             sink.begin_sample(draft.site.pixel, draft.weight);
             let lists = [&mut eye, &mut light];
-            self.sample_with(world, &draft.site, &mut draft.sampler, sink, lists);
+            let start = self.start(world, &draft.site, &mut draft.sampler);
+            estimate(world, &start, &draft.site, &mut draft.sampler, sink, lists);
         }
     }
 }

@@ -157,7 +157,7 @@ impl FromLight {
         }
     }
 
-    /// Follows the particle, and notes its corners.
+    /// Follows the particle around at most `limit` corners, and notes them.
     pub(super) fn walk<'w, W: World>(
         &mut self,
         world: &'w W,
@@ -165,6 +165,7 @@ impl FromLight {
         settings: &PathSettings,
         sampler: &mut impl Sampler,
         corners: &mut Vec<Corner<W::Bsdf<'w>>>,
+        limit: usize,
     ) {
         let emission = &self.emission;
         let mut carried = Carried {
@@ -178,8 +179,9 @@ impl FromLight {
             segments: 1,
         };
         let mut parent: Option<usize> = None;
+        let mut rounded = 0;
         // One more segment, at least, leads from a corner to the camera.
-        while carried.segments < settings.max_depth {
+        while carried.segments < settings.max_depth && rounded < limit {
             let Some(hit) = world.intersect(&carried.ray) else {
                 return;
             };
@@ -257,6 +259,7 @@ impl FromLight {
             carried.ray = vertex.spawn(sample.wi);
             carried.segments += 1;
             parent = Some(place);
+            rounded += 1;
         }
     }
 }

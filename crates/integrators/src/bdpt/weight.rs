@@ -9,6 +9,9 @@
 //!
 //! The first two products are the density ratios that prefixes carry; the third grows by a factor a
 //! step. Only densities of lane 0, which really chose, are divided by.
+//!
+//! Merging at xᵢ (see [`crate::vcm`]) arrives there from both sides: its density is that of technique i
+//! times aᵢ, or of technique i + 1 times bᵢ, and n π r².
 
 use super::corner::Corner;
 use glam::Vec4;
@@ -31,11 +34,14 @@ pub(super) struct LightEnd {
     pub(super) emitted: f32,
     /// a₀ of light sampling.
     pub(super) sampled: f32,
+    /// See [`CameraEnd::merging`].
+    pub(super) merging: f32,
 }
 
 /// Σ over techniques with fewer light vertices than a path whose last corner from the light is
 /// `corners[last]`. `rest` is the density ratio of the camera's part, `ends` the camera walk's densities at
-/// the last corner and the one before it, `opposite` that at the light once it is farther away.
+/// the last corner and the one before it, `opposite` that at the light once it is farther away; `connects` says
+/// whether the last corner may be an end of a connection.
 pub(super) fn fewer<B>(
     corners: &[Corner<B>],
     last: usize,
@@ -43,12 +49,11 @@ pub(super) fn fewer<B>(
     ends: Ends,
     light: LightEnd,
     opposite: Vec4,
+    mut connects: bool,
 ) -> f32 {
     let mut sum = 0.0;
     let mut product = rest;
     let mut at = Some(last);
-    // Whether the vertex at hand may be an end of a connection: that of the path itself is one.
-    let mut connects = true;
     for step in 0.. {
         let Some(index) = at else {
             break;
@@ -59,6 +64,9 @@ pub(super) fn fewer<B>(
             1 => ends.before,
             _ => corner.opposite,
         };
+        if connects && light.merging > 0.0 {
+            sum += light.merging * (product * b * corner.prefix.ratio).element_sum();
+        }
         product *= b / corner.arrival;
         at = corner.parent;
         let here = connects;
@@ -91,6 +99,10 @@ pub(super) struct CameraEnd {
     pub(super) connects: bool,
     /// How many samples can make a connection with the camera.
     pub(super) samples: f32,
+    /// n π r², the area on which photons are merged times their number (m²): over the density per area
+    /// with which either walk arrives at a corner, what makes of a connection there a merging. Zero
+    /// if there is none, as in `bdpt`.
+    pub(super) merging: f32,
 }
 
 /// Σ over techniques with more light vertices than a path whose last corner from the camera is the last of
@@ -109,14 +121,17 @@ pub(super) fn more<'c, B: 'c>(
     let mut step = 0;
     while let Some(corner) = walk.next() {
         let next = walk.peek();
-        if next.is_none() && !camera.connects {
-            break;
-        }
         let a = match step {
             0 => ends.here,
             1 => ends.before,
             _ => corner.opposite,
         };
+        if connects && camera.merging > 0.0 {
+            sum += camera.merging * (product * a * corner.prefix.ratio).element_sum();
+        }
+        if next.is_none() && !camera.connects {
+            break;
+        }
         product *= a / corner.arrival;
         let here = connects;
         match next {

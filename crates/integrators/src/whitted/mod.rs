@@ -35,7 +35,9 @@ mod tree;
 
 use etalon_params::Params;
 use etalon_sampling::Sampler;
-use etalon_transport::{Draft, Integrator, Pass, PixelSite, Sink, TileSink, World};
+use etalon_transport::{
+    Draft, Integrator, Objection, Pass, PixelSite, Sight, Sink, Subject, TileSink, World,
+};
 use glam::{UVec2, Vec4};
 pub use pixel::Grid;
 use std::sync::OnceLock;
@@ -166,16 +168,14 @@ impl Picture {
 impl Integrator for Whitted {
     type State = Picture;
 
-    fn shows_classic(&self) -> bool {
-        true
-    }
-
-    fn obstacle<W: World>(&self, world: &W) -> Option<String> {
-        world.has_background().then(|| {
-            "`whitted` asks every light at fixed points, and this scene has a sky, which shines \
-             from everywhere"
-                .to_owned()
-        })
+    /// It asks all lights, and shows classic materials; a sky has no point to ask.
+    fn objections(&self, sight: &Sight) -> Vec<Objection> {
+        let message = "`whitted` asks every light at fixed points, and this scene has a sky, which \
+                       shines from everywhere";
+        let sky = sight
+            .sky
+            .then(|| Objection::fatal(Subject::Integrator, message));
+        sky.into_iter().collect()
     }
 
     fn prepare<W: World>(&self, _: &W, pass: &Pass, before: Option<Picture>) -> Picture {

@@ -4,6 +4,9 @@
 //! along any ray is Σᵢ ρⁱ, i = 0 … n − 1 segments (the series 1/(1 − ρ) when unlimited). The
 //! world below has no scene, no materials and no shapes: what is tested is the estimator.
 
+mod chains;
+mod chance;
+mod photons;
 mod techniques;
 mod world;
 

@@ -27,6 +27,9 @@ pub(crate) struct Sphere {
     pub(crate) camera: Pinhole,
 }
 
+/// Radius of the aperture that particles can hit.
+const APERTURE: f32 = 0.6;
+
 pub(crate) struct Pinhole {
     fault: Fault,
 }
@@ -55,6 +58,31 @@ impl Camera for Pinhole {
             target: Vec3::ZERO,
             weight: 0.25 / (cos.powi(power) * point.length_squared()),
         })
+    }
+
+    /// A wide aperture about the pinhole. Its ray starts in the middle all the same: what it would
+    /// see is the same from everywhere.
+    fn receive(&self, ray: &Ray, _: f32) -> Option<Reception> {
+        let t = -ray.origin.z / ray.direction.z;
+        let slope = ray.direction.truncate() / ray.direction.z;
+        let raster = (slope + 1.0) * 0.5;
+        let inside = raster.min_element() >= 0.0 && raster.max_element() <= 1.0;
+        let arrives = t > 0.0 && ray.direction.z < 0.0 && ray.at(t).length() < APERTURE;
+        let cos = -ray.direction.z;
+        let power = if self.fault == Fault::Importance {
+            3
+        } else {
+            4
+        };
+        (inside && arrives).then(|| Reception {
+            raster,
+            t,
+            weight: 0.25 / (cos.powi(power) * PI * APERTURE * APERTURE),
+        })
+    }
+
+    fn can_receive(&self) -> bool {
+        true
     }
 
     fn has_lens(&self) -> bool {

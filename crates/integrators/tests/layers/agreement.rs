@@ -42,7 +42,7 @@ pub(crate) fn everything() -> Stack {
 }
 
 /// Mirrors whose direction turns with wavelength, below a filter and a uniform sky.
-fn rainbow() -> Stack {
+pub(crate) fn rainbow() -> Stack {
     let planes = vec![
         Plane {
             smooth: 0.6,

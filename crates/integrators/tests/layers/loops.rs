@@ -143,6 +143,7 @@ impl Integrator for Marbles {
         let length = self.samples_per_pass.unwrap_or(4).max(1);
         assert_eq!(pass.count, 4_u32.div_ceil(length));
         assert_eq!(pass.samples, length.min(4 - pass.number * length));
+        assert_eq!(pass.image_samples % 4, 0);
         let turn = pass.replicate * pass.count + pass.number;
         let first = self.first_replicate * pass.count;
         assert_eq!(before, turn.checked_sub(1).filter(|_| turn > first));

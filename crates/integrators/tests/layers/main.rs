@@ -9,9 +9,11 @@
 mod agreement;
 mod channels;
 mod exact;
+mod guided;
 mod lanes;
 mod loops;
 mod measure;
+mod naive;
 mod recursive;
 mod scatter;
 mod together;

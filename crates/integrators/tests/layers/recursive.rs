@@ -32,8 +32,10 @@ const PASS: Pass = Pass {
     number: 0,
     count: 1,
     samples: 1,
+    image_samples: 1,
     origin: UVec2::ZERO,
     size: UVec2::ONE,
+    margin: 0,
 };
 
 struct Seen([f32; 3]);

@@ -18,6 +18,8 @@ pub(crate) struct Scatter {
     pub(crate) normal: Vec3,
     pub(crate) tilt: Vec4,
     pub(crate) fault: Fault,
+    /// Whether it says that it scatters to one side only.
+    pub(crate) one_sided: bool,
 }
 
 impl Scatter {
@@ -105,6 +107,12 @@ impl Bsdf for Scatter {
     }
     fn has_continuous(&self) -> bool {
         self.share < 1.0
+    }
+    fn has_discrete(&self) -> bool {
+        self.share > 0.0
+    }
+    fn hemisphere(&self) -> Option<Frame> {
+        self.one_sided.then(|| Frame::from_normal(self.normal))
     }
     fn passing(&self) -> Vec4 {
         self.passing

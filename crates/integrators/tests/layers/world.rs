@@ -79,6 +79,8 @@ pub(crate) struct Stack {
     /// If given, every path carries a rotation of these wavelengths.
     pub fixed: Option<Wavelengths>,
     pub fault: Fault,
+    /// Whether scattering models say that they scatter to one side only.
+    pub one_sided: bool,
     pub distribution: WavelengthDistribution,
 }
 
@@ -119,6 +121,7 @@ impl Stack {
             camera: Camera1D { height, up },
             fixed: None,
             fault: Fault::None,
+            one_sided: true,
             distribution: WavelengthDistribution::default(),
         }
     }
@@ -234,6 +237,7 @@ impl World for Stack {
             normal: Vec3::Z * wo.z.signum(),
             tilt: lambda.map(tilt),
             fault: self.fault,
+            one_sided: self.one_sided,
         }
     }
     fn emitted(&self, vertex: &Vertex, wo: Vec3, wavelengths: &Wavelengths) -> Vec4 {

@@ -1,0 +1,43 @@
+//! Where an estimator's objections to a scene are shown.
+
+use crate::pipeline::place;
+use etalon_params::{Class, Diagnostic, Node, Span, Value};
+use etalon_transport::{Objection, Subject};
+
+/// An objection as a message at the place in the scene file that it is about; `classic` is where a
+/// classic Phong material is described.
+pub(crate) fn diagnostic(objection: Objection, root: &Node, classic: Option<Span>) -> Diagnostic {
+    let span = match objection.subject {
+        Subject::Integrator => place(root, &[Class::Integrator]),
+        Subject::Parameter(name) => {
+            parameter(root, name).unwrap_or_else(|| place(root, &[Class::Integrator]))
+        }
+        Subject::Classic => classic.unwrap_or(root.plugin.span),
+        Subject::Camera => place(root, &[Class::Sensor]),
+        Subject::Scene => root.plugin.span,
+    };
+    let diagnostic = if objection.fatal {
+        Diagnostic::error(span, objection.message)
+    } else {
+        Diagnostic::note(span, objection.message)
+    };
+    Diagnostic {
+        help: objection.help,
+        ..diagnostic
+    }
+}
+
+/// Where a parameter of the scene's integrator stands, or of one nested in it.
+fn parameter(node: &Node, name: &str) -> Option<Span> {
+    let is_integrator = node.class == Class::Integrator;
+    let own = node
+        .properties
+        .iter()
+        .find(|p| is_integrator && p.name == name);
+    own.map(|p| p.span).or_else(|| {
+        node.properties.iter().find_map(|p| match &p.value {
+            Value::Object(child) if child.class == Class::Integrator => parameter(child, name),
+            _ => None,
+        })
+    })
+}

@@ -1,0 +1,182 @@
+//! An estimator that cannot see a scene's light says so: no picture is black without a word.
+
+use crate::workshop::{Ran, Workshop};
+
+const POINT: &str =
+    "<emitter type=\"point\"><point name=\"position\" value=\"0, 2, 0\"/></emitter>";
+const LAMP: &str = "<shape type=\"sphere\"><emitter type=\"area\"/></shape>";
+const UNCHOSEN: &str =
+    "<emitter type=\"point\"><float name=\"sampling_weight\" value=\"0\"/></emitter>";
+const PINHOLE: &str = "<sensor type=\"perspective\">";
+const LENS: &str = "<sensor type=\"thinlens\"><float name=\"aperture_radius\" value=\"1\"/>";
+
+/// Renders a floor under lights with an integrator, which stands in line 2, the camera in line 3.
+fn render(integrator: &str, sensor: &str, lights: &str) -> Ran {
+    let workshop = Workshop::new();
+    let scene = format!(
+        "<scene version=\"3.0.0\">
+{integrator}
+{sensor}<film type=\"hdrfilm\"><integer name=\"width\" value=\"4\"/><integer name=\"height\" value=\"4\"/></film></sensor>
+<shape type=\"rectangle\"/>{lights}</scene>"
+    );
+    workshop.write("a.xml", scene);
+    workshop.run(&["render", "a.xml", "-o", "a.exr", "--spp", "1"])
+}
+
+fn named(integrator: &str) -> String {
+    format!("<integrator type=\"{integrator}\"/>")
+}
+
+/// Rendering goes on, with this remark.
+#[track_caller]
+fn remarks(ran: Ran, place: &str, words: &str) {
+    let ran = ran.fine();
+    let heading = format!("a.xml:{place}: note: ");
+    assert!(ran.stderr.contains(&heading), "{}", ran.stderr);
+    assert!(ran.stderr.contains(words), "{}", ran.stderr);
+}
+
+/// Rendering is refused, with this error.
+#[track_caller]
+fn refuses(ran: Ran, place: &str, words: &str) {
+    let ran = ran.refused();
+    let heading = format!("a.xml:{place}: error: ");
+    assert!(ran.stderr.contains(&heading), "{}", ran.stderr);
+    assert!(ran.stderr.contains(words), "{}", ran.stderr);
+}
+
+#[track_caller]
+fn says_nothing(ran: Ran) {
+    let ran = ran.fine();
+    assert_eq!(ran.stderr.lines().count(), 1, "{}", ran.stderr);
+}
+
+#[test]
+fn a_scene_without_light_is_remarked_upon() {
+    let black = "<shape type=\"sphere\"><emitter type=\"area\"><rgb name=\"radiance\" value=\"0, 0, 0\"/></emitter></shape>";
+    for integrator in ["path", "direct", "naive", "ptracer", "bdpt"] {
+        for lights in ["", black] {
+            let ran = render(&named(integrator), PINHOLE, lights);
+            remarks(ran, "1:1", "nothing in this scene emits light");
+        }
+    }
+    let nested = "<integrator type=\"moment\"><integrator type=\"path\"/></integrator>";
+    remarks(render(nested, PINHOLE, ""), "1:1", "emits light");
+    // What needs no light says nothing.
+    for integrator in ["depth", "signature", "ao"] {
+        says_nothing(render(&named(integrator), PINHOLE, ""));
+    }
+    let aov = "<integrator type=\"aov\"><string name=\"aovs\" value=\"d:depth\"/></integrator>";
+    says_nothing(render(aov, PINHOLE, ""));
+}
+
+#[test]
+fn lights_that_are_seen_give_no_reason_to_speak() {
+    for integrator in ["path", "direct", "ptracer", "bdpt"] {
+        let lights = format!("{POINT}{LAMP}<emitter type=\"constant\"/>");
+        says_nothing(render(&named(integrator), PINHOLE, &lights));
+    }
+}
+
+#[test]
+fn point_lights_are_invisible_to_what_must_hit_them() {
+    let direct =
+        "<integrator type=\"direct\"><integer name=\"emitter_samples\" value=\"0\"/></integrator>";
+    refuses(
+        render(direct, PINHOLE, POINT),
+        "2:19",
+        "cannot see any light",
+    );
+    let both = format!("{POINT}{LAMP}");
+    remarks(
+        render(direct, PINHOLE, &both),
+        "2:19",
+        "1 of the scene's 2 lights",
+    );
+}
+
+#[test]
+fn lights_that_are_never_chosen_are_invisible_to_what_chooses() {
+    refuses(
+        render(&named("path"), PINHOLE, UNCHOSEN),
+        "2:19",
+        "sampling_weight",
+    );
+    let both = format!("{UNCHOSEN}{LAMP}");
+    remarks(
+        render(&named("path"), PINHOLE, &both),
+        "2:19",
+        "1 of the scene's 2 lights",
+    );
+    let lamp = LAMP.replace(
+        "area\"/>",
+        "area\"><float name=\"sampling_weight\" value=\"0\"/></emitter>",
+    );
+    refuses(
+        render(&named("ptracer"), PINHOLE, &lamp),
+        "2:19",
+        "sampling_weight",
+    );
+    says_nothing(render(&named("path"), PINHOLE, &lamp));
+}
+
+#[test]
+fn techniques_longer_than_the_longest_path_are_refused() {
+    let bdpt = |max_depth: u32| {
+        format!(
+            "<integrator type=\"bdpt\"><integer name=\"s\" value=\"2\"/><integer name=\"t\" value=\"3\"/>\
+             <integer name=\"max_depth\" value=\"{max_depth}\"/></integrator>"
+        )
+    };
+    refuses(render(&bdpt(3), PINHOLE, POINT), "2:50", "4 segments");
+    says_nothing(render(&bdpt(4), PINHOLE, POINT));
+    let hitting = "<integrator type=\"bdpt\"><integer name=\"s\" value=\"0\"/><integer name=\"t\" value=\"3\"/></integrator>";
+    refuses(render(hitting, PINHOLE, POINT), "2:19", "running into them");
+}
+
+#[test]
+fn paths_without_segments_are_remarked_upon() {
+    let path = "<integrator type=\"path\"><integer name=\"max_depth\" value=\"0\"/></integrator>";
+    remarks(render(path, PINHOLE, POINT), "2:58", "0 segments");
+}
+
+#[test]
+fn forward_needs_an_aperture() {
+    for lights in [LAMP, "", POINT] {
+        let ran = render(&named("forward"), PINHOLE, lights);
+        assert!(ran.stderr.contains("thinlens"), "{}", ran.stderr);
+        refuses(ran, "3:15", "this camera has none");
+    }
+    let closed = LENS.replace("value=\"1\"", "value=\"0\"");
+    refuses(
+        render(&named("forward"), &closed, LAMP),
+        "3:15",
+        "this camera has none",
+    );
+    says_nothing(render(&named("forward"), LENS, LAMP));
+    says_nothing(render(&named("forward"), LENS, POINT));
+    remarks(render(&named("forward"), LENS, ""), "1:1", "emits light");
+}
+
+#[test]
+fn naive_needs_lights_with_extent() {
+    refuses(
+        render(&named("naive"), PINHOLE, POINT),
+        "2:19",
+        "running into them",
+    );
+    let sky = format!("{POINT}<emitter type=\"constant\"/>");
+    remarks(
+        render(&named("naive"), PINHOLE, &sky),
+        "2:19",
+        "1 of the scene's 2 lights",
+    );
+    says_nothing(render(&named("naive"), PINHOLE, LAMP));
+    let nested = "<integrator type=\"aov\"><string name=\"aovs\" value=\"d:depth\"/><integrator type=\"naive\"/></integrator>";
+    refuses(render(nested, PINHOLE, POINT), "2:19", "running into them");
+}
+
+#[test]
+fn a_lens_changes_nothing_for_what_connects() {
+    says_nothing(render(&named("ptracer"), LENS, LAMP));
+}

@@ -1,0 +1,201 @@
+//! Merging: a corner of the camera's walk and a photon near it, taken for the same point.
+//!
+//! A photon at xᵢ, made with the densities a₀ … aᵢ, and a camera's corner there, made with bᵢ … , are
+//! merged where they are less than r apart, with n photons to choose from: technique i's density times
+//! aᵢ n π r² (Georgiev, Křivánek, Davidovič, Slusallek 2012, eq. 7). Against it stand all others
+//! that would have made the path: those with more vertices from the light are weighed when the
+//! photon is found ([`super::weight::more`]); those with fewer depend on the camera's walk by its density at
+//! the photon's parent alone, in which they are linear. So a photon carries one factor per lane for them.
+
+use super::connect::Connector;
+use super::corner::Corner;
+use super::subpath::FromLight;
+use super::weight::{Ends, LightEnd, fewer, more};
+use crate::photons::kdtree::KdTree;
+use crate::settings::PathSettings;
+use etalon_sampling::Sampler;
+use etalon_spectrum::Wavelengths;
+use etalon_transport::{Bsdf, Mode, World};
+use glam::{Vec3, Vec4};
+
+/// The least cosine of the angle between the normals of surfaces that are merged.
+const FACING: f32 = 0.7;
+
+/// A corner of a walk from the light, without its scattering model.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Photon {
+    /// Where (m).
+    position: Vec3,
+    /// Unit geometric normal there.
+    normal: Vec3,
+    /// Unit direction to where it came from.
+    from: Vec3,
+    /// f/p₀ of its walk, over the cosine of its arrival.
+    value: Vec4,
+    /// pₖ/p₀ of its walk.
+    ratio: Vec4,
+    /// aᵢ of the lane that chose (m⁻²).
+    arrival: f32,
+    /// Density ratio of the technique that connects its parent with its place; for a photon straight from a light,
+    /// of light sampling.
+    connected: Vec4,
+    /// What the techniques with fewer vertices from the light sum up to, over the density per solid angle with which the
+    /// camera's walk leaves toward the parent.
+    fewer: Vec4,
+    /// Segments behind it.
+    segments: u32,
+}
+
+/// The photons of a pass.
+#[derive(Debug)]
+pub(crate) struct Merging {
+    tree: KdTree,
+    photons: Vec<Photon>,
+    radius_squared: f32,
+    /// n π r² (m²).
+    area: f32,
+}
+
+impl Merging {
+    /// Photons of `count` walks to be merged within a radius.
+    pub(crate) fn new(photons: Vec<Photon>, radius: f32, count: u32) -> Self {
+        let (tree, order) = KdTree::new(photons.iter().map(|photon| photon.position));
+        Self {
+            tree,
+            photons: order.iter().map(|i| photons[*i as usize]).collect(),
+            radius_squared: radius * radius,
+            area: area(radius, count),
+        }
+    }
+}
+
+/// n π r².
+fn area(radius: f32, count: u32) -> f32 {
+    count as f32 * core::f32::consts::PI * radius * radius
+}
+
+/// Follows a walk from a light, and adds its photons; `count` walks will be merged within `radius`.
+pub(crate) fn shoot<W: World>(
+    world: &W,
+    wavelengths: &Wavelengths,
+    settings: &PathSettings,
+    (radius, count): (f32, u32),
+    sampler: &mut impl Sampler,
+    photons: &mut Vec<Photon>,
+) {
+    let Some(mut start) = FromLight::start(world, wavelengths, settings, sampler) else {
+        return;
+    };
+    let mut corners = Vec::new();
+    start.walk(
+        world,
+        wavelengths,
+        settings,
+        sampler,
+        &mut corners,
+        usize::MAX,
+    );
+    let merging = area(radius, count);
+    let scatter = corners.iter().filter(|c| c.bsdf.has_continuous());
+    photons.extend(scatter.filter_map(|corner| photon(&start, &corners, corner, merging)));
+}
+
+/// The photon that a corner is.
+fn photon<B: Bsdf>(
+    start: &FromLight,
+    corners: &[Corner<B>],
+    corner: &Corner<B>,
+    merging: f32,
+) -> Option<Photon> {
+    let vertex = &corner.vertex;
+    let cos = vertex.normal.dot(corner.wo).abs();
+    let origin = start.emission.density.origin;
+    let (connected, fewer) = match corner.parent {
+        None => {
+            let found = if start.emission.origin.can_be_hit() {
+                start.per_area(start.distance_squared(vertex.position)) / origin
+            } else {
+                0.0
+            };
+            (Vec4::splat(corner.direct / origin), Vec4::splat(found))
+        }
+        Some(index) => {
+            let parent = &corners[index];
+            let connects = !parent.leaves_discretely;
+            let before = parent.parent;
+            let ends = Ends {
+                here: Vec4::ONE,
+                before: before.map_or(start.opposite, |before| corners[before].opposite),
+            };
+            let first = core::iter::successors(Some(index), |i| corners[*i].parent).last()?;
+            let light = LightEnd {
+                can_be_hit: start.emission.origin.can_be_hit(),
+                emitted: origin,
+                sampled: corners[first].direct,
+                merging,
+            };
+            let lane = |rest| fewer(corners, index, rest, ends, light, start.opposite, connects);
+            let lanes = [Vec4::X, Vec4::Y, Vec4::Z, Vec4::W].map(lane);
+            let distance_squared = parent.vertex.position.distance_squared(vertex.position);
+            let per_area = parent.per_area(corner.wo, distance_squared);
+            let connected = if connects {
+                parent.prefix.ratio
+            } else {
+                Vec4::ZERO
+            };
+            (connected, Vec4::from_array(lanes) * per_area)
+        }
+    };
+    (cos > 0.0).then(|| Photon {
+        position: vertex.position,
+        normal: vertex.normal,
+        from: corner.wo,
+        value: corner.prefix.value / cos,
+        ratio: corner.prefix.ratio,
+        arrival: corner.arrival,
+        connected,
+        fewer: fewer * corner.passed,
+        segments: corner.segments,
+    })
+}
+
+impl<'w, W: World> Connector<'_, 'w, W> {
+    /// n π r², zero if nothing is merged.
+    pub(super) fn area(&self) -> f32 {
+        self.merging.map_or(0.0, |merging| merging.area)
+    }
+
+    /// Merges the camera walk's corner with the photons around it.
+    pub(super) fn merge(&mut self, corner: &Corner<W::Bsdf<'w>>, eye: &[Corner<W::Bsdf<'w>>]) {
+        let Some(merging) = self.merging else {
+            return;
+        };
+        let (place, max_depth) = (corner.vertex.position, self.settings.max_depth);
+        let (camera_end, theirs) = (self.camera_end(), corner.prefix.ratio);
+        let mut radiance = Vec4::ZERO;
+        merging.tree.within(place, merging.radius_squared, |found| {
+            let photon = &merging.photons[found.place];
+            if corner.segments.saturating_add(photon.segments) > max_depth
+                || photon.normal.dot(corner.vertex.normal) < FACING
+            {
+                return;
+            }
+            let (value, density) =
+                (corner.bsdf).eval_and_density(corner.wo, photon.from, Mode::Radiance);
+            let value = photon.value * value * corner.prefix.value;
+            if value == Vec4::ZERO {
+                return;
+            }
+            // Relative to technique i, whose density merging multiplies by aᵢ n π r²: divided out below, it leaves aᵢ.
+            let mut total = (photon.connected * theirs).element_sum();
+            total += (photon.fewer * density.lanes() * theirs).element_sum();
+            let ends = Ends {
+                here: photon.ratio * photon.arrival,
+                before: self.beyond(corner, eye, photon.from),
+            };
+            total += more(Some(corner), eye, Vec4::ONE, ends, true, camera_end);
+            radiance += value * (photon.arrival / total);
+        });
+        self.radiance += radiance;
+    }
+}

@@ -1,0 +1,218 @@
+//! What was learned of where light comes from: for every region of space a density of directions.
+//!
+//! A binary tree divides a cube in halves, along x, y and z in turn (the spatial half of the SD-tree of
+//! Müller, Gross & Novák 2017, §3.1). Each of its leaves has a [`Quadtree`] over the unit square, which an
+//! equal-area map takes to the sphere of directions: p(ω) = p(u) / 4π. It has one for each of the six
+//! sides to which surfaces may look: so the cosine can be learned with the radiance, and a floor does not
+//! look for light where the wall beside it finds some.
+
+use etalon_math::{Density, SolidAngle};
+use etalon_sampling::discrete::{Quadtree, Refinement};
+use etalon_sampling::hash::ONE_MINUS;
+use etalon_sampling::warps::{
+    UNIFORM_SPHERE_DENSITY, square_to_uniform_sphere, uniform_sphere_to_square,
+};
+use glam::{Vec2, Vec3};
+use std::sync::LazyLock;
+
+/// Directions from which light comes, region by region.
+#[derive(Clone, Debug)]
+pub(crate) struct Field {
+    /// The corner of the cube (m).
+    corner: Vec3,
+    /// One over the cube's side (m⁻¹).
+    scale: f32,
+    /// The two halves of every inner node; the first is the root.
+    branches: Vec<[Child; 2]>,
+    regions: Vec<Region>,
+}
+
+#[derive(Clone, Copy, Debug)]
+enum Child {
+    Branch(u32),
+    Region(u32),
+}
+
+/// The faces of a region: which of ±x, ±y, ±z a surface's normal is nearest to.
+pub(crate) const FACES: usize = 6;
+
+/// The face of a surface with this normal.
+#[inline]
+pub(crate) fn face(normal: Vec3) -> usize {
+    let axis = normal.abs().max_position();
+    2 * axis + usize::from(normal[axis] < 0.0)
+}
+
+/// Where light comes from, for surfaces that look to each side; `None` where nothing was learned.
+pub(crate) type Lobes = [Option<Quadtree>; FACES];
+
+/// A leaf of the spatial tree.
+#[derive(Clone, Debug)]
+pub(crate) struct Region {
+    /// Its size (m).
+    pub(crate) size: Vec3,
+    /// The directions from which light comes.
+    pub(crate) lobes: Lobes,
+}
+
+impl Region {
+    /// The quadtree of a face whose leaves learn.
+    pub(crate) fn tree(&self, face: usize) -> &Quadtree {
+        static UNIFORM: LazyLock<Quadtree> = LazyLock::new(Quadtree::uniform);
+        self.lobes[face].as_ref().unwrap_or(&UNIFORM)
+    }
+}
+
+/// No region is halved more often than this: in each dimension 16 times.
+const DEEPEST: u32 = 48;
+
+/// What was learned of a region in one round.
+pub(crate) struct Lesson {
+    /// The new densities of directions.
+    pub(crate) lobes: Lobes,
+    /// How many directions it was learned from.
+    pub(crate) records: u64,
+}
+
+impl Field {
+    /// One region, of which nothing is known, that holds the box between two points.
+    pub(crate) fn new(from: Vec3, to: Vec3) -> Self {
+        // A little larger, and never empty.
+        let side = (to - from).max_element().max(f32::MIN_POSITIVE.sqrt()) * 1.001;
+        Self {
+            corner: 0.5 * (from + to) - 0.5 * side,
+            scale: 1.0 / side,
+            branches: Vec::new(),
+            regions: vec![Region {
+                size: Vec3::splat(side),
+                lobes: Lobes::default(),
+            }],
+        }
+    }
+
+    /// The regions.
+    pub(crate) fn regions(&self) -> &[Region] {
+        &self.regions
+    }
+
+    /// The index of the region in which a point lies; points outside of the cube count to the nearest.
+    #[inline]
+    pub(crate) fn find(&self, point: Vec3) -> usize {
+        let place = (point - self.corner) * self.scale;
+        let mut place = place.clamp(Vec3::ZERO, Vec3::splat(ONE_MINUS));
+        let Some(mut branch) = self.branches.first() else {
+            return 0;
+        };
+        loop {
+            let above = place.x >= 0.5;
+            // Now halve along the next axis.
+            place = Vec3::new(place.y, place.z, 2.0 * place.x - f32::from(u8::from(above)));
+            match branch[usize::from(above)] {
+                Child::Branch(index) => branch = &self.branches[index as usize],
+                Child::Region(index) => return index as usize,
+            }
+        }
+    }
+
+    /// Where light comes from at a point of a surface with this normal, if that was learned.
+    #[inline]
+    pub(crate) fn lobe(&self, point: Vec3, normal: Vec3) -> Option<&Quadtree> {
+        self.regions[self.find(point)].lobes[face(normal)].as_ref()
+    }
+
+    /// The field with what was learned of each region, in their order. Regions with more than `most`
+    /// records are halved until their parts, if all had as many, have fewer.
+    pub(crate) fn learned(self, lessons: Vec<Lesson>, most: u64) -> Self {
+        let mut field = Self {
+            branches: Vec::new(),
+            regions: Vec::with_capacity(self.regions.len()),
+            ..self
+        };
+        let old = Old {
+            branches: &self.branches,
+            regions: &self.regions,
+            lessons: &lessons,
+        };
+        let root = match self.branches.first() {
+            Some(_) => Child::Branch(0),
+            None => Child::Region(0),
+        };
+        field.copy(root, 0, &old, most);
+        field
+    }
+
+    fn copy(&mut self, child: Child, depth: u32, old: &Old<'_>, most: u64) -> Child {
+        match child {
+            Child::Branch(index) => {
+                let [below, above] = old.branches[index as usize];
+                let at = self.branch();
+                let below = self.copy(below, depth + 1, old, most);
+                let above = self.copy(above, depth + 1, old, most);
+                self.branches[at] = [below, above];
+                Child::Branch(at as u32)
+            }
+            Child::Region(index) => {
+                let size = old.regions[index as usize].size;
+                let lesson = &old.lessons[index as usize];
+                self.halve(size, lesson, lesson.records, depth, most)
+            }
+        }
+    }
+
+    fn halve(&mut self, size: Vec3, lesson: &Lesson, records: u64, depth: u32, most: u64) -> Child {
+        if records <= most || depth >= DEEPEST {
+            self.regions.push(Region {
+                size,
+                lobes: lesson.lobes.clone(),
+            });
+            return Child::Region(self.regions.len() as u32 - 1);
+        }
+        let mut half = size;
+        half[(depth % 3) as usize] *= 0.5;
+        let at = self.branch();
+        let below = self.halve(half, lesson, records / 2, depth + 1, most);
+        let above = self.halve(half, lesson, records / 2, depth + 1, most);
+        self.branches[at] = [below, above];
+        Child::Branch(at as u32)
+    }
+
+    /// A new branch, whose halves are not known yet.
+    fn branch(&mut self) -> usize {
+        self.branches.push([Child::Region(0); 2]);
+        self.branches.len() - 1
+    }
+}
+
+/// A field that is being replaced.
+struct Old<'a> {
+    branches: &'a [[Child; 2]],
+    regions: &'a [Region],
+    lessons: &'a [Lesson],
+}
+
+/// The density with which a lobe finds a direction: alike in all lanes.
+#[inline]
+pub(crate) fn density(lobe: &Quadtree, direction: Vec3) -> Density<SolidAngle> {
+    Density::uniform(UNIFORM_SPHERE_DENSITY * lobe.density(place_of(direction)))
+}
+
+/// A direction of a lobe, and the density with which it is found.
+#[inline]
+pub(crate) fn sample(lobe: &Quadtree, u: Vec2) -> (Vec3, Density<SolidAngle>) {
+    let (place, density) = lobe.sample(u);
+    (
+        square_to_uniform_sphere(place),
+        Density::uniform(UNIFORM_SPHERE_DENSITY * density),
+    )
+}
+
+/// Where in the square a direction lies.
+#[inline]
+pub(crate) fn place_of(direction: Vec3) -> Vec2 {
+    uniform_sphere_to_square(direction).clamp(Vec2::ZERO, Vec2::splat(ONE_MINUS))
+}
+
+/// How finely directions are told apart, if squares with this share of the light are divided.
+pub(crate) fn refinement(share: f64) -> Refinement {
+    Refinement { share, depth: 20 }
+}

@@ -1,0 +1,175 @@
+//! `guided`: path tracing that has learned where light comes from.
+//!
+//! ```text
+//! C = Σₙ ∫ Le(xₙ→xₙ₋₁) · Πᵢ fᵢ·|cos θᵢ| dω₁…dωₙ,      ωᵢ ~ α·p_f(ω) + (1 − α)·p_g(ω | xᵢ)
+//! ```
+//!
+//! The integral and all else are `path`'s ([`crate::path`]): its light samples, its balance over techniques and
+//! wavelengths. But directions are sampled from a mixture of the scattering model's density p_f
+//! and a learned one p_g, piecewise constant in space and direction, that is proportional to the radiance
+//! expected from each direction (Müller, Gross & Novák 2017, "Practical Path Guiding for Efficient
+//! Light-Transport Simulation"; Müller 2019, its chapter in "Path Guiding in Production"). The mixture is one
+//! technique with one density (single-sample balance); p_g is the same for all four wavelengths.
+//!
+//! **What is learned, when.** Once for an image, before its first sample: rounds of 1, 2, 4, … samples per
+//! pixel from a random stream of their own, together at most `training` times the image's samples (but at
+//! least one), and one sample per pixel to learn how large and how bright the scene is. Then the field is
+//! frozen. Its paths are thrown away: the image is made of its own samples only, so that its n samples are
+//! those of n samples, and training costs extra.
+//!
+//! **Why the standard error is right.** Let T be the field. Given T, replicates are independent, have one
+//! distribution, and each has the mean I, whatever T is: p_f alone finds all light. So the variance s²/R
+//! estimated from R replicates has the expectation Var(C̄ | T), and by the law of total variance
+//!
+//! ```text
+//! Var(C̄) = E[Var(C̄ | T)] + Var(E[C̄ | T]) = E[Var(C̄ | T)] + Var(I) = E[s²/R]
+//! ```
+//!
+//! though all replicates share one T. The field depends on the scene, the seed, the film and the number of samples of
+//! the whole image, so any share of the replicates learns the same.
+
+mod field;
+mod guide;
+mod learning;
+mod steering;
+#[cfg(test)]
+mod tests;
+
+use crate::path::{follow, follow_drafts};
+use crate::settings::{PathSettings, ignore_scheduling};
+use crate::walk::Walk;
+use etalon_params::Params;
+use etalon_sampling::Sampler;
+use etalon_transport::{Draft, Integrator, Pass, PixelSite, Sink, TileSink, World};
+use field::Field;
+use guide::Guide;
+use learning::Lessons;
+
+/// The guided path tracer.
+#[derive(Clone, Debug)]
+pub struct Guided {
+    /// Limits of the path.
+    pub settings: PathSettings,
+    /// Samples per pixel spent on learning, as a multiple of the image's.
+    pub training: f64,
+    /// α, the probability of following the scattering model's own choice of direction; above 0, as it
+    /// alone finds all light.
+    pub bsdf_sampling_fraction: f64,
+    /// Records after which a region of space is halved (in the round of one sample per pixel; in a round
+    /// of n samples √n times as many).
+    pub spatial_threshold: f64,
+    /// The share of a region's light above which a square of directions is divided.
+    pub directional_threshold: f64,
+}
+
+impl Default for Guided {
+    fn default() -> Self {
+        Self {
+            settings: PathSettings::default(),
+            training: 0.25,
+            bsdf_sampling_fraction: 0.5,
+            spatial_threshold: 2000.0,
+            directional_threshold: 0.01,
+        }
+    }
+}
+
+impl Guided {
+    /// Reads the integrator from its description.
+    pub fn from_params(params: &Params<'_>) -> Self {
+        ignore_scheduling(params);
+        let default = Self::default();
+        let number = |name: &str, default: f64, from: f64, to: f64| {
+            let value = params.float_or(name, default);
+            if !(value >= from && value <= to) {
+                params.refuse(name, value, &format!("a number from {from} to {to}"));
+                return default;
+            }
+            value
+        };
+        Self {
+            settings: PathSettings::from_params(params),
+            training: number("training", default.training, 0.0, 10.0),
+            bsdf_sampling_fraction: number(
+                "bsdf_sampling_fraction",
+                default.bsdf_sampling_fraction,
+                0.01,
+                1.0,
+            ),
+            spatial_threshold: number("spatial_threshold", default.spatial_threshold, 10.0, 1e9),
+            directional_threshold: number(
+                "directional_threshold",
+                default.directional_threshold,
+                1e-4,
+                1.0,
+            ),
+        }
+    }
+
+    fn lessons(&self, pass: &Pass) -> Lessons {
+        Lessons {
+            settings: self.settings,
+            own: self.bsdf_sampling_fraction as f32,
+            samples: (self.training * f64::from(pass.image_samples)) as u32,
+            records: self.spatial_threshold,
+            share: self.directional_threshold,
+        }
+    }
+
+    fn guide<'f>(&self, learned: &'f Learned) -> Guide<'f> {
+        Guide {
+            field: &learned.field,
+            own: self.bsdf_sampling_fraction as f32,
+            reflected: 1.0,
+        }
+    }
+}
+
+/// What was learned for an image.
+#[derive(Clone, Debug)]
+pub struct Learned {
+    field: Field,
+}
+
+impl Integrator for Guided {
+    const UNBIASED: bool = true;
+
+    type State = Learned;
+
+    fn prepare<W: World>(&self, world: &W, pass: &Pass, before: Option<Learned>) -> Learned {
+        // Learned for the image: every pass finds the same.
+        before.unwrap_or_else(|| Learned {
+            field: self.lessons(pass).learn(world, pass),
+        })
+    }
+
+    fn sample<W: World, S: Sampler, K: Sink>(
+        &self,
+        world: &W,
+        learned: &Learned,
+        site: &PixelSite,
+        sampler: &mut S,
+        sink: &mut K,
+    ) {
+        let guide = self.guide(learned);
+        let mut walks = [Some(Walk::start(
+            world,
+            &self.settings,
+            site,
+            sampler,
+            guide,
+        ))];
+        follow(world, &self.settings, &mut walks);
+        walks.iter().flatten().for_each(|walk| walk.deliver(sink));
+    }
+
+    fn sample_all<W: World, S: Sampler, K: TileSink>(
+        &self,
+        world: &W,
+        learned: &Learned,
+        drafts: &mut [Draft<S>],
+        sink: &mut K,
+    ) {
+        follow_drafts(world, &self.settings, self.guide(learned), drafts, sink);
+    }
+}

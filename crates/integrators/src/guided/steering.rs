@@ -1,0 +1,121 @@
+//! A scattering model that also looks where light was learned to come from.
+//!
+//! ```text
+//! p(ω) = α·p_f(ω) + (1 − α)·(1 − p₀)·p_g(ω)
+//! ```
+//!
+//! with p_f the model's own density (in which its choice among lobes is contained), p_g the learned one, and
+//! p₀ the probability of passing straight on, which is left as it is. Discrete directions are found by the
+//! model alone, with probability α·P. p₀, p_f and P may differ from lane to lane, α and p_g do not.
+
+use super::field;
+use etalon_math::{Atom, Density, SolidAngle};
+use etalon_sampling::discrete::Quadtree;
+use etalon_sampling::hash::ONE_MINUS;
+use etalon_transport::{Bsdf, BsdfSample, Chance, Mode};
+use glam::{Vec2, Vec3, Vec4};
+
+/// A scattering model, and where light comes from.
+#[derive(Clone, Copy)]
+pub(crate) struct Steered<'f, B> {
+    pub(crate) bsdf: B,
+    /// Where light comes from; `None` leaves the model as it is.
+    pub(crate) lobe: Option<&'f Quadtree>,
+    /// α, the probability of following the model's own choice.
+    pub(crate) own: f32,
+}
+
+impl<B: Bsdf> Steered<'_, B> {
+    /// The mixture's density, from the two that are mixed.
+    #[inline]
+    fn mix(&self, own: Density<SolidAngle>, learned: Density<SolidAngle>) -> Density<SolidAngle> {
+        let scattered = Vec4::ONE - self.bsdf.passing_probability();
+        Density::per_lane(own.lanes() * self.own + learned.lanes() * scattered * (1.0 - self.own))
+    }
+
+    /// A direction of the learned density.
+    #[inline]
+    fn sample_learned(&self, lobe: &Quadtree, wo: Vec3, u: Vec2, mode: Mode) -> Option<BsdfSample> {
+        let (wi, learned) = field::sample(lobe, u);
+        let (value, own) = self.bsdf.eval_and_density(wo, wi, mode);
+        (value != Vec4::ZERO).then(|| BsdfSample {
+            wi,
+            value,
+            chance: Chance::Continuous(self.mix(own, learned)),
+            // Whichever side it is on; this only sways Russian roulette.
+            eta: 1.0,
+            passes: false,
+        })
+    }
+}
+
+impl<B: Bsdf> Bsdf for Steered<'_, B> {
+    #[inline]
+    fn eval(&self, wo: Vec3, wi: Vec3, mode: Mode) -> Vec4 {
+        self.bsdf.eval(wo, wi, mode)
+    }
+
+    #[inline]
+    fn density(&self, wo: Vec3, wi: Vec3) -> Density<SolidAngle> {
+        let own = self.bsdf.density(wo, wi);
+        match self.lobe {
+            Some(lobe) => self.mix(own, field::density(lobe, wi)),
+            None => own,
+        }
+    }
+
+    #[inline]
+    fn eval_and_density(&self, wo: Vec3, wi: Vec3, mode: Mode) -> (Vec4, Density<SolidAngle>) {
+        let (value, own) = self.bsdf.eval_and_density(wo, wi, mode);
+        match self.lobe {
+            // What does not scatter needs no density.
+            Some(lobe) if value != Vec4::ZERO => (value, self.mix(own, field::density(lobe, wi))),
+            _ => (value, own),
+        }
+    }
+
+    #[inline]
+    fn sample(&self, wo: Vec3, u_lobe: f32, u: Vec2, mode: Mode) -> Option<BsdfSample> {
+        let Some(lobe) = self.lobe else {
+            return self.bsdf.sample(wo, u_lobe, u, mode);
+        };
+        // The lowest numbers pass straight on; the rest are divided anew.
+        let passing = self.bsdf.passing_probability().x;
+        if u_lobe < passing {
+            return self.bsdf.sample(wo, u_lobe, u, mode);
+        }
+        let rest = (u_lobe - passing) / (1.0 - passing);
+        if rest >= self.own {
+            return self.sample_learned(lobe, wo, u, mode);
+        }
+        let u_lobe = passing + rest / self.own * (1.0 - passing);
+        let mut sample = self.bsdf.sample(wo, u_lobe.min(ONE_MINUS), u, mode)?;
+        sample.chance = match sample.chance {
+            Chance::Continuous(own) => {
+                Chance::Continuous(self.mix(own, field::density(lobe, sample.wi)))
+            }
+            Chance::Discrete(Atom(probability)) => Chance::Discrete(Atom(probability * self.own)),
+        };
+        Some(sample)
+    }
+
+    #[inline]
+    fn has_continuous(&self) -> bool {
+        self.bsdf.has_continuous()
+    }
+
+    #[inline]
+    fn passing(&self) -> Vec4 {
+        self.bsdf.passing()
+    }
+
+    #[inline]
+    fn passing_probability(&self) -> Vec4 {
+        self.bsdf.passing_probability()
+    }
+
+    #[inline]
+    fn albedo(&self, wo: Vec3) -> Vec4 {
+        self.bsdf.albedo(wo)
+    }
+}

@@ -1,0 +1,278 @@
+//! What a replicate begins with: brightness, seeds, and what was learned of path lengths.
+
+use super::found::{Contribution, Field, Found};
+use super::primary::PrimarySample;
+use super::{ChainSettings, Integrand};
+use etalon_sampling::hash::{derived_key, mix64, random_float, stream_key};
+use etalon_transport::Pass;
+use rayon::prelude::*;
+
+/// Uniform samples of the pilot.
+const PILOT: u32 = 1 << 15;
+
+/// How many samples a task of the pilot or of a bootstrap draws: it decides no bits.
+const TASK: u32 = 512;
+
+/// Streams of random numbers of a replicate.
+#[derive(Clone, Copy)]
+pub(super) enum Stream {
+    Seeds,
+    Choice,
+    Chains,
+}
+
+impl Stream {
+    pub(super) fn key(self, seed: u64, replicate: u32) -> u64 {
+        derived_key(!stream_key(seed, replicate), self as u32)
+    }
+}
+
+/// How often each path length is tried: in proportion to the light that it brings, but for a
+/// quarter of all samples that go to all alike.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) struct Lengths {
+    /// The sums of the probabilities up to and with each.
+    sums: Vec<f32>,
+}
+
+impl Lengths {
+    /// Probabilities for lengths that bring so much light.
+    fn new(brightness: &[f64]) -> Self {
+        let count = brightness.len() as f64;
+        let total: f64 = brightness.iter().sum();
+        let mut sum = 0.0;
+        let mut sums: Vec<f32> = brightness
+            .iter()
+            .map(|own| {
+                let share = if total > 0.0 {
+                    own / total
+                } else {
+                    1.0 / count
+                };
+                sum += 0.75 * share + 0.25 / count;
+                sum as f32
+            })
+            .collect();
+        if let Some(last) = sums.last_mut() {
+            *last = 1.0;
+        }
+        Self { sums }
+    }
+
+    fn alike(count: usize) -> Self {
+        Self::new(&vec![0.0; count])
+    }
+
+    /// The length that `u` chooses, and its probability.
+    pub(crate) fn choose(&self, u: f32) -> (usize, f32) {
+        let chosen = self.sums.partition_point(|sum| *sum <= u);
+        let before = chosen.checked_sub(1).map_or(0.0, |last| self.sums[last]);
+        (chosen, self.sums[chosen] - before)
+    }
+}
+
+/// What is learned once per image.
+#[derive(Clone, Debug)]
+pub(super) struct Pilot {
+    seed: u64,
+    pub(super) lengths: Lengths,
+    /// c: the brightness that the balance heuristic assumes.
+    pub(super) brightness: f64,
+}
+
+/// What a replicate of a Metropolis integrator begins with.
+#[derive(Clone, Debug)]
+pub struct State {
+    pub(super) pilot: Pilot,
+    pub(super) seed: u64,
+    pub(super) replicate: u32,
+    pub(super) field: Field,
+    /// b̂
+    pub(super) brightness: f64,
+    /// c·ρ
+    pub(super) uniform: f64,
+    /// The bootstrap samples at which chains start.
+    pub(super) starts: Vec<u32>,
+    /// Steps per chain.
+    pub(super) length: u32,
+    /// What a contribution of one step is multiplied by, for a film that divides by the samples of
+    /// a pixel.
+    pub(super) scale: f64,
+    /// What the bootstrap samples themselves contribute.
+    pub(super) contributions: Vec<Contribution>,
+}
+
+impl State {
+    /// How much a visit of a chain counts.
+    pub(super) fn chain_weight(&self, brightness: f64) -> f64 {
+        if self.brightness > 0.0 {
+            self.brightness * self.scale / (brightness + self.uniform)
+        } else {
+            0.0
+        }
+    }
+
+    /// How much a uniform sample counts.
+    pub(super) fn uniform_weight(&self, brightness: f64) -> f64 {
+        let assumed = self.pilot.brightness;
+        if assumed > 0.0 {
+            assumed * self.scale / (brightness + self.uniform)
+        } else {
+            0.0
+        }
+    }
+
+    /// Prepares a replicate.
+    pub(crate) fn prepare<T: Integrand>(
+        integrand: &T,
+        settings: &ChainSettings,
+        pass: &Pass,
+        before: Option<Self>,
+    ) -> Self {
+        let field = Field::of(pass);
+        let kept = before.map(|state| state.pilot);
+        let pilot = kept
+            .filter(|pilot| pilot.seed == pass.seed)
+            .unwrap_or_else(|| Pilot::run(integrand, settings, field, pass.seed));
+        let samples = u64::from(pass.size.x) * u64::from(pass.size.y) * u64::from(pass.samples);
+        let chains = (samples / u64::from(settings.length)).max(1);
+        let length = (samples / chains).min(u64::from(u32::MAX)) as u32;
+        let steps = chains as f64 * f64::from(length);
+        let seeds = settings.seeds.unwrap_or_else(|| {
+            let range = ChainSettings::SEEDS;
+            (samples / 4).clamp(range.start.into(), range.end.into()) as u32
+        });
+        let density = f64::from(seeds) / steps + f64::from(settings.large_step);
+        let mut state = Self {
+            uniform: pilot.brightness * density,
+            pilot,
+            seed: pass.seed,
+            replicate: pass.replicate,
+            field,
+            brightness: 0.0,
+            starts: Vec::new(),
+            length,
+            scale: f64::from(pass.samples) / steps,
+            contributions: Vec::new(),
+        };
+        if integrand.lengths() > 0 {
+            state.begin(integrand, settings, seeds, chains as u32);
+        }
+        state
+    }
+
+    /// Draws the bootstrap samples, and chooses among them the chains' starts.
+    fn begin<T: Integrand>(
+        &mut self,
+        integrand: &T,
+        settings: &ChainSettings,
+        seeds: u32,
+        chains: u32,
+    ) {
+        let key = Stream::Seeds.key(self.seed, self.replicate);
+        let drawn = draw(
+            integrand,
+            settings,
+            self.field,
+            &self.pilot.lengths,
+            key,
+            seeds,
+            |found, task: &mut (Vec<f64>, Vec<Contribution>)| {
+                let brightness = found.brightness();
+                task.0.push(brightness);
+                task.1
+                    .extend(found.weighted(self.uniform_weight(brightness)));
+            },
+        );
+        let mut brightness = Vec::with_capacity(seeds as usize);
+        for (part, contributions) in drawn {
+            brightness.extend(part);
+            self.contributions.extend(contributions);
+        }
+        let total: f64 = brightness.iter().sum();
+        self.brightness = total / f64::from(seeds);
+        if !(total > 0.0) {
+            // Chains of no weight: their large steps are uniform samples like any other.
+            self.starts = vec![0; chains as usize];
+            return;
+        }
+        // Systematic sampling: each start is picked as often as it should be, but for rounding.
+        let offset = mix64(Stream::Choice.key(self.seed, self.replicate));
+        let offset = f64::from(random_float((offset >> 32) as u32));
+        let mut sum = 0.0;
+        for (index, own) in brightness.iter().enumerate() {
+            sum += own;
+            let up_to = sum / total * f64::from(chains);
+            while (self.starts.len() as f64 + offset) < up_to && self.starts.len() < chains as usize
+            {
+                self.starts.push(index as u32);
+            }
+        }
+    }
+}
+
+impl Pilot {
+    fn run<T: Integrand>(integrand: &T, settings: &ChainSettings, field: Field, seed: u64) -> Self {
+        let count = integrand.lengths();
+        let mut sums = vec![0.0; count];
+        if count > 0 {
+            let lengths = Lengths::alike(count);
+            let key = mix64(!mix64(seed));
+            let drawn = draw(
+                integrand,
+                settings,
+                field,
+                &lengths,
+                key,
+                PILOT,
+                |found, task: &mut Vec<(usize, f64)>| {
+                    if found.brightness() > 0.0 {
+                        task.push((found.length, found.brightness()));
+                    }
+                },
+            );
+            for (length, brightness) in drawn.into_iter().flatten() {
+                sums[length] += brightness;
+            }
+        }
+        Self {
+            seed,
+            brightness: sums.iter().sum::<f64>() / f64::from(PILOT),
+            lengths: Lengths::new(&sums),
+        }
+    }
+}
+
+/// The primary sample of a bootstrap with this index.
+pub(super) fn start_key(key: u64, index: u32) -> u64 {
+    derived_key(key, index)
+}
+
+/// Draws `count` uniform samples and notes what they found, some to a task, in order.
+#[allow(clippy::too_many_arguments)]
+fn draw<T: Integrand, N: Default + Send>(
+    integrand: &T,
+    settings: &ChainSettings,
+    field: Field,
+    lengths: &Lengths,
+    key: u64,
+    count: u32,
+    note: impl Fn(&Found, &mut N) + Sync,
+) -> Vec<N> {
+    (0..count.div_ceil(TASK))
+        .into_par_iter()
+        .map(|task| {
+            let mut noted = N::default();
+            let mut lists = T::Lists::default();
+            let mut found = Found::default();
+            let mut sample = PrimarySample::new(settings.step(), settings.large_step, 0, 0);
+            for index in task * TASK..count.min((task + 1) * TASK) {
+                sample.restart(start_key(key, index));
+                found.clear();
+                integrand.find(&field, lengths, &mut sample, &mut lists, &mut found);
+                note(&found, &mut noted);
+            }
+            noted
+        })
+        .collect()
+}

@@ -1,0 +1,99 @@
+//! A Markov chain, and which pixel hosts it.
+
+use super::bootstrap::{State, Stream, start_key};
+use super::found::{Contribution, Found};
+use super::primary::PrimarySample;
+use super::{ChainSettings, Integrand};
+use core::ops::Range;
+use etalon_sampling::hash::derived_key;
+use etalon_transport::{PixelSite, Sink};
+
+impl State {
+    /// Does the share of a site: its chains, and what it delivers of the bootstrap samples.
+    pub(crate) fn host<T: Integrand, K: Sink>(
+        &self,
+        integrand: &T,
+        settings: &ChainSettings,
+        site: &PixelSite,
+        sink: &mut K,
+    ) {
+        if site.sample != 0 {
+            return;
+        }
+        let share = |count: usize| self.share(site, count);
+        for contribution in &self.contributions[share(self.contributions.len())] {
+            deliver(*contribution, sink);
+        }
+        for chain in share(self.starts.len()) {
+            self.run(integrand, settings, chain, sink);
+        }
+    }
+
+    /// Which of so many things a pixel hosts: they are dealt evenly.
+    fn share(&self, site: &PixelSite, count: usize) -> Range<usize> {
+        let place = site.pixel - self.field.origin();
+        let index = u64::from(place.y) * u64::from(self.field.width()) + u64::from(place.x);
+        let begin = |index: u64| {
+            (u128::from(index) * count as u128).div_ceil(u128::from(site.pixels)) as usize
+        };
+        begin(index)..begin(index + 1)
+    }
+
+    /// Runs a chain from its start to its end.
+    fn run<T: Integrand, K: Sink>(
+        &self,
+        integrand: &T,
+        settings: &ChainSettings,
+        chain: usize,
+        sink: &mut K,
+    ) {
+        let key = |stream: Stream| stream.key(self.seed, self.replicate);
+        let start = start_key(key(Stream::Seeds), self.starts[chain]);
+        let course = derived_key(key(Stream::Chains), chain as u32);
+        let mut sample = PrimarySample::new(settings.step(), settings.large_step, start, course);
+        let mut lists = T::Lists::default();
+        let (mut current, mut proposed) = (Found::default(), Found::default());
+        let mut find = |sample: &mut PrimarySample<_>, found: &mut Found| {
+            found.clear();
+            let lengths = &self.pilot.lengths;
+            integrand.find(&self.field, lengths, sample, &mut lists, found);
+            found.brightness()
+        };
+        let mut here = find(&mut sample, &mut current);
+        // How much the current sample counts.
+        let mut weight = 0.0;
+        for _ in 0..self.length {
+            let large = sample.propose();
+            let there = find(&mut sample, &mut proposed);
+            let accepted = if there > 0.0 {
+                (there / here).min(1.0)
+            } else {
+                0.0
+            };
+            weight += (1.0 - accepted) * self.chain_weight(here);
+            let mut other = if there > 0.0 {
+                accepted * self.chain_weight(there)
+            } else {
+                0.0
+            };
+            if large {
+                other += self.uniform_weight(there);
+            }
+            if f64::from(sample.decide()) < accepted {
+                sample.accept();
+                core::mem::swap(&mut current, &mut proposed);
+                core::mem::swap(&mut weight, &mut other);
+                here = there;
+            } else {
+                sample.reject();
+            }
+            // After the exchange, `proposed` is what the chain does not stay at.
+            proposed.weighted(other).for_each(|one| deliver(one, sink));
+        }
+        current.weighted(weight).for_each(|one| deliver(one, sink));
+    }
+}
+
+fn deliver<K: Sink>(contribution: Contribution, sink: &mut K) {
+    sink.splat(contribution.raster, contribution.rgb.to_array());
+}

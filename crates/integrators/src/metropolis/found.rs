@@ -1,0 +1,124 @@
+//! What a primary sample contributes, and where.
+
+use etalon_transport::{Pass, PixelSite};
+use glam::{UVec2, Vec2, Vec3};
+
+/// A contribution to the film.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Contribution {
+    /// Where (pixels of the whole film).
+    pub(crate) raster: Vec2,
+    /// Its colour: the integral over the primary samples of colour times a pixel's filter is the
+    /// pixel.
+    pub(crate) rgb: Vec3,
+}
+
+impl Contribution {
+    /// Its part of the scalar I.
+    fn brightness(&self) -> f32 {
+        self.rgb.abs().element_sum() * (1.0 / 3.0)
+    }
+}
+
+/// All contributions of a primary sample.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Found {
+    contributions: Vec<Contribution>,
+    brightness: f32,
+    /// The length of its path, counted from 0 among those that the integrand tells apart.
+    pub(crate) length: usize,
+}
+
+impl Found {
+    /// Forgets all.
+    pub(crate) fn clear(&mut self) {
+        self.contributions.clear();
+        self.brightness = 0.0;
+        self.length = 0;
+    }
+
+    /// Adds a contribution.
+    pub(crate) fn add(&mut self, raster: Vec2, rgb: Vec3) {
+        if rgb != Vec3::ZERO {
+            let contribution = Contribution { raster, rgb };
+            self.brightness += contribution.brightness();
+            self.contributions.push(contribution);
+        }
+    }
+
+    /// I: zero where a contribution is not a finite number, so that no chain goes there.
+    pub(crate) fn brightness(&self) -> f64 {
+        if self.is_sound() {
+            f64::from(self.brightness)
+        } else {
+            0.0
+        }
+    }
+
+    /// Whether all contributions are finite.
+    pub(crate) fn is_sound(&self) -> bool {
+        self.brightness.is_finite()
+    }
+
+    /// The contributions, each counted `weight` times; what is not finite is given as it is, to be
+    /// reported.
+    pub(crate) fn weighted(&self, weight: f64) -> impl Iterator<Item = Contribution> + '_ {
+        let weight = if self.is_sound() { weight } else { 1.0 };
+        let kept = if weight > 0.0 {
+            &self.contributions[..]
+        } else {
+            &[]
+        };
+        kept.iter().map(move |found| Contribution {
+            raster: found.raster,
+            rgb: found.rgb * weight as f32,
+        })
+    }
+}
+
+/// The part of the film plane on which primary samples choose a place: the film and what lies
+/// beyond its border but still matters.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Field {
+    origin: UVec2,
+    size: UVec2,
+    margin: u32,
+}
+
+impl Field {
+    pub(crate) fn of(pass: &Pass) -> Self {
+        Self {
+            origin: pass.origin,
+            size: pass.size + 2 * pass.margin,
+            margin: pass.margin,
+        }
+    }
+
+    /// The first pixel of the film.
+    pub(crate) fn origin(&self) -> UVec2 {
+        self.origin
+    }
+
+    /// How many pixels the film has in a row.
+    pub(crate) fn width(&self) -> u32 {
+        self.size.x - 2 * self.margin
+    }
+
+    /// Its area (pixels²).
+    pub(crate) fn area(&self) -> f32 {
+        self.size.x as f32 * self.size.y as f32
+    }
+
+    /// The site of a sample that goes through the place that `u` chooses. One sample stands for the
+    /// whole field.
+    pub(crate) fn site(&self, u: Vec2) -> PixelSite {
+        PixelSite {
+            pixel: UVec2::ZERO,
+            raster: self.origin.as_vec2() - self.margin as f32 + u * self.size.as_vec2(),
+            margin: self.margin as f32,
+            pixels: self.size.x * self.size.y,
+            spacing: 1.0,
+            sample: 0,
+        }
+    }
+}

@@ -1,0 +1,176 @@
+//! Metropolis light transport in primary sample space, whatever a primary sample stands for.
+//!
+//! A primary sample u ∈ [0, 1)^∞ is turned into a path whose estimate F(u) lands somewhere on the
+//! film, so that a pixel with filter h is C = ∫ h·F du. A Markov chain visits samples in
+//! proportion to a scalar I(u), here the sum of |red|, |green| and |blue| of F over three: it is
+//! zero only where F is, all wavelengths count in it, and no quotient F/I is large. A step from x
+//! to y is accepted with probability a = min(1, I(y)/I(x)) (Metropolis et al. 1953; Veach &
+//! Guibas 1997; Kelemen et al. 2002, see `primary.rs` for the steps). Both ends are credited with
+//! their expected share,
+//!
+//! ```text
+//! Ĉ = 1/N · Σ_steps   [ (1 − a)·w(x)·b̂/I(x) · F(x) + a·w(y)·b̂/I(y) · F(y) ]
+//!   + 1/N · Σ_uniform (1 − w(u))/ρ · F(u)
+//! w(u) = I(u) / (I(u) + c·ρ)
+//! ```
+//!
+//! Uniform samples are the large steps and those with which the replicate begins, ρ of them per
+//! step; w is the balance heuristic between them and the chains (Kelemen et al. 2002, section 4),
+//! for an assumed ∫ I du = c.
+//!
+//! **Unbiased.** A replicate begins with M uniform samples uᵢ. Their mean brightness is b̂ = Σ
+//! I(uᵢ)/M, and chains start at samples picked from them with probabilities I(uᵢ) / Σ I. For
+//! whatever a chain of some length makes of its start, g,
+//!
+//! ```text
+//! E[ b̂·g(start) ] = E[ 1/M · Σᵢ I(uᵢ)·g(uᵢ) ] = ∫ I(u)·g(u) du
+//! ```
+//!
+//! so that a chain weighted by b̂ is distributed like I du after any number of steps (Veach 1997,
+//! section 11.3.1): there is no start-up bias, however short the chains. Uniform samples are
+//! ordinary Monte Carlo integration. What is left is w, which must depend on nothing that the
+//! replicate has drawn: c comes from a pilot that is a function of the image's seed, as does
+//! whatever F itself has learned. For any c the expectation is C, so replicates are independent
+//! given c, and the standard error over them is valid. A poor c only costs efficiency; with c =
+//! 0, when the pilot finds nothing, the chains are left alone with the image.
+//!
+//! F is the estimate of `prefix.rs` and the wavelength draw one of the numbers of u, so that a path
+//! keeps its four wavelengths, and dispersion needs no care of its own.
+//!
+//! As many steps are made as there are samples in the replicate, cut into chains of equal length;
+//! chains are hosted by pixels spread evenly over the film. Light with few corners
+//! (`separate_direct`) is found by the ordinary samples of the path tracer, which also give
+//! alpha.
+
+mod bootstrap;
+mod chain;
+mod found;
+pub(crate) mod primary;
+#[cfg(test)]
+mod tests;
+
+pub(crate) use bootstrap::Lengths;
+pub use bootstrap::State;
+pub(crate) use found::{Field, Found};
+
+use crate::settings::PathSettings;
+use crate::walk::Walk;
+use core::ops::Range;
+use etalon_params::Params;
+use etalon_sampling::Sampler;
+use etalon_transport::{PixelSite, Sink, World};
+use primary::LogarithmicStep;
+
+/// What a primary sample stands for.
+pub(crate) trait Integrand: Sync {
+    /// Memory that one evaluation lends to the next.
+    type Lists: Default;
+
+    /// How many path lengths it tells apart, for [`Lengths`]; none if there is nothing to find.
+    fn lengths(&self) -> usize;
+
+    /// Turns a primary sample into contributions to the film.
+    fn find<S: Sampler>(
+        &self,
+        field: &Field,
+        lengths: &Lengths,
+        sampler: &mut S,
+        lists: &mut Self::Lists,
+        found: &mut Found,
+    );
+}
+
+/// How chains are run.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct ChainSettings {
+    /// The probability of a large step.
+    pub large_step: f32,
+    /// s₁: the smallest distance by which a small step moves a number.
+    pub smallest_step: f32,
+    /// s₂: the largest.
+    pub largest_step: f32,
+    /// Steps per chain.
+    pub length: u32,
+    /// Uniform samples with which a replicate begins; if not given, a quarter of the replicate's
+    /// samples within [`ChainSettings::SEEDS`].
+    pub seeds: Option<u32>,
+    /// Whether direct light is left to ordinary samples.
+    pub separate_direct: bool,
+}
+
+impl Default for ChainSettings {
+    /// Steps as Kelemen et al. 2002 recommend them.
+    fn default() -> Self {
+        Self {
+            large_step: 0.3,
+            smallest_step: 1.0 / 1024.0,
+            largest_step: 1.0 / 64.0,
+            length: 4096,
+            seeds: None,
+            separate_direct: true,
+        }
+    }
+}
+
+impl ChainSettings {
+    /// Bounds of the number of seeds that is chosen by itself.
+    pub const SEEDS: Range<u32> = 1 << 12..1 << 20;
+
+    /// Reads the parameters, see `docs/extensions.md`.
+    pub fn from_params(params: &Params<'_>) -> Self {
+        let default = Self::default();
+        let number = |name: &str, default: f32, what: &str, most: f64| {
+            let accept = |x: f64| x > 0.0 && x <= most;
+            params.float_where(name, f64::from(default), what, accept) as f32
+        };
+        let count = |name: &str, most: u32| {
+            let value = params.integer(name)?;
+            let count = u32::try_from(value).ok().filter(|n| *n > 0 && *n <= most);
+            if count.is_none() {
+                params.refuse(name, value, &format!("1, 2, … {most}"));
+            }
+            count
+        };
+        let half = "more than 0, at most 0.5";
+        let settings = Self {
+            large_step: number(
+                "large_step",
+                default.large_step,
+                "more than 0, at most 1",
+                1.0,
+            ),
+            smallest_step: number("smallest_step", default.smallest_step, half, 0.5),
+            largest_step: number("largest_step", default.largest_step, half, 0.5),
+            length: count("chain_length", 1 << 24).unwrap_or(default.length),
+            seeds: count("bootstrap_samples", 1 << 24),
+            separate_direct: params.boolean_or("separate_direct", default.separate_direct),
+        };
+        if settings.smallest_step > settings.largest_step {
+            params.error("`smallest_step` is more than `largest_step`");
+        }
+        settings
+    }
+
+    fn step(&self) -> LogarithmicStep {
+        LogarithmicStep::new(self.smallest_step, self.largest_step)
+    }
+
+    /// The least number of corners of a path that chains look for.
+    pub(crate) fn least_corners(&self) -> u32 {
+        if self.separate_direct { 2 } else { 1 }
+    }
+
+    /// The ordinary sample of a pixel: what chains do not look for, and alpha.
+    pub(crate) fn ordinary<W: World, S: Sampler, K: Sink>(
+        &self,
+        world: &W,
+        settings: &PathSettings,
+        site: &PixelSite,
+        sampler: &mut S,
+        sink: &mut K,
+    ) {
+        let mut walk = Walk::start(world, settings, site, sampler, ());
+        walk.follow(world, settings, &(0..self.least_corners()));
+        walk.deliver(sink);
+    }
+}

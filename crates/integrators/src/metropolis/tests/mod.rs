@@ -1,0 +1,4 @@
+//! Chains on small problems with exact answers.
+
+mod expectation;
+mod steps;

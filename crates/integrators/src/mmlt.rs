@@ -1,0 +1,147 @@
+//! `mmlt`: multiplexed Metropolis light transport (Hachisuka, Kaplanyan, Dachsbacher 2014).
+//!
+//! A primary sample stands for *one* technique of bidirectional path tracing, weighed against all
+//! others (see [`crate::bdpt`]). Two of its numbers choose k, the corners of the path, with
+//! probability q(k), and which of the k + 2 techniques (s, t) with s + t = k + 2 makes them; the
+//! others walk. With A the film's area,
+//!
+//! ```text
+//! F(u) = A · (k + 2)/q(k) · Σⱼ [ fⱼ(x) / p(λⱼ) ] / Σ_σ Σₖ n_σ p_σ,ₖ(x)
+//! ```
+//!
+//! Since the sum over techniques of what each finds is the pixel, so is the mean of F; where
+//! chains spend their steps is decided by the weights: a technique that is bad at a path hardly
+//! ever has I > 0 there. One camera walk stands for the whole film and so does one light walk,
+//! hence n_σ = A for t = 1 and 1 per pixel² for the others, as in an image of bidirectional path
+//! tracing with one sample per pixel.
+//!
+//! Hachisuka et al. run separate chains for each k, as many as the light that it brings; here
+//! q(k) follows the light that a pilot found, and a chain changes k like any other number. Few
+//! chains then serve many lengths. See [`crate::metropolis`] for how chains estimate the integral
+//! without bias.
+
+use crate::bdpt::Technique;
+use crate::bdpt::single::{Lists, sample};
+use crate::dimensions as dim;
+use crate::metropolis::{ChainSettings, Field, Found, Integrand, Lengths, State};
+use crate::settings::{PathSettings, ignore_scheduling};
+use etalon_params::Params;
+use etalon_sampling::Sampler;
+use etalon_transport::{Integrator, Pass, PixelSite, Sink, World};
+
+/// The numbers that choose the technique and the length: those between the moment and the first
+/// scattering event, which nothing else needs.
+const CHOICE: u32 = dim::TIME + 1;
+
+/// The longest path that may be asked for (segments).
+const LONGEST: u32 = 256;
+
+/// Multiplexed Metropolis light transport.
+#[derive(Clone, Debug)]
+pub struct Multiplexed {
+    /// Limits of the path; its length must have one.
+    pub settings: PathSettings,
+    /// How chains are run.
+    pub chains: ChainSettings,
+}
+
+impl Multiplexed {
+    /// Reads the integrator from its description.
+    pub fn from_params(params: &Params<'_>) -> Self {
+        ignore_scheduling(params);
+        let mut settings = PathSettings::from_params(params);
+        if !params.has("max_depth") {
+            let needed = format!("the longest path in segments, at most {LONGEST}");
+            params.missing("max_depth", &needed);
+        } else if settings.max_depth > LONGEST {
+            let given = params.integer_or("max_depth", -1);
+            let accepted = format!("0, 1, … {LONGEST}: a path's length is chosen beforehand");
+            params.refuse("max_depth", given, &accepted);
+        }
+        if !params.has("rr_depth") {
+            // The technique says where walks end.
+            settings.rr_depth = u32::MAX;
+        }
+        Self {
+            settings,
+            chains: ChainSettings::from_params(params),
+        }
+    }
+}
+
+/// Techniques of bidirectional path tracing in a world.
+struct Techniques<'w, W> {
+    integrator: &'w Multiplexed,
+    world: &'w W,
+}
+
+impl<'w, W: World> Integrand for Techniques<'w, W> {
+    type Lists = Lists<W::Bsdf<'w>>;
+
+    fn lengths(&self) -> usize {
+        let Multiplexed { settings, chains } = self.integrator;
+        // A path of n segments has at most n − 1 corners.
+        let most = settings.max_depth.min(LONGEST);
+        most.saturating_sub(chains.least_corners()) as usize
+    }
+
+    fn find<S: Sampler>(
+        &self,
+        field: &Field,
+        lengths: &Lengths,
+        sampler: &mut S,
+        lists: &mut Self::Lists,
+        found: &mut Found,
+    ) {
+        let Multiplexed { settings, chains } = self.integrator;
+        sampler.skip_to(CHOICE);
+        let choice = sampler.next_2d();
+        let (length, probability) = lengths.choose(choice.y);
+        found.length = length;
+        let vertices = length + chains.least_corners() as usize + 2;
+        let light = ((choice.x * vertices as f32) as usize).min(vertices - 1);
+        let technique = Technique {
+            light,
+            camera: vertices - light,
+            weighted: true,
+        };
+        sampler.skip_to(dim::FILM);
+        let site = field.site(sampler.next_2d());
+        let factor = field.area() * vertices as f32 / probability;
+        let add = |raster, rgb: glam::Vec3| found.add(raster, rgb * factor);
+        sample(self.world, settings, technique, &site, sampler, lists, add);
+    }
+}
+
+impl Integrator for Multiplexed {
+    const UNBIASED: bool = true;
+
+    type State = State;
+
+    fn splats(&self) -> bool {
+        true
+    }
+
+    fn prepare<W: World>(&self, world: &W, pass: &Pass, before: Option<State>) -> State {
+        let integrator = self;
+        State::prepare(
+            &Techniques { integrator, world },
+            &self.chains,
+            pass,
+            before,
+        )
+    }
+
+    fn sample<W: World, S: Sampler, K: Sink>(
+        &self,
+        world: &W,
+        state: &State,
+        site: &PixelSite,
+        sampler: &mut S,
+        sink: &mut K,
+    ) {
+        (self.chains).ordinary(world, &self.settings, site, sampler, sink);
+        let integrator = self;
+        state.host(&Techniques { integrator, world }, &self.chains, site, sink);
+    }
+}

@@ -1,0 +1,257 @@
+//! `naive`: path tracing that runs into lights by chance.
+//!
+//! The rendering equation, estimated as it stands: directions are drawn from a density p, and what
+//! is emitted counts where a path arrives (Kajiya 1986, without his light sampling),
+//!
+//! ```text
+//! L(x, ωo) ≈ Le(x, ωo) + f(ωo, ωi)·|cos θi| / p(ωi) · L(y, −ωi),   ωi ~ p,   y seen from x along ωi
+//! ```
+//!
+//! It is the simplest estimator of all, slow wherever lights are small, and blind to those without
+//! extent. `directions` says where p comes from:
+//!
+//! - `bsdf`: the scattering model's own importance sampling;
+//! - `cosine`: p = |cos θi| / π about the shading normal;
+//! - `uniform`: p = 1 / 2π.
+//!
+//! The latter two know nothing of the model but whether it sends light through the surface: then
+//! they draw from the whole sphere, with half the density.
+//!
+//! No such density finds a direction that has a probability of its own. So at a surface that may
+//! let light pass straight on (`mask`, `null`) the path passes with the model's probability; where
+//! any other lobe may be discrete, one half of the rest lets the model sample and keeps discrete directions only,
+//! and the other half draws from p; where nothing is continuous the model samples always. The density of a uniform or
+//! cosine direction is the same for every wavelength, that of a discrete one is not; the house's
+//! estimator ([`crate::prefix`]) takes one like the other.
+
+use crate::dimensions::Event;
+use crate::path::camera_ray;
+use crate::prefix::Prefix;
+use crate::settings::{PathSettings, ignore_scheduling};
+use core::f32::consts::FRAC_1_PI;
+use etalon_math::Frame;
+use etalon_params::Params;
+use etalon_sampling::Sampler;
+use etalon_sampling::warps::{square_to_cosine_hemisphere, square_to_uniform_hemisphere};
+use etalon_spectrum::{Wavelengths, sensor_response};
+use etalon_transport::{
+    Bsdf, Finding, Integrator, Mode, Objection, Pass, PixelSite, Ray, Sight, Sink, Vertex, World,
+};
+use glam::{Vec2, Vec3, Vec4};
+
+/// Where continuous directions come from.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Directions {
+    /// The scattering model's importance sampling.
+    #[default]
+    Bsdf,
+    /// In proportion to the cosine.
+    Cosine,
+    /// All alike.
+    Uniform,
+}
+
+/// The path tracer without light sampling.
+#[derive(Clone, Debug, Default)]
+pub struct Naive {
+    /// Limits of the path.
+    pub settings: PathSettings,
+    /// Where directions come from.
+    pub directions: Directions,
+}
+
+/// A direction in which a path goes on.
+struct Step {
+    wi: Vec3,
+    /// What [`Prefix::extend`] takes.
+    value: Vec4,
+    chance: Vec4,
+    eta: f32,
+    passes: bool,
+}
+
+/// The largest float below 1: what remains of a uniform number after its use stays below 1.
+const BELOW_ONE: f32 = 1.0 - f32::EPSILON * 0.5;
+
+impl Naive {
+    /// Reads the integrator from its description: Mitsuba's parameters of paths, and `directions`.
+    pub fn from_params(params: &Params<'_>) -> Self {
+        ignore_scheduling(params);
+        let directions = match params.choice("directions", "bsdf", &["bsdf", "cosine", "uniform"]) {
+            "cosine" => Directions::Cosine,
+            "uniform" => Directions::Uniform,
+            _ => Directions::Bsdf,
+        };
+        Self {
+            settings: PathSettings::from_params(params),
+            directions,
+        }
+    }
+
+    /// Draws the direction in which the path leaves a vertex; `None` if it ends there.
+    fn step(&self, vertex: &Vertex, bsdf: &impl Bsdf, wo: Vec3, event: &Event) -> Option<Step> {
+        let sampled = |u_lobe: f32| {
+            let sample = bsdf.sample(wo, u_lobe, event.direction, Mode::Radiance)?;
+            Some(Step {
+                wi: sample.wi,
+                value: sample.value,
+                chance: sample.chance.lanes(),
+                eta: sample.eta,
+                passes: sample.passes,
+            })
+            .map(|step| (step, sample.chance.is_discrete()))
+        };
+        if self.directions == Directions::Bsdf || !bsdf.has_continuous() {
+            return sampled(event.lobe).map(|(step, _)| step);
+        }
+        let pass = bsdf.passing_probability();
+        if event.lobe < pass.x {
+            return Some(Step {
+                wi: -wo,
+                value: bsdf.passing(),
+                chance: pass,
+                eta: 1.0,
+                passes: true,
+            });
+        }
+        // What remains of the random number is as good as new.
+        let rest = (event.lobe - pass.x) / (1.0 - pass.x);
+        let by_model = if bsdf.has_discrete() { 0.5 } else { 0.0 };
+        if rest < by_model {
+            let (step, discrete) = sampled((rest / by_model).min(BELOW_ONE))?;
+            // Passing and continuous directions are found elsewhere.
+            return (discrete && !step.passes).then(|| Step {
+                chance: step.chance * by_model * (Vec4::ONE - pass),
+                ..step
+            });
+        }
+        let (wi, density) = self.draw(vertex, bsdf.hemisphere(), wo, event.direction);
+        let value = bsdf.eval(wo, wi, Mode::Radiance);
+        (value != Vec4::ZERO).then(|| Step {
+            wi,
+            value,
+            chance: (Vec4::ONE - pass) * ((1.0 - by_model) * density),
+            eta: 1.0,
+            passes: false,
+        })
+    }
+
+    /// A direction on `wo`'s side of `hemisphere`, or else on either side of the surface, with its
+    /// density (sr⁻¹).
+    fn draw(&self, vertex: &Vertex, hemisphere: Option<Frame>, wo: Vec3, u: Vec2) -> (Vec3, f32) {
+        let (side, u, share) = match hemisphere {
+            Some(frame) => (wo.dot(frame.n), u, 1.0),
+            None if u.x < 0.5 => (1.0, Vec2::new(2.0 * u.x, u.y), 0.5),
+            None => (-1.0, Vec2::new(2.0 * u.x - 1.0, u.y), 0.5),
+        };
+        let frame = hemisphere.unwrap_or(vertex.shading);
+        let (local, density) = match self.directions {
+            Directions::Uniform => (square_to_uniform_hemisphere(u), 0.5 * FRAC_1_PI),
+            _ => {
+                let local = square_to_cosine_hemisphere(u);
+                (local, local.z * FRAC_1_PI)
+            }
+        };
+        let local = local * Vec3::new(1.0, 1.0, 1.0_f32.copysign(side));
+        (frame.to_world(local), density * share)
+    }
+
+    /// The radiance along a ray from the camera, per lane and over the sum of the densities' ratios,
+    /// and the alpha of what it met.
+    fn incident<W: World, S: Sampler>(
+        &self,
+        world: &W,
+        mut ray: Ray,
+        wavelengths: &Wavelengths,
+        sampler: &mut S,
+    ) -> (Vec4, f32) {
+        let PathSettings {
+            max_depth,
+            rr_depth,
+            hide_emitters,
+        } = self.settings;
+        let mut prefix = Prefix::START;
+        let mut radiance = Vec4::ZERO;
+        let (mut alpha, mut eta): (f32, f32) = (0.0, 1.0);
+        // Number of segments, that of `ray` included.
+        let mut depth = 1;
+        while depth <= max_depth {
+            let Some(hit) = world.intersect(&ray) else {
+                // A hidden sky stays hidden to rays that only went straight.
+                if world.has_background() && !(hide_emitters && alpha == 0.0) {
+                    let background = world.background(ray.direction, wavelengths);
+                    radiance += prefix.estimate(background, Vec4::ZERO);
+                    alpha = 1.0;
+                }
+                break;
+            };
+            let emits = world.is_emitter(&hit);
+            let vertex = world.vertex(&ray, &hit);
+            if emits && hide_emitters && depth == 1 {
+                // The camera looks through hidden lights.
+                ray = vertex.spawn(ray.direction);
+                continue;
+            }
+            let wo = -ray.direction;
+            if emits {
+                let emitted = world.emitted(&vertex, wo, wavelengths);
+                radiance += prefix.estimate(emitted, Vec4::ZERO);
+            }
+            let bsdf = world.bsdf(&vertex, wo, wavelengths);
+            if depth == max_depth {
+                // Where the path would go on we do not ask; how likely straight on, we know.
+                alpha = alpha.max(1.0 - 0.25 * bsdf.passing_probability().element_sum());
+                break;
+            }
+            let event = Event::draw(sampler, depth - 1);
+            let step = self.step(&vertex, &bsdf, wo, &event);
+            if !step.as_ref().is_some_and(|step| step.passes) {
+                alpha = 1.0;
+            }
+            let Some(step) = step else {
+                break;
+            };
+            prefix.extend(step.value, step.chance);
+            eta *= step.eta;
+            if depth >= rr_depth {
+                let survival = (prefix.throughput() * eta * eta).min(0.95);
+                if !(event.roulette < survival) {
+                    break;
+                }
+                prefix.survive(survival);
+            }
+            if prefix.value == Vec4::ZERO {
+                break;
+            }
+            ray = vertex.spawn(step.wi);
+            depth += 1;
+        }
+        (radiance, alpha)
+    }
+}
+
+impl Integrator for Naive {
+    const UNBIASED: bool = true;
+
+    type State = ();
+
+    fn objections(&self, sight: &Sight) -> Vec<Objection> {
+        sight.objections(Finding::Hitting)
+    }
+
+    fn prepare<W: World>(&self, _: &W, _: &Pass, _: Option<()>) {}
+
+    fn sample<W: World, S: Sampler, K: Sink>(
+        &self,
+        world: &W,
+        (): &(),
+        site: &PixelSite,
+        sampler: &mut S,
+        sink: &mut K,
+    ) {
+        let (wavelengths, ray, weight) = camera_ray(world, site, sampler);
+        let (radiance, alpha) = self.incident(world, ray, &wavelengths, sampler);
+        let rgb = sensor_response(&wavelengths).rgb(radiance * weight);
+        sink.radiance(rgb.to_array(), alpha);
+    }
+}

@@ -1,0 +1,223 @@
+//! `photonmap`: photon mapping in two passes.
+//!
+//! First photons are shot and kept in two maps (Jensen 1996): the *caustic* map holds those that were
+//! scattered in sharp directions only, the *global* map those and all others. Then paths from the camera
+//! gather them ([`crate::photons`]); at the first surface x that scatters otherwise,
+//!
+//! ```text
+//! L = L_direct (sampled) + L_sharp (followed) + L_caustic (caustic map) + L_indirect
+//! ```
+//!
+//! L_indirect comes from the photons of the global map that belong to neither of the others, or with
+//! `final_gather` from the next surface y that a path from x meets in a direction that is not sharp, where
+//! the whole global map is looked up, and what it meets in sharp directions from there.
+//!
+//! A map is looked up within a radius, or for the k nearest photons, whose farthest tells the radius; the
+//! kernel is a box or Jensen's cone. Every replicate has maps of its own. The radius stays as it is, so
+//! the bias does not vanish however many samples and replicates there are, only with more photons.
+
+use crate::photons::gather::{Kernel, Layer, Lookup, Plan, Scratch, follow};
+use crate::photons::radius::{from_pixels, read};
+use crate::photons::sets::WavelengthSets;
+use crate::photons::shoot::{Kind, PhotonMap, shoot};
+use crate::photons::{read_count, read_sets, rounded};
+use crate::settings::{PathSettings, ignore_scheduling};
+use etalon_params::Params;
+use etalon_sampling::Sampler;
+use etalon_transport::{Draft, Integrator, Pass, PixelSite, Sink, TileSink, World};
+
+/// The photon mapper.
+#[derive(Clone, Debug)]
+pub struct PhotonMapper {
+    /// Limits of the path.
+    pub settings: PathSettings,
+    /// Photons per replicate.
+    pub photons: u32,
+    /// Sets of wavelengths.
+    pub sets: u32,
+    /// Whether light that is neither direct nor a caustic is gathered one bounce away.
+    pub final_gather: bool,
+    /// How the global map is looked up.
+    pub global: Estimate,
+    /// How the caustic map is looked up.
+    pub caustic: Estimate,
+    /// The cone's k; a box if there is none.
+    pub cone: Option<f32>,
+}
+
+/// How a map is looked up.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Estimate {
+    /// The radius, or the largest if the nearest photons are looked for (m); `None` for the width of
+    /// some pixels, or as large as need be.
+    pub radius: Option<f32>,
+    /// How many photons are looked for; all within the radius if zero.
+    pub nearest: usize,
+}
+
+/// Photons where the scene does not say.
+const PHOTONS: u32 = 1 << 18;
+
+/// Sets of wavelengths where the scene does not say.
+const SETS: u32 = 16;
+
+impl Default for PhotonMapper {
+    fn default() -> Self {
+        Self {
+            settings: PathSettings::default(),
+            photons: PHOTONS,
+            sets: SETS,
+            final_gather: false,
+            global: Estimate::default(),
+            caustic: Estimate::default(),
+            cone: None,
+        }
+    }
+}
+
+/// The maps of a replicate.
+#[derive(Debug)]
+pub struct State {
+    sets: WavelengthSets,
+    caustic: PhotonMap,
+    global: PhotonMap,
+    shot: u32,
+    /// The radii of both (m).
+    radii: [f32; 2],
+}
+
+impl PhotonMapper {
+    /// Reads the integrator from its description: Mitsuba's parameters of paths, `photons`, `wavelength_sets`,
+    /// `final_gather`, `filter` (`box` or `cone`), `cone`, and for both maps `global_radius`, `global_nearest`,
+    /// `caustic_radius` and `caustic_nearest`.
+    pub fn from_params(params: &Params<'_>) -> Self {
+        ignore_scheduling(params);
+        let nearest = |name: &str| {
+            let count = params.integer_or(name, 0);
+            if !(0..=MOST_NEAREST).contains(&count) {
+                params.refuse(name, count, "0 (all within the radius), 1, 2, … 65536");
+            }
+            usize::try_from(count).unwrap_or(0)
+        };
+        let estimate = |radius: &str, count: &str| Estimate {
+            radius: read(params, radius),
+            nearest: nearest(count),
+        };
+        let filter = params.choice("filter", "box", &["box", "cone"]);
+        let what = "a number from 1: where the cone ends, in radii";
+        let cone = params.float_where("cone", 1.1, what, |k| (1.0..=1e6).contains(&k));
+        if filter != "cone" && params.has("cone") {
+            params.error_at("cone", "`cone` has no effect unless `filter` is `cone`");
+        }
+        Self {
+            settings: PathSettings::from_params(params),
+            photons: read_count(params).unwrap_or(PHOTONS),
+            sets: read_sets(params, SETS),
+            final_gather: params.boolean_or("final_gather", false),
+            global: estimate("global_radius", "global_nearest"),
+            caustic: estimate("caustic_radius", "caustic_nearest"),
+            cone: (filter == "cone").then_some(cone as f32),
+        }
+    }
+
+    fn plan<R>(&self, state: &State, with: impl FnOnce(&Plan<'_>) -> R) -> R {
+        let kernel = self.cone.map_or(Kernel::Box, Kernel::Cone);
+        let [global, caustic] = [(self.global, 0), (self.caustic, 1)].map(|(map, radius)| Lookup {
+            radius: state.radii[radius],
+            nearest: map.nearest,
+            kernel,
+        });
+        let first: fn(Kind) -> bool = if self.final_gather {
+            |_| false
+        } else {
+            |kind| kind == Kind::Indirect
+        };
+        let layers = [
+            Layer {
+                map: &state.global,
+                lookup: global,
+                shot: state.shot,
+                first,
+                second: |_| true,
+            },
+            Layer {
+                map: &state.caustic,
+                lookup: caustic,
+                shot: state.shot,
+                first: |_| true,
+                second: |_| false,
+            },
+        ];
+        with(&Plan {
+            settings: &self.settings,
+            sets: &state.sets,
+            layers: &layers,
+            final_gather: self.final_gather,
+        })
+    }
+}
+
+/// A radius beyond everything (m) whose square is a number.
+const ANYWHERE: f32 = 1e18;
+
+/// The most photons that may be looked for.
+const MOST_NEAREST: i64 = 1 << 16;
+
+impl Integrator for PhotonMapper {
+    type State = State;
+
+    fn prepare<W: World>(&self, world: &W, pass: &Pass, _: Option<State>) -> State {
+        let sets = WavelengthSets::new(world, pass, self.sets as usize);
+        let shot = rounded(self.photons, self.sets);
+        let mut photons = shoot(world, &self.settings, &sets, pass, shot);
+        let caustic = photons.iter().filter(|p| p.kind == Kind::Caustic);
+        let caustic = PhotonMap::new(caustic.copied().collect());
+        if !self.final_gather {
+            // Nobody asks the global map for others.
+            photons.retain(|photon| photon.kind == Kind::Indirect);
+        }
+        let radius = |map: Estimate| match (map.radius, map.nearest) {
+            (Some(radius), _) => radius,
+            (None, 0) => from_pixels(world, pass),
+            (None, _) => ANYWHERE,
+        };
+        State {
+            sets,
+            caustic,
+            global: PhotonMap::new(photons),
+            shot,
+            radii: [self.global, self.caustic].map(radius),
+        }
+    }
+
+    fn sample<W: World, S: Sampler, K: Sink>(
+        &self,
+        world: &W,
+        state: &State,
+        site: &PixelSite,
+        sampler: &mut S,
+        sink: &mut K,
+    ) {
+        let mut scratch = Scratch::default();
+        self.plan(state, |plan| {
+            follow(world, plan, site, sampler, &mut scratch, sink);
+        });
+    }
+
+    fn sample_all<W: World, S: Sampler, K: TileSink>(
+        &self,
+        world: &W,
+        state: &State,
+        drafts: &mut [Draft<S>],
+        sink: &mut K,
+    ) {
+        let mut scratch = Scratch::default();
+        self.plan(state, |plan| {
+            for draft in drafts {
+                sink.begin_sample(draft.site.pixel, draft.weight);
+                let sampler = &mut draft.sampler;
+                follow(world, plan, &draft.site, sampler, &mut scratch, sink);
+            }
+        });
+    }
+}

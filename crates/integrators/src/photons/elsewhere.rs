@@ -1,0 +1,99 @@
+//! A camera path at other wavelengths than its own.
+//!
+//! Whatever scattered continuously is evaluated there. A discrete direction has a value only as a
+//! sample: the model is resolved at the other wavelengths and asked for the same direction, with
+//! the numbers that had found it, and, if a coloured choice of lobes then finds another, with others.
+
+use crate::prefix::Prefix;
+use etalon_spectrum::Wavelengths;
+use etalon_transport::{Bsdf, BsdfSample, Mode, Vertex, World};
+use glam::{Vec2, Vec3, Vec4};
+
+/// A surface that a camera path left.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Left {
+    vertex: Vertex,
+    wo: Vec3,
+    wi: Vec3,
+    manner: Manner,
+    /// Density or probability of the lane that chose, times that of surviving.
+    chance: f32,
+}
+
+/// How it was left.
+#[derive(Clone, Copy, Debug, PartialEq)]
+enum Manner {
+    Passing,
+    Continuous,
+    /// In a discrete direction, found with these numbers.
+    Discrete {
+        lobe: f32,
+        u: Vec2,
+    },
+}
+
+/// The squared distance at which unit vectors are the same direction.
+const SAME: f32 = 1e-8;
+
+impl Left {
+    /// The surface that was left as `sample` says, found with the numbers `lobe` and `u`.
+    pub(crate) fn new(vertex: Vertex, wo: Vec3, sample: &BsdfSample, lobe: f32, u: Vec2) -> Self {
+        let manner = if sample.passes {
+            Manner::Passing
+        } else if sample.chance.is_discrete() {
+            Manner::Discrete { lobe, u }
+        } else {
+            Manner::Continuous
+        };
+        Self {
+            vertex,
+            wo,
+            wi: sample.wi,
+            manner,
+            chance: sample.chance.lanes().x,
+        }
+    }
+
+    /// It survived roulette here with probability `q`.
+    pub(crate) fn survive(&mut self, q: f32) {
+        self.chance *= q;
+    }
+
+    /// f/p₀ of leaving this way, f at other wavelengths.
+    fn value<W: World>(&self, world: &W, wavelengths: &Wavelengths) -> Vec4 {
+        let bsdf = world.bsdf(&self.vertex, self.wo, wavelengths);
+        let value = match self.manner {
+            Manner::Passing => bsdf.passing(),
+            Manner::Continuous => bsdf.eval(self.wo, self.wi, Mode::Radiance),
+            Manner::Discrete { lobe, u } => discrete(&bsdf, self.wo, self.wi, lobe, u),
+        };
+        value / self.chance
+    }
+}
+
+/// f/p₀ of a path, f at other wavelengths.
+pub(crate) fn value<W: World>(world: &W, path: &[Left], wavelengths: &Wavelengths) -> Vec4 {
+    let mut value = Prefix::START.value;
+    for left in path {
+        value *= left.value(world, wavelengths);
+        if value == Vec4::ZERO {
+            break;
+        }
+    }
+    value
+}
+
+/// The energy that goes in the discrete direction `wi`; zero if none does.
+fn discrete(bsdf: &impl Bsdf, wo: Vec3, wi: Vec3, lobe: f32, u: Vec2) -> Vec4 {
+    const TRIES: u8 = 64;
+    // The ends first: one of them finds either lobe of a pair, however unlikely it is.
+    let others = (0..TRIES).map(|i| (f32::from(i) + 0.5) / f32::from(TRIES));
+    [lobe, 0.0, 1.0 - 0.5 * f32::EPSILON]
+        .into_iter()
+        .chain(others)
+        .filter_map(|lobe| bsdf.sample(wo, lobe, u, Mode::Radiance))
+        .find(|sample| {
+            sample.chance.is_discrete() && !sample.passes && sample.wi.distance_squared(wi) < SAME
+        })
+        .map_or(Vec4::ZERO, |sample| sample.value)
+}

@@ -1,0 +1,365 @@
+//! The camera's walk, which gathers photons where it meets surfaces that scatter.
+//!
+//! It follows sharp directions to their end, as `path` does, light sampling included; in all others it
+//! leaves light that is not direct to photons, and ends. With a final gather it goes on once in
+//! such a direction, and leaves to photons what it meets there.
+
+use super::elsewhere::{self, Left};
+use super::is_sharp;
+use super::sets::{Lanes, WavelengthSets};
+use super::shoot::{Kind, Photon, PhotonMap};
+use crate::dimensions::{self as dim, Event};
+use crate::prefix::Prefix;
+use crate::rival::Rival;
+use crate::settings::PathSettings;
+use crate::walk::shadow_ray;
+use core::f32::consts::PI;
+use etalon_sampling::Sampler;
+use etalon_spectrum::Wavelengths;
+use etalon_transport::{Bsdf, Camera, Chance, Mode, PixelSite, Ray, Receiver, Sink, Vertex, World};
+use glam::{Vec3, Vec4};
+
+/// The least cosine of the angle between the normals of surfaces that share photons.
+const FACING: f32 = 0.7;
+
+/// What is looked up in a photon map.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Lookup {
+    /// Radius (m).
+    pub(crate) radius: f32,
+    /// At most so many of the nearest photons, whose distance then is the radius; all within it
+    /// if zero.
+    pub(crate) nearest: usize,
+    /// The shape of the kernel.
+    pub(crate) kernel: Kernel,
+}
+
+/// A kernel on a disc.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) enum Kernel {
+    /// The same everywhere: 1 / (π r²).
+    Box,
+    /// Falling with distance d: (1 − d/(k r)) / ((1 − 2/(3k)) π r²), Jensen 1996, section 4.2.
+    Cone(f32),
+}
+
+impl Kernel {
+    /// Its value (m⁻²).
+    #[inline]
+    pub(crate) fn value(self, distance_squared: f32, radius_squared: f32) -> f32 {
+        match self {
+            Self::Box => 1.0 / (PI * radius_squared),
+            Self::Cone(k) => {
+                let at = (distance_squared / radius_squared).sqrt();
+                let height = 1.0 / ((1.0 - 2.0 / (3.0 * k)) * PI * radius_squared);
+                (1.0 - at / k).max(0.0) * height
+            }
+        }
+    }
+}
+
+/// A map, how to look it up, and what of it counts.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Layer<'a> {
+    pub(crate) map: &'a PhotonMap,
+    pub(crate) lookup: Lookup,
+    /// How many photons were shot.
+    pub(crate) shot: u32,
+    /// Whether these photons count where the walk has only followed sharp directions, …
+    pub(crate) first: fn(Kind) -> bool,
+    /// … and where it has left in another one.
+    pub(crate) second: fn(Kind) -> bool,
+}
+
+/// What a walk needs to know.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Plan<'a> {
+    pub(crate) settings: &'a PathSettings,
+    pub(crate) sets: &'a WavelengthSets,
+    pub(crate) layers: &'a [Layer<'a>],
+    pub(crate) final_gather: bool,
+}
+
+/// Memory for walks.
+pub(crate) struct Scratch<B> {
+    path: Vec<Left>,
+    /// The model of the surface at hand for each set, once needed, and what its photons add.
+    at: Vec<(Option<B>, Vec4)>,
+    nearest: Vec<super::kdtree::Found>,
+}
+
+impl<B> Default for Scratch<B> {
+    fn default() -> Self {
+        Self {
+            path: Vec::new(),
+            at: Vec::new(),
+            nearest: Vec::new(),
+        }
+    }
+}
+
+/// A walk.
+struct Gatherer<'a, 'w, W: World> {
+    world: &'w W,
+    plan: &'a Plan<'a>,
+    lanes: Lanes,
+    wavelengths: Wavelengths,
+    scratch: &'a mut Scratch<W::Bsdf<'w>>,
+    prefix: Prefix,
+    /// Whether smooth dispersion has left one wavelength.
+    alone: bool,
+    /// Whether it has left in a direction that is not sharp.
+    second: bool,
+    rival: Rival,
+    depth: u32,
+    /// What was found at the walk's own wavelengths, per lane, …
+    radiance: Vec4,
+    /// … and at those of photons.
+    rgb: Vec3,
+}
+
+/// Follows one sample.
+pub(crate) fn follow<'w, W: World>(
+    world: &'w W,
+    plan: &Plan<'_>,
+    site: &PixelSite,
+    sampler: &mut impl Sampler,
+    scratch: &mut Scratch<W::Bsdf<'w>>,
+    sink: &mut impl Sink,
+) {
+    sampler.skip_to(dim::LENS);
+    let lens = sampler.next_2d();
+    let lanes = plan.sets.choose(sampler.next_1d());
+    let time = sampler.next_1d();
+    let start = world.camera().ray(site.raster, lens, time);
+    scratch.path.clear();
+    let mut gatherer = Gatherer {
+        world,
+        plan,
+        lanes,
+        wavelengths: plan.sets.of(lanes),
+        scratch,
+        prefix: Prefix::START,
+        alone: false,
+        second: false,
+        rival: Rival::NONE,
+        depth: 1,
+        radiance: Vec4::ZERO,
+        rgb: Vec3::ZERO,
+    };
+    let alpha = gatherer.walk(start.ray, sampler);
+    let own = lanes.to_set(gatherer.radiance);
+    let rgb = plan.sets.sensor(lanes.set).rgb(own) + gatherer.rgb;
+    sink.radiance((rgb * start.weight).to_array(), alpha);
+}
+
+impl<'w, W: World> Gatherer<'_, 'w, W> {
+    /// Follows the walk; its alpha, as in `path`.
+    fn walk(&mut self, mut ray: Ray, sampler: &mut impl Sampler) -> f32 {
+        let (world, settings) = (self.world, self.plan.settings);
+        let mut alpha = 0.0_f32;
+        let mut eta = 1.0;
+        while self.depth <= settings.max_depth && self.prefix.value != Vec4::ZERO {
+            let direction = ray.direction;
+            let Some(hit) = world.intersect(&ray) else {
+                // A hidden sky stays hidden to rays that only went straight.
+                let visible = !settings.hide_emitters || alpha > 0.0;
+                if visible && world.has_background() {
+                    alpha = 1.0;
+                    let radiance = world.background(direction, &self.wavelengths);
+                    self.emission(radiance, |rival| rival.at_background(world, direction));
+                }
+                break;
+            };
+            let emits = world.is_emitter(&hit);
+            let vertex = world.vertex(&ray, &hit);
+            if emits && settings.hide_emitters && self.depth == 1 {
+                // The camera looks through hidden lights.
+                ray = vertex.spawn(direction);
+                continue;
+            }
+            let wo = -direction;
+            if emits {
+                let radiance = world.emitted(&vertex, wo, &self.wavelengths);
+                self.emission(radiance, |rival| {
+                    rival.at_surface(world, &vertex, direction)
+                });
+            }
+            let bsdf = world.bsdf(&vertex, wo, &self.wavelengths);
+            if self.depth == settings.max_depth {
+                let stopped = 1.0 - 0.25 * bsdf.passing_probability().element_sum();
+                alpha = alpha.max(stopped);
+                break;
+            }
+            let event = Event::draw(sampler, self.depth - 1);
+            if bsdf.has_continuous() {
+                if !self.second {
+                    self.see_light(&vertex, &bsdf, wo, &event);
+                }
+                self.gather(&vertex, &bsdf, wo);
+            }
+            let sampled = bsdf.sample(wo, event.lobe, event.direction, Mode::Radiance);
+            let Some(sample) = sampled else {
+                alpha = 1.0;
+                break;
+            };
+            if !sample.passes {
+                alpha = 1.0;
+            }
+            match sample.chance {
+                Chance::Continuous(density) if !is_sharp(density) => {
+                    if self.second || !self.plan.final_gather {
+                        break;
+                    }
+                    self.second = true;
+                }
+                Chance::Discrete(atom) if sample.eta != 1.0 => {
+                    self.alone |= atom.0.min_element() == 0.0;
+                }
+                _ => {}
+            }
+            let mut left = Left::new(vertex, wo, &sample, event.lobe, event.direction);
+            self.rival = self.rival.after(&self.prefix, &vertex, &sample);
+            self.prefix.extend(sample.value, sample.chance.lanes());
+            eta *= sample.eta;
+            ray = vertex.spawn(sample.wi);
+            if self.depth >= settings.rr_depth {
+                let survival = (self.prefix.throughput() * eta * eta).min(0.95);
+                if !(event.roulette < survival) {
+                    break;
+                }
+                self.prefix.survive(survival);
+                left.survive(survival);
+            }
+            self.scratch.path.push(left);
+            self.depth += 1;
+        }
+        alpha
+    }
+
+    /// Adds light that the walk ran into.
+    #[inline]
+    fn emission(&mut self, radiance: Vec4, other: impl FnOnce(&Rival) -> Vec4) {
+        if !self.second && radiance != Vec4::ZERO {
+            let other = other(&self.rival);
+            self.radiance += self.prefix.estimate(radiance, other);
+        }
+    }
+
+    /// Adds direct light, weighed against following the same direction if that is sharp.
+    fn see_light(&mut self, vertex: &Vertex, bsdf: &W::Bsdf<'w>, wo: Vec3, event: &Event) {
+        let world = self.world;
+        let from = Receiver::from(vertex);
+        let (choice, u) = (event.light_choice, event.light);
+        let Some(light) = world.sample_light(&from, &self.wavelengths, choice, u) else {
+            return;
+        };
+        let (value, density) = bsdf.eval_and_density(wo, light.direction, Mode::Radiance);
+        let contribution = value * light.radiance;
+        if contribution == Vec4::ZERO {
+            return;
+        }
+        let Some(ray) = shadow_ray(vertex, light.direction, light.target) else {
+            return;
+        };
+        let crossings = self.plan.settings.max_depth - self.depth - 1;
+        let Some(passage) = world.passage(&ray, &self.wavelengths, crossings) else {
+            return;
+        };
+        let mut complete = self.prefix;
+        complete.extend(contribution, light.chance.lanes());
+        let by_scattering = match light.chance {
+            Chance::Continuous(chosen) if is_sharp(density) => {
+                self.prefix.ratio * density.lanes() * passage.probability / chosen.chooser()
+            }
+            _ => Vec4::ZERO,
+        };
+        self.radiance += complete.estimate(passage.transmittance, by_scattering);
+    }
+
+    /// Adds the light that photons bring.
+    fn gather(&mut self, vertex: &Vertex, own: &W::Bsdf<'w>, wo: Vec3) {
+        let Plan { sets, layers, .. } = *self.plan;
+        let scratch = &mut *self.scratch;
+        scratch.at.clear();
+        scratch.at.resize_with(sets.len(), || (None, Vec4::ZERO));
+        let at = &mut scratch.at;
+        let (world, depth, alone) = (self.world, self.depth, self.alone);
+        let (max_depth, lanes) = (self.plan.settings.max_depth, self.lanes);
+        let mut any = false;
+        for layer in layers {
+            let counts = if self.second {
+                layer.second
+            } else {
+                layer.first
+            };
+            let mut merge = |photon: &Photon, kernel: f32| {
+                let set = photon.set as usize;
+                if !counts(photon.kind)
+                    || depth.saturating_add(photon.segments) > max_depth
+                    || (alone && set != lanes.set)
+                    || photon.normal.dot(vertex.normal) < FACING
+                {
+                    return;
+                }
+                // What is sharp is so for the walk's own wavelengths.
+                if is_sharp(own.density(wo, photon.from)) {
+                    return;
+                }
+                let (model, sum) = &mut at[set];
+                let model = model.get_or_insert_with(|| world.bsdf(vertex, wo, sets.get(set)));
+                let value = model.eval(wo, photon.from, Mode::Radiance);
+                *sum += value * photon.value * kernel;
+                any = true;
+            };
+            let lookup = &layer.lookup;
+            let scale = 1.0 / layer.shot as f32;
+            let radius_squared = lookup.radius * lookup.radius;
+            let (tree, photons) = (&layer.map.tree, &layer.map.photons);
+            if lookup.nearest == 0 {
+                tree.within(vertex.position, radius_squared, |found| {
+                    let kernel = lookup.kernel.value(found.distance_squared, radius_squared);
+                    merge(&photons[found.place], kernel * scale);
+                });
+            } else {
+                let nearest = &mut scratch.nearest;
+                tree.nearest(vertex.position, lookup.nearest, radius_squared, nearest);
+                // The farthest only tells how far they reach.
+                let Some((last, inside)) = nearest.split_last() else {
+                    continue;
+                };
+                let full = nearest.len() == lookup.nearest;
+                let (reach, inside) = if full {
+                    (last.distance_squared, inside)
+                } else {
+                    (radius_squared, &nearest[..])
+                };
+                for found in inside {
+                    let kernel = lookup.kernel.value(found.distance_squared, reach);
+                    merge(&photons[found.place], kernel * scale);
+                }
+            }
+        }
+        if any {
+            self.develop();
+        }
+    }
+
+    /// Carries what photons brought along the path to the camera.
+    fn develop(&mut self) {
+        let (sets, scratch) = (self.plan.sets, &*self.scratch);
+        let all = sets.len() as f32;
+        let scale = if self.alone { all } else { 1.0 } / self.prefix.ratio.element_sum();
+        for (set, (_, sum)) in scratch.at.iter().enumerate() {
+            if *sum == Vec4::ZERO {
+                continue;
+            }
+            let path = if set == self.lanes.set {
+                self.lanes.to_set(self.prefix.value)
+            } else {
+                elsewhere::value(self.world, &scratch.path, sets.get(set))
+            };
+            self.rgb += sets.sensor(set).rgb(*sum * path * scale);
+        }
+    }
+}

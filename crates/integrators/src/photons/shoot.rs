@@ -1,0 +1,201 @@
+//! Photons: particles from the lights, noted wherever they meet a surface that scatters.
+//!
+//! A photon of flux Φ that arrives at y stands for the part Φ of the flux that arrives there. Its
+//! value per lane is f/p of its path, with p the mean density over the lanes that could have
+//! chosen (see [`crate::prefix`]), over the cosine of its arrival: the sum of the values of photons
+//! per unit area of a surface estimates the integral of radiance over directions.
+
+use super::sets::{Lanes, WavelengthSets};
+use super::{is_sharp, kdtree::KdTree};
+use crate::dimensions::{self as dim, Event};
+use crate::prefix::Prefix;
+use crate::settings::PathSettings;
+use etalon_sampling::hash::mix64;
+use etalon_sampling::{PixelSample, Sampler, Sobol};
+use etalon_transport::{Bsdf, Chance, Mode, Pass, World};
+use glam::{Vec3, Vec4};
+use rayon::prelude::*;
+
+/// What a photon went through.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Kind {
+    /// It comes straight from a light.
+    Direct,
+    /// It was scattered in sharp directions only.
+    Caustic,
+    /// It was scattered in some other direction.
+    Indirect,
+}
+
+/// A photon at a surface.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Photon {
+    /// Where (m).
+    pub(crate) position: Vec3,
+    /// Unit geometric normal there.
+    pub(crate) normal: Vec3,
+    /// Unit direction to where it came from.
+    pub(crate) from: Vec3,
+    /// Its value per lane of its set.
+    pub(crate) value: Vec4,
+    /// Its set of wavelengths.
+    pub(crate) set: u32,
+    /// Segments behind it.
+    pub(crate) segments: u32,
+    /// What it went through.
+    pub(crate) kind: Kind,
+}
+
+/// The photons of a pass.
+#[derive(Debug)]
+pub(crate) struct PhotonMap {
+    pub(crate) tree: KdTree,
+    pub(crate) photons: Vec<Photon>,
+}
+
+impl PhotonMap {
+    /// A map of some photons.
+    pub(crate) fn new(photons: Vec<Photon>) -> Self {
+        let (tree, order) = KdTree::new(photons.iter().map(|photon| photon.position));
+        let photons = order.iter().map(|i| photons[*i as usize]).collect();
+        Self { tree, photons }
+    }
+}
+
+/// The light's choices come first; scattering events follow at the usual places.
+const EMISSION_POSITION: u32 = dim::SCATTERING;
+const EMISSION_DIRECTION: u32 = dim::SCATTERING + 2;
+const EMISSION_LIGHT: u32 = dim::SCATTERING + 4;
+
+/// The row of pixels, beyond any film, whose random numbers photons take.
+const ROW: u32 = u32::MAX;
+
+/// How many photons a thread traces at once.
+const CHUNK: u32 = 1024;
+
+/// The random numbers of photon `index` of `count`.
+pub(crate) fn numbers(pass: &Pass, index: u32, count: u32) -> Sobol {
+    Sobol::start(&PixelSample {
+        seed: mix64(pass.seed),
+        replicate: pass.replicate,
+        pixel: (pass.number, ROW),
+        sample: index,
+        samples_per_replicate: count,
+    })
+}
+
+/// Everything that `trace` finds for the numbers below `count`, in their order whatever the number
+/// of threads.
+pub(crate) fn in_order<T: Send>(count: u32, trace: impl Fn(u32, &mut Vec<T>) + Sync) -> Vec<T> {
+    let chunk = |chunk: u32| {
+        let mut found = Vec::new();
+        let begin = chunk * CHUNK;
+        for index in begin..(begin + CHUNK).min(count) {
+            trace(index, &mut found);
+        }
+        found
+    };
+    let chunks: Vec<Vec<T>> = (0..count.div_ceil(CHUNK))
+        .into_par_iter()
+        .map(chunk)
+        .collect();
+    chunks.into_iter().flatten().collect()
+}
+
+/// Shoots `count` photons, a multiple of four times the number of sets.
+pub(crate) fn shoot<W: World>(
+    world: &W,
+    settings: &PathSettings,
+    sets: &WavelengthSets,
+    pass: &Pass,
+    count: u32,
+) -> Vec<Photon> {
+    // Successive photons share their wavelengths, so that each share of them is as evenly spread
+    // as the whole.
+    let share = count / (4 * sets.len() as u32);
+    in_order(count, |index, found| {
+        let lanes = (index / share) as usize;
+        let lanes = Lanes {
+            set: lanes / 4,
+            first: lanes % 4,
+        };
+        let mut sampler = numbers(pass, index, count);
+        trace(world, settings, sets, lanes, &mut sampler, found);
+    })
+}
+
+/// One photon's way.
+fn trace<W: World>(
+    world: &W,
+    settings: &PathSettings,
+    sets: &WavelengthSets,
+    lanes: Lanes,
+    sampler: &mut Sobol,
+    found: &mut Vec<Photon>,
+) {
+    let wavelengths = sets.of(lanes);
+    sampler.skip_to(EMISSION_POSITION);
+    let u_position = sampler.next_2d();
+    sampler.skip_to(EMISSION_DIRECTION);
+    let u_direction = sampler.next_2d();
+    sampler.skip_to(EMISSION_LIGHT);
+    let u_light = sampler.next_1d();
+    let Some(start) = world.emit(&wavelengths, u_light, u_position, u_direction) else {
+        return;
+    };
+    let mut prefix = Prefix::START;
+    prefix.value = start.weight;
+    let mut ray = start.ray;
+    let mut kind = Kind::Direct;
+    // `depth` segments lie behind once the ray has arrived; the camera adds one at least.
+    let mut depth = 1;
+    while depth < settings.max_depth && prefix.value != Vec4::ZERO {
+        let Some(hit) = world.intersect(&ray) else {
+            return;
+        };
+        let vertex = world.vertex(&ray, &hit);
+        let wo = -ray.direction;
+        let bsdf = world.bsdf(&vertex, wo, &wavelengths);
+        let cos = vertex.normal.dot(wo).abs();
+        if bsdf.has_continuous() && cos > 0.0 {
+            let value = prefix.value * (4.0 / (prefix.ratio.element_sum() * cos));
+            found.push(Photon {
+                position: vertex.position,
+                normal: vertex.normal,
+                from: wo,
+                value: lanes.to_set(value),
+                set: lanes.set as u32,
+                segments: depth,
+                kind,
+            });
+        }
+        let event = Event::draw(sampler, depth);
+        let sampled = bsdf.sample(wo, event.lobe, event.direction, Mode::Importance);
+        let Some(sample) = sampled else {
+            return;
+        };
+        if !sample.passes {
+            // As the camera's paths would call it, which come along the other way.
+            let sharp = match sample.chance {
+                Chance::Discrete(_) => true,
+                Chance::Continuous(_) => is_sharp(bsdf.density(sample.wi, wo)),
+            };
+            kind = match kind {
+                Kind::Direct | Kind::Caustic if sharp => Kind::Caustic,
+                _ => Kind::Indirect,
+            };
+        }
+        let before = prefix.throughput();
+        prefix.extend(sample.value, sample.chance.lanes());
+        ray = vertex.spawn(sample.wi);
+        if depth >= settings.rr_depth {
+            // Relative to the flux before: emitted flux has no natural scale.
+            let survival = (prefix.throughput() / before).min(0.95);
+            if !(event.roulette < survival) {
+                return;
+            }
+            prefix.survive(survival);
+        }
+        depth += 1;
+    }
+}

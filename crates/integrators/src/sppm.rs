@@ -1,0 +1,146 @@
+//! `sppm`: stochastic progressive photon mapping.
+//!
+//! A progression of N passes, each with photons and camera paths of its own, whose radius shrinks,
+//!
+//! ```text
+//! C = 1/N Σᵢ Cᵢ(rᵢ),   rᵢ₊₁² / rᵢ² = (i + α) / (i + 1)
+//! ```
+//!
+//! with Cᵢ the estimate of [`crate::photons`] (Hachisuka, Ogaki, Jensen 2008; Hachisuka & Jensen 2009; in this form
+//! without memory Knaus & Zwicker 2011, see [`crate::photons::radius`]). A sample is a pass, and a replicate a whole
+//! progression: more samples per replicate reduce its bias, more replicates do not.
+//!
+//! Direct light is sampled and not left to photons: what remains of the image is biased, the more
+//! so where illumination bends within the radius or near edges.
+
+use crate::photons::gather::{Kernel, Layer, Lookup, Plan, Scratch, follow};
+use crate::photons::radius::Radius;
+use crate::photons::sets::WavelengthSets;
+use crate::photons::shoot::{Kind, PhotonMap, shoot};
+use crate::photons::{read_count, read_sets, rounded};
+use crate::settings::{PathSettings, ignore_scheduling};
+use etalon_params::Params;
+use etalon_sampling::Sampler;
+use etalon_transport::{Draft, Integrator, Pass, PixelSite, Sink, TileSink, World};
+
+/// Stochastic progressive photon mapping.
+#[derive(Clone, Debug)]
+pub struct Progressive {
+    /// Limits of the path.
+    pub settings: PathSettings,
+    /// The radius of each pass.
+    pub radius: Radius,
+    /// Photons per pass; `None` for as many as there are pixels.
+    pub photons: Option<u32>,
+    /// Sets of wavelengths per pass.
+    pub sets: u32,
+}
+
+impl Default for Progressive {
+    fn default() -> Self {
+        Self {
+            settings: PathSettings::default(),
+            radius: Radius::default(),
+            photons: None,
+            sets: SETS,
+        }
+    }
+}
+
+/// Sets of wavelengths per pass where the scene does not say.
+const SETS: u32 = 4;
+
+/// The photons of a pass.
+#[derive(Debug)]
+pub struct State {
+    sets: WavelengthSets,
+    map: PhotonMap,
+    shot: u32,
+    radius: f32,
+}
+
+impl Progressive {
+    /// Reads the integrator from its description: Mitsuba's parameters of paths, `photons`, `radius`, `alpha` and
+    /// `wavelength_sets`.
+    pub fn from_params(params: &Params<'_>) -> Self {
+        ignore_scheduling(params);
+        Self {
+            settings: PathSettings::from_params(params),
+            radius: Radius::from_params(params),
+            photons: read_count(params),
+            sets: read_sets(params, SETS),
+        }
+    }
+
+    fn plan<R>(&self, state: &State, with: impl FnOnce(&Plan<'_>) -> R) -> R {
+        let layers = [Layer {
+            map: &state.map,
+            lookup: Lookup {
+                radius: state.radius,
+                nearest: 0,
+                kernel: Kernel::Box,
+            },
+            shot: state.shot,
+            first: |kind| kind != Kind::Direct,
+            second: |_| false,
+        }];
+        with(&Plan {
+            settings: &self.settings,
+            sets: &state.sets,
+            layers: &layers,
+            final_gather: false,
+        })
+    }
+}
+
+impl Integrator for Progressive {
+    type State = State;
+
+    fn samples_per_pass(&self) -> Option<u32> {
+        Some(1)
+    }
+
+    fn prepare<W: World>(&self, world: &W, pass: &Pass, _: Option<State>) -> State {
+        let sets = WavelengthSets::new(world, pass, self.sets as usize);
+        let pixels = pass.size.x.saturating_mul(pass.size.y);
+        let shot = rounded(self.photons.unwrap_or(pixels), self.sets);
+        let photons = shoot(world, &self.settings, &sets, pass, shot);
+        State {
+            sets,
+            map: PhotonMap::new(photons),
+            shot,
+            radius: self.radius.of(world, pass),
+        }
+    }
+
+    fn sample<W: World, S: Sampler, K: Sink>(
+        &self,
+        world: &W,
+        state: &State,
+        site: &PixelSite,
+        sampler: &mut S,
+        sink: &mut K,
+    ) {
+        let mut scratch = Scratch::default();
+        self.plan(state, |plan| {
+            follow(world, plan, site, sampler, &mut scratch, sink);
+        });
+    }
+
+    fn sample_all<W: World, S: Sampler, K: TileSink>(
+        &self,
+        world: &W,
+        state: &State,
+        drafts: &mut [Draft<S>],
+        sink: &mut K,
+    ) {
+        let mut scratch = Scratch::default();
+        self.plan(state, |plan| {
+            for draft in drafts {
+                sink.begin_sample(draft.site.pixel, draft.weight);
+                let sampler = &mut draft.sampler;
+                follow(world, plan, &draft.site, sampler, &mut scratch, sink);
+            }
+        });
+    }
+}

@@ -1,0 +1,137 @@
+//! `vcm`: vertex connection and merging.
+//!
+//! All techniques of [`crate::bdpt`], and for every surface xᵢ of a path one more: a photon at xᵢ and the camera's
+//! walk at xᵢ, merged if they are less than r apart,
+//!
+//! ```text
+//! pₘ,ᵢ = a₀ … aᵢ · bᵢ … · π r²,   n of them;     C = Σ_σ Σⱼ [ fⱼ(x) / p(λⱼ) ] / Σ_σ' Σₖ n_σ' p_σ',ₖ(x)
+//! ```
+//!
+//! with σ and σ' over connections and mergings (Georgiev, Křivánek, Davidovič, Slusallek 2012, "Light Transport
+//! Simulation with Vertex Connection and Merging"; Hachisuka, Pantaleoni, Jensen 2012). A corner that scatters
+//! discretely is neither connected nor merged.
+//!
+//! A sample is a pass with photons of its own, n of them, and a replicate a progression whose radius
+//! shrinks as in [`crate::photons::radius`]. All paths of a pass have the same four wavelengths, so that all can be
+//! merged, dispersion or not; those of a progression lie evenly ([`crate::photons`]). Light walks that are connected and
+//! those that are merged are different ones: weights only ask how many could have made a path.
+
+use crate::bdpt::merge::{self, Merging};
+use crate::bdpt::{Start, estimate};
+use crate::path::camera_ray;
+use crate::photons::radius::Radius;
+use crate::photons::sets::WavelengthSets;
+use crate::photons::shoot::{in_order, numbers};
+use crate::photons::{read_count, rounded};
+use crate::settings::{PathSettings, ignore_scheduling};
+use etalon_params::Params;
+use etalon_sampling::Sampler;
+use etalon_spectrum::Wavelengths;
+use etalon_transport::{Draft, Integrator, Pass, PixelSite, Sink, TileSink, World};
+
+/// Vertex connection and merging.
+#[derive(Clone, Debug, Default)]
+pub struct ConnectionMerging {
+    /// Limits of the path.
+    pub settings: PathSettings,
+    /// The radius of each pass.
+    pub radius: Radius,
+    /// Photons per pass; `None` for as many as there are pixels.
+    pub photons: Option<u32>,
+}
+
+/// The photons of a pass.
+#[derive(Debug)]
+pub struct State {
+    wavelengths: Wavelengths,
+    merging: Merging,
+}
+
+impl ConnectionMerging {
+    /// Reads the integrator from its description: Mitsuba's parameters of paths, `photons`, `radius` and `alpha`.
+    pub fn from_params(params: &Params<'_>) -> Self {
+        ignore_scheduling(params);
+        Self {
+            settings: PathSettings::from_params(params),
+            radius: Radius::from_params(params),
+            photons: read_count(params),
+        }
+    }
+
+    /// What a sample starts with.
+    fn start<'a, W: World>(
+        &'a self,
+        world: &W,
+        state: &'a State,
+        site: &PixelSite,
+        sampler: &mut impl Sampler,
+    ) -> Start<'a> {
+        let (_, ray, weight) = camera_ray(world, site, sampler);
+        Start {
+            settings: &self.settings,
+            only: None,
+            wavelengths: state.wavelengths,
+            ray,
+            weight,
+            merging: Some(&state.merging),
+        }
+    }
+}
+
+impl Integrator for ConnectionMerging {
+    type State = State;
+
+    fn splats(&self) -> bool {
+        true
+    }
+
+    fn samples_per_pass(&self) -> Option<u32> {
+        Some(1)
+    }
+
+    fn prepare<W: World>(&self, world: &W, pass: &Pass, _: Option<State>) -> State {
+        let wavelengths = WavelengthSets::new(world, pass, 1).of_pass(pass);
+        let radius = self.radius.of(world, pass);
+        let pixels = pass.size.x.saturating_mul(pass.size.y);
+        let count = rounded(self.photons.unwrap_or(pixels), 1);
+        let photons = in_order(count, |index, found| {
+            let mut sampler = numbers(pass, index, count);
+            let (settings, within) = (&self.settings, (radius, count));
+            merge::shoot(world, &wavelengths, settings, within, &mut sampler, found);
+        });
+        State {
+            wavelengths,
+            merging: Merging::new(photons, radius, count),
+        }
+    }
+
+    fn sample<W: World, S: Sampler, K: Sink>(
+        &self,
+        world: &W,
+        state: &State,
+        site: &PixelSite,
+        sampler: &mut S,
+        sink: &mut K,
+    ) {
+        let lists = [&mut Vec::new(), &mut Vec::new()];
+        let start = self.start(world, state, site, sampler);
+        estimate(world, &start, site, sampler, sink, lists);
+    }
+
+    fn sample_all<W: World, S: Sampler, K: TileSink>(
+        &self,
+        world: &W,
+        state: &State,
+        drafts: &mut [Draft<S>],
+        sink: &mut K,
+    ) {
+        let (mut eye, mut light) = (Vec::new(), Vec::new());
+        for draft in drafts {
+            sink.begin_sample(draft.site.pixel, draft.weight);
+            let lists = [&mut eye, &mut light];
+            let start = self.start(world, state, &draft.site, &mut draft.sampler);
+            let (site, sampler) = (&draft.site, &mut draft.sampler);
+            estimate(world, &start, site, sampler, sink, lists);
+        }
+    }
+}

@@ -1,0 +1,205 @@
+//! What an estimator can see of a scene, settled before anything is rendered: an estimator that
+//! cannot find any of the light objects, and no picture is black without a word.
+
+/// How many lights there are, by the ways in which a path can find them. Lights that emit nothing
+/// do not count.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct LightCount {
+    /// All of them.
+    pub all: u32,
+    /// Those that a ray can run into: emitting surfaces, and skies.
+    pub hittable: u32,
+    /// Those that are ever chosen, for a connection or to emit a particle: their
+    /// `sampling_weight` is not zero.
+    pub chosen: u32,
+    /// Those that can be hit, or are chosen, or both.
+    pub either: u32,
+}
+
+/// Plain facts of a scene that decide what an estimator can find in it.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Sight {
+    /// The lights.
+    pub lights: LightCount,
+    /// Whether the camera has an aperture that a ray can hit, see [`crate::Camera::receive`].
+    pub aperture: bool,
+    /// Whether there is light at infinity that a ray can hit.
+    pub sky: bool,
+    /// Whether a surface has a classic Phong material, which says nothing of how it scatters light
+    /// ([`crate::World::classic`]).
+    pub classic: bool,
+}
+
+/// How an estimator comes by light.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Finding {
+    /// Rays run into lights by chance.
+    Hitting,
+    /// Lights are chosen: to be connected with, or to emit particles.
+    Choosing,
+    /// Both; either is enough.
+    Either,
+}
+
+/// What an objection is about, for the place that the message shows.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Subject {
+    /// The estimator as a whole.
+    Integrator,
+    /// One of its parameters.
+    Parameter(&'static str),
+    /// The camera.
+    Camera,
+    /// A classic Phong material.
+    Classic,
+    /// The scene as a whole.
+    Scene,
+}
+
+/// Why an estimator cannot do what is asked of it in a scene, or not all of it.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Objection {
+    /// Whether nothing can come of it, so that rendering is refused; otherwise it is a remark.
+    pub fatal: bool,
+    /// What it is about.
+    pub subject: Subject,
+    /// One sentence.
+    pub message: String,
+    /// What to do about it.
+    pub help: Option<String>,
+}
+
+impl Objection {
+    /// A reason not to render.
+    pub fn fatal(subject: Subject, message: impl Into<String>) -> Self {
+        Self {
+            fatal: true,
+            subject,
+            message: message.into(),
+            help: None,
+        }
+    }
+
+    /// A remark.
+    pub fn remark(subject: Subject, message: impl Into<String>) -> Self {
+        Self {
+            fatal: false,
+            ..Self::fatal(subject, message)
+        }
+    }
+
+    /// Adds what to do about it.
+    #[must_use]
+    pub fn help(self, help: impl Into<String>) -> Self {
+        Self {
+            help: Some(help.into()),
+            ..self
+        }
+    }
+}
+
+impl Sight {
+    /// The objections of an estimator that follows light and finds it in one way: a remark if there
+    /// is no light at all, or if some of it will be missing; a refusal if all of it would, or if a
+    /// material says nothing of how it scatters light.
+    pub fn objections(&self, finding: Finding) -> Vec<Objection> {
+        let mut objections = self.missing(finding);
+        if self.classic {
+            let message = "this integrator follows light, and this material says nothing of how it \
+                           scatters light";
+            objections.push(Objection::fatal(Subject::Classic, message).help(
+                "the integrator `whitted` shows classic Phong materials; `phong` is a BSDF that \
+                 every integrator shows",
+            ));
+        }
+        objections
+    }
+
+    /// What is missing of the light for an estimator that finds it in one way.
+    fn missing(&self, finding: Finding) -> Vec<Objection> {
+        let LightCount {
+            all,
+            hittable,
+            chosen,
+            either,
+        } = self.lights;
+        let (found, why, help) = match finding {
+            Finding::Hitting => (
+                hittable,
+                "it finds lights only by running into them, and a point or a direction is never hit",
+                "use an estimator that samples lights (`path`), or give the lights an extent",
+            ),
+            Finding::Choosing => (
+                chosen,
+                "it finds lights only by choosing them, and their `sampling_weight` is 0",
+                "give them a `sampling_weight` above 0",
+            ),
+            Finding::Either => (
+                either,
+                "their `sampling_weight` is 0, and a point or a direction is never hit",
+                "give them a `sampling_weight` above 0",
+            ),
+        };
+        let objection = match found {
+            _ if all == 0 => Objection::remark(Subject::Scene, "nothing in this scene emits light")
+                .help("the picture will be black: add a light"),
+            0 => {
+                let message = format!("this integrator cannot see any light of the scene: {why}");
+                Objection::fatal(Subject::Integrator, message).help(help)
+            }
+            _ if found < all => {
+                let missing = all - found;
+                let message = format!(
+                    "this integrator cannot see {missing} of the scene's {all} lights: {why}"
+                );
+                Objection::remark(Subject::Integrator, message).help(help)
+            }
+            _ => return Vec::new(),
+        };
+        vec![objection]
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn sight(all: u32, hittable: u32, chosen: u32, either: u32) -> Sight {
+        Sight {
+            lights: LightCount {
+                all,
+                hittable,
+                chosen,
+                either,
+            },
+            aperture: false,
+            sky: false,
+            classic: false,
+        }
+    }
+
+    fn fatal(sight: Sight, finding: Finding) -> Option<bool> {
+        sight.objections(finding).first().map(|o| o.fatal)
+    }
+
+    #[test]
+    fn all_light_missing_is_fatal_and_some_a_remark() {
+        // Two point lights, a sky, and a lamp that is never chosen.
+        let mixed = sight(4, 2, 3, 4);
+        assert_eq!(fatal(mixed, Finding::Hitting), Some(false));
+        assert_eq!(fatal(mixed, Finding::Choosing), Some(false));
+        assert_eq!(fatal(mixed, Finding::Either), None);
+        let points = sight(2, 0, 2, 2);
+        assert_eq!(fatal(points, Finding::Hitting), Some(true));
+        assert_eq!(fatal(points, Finding::Choosing), None);
+        let unchosen_points = sight(2, 0, 0, 0);
+        assert_eq!(fatal(unchosen_points, Finding::Either), Some(true));
+    }
+
+    #[test]
+    fn darkness_is_remarked_upon() {
+        for finding in [Finding::Hitting, Finding::Choosing, Finding::Either] {
+            assert_eq!(fatal(Sight::default(), finding), Some(false));
+        }
+    }
+}

@@ -1,0 +1,35 @@
+//! What a claim may cost, and which biases it must exclude: written down before a run.
+
+use serde::Deserialize;
+
+/// How much work to spend.
+#[derive(Clone, Copy, Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Budget {
+    /// Samples per pixel, all replicates together.
+    pub spp: u32,
+    /// Independent replicates.
+    pub replicates: u32,
+}
+
+/// Which biases matter.
+#[derive(Clone, Copy, Debug, Deserialize)]
+#[serde(default, deny_unknown_fields)]
+pub struct Bounds {
+    /// Of the image's mean, relative to it.
+    pub image: f64,
+    /// Of a tile's mean, relative to it (`image` of the image's mean is added).
+    pub tile: f64,
+    /// What equality leaves to rounding in single precision, relative to the mean.
+    pub rounding: f64,
+}
+
+impl Default for Bounds {
+    fn default() -> Self {
+        Self {
+            image: 0.005,
+            tile: 0.03,
+            rounding: 2e-5,
+        }
+    }
+}

@@ -1,0 +1,121 @@
+//! The agreement matrix: every unbiased integrator against every oracle.
+//!
+//! A claim names the integrators that it is about. With a table `matrix` all others take part, too,
+//! each as one more comparison of the default and the full run, unless they object to the scene when
+//! they are asked ([`etalon::pipeline::Loaded::complete`]). An integrator that is added to the
+//! house so stands in all these rows without a word.
+//!
+//! ```toml
+//! [matrix]
+//! default = { spp = 256, replicates = 32 }
+//! bound = 0.02                 # of the bias of the image's mean; half a per cent in a full run
+//! without = ["ptracer"]        # sees nothing in a mirror
+//! later = ["naive"]            # too noisy here for the default run: in the full run only
+//! ```
+
+use crate::budget::Budget;
+use crate::claim::{Claim, Estimator, Oracle};
+use crate::rendering;
+use crate::tier::Tier;
+use etalon_integrators::list;
+use serde::Deserialize;
+
+/// How all unbiased integrators are held against a claim's oracle.
+#[derive(Clone, Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Matrix {
+    /// Work of the default run for each.
+    pub default: Budget,
+    /// Which bias of the image's mean the default run must exclude, relative to it.
+    pub bound: f64,
+    /// Integrators that cannot render the scene, though they do not object.
+    #[serde(default)]
+    pub without: Vec<String>,
+    /// Integrators that only a full run asks.
+    #[serde(default)]
+    pub later: Vec<String>,
+}
+
+/// A row of the matrix.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Place {
+    /// Which bias of the image's mean the default run must exclude, relative to it.
+    pub bound: f64,
+    /// Whether only a full run makes the comparison.
+    pub later: bool,
+}
+
+impl Place {
+    /// Whether a run makes the comparison.
+    pub fn belongs_to(self, tier: Tier) -> bool {
+        match tier {
+            Tier::Quick => false,
+            Tier::Default => !self.later,
+            Tier::Full => true,
+        }
+    }
+}
+
+/// Adds a claim's rows of the matrix to its estimators.
+///
+/// # Errors
+/// If the matrix makes no sense.
+pub(crate) fn expand(claim: &mut Claim) -> Result<(), String> {
+    let Some(matrix) = &claim.matrix else {
+        return Ok(());
+    };
+    if !matches!(
+        claim.oracle,
+        Oracle::ClosedForm { .. } | Oracle::Agreement { .. } | Oracle::Reference { .. }
+    ) {
+        return Err("`matrix` belongs to claims about pictures".to_owned());
+    }
+    let unbiased = list::unbiased();
+    for name in matrix.without.iter().chain(&matrix.later) {
+        if !unbiased.contains(&name.as_str()) {
+            return Err(format!(
+                "`matrix`: there is no unbiased integrator `{name}`"
+            ));
+        }
+    }
+    let Budget { spp, replicates } = matrix.default;
+    if replicates < 2 || spp < replicates || !(matrix.bound > 0.0 && matrix.bound < 1.0) {
+        return Err("`matrix`: a budget of at least 2 replicates, and a bound below 1".to_owned());
+    }
+    let listed = |name: &str| {
+        let own = |e: &Estimator| e.integrator.as_deref().unwrap_or("path") == name;
+        claim
+            .estimators
+            .iter()
+            .any(|e| own(e) && e.defines.is_empty())
+    };
+    let oracle = match &claim.oracle {
+        Oracle::Agreement { estimator } => estimator.integrator.as_deref(),
+        _ => None,
+    };
+    let defines = rendering::defines(claim, None);
+    let rows: Vec<Estimator> = (unbiased.into_iter())
+        .filter(|name| !listed(name) && oracle != Some(name))
+        .filter(|name| !matrix.without.iter().any(|other| other == name))
+        .filter(|name| {
+            let loaded = rendering::load(claim, &defines, Some(name));
+            loaded.is_ok_and(|loaded| loaded.complete)
+        })
+        .map(|name| Estimator {
+            integrator: Some(name.to_owned()),
+            sampler: None,
+            defines: Default::default(),
+            quick: matrix.default,
+            default: matrix.default,
+            change: None,
+            exponent: None,
+            mutants: Vec::new(),
+            in_matrix: Some(Place {
+                bound: matrix.bound,
+                later: matrix.later.iter().any(|other| other == name),
+            }),
+        })
+        .collect();
+    claim.estimators.extend(rows);
+    Ok(())
+}
