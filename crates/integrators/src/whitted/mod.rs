@@ -38,8 +38,9 @@ use etalon_sampling::Sampler;
 use etalon_transport::{
     Draft, Integrator, Objection, Pass, PixelSite, Sight, Sink, Subject, TileSink, World,
 };
-use glam::UVec2;
+use glam::{UVec2, Vec4};
 pub use pixel::Grid;
+use std::sync::OnceLock;
 pub use tree::{Onward, onward};
 
 use crate::settings::ignore_scheduling;
@@ -131,16 +132,41 @@ impl Whitted {
     }
 
     /// A pixel's colour and alpha.
-    fn pixel<W: World>(&self, world: &W, pixel: UVec2) -> ([f32; 3], f32) {
+    fn pixel<W: World>(&self, world: &W, pixel: UVec2) -> Vec4 {
         let packets = tree::Packets::new(world, self.wavelengths / 4);
         let corner = pixel.as_vec2();
-        let seen = (self.grid).mean(corner, |raster| self.through(world, &packets, raster));
-        (seen.truncate().to_array(), seen.w)
+        self.grid
+            .mean(corner, |raster| self.through(world, &packets, raster))
+    }
+}
+
+/// The pixels seen so far. Since nothing is random each is looked at once, however many samples and
+/// replicates are asked for.
+pub struct Picture {
+    origin: UVec2,
+    width: u32,
+    pixels: Vec<OnceLock<Vec4>>,
+}
+
+impl Picture {
+    fn blank(pass: &Pass) -> Self {
+        let count = pass.size.x as usize * pass.size.y as usize;
+        Self {
+            origin: pass.origin,
+            width: pass.size.x,
+            pixels: core::iter::repeat_with(OnceLock::new).take(count).collect(),
+        }
+    }
+
+    fn pixel(&self, pixel: UVec2, look: impl FnOnce() -> Vec4) -> Vec4 {
+        let place = pixel - self.origin;
+        let index = place.y as usize * self.width as usize + place.x as usize;
+        *self.pixels[index].get_or_init(look)
     }
 }
 
 impl Integrator for Whitted {
-    type State = ();
+    type State = Picture;
 
     /// It asks all lights, and shows classic materials; a sky has no point to ask.
     fn objections(&self, sight: &Sight) -> Vec<Objection> {
@@ -152,38 +178,33 @@ impl Integrator for Whitted {
         sky.into_iter().collect()
     }
 
-    fn prepare<W: World>(&self, _: &W, _: &Pass, _: Option<()>) {}
+    fn prepare<W: World>(&self, _: &W, pass: &Pass, before: Option<Picture>) -> Picture {
+        before.unwrap_or_else(|| Picture::blank(pass))
+    }
 
     fn sample<W: World, S: Sampler, K: Sink>(
         &self,
         world: &W,
-        (): &(),
+        picture: &Picture,
         site: &PixelSite,
         _: &mut S,
         sink: &mut K,
     ) {
-        let (rgb, alpha) = self.pixel(world, site.pixel);
-        sink.radiance(rgb, alpha);
+        let seen = picture.pixel(site.pixel, || self.pixel(world, site.pixel));
+        sink.radiance(seen.truncate().to_array(), seen.w);
     }
 
-    /// Since nothing is random, the samples of a pixel are the same; it is looked at once. The
-    /// film's filter places no sample, so that what it makes them count is left aside, too.
+    /// The film's filter places no sample, so that what it makes them count is left aside, too.
     fn sample_all<W: World, S: Sampler, K: TileSink>(
         &self,
         world: &W,
-        (): &(),
+        picture: &Picture,
         drafts: &mut [Draft<S>],
         sink: &mut K,
     ) {
-        let mut known = None;
-        for Draft { site, .. } in drafts {
-            let (rgb, alpha) = match known {
-                Some((pixel, found)) if pixel == site.pixel => found,
-                _ => self.pixel(world, site.pixel),
-            };
-            known = Some((site.pixel, (rgb, alpha)));
+        for Draft { site, sampler, .. } in drafts {
             sink.begin_sample(site.pixel, 1.0);
-            sink.radiance(rgb, alpha);
+            self.sample(world, picture, site, sampler, sink);
         }
     }
 }
