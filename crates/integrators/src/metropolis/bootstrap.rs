@@ -9,8 +9,8 @@ use etalon_transport::Pass;
 use glam::Vec2;
 use rayon::prelude::*;
 
-/// Uniform samples of the pilot.
-const PILOT: u32 = 1 << 15;
+/// Fewest and most uniform samples of the pilot; a quarter of a replicate's lies between.
+const PILOT: [u64; 2] = [1 << 11, 1 << 15];
 
 /// How many samples a task of the pilot or of a bootstrap draws: it decides no bits.
 const TASK: u32 = 512;
@@ -134,11 +134,11 @@ impl State {
         before: Option<Self>,
     ) -> Self {
         let field = Field::of(pass);
+        let samples = u64::from(pass.size.x) * u64::from(pass.size.y) * u64::from(pass.samples);
         let kept = before.map(|state| state.pilot);
         let pilot = kept
             .filter(|pilot| pilot.seed == pass.seed)
-            .unwrap_or_else(|| Pilot::run(integrand, settings, field, pass.seed));
-        let samples = u64::from(pass.size.x) * u64::from(pass.size.y) * u64::from(pass.samples);
+            .unwrap_or_else(|| Pilot::run(integrand, settings, field, pass.seed, samples));
         let chains = (samples / u64::from(settings.length)).max(1);
         let length = (samples / chains).min(u64::from(u32::MAX)) as u32;
         let steps = chains as f64 * f64::from(length);
@@ -219,7 +219,13 @@ impl State {
 }
 
 impl Pilot {
-    fn run<T: Integrand>(integrand: &T, settings: &ChainSettings, field: Field, seed: u64) -> Self {
+    fn run<T: Integrand>(
+        integrand: &T,
+        settings: &ChainSettings,
+        field: Field,
+        seed: u64,
+        samples: u64,
+    ) -> Self {
         let count = integrand.kinds();
         if count == 0 {
             return Self {
@@ -229,6 +235,8 @@ impl Pilot {
                 brightness: 0.0,
             };
         }
+        let [least, most] = PILOT;
+        let pilot = (samples / 4).clamp(least, most) as u32;
         let learned = (&Kinds::alike(count), &Emphasis::none());
         let key = mix64(!mix64(seed));
         let note = |found: &Found, task: &mut Vec<(usize, Vec2, f64)>| {
@@ -238,7 +246,7 @@ impl Pilot {
                 task.extend(each);
             }
         };
-        let drawn: Vec<_> = draw(integrand, settings, field, learned, key, PILOT, note)
+        let drawn: Vec<_> = draw(integrand, settings, field, learned, key, pilot, note)
             .into_iter()
             .flatten()
             .collect();
@@ -253,7 +261,7 @@ impl Pilot {
         }
         Self {
             seed,
-            brightness: sums.iter().sum::<f64>() / f64::from(PILOT),
+            brightness: sums.iter().sum::<f64>() / f64::from(pilot),
             kinds: Kinds::new(&sums),
             emphasis,
         }

@@ -120,7 +120,7 @@ impl Default for ChainSettings {
 
 impl ChainSettings {
     /// Bounds of the number of seeds that is chosen by itself.
-    pub const SEEDS: Range<u32> = 1 << 12..1 << 20;
+    pub const SEEDS: Range<u32> = 1 << 10..1 << 20;
 
     /// Reads the parameters, see `docs/extensions.md`.
     pub fn from_params(params: &Params<'_>) -> Self {
