@@ -4,7 +4,8 @@
 //! and the camera's walk at xᵢ, merged if they are less than r apart,
 //!
 //! ```text
-//! pₘ,ᵢ = a₀ … aᵢ · bᵢ … · π r²,   n of them;     C = Σ_σ Σⱼ [ fⱼ(x) / p(λⱼ) ] / Σ_σ' Σₖ n_σ' p_σ',ₖ(x)
+//! pₘ,ᵢ = a₀ … aᵢ · bᵢ … · π r²,   n of them
+//! C = Σ_σ Σⱼ [ fⱼ(x) / p(λⱼ) ] / Σ_σ' Σₖ n_σ' p_σ',ₖ(x)
 //! ```
 //!
 //! with σ and σ' over connections and mergings (Georgiev, Křivánek, Davidovič, Slusallek 2012,
