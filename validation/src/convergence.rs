@@ -164,9 +164,9 @@ pub fn judge(exponents: &[f64], estimator: &Estimator, alpha: f64) -> Result<Mea
     ))
 }
 
-/// The mean over pixels, channels and replicates of a part of the squared error. With s the standard error
-/// of the mean m, all of it is (1/R) Σ (xᵢ − t)² = (R − 1) s² + (m − t)², the variance R s², and the
-/// squared bias (m − t)² − s².
+/// The mean over pixels, channels and replicates of a part of the squared error. With s the
+/// standard error of the mean m, all of it is (1/R) Σ (xᵢ − t)² = (R − 1) s² + (m − t)², the
+/// variance R s², and the squared bias (m − t)² − s².
 fn squared_error(picture: &Developed, known: &Known, part: Part) -> Result<f64, String> {
     let missing = "the picture has no standard errors";
     let metadata = picture.metadata.as_ref().ok_or(missing)?;

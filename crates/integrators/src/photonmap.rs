@@ -1,20 +1,22 @@
 //! `photonmap`: photon mapping in two passes.
 //!
-//! First photons are shot and kept in two maps (Jensen 1996): the *caustic* map holds those that were
-//! scattered in sharp directions only, the *global* map those and all others. Then paths from the camera
-//! gather them ([`crate::photons`]); at the first surface x that scatters otherwise,
+//! First photons are shot and kept in two maps (Jensen 1996): the *caustic* map holds those that
+//! were scattered in sharp directions only, the *global* map those and all others. Then paths from
+//! the camera gather them ([`crate::photons`]); at the first surface x that scatters otherwise,
 //!
 //! ```text
 //! L = L_direct (sampled) + L_sharp (followed) + L_caustic (caustic map) + L_indirect
 //! ```
 //!
-//! L_indirect comes from the photons of the global map that belong to neither of the others, or with
-//! `final_gather` from the next surface y that a path from x meets in a direction that is not sharp, where
-//! the whole global map is looked up, and what it meets in sharp directions from there.
+//! L_indirect comes from the photons of the global map that belong to neither of the others, or
+//! with `final_gather` from the next surface y that a path from x meets in a direction that is not
+//! sharp, where the whole global map is looked up, and what it meets in sharp directions from
+//! there.
 //!
-//! A map is looked up within a radius, or for the k nearest photons, whose farthest tells the radius; the
-//! kernel is a box or Jensen's cone. Every replicate has maps of its own. The radius stays as it is, so
-//! the bias does not vanish however many samples and replicates there are, only with more photons.
+//! A map is looked up within a radius, or for the k nearest photons, whose farthest tells the
+//! radius; the kernel is a box or Jensen's cone. Every replicate has maps of its own. The radius
+//! stays as it is, so the bias does not vanish however many samples and replicates there are, only
+//! with more photons.
 
 use crate::photons::gather::{Kernel, Layer, Lookup, Plan, Scratch, follow};
 use crate::photons::radius::{from_pixels, read};
@@ -48,8 +50,8 @@ pub struct PhotonMapper {
 /// How a map is looked up.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Estimate {
-    /// The radius, or the largest if the nearest photons are looked for (m); `None` for the width of
-    /// some pixels, or as large as need be.
+    /// The radius, or the largest if the nearest photons are looked for (m); `None` for the width
+    /// of some pixels, or as large as need be.
     pub radius: Option<f32>,
     /// How many photons are looked for; all within the radius if zero.
     pub nearest: usize,
@@ -87,9 +89,9 @@ pub struct State {
 }
 
 impl PhotonMapper {
-    /// Reads the integrator from its description: Mitsuba's parameters of paths, `photons`, `wavelength_sets`,
-    /// `final_gather`, `filter` (`box` or `cone`), `cone`, and for both maps `global_radius`, `global_nearest`,
-    /// `caustic_radius` and `caustic_nearest`.
+    /// Reads the integrator from its description: Mitsuba's parameters of paths, `photons`,
+    /// `wavelength_sets`, `final_gather`, `filter` (`box` or `cone`), `cone`, and for both maps
+    /// `global_radius`, `global_nearest`, `caustic_radius` and `caustic_nearest`.
     pub fn from_params(params: &Params<'_>) -> Self {
         ignore_scheduling(params);
         let nearest = |name: &str| {

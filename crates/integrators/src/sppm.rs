@@ -6,12 +6,13 @@
 //! C = 1/N Σᵢ Cᵢ(rᵢ),   rᵢ₊₁² / rᵢ² = (i + α) / (i + 1)
 //! ```
 //!
-//! with Cᵢ the estimate of [`crate::photons`] (Hachisuka, Ogaki, Jensen 2008; Hachisuka & Jensen 2009; in this form
-//! without memory Knaus & Zwicker 2011, see [`crate::photons::radius`]). A sample is a pass, and a replicate a whole
-//! progression: more samples per replicate reduce its bias, more replicates do not.
+//! with Cᵢ the estimate of [`crate::photons`] (Hachisuka, Ogaki, Jensen 2008; Hachisuka & Jensen
+//! 2009; in this form without memory Knaus & Zwicker 2011, see [`crate::photons::radius`]). A
+//! sample is a pass, and a replicate a whole progression: more samples per replicate reduce its
+//! bias, more replicates do not.
 //!
-//! Direct light is sampled and not left to photons, unless that is asked for. What photons bring is biased, the more
-//! so where illumination bends within the radius or near edges.
+//! Direct light is sampled and not left to photons, unless that is asked for. What photons bring is
+//! biased, the more so where illumination bends within the radius or near edges.
 
 use crate::photons::gather::{Kernel, Layer, Lookup, Plan, Scratch, follow};
 use crate::photons::radius::Radius;
@@ -63,8 +64,8 @@ pub struct State {
 }
 
 impl Progressive {
-    /// Reads the integrator from its description: Mitsuba's parameters of paths, `photons`, `radius`, `alpha`,
-    /// `wavelength_sets` and `sample_lights`.
+    /// Reads the integrator from its description: Mitsuba's parameters of paths, `photons`,
+    /// `radius`, `alpha`, `wavelength_sets` and `sample_lights`.
     pub fn from_params(params: &Params<'_>) -> Self {
         ignore_scheduling(params);
         Self {

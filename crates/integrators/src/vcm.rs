@@ -1,20 +1,22 @@
 //! `vcm`: vertex connection and merging.
 //!
-//! All techniques of [`crate::bdpt`], and for every surface xᵢ of a path one more: a photon at xᵢ and the camera's
-//! walk at xᵢ, merged if they are less than r apart,
+//! All techniques of [`crate::bdpt`], and for every surface xᵢ of a path one more: a photon at xᵢ
+//! and the camera's walk at xᵢ, merged if they are less than r apart,
 //!
 //! ```text
-//! pₘ,ᵢ = a₀ … aᵢ · bᵢ … · π r²,   n of them;     C = Σ_σ Σⱼ [ fⱼ(x) / p(λⱼ) ] / Σ_σ' Σₖ n_σ' p_σ',ₖ(x)
+//! pₘ,ᵢ = a₀ … aᵢ · bᵢ … · π r²,   n of them
+//! C = Σ_σ Σⱼ [ fⱼ(x) / p(λⱼ) ] / Σ_σ' Σₖ n_σ' p_σ',ₖ(x)
 //! ```
 //!
-//! with σ and σ' over connections and mergings (Georgiev, Křivánek, Davidovič, Slusallek 2012, "Light Transport
-//! Simulation with Vertex Connection and Merging"; Hachisuka, Pantaleoni, Jensen 2012). A corner that scatters
-//! discretely is neither connected nor merged.
+//! with σ and σ' over connections and mergings (Georgiev, Křivánek, Davidovič, Slusallek 2012,
+//! "Light Transport Simulation with Vertex Connection and Merging"; Hachisuka, Pantaleoni, Jensen
+//! 2012). A corner that scatters discretely is neither connected nor merged.
 //!
-//! A sample is a pass with photons of its own, n of them, and a replicate a progression whose radius
-//! shrinks as in [`crate::photons::radius`]. All paths of a pass have the same four wavelengths, so that all can be
-//! merged, dispersion or not; those of a progression lie evenly ([`crate::photons`]). Light walks that are connected and
-//! those that are merged are different ones: weights only ask how many could have made a path.
+//! A sample is a pass with photons of its own, n of them, and a replicate a progression whose
+//! radius shrinks as in [`crate::photons::radius`]. All paths of a pass have the same four
+//! wavelengths, so that all can be merged, dispersion or not; those of a progression lie evenly
+//! ([`crate::photons`]). Light walks that are connected and those that are merged are different
+//! ones: weights only ask how many could have made a path.
 
 use crate::bdpt::merge::{self, Merging};
 use crate::bdpt::{Start, estimate};
@@ -48,7 +50,8 @@ pub struct State {
 }
 
 impl ConnectionMerging {
-    /// Reads the integrator from its description: Mitsuba's parameters of paths, `photons`, `radius` and `alpha`.
+    /// Reads the integrator from its description: Mitsuba's parameters of paths, `photons`,
+    /// `radius` and `alpha`.
     pub fn from_params(params: &Params<'_>) -> Self {
         ignore_scheduling(params);
         Self {

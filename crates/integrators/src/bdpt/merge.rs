@@ -1,11 +1,12 @@
 //! Merging: a corner of the camera's walk and a photon near it, taken for the same point.
 //!
-//! A photon at xᵢ, made with the densities a₀ … aᵢ, and a camera's corner there, made with bᵢ … , are
-//! merged where they are less than r apart, with n photons to choose from: technique i's density times
-//! aᵢ n π r² (Georgiev, Křivánek, Davidovič, Slusallek 2012). Against it stand all others
-//! that would have made the path: those with more vertices from the light are weighed when the
-//! photon is found ([`super::weight::more`]); those with fewer depend on the camera's walk by its density at
-//! the photon's parent alone, in which they are linear. So a photon carries one factor per lane for them.
+//! A photon at xᵢ, made with the densities a₀ … aᵢ, and a camera's corner there, made with bᵢ … ,
+//! are merged where they are less than r apart, with n photons to choose from: technique i's
+//! density times aᵢ n π r² (Georgiev, Křivánek, Davidovič, Slusallek 2012). Against it stand all
+//! others that would have made the path: those with more vertices from the light are weighed when
+//! the photon is found ([`super::weight::more`]); those with fewer depend on the camera's walk by
+//! its density at the photon's parent alone, in which they are linear. So a photon carries one
+//! factor per lane for them.
 
 use super::connect::Connector;
 use super::corner::Corner;
@@ -36,11 +37,11 @@ pub(crate) struct Photon {
     ratio: Vec4,
     /// aᵢ of the lane that chose (m⁻²).
     arrival: f32,
-    /// Density ratio of the technique that connects its parent with its place; for a photon straight from a light,
-    /// of light sampling.
+    /// Density ratio of the technique that connects its parent with its place; for a photon
+    /// straight from a light, of light sampling.
     connected: Vec4,
-    /// What the techniques with fewer vertices from the light sum up to, over the density per solid angle with which the
-    /// camera's walk leaves toward the parent.
+    /// What the techniques with fewer vertices from the light sum up to, over the density per solid
+    /// angle with which the camera's walk leaves toward the parent.
     fewer: Vec4,
     /// Segments behind it.
     segments: u32,
@@ -186,7 +187,8 @@ impl<'w, W: World> Connector<'_, 'w, W> {
             if value == Vec4::ZERO {
                 return;
             }
-            // Relative to technique i, whose density merging multiplies by aᵢ n π r²: divided out below, it leaves aᵢ.
+            // Relative to technique i, whose density merging multiplies by aᵢ n π r²: divided out
+            // below, it leaves aᵢ.
             let mut total = (photon.connected * theirs).element_sum();
             total += (photon.fewer * density.lanes() * theirs).element_sum();
             let ends = Ends {

@@ -2,7 +2,8 @@
 //!
 //! Whatever scattered continuously is evaluated there. A discrete direction has a value only as a
 //! sample: the model is resolved at the other wavelengths and asked for the same direction, with
-//! the numbers that had found it, and, if a coloured choice of lobes then finds another, with others.
+//! the numbers that had found it, and, if a coloured choice of lobes then finds another, with
+//! others.
 
 use crate::prefix::Prefix;
 use etalon_spectrum::Wavelengths;

@@ -1,7 +1,7 @@
 //! The camera's walk, which gathers photons where it meets surfaces that scatter.
 //!
-//! It follows sharp directions to their end, as `path` does, light sampling included; in all others it
-//! leaves light that is not direct to photons, and ends. With a final gather it goes on once in
+//! It follows sharp directions to their end, as `path` does, light sampling included; in all others
+//! it leaves light that is not direct to photons, and ends. With a final gather it goes on once in
 //! such a direction, and leaves to photons what it meets there.
 
 use super::elsewhere::{self, Left};

@@ -67,8 +67,8 @@ impl KdTree {
         });
     }
 
-    /// The `count` nearest points (fewer if there are no more within the root of `radius_squared`) in
-    /// `nearest`, nearest first.
+    /// The `count` nearest points (fewer if there are no more within the root of `radius_squared`)
+    /// in `nearest`, nearest first.
     pub fn nearest(
         &self,
         centre: Vec3,
@@ -99,7 +99,8 @@ impl KdTree {
     /// Visits points not farther than the root of a bound that each visit may lower.
     #[inline]
     fn search(&self, centre: Vec3, mut bound: f32, mut visit: impl FnMut(Found, f32) -> f32) {
-        // Ranges still to be searched, and how far they are at least. A tree of 2³² points has 32 levels.
+        // Ranges still to be searched, and how far they are at least. A tree of 2³² points has 32
+        // levels.
         let mut stack = [(0, 0, 0.0_f32); 40];
         let mut top = 0;
         let mut range = (0, self.points.len());

@@ -7,21 +7,22 @@
 //! L(x, ωₒ) ≈ Σᵢ K(|yᵢ − x|) · f(x, ωᵢ, ωₒ) · Φᵢ
 //! ```
 //!
-//! (Jensen 1996, "Global Illumination using Photon Maps"). Φ is per wavelength: M photons, each traced
-//! with four wavelengths of one of the pass's sets ([`sets`]), estimate with the camera path z up to x
+//! (Jensen 1996, "Global Illumination using Photon Maps"). Φ is per wavelength: M photons, each
+//! traced with four wavelengths of one of the pass's sets (`sets`), estimate with the camera path z
+//! up to x
 //!
 //! ```text
 //! C = 1/M Σᵢ ¼ Σⱼ s(λᵢⱼ)/p(λᵢⱼ) · fⱼ(z) / (¼ Σₖ pₖ(z)) · K f(x, ωᵢ, ωₒ)ⱼ · Φᵢⱼ
 //! ```
 //!
 //! The camera path has wavelengths of its own, by which its density p(z) goes; its value fⱼ(z) is
-//! evaluated anew at those of the photon ([`elsewhere`]). Through a smooth dispersive interface a path exists at the one
-//! wavelength only that bent it. Therefore every camera path takes its wavelengths from the
-//! pass's sets: there are photons with the same, on average M over the number of sets, and such a
-//! path merges with these alone.
+//! evaluated anew at those of the photon (`elsewhere`). Through a smooth dispersive interface a
+//! path exists at the one wavelength only that bent it. Therefore every camera path takes its
+//! wavelengths from the pass's sets: there are photons with the same, on average M over the number
+//! of sets, and such a path merges with these alone.
 //!
 //! Not all light is left to photons. Directions from x in which the density of scattering is above
-//! [`SHARP`] are followed by the camera path, as are mirrors and glass: there few photons would
+//! `SHARP` are followed by the camera path, as are mirrors and glass: there few photons would
 //! count. Direct light is sampled.
 
 pub(crate) mod elsewhere;
@@ -48,8 +49,8 @@ pub(crate) fn is_sharp(density: Density<SolidAngle>) -> bool {
 /// The most photons of a pass.
 const MOST: i64 = 1 << 26;
 
-/// Reads `photons`, the number of photons per pass, rounded up to a power of two that the sets divide; `None` for
-/// as many as the film has pixels.
+/// Reads `photons`, the number of photons per pass, rounded up to a power of two that the sets
+/// divide; `None` for as many as the film has pixels.
 pub(crate) fn read_count(params: &Params<'_>) -> Option<u32> {
     if !params.has("photons") {
         return None;

@@ -12,9 +12,9 @@
 //! the squared bias falls as the variance does, N^(−2/3), which is the best exponent of their sum
 //! (Kaplanyan & Dachsbacher 2013).
 //!
-//! Unless the scene says, the first radius is [`PIXELS`] times the width of a pixel on what the camera sees:
-//! the median over a grid of rays of the distance between their first hits and those of rays one pixel
-//! aside, if both went as far.
+//! Unless the scene says, the first radius is `PIXELS` times the width of a pixel on what the
+//! camera sees: the median over a grid of rays of the distance between their first hits and those
+//! of rays one pixel aside, if both went as far.
 
 use etalon_params::Params;
 use etalon_transport::{Camera, Pass, World};

@@ -8,8 +8,8 @@
 //! ```
 //!
 //! with ξ one random number of the replicate, so that the sets of a pass lie evenly among each
-//! other, those of a progression as well, and each alone is distributed as a random draw.
-//! Which lane of a set chooses is drawn for each photon and each camera path: all are equally likely.
+//! other, those of a progression as well, and each alone is distributed as a random draw. Which
+//! lane of a set chooses is drawn for each photon and each camera path: all are equally likely.
 
 use etalon_sampling::hash::{derived_key, random_float, stream_key};
 use etalon_spectrum::{SensorWeights, Wavelengths, sensor_response};

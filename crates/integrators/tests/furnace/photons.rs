@@ -1,9 +1,9 @@
 //! The estimators that merge with photons, in the glowing sphere.
 //!
 //! There the irradiance is the same everywhere, and the part of a unit sphere within a chord d of a
-//! point has the area π d² exactly: kernels are normalised as on a plane, at any radius. What remains of bias is
-//! that a photon's direction makes another angle with the normal where it is looked up: the radiance
-//! gathered is lower by less than r²/8, here 3·10⁻⁴ of it.
+//! point has the area π d² exactly: kernels are normalised as on a plane, at any radius. What
+//! remains of bias is that a photon's direction makes another angle with the normal where it is
+//! looked up: the radiance gathered is lower by less than r²/8, here 3·10⁻⁴ of it.
 
 use crate::series;
 use crate::world::{Fault, Sphere};
@@ -122,8 +122,8 @@ fn merging(max_depth: u32) -> ConnectionMerging {
     }
 }
 
-/// Nine comparisons at a family-wise α of 10⁻³: two-sided quantile of 10⁻³/9 of Student's t with 95 degrees of
-/// freedom ≈ 4.03.
+/// Nine comparisons at a family-wise α of 10⁻³: two-sided quantile of 10⁻³/9 of Student's t with 95
+/// degrees of freedom ≈ 4.03.
 const LIMIT: f64 = 4.03;
 
 #[test]
