@@ -76,6 +76,9 @@ fn every_estimator_can_be_replayed() {
         ("naive", &["scatters along"]),
         ("ao", &["radiance ("]),
         ("depth", &["radiance ("]),
+        ("distribution", &["light 0 sampled", "radiance ("]),
+        ("photonmap", &["surface at", "radiance ("]),
+        ("vcm", &["walk 2: ", "radiance ("]),
     ] {
         let arguments = [
             "render",
