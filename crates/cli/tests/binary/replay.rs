@@ -77,7 +77,6 @@ fn every_estimator_can_be_replayed() {
         ("ao", &["radiance ("]),
         ("depth", &["radiance ("]),
         ("distribution", &["light 0 sampled", "radiance ("]),
-        ("photonmap", &["surface at", "radiance ("]),
         ("vcm", &["walk 2: ", "radiance ("]),
     ] {
         let arguments = [
