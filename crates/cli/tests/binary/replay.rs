@@ -76,6 +76,8 @@ fn every_estimator_can_be_replayed() {
         ("naive", &["scatters along"]),
         ("ao", &["radiance ("]),
         ("depth", &["radiance ("]),
+        ("distribution", &["light 0 sampled", "radiance ("]),
+        ("vcm", &["walk 2: ", "radiance ("]),
     ] {
         let arguments = [
             "render",
