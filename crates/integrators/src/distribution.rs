@@ -13,7 +13,7 @@
 //! Weights are those of `path` ([`crate::prefix`]): they depend on a path alone and sum to one over
 //! techniques and lanes, so that any N is unbiased; with N = 1 it *is* `path`, but for the order of
 //! sums. The N directions at a point are stratified in one coordinate. Rays of later bounces matter
-//! less, so that N is divided at each (Cook et al., section 3.6, reduce it likewise).
+//! less, so that N is divided at each.
 
 use crate::dimensions::Event;
 use crate::path::camera_ray;
