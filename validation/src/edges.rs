@@ -15,8 +15,8 @@
 //! for more than a thousandth.
 //!
 //! An edge pixel is one whose 3 × 3 neighbourhood has more than one sight. Neither the edges of a
-//! box's faces nor those between triangles of a mesh are edges in this sense, but for where rays are
-//! mirrored or refracted in them: what is seen there jumps.
+//! box's faces nor those between triangles of a mesh are edges in this sense, but for where rays
+//! are mirrored or refracted in them: what is seen there jumps.
 
 use etalon_integrators::whitted::onward;
 use etalon_scene::Scene;

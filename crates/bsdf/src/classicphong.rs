@@ -5,8 +5,8 @@
 //! ```
 //!
 //! Phong (1975), *Illumination for Computer Generated Pictures*; Whitted (1980), *An Improved
-//! Illumination Model for Shaded Display*. Nothing scatters here: this file reads the parameters and
-//! looks their textures up, and who can show them asks for them ([`Material::classic`]). To
+//! Illumination Model for Shaded Display*. Nothing scatters here: this file reads the parameters
+//! and looks their textures up, and who can show them asks for them ([`Material::classic`]). To
 //! everybody else such a surface would be black, so the scene is refused before it comes to that.
 //!
 //! [`Material::classic`]: crate::Material::classic

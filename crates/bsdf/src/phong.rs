@@ -4,10 +4,10 @@
 //! f(wo, wi) = ρd / π + ρs (n + 2)/(2π) cosⁿα      if cos θo > 0 and cos θi > 0
 //! ```
 //!
-//! α is the angle between `wi` and the mirror image of `wo`, taken as a right angle where it is larger.
-//! Lafortune & Willems (1994), *Using the Modified Phong Reflectance Model for Physically Based
-//! Rendering*, eqs. 5 and 6: it is reciprocal, and reflects no more than it receives since ρd + ρs
-//! ≤ 1. Where the two given amount to more, both are reduced alike. The lobe is sampled with
+//! α is the angle between `wi` and the mirror image of `wo`, taken as a right angle where it is
+//! larger. Lafortune & Willems (1994), *Using the Modified Phong Reflectance Model for Physically
+//! Based Rendering*: it is reciprocal, and reflects no more than it receives since ρd
+//! + ρs ≤ 1. Where the two given amount to more, both are reduced alike. The lobe is sampled with
 //! density (n + 1)/(2π) cosⁿα; of its directions those below the surface are lost.
 
 use crate::refraction::reflect;

@@ -1,19 +1,19 @@
 //! `distribution`: distribution ray tracing, a tree of random rays (Cook, Porter & Carpenter 1984).
 //!
 //! ```text
-//! ⟨L(x, ω)⟩ = Lₑ + 1/N Σⱼ [ w_l(ωⱼ) f |cos θⱼ| Lₑ(ωⱼ) / p_l(ωⱼ) + f |cos θ'ⱼ| ⟨L(y, −ω'ⱼ)⟩ / p(ω'ⱼ) ]
+//! ⟨L⟩ = Lₑ + 1/N Σⱼ [ w_l f |cos θⱼ| Lₑ(ωⱼ) / p_l(ωⱼ) + f |cos θ'ⱼ| ⟨L(y, −ω'ⱼ)⟩ / p(ω'ⱼ) ]
 //! ```
 //!
 //! Where `path` goes on with one direction, this follows N of them from every surface that scatters
 //! into a continuum, and asks for N points of lights; y is what is seen along ω'ⱼ, and where it
-//! shines, that counts with the weight 1 − w_l. So penumbrae and glossy reflections become smooth at
-//! the price of a tree. Lens and shutter are sampled once for each tree. Smooth surfaces send one ray
-//! on, chosen at random.
+//! shines, that counts with the weight 1 − w_l. So penumbrae and glossy reflections become smooth
+//! at the price of a tree. Lens and shutter are sampled once for each tree. Smooth surfaces send
+//! one ray on, chosen at random.
 //!
 //! Weights are those of `path` ([`crate::prefix`]): they depend on a path alone and sum to one over
-//! techniques and lanes, so that any N is unbiased; with N = 1 it *is* `path`, but for the order of sums.
-//! The N directions at a point are stratified in one coordinate. Rays of later bounces matter less,
-//! so that N is divided at each (Cook et al., section 3.6, reduce it likewise).
+//! techniques and lanes, so that any N is unbiased; with N = 1 it *is* `path`, but for the order of
+//! sums. The N directions at a point are stratified in one coordinate. Rays of later bounces matter
+//! less, so that N is divided at each.
 
 use crate::dimensions::Event;
 use crate::path::camera_ray;

@@ -1,8 +1,8 @@
 //! The discrete directions that a model lists are those that it samples.
 //!
-//! Estimators that follow every direction (`whitted`) must see the same surface as those that choose
-//! one: each direction that sampling finds is listed with the same value and probability, and
-//! none is listed that sampling does not find with its probability.
+//! Estimators that follow every direction (`whitted`) must see the same surface as those that
+//! choose one: each direction that sampling finds is listed with the same value and probability,
+//! and none is listed that sampling does not find with its probability.
 
 use crate::directions::Uniform;
 use crate::scene::Sample;

@@ -1,8 +1,9 @@
 //! Where a pixel is looked at: on a regular grid, refined where neighbours differ.
 //!
-//! Without refinement these are the centres of n × n squares. With it they are the squares' corners, so
-//! that every edge passes between two points of some square: a square whose corners differ is cut
-//! into four, and one that is not cut counts the mean of its corners (Whitted 1980, section 4).
+//! Without refinement these are the centres of n × n squares. With it they are the squares'
+//! corners, so that every edge passes between two points of some square: a square whose corners
+//! differ is cut into four, and one that is not cut counts the mean of its corners (Whitted 1980,
+//! section 4).
 
 use glam::{Vec2, Vec4};
 

@@ -1,7 +1,7 @@
 //! The tree of rays that starts with one through a point of the film.
 //!
-//! A ray carries all wavelengths at once, four to a packet, as long as they go the same way. Where a
-//! dispersive interface parts them, every wavelength goes on alone.
+//! A ray carries all wavelengths at once, four to a packet, as long as they go the same way. Where
+//! a dispersive interface parts them, every wavelength goes on alone.
 
 use super::{Whitted, phong};
 use etalon_spectrum::{SensorWeights, Wavelengths, sensor_response};
