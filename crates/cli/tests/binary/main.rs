@@ -18,4 +18,5 @@ mod mutations;
 mod render;
 mod statistics;
 mod strategies;
+mod target;
 mod workshop;
