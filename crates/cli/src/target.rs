@@ -10,7 +10,7 @@
 //! with ⟨s²⟩ the mean over pixels of the squared standard error, m the mean over pixels, and the sums over the
 //! colours. The pilot is [`GROUPS`] independent pictures of two replicates each. Each gives an unbiased estimate
 //! of V (but for m, which all of them give together); Student's t with one degree of freedom less
-//! than there are pictures bounds V from above with 95 % confidence, and N = V/e² follows.
+//! than there are pictures bounds ln V from above with 95 % confidence, and N = V/e² follows.
 //!
 //! Nothing of the pilot goes into the image, and its samples have seeds of their own. So N is independent
 //! of the image's samples: they are as many as if somebody had asked for N, and the standard error
@@ -20,6 +20,7 @@
 use crate::pipeline::{self, Loaded};
 use etalon_film::Developed;
 use etalon_integrators::{Plan, Progress};
+use etalon_math::float64;
 use etalon_params::Diagnostic;
 use etalon_sampling::SamplerKind;
 use etalon_sampling::hash::{derived_key, mix64};
@@ -221,7 +222,13 @@ fn samples_for(found: &[Noise], samples: f64, error: f64) -> Result<f64, &'stati
     let summary = Summary::of(&per_sample).ok_or("the pilot's noise is not finite")?;
     let spread = (summary.variance() / count).sqrt();
     let quantile = student_t::upper_quantile(1.0 - CONFIDENCE, count - 1.0);
-    Ok((summary.mean() + quantile * spread) / (error * error))
+    let (mean, relative) = match summary.mean() {
+        0.0 => (0.0, 0.0),
+        mean => (mean, spread / mean),
+    };
+    // On the scale of logarithms: variances are skewed, and a bound by the mean plus so many spreads
+    // suffices too seldom.
+    Ok(mean * float64::exp(quantile * relative) / (error * error))
 }
 
 /// The samples per pixel that fit into a time, and those of the pilot.

@@ -10,7 +10,7 @@ fn stats(workshop: &Workshop, name: &str) -> Value {
 #[test]
 fn an_error_is_reached_with_samples_that_one_could_have_asked_for() {
     let workshop = Workshop::new();
-    for (error, integrator) in [("0.1", "path"), ("0.1", "guided"), ("0.25", "ptracer")] {
+    for (error, integrator) in [("0.2", "path"), ("0.2", "guided"), ("0.4", "ptracer")] {
         let further = [
             "--error",
             error,
@@ -84,7 +84,7 @@ fn targets_that_make_no_sense_are_refused() {
         (&["--error", "0"], "0.01 for 1 %"),
         (&["--error", "nan"], "0.01 for 1 %"),
         (&["--error", "2"], "0.01 for 1 %"),
-        (&["--time", "-1"], "--time"),
+        (&["--time=-1"], "number of seconds"),
         (&["--time", "0"], "number of seconds"),
         (&["--error", "0.1", "--spp", "4"], "cannot be used with"),
         (&["--error", "0.1", "--time", "4"], "cannot be used with"),
