@@ -53,12 +53,15 @@ fn scenes_load_and_oracles_belong_to_them() {
 fn bounds_are_those_that_were_agreed() {
     // Bounds are written down before a run; whoever widens one has to say so here.
     for claim in claims() {
-        let image = match claim.name.as_str() {
-            "bitterli-veach-mis" => 0.01,
-            _ => 0.005,
+        let bounds = match claim.name.as_str() {
+            "bitterli-veach-mis" | "camera-obscura-naive" => (0.01, 0.03),
+            // Particles rarely hit a lens, and photons' bias is not noise.
+            "camera-obscura-forward" => (0.02, 0.03),
+            "pool" => (0.03, 0.08),
+            _ => (0.005, 0.03),
         };
         let found = (claim.bounds.image, claim.bounds.tile);
-        assert_eq!(found, (image, 0.03), "{}", claim.name);
+        assert_eq!(found, bounds, "{}", claim.name);
     }
 }
 
@@ -82,6 +85,8 @@ fn exponents_and_tolerances_are_those_that_were_agreed() {
         found,
         [
             "convergence-independent: -1.1 … -0.9",
+            "convergence-photons: -0.76 … -0.43",
+            "convergence-photons: -0.83 … -0.48",
             "convergence-smooth: -3.2 … -2.8",
             "convergence-sobol: -4 … -1.3",
             "noise-furnace: 16 seeds, ±0.03",

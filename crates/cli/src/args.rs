@@ -32,6 +32,7 @@ Examples:
   etalon render scenes/cornell-box/scene.xml -o cornell.exr
   etalon render scene.xml -o out.exr --spp 256 --seed 7 -D resx=512 -D resy=512
   etalon render scene.xml -o direct.exr --integrator direct --stats stats.json
+  etalon render scene.xml -o out.exr --error 0.01
   etalon render scene.xml -o a.exr --part 1/2
   etalon render scene.xml --replay 12,7,0,3")]
     Render(RenderArgs),
@@ -117,6 +118,16 @@ pub struct RenderArgs {
     /// Independent replicates the image is the mean of [default: 8, or fewer if spp is less].
     #[arg(long, value_name = "R", value_parser = clap::value_parser!(u32).range(1..=4096))]
     pub replicates: Option<u32>,
+    /// As many samples as a relative standard error below REL takes, with 95 % confidence.
+    #[arg(long, value_name = "REL", value_parser = parse_error, conflicts_with_all = ["spp", "time", "part", "strategies"])]
+    pub error: Option<f64>,
+    /// As many samples as fit into so many seconds.
+    #[arg(long, value_name = "SECONDS", value_parser = parse_seconds, conflicts_with_all = ["spp", "part", "strategies"])]
+    pub time: Option<f64>,
+    /// Samples per pixel of the pilot, which is no part of the image, before `--error`.
+    #[arg(long, value_name = "N", default_value_t = crate::target::PILOT, requires = "error",
+        value_parser = clap::value_parser!(u32).range(16..=1 << 20))]
+    pub pilot: u32,
     /// Also write every technique of `bdpt` alone, weighted and unweighted, and a page with all.
     #[arg(long, value_name = "DIR", conflicts_with = "part")]
     pub strategies: Option<PathBuf>,
@@ -306,6 +317,20 @@ fn parse_part(text: &str) -> Result<PartOfMany, String> {
         .ok_or_else(|| {
             "expected I/N with I from 1 to N, such as 1/4 for the first of four".to_owned()
         })
+}
+
+fn parse_error(text: &str) -> Result<f64, String> {
+    let error = text.parse().ok();
+    error
+        .filter(|error| (1e-6..=1.0).contains(error))
+        .ok_or_else(|| "expected a number from 0.000001 to 1, such as 0.01 for 1 %".to_owned())
+}
+
+fn parse_seconds(text: &str) -> Result<f64, String> {
+    let seconds = text.parse().ok();
+    seconds
+        .filter(|seconds| (1e-3..=1e8).contains(seconds))
+        .ok_or_else(|| "expected a number of seconds, such as 60".to_owned())
 }
 
 fn parse_define(text: &str) -> Result<(String, String), String> {

@@ -14,6 +14,7 @@ pub mod progress;
 pub mod report;
 pub mod resources;
 pub mod say;
+pub mod target;
 
 /// The version of the program.
 pub const VERSION: &str = env!("CARGO_PKG_VERSION");

@@ -235,7 +235,7 @@ pub struct RenderOptions {
 }
 
 /// The default number of replicates: enough for a t distribution with light tails.
-const REPLICATES: u32 = 8;
+pub(crate) const REPLICATES: u32 = 8;
 
 /// What will be rendered: replicates × samples, rounded up to what the sampler can stratify.
 pub fn plan(loaded: &Loaded, options: &RenderOptions) -> Plan {

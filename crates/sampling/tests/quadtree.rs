@@ -99,11 +99,16 @@ fn it_learns_where_the_mass_is() {
     // Where there is no mass any more leaves are merged: those of the peak, if all is elsewhere.
     let mut elsewhere = 0;
     tree.spread(Vec2::new(0.8, 0.2), |slot, _| elsewhere = slot);
-    let moved = tree.learned(|slot| f64::from(u8::from(slot == elsewhere)), FINE);
-    let moved = moved.expect("mass");
+    let nothing_is_large = Refinement { share: 2.0, ..FINE };
+    let mass = |slot| f64::from(u8::from(slot == elsewhere));
+    let moved = tree.learned(mass, nothing_is_large).expect("mass");
     assert_eq!(moved.density(Vec2::new(0.3, 0.9)), 0.0);
     assert!(moved.density(Vec2::new(0.8, 0.2)) > 1.0);
-    assert!(moved.slots() < tree.slots());
+    assert_eq!(moved.slots(), 4);
+    // And where all the mass is they are divided anew.
+    let moved = tree.learned(mass, FINE).expect("mass");
+    assert_eq!(moved.density(Vec2::new(0.8, 0.2)), 4.0);
+    assert!(moved.slots() > 4);
     assert_eq!(tree.learned(|_| 0.0, FINE), None);
     assert_eq!(tree.learned(|_| f64::NAN, FINE), None);
 }

@@ -5,6 +5,7 @@ use super::{BAD_INPUT, fail, note, replay, strategies};
 use crate::args::{PartOfMany, RenderArgs};
 use crate::pipeline::{self, LoadOptions, Loaded, RenderOptions, Rendered};
 use crate::progress::Bar;
+use crate::target::{self, Fixed, Noise, Target};
 use crate::{diagnose, resources, say};
 use etalon_film::Developed;
 use etalon_images::{Losses, hdr, pfm, write_atomically};
@@ -70,18 +71,29 @@ fn run_here(args: &RenderArgs) -> ExitCode {
         Err(message) => return fail(message),
     };
     listen_for_interrupts();
-    let rendered = match render(args, &loaded) {
+    let aimed = match aim(args, &loaded) {
+        Ok(aimed) => aimed,
+        Err(target::Failure::Cancelled) => {
+            say::remark("stopped during the pilot, without an image\n");
+            return ExitCode::from(INTERRUPTED);
+        }
+        Err(target::Failure::Refused(diagnostic)) => {
+            diagnose::print(&[diagnostic], &loaded.sources);
+            return ExitCode::from(BAD_INPUT);
+        }
+    };
+    let rendered = match render(args, &loaded, aimed.as_ref()) {
         Ok(rendered) => rendered,
         Err(diagnostic) => {
             diagnose::print(&[diagnostic], &loaded.sources);
             return ExitCode::from(BAD_INPUT);
         }
     };
-    if let Err(message) = deliver(args, &loaded, &rendered) {
+    if let Err(message) = deliver(args, &loaded, &rendered, aimed.as_ref()) {
         return fail(message);
     }
     if let Some((folder, integrator)) = techniques {
-        let each = |loaded: &Loaded| Ok(render(args, loaded)?.developed);
+        let each = |loaded: &Loaded| Ok(render(args, loaded, None)?.developed);
         match strategies::write(folder, args, &mut loaded, &integrator, each) {
             Ok(Ok(())) => {}
             Ok(Err(diagnostic)) => {
@@ -163,24 +175,56 @@ fn listen_for_interrupts() {
     }
 }
 
-/// What the command line asks for.
+/// What the command line says of the amount of work.
 fn plan(args: &RenderArgs, loaded: &Loaded) -> Plan {
-    pipeline::plan(
-        loaded,
-        &RenderOptions {
-            spp: args.spp,
-            seed: args.seed,
-            replicates: args.replicates,
-            sampler: None,
-        },
-    )
+    let options = RenderOptions {
+        spp: args.spp,
+        seed: args.seed,
+        replicates: args.replicates,
+        sampler: None,
+    };
+    pipeline::plan(loaded, &options)
 }
 
-fn render(args: &RenderArgs, loaded: &Loaded) -> Result<Rendered, Diagnostic> {
-    let mut plan = plan(args, loaded);
+/// The plan that a pilot fixes, if a target is given.
+fn aim(args: &RenderArgs, loaded: &Loaded) -> Result<Option<Fixed>, target::Failure> {
+    let error = args.error.map(Target::Error);
+    let Some(aim) = error.or(args.time.map(Target::Seconds)) else {
+        return Ok(None);
+    };
+    let plan = plan(args, loaded);
+    let size = loaded.compiled.film.crop_size;
+    let samples = u64::from(args.pilot) * u64::from(size.x) * u64::from(size.y);
+    let bar = Bar::new(samples, args.quiet, &CANCELLED);
+    let fixed = target::fix(loaded, &plan, aim, args.pilot, args.replicates, &bar);
+    bar.finish();
+    let fixed = fixed?;
+    if !args.quiet {
+        let Plan {
+            replicates,
+            samples_per_replicate,
+            ..
+        } = fixed.plan;
+        note(format!(
+            "after a pilot of {} samples per pixel ({:.2} s): {replicates} replicates of \
+             {samples_per_replicate}, {} samples per pixel",
+            fixed.pilot,
+            fixed.seconds,
+            u64::from(replicates) * u64::from(samples_per_replicate),
+        ));
+    }
+    Ok(Some(fixed))
+}
+
+fn render(
+    args: &RenderArgs,
+    loaded: &Loaded,
+    aimed: Option<&Fixed>,
+) -> Result<Rendered, Diagnostic> {
+    let mut plan = aimed.map_or_else(|| plan(args, loaded), |fixed| fixed.plan);
     let spp = u64::from(plan.replicates) * u64::from(plan.samples_per_replicate);
     let asked = u64::from(args.spp.unwrap_or(loaded.compiled.sampler.spp));
-    if spp != asked && !args.quiet {
+    if aimed.is_none() && spp != asked && !args.quiet {
         note(format!(
             "{spp} samples per pixel instead of {asked}: {} replicates of {}",
             plan.replicates, plan.samples_per_replicate
@@ -213,7 +257,12 @@ fn share(part: PartOfMany, replicates: u32) -> Result<Share, Diagnostic> {
 }
 
 /// Writes the image and the statistics, and says how it went.
-fn deliver(args: &RenderArgs, loaded: &Loaded, rendered: &Rendered) -> Result<(), String> {
+fn deliver(
+    args: &RenderArgs,
+    loaded: &Loaded,
+    rendered: &Rendered,
+    aimed: Option<&Fixed>,
+) -> Result<(), String> {
     let losses = match &rendered.part {
         Some(part) => part
             .write_exr(args.output())
@@ -225,7 +274,7 @@ fn deliver(args: &RenderArgs, loaded: &Loaded, rendered: &Rendered) -> Result<()
         losses_in_words(&losses).iter().for_each(note);
     }
     if let Some(path) = &args.stats {
-        let text = format!("{:#}\n", stats(args, loaded, rendered));
+        let text = format!("{:#}\n", stats(args, loaded, rendered, aimed));
         write_atomically(path, |file| file.write_all(text.as_bytes()))
             .map_err(|error| format!("cannot write {}: {error}", path.display()))?;
     }
@@ -236,9 +285,25 @@ fn deliver(args: &RenderArgs, loaded: &Loaded, rendered: &Rendered) -> Result<()
             "warning: {faults} contributions were not finite; see `etalon info`\n"
         ));
         let first = metadata.iter().flat_map(|m| &m.faults.first);
-        let plan = plan(args, loaded);
+        let plan = aimed.map_or_else(|| plan(args, loaded), |fixed| fixed.plan);
         if let Some(command) = first.filter_map(|o| replay::command(args, &plan, o)).next() {
             say::remark(&format!("look at the first of them with\n  {command}\n"));
+        }
+    }
+    if let Some(aim) = args.error {
+        match relative_error(rendered) {
+            Some(error) if error <= aim && !args.quiet => say::remark(&format!(
+                "relative standard error {:.3} %, of {} % aimed at\n",
+                100.0 * error,
+                100.0 * aim
+            )),
+            Some(error) if error <= aim => {}
+            Some(error) => say::remark(&format!(
+                "warning: the target is missed: relative standard error {:.3} % instead of {} %\n",
+                100.0 * error,
+                100.0 * aim
+            )),
+            None => say::remark("warning: whether the target is reached is unknown\n"),
         }
     }
     if !args.quiet {
@@ -267,6 +332,11 @@ fn deliver(args: &RenderArgs, loaded: &Loaded, rendered: &Rendered) -> Result<()
     Ok(())
 }
 
+/// The relative standard error that `--error` is about.
+fn relative_error(rendered: &Rendered) -> Option<f64> {
+    Noise::of(&rendered.developed)?.relative()
+}
+
 /// Writes an EXR with everything, or the colours alone in a simpler format.
 fn write_image(path: &Path, developed: &Developed) -> Result<Losses, String> {
     let extension = path.extension().map(|e| e.to_string_lossy().to_lowercase());
@@ -278,7 +348,12 @@ fn write_image(path: &Path, developed: &Developed) -> Result<Losses, String> {
     .map_err(|error| error.to_string())
 }
 
-fn stats(args: &RenderArgs, loaded: &Loaded, rendered: &Rendered) -> serde_json::Value {
+fn stats(
+    args: &RenderArgs,
+    loaded: &Loaded,
+    rendered: &Rendered,
+    aimed: Option<&Fixed>,
+) -> serde_json::Value {
     let seconds = rendered.time.as_secs_f64();
     let metadata = rendered.developed.metadata.as_ref();
     serde_json::json!({
@@ -296,6 +371,9 @@ fn stats(args: &RenderArgs, loaded: &Loaded, rendered: &Rendered) -> serde_json:
         "replicates": rendered.outcome.replicates,
         "part": metadata.and_then(|m| m.part.as_ref()),
         "mean_relative_standard_error": rendered.developed.mean_relative_standard_error(),
+        "relative_standard_error": relative_error(rendered),
+        "pilot_spp": aimed.map(|fixed| fixed.pilot),
+        "pilot_seconds": aimed.map(|fixed| fixed.seconds),
         "non_finite": metadata.map(|m| m.faults.total()),
         "peak_memory_bytes": resources::peak_memory_bytes(),
         "threads": rayon::current_num_threads(),

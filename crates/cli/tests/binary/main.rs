@@ -20,4 +20,5 @@ mod render;
 mod replay;
 mod statistics;
 mod strategies;
+mod target;
 mod workshop;

@@ -1,0 +1,383 @@
+//! Rendering to an error or for a time: a pilot, which is no part of the image, fixes the number of
+//! samples before the first of them is drawn.
+//!
+//! The relative standard error of an image of N samples per pixel is
+//!
+//! ```text
+//! e = √( Σ_c ⟨s²⟩_c / Σ_c m_c² )            e² = V / N
+//! ```
+//!
+//! with ⟨s²⟩ the mean over pixels of the squared standard error, m the mean over pixels, and the sums over the
+//! colours. The pilot is [`GROUPS`] independent pictures of two replicates each. Each gives an unbiased estimate
+//! of V (but for m, which all of them give together); Student's t with one degree of freedom less
+//! than there are pictures bounds ln V from above with 95 % confidence, and N = V/e² follows.
+//!
+//! Nothing of the pilot goes into the image, and its samples have seeds of their own. So N is independent
+//! of the image's samples: they are as many as if somebody had asked for N, and the standard error
+//! is as valid. There is no look at the image before it is finished, and no stopping because it pleases.
+//! The price: whether the target was reached is only known at the end, and is said.
+
+use crate::pipeline::{self, Loaded};
+use etalon_film::Developed;
+use etalon_integrators::{Plan, Progress};
+use etalon_math::float64;
+use etalon_params::Diagnostic;
+use etalon_sampling::SamplerKind;
+use etalon_sampling::hash::{derived_key, mix64};
+use etalon_statistics::{Summary, student_t};
+use std::time::Instant;
+
+/// What an image is to reach.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Target {
+    /// A relative standard error.
+    Error(f64),
+    /// A time for everything (s).
+    Seconds(f64),
+}
+
+/// Pictures of a pilot that bounds an error.
+pub const GROUPS: u32 = 8;
+
+/// The confidence with which the error is reached.
+const CONFIDENCE: f64 = 0.95;
+
+/// Samples per pixel of a pilot, if nobody says otherwise.
+pub const PILOT: u32 = 64;
+
+/// The most samples per pixel that a target may ask for.
+const MOST: f64 = (1_u64 << 28) as f64;
+
+/// Of a time, the share after which a pilot has seen enough.
+const PILOT_SHARE: f64 = 0.05;
+
+/// Sets the seeds of pilots apart from those of images.
+const SEEDS: u64 = 0x7069_6c6f_7400_0001;
+
+/// The noise of a picture.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Noise {
+    /// Σ_c ⟨s²⟩_c: the mean over pixels of the squared standard error, summed over colours.
+    pub variance: f64,
+    /// The mean of each colour over the pixels; zero for colours that there are none of.
+    pub mean: [f64; 3],
+}
+
+impl Noise {
+    /// The noise of a picture; `None` without standard errors.
+    pub fn of(developed: &Developed) -> Option<Self> {
+        let names = [["R", "G", "B"], ["X", "Y", "Z"], ["Y", "", ""]];
+        let there = |names: &&[&str; 3]| developed.image.channel(names[0]).is_some();
+        let names = names.iter().find(there)?;
+        let (mut variance, mut mean) = (0.0, [0.0; 3]);
+        for (name, mean) in names
+            .iter()
+            .zip(&mut mean)
+            .filter(|(name, _)| !name.is_empty())
+        {
+            let means = developed.image.channel(name)?;
+            let errors = developed.standard_error(name)?;
+            let count = means.len() as f64;
+            *mean = means.iter().map(|&m| f64::from(m)).sum::<f64>() / count;
+            variance += errors.iter().map(|&s| f64::from(s).powi(2)).sum::<f64>() / count;
+        }
+        Some(Self { variance, mean })
+    }
+
+    /// Σ_c m_c².
+    fn mean_square(&self) -> f64 {
+        self.mean.iter().map(|m| m * m).sum()
+    }
+
+    /// The relative standard error; `None` of a black picture.
+    pub fn relative(&self) -> Option<f64> {
+        let square = self.mean_square();
+        (square > 0.0).then(|| (self.variance / square).sqrt())
+    }
+}
+
+/// What a pilot found, and what follows from it.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Fixed {
+    /// What to render.
+    pub plan: Plan,
+    /// Samples per pixel that the pilot took.
+    pub pilot: u32,
+    /// Time that the pilot took (s).
+    pub seconds: f64,
+}
+
+/// Why there is no plan.
+#[derive(Debug)]
+pub enum Failure {
+    /// One message.
+    Refused(Diagnostic),
+    /// Somebody asked to stop.
+    Cancelled,
+}
+
+impl From<Diagnostic> for Failure {
+    fn from(diagnostic: Diagnostic) -> Self {
+        Self::Refused(diagnostic)
+    }
+}
+
+/// Renders a pilot of about `samples` samples per pixel (or as many as a time allows) and fixes a plan like
+/// `plan`, but of as many samples as the target needs. `replicates` keeps their number.
+///
+/// # Errors
+/// If no number of samples can reach the target, or `progress` says to stop.
+pub fn fix<P: Progress>(
+    loaded: &Loaded,
+    plan: &Plan,
+    target: Target,
+    samples: u32,
+    replicates: Option<u32>,
+    progress: &P,
+) -> Result<Fixed, Failure> {
+    let start = Instant::now();
+    let (needed, pilot) = match target {
+        Target::Error(error) => error_pilot(loaded, plan, error, samples, progress)?,
+        Target::Seconds(seconds) => time_pilot(loaded, plan, seconds, progress)?,
+    };
+    let up = matches!(target, Target::Error(_));
+    Ok(Fixed {
+        plan: sized(plan, needed, replicates, up),
+        pilot,
+        seconds: start.elapsed().as_secs_f64(),
+    })
+}
+
+/// One picture of a pilot: two replicates.
+fn picture<P: Progress>(
+    loaded: &Loaded,
+    plan: &Plan,
+    index: u32,
+    samples: u32,
+    progress: &P,
+) -> Result<(Developed, f64), Failure> {
+    let small = Plan {
+        seed: derived_key(mix64(plan.seed ^ SEEDS), index),
+        replicates: 2,
+        samples_per_replicate: samples,
+        ..*plan
+    };
+    let rendered = pipeline::render(loaded, &small, progress)?;
+    if progress.cancelled() {
+        return Err(Failure::Cancelled);
+    }
+    Ok((rendered.developed, rendered.time.as_secs_f64()))
+}
+
+/// The samples per pixel that bring the relative standard error below `error`, and those of the pilot.
+fn error_pilot<P: Progress>(
+    loaded: &Loaded,
+    plan: &Plan,
+    error: f64,
+    samples: u32,
+    progress: &P,
+) -> Result<(f64, u32), Failure> {
+    let each = plan.sampler.round_up(samples.div_ceil(2 * GROUPS));
+    let mut found = Vec::new();
+    for index in 0..GROUPS {
+        let (developed, _) = picture(loaded, plan, index, each, progress)?;
+        found.push(Noise::of(&developed).ok_or_else(|| {
+            Diagnostic::error_nowhere(
+                "an error cannot be aimed at: the film has no colours".to_owned(),
+            )
+        })?);
+    }
+    let needed = samples_for(&found, f64::from(2 * each), error).map_err(|reason| {
+        Diagnostic::error_nowhere(format!("no error can be aimed at: {reason}"))
+            .help("name the number of samples with `--spp`, or let the pilot take more (`--pilot`)")
+    })?;
+    if needed > MOST {
+        let message = format!(
+            "a relative standard error of {error} would take {needed:.1e} samples per pixel, more than \
+             {MOST:.1e}"
+        );
+        return Err(Diagnostic::error_nowhere(message)
+            .help("aim at a larger error")
+            .into());
+    }
+    Ok((needed, 2 * GROUPS * each))
+}
+
+/// N: the upper bound of V, over the squared error.
+fn samples_for(found: &[Noise], samples: f64, error: f64) -> Result<f64, &'static str> {
+    let count = found.len() as f64;
+    let mut mean = [0.0; 3];
+    for noise in found {
+        for (mean, of_one) in mean.iter_mut().zip(noise.mean) {
+            *mean += of_one / count;
+        }
+    }
+    let square: f64 = mean.iter().map(|m| m * m).sum();
+    if !(square > 0.0) {
+        return Err("the pilot found no light");
+    }
+    let per_sample: Vec<f64> = (found.iter())
+        .map(|noise| samples * noise.variance / square)
+        .collect();
+    let summary = Summary::of(&per_sample).ok_or("the pilot's noise is not finite")?;
+    let spread = (summary.variance() / count).sqrt();
+    let quantile = student_t::upper_quantile(1.0 - CONFIDENCE, count - 1.0);
+    let (mean, relative) = match summary.mean() {
+        0.0 => (0.0, 0.0),
+        mean => (mean, spread / mean),
+    };
+    // On the scale of logarithms: variances are skewed, and a bound by the mean plus so many spreads
+    // suffices too seldom.
+    Ok(mean * float64::exp(quantile * relative) / (error * error))
+}
+
+/// The samples per pixel that fit into a time, and those of the pilot.
+fn time_pilot<P: Progress>(
+    loaded: &Loaded,
+    plan: &Plan,
+    seconds: f64,
+    progress: &P,
+) -> Result<(f64, u32), Failure> {
+    let start = Instant::now();
+    // The first picture finds cold caches; its time is spent, but does not count.
+    let (_, cold) = picture(loaded, plan, 0, 1, progress)?;
+    let (mut each, mut taken, mut pace) = (1, 2, cold / 2.0);
+    for index in 1.. {
+        // The largest so far says most: what is learned once weighs least in it.
+        let spent = start.elapsed().as_secs_f64();
+        if spent + 8.0 * pace * f64::from(each) > PILOT_SHARE * seconds {
+            break;
+        }
+        let (_, time) = picture(loaded, plan, index, each, progress)?;
+        pace = time / f64::from(2 * each);
+        taken += 2 * each;
+        each *= 4;
+    }
+    let left = seconds - start.elapsed().as_secs_f64();
+    Ok((left / pace.max(1e-9), taken))
+}
+
+/// A plan of `needed` samples per pixel: no fewer if `up`, no more otherwise, as nearly as replicates of equal,
+/// stratifiable size allow.
+fn sized(plan: &Plan, needed: f64, replicates: Option<u32>, up: bool) -> Plan {
+    let count = replicates.unwrap_or(pipeline::REPLICATES);
+    let needed = needed.clamp(1.0, MOST);
+    let each = needed / f64::from(count);
+    let least = round_down(plan.sampler, each as u32);
+    let (samples, replicates) = match replicates {
+        // More replicates take up what rounding leaves.
+        None if each >= 1.0 => {
+            let fit = needed / f64::from(least);
+            (least, if up { fit.ceil() } else { fit.floor() } as u32)
+        }
+        None => (1, if up { count } else { (needed as u32).max(2) }),
+        Some(count) if up => (plan.sampler.round_up(each.ceil() as u32), count),
+        Some(count) => (least, count),
+    };
+    Plan {
+        replicates,
+        samples_per_replicate: samples,
+        ..*plan
+    }
+}
+
+/// The greatest size of at most `samples`, and at least one, that the sampler stratifies fully.
+fn round_down(sampler: SamplerKind, samples: u32) -> u32 {
+    let samples = samples.max(1);
+    match sampler {
+        SamplerKind::Independent => samples,
+        SamplerKind::Stratified { .. } => samples.isqrt().pow(2),
+        SamplerKind::Sobol => 1 << samples.ilog2(),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn plan(sampler: SamplerKind) -> Plan {
+        Plan {
+            seed: 1,
+            replicates: 8,
+            share: None,
+            samples_per_replicate: 4,
+            sampler,
+        }
+    }
+
+    #[test]
+    fn plans_have_the_samples_that_are_needed() {
+        let kinds = [
+            SamplerKind::Independent,
+            SamplerKind::Sobol,
+            SamplerKind::Stratified { jitter: true },
+        ];
+        for kind in kinds {
+            for needed in [0.3, 1.0, 5.5, 8.0, 31.9, 100.0, 12_345.6] {
+                for replicates in [None, Some(2), Some(8), Some(20)] {
+                    let size = |up| {
+                        let plan = sized(&plan(kind), needed, replicates, up);
+                        let each = plan.samples_per_replicate;
+                        assert_eq!(kind.round_up(each), each);
+                        assert!(replicates.is_none_or(|r| r == plan.replicates));
+                        assert!(plan.replicates >= 2);
+                        f64::from(each) * f64::from(plan.replicates)
+                    };
+                    assert!(size(true) >= needed, "{kind:?} {needed} {replicates:?}");
+                    let fewest = f64::from(replicates.unwrap_or(2));
+                    assert!(size(false) <= needed.max(fewest), "{kind:?} {needed}");
+                    // Not much more, where the number of replicates is free.
+                    if replicates.is_none() {
+                        assert!(size(true) < 8.5 + 1.3 * needed, "{kind:?} {needed}");
+                    }
+                }
+            }
+        }
+    }
+
+    /// Pilots of noise that is known: the number of samples suffices in 95 % of them or more.
+    #[test]
+    fn the_bound_holds_at_its_rate() {
+        let mut state = 1_u64;
+        let mut uniform = || {
+            state = mix64(state.wrapping_add(0x9e37_79b9_7f4a_7c15));
+            (state >> 11) as f64 / (1_u64 << 53) as f64
+        };
+        // Three hundred pixels' worth of squares of nearly normal numbers (sums of twelve), V = 3.
+        let mut noise = || {
+            let mut square = || {
+                let sum: f64 = (0..12).map(|_| uniform()).sum();
+                (sum - 6.0).powi(2)
+            };
+            Noise {
+                variance: 3.0 / 8.0 * (0..300).map(|_| square()).sum::<f64>() / 300.0,
+                mean: [1.0, 0.0, 0.0],
+            }
+        };
+        let pilots = 2000;
+        let enough = (0..pilots)
+            .filter(|_| {
+                let found: Vec<Noise> = (0..GROUPS).map(|_| noise()).collect();
+                samples_for(&found, 8.0, 0.01).is_ok_and(|n| n >= 3.0 / 1e-4)
+            })
+            .count();
+        // Binomial: 95 % of 2000 has the standard deviation 9.7; within 3.3 of them, α = 10⁻³. The mutant
+        // takes the mean for the bound and suffices in half of the pilots.
+        assert!((1868..=1932).contains(&enough), "{enough}");
+    }
+
+    #[test]
+    fn black_pictures_have_no_relative_error() {
+        let black = Noise {
+            variance: 0.0,
+            mean: [0.0; 3],
+        };
+        assert_eq!(black.relative(), None);
+        assert!(samples_for(&[black; 8], 4.0, 0.01).is_err());
+        let grey = Noise {
+            variance: 0.02,
+            mean: [1.0, 1.0, 0.0],
+        };
+        assert_eq!(grey.relative(), Some(0.1));
+    }
+}
