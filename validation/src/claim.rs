@@ -57,6 +57,10 @@ pub struct Claim {
     /// Whether the quick run decides it, too.
     #[serde(default = "yes")]
     pub quick: bool,
+    /// Whether the full run alone decides it: its estimators are too noisy for the default run's
+    /// minutes.
+    #[serde(default)]
+    pub full_only: bool,
 }
 
 fn yes() -> bool {

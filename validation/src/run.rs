@@ -97,7 +97,11 @@ pub fn tasks<'a>(claims: &'a [Claim], options: &Options) -> Vec<Task<'a>> {
     let chosen: Vec<&Claim> = match &options.only {
         Some(name) => named(claims, name),
         None => {
-            let decided = |claim: &&Claim| claim.quick || options.tier != Tier::Quick;
+            let decided = |claim: &&Claim| match options.tier {
+                Tier::Quick => claim.quick && !claim.full_only,
+                Tier::Default => !claim.full_only,
+                Tier::Full => true,
+            };
             claims.iter().filter(decided).collect()
         }
     };
