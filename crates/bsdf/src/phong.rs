@@ -8,7 +8,7 @@
 //! larger. Lafortune & Willems (1994), *Using the Modified Phong Reflectance Model for Physically
 //! Based Rendering*: it is reciprocal, and reflects no more than it receives since ρd
 //! + ρs ≤ 1. Where the two given amount to more, both are reduced alike. The lobe is sampled with
-//! density (n + 1)/(2π) cosⁿα; of its directions those below the surface are lost.
+//!   density (n + 1)/(2π) cosⁿα; of its directions those below the surface are lost.
 
 use crate::refraction::reflect;
 use crate::{Model, Site};
