@@ -6,9 +6,9 @@
 //!
 //! α is the angle between `wi` and the mirror image of `wo`, taken as a right angle where it is
 //! larger. Lafortune & Willems (1994), *Using the Modified Phong Reflectance Model for Physically
-//! Based Rendering*: it is reciprocal, and reflects no more than it receives since ρd
-//! + ρs ≤ 1. Where the two given amount to more, both are reduced alike. The lobe is sampled with
-//!   density (n + 1)/(2π) cosⁿα; of its directions those below the surface are lost.
+//! Based Rendering*: it is reciprocal, and reflects no more than it receives since ρd + ρs ≤ 1.
+//! Where the two given amount to more, both are reduced alike. The lobe is sampled with density
+//! (n + 1)/(2π) cosⁿα; of its directions those below the surface are lost.
 
 use crate::refraction::reflect;
 use crate::{Model, Site};
