@@ -90,7 +90,7 @@ pub(crate) fn expand(claim: &mut Claim) -> Result<(), String> {
             .any(|e| own(e) && e.defines.is_empty())
     };
     let oracle = match &claim.oracle {
-        Oracle::Agreement { estimator } => estimator.integrator.as_deref(),
+        Oracle::Agreement { estimator } => Some(estimator.integrator.as_deref().unwrap_or("path")),
         _ => None,
     };
     let defines = rendering::defines(claim, None);

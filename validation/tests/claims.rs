@@ -2,6 +2,7 @@
 //! to the scene's present state, and a number of mutants over all of them.
 
 use etalon_validation::claim::{Claim, Oracle, Sampler};
+use etalon_validation::tier::Tier;
 use etalon_validation::{closed_form, folders, povray, reference, run};
 use std::collections::BTreeSet;
 
@@ -47,6 +48,36 @@ fn scenes_load_and_oracles_belong_to_them() {
             Oracle::Agreement { .. } | Oracle::Invariance { .. } => {}
         }
     }
+}
+
+/// Who stands in the matrix, and who objects: `forward` needs a lens that it can hit, `naive` lamps
+/// that it can. Mutants: objections that are not asked for, rows in a quick run.
+#[test]
+fn the_matrix_asks_all_who_do_not_object() {
+    let claims = claims();
+    let names = |claim: &str, tier| -> Vec<String> {
+        let options = run::Options {
+            only: Some(claim.to_owned()),
+            tier,
+            seed: 1,
+        };
+        let tasks = run::tasks(&claims, &options);
+        let rows = tasks.iter().filter(|t| t.estimator.in_matrix.is_some());
+        rows.filter_map(|t| t.estimator.integrator.clone())
+            .collect()
+    };
+    let rectangle = names("irradiance-rectangle", Tier::Default);
+    for name in ["naive", "bdpt", "ptracer"] {
+        assert!(rectangle.iter().any(|n| n == name), "{name}");
+    }
+    // The claim's own estimator is no second row.
+    assert!(!rectangle.iter().any(|n| n == "forward" || n == "path"));
+    let point = names("irradiance-point", Tier::Default);
+    assert!(point.iter().any(|n| n == "bdpt") && !point.iter().any(|n| n == "naive"));
+    assert_eq!(names("irradiance-rectangle", Tier::Quick), [""; 0]);
+    // What a claim leaves to the full run.
+    let has = |tier| names("prism", tier).iter().any(|n| n == "mmlt");
+    assert!(has(Tier::Full) && !has(Tier::Default));
 }
 
 #[test]
