@@ -193,6 +193,8 @@ pub struct Estimator {
     pub integrator: Option<String>,
     /// The sampler, if not the scene's.
     pub sampler: Option<Sampler>,
+    /// How points choose the light that they ask, if not as the scene says.
+    pub light_chooser: Option<String>,
     /// Further parameters of the scene, of this estimator only.
     #[serde(default)]
     pub defines: BTreeMap<String, toml::Value>,
@@ -239,7 +241,10 @@ impl Estimator {
             Some(Change::Seed) => ", seed",
             Some(Change::Wavelengths) => ", wavelengths",
         };
-        format!("{integrator}, {sampler}{defines}{change}")
+        let chooser = (self.light_chooser.as_ref())
+            .map(|name| format!(", {name} lights"))
+            .unwrap_or_default();
+        format!("{integrator}, {sampler}{chooser}{defines}{change}")
     }
 
     /// The budget that must suffice to find a fault: an eighth of the quick run's.

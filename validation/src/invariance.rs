@@ -14,7 +14,7 @@ use etalon_formats::FileAssets;
 use etalon_formats::mitsuba::{self, ReadOptions};
 use etalon_integrators::{Plan, Share};
 use etalon_params::Diagnostics;
-use etalon_scene::{AcceleratorKind, Compiled};
+use etalon_scene::{AcceleratorKind, CompileOptions, Compiled};
 use std::io::Cursor;
 use std::path::Path;
 
@@ -206,8 +206,11 @@ fn linear(claim: &Claim, estimator: &Estimator, loaded: &Loaded) -> Result<Compi
     let document = read.document.ok_or(refused)?;
     let assets = FileAssets::new(document.search.clone());
     let diagnostics = Diagnostics::silent_about(&read.stand_ins);
-    let kind = AcceleratorKind::Linear;
-    etalon_scene::compile_with(&document.root, &assets, &diagnostics, kind)
+    let options = CompileOptions {
+        accelerator: AcceleratorKind::Linear,
+        ..CompileOptions::default()
+    };
+    etalon_scene::compile_with(&document.root, &assets, &diagnostics, options)
         .ok_or_else(|| refused.to_owned())
 }
 

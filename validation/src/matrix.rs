@@ -104,6 +104,7 @@ pub(crate) fn expand(claim: &mut Claim) -> Result<(), String> {
         .map(|name| Estimator {
             integrator: Some(name.to_owned()),
             sampler: None,
+            light_chooser: None,
             defines: Default::default(),
             quick: matrix.default,
             default: matrix.default,

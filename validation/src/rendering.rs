@@ -7,6 +7,7 @@ use etalon::pipeline::{self, LoadOptions, Loaded, RenderOptions};
 use etalon_film::{Developed, ExactFilm, RenderFacts};
 use etalon_integrators::Plan;
 use etalon_sampling::SamplerKind;
+use etalon_scene::LightChooser;
 
 /// The scene parameters of a claim, and of one of its estimators.
 pub fn defines(claim: &Claim, estimator: Option<&Estimator>) -> Vec<(String, String)> {
@@ -29,12 +30,18 @@ pub fn load(
     defines: &[(String, String)],
     integrator: Option<&str>,
 ) -> Result<Loaded, String> {
-    let options = LoadOptions {
-        defines: defines.to_vec(),
-        integrator: integrator.map(str::to_owned),
-        data: Vec::new(),
-    };
-    pipeline::load(&folders::scenes().join(&claim.scene), &options).map_err(|refusal| {
+    load_with(
+        claim,
+        &LoadOptions {
+            defines: defines.to_vec(),
+            integrator: integrator.map(str::to_owned),
+            ..LoadOptions::default()
+        },
+    )
+}
+
+fn load_with(claim: &Claim, options: &LoadOptions) -> Result<Loaded, String> {
+    pipeline::load(&folders::scenes().join(&claim.scene), options).map_err(|refusal| {
         let lines: Vec<String> = refusal
             .diagnostics
             .iter()
@@ -49,8 +56,22 @@ pub fn load(
 /// # Errors
 /// As [`load`].
 pub fn load_for(claim: &Claim, estimator: &Estimator) -> Result<Loaded, String> {
-    let defines = defines(claim, Some(estimator));
-    load(claim, &defines, estimator.integrator.as_deref())
+    let light_chooser = match &estimator.light_chooser {
+        None => None,
+        Some(name) => {
+            let unknown = || format!("there is no light chooser `{name}`");
+            Some(LightChooser::named(name).ok_or_else(unknown)?)
+        }
+    };
+    load_with(
+        claim,
+        &LoadOptions {
+            defines: defines(claim, Some(estimator)),
+            integrator: estimator.integrator.clone(),
+            light_chooser,
+            ..LoadOptions::default()
+        },
+    )
 }
 
 /// How an estimator spends a budget.

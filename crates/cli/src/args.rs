@@ -1,6 +1,7 @@
 //! The command line.
 
 use clap::{Args, Parser, Subcommand};
+use etalon_scene::LightChooser;
 use std::path::{Path, PathBuf};
 
 /// A spectral renderer whose estimators are held to account by statistics.
@@ -112,6 +113,10 @@ pub struct RenderArgs {
     /// of its parameters if it has that type).
     #[arg(long, value_name = "NAME")]
     pub integrator: Option<String>,
+    /// How a point chooses the light that it asks: automatic, uniform, power, tree [default: the
+    /// scene's].
+    #[arg(long, value_name = "NAME", value_parser = parse_light_chooser)]
+    pub light_chooser: Option<LightChooser>,
     /// Give a scene parameter ($key) a value.
     #[arg(short = 'D', value_name = "key=value", value_parser = parse_define)]
     pub define: Vec<(String, String)>,
@@ -208,6 +213,10 @@ pub struct EstimatorsArgs {
     /// Reconstruction filters: box, tent, gaussian, … [default: the scene's].
     #[arg(long, value_name = "A,B,…", value_delimiter = ',')]
     pub filters: Vec<String>,
+    /// Rules by which a point chooses the light that it asks: automatic, uniform, power, tree
+    /// [default: the scene's].
+    #[arg(long, value_name = "A,B,…", value_delimiter = ',', value_parser = parse_light_chooser)]
+    pub light_choosers: Vec<LightChooser>,
     /// Time for all rendering together (s).
     #[arg(long, value_name = "SECONDS")]
     pub time: f64,
@@ -324,6 +333,13 @@ fn parse_error(text: &str) -> Result<f64, String> {
     error
         .filter(|error| (1e-6..=1.0).contains(error))
         .ok_or_else(|| "expected a number from 0.000001 to 1, such as 0.01 for 1 %".to_owned())
+}
+
+fn parse_light_chooser(text: &str) -> Result<LightChooser, String> {
+    LightChooser::named(text).ok_or_else(|| {
+        let names = LightChooser::ALL.map(LightChooser::name);
+        format!("expected one of {}", names.join(", "))
+    })
 }
 
 fn parse_seconds(text: &str) -> Result<f64, String> {

@@ -9,8 +9,9 @@ use etalon_formats::mitsuba::{self, Document, ReadOptions, ReadOutcome};
 use etalon_integrators::{AnyIntegrator, Outcome, Plan, Progress};
 use etalon_params::{Class, Diagnostic, Diagnostics, Node, Params, Sources, Span, Value};
 use etalon_sampling::SamplerKind;
-use etalon_scene::Compiled;
+use etalon_scene::{CompileOptions, Compiled, LightChooser};
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
 use std::time::{Duration, Instant};
 
 /// How to read a scene.
@@ -22,6 +23,8 @@ pub struct LoadOptions {
     pub integrator: Option<String>,
     /// Further folders with data.
     pub data: Vec<PathBuf>,
+    /// How points choose the light that they ask, if not as the scene says.
+    pub light_chooser: Option<LightChooser>,
 }
 
 /// Why a scene cannot be used: what is wrong, and the texts in which it stands.
@@ -36,7 +39,7 @@ pub struct Refusal {
 /// A scene ready to be rendered.
 pub struct Loaded {
     /// The scene and what belongs to it.
-    pub compiled: Compiled,
+    pub compiled: Arc<Compiled>,
     /// The estimator.
     pub integrator: AnyIntegrator,
     /// Its name, nested ones after a slash.
@@ -86,7 +89,11 @@ pub fn load(path: &Path, options: &LoadOptions) -> Result<Loaded, Refusal> {
     if let Some(document) = document {
         let diagnostics = Diagnostics::silent_about(&stand_ins);
         let assets = FileAssets::new(document.search.clone());
-        let compiled = etalon_scene::compile(&document.root, &assets, &diagnostics);
+        let overruled = CompileOptions {
+            light_chooser: options.light_chooser,
+            ..CompileOptions::default()
+        };
+        let compiled = etalon_scene::compile_with(&document.root, &assets, &diagnostics, overruled);
         let integrator = integrator(&document.root, &diagnostics);
         if let (Some(compiled), Some((integrator, _))) = (&compiled, &integrator) {
             let place = place(&document.root, &[Class::Integrator]);
@@ -118,7 +125,7 @@ pub fn load(path: &Path, options: &LoadOptions) -> Result<Loaded, Refusal> {
     };
     let build_time = compiled.build_time;
     Ok(Loaded {
-        compiled,
+        compiled: Arc::new(compiled),
         integrator,
         integrator_name,
         complete,
@@ -217,6 +224,9 @@ fn scene_hash(document: &Document, assets: &FileAssets, options: &LoadOptions) -
     }
     if let Some(name) = &options.integrator {
         add(name.as_bytes());
+    }
+    if let Some(chooser) = options.light_chooser {
+        add(chooser.name().as_bytes());
     }
     hasher.finalize().to_hex()[..16].to_owned()
 }

@@ -8,6 +8,7 @@ use crate::probe::Probe;
 use crate::scope::{GroupOthers, Scope, Thing, intersect_solid, occludes_solid};
 use crate::shapes::Shape;
 use crate::surface::Owner;
+use etalon_math::DirectionCone;
 use etalon_transport::{
     Hit, InstanceId, LightId, MaterialId, Ray, Receiver, SampledPoint, ShapeId, Shapes,
     SurfacePoint, Vertex,
@@ -289,6 +290,15 @@ impl Geometry {
 impl Shapes for Geometry {
     fn area(&self, shape: ShapeId) -> f32 {
         self.shape(shape).area() as f32
+    }
+
+    fn bounds(&self, shape: ShapeId) -> [Vec3; 2] {
+        let bounds = self.shape(shape).bounds();
+        [bounds.min, bounds.max]
+    }
+
+    fn normals(&self, shape: ShapeId) -> DirectionCone {
+        self.shape(shape).normals()
     }
 
     fn sample_area(&self, shape: ShapeId, u: Vec2) -> SampledPoint {

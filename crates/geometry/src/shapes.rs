@@ -14,6 +14,7 @@ use crate::accelerator::Bounds;
 use crate::surface::Surface;
 use cylinder::Cylinder;
 use disk::Disk;
+use etalon_math::DirectionCone;
 use etalon_params::Params;
 use etalon_sampling::warps::{SphericalTriangle, square_to_triangle};
 use etalon_transport::{Build, Receiver, SampledPoint, SurfacePoint};
@@ -111,6 +112,16 @@ impl Shape {
                 }
             }
             (None, None) => Bounds::EMPTY,
+        }
+    }
+
+    /// A cone that holds its normals, outside.
+    pub(crate) fn normals(&self) -> DirectionCone {
+        match self {
+            Self::Mesh(mesh) => mesh.cone_of_normals(),
+            Self::Rectangle(rectangle) => DirectionCone::along(rectangle.normal().as_dvec3()),
+            Self::Disk(disk) => DirectionCone::along(disk.normal()),
+            Self::Sphere(_) | Self::Cylinder(_) => DirectionCone::ALL,
         }
     }
 

@@ -8,6 +8,7 @@
 //! Points toward an observer are chosen by the shape; emitted particles start uniformly over the
 //! area, with directions in proportion to cos θ.
 
+use crate::LightExtent;
 use core::f32::consts::FRAC_1_PI;
 use etalon_math::Density;
 use etalon_params::Params;
@@ -34,6 +35,18 @@ impl AreaLight {
         Self {
             shape,
             radiance: build.texture(params, "radiance", Some(1.0), Role::Emission),
+        }
+    }
+
+    /// Where it is: on its shape, whose outer side it shines from.
+    pub fn extent(&self, shapes: &impl Shapes) -> LightExtent {
+        let [low, high] = shapes.bounds(self.shape).map(|corner| corner.as_dvec3());
+        LightExtent {
+            low,
+            high,
+            normals: shapes.normals(self.shape),
+            cos_edge: 0.0,
+            power: 0.0,
         }
     }
 

@@ -1,7 +1,7 @@
 //! Light sources: each can be hit, sampled and made to emit.
 //!
 //! A [`Light`] is one source as described. A [`LightSet`] is all of a scene's lights made ready:
-//! it knows how large the scene is, how much each light emits, and which light to choose. It is
+//! it knows how large the scene is, how much each light emits, and which light to choose ([`LightChooser`]). It is
 //! what [`etalon_transport::World`]'s questions about light are forwarded to.
 //!
 //! | light | what its quantity is |
@@ -16,6 +16,7 @@ pub mod bounds;
 pub mod constant;
 pub mod directional;
 pub mod environment;
+pub mod extent;
 pub mod latitude_longitude;
 pub mod light;
 pub mod point;
@@ -23,6 +24,7 @@ pub mod pose;
 pub mod selector;
 pub mod set;
 pub mod spot;
+pub mod tree;
 mod uniformity;
 
 pub use area::AreaLight;
@@ -30,11 +32,13 @@ pub use bounds::Bounds;
 pub use constant::ConstantLight;
 pub use directional::DirectionalLight;
 pub use environment::EnvironmentMap;
+pub use extent::{LightExtent, Promise};
 pub use light::{Light, LightDescription};
 pub use point::PointLight;
-pub use selector::{LightChoice, LightSelector};
+pub use selector::{Candidate, LightChoice, LightChooser, LightSelector};
 pub use set::LightSet;
 pub use spot::SpotLight;
+pub use tree::LightTree;
 
 #[cfg(test)]
 mod tests;

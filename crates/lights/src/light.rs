@@ -1,9 +1,10 @@
 //! The list of lights, and how each is read.
 
 use crate::{
-    AreaLight, Bounds, ConstantLight, DirectionalLight, EnvironmentMap, PointLight, SpotLight,
+    AreaLight, Bounds, ConstantLight, DirectionalLight, EnvironmentMap, LightExtent, PointLight,
+    SpotLight,
 };
-use etalon_math::{Density, SolidAngle};
+use etalon_math::{Density, DirectionCone, SolidAngle};
 use etalon_params::{Class, Diagnostic, Params, plugins};
 use etalon_spectrum::Wavelengths;
 use etalon_transport::{
@@ -226,6 +227,16 @@ impl Light {
         }
     }
 
+    /// Where it is and whither it shines, without its power; `None` for a light at infinity.
+    pub fn extent(&self, shapes: &impl Shapes) -> Option<LightExtent> {
+        match self {
+            Self::Area(light) => Some(light.extent(shapes)),
+            Self::Point(light) => Some(extent_of_point(light.position, DirectionCone::ALL, 0.0)),
+            Self::Spot(light) => Some(light.extent()),
+            Self::Directional(_) | Self::Constant(_) | Self::Environment(_) => None,
+        }
+    }
+
     /// Emitted power (lights at infinity: what enters the scene), averaged over the wavelengths
     /// (W·nm⁻¹). Exact unless a texture's mean stands for the texture.
     pub fn power(&self, scene: &(impl Textures + Shapes), bounds: &Bounds) -> f64 {
@@ -237,6 +248,17 @@ impl Light {
             Self::Constant(light) => light.power(scene, bounds),
             Self::Environment(light) => light.power(bounds),
         }
+    }
+}
+
+/// Where lights without surface are: in a point.
+pub(crate) fn extent_of_point(position: Vec3, shines: DirectionCone, cos_edge: f64) -> LightExtent {
+    LightExtent {
+        low: position.as_dvec3(),
+        high: position.as_dvec3(),
+        normals: shines,
+        cos_edge,
+        power: 0.0,
     }
 }
 

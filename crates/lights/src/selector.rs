@@ -1,11 +1,15 @@
-//! Which light to ask: chosen by power, with the means to do it by place later.
+//! Which light to ask, and which to emit.
 //!
-//! Lights are chosen in proportion to their power times their `sampling_weight`. The power of a
-//! light at infinity is what enters the scene's bounding sphere, which says little of what
+//! A particle's light is chosen in proportion to its power times its `sampling_weight`. The light that a
+//! point asks is chosen so, too, or by another rule ([`LightChooser`]): all alike, or by what the point
+//! may expect of it ([`LightTree`]).
+//!
+//! The power of a light at infinity is what enters the scene's bounding sphere, which says little of what
 //! arrives where the eye looks (one large ground plane makes it huge). So, where there are lights
-//! of both kinds, each kind is given half of the choices.
+//! of both kinds, each kind is given half of the choices (but for `uniform`).
 
-use crate::light::Light;
+use crate::extent::LightExtent;
+use crate::tree::LightTree;
 use etalon_sampling::discrete::AliasTable;
 use etalon_transport::{LightId, Receiver};
 
@@ -20,71 +24,205 @@ pub struct LightChoice {
     pub rest: f32,
 }
 
-/// A distribution over lights.
-#[derive(Clone, Debug)]
-pub struct LightSelector {
-    /// `None` if no light can be chosen.
-    table: Option<AliasTable>,
+/// How the light is chosen that a point asks.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+pub enum LightChooser {
+    /// All alike, but for their `sampling_weight`.
+    Uniform,
+    /// By power.
+    Power,
+    /// By what the point may expect of it: power, distance, and which way both face.
+    Tree,
+    /// By power among few lights, with a tree among many ([`LightChooser::FEW`]).
+    #[default]
+    Automatic,
 }
 
-impl LightSelector {
-    /// The distribution for lights with the given powers (W·nm⁻¹) and sampling weights. Lights of
-    /// no power or weight are never chosen.
-    pub fn new(lights: &[Light], powers: &[f64], sampling_weights: &[f64]) -> Self {
-        let total = |infinite: bool, values: &dyn Fn(usize) -> f64| -> f64 {
-            (0..lights.len())
-                .filter(|&i| lights[i].is_infinite() == infinite)
-                .map(values)
-                .sum()
-        };
-        let weight = |i: usize| powers[i] * sampling_weights[i];
-        let powers_of = [false, true].map(|infinite| total(infinite, &|i| powers[i]));
-        let both = [false, true]
-            .iter()
-            .all(|&infinite| total(infinite, &weight) > 0.0);
-        let weights: Vec<f64> = (0..lights.len())
-            .map(|i| {
-                if both {
-                    weight(i) / powers_of[usize::from(lights[i].is_infinite())]
-                } else {
-                    weight(i)
-                }
-            })
-            .collect();
-        Self {
-            table: AliasTable::new(&weights).ok(),
+impl LightChooser {
+    /// All of them.
+    pub const ALL: [Self; 4] = [Self::Automatic, Self::Uniform, Self::Power, Self::Tree];
+
+    /// How many lights are few: a tree's choice among so many costs as much as it saves.
+    pub const FEW: usize = 8;
+
+    /// Its name in scenes and on the command line.
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::Automatic => "automatic",
+            Self::Uniform => "uniform",
+            Self::Power => "power",
+            Self::Tree => "tree",
         }
     }
 
-    /// Chooses a light to ask for what arrives at `from`. `None` if there is none.
+    /// The chooser of that name.
+    pub fn named(name: &str) -> Option<Self> {
+        Self::ALL.into_iter().find(|chooser| chooser.name() == name)
+    }
+}
+
+/// What the selector knows of a light.
+#[derive(Clone, Copy, Debug)]
+pub struct Candidate {
+    /// Emitted power (W·nm⁻¹).
+    pub power: f64,
+    /// Its `sampling_weight`.
+    pub weight: f64,
+    /// Where it is; `None` at infinity.
+    pub extent: Option<LightExtent>,
+}
+
+/// A distribution over lights.
+#[derive(Clone, Debug)]
+pub struct LightSelector {
+    /// By power; `None` if no light can be chosen.
+    by_power: Option<AliasTable>,
+    /// For points; `None` for the same.
+    for_points: Option<ForPoints>,
+}
+
+/// A distribution for points.
+#[derive(Clone, Debug)]
+enum ForPoints {
+    /// The same for all.
+    Table(AliasTable),
+    /// For each its own, of the lights that have a place.
+    Tree {
+        tree: LightTree,
+        /// Those at infinity.
+        far: Option<AliasTable>,
+        /// The share of choices that goes to them.
+        far_share: f32,
+    },
+}
+
+impl LightSelector {
+    /// The distribution over lights, in the order of their ids. Lights of no power or weight are
+    /// never chosen.
+    pub fn new(lights: &[Candidate], chooser: LightChooser) -> Self {
+        let weight = |light: &Candidate| light.power * light.weight;
+        let total = |far: bool| -> (f64, f64) {
+            let kind = || lights.iter().filter(|l| l.extent.is_none() == far);
+            (kind().map(|l| l.power).sum(), kind().map(weight).sum())
+        };
+        let totals = [total(false), total(true)];
+        let both = totals.iter().all(|(_, weights)| *weights > 0.0);
+        let by_power = |light: &Candidate| match both {
+            true => weight(light) / totals[usize::from(light.extent.is_none())].0,
+            false => weight(light),
+        };
+        let table = |of: &dyn Fn(&Candidate) -> f64| {
+            AliasTable::new(&lights.iter().map(of).collect::<Vec<_>>()).ok()
+        };
+        let few = lights.iter().filter(|l| weight(l) > 0.0).count() <= LightChooser::FEW;
+        let for_points = match chooser {
+            LightChooser::Power => None,
+            LightChooser::Automatic if few => None,
+            LightChooser::Uniform => table(&|light| match light.power > 0.0 {
+                true => light.weight,
+                false => 0.0,
+            })
+            .map(ForPoints::Table),
+            LightChooser::Tree | LightChooser::Automatic => Self::tree(lights).map(|tree| {
+                let far = table(&|light| match light.extent {
+                    Some(_) => 0.0,
+                    None => weight(light),
+                });
+                let far_share = if far.is_some() { 0.5 } else { 0.0 };
+                ForPoints::Tree {
+                    tree,
+                    far,
+                    far_share,
+                }
+            }),
+        };
+        Self {
+            by_power: table(&by_power),
+            for_points,
+        }
+    }
+
+    fn tree(lights: &[Candidate]) -> Option<LightTree> {
+        let placed = lights.iter().enumerate().filter_map(|(index, light)| {
+            let extent = LightExtent {
+                power: light.power * light.weight,
+                ..light.extent?
+            };
+            Some((LightId(index as u32), extent))
+        });
+        LightTree::new(placed.collect(), lights.len())
+    }
+
+    /// Chooses a light to ask for what arrives at `from`. `None` if there is none that sends
+    /// anything there.
     #[inline]
-    pub fn choose(&self, _from: &Receiver, u: f32) -> Option<LightChoice> {
-        self.choose_to_emit(u)
+    pub fn choose(&self, from: &Receiver, u: f32) -> Option<LightChoice> {
+        match &self.for_points {
+            None => self.choose_to_emit(u),
+            Some(ForPoints::Table(table)) => chosen(table, u),
+            Some(ForPoints::Tree {
+                tree,
+                far,
+                far_share,
+            }) => match far {
+                Some(far) if u < *far_share => {
+                    chosen(far, u / far_share).map(|choice| LightChoice {
+                        probability: choice.probability * far_share,
+                        ..choice
+                    })
+                }
+                _ => {
+                    let near = 1.0 - far_share;
+                    let choice = tree.choose(from, (u - far_share) / near)?;
+                    Some(LightChoice {
+                        probability: choice.probability * near,
+                        ..choice
+                    })
+                }
+            },
+        }
     }
 
     /// The probability with which [`LightSelector::choose`] chooses `light` for the point
-    /// `_from`.
+    /// `from`.
     #[inline]
-    pub fn probability(&self, _from: &Receiver, light: LightId) -> f32 {
-        self.probability_to_emit(light)
+    pub fn probability(&self, from: &Receiver, light: LightId) -> f32 {
+        match &self.for_points {
+            None => self.probability_to_emit(light),
+            Some(ForPoints::Table(table)) => table.probability(light.0 as usize),
+            Some(ForPoints::Tree {
+                tree,
+                far,
+                far_share,
+            }) => {
+                let far = (far.as_ref()).map_or(0.0, |far| far.probability(light.0 as usize));
+                match far > 0.0 {
+                    true => far * far_share,
+                    false => tree.probability(from, light) * (1.0 - far_share),
+                }
+            }
+        }
     }
 
     /// The probability with which [`LightSelector::choose_to_emit`] chooses `light`.
     #[inline]
     pub fn probability_to_emit(&self, light: LightId) -> f32 {
-        self.table
-            .as_ref()
-            .map_or(0.0, |table| table.probability(light.0 as usize))
+        (self.by_power.as_ref()).map_or(0.0, |table| table.probability(light.0 as usize))
     }
 
     /// Chooses a light to emit a particle.
     #[inline]
     pub fn choose_to_emit(&self, u: f32) -> Option<LightChoice> {
-        let choice = self.table.as_ref()?.sample(u);
-        (choice.probability > 0.0).then_some(LightChoice {
-            light: LightId(choice.index as u32),
-            probability: choice.probability,
-            rest: choice.rest,
-        })
+        chosen(self.by_power.as_ref()?, u)
     }
+}
+
+#[inline]
+fn chosen(table: &AliasTable, u: f32) -> Option<LightChoice> {
+    let choice = table.sample(u);
+    (choice.probability > 0.0).then_some(LightChoice {
+        light: LightId(choice.index as u32),
+        probability: choice.probability,
+        rest: choice.rest,
+    })
 }

@@ -1,6 +1,6 @@
 //! All lights of a scene.
 
-use crate::{Bounds, Light, LightDescription, LightSelector};
+use crate::{Bounds, Candidate, Light, LightChooser, LightDescription, LightSelector};
 use etalon_math::{Atom, Density, SolidAngle};
 use etalon_spectrum::Wavelengths;
 use etalon_transport::{
@@ -22,11 +22,13 @@ pub struct LightSet {
 }
 
 impl LightSet {
-    /// Lights in the order of their ids, for a scene within `bounds`.
+    /// Lights in the order of their ids, for a scene within `bounds`; `chooser` says which one a point
+    /// asks.
     pub fn new(
         descriptions: Vec<LightDescription>,
         scene: &(impl Textures + Shapes),
         bounds: Bounds,
+        chooser: LightChooser,
     ) -> Self {
         let (lights, weights): (Vec<Light>, Vec<f64>) = descriptions
             .into_iter()
@@ -37,8 +39,15 @@ impl LightSet {
             .filter(|&i| lights[i].is_background())
             .map(|i| LightId(i as u32))
             .collect();
+        let candidates: Vec<Candidate> = (lights.iter().zip(&powers).zip(weights))
+            .map(|((light, &power), weight)| Candidate {
+                power,
+                weight,
+                extent: light.extent(scene),
+            })
+            .collect();
         Self {
-            selector: LightSelector::new(&lights, &powers, &weights),
+            selector: LightSelector::new(&candidates, chooser),
             lights,
             backgrounds,
             powers,

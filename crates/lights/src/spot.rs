@@ -13,10 +13,11 @@
 //! Φ = 2π I₀ [1 − (sin c − sin b)/(c − b)]
 //! ```
 
-use crate::light::anywhere;
+use crate::LightExtent;
+use crate::light::{anywhere, extent_of_point};
 use crate::pose::Pose;
 use crate::uniformity::refuse_varying;
-use etalon_math::{Atom, float, float64};
+use etalon_math::{Atom, DirectionCone, float, float64};
 use etalon_params::Params;
 use etalon_sampling::warps::{square_to_uniform_cone, uniform_cone_density};
 use etalon_spectrum::Wavelengths;
@@ -97,6 +98,17 @@ impl SpotLight {
             projection: (0.5 / float64::tan(c)) as f32,
             solid_angle: core::f64::consts::TAU * (1.0 - slope),
         }
+    }
+
+    /// Where it is, and its cone.
+    pub fn extent(&self) -> LightExtent {
+        let (shines, cos_edge) = if self.cos_cutoff > 0.0 {
+            let axis = self.pose.to_world(Vec3::Z).as_dvec3().normalize();
+            (DirectionCone::along(axis), f64::from(self.cos_cutoff))
+        } else {
+            (DirectionCone::ALL, 0.0)
+        };
+        extent_of_point(self.pose.position, shines, cos_edge)
     }
 
     /// Intensity (W·sr⁻¹·nm⁻¹) along a unit direction of the light's space.

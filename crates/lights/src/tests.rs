@@ -1,7 +1,7 @@
 //! What the tests of lights share: a small world of textures and rectangles.
 
-use crate::{Bounds, Light, LightDescription};
-use etalon_math::Frame;
+use crate::{Bounds, Light, LightChooser, LightDescription};
+use etalon_math::{DirectionCone, Frame};
 use etalon_params::{Class, Diagnostics, FileId, Node, Params, Property, Span, Spanned, Value};
 use etalon_sampling::{Independent, Sampler};
 use etalon_spectrum::{Spectrum, Wavelengths};
@@ -18,6 +18,7 @@ mod environment;
 mod mistakes;
 mod mitsuba;
 mod selection;
+mod tree;
 
 const NOWHERE: Span = Span {
     file: FileId(0),
@@ -162,6 +163,16 @@ impl SmallWorld {
 impl Shapes for SmallWorld {
     fn area(&self, _: ShapeId) -> f32 {
         4.0
+    }
+
+    fn bounds(&self, shape: ShapeId) -> [Vec3; 2] {
+        let (centre, _) = self.rectangles[shape.0 as usize];
+        [-1.0, 1.0].map(|side| centre + Vec3::new(side, side, 0.0))
+    }
+
+    fn normals(&self, shape: ShapeId) -> DirectionCone {
+        let (_, normal) = self.rectangles[shape.0 as usize];
+        DirectionCone::along(normal.as_dvec3())
     }
 
     fn sample_area(&self, shape: ShapeId, u: Vec2) -> SampledPoint {

@@ -1,8 +1,9 @@
-//! Geometry-free mathematics of the renderer: frames, transforms, densities that carry their
+//! Geometry-free mathematics of the renderer: frames, cones, transforms, densities that carry their
 //! measure, error-bounded offsets, polynomial roots and reproducible elementary functions.
 //!
 //! Nothing here knows of light.
 
+pub mod cone;
 pub mod cross;
 pub mod density;
 pub mod float;
@@ -12,6 +13,7 @@ pub mod offset;
 pub mod polynomial;
 pub mod transform;
 
+pub use cone::DirectionCone;
 pub use cross::{cross, difference_of_products};
 pub use density::{Area, Atom, Density, Length, Measure, SolidAngle};
 pub use frame::Frame;

@@ -8,7 +8,7 @@ use crate::surfaces::{self, Emitting, Names, Surfaces};
 use etalon_cameras::{AnyCamera, FilmWindow};
 use etalon_film::{FilmSettings, Filter};
 use etalon_geometry::AcceleratorKind;
-use etalon_lights::{Bounds, LightDescription, LightSet};
+use etalon_lights::{Bounds, LightChooser, LightDescription, LightSet};
 use etalon_params::{Class, Diagnostic, Diagnostics, Node, Params, Property, Span, plugins};
 use etalon_transport::{Assets, Build, LightId, Role};
 use std::sync::Arc;
@@ -36,15 +36,24 @@ pub struct Compiled {
 /// Compiles the `<scene>` node `root`. `None` if anything was wrong; the mistakes, as many as
 /// could be found in one run, are in `diagnostics`.
 pub fn compile(root: &Node, assets: &dyn Assets, diagnostics: &Diagnostics) -> Option<Compiled> {
-    compile_with(root, assets, diagnostics, AcceleratorKind::default())
+    compile_with(root, assets, diagnostics, CompileOptions::default())
 }
 
-/// As [`compile`], with accelerators of a certain kind.
+/// What a description leaves open, or is overruled in.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct CompileOptions {
+    /// The kind of all accelerators.
+    pub accelerator: AcceleratorKind,
+    /// How points choose the light that they ask, if not as the scene says.
+    pub light_chooser: Option<LightChooser>,
+}
+
+/// As [`compile`], with options.
 pub fn compile_with(
     root: &Node,
     assets: &dyn Assets,
     diagnostics: &Diagnostics,
-    accelerator: AcceleratorKind,
+    options: CompileOptions,
 ) -> Option<Compiled> {
     let params = Params::new(root, diagnostics);
     let mut builder = Builder::new(assets, diagnostics);
@@ -52,6 +61,11 @@ pub fn compile_with(
     let integrator = params.child(Class::Integrator).cloned();
     let mut surfaces = surfaces::read(&params, &mut builder);
     let lights = lights(&params, &mut surfaces, &mut builder);
+    let named = params.choice(
+        "light_chooser",
+        LightChooser::default().name(),
+        &LightChooser::ALL.map(LightChooser::name),
+    );
     read_unused_textures(&params, &mut builder);
     refuse_unknown_children(&params);
     params.finish();
@@ -61,7 +75,7 @@ pub fn compile_with(
     let (camera, film, sampler) = sensor?;
     builder.textures.finish_reading();
     let start = Instant::now();
-    let geometry = surfaces.geometry.build_with(accelerator);
+    let geometry = surfaces.geometry.build_with(options.accelerator);
     let build_time = start.elapsed();
     let bounds = geometry.bounds();
     let lookup = Lookup {
@@ -69,7 +83,10 @@ pub fn compile_with(
         textures: builder.textures,
     };
     let bounds = Bounds::of_box(bounds.min, bounds.max);
-    let lights = LightSet::new(lights, &lookup, bounds);
+    let chooser = (options.light_chooser)
+        .or_else(|| LightChooser::named(named))
+        .unwrap_or_default();
+    let lights = LightSet::new(lights, &lookup, bounds, chooser);
     let scene = Scene::new(camera, lookup, surfaces.materials, lights);
     Some(Compiled {
         scene,

@@ -12,8 +12,9 @@ pub mod sampler;
 pub mod scene;
 pub mod surfaces;
 
-pub use compile::{Compiled, compile, compile_with};
+pub use compile::{CompileOptions, Compiled, compile, compile_with};
 pub use etalon_geometry::AcceleratorKind;
+pub use etalon_lights::LightChooser;
 pub use sampler::SamplerSettings;
 pub use scene::Scene;
 pub use surfaces::Names;

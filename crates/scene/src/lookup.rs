@@ -1,6 +1,7 @@
 //! The scene's textures and shapes, as materials and lights see them.
 
 use etalon_geometry::Geometry;
+use etalon_math::DirectionCone;
 use etalon_textures::TextureSet;
 use etalon_transport::{
     Receiver, SampledPoint, ShapeId, Shapes, SurfacePoint, TextureId, TexturePoint, Textures,
@@ -44,6 +45,14 @@ impl Textures for Lookup {
 impl Shapes for Lookup {
     fn area(&self, shape: ShapeId) -> f32 {
         self.geometry.area(shape)
+    }
+
+    fn bounds(&self, shape: ShapeId) -> [Vec3; 2] {
+        Shapes::bounds(&self.geometry, shape)
+    }
+
+    fn normals(&self, shape: ShapeId) -> DirectionCone {
+        self.geometry.normals(shape)
     }
 
     #[inline]

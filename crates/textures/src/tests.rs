@@ -90,6 +90,12 @@ impl Shapes for OneShape {
     fn area(&self, _: ShapeId) -> f32 {
         1.0
     }
+    fn bounds(&self, _: ShapeId) -> [Vec3; 2] {
+        [Vec3::ZERO; 2]
+    }
+    fn normals(&self, _: ShapeId) -> etalon_math::DirectionCone {
+        etalon_math::DirectionCone::ALL
+    }
     fn sample_area(&self, _: ShapeId, _: Vec2) -> SampledPoint {
         panic!("textures do not sample shapes")
     }

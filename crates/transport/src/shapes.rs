@@ -1,7 +1,7 @@
 //! What others may ask of shapes.
 
 use crate::{ShapeId, TexturePoint, Vertex};
-use etalon_math::offset_origin;
+use etalon_math::{DirectionCone, offset_origin};
 use glam::{Vec2, Vec3};
 
 /// The point whose light is asked for: all that choosing a light, and a point of it, may depend on.
@@ -87,6 +87,12 @@ pub struct SampledPoint {
 pub trait Shapes {
     /// Surface area (m²).
     fn area(&self, shape: ShapeId) -> f32;
+
+    /// The lower and upper corner of a box around it (m, world).
+    fn bounds(&self, shape: ShapeId) -> [Vec3; 2];
+
+    /// A cone that holds its normals, on the side that the shape calls outside.
+    fn normals(&self, shape: ShapeId) -> DirectionCone;
 
     /// A point chosen uniformly by area.
     fn sample_area(&self, shape: ShapeId, u: Vec2) -> SampledPoint;

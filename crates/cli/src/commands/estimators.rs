@@ -65,10 +65,12 @@ fn measure(args: &EstimatorsArgs) -> Result<Findings, Failure> {
             defines: args.define.clone(),
             integrator: None,
             data: args.data.clone(),
+            light_chooser: None,
         },
         integrators: args.integrators.clone(),
         samplers: args.samplers.clone(),
         filters: args.filters.clone(),
+        light_choosers: args.light_choosers.clone(),
         seconds: args.time,
         reference: args.reference.clone(),
         reference_share: args.reference_share,
@@ -95,10 +97,14 @@ fn command(args: &EstimatorsArgs) -> String {
         "etalon estimators".to_owned(),
         quoted(&args.scene.display().to_string()),
     ];
+    let choosers: Vec<String> = (args.light_choosers.iter())
+        .map(|chooser| chooser.name().to_owned())
+        .collect();
     let lists = [
         ("--integrators", &args.integrators),
         ("--samplers", &args.samplers),
         ("--filters", &args.filters),
+        ("--light-choosers", &choosers),
     ];
     for (option, names) in lists.into_iter().filter(|(_, names)| !names.is_empty()) {
         words.push(format!("{option} {}", quoted(&names.join(","))));

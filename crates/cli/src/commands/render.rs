@@ -48,6 +48,7 @@ fn run_here(args: &RenderArgs) -> ExitCode {
             defines: args.define.clone(),
             integrator: args.integrator.clone(),
             data: args.data.clone(),
+            light_chooser: args.light_chooser,
         },
     ) {
         Ok(loaded) => loaded,

@@ -8,7 +8,6 @@
 use super::entrant::Entrant;
 use super::reference::{Reference, interleaved};
 use super::schedule::Size;
-use crate::pipeline::Loaded;
 use etalon_film::{ExactFilm, RenderFacts};
 use etalon_integrators::{Plan, Progress};
 use etalon_statistics::Picture;
@@ -31,7 +30,6 @@ pub struct Rendered {
 /// # Errors
 /// One sentence, if there is no memory for it.
 pub fn render<P: Progress>(
-    scene: &Loaded,
     entrant: &Entrant,
     samples: u32,
     seed: u64,
@@ -48,7 +46,7 @@ pub fn render<P: Progress>(
         sampler: entrant.sampler,
     };
     let start = Instant::now();
-    let world = &scene.compiled.scene;
+    let world = &entrant.compiled.scene;
     entrant.integrator.render(world, &mut film, &plan, progress);
     let seconds = start.elapsed().as_secs_f64();
     let faults = film.faults().total();

@@ -1,6 +1,7 @@
-//! One estimator that takes part: an integrator, a sampler and a reconstruction filter.
+//! One estimator that takes part: an integrator, a sampler, a reconstruction filter and a rule by which
+//! points choose lights.
 //!
-//! All share one compiled scene. An integrator is named as for `render --integrator`: it replaces
+//! All share one compiled scene, or one for each way of choosing lights. An integrator is named as for `render --integrator`: it replaces
 //! the innermost one and keeps its depths. A sampler or filter that has the name of the scene's own
 //! is the scene's own, with its parameters; another has Mitsuba's defaults.
 
@@ -9,13 +10,17 @@ use etalon_film::{FilmSettings, Filter, PixelFormat};
 use etalon_integrators::AnyIntegrator;
 use etalon_params::{Class, Diagnostic, Diagnostics, Node, Params, Sources, Span, Spanned};
 use etalon_sampling::SamplerKind;
+use etalon_scene::{Compiled, LightChooser};
 use std::path::Path;
+use std::sync::Arc;
 
 /// An estimator.
-#[derive(Clone, Debug)]
+#[derive(Clone)]
 pub struct Entrant {
     /// What tells it from the others: `ptracer`, `path, sobol`.
     pub name: String,
+    /// The scene that it sees.
+    pub compiled: Arc<Compiled>,
     /// The integrator.
     pub integrator: AnyIntegrator,
     /// Its name, nested ones after a slash.
@@ -35,6 +40,8 @@ pub struct Lists<'a> {
     pub samplers: &'a [String],
     /// Names of reconstruction filters.
     pub filters: &'a [String],
+    /// Rules by which points choose lights.
+    pub light_choosers: &'a [LightChooser],
 }
 
 /// Reads the scene, and makes every combination of what is listed.
@@ -46,26 +53,36 @@ pub fn gather(
     options: &LoadOptions,
     lists: &Lists<'_>,
 ) -> Result<(Loaded, Vec<Entrant>), Refusal> {
-    let load = |name: Option<&String>| {
+    let load = |name: Option<&String>, light_chooser: Option<&LightChooser>| {
         let options = LoadOptions {
             integrator: name.cloned(),
+            light_chooser: light_chooser.copied().or(options.light_chooser),
             ..options.clone()
         };
         pipeline::load(path, &options)
     };
+    let choosers: Vec<String> = (lists.light_choosers.iter())
+        .map(|chooser| chooser.name().to_owned())
+        .collect();
     for (option, names) in [
         ("--integrators", lists.integrators),
         ("--samplers", lists.samplers),
         ("--filters", lists.filters),
+        ("--light-choosers", &choosers),
     ] {
         refuse_repeated(option, names)?;
     }
-    let scene = load(lists.integrators.first())?;
+    let scene = load(lists.integrators.first(), lists.light_choosers.first())?;
     let mut integrators = vec![(scene.integrator.clone(), scene.integrator_name.clone())];
     for name in lists.integrators.iter().skip(1) {
-        // Only the integrator is kept: all estimators see the very same scene.
-        let loaded = load(Some(name))?;
+        // Only the integrator is kept: estimators see the very same scene.
+        let loaded = load(Some(name), None)?;
         integrators.push((loaded.integrator, loaded.integrator_name));
+    }
+    let mut scenes = vec![(scene.compiled.clone(), choosers.first())];
+    for (chooser, name) in (lists.light_choosers.iter().zip(&choosers)).skip(1) {
+        let loaded = load(lists.integrators.first(), Some(chooser))?;
+        scenes.push((loaded.compiled, Some(name)));
     }
     let samplers = samplers(lists.samplers, scene.compiled.sampler.kind)?;
     let filters = filters(lists.filters, scene.compiled.film.filter)?;
@@ -73,26 +90,30 @@ pub fn gather(
     for (integrator, integrator_name) in &integrators {
         for &sampler in &samplers {
             for &filter in &filters {
-                let parts = [
-                    (integrators.len() > 1, integrator_name.as_str()),
-                    (samplers.len() > 1, pipeline::sampler_name(sampler)),
-                    (filters.len() > 1, filter.name()),
-                ];
-                let told: Vec<&str> = parts.iter().filter(|p| p.0).map(|p| p.1).collect();
-                entrants.push(Entrant {
-                    name: match told.is_empty() {
-                        true => integrator_name.clone(),
-                        false => told.join(", "),
-                    },
-                    integrator: integrator.clone(),
-                    integrator_name: integrator_name.clone(),
-                    sampler,
-                    film: FilmSettings {
-                        filter,
-                        pixel_format: PixelFormat::Rgb,
-                        ..scene.compiled.film.clone()
-                    },
-                });
+                for (compiled, chooser) in &scenes {
+                    let parts = [
+                        (integrators.len() > 1, integrator_name.as_str()),
+                        (samplers.len() > 1, pipeline::sampler_name(sampler)),
+                        (filters.len() > 1, filter.name()),
+                        (scenes.len() > 1, chooser.map_or("", |name| name)),
+                    ];
+                    let told: Vec<&str> = parts.iter().filter(|p| p.0).map(|p| p.1).collect();
+                    entrants.push(Entrant {
+                        name: match told.is_empty() {
+                            true => integrator_name.clone(),
+                            false => told.join(", "),
+                        },
+                        compiled: compiled.clone(),
+                        integrator: integrator.clone(),
+                        integrator_name: integrator_name.clone(),
+                        sampler,
+                        film: FilmSettings {
+                            filter,
+                            pixel_format: PixelFormat::Rgb,
+                            ..scene.compiled.film.clone()
+                        },
+                    });
+                }
             }
         }
     }

@@ -13,7 +13,7 @@
 use super::entrant::Entrant;
 use super::schedule::Size;
 use crate::VERSION;
-use crate::pipeline::{Loaded, sampler_name};
+use crate::pipeline::sampler_name;
 use etalon_film::{Developed, ExactFilm, RenderFacts, read_developed};
 use etalon_images::Image;
 use etalon_integrators::{Plan, Progress};
@@ -103,7 +103,6 @@ impl Reference {
     /// # Errors
     /// One sentence, if there is no memory for it or a pixel is not finite.
     pub fn render<P: Progress>(
-        scene: &Loaded,
         entrant: &Entrant,
         size: Size,
         seed: u64,
@@ -120,7 +119,7 @@ impl Reference {
             samples_per_replicate: size.samples,
             sampler: entrant.sampler,
         };
-        let compiled = &scene.compiled;
+        let compiled = &entrant.compiled;
         let render = &entrant.integrator;
         render.render(&compiled.scene, &mut film, &plan, progress);
         let developed = film.develop(RenderFacts {

@@ -10,6 +10,7 @@ use crate::pipeline::{self, LoadOptions, Loaded, Refusal};
 use etalon_integrators::Progress;
 use etalon_params::Diagnostic;
 use etalon_sampling::hash::{derived_key, stream_key};
+use etalon_scene::LightChooser;
 use std::path::{Path, PathBuf};
 use std::time::Instant;
 
@@ -24,6 +25,8 @@ pub struct Options {
     pub samplers: Vec<String>,
     /// The reconstruction filters; none stands for the scene's own.
     pub filters: Vec<String>,
+    /// Rules by which points choose the light that they ask; none stands for the scene's own.
+    pub light_choosers: Vec<LightChooser>,
     /// The time for all rendering together (s).
     pub seconds: f64,
     /// The reference; without one it is rendered.
@@ -41,6 +44,7 @@ impl Default for Options {
             integrators: Vec::new(),
             samplers: Vec::new(),
             filters: Vec::new(),
+            light_choosers: Vec::new(),
             seconds: 60.0,
             reference: None,
             reference_share: 0.3,
@@ -138,6 +142,7 @@ impl Trial {
             integrators: &options.integrators,
             samplers: &options.samplers,
             filters: &options.filters,
+            light_choosers: &options.light_choosers,
         };
         let (scene, entrants) = entrant::gather(path, &options.load, &lists)?;
         if let [only] = entrants.as_slice() {
@@ -154,7 +159,7 @@ impl Trial {
             .transpose()?;
         check_memory(&scene, &entrants)?;
         let start = Instant::now();
-        let paces = pilot(&scene, &entrants, options)?;
+        let paces = pilot(&entrants, options)?;
         let left = options.seconds - start.elapsed().as_secs_f64();
         let share = reference.is_none().then_some(options.reference_share);
         let schedule = Schedule::fix(&paces, left, share).map_err(|needed| {
@@ -246,7 +251,7 @@ impl Trial {
             let target = &mut cells[entrant][cell];
             let seed = seed(&self.options, Purpose::Measurement, entrant, cell, index);
             let samples = target.size.samples;
-            let rendered = cell::render(&self.scene, estimator, samples, seed, progress)?;
+            let rendered = cell::render(estimator, samples, seed, progress)?;
             if progress.cancelled() {
                 return Err(Failure::Cancelled);
             }
@@ -272,7 +277,7 @@ impl Trial {
         let seed = seed(&self.options, Purpose::Reference, 0, 0, 0);
         let share = self.options.reference_share;
         let entrant = &self.entrants[0];
-        let reference = Reference::render(&self.scene, entrant, size, seed, share, progress)?;
+        let reference = Reference::render(entrant, size, seed, share, progress)?;
         match progress.cancelled() {
             true => Err(Failure::Cancelled),
             false => Ok(reference),
@@ -313,13 +318,13 @@ const PILOT_SHARE: f64 = 0.05;
 const LONG_ENOUGH: f64 = 0.05;
 
 /// The pace of every estimator, from pictures of 1, 4, 16, … samples per pixel.
-fn pilot(scene: &Loaded, entrants: &[Entrant], options: &Options) -> Result<Vec<Pace>, Failure> {
+fn pilot(entrants: &[Entrant], options: &Options) -> Result<Vec<Pace>, Failure> {
     let each = PILOT_SHARE * options.seconds / entrants.len() as f64;
     let pace = |(entrant, estimator): (usize, &Entrant)| {
         let sampler = estimator.sampler;
         let render = |step: u32, samples: u32| {
             let seed = seed(options, Purpose::Pilot, entrant, 0, step);
-            cell::render(scene, estimator, samples, seed, &())
+            cell::render(estimator, samples, seed, &())
         };
         // The first picture finds cold caches; its time is spent, but does not count.
         let cold = render(0, 1)?.seconds;

@@ -106,6 +106,17 @@ fn missing_light_counts_as_error() {
 }
 
 #[test]
+fn light_choosers_take_part() {
+    let workshop = Workshop::new();
+    let lists = ["--light-choosers", "uniform,power,tree", "--time", "3"];
+    estimators(&workshop, &[&lists[..], &["--json", "f.json"]].concat()).fine();
+    let found = findings(&workshop);
+    let rows = found["estimators"].as_array().expect("rows");
+    let names: Vec<&Value> = rows.iter().map(|row| &row["name"]).collect();
+    assert_eq!(names, ["uniform", "power", "tree"]);
+}
+
+#[test]
 fn samplers_and_filters_take_part() {
     let workshop = Workshop::new();
     let lists = ["--samplers", "sobol,stratified", "--filters", "box,tent"];
@@ -235,6 +246,14 @@ fn bad_input_is_diagnosed() {
         (
             &["--samplers", "sobl,independent", "--time", "9"],
             "did you mean `sobol`?",
+        ),
+        (
+            &["--light-choosers", "power,tre", "--time", "9"],
+            "expected one of automatic, uniform, power, tree",
+        ),
+        (
+            &["--light-choosers", "tree,tree", "--time", "9"],
+            "`tree` is listed twice",
         ),
         (
             &["--filters", "box,gausian", "--time", "9"],

@@ -127,7 +127,9 @@ fn survive(scene: &str, changes: &[Change]) -> Result<(), TestCaseError> {
     std::fs::write(&path, text).expect("written");
     match pipeline::load(&path, &LoadOptions::default()) {
         Ok(mut loaded) => {
-            let size = &mut loaded.compiled.film.crop_size;
+            let compiled =
+                std::sync::Arc::get_mut(&mut loaded.compiled).expect("no other holds it");
+            let size = &mut compiled.film.crop_size;
             (size.x, size.y) = (size.x.min(2), size.y.min(2));
             let options = RenderOptions {
                 spp: Some(2),

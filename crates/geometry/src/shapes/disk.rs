@@ -48,6 +48,15 @@ impl Disk {
         (finite && normal.is_finite() && disk.area > 0.0).then_some(disk)
     }
 
+    /// Unit normal, outside.
+    pub(crate) fn normal(&self) -> DVec3 {
+        if self.inward {
+            -self.normal
+        } else {
+            self.normal
+        }
+    }
+
     /// Reads `flip_normals` and `to_world`.
     pub(crate) fn from_params(params: &Params<'_>) -> Option<Self> {
         let placement = Placement::from_params(params);

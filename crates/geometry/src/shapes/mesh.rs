@@ -15,7 +15,7 @@
 use crate::accelerator::Bounds;
 use crate::placement::Placement;
 use crate::surface::Surface;
-use etalon_math::{Frame, cross, gamma};
+use etalon_math::{DirectionCone, Frame, cross, gamma};
 use etalon_sampling::discrete::AliasTable;
 use etalon_transport::{Attribute, MeshData};
 use glam::{DVec3, Vec2, Vec3};
@@ -159,6 +159,21 @@ impl Mesh {
                 AliasTable::new(&areas).ok()
             })
             .as_ref()
+    }
+
+    /// A cone that holds the normals of its triangles: everything, where vertex normals say which side
+    /// is outside.
+    pub(crate) fn cone_of_normals(&self) -> DirectionCone {
+        if !self.normals.is_empty() {
+            return DirectionCone::ALL;
+        }
+        (0..self.triangles.len() as u32)
+            .filter(|&i| Self::triangle_area(self.corners(i)) > 0.0)
+            .map(|i| self.surface(i, Vec2::ZERO).normal.as_dvec3())
+            .filter_map(DVec3::try_normalize)
+            .map(DirectionCone::along)
+            .reduce(DirectionCone::union)
+            .unwrap_or(DirectionCone::ALL)
     }
 
     /// The surface point with barycentric coordinates `b` of a triangle's second and third

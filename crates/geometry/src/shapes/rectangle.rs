@@ -92,6 +92,11 @@ impl Rectangle {
         &self.mesh
     }
 
+    /// Unit normal, outside.
+    pub(crate) fn normal(&self) -> Vec3 {
+        self.normal
+    }
+
     /// Surface area (m²).
     pub fn area(&self) -> f64 {
         self.area

@@ -116,7 +116,7 @@ fn emitted_particles_carry_what_sampling_finds() {
     let (world, lights) = lights();
     for (index, (name, description)) in lights.into_iter().enumerate() {
         let compensated = index == 6;
-        let set = LightSet::new(vec![description], &world, bounds());
+        let set = LightSet::new(vec![description], &world, bounds(), LightChooser::Power);
         let mut random = numbers(7 + index as u64);
         let (mut flux, mut irradiance) = (Mean::default(), Mean::default());
         for _ in 0..150_000 {
@@ -178,7 +178,7 @@ fn emitted_particles_carry_the_power() {
             continue;
         }
         let ramp = index == 8;
-        let set = LightSet::new(vec![description], &world, bounds());
+        let set = LightSet::new(vec![description], &world, bounds(), LightChooser::Power);
         let mut random = numbers(70 + index as u64);
         let mut weights = Mean::default();
         for _ in 0..50_000 {
@@ -254,7 +254,7 @@ fn densities_of_emission_are_those_that_are_reported() {
     // Two skies are one technique; the compensated one emits uncompensated.
     lights.truncate(6);
     let (names, descriptions): (Vec<_>, Vec<_>) = lights.into_iter().unzip();
-    let set = LightSet::new(descriptions, &world, bounds());
+    let set = LightSet::new(descriptions, &world, bounds(), LightChooser::Power);
     let mut random = numbers(3);
     let mut seen = [false; 6];
     for _ in 0..2_000 {

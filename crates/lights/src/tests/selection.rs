@@ -41,7 +41,7 @@ fn lights_are_chosen_by_power_and_weight() {
     let mut world = SmallWorld::default();
     let descriptions = [(1.0, 1.0), (3.0, 1.0), (0.0, 1.0), (5.0, 0.0), (2.0, 2.0)]
         .map(|(intensity, weight)| point(&mut world, intensity, weight));
-    let set = LightSet::new(descriptions.to_vec(), &world, bounds());
+    let set = LightSet::new(descriptions.to_vec(), &world, bounds(), LightChooser::Power);
     let expected = [0.125, 0.375, 0.0, 0.0, 0.5];
     for (found, expected) in probabilities(&set).into_iter().zip(expected) {
         assert!((found - expected).abs() < 1e-6);
@@ -65,7 +65,7 @@ fn near_and_infinite_lights_share_equally() {
         sky(&mut world, 1000.0),
         point(&mut world, 3.0, 1.0),
     ];
-    let set = LightSet::new(descriptions, &world, bounds());
+    let set = LightSet::new(descriptions, &world, bounds(), LightChooser::Power);
     let found = probabilities(&set);
     for (found, expected) in found.into_iter().zip([0.125, 0.5, 0.375]) {
         assert!((found - expected).abs() < 1e-6, "{found}");
@@ -77,7 +77,7 @@ fn without_light_nothing_is_chosen() {
     let mut world = SmallWorld::default();
     let dark = vec![point(&mut world, 0.0, 1.0), sky(&mut world, 0.0)];
     for descriptions in [vec![], dark] {
-        let set = LightSet::new(descriptions, &world, bounds());
+        let set = LightSet::new(descriptions, &world, bounds(), LightChooser::Power);
         let from = receiver(Vec3::ZERO, Vec3::Z);
         let u = Vec2::splat(0.5);
         assert!(set.sample(&world, &from, &WAVELENGTHS, 0.5, u).is_none());
@@ -109,7 +109,7 @@ fn sampled_density_equals_hit_density() {
         sky(&mut world, 0.3),
         light(&mut world, "envmap", image),
     ];
-    let set = LightSet::new(descriptions, &world, bounds());
+    let set = LightSet::new(descriptions, &world, bounds(), LightChooser::Power);
     assert!(set.has_background());
     let mut random = numbers(1);
     let mut seen = [0; 4];
@@ -161,7 +161,7 @@ fn surfaces_emit_on_their_outer_side_only() {
         .rectangles
         .push((Vec3::new(0.0, 0.0, 2.0), Vec3::NEG_Z));
     let area = light(&mut world, "area", vec![]);
-    let set = LightSet::new(vec![area], &world, bounds());
+    let set = LightSet::new(vec![area], &world, bounds(), LightChooser::Power);
     let vertex = world.vertex(ShapeId(0), Vec2::splat(0.5));
     let emitted = |wo| set.emitted(&world, &vertex, wo, &WAVELENGTHS);
     assert_eq!(emitted(Vec3::NEG_Z), white());

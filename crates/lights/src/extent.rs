@@ -1,0 +1,152 @@
+//! Where a light is and whither it shines, and how much of it a point may expect.
+//!
+//! A cluster of lights of power Φ inside of a sphere of radius r around c, whose normals are within an
+//! angle θₒ of an axis a and which shine up to θₑ from their normals, promises a point x with the
+//! unit normal n
+//!
+//! ```text
+//! I(x, n) = Φ · cos θ′ · |cos θᵢ′| / max(d², r²),    0 if θ′ ≥ θₑ,
+//! θ′  = max(0, θ − θₒ − θᵤ),   θᵢ′ = max(0, θᵢ − θᵤ),
+//! ```
+//!
+//! where d = |x − c|, θ is the angle between a and the way to x, θᵢ that between n (or −n) and the way
+//! to c, and θᵤ the angle of the sphere as seen from x (A. Conty Estevez and C. Kulla, Importance sampling of
+//! many lights with adaptive tree splitting, 2018, equation 3). No light of the cluster reaches a point
+//! where I = 0. The bracket of θᵢ′ is 1 where there is no surface.
+
+use etalon_math::DirectionCone;
+use etalon_transport::Receiver;
+use glam::{DVec3, Vec3};
+
+/// What encloses lights, in double precision, for building.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct LightExtent {
+    /// Lower corner of the box around them (m).
+    pub low: DVec3,
+    /// Upper corner (m).
+    pub high: DVec3,
+    /// The normals of their surfaces; of a light without surface, the directions it shines to.
+    pub normals: DirectionCone,
+    /// Cosine of the angle from a normal up to which they shine; not below 0.
+    pub cos_edge: f64,
+    /// Power (W·nm⁻¹).
+    pub power: f64,
+}
+
+impl LightExtent {
+    /// What encloses both.
+    #[must_use]
+    pub fn union(self, other: Self) -> Self {
+        Self {
+            low: self.low.min(other.low),
+            high: self.high.max(other.high),
+            normals: self.normals.union(other.normals),
+            cos_edge: self.cos_edge.min(other.cos_edge),
+            power: self.power + other.power,
+        }
+    }
+
+    /// The middle of the box (m).
+    pub fn centre(&self) -> DVec3 {
+        0.5 * (self.low + self.high)
+    }
+
+    /// How many solid angles the lights shine into, 2π for one plane (sr): the measure M_Ω of Conty
+    /// Estevez and Kulla (2018, equation 1).
+    pub fn orientation_measure(&self) -> f64 {
+        use core::f64::consts::{PI, TAU};
+        use etalon_math::float64::{acos, cos, sin};
+        let spread = acos(self.normals.cos.clamp(-1.0, 1.0));
+        let reach = (spread + acos(self.cos_edge.clamp(0.0, 1.0))).min(PI);
+        let ring =
+            2.0 * reach * sin(spread) - cos(spread - 2.0 * reach) - 2.0 * spread * sin(spread)
+                + cos(spread);
+        TAU * (1.0 - cos(spread)) + 0.5 * PI * ring
+    }
+}
+
+/// The same in single precision, for asking.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Promise {
+    centre: Vec3,
+    /// r².
+    radius_squared: f32,
+    axis: Vec3,
+    cos_spread: f32,
+    sin_spread: f32,
+    cos_edge: f32,
+    power: f32,
+}
+
+/// The angle max(0, a − b), as cosine and sine.
+#[inline]
+fn less(a: [f32; 2], b: [f32; 2]) -> [f32; 2] {
+    let ([cos_a, sin_a], [cos_b, sin_b]) = (a, b);
+    if cos_a > cos_b {
+        return [1.0, 0.0];
+    }
+    [
+        cos_a * cos_b + sin_a * sin_b,
+        (sin_a * cos_b - cos_a * sin_b).max(0.0),
+    ]
+}
+
+#[inline]
+fn sine(cosine: f32) -> f32 {
+    (1.0 - cosine * cosine).max(0.0).sqrt()
+}
+
+impl Promise {
+    /// What lights within `extent`, taken `weight` times, promise.
+    pub fn new(extent: &LightExtent) -> Self {
+        let half = 0.5 * (extent.high - extent.low);
+        let centre = extent.centre();
+        // Rounding must not turn a light that just reaches a point away from it.
+        let slack = 1e-6 * (centre.abs().max_element() + half.length());
+        let radius = half.length() * (1.0 + 1e-6) + slack;
+        let cos_spread = (extent.normals.cos - 1e-6).max(-1.0) as f32;
+        Self {
+            centre: centre.as_vec3(),
+            radius_squared: (radius * radius) as f32,
+            axis: extent.normals.axis.as_vec3(),
+            cos_spread,
+            sin_spread: sine(cos_spread),
+            cos_edge: (extent.cos_edge - 1e-6) as f32,
+            power: extent.power as f32,
+        }
+    }
+
+    /// I(x, n): not below 0, and 0 only where nothing arrives.
+    #[inline]
+    pub fn at(&self, from: &Receiver) -> f32 {
+        let to_centre = self.centre - from.position;
+        let squared = to_centre.length_squared();
+        if squared <= self.radius_squared {
+            return self.power / self.radius_squared;
+        }
+        let direction = to_centre / squared.sqrt();
+        // θᵤ is below a right angle outside of the sphere.
+        let sin_sphere_squared = self.radius_squared / squared;
+        let sphere = [
+            (1.0 - sin_sphere_squared).max(0.0).sqrt(),
+            sin_sphere_squared.sqrt(),
+        ];
+        let cos = -self.axis.dot(direction);
+        let mut angle = [cos, sine(cos)];
+        if cos > self.cos_spread {
+            angle = [1.0, 0.0];
+        } else {
+            angle = less(angle, [self.cos_spread, self.sin_spread]);
+            angle = less(angle, sphere);
+        }
+        if angle[0] <= self.cos_edge {
+            return 0.0;
+        }
+        let mut promise = self.power * angle[0] / squared;
+        if from.normal != Vec3::ZERO {
+            let cos = from.normal.dot(direction).abs().min(1.0);
+            promise *= less([cos, sine(cos)], sphere)[0];
+        }
+        promise
+    }
+}

@@ -1,0 +1,225 @@
+//! A tree over the lights that have a place, for choosing one by what a point may expect of it.
+//!
+//! From the root down, one of two children is taken with a probability proportional to what it promises
+//! the point ([`Promise`]), so a light of a thousand costs ten choices, and near lights that face the
+//! point come first. Clusters are split where the sum of power × extent × spread of the two halves is
+//! least (A. Conty Estevez and C. Kulla, Importance sampling of many lights with adaptive tree
+//! splitting, 2018, section 4.3; the traversal that keeps one light is theirs without splitting).
+
+use crate::extent::{LightExtent, Promise};
+use crate::selector::LightChoice;
+use etalon_transport::{LightId, Receiver};
+use glam::DVec3;
+
+/// What is below a node.
+#[derive(Clone, Copy, Debug, PartialEq)]
+enum Below {
+    /// One light.
+    Light(LightId),
+    /// Two nodes: the next one, and this.
+    Two(u32),
+}
+
+#[derive(Clone, Copy, Debug)]
+struct Node {
+    promise: Promise,
+    below: Below,
+}
+
+/// The way from the root to a light: bit k says whether its step k goes to the second child.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+struct Trail(u64);
+
+/// A tree of lights.
+#[derive(Clone, Debug)]
+pub struct LightTree {
+    nodes: Vec<Node>,
+    /// By light; `None` if it is not in the tree.
+    trails: Vec<Option<Trail>>,
+}
+
+/// Places at which a cluster may be cut, along each axis.
+const BINS: usize = 12;
+
+/// Depth from which clusters are cut in halves of equal number, so that trails stay short: with
+/// fewer than 2³² lights no trail has more than 64 steps.
+const HALVES_FROM: u32 = 32;
+
+impl LightTree {
+    /// A tree of `lights`, each with its id, out of `count`; `None` without lights. Those of no power
+    /// are left out.
+    pub fn new(mut lights: Vec<(LightId, LightExtent)>, count: usize) -> Option<Self> {
+        let total: f64 = lights.iter().map(|(_, extent)| extent.power).sum();
+        lights.retain(|(_, extent)| extent.power > 0.0);
+        for (_, extent) in &mut lights {
+            // Of the whole, and not too little for single precision.
+            extent.power = (extent.power / total).max(1e-20);
+        }
+        if lights.is_empty() || !total.is_finite() {
+            return None;
+        }
+        let mut tree = Self {
+            nodes: Vec::with_capacity(2 * lights.len() - 1),
+            trails: vec![None; count],
+        };
+        tree.grow(&mut lights, Trail(0), 0);
+        Some(tree)
+    }
+
+    fn grow(&mut self, lights: &mut [(LightId, LightExtent)], trail: Trail, depth: u32) {
+        let whole = around(lights);
+        let node = self.nodes.len();
+        self.nodes.push(Node {
+            promise: Promise::new(&whole),
+            below: Below::Light(lights[0].0),
+        });
+        if let [(light, _)] = lights {
+            self.trails[light.0 as usize] = Some(trail);
+            return;
+        }
+        let cut = best_cut(lights, &whole).filter(|_| depth < HALVES_FROM);
+        let middle = cut.map_or(0, |cut| partition(lights, |extent| cut.holds(extent)));
+        let middle = match middle {
+            0 => lights.len() / 2,
+            all if all == lights.len() => all / 2,
+            between => between,
+        };
+        let (first, second) = lights.split_at_mut(middle);
+        self.grow(first, trail, depth + 1);
+        self.nodes[node].below = Below::Two(self.nodes.len() as u32);
+        self.grow(second, Trail(trail.0 | 1 << depth), depth + 1);
+    }
+
+    /// The probability of the first of a node's children, at `from`; `None` if neither child sends
+    /// anything there.
+    #[inline]
+    fn first(&self, node: usize, second: u32, from: &Receiver) -> Option<f32> {
+        let a = self.nodes[node + 1].promise.at(from);
+        let b = self.nodes[second as usize].promise.at(from);
+        (a + b > 0.0).then(|| a / (a + b))
+    }
+
+    /// Chooses a light for `from`. `None` if none reaches it.
+    #[inline]
+    pub fn choose(&self, from: &Receiver, mut u: f32) -> Option<LightChoice> {
+        let (mut node, mut probability) = (0, 1.0);
+        loop {
+            match self.nodes[node].below {
+                Below::Light(light) => {
+                    return Some(LightChoice {
+                        light,
+                        probability,
+                        rest: u,
+                    });
+                }
+                Below::Two(second) => {
+                    let p = self.first(node, second, from)?;
+                    if u < p {
+                        u /= p;
+                        probability *= p;
+                        node += 1;
+                    } else {
+                        let q = 1.0 - p;
+                        u = (u - p) / q;
+                        probability *= q;
+                        node = second as usize;
+                    }
+                    u = u.min(ALMOST_ONE);
+                }
+            }
+        }
+    }
+
+    /// The probability with which [`LightTree::choose`] chooses `light` for `from`.
+    #[inline]
+    pub fn probability(&self, from: &Receiver, light: LightId) -> f32 {
+        let Some(Trail(mut trail)) = self.trails[light.0 as usize] else {
+            return 0.0;
+        };
+        let (mut node, mut probability) = (0, 1.0);
+        while let Below::Two(second) = self.nodes[node].below {
+            let Some(p) = self.first(node, second, from) else {
+                return 0.0;
+            };
+            if trail & 1 == 0 {
+                probability *= p;
+                node += 1;
+            } else {
+                probability *= 1.0 - p;
+                node = second as usize;
+            }
+            trail >>= 1;
+        }
+        probability
+    }
+}
+
+/// The largest number below one.
+const ALMOST_ONE: f32 = 1.0 - f32::EPSILON / 2.0;
+
+fn around(lights: &[(LightId, LightExtent)]) -> LightExtent {
+    let (first, rest) = lights.split_first().expect("clusters are not empty");
+    (rest.iter()).fold(first.1, |sum, (_, extent)| sum.union(*extent))
+}
+
+/// A plane across an axis.
+struct Cut {
+    axis: usize,
+    at: f64,
+}
+
+impl Cut {
+    fn holds(&self, extent: &LightExtent) -> bool {
+        extent.centre()[self.axis] < self.at
+    }
+}
+
+/// Moves what is held to the front; how many there are.
+fn partition(lights: &mut [(LightId, LightExtent)], held: impl Fn(&LightExtent) -> bool) -> usize {
+    lights.sort_by_key(|(_, extent)| !held(extent));
+    lights.partition_point(|(_, extent)| held(extent))
+}
+
+/// The cheapest plane between centres; `None` if all centres are in one place.
+fn best_cut(lights: &[(LightId, LightExtent)], whole: &LightExtent) -> Option<Cut> {
+    let centres = || lights.iter().map(|(_, extent)| extent.centre());
+    let low = centres().fold(DVec3::INFINITY, DVec3::min);
+    let high = centres().fold(DVec3::NEG_INFINITY, DVec3::max);
+    let sides = whole.high - whole.low;
+    let mut best: Option<(f64, Cut)> = None;
+    for axis in 0..3 {
+        if high[axis] <= low[axis] {
+            continue;
+        }
+        // Clusters are to be cut across their long side: thin slices are looked at from the side.
+        let long = sides.max_element() / sides[axis].max(f64::MIN_POSITIVE);
+        let mut bins: [Option<LightExtent>; BINS] = [None; BINS];
+        for (_, extent) in lights {
+            let place = (extent.centre()[axis] - low[axis]) / (high[axis] - low[axis]);
+            let bin = &mut bins[((place * BINS as f64) as usize).min(BINS - 1)];
+            *bin = Some(bin.map_or(*extent, |sum| sum.union(*extent)));
+        }
+        for cut in 1..BINS {
+            let part = |bins: &[Option<LightExtent>]| {
+                bins.iter().flatten().copied().reduce(LightExtent::union)
+            };
+            let (Some(a), Some(b)) = (part(&bins[..cut]), part(&bins[cut..])) else {
+                continue;
+            };
+            let cost = long * (cost(&a) + cost(&b));
+            if best.as_ref().is_none_or(|(least, _)| cost < *least) {
+                let at = low[axis] + (high[axis] - low[axis]) * cut as f64 / BINS as f64;
+                best = Some((cost, Cut { axis, at }));
+            }
+        }
+    }
+    best.map(|(_, cut)| cut)
+}
+
+/// Power × surface × solid angle of a cluster.
+fn cost(extent: &LightExtent) -> f64 {
+    let s = extent.high - extent.low;
+    let surface = 2.0 * (s.x * s.y + s.y * s.z + s.z * s.x);
+    // Lights in one line or point have no surface; their length, squared, orders them as well.
+    extent.power * extent.orientation_measure() * (surface + 1e-6 * s.length_squared())
+}
