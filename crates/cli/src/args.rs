@@ -34,6 +34,8 @@ Examples:
   etalon render scene.xml -o out.exr --spp 256 --seed 7 -D resx=512 -D resy=512
   etalon render scene.xml -o direct.exr --integrator direct --stats stats.json
   etalon render scene.xml -o out.exr --error 0.01
+  etalon render scene.xml -o out.exr --error 0.01 --adaptive
+  etalon render scene.xml -o out.exr --spp 4096 --resume
   etalon render scene.xml -o a.exr --part 1/2
   etalon render scene.xml --replay 12,7,0,3")]
     Render(RenderArgs),
@@ -90,6 +92,7 @@ Examples:
 /// Arguments of `render`.
 #[derive(Debug, Args, Clone)]
 #[command(group = clap::ArgGroup::new("wanted").required(true).args(["output", "replay"]))]
+#[command(group = clap::ArgGroup::new("piloted").multiple(true).args(["error", "adaptive"]))]
 pub struct RenderArgs {
     /// The scene (Mitsuba 3 XML).
     pub scene: PathBuf,
@@ -129,10 +132,16 @@ pub struct RenderArgs {
     /// As many samples as fit into so many seconds.
     #[arg(long, value_name = "SECONDS", value_parser = parse_seconds, conflicts_with_all = ["spp", "part", "strategies"])]
     pub time: Option<f64>,
-    /// Samples per pixel of the pilot, which is no part of the image, before `--error`.
-    #[arg(long, value_name = "N", default_value_t = crate::target::PILOT, requires = "error",
+    /// More samples where the noise is, as a pilot finds it; the pilot is no part of the image.
+    #[arg(long, conflicts_with = "strategies")]
+    pub adaptive: bool,
+    /// Samples per pixel of the pilot before `--error` and `--adaptive` [default: 64].
+    #[arg(long, value_name = "N", requires = "piloted",
         value_parser = clap::value_parser!(u32).range(16..=1 << 20))]
-    pub pilot: u32,
+    pub pilot: Option<u32>,
+    /// Keep a checkpoint beside the image (OUT.checkpoint), and go on from it if there is one.
+    #[arg(long, conflicts_with_all = ["strategies", "replay"])]
+    pub resume: bool,
     /// Also write every technique of `bdpt` alone, weighted and unweighted, and a page with all.
     #[arg(long, value_name = "DIR", conflicts_with = "part")]
     pub strategies: Option<PathBuf>,

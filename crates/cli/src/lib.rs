@@ -3,17 +3,20 @@
 //! The library behind the `etalon` binary: [`pipeline`] is the way from a scene file to an
 //! image; the commands are thin around it.
 
+pub mod adaptive;
 pub mod args;
 pub mod commands;
 pub mod diagnose;
 pub mod estimators;
 pub mod judge;
+pub mod keeping;
 mod objections;
 pub mod pipeline;
 pub mod progress;
 pub mod report;
 pub mod resources;
 pub mod say;
+mod sizes;
 pub mod target;
 
 /// The version of the program.

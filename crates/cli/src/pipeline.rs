@@ -1,12 +1,13 @@
 //! From a scene file to an image: the way every command and every claim takes.
 
+use crate::keeping::{Keeping, KeptFilm};
 use crate::{VERSION, objections, resources};
 use etalon_film::{
-    Developed, ExactFilm, FilmSettings, Filter, Part, RenderFacts, recorded_seconds,
+    Developed, ExactFilm, FilmSettings, Filter, Part, RenderFacts, SampleCounts, recorded_seconds,
 };
 use etalon_formats::FileAssets;
 use etalon_formats::mitsuba::{self, Document, ReadOptions, ReadOutcome};
-use etalon_integrators::{AnyIntegrator, Outcome, Plan, Progress};
+use etalon_integrators::{AnyIntegrator, Outcome, Plan, Progress, Share};
 use etalon_params::{Class, Diagnostic, Diagnostics, Node, Params, Sources, Span, Value};
 use etalon_sampling::SamplerKind;
 use etalon_scene::{CompileOptions, Compiled, LightChooser};
@@ -268,12 +269,14 @@ pub struct Rendered {
     pub developed: Developed,
     /// The same with exact sums, if it is a share of the image's replicates.
     pub part: Option<Part>,
-    /// What was done.
+    /// What was done, replicates of a checkpoint included.
     pub outcome: Outcome,
     /// How long it took.
     pub time: Duration,
     /// The replicates that were planned here; fewer are finished if the render was interrupted.
     pub replicates: u32,
+    /// Those of them that a checkpoint had finished before.
+    pub finished: u32,
 }
 
 /// What a pixel takes in one channel while it is rendered, developed and written (bytes): the
@@ -316,29 +319,75 @@ pub fn render<P: Progress>(
     plan: &Plan,
     progress: &P,
 ) -> Result<Rendered, Diagnostic> {
-    let start = Instant::now();
-    let compiled = &loaded.compiled;
-    let channels = loaded.integrator.channels();
-    let format = compiled.film.pixel_format;
-    let planes = format.colours().len() + usize::from(format.has_alpha()) + channels.len();
-    let share = plan.share();
-    let further = if plan.share.is_some() { PART_BYTES } else { 0 };
-    check_bytes(loaded, planes, PIXEL_BYTES + further)?;
-    let mut film = ExactFilm::new(compiled.film.clone(), &channels)
-        .map_err(|error| at(error, loaded.film_place))?
-        .starting_at(share.first);
-    let outcome = loaded
-        .integrator
-        .render(&compiled.scene, &mut film, plan, progress);
-    let time = start.elapsed();
-    let facts = RenderFacts {
+    render_as(loaded, plan, Manner::default(), progress)
+}
+
+/// What is not ordinary about a render.
+#[derive(Clone, Debug, Default)]
+pub struct Manner {
+    /// The samples of each pixel in a replicate, if they are not dealt evenly.
+    pub counts: Option<SampleCounts>,
+    /// How to keep checkpoints, if there are to be any.
+    pub keeping: Option<Keeping>,
+}
+
+/// What a file says of a render, but for its time.
+pub(crate) fn facts(loaded: &Loaded, plan: &Plan) -> RenderFacts {
+    RenderFacts {
         version: VERSION.to_owned(),
         scene: loaded.path.display().to_string(),
         scene_hash: loaded.hash.clone(),
         integrator: loaded.integrator_name.clone(),
         sampler: sampler_name(plan.sampler).to_owned(),
         seed: plan.seed,
-        seconds: recorded_seconds(time),
+        seconds: None,
+    }
+}
+
+/// As [`render`], in this manner.
+///
+/// # Errors
+/// If there is no memory for the film, or the checkpoint to go on from is of another.
+pub fn render_as<P: Progress>(
+    loaded: &Loaded,
+    plan: &Plan,
+    manner: Manner,
+    progress: &P,
+) -> Result<Rendered, Diagnostic> {
+    let start = Instant::now();
+    let compiled = &loaded.compiled;
+    let channels = loaded.integrator.channels();
+    let format = compiled.film.pixel_format;
+    let planes = format.colours().len() + usize::from(format.has_alpha()) + channels.len();
+    let share = plan.share();
+    let Manner { counts, keeping } = manner;
+    let exact = plan.share.is_some() || keeping.is_some();
+    let further = if exact { PART_BYTES } else { 0 };
+    check_bytes(loaded, planes, PIXEL_BYTES + further)?;
+    let film = ExactFilm::new(compiled.film.clone(), &channels)
+        .map_err(|error| at(error, loaded.film_place))?
+        .starting_at(share.first)
+        .dealing(counts);
+    let (finished, before) = keeping.as_ref().map(Keeping::finished).unwrap_or_default();
+    let facts = facts(loaded, plan);
+    let mut film = KeptFilm::new(film, keeping, &facts, share, plan.replicates)
+        .map_err(Diagnostic::error_nowhere)?;
+    let remaining = Plan {
+        share: Some(Share {
+            first: share.first + finished,
+            count: share.count - finished.min(share.count),
+        }),
+        ..*plan
+    };
+    let mut outcome = loaded
+        .integrator
+        .render(&compiled.scene, &mut film, &remaining, progress);
+    outcome.replicates += finished;
+    let film = film.finish();
+    let time = start.elapsed();
+    let facts = RenderFacts {
+        seconds: recorded_seconds(before + time),
+        ..facts
     };
     let (developed, part) = if plan.share.is_some() {
         let part = film.into_part(facts, plan.replicates);
@@ -352,6 +401,7 @@ pub fn render<P: Progress>(
         outcome,
         time,
         replicates: share.count,
+        finished,
     })
 }
 

@@ -17,12 +17,13 @@
 //! is as valid. There is no look at the image before it is finished, and no stopping because it pleases.
 //! The price: whether the target was reached is only known at the end, and is said.
 
-use crate::pipeline::{self, Loaded};
+use crate::adaptive::Distribution;
+use crate::pipeline::{self, Loaded, Manner};
+use crate::sizes::{MOST, sized};
 use etalon_film::Developed;
 use etalon_integrators::{Plan, Progress};
 use etalon_math::float64;
 use etalon_params::Diagnostic;
-use etalon_sampling::SamplerKind;
 use etalon_sampling::hash::{derived_key, mix64};
 use etalon_statistics::{Summary, student_t};
 use std::time::Instant;
@@ -44,9 +45,6 @@ const CONFIDENCE: f64 = 0.95;
 
 /// Samples per pixel of a pilot, if nobody says otherwise.
 pub const PILOT: u32 = 64;
-
-/// The most samples per pixel that a target may ask for.
-const MOST: f64 = (1_u64 << 28) as f64;
 
 /// Of a time, the share after which a pilot has seen enough.
 const PILOT_SHARE: f64 = 0.05;
@@ -122,8 +120,8 @@ impl From<Diagnostic> for Failure {
     }
 }
 
-/// Renders a pilot of about `samples` samples per pixel (or as many as a time allows) and fixes a plan like
-/// `plan`, but of as many samples as the target needs. `replicates` keeps their number.
+/// Renders a pilot (of as many samples as a time allows, if that is aimed at) and fixes a plan like `plan`,
+/// but of as many samples as the target needs. `replicates` keeps their number.
 ///
 /// # Errors
 /// If no number of samples can reach the target, or `progress` says to stop.
@@ -131,27 +129,58 @@ pub fn fix<P: Progress>(
     loaded: &Loaded,
     plan: &Plan,
     target: Target,
-    samples: u32,
+    pilot: Pilot<'_>,
     replicates: Option<u32>,
     progress: &P,
 ) -> Result<Fixed, Failure> {
-    let start = Instant::now();
-    let (needed, pilot) = match target {
-        Target::Error(error) => error_pilot(loaded, plan, error, samples, progress)?,
-        Target::Seconds(seconds) => time_pilot(loaded, plan, seconds, progress)?,
+    let (needed, taken) = match target {
+        Target::Error(error) => error_pilot(loaded, plan, error, pilot, progress)?,
+        Target::Seconds(seconds) => time_pilot(loaded, plan, seconds, pilot, progress)?,
     };
     let up = matches!(target, Target::Error(_));
     Ok(Fixed {
         plan: sized(plan, needed, replicates, up),
-        pilot,
-        seconds: start.elapsed().as_secs_f64(),
+        pilot: taken,
+        seconds: pilot.start.elapsed().as_secs_f64(),
     })
 }
 
-/// One picture of a pilot: two replicates.
-fn picture<P: Progress>(
+/// What is known of a pilot before it begins.
+#[derive(Clone, Copy, Debug)]
+pub struct Pilot<'a> {
+    /// Samples per pixel, about, of one that aims at an error.
+    pub samples: u32,
+    /// How the picture's samples will be dealt, if not evenly.
+    pub distribution: Option<&'a Distribution>,
+    /// When what counts as its time began.
+    pub start: Instant,
+}
+
+/// The samples per pixel, 16 times a power of two or a little more and at most [`PILOT`], of a pilot that takes
+/// a tenth of a time (s), and never fewer than 16.
+///
+/// # Errors
+/// As [`fix`].
+pub fn affordable<P: Progress>(
     loaded: &Loaded,
     plan: &Plan,
+    seconds: f64,
+    progress: &P,
+) -> Result<u32, Failure> {
+    let (_, cold) = picture(loaded, plan, None, GROUPS, 1, progress)?;
+    let pace = cold / 2.0;
+    let mut samples = 2 * GROUPS;
+    while samples < PILOT && pace * f64::from(2 * samples) <= 2.0 * PILOT_SHARE * seconds {
+        samples *= 2;
+    }
+    Ok(samples)
+}
+
+/// One picture of a pilot: two replicates.
+pub(crate) fn picture<P: Progress>(
+    loaded: &Loaded,
+    plan: &Plan,
+    distribution: Option<&Distribution>,
     index: u32,
     samples: u32,
     progress: &P,
@@ -162,7 +191,11 @@ fn picture<P: Progress>(
         samples_per_replicate: samples,
         ..*plan
     };
-    let rendered = pipeline::render(loaded, &small, progress)?;
+    let manner = Manner {
+        counts: distribution.map(|d| d.counts(plan.sampler, samples)),
+        ..Manner::default()
+    };
+    let rendered = pipeline::render_as(loaded, &small, manner, progress)?;
     if progress.cancelled() {
         return Err(Failure::Cancelled);
     }
@@ -174,13 +207,13 @@ fn error_pilot<P: Progress>(
     loaded: &Loaded,
     plan: &Plan,
     error: f64,
-    samples: u32,
+    pilot: Pilot<'_>,
     progress: &P,
 ) -> Result<(f64, u32), Failure> {
-    let each = plan.sampler.round_up(samples.div_ceil(2 * GROUPS));
+    let each = plan.sampler.round_up(pilot.samples.div_ceil(2 * GROUPS));
     let mut found = Vec::new();
     for index in 0..GROUPS {
-        let (developed, _) = picture(loaded, plan, index, each, progress)?;
+        let (developed, _) = picture(loaded, plan, pilot.distribution, index, each, progress)?;
         found.push(Noise::of(&developed).ok_or_else(|| {
             Diagnostic::error_nowhere(
                 "an error cannot be aimed at: the film has no colours".to_owned(),
@@ -236,19 +269,25 @@ fn time_pilot<P: Progress>(
     loaded: &Loaded,
     plan: &Plan,
     seconds: f64,
+    pilot: Pilot<'_>,
     progress: &P,
 ) -> Result<(f64, u32), Failure> {
-    let start = Instant::now();
+    let Pilot {
+        distribution,
+        start,
+        ..
+    } = pilot;
+    let before = start.elapsed().as_secs_f64();
     // The first picture finds cold caches; its time is spent, but does not count.
-    let (_, cold) = picture(loaded, plan, 0, 1, progress)?;
+    let (_, cold) = picture(loaded, plan, distribution, 0, 1, progress)?;
     let (mut each, mut taken, mut pace) = (1, 2, cold / 2.0);
     for index in 1.. {
         // The largest so far says most: what is learned once weighs least in it.
-        let spent = start.elapsed().as_secs_f64();
+        let spent = start.elapsed().as_secs_f64() - before;
         if spent + 8.0 * pace * f64::from(each) > PILOT_SHARE * seconds {
             break;
         }
-        let (_, time) = picture(loaded, plan, index, each, progress)?;
+        let (_, time) = picture(loaded, plan, distribution, index, each, progress)?;
         pace = time / f64::from(2 * each);
         taken += 2 * each;
         each *= 4;
@@ -257,83 +296,9 @@ fn time_pilot<P: Progress>(
     Ok((left / pace.max(1e-9), taken))
 }
 
-/// A plan of `needed` samples per pixel: no fewer if `up`, no more otherwise, as nearly as replicates of equal,
-/// stratifiable size allow.
-fn sized(plan: &Plan, needed: f64, replicates: Option<u32>, up: bool) -> Plan {
-    let count = replicates.unwrap_or(pipeline::REPLICATES);
-    let needed = needed.clamp(1.0, MOST);
-    let each = needed / f64::from(count);
-    let least = round_down(plan.sampler, each as u32);
-    let (samples, replicates) = match replicates {
-        // More replicates take up what rounding leaves.
-        None if each >= 1.0 => {
-            let fit = needed / f64::from(least);
-            (least, if up { fit.ceil() } else { fit.floor() } as u32)
-        }
-        None => (1, if up { count } else { (needed as u32).max(2) }),
-        Some(count) if up => (plan.sampler.round_up(each.ceil() as u32), count),
-        Some(count) => (least, count),
-    };
-    Plan {
-        replicates,
-        samples_per_replicate: samples,
-        ..*plan
-    }
-}
-
-/// The greatest size of at most `samples`, and at least one, that the sampler stratifies fully.
-fn round_down(sampler: SamplerKind, samples: u32) -> u32 {
-    let samples = samples.max(1);
-    match sampler {
-        SamplerKind::Independent => samples,
-        SamplerKind::Stratified { .. } => samples.isqrt().pow(2),
-        SamplerKind::Sobol => 1 << samples.ilog2(),
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    fn plan(sampler: SamplerKind) -> Plan {
-        Plan {
-            seed: 1,
-            replicates: 8,
-            share: None,
-            samples_per_replicate: 4,
-            sampler,
-        }
-    }
-
-    #[test]
-    fn plans_have_the_samples_that_are_needed() {
-        let kinds = [
-            SamplerKind::Independent,
-            SamplerKind::Sobol,
-            SamplerKind::Stratified { jitter: true },
-        ];
-        for kind in kinds {
-            for needed in [0.3, 1.0, 5.5, 8.0, 31.9, 100.0, 12_345.6] {
-                for replicates in [None, Some(2), Some(8), Some(20)] {
-                    let size = |up| {
-                        let plan = sized(&plan(kind), needed, replicates, up);
-                        let each = plan.samples_per_replicate;
-                        assert_eq!(kind.round_up(each), each);
-                        assert!(replicates.is_none_or(|r| r == plan.replicates));
-                        assert!(plan.replicates >= 2);
-                        f64::from(each) * f64::from(plan.replicates)
-                    };
-                    assert!(size(true) >= needed, "{kind:?} {needed} {replicates:?}");
-                    let fewest = f64::from(replicates.unwrap_or(2));
-                    assert!(size(false) <= needed.max(fewest), "{kind:?} {needed}");
-                    // Not much more, where the number of replicates is free.
-                    if replicates.is_none() {
-                        assert!(size(true) < 8.5 + 1.3 * needed, "{kind:?} {needed}");
-                    }
-                }
-            }
-        }
-    }
 
     /// Pilots of noise that is known: the number of samples suffices in 95 % of them or more.
     #[test]

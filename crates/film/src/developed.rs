@@ -3,11 +3,13 @@
 //! Every channel `NAME` is the mean over replicates. With two replicates or more it has a
 //! companion `standard_error.NAME`, the standard deviation of the replicates' means over the
 //! square root of their number; a confidence interval takes t quantiles with one degree of
-//! freedom less than there are replicates.
+//! freedom less than there are replicates. Where samples were not dealt evenly, `samples` says how many
+//! each pixel has.
 
 use crate::exact_film::STANDARD_ERROR;
 use crate::exact_sums::EXACT;
 use crate::pixel_moments::PixelMoments;
+use crate::sample_counts::{SAMPLES, SampleCounts};
 use crate::{ExactFilm, Metadata, RenderFacts};
 use etalon_images::{Error, Frame, Image, exr};
 use rayon::prelude::*;
@@ -78,6 +80,7 @@ pub(crate) fn image_of(
     moments: &[PixelMoments],
     replicates: u32,
     [width, height]: [usize; 2],
+    counts: Option<&SampleCounts>,
 ) -> Image {
     let mut image = Image::new(width, height);
     let mut errors = Vec::new();
@@ -100,6 +103,10 @@ pub(crate) fn image_of(
     for (name, error) in errors {
         image.push(name, error);
     }
+    if let Some(counts) = counts {
+        let all = |&count: &u32| (f64::from(count) * f64::from(replicates)) as f32;
+        image.push(SAMPLES, counts.of_pixels().iter().map(all).collect());
+    }
     image
 }
 
@@ -109,7 +116,13 @@ impl ExactFilm {
         let settings = self.settings();
         let size = settings.crop_size.to_array().map(|n| n as usize);
         Developed {
-            image: image_of(self.channels(), self.moments(), self.replicates(), size),
+            image: image_of(
+                self.channels(),
+                self.moments(),
+                self.replicates(),
+                size,
+                self.counts(),
+            ),
             frame: Frame {
                 offset: settings.crop_offset.to_array().map(|n| n as i32),
                 size: settings.size.to_array().map(|n| n as usize),

@@ -11,10 +11,11 @@
 use crate::exact_sums::{EXACT, ExactSums};
 use crate::faults::{FaultLog, Offence};
 use crate::pixel_moments::PixelMoments;
-use crate::replicate_end;
+use crate::replicate_end::{self, Divisor};
+use crate::sample_counts::{SAMPLES, SampleCounts};
 use crate::tile_means::TileMeans;
 use crate::tile_sink::ExactTile;
-use crate::{FilmSettings, PixelFilter};
+use crate::{FilmSettings, Metadata, PixelFilter};
 use etalon_images::Image;
 use etalon_params::Diagnostic;
 use etalon_statistics::{AtomicFixed128, Fault, Fixed128};
@@ -40,6 +41,8 @@ pub struct ExactFilm {
     first: u32,
     replicates: u32,
     samples: u64,
+    /// The samples of each pixel in a replicate, if they are not dealt evenly.
+    counts: Option<SampleCounts>,
     tiles: [TileMeans; 3],
     faults: Mutex<FaultLog>,
 }
@@ -64,7 +67,8 @@ impl ExactFilm {
         for Channel(name) in named {
             let reserved = [STANDARD_ERROR, EXACT]
                 .iter()
-                .any(|of| name.starts_with(of));
+                .any(|of| name.starts_with(of))
+                || name == SAMPLES;
             if channels.contains(name) || reserved || name.is_empty() {
                 let message = format!("two channels of the film would be called `{name}`");
                 return Err(Diagnostic::error_nowhere(message)
@@ -90,6 +94,7 @@ impl ExactFilm {
             first: 0,
             replicates: 0,
             samples: 0,
+            counts: None,
             tiles: replicate_end::TILES.map(means),
             faults: Mutex::default(),
             channels,
@@ -101,6 +106,28 @@ impl ExactFilm {
     #[must_use]
     pub fn starting_at(self, first: u32) -> Self {
         Self { first, ..self }
+    }
+
+    /// The same film, which deals samples to its pixels by these counts.
+    ///
+    /// # Panics
+    /// If they are not those of as many pixels.
+    #[must_use]
+    pub fn dealing(self, counts: Option<SampleCounts>) -> Self {
+        let size = self.settings.crop_size;
+        let pixels = size.x as usize * size.y as usize;
+        assert!(
+            counts
+                .as_ref()
+                .is_none_or(|c| c.of_pixels().len() == pixels),
+            "every pixel has its count"
+        );
+        Self { counts, ..self }
+    }
+
+    /// The samples of each pixel in a replicate, if they are not dealt evenly.
+    pub fn counts(&self) -> Option<&SampleCounts> {
+        self.counts.as_ref()
     }
 
     /// The number of its first replicate within the whole image.
@@ -179,16 +206,13 @@ impl ExactFilm {
             }
         }
         self.report(log);
-        self.finish_replicate(1, samples);
+        self.finish_replicate(Divisor::Even(1), samples);
         Ok(())
     }
 
     /// Divides the current sums by `divisor`, and lets the means join the statistics as those
     /// of `samples` per pixel.
-    fn finish_replicate(&mut self, divisor: u64, samples: u64) {
-        if divisor == 0 {
-            return;
-        }
+    fn finish_replicate(&mut self, divisor: Divisor<'_>, samples: u64) {
         let layout = replicate_end::Layout {
             channels: &self.channels,
             origin: self.settings.crop_offset,
@@ -198,7 +222,7 @@ impl ExactFilm {
         let (sums, log) = layout.finish(&mut self.current, &mut self.moments, divisor);
         let size = self.settings.crop_size.to_array();
         for (means, sums) in self.tiles.iter_mut().zip(&sums) {
-            means.push(sums, divisor, size);
+            means.push(sums, divisor.of_tiles(), size);
         }
         self.report(log);
         self.replicates += 1;
@@ -210,9 +234,24 @@ impl ExactFilm {
         &self.moments
     }
 
-    /// What is left of it when nothing more is added.
-    pub(crate) fn into_sums(self) -> ExactSums {
-        ExactSums::new(self.channels.len(), self.moments)
+    /// Takes the sums over finished replicates out of it.
+    pub(crate) fn take_sums(&mut self) -> ExactSums {
+        ExactSums::new(self.channels.len(), std::mem::take(&mut self.moments))
+    }
+
+    /// Puts sums over finished replicates into it.
+    pub(crate) fn put_sums(&mut self, sums: ExactSums) {
+        self.moments = sums.into_moments();
+    }
+
+    /// Makes it go on after the finished replicates that these are the facts of.
+    pub(crate) fn go_on_after(&mut self, metadata: Metadata) -> Result<(), String> {
+        self.tiles = (metadata.tile_means.try_into())
+            .map_err(|_| "its tile means are not those of a film".to_owned())?;
+        self.replicates = metadata.replicates;
+        self.samples = metadata.spp;
+        self.faults = Mutex::new(metadata.faults);
+        Ok(())
     }
 
     /// Adds sums to a pixel of the whole film, and empties them.
@@ -306,6 +345,16 @@ impl Film for ExactFilm {
     }
 
     #[inline]
+    fn dealt(&self, pixel: UVec2, even: u32) -> u32 {
+        let Some(counts) = &self.counts else {
+            return even;
+        };
+        let place = pixel - self.settings.crop_offset;
+        let width = self.settings.crop_size.x as usize;
+        counts.of_pixels()[place.y as usize * width + place.x as usize]
+    }
+
+    #[inline]
     fn place(&self, pixel: UVec2, u: Vec2) -> Placement {
         let (offset, weight) = self.filter.sample(u);
         Placement {
@@ -323,6 +372,14 @@ impl Film for ExactFilm {
     }
 
     fn end_replicate(&mut self, samples: u32) {
-        self.finish_replicate(samples.into(), samples.into());
+        let counts = self.counts.take();
+        match &counts {
+            Some(counts) => {
+                self.finish_replicate(Divisor::OfPixels(counts.of_pixels()), samples.into());
+            }
+            None if samples == 0 => return,
+            None => self.finish_replicate(Divisor::Even(samples.into()), samples.into()),
+        }
+        self.counts = counts;
     }
 }

@@ -29,6 +29,10 @@ impl ExactSums {
         &self.moments
     }
 
+    pub(crate) fn into_moments(self) -> Vec<PixelMoments> {
+        self.moments
+    }
+
     /// Adds those of other replicates of the same pixels and channels.
     ///
     /// # Errors

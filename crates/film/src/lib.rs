@@ -13,6 +13,7 @@ mod replicate_end;
 mod splat;
 mod tile_sink;
 
+pub mod checkpoint;
 pub mod developed;
 pub mod faults;
 pub mod filters;
@@ -23,9 +24,11 @@ pub mod part;
 pub mod pixel_filter;
 pub mod pixel_format;
 pub mod replicate_set;
+pub mod sample_counts;
 pub mod settings;
 pub mod tile_means;
 
+pub use checkpoint::CheckpointFacts;
 pub use developed::{Developed, ReadError, read_developed};
 pub use exact_film::{ExactFilm, STANDARD_ERROR};
 pub use exact_sums::EXACT;
@@ -38,6 +41,7 @@ pub use part::{Part, PartFacts};
 pub use pixel_filter::PixelFilter;
 pub use pixel_format::PixelFormat;
 pub use replicate_set::ReplicateSet;
+pub use sample_counts::{DealtFacts, SAMPLES, SampleCounts};
 pub use settings::{FileFormat, FilmSettings};
 pub use tile_means::TileMeans;
 pub use tile_sink::ExactTile;

@@ -50,7 +50,7 @@ impl fmt::Display for Disagreement {
 #[must_use]
 pub fn disagreements(first: &Metadata, second: &Metadata) -> Vec<Disagreement> {
     type View = fn(&Metadata) -> String;
-    let views: [(&'static str, View); 12] = [
+    let views: [(&'static str, View); 13] = [
         ("version of Etalon", |m| m.version.clone()),
         ("floating-point fingerprint", |m| m.floating_point.clone()),
         ("scene's hash", |m| m.scene_hash.clone()),
@@ -62,6 +62,14 @@ pub fn disagreements(first: &Metadata, second: &Metadata) -> Vec<Disagreement> {
         }),
         ("number of samples per replicate", |m| {
             (m.spp / u64::from(m.replicates.max(1))).to_string()
+        }),
+        ("distribution of samples", |m| {
+            m.adaptive.as_ref().map_or("even".to_owned(), |dealt| {
+                format!(
+                    "adaptive ({} to {} in a pixel, {})",
+                    dealt.least, dealt.most, dealt.hash
+                )
+            })
         }),
         ("film", |m| {
             let [[w, h], [cw, ch], [x, y]] = [m.film.size, m.film.crop_size, m.film.crop_offset];

@@ -1,6 +1,9 @@
 //! What a rendered file says of itself: JSON in the EXR attribute `etalon`.
 
-use crate::{FaultLog, FilmSettings, PartFacts, TileMeans, floating_point_fingerprint};
+use crate::{
+    CheckpointFacts, DealtFacts, FaultLog, FilmSettings, PartFacts, SampleCounts, TileMeans,
+    floating_point_fingerprint,
+};
 use serde::{Deserialize, Serialize};
 use std::time::Duration;
 
@@ -62,13 +65,20 @@ pub struct Metadata {
     pub integrator: String,
     /// The sampler.
     pub sampler: String,
-    /// Samples per pixel, all replicates together.
+    /// Samples per pixel, all replicates together; where they are dealt unevenly, as many as they
+    /// would be evenly.
     pub spp: u64,
     /// Independent replicates. With one, there are no standard errors.
     pub replicates: u32,
     /// Which replicates these are, if they are a part of a picture's.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub part: Option<PartFacts>,
+    /// Of what render this is a checkpoint, if it is one.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub checkpoint: Option<CheckpointFacts>,
+    /// How the samples were dealt, if not evenly.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub adaptive: Option<DealtFacts>,
     /// The seed.
     pub seed: u64,
     /// How long rendering took (s), unless the file was to be reproducible.
@@ -103,6 +113,8 @@ impl Metadata {
             spp: film.samples(),
             replicates: film.replicates(),
             part: None,
+            checkpoint: None,
+            adaptive: film.counts().map(SampleCounts::facts),
             seed: facts.seed,
             seconds: facts.seconds,
             floating_point: floating_point_fingerprint(),

@@ -10,12 +10,17 @@ use crate::developed::{self, ReadError, image_of, metadata_of};
 use crate::exact_sums::{EXACT, ExactSums};
 use crate::merge::{Conflict, disagreements};
 use crate::metadata::recorded_seconds;
-use crate::{Developed, ExactFilm, Metadata, RenderFacts, ReplicateSet};
+use crate::{
+    CheckpointFacts, Developed, ExactFilm, Metadata, RenderFacts, ReplicateSet, SampleCounts,
+};
 use etalon_images::{Error, Frame, exr};
 use serde::{Deserialize, Serialize};
 use std::io::{self, Seek, Write};
 use std::path::Path;
 use std::time::Duration;
+
+/// The plane with the samples of each pixel in a replicate, where they are not dealt evenly.
+const COUNTS: &str = "exact.samples";
 
 /// What a part's file says of its place in the whole.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
@@ -57,6 +62,7 @@ pub struct Part {
     metadata: Metadata,
     facts: PartFacts,
     sums: ExactSums,
+    counts: Option<SampleCounts>,
 }
 
 impl ExactFilm {
@@ -66,7 +72,12 @@ impl ExactFilm {
     /// If no replicate is finished, or they are not among `of`, or these are more than
     /// [`PartFacts::MOST`].
     #[must_use]
-    pub fn into_part(self, facts: RenderFacts, of: u32) -> Part {
+    pub fn into_part(mut self, facts: RenderFacts, of: u32) -> Part {
+        self.take_part(facts, of)
+    }
+
+    /// As [`ExactFilm::into_part`], but leaves an empty husk.
+    pub(crate) fn take_part(&mut self, facts: RenderFacts, of: u32) -> Part {
         let first = self.first_replicate();
         let replicates = ReplicateSet::new(first..first + self.replicates());
         assert!(
@@ -74,13 +85,14 @@ impl ExactFilm {
             "a part has replicates of its whole"
         );
         Part {
-            metadata: Metadata::new(&self, facts),
+            metadata: Metadata::new(self, facts),
             facts: PartFacts {
                 of,
                 replicates,
                 checksum: String::new(),
             },
-            sums: self.into_sums(),
+            sums: self.take_sums(),
+            counts: self.counts().cloned(),
         }
     }
 }
@@ -96,6 +108,28 @@ impl Part {
     #[must_use]
     pub fn missing(&self) -> ReplicateSet {
         self.facts.replicates.missing(self.facts.of)
+    }
+
+    /// The samples of each pixel in a replicate, if they were not dealt evenly.
+    #[must_use]
+    pub fn counts(&self) -> Option<&SampleCounts> {
+        self.counts.as_ref()
+    }
+
+    /// What its file says of it.
+    #[must_use]
+    pub fn metadata(&self) -> Metadata {
+        self.described()
+    }
+
+    /// Makes it a checkpoint.
+    pub(crate) fn mark(&mut self, checkpoint: CheckpointFacts) {
+        self.metadata.checkpoint = Some(checkpoint);
+    }
+
+    /// What it says of itself, and the exact sums.
+    pub(crate) fn into_parts(self) -> (Metadata, ExactSums) {
+        (self.metadata, self.sums)
     }
 
     /// Adds the replicates of another part.
@@ -152,7 +186,11 @@ impl Part {
     pub fn whole(&self) -> Option<Developed> {
         self.missing()
             .is_empty()
-            .then(|| self.developed(self.metadata.clone()))
+            .then(|| Metadata {
+                checkpoint: None,
+                ..self.metadata.clone()
+            })
+            .map(|metadata| self.developed(metadata))
     }
 
     fn developed(&self, metadata: Metadata) -> Developed {
@@ -160,7 +198,13 @@ impl Part {
         let moments = self.sums.moments();
         let seconds = metadata.seconds;
         Developed {
-            image: image_of(&metadata.channels, moments, metadata.replicates, size),
+            image: image_of(
+                &metadata.channels,
+                moments,
+                metadata.replicates,
+                size,
+                self.counts.as_ref(),
+            ),
             frame: Frame {
                 offset: metadata.film.crop_offset.map(|n| n as i32),
                 size: metadata.film.size.map(|n| n as usize),
@@ -190,6 +234,9 @@ impl Part {
         let mut hasher = blake3::Hasher::new();
         hasher.update(described.to_json().as_bytes());
         self.sums.hash_into(&mut hasher);
+        for count in self.counts.iter().flat_map(SampleCounts::of_pixels) {
+            hasher.update(&count.to_le_bytes());
+        }
         hasher.finalize().to_hex().to_string()
     }
 
@@ -199,7 +246,7 @@ impl Part {
     /// If the file cannot be written; nothing is left behind then.
     pub fn write_exr(&self, path: &Path) -> Result<(), Error> {
         let (picture, text) = self.signed();
-        let planes = self.sums.planes(&self.metadata.channels);
+        let planes = self.planes();
         exr::write_with_integers(path, &picture.image, &planes, picture.frame, &text)
     }
 
@@ -209,8 +256,18 @@ impl Part {
     /// Those of the writer.
     pub fn encode(&self, writer: impl Write + Seek) -> io::Result<()> {
         let (picture, text) = self.signed();
-        let planes = self.sums.planes(&self.metadata.channels);
+        let planes = self.planes();
         exr::encode_with_integers(writer, &picture.image, &planes, picture.frame, &text)
+    }
+
+    /// The exact sums, and the samples of each pixel if they were dealt unevenly.
+    fn planes(&self) -> Vec<exr::IntegerPlane> {
+        let mut planes = self.sums.planes(&self.metadata.channels);
+        planes.extend(self.counts.iter().map(|counts| exr::IntegerPlane {
+            name: COUNTS.to_owned(),
+            samples: counts.of_pixels().to_vec(),
+        }));
+        planes
     }
 
     /// The picture, and its metadata with the checksum.
@@ -276,12 +333,25 @@ impl Part {
         };
         let checksum = std::mem::take(&mut facts.checksum);
         let count = metadata.replicates;
+        let counts = match &metadata.adaptive {
+            None => None,
+            Some(dealt) => {
+                let plane = planes.iter().find(|plane| plane.name == COUNTS);
+                let here = plane.filter(|plane| plane.samples.len() == pixels);
+                let counts = here.and_then(|p| SampleCounts::new(p.samples.clone(), dealt.pilot));
+                let Some(counts) = counts else {
+                    return Err(refused(format!("it has no numbers of samples `{COUNTS}`")));
+                };
+                Some(counts)
+            }
+        };
         let sums =
             ExactSums::from_planes(planes, &metadata.channels, pixels, count).map_err(refused)?;
         let part = Self {
             metadata,
             facts,
             sums,
+            counts,
         };
         if part.checksum() != checksum {
             return Err(refused(

@@ -15,6 +15,25 @@ const SIDE: u32 = 16;
 /// How many of these make a side of the next.
 const FACTOR: u32 = 4;
 
+/// What the sums of a replicate are divided by.
+#[derive(Clone, Copy)]
+pub(crate) enum Divisor<'f> {
+    /// The same number in all pixels.
+    Even(u64),
+    /// The samples of each pixel, by row and column.
+    OfPixels(&'f [u32]),
+}
+
+impl Divisor<'_> {
+    /// What the sums over tiles are divided by: those of unevenly sampled pixels are of means already.
+    pub(crate) fn of_tiles(self) -> u64 {
+        match self {
+            Self::Even(divisor) => divisor,
+            Self::OfPixels(_) => 1,
+        }
+    }
+}
+
 /// Where the numbers of a film belong.
 pub(crate) struct Layout<'f> {
     pub(crate) channels: &'f [String],
@@ -30,7 +49,7 @@ impl Layout<'_> {
         &self,
         current: &mut [AtomicFixed128],
         moments: &mut [PixelMoments],
-        divisor: u64,
+        divisor: Divisor<'_>,
     ) -> ([TileSums; 3], FaultLog) {
         let channels = self.channels.len();
         let band = SIDE as usize * self.size.x as usize * channels;
@@ -61,7 +80,7 @@ impl Layout<'_> {
         row: u32,
         current: &mut [AtomicFixed128],
         moments: &mut [PixelMoments],
-        divisor: u64,
+        divisor: Divisor<'_>,
     ) -> (Vec<Option<Fixed128>>, FaultLog) {
         let channels = self.channels.len();
         let columns = self.size.x.div_ceil(SIDE) as usize;
@@ -76,8 +95,16 @@ impl Layout<'_> {
             let tile = &mut sums[tile..tile + channels];
             for (channel, sum) in current.iter_mut().enumerate() {
                 let sum = sum.take();
-                tile[channel] = add(tile[channel], Some(sum));
-                if let Err(fault) = moments[channel].push(sum.mean_fixed(divisor)) {
+                let (mean, into_tile) = match divisor {
+                    Divisor::Even(divisor) => (sum.mean_fixed(divisor), sum),
+                    Divisor::OfPixels(counts) => {
+                        let first = (row * SIDE * self.size.x) as usize;
+                        let mean = sum.mean_fixed(counts[first + i as usize].into());
+                        (mean, mean)
+                    }
+                };
+                tile[channel] = add(tile[channel], Some(into_tile));
+                if let Err(fault) = moments[channel].push(mean) {
                     let pixel = self.origin + UVec2::new(x, row * SIDE + y);
                     log.note(Offence {
                         replicate: self.replicate,

@@ -80,6 +80,14 @@ macro_rules! integrators {
                 }
             }
 
+            /// Samples per pixel after which it must prepare again; `None` if a replicate is one
+            /// pass.
+            pub fn samples_per_pass(&self) -> Option<u32> {
+                match self {
+                    $(Self::$variant(integrator) => integrator.samples_per_pass(),)*
+                }
+            }
+
             /// What it objects to in a scene.
             pub fn objections(&self, sight: &Sight) -> Vec<Objection> {
                 match self {

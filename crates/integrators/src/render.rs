@@ -105,7 +105,7 @@ pub fn render<W: World, I: Integrator, F: Film, P: Progress>(
     let origin = film.origin();
     let size = film.size();
     let tiles = UVec2::new(size.x.div_ceil(TILE), size.y.div_ceil(TILE));
-    let rays = AtomicU64::new(0);
+    let (rays, samples) = (AtomicU64::new(0), AtomicU64::new(0));
     let mut outcome = Outcome {
         replicates: 0,
         samples: 0,
@@ -145,16 +145,16 @@ pub fn render<W: World, I: Integrator, F: Film, P: Progress>(
                 pass: &pass,
                 begin,
             };
-            match plan.sampler {
+            let drawn = match plan.sampler {
                 SamplerKind::Independent => run.render(from, to, Independent::start),
                 SamplerKind::Sobol => run.render(from, to, Sobol::start),
                 SamplerKind::Stratified { jitter } => {
-                    run.render(from, to, |sample| Stratified::with_jitter(sample, jitter));
+                    run.render(from, to, |sample| Stratified::with_jitter(sample, jitter))
                 }
-            }
+            };
             rays.fetch_add(world.take_ray_count(), Ordering::Relaxed);
-            let pixels = u64::from(to.x - from.x) * u64::from(to.y - from.y);
-            progress.tile_done(pixels * u64::from(pass.samples));
+            progress.tile_done(drawn);
+            samples.fetch_add(drawn, Ordering::Relaxed);
         };
         (0..tiles.x * tiles.y)
             .into_par_iter()
@@ -166,13 +166,12 @@ pub fn render<W: World, I: Integrator, F: Film, P: Progress>(
         }
         film.end_replicate(plan.samples_per_replicate);
         outcome.replicates += 1;
-        outcome.samples +=
-            u64::from(size.x) * u64::from(size.y) * u64::from(plan.samples_per_replicate);
         if progress.cancelled() {
             break;
         }
     }
     outcome.rays = rays.into_inner();
+    outcome.samples = samples.into_inner();
     outcome
 }
 
@@ -189,7 +188,8 @@ struct TileRun<'a, W: World, I: Integrator, F: Film> {
 }
 
 impl<W: World, I: Integrator, F: Film> TileRun<'_, W, I, F> {
-    fn render<S: Sampler>(&self, from: UVec2, to: UVec2, start: impl Fn(&PixelSample) -> S) {
+    /// Renders the pixels in [`from`, `to`); gives the number of samples drawn.
+    fn render<S: Sampler>(&self, from: UVec2, to: UVec2, start: impl Fn(&PixelSample) -> S) -> u64 {
         let size = self.film.size();
         let samples = self.plan.samples_per_replicate;
         let spp = samples as f32 * self.plan.replicates as f32;
@@ -198,16 +198,25 @@ impl<W: World, I: Integrator, F: Film> TileRun<'_, W, I, F> {
         let alone = !self.integrator.splats();
         let mut sink = self.film.tile(from, to, alone);
         let mut drafts = Vec::with_capacity(TOGETHER);
+        let mut drawn = 0;
         for y in from.y..to.y {
             for x in from.x..to.x {
                 let pixel = UVec2::new(x, y);
-                for sample in 0..self.pass.samples {
+                let dealt = self.film.dealt(pixel, samples);
+                // Only where a replicate is one pass may pixels differ.
+                let here = if self.pass.count == 1 {
+                    dealt
+                } else {
+                    self.pass.samples
+                };
+                drawn += u64::from(here);
+                for sample in 0..here {
                     let mut sampler = start(&PixelSample {
                         seed: self.plan.seed,
                         replicate: self.pass.replicate,
                         pixel: (x, y),
                         sample: self.begin + sample,
-                        samples_per_replicate: samples,
+                        samples_per_replicate: dealt,
                     });
                     let placement = self.film.place(pixel, sampler.next_2d());
                     let site = PixelSite {
@@ -234,5 +243,6 @@ impl<W: World, I: Integrator, F: Film> TileRun<'_, W, I, F> {
         }
         self.integrator
             .sample_all(self.world, self.state, &mut drafts, &mut sink);
+        drawn
     }
 }

@@ -57,6 +57,13 @@ fn image(developed: &Developed) -> String {
             part.of.saturating_sub(1)
         );
     }
+    if let Some(dealt) = &m.adaptive {
+        text += &format!(
+            "dealt        {} to {} to a pixel of a replicate, {:.2} on average, by a pilot of {} samples \
+             per pixel\n",
+            dealt.least, dealt.most, dealt.mean, dealt.pilot
+        );
+    }
     text += &format!("film         {}, {}\n", m.film.pixel_format, m.film.filter);
     if let Some(seconds) = m.seconds {
         text += &format!("time         {seconds:.2} s\n");

@@ -1,7 +1,10 @@
 //! The commands of the binary.
 
+mod again;
+mod amount;
 pub mod compare;
 pub mod convert;
+mod delivery;
 pub mod estimators;
 pub mod info;
 pub mod merge;

@@ -6,27 +6,37 @@
 //! roulette, which only the estimator knows of.
 
 use super::{answer, fail};
-use crate::args::{RenderArgs, ReplayAddress};
+use crate::args::ReplayAddress;
 use crate::pipeline::{self, Loaded};
-use etalon_film::{ExactFilm, Offence};
+use etalon_film::{ExactFilm, SampleCounts};
 use etalon_integrators::Plan;
 use etalon_integrators::prefix::Prefix;
 use etalon_integrators::replay::{Address, Event};
 use etalon_scene::Names;
-use etalon_transport::{Chance, Channel, Vertex};
+use etalon_transport::{Chance, Channel, Film, Vertex};
 use glam::{UVec2, Vec3, Vec4};
 use std::fmt::Write;
 use std::process::ExitCode;
 
 /// Draws the sample again and says what happened.
-pub fn run(loaded: &Loaded, plan: &Plan, address: &ReplayAddress) -> ExitCode {
-    match told(loaded, plan, address) {
+pub fn run(
+    loaded: &Loaded,
+    plan: &Plan,
+    counts: Option<SampleCounts>,
+    address: &ReplayAddress,
+) -> ExitCode {
+    match told(loaded, plan, counts, address) {
         Ok(text) => answer(&text, ExitCode::SUCCESS),
         Err(message) => fail(message),
     }
 }
 
-fn told(loaded: &Loaded, plan: &Plan, asked: &ReplayAddress) -> Result<String, String> {
+fn told(
+    loaded: &Loaded,
+    plan: &Plan,
+    counts: Option<SampleCounts>,
+    asked: &ReplayAddress,
+) -> Result<String, String> {
     let settings = &loaded.compiled.film;
     let pixel = UVec2::from(asked.pixel);
     let from = settings.crop_offset;
@@ -50,9 +60,11 @@ fn told(loaded: &Loaded, plan: &Plan, asked: &ReplayAddress) -> Result<String, S
         )),
     };
     bounded("replicate", asked.replicate, plan.replicates)?;
-    bounded("sample", asked.sample, plan.samples_per_replicate)?;
     let channels = loaded.integrator.channels();
     let film = ExactFilm::new(settings.clone(), &channels).map_err(|error| error.message)?;
+    let film = film.dealing(counts);
+    let samples = film.dealt(pixel, plan.samples_per_replicate);
+    bounded("sample", asked.sample, samples)?;
     let address = Address {
         pixel,
         replicate: asked.replicate,
@@ -69,7 +81,7 @@ fn told(loaded: &Loaded, plan: &Plan, asked: &ReplayAddress) -> Result<String, S
         asked.replicate,
         plan.replicates,
         asked.sample,
-        plan.samples_per_replicate,
+        samples,
         plan.seed,
         loaded.integrator_name,
         pipeline::sampler_name(plan.sampler),
@@ -328,80 +340,5 @@ fn tell(text: &mut String, event: &Event, names: &Names, channels: &[Channel]) {
             let name = channels.get(*index).map_or("?", |channel| &channel.0);
             line(text, format!("channel {name}: {value}"));
         }
-    }
-}
-
-/// The command that replays a sample in which something was not finite; `None` if no single sample
-/// is to blame.
-pub(super) fn command(args: &RenderArgs, plan: &Plan, offence: &Offence) -> Option<String> {
-    let [x, y] = offence.pixel;
-    let quoted = |text: String| {
-        let plain = |c: char| c.is_ascii_alphanumeric() || "-_./=,:+".contains(c);
-        match text.chars().all(plain) && !text.is_empty() {
-            true => text,
-            false => format!("'{}'", text.replace('\'', "'\\''")),
-        }
-    };
-    let mut words = vec![
-        "etalon render".to_owned(),
-        quoted(args.scene.display().to_string()),
-    ];
-    if let Some(integrator) = &args.integrator {
-        words.push(format!("--integrator {}", quoted(integrator.clone())));
-    }
-    for (key, value) in &args.define {
-        words.push(format!("-D {}", quoted(format!("{key}={value}"))));
-    }
-    for folder in &args.data {
-        words.push(format!("--data {}", quoted(folder.display().to_string())));
-    }
-    let spp = u64::from(plan.replicates) * u64::from(plan.samples_per_replicate);
-    words.push(format!(
-        "--spp {spp} --replicates {} --seed {}",
-        plan.replicates, plan.seed
-    ));
-    words.push(format!(
-        "--replay {x},{y},{},{}",
-        offence.replicate, offence.sample?
-    ));
-    Some(words.join(" "))
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::args::{Cli, Command};
-    use clap::Parser;
-    use etalon_film::FaultKind;
-    use etalon_sampling::SamplerKind;
-
-    /// Whoever copies the command draws the very sample, whatever defaults the scene has.
-    #[test]
-    fn the_command_says_all_that_decides_the_sample() {
-        let said = "etalon render scene.xml -o a.exr --integrator path -D colour=1,2 -D name=a'b";
-        let parsed = Cli::try_parse_from(said.split(' ')).expect("a valid command line");
-        let Command::Render(args) = parsed.command else {
-            panic!("it renders");
-        };
-        let plan = Plan {
-            seed: 7,
-            replicates: 4,
-            share: None,
-            samples_per_replicate: 8,
-            sampler: SamplerKind::Sobol,
-        };
-        let mut offence = Offence {
-            replicate: 2,
-            pixel: [12, 5],
-            sample: Some(3),
-            source: "radiance".to_owned(),
-            kind: FaultKind::Nan,
-        };
-        let expected = "etalon render scene.xml --integrator path -D colour=1,2 -D 'name=a'\\''b' \
-                        --spp 32 --replicates 4 --seed 7 --replay 12,5,2,3";
-        assert_eq!(command(&args, &plan, &offence).as_deref(), Some(expected));
-        // The sum of many samples is no single one's fault.
-        offence.sample = None;
-        assert_eq!(command(&args, &plan, &offence), None);
     }
 }

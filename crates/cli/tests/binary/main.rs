@@ -2,6 +2,7 @@
 //!
 //! One concern per file; [`workshop`] is the folder they work in.
 
+mod adaptive;
 mod bad_files;
 mod bad_scenes;
 mod command_line;
@@ -18,6 +19,7 @@ mod mutations;
 mod objections;
 mod render;
 mod replay;
+mod resume;
 mod statistics;
 mod strategies;
 mod target;

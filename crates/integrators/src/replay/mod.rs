@@ -131,12 +131,14 @@ pub fn replay<W: World, I: Integrator, F: Film>(
     let samples = plan.samples_per_replicate;
     let lengths = integrator.samples_per_pass();
     let length = lengths.map_or(samples, |length| length.max(1));
-    let number = address.sample / length;
+    // Where the film deals unevenly there is one pass, however many samples a pixel has.
+    let passes = samples.div_ceil(length).max(1);
+    let number = (address.sample / length).min(passes - 1);
     let pass = Pass {
         seed: plan.seed,
         replicate: address.replicate,
         number,
-        count: samples.div_ceil(length).max(1),
+        count: passes,
         samples: length.min(samples - number * length),
         image_samples: samples.saturating_mul(plan.replicates),
         origin: film.origin(),
@@ -150,7 +152,7 @@ pub fn replay<W: World, I: Integrator, F: Film>(
         replicate: address.replicate,
         pixel: address.pixel.into(),
         sample: address.sample,
-        samples_per_replicate: samples,
+        samples_per_replicate: film.dealt(address.pixel, samples),
     };
     let mut sampler = AnySampler::start(plan.sampler, &sample);
     let placement = film.place(address.pixel, sampler.next_2d());

@@ -1,0 +1,74 @@
+//! The command that draws a sample again.
+
+use crate::args::RenderArgs;
+use etalon_integrators::Plan;
+
+/// The command that replays sample `sample` of a pixel in a replicate of this render; `pilot` is the size of the pilot
+/// that dealt the samples, if they were not dealt evenly.
+pub(super) fn command(
+    args: &RenderArgs,
+    plan: &Plan,
+    pilot: Option<u32>,
+    [x, y]: [u32; 2],
+    replicate: u32,
+    sample: u32,
+) -> String {
+    let quoted = |text: String| {
+        let plain = |c: char| c.is_ascii_alphanumeric() || "-_./=,:+".contains(c);
+        match text.chars().all(plain) && !text.is_empty() {
+            true => text,
+            false => format!("'{}'", text.replace('\'', "'\\''")),
+        }
+    };
+    let mut words = vec![
+        "etalon render".to_owned(),
+        quoted(args.scene.display().to_string()),
+    ];
+    if let Some(integrator) = &args.integrator {
+        words.push(format!("--integrator {}", quoted(integrator.clone())));
+    }
+    for (key, value) in &args.define {
+        words.push(format!("-D {}", quoted(format!("{key}={value}"))));
+    }
+    for folder in &args.data {
+        words.push(format!("--data {}", quoted(folder.display().to_string())));
+    }
+    let spp = u64::from(plan.replicates) * u64::from(plan.samples_per_replicate);
+    words.push(format!(
+        "--spp {spp} --replicates {} --seed {}",
+        plan.replicates, plan.seed
+    ));
+    words.extend(pilot.map(|pilot| format!("--adaptive --pilot {pilot}")));
+    words.push(format!("--replay {x},{y},{replicate},{sample}"));
+    words.join(" ")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::args::{Cli, Command};
+    use clap::Parser;
+    use etalon_sampling::SamplerKind;
+
+    /// Whoever copies the command draws the very sample, whatever defaults the scene has.
+    #[test]
+    fn the_command_says_all_that_decides_the_sample() {
+        let said = "etalon render scene.xml -o a.exr --integrator path -D colour=1,2 -D name=a'b";
+        let parsed = Cli::try_parse_from(said.split(' ')).expect("a valid command line");
+        let Command::Render(args) = parsed.command else {
+            panic!("it renders");
+        };
+        let plan = Plan {
+            seed: 7,
+            replicates: 4,
+            share: None,
+            samples_per_replicate: 8,
+            sampler: SamplerKind::Sobol,
+        };
+        let expected = "etalon render scene.xml --integrator path -D colour=1,2 -D 'name=a'\\''b' \
+                        --spp 32 --replicates 4 --seed 7 --replay 12,5,2,3";
+        assert_eq!(command(&args, &plan, None, [12, 5], 2, 3), expected);
+        let dealt = expected.replace("--replay", "--adaptive --pilot 64 --replay");
+        assert_eq!(command(&args, &plan, Some(64), [12, 5], 2, 3), dealt);
+    }
+}

@@ -1,0 +1,302 @@
+//! How much to render, and how to deal it to the pixels: what the command line says, what a pilot finds, or what
+//! a checkpoint holds.
+
+use super::note;
+use crate::adaptive::{self, Distribution};
+use crate::args::RenderArgs;
+use crate::pipeline::{self, Loaded, RenderOptions};
+use crate::progress::Bar;
+use crate::target::{self, Failure, Pilot, Target};
+use etalon_film::{
+    CheckpointFacts, Disagreement, ExactFilm, Metadata, Part, SampleCounts, disagreements,
+};
+use etalon_integrators::Plan;
+use etalon_params::Diagnostic;
+use std::path::{Path, PathBuf};
+use std::sync::atomic::AtomicBool;
+use std::time::Instant;
+
+/// What will be rendered.
+pub(super) struct Amount {
+    /// Replicates, samples, seed.
+    pub(super) plan: Plan,
+    /// The samples of each pixel in a replicate, if they are not dealt evenly.
+    pub(super) counts: Option<SampleCounts>,
+    /// Samples per pixel and time (s) of pilots, if there were any.
+    pub(super) pilot: Option<(u32, f64)>,
+    /// What was rendered before.
+    pub(super) earlier: Option<Part>,
+}
+
+impl Amount {
+    /// A plan and nothing else.
+    pub(super) fn plain(plan: Plan) -> Self {
+        Self {
+            plan,
+            counts: None,
+            pilot: None,
+            earlier: None,
+        }
+    }
+}
+
+/// What the command line says of the amount of work.
+pub(super) fn plan(args: &RenderArgs, loaded: &Loaded) -> Plan {
+    let options = RenderOptions {
+        spp: args.spp,
+        seed: args.seed,
+        replicates: args.replicates,
+        sampler: None,
+    };
+    pipeline::plan(loaded, &options)
+}
+
+/// Decides; with a pilot, if the command line asks for one.
+pub(super) fn decide(
+    args: &RenderArgs,
+    loaded: &Loaded,
+    cancelled: &AtomicBool,
+) -> Result<Amount, Failure> {
+    let plan = plan(args, loaded);
+    if args.adaptive {
+        adaptive::check(loaded)?;
+    }
+    if args.resume {
+        let path = checkpoint(args);
+        if path.exists() {
+            return Ok(go_on(args, loaded, &plan, &path)?);
+        }
+    }
+    let error = args.error.map(Target::Error);
+    let target = error.or(args.time.map(Target::Seconds));
+    let start = Instant::now();
+    let size = loaded.compiled.film.crop_size;
+    let samples = args.pilot.unwrap_or(target::PILOT);
+    let of_pilots = u64::from(samples) * (u64::from(args.adaptive) + u64::from(target.is_some()));
+    let bar = Bar::new(
+        of_pilots * u64::from(size.x) * u64::from(size.y),
+        args.quiet || of_pilots == 0,
+        cancelled,
+    );
+    let pilots = || {
+        let distribution = match (args.adaptive, target, args.pilot) {
+            (false, _, _) => None,
+            (true, Some(Target::Seconds(seconds)), None) => {
+                let samples = target::affordable(loaded, &plan, seconds, &bar)?;
+                Some(adaptive::pilot(loaded, &plan, samples, &bar)?)
+            }
+            (true, _, _) => Some(adaptive::pilot(loaded, &plan, samples, &bar)?),
+        };
+        let dealt = start.elapsed().as_secs_f64();
+        let pilot = Pilot {
+            samples,
+            distribution: distribution.as_ref(),
+            start,
+        };
+        let fixed = target
+            .map(|target| target::fix(loaded, &plan, target, pilot, args.replicates, &bar))
+            .transpose()?;
+        Ok::<_, Failure>((distribution, dealt, fixed))
+    };
+    let found = pilots();
+    bar.finish();
+    let (distribution, dealt, fixed) = found?;
+    let plan = fixed.map_or(plan, |fixed| fixed.plan);
+    let counts = distribution
+        .as_ref()
+        .map(|d| d.counts(plan.sampler, plan.samples_per_replicate));
+    if !args.quiet {
+        if let (Some(distribution), Some(counts)) = (&distribution, &counts) {
+            tell_dealt(distribution, counts, dealt);
+        }
+        if let Some(fixed) = &fixed {
+            let Plan {
+                replicates,
+                samples_per_replicate,
+                ..
+            } = plan;
+            note(format!(
+                "after a pilot of {} samples per pixel ({:.2} s): {replicates} replicates of \
+                 {samples_per_replicate}, {} samples per pixel",
+                fixed.pilot,
+                fixed.seconds,
+                u64::from(replicates) * u64::from(samples_per_replicate),
+            ));
+        } else {
+            tell_rounding(args, loaded, &plan);
+        }
+    }
+    let taken = [
+        distribution.as_ref().map(Distribution::pilot),
+        fixed.map(|fixed| fixed.pilot),
+    ];
+    let pilot = taken.into_iter().flatten().reduce(|a, b| a + b);
+    let seconds = fixed.map_or(dealt, |fixed| fixed.seconds);
+    Ok(Amount {
+        plan,
+        counts,
+        pilot: pilot.map(|pilot| (pilot, seconds)),
+        earlier: None,
+    })
+}
+
+/// The samples of each pixel, if a replayed sample is one of those that were dealt unevenly.
+pub(super) fn counts(
+    args: &RenderArgs,
+    loaded: &Loaded,
+    plan: &Plan,
+) -> Result<Option<SampleCounts>, Failure> {
+    if !args.adaptive {
+        return Ok(None);
+    }
+    adaptive::check(loaded)?;
+    let samples = args.pilot.unwrap_or(target::PILOT);
+    let distribution = adaptive::pilot(loaded, plan, samples, &())?;
+    Ok(Some(
+        distribution.counts(plan.sampler, plan.samples_per_replicate),
+    ))
+}
+
+/// Says how a pilot deals samples.
+fn tell_dealt(distribution: &Distribution, counts: &SampleCounts, seconds: f64) {
+    let facts = counts.facts();
+    note(format!(
+        "a pilot of {} samples per pixel ({seconds:.2} s) deals {} to {} samples to a pixel of a \
+         replicate, {:.2} on average",
+        distribution.pilot(),
+        facts.least,
+        facts.most,
+        facts.mean
+    ));
+}
+
+/// Says if there are more samples than were asked for.
+fn tell_rounding(args: &RenderArgs, loaded: &Loaded, plan: &Plan) {
+    let spp = u64::from(plan.replicates) * u64::from(plan.samples_per_replicate);
+    let asked = u64::from(args.spp.unwrap_or(loaded.compiled.sampler.spp));
+    if spp != asked {
+        note(format!(
+            "{spp} samples per pixel instead of {asked}: {} replicates of {}",
+            plan.replicates, plan.samples_per_replicate
+        ));
+    }
+}
+
+/// Where the checkpoint of an image is kept.
+pub(super) fn checkpoint(args: &RenderArgs) -> PathBuf {
+    let mut name = args.output().as_os_str().to_owned();
+    name.push(".checkpoint");
+    name.into()
+}
+
+/// What a checkpoint of this render says beside what a part says.
+pub(super) fn checkpoint_facts(args: &RenderArgs, pilot: Option<(u32, f64)>) -> CheckpointFacts {
+    let aimed = args.error.is_some() || args.time.is_some();
+    let words = [
+        args.error.map(|error| format!("--error {error}")),
+        args.time.map(|seconds| format!("--time {seconds}")),
+        args.adaptive.then(|| "--adaptive".to_owned()),
+        args.pilot.map(|pilot| format!("--pilot {pilot}")),
+        // Otherwise the numbers themselves are compared.
+        (args.replicates.filter(|_| aimed)).map(|count| format!("--replicates {count}")),
+        args.part
+            .map(|part| format!("--part {}/{}", part.number, part.count)),
+    ];
+    CheckpointFacts {
+        asked: words.into_iter().flatten().collect::<Vec<_>>().join(" "),
+        pilot: pilot.map(|(samples, _)| samples),
+        // Files that depend on the input alone record no times.
+        pilot_seconds: pilot
+            .map(|(_, seconds)| seconds)
+            .filter(|_| std::env::var_os("SOURCE_DATE_EPOCH").is_none()),
+    }
+}
+
+/// Reads a checkpoint of this very render.
+fn go_on(
+    args: &RenderArgs,
+    loaded: &Loaded,
+    plan: &Plan,
+    path: &Path,
+) -> Result<Amount, Diagnostic> {
+    let refused = |reason: String| {
+        Diagnostic::error_nowhere(reason).help(format!(
+            "to begin anew, remove {} or render without `--resume`",
+            path.display()
+        ))
+    };
+    let metadata = Part::read_metadata(path).map_err(|error| refused(error.to_string()))?;
+    let Some(facts) = metadata.checkpoint.clone() else {
+        return Err(refused(format!("{} is no checkpoint", path.display())));
+    };
+    let differences = differences(args, loaded, plan, &metadata, &facts)?;
+    if !differences.is_empty() {
+        let each: Vec<String> = differences
+            .iter()
+            .map(|d| format!("the {} is {} there, {} here", d.what, d.first, d.second))
+            .collect();
+        let message = format!(
+            "{} is a checkpoint of another render: {}",
+            path.display(),
+            each.join("; ")
+        );
+        return Err(refused(message));
+    }
+    let earlier = Part::read(path).map_err(|error| refused(error.to_string()))?;
+    let of = metadata.part.as_ref().map_or(0, |part| part.of);
+    if !args.quiet {
+        note(format!(
+            "going on after {} of {of} replicates ({})",
+            metadata.replicates,
+            path.display()
+        ));
+    }
+    let each = metadata.spp / u64::from(metadata.replicates.max(1));
+    let seconds = facts.pilot_seconds.unwrap_or(0.0);
+    Ok(Amount {
+        plan: Plan {
+            replicates: of,
+            samples_per_replicate: u32::try_from(each).unwrap_or(u32::MAX),
+            ..*plan
+        },
+        counts: earlier.counts().cloned(),
+        pilot: facts.pilot.map(|pilot| (pilot, seconds)),
+        earlier: Some(earlier),
+    })
+}
+
+/// Everything in which a checkpoint is not what this render would write.
+fn differences(
+    args: &RenderArgs,
+    loaded: &Loaded,
+    plan: &Plan,
+    there: &Metadata,
+    facts: &CheckpointFacts,
+) -> Result<Vec<Disagreement>, Diagnostic> {
+    let film = ExactFilm::new(loaded.compiled.film.clone(), &loaded.integrator.channels())?;
+    let mut here = film.metadata(pipeline::facts(loaded, plan));
+    here.part.clone_from(&there.part);
+    here.adaptive.clone_from(&there.adaptive);
+    here.replicates = there.replicates;
+    here.spp = there.spp;
+    if args.error.is_none() && args.time.is_none() {
+        here.spp = u64::from(plan.samples_per_replicate) * u64::from(there.replicates);
+        if let Some(part) = &mut here.part {
+            part.of = plan.replicates;
+        }
+    }
+    let mut found = disagreements(there, &here);
+    let asked = checkpoint_facts(args, None).asked;
+    if asked != facts.asked {
+        let quoted = |words: &str| match words {
+            "" => "(nothing)".to_owned(),
+            words => format!("`{words}`"),
+        };
+        found.push(Disagreement {
+            what: "amount asked for",
+            first: quoted(&facts.asked),
+            second: quoted(&asked),
+        });
+    }
+    Ok(found)
+}

@@ -1,0 +1,152 @@
+//! What `render` leaves behind: the image, the statistics, and a few lines on how it went.
+
+use super::convert::losses_in_words;
+use super::{again, note};
+use crate::args::RenderArgs;
+use crate::pipeline::{Loaded, Rendered};
+use crate::target::Noise;
+use crate::{resources, say};
+use etalon_film::{Developed, Offence};
+use etalon_images::{Losses, hdr, pfm, write_atomically};
+use etalon_integrators::Plan;
+use std::io::Write;
+use std::path::Path;
+
+/// Writes the image and the statistics, and says how it went.
+pub(super) fn deliver(
+    args: &RenderArgs,
+    loaded: &Loaded,
+    rendered: &Rendered,
+    plan: &Plan,
+    pilot: Option<(u32, f64)>,
+) -> Result<(), String> {
+    let losses = match &rendered.part {
+        Some(part) => part
+            .write_exr(args.output())
+            .map(|()| Losses::default())
+            .map_err(|error| error.to_string()),
+        None => write_image(args.output(), &rendered.developed),
+    }?;
+    if !args.quiet {
+        losses_in_words(&losses).iter().for_each(note);
+    }
+    if let Some(path) = &args.stats {
+        let text = format!("{:#}\n", stats(args, loaded, rendered, pilot));
+        write_atomically(path, |file| file.write_all(text.as_bytes()))
+            .map_err(|error| format!("cannot write {}: {error}", path.display()))?;
+    }
+    let metadata = rendered.developed.metadata.as_ref();
+    let dealt = metadata.and_then(|m| m.adaptive.as_ref()).map(|d| d.pilot);
+    let faults = metadata.map_or(0, |m| m.faults.total());
+    if faults > 0 {
+        say::remark(&format!(
+            "warning: {faults} contributions were not finite; see `etalon info`\n"
+        ));
+        let first = metadata.iter().flat_map(|m| &m.faults.first);
+        let command = |o: &Offence| {
+            let sample = o.sample?;
+            Some(again::command(
+                args,
+                plan,
+                dealt,
+                o.pixel,
+                o.replicate,
+                sample,
+            ))
+        };
+        if let Some(command) = first.filter_map(command).next() {
+            say::remark(&format!("look at the first of them with\n  {command}\n"));
+        }
+    }
+    if let Some(aim) = args.error {
+        match relative_error(rendered) {
+            Some(error) if error <= aim && !args.quiet => say::remark(&format!(
+                "relative standard error {:.3} %, of {} % aimed at\n",
+                100.0 * error,
+                100.0 * aim
+            )),
+            Some(error) if error <= aim => {}
+            Some(error) => say::remark(&format!(
+                "warning: the target is missed: relative standard error {:.3} % instead of {} %\n",
+                100.0 * error,
+                100.0 * aim
+            )),
+            None => say::remark("warning: whether the target is reached is unknown\n"),
+        }
+    }
+    if !args.quiet {
+        let seconds = rendered.time.as_secs_f64();
+        let per_second = |n: u64| n as f64 * 1e-6 / seconds;
+        let error = match rendered.developed.mean_relative_standard_error() {
+            Some(error) => format!("mean relative standard error {:.2} %", 100.0 * error),
+            None => "no standard error (one replicate)".to_owned(),
+        };
+        let stopped = match rendered.outcome.replicates {
+            done if done < rendered.replicates => {
+                format!(
+                    "stopped after {done} of {} replicates, ",
+                    rendered.replicates
+                )
+            }
+            _ => String::new(),
+        };
+        say::remark(&format!(
+            "{}: {stopped}{seconds:.2} s, {:.2} M samples/s, {:.2} M rays/s, {error}\n",
+            args.output().display(),
+            per_second(rendered.outcome.samples),
+            per_second(rendered.outcome.rays),
+        ));
+    }
+    Ok(())
+}
+
+/// The relative standard error that `--error` is about.
+fn relative_error(rendered: &Rendered) -> Option<f64> {
+    Noise::of(&rendered.developed)?.relative()
+}
+
+/// Writes an EXR with everything, or the colours alone in a simpler format.
+fn write_image(path: &Path, developed: &Developed) -> Result<Losses, String> {
+    let extension = path.extension().map(|e| e.to_string_lossy().to_lowercase());
+    match extension.as_deref() {
+        Some("pfm") => pfm::write(path, &developed.image).map(|()| Losses::default()),
+        Some("hdr" | "rgbe") => hdr::write(path, &developed.image),
+        _ => developed.write_exr(path).map(|()| Losses::default()),
+    }
+    .map_err(|error| error.to_string())
+}
+
+fn stats(
+    args: &RenderArgs,
+    loaded: &Loaded,
+    rendered: &Rendered,
+    pilot: Option<(u32, f64)>,
+) -> serde_json::Value {
+    let seconds = rendered.time.as_secs_f64();
+    let metadata = rendered.developed.metadata.as_ref();
+    serde_json::json!({
+        "scene": args.scene.display().to_string(),
+        "scene_hash": loaded.hash,
+        "integrator": loaded.integrator_name,
+        "load_seconds": loaded.load_time.as_secs_f64(),
+        "build_seconds": loaded.build_time.as_secs_f64(),
+        "render_seconds": seconds,
+        "samples": rendered.outcome.samples,
+        "rays": rendered.outcome.rays,
+        "samples_per_second": rendered.outcome.samples as f64 / seconds,
+        "rays_per_second": rendered.outcome.rays as f64 / seconds,
+        "spp": metadata.map(|m| m.spp),
+        "replicates": rendered.outcome.replicates,
+        "part": metadata.and_then(|m| m.part.as_ref()),
+        "mean_relative_standard_error": rendered.developed.mean_relative_standard_error(),
+        "relative_standard_error": relative_error(rendered),
+        "pilot_spp": pilot.map(|(samples, _)| samples),
+        "pilot_seconds": pilot.map(|(_, seconds)| seconds),
+        "adaptive": metadata.and_then(|m| m.adaptive.as_ref()),
+        "resumed_replicates": rendered.finished,
+        "non_finite": metadata.map(|m| m.faults.total()),
+        "peak_memory_bytes": resources::peak_memory_bytes(),
+        "threads": rayon::current_num_threads(),
+        "seed": metadata.map(|m| m.seed),
+    })
+}

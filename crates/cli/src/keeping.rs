@@ -1,0 +1,177 @@
+//! Checkpoints: the film of a long render, kept beside the image while it is rendered.
+//!
+//! A checkpoint is written when a replicate is finished: after the first one, and then whenever the time since
+//! the last is [`PATIENCE`] times what writing took, so that writing never costs more than
+//! 5 % or so. It appears under its name only when it is complete, in place of the one before.
+
+use crate::say;
+use etalon_film::{CheckpointFacts, ExactFilm, ExactTile, Part, RenderFacts, recorded_seconds};
+use etalon_integrators::Share;
+use etalon_transport::{Film, Placement};
+use glam::{UVec2, Vec2};
+use std::path::PathBuf;
+use std::time::{Duration, Instant};
+
+/// Time between checkpoints, in units of what writing one takes.
+const PATIENCE: u32 = 20;
+
+/// How to keep a render, and what was kept of it.
+#[derive(Clone, Debug)]
+pub struct Keeping {
+    /// Where.
+    pub path: PathBuf,
+    /// What the checkpoint says beside what a part says.
+    pub facts: CheckpointFacts,
+    /// A checkpoint to go on from.
+    pub earlier: Option<Part>,
+}
+
+impl Keeping {
+    /// Replicates that are finished, and the time that they took as far as it is known.
+    pub(crate) fn finished(&self) -> (u32, Duration) {
+        let metadata = self.earlier.as_ref().map(Part::metadata);
+        metadata.map_or((0, Duration::ZERO), |metadata| {
+            let seconds = metadata.seconds.unwrap_or(0.0);
+            let time = Duration::try_from_secs_f64(seconds).unwrap_or_default();
+            (metadata.replicates, time)
+        })
+    }
+}
+
+/// Writes checkpoints.
+#[derive(Debug)]
+struct Keeper {
+    path: PathBuf,
+    facts: RenderFacts,
+    checkpoint: CheckpointFacts,
+    of: u32,
+    /// Replicates when nothing remains to be done.
+    last: u32,
+    /// When rendering began, and the time of earlier runs.
+    begin: Instant,
+    before: Duration,
+    /// When the last checkpoint was finished, and what writing it took.
+    written: Option<(Instant, Duration)>,
+    failed: bool,
+}
+
+/// A film that is kept, if somebody asked for it.
+#[derive(Debug)]
+pub(crate) struct KeptFilm {
+    film: ExactFilm,
+    keeper: Option<Keeper>,
+}
+
+impl KeptFilm {
+    /// This film, kept as `keeping` says while the replicates of `share`, of `of` in all, are rendered.
+    ///
+    /// # Errors
+    /// If the checkpoint to go on from is of another film.
+    pub(crate) fn new(
+        film: ExactFilm,
+        keeping: Option<Keeping>,
+        facts: &RenderFacts,
+        share: Share,
+        of: u32,
+    ) -> Result<Self, String> {
+        let Some(keeping) = keeping else {
+            return Ok(Self { film, keeper: None });
+        };
+        let (_, before) = keeping.finished();
+        let film = match keeping.earlier {
+            Some(part) => film.go_on(part)?,
+            None => film,
+        };
+        let keeper = Keeper {
+            path: keeping.path,
+            facts: facts.clone(),
+            checkpoint: keeping.facts,
+            of,
+            last: share.count,
+            begin: Instant::now(),
+            before,
+            written: None,
+            failed: false,
+        };
+        Ok(Self {
+            film,
+            keeper: Some(keeper),
+        })
+    }
+
+    /// The film, after what is finished has been kept if the render was interrupted.
+    pub(crate) fn finish(mut self) -> ExactFilm {
+        if let Some(keeper) = &mut self.keeper
+            && self.film.replicates() < keeper.last
+        {
+            keeper.write(&mut self.film);
+        }
+        self.film
+    }
+}
+
+impl Keeper {
+    /// Whether a checkpoint is worth its time now.
+    fn is_due(&self, replicates: u32) -> bool {
+        let rested = |(when, took): (Instant, Duration)| when.elapsed() >= PATIENCE * took;
+        replicates < self.last && self.written.is_none_or(rested)
+    }
+
+    fn write(&mut self, film: &mut ExactFilm) {
+        let begin = Instant::now();
+        let facts = RenderFacts {
+            seconds: recorded_seconds(self.before + self.begin.elapsed()),
+            ..self.facts.clone()
+        };
+        let written = film.lend_part(facts, self.of, self.checkpoint.clone(), |part| {
+            part.write_exr(&self.path)
+        });
+        if let Err(error) = written
+            && !self.failed
+        {
+            self.failed = true;
+            say::remark(&format!("warning: there is no checkpoint: {error}\n"));
+        }
+        self.written = Some((Instant::now(), begin.elapsed()));
+    }
+}
+
+impl Film for KeptFilm {
+    type Tile<'f> = ExactTile<'f>;
+
+    fn origin(&self) -> UVec2 {
+        self.film.origin()
+    }
+
+    fn size(&self) -> UVec2 {
+        self.film.size()
+    }
+
+    #[inline]
+    fn dealt(&self, pixel: UVec2, even: u32) -> u32 {
+        self.film.dealt(pixel, even)
+    }
+
+    #[inline]
+    fn place(&self, pixel: UVec2, u: Vec2) -> Placement {
+        self.film.place(pixel, u)
+    }
+
+    fn margin(&self) -> f32 {
+        self.film.margin()
+    }
+
+    fn tile(&self, from: UVec2, to: UVec2, alone: bool) -> ExactTile<'_> {
+        self.film.tile(from, to, alone)
+    }
+
+    fn end_replicate(&mut self, samples: u32) {
+        self.film.end_replicate(samples);
+        let replicates = self.film.replicates();
+        if let Some(keeper) = &mut self.keeper
+            && keeper.is_due(replicates)
+        {
+            keeper.write(&mut self.film);
+        }
+    }
+}
