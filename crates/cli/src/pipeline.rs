@@ -99,7 +99,9 @@ pub fn load(path: &Path, options: &LoadOptions) -> Result<Loaded, Refusal> {
         if let (Some(compiled), Some((integrator, _))) = (&compiled, &integrator) {
             let place = place(&document.root, &[Class::Integrator]);
             diagnostics.keep(check_channels(&compiled.film, integrator, place));
-            for objection in integrator.objections(&compiled.scene.sight()) {
+            let film = &compiled.film;
+            let sight = compiled.scene.sight(film.crop_offset, film.crop_size);
+            for objection in integrator.objections(&sight) {
                 complete = false;
                 let material = compiled.classic;
                 diagnostics.push(objections::diagnostic(objection, &document.root, material));

@@ -211,7 +211,9 @@ impl Integrator for ParticleTracer {
     }
 
     fn objections(&self, sight: &Sight) -> Vec<Objection> {
-        sight.objections(Finding::Choosing)
+        let mut objections = sight.objections(Finding::Choosing);
+        objections.extend(sight.unconnected());
+        objections
     }
 
     fn prepare<W: World>(&self, _: &W, _: &Pass, _: Option<()>) {}

@@ -11,6 +11,7 @@ mod rays;
 pub mod sampler;
 pub mod scene;
 pub mod surfaces;
+mod view;
 
 pub use compile::{CompileOptions, Compiled, compile, compile_with};
 pub use etalon_geometry::AcceleratorKind;

@@ -1,7 +1,7 @@
 //! The compiled scene: everything an integrator may ask, answered.
 
 use crate::lookup::Lookup;
-use crate::rays;
+use crate::{rays, view};
 use etalon_bsdf::{Material, Resolved};
 use etalon_cameras::AnyCamera;
 use etalon_lights::LightSet;
@@ -11,7 +11,7 @@ use etalon_transport::{
     Bsdf, Camera, ClassicPhong, Emission, EmissionDensity, Hit, LightId, LightSample, Passage, Ray,
     Receiver, Sight, Vertex, World,
 };
-use glam::{Vec2, Vec3, Vec4};
+use glam::{UVec2, Vec2, Vec3, Vec4};
 
 /// A scene: immutable, shared by all threads.
 pub struct Scene {
@@ -60,9 +60,13 @@ impl Scene {
         )
     }
 
-    /// What an estimator can see of it.
-    pub fn sight(&self) -> Sight {
+    /// What an estimator can see of it, through the film's window of `size` pixels from `origin`.
+    pub fn sight(&self, origin: UVec2, size: UVec2) -> Sight {
+        let view = view::look(self, origin, size);
+        // Nobody asked for these rays.
+        rays::take();
         Sight {
+            view,
             lights: self.lights.count(),
             aperture: self.camera.can_receive(),
             sky: self.has_background(),

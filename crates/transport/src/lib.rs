@@ -41,7 +41,7 @@ pub use mesh::{Attribute, MeshData};
 pub use phase::{Phase, PhaseSample};
 pub use ray::Ray;
 pub use shapes::{Receiver, SampledPoint, Shapes, SurfacePoint};
-pub use sight::{Finding, LightCount, Objection, Sight, Subject};
+pub use sight::{Finding, LightCount, Objection, Sight, Subject, View};
 pub use textures::{TexturePoint, Textures};
 pub use vertex::{Hit, Vertex};
 pub use world::{Passage, World};

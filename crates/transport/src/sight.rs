@@ -16,6 +16,21 @@ pub struct LightCount {
     pub either: u32,
 }
 
+/// What the camera sees first, by a number of rays; one may see several of these, through surfaces
+/// that light passes straight.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct View {
+    /// All of them.
+    pub rays: u32,
+    /// Those that see a surface that scatters in a continuum of directions.
+    pub scattering: u32,
+    /// Those that see one that also, or only, scatters in discrete directions: a mirror, smooth
+    /// glass, a varnish.
+    pub smooth: u32,
+    /// Those that see a light, the sky included.
+    pub lights: u32,
+}
+
 /// Plain facts of a scene that decide what an estimator can find in it.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Sight {
@@ -28,6 +43,8 @@ pub struct Sight {
     /// Whether a surface has a classic Phong material, which says nothing of how it scatters light
     /// ([`crate::World::classic`]).
     pub classic: bool,
+    /// What the camera sees first.
+    pub view: View,
 }
 
 /// How an estimator comes by light.
@@ -115,6 +132,36 @@ impl Sight {
         objections
     }
 
+    /// The objection, if any, of an estimator that finds light by connecting surfaces with the
+    /// camera, and lights in plain view: what reaches the camera off a smooth surface is missing.
+    pub fn unconnected(&self) -> Option<Objection> {
+        let View {
+            rays,
+            scattering,
+            smooth,
+            lights,
+        } = self.view;
+        if smooth == 0 {
+            return None;
+        }
+        let help = "use an estimator that follows light from the camera, too (`path`, `bdpt`)";
+        let why = "it connects surfaces with the camera, and one that is smooth sends light there \
+                   from its own directions only";
+        let objection = if scattering == 0 && lights == 0 {
+            let message =
+                format!("this integrator cannot see anything that the camera sees: {why}");
+            Objection::fatal(Subject::Integrator, message)
+        } else {
+            let share = (100.0 * f64::from(smooth) / f64::from(rays)).ceil();
+            let message = format!(
+                "this integrator cannot see what is mirrored, or behind glass, in {share} % of \
+                 the picture: {why}"
+            );
+            Objection::remark(Subject::Integrator, message)
+        };
+        Some(objection.help(help))
+    }
+
     /// What is missing of the light for an estimator that finds it in one way.
     fn missing(&self, finding: Finding) -> Vec<Objection> {
         let LightCount {
@@ -172,9 +219,7 @@ mod tests {
                 chosen,
                 either,
             },
-            aperture: false,
-            sky: false,
-            classic: false,
+            ..Sight::default()
         }
     }
 
@@ -194,6 +239,31 @@ mod tests {
         assert_eq!(fatal(points, Finding::Choosing), None);
         let unchosen_points = sight(2, 0, 0, 0);
         assert_eq!(fatal(unchosen_points, Finding::Either), Some(true));
+    }
+
+    #[test]
+    fn smooth_surfaces_alone_in_view_are_fatal_and_among_others_a_remark() {
+        let seen = |scattering, smooth, lights| {
+            let view = View {
+                rays: 10,
+                scattering,
+                smooth,
+                lights,
+            };
+            let sight = Sight {
+                view,
+                ..Sight::default()
+            };
+            sight.unconnected().map(|objection| objection.fatal)
+        };
+        assert_eq!(seen(10, 0, 0), None);
+        assert_eq!(seen(0, 0, 10), None);
+        assert_eq!(seen(0, 10, 0), Some(true));
+        assert_eq!(seen(0, 1, 0), Some(true));
+        assert_eq!(seen(0, 9, 1), Some(false));
+        assert_eq!(seen(9, 1, 0), Some(false));
+        // A varnish, with what lies beneath.
+        assert_eq!(seen(10, 10, 0), Some(false));
     }
 
     #[test]

@@ -180,3 +180,47 @@ fn naive_needs_lights_with_extent() {
 fn a_lens_changes_nothing_for_what_connects() {
     says_nothing(render(&named("ptracer"), LENS, LAMP));
 }
+
+/// Renders, before a lamp that it does not see itself, what fills the picture.
+fn before(integrator: &str, bsdf: &str) -> Ran {
+    let surface = |bsdf: &str, z: f32| {
+        format!(
+            "<shape type=\"rectangle\"><transform name=\"to_world\"><rotate y=\"1\" angle=\"180\"/>\
+             <translate z=\"{z}\"/></transform><bsdf type=\"{bsdf}\"/></shape>"
+        )
+    };
+    let lights =
+        "<emitter type=\"point\"><point name=\"position\" x=\"0\" y=\"3\" z=\"0\"/></emitter>";
+    let lights = format!("{}{}{lights}", surface(bsdf, 1.0), surface("diffuse", 1.1));
+    render(integrator, PINHOLE, &lights)
+}
+
+#[test]
+fn what_connects_with_the_camera_sees_nothing_in_mirrors() {
+    let ptracer = named("ptracer");
+    let connects = "<integrator type=\"bdpt\"><integer name=\"s\" value=\"2\"/><integer name=\"t\" value=\"1\"/></integrator>";
+    for integrator in [ptracer.as_str(), connects] {
+        for smooth in ["conductor", "dielectric"] {
+            let ran = before(integrator, smooth);
+            refuses(ran, "2:19", "cannot see anything that the camera sees");
+        }
+        // Beneath its varnish a plastic scatters; so does what is behind a thin pane.
+        for both in ["plastic", "thindielectric"] {
+            remarks(before(integrator, both), "2:19", "in 100 % of the picture");
+        }
+        for rough in [
+            "diffuse",
+            "roughconductor",
+            "roughdielectric",
+            "roughplastic",
+        ] {
+            says_nothing(before(integrator, rough));
+        }
+    }
+    // What follows light from the camera sees what is in mirrors.
+    for integrator in ["path", "bdpt", "vcm", "sppm"] {
+        for bsdf in ["conductor", "plastic"] {
+            says_nothing(before(&named(integrator), bsdf));
+        }
+    }
+}

@@ -216,6 +216,9 @@ impl Integrator for Bidirectional {
             0 => Finding::Hitting,
             _ => Finding::Choosing,
         });
+        if only.camera == 1 {
+            objections.extend(sight.unconnected());
+        }
         let segments = only.light + only.camera - 1;
         let max_depth = self.settings.max_depth;
         if u32::try_from(segments).map_or(true, |segments| segments > max_depth) {

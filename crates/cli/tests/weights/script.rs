@@ -1,0 +1,337 @@
+//! A world in which everything goes as a path says: whatever is drawn, it is the path's next step.
+//!
+//! All values and densities are those of the world that it is a script for.
+
+use crate::course::Course;
+use etalon_math::Atom;
+use etalon_math::{Density, Frame, SolidAngle};
+use etalon_spectrum::Wavelengths;
+use etalon_transport::{
+    Bsdf, BsdfSample, Camera, CameraRay, Chance, Connection, Emission, EmissionDensity, Hit,
+    InstanceId, LightId, LightSample, Mode, Origin, Passage, Ray, Receiver, ShapeId, Vertex, World,
+};
+use glam::{Vec2, Vec3, Vec4};
+use std::sync::atomic::{AtomicUsize, Ordering};
+
+/// A world by a script.
+pub(crate) struct Script<'s, W: World> {
+    world: &'s W,
+    pub(crate) course: &'s Course,
+    camera: Aperture<'s, W>,
+    /// Which lane stands first, unless the integrator rotates them.
+    turn: usize,
+    /// The lane in which the light shines.
+    lane: usize,
+    /// Which lane stood first when a particle was last emitted.
+    first: AtomicUsize,
+}
+
+/// A camera by a script.
+pub(crate) struct Aperture<'s, W: World> {
+    camera: &'s W::Camera,
+    course: &'s Course,
+}
+
+impl<W: World> Camera for Aperture<'_, W> {
+    fn ray(&self, _: Vec2, _: Vec2, _: f32) -> CameraRay {
+        CameraRay {
+            ray: self.course.ray,
+            weight: 1.0,
+        }
+    }
+    fn connect(&self, point: Vec3, _: Vec2, margin: f32) -> Option<Connection> {
+        self.camera.connect(point, self.course.lens, margin)
+    }
+    fn has_lens(&self) -> bool {
+        self.camera.has_lens()
+    }
+}
+
+/// A model that scatters as the script says.
+#[derive(Clone, Copy)]
+pub(crate) struct Scripted<B> {
+    model: B,
+    wi: Option<Vec3>,
+    sharp: bool,
+}
+
+/// Squared distance of unit vectors that are the same direction.
+pub(crate) const SAME: f32 = 1e-10;
+
+/// The discrete direction `wi`, if the first lane scatters that way.
+pub(crate) fn discrete(model: &impl Bsdf, wo: Vec3, wi: Vec3, mode: Mode) -> Option<BsdfSample> {
+    (0..)
+        .map_while(|index| model.discrete(wo, index, mode))
+        .find(|s| !s.passes && s.chance.lanes().x > 0.0 && s.wi.distance_squared(wi) < SAME)
+}
+
+impl<B: Bsdf> Bsdf for Scripted<B> {
+    fn eval(&self, wo: Vec3, wi: Vec3, mode: Mode) -> Vec4 {
+        self.model.eval(wo, wi, mode)
+    }
+    fn density(&self, wo: Vec3, wi: Vec3) -> Density<SolidAngle> {
+        self.model.density(wo, wi)
+    }
+    fn eval_and_density(&self, wo: Vec3, wi: Vec3, mode: Mode) -> (Vec4, Density<SolidAngle>) {
+        self.model.eval_and_density(wo, wi, mode)
+    }
+    fn sample(&self, wo: Vec3, _: f32, _: Vec2, mode: Mode) -> Option<BsdfSample> {
+        let wi = self.wi?;
+        if self.sharp {
+            return discrete(&self.model, wo, wi, mode);
+        }
+        let density = self.model.density(wo, wi);
+        (density.chooser() > 0.0).then(|| BsdfSample {
+            wi,
+            value: self.model.eval(wo, wi, mode),
+            chance: Chance::Continuous(density),
+            eta: 1.0,
+            passes: false,
+        })
+    }
+    fn has_continuous(&self) -> bool {
+        self.model.has_continuous()
+    }
+    fn hemisphere(&self) -> Option<Frame> {
+        self.model.hemisphere()
+    }
+    fn passing(&self) -> Vec4 {
+        self.model.passing()
+    }
+    fn passing_probability(&self) -> Vec4 {
+        self.model.passing_probability()
+    }
+    fn albedo(&self, wo: Vec3) -> Vec4 {
+        self.model.albedo(wo)
+    }
+}
+
+impl<'s, W: World> Script<'s, W> {
+    /// A script in which lane `turn` stands first and the light shines in `lane` only.
+    pub(crate) fn new(world: &'s W, course: &'s Course, turn: usize, lane: usize) -> Self {
+        Self {
+            world,
+            course,
+            camera: Aperture {
+                camera: world.camera(),
+                course,
+            },
+            turn,
+            lane,
+            first: AtomicUsize::new(turn),
+        }
+    }
+
+    /// Which lane stood first when a particle was last emitted.
+    pub(crate) fn first(&self) -> usize {
+        self.first.load(Ordering::Relaxed)
+    }
+
+    /// Which lane of the path each of these wavelengths is.
+    fn lanes(&self, wavelengths: &Wavelengths) -> [usize; 4] {
+        let own = self.course.wavelengths.lambda.to_array();
+        wavelengths.lambda.to_array().map(|lambda| {
+            let at = own.iter().position(|other| *other == lambda);
+            at.expect("all wavelengths are the path's own")
+        })
+    }
+
+    /// Values of the path's lanes in the order of these wavelengths.
+    fn in_order(&self, values: Vec4, wavelengths: &Wavelengths) -> Vec4 {
+        Vec4::from_array(self.lanes(wavelengths).map(|lane| values[lane]))
+    }
+
+    /// What of the light shines.
+    fn shining(&self, light: Vec4, wavelengths: &Wavelengths) -> Vec4 {
+        light * self.in_order(Vec4::AXES[self.lane], wavelengths)
+    }
+
+    /// The two nodes between which a ray leads.
+    fn between(&self, ray: &Ray) -> Option<[usize; 2]> {
+        let course = self.course;
+        let last = course.surfaces.len() + 1;
+        if course.start.origin.is_infinite() && ray.origin == course.start.ray.origin {
+            return Some([0, 1]);
+        }
+        if ray.origin == course.ray.origin {
+            return Some([last, last - 1]);
+        }
+        let near = |at: Vec3| at.distance_squared(ray.origin) < 1e-4;
+        let from = (0..last).find(|node| course.position(*node).is_some_and(near))?;
+        let along = |to: &usize| ray.direction.dot(course.direction(from, *to)) > 0.9999;
+        let before = from.checked_sub(1);
+        let to = before.into_iter().chain([from + 1]).find(along)?;
+        Some([from, to])
+    }
+
+    /// Which surface of the path a vertex is, counted as nodes are.
+    fn node(&self, vertex: &Vertex) -> Option<usize> {
+        let same = |v: &Vertex| v.position == vertex.position;
+        self.course.surfaces.iter().position(same).map(|at| at + 1)
+    }
+}
+
+impl<'s, W: World> World for Script<'s, W> {
+    type Bsdf<'w>
+        = Scripted<W::Bsdf<'w>>
+    where
+        Self: 'w;
+    type Camera = Aperture<'s, W>;
+
+    fn camera(&self) -> &Aperture<'s, W> {
+        &self.camera
+    }
+    fn wavelengths(&self, _: f32) -> Wavelengths {
+        self.course.wavelengths.rotated(self.turn)
+    }
+    fn intersect(&self, ray: &Ray) -> Option<Hit> {
+        let [_, to] = self.between(ray)?;
+        let surface = match to {
+            0 => self.course.lamp.is_some(),
+            to => to <= self.course.surfaces.len(),
+        };
+        surface.then_some(Hit {
+            t: 1.0,
+            parameters: Vec2::ZERO,
+            shape: ShapeId(0),
+            primitive: 0,
+            instance: InstanceId::NONE,
+            slot: to as u32,
+        })
+    }
+    fn vertex(&self, _: &Ray, hit: &Hit) -> Vertex {
+        match (hit.slot, self.course.lamp) {
+            (0, Some(lamp)) => lamp,
+            (node, _) => self.course.surfaces[node as usize - 1],
+        }
+    }
+    fn passage(&self, ray: &Ray, _: &Wavelengths, _: u32) -> Option<Passage> {
+        let [_, to] = self.between(ray)?;
+        let arrives = match self.course.position(to) {
+            None => ray.t_max.is_infinite(),
+            // Where the camera begins is its own affair.
+            Some(_) if to > self.course.surfaces.len() => true,
+            Some(at) => ray.at(ray.t_max).distance_squared(at) < 1e-4,
+        };
+        arrives.then_some(Passage::FREE)
+    }
+    fn bsdf(&self, vertex: &Vertex, wo: Vec3, wavelengths: &Wavelengths) -> Self::Bsdf<'_> {
+        let course = self.course;
+        let node = self.node(vertex);
+        let wi = node.map(|node| {
+            let [a, b] = [node - 1, node + 1].map(|to| course.direction(node, to));
+            if wo.dot(a) > wo.dot(b) { b } else { a }
+        });
+        Scripted {
+            model: self.world.bsdf(vertex, wo, wavelengths),
+            wi,
+            sharp: node.is_some_and(|node| course.sharp[node - 1]),
+        }
+    }
+    fn emitted(&self, vertex: &Vertex, wo: Vec3, wavelengths: &Wavelengths) -> Vec4 {
+        match self.node(vertex) {
+            Some(_) => Vec4::ZERO,
+            None => self.shining(self.world.emitted(vertex, wo, wavelengths), wavelengths),
+        }
+    }
+    fn is_emitter(&self, hit: &Hit) -> bool {
+        hit.slot == 0
+    }
+    fn background(&self, direction: Vec3, wavelengths: &Wavelengths) -> Vec4 {
+        let sky = self.course.start.origin == Origin::Sky
+            && direction.dot(-self.course.start.ray.direction) > 0.9999;
+        if !sky {
+            return Vec4::ZERO;
+        }
+        self.shining(self.world.background(direction, wavelengths), wavelengths)
+    }
+    fn has_background(&self) -> bool {
+        true
+    }
+    fn sample_light(
+        &self,
+        from: &Receiver,
+        wavelengths: &Wavelengths,
+        _: f32,
+        _: Vec2,
+    ) -> Option<LightSample> {
+        let (world, course) = (self.world, self.course);
+        if from.position != course.surfaces[0].position {
+            return None;
+        }
+        let start = &course.start;
+        let direction = course.direction(1, 0);
+        let atom = || Chance::Discrete(Atom(Vec4::splat(world.sampled_density(from, start))));
+        // A light without extent: its intensity, or irradiance.
+        let density = start.density;
+        let power = self.in_order(start.weight, wavelengths) * density.origin * density.ray;
+        let (target, radiance, chance, cos) = match (start.origin, &course.lamp) {
+            (Origin::Surface, Some(lamp)) => (
+                Some(lamp.origin_toward(from.position)),
+                world.emitted(lamp, -direction, wavelengths),
+                Chance::Continuous(world.light_density(from, lamp, direction)),
+                lamp.normal.dot(direction).abs(),
+            ),
+            (Origin::Sky, _) => (
+                None,
+                world.background(direction, wavelengths),
+                Chance::Continuous(world.background_density(from, direction)),
+                1.0,
+            ),
+            (Origin::Parallel, _) => (None, power, atom(), 1.0),
+            _ => {
+                let at = start.point.position;
+                let radiance = power / at.distance_squared(from.position);
+                (Some(at), radiance, atom(), 1.0)
+            }
+        };
+        Some(LightSample {
+            direction,
+            target,
+            radiance: self.shining(radiance, wavelengths),
+            chance,
+            cos,
+            origin: start.origin,
+            light: start.light,
+        })
+    }
+    fn light_count(&self) -> u32 {
+        self.world.light_count()
+    }
+    fn sample_one_light(
+        &self,
+        _: LightId,
+        _: &Receiver,
+        _: &Wavelengths,
+        _: Vec2,
+    ) -> Option<LightSample> {
+        None
+    }
+    fn light_density(&self, from: &Receiver, at: &Vertex, direction: Vec3) -> Density<SolidAngle> {
+        self.world.light_density(from, at, direction)
+    }
+    fn background_density(&self, from: &Receiver, direction: Vec3) -> Density<SolidAngle> {
+        self.world.background_density(from, direction)
+    }
+    fn emit(&self, wavelengths: &Wavelengths, _: f32, _: Vec2, _: Vec2) -> Option<Emission> {
+        self.first
+            .store(self.lanes(wavelengths)[0], Ordering::Relaxed);
+        let weight = self.in_order(self.course.start.weight, wavelengths);
+        Some(Emission {
+            weight: self.shining(weight, wavelengths),
+            ..self.course.start
+        })
+    }
+    fn emission_density(&self, light: LightId, direction: Vec3, cos: f32) -> EmissionDensity {
+        self.world.emission_density(light, direction, cos)
+    }
+    fn background_emission_density(&self, direction: Vec3) -> EmissionDensity {
+        self.world.background_emission_density(direction)
+    }
+    fn sampled_density(&self, from: &Receiver, start: &Emission) -> f32 {
+        self.world.sampled_density(from, start)
+    }
+    fn take_ray_count(&self) -> u64 {
+        0
+    }
+}

@@ -1,0 +1,60 @@
+//! What the camera sees first: whether what leaves a light can be connected with it.
+//!
+//! A lattice of rays through the film, each with a lens position of its own, goes straight on
+//! through whatever lets light pass. Something small may slip through; what is found is there.
+
+use etalon_transport::{Bsdf, Camera, Mode, Ray, View, World};
+use glam::{UVec2, Vec2, Vec4};
+
+/// Rays along each side of the film.
+const LATTICE: u32 = 48;
+
+/// The most surfaces that a ray passes straight.
+const PASSED: u32 = 64;
+
+/// Multiples of this spread evenly over a square, modulo one: powers of the inverse of the plastic
+/// number (Roberts 2018, "The Unreasonable Effectiveness of Quasirandom Sequences").
+const SPREAD: Vec2 = Vec2::new(0.754_877_7, 0.569_840_3);
+
+/// Looks through the film's window of `size` pixels from `origin`.
+pub(crate) fn look<W: World>(world: &W, origin: UVec2, size: UVec2) -> View {
+    let mut view = View::default();
+    for index in 0..LATTICE * LATTICE {
+        let cell = UVec2::new(index % LATTICE, index / LATTICE).as_vec2() + 0.5;
+        let raster = origin.as_vec2() + size.as_vec2() * cell / LATTICE as f32;
+        let lens = (SPREAD * index as f32).fract();
+        let start = world.camera().ray(raster, lens, 0.5);
+        follow(world, start.ray, &mut view);
+    }
+    view
+}
+
+/// Adds what one ray sees.
+fn follow<W: World>(world: &W, mut ray: Ray, view: &mut View) {
+    let wavelengths = world.wavelengths(0.5);
+    let [mut scatters, mut smooth, mut light] = [false; 3];
+    for _ in 0..PASSED {
+        let Some(hit) = world.intersect(&ray) else {
+            light |= world.has_background();
+            break;
+        };
+        let vertex = world.vertex(&ray, &hit);
+        let wo = -ray.direction;
+        let emits = world.is_emitter(&hit);
+        light |= emits;
+        let bsdf = world.bsdf(&vertex, wo, &wavelengths);
+        // A lamp without a material is a black surface.
+        scatters |= bsdf.has_continuous() && !(emits && bsdf.albedo(wo) == Vec4::ZERO);
+        smooth |= (0..)
+            .map_while(|index| bsdf.discrete(wo, index, Mode::Radiance))
+            .any(|sample| !sample.passes && sample.value != Vec4::ZERO);
+        if bsdf.passing() == Vec4::ZERO {
+            break;
+        }
+        ray = vertex.spawn(ray.direction);
+    }
+    view.rays += 1;
+    view.scattering += u32::from(scatters);
+    view.smooth += u32::from(smooth);
+    view.lights += u32::from(light);
+}
