@@ -1,7 +1,8 @@
-//! The tasks of the house: `cargo xtask validate`, `references`, `mutants`, `calibrate`, `bits`, `scenes`, `tables`.
+//! The tasks of the house: `cargo xtask validate`, `references`, `mutants`, `calibrate`, `efficiency`, `bits`, `scenes`, `tables`.
 
 mod bits;
 mod calibrate;
+mod efficiency;
 mod mutants;
 mod references;
 mod scenes;
@@ -32,6 +33,8 @@ enum Task {
     Mutants(mutants::Arguments),
     /// Show that the validation's error rates are what they are said to be (half an hour)
     Calibrate(calibrate::Arguments),
+    /// Measure by how much estimators are better than others (`benches/efficiency.toml`)
+    Efficiency(efficiency::Arguments),
     /// Check that threads and build profiles do not change a bit (builds `release`: minutes)
     Bits,
     /// Write the generated files of `scenes/` anew
@@ -46,6 +49,7 @@ fn main() -> ExitCode {
         Task::Mutants(arguments) => return mutants::run(&arguments),
         Task::Calibrate(arguments) => return calibrate::run(&arguments),
         Task::References(arguments) => references::run(&arguments),
+        Task::Efficiency(arguments) => efficiency::run(&arguments),
         Task::Bits => bits::run(),
         Task::Scenes => scenes::run(),
         Task::Tables(arguments) => tables::run(&arguments),
