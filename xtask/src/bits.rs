@@ -12,6 +12,10 @@ use std::process::Command;
 /// as much of the house as possible.
 const RENDERS: &[(&str, &[&str])] = &[
     ("scenes/cornell-box/scene.xml", &["--integrator", "path"]),
+    (
+        "scenes/cornell-box/scene.xml",
+        &["--integrator", "path", "--adaptive"],
+    ),
     ("scenes/cornell-box/scene.xml", &["--integrator", "ptracer"]),
     ("scenes/cornell-box/scene.xml", &["--integrator", "bdpt"]),
     ("scenes/cornell-box/scene.xml", &["--integrator", "direct"]),

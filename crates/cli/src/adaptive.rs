@@ -6,25 +6,26 @@
 //! E = ⟨ v(x) / n(x) ⟩        ⟨n(x)⟩ = N
 //! ```
 //!
-//! gives pixel x a number n in proportion to √v, the spread of one of its samples (Neyman 1934). Two errors
-//! are spoken of in this program: that of the whole picture, which `--error` aims at, where bright pixels
-//! decide, and the mean of the pixels' relative errors (the last line of a render), where dark ones do too:
+//! gives pixel x a number n in proportion to √v, the spread of one of its samples (Neyman 1934).
+//! Two errors are spoken of in this program: that of the whole picture, which `--error` aims at,
+//! where bright pixels decide, and the mean of the pixels' relative errors (the last line of a
+//! render), where dark ones do too:
 //!
 //! ```text
 //! v = s² / ⟨s²⟩ + r² / ⟨r²⟩        s² = Σ_c s_c²        r² = Σ_c s_c² / (m_c² + 0.01)
 //! ```
 //!
-//! with m and s the mean and its standard error in colour c, so that both weigh as much. A pilot of [`GROUPS`]
-//! independent pictures of two replicates each estimates them. Blocks of [`SIDE`]² pixels get the
-//! same number, from the mean of v over the block and its neighbours (with the weights ¼, ½, ¼ along both
-//! axes): single pixels of a pilot are too noisy to be followed. A pilot may have missed what
-//! is rare, so to v is added 1/64 of its mean over the picture, and no pixel gets more than [`MOST`] times
-//! its even share.
+//! with m and s the mean and its standard error in colour c, so that both weigh as much. A pilot of
+//! [`GROUPS`] independent pictures of two replicates each estimates them. Blocks of 4² pixels get
+//! the same number, from the mean of v over the block and its neighbours (with the weights ¼, ½, ¼
+//! along both axes): single pixels of a pilot are too noisy to be followed. A pilot may have missed
+//! what is rare, so to v is added 1/64 of its mean over the picture, and no pixel gets more than 32
+//! times its even share.
 //!
-//! The pilot has seeds of its own and is no part of the picture, and the numbers are frozen before the first sample
-//! of the picture is drawn. Given them every replicate is an unbiased estimate of every pixel, and replicates
-//! are independent: their mean is unbiased, and their spread is its standard error, as if the
-//! numbers had been read from a file.
+//! The pilot has seeds of its own and is no part of the picture, and the numbers are frozen before
+//! the first sample of the picture is drawn. Given them every replicate is an unbiased estimate of
+//! every pixel, and replicates are independent: their mean is unbiased, and their spread is its
+//! standard error, as if the numbers had been read from a file.
 
 use crate::pipeline::Loaded;
 use crate::sizes::nearest;
@@ -44,7 +45,8 @@ const FLOOR: f64 = 1.0 / 64.0;
 /// The most samples of a pixel, in units of its even share.
 const MOST: f64 = 32.0;
 
-/// The first index of the pilot's pictures, apart from those of pilots that fix a number of samples.
+/// The first index of the pilot's pictures, apart from those of pilots that fix a number of
+/// samples.
 const FIRST: u32 = 1 << 16;
 
 /// How to deal samples to the pixels of a picture.
@@ -192,7 +194,8 @@ impl Distribution {
         let mut pixels = vec![0.0; columns * rows];
         for (pixel, &variance) in variance.iter().enumerate() {
             let block = (pixel / width / SIDE) * columns + (pixel % width) / SIDE;
-            // Refused numbers are no part of a picture, but a pixel of nothing else is not a number.
+            // Refused numbers are no part of a picture, but a pixel of nothing else is not a
+            // number.
             if variance.is_finite() {
                 blocks[block] += variance;
                 pixels[block] += 1.0;
@@ -255,8 +258,8 @@ impl Distribution {
             products.sum()
         };
         let budget = u64::from(each) * (width * height) as u64;
-        // The sizes grow with the scale. From one end, where all pixels have as many as they may, to
-        // the other, where each has one.
+        // The sizes grow with the scale. From one end, where all pixels have as many as they may,
+        // to the other, where each has one.
         let largest = self.weights.iter().copied().fold(0.0, f64::max);
         let smallest = self.weights.iter().copied().fold(f64::MAX, f64::min);
         let (mut low, mut high) = (0.25 / largest, 2.0 * MOST * even / smallest);
@@ -335,8 +338,8 @@ mod tests {
     #[test]
     fn the_variance_falls_nearly_to_the_least() {
         let of = |pixel: usize| if pixel % 64 < 32 { 1.0 } else { 256.0 };
-        // ⟨σ⟩² / ⟨σ²⟩ = (17/2)² / (257/2), the least there can be; the floor, the edge and rounding take
-        // the rest. The mutant deals in proportion to the variance.
+        // ⟨σ⟩² / ⟨σ²⟩ = (17/2)² / (257/2), the least there can be; the floor, the edge and rounding
+        // take the rest. The mutant deals in proportion to the variance.
         let least = 8.5_f64.powi(2) / 128.5;
         for kind in KINDS {
             let counts = halves().counts(kind, 64);

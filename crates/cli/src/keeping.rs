@@ -1,8 +1,8 @@
 //! Checkpoints: the film of a long render, kept beside the image while it is rendered.
 //!
-//! A checkpoint is written when a replicate is finished: after the first one, and then whenever the time since
-//! the last is [`PATIENCE`] times what writing took, so that writing never costs more than
-//! 5 % or so. It appears under its name only when it is complete, in place of the one before.
+//! A checkpoint is written when a replicate is finished: after the first one, and then whenever the
+//! time since the last is twenty times what writing took, so that writing never costs more than 5 %
+//! or so. It appears under its name only when it is complete, in place of the one before.
 
 use crate::say;
 use etalon_film::{CheckpointFacts, ExactFilm, ExactTile, Part, RenderFacts, recorded_seconds};
@@ -63,7 +63,8 @@ pub(crate) struct KeptFilm {
 }
 
 impl KeptFilm {
-    /// This film, kept as `keeping` says while the replicates of `share`, of `of` in all, are rendered.
+    /// This film, kept as `keeping` says while the replicates of `share`, of `of` in all, are
+    /// rendered.
     ///
     /// # Errors
     /// If the checkpoint to go on from is of another film.
@@ -161,8 +162,8 @@ impl Film for KeptFilm {
         self.film.margin()
     }
 
-    fn tile(&self, from: UVec2, to: UVec2, alone: bool) -> ExactTile<'_> {
-        self.film.tile(from, to, alone)
+    fn tile(&self, from: UVec2, to: UVec2, alone: bool, first: u32) -> ExactTile<'_> {
+        self.film.tile(from, to, alone, first)
     }
 
     fn end_replicate(&mut self, samples: u32) {

@@ -7,8 +7,8 @@ use etalon_sampling::SamplerKind;
 /// The most samples per pixel that a target may ask for.
 pub(crate) const MOST: f64 = (1_u64 << 28) as f64;
 
-/// A plan of `needed` samples per pixel: no fewer if `up`, no more otherwise, as nearly as replicates of equal,
-/// stratifiable size allow.
+/// A plan of `needed` samples per pixel: no fewer if `up`, no more otherwise, as nearly as
+/// replicates of equal, stratifiable size allow.
 pub(crate) fn sized(plan: &Plan, needed: f64, replicates: Option<u32>, up: bool) -> Plan {
     let count = replicates.unwrap_or(pipeline::REPLICATES);
     let needed = needed.clamp(1.0, MOST);
@@ -41,9 +41,9 @@ fn round_down(sampler: SamplerKind, samples: u32) -> u32 {
     }
 }
 
-/// Of the sizes that the sampler stratifies, the one that is nearest in proportion; `dither` moves the
-/// middle between two sizes, so that blocks of equal weight do not all change theirs at the same
-/// scale.
+/// Of the sizes that the sampler stratifies, the one that is nearest in proportion; `dither` moves
+/// the middle between two sizes, so that blocks of equal weight do not all change theirs at the
+/// same scale.
 pub(crate) fn nearest(sampler: SamplerKind, wanted: f64, dither: f64) -> u32 {
     let least = round_down(sampler, wanted as u32);
     let next = sampler.round_up(least.saturating_add(1));

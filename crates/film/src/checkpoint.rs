@@ -1,8 +1,8 @@
 //! Checkpoints: a film that is written while it is being filled, and that is filled further later.
 //!
-//! A checkpoint is the part ([`Part`]) of the replicates finished so far, which holds exact sums. A film that
-//! takes it over stands where the one that wrote it stood; so the picture that it ends as has the bits of one
-//! that was never interrupted.
+//! A checkpoint is the part ([`Part`]) of the replicates finished so far, which holds exact sums. A
+//! film that takes it over stands where the one that wrote it stood; so the picture that it ends as
+//! has the bits of one that was never interrupted.
 
 use crate::{ExactFilm, Metadata, Part, RenderFacts};
 use serde::{Deserialize, Serialize};
@@ -26,8 +26,8 @@ impl ExactFilm {
         Metadata::new(self, facts)
     }
 
-    /// Hands the replicates finished so far, as a part of a picture of `of` replicates, to `use_part`,
-    /// without making a copy of the sums.
+    /// Hands the replicates finished so far, as a part of a picture of `of` replicates, to
+    /// `use_part`, without making a copy of the sums.
     ///
     /// # Panics
     /// As [`ExactFilm::into_part`].
@@ -45,11 +45,12 @@ impl ExactFilm {
         value
     }
 
-    /// Goes on after the replicates of a checkpoint. The film is new, and of the same first replicate.
+    /// Goes on after the replicates of a checkpoint. The film is new, and of the same first
+    /// replicate.
     ///
     /// # Errors
-    /// If the checkpoint is of another film, or its replicates do not follow one another from the film's
-    /// first.
+    /// If the checkpoint is of another film, or its replicates do not follow one another from the
+    /// film's first.
     pub fn go_on(self, checkpoint: Part) -> Result<Self, String> {
         let first = self.first_replicate();
         let here = checkpoint.replicates();

@@ -10,6 +10,7 @@
 
 use crate::exact_sums::{EXACT, ExactSums};
 use crate::faults::{FaultLog, Offence};
+use crate::outliers::OutlierLog;
 use crate::pixel_moments::PixelMoments;
 use crate::replicate_end::{self, Divisor};
 use crate::sample_counts::{SAMPLES, SampleCounts};
@@ -45,6 +46,7 @@ pub struct ExactFilm {
     counts: Option<SampleCounts>,
     tiles: [TileMeans; 3],
     faults: Mutex<FaultLog>,
+    outliers: Mutex<OutlierLog>,
 }
 
 impl ExactFilm {
@@ -97,6 +99,7 @@ impl ExactFilm {
             counts: None,
             tiles: replicate_end::TILES.map(means),
             faults: Mutex::default(),
+            outliers: Mutex::default(),
             channels,
             settings,
         })
@@ -163,6 +166,14 @@ impl ExactFilm {
     /// What was refused so far.
     pub fn faults(&self) -> FaultLog {
         self.faults
+            .lock()
+            .unwrap_or_else(|e| e.into_inner())
+            .clone()
+    }
+
+    /// What stood out so far.
+    pub fn outliers(&self) -> OutlierLog {
+        self.outliers
             .lock()
             .unwrap_or_else(|e| e.into_inner())
             .clone()
@@ -251,6 +262,7 @@ impl ExactFilm {
         self.replicates = metadata.replicates;
         self.samples = metadata.spp;
         self.faults = Mutex::new(metadata.faults);
+        self.outliers = Mutex::new(metadata.outliers);
         Ok(())
     }
 
@@ -286,6 +298,11 @@ impl ExactFilm {
             .try_for_each(|(term, sum)| sum.add(*term))
     }
 
+    /// The number of the replicate that is being rendered.
+    pub(crate) fn replicate(&self) -> u32 {
+        self.first + self.replicates
+    }
+
     /// The record of a refused number.
     pub(crate) fn offence(
         &self,
@@ -295,7 +312,7 @@ impl ExactFilm {
         fault: Fault,
     ) -> Offence {
         Offence {
-            replicate: self.first + self.replicates,
+            replicate: self.replicate(),
             pixel: pixel.to_array(),
             sample,
             source: source.to_owned(),
@@ -307,6 +324,16 @@ impl ExactFilm {
     pub(crate) fn report(&self, log: FaultLog) {
         if !log.is_empty() {
             self.faults
+                .lock()
+                .unwrap_or_else(|e| e.into_inner())
+                .merge(log);
+        }
+    }
+
+    /// Adds what stood out in a tile.
+    pub(crate) fn report_outliers(&self, log: OutlierLog) {
+        if !log.is_empty() {
+            self.outliers
                 .lock()
                 .unwrap_or_else(|e| e.into_inner())
                 .merge(log);
@@ -367,8 +394,8 @@ impl Film for ExactFilm {
         self.filter.margin()
     }
 
-    fn tile(&self, from: UVec2, to: UVec2, alone: bool) -> ExactTile<'_> {
-        ExactTile::new(self, from, to, alone)
+    fn tile(&self, from: UVec2, to: UVec2, alone: bool, first: u32) -> ExactTile<'_> {
+        ExactTile::new(self, from, to, alone, first)
     }
 
     fn end_replicate(&mut self, samples: u32) {

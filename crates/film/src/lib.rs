@@ -20,6 +20,7 @@ pub mod filters;
 pub mod fingerprint;
 pub mod merge;
 pub mod metadata;
+pub mod outliers;
 pub mod part;
 pub mod pixel_filter;
 pub mod pixel_format;
@@ -37,6 +38,7 @@ pub use filters::{BoxFilter, CatmullRom, Filter, Gaussian, Lanczos, Mitchell, Te
 pub use fingerprint::floating_point_fingerprint;
 pub use merge::{Conflict, Disagreement, disagreements};
 pub use metadata::{FilmFacts, Metadata, RenderFacts, recorded_seconds};
+pub use outliers::{Outlier, OutlierLog};
 pub use part::{Part, PartFacts};
 pub use pixel_filter::PixelFilter;
 pub use pixel_format::PixelFormat;

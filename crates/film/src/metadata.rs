@@ -1,8 +1,8 @@
 //! What a rendered file says of itself: JSON in the EXR attribute `etalon`.
 
 use crate::{
-    CheckpointFacts, DealtFacts, FaultLog, FilmSettings, PartFacts, SampleCounts, TileMeans,
-    floating_point_fingerprint,
+    CheckpointFacts, DealtFacts, FaultLog, FilmSettings, OutlierLog, PartFacts, SampleCounts,
+    TileMeans, floating_point_fingerprint,
 };
 use serde::{Deserialize, Serialize};
 use std::time::Duration;
@@ -92,6 +92,9 @@ pub struct Metadata {
     pub channels: Vec<String>,
     /// Numbers that were refused.
     pub faults: FaultLog,
+    /// Samples that stand out.
+    #[serde(default, skip_serializing_if = "OutlierLog::is_empty")]
+    pub outliers: OutlierLog,
     /// Tile means of every replicate.
     pub tile_means: Vec<TileMeans>,
 }
@@ -127,6 +130,7 @@ impl Metadata {
             },
             channels: film.channels().to_vec(),
             faults: film.faults(),
+            outliers: film.outliers(),
             tile_means: film.tile_means().to_vec(),
         }
     }

@@ -164,6 +164,7 @@ impl Part {
             metadata.scene.clone_from(&other.metadata.scene);
         }
         metadata.faults.merge(other.metadata.faults.clone());
+        metadata.outliers.merge(other.metadata.outliers.clone());
         metadata.replicates += other.metadata.replicates;
         metadata.spp += other.metadata.spp;
         metadata.seconds = match (metadata.seconds, other.metadata.seconds) {

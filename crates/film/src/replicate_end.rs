@@ -25,7 +25,8 @@ pub(crate) enum Divisor<'f> {
 }
 
 impl Divisor<'_> {
-    /// What the sums over tiles are divided by: those of unevenly sampled pixels are of means already.
+    /// What the sums over tiles are divided by: those of unevenly sampled pixels are of means
+    /// already.
     pub(crate) fn of_tiles(self) -> u64 {
         match self {
             Self::Even(divisor) => divisor,

@@ -1,8 +1,8 @@
 //! How many samples each pixel gets in a replicate, where they are not dealt evenly.
 //!
-//! The counts are fixed before the first sample of the image is drawn, from something that is no part
-//! of it. Every pixel's mean is over its own samples; so each replicate remains an
-//! unbiased estimate of the whole image, and the spread of replicates its standard error.
+//! The counts are fixed before the first sample of the image is drawn, from something that is no
+//! part of it. Every pixel's mean is over its own samples; so each replicate remains an unbiased
+//! estimate of the whole image, and the spread of replicates its standard error.
 
 use serde::{Deserialize, Serialize};
 

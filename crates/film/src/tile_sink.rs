@@ -1,5 +1,6 @@
 //! The sink of a tile: a pixel's samples are summed here and delivered once.
 
+use crate::outliers::{Outlier, OutlierLog, Standing};
 use crate::{ExactFilm, faults::FaultLog, splat::Taps};
 use etalon_statistics::{Fault, Fixed128};
 use etalon_transport::{Sink, TileSink};
@@ -16,15 +17,25 @@ pub struct ExactTile<'f> {
     from: UVec2,
     to: UVec2,
     pixel: UVec2,
-    /// Samples begun in this pixel.
+    /// Samples begun in this pixel, and the number of the first of them in the replicate.
     samples: u32,
+    first: u32,
+    /// What they bring.
+    standing: Standing,
     weight: f32,
     taps: Taps,
     faults: FaultLog,
+    outliers: OutlierLog,
 }
 
 impl<'f> ExactTile<'f> {
-    pub(crate) fn new(film: &'f ExactFilm, from: UVec2, to: UVec2, alone: bool) -> Self {
+    pub(crate) fn new(
+        film: &'f ExactFilm,
+        from: UVec2,
+        to: UVec2,
+        alone: bool,
+        first: u32,
+    ) -> Self {
         let begin = film.settings().crop_offset;
         let end = begin + film.settings().crop_size;
         assert!(
@@ -40,17 +51,27 @@ impl<'f> ExactTile<'f> {
             to,
             pixel: from,
             samples: 0,
+            first,
+            standing: Standing::default(),
             weight: 1.0,
             taps: Taps::default(),
             faults: FaultLog::default(),
+            outliers: OutlierLog::default(),
         }
     }
 
     #[cold]
     fn refuse(&mut self, source: &str, fault: Fault) {
-        let sample = self.samples.checked_sub(1);
+        let sample = self.samples.checked_sub(1).map(|n| self.first + n);
         let offence = self.film.offence(self.pixel, sample, source, fault);
         self.faults.note(offence);
+    }
+
+    /// Notes what the sample brings.
+    #[inline]
+    fn bring(&mut self, [r, g, b]: [f32; 3], weight: f32) {
+        self.standing
+            .bring(self.samples.wrapping_sub(1), r.max(g).max(b) * weight);
     }
 
     fn add(&mut self, channel: usize, value: f32) {
@@ -68,6 +89,7 @@ impl Sink for ExactTile<'_> {
         let colour = format.convert(rgb);
         match fixed(&colour[..self.colours], self.weight) {
             Ok(terms) => {
+                self.bring(rgb, self.weight.abs());
                 for (channel, term) in terms.into_iter().enumerate().take(self.colours) {
                     if let Err(fault) = self.sums[channel].merge(term) {
                         self.refuse("radiance", fault);
@@ -87,8 +109,9 @@ impl Sink for ExactTile<'_> {
             Some(fault) => Err(fault),
             None => self.taps.spread(self.film, raster, &colour[..self.colours]),
         };
-        if let Err(fault) = outcome {
-            self.refuse("splat", fault);
+        match outcome {
+            Ok(()) => self.bring(rgb, 1.0),
+            Err(fault) => self.refuse("splat", fault),
         }
     }
 
@@ -125,6 +148,16 @@ impl ExactTile<'_> {
         if self.samples > 0 {
             self.film
                 .deliver(self.pixel, self.alone, &mut self.sums, &mut self.faults);
+            if let Some((sample, value)) = self.standing.outstanding(self.samples) {
+                self.outliers.note(Outlier {
+                    replicate: self.film.replicate(),
+                    pixel: self.pixel.to_array(),
+                    sample: self.first + sample,
+                    value,
+                    lift: value / self.samples as f32,
+                });
+            }
+            self.standing = Standing::default();
             self.samples = 0;
         }
     }
@@ -134,6 +167,8 @@ impl Drop for ExactTile<'_> {
     fn drop(&mut self) {
         self.end_pixel();
         self.film.report(std::mem::take(&mut self.faults));
+        self.film
+            .report_outliers(std::mem::take(&mut self.outliers));
     }
 }
 

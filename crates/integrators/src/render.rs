@@ -196,7 +196,7 @@ impl<W: World, I: Integrator, F: Film> TileRun<'_, W, I, F> {
         let spacing = 1.0 / spp.sqrt();
         let margin = self.film.margin();
         let alone = !self.integrator.splats();
-        let mut sink = self.film.tile(from, to, alone);
+        let mut sink = self.film.tile(from, to, alone, self.begin);
         let mut drafts = Vec::with_capacity(TOGETHER);
         let mut drawn = 0;
         for y in from.y..to.y {

@@ -52,9 +52,9 @@ pub trait Film: Sync {
     fn size(&self) -> UVec2;
     /// Draws a position for a sample of `pixel` from the reconstruction filter.
     fn place(&self, pixel: UVec2, u: Vec2) -> Placement;
-    /// How many samples of a replicate a pixel of the whole film gets, where all would get `even` if
-    /// they were dealt evenly. Only films for estimators that neither splat nor pass several times
-    /// deal otherwise.
+    /// How many samples of a replicate a pixel of the whole film gets, where all would get `even`
+    /// if they were dealt evenly. Only films for estimators that neither splat nor pass several
+    /// times deal otherwise.
     #[inline]
     fn dealt(&self, _pixel: UVec2, even: u32) -> u32 {
         even
@@ -62,8 +62,9 @@ pub trait Film: Sync {
     /// How far (pixels) beyond the film a splat can still matter.
     fn margin(&self) -> f32;
     /// A sink for the pixels in [`from`, `to`) of the whole film; it delivers on drop. `alone`
-    /// promises that meanwhile nothing else adds to these pixels, no other tile and no splat.
-    fn tile(&self, from: UVec2, to: UVec2, alone: bool) -> Self::Tile<'_>;
+    /// promises that meanwhile nothing else adds to these pixels, no other tile and no splat. The
+    /// first sample of each pixel will be its replicate's sample `first`.
+    fn tile(&self, from: UVec2, to: UVec2, alone: bool, first: u32) -> Self::Tile<'_>;
     /// Ends a replicate of `samples` samples per pixel (as many light paths per pixel for
     /// splats; of as many as [`Film::dealt`] deals to each): its means join the statistics.
     fn end_replicate(&mut self, samples: u32);

@@ -3,8 +3,8 @@
 use crate::args::RenderArgs;
 use etalon_integrators::Plan;
 
-/// The command that replays sample `sample` of a pixel in a replicate of this render; `pilot` is the size of the pilot
-/// that dealt the samples, if they were not dealt evenly.
+/// The command that replays sample `sample` of a pixel in a replicate of this render; `pilot` is
+/// the size of the pilot that dealt the samples, if they were not dealt evenly.
 pub(super) fn command(
     args: &RenderArgs,
     plan: &Plan,

@@ -1,5 +1,5 @@
-//! How much to render, and how to deal it to the pixels: what the command line says, what a pilot finds, or what
-//! a checkpoint holds.
+//! How much to render, and how to deal it to the pixels: what the command line says, what a pilot
+//! finds, or what a checkpoint holds.
 
 use super::note;
 use crate::adaptive::{self, Distribution};

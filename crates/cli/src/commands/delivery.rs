@@ -1,12 +1,13 @@
 //! What `render` leaves behind: the image, the statistics, and a few lines on how it went.
 
 use super::convert::losses_in_words;
-use super::{again, note};
+use super::note;
+use super::trouble::{Again, Fireflies, faults_to_json, fireflies_to_json};
 use crate::args::RenderArgs;
 use crate::pipeline::{Loaded, Rendered};
 use crate::target::Noise;
 use crate::{resources, say};
-use etalon_film::{Developed, Offence};
+use etalon_film::{Developed, Metadata};
 use etalon_images::{Losses, hdr, pfm, write_atomically};
 use etalon_integrators::Plan;
 use std::io::Write;
@@ -30,33 +31,20 @@ pub(super) fn deliver(
     if !args.quiet {
         losses_in_words(&losses).iter().for_each(note);
     }
+    let metadata = rendered.developed.metadata.as_ref();
+    let dealt = metadata.and_then(|m| m.adaptive.as_ref());
+    let again = Again {
+        args,
+        plan,
+        pilot: dealt.map(|dealt| dealt.pilot),
+    };
     if let Some(path) = &args.stats {
-        let text = format!("{:#}\n", stats(args, loaded, rendered, pilot));
+        let text = format!("{:#}\n", stats(&again, loaded, rendered, pilot));
         write_atomically(path, |file| file.write_all(text.as_bytes()))
             .map_err(|error| format!("cannot write {}: {error}", path.display()))?;
     }
-    let metadata = rendered.developed.metadata.as_ref();
-    let dealt = metadata.and_then(|m| m.adaptive.as_ref()).map(|d| d.pilot);
-    let faults = metadata.map_or(0, |m| m.faults.total());
-    if faults > 0 {
-        say::remark(&format!(
-            "warning: {faults} contributions were not finite; see `etalon info`\n"
-        ));
-        let first = metadata.iter().flat_map(|m| &m.faults.first);
-        let command = |o: &Offence| {
-            let sample = o.sample?;
-            Some(again::command(
-                args,
-                plan,
-                dealt,
-                o.pixel,
-                o.replicate,
-                sample,
-            ))
-        };
-        if let Some(command) = first.filter_map(command).next() {
-            say::remark(&format!("look at the first of them with\n  {command}\n"));
-        }
+    if let Some(metadata) = &rendered.developed.metadata {
+        tell_trouble(args, &rendered.developed, metadata, &again);
     }
     if let Some(aim) = args.error {
         match relative_error(rendered) {
@@ -100,6 +88,33 @@ pub(super) fn deliver(
     Ok(())
 }
 
+/// Says which samples went wrong, and how to look at the first or largest of them.
+fn tell_trouble(args: &RenderArgs, developed: &Developed, metadata: &Metadata, again: &Again<'_>) {
+    let faults = metadata.faults.total();
+    if faults > 0 {
+        say::remark(&format!(
+            "warning: {faults} contributions were not finite; see `etalon info`\n"
+        ));
+        if let Some(command) = again.of_faults(&metadata.faults) {
+            say::remark(&format!("look at the first of them with\n  {command}\n"));
+        }
+    }
+    let fireflies = Fireflies::of(developed, metadata);
+    if let Some(fireflies) = fireflies.filter(|_| !args.quiet)
+        && let Some(largest) = fireflies.first()
+    {
+        let count = match fireflies.count {
+            1 => "one sample is a firefly: it lifts its pixel".to_owned(),
+            count => format!("{count} samples are fireflies: the largest lifts its pixel"),
+        };
+        note(format!(
+            "{count} by {:.3}; look at it with\n  {}",
+            fireflies.lift(largest),
+            again.of_outlier(largest)
+        ));
+    }
+}
+
 /// The relative standard error that `--error` is about.
 fn relative_error(rendered: &Rendered) -> Option<f64> {
     Noise::of(&rendered.developed)?.relative()
@@ -117,7 +132,7 @@ fn write_image(path: &Path, developed: &Developed) -> Result<Losses, String> {
 }
 
 fn stats(
-    args: &RenderArgs,
+    again: &Again<'_>,
     loaded: &Loaded,
     rendered: &Rendered,
     pilot: Option<(u32, f64)>,
@@ -125,7 +140,7 @@ fn stats(
     let seconds = rendered.time.as_secs_f64();
     let metadata = rendered.developed.metadata.as_ref();
     serde_json::json!({
-        "scene": args.scene.display().to_string(),
+        "scene": again.args.scene.display().to_string(),
         "scene_hash": loaded.hash,
         "integrator": loaded.integrator_name,
         "load_seconds": loaded.load_time.as_secs_f64(),
@@ -145,6 +160,8 @@ fn stats(
         "adaptive": metadata.and_then(|m| m.adaptive.as_ref()),
         "resumed_replicates": rendered.finished,
         "non_finite": metadata.map(|m| m.faults.total()),
+        "faults": metadata.map(|m| faults_to_json(&m.faults, again)),
+        "fireflies": metadata.map(|m| fireflies_to_json(&rendered.developed, m, again)),
         "peak_memory_bytes": resources::peak_memory_bytes(),
         "threads": rayon::current_num_threads(),
         "seed": metadata.map(|m| m.seed),

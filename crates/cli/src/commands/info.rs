@@ -1,5 +1,6 @@
 //! `etalon info`.
 
+use super::trouble::Fireflies;
 use super::{BAD_INPUT, answer, fail};
 use crate::args::InfoArgs;
 use crate::diagnose;
@@ -78,6 +79,18 @@ fn image(developed: &Developed) -> String {
     if m.faults.total() > 0 {
         text += &format!("not finite   {} contributions, such as\n", m.faults.total());
         text.extend(m.faults.first.iter().map(offence));
+    }
+    let fireflies = Fireflies::of(developed, m).filter(|found| found.count > 0);
+    if let Some(found) = fireflies {
+        text += &format!("fireflies    {}, the largest of them\n", found.count);
+        text.extend(found.largest().map(|outlier| {
+            let ([x, y], replicate, sample) = (outlier.pixel, outlier.replicate, outlier.sample);
+            format!(
+                "  pixel ({x}, {y}), replicate {replicate}, sample {sample}: lifts its pixel by {:.3} \
+                 (`--replay {x},{y},{replicate},{sample}`)\n",
+                found.lift(outlier)
+            )
+        }));
     }
     text
 }

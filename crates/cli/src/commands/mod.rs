@@ -11,6 +11,7 @@ pub mod merge;
 pub mod render;
 pub mod replay;
 pub mod strategies;
+mod trouble;
 
 use crate::args::Command;
 use crate::say;

@@ -23,7 +23,7 @@ fn help_has_examples_and_exit_codes() {
     }
     assert!(help.contains("Exit codes:"), "{help}");
     // What is not built yet is not offered.
-    for absent in ["serve", "denoise", "--checkpoint", "--resume"] {
+    for absent in ["serve", "denoise", "--checkpoint"] {
         let all = ["render", "merge", "compare", "convert", "info"]
             .map(|command| workshop.run(&[command, "--help"]).fine().stdout)
             .concat();

@@ -23,4 +23,5 @@ mod resume;
 mod statistics;
 mod strategies;
 mod target;
+mod trouble;
 mod workshop;

@@ -93,7 +93,7 @@ impl Film for Tally {
     fn margin(&self) -> f32 {
         1.5
     }
-    fn tile(&self, from: UVec2, to: UVec2, _: bool) -> TallyTile<'_> {
+    fn tile(&self, from: UVec2, to: UVec2, _: bool, _: u32) -> TallyTile<'_> {
         self.tiles
             .lock()
             .expect("no panic while it is held")
