@@ -9,8 +9,9 @@
 //! samples weigh in as everywhere: what they find well, L leaves to them, and the field learns the rest.
 //!
 //! Rounds take 1, 2, 4, … samples per pixel, the last what is left, and each starts its sums anew (Müller,
-//! Gross & Novák 2017, §4): half of all training or more goes into the field that is used. Records move at random within a box as large as
-//! their region, and their directions are spread over a square as large as their leaf (Müller 2019, §10.5.1).
+//! Gross & Novák 2017, §4): half of all training or more goes into the field that is used. Records move at
+//! random within a box as large as their region, and their directions are spread over a square as large as
+//! their leaf (Müller 2019, §10.5.1).
 //!
 //! Sums are integers: they do not depend on the order in which threads add. A record counts in units of 2⁻²⁰
 //! of the mean of the round before, and no more than 2²⁰ of that mean, so that one mad path cannot

@@ -174,3 +174,121 @@ impl<'f> Companion for Pupil<'f> {
         survival
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::guided::field::{FACES, Field, Lesson, Lobes};
+    use etalon_math::{Density, Frame, SolidAngle};
+    use etalon_transport::{Chance, InstanceId, LightId, MaterialId, Mode, ShapeId};
+    use glam::Vec2;
+
+    const ALBEDO: f32 = 0.5;
+    const IRRADIANCE: f32 = 3.0;
+    const COS: f32 = 0.8;
+    const DENSITY: f32 = 0.4;
+
+    /// What `sample` is said to have come from.
+    #[derive(Clone, Copy)]
+    struct Grey;
+
+    impl Bsdf for Grey {
+        fn eval(&self, _: Vec3, wi: Vec3, _: Mode) -> Vec4 {
+            Vec4::splat(ALBEDO * wi.z.max(0.0) * FRAC_1_PI)
+        }
+        fn density(&self, _: Vec3, _: Vec3) -> Density<SolidAngle> {
+            Density::uniform(DENSITY)
+        }
+        fn sample(&self, _: Vec3, _: f32, _: Vec2, _: Mode) -> Option<BsdfSample> {
+            None
+        }
+        fn has_continuous(&self) -> bool {
+            true
+        }
+        fn passing(&self) -> Vec4 {
+            Vec4::ZERO
+        }
+        fn passing_probability(&self) -> Vec4 {
+            Vec4::ZERO
+        }
+        fn albedo(&self, _: Vec3) -> Vec4 {
+            Vec4::splat(ALBEDO)
+        }
+    }
+
+    fn vertex() -> Vertex {
+        Vertex {
+            position: Vec3::splat(0.5),
+            error: Vec3::ZERO,
+            normal: Vec3::Z,
+            shading: Frame::from_normal(Vec3::Z),
+            uv: Vec2::ZERO,
+            dp_du: Vec3::X,
+            dp_dv: Vec3::Y,
+            t: 1.0,
+            time: 0.0,
+            parameters: Vec2::ZERO,
+            shape: ShapeId(0),
+            primitive: 0,
+            instance: InstanceId::NONE,
+            material: MaterialId(0),
+            light: LightId::NONE,
+        }
+    }
+
+    /// The record of the first corner of a path of three surfaces that emit radiance 2, 4, 8 and by light samples
+    /// send back 16, 32, 64. The second scatters `gain` times the light of a diffuse one.
+    fn first_record(gain: f32) -> f32 {
+        let lesson = Lesson {
+            lobes: Lobes::default(),
+            irradiance: [IRRADIANCE; FACES],
+            records: 1,
+        };
+        let field = Field::new(Vec3::ZERO, Vec3::ONE).learned(vec![lesson], 10);
+        let mut pupil = Pupil::new(Guide {
+            field: &field,
+            own: 0.5,
+            reflected: 1.0,
+        });
+        pupil.begin();
+        let wi = Vec3::new(0.6, 0.0, COS);
+        let mut path = Prefix::START;
+        for (surface, gain) in [1.0, gain, 1.0].into_iter().enumerate() {
+            let arriving = path;
+            let radiance = |r: f32| arriving.estimate(Vec4::splat(r), Vec4::ZERO);
+            pupil.found(radiance((2 << surface) as f32));
+            pupil.aimed();
+            let sample = BsdfSample {
+                wi,
+                value: Grey.eval(Vec3::Z, wi, Mode::Radiance) * gain,
+                chance: Chance::Continuous(Density::uniform(DENSITY)),
+                eta: 1.0,
+                passes: false,
+            };
+            path.extend(sample.value, sample.chance.lanes());
+            pupil.scattered(&vertex(), &Grey, Vec3::Z, &sample, &path);
+            // Roulette is no light: what survives counts for more, and here all does.
+            let survival = pupil.survival(&path, 1.0);
+            path.survive(survival);
+            pupil.lit(radiance((16 << surface) as f32));
+        }
+        let first = pupil.records().next().expect("the first corner");
+        first.weight * DENSITY / COS
+    }
+
+    #[test]
+    fn a_corner_is_told_of_the_next_diffuse_surface_and_of_what_that_is_known_to_reflect() {
+        let reflected = ALBEDO * IRRADIANCE * FRAC_1_PI;
+        let survival = 0.5;
+        let expected = (4.0 + 32.0 + reflected) / survival;
+        let found = first_record(1.0);
+        assert!((found / expected - 1.0).abs() < 1e-5, "{found}, {expected}");
+        // Mutant: the light sample of the third surface would count as well, if the corner still waited: 64
+        // times what the second scatters. A surface that scatters otherwise makes it wait.
+        let gain = 3.0;
+        let scattered = gain * ALBEDO * COS * FRAC_1_PI / DENSITY;
+        let otherwise = first_record(gain) * survival - (4.0 + 32.0);
+        let beyond = scattered * (8.0 + 64.0 + reflected);
+        assert!(otherwise > 0.9 * beyond, "{otherwise}, {beyond}");
+    }
+}
