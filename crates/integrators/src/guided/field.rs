@@ -53,6 +53,8 @@ pub(crate) struct Region {
     pub(crate) size: Vec3,
     /// The directions from which light comes.
     pub(crate) lobes: Lobes,
+    /// The irradiance that scattering found on surfaces that look to each side, the mean of their records.
+    pub(crate) irradiance: [f32; FACES],
 }
 
 impl Region {
@@ -70,6 +72,8 @@ const DEEPEST: u32 = 48;
 pub(crate) struct Lesson {
     /// The new densities of directions.
     pub(crate) lobes: Lobes,
+    /// The new irradiances.
+    pub(crate) irradiance: [f32; FACES],
     /// How many directions it was learned from.
     pub(crate) records: u64,
 }
@@ -86,6 +90,7 @@ impl Field {
             regions: vec![Region {
                 size: Vec3::splat(side),
                 lobes: Lobes::default(),
+                irradiance: [0.0; FACES],
             }],
         }
     }
@@ -118,6 +123,12 @@ impl Field {
     #[inline]
     pub(crate) fn lobe(&self, point: Vec3, normal: Vec3) -> Option<&Quadtree> {
         self.regions[self.find(point)].lobes[face(normal)].as_ref()
+    }
+
+    /// The irradiance that scattering found around a point, on surfaces with this normal; 0 where nothing
+    /// is known.
+    pub(crate) fn irradiance(&self, point: Vec3, normal: Vec3) -> f32 {
+        self.regions[self.find(point)].irradiance[face(normal)]
     }
 
     /// The field with what was learned of each region, in their order. Regions with more than `most`
@@ -164,6 +175,7 @@ impl Field {
             self.regions.push(Region {
                 size,
                 lobes: lesson.lobes.clone(),
+                irradiance: lesson.irradiance,
             });
             return Child::Region(self.regions.len() as u32 - 1);
         }

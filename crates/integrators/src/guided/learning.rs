@@ -4,20 +4,22 @@
 //! mass of a leaf = Σ L·|cos θ|/p     over the directions taken into it,     E[mass] = n ∫ L·|cos θ| dω
 //! ```
 //!
-//! L is what a path found in the direction it took, p the density of that direction, θ its angle with the
-//! surface's normal: what is learned is what a diffuse surface would like to know. Light samples weigh in
-//! as everywhere: what they find well, L leaves to them, and the field learns the rest.
+//! L is what came from the direction that a path took ([`super::pupil`]), p the density of that direction, θ
+//! its angle with the surface's normal: what is learned is what a diffuse surface would like to know. Light
+//! samples weigh in as everywhere: what they find well, L leaves to them, and the field learns the rest.
 //!
-//! Rounds take 1, 2, 4, … samples per pixel, and each starts its sums anew (Müller, Gross & Novák 2017,
-//! §4): half of all training goes into the field that is used. Records move at random within a box as large as
-//! their region, and their directions are spread over a square as large as their leaf (Müller 2019, §10.5.1).
+//! Rounds take 1, 2, 4, … samples per pixel, the last what is left, and each starts its sums anew (Müller,
+//! Gross & Novák 2017, §4): half of all training or more goes into the field that is used. Records move at
+//! random within a box as large as their region, and their directions are spread over a square as large as
+//! their leaf (Müller 2019, §10.5.1).
 //!
 //! Sums are integers: they do not depend on the order in which threads add. A record counts in units of 2⁻²⁰
 //! of the mean of the round before, and no more than 2²⁰ of that mean, so that one mad path cannot
 //! take a leaf for itself, and 2²⁴ such records fit.
 
 use super::field::{FACES, Field, Lesson, Region, face, place_of, refinement};
-use super::guide::{Guide, Pupil, Record};
+use super::guide::Guide;
+use super::pupil::{Pupil, Record};
 use crate::path::follow;
 use crate::settings::PathSettings;
 use crate::walk::Walk;
@@ -92,7 +94,8 @@ struct Sums<'f> {
     /// Where the slots of each region's faces begin.
     first: Vec<[usize; FACES]>,
     masses: Vec<AtomicU64>,
-    records: Vec<AtomicU64>,
+    /// The records of each region's faces.
+    records: Vec<[AtomicU64; FACES]>,
     /// Units per weight.
     scale: f64,
 }
@@ -108,16 +111,13 @@ impl<'f> Sums<'f> {
             })
         };
         let first = field.regions().iter().map(&mut begin).collect();
-        let zeros = |n| {
-            std::iter::repeat_with(|| AtomicU64::new(0))
-                .take(n)
-                .collect()
-        };
         Self {
             field,
             first,
-            masses: zeros(slots),
-            records: zeros(field.regions().len()),
+            masses: (0..slots).map(|_| AtomicU64::new(0)).collect(),
+            records: (field.regions().iter())
+                .map(|_| <[AtomicU64; FACES]>::default())
+                .collect(),
             scale,
         }
     }
@@ -126,12 +126,12 @@ impl<'f> Sums<'f> {
     fn add(&self, record: &Record, shift: Vec3) {
         let size = self.field.regions()[self.field.find(record.position)].size;
         let index = self.field.find(record.position + shift * size);
-        self.records[index].fetch_add(1, Ordering::Relaxed);
+        let face = face(record.normal);
+        self.records[index][face].fetch_add(1, Ordering::Relaxed);
         let units = (f64::from(record.weight) * self.scale).min(LARGEST);
         if !(units > 0.0) {
             return;
         }
-        let face = face(record.normal);
         let first = self.first[index][face];
         let tree = self.field.regions()[index].tree(face);
         tree.spread(place_of(record.direction), |slot, part| {
@@ -144,14 +144,25 @@ impl<'f> Sums<'f> {
     fn lessons(&self, share: f64) -> Vec<Lesson> {
         let load = |sum: &AtomicU64| sum.load(Ordering::Relaxed);
         let regions = self.field.regions().par_iter().enumerate();
-        let lesson = |(index, region): (usize, &Region)| Lesson {
-            lobes: core::array::from_fn(|face| {
-                let first = self.first[index][face];
-                let mass = |slot: usize| load(&self.masses[first + slot]) as f64;
-                let learned = region.tree(face).learned(mass, refinement(share));
+        let lesson = |(index, region): (usize, &Region)| {
+            let records = self.records[index].each_ref().map(load);
+            let mut irradiance = region.irradiance;
+            let lobes = core::array::from_fn(|face| {
+                let tree = region.tree(face);
+                let masses = &self.masses[self.first[index][face]..][..tree.slots()];
+                let sum: u64 = masses.iter().map(load).sum();
+                if sum > 0 {
+                    let mean = sum as f64 / records[face] as f64;
+                    irradiance[face] = (mean / self.scale) as f32;
+                }
+                let learned = tree.learned(|slot| load(&masses[slot]) as f64, refinement(share));
                 learned.or_else(|| region.lobes[face].clone())
-            }),
-            records: load(&self.records[index]),
+            });
+            Lesson {
+                lobes,
+                irradiance,
+                records: records.iter().sum(),
+            }
         };
         regions.map(lesson).collect()
     }
@@ -170,7 +181,11 @@ impl Lessons {
         let mut field = Field::new(first.from, first.to);
         let mut tally = first;
         let (mut round, mut samples, mut left) = (1, 1, self.samples.max(1));
-        while samples <= left {
+        while left > 0 {
+            // The last round takes what is left.
+            if left / 3 < samples {
+                samples = left;
+            }
             let mean = tally.weight / tally.records as f64;
             let scale = if mean > 0.0 { UNITS / mean } else { UNITS };
             let sums = Sums::new(&field, scale);

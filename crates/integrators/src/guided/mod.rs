@@ -31,6 +31,7 @@
 mod field;
 mod guide;
 mod learning;
+mod pupil;
 mod steering;
 #[cfg(test)]
 mod tests;
@@ -67,9 +68,9 @@ impl Default for Guided {
         Self {
             settings: PathSettings::default(),
             training: 0.25,
-            bsdf_sampling_fraction: 0.5,
+            bsdf_sampling_fraction: 0.3,
             spatial_threshold: 2000.0,
-            directional_threshold: 0.01,
+            directional_threshold: 0.02,
         }
     }
 }

@@ -12,6 +12,7 @@ use std::f32::consts::PI;
 fn lessons(field: &Field, records: u64) -> Vec<Lesson> {
     let lesson = |_: &field::Region| Lesson {
         lobes: Lobes::default(),
+        irradiance: [0.0; FACES],
         records,
     };
     field.regions().iter().map(lesson).collect()

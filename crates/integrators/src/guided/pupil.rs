@@ -1,0 +1,294 @@
+//! What goes along with a path in training: it remembers, for every corner, what came from the direction taken.
+//!
+//! ```text
+//! L(x, ω) ≈ Le(y) + L_lights(y) + ρ(y)·E(y)/π,        y the surface seen from x along ω
+//! ```
+//!
+//! Le is what y emits toward x, weighted against light sampling as in the picture; L_lights the one light
+//! sample taken at y; ρ its albedo; E the irradiance that scattering found there in the
+//! round before: the mean record of y's region and face. Whatever the path finds behind y is a noisy
+//! estimate of the last term, and replaced by it (expected SARSA: Dahm & Keller 2017, "Learning Light Transport
+//! the Reinforced Way"). In a corridor lit from around a corner one path of hundreds finds the light, but
+//! every one finds a surface of which something is known.
+//!
+//! That term is true of diffuse surfaces. Where a surface scatters otherwise, the path itself tells what comes
+//! from it, up to the next diffuse one.
+
+use super::guide::{Guide, toward};
+use super::steering::Steered;
+use crate::companion::Companion;
+use crate::prefix::Prefix;
+use etalon_transport::{Bsdf, BsdfSample, Vertex};
+use glam::{Vec3, Vec4};
+use std::f32::consts::FRAC_1_PI;
+use std::ops::RangeInclusive;
+
+/// A corner of a path: the direction it took, and what it found that way.
+struct Corner {
+    position: Vec3,
+    /// The shading normal on the side from which the path came.
+    normal: Vec3,
+    direction: Vec3,
+    /// The density of the direction, the mean over the lanes (sr⁻¹).
+    density: f32,
+    /// The path that leaves the corner.
+    prefix: Prefix,
+    found: Vec4,
+}
+
+/// A light that came from a direction.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Record {
+    pub(crate) position: Vec3,
+    /// The normal of the surface that it fell on.
+    pub(crate) normal: Vec3,
+    pub(crate) direction: Vec3,
+    /// Its irradiance on the surface: radiance times cosine, over the density of the direction.
+    pub(crate) weight: f32,
+}
+
+/// Steers a path in training and remembers what it finds at every corner.
+pub(crate) struct Pupil<'f> {
+    guide: Guide<'f>,
+    corners: Vec<Corner>,
+    /// The path as it left the last surface.
+    path: Prefix,
+    /// The first corner that still waits for what comes from its direction.
+    open: usize,
+    /// The corners that waited when the light sample was chosen.
+    before_light: (usize, usize),
+}
+
+/// How much more light a surface may scatter into a direction than a diffuse one of its albedo, to pass for one.
+const DIFFUSE: RangeInclusive<f32> = 0.7..=1.4;
+
+impl<'f> Pupil<'f> {
+    pub(crate) fn new(guide: Guide<'f>) -> Self {
+        Self {
+            guide,
+            corners: Vec::new(),
+            path: Prefix::START,
+            open: 0,
+            before_light: (0, 0),
+        }
+    }
+
+    /// Begins another path.
+    pub(crate) fn begin(&mut self) {
+        self.corners.clear();
+        self.path = Prefix::START;
+        self.open = 0;
+        self.before_light = (0, 0);
+        self.guide.reflected = 1.0;
+    }
+
+    /// What was found, corner by corner.
+    pub(crate) fn records(&self) -> impl Iterator<Item = Record> {
+        self.corners.iter().map(|corner| Record {
+            position: corner.position,
+            normal: corner.normal,
+            direction: corner.direction,
+            weight: corner.incident() * corner.normal.dot(corner.direction).abs() / corner.density,
+        })
+    }
+
+    /// Tells the corners that wait for it what a diffuse surface reflects; they wait no longer.
+    fn reflect(&mut self, position: Vec3, normal: Vec3, albedo: Vec4) {
+        let irradiance = self.guide.field.irradiance(position, normal);
+        let radiance = albedo * (irradiance * FRAC_1_PI);
+        let estimate = self.path.estimate(radiance, Vec4::ZERO);
+        for corner in &mut self.corners[self.open..] {
+            corner.found += estimate;
+        }
+        self.open = self.corners.len();
+    }
+}
+
+impl Corner {
+    /// An estimate of the radiance that comes from the corner's direction, the mean over the lanes, which
+    /// are drawn as the eye sees. Exact in expectation where later densities are the same in all lanes; but
+    /// for noise, nothing depends on it.
+    fn incident(&self) -> f32 {
+        let value = self.prefix.value;
+        let seen = value.cmpgt(Vec4::ZERO);
+        let radiance = self.found * self.prefix.ratio.element_sum() / value;
+        0.25 * Vec4::select(seen, radiance, Vec4::ZERO).element_sum()
+    }
+}
+
+impl<'f> Companion for Pupil<'f> {
+    type Steered<B: Bsdf + Copy> = Steered<'f, B>;
+
+    fn steer<B: Bsdf + Copy>(&self, vertex: &Vertex, wo: Vec3, bsdf: B) -> Steered<'f, B> {
+        self.guide.steer(vertex, wo, bsdf)
+    }
+
+    fn scattered(
+        &mut self,
+        vertex: &Vertex,
+        bsdf: &impl Bsdf,
+        wo: Vec3,
+        sample: &BsdfSample,
+        prefix: &Prefix,
+    ) {
+        self.guide.scattered(vertex, bsdf, wo, sample, prefix);
+        if !sample.chance.is_discrete() {
+            let normal = toward(vertex, wo);
+            let albedo = bsdf.albedo(wo);
+            let diffuse = albedo.element_sum() * normal.dot(sample.wi).abs() * FRAC_1_PI;
+            if DIFFUSE.contains(&(sample.value.element_sum() / diffuse)) {
+                self.reflect(vertex.position, normal, albedo);
+            }
+            self.corners.push(Corner {
+                position: vertex.position,
+                normal,
+                direction: sample.wi,
+                density: 0.25 * sample.chance.lanes().element_sum(),
+                prefix: *prefix,
+                found: Vec4::ZERO,
+            });
+        }
+        self.path = *prefix;
+    }
+
+    fn found(&mut self, estimate: Vec4) {
+        for corner in &mut self.corners[self.open..] {
+            corner.found += estimate;
+        }
+    }
+
+    fn aimed(&mut self) {
+        self.before_light = (self.open, self.corners.len());
+    }
+
+    fn lit(&mut self, estimate: Vec4) {
+        let (open, end) = self.before_light;
+        for corner in &mut self.corners[open..end] {
+            corner.found += estimate;
+        }
+    }
+
+    fn survival(&mut self, prefix: &Prefix, eta: f32) -> f32 {
+        let survival = self.guide.survival(prefix, eta);
+        self.path.survive(survival);
+        survival
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::guided::field::{FACES, Field, Lesson, Lobes};
+    use etalon_math::{Density, Frame, SolidAngle};
+    use etalon_transport::{Chance, InstanceId, LightId, MaterialId, Mode, ShapeId};
+    use glam::Vec2;
+
+    const ALBEDO: f32 = 0.5;
+    const IRRADIANCE: f32 = 3.0;
+    const COS: f32 = 0.8;
+    const DENSITY: f32 = 0.4;
+
+    /// What `sample` is said to have come from.
+    #[derive(Clone, Copy)]
+    struct Grey;
+
+    impl Bsdf for Grey {
+        fn eval(&self, _: Vec3, wi: Vec3, _: Mode) -> Vec4 {
+            Vec4::splat(ALBEDO * wi.z.max(0.0) * FRAC_1_PI)
+        }
+        fn density(&self, _: Vec3, _: Vec3) -> Density<SolidAngle> {
+            Density::uniform(DENSITY)
+        }
+        fn sample(&self, _: Vec3, _: f32, _: Vec2, _: Mode) -> Option<BsdfSample> {
+            None
+        }
+        fn has_continuous(&self) -> bool {
+            true
+        }
+        fn passing(&self) -> Vec4 {
+            Vec4::ZERO
+        }
+        fn passing_probability(&self) -> Vec4 {
+            Vec4::ZERO
+        }
+        fn albedo(&self, _: Vec3) -> Vec4 {
+            Vec4::splat(ALBEDO)
+        }
+    }
+
+    fn vertex() -> Vertex {
+        Vertex {
+            position: Vec3::splat(0.5),
+            error: Vec3::ZERO,
+            normal: Vec3::Z,
+            shading: Frame::from_normal(Vec3::Z),
+            uv: Vec2::ZERO,
+            dp_du: Vec3::X,
+            dp_dv: Vec3::Y,
+            t: 1.0,
+            time: 0.0,
+            parameters: Vec2::ZERO,
+            shape: ShapeId(0),
+            primitive: 0,
+            instance: InstanceId::NONE,
+            material: MaterialId(0),
+            light: LightId::NONE,
+        }
+    }
+
+    /// The record of the first corner of a path of three surfaces that emit radiance 2, 4, 8 and by light samples
+    /// send back 16, 32, 64. The second scatters `gain` times the light of a diffuse one.
+    fn first_record(gain: f32) -> f32 {
+        let lesson = Lesson {
+            lobes: Lobes::default(),
+            irradiance: [IRRADIANCE; FACES],
+            records: 1,
+        };
+        let field = Field::new(Vec3::ZERO, Vec3::ONE).learned(vec![lesson], 10);
+        let mut pupil = Pupil::new(Guide {
+            field: &field,
+            own: 0.5,
+            reflected: 1.0,
+        });
+        pupil.begin();
+        let wi = Vec3::new(0.6, 0.0, COS);
+        let mut path = Prefix::START;
+        for (surface, gain) in [1.0, gain, 1.0].into_iter().enumerate() {
+            let arriving = path;
+            let radiance = |r: f32| arriving.estimate(Vec4::splat(r), Vec4::ZERO);
+            pupil.found(radiance((2 << surface) as f32));
+            pupil.aimed();
+            let sample = BsdfSample {
+                wi,
+                value: Grey.eval(Vec3::Z, wi, Mode::Radiance) * gain,
+                chance: Chance::Continuous(Density::uniform(DENSITY)),
+                eta: 1.0,
+                passes: false,
+            };
+            path.extend(sample.value, sample.chance.lanes());
+            pupil.scattered(&vertex(), &Grey, Vec3::Z, &sample, &path);
+            // Roulette is no light: what survives counts for more, and here all does.
+            let survival = pupil.survival(&path, 1.0);
+            path.survive(survival);
+            pupil.lit(radiance((16 << surface) as f32));
+        }
+        let first = pupil.records().next().expect("the first corner");
+        first.weight * DENSITY / COS
+    }
+
+    #[test]
+    fn a_corner_is_told_of_the_next_diffuse_surface_and_of_what_that_is_known_to_reflect() {
+        let reflected = ALBEDO * IRRADIANCE * FRAC_1_PI;
+        let survival = 0.5;
+        let expected = (4.0 + 32.0 + reflected) / survival;
+        let found = first_record(1.0);
+        assert!((found / expected - 1.0).abs() < 1e-5, "{found}, {expected}");
+        // Mutant: the light sample of the third surface would count as well, if the corner still waited: 64
+        // times what the second scatters. A surface that scatters otherwise makes it wait.
+        let gain = 3.0;
+        let scattered = gain * ALBEDO * COS * FRAC_1_PI / DENSITY;
+        let otherwise = first_record(gain) * survival - (4.0 + 32.0);
+        let beyond = scattered * (8.0 + 64.0 + reflected);
+        assert!(otherwise > 0.9 * beyond, "{otherwise}, {beyond}");
+    }
+}
