@@ -19,17 +19,15 @@
 //! ray per sample, which also tells alpha. Lights without extent are not seen themselves, as by
 //! any other estimator. With `hide_emitters` the camera looks through lights, as that of `path`.
 
-use crate::dimensions::Event;
+use crate::particle::Particle;
 use crate::path::camera_ray;
 use crate::prefix::Prefix;
-use crate::ptracer::emit;
 use crate::settings::{PathSettings, ignore_scheduling};
 use etalon_params::Params;
 use etalon_sampling::Sampler;
 use etalon_spectrum::{SensorWeights, Wavelengths, sensor_response};
 use etalon_transport::{
-    Bsdf, Camera, Finding, Integrator, Mode, Objection, Pass, PixelSite, Ray, Sight, Sink, Subject,
-    World,
+    Bsdf, Camera, Finding, Integrator, Objection, Pass, PixelSite, Ray, Sight, Sink, Subject, World,
 };
 use glam::Vec4;
 
@@ -117,19 +115,15 @@ impl Forward {
             rr_depth,
             hide_emitters,
         } = self.settings;
-        let Some(start) = emit(world, wavelengths, sampler) else {
+        let Some((start, mut particle)) = Particle::emit(world, wavelengths, sampler) else {
             return;
         };
-        let mut prefix = Prefix::START;
-        prefix.value = start.weight;
-        let mut ray = start.ray;
         // Whether the particle has only passed surfaces straight since it left the light, and
         // whether its ray starts on a surface that emits.
         let mut straight = true;
         let mut on_light = !start.origin.is_infinite();
-        // Number of segments, that of `ray` included.
-        let mut depth = 1;
-        while depth <= max_depth {
+        while particle.depth <= max_depth {
+            let Particle { ray, depth, .. } = particle;
             let extent = start.origin.can_be_hit();
             let sky = start.origin.is_infinite();
             let unseen = straight && (!extent || sky && (depth == 1 || hide_emitters));
@@ -145,7 +139,8 @@ impl Forward {
                         },
                     )
                 {
-                    let value = prefix.estimate(Vec4::splat(found.weight), Vec4::ZERO);
+                    let weight = Vec4::splat(found.weight);
+                    let value = particle.prefix.estimate(weight, Vec4::ZERO);
                     let rgb = sensor.rgb(value) / site.pixels as f32;
                     sink.splat(found.raster, rgb.to_array());
                 }
@@ -153,34 +148,14 @@ impl Forward {
             if depth == max_depth {
                 return;
             }
-            let Some(hit) = world.intersect(&ray) else {
+            let Some(met) = particle.meet(world, sampler) else {
                 return;
             };
-            let vertex = world.vertex(&ray, &hit);
-            let wo = -ray.direction;
-            let bsdf = world.bsdf(&vertex, wo, wavelengths);
-            let event = Event::draw(sampler, depth);
-            let sampled = bsdf.sample(wo, event.lobe, event.direction, Mode::Importance);
-            let Some(sample) = sampled else {
+            let Some(sample) = particle.scatter(&met, rr_depth) else {
                 return;
             };
-            let before = prefix.throughput();
-            prefix.extend(sample.value, sample.chance.lanes());
-            if depth >= rr_depth {
-                // Relative to the flux before: emitted flux has no natural scale.
-                let survival = (prefix.throughput() / before).min(0.95);
-                if !(event.roulette < survival) {
-                    return;
-                }
-                prefix.survive(survival);
-            }
-            if prefix.value == Vec4::ZERO {
-                return;
-            }
-            ray = vertex.spawn(sample.wi);
             straight &= sample.passes;
-            on_light = world.is_emitter(&hit);
-            depth += 1;
+            on_light = world.is_emitter(&met.hit);
         }
     }
 }

@@ -21,6 +21,7 @@ pub mod metropolis;
 pub mod mmlt;
 pub mod moment;
 pub mod naive;
+mod particle;
 pub mod path;
 pub mod photonmap;
 pub mod photons;

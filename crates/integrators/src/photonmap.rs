@@ -18,7 +18,7 @@
 //! stays as it is, so the bias does not vanish however many samples and replicates there are, only
 //! with more photons.
 
-use crate::photons::gather::{Kernel, Layer, Lookup, Plan, Scratch, follow};
+use crate::photons::gather::{Kernel, Layer, Lookup, Plan, follow_all, follow_one};
 use crate::photons::radius::{from_pixels, read};
 use crate::photons::sets::WavelengthSets;
 use crate::photons::shoot::{Kind, PhotonMap, shoot};
@@ -201,10 +201,7 @@ impl Integrator for PhotonMapper {
         sampler: &mut S,
         sink: &mut K,
     ) {
-        let mut scratch = Scratch::default();
-        self.plan(state, |plan| {
-            follow(world, plan, site, sampler, &mut scratch, sink);
-        });
+        self.plan(state, |plan| follow_one(world, plan, site, sampler, sink));
     }
 
     fn sample_all<W: World, S: Sampler, K: TileSink>(
@@ -214,13 +211,6 @@ impl Integrator for PhotonMapper {
         drafts: &mut [Draft<S>],
         sink: &mut K,
     ) {
-        let mut scratch = Scratch::default();
-        self.plan(state, |plan| {
-            for draft in drafts {
-                sink.begin_sample(draft.site.pixel, draft.weight);
-                let sampler = &mut draft.sampler;
-                follow(world, plan, &draft.site, sampler, &mut scratch, sink);
-            }
-        });
+        self.plan(state, |plan| follow_all(world, plan, drafts, sink));
     }
 }

@@ -15,7 +15,7 @@
 //! stopped, the background included. With `hide_emitters` lights are not seen directly; they
 //! still stand in the way of what is behind them, as in Mitsuba.
 
-use crate::dimensions::{self as dim, Event};
+use crate::particle::{Met, Particle};
 use crate::path::camera_ray;
 use crate::prefix::Prefix;
 use crate::settings::{PathSettings, ignore_scheduling};
@@ -23,10 +23,9 @@ use etalon_params::Params;
 use etalon_sampling::Sampler;
 use etalon_spectrum::{SensorWeights, Wavelengths, sensor_response};
 use etalon_transport::{
-    Bsdf, Camera, Emission, Finding, Integrator, Mode, Objection, Pass, PixelSite, Ray, Sight,
-    Sink, Vertex, World,
+    Bsdf, Camera, Finding, Integrator, Mode, Objection, Pass, PixelSite, Ray, Sight, Sink, World,
 };
-use glam::{Vec2, Vec3, Vec4};
+use glam::{Vec2, Vec4};
 
 /// The light tracer.
 #[derive(Clone, Debug, Default)]
@@ -34,11 +33,6 @@ pub struct ParticleTracer {
     /// Limits of the path.
     pub settings: PathSettings,
 }
-
-/// The light's choices come first; scattering events follow at the usual places.
-const EMISSION_POSITION: u32 = dim::SCATTERING;
-const EMISSION_DIRECTION: u32 = dim::SCATTERING + 2;
-const EMISSION_LIGHT: u32 = dim::SCATTERING + 4;
 
 impl ParticleTracer {
     /// Reads the integrator from its description.
@@ -86,13 +80,11 @@ impl ParticleTracer {
     }
 
     /// One particle, splatted wherever the camera sees it scatter.
-    #[allow(clippy::too_many_arguments)]
-    fn trace_particle<W: World, S: Sampler, K: Sink>(
+    fn trace<W: World, S: Sampler, K: Sink>(
         &self,
         world: &W,
         site: &PixelSite,
-        wavelengths: &Wavelengths,
-        sensor: &SensorWeights,
+        (wavelengths, sensor): (&Wavelengths, &SensorWeights),
         sampler: &mut S,
         sink: &mut K,
     ) {
@@ -104,93 +96,43 @@ impl ParticleTracer {
         if max_depth < 2 {
             return;
         }
-        let Some(start) = emit(world, wavelengths, sampler) else {
+        let Some((_, mut particle)) = Particle::emit(world, wavelengths, sampler) else {
             return;
         };
-        let mut prefix = Prefix::START;
-        prefix.value = start.weight;
-        let mut ray = start.ray;
-        // `depth` segments lie behind once the ray has arrived.
-        let mut depth = 1;
-        while depth < max_depth {
-            let Some(hit) = world.intersect(&ray) else {
+        // As many segments as its depth lie behind once it has arrived.
+        while particle.depth < max_depth {
+            let Some(met) = particle.meet(world, sampler) else {
                 return;
             };
-            let vertex = world.vertex(&ray, &hit);
-            let wo = -ray.direction;
-            let bsdf = world.bsdf(&vertex, wo, wavelengths);
-            let event = Event::draw(sampler, depth);
-            if bsdf.has_continuous() {
-                let crossings = max_depth - depth - 1;
-                if let Some((raster, value)) = connect(
-                    world,
-                    wavelengths,
-                    site,
-                    &prefix,
-                    &vertex,
-                    &bsdf,
-                    wo,
-                    event.light,
-                    crossings,
-                ) {
+            if met.bsdf.has_continuous() {
+                let crossings = max_depth - particle.depth - 1;
+                let prefix = &particle.prefix;
+                if let Some((raster, value)) =
+                    connect(world, wavelengths, site, prefix, &met, crossings)
+                {
                     let rgb = sensor.rgb(value) / site.pixels as f32;
                     sink.splat(raster, rgb.to_array());
                 }
             }
-            let Some(sample) = bsdf.sample(wo, event.lobe, event.direction, Mode::Importance)
-            else {
-                return;
-            };
-            let before = prefix.throughput();
-            prefix.extend(sample.value, sample.chance.lanes());
-            ray = vertex.spawn(sample.wi);
-            if depth >= rr_depth {
-                // Relative to the flux before: emitted flux has no natural scale.
-                let survival = (prefix.throughput() / before).min(0.95);
-                if !(event.roulette < survival) {
-                    return;
-                }
-                prefix.survive(survival);
-            }
-            if prefix.value == Vec4::ZERO {
+            if particle.scatter(&met, rr_depth).is_none() {
                 return;
             }
-            depth += 1;
         }
     }
 }
 
-/// A particle, with the random numbers that are reserved for its start.
-pub(crate) fn emit<W: World, S: Sampler>(
-    world: &W,
-    wavelengths: &Wavelengths,
-    sampler: &mut S,
-) -> Option<Emission> {
-    sampler.skip_to(EMISSION_POSITION);
-    let u_position = sampler.next_2d();
-    sampler.skip_to(EMISSION_DIRECTION);
-    let u_direction = sampler.next_2d();
-    sampler.skip_to(EMISSION_LIGHT);
-    let u_light = sampler.next_1d();
-    world.emit(wavelengths, u_light, u_position, u_direction)
-}
-
-/// Connects a particle's vertex with the camera: where it lands, and its value per lane.
-#[allow(clippy::too_many_arguments)]
+/// Connects the surface that a particle met with the camera: where it lands, and its value per lane.
 fn connect<W: World>(
     world: &W,
     wavelengths: &Wavelengths,
     site: &PixelSite,
     prefix: &Prefix,
-    vertex: &Vertex,
-    bsdf: &W::Bsdf<'_>,
-    wo: Vec3,
-    lens: Vec2,
+    met: &Met<W::Bsdf<'_>>,
     crossings: u32,
 ) -> Option<(Vec2, Vec4)> {
-    let camera = world.camera();
-    let connection = camera.connect(vertex.position, lens, site.margin)?;
-    let value = bsdf.eval(wo, connection.direction, Mode::Importance);
+    let (vertex, lens) = (&met.vertex, met.event.light);
+    let connection = (world.camera()).connect(vertex.position, lens, site.margin)?;
+    let value = (met.bsdf).eval(met.wo, connection.direction, Mode::Importance);
     if value == Vec4::ZERO {
         return None;
     }
@@ -230,6 +172,6 @@ impl Integrator for ParticleTracer {
         let sensor = sensor_response(&wavelengths);
         let (lights, alpha) = self.visible_lights(world, ray, &wavelengths);
         sink.radiance(sensor.rgb(lights * weight).to_array(), alpha);
-        self.trace_particle(world, site, &wavelengths, &sensor, sampler, sink);
+        self.trace(world, site, (&wavelengths, &sensor), sampler, sink);
     }
 }

@@ -14,7 +14,7 @@
 //! Direct light is sampled and not left to photons, unless that is asked for. What photons bring is
 //! biased, the more so where illumination bends within the radius or near edges.
 
-use crate::photons::gather::{Kernel, Layer, Lookup, Plan, Scratch, follow};
+use crate::photons::gather::{Kernel, Layer, Lookup, Plan, follow_all, follow_one};
 use crate::photons::radius::Radius;
 use crate::photons::sets::WavelengthSets;
 use crate::photons::shoot::{Kind, PhotonMap, shoot};
@@ -132,10 +132,7 @@ impl Integrator for Progressive {
         sampler: &mut S,
         sink: &mut K,
     ) {
-        let mut scratch = Scratch::default();
-        self.plan(state, |plan| {
-            follow(world, plan, site, sampler, &mut scratch, sink);
-        });
+        self.plan(state, |plan| follow_one(world, plan, site, sampler, sink));
     }
 
     fn sample_all<W: World, S: Sampler, K: TileSink>(
@@ -145,13 +142,6 @@ impl Integrator for Progressive {
         drafts: &mut [Draft<S>],
         sink: &mut K,
     ) {
-        let mut scratch = Scratch::default();
-        self.plan(state, |plan| {
-            for draft in drafts {
-                sink.begin_sample(draft.site.pixel, draft.weight);
-                let sampler = &mut draft.sampler;
-                follow(world, plan, &draft.site, sampler, &mut scratch, sink);
-            }
-        });
+        self.plan(state, |plan| follow_all(world, plan, drafts, sink));
     }
 }

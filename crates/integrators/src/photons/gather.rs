@@ -16,7 +16,9 @@ use crate::walk::shadow_ray;
 use core::f32::consts::PI;
 use etalon_sampling::Sampler;
 use etalon_spectrum::Wavelengths;
-use etalon_transport::{Bsdf, Camera, Chance, Mode, PixelSite, Ray, Receiver, Sink, Vertex, World};
+use etalon_transport::{
+    Bsdf, Camera, Chance, Draft, Mode, PixelSite, Ray, Receiver, Sink, TileSink, Vertex, World,
+};
 use glam::{Vec3, Vec4};
 
 /// The least cosine of the angle between the normals of surfaces that share photons.
@@ -83,7 +85,7 @@ pub(crate) struct Plan<'a> {
 }
 
 /// Memory for walks.
-pub(crate) struct Scratch<B> {
+struct Scratch<B> {
     path: Vec<Left>,
     /// The model of the surface at hand for each set, once needed, and what its photons add.
     at: Vec<(Option<B>, Vec4)>,
@@ -120,8 +122,34 @@ struct Gatherer<'a, 'w, W: World> {
     rgb: Vec3,
 }
 
+/// Follows one sample by itself.
+pub(crate) fn follow_one<W: World>(
+    world: &W,
+    plan: &Plan<'_>,
+    site: &PixelSite,
+    sampler: &mut impl Sampler,
+    sink: &mut impl Sink,
+) {
+    follow(world, plan, site, sampler, &mut Scratch::default(), sink);
+}
+
+/// Follows samples one after the other.
+pub(crate) fn follow_all<W: World, S: Sampler>(
+    world: &W,
+    plan: &Plan<'_>,
+    drafts: &mut [Draft<S>],
+    sink: &mut impl TileSink,
+) {
+    let mut scratch = Scratch::default();
+    for draft in drafts {
+        sink.begin_sample(draft.site.pixel, draft.weight);
+        let (site, sampler) = (&draft.site, &mut draft.sampler);
+        follow(world, plan, site, sampler, &mut scratch, sink);
+    }
+}
+
 /// Follows one sample.
-pub(crate) fn follow<'w, W: World>(
+fn follow<'w, W: World>(
     world: &'w W,
     plan: &Plan<'_>,
     site: &PixelSite,

@@ -7,12 +7,11 @@
 
 use super::sets::{Lanes, WavelengthSets};
 use super::{is_sharp, kdtree::KdTree};
-use crate::dimensions::{self as dim, Event};
-use crate::prefix::Prefix;
+use crate::particle::{Met, Particle};
 use crate::settings::PathSettings;
 use etalon_sampling::hash::mix64;
-use etalon_sampling::{PixelSample, Sampler, Sobol};
-use etalon_transport::{Bsdf, Chance, Mode, Pass, World};
+use etalon_sampling::{PixelSample, Sobol};
+use etalon_transport::{Bsdf, Chance, Pass, World};
 use glam::{Vec3, Vec4};
 use rayon::prelude::*;
 
@@ -61,11 +60,6 @@ impl PhotonMap {
         Self { tree, photons }
     }
 }
-
-/// The light's choices come first; scattering events follow at the usual places.
-const EMISSION_POSITION: u32 = dim::SCATTERING;
-const EMISSION_DIRECTION: u32 = dim::SCATTERING + 2;
-const EMISSION_LIGHT: u32 = dim::SCATTERING + 4;
 
 /// The row of pixels, beyond any film, whose random numbers photons take.
 const ROW: u32 = u32::MAX;
@@ -134,68 +128,48 @@ fn trace<W: World>(
     found: &mut Vec<Photon>,
 ) {
     let wavelengths = sets.of(lanes);
-    sampler.skip_to(EMISSION_POSITION);
-    let u_position = sampler.next_2d();
-    sampler.skip_to(EMISSION_DIRECTION);
-    let u_direction = sampler.next_2d();
-    sampler.skip_to(EMISSION_LIGHT);
-    let u_light = sampler.next_1d();
-    let Some(start) = world.emit(&wavelengths, u_light, u_position, u_direction) else {
+    let Some((_, mut particle)) = Particle::emit(world, &wavelengths, sampler) else {
         return;
     };
-    let mut prefix = Prefix::START;
-    prefix.value = start.weight;
-    let mut ray = start.ray;
+    if particle.prefix.value == Vec4::ZERO {
+        return;
+    }
     let mut kind = Kind::Direct;
-    // `depth` segments lie behind once the ray has arrived; the camera adds one at least.
-    let mut depth = 1;
-    while depth < settings.max_depth && prefix.value != Vec4::ZERO {
-        let Some(hit) = world.intersect(&ray) else {
+    // As many segments as its depth lie behind once it has arrived; the camera adds one at least.
+    while particle.depth < settings.max_depth {
+        let Some(met) = particle.meet(world, sampler) else {
             return;
         };
-        let vertex = world.vertex(&ray, &hit);
-        let wo = -ray.direction;
-        let bsdf = world.bsdf(&vertex, wo, &wavelengths);
-        let cos = vertex.normal.dot(wo).abs();
+        let Met {
+            vertex, wo, bsdf, ..
+        } = &met;
+        let cos = vertex.normal.dot(*wo).abs();
         if bsdf.has_continuous() && cos > 0.0 {
+            let prefix = &particle.prefix;
             let value = prefix.value * (4.0 / (prefix.ratio.element_sum() * cos));
             found.push(Photon {
                 position: vertex.position,
                 normal: vertex.normal,
-                from: wo,
+                from: *wo,
                 value: lanes.to_set(value),
                 set: lanes.set as u32,
-                segments: depth,
+                segments: particle.depth,
                 kind,
             });
         }
-        let event = Event::draw(sampler, depth);
-        let sampled = bsdf.sample(wo, event.lobe, event.direction, Mode::Importance);
-        let Some(sample) = sampled else {
+        let Some(sample) = particle.scatter(&met, settings.rr_depth) else {
             return;
         };
         if !sample.passes {
             // As the camera's paths would call it, which come along the other way.
             let sharp = match sample.chance {
                 Chance::Discrete(_) => true,
-                Chance::Continuous(_) => is_sharp(bsdf.density(sample.wi, wo)),
+                Chance::Continuous(_) => is_sharp(bsdf.density(sample.wi, *wo)),
             };
             kind = match kind {
                 Kind::Direct | Kind::Caustic if sharp => Kind::Caustic,
                 _ => Kind::Indirect,
             };
         }
-        let before = prefix.throughput();
-        prefix.extend(sample.value, sample.chance.lanes());
-        ray = vertex.spawn(sample.wi);
-        if depth >= settings.rr_depth {
-            // Relative to the flux before: emitted flux has no natural scale.
-            let survival = (prefix.throughput() / before).min(0.95);
-            if !(event.roulette < survival) {
-                return;
-            }
-            prefix.survive(survival);
-        }
-        depth += 1;
     }
 }

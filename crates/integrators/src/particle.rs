@@ -1,0 +1,113 @@
+//! One particle from a light, from surface to surface.
+//!
+//! What `ptracer` connects with the camera, `forward` waits for, and photon maps keep: they differ
+//! in what they do with a particle, not in how it goes.
+
+use crate::dimensions::{self as dim, Event};
+use crate::prefix::Prefix;
+use etalon_sampling::Sampler;
+use etalon_spectrum::Wavelengths;
+use etalon_transport::{Bsdf, BsdfSample, Emission, Hit, Mode, Ray, Vertex, World};
+use glam::{Vec3, Vec4};
+
+/// The light's choices come first; scattering events follow at the usual places.
+const EMISSION_POSITION: u32 = dim::SCATTERING;
+const EMISSION_DIRECTION: u32 = dim::SCATTERING + 2;
+const EMISSION_LIGHT: u32 = dim::SCATTERING + 4;
+
+/// A particle on its way.
+pub(crate) struct Particle<'a> {
+    wavelengths: &'a Wavelengths,
+    /// Its flux over its density, per lane, and how likely each lane's choices were.
+    pub(crate) prefix: Prefix,
+    /// Where it goes.
+    pub(crate) ray: Ray,
+    /// Number of segments, that of `ray` included.
+    pub(crate) depth: u32,
+}
+
+/// A surface that a particle met.
+pub(crate) struct Met<B> {
+    pub(crate) hit: Hit,
+    pub(crate) vertex: Vertex,
+    /// Unit direction to where it came from.
+    pub(crate) wo: Vec3,
+    pub(crate) bsdf: B,
+    /// The numbers that decide what becomes of it here.
+    pub(crate) event: Event,
+}
+
+impl<'a> Particle<'a> {
+    /// A particle that leaves a light; `None` if nothing is emitted.
+    #[inline]
+    pub(crate) fn emit<W: World>(
+        world: &W,
+        wavelengths: &'a Wavelengths,
+        sampler: &mut impl Sampler,
+    ) -> Option<(Emission, Self)> {
+        sampler.skip_to(EMISSION_POSITION);
+        let u_position = sampler.next_2d();
+        sampler.skip_to(EMISSION_DIRECTION);
+        let u_direction = sampler.next_2d();
+        sampler.skip_to(EMISSION_LIGHT);
+        let u_light = sampler.next_1d();
+        let start = world.emit(wavelengths, u_light, u_position, u_direction)?;
+        let particle = Self {
+            wavelengths,
+            prefix: Prefix {
+                value: start.weight,
+                ..Prefix::START
+            },
+            ray: start.ray,
+            depth: 1,
+        };
+        Some((start, particle))
+    }
+
+    /// The next surface on its way; `None` if it leaves the scene.
+    #[inline]
+    pub(crate) fn meet<'w, W: World>(
+        &self,
+        world: &'w W,
+        sampler: &mut impl Sampler,
+    ) -> Option<Met<W::Bsdf<'w>>> {
+        let hit = world.intersect(&self.ray)?;
+        let vertex = world.vertex(&self.ray, &hit);
+        let wo = -self.ray.direction;
+        Some(Met {
+            hit,
+            vertex,
+            wo,
+            bsdf: world.bsdf(&vertex, wo, self.wavelengths),
+            event: Event::draw(sampler, self.depth),
+        })
+    }
+
+    /// Takes it around the corner; `None` if it ends there. From `rr_depth` segments on it survives
+    /// with a probability relative to its flux before: emitted flux has no natural scale.
+    #[inline]
+    pub(crate) fn scatter<B: Bsdf>(&mut self, met: &Met<B>, rr_depth: u32) -> Option<BsdfSample> {
+        let Event {
+            lobe,
+            direction,
+            roulette,
+            ..
+        } = met.event;
+        let sample = (met.bsdf).sample(met.wo, lobe, direction, Mode::Importance)?;
+        let before = self.prefix.throughput();
+        self.prefix.extend(sample.value, sample.chance.lanes());
+        if self.depth >= rr_depth {
+            let survival = (self.prefix.throughput() / before).min(0.95);
+            if !(roulette < survival) {
+                return None;
+            }
+            self.prefix.survive(survival);
+        }
+        if self.prefix.value == Vec4::ZERO {
+            return None;
+        }
+        self.ray = met.vertex.spawn(sample.wi);
+        self.depth += 1;
+        Some(sample)
+    }
+}
