@@ -67,7 +67,7 @@ impl Default for Guided {
     fn default() -> Self {
         Self {
             settings: PathSettings::default(),
-            training: 0.25,
+            training: 0.15,
             bsdf_sampling_fraction: 0.3,
             spatial_threshold: 2000.0,
             directional_threshold: 0.02,
