@@ -22,7 +22,7 @@
 
 use crate::convergence::Part;
 use crate::fault::Fault;
-use crate::matrix::{self, Matrix};
+use crate::matrix::{self, Absence, Matrix};
 use crate::noise::Means;
 use serde::Deserialize;
 use std::collections::BTreeMap;
@@ -51,6 +51,9 @@ pub struct Claim {
     pub estimators: Vec<Estimator>,
     /// How all other unbiased integrators must agree with it.
     pub matrix: Option<Matrix>,
+    /// Those of them that do not take part.
+    #[serde(skip)]
+    pub absent: Vec<Absence>,
     /// Bounds of what matters.
     #[serde(default)]
     pub bounds: Bounds,

@@ -69,6 +69,9 @@ pub fn of(rows: &[Row<'_>], provenance: &Provenance) -> Value {
             "passed": passed, "failed": failed, "undecided": undecided, "broken": broken,
         },
         "bounded_below_half_per_cent": { "rows": below, "of": asked },
+        "absent": table::absent(rows).into_iter().map(|(claim, absence)| json!({
+            "claim": claim, "integrator": absence.integrator, "reason": absence.reason,
+        })).collect::<Vec<_>>(),
         "rows": rows.iter().map(|row| self::row(row, provenance)).collect::<Vec<_>>(),
     })
 }

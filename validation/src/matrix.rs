@@ -2,14 +2,14 @@
 //!
 //! A claim names the integrators that it is about. With a table `matrix` all others take part, too,
 //! each as one more comparison of the default and the full run, unless they object to the scene when
-//! they are asked ([`etalon::pipeline::Loaded::complete`]). An integrator that is added to the
-//! house so stands in all these rows without a word.
+//! they are asked ([`etalon::pipeline::Loaded::complete`]): then the report says so, and why. An
+//! integrator that is added to the house so stands in all these rows without a word.
 //!
 //! ```toml
 //! [matrix]
 //! default = { spp = 256, replicates = 32 }
 //! bound = 0.02                 # of the bias of the image's mean; half a per cent in a full run
-//! without = ["ptracer"]        # sees nothing in a mirror
+//! without = { ptracer = "sees nothing in a mirror" }
 //! later = ["naive"]            # too noisy here for the default run: in the full run only
 //! ```
 
@@ -17,8 +17,10 @@ use crate::budget::Budget;
 use crate::claim::{Claim, Estimator, Oracle};
 use crate::rendering;
 use crate::tier::Tier;
+use etalon::pipeline::Loaded;
 use etalon_integrators::list;
-use serde::Deserialize;
+use serde::{Deserialize, Serialize};
+use std::collections::BTreeMap;
 
 /// How all unbiased integrators are held against a claim's oracle.
 #[derive(Clone, Debug, Deserialize)]
@@ -28,12 +30,21 @@ pub struct Matrix {
     pub default: Budget,
     /// Which bias of the image's mean the default run must exclude, relative to it.
     pub bound: f64,
-    /// Integrators that cannot render the scene, though they do not object.
+    /// Integrators that cannot render the scene, though they do not object, and why.
     #[serde(default)]
-    pub without: Vec<String>,
+    pub without: BTreeMap<String, String>,
     /// Integrators that only a full run asks.
     #[serde(default)]
     pub later: Vec<String>,
+}
+
+/// An unbiased integrator that has no row of its own in a claim's matrix.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize)]
+pub struct Absence {
+    /// Its name.
+    pub integrator: String,
+    /// What it objects to in the scene, or what the claim says of it.
+    pub reason: String,
 }
 
 /// A row of the matrix.
@@ -71,7 +82,7 @@ pub(crate) fn expand(claim: &mut Claim) -> Result<(), String> {
         return Err("`matrix` belongs to claims about pictures".to_owned());
     }
     let unbiased = list::unbiased();
-    for name in matrix.without.iter().chain(&matrix.later) {
+    for name in matrix.without.keys().chain(&matrix.later) {
         if !unbiased.contains(&name.as_str()) {
             return Err(format!(
                 "`matrix`: there is no unbiased integrator `{name}`"
@@ -94,14 +105,23 @@ pub(crate) fn expand(claim: &mut Claim) -> Result<(), String> {
         _ => None,
     };
     let defines = rendering::defines(claim, None);
-    let rows: Vec<Estimator> = (unbiased.into_iter())
-        .filter(|name| !listed(name) && oracle != Some(name))
-        .filter(|name| !matrix.without.iter().any(|other| other == name))
-        .filter(|name| {
-            let loaded = rendering::load(claim, &defines, Some(name));
-            loaded.is_ok_and(|loaded| loaded.complete)
-        })
-        .map(|name| Estimator {
+    let (mut rows, mut absent) = (Vec::new(), Vec::new());
+    for name in unbiased {
+        if listed(name) || oracle == Some(name) {
+            continue;
+        }
+        let reason = match matrix.without.get(name) {
+            Some(reason) => Some(reason.clone()),
+            None => objection(rendering::load(claim, &defines, Some(name))),
+        };
+        if let Some(reason) = reason {
+            absent.push(Absence {
+                integrator: name.to_owned(),
+                reason,
+            });
+            continue;
+        }
+        rows.push(Estimator {
             integrator: Some(name.to_owned()),
             sampler: None,
             light_chooser: None,
@@ -116,8 +136,27 @@ pub(crate) fn expand(claim: &mut Claim) -> Result<(), String> {
                 bound: matrix.bound,
                 later: matrix.later.iter().any(|other| other == name),
             }),
-        })
-        .collect();
+        });
+    }
     claim.estimators.extend(rows);
+    claim.absent = absent;
     Ok(())
+}
+
+/// What an integrator objects to in a scene, if anything, in a line.
+fn objection(loaded: Result<Loaded, String>) -> Option<String> {
+    match loaded {
+        Ok(loaded) if loaded.complete => None,
+        Ok(loaded) => {
+            let notes: Vec<&str> = loaded.notes.iter().map(|n| n.message.as_str()).collect();
+            Some(notes.join("; "))
+        }
+        Err(mistakes) => {
+            let first = mistakes.lines().next().unwrap_or_default();
+            let message = first
+                .split_once(": error: ")
+                .map_or(first, |(_, text)| text);
+            Some(message.to_owned())
+        }
+    }
 }

@@ -1,6 +1,7 @@
 //! The table on standard output.
 
-use crate::claim::Oracle;
+use crate::claim::{Claim, Oracle};
+use crate::matrix::Absence;
 use crate::outcome::{ALPHA, Outcome, Row, counts};
 use crate::run::{Compared, Evidence};
 use etalon::judge::Judgement;
@@ -130,6 +131,19 @@ pub fn bounded(rows: &[Row<'_>]) -> [usize; 2] {
     ]
 }
 
+/// Who does not take part in the matrices of a run's claims, with the claim.
+pub fn absent<'a>(rows: &[Row<'a>]) -> Vec<(&'a str, &'a Absence)> {
+    let mut claims: Vec<&Claim> = rows.iter().map(|row| row.task.claim).collect();
+    claims.dedup_by_key(|claim| &claim.name);
+    let each = |claim: &'a Claim| {
+        claim
+            .absent
+            .iter()
+            .map(|absence| (claim.name.as_str(), absence))
+    };
+    claims.into_iter().flat_map(each).collect()
+}
+
 /// The last lines.
 pub fn summary(rows: &[Row<'_>], seconds: f64) -> String {
     let [passed, failed, undecided, broken] = counts(rows);
@@ -141,6 +155,12 @@ pub fn summary(rows: &[Row<'_>], seconds: f64) -> String {
     if asked > 0 {
         text += &format!(
             "\nthe bias of the image's mean is bounded below 0.5 % in {below} of {asked} comparisons with Mitsuba and among estimators"
+        );
+    }
+    let absent = absent(rows).len();
+    if absent > 0 {
+        text += &format!(
+            "\n{absent} times an integrator objects to the scene of a claim that asks all of them: see the report"
         );
     }
     text

@@ -75,6 +75,31 @@ fn the_matrix_asks_all_who_do_not_object() {
     let point = names("irradiance-point", Tier::Default);
     assert!(point.iter().any(|n| n == "bdpt") && !point.iter().any(|n| n == "naive"));
     assert_eq!(names("irradiance-rectangle", Tier::Quick), [""; 0]);
+    // Who does not take part is told, and why: nothing vanishes.
+    for (claim, integrator, why) in [
+        ("irradiance-point", "naive", "running into them"),
+        ("mirror-room", "ptracer", "smooth"),
+        ("prism", "ptracer", "smooth"),
+        ("furnace", "mmlt", "max_depth"),
+    ] {
+        let claim = claims.iter().find(|c| c.name == claim).expect("a claim");
+        let absence = claim.absent.iter().find(|a| a.integrator == integrator);
+        let reason = &absence.expect("an absence").reason;
+        assert!(reason.contains(why), "{integrator}: {reason}");
+        let unbiased = etalon_integrators::list::unbiased();
+        let present = unbiased.iter().filter(|name| {
+            let own = |e: &&etalon_validation::claim::Estimator| {
+                e.integrator.as_deref().unwrap_or("path") == **name
+            };
+            claim.estimators.iter().any(|e| own(&e))
+        });
+        assert_eq!(
+            present.count() + claim.absent.len(),
+            unbiased.len(),
+            "{}",
+            claim.name
+        );
+    }
     // What a claim leaves to the full run.
     let has = |tier| names("prism", tier).iter().any(|n| n == "mmlt");
     assert!(has(Tier::Full) && !has(Tier::Default));
@@ -89,6 +114,10 @@ fn bounds_are_those_that_were_agreed() {
             // Particles rarely hit a lens, and photons' bias is not noise.
             "camera-obscura-forward" => (0.02, 0.03),
             "pool" => (0.03, 0.08),
+            "caustic-photons" => (0.01, 0.08),
+            "caustic-photonmap" => (0.02, 0.08),
+            // A lamp is seldom run into by way of glass, floor and mirror.
+            "sds" => (0.01, 0.03),
             _ => (0.005, 0.03),
         };
         let found = (claim.bounds.image, claim.bounds.tile);

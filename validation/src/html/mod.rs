@@ -24,6 +24,7 @@ pub fn page(rows: &[Row<'_>], provenance: &Provenance) -> String {
         h2 { "Claim by claim" }
         (filters(rows))
         (decisions(rows, provenance, &mut album))
+        (absent(rows))
         (album.markup())
     };
     report::page("Validation", &body)
@@ -95,6 +96,26 @@ fn facts(provenance: &Provenance) -> Markup {
             dt { "Run" } dd { (provenance.tier) ", seed " (provenance.seed) ", "
                 (format!("{:.0} s", provenance.seconds)) }
             dt { "The same as data" } dd { code { "report.json" } " beside this file" }
+        }
+    }
+}
+
+/// Who objects to which scene, where a claim asks all unbiased integrators.
+fn absent(rows: &[Row<'_>]) -> Markup {
+    let absent = table::absent(rows);
+    html! {
+        @if !absent.is_empty() {
+            details {
+                summary { "Integrators that object to a scene (" (absent.len()) ")" }
+                p { "Some claims ask all unbiased integrators. These say that they cannot render the scene, or not all of it." }
+                div class="scroll" { table {
+                    thead { tr { th class="text" { "claim" } th class="text" { "integrator" } th class="text" { "why" } } }
+                    tbody { @for (claim, absence) in absent {
+                        tr { th scope="row" { (claim) } td class="text" { (absence.integrator) }
+                            td class="text" { (absence.reason) } }
+                    } }
+                } }
+            }
         }
     }
 }
