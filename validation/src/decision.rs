@@ -12,7 +12,7 @@
 //! [`crate::calibrate`] deals replicates that there are.
 
 use crate::run::Task;
-use crate::tier::{self, FAULT_LOOKS, Tier};
+use crate::tier::{self, FAULT_LOOKS, STATED, Tier};
 use etalon::resources;
 use etalon_statistics::{Family, Verdict};
 use std::time::{Duration, Instant};
@@ -55,6 +55,8 @@ pub struct Turn {
     pub multiple: u32,
     /// The level that it is granted.
     pub alpha: f64,
+    /// The level of what is said of the row by itself ([`STATED`]).
+    pub stated: f64,
 }
 
 /// What a look came to.
@@ -103,6 +105,8 @@ struct Group<'a> {
     family: Family,
     looks: &'static [u32],
     levels: Vec<f64>,
+    /// What each look is granted of [`STATED`].
+    stated: Vec<f64>,
     members: Vec<Member<'a>>,
 }
 
@@ -156,6 +160,7 @@ impl<'a> Group<'a> {
             family,
             looks,
             levels,
+            stated: tier::granted(STATED, looks)?,
             members,
         })
     }
@@ -179,6 +184,7 @@ impl<'a> Group<'a> {
             place: member.place,
             multiple: self.looks[number],
             alpha: granted,
+            stated: self.stated[number],
         });
         member.seconds += start.elapsed().as_secs_f64();
         member.work += clock.elapsed();

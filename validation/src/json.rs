@@ -107,7 +107,7 @@ fn row(row: &Row<'_>, provenance: &Provenance) -> Value {
         "level": row.level,
         "seconds": row.seconds,
         "p_corrected": row.p_corrected,
-        "bias_bound": compared.ok().and_then(Compared::bias_bound),
+        "bias_bound": compared.ok().and_then(|compared| compared.bias_bound),
         "verdict": row.verdict.map(|v| v.to_string()),
         "outcome": row.outcome,
         "judgement": compared.ok().and_then(Compared::judgement),

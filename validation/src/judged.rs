@@ -104,6 +104,40 @@ pub fn judge(
     })
 }
 
+/// The greatest relative bias of an image's mean that is not excluded at the level `alpha`: the
+/// upper bound of the greatest |bias| among the channels.
+///
+/// No correction is due over the channels. The bound is exceeded only if the worst channel's bias
+/// is outside of that channel's own interval, whichever it is.
+///
+/// # Errors
+/// One sentence, if the two cannot be compared.
+pub fn greatest_bias(
+    picture: &Developed,
+    against: Against<'_>,
+    judgement: &Judgement,
+    alpha: f64,
+) -> Result<f64, String> {
+    let metadata = picture.metadata.as_ref().ok_or("there are no statistics")?;
+    let mut greatest = 0.0_f64;
+    for row in &judgement.images {
+        let scale = scale_of(row.bias, row.mean - row.other_mean, row.other_mean);
+        let samples = Samples::of(metadata, against, &row.channel, None, 0)?;
+        let harmless = samples.all_within(judgement.rules.rounding * scale);
+        let refused = if harmless { None } else { samples.judge(alpha) };
+        let interval = match refused {
+            Some((_, interval)) => interval,
+            None => samples
+                .estimate()
+                .map(|estimate| estimate.interval(1.0 - alpha)),
+        };
+        let reach = interval.map_or(f64::INFINITY, |i| i.low.abs().max(i.high.abs()));
+        // Nothing at all is no bias, whatever it is relative to.
+        greatest = greatest.max(if reach == 0.0 { 0.0 } else { reach / scale });
+    }
+    Ok(greatest)
+}
+
 /// The p-value that an interval at `alpha` stands for: 1, or a hair below `alpha` if it rejects. The
 /// corrections divide and multiply it by shares and numbers of hypotheses, and what rounding does to
 /// `alpha` itself on that way would take some rejections back.
@@ -197,12 +231,17 @@ impl Samples {
         }
     }
 
-    /// The p-value, by Student's t, of a difference within ±`tolerance`.
-    fn p_differs(&self, tolerance: f64) -> f64 {
-        let estimate = Summary::of(&self.own).and_then(|own| match &self.other {
+    /// The difference of the means.
+    fn estimate(&self) -> Option<Estimate> {
+        Summary::of(&self.own).and_then(|own| match &self.other {
             Other::Known(known) => Some(Estimate::excess(&own, *known)),
             Other::Replicates(other) => Some(Estimate::welch(&own, &Summary::of(other)?)),
-        });
+        })
+    }
+
+    /// The p-value, by Student's t, of a difference within ±`tolerance`.
+    fn p_differs(&self, tolerance: f64) -> f64 {
+        let estimate = self.estimate();
         estimate.map_or(1.0, |estimate| estimate.p_differs(tolerance))
     }
 

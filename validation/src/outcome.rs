@@ -172,7 +172,7 @@ impl<'a> Work<'a> {
 
     fn look(&mut self, turn: Turn, options: &Options, state: Option<&State>) -> Option<Seen> {
         let start = Instant::now();
-        let compared = (self.comparison).look(turn.multiple, turn.alpha, options, state);
+        let compared = self.comparison.look(turn, options, state);
         self.seconds += start.elapsed().as_secs_f64();
         let seen = compared.as_ref().ok().map(|compared| {
             let look = Look::of(compared, turn.alpha, self.seconds);

@@ -6,11 +6,12 @@
 use crate::batches::Batches;
 use crate::claim::{Budget, Claim, Estimator, Oracle};
 use crate::convergence::Fall;
+use crate::decision::Turn;
 use crate::fault::Fault;
 use crate::judged::{self, Against};
 use crate::measure::Measure;
 use crate::state::State;
-use crate::tier::{FULL_BOUND, Tier};
+use crate::tier::Tier;
 use crate::{closed_form, convergence, invariance, noise, pixelwise, reference, rendering};
 use etalon::judge::{Judgement, Known, Rules};
 use etalon_film::Developed;
@@ -53,16 +54,12 @@ impl Task<'_> {
     }
 
     /// How pictures are judged at the level `alpha`.
-    pub fn rules(&self, tier: Tier, alpha: f64) -> Rules {
+    pub fn rules(&self, alpha: f64) -> Rules {
         let bounds = self.claim.bounds;
         let place = self.estimator.in_matrix;
-        let image = place.map_or(bounds.image, |place| place.bound);
         let exact = self.claim.oracle.is_exact();
         Rules {
-            image_bound: match tier {
-                Tier::Full => image.min(FULL_BOUND),
-                Tier::Quick | Tier::Default => image,
-            },
+            image_bound: place.map_or(bounds.image, |place| place.bound),
             tile_bound: bounds.tile,
             alpha,
             rounding: if exact { bounds.rounding } else { 0.0 },
@@ -159,6 +156,9 @@ pub struct Compared {
     pub shown: Option<Box<[Developed; 2]>>,
     /// How the squared error falls, for claims of convergence.
     pub fall: Option<Fall>,
+    /// The greatest relative bias of an image's mean that is not excluded with 99 % confidence
+    /// ([`crate::tier::STATED`]), if it was asked for.
+    pub bias_bound: Option<f64>,
 }
 
 impl Compared {
@@ -176,12 +176,6 @@ impl Compared {
             Evidence::Pictures { .. } => &[],
             Evidence::Measures(measures) => measures,
         }
-    }
-
-    /// The greatest relative bias of an image's mean that is not excluded, if it was asked for.
-    pub fn bias_bound(&self) -> Option<f64> {
-        let widest = self.judgement()?.widest()?;
-        Some(widest.interval[0].abs().max(widest.interval[1].abs()))
     }
 }
 
@@ -208,28 +202,26 @@ impl<'a> Comparison<'a> {
         }
     }
 
-    /// Renders until there are `multiple` times the first look's replicates, and judges them at
-    /// the level `alpha`.
+    /// Renders until there are as many replicates as the look asks for, and judges them all at the
+    /// levels that it is granted.
     ///
     /// # Errors
     /// If it cannot be made: a scene or a reference that cannot be read, numbers that are not
     /// finite.
     pub fn look(
         &mut self,
-        multiple: u32,
-        alpha: f64,
+        turn: Turn,
         options: &Options,
         state: Option<&State>,
     ) -> Result<Compared, String> {
-        let compared = self.measured(multiple, alpha, options, state);
-        self.multiple = multiple;
+        let compared = self.measured(turn, options, state);
+        self.multiple = turn.multiple;
         compared
     }
 
     fn measured(
         &mut self,
-        multiple: u32,
-        alpha: f64,
+        turn: Turn,
         options: &Options,
         state: Option<&State>,
     ) -> Result<Compared, String> {
@@ -239,6 +231,9 @@ impl<'a> Comparison<'a> {
             fault,
             ..
         } = self.task;
+        let Turn {
+            multiple, alpha, ..
+        } = turn;
         let first = self.task.budget(options.tier);
         let budget = Budget {
             spp: first.spp * multiple,
@@ -284,10 +279,10 @@ impl<'a> Comparison<'a> {
                         let spp = picture.metadata.as_ref().map_or(0, |m| m.spp);
                         (measures, spp)
                     }
-                    None => return self.pictures(multiple, alpha, options, state),
+                    None => return self.pictures(turn, options, state),
                 }
             }
-            _ => return self.pictures(multiple, alpha, options, state),
+            _ => return self.pictures(turn, options, state),
         };
         let (verdict, p) = Measure::together(&measures);
         Ok(Compared {
@@ -299,13 +294,13 @@ impl<'a> Comparison<'a> {
             scene_hash: rendering::load_for(claim, estimator)?.hash,
             shown,
             fall,
+            bias_bound: None,
         })
     }
 
     fn pictures(
         &mut self,
-        multiple: u32,
-        alpha: f64,
+        turn: Turn,
         options: &Options,
         state: Option<&State>,
     ) -> Result<Compared, String> {
@@ -319,12 +314,12 @@ impl<'a> Comparison<'a> {
             return Err("this fault cannot be planted here".to_owned());
         }
         let exact = claim.oracle.is_exact();
-        let rules = self.task.rules(options.tier, alpha);
+        let rules = self.task.rules(turn.alpha);
         let mut work = Batches {
             task: self.task,
             first: self.task.budget(options.tier),
             from: self.multiple,
-            to: multiple,
+            to: turn.multiple,
             state,
         };
         let picture = work.extend(self.picture.take(), estimator, options.seed, "own")?;
@@ -332,18 +327,15 @@ impl<'a> Comparison<'a> {
         let (spp, replicates) = (facts.spp, facts.replicates);
         let scene_hash = facts.scene_hash.clone();
         let size = facts.film.crop_size;
-        let (judged, oracle) = match &claim.oracle {
+        let known;
+        let (against, oracle) = match &claim.oracle {
             Oracle::ClosedForm { formula } | Oracle::Energy { formula } => {
-                let known = closed_form::picture(formula, claim, size)?;
-                let against = Against::Known(&known);
-                let judged = judged::judge(&picture, against, rules, exact)?;
-                (judged, drawn(&known))
+                known = closed_form::picture(formula, claim, size)?;
+                (Some(&known), drawn(&known))
             }
             Oracle::Reference { .. } => {
                 let hash = load(claim, &defines(claim, None), None)?.hash;
-                let oracle = reference::read(&claim.name, &hash)?;
-                let against = Against::Picture(&oracle);
-                (judged::judge(&picture, against, rules, exact)?, oracle)
+                (None, reference::read(&claim.name, &hash)?)
             }
             Oracle::Agreement { estimator } | Oracle::Invariance { estimator } => {
                 let seed = options.seed ^ ORACLE_SEED;
@@ -354,18 +346,25 @@ impl<'a> Comparison<'a> {
                 };
                 work.task.fault = None;
                 let oracle = work.extend(self.oracle.take(), estimator, seed, "oracle")?;
-                let against = Against::Picture(&oracle);
-                let judged = judged::judge(&picture, against, rules, exact)?;
                 self.oracle = Some(oracle.clone());
-                (judged, oracle)
+                (None, oracle)
             }
             Oracle::Convergence { .. } | Oracle::Noise { .. } | Oracle::Povray { .. } => {
                 return Err("this kind of claim compares no pictures".to_owned());
             }
         };
+        let against = against.map_or(Against::Picture(&oracle), Against::Known);
+        let judged = judged::judge(&picture, against, rules, exact)?;
+        let bias = judged::greatest_bias(&picture, against, &judged.judgement, turn.stated)?;
+        let within = (options.tier.stated_bound()).is_none_or(|bound| bias < bound);
+        let stated = if within {
+            Verdict::Agrees
+        } else {
+            Verdict::Undecided
+        };
         self.picture = Some(picture.clone());
         Ok(Compared {
-            verdict: judged.judgement.verdict,
+            verdict: judged.judgement.verdict.and(stated),
             p: judged.p,
             evidence: Evidence::Pictures {
                 picture: Box::new(picture),
@@ -378,6 +377,7 @@ impl<'a> Comparison<'a> {
             scene_hash,
             shown: None,
             fall: None,
+            bias_bound: Some(bias),
         })
     }
 }

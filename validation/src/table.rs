@@ -122,7 +122,11 @@ pub fn bounded(rows: &[Row<'_>]) -> [usize; 2] {
         kind && row.task.fault.is_none()
     };
     let below = |row: &&Row<'_>| {
-        let bound = row.compared.as_ref().ok().and_then(Compared::bias_bound);
+        let bound = row
+            .compared
+            .as_ref()
+            .ok()
+            .and_then(|compared| compared.bias_bound);
         bound.is_some_and(|bound| bound < 0.005)
     };
     [
@@ -154,7 +158,7 @@ pub fn summary(rows: &[Row<'_>], seconds: f64) -> String {
     );
     if asked > 0 {
         text += &format!(
-            "\nthe bias of the image's mean is bounded below 0.5 % in {below} of {asked} comparisons with Mitsuba and among estimators"
+            "\nthe bias of the image's mean is bounded below 0.5 % (99 % confidence each) in {below} of {asked} comparisons with Mitsuba and among estimators"
         );
     }
     let absent = absent(rows).len();

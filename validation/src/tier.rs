@@ -23,10 +23,22 @@ pub enum Tier {
     Full,
 }
 
-/// The bias of an image's mean that a full run must exclude.
-pub const FULL_BOUND: f64 = 0.005;
+/// What is said of a row by itself holds with this probability of error, over all its looks.
+///
+/// It is not what rows are decided by: their intervals are so wide that *all* of them hold together
+/// with a probability of 1 − [`crate::decision::ALPHA`].
+pub const STATED: f64 = 0.01;
 
 impl Tier {
+    /// The bias of an image's mean that each row must exclude by itself, besides its claim's own
+    /// bound: at the level [`STATED`].
+    pub fn stated_bound(self) -> Option<f64> {
+        match self {
+            Self::Quick | Self::Default => None,
+            Self::Full => Some(0.005),
+        }
+    }
+
     /// Replicates at each look, in multiples of the budget's.
     pub fn looks(self) -> &'static [u32] {
         match self {

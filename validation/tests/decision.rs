@@ -148,6 +148,60 @@ fn the_furnace_holds_and_its_mutants_are_found() {
 }
 
 #[test]
+fn the_stated_bound_is_exceeded_no_more_often_than_it_says() {
+    use etalon_validation::judged::{Against, greatest_bias};
+    // 200 pictures that are off by 1 %, judged at α = 0.2: a bound below 1 % is wrong, and with
+    // three channels of which the farthest counts it is rarer than α. More than 40 + 3.1 standard
+    // deviations would happen once in a thousand runs. Mutant rejected: bounds 10 % too low.
+    let known = known();
+    let wrong = |factor: f64| {
+        (0..200_u64)
+            .filter(|seed| {
+                let image = picture(1000 + seed, |_, _| 0.01);
+                let judgement = judge_known(&image, &known, Rules::default()).expect("comparable");
+                let bound = greatest_bias(&image, Against::Known(&known), &judgement, 0.2);
+                factor * bound.expect("comparable") < 0.01
+            })
+            .count()
+    };
+    assert!(wrong(1.0) < 58);
+    assert!(wrong(0.9) > 58);
+}
+
+#[test]
+fn a_full_run_goes_on_until_half_a_per_cent_is_excluded() {
+    // A claim whose own bound is 5 %, with few samples: the quick run is content with its first
+    // look, the full one with nothing above 0.5 %. Mutant rejected: a full run that asks nothing
+    // more than the claim does.
+    let mut claims = Claim::read_all(&folders::claims()).expect("claims can be read");
+    claims.retain(|claim| claim.name == "irradiance-disk");
+    for claim in &mut claims {
+        claim.bounds.image = 0.05;
+        claim.estimators.truncate(1);
+        for estimator in &mut claim.estimators {
+            estimator.mutants.clear();
+            estimator.quick.spp = 32;
+            estimator.default.spp = 32;
+        }
+    }
+    let rows = |tier| {
+        let options = Options {
+            only: None,
+            tier,
+            seed: 1,
+        };
+        let rows = outcome::run(run::tasks(&claims, &options), &options, None, |_| ());
+        let row = &rows.expect("a plan")[0];
+        assert_eq!(row.outcome, Outcome::Passed, "{tier:?}");
+        let compared = row.compared.as_ref().expect("made");
+        (row.looks, compared.bias_bound.expect("asked for"))
+    };
+    let ((quick, wide), (full, narrow)) = (rows(Tier::Quick), rows(Tier::Full));
+    assert!(quick == 1 && wide > 0.005, "{quick} {wide}");
+    assert!(full > 1 && narrow < 0.005, "{full} {narrow}");
+}
+
+#[test]
 fn batches_together_are_as_if_rendered_at_once() {
     use etalon_validation::accumulate::merge;
     let (a, b) = (picture(5, |_, _| 0.0), picture(6, |_, _| 0.0));

@@ -106,7 +106,7 @@ fn once(tasks: &[Task<'_>], pools: &[Pool], tier: Tier, seed: u64) -> Result<Run
         tier,
         |look| {
             let table = &mut tables[look.place];
-            let dealt = table.look(look.multiple, tier, look.alpha).ok()?;
+            let dealt = table.look(look.multiple, look.alpha).ok()?;
             if look.multiple == 1 {
                 p_values.extend(table.questions());
             }

@@ -240,9 +240,9 @@ impl<'a> Table<'a> {
     ///
     /// # Errors
     /// If what was dealt cannot be judged.
-    pub fn look(&mut self, multiple: u32, tier: Tier, alpha: f64) -> Result<Dealt, String> {
+    pub fn look(&mut self, multiple: u32, alpha: f64) -> Result<Dealt, String> {
         match &self.pool.kind {
-            Kind::Pictures(pictures) => self.pictures(pictures, multiple, tier, alpha),
+            Kind::Pictures(pictures) => self.pictures(pictures, multiple, alpha),
             Kind::Exponents(exponents) => {
                 let count = exponents.len() * multiple as usize;
                 let drawn: Vec<f64> = (0..count).map(|_| *self.draw(exponents)).collect();
@@ -276,10 +276,9 @@ impl<'a> Table<'a> {
         &mut self,
         pictures: &Pictures,
         multiple: u32,
-        tier: Tier,
         alpha: f64,
     ) -> Result<Dealt, String> {
-        let rules = self.task.rules(tier, alpha);
+        let rules = self.task.rules(alpha);
         let exact = self.task.claim.oracle.is_exact();
         let want = |first: u32| (first * multiple) as usize;
         let judged = if let Some(known) = &pictures.known {

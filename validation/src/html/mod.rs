@@ -50,7 +50,7 @@ fn whole(rows: &[Row<'_>], provenance: &Provenance) -> Markup {
             li class=[(undecided > 0).then_some("undecided")] { b { (undecided) } span { "undecided" } }
             li class=[(broken > 0).then_some("broken")] { b { (broken) } span { "broken" } }
             @if asked > 0 {
-                li { b { (below) " of " (asked) } span title="of the references and agreements" { "bias bounded below 0.5 %" } }
+                li { b { (below) " of " (asked) } span title="of the references and agreements" { "bias bounded below 0.5 %, each with 99 % confidence" } }
             }
             @if mutants.clone().count() > 0 {
                 li { b { (found.count()) " of " (mutants.count()) } span { "planted faults found" } }
@@ -79,7 +79,9 @@ fn about(provenance: &Provenance) -> Markup {
                 "the bound. A closed form, or another estimator of ours, asks for equality as well. A mutant "
                 "is a fault planted on purpose: it passes if it is found. An interval that is too wide is "
                 em { "undecided" } ", never a pass. Intervals and p-values are corrected over the whole run: "
-                "the probability that a sound renderer shows any failure is α = " (ALPHA) "." }
+                "the probability that a sound renderer shows any failure is α = " (ALPHA) ". Only the bounds "
+                "that a full run asks for besides, and that the head of this page counts, are said of each "
+                "comparison by itself, with 99 % confidence." }
             p { "In the column " em { "bias" } ", the shaded band is what is accepted, whatever its width, so that "
                 "all rows share one scale. " em { "Could see" } " is the smallest bias that the comparison "
                 "would have found with a probability of 95 %." }

@@ -1,6 +1,6 @@
 //! Rows of every kind and outcome, made of numbers instead of renders.
 
-use etalon::judge::{Known, Rules};
+use etalon::judge::{ImageRow, Known, Rules};
 use etalon_film::{BoxFilter, Developed, ExactFilm, FilmSettings, Filter, RenderFacts};
 use etalon_images::{Frame, Image};
 use etalon_statistics::Verdict;
@@ -198,11 +198,14 @@ fn of_measures(measures: Vec<Measure>) -> Compared {
         scene_hash: "0123456789abcdef".to_owned(),
         fall: None,
         shown: None,
+        bias_bound: None,
     }
 }
 
 fn of_pictures(picture: Developed, oracle: Developed, judged: Judged) -> Compared {
+    let reach = |row: &ImageRow| row.interval[0].abs().max(row.interval[1].abs());
     Compared {
+        bias_bound: judged.judgement.widest().map(reach),
         verdict: judged.judgement.verdict,
         p: judged.p,
         evidence: Evidence::Pictures {
