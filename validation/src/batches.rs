@@ -57,7 +57,7 @@ impl Batches<'_> {
                     Oracle::Invariance { .. } if who == "own" => estimator.change,
                     _ => None,
                 };
-                let batch = rendering::picture(&loaded, &plan, self.task.fault, change)?;
+                let batch = rendering::picture(&loaded, &plan, estimator, self.task.fault, change)?;
                 if let Some(state) = self.state {
                     state.write(&name, &batch)?;
                 }

@@ -198,6 +198,9 @@ pub struct Estimator {
     pub sampler: Option<Sampler>,
     /// How points choose the light that they ask, if not as the scene says.
     pub light_chooser: Option<String>,
+    /// Samples per pixel of a pilot that deals the samples to pixels, as `render --adaptive` does;
+    /// without one every pixel has equally many.
+    pub adaptive: Option<u32>,
     /// Further parameters of the scene, of this estimator only.
     #[serde(default)]
     pub defines: BTreeMap<String, toml::Value>,
@@ -247,7 +250,8 @@ impl Estimator {
         let chooser = (self.light_chooser.as_ref())
             .map(|name| format!(", {name} lights"))
             .unwrap_or_default();
-        format!("{integrator}, {sampler}{chooser}{defines}{change}")
+        let adaptive = self.adaptive.map_or("", |_| ", adaptive");
+        format!("{integrator}, {sampler}{chooser}{adaptive}{defines}{change}")
     }
 
     /// The budget that must suffice to find a fault: an eighth of the quick run's.

@@ -120,7 +120,7 @@ pub fn batches(
             let number = u64::from(batch) * samples.len() as u64 + rung as u64;
             let seed = seed.wrapping_add((number + 1) << 32);
             let plan = rendering::plan(&loaded, estimator, budget, seed);
-            let picture = rendering::picture(&loaded, &plan, None, None)?;
+            let picture = rendering::picture(&loaded, &plan, estimator, None, None)?;
             x.push(f64::from(plan.samples_per_replicate));
             let error = squared_error(&picture, &known, estimator.part)?;
             y.push(error);

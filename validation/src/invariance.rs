@@ -44,15 +44,16 @@ pub fn measure(
         },
         Some(_) => return Ok(None),
     };
-    let first = || rendering::picture(loaded, plan, None, None);
+    let first = || rendering::picture(loaded, plan, estimator, None, None);
     Ok(Some(match estimator.change {
         None | Some(Change::Wavelengths) => return Ok(None),
         Some(Change::Threads) => {
             let first = on_threads(1, first)?;
             let mut measures = Vec::new();
             for count in &THREADS[1..] {
-                let changed =
-                    on_threads(*count, || rendering::picture(loaded, &other, None, None))?;
+                let changed = on_threads(*count, || {
+                    rendering::picture(loaded, &other, estimator, None, None)
+                })?;
                 measures.push(Measure::certain(
                     format!("numbers that {count} threads change"),
                     differing(&first, &changed, 0),
@@ -107,7 +108,10 @@ pub fn measure(
                     sampler: Some(plan.sampler),
                 },
             );
-            let pictures = [first()?, rendering::picture(loaded, &changed, None, None)?];
+            let pictures = [
+                first()?,
+                rendering::picture(loaded, &changed, estimator, None, None)?,
+            ];
             let name = "replicates that repeat another one".to_owned();
             let measure = Measure::certain(name, repeated(&pictures)?);
             let [first, _] = pictures;
@@ -118,8 +122,8 @@ pub fn measure(
                 return Ok(None);
             };
             let whole = rendering::load_for(claim, whole)?;
-            let whole = rendering::picture(&whole, plan, None, None)?;
-            let part = rendering::picture(loaded, &other, None, None)?;
+            let whole = rendering::picture(&whole, plan, estimator, None, None)?;
+            let part = rendering::picture(loaded, &other, estimator, None, None)?;
             let name = "numbers of the part that differ from the whole".to_owned();
             let count = differing_part(&whole, &part)?;
             (vec![Measure::certain(name, count)], part)

@@ -122,6 +122,7 @@ pub(crate) fn expand(claim: &mut Claim) -> Result<(), String> {
             continue;
         }
         rows.push(Estimator {
+            adaptive: None,
             integrator: Some(name.to_owned()),
             sampler: None,
             light_chooser: None,

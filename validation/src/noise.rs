@@ -95,7 +95,7 @@ pub fn count(
     for number in 0..seeds {
         let seed = seed.wrapping_add((u64::from(number) + 1) << 32);
         let plan = rendering::plan(&loaded, estimator, budget, seed);
-        let picture = rendering::picture(&loaded, &plan, None, None)?;
+        let picture = rendering::picture(&loaded, &plan, estimator, None, None)?;
         let mut trials = match of {
             Means::Pixels => pixels(&picture, &known)?,
             Means::Tiles => tiles(&picture, &known)?,

@@ -79,7 +79,7 @@ pub fn compare(
     let loaded = rendering::load_for(claim, estimator)?;
     let plan = rendering::plan(&loaded, estimator, budget, seed);
     let physical = fault.filter(|fault| fault.is_physical());
-    let mut picture = rendering::picture(&loaded, &plan, physical, None)?;
+    let mut picture = rendering::picture(&loaded, &plan, estimator, physical, None)?;
     if let Some(fault) = fault.filter(|fault| !fault.is_physical()) {
         spoil(&mut picture.image, fault)?;
     }

@@ -3,8 +3,10 @@
 use crate::claim::{self, Budget, Change, Claim, Estimator};
 use crate::fault::{Fault, Faulty};
 use crate::folders;
-use etalon::pipeline::{self, LoadOptions, Loaded, RenderOptions};
-use etalon_film::{Developed, ExactFilm, RenderFacts};
+use etalon::adaptive;
+use etalon::pipeline::{self, LoadOptions, Loaded, Manner, RenderOptions};
+use etalon::target::Failure;
+use etalon_film::{Developed, ExactFilm, RenderFacts, SampleCounts};
 use etalon_integrators::Plan;
 use etalon_sampling::SamplerKind;
 use etalon_scene::LightChooser;
@@ -87,24 +89,51 @@ pub fn plan(loaded: &Loaded, estimator: &Estimator, budget: Budget, seed: u64) -
     )
 }
 
-/// Renders a loaded scene as it is, or as a fault or a change makes it.
+/// The samples of each pixel, if a pilot of an estimator deals them. As on the command line it has
+/// seeds of its own, derived from the plan's.
+///
+/// # Errors
+/// If the integrator's samples cannot be dealt to pixels.
+fn counts(
+    loaded: &Loaded,
+    plan: &Plan,
+    estimator: &Estimator,
+) -> Result<Option<SampleCounts>, String> {
+    let Some(pilot) = estimator.adaptive else {
+        return Ok(None);
+    };
+    adaptive::check(loaded).map_err(|e| e.message)?;
+    let found = adaptive::pilot(loaded, plan, pilot, &()).map_err(|e| match e {
+        Failure::Refused(diagnostic) => diagnostic.message,
+        Failure::Cancelled => "cancelled".to_owned(),
+    })?;
+    Ok(Some(found.counts(plan.sampler, plan.samples_per_replicate)))
+}
+
+/// Renders an estimator's scene as it is, or as a fault or a change makes it.
 ///
 /// # Errors
 /// If it cannot be rendered so, or numbers are not finite.
 pub fn picture(
     loaded: &Loaded,
     plan: &Plan,
+    estimator: &Estimator,
     fault: Option<Fault>,
     change: Option<Change>,
 ) -> Result<Developed, String> {
+    let counts = counts(loaded, plan, estimator)?;
     let rotation = match change {
         Some(Change::Wavelengths) => 1,
         _ => 0,
     };
     let developed = if rotation > 0 || fault.is_some_and(Fault::is_physical) {
-        altered(loaded, plan, fault, rotation)?
+        altered(loaded, plan, counts, (fault, rotation))?
     } else {
-        let rendered = pipeline::render(loaded, plan, &()).map_err(|e| e.message)?;
+        let manner = Manner {
+            counts,
+            keeping: None,
+        };
+        let rendered = pipeline::render_as(loaded, plan, manner, &()).map_err(|e| e.message)?;
         rendered.developed
     };
     finite(developed)
@@ -147,12 +176,13 @@ pub fn facts(loaded: &Loaded, plan: &Plan, integrator: String) -> RenderFacts {
 fn altered(
     loaded: &Loaded,
     plan: &Plan,
-    fault: Option<Fault>,
-    rotation: usize,
+    counts: Option<SampleCounts>,
+    (fault, rotation): (Option<Fault>, usize),
 ) -> Result<Developed, String> {
     let compiled = &loaded.compiled;
     let named = loaded.integrator.channels();
-    let mut film = ExactFilm::new(compiled.film.clone(), &named).map_err(|e| e.message)?;
+    let film = ExactFilm::new(compiled.film.clone(), &named).map_err(|e| e.message)?;
+    let mut film = film.dealing(counts);
     let world = Faulty::new(&compiled.scene, fault, rotation);
     loaded.integrator.render(&world, &mut film, plan, &());
     let of = &loaded.integrator_name;

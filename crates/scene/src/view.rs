@@ -4,7 +4,7 @@
 //! through whatever lets light pass. Something small may slip through; what is found is there.
 
 use etalon_transport::{Bsdf, Camera, Mode, Ray, View, World};
-use glam::{UVec2, Vec2, Vec4};
+use glam::{UVec2, Vec2, Vec3, Vec4};
 
 /// Rays along each side of the film.
 const LATTICE: u32 = 48;
@@ -24,9 +24,39 @@ pub(crate) fn look<W: World>(world: &W, origin: UVec2, size: UVec2) -> View {
         let raster = origin.as_vec2() + size.as_vec2() * cell / LATTICE as f32;
         let lens = (SPREAD * index as f32).fract();
         let start = world.camera().ray(raster, lens, 0.5);
+        view.reached += u32::from(reaches(world, start.ray, index));
         follow(world, start.ray, &mut view);
     }
     view
+}
+
+/// Whether a ray that mirrors and glass send on comes to a light, or to something that scatters light.
+/// Where it may go on in several directions, the ray's number chooses.
+fn reaches<W: World>(world: &W, mut ray: Ray, number: u32) -> bool {
+    let wavelengths = world.wavelengths(0.5);
+    for bounce in 0..PASSED {
+        let Some(hit) = world.intersect(&ray) else {
+            return world.has_background();
+        };
+        let vertex = world.vertex(&ray, &hit);
+        let wo = -ray.direction;
+        let bsdf = world.bsdf(&vertex, wo, &wavelengths);
+        if bsdf.has_continuous() && bsdf.albedo(wo) != Vec4::ZERO || world.is_emitter(&hit) {
+            return true;
+        }
+        let onward: Vec<Vec3> = (0..)
+            .map_while(|index| bsdf.discrete(wo, index, Mode::Radiance))
+            .filter(|sample| sample.value != Vec4::ZERO)
+            .map(|sample| sample.wi)
+            .collect();
+        let Some(&direction) =
+            onward.get(number.rotate_right(bounce) as usize % onward.len().max(1))
+        else {
+            return false;
+        };
+        ray = vertex.spawn(direction);
+    }
+    false
 }
 
 /// Adds what one ray sees.

@@ -29,6 +29,9 @@ pub struct View {
     pub smooth: u32,
     /// Those that see a light, the sky included.
     pub lights: u32,
+    /// Those that come, perhaps by way of mirrors and smooth glass, to a surface that scatters in a
+    /// continuum of directions, or to a light.
+    pub reached: u32,
 }
 
 /// Plain facts of a scene that decide what an estimator can find in it.
@@ -121,6 +124,7 @@ impl Sight {
     /// material says nothing of how it scatters light.
     pub fn objections(&self, finding: Finding) -> Vec<Objection> {
         let mut objections = self.missing(finding);
+        objections.extend(self.unreached());
         if self.classic {
             let message = "this integrator follows light, and this material says nothing of how it \
                            scatters light";
@@ -140,6 +144,7 @@ impl Sight {
             scattering,
             smooth,
             lights,
+            ..
         } = self.view;
         if smooth == 0 {
             return None;
@@ -160,6 +165,20 @@ impl Sight {
             Objection::remark(Subject::Integrator, message)
         };
         Some(objection.help(help))
+    }
+
+    /// A remark where nothing that the camera sees, mirrored or not, can be lit or shines: a camera
+    /// that looks past the scene, or a room of mirrors with lights that have no extent.
+    fn unreached(&self) -> Option<Objection> {
+        let nothing = self.view.rays > 0 && self.view.reached == 0 && self.lights.all > 0;
+        nothing.then(|| {
+            let message = "the camera sees no light, and no surface that light could be connected \
+                           with: not straight, nor by way of mirrors and smooth glass";
+            Objection::remark(Subject::Scene, message).help(
+                "the picture will be black, or nearly: turn the camera to the scene, or give the \
+                 lights an extent or a surface some roughness",
+            )
+        })
     }
 
     /// What is missing of the light for an estimator that finds it in one way.
@@ -249,6 +268,7 @@ mod tests {
                 scattering,
                 smooth,
                 lights,
+                reached: scattering.max(lights),
             };
             let sight = Sight {
                 view,
@@ -264,6 +284,27 @@ mod tests {
         assert_eq!(seen(9, 1, 0), Some(false));
         // A varnish, with what lies beneath.
         assert_eq!(seen(10, 10, 0), Some(false));
+    }
+
+    #[test]
+    fn a_camera_that_sees_nothing_to_connect_with_is_remarked_upon() {
+        let seen = |rays, reached| {
+            let view = View {
+                rays,
+                reached,
+                ..View::default()
+            };
+            let objections = Sight {
+                view,
+                ..sight(1, 0, 1, 1)
+            }
+            .objections(Finding::Either);
+            objections.iter().map(|o| o.fatal).collect::<Vec<_>>()
+        };
+        assert_eq!(seen(10, 0), [false]);
+        assert!(seen(10, 1).is_empty());
+        // Nobody has looked.
+        assert!(seen(0, 0).is_empty());
     }
 
     #[test]

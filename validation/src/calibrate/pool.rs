@@ -193,7 +193,8 @@ impl Pictures {
         let picture = match state.read(&name, &plan, &loaded) {
             Some(picture) => picture,
             None => {
-                let picture = rendering::picture(&loaded, &plan, None, estimator.change)?;
+                let picture =
+                    rendering::picture(&loaded, &plan, estimator, None, estimator.change)?;
                 state.write(&name, &picture)?;
                 picture
             }

@@ -86,7 +86,7 @@ pub fn repeat(
     let picture = |number: u64| {
         let seed = seed.wrapping_add(number << 32);
         let plan = rendering::plan(&loaded, estimator, setting.budget, seed);
-        rendering::picture(&loaded, &plan, None, None)
+        rendering::picture(&loaded, &plan, estimator, None, None)
     };
     let questions = [("image mean", None), ("first tile of 16²", Some(16))];
     let mut estimates = vec![Vec::new(); questions.len()];

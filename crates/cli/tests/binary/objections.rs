@@ -10,14 +10,23 @@ const UNCHOSEN: &str =
 const PINHOLE: &str = "<sensor type=\"perspective\">";
 const LENS: &str = "<sensor type=\"thinlens\"><float name=\"aperture_radius\" value=\"1\"/>";
 
-/// Renders a floor under lights with an integrator, which stands in line 2, the camera in line 3.
+/// A wall before the camera.
+const WALL: &str = "<shape type=\"rectangle\"><transform name=\"to_world\"><rotate y=\"1\" angle=\"180\"/>\
+                    <translate z=\"3\"/></transform></shape>";
+
+/// Renders a wall and lights with an integrator, which stands in line 2, the camera in line 3.
 fn render(integrator: &str, sensor: &str, lights: &str) -> Ran {
+    render_shapes(integrator, sensor, &format!("{WALL}{lights}"))
+}
+
+/// The same with these shapes and lights only.
+fn render_shapes(integrator: &str, sensor: &str, shapes: &str) -> Ran {
     let workshop = Workshop::new();
     let scene = format!(
         "<scene version=\"3.0.0\">
 {integrator}
 {sensor}<film type=\"hdrfilm\"><integer name=\"width\" value=\"4\"/><integer name=\"height\" value=\"4\"/></film></sensor>
-<shape type=\"rectangle\"/>{lights}</scene>"
+{shapes}</scene>"
     );
     workshop.write("a.xml", scene);
     workshop.run(&["render", "a.xml", "-o", "a.exr", "--spp", "1"])
@@ -191,7 +200,14 @@ fn before(integrator: &str, bsdf: &str) -> Ran {
     };
     let lights =
         "<emitter type=\"point\"><point name=\"position\" x=\"0\" y=\"3\" z=\"0\"/></emitter>";
-    let lights = format!("{}{}{lights}", surface(bsdf, 1.0), surface("diffuse", 1.1));
+    // Mirrors show what is behind the camera.
+    let behind = "<shape type=\"rectangle\"><transform name=\"to_world\"><translate z=\"-1\"/>\
+                  </transform></shape>";
+    let lights = format!(
+        "{}{}{behind}{lights}",
+        surface(bsdf, 1.0),
+        surface("diffuse", 1.1)
+    );
     render(integrator, PINHOLE, &lights)
 }
 
@@ -222,5 +238,33 @@ fn what_connects_with_the_camera_sees_nothing_in_mirrors() {
         for bsdf in ["conductor", "plastic"] {
             says_nothing(before(&named(integrator), bsdf));
         }
+    }
+}
+
+#[test]
+fn a_camera_that_sees_nothing_to_light_is_told() {
+    // Within a ball of mirrors a point light can be neither hit nor connected with; a lamp is found.
+    let room = |bsdf: &str| {
+        format!(
+            "<shape type=\"sphere\"><float name=\"radius\" value=\"9\"/>\
+             <boolean name=\"flip_normals\" value=\"true\"/><bsdf type=\"{bsdf}\"/></shape>"
+        )
+    };
+    let lamp = "<shape type=\"sphere\"><point name=\"center\" value=\"0, 0, -5\"/><emitter type=\"area\"/></shape>";
+    for integrator in ["path", "bdpt", "guided", "direct"] {
+        let behind = format!("<shape type=\"rectangle\"/>{POINT}");
+        let past = render_shapes(&named(integrator), PINHOLE, &behind);
+        remarks(past, "1:1", "the camera sees no light");
+        let inside = |bsdf, light: &str| {
+            let shapes = format!("{}{light}", room(bsdf));
+            render_shapes(&named(integrator), PINHOLE, &shapes)
+        };
+        remarks(
+            inside("conductor", POINT),
+            "1:1",
+            "the camera sees no light",
+        );
+        says_nothing(inside("roughconductor", POINT));
+        says_nothing(inside("conductor", lamp));
     }
 }
