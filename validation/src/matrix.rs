@@ -10,7 +10,9 @@
 //! default = { spp = 256, replicates = 32 }
 //! bound = 0.02                 # of the bias of the image's mean; half a per cent in a full run
 //! without = { ptracer = "sees nothing in a mirror" }
-//! later = ["naive"]            # too noisy here for the default run: in the full run only
+//!
+//! [matrix.later]               # too noisy here for the default run: in the full run only
+//! naive = { spp = 4096, replicates = 32 }
 //! ```
 
 use crate::budget::Budget;
@@ -33,9 +35,9 @@ pub struct Matrix {
     /// Integrators that cannot render the scene, though they do not object, and why.
     #[serde(default)]
     pub without: BTreeMap<String, String>,
-    /// Integrators that only a full run asks.
+    /// Integrators that only a full run asks, and their work at its first look.
     #[serde(default)]
-    pub later: Vec<String>,
+    pub later: BTreeMap<String, Budget>,
 }
 
 /// An unbiased integrator that has no row of its own in a claim's matrix.
@@ -82,15 +84,16 @@ pub(crate) fn expand(claim: &mut Claim) -> Result<(), String> {
         return Err("`matrix` belongs to claims about pictures".to_owned());
     }
     let unbiased = list::unbiased();
-    for name in matrix.without.keys().chain(&matrix.later) {
+    for name in matrix.without.keys().chain(matrix.later.keys()) {
         if !unbiased.contains(&name.as_str()) {
             return Err(format!(
                 "`matrix`: there is no unbiased integrator `{name}`"
             ));
         }
     }
-    let Budget { spp, replicates } = matrix.default;
-    if replicates < 2 || spp < replicates || !(matrix.bound > 0.0 && matrix.bound < 1.0) {
+    let mut budgets = matrix.later.values().chain([&matrix.default]);
+    let poor = budgets.any(|budget| budget.replicates < 2 || budget.spp < budget.replicates);
+    if poor || !(matrix.bound > 0.0 && matrix.bound < 1.0) {
         return Err("`matrix`: a budget of at least 2 replicates, and a bound below 1".to_owned());
     }
     let listed = |name: &str| {
@@ -121,21 +124,23 @@ pub(crate) fn expand(claim: &mut Claim) -> Result<(), String> {
             });
             continue;
         }
+        let later = matrix.later.get(name);
+        let budget = *later.unwrap_or(&matrix.default);
         rows.push(Estimator {
             adaptive: None,
             integrator: Some(name.to_owned()),
             sampler: None,
             light_chooser: None,
             defines: Default::default(),
-            quick: matrix.default,
-            default: matrix.default,
+            quick: budget,
+            default: budget,
             change: None,
             exponent: None,
             part: Default::default(),
             mutants: Vec::new(),
             in_matrix: Some(Place {
                 bound: matrix.bound,
-                later: matrix.later.iter().any(|other| other == name),
+                later: later.is_some(),
             }),
         });
     }

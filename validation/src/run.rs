@@ -356,15 +356,21 @@ impl<'a> Comparison<'a> {
         let against = against.map_or(Against::Picture(&oracle), Against::Known);
         let judged = judged::judge(&picture, against, rules, exact)?;
         let bias = judged::greatest_bias(&picture, against, &judged.judgement, turn.stated)?;
-        let within = (options.tier.stated_bound()).is_none_or(|bound| bias < bound);
-        let stated = if within {
-            Verdict::Agrees
-        } else {
-            Verdict::Undecided
+        let verdict = match (judged.judgement.verdict, options.tier.stated_bound()) {
+            (Verdict::Agrees | Verdict::Undecided, Some(bound)) => {
+                let tiles = judged.judgement.tiles.iter().map(|row| row.verdict);
+                let stated = if bias < bound {
+                    Verdict::Agrees
+                } else {
+                    Verdict::Undecided
+                };
+                tiles.fold(stated, Verdict::and)
+            }
+            (verdict, _) => verdict,
         };
         self.picture = Some(picture.clone());
         Ok(Compared {
-            verdict: judged.judgement.verdict.and(stated),
+            verdict,
             p: judged.p,
             evidence: Evidence::Pictures {
                 picture: Box::new(picture),

@@ -30,8 +30,8 @@ pub enum Tier {
 pub const STATED: f64 = 0.01;
 
 impl Tier {
-    /// The bias of an image's mean that each row must exclude by itself, besides its claim's own
-    /// bound: at the level [`STATED`].
+    /// The bias of an image's mean that each row must exclude by itself, at the level [`STATED`],
+    /// in place of its claim's own bound, which others exclude for all rows together.
     pub fn stated_bound(self) -> Option<f64> {
         match self {
             Self::Quick | Self::Default => None,

@@ -144,7 +144,7 @@ impl State {
         let steps = chains as f64 * f64::from(length);
         let seeds = settings.seeds.unwrap_or_else(|| {
             let range = ChainSettings::SEEDS;
-            (samples / 4).clamp(range.start.into(), range.end.into()) as u32
+            samples.clamp(range.start.into(), range.end.into()) as u32
         });
         let density = f64::from(seeds) / steps + f64::from(settings.large_step);
         let mut state = Self {

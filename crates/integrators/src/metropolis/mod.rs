@@ -93,8 +93,8 @@ pub struct ChainSettings {
     pub largest_step: f32,
     /// Steps per chain.
     pub length: u32,
-    /// Uniform samples with which a replicate begins; if not given, a quarter of the replicate's
-    /// samples within [`ChainSettings::SEEDS`].
+    /// Uniform samples with which a replicate begins; if not given, as many as the replicate has
+    /// samples, within [`ChainSettings::SEEDS`].
     pub seeds: Option<u32>,
     /// Whether direct light is left to ordinary samples.
     pub separate_direct: bool,
@@ -105,12 +105,16 @@ pub struct ChainSettings {
 impl Default for ChainSettings {
     /// Steps as Kelemen et al. 2002 have them, but for the smallest (theirs is 1/1024): the
     /// longer a path, the smaller a step must be to be accepted.
+    ///
+    /// Chains are short and start at many different samples (as in Cline et al. 2005, "Energy
+    /// redistribution path tracing"). They need no time to settle, as they start where they belong,
+    /// and of a few long ones each has a say in the brightness of the whole picture.
     fn default() -> Self {
         Self {
             large_step: 0.3,
             smallest_step: 1.0 / 8192.0,
             largest_step: 1.0 / 64.0,
-            length: 4096,
+            length: 128,
             seeds: None,
             separate_direct: true,
             relative: true,
@@ -120,7 +124,7 @@ impl Default for ChainSettings {
 
 impl ChainSettings {
     /// Bounds of the number of seeds that is chosen by itself.
-    pub const SEEDS: Range<u32> = 1 << 10..1 << 20;
+    pub const SEEDS: Range<u32> = 1 << 10..1 << 21;
 
     /// Reads the parameters, see `docs/extensions.md`.
     pub fn from_params(params: &Params<'_>) -> Self {
