@@ -2,10 +2,13 @@
 
 use crate::accumulate;
 use crate::claim::{Budget, Estimator, Oracle};
+use crate::fault::Fault;
+use crate::kept::{Kept, Wanted};
 use crate::rendering;
 use crate::run::Task;
-use crate::state::State;
 use etalon_film::Developed;
+use etalon_integrators::Plan;
+use std::hash::{DefaultHasher, Hasher};
 
 /// The replicates that a look adds.
 pub(crate) struct Batches<'a> {
@@ -17,19 +20,36 @@ pub(crate) struct Batches<'a> {
     pub(crate) from: u32,
     /// Replicates there shall be.
     pub(crate) to: u32,
-    /// Where finished batches are kept, if anywhere.
-    pub(crate) state: Option<&'a State>,
+    /// Where finished batches are kept.
+    pub(crate) kept: &'a Kept<'a>,
+}
+
+/// Which side of a comparison a batch belongs to.
+#[derive(Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Part {
+    /// The estimator under test.
+    Own,
+    /// The estimator that it is held against.
+    Oracle,
+}
+
+/// What tells one statement of an estimator from another. A claim may be edited between two runs of one
+/// program, and not everything in it leaves a trace in the picture's metadata.
+fn fingerprint(estimator: &Estimator) -> u32 {
+    let mut hasher = DefaultHasher::new();
+    hasher.write(format!("{estimator:?}").as_bytes());
+    hasher.finish() as u32
 }
 
 impl Batches<'_> {
-    /// The replicates so far and those to be added. A finished batch is taken from the state, if
-    /// there is one.
+    /// The replicates so far and those to be added. A finished batch that is kept is not
+    /// rendered again.
     pub(crate) fn extend(
         &self,
         so_far: Option<Developed>,
         estimator: &Estimator,
         seed: u64,
-        who: &str,
+        part: Part,
     ) -> Result<Developed, String> {
         let more = self.to - self.from;
         let budget = Budget {
@@ -40,33 +60,46 @@ impl Batches<'_> {
         let seed = seed.wrapping_add(u64::from(self.from) << 40);
         let loaded = rendering::load_for(self.task.claim, estimator)?;
         let plan = rendering::plan(&loaded, estimator, budget, seed);
-        let mut name = format!(
-            "{}-{}-{who}-{}",
-            self.task.claim.name, self.task.place, self.from
-        );
-        if let Some(fault) = self.task.fault {
-            name += &format!("-{fault}").replace([' ', '/'], "_");
-        }
-        let kept = self
-            .state
-            .and_then(|state| state.read(&name, &plan, &loaded));
-        let batch = match kept {
-            Some(batch) => rendering::finite(batch)?,
-            None => {
-                let change = match &self.task.claim.oracle {
-                    Oracle::Invariance { .. } if who == "own" => estimator.change,
-                    _ => None,
-                };
-                let batch = rendering::picture(&loaded, &plan, estimator, self.task.fault, change)?;
-                if let Some(state) = self.state {
-                    state.write(&name, &batch)?;
-                }
-                batch
-            }
+        let name = self.name(estimator, &plan, part);
+        let wanted = Wanted {
+            claim: &self.task.claim.name,
+            name: &name,
+            shared: part == Part::Oracle,
+            plan: &plan,
+            loaded: &loaded,
         };
+        let batch = self.kept.or_else(&wanted, || {
+            let change = match (part, &self.task.claim.oracle) {
+                (Part::Own, Oracle::Invariance { .. }) => estimator.change,
+                _ => None,
+            };
+            rendering::picture(&loaded, &plan, estimator, self.fault(part), change)
+        })?;
+        let batch = rendering::finite(batch)?;
         match so_far {
             Some(so_far) => accumulate::merge(&so_far, &batch),
             None => Ok(batch),
+        }
+    }
+
+    /// The fault of a side: the oracle has none.
+    fn fault(&self, part: Part) -> Option<Fault> {
+        self.task.fault.filter(|_| part == Part::Own)
+    }
+
+    /// What tells a batch from all others of the claim. The oracle's belong to no estimator.
+    fn name(&self, estimator: &Estimator, plan: &Plan, part: Part) -> String {
+        let (from, print) = (self.from, fingerprint(estimator));
+        match part {
+            Part::Own => {
+                let fault = self.task.fault.map(|fault| format!("-{fault}"));
+                let fault = fault.unwrap_or_default().replace([' ', '/'], "_");
+                format!("{}-own-{from}-{print:08x}{fault}", self.task.place)
+            }
+            Part::Oracle => {
+                let (replicates, each) = (plan.replicates, plan.samples_per_replicate);
+                format!("oracle-{from}-{print:08x}-{replicates}x{each}")
+            }
         }
     }
 }

@@ -21,6 +21,7 @@ pub mod html;
 pub mod invariance;
 pub mod json;
 pub mod judged;
+mod kept;
 pub mod look;
 pub mod matrix;
 pub mod measure;

@@ -2,6 +2,7 @@
 //! together with all others ([`crate::decision`]).
 
 use crate::decision::{self, Decision, Seen, Turn};
+use crate::kept::Kept;
 use crate::look::Look;
 use crate::run::{Compared, Comparison, Options, Task};
 use crate::state::State;
@@ -120,10 +121,11 @@ pub fn run<'a>(
     watch: impl FnMut(&Progress<'_>),
 ) -> Result<Vec<Row<'a>>, String> {
     let mut works: Vec<Work<'a>> = tasks.iter().copied().map(Work::new).collect();
+    let kept = Kept::new(state);
     let decisions = decision::decide(
         &tasks,
         options.tier,
-        |turn| works[turn.place].look(turn, options, state),
+        |turn| works[turn.place].look(turn, options, &kept),
         watch,
     )?;
     let rows = tasks.into_iter().zip(works).zip(decisions);
@@ -170,9 +172,9 @@ impl<'a> Work<'a> {
         }
     }
 
-    fn look(&mut self, turn: Turn, options: &Options, state: Option<&State>) -> Option<Seen> {
+    fn look(&mut self, turn: Turn, options: &Options, kept: &Kept<'_>) -> Option<Seen> {
         let start = Instant::now();
-        let compared = self.comparison.look(turn, options, state);
+        let compared = self.comparison.look(turn, options, kept);
         self.seconds += start.elapsed().as_secs_f64();
         let seen = compared.as_ref().ok().map(|compared| {
             let look = Look::of(compared, turn.alpha, self.seconds);

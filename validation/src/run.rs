@@ -3,14 +3,14 @@
 //! A [`Comparison`] is looked at once or several times; each look adds replicates with seeds of
 //! their own to those there are, and judges them all.
 
-use crate::batches::Batches;
+use crate::batches::{Batches, Part};
 use crate::claim::{Budget, Claim, Estimator, Oracle};
 use crate::convergence::Fall;
 use crate::decision::Turn;
 use crate::fault::Fault;
 use crate::judged::{self, Against};
+use crate::kept::Kept;
 use crate::measure::Measure;
-use crate::state::State;
 use crate::tier::Tier;
 use crate::{closed_form, convergence, invariance, noise, pixelwise, reference, rendering};
 use etalon::judge::{Judgement, Known, Rules};
@@ -208,13 +208,13 @@ impl<'a> Comparison<'a> {
     /// # Errors
     /// If it cannot be made: a scene or a reference that cannot be read, numbers that are not
     /// finite.
-    pub fn look(
+    pub(crate) fn look(
         &mut self,
         turn: Turn,
         options: &Options,
-        state: Option<&State>,
+        kept: &Kept<'_>,
     ) -> Result<Compared, String> {
-        let compared = self.measured(turn, options, state);
+        let compared = self.measured(turn, options, kept);
         self.multiple = turn.multiple;
         compared
     }
@@ -223,7 +223,7 @@ impl<'a> Comparison<'a> {
         &mut self,
         turn: Turn,
         options: &Options,
-        state: Option<&State>,
+        kept: &Kept<'_>,
     ) -> Result<Compared, String> {
         let Task {
             claim,
@@ -279,10 +279,10 @@ impl<'a> Comparison<'a> {
                         let spp = picture.metadata.as_ref().map_or(0, |m| m.spp);
                         (measures, spp)
                     }
-                    None => return self.pictures(turn, options, state),
+                    None => return self.pictures(turn, options, kept),
                 }
             }
-            _ => return self.pictures(turn, options, state),
+            _ => return self.pictures(turn, options, kept),
         };
         let (verdict, p) = Measure::together(&measures);
         Ok(Compared {
@@ -302,7 +302,7 @@ impl<'a> Comparison<'a> {
         &mut self,
         turn: Turn,
         options: &Options,
-        state: Option<&State>,
+        kept: &Kept<'_>,
     ) -> Result<Compared, String> {
         let Task {
             claim,
@@ -320,9 +320,9 @@ impl<'a> Comparison<'a> {
             first: self.task.budget(options.tier),
             from: self.multiple,
             to: turn.multiple,
-            state,
+            kept,
         };
-        let picture = work.extend(self.picture.take(), estimator, options.seed, "own")?;
+        let picture = work.extend(self.picture.take(), estimator, options.seed, Part::Own)?;
         let facts = picture.metadata.as_ref().ok_or("there are no statistics")?;
         let (spp, replicates) = (facts.spp, facts.replicates);
         let scene_hash = facts.scene_hash.clone();
@@ -344,8 +344,7 @@ impl<'a> Comparison<'a> {
                     Some(_) => estimator.fault_budget(),
                     None => options.tier.budget(estimator),
                 };
-                work.task.fault = None;
-                let oracle = work.extend(self.oracle.take(), estimator, seed, "oracle")?;
+                let oracle = work.extend(self.oracle.take(), estimator, seed, Part::Oracle)?;
                 self.oracle = Some(oracle.clone());
                 (None, oracle)
             }

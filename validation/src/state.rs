@@ -1,8 +1,8 @@
 //! What a full run has rendered so far, so that it can go on where it was interrupted.
 //!
 //! Every batch of replicates is kept as an EXR file with its tile means, in a folder that belongs
-//! to one build of the program, one seed and one choice of claims. A batch is taken up again only if its scene, plan and
-//! seed are those asked for. The verdicts are computed anew from the batches: they, too, are the
+//! to one build of the program, one seed and one choice of claims. A batch is taken up again only if its scene, plan,
+//! seed and estimator are those asked for. The verdicts are computed anew from the batches: they, too, are the
 //! same as without the interruption.
 
 use crate::run::Options;
@@ -32,6 +32,11 @@ impl State {
         let folder = folder.join(format!("{:016x}-{}", hasher.finish(), options.seed));
         std::fs::create_dir_all(&folder).map_err(|e| format!("{}: {e}", folder.display()))?;
         Ok(Self { folder })
+    }
+
+    /// Where the batches are.
+    pub fn folder(&self) -> &Path {
+        &self.folder
     }
 
     /// How many batches there are.

@@ -21,26 +21,38 @@ fn an_interrupted_run_goes_on_with_the_same_result() {
         tier: Tier::Full,
         seed: 5,
     };
-    let bias = |state: &State| {
-        let tasks = run::tasks(&claims, &options);
+    let bias = |claims: &[Claim], state: &State| {
+        let tasks = run::tasks(claims, &options);
         let rows = outcome::run(tasks, &options, Some(state), |_| ()).expect("a plan");
         let compared = rows[0].compared.as_ref().expect("it can be compared");
         compared.judgement().expect("pictures").images[0].bias
     };
     let state = State::open(&folder, &options).expect("a folder");
     assert!(state.is_empty());
-    let first = bias(&state);
+    let first = bias(&claims, &state);
     let kept = state.len();
     assert!(kept > 0);
     let again = State::open(&folder, &options).expect("the same folder");
-    assert_eq!(bias(&again), first);
+    assert_eq!(bias(&claims, &again), first);
     assert_eq!(again.len(), kept, "nothing is rendered twice");
+
+    // Nor is the batch of an estimator that has been edited since, though its plan and scene are the same.
+    let mut edited = claims.clone();
+    edited[0].estimators[0].adaptive = Some(16);
+    bias(&edited, &again);
+    assert_eq!(again.len(), kept + 1);
 
     // Another seed has a state of its own; a batch of another plan or half a file is not taken up.
     let estimator = &claims[0].estimators[0];
     let loaded = rendering::load_for(&claims[0], estimator).expect("a scene");
     let plan = rendering::plan(&loaded, estimator, estimator.default, options.seed);
-    let name = "furnace-0-own-0";
+    let files = std::fs::read_dir(again.folder()).expect("a folder");
+    let name = files
+        .map(|file| file.expect("readable").path())
+        .filter_map(|path| Some(path.file_stem()?.to_str()?.to_owned()))
+        .find(|name| name.starts_with("furnace-0-own-0-"))
+        .expect("the first estimator's batch");
+    let name = name.as_str();
     assert!(again.read(name, &plan, &loaded).is_some());
     let mut other = plan;
     other.seed += 1;
@@ -59,5 +71,39 @@ fn an_interrupted_run_goes_on_with_the_same_result() {
     }
     assert!(again.read(name, &plan, &loaded).is_none());
     again.finish().expect("removed");
+    let _ = std::fs::remove_dir_all(&folder);
+}
+
+#[test]
+fn the_oracle_of_several_estimators_is_rendered_once() {
+    let folder = std::env::temp_dir().join(format!("etalon-oracle-{}", std::process::id()));
+    let mut claims = Claim::read_all(&folders::claims()).expect("claims can be read");
+    // One look shall do.
+    claims.iter_mut().for_each(|claim| claim.bounds.image = 0.5);
+    let options = Options {
+        only: Some("camera-obscura-naive".to_owned()),
+        tier: Tier::Quick,
+        seed: 5,
+    };
+    let tasks = run::tasks(&claims, &options);
+    let estimators = tasks.len();
+    assert!(estimators > 1);
+    let state = State::open(&folder, &options).expect("a folder");
+    let shared = outcome::run(tasks, &options, Some(&state), |_| ()).expect("a plan");
+    // One batch each, and the oracle's. Mutant rejected: an oracle that is told from the next one's by the estimator.
+    assert!(shared.iter().all(|row| row.looks == 1));
+    assert_eq!(state.len(), estimators + 1);
+    // It is the picture that each would have had alone, without any folder, too.
+    for row in &shared {
+        let mut one = vec![row.task.claim.clone()];
+        one[0].estimators = vec![row.task.estimator.clone()];
+        let alone = outcome::run(run::tasks(&one, &options), &options, None, |_| ());
+        let alone = alone.expect("a plan").remove(0);
+        let bias = |row: &outcome::Row<'_>| {
+            let compared = row.compared.as_ref().expect("it can be compared");
+            compared.judgement().expect("pictures").images[0].bias
+        };
+        assert_eq!(bias(&alone), bias(row));
+    }
     let _ = std::fs::remove_dir_all(&folder);
 }
