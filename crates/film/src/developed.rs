@@ -6,6 +6,7 @@
 //! freedom less than there are replicates. Where samples were not dealt evenly, `samples` says how many
 //! each pixel has.
 
+use crate::consistency::contradiction;
 use crate::exact_film::STANDARD_ERROR;
 use crate::exact_sums::EXACT;
 use crate::pixel_moments::PixelMoments;
@@ -201,6 +202,12 @@ pub(crate) fn of_document(document: exr::Document, path: &Path) -> Result<Develo
         return Err(refused(format!(
             "they name a channel `{name}` that is not there"
         )));
+    }
+    if let Some(what) = metadata
+        .as_ref()
+        .and_then(|metadata| contradiction(&image, metadata))
+    {
+        return Err(refused(format!("they are of another picture: {what}")));
     }
     Ok(Developed {
         image,

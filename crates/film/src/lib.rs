@@ -5,6 +5,7 @@
 //! knows its own error and can be written to, and read from, an EXR file;
 //! [`ExactFilm::into_part`] gives a [`Part`], which can be merged with others.
 
+mod consistency;
 mod exact_film;
 mod exact_sums;
 mod half_line;

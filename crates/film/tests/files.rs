@@ -126,6 +126,42 @@ fn false_metadata_are_refused() {
     assert!(error.contains("3 × 4"), "{error}");
 }
 
+/// A picture whose pixels were changed after its statistics were made.
+fn changed(name: &str, change: impl Fn(f32) -> f32) -> Result<(), String> {
+    let directory = tempfile::tempdir().expect("a temporary directory");
+    let path = directory.path().join("changed.exr");
+    let mut picture = developed(3, None);
+    let mut image = Image::new(picture.image.width(), picture.image.height());
+    for channel in picture.image.channels() {
+        let mut samples = channel.samples.clone();
+        if channel.name == name {
+            // One pixel of the last tile, which is not whole.
+            let last = samples.len() - 1;
+            samples[last] = change(samples[last]);
+        }
+        image.push(channel.name.as_str(), samples);
+    }
+    picture.image = image;
+    picture.write_exr(&path).expect("written");
+    let read = read_developed(&path);
+    read.map(|_| ()).map_err(|error| error.to_string())
+}
+
+#[test]
+fn pixels_that_are_not_those_of_the_statistics_are_refused() {
+    assert_eq!(changed("G", |x| x), Ok(()));
+    // A rounding is none: half a unit in the last place.
+    assert_eq!(changed("G", |x| x * (1.0 + 1e-7)), Ok(()));
+    for change in [|x: f32| 1.1 * x + 0.1, |_| f32::NAN, |_| f32::INFINITY] {
+        let refusal = changed("G", change).expect_err("refused");
+        assert!(
+            refusal.contains("another picture: channel `G`"),
+            "{refusal}"
+        );
+        assert!(refusal.contains("pixel (16, 16)"), "{refusal}");
+    }
+}
+
 #[test]
 fn a_file_that_is_no_image_is_refused() {
     let directory = tempfile::tempdir().expect("a temporary directory");

@@ -281,7 +281,7 @@ fn forgeries_are_refused() {
     replaced(
         "\"channels\":[\"R\",\"G\"",
         "\"channels\":[\"R\",\"R\"",
-        "no exact sums",
+        "another picture",
     );
     replaced("\"part\":", "\"tarp\":", "not a part");
     replaced(

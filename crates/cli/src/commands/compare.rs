@@ -29,15 +29,28 @@ pub fn run(args: &CompareArgs) -> ExitCode {
         Ok(image) => image,
         Err(error) => return fail(error),
     };
+    // Images of different sizes are bad input, whatever they carry.
+    let size = |image: &Developed| (image.image.width(), image.image.height());
+    let ((width, height), (other_width, other_height)) = (size(&first), size(&second));
+    if (width, height) != (other_width, other_height) {
+        return fail(format!(
+            "the images differ in size: {width} × {height} ({}) and {other_width} × {other_height} ({})",
+            args.a.display(),
+            args.b.display()
+        ));
+    }
+    for (path, image) in [(&args.a, &first), (&args.b, &second)] {
+        if let Some(what) = not_a_number(&image.image) {
+            return fail(format!("{}: {what}", path.display()));
+        }
+    }
     if identical(&first.image, &second.image) {
         return say_identical(args);
     }
-    let size = |image: &Image| (image.width(), image.height());
     let unfit = [(&args.a, &first), (&args.b, &second)]
         .into_iter()
         .find_map(|(path, image)| Some(format!("{} {}", path.display(), unfit(image)?)));
-    // Images of different sizes are bad input, whatever they carry.
-    if let (Some(reason), true) = (unfit, size(&first.image) == size(&second.image)) {
+    if let Some(reason) = unfit {
         return say_inconclusive(args, &reason, [&first, &second]);
     }
     if let Some(seed) = shared_seed(&first, &second) {
@@ -75,6 +88,18 @@ pub fn run(args: &CompareArgs) -> ExitCode {
     answer(&text, code)
 }
 
+/// The first pixel that is not a finite number, if there is one.
+fn not_a_number(image: &Image) -> Option<String> {
+    image.channels().iter().find_map(|channel| {
+        let (pixel, value) = (channel.samples.iter().enumerate()).find(|(_, v)| !v.is_finite())?;
+        let (x, y) = (pixel % image.width(), pixel / image.width());
+        Some(format!(
+            "pixel ({x}, {y}) of channel `{}` is {value}: there is nothing to compare",
+            channel.name
+        ))
+    })
+}
+
 /// Why an image does not carry what a judgement is made of, if it does not.
 fn unfit(image: &Developed) -> Option<String> {
     let Some(metadata) = &image.metadata else {
@@ -85,6 +110,13 @@ fn unfit(image: &Developed) -> Option<String> {
             "has a single replicate and so no standard error: render it with --replicates"
                 .to_owned(),
         );
+    }
+    let faults = metadata.faults.total();
+    if faults > 0 {
+        return Some(format!(
+            "left out {faults} contributions that were not finite or out of range: what it shows is not \
+             what was to be rendered (`etalon info` says where)"
+        ));
     }
     let whole = metadata.tiles(None);
     whole
@@ -178,9 +210,12 @@ fn table(judgement: &Judgement) -> String {
             row.differing,
         );
     }
+    let verdict = match judgement.verdict {
+        Verdict::Undecided => "inconclusive".to_owned(),
+        verdict => verdict.to_string(),
+    };
     text += &format!(
-        "{} (bound {} % of the mean, α = {})\n",
-        judgement.verdict,
+        "{verdict} (bound {} % of the mean, α = {})\n",
         100.0 * judgement.rules.image_bound,
         judgement.rules.alpha
     );

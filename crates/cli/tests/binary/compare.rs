@@ -38,7 +38,7 @@ fn equal_pictures_agree_within_a_bound_that_their_noise_allows() {
     let narrow = ["--bound", "1e-6", "--tile-bound", "0.5"];
     let ran = compare(&workshop, ["a.exr", "b.exr"], &narrow);
     assert_eq!(ran.code, Some(3), "{}", ran.stdout);
-    assert!(ran.stdout.contains("\nundecided ("), "{}", ran.stdout);
+    assert!(ran.stdout.contains("\ninconclusive ("), "{}", ran.stdout);
 }
 
 #[test]
@@ -136,10 +136,76 @@ fn what_cannot_be_compared_is_refused() {
     workshop.write("broken.exr", &workshop.read("b.exr")[..500]);
     refused("broken.exr", "broken.exr");
     workshop.render("large.exr", &["-D", "resx=25", "--spp", "2", "-q"]);
-    refused("large.exr", "differ in size: 24 × 20 and 25 × 20");
+    refused(
+        "large.exr",
+        "differ in size: 24 × 20 (a.exr) and 25 × 20 (large.exr)",
+    );
     for option in ["--bound=0", "--bound=nan", "--tile-bound=-1", "--alpha=1"] {
         compare(&workshop, ["a.exr", "b.exr"], &[option]).refused();
     }
+}
+
+#[test]
+fn what_is_no_number_never_passes() {
+    let workshop = Workshop::new();
+    workshop.render("a.exr", &["--spp", "16", "-q"]);
+    let with = |name: &str, change: &dyn Fn(&mut Developed)| {
+        let mut picture = workshop.image("a.exr");
+        change(&mut picture);
+        let written = picture.write_exr(&workshop.path(name));
+        written.expect("written");
+    };
+    let repainted = |picture: &mut Developed, paint: &dyn Fn(usize, f32) -> f32| {
+        let channels = std::mem::replace(&mut picture.image, Image::new(24, 20));
+        for channel in channels.into_channels() {
+            let samples = channel.samples.iter().enumerate();
+            let painted = samples.map(|(i, v)| paint(i, *v)).collect();
+            picture.image.push(channel.name, painted);
+        }
+    };
+    // Pixels that are not those of the statistics, which verdicts are made of.
+    with("doubled.exr", &|picture| {
+        repainted(picture, &|_, v| 2.0 * v)
+    });
+    with("hole.exr", &|picture| {
+        repainted(picture, &|i, v| if i == 50 { f32::NAN } else { v });
+    });
+    // A file of another program, which has none; even against itself.
+    with("foreign.exr", &|picture| {
+        repainted(picture, &|i, v| if i == 50 { f32::NAN } else { v });
+        picture.metadata = None;
+    });
+    for (names, words) in [
+        (
+            ["a.exr", "doubled.exr"],
+            "doubled.exr: its metadata cannot be used",
+        ),
+        (
+            ["hole.exr", "a.exr"],
+            "hole.exr: its metadata cannot be used",
+        ),
+        (
+            ["a.exr", "foreign.exr"],
+            "foreign.exr: pixel (2, 2) of channel `B` is NaN",
+        ),
+        (["foreign.exr", "foreign.exr"], "is NaN"),
+    ] {
+        let ran = compare(&workshop, names, &[]).refused();
+        assert!(ran.stderr.contains(words), "{}", ran.stderr);
+    }
+    // What was left out while rendering.
+    with("faulty.exr", &|picture| {
+        picture.metadata.as_mut().expect("metadata").faults.nan = 9;
+        // Else it would be identical.
+        let errors = std::mem::replace(&mut picture.image, Image::new(24, 20));
+        let means = errors.into_channels().into_iter();
+        for channel in means.filter(|channel| channel.name.len() == 1) {
+            picture.image.push(channel.name, channel.samples);
+        }
+    });
+    let ran = compare(&workshop, ["a.exr", "faulty.exr"], &[]);
+    assert_eq!(ran.code, Some(3), "{}", ran.stdout);
+    assert!(ran.stdout.contains("left out 9"), "{}", ran.stdout);
 }
 
 #[test]
