@@ -162,6 +162,10 @@ impl Film for KeptFilm {
         self.film.margin()
     }
 
+    fn light_paths(&self) -> u32 {
+        self.film.light_paths()
+    }
+
     fn tile(&self, from: UVec2, to: UVec2, alone: bool, first: u32) -> ExactTile<'_> {
         self.film.tile(from, to, alone, first)
     }

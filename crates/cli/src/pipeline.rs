@@ -3,7 +3,8 @@
 use crate::keeping::{Keeping, KeptFilm};
 use crate::{VERSION, objections, resources};
 use etalon_film::{
-    Developed, ExactFilm, FilmSettings, Filter, Part, RenderFacts, SampleCounts, recorded_seconds,
+    Developed, ExactFilm, FilmSettings, Filter, Part, PixelFilter, RenderFacts, SampleCounts,
+    recorded_seconds,
 };
 use etalon_formats::FileAssets;
 use etalon_formats::mitsuba::{self, Document, ReadOptions, ReadOutcome};
@@ -100,7 +101,8 @@ pub fn load(path: &Path, options: &LoadOptions) -> Result<Loaded, Refusal> {
             let place = place(&document.root, &[Class::Integrator]);
             diagnostics.keep(check_channels(&compiled.film, integrator, place));
             let film = &compiled.film;
-            let sight = compiled.scene.sight(film.crop_offset, film.crop_size);
+            let mut sight = compiled.scene.sight(film.crop_offset, film.crop_size);
+            sight.narrow_filter = !PixelFilter::new(film.filter).catches_splats();
             for objection in integrator.objections(&sight) {
                 complete = false;
                 let material = compiled.classic;

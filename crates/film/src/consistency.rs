@@ -14,6 +14,9 @@ use etalon_images::Image;
 /// 24 bits.
 const ROUNDING: f64 = 1e-5;
 
+/// How far they may be apart besides: exact sums are multiples of 2⁻⁶⁴.
+const QUANTUM: f64 = 1e-18;
+
 /// What contradicts the statistics, if anything, in a sentence.
 pub(crate) fn contradiction(image: &Image, metadata: &Metadata) -> Option<String> {
     metadata.tile_means.iter().find_map(|means| {
@@ -46,7 +49,8 @@ fn in_channel(pixels: &[f32], width: usize, means: &TileMeans, channel: u32) -> 
             if !told.value.is_finite() {
                 continue;
             }
-            let far = (shown.value - told.value).abs() > ROUNDING * (shown.size + told.size);
+            let far =
+                (shown.value - told.value).abs() > ROUNDING * (shown.size + told.size) + QUANTUM;
             if far || !shown.value.is_finite() {
                 return Some(format!(
                     " is {} on the average from pixel ({left}, {top}) on, and was {} when the statistics were made",

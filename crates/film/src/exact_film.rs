@@ -394,6 +394,13 @@ impl Film for ExactFilm {
         self.filter.margin()
     }
 
+    fn light_paths(&self) -> u32 {
+        match self.filter.catches_splats() {
+            true => self.settings.crop_size.element_product(),
+            false => 0,
+        }
+    }
+
     fn tile(&self, from: UVec2, to: UVec2, alone: bool, first: u32) -> ExactTile<'_> {
         ExactTile::new(self, from, to, alone, first)
     }

@@ -59,6 +59,9 @@ enum Sampling {
 /// Cells per pixel of the half line, and at least this many.
 const CELLS: f64 = 256.0;
 
+/// The least radius of a filter that splats are used with (pixels): one in a hundred finds a pixel then.
+const NARROWEST: f32 = 0.05;
+
 impl PixelFilter {
     /// Prepares a filter.
     pub fn new(filter: Filter) -> Self {
@@ -89,6 +92,14 @@ impl PixelFilter {
     /// Where it ends (pixels).
     pub fn radius(&self) -> f32 {
         self.filter.radius() as f32
+    }
+
+    /// Whether splats find pixels often enough to make a picture.
+    ///
+    /// A splat counts for the pixels whose centres are within the radius. Below half a pixel some splats
+    /// are lost, which is made up for by what the others count; of few it is made up for by hardly any.
+    pub fn catches_splats(&self) -> bool {
+        self.radius() >= NARROWEST
     }
 
     /// How far (pixels) outside of the film a splat can still reach a pixel: the outermost

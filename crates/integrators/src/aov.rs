@@ -1,10 +1,25 @@
 //! `aov`: arbitrary output variables of the first surface, beside the pictures of nested
 //! integrators.
 //!
+//! With x the first surface on the ray of a sample, the channel of a variable v is
+//!
+//! ```text
+//! C = 1/n Σᵢ wᵢ v(xᵢ),   v = 0 where no surface is hit
+//! ```
+//!
+//! over the n samples of a pixel, which its filter places and weighs by wᵢ (1 without negative lobes):
+//! the geometric buffers of Saito & Takahashi 1990 ("Comprehensible Rendering of 3-D Shapes"), with
+//! antialiasing. All variables are numbers but the albedo ρ, which is a spectrum and so an estimate itself,
+//! by a sample's four wavelengths, their density p and the sensor's response s:
+//!
+//! ```text
+//! v = ¼ Σⱼ ρ(x, λⱼ) s(λⱼ) / p(λⱼ)
+//! ```
+//!
 //! Channels, named as Mitsuba names them: for each nested integrator `NAME` its `NAME.R`,
 //! `NAME.G`, `NAME.B`, `NAME.A` and its own channels; then for each entry `name:type` of `aovs`
-//! one to three channels `name.…`. Where no surface is hit every variable is 0. The picture is
-//! that of the first nested integrator (black if there is none).
+//! one to three channels `name.…`. The picture is that of the first nested integrator (black if
+//! there is none).
 
 use crate::dimensions as dim;
 use crate::list::Nested;

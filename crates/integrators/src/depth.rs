@@ -1,5 +1,13 @@
 //! `depth`: the distance to the first surface.
 //!
+//! ```text
+//! C = ∫ s(λ) dλ · 1/n Σᵢ wᵢ tᵢ
+//! ```
+//!
+//! with tᵢ the distance along the ray of the pixel's i-th sample (a depth buffer, Catmull 1974, with
+//! antialiasing and along the ray), wᵢ the sample's weight in the pixel's filter (1 without negative
+//! lobes) and s the sensor's response.
+//!
 //! As in Mitsuba the distance is a spectrum that is constant over wavelength, so the sensor
 //! turns it into a colour; the expected colour of a constant spectrum 1 is known exactly, so no
 //! wavelength is drawn for it. Nothing hit counts as distance 0. The plain number is the `depth`

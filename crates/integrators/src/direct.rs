@@ -16,7 +16,7 @@ use crate::dimensions::Event;
 use crate::path::camera_ray;
 use crate::prefix::Prefix;
 use crate::rival::Rival;
-use crate::settings::ignore_scheduling;
+use crate::settings::{ignore_scheduling, read_max_depth};
 use crate::walk::shadow_ray;
 use etalon_params::Params;
 use etalon_sampling::Sampler;
@@ -34,13 +34,15 @@ pub struct Direct {
     pub emitter_samples: u32,
     /// Directions sampled from the scattering model.
     pub bsdf_samples: u32,
+    /// Longest path in segments: 1 shows lights only, 2 or more direct light too.
+    pub max_depth: u32,
     /// Whether lights are invisible to the camera.
     pub hide_emitters: bool,
 }
 
 impl Direct {
     /// Reads the integrator from its description: `shading_samples` for both kinds, or
-    /// `emitter_samples` and `bsdf_samples`.
+    /// `emitter_samples` and `bsdf_samples`; `max_depth` and `hide_emitters` as for paths.
     pub fn from_params(params: &Params<'_>) -> Self {
         ignore_scheduling(params);
         let count = |name: &str, default: u32| {
@@ -65,6 +67,7 @@ impl Direct {
         let direct = Self {
             emitter_samples: count("emitter_samples", both),
             bsdf_samples: count("bsdf_samples", both),
+            max_depth: read_max_depth(params),
             hide_emitters: params.boolean_or("hide_emitters", false),
         };
         if direct.emitter_samples + direct.bsdf_samples == 0 {
@@ -83,7 +86,8 @@ impl Direct {
         let visible = !self.hide_emitters;
         let hit = loop {
             let Some(hit) = world.intersect(&ray) else {
-                let radiance = if visible && world.has_background() {
+                let seen = visible && self.max_depth >= 1 && world.has_background();
+                let radiance = if seen {
                     world.background(ray.direction, wavelengths)
                 } else {
                     Vec4::ZERO
@@ -98,9 +102,12 @@ impl Direct {
         let vertex = world.vertex(&ray, &hit);
         let wo = -ray.direction;
         let mut result = Vec4::ZERO;
-        if world.is_emitter(&hit) {
+        if world.is_emitter(&hit) && self.max_depth >= 1 {
             let radiance = world.emitted(&vertex, wo, wavelengths);
             result += Prefix::START.estimate(radiance, Vec4::ZERO);
+        }
+        if self.max_depth < 2 {
+            return (result, 1.0);
         }
         let bsdf = world.bsdf(&vertex, wo, wavelengths);
         let mut event = 0;

@@ -171,6 +171,7 @@ impl Integrator for Forward {
 
     fn objections(&self, sight: &Sight) -> Vec<Objection> {
         let mut objections = sight.objections(Finding::Choosing);
+        objections.extend(sight.unsplattable());
         if !sight.aperture {
             let message = "`forward` waits for particles to hit the aperture of the camera, and \
                            this camera has none";

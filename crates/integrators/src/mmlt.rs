@@ -27,7 +27,7 @@ use crate::metropolis::{ChainSettings, Field, Found, Integrand, Kinds, State};
 use crate::settings::{PathSettings, ignore_scheduling};
 use etalon_params::Params;
 use etalon_sampling::Sampler;
-use etalon_transport::{Integrator, Pass, PixelSite, Sink, World};
+use etalon_transport::{Finding, Integrator, Objection, Pass, PixelSite, Sight, Sink, World};
 
 /// The numbers that choose the technique and the length: those between the moment and the first
 /// scattering event, which nothing else needs.
@@ -121,6 +121,12 @@ impl Integrator for Multiplexed {
 
     fn splats(&self) -> bool {
         true
+    }
+
+    fn objections(&self, sight: &Sight) -> Vec<Objection> {
+        let mut objections = sight.objections(Finding::Either);
+        objections.extend(sight.unsplattable());
+        objections
     }
 
     fn prepare<W: World>(&self, world: &W, pass: &Pass, before: Option<State>) -> State {

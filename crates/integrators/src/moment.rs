@@ -1,5 +1,14 @@
 //! `moment`: first and second moments of nested integrators.
 //!
+//! ```text
+//! M₁ = 1/n Σᵢ wᵢ cᵢ,   M₂ = 1/n Σᵢ wᵢ cᵢ²
+//! ```
+//!
+//! with cᵢ what the pixel's i-th sample found and wᵢ its weight in the pixel's filter: the sample moments
+//! of Pearson 1894. Where all wᵢ are 1, so without negative lobes of the filter, M₂ − M₁² estimates the
+//! variance of a single sample less that of the mean. It says how noisy the integrator is, not how large
+//! the error of the mean: the samples of a replicate need not be independent.
+//!
 //! For each nested integrator `NAME`: its own channels, then its colour as CIE XYZ in `NAME.X`,
 //! `NAME.Y`, `NAME.Z`, and after all of those the mean of every sample's square in `m2_…`, as
 //! Mitsuba names them. The picture is that of the first nested integrator.

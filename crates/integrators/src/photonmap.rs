@@ -13,10 +13,34 @@
 //! sharp, where the whole global map is looked up, and what it meets in sharp directions from
 //! there.
 //!
-//! A map is looked up within a radius, or for the k nearest photons, whose farthest tells the
-//! radius; the kernel is a box or Jensen's cone. Every replicate has maps of its own. The radius
-//! stays as it is, so the bias does not vanish however many samples and replicates there are, only
-//! with more photons.
+//! With M photons shot, of which the i-th in the map, of flux Φᵢ, arrives along ωᵢ at the distance dᵢ
+//! from x, a map adds
+//!
+//! ```text
+//! L(x, ω) ≈ 1/M · Σ_{dᵢ ≤ r} K(dᵢ) · f(x, ωᵢ, ω) · Φᵢ
+//! box:   K(d) = 1 / (π r²)
+//! cone:  K(d) = (1 − d/(c r)) / ((1 − 2/(3c)) π r²),   c ≥ 1
+//! ```
+//!
+//! (Jensen 1996; 2001, *Realistic Image Synthesis Using Photon Mapping*, chapter 7). Either kernel has
+//! the integral one over the disc of radius r. Distances are those in space. Photons on surfaces that face
+//! elsewhere, that arrive from directions which are followed, or whose path would be too long count
+//! nothing. Every photon counts at its own wavelengths, as [`crate::photons`] has it.
+//!
+//! r is given, or the distance d₍ₖ₎ of the k-th nearest photon of the map if that is less. Then this
+//! photon only tells the radius, and the sum is over the k − 1 nearer ones: given d₍ₖ₎ these lie in the
+//! disc as independent photons within a fixed radius do, so that under even light the expectation is
+//! right,
+//!
+//! ```text
+//! E[ (k − 1) / (π d₍ₖ₎²) ] = photons per area
+//! ```
+//!
+//! while with a box all k would bring k/(k − 1) of it (García, Ureña, Sbert 2012, "Description and
+//! Solution of an Unreported Intrinsic Bias in Photon Mapping Density Estimation with Constant Kernel").
+//!
+//! Every replicate has maps of its own. A given radius stays as it is, so its bias vanishes neither with
+//! samples and replicates nor with photons; that of the k nearest does with more photons.
 
 use crate::photons::gather::{Kernel, Layer, Lookup, Plan, follow_all, follow_one};
 use crate::photons::radius::{from_pixels, read};
@@ -26,7 +50,9 @@ use crate::photons::{read_count, read_sets, rounded};
 use crate::settings::{PathSettings, ignore_scheduling};
 use etalon_params::Params;
 use etalon_sampling::Sampler;
-use etalon_transport::{Draft, Integrator, Pass, PixelSite, Sink, TileSink, World};
+use etalon_transport::{
+    Draft, Finding, Integrator, Objection, Pass, PixelSite, Sight, Sink, TileSink, World,
+};
 
 /// The photon mapper.
 #[derive(Clone, Debug)]
@@ -96,8 +122,9 @@ impl PhotonMapper {
         ignore_scheduling(params);
         let nearest = |name: &str| {
             let count = params.integer_or(name, 0);
-            if !(0..=MOST_NEAREST).contains(&count) {
-                params.refuse(name, count, "0 (all within the radius), 1, 2, … 65536");
+            // The farthest photon only says how far away it is: of one alone nothing would be left.
+            if count == 1 || !(0..=MOST_NEAREST).contains(&count) {
+                params.refuse(name, count, "0 (all within the radius), 2, 3, … 65536");
             }
             usize::try_from(count).unwrap_or(0)
         };
@@ -168,6 +195,12 @@ const MOST_NEAREST: i64 = 1 << 16;
 
 impl Integrator for PhotonMapper {
     type State = State;
+
+    /// Photons come from lights that were chosen; one that can only be hit is seen itself, and nothing that it
+    /// shines on.
+    fn objections(&self, sight: &Sight) -> Vec<Objection> {
+        sight.objections(Finding::Choosing)
+    }
 
     fn prepare<W: World>(&self, world: &W, pass: &Pass, _: Option<State>) -> State {
         let sets = WavelengthSets::new(world, pass, self.sets as usize);

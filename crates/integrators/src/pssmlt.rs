@@ -1,10 +1,21 @@
 //! `pssmlt`: primary sample space Metropolis light transport over the path tracer.
 //!
-//! A primary sample is what one sample of [`crate::path`] draws: film position, aperture,
-//! wavelengths, moment, and the numbers of every scattering event (Kelemen et al. 2002). With A
-//! the film's area, F(u) = A·C(u) is that sample's estimate, light sampling and the weights over
-//! techniques and wavelengths included; see [`crate::metropolis`] for how chains estimate its
-//! integral without bias.
+//! A primary sample u is what one sample of [`crate::path`] draws: film position, aperture,
+//! wavelengths, moment, and the numbers of every scattering event. With A the film's area and C(u) that
+//! sample's estimate, light sampling and the weights over techniques and wavelengths included, chains of
+//! N steps in all give the pixel j of filter hⱼ
+//!
+//! ```text
+//! Ĉⱼ = b̂/N · Σₙ [ (1 − aₙ) w(xₙ) hⱼ(xₙ) F(xₙ)/I(xₙ) + aₙ w(yₙ) hⱼ(yₙ) F(yₙ)/I(yₙ) ]
+//!    + 1/N · Σᵤ (1 − w(u))/ρ · hⱼ(u) F(u),        F(u) = A·C(u)
+//! ```
+//!
+//! (Kelemen, Szirmay-Kalos, Antal, Csonka 2002). xₙ is where a chain stands, yₙ the step that it tries
+//! and aₙ = min(1, I(yₙ)/I(xₙ)): both ends are credited with their expected share, whichever is taken. u
+//! are the uniform samples, ρ of them per step, w weighs chains against them, and b̂ estimates ∫ I du;
+//! see [`crate::metropolis`] for each and for why there is no bias. Light that was scattered at most
+//! once (`separate_direct`; else what is seen of lights) is no part of F but is added by ordinary
+//! samples.
 
 use crate::dimensions as dim;
 use crate::metropolis::{ChainSettings, Field, Found, Integrand, Kinds, State};
@@ -12,7 +23,7 @@ use crate::settings::{PathSettings, ignore_scheduling};
 use crate::walk::Walk;
 use etalon_params::Params;
 use etalon_sampling::Sampler;
-use etalon_transport::{Integrator, Pass, PixelSite, Sink, World};
+use etalon_transport::{Finding, Integrator, Objection, Pass, PixelSite, Sight, Sink, World};
 
 /// Primary sample space Metropolis light transport.
 #[derive(Clone, Debug, Default)]
@@ -74,6 +85,12 @@ impl Integrator for PrimarySpace {
 
     fn splats(&self) -> bool {
         true
+    }
+
+    fn objections(&self, sight: &Sight) -> Vec<Objection> {
+        let mut objections = sight.objections(Finding::Either);
+        objections.extend(sight.unsplattable());
+        objections
     }
 
     fn prepare<W: World>(&self, world: &W, pass: &Pass, before: Option<State>) -> State {

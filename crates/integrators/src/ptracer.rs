@@ -12,8 +12,8 @@
 //! segment) are found by a camera ray per sample, since a connection from a point on a light to
 //! the camera would only repeat it with more noise. Nothing is found that reaches the camera off
 //! a smooth surface. Splats have no alpha: what counts is how much of the camera ray's light is
-//! stopped, the background included. With `hide_emitters` lights are not seen directly; they
-//! still stand in the way of what is behind them, as in Mitsuba.
+//! stopped, the background included. With `hide_emitters` the camera looks through lights, as that of
+//! `path`. (Mitsuba's lights then still stand in the way of what is behind them.)
 
 use crate::particle::{Met, Particle};
 use crate::path::camera_ray;
@@ -54,7 +54,8 @@ impl ParticleTracer {
         let visible = !self.settings.hide_emitters;
         let mut prefix = Prefix::START;
         let mut radiance = Vec4::ZERO;
-        for depth in 1..=self.settings.max_depth {
+        let mut depth = 1;
+        while depth <= self.settings.max_depth {
             let Some(hit) = world.intersect(&ray) else {
                 if visible && world.has_background() {
                     let background = world.background(ray.direction, wavelengths);
@@ -65,7 +66,11 @@ impl ParticleTracer {
             };
             let vertex = world.vertex(&ray, &hit);
             let wo = -ray.direction;
-            if world.is_emitter(&hit) && (visible || depth > 1) {
+            if world.is_emitter(&hit) {
+                if !visible && depth == 1 {
+                    ray = vertex.spawn(ray.direction);
+                    continue;
+                }
                 let emitted = world.emitted(&vertex, wo, wavelengths);
                 radiance += prefix.estimate(emitted, Vec4::ZERO);
             }
@@ -75,6 +80,7 @@ impl ParticleTracer {
             }
             prefix.value *= passing;
             ray = vertex.spawn(ray.direction);
+            depth += 1;
         }
         (radiance, 1.0 - 0.25 * prefix.value.element_sum())
     }
@@ -107,9 +113,8 @@ impl ParticleTracer {
             if met.bsdf.has_continuous() {
                 let crossings = max_depth - particle.depth - 1;
                 let prefix = &particle.prefix;
-                if let Some((raster, value)) =
-                    connect(world, wavelengths, site, prefix, &met, crossings)
-                {
+                let seen = self.connect(world, wavelengths, site, prefix, &met, crossings);
+                if let Some((raster, value)) = seen {
                     let rgb = sensor.rgb(value) / site.pixels as f32;
                     sink.splat(raster, rgb.to_array());
                 }
@@ -119,28 +124,76 @@ impl ParticleTracer {
             }
         }
     }
+
+    /// Connects the surface that a particle met with the camera: where it lands, and its value per lane.
+    fn connect<W: World>(
+        &self,
+        world: &W,
+        wavelengths: &Wavelengths,
+        site: &PixelSite,
+        prefix: &Prefix,
+        met: &Met<W::Bsdf<'_>>,
+        crossings: u32,
+    ) -> Option<(Vec2, Vec4)> {
+        let (vertex, lens) = (&met.vertex, met.event.light);
+        let connection = (world.camera()).connect(vertex.position, lens, site.margin)?;
+        let value = (met.bsdf).eval(met.wo, connection.direction, Mode::Importance);
+        if value == Vec4::ZERO {
+            return None;
+        }
+        let origin = vertex.origin_toward(connection.target);
+        let ray = Ray::between(origin, connection.target, vertex.time)?;
+        let transmittance = if self.settings.hide_emitters {
+            past_lights(
+                world,
+                wavelengths,
+                ray,
+                world.is_emitter(&met.hit),
+                crossings,
+            )?
+        } else {
+            world.passage(&ray, wavelengths, crossings)?.transmittance
+        };
+        let radiance = value * transmittance * connection.weight;
+        Some((connection.raster, prefix.estimate(radiance, Vec4::ZERO)))
+    }
 }
 
-/// Connects the surface that a particle met with the camera: where it lands, and its value per lane.
-fn connect<W: World>(
+/// What passes on the way to a camera that looks through lights; `None` if nothing does. It looks through
+/// those that are nothing but lights between them and the camera, the start of the way included (`on_light`).
+fn past_lights<W: World>(
     world: &W,
     wavelengths: &Wavelengths,
-    site: &PixelSite,
-    prefix: &Prefix,
-    met: &Met<W::Bsdf<'_>>,
-    crossings: u32,
-) -> Option<(Vec2, Vec4)> {
-    let (vertex, lens) = (&met.vertex, met.event.light);
-    let connection = (world.camera()).connect(vertex.position, lens, site.margin)?;
-    let value = (met.bsdf).eval(met.wo, connection.direction, Mode::Importance);
-    if value == Vec4::ZERO {
-        return None;
+    mut ray: Ray,
+    on_light: bool,
+    mut crossings: u32,
+) -> Option<Vec4> {
+    let (origin, end) = (ray.origin, ray.t_max);
+    let mut transmittance = Vec4::ONE;
+    // Whether the way starts on a light that is hidden so far, and whether one lies behind.
+    let (mut hidden, mut looked_through) = (on_light, false);
+    while let Some(hit) = world.intersect(&ray) {
+        let vertex = world.vertex(&ray, &hit);
+        if world.is_emitter(&hit) {
+            looked_through = true;
+        } else if looked_through || crossings == 0 {
+            // A light behind a surface that lets light pass is in the way like any other.
+            return None;
+        } else {
+            hidden = false;
+            crossings -= 1;
+            transmittance *= world.bsdf(&vertex, -ray.direction, wavelengths).passing();
+            if transmittance == Vec4::ZERO {
+                return None;
+            }
+        }
+        ray = vertex.spawn(ray.direction);
+        ray.t_max = end - (ray.origin - origin).dot(ray.direction);
+        if !(ray.t_max > 0.0) {
+            break;
+        }
     }
-    let origin = vertex.origin_toward(connection.target);
-    let ray = Ray::between(origin, connection.target, vertex.time)?;
-    let passage = world.passage(&ray, wavelengths, crossings)?;
-    let radiance = value * passage.transmittance * connection.weight;
-    Some((connection.raster, prefix.estimate(radiance, Vec4::ZERO)))
+    (!hidden).then_some(transmittance)
 }
 
 impl Integrator for ParticleTracer {
@@ -154,6 +207,7 @@ impl Integrator for ParticleTracer {
 
     fn objections(&self, sight: &Sight) -> Vec<Objection> {
         let mut objections = sight.objections(Finding::Choosing);
+        objections.extend(sight.unsplattable());
         objections.extend(sight.unconnected());
         objections
     }

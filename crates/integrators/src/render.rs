@@ -190,7 +190,6 @@ struct TileRun<'a, W: World, I: Integrator, F: Film> {
 impl<W: World, I: Integrator, F: Film> TileRun<'_, W, I, F> {
     /// Renders the pixels in [`from`, `to`); gives the number of samples drawn.
     fn render<S: Sampler>(&self, from: UVec2, to: UVec2, start: impl Fn(&PixelSample) -> S) -> u64 {
-        let size = self.film.size();
         let samples = self.plan.samples_per_replicate;
         let spp = samples as f32 * self.plan.replicates as f32;
         let spacing = 1.0 / spp.sqrt();
@@ -223,7 +222,7 @@ impl<W: World, I: Integrator, F: Film> TileRun<'_, W, I, F> {
                         pixel,
                         raster: placement.raster,
                         margin,
-                        pixels: size.x * size.y,
+                        pixels: self.film.light_paths(),
                         spacing,
                         sample,
                     };

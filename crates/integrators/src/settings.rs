@@ -27,29 +27,34 @@ impl Default for PathSettings {
 impl PathSettings {
     /// Reads `max_depth`, `rr_depth` and `hide_emitters`.
     pub fn from_params(params: &Params<'_>) -> Self {
-        let max_depth = params.integer_or("max_depth", -1);
-        if max_depth < -1 || max_depth > i64::from(i32::MAX) {
-            params.refuse("max_depth", max_depth, "-1 (unlimited), 0, 1, 2, …");
-        }
-        if max_depth == 0 {
-            let diagnostic = Diagnostic::note(
-                params
-                    .property("max_depth")
-                    .map_or(params.node.plugin.span, |p| p.span),
-                "no path has 0 segments: the picture will be black",
-            );
-            params.diagnostics.push(diagnostic);
-        }
         let rr_depth = params.integer_or("rr_depth", 5);
         if rr_depth < 1 || rr_depth > i64::from(i32::MAX) {
             params.refuse("rr_depth", rr_depth, "1, 2, …");
         }
         Self {
-            max_depth: u32::try_from(max_depth).unwrap_or(u32::MAX),
+            max_depth: read_max_depth(params),
             rr_depth: u32::try_from(rr_depth).unwrap_or(5),
             hide_emitters: params.boolean_or("hide_emitters", false),
         }
     }
+}
+
+/// Reads `max_depth`: the longest path in segments, or −1 for unlimited.
+pub(crate) fn read_max_depth(params: &Params<'_>) -> u32 {
+    let max_depth = params.integer_or("max_depth", -1);
+    if max_depth < -1 || max_depth > i64::from(i32::MAX) {
+        params.refuse("max_depth", max_depth, "-1 (unlimited), 0, 1, 2, …");
+    }
+    if max_depth == 0 {
+        let diagnostic = Diagnostic::note(
+            params
+                .property("max_depth")
+                .map_or(params.node.plugin.span, |p| p.span),
+            "no path has 0 segments: the picture will be black",
+        );
+        params.diagnostics.push(diagnostic);
+    }
+    u32::try_from(max_depth).unwrap_or(u32::MAX)
 }
 
 /// Parameters of every Mitsuba integrator that cannot affect pixels.

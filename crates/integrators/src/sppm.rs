@@ -22,7 +22,9 @@ use crate::photons::{read_count, read_sets, rounded};
 use crate::settings::{PathSettings, ignore_scheduling};
 use etalon_params::Params;
 use etalon_sampling::Sampler;
-use etalon_transport::{Draft, Integrator, Pass, PixelSite, Sink, TileSink, World};
+use etalon_transport::{
+    Draft, Finding, Integrator, Objection, Pass, PixelSite, Sight, Sink, TileSink, World,
+};
 
 /// Stochastic progressive photon mapping.
 #[derive(Clone, Debug)]
@@ -106,6 +108,12 @@ impl Progressive {
 
 impl Integrator for Progressive {
     type State = State;
+
+    /// Photons come from lights that were chosen; one that can only be hit is seen itself, and nothing that it
+    /// shines on.
+    fn objections(&self, sight: &Sight) -> Vec<Objection> {
+        sight.objections(Finding::Choosing)
+    }
 
     fn samples_per_pass(&self) -> Option<u32> {
         Some(1)

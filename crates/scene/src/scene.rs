@@ -70,6 +70,7 @@ impl Scene {
             lights: self.lights.count(),
             aperture: self.camera.can_receive(),
             sky: self.has_background(),
+            narrow_filter: false,
             classic: self.materials.iter().any(Material::is_classic),
         }
     }

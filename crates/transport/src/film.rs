@@ -61,6 +61,9 @@ pub trait Film: Sync {
     }
     /// How far (pixels) beyond the film a splat can still matter.
     fn margin(&self) -> f32;
+    /// How many light paths are drawn for each sample of a pixel, over the whole film: one per pixel; none
+    /// where the reconstruction filter is so narrow that splats would practically never find a pixel.
+    fn light_paths(&self) -> u32;
     /// A sink for the pixels in [`from`, `to`) of the whole film; it delivers on drop. `alone`
     /// promises that meanwhile nothing else adds to these pixels, no other tile and no splat. The
     /// first sample of each pixel will be its replicate's sample `first`.

@@ -13,9 +13,9 @@ pub struct PixelSite {
     pub raster: Vec2,
     /// How far beyond the film a splat can still matter (pixels), see [`crate::Film::margin`].
     pub margin: f32,
-    /// Number of pixels of the cropped film. One light path is drawn per pixel and sample, and
-    /// the film divides by the samples per pixel only, so a light path's splats are divided by
-    /// this number.
+    /// Light paths per sample of a pixel, see [`crate::Film::light_paths`]: one is drawn per pixel and
+    /// sample, and the film divides by the samples per pixel only, so a light path's splats are divided by
+    /// this number, that of all pixels. 0 if splats are not to be made.
     pub pixels: u32,
     /// Mean distance between the samples of a pixel (pixels): 1/√spp.
     pub spacing: f32,

@@ -46,6 +46,8 @@ pub struct Sight {
     /// Whether a surface has a classic Phong material, which says nothing of how it scatters light
     /// ([`crate::World::classic`]).
     pub classic: bool,
+    /// Whether the film's filter is so narrow that splats find no pixel ([`crate::Film::light_paths`]).
+    pub narrow_filter: bool,
     /// What the camera sees first.
     pub view: View,
 }
@@ -167,6 +169,27 @@ impl Sight {
         Some(objection.help(help))
     }
 
+    /// The objection, if any, of an estimator that makes the picture, or all that is lit in it, of light that
+    /// lands anywhere on the film.
+    pub fn unsplattable(&self) -> Option<Objection> {
+        self.narrow_filter.then(|| {
+            let message = "this integrator carries light to the film, wherever it lands, and the filter is so \
+                           narrow that it practically never lands within";
+            Objection::fatal(Subject::Integrator, message).help(
+                "use an estimator that asks for the light of a pixel (`path`, `bdpt`), or a filter whose \
+                 radius is at least half a pixel",
+            )
+        })
+    }
+
+    /// A remark if there is no light at all.
+    pub fn unlit(&self) -> Option<Objection> {
+        (self.lights.all == 0).then(|| {
+            Objection::remark(Subject::Scene, "nothing in this scene emits light")
+                .help("the picture will be black: add a light")
+        })
+    }
+
     /// A remark where nothing that the camera sees, mirrored or not, can be lit or shines: a camera
     /// that looks past the scene, or a room of mirrors with lights that have no extent.
     fn unreached(&self) -> Option<Objection> {
@@ -206,9 +229,10 @@ impl Sight {
                 "give them a `sampling_weight` above 0",
             ),
         };
+        if let Some(objection) = self.unlit() {
+            return vec![objection];
+        }
         let objection = match found {
-            _ if all == 0 => Objection::remark(Subject::Scene, "nothing in this scene emits light")
-                .help("the picture will be black: add a light"),
             0 => {
                 let message = format!("this integrator cannot see any light of the scene: {why}");
                 Objection::fatal(Subject::Integrator, message).help(help)

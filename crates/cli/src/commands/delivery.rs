@@ -62,10 +62,16 @@ pub(super) fn deliver(
             None => say::remark("warning: whether the target is reached is unknown\n"),
         }
     }
+    let black = is_black(&rendered.developed);
+    if black {
+        say::remark("warning: the picture is black: not one sample found light\n");
+    }
     if !args.quiet {
         let seconds = rendered.time.as_secs_f64();
         let per_second = |n: u64| n as f64 * 1e-6 / seconds;
         let error = match rendered.developed.mean_relative_standard_error() {
+            _ if black => "black".to_owned(),
+            Some(0.0) => "no noise (all replicates are alike)".to_owned(),
             Some(error) => format!("mean relative standard error {:.2} %", 100.0 * error),
             None => "no standard error (one replicate)".to_owned(),
         };
@@ -86,6 +92,15 @@ pub(super) fn deliver(
         ));
     }
     Ok(())
+}
+
+/// Whether nothing at all was found, in any channel but alpha.
+fn is_black(developed: &Developed) -> bool {
+    let channels = developed.metadata.iter().flat_map(|m| &m.channels);
+    let mut means = channels
+        .filter(|name| *name != "A")
+        .filter_map(|name| developed.image.channel(name));
+    means.all(|means| means.iter().all(|mean| *mean == 0.0))
 }
 
 /// Says which samples went wrong, and how to look at the first or largest of them.

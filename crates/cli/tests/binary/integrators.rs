@@ -27,6 +27,27 @@ fn max_depth_is_kept() {
 }
 
 #[test]
+fn direct_light_has_two_segments_at_most() {
+    let workshop = Workshop::new();
+    let mean = |integrator: &str, depth: u32| {
+        let depth = format!("max_depth={depth}");
+        let further = ["--spp", "256", "-D", &depth, "--integrator", integrator];
+        workshop.render("a.exr", &further);
+        let image = workshop.image("a.exr").image;
+        let red = image.channel("R").expect("R");
+        red.iter().sum::<f32>() / red.len() as f32
+    };
+    for depth in [0, 1, 2] {
+        let [direct, path] = ["direct", "path"].map(|name| mean(name, depth));
+        assert!(
+            (direct - path).abs() <= 0.05 * path,
+            "{depth}: {direct}, {path}"
+        );
+    }
+    assert_eq!(mean("direct", 2), mean("direct", 7));
+}
+
+#[test]
 fn the_innermost_is_replaced() {
     let workshop = Workshop::new();
     let nested = "<integrator type=\"aov\"><string name=\"aovs\" value=\"d:depth\"/>\

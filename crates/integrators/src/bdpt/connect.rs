@@ -374,7 +374,7 @@ impl<'w, W: World> Connector<'_, 'w, W> {
 
     /// t = 1: every corner of the light's walk, seen by the camera.
     pub(super) fn see_all(&self, mut splat: impl FnMut(Vec2, Vec4)) {
-        let Some(start) = self.start else {
+        let Some(start) = self.start.filter(|_| self.site.pixels > 0) else {
             return;
         };
         for (index, light) in self.light.iter().enumerate() {

@@ -218,6 +218,7 @@ impl Integrator for Bidirectional {
         });
         if only.camera == 1 {
             objections.extend(sight.unconnected());
+            objections.extend(sight.unsplattable());
         }
         let segments = only.light + only.camera - 1;
         let max_depth = self.settings.max_depth;

@@ -34,7 +34,7 @@ impl State {
         let place = site.pixel - self.field.origin();
         let index = u64::from(place.y) * u64::from(self.field.width()) + u64::from(place.x);
         let begin = |index: u64| {
-            (u128::from(index) * count as u128).div_ceil(u128::from(site.pixels)) as usize
+            (u128::from(index) * count as u128).div_ceil(u128::from(site.pixels.max(1))) as usize
         };
         begin(index)..begin(index + 1)
     }

@@ -161,7 +161,7 @@ pub fn replay<W: World, I: Integrator, F: Film>(
         pixel: address.pixel,
         raster: placement.raster,
         margin: film.margin(),
-        pixels: size.x * size.y,
+        pixels: film.light_paths(),
         spacing: 1.0 / spp.sqrt(),
         sample: address.sample - number * length,
     };

@@ -175,7 +175,9 @@ impl Integrator for Whitted {
         let sky = sight
             .sky
             .then(|| Objection::fatal(Subject::Integrator, message));
-        sky.into_iter().collect()
+        let ambient = sight.classic && self.ambient > 0.0;
+        let unlit = sight.unlit().filter(|_| !ambient);
+        sky.into_iter().chain(unlit).collect()
     }
 
     fn prepare<W: World>(&self, _: &W, pass: &Pass, before: Option<Picture>) -> Picture {

@@ -109,6 +109,7 @@ fn estimators_agree_with_the_geometric_series() {
         only: None,
     };
     let direct = Direct {
+        max_depth: u32::MAX,
         emitter_samples: 2,
         bsdf_samples: 1,
         hide_emitters: false,

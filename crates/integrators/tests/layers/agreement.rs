@@ -108,6 +108,7 @@ fn direct_is_a_path_of_two_segments() {
         let expected = exact(&stack, 2);
         for (emitter_samples, bsdf_samples) in [(1, 1), (3, 1), (1, 4), (2, 3), (0, 2)] {
             let direct = Direct {
+                max_depth: u32::MAX,
                 emitter_samples,
                 bsdf_samples,
                 hide_emitters: false,
@@ -121,6 +122,7 @@ fn direct_is_a_path_of_two_segments() {
     }
     // Light sampling alone finds everything that no discrete direction leads to.
     let direct = Direct {
+        max_depth: u32::MAX,
         emitter_samples: 2,
         bsdf_samples: 0,
         hide_emitters: false,
@@ -146,6 +148,7 @@ fn wrong_densities_are_noticed() {
         assert!(z > LIMIT, "{fault:?} unnoticed: z = {z:.2}");
     }
     let direct = Direct {
+        max_depth: u32::MAX,
         emitter_samples: 1,
         bsdf_samples: 2,
         hide_emitters: false,

@@ -93,6 +93,10 @@ impl Film for Tally {
     fn margin(&self) -> f32 {
         1.5
     }
+
+    fn light_paths(&self) -> u32 {
+        self.size().element_product()
+    }
     fn tile(&self, from: UVec2, to: UVec2, _: bool, _: u32) -> TallyTile<'_> {
         self.tiles
             .lock()

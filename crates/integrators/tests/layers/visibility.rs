@@ -99,6 +99,7 @@ fn alpha_is_what_does_not_go_straight_through() {
     assert_eq!(alpha(|_| 1.0, false), 1.0);
 
     let direct = Direct {
+        max_depth: u32::MAX,
         emitter_samples: 1,
         bsdf_samples: 1,
         hide_emitters: false,
