@@ -1,7 +1,7 @@
 //! The decision as JSON, and where its numbers come from. `docs/validation-json.md` describes it;
 //! a test holds that page to what is written here.
 
-use crate::claim::Oracle;
+use crate::claim::{Claim, Oracle};
 use crate::outcome::{ALPHA, Conclusion, Row, counts};
 use crate::run::{Compared, Evidence, Options};
 use crate::{folders, povray, reference, table};
@@ -76,21 +76,24 @@ pub fn of(rows: &[Row<'_>], provenance: &Provenance) -> Value {
     })
 }
 
+/// How a claim's reference was made, whoever rendered it.
+pub(crate) fn reference(claim: &Claim) -> Option<Value> {
+    match claim.oracle {
+        Oracle::Reference { .. } => reference::provenance(&claim.name).ok().map(|p| json!(p)),
+        Oracle::Povray { .. } => {
+            let made = povray::provenance(&folders::references(), &claim.name);
+            made.ok().map(|p| json!(p))
+        }
+        _ => None,
+    }
+}
+
 fn row(row: &Row<'_>, provenance: &Provenance) -> Value {
     let compared = row.compared.as_ref();
     let refusals = compared.ok().and_then(|c| match &c.evidence {
         Evidence::Pictures { refusals, .. } => Some(refusals),
         Evidence::Measures(_) => None,
     });
-    let name = &row.task.claim.name;
-    let reference = match row.task.claim.oracle {
-        Oracle::Reference { .. } => reference::provenance(name).ok().map(|p| json!(p)),
-        Oracle::Povray { .. } => {
-            let made = povray::provenance(&folders::references(), name);
-            made.ok().map(|p| json!(p))
-        }
-        _ => None,
-    };
     json!({
         "claim": row.task.claim.name,
         "title": row.task.claim.title,
@@ -100,7 +103,7 @@ fn row(row: &Row<'_>, provenance: &Provenance) -> Value {
         "estimator": row.task.estimator.label(),
         "mutant": row.task.fault.map(|fault| fault.to_string()),
         "command": command(row, provenance),
-        "reference": reference,
+        "reference": reference(row.task.claim),
         "spp": compared.map(|c| c.spp).ok(),
         "replicates": compared.map(|c| c.replicates).ok(),
         "looks": row.looks,
@@ -120,7 +123,7 @@ fn row(row: &Row<'_>, provenance: &Provenance) -> Value {
 }
 
 /// The claims of a run, without running it.
-pub fn list(claims: &[crate::claim::Claim]) -> Value {
+pub fn list(claims: &[Claim]) -> Value {
     let claims: Vec<Value> = claims
         .iter()
         .map(|claim| {

@@ -56,8 +56,10 @@ pub fn judge(
     let metadata = picture.metadata.as_ref().ok_or("there are no statistics")?;
     let mut refusals = Vec::new();
     let mut smallest = 1.0_f64;
+    let mut scales = Vec::new();
     for row in &mut judgement.images {
         let scale = scale_of(row.bias, row.mean - row.other_mean, row.other_mean);
+        scales.push((row.channel.clone(), scale));
         let samples = Samples::of(metadata, against, &row.channel, None, 0)?;
         // Deviations that do not matter need no distribution.
         let harmless = samples.all_within(rules.rounding * scale);
@@ -81,7 +83,9 @@ pub fn judge(
     }
     for row in &mut judgement.tiles {
         let p = if exact { row.p_exact } else { row.p_differs };
-        if p <= alpha && !confirmed(metadata, against, row, alpha)? {
+        let of_image = (scales.iter()).find_map(|(name, x)| (*name == row.channel).then_some(*x));
+        let tolerance = Tolerance::new(rules, exact, of_image.unwrap_or(0.0));
+        if p <= alpha && !confirmed(metadata, against, row, alpha, tolerance)? {
             refusals.push(format!(
                 "{} tiles of {}²: those off are too far from normal",
                 row.channel, row.side
@@ -162,22 +166,54 @@ fn scale_of(bias: f64, difference: f64, mean: f64) -> f64 {
     }
 }
 
-/// Whether any tile that t calls different is so without a normal approximation, or allows it.
+/// How far a tile may be off under the hypothesis that its row's p-value is of.
+#[derive(Clone, Copy)]
+struct Tolerance {
+    /// Relative to the tile's own mean.
+    own: f64,
+    /// Relative to nothing: the share of the image's mean.
+    fixed: f64,
+}
+
+impl Tolerance {
+    /// As `etalon::judge` has it: rounding for what is exact, the bounds for what is not.
+    fn new(rules: Rules, exact: bool, scale: f64) -> Self {
+        let (own, image) = if exact {
+            (rules.rounding, rules.rounding)
+        } else {
+            (rules.tile_bound, rules.image_bound)
+        };
+        Self {
+            own,
+            fixed: image * scale,
+        }
+    }
+
+    fn at(self, mean: f64) -> f64 {
+        self.own * mean.abs() + self.fixed
+    }
+}
+
+/// Whether any tile that t calls off by more than its tolerance is so without a normal
+/// approximation, or allows it.
 fn confirmed(
     metadata: &Metadata,
     against: Against<'_>,
     row: &TileRow,
     alpha: f64,
+    tolerance: Tolerance,
 ) -> Result<bool, String> {
     let each = alpha / row.tiles as f64;
-    for (tile, p) in row.p_map.iter().enumerate() {
-        if f64::from(*p) > each {
+    for tile in 0..row.tiles {
+        let samples = Samples::of(metadata, against, &row.channel, Some(row.side), tile)?;
+        let tolerance = tolerance.at(samples.truth());
+        // Holm's first step, in the form that `row`'s own p-values have.
+        if samples.p_differs(tolerance) * row.tiles as f64 > alpha {
             continue;
         }
-        let samples = Samples::of(metadata, against, &row.channel, Some(row.side), tile)?;
         match samples.judge(each) {
             None => return Ok(true),
-            Some((_, Some(interval))) if interval.verdict(0.0) == Verdict::Differs => {
+            Some((_, Some(interval))) if interval.verdict(tolerance) == Verdict::Differs => {
                 return Ok(true);
             }
             Some(_) => {}
@@ -228,6 +264,14 @@ impl Samples {
         match &self.other {
             Other::Known(known) => self.own.iter().all(|x| (x - known).abs() <= tolerance),
             Other::Replicates(_) => false,
+        }
+    }
+
+    /// What the mean ought to be.
+    fn truth(&self) -> f64 {
+        match &self.other {
+            Other::Known(known) => *known,
+            Other::Replicates(other) => other.iter().sum::<f64>() / other.len() as f64,
         }
     }
 

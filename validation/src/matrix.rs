@@ -115,7 +115,9 @@ pub(crate) fn expand(claim: &mut Claim) -> Result<(), String> {
         }
         let reason = match matrix.without.get(name) {
             Some(reason) => Some(reason.clone()),
-            None => objection(rendering::load(claim, &defines, Some(name))),
+            None => objection(rendering::load(claim, &defines, Some(name)), || {
+                rendering::load(claim, &defines, None).map(drop)
+            })?,
         };
         if let Some(reason) = reason {
             absent.push(Absence {
@@ -149,20 +151,28 @@ pub(crate) fn expand(claim: &mut Claim) -> Result<(), String> {
     Ok(())
 }
 
-/// What an integrator objects to in a scene, if anything, in a line.
-fn objection(loaded: Result<Loaded, String>) -> Option<String> {
-    match loaded {
+/// What an integrator objects to in a scene, if anything, in a line. A scene that does not load with
+/// its own integrator either, as `sound` tells, is objected to by nobody: it is wrong.
+///
+/// # Errors
+/// The scene's mistakes.
+fn objection(
+    loaded: Result<Loaded, String>,
+    sound: impl FnOnce() -> Result<(), String>,
+) -> Result<Option<String>, String> {
+    Ok(match loaded {
         Ok(loaded) if loaded.complete => None,
         Ok(loaded) => {
             let notes: Vec<&str> = loaded.notes.iter().map(|n| n.message.as_str()).collect();
             Some(notes.join("; "))
         }
         Err(mistakes) => {
+            sound()?;
             let first = mistakes.lines().next().unwrap_or_default();
             let message = first
                 .split_once(": error: ")
                 .map_or(first, |(_, text)| text);
             Some(message.to_owned())
         }
-    }
+    })
 }

@@ -3,7 +3,7 @@
 //! A reference is an EXR file of our own format whose replicates are Mitsuba's seeds, and a JSON
 //! file that says how it was made. `cargo xtask references` writes both.
 
-use crate::claim::Claim;
+use crate::claim::{Claim, Oracle};
 use crate::folders;
 use crate::rendering;
 use etalon_film::{Developed, ExactFilm, RenderFacts, read_developed};
@@ -53,29 +53,67 @@ pub fn provenance(name: &str) -> Result<Provenance, String> {
     serde_json::from_str(&text).map_err(|e| format!("{}: {e}", path.display()))
 }
 
-/// Reads a reference; `scene_hash` must be that of the scene at hand.
+/// What a claim expects of its reference.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Expected {
+    /// A hash over the scene's files and parameters.
+    pub scene_hash: String,
+    /// Width and height of the film (pixels).
+    pub size: [u32; 2],
+    /// Samples per pixel and seed.
+    pub spp: u32,
+    /// How many seeds.
+    pub seeds: u32,
+}
+
+/// What a claim expects of its reference, with its scene as it is now.
 ///
 /// # Errors
-/// If there is none, it cannot be read, it belongs to another state of the scene, or it has
-/// numbers that are not finite.
-pub fn read(name: &str, scene_hash: &str) -> Result<Developed, String> {
-    read_in(&folders::references(), name, scene_hash)
+/// If the claim has no reference by Mitsuba, or its scene cannot be read.
+pub fn expected(claim: &Claim) -> Result<Expected, String> {
+    let Oracle::Reference { spp, seeds } = claim.oracle else {
+        return Err("this kind of claim has no reference by Mitsuba".to_owned());
+    };
+    let loaded = rendering::load(claim, &rendering::defines(claim, None), None)?;
+    Ok(Expected {
+        scene_hash: loaded.hash,
+        size: loaded.compiled.film.crop_size.to_array(),
+        spp,
+        seeds,
+    })
+}
+
+/// Reads a claim's reference.
+///
+/// # Errors
+/// If there is none, it cannot be read, it belongs to another state of the scene or was made with
+/// other numbers than the claim states, or it has numbers that are not finite.
+pub fn read(claim: &Claim) -> Result<Developed, String> {
+    read_in(&folders::references(), &claim.name, &expected(claim)?)
 }
 
 /// As [`read`], from a certain folder.
 ///
 /// # Errors
 /// As [`read`].
-pub fn read_in(folder: &Path, name: &str, scene_hash: &str) -> Result<Developed, String> {
+pub fn read_in(folder: &Path, name: &str, expected: &Expected) -> Result<Developed, String> {
     let again = format!("make it with `cargo xtask references --only {name}`");
     let path = folder.join(format!("{name}.json"));
     let text =
         std::fs::read_to_string(&path).map_err(|e| format!("{}: {e}; {again}", path.display()))?;
     let provenance: Provenance =
         serde_json::from_str(&text).map_err(|e| format!("{}: {e}; {again}", path.display()))?;
-    if provenance.scene_hash != scene_hash {
+    if provenance.scene_hash != expected.scene_hash {
         return Err(format!(
             "the reference was made from another state of the scene; {again}"
+        ));
+    }
+    let made = (provenance.spp, provenance.seeds);
+    if made != (expected.spp, expected.seeds) {
+        return Err(format!(
+            "the reference was made with {} samples per pixel of {} seeds, the claim's `oracle` \
+             states {} of {}: correct the claim, or {again}",
+            made.0, made.1, expected.spp, expected.seeds
         ));
     }
     let path = folder.join(format!("{name}.exr"));
@@ -86,8 +124,17 @@ pub fn read_in(folder: &Path, name: &str, scene_hash: &str) -> Result<Developed,
     if metadata.replicates != provenance.seeds {
         return Err(error("not as many replicates as seeds"));
     }
-    if metadata.scene_hash != scene_hash {
+    if metadata.spp != u64::from(made.0) * u64::from(made.1) {
+        return Err(error("not as many samples as its description names"));
+    }
+    if metadata.scene_hash != expected.scene_hash {
         return Err(error("its scene is not the one its description names"));
+    }
+    let ([w, h], [width, height]) = (metadata.film.crop_size, expected.size);
+    if [w, h] != [width, height] {
+        return Err(error(&format!(
+            "it has {w} × {h} pixels, the film {width} × {height}"
+        )));
     }
     rendering::finite(picture).map_err(|reason| error(&reason))
 }

@@ -16,6 +16,7 @@ use crate::{closed_form, convergence, invariance, noise, pixelwise, reference, r
 use etalon::judge::{Judgement, Known, Rules};
 use etalon_film::Developed;
 use etalon_images::{Frame, Image};
+use etalon_params::suggest::nearest;
 use etalon_statistics::Verdict;
 
 pub use crate::rendering::{defines, load};
@@ -87,6 +88,16 @@ pub fn named<'a>(claims: &'a [Claim], name: &str) -> Vec<&'a Claim> {
             .filter(|claim| claim.name.contains(name))
             .collect(),
     }
+}
+
+/// What to tell somebody who asked for claims of this name, as there are none.
+pub fn unknown(claims: &[Claim], name: &str) -> String {
+    let names = claims.iter().map(|claim| claim.name.as_str());
+    let help = match nearest(name, names) {
+        Some(near) => format!("did you mean `{near}`?"),
+        None => "see `cargo xtask validate --list`".to_owned(),
+    };
+    format!("no claim has such a name as `{name}`: {help}")
 }
 
 /// The comparisons that a run consists of.
@@ -313,6 +324,11 @@ impl<'a> Comparison<'a> {
         if fault.is_some_and(|fault| !fault.is_physical()) {
             return Err("this fault cannot be planted here".to_owned());
         }
+        // First, as a reference that cannot be used need not cost a render.
+        let stored = match &claim.oracle {
+            Oracle::Reference { .. } => Some(reference::read(claim)?),
+            _ => None,
+        };
         let exact = claim.oracle.is_exact();
         let rules = self.task.rules(turn.alpha);
         let mut work = Batches {
@@ -328,16 +344,13 @@ impl<'a> Comparison<'a> {
         let scene_hash = facts.scene_hash.clone();
         let size = facts.film.crop_size;
         let known;
-        let (against, oracle) = match &claim.oracle {
-            Oracle::ClosedForm { formula } | Oracle::Energy { formula } => {
+        let (against, oracle) = match (&claim.oracle, stored) {
+            (_, Some(stored)) => (None, stored),
+            (Oracle::ClosedForm { formula } | Oracle::Energy { formula }, _) => {
                 known = closed_form::picture(formula, claim, size)?;
                 (Some(&known), drawn(&known))
             }
-            Oracle::Reference { .. } => {
-                let hash = load(claim, &defines(claim, None), None)?.hash;
-                (None, reference::read(&claim.name, &hash)?)
-            }
-            Oracle::Agreement { estimator } | Oracle::Invariance { estimator } => {
+            (Oracle::Agreement { estimator } | Oracle::Invariance { estimator }, _) => {
                 let seed = options.seed ^ ORACLE_SEED;
                 // A fault must show against as much work as is spent on finding it.
                 work.first = match fault {
@@ -348,7 +361,7 @@ impl<'a> Comparison<'a> {
                 self.oracle = Some(oracle.clone());
                 (None, oracle)
             }
-            Oracle::Convergence { .. } | Oracle::Noise { .. } | Oracle::Povray { .. } => {
+            _ => {
                 return Err("this kind of claim compares no pictures".to_owned());
             }
         };

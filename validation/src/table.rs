@@ -9,8 +9,17 @@ use etalon::judge::Judgement;
 /// The headings of the table.
 pub fn head() -> String {
     format!(
-        "{:<26} {:<30} {:>7} {:>4} {:>6}  {:<24} {:>7} {:>9}  {:<10} outcome",
-        "claim", "estimator", "spp", "look", "s", "bias interval (%)", "sees", "p", "verdict"
+        "{:<26} {:<30} {:>7} {:>4} {:>6}  {:<24} {:>7} {:>13} {:>9}  {:<10} outcome",
+        "claim",
+        "estimator",
+        "spp",
+        "look",
+        "s",
+        "bias interval (%)",
+        "sees",
+        "bias < (99 %)",
+        "p",
+        "verdict"
     )
 }
 
@@ -29,18 +38,28 @@ pub fn line(row: &Row<'_>) -> String {
         }
     };
     let (interval, sees) = shown(compared);
+    let bound = compared.bias_bound.map_or(String::new(), percent);
     let p = row
         .p_corrected
         .map_or("-".to_owned(), |p| format!("{p:.1e}"));
     let verdict = row.verdict.map_or(String::new(), |v| v.to_string());
     let text = format!(
-        "{claim:<26} {estimator:<30} {:>7} {:>4} {:>6.1}  {interval:<24} {sees:>7} {p:>9}  {verdict:<10} {}",
+        "{claim:<26} {estimator:<30} {:>7} {:>4} {:>6.1}  {interval:<24} {sees:>7} {bound:>13} {p:>9}  {verdict:<10} {}",
         compared.spp, row.looks, row.seconds, row.outcome
     );
     if row.outcome == Outcome::Passed {
         return text;
     }
     text + &worst_tiles(row)
+}
+
+/// A bound of the bias, for people: rounded up, as a bound may only be said to be greater than it is.
+pub(crate) fn percent(bound: f64) -> String {
+    if bound.is_finite() {
+        format!("{:.4} %", (1e6 * bound).ceil() / 1e4)
+    } else {
+        "none".to_owned()
+    }
 }
 
 /// The interval that reaches farthest, and the smallest bias that could have been found.

@@ -2,13 +2,19 @@
 
 use etalon_film::{BoxFilter, ExactFilm, FilmSettings, Filter, RenderFacts, read_developed};
 use etalon_images::Image;
-use etalon_validation::claim::Claim;
+use etalon_validation::claim::{Claim, Oracle};
+use etalon_validation::folders;
 use etalon_validation::judged::{self, Against};
 use etalon_validation::outcome::{self, Conclusion, Outcome};
+use etalon_validation::reference::{self, Expected};
 use etalon_validation::run::{self, Options};
 use etalon_validation::tier::Tier;
-use etalon_validation::{folders, reference};
 use std::path::PathBuf;
+
+fn claim() -> Claim {
+    let claim = Claim::read(&folders::claims().join("cornell-box.toml"));
+    claim.expect("a claim")
+}
 
 /// A folder of its own for a test, removed at its end.
 struct Folder(PathBuf);
@@ -20,19 +26,19 @@ impl Folder {
         Self(path)
     }
 
-    /// The cornell box's reference, copied; and the hash of its scene.
-    fn with_reference(name: &str) -> (Self, String) {
+    /// The cornell box's reference, copied; and what its claim expects.
+    fn with_reference(name: &str) -> (Self, Expected) {
         let folder = Self::new(name);
         for extension in ["json", "exr"] {
             let file = format!("cornell-box.{extension}");
             std::fs::copy(folders::references().join(&file), folder.0.join(&file)).expect("copied");
         }
-        let provenance = reference::provenance("cornell-box").expect("a description");
-        (folder, provenance.scene_hash)
+        let expected = reference::expected(&claim()).expect("a scene");
+        (folder, expected)
     }
 
-    fn read(&self, hash: &str) -> Result<etalon_film::Developed, String> {
-        reference::read_in(&self.0, "cornell-box", hash)
+    fn read(&self, expected: &Expected) -> Result<etalon_film::Developed, String> {
+        reference::read_in(&self.0, "cornell-box", expected)
     }
 }
 
@@ -50,7 +56,9 @@ fn a_whole_reference_is_read() {
 
 #[test]
 fn a_missing_reference_is_an_error() {
-    let message = reference::read("no-such-claim", "0").expect_err("there is none");
+    let mut other = claim();
+    other.name = "no-such-claim".to_owned();
+    let message = reference::read(&other).expect_err("there is none");
     assert!(message.contains("cargo xtask references --only no-such-claim"));
     let (folder, hash) = Folder::with_reference("missing");
     std::fs::remove_file(folder.0.join("cornell-box.exr")).expect("removed");
@@ -60,8 +68,57 @@ fn a_missing_reference_is_an_error() {
 
 #[test]
 fn a_reference_of_another_state_of_the_scene_is_an_error() {
-    let message = reference::read("cornell-box", "0").expect_err("another scene's hash");
+    let (folder, mut expected) = Folder::with_reference("scene");
+    expected.scene_hash = "0".to_owned();
+    let message = folder.read(&expected).expect_err("another scene's hash");
     assert!(message.contains("another state of the scene"), "{message}");
+}
+
+#[test]
+fn a_reference_of_other_numbers_than_the_claim_states_is_an_error() {
+    // Mutants rejected: only the one or the other is compared.
+    for (spp, seeds) in [(100_000, 32), (256, 999)] {
+        let mut claim = claim();
+        claim.oracle = Oracle::Reference { spp, seeds };
+        let message = reference::read(&claim).expect_err("other numbers");
+        let stated = format!(
+            "256 samples per pixel of 32 seeds, the claim's `oracle` states {spp} of {seeds}"
+        );
+        assert!(message.contains(&stated), "{message}");
+        assert!(
+            message.contains("cargo xtask references --only cornell-box"),
+            "{message}"
+        );
+    }
+    // Nor does it help to amend the description alone.
+    let (folder, mut expected) = Folder::with_reference("numbers");
+    expected.spp = 512;
+    let path = folder.0.join("cornell-box.json");
+    let text = std::fs::read_to_string(&path).expect("a description");
+    std::fs::write(&path, text.replace("\"spp\": 256", "\"spp\": 512")).expect("written");
+    let message = folder.read(&expected).expect_err("fewer samples");
+    assert!(message.contains("not as many samples"), "{message}");
+}
+
+#[test]
+fn a_reference_is_read_before_anything_is_rendered() {
+    // The estimator cannot be rendered either, so that who is asked first is told. Mutant rejected:
+    // the picture before the reference.
+    let mut claim = claim();
+    claim.name = "no-such-claim".to_owned();
+    claim.estimators.truncate(1);
+    claim.estimators[0].light_chooser = Some("no such chooser".to_owned());
+    claim.estimators[0].mutants.clear();
+    let claims = [claim];
+    let options = Options {
+        only: None,
+        tier: Tier::Quick,
+        seed: 1,
+    };
+    let rows = outcome::run(run::tasks(&claims, &options), &options, None, |_| ());
+    let rows = rows.expect("a plan");
+    let message = rows[0].compared.as_ref().err().expect("broken");
+    assert!(message.contains("cargo xtask references"), "{message}");
 }
 
 #[test]
@@ -92,11 +149,22 @@ fn a_reference_with_a_nan_pixel_is_an_error() {
     picture.image = image;
     picture.write_exr(&path).expect("written");
     let message = folder.read(&hash).expect_err("a NaN pixel");
-    assert!(message.contains("not finite"), "{message}");
+    assert!(message.contains("NaN"), "{message}");
 }
 
 #[test]
 fn a_reference_of_another_size_is_an_error() {
+    let (folder, mut expected) = Folder::with_reference("size");
+    expected.size[1] += 1;
+    let message = folder.read(&expected).expect_err("another size");
+    assert!(
+        message.contains("it has 96 × 96 pixels, the film 96 × 97"),
+        "{message}"
+    );
+}
+
+#[test]
+fn pictures_of_another_size_are_not_compared() {
     let picture = |width: u32| {
         let settings = FilmSettings::new(width, 8, Filter::Box(BoxFilter));
         let mut film = ExactFilm::new(settings, &[]).expect("a small film");

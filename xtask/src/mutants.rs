@@ -41,12 +41,22 @@ pub(crate) struct Arguments {
     /// The seed of all pictures
     #[arg(long, default_value_t = 1)]
     seed: u64,
-    /// Forget earlier results, and begin with the last commit
+    /// Forget earlier results of these mutants, and begin with the last commit
     #[arg(long)]
     fresh: bool,
     /// Seconds after which a run of claims is given up
     #[arg(long, default_value_t = 900)]
     timeout: u64,
+}
+
+impl Arguments {
+    /// The report's name: that of some mutants is no report of all.
+    fn report(&self) -> &'static str {
+        match self.only {
+            Some(_) => "report-only.json",
+            None => "report.json",
+        }
+    }
 }
 
 /// Runs the mutants.
@@ -84,30 +94,42 @@ fn mutants(arguments: &Arguments) -> Result<bool, String> {
         }
         return Ok(true);
     }
-    let records = put_to_the_claims(&mutants, arguments)?;
-    conclude(&mutants, &records, arguments.seed)
+    let (records, commit) = put_to_the_claims(&mutants, arguments)?;
+    conclude(&mutants, &records, arguments, &commit)
 }
 
-/// Runs what has no record yet; the records of all, in the order of the list.
-fn put_to_the_claims(mutants: &[Mutant], arguments: &Arguments) -> Result<Vec<Record>, String> {
+/// Runs what has no record yet; the records of all, in the order of the list, and the commit that
+/// the copy of the workspace holds.
+fn put_to_the_claims(
+    mutants: &[Mutant],
+    arguments: &Arguments,
+) -> Result<(Vec<Record>, String), String> {
     let (seed, named_only) = (arguments.seed, arguments.named_only);
     let limit = Duration::from_secs(arguments.timeout);
     let workspace = Workspace::open(arguments.fresh, limit)?;
     let path = workspace::folder().join("results.jsonl");
-    if arguments.fresh && path.exists() {
-        std::fs::remove_file(&path).map_err(|e| format!("{}: {e}", path.display()))?;
-    }
     let mut records = Records::open(&path);
-    let waiting: Vec<&Mutant> = mutants
+    if arguments.fresh {
+        records.forget(mutants)?;
+    }
+    let (known, waiting): (Vec<&Mutant>, Vec<&Mutant>) = mutants
         .iter()
-        .filter(|mutant| records.of(mutant, seed, named_only).is_none())
-        .collect();
+        .partition(|mutant| records.of(mutant, seed, named_only).is_some());
     eprintln!(
         "commit {:.12}: {} mutants, {} of them already run",
         workspace.commit,
         mutants.len(),
-        mutants.len() - waiting.len()
+        known.len()
     );
+    let known = (known.iter()).filter_map(|mutant| records.of(mutant, seed, named_only));
+    let elsewhere = known
+        .filter(|record| !record.is_of(&workspace.commit))
+        .count();
+    if elsewhere > 0 {
+        eprintln!(
+            "{elsewhere} of those records are of another commit, or do not say of which: `--fresh` begins anew"
+        );
+    }
     if !waiting.is_empty() {
         eprintln!("the sound program first");
         workspace.build_sound()?;
@@ -126,7 +148,8 @@ fn put_to_the_claims(mutants: &[Mutant], arguments: &Arguments) -> Result<Vec<Re
         records.push(record)?;
     }
     let told = |mutant| records.of(mutant, seed, named_only).cloned();
-    Ok(mutants.iter().filter_map(told).collect())
+    let told = mutants.iter().filter_map(told).collect();
+    Ok((told, workspace.commit))
 }
 
 /// A comparison: claim, estimator, and the planted fault it looks for.
@@ -172,7 +195,12 @@ fn examine(
     arguments: &Arguments,
 ) -> Result<Record, String> {
     let start = Instant::now();
-    let mut record = Record::new(mutant, arguments.seed, arguments.named_only);
+    let mut record = Record::new(
+        mutant,
+        arguments.seed,
+        arguments.named_only,
+        &workspace.commit,
+    );
     match workspace.plant(mutant) {
         Err(message) => {
             record.fate = Fate::DoesNotApply;
@@ -262,7 +290,12 @@ fn line(record: &Record) -> String {
 }
 
 /// The table, its JSON, and whether enough was killed.
-fn conclude(mutants: &[Mutant], records: &[Record], seed: u64) -> Result<bool, String> {
+fn conclude(
+    mutants: &[Mutant],
+    records: &[Record],
+    arguments: &Arguments,
+    commit: &str,
+) -> Result<bool, String> {
     println!("{:<42} {:<14}", "mutant", "fate");
     for record in records {
         println!("{}", line(record));
@@ -293,7 +326,10 @@ fn conclude(mutants: &[Mutant], records: &[Record], seed: u64) -> Result<bool, S
     let enough = all as f64 >= LEAST_SHARE * mutants.len() as f64;
     let passed = enough && of_energy == energy.len();
     let report = json!({
-        "seed": seed,
+        "commit": commit,
+        "records_of_other_commits": records.iter().filter(|r| !r.is_of(commit)).count(),
+        "only": arguments.only,
+        "seed": arguments.seed,
         "passed": passed,
         "mutants": mutants.len(),
         "killed": all,
@@ -301,7 +337,7 @@ fn conclude(mutants: &[Mutant], records: &[Record], seed: u64) -> Result<bool, S
         "moving_energy_killed": of_energy,
         "records": records,
     });
-    let path = workspace::folder().join("report.json");
+    let path = workspace::folder().join(arguments.report());
     std::fs::write(&path, format!("{report:#}\n"))
         .map_err(|e| format!("{}: {e}", path.display()))?;
     println!("report: {}", path.display());

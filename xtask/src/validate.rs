@@ -57,6 +57,27 @@ impl Arguments {
         };
     }
 
+    /// Sees, before anything is rendered, whether there is a place for the report in `folder` and for
+    /// JSON.
+    fn check_paths(&self, folder: &Path) -> Result<(), String> {
+        if let Some(path) = self.json.as_deref().filter(|_| !self.json_to_stdout()) {
+            let parent = path.parent().filter(|p| !p.as_os_str().is_empty());
+            if path.is_dir() || parent.is_some_and(|parent| !parent.is_dir()) {
+                let reason = if path.is_dir() {
+                    "it is a folder"
+                } else {
+                    "there is no such folder"
+                };
+                return Err(format!("--json {}: {reason}", path.display()));
+            }
+        }
+        if !self.list {
+            std::fs::create_dir_all(folder)
+                .map_err(|e| format!("--report {}: {e}", folder.display()))?;
+        }
+        Ok(())
+    }
+
     /// Writes JSON where it was asked for.
     fn write_json(&self, text: &str) -> Result<(), String> {
         match &self.json {
@@ -82,11 +103,17 @@ pub(crate) fn run(arguments: &Arguments) -> ExitCode {
 }
 
 fn validate(arguments: &Arguments) -> Result<Conclusion, String> {
+    let folder = arguments.report.clone().unwrap_or_else(folders::report);
+    arguments.check_paths(&folder)?;
     let mut claims = Claim::read_all(&folders::claims())?;
-    if arguments.list {
-        if let Some(name) = &arguments.only {
-            claims = run::named(&claims, name).into_iter().cloned().collect();
+    if let Some(name) = &arguments.only {
+        let named = run::named(&claims, name);
+        if named.is_empty() {
+            return Err(run::unknown(&claims, name));
         }
+        claims = named.into_iter().cloned().collect();
+    }
+    if arguments.list {
         for claim in &claims {
             arguments.say(&format!(
                 "{:<28} {:<12} {}",
@@ -108,9 +135,6 @@ fn validate(arguments: &Arguments) -> Result<Conclusion, String> {
         seed: arguments.seed,
     };
     let tasks = run::tasks(&claims, &options);
-    if tasks.is_empty() {
-        return Err("no claim has such a name: see `cargo xtask validate --list`".to_owned());
-    }
     let state = match options.tier {
         Tier::Full => Some(State::open(&folders::report().join("full"), &options)?),
         Tier::Quick | Tier::Default => None,
@@ -134,8 +158,6 @@ fn validate(arguments: &Arguments) -> Result<Conclusion, String> {
     text += "\n";
     text += &table::summary(&rows, provenance.seconds);
     arguments.say(&text);
-    let folder = arguments.report.clone().unwrap_or_else(folders::report);
-    std::fs::create_dir_all(&folder).map_err(|e| format!("{}: {e}", folder.display()))?;
     let page = folder.join("report.html");
     write(&page, &html::page(&rows, &provenance))?;
     let json = format!("{:#}\n", json::of(&rows, &provenance));
@@ -188,4 +210,55 @@ fn duration(time: Duration) -> String {
 
 fn write(path: &Path, text: &str) -> Result<(), String> {
     std::fs::write(path, text).map_err(|e| format!("{}: {e}", path.display()))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn message(command: &str) -> String {
+        #[derive(clap::Parser)]
+        struct Line {
+            #[command(flatten)]
+            arguments: Arguments,
+        }
+        let line = <Line as clap::Parser>::parse_from(command.split(' '));
+        validate(&line.arguments).expect_err("refused")
+    }
+
+    #[test]
+    fn a_name_that_no_claim_has_is_an_error_for_lists_and_runs() {
+        for more in ["", " --list", " --list --json"] {
+            let near = message(&format!("validate --only furnance{more}"));
+            assert!(near.contains("did you mean `furnace`?"), "{near}");
+            let far = message(&format!("validate --only no-such-claim-at-all{more}"));
+            assert!(far.contains("validate --list"), "{far}");
+        }
+    }
+
+    #[test]
+    fn what_cannot_be_written_is_said_before_the_run() {
+        // Names that no claim has keep a mutant from running for minutes. Mutants rejected: paths that
+        // are looked at after the claims, or when everything is rendered.
+        let here = env!("CARGO_MANIFEST_DIR");
+        for (path, reason) in [
+            (format!("--json {here}/no/such.json"), "no such folder"),
+            (format!("--json {here}"), "it is a folder"),
+            (
+                format!("--list --json {here}/no/such.json"),
+                "no such folder",
+            ),
+            (format!("--report {here}/Cargo.toml"), "Cargo.toml: "),
+            (
+                format!("--report {here}/Cargo.toml/below"),
+                "Cargo.toml/below: ",
+            ),
+        ] {
+            let message = message(&format!("validate --only no-such-claim {path}"));
+            assert!(
+                message.contains(reason) && message.starts_with("--"),
+                "{message}"
+            );
+        }
+    }
 }

@@ -8,14 +8,15 @@ use crate::json::{self, Provenance};
 use crate::look::Look;
 use crate::measure::Measure;
 use crate::outcome::Row;
-use crate::reference;
 use crate::run::{Compared, Evidence};
+use crate::table;
 use etalon::report::album::Album;
 use etalon::report::plot::{self, Curve};
 use etalon::report::running::{self, Point};
 use etalon::report::{self, interval, probability, tables, tiles, viewer};
 use etalon_math::float64;
 use maud::{Markup, html};
+use serde_json::Value;
 
 /// The detail of a row.
 pub(super) fn detail(
@@ -45,6 +46,9 @@ pub(super) fn detail(
             dt { "Held against" } dd { (held_against(row)) }
             @if let Ok(compared) = &row.compared {
                 dt { "Samples" } dd { (compared.spp) " per pixel in " (compared.replicates) " replicates" }
+                @if let Some(bound) = compared.bias_bound {
+                    dt { "Bias of the mean" } dd { "below " (table::percent(bound)) ", with 99 % confidence for this row by itself" }
+                }
                 dt { "Level" } dd { (format!("{:.1e}", row.level)) " at the last of " (row.looks)
                     @if row.looks == 1 { " look" } @else { " looks" } }
             }
@@ -68,24 +72,40 @@ fn held_against(row: &Row<'_>) -> Markup {
             // References, whoever rendered them.
             _ => {
                 "a reference"
-                @if let Ok(text) = made(&claim.name) { ": " (text) }
+                @if let Some(text) = json::reference(claim).and_then(|made| told(&made)) { ": " (text) }
             }
         }
     }
 }
 
 /// How a reference was made: its description, field by field.
-fn made(claim: &str) -> Result<String, String> {
-    let made = reference::provenance(claim)?;
-    let fields = serde_json::to_value(made).map_err(|e| e.to_string())?;
-    let shown = |(name, value): (&String, &serde_json::Value)| match value {
-        serde_json::Value::String(text) => Some(format!("{} {text}", name.replace('_', " "))),
-        serde_json::Value::Number(number) => Some(format!("{} {number}", name.replace('_', " "))),
-        // The parameters are the scene's.
-        _ => None,
+fn told(made: &Value) -> Option<String> {
+    let shown = |(name, value): (&String, &Value)| {
+        let text = match (name.as_str(), value) {
+            // The parameters are the scene's.
+            ("defines", _) => return None,
+            ("size", Value::Array(numbers)) => joined(numbers, " × "),
+            (_, Value::Array(all)) => joined(all, " "),
+            (_, other) => plain(other),
+        };
+        Some(format!("{} {text}", name.replace('_', " ")))
     };
-    let fields = fields.as_object().into_iter().flatten();
-    Ok(fields.filter_map(shown).collect::<Vec<_>>().join(", "))
+    Some(
+        made.as_object()?
+            .iter()
+            .filter_map(shown)
+            .collect::<Vec<_>>()
+            .join(", "),
+    )
+}
+
+fn joined(values: &[Value], between: &str) -> String {
+    values.iter().map(plain).collect::<Vec<_>>().join(between)
+}
+
+fn plain(value: &Value) -> String {
+    let text = value.as_str().map(str::to_owned);
+    text.unwrap_or_else(|| value.to_string())
 }
 
 fn evidence(compared: &Compared, row: &Row<'_>, rows: &[Row<'_>], album: &mut Album) -> Markup {

@@ -2,6 +2,7 @@
 
 use crate::measure::Measure;
 use crate::outcome::{Outcome, Row};
+use crate::table;
 use etalon::judge::{ImageRow, Judgement};
 use etalon::report::{self, interval, probability};
 use maud::{Markup, html};
@@ -72,7 +73,7 @@ pub(super) fn line(index: usize, row: &Row<'_>) -> Markup {
                 } @else { (row.task.estimator.label()) }
             }
             td role="cell" class="text kind" data-key="kind" data-value=(kind) { (kind.replace('_', " ")) }
-            (bias(&speaks))
+            (bias(&speaks, row.compared.as_ref().ok().and_then(|compared| compared.bias_bound)))
             @let sees = match &speaks { Speaks::Bias(image, ..) => Some(image.smallest_detectable), _ => None };
             td role="cell" data-key="sees" data-label="could see" data-value=[sees] {
                 @if let Some(sees) = sees { (format!("{:.3} %", 100.0 * sees)) }
@@ -93,7 +94,8 @@ pub(super) fn line(index: usize, row: &Row<'_>) -> Markup {
     }
 }
 
-fn bias(speaks: &Speaks<'_>) -> Markup {
+/// The number that speaks for a row, and the bound of the bias that is stated of it by itself.
+fn bias(speaks: &Speaks<'_>, stated: Option<f64>) -> Markup {
     let class = "text wide";
     match speaks {
         Speaks::Bias(image, bound, off) => {
@@ -104,6 +106,9 @@ fn bias(speaks: &Speaks<'_>) -> Markup {
                 td role="cell" class=(class) data-key="bias" data-label=(label) data-value=(sortable(reach)) {
                     (interval::bar(image.bias, image.interval, [-bound, *bound], &image.verdict.to_string()))
                     span class="numbers" { (image.channel) " " (format!("{:+.3} … {:+.3} %", 100.0 * low, 100.0 * high)) }
+                    @if let Some(stated) = stated {
+                        span class="numbers" { "bias < " (table::percent(stated)) " (99 %)" }
+                    }
                     @if *off > 0 {
                         span class="numbers" { (off) @if *off == 1 { " tile" } @else { " tiles" } " off" }
                     }

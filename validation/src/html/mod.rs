@@ -84,7 +84,9 @@ fn about(provenance: &Provenance) -> Markup {
                 "comparison by itself, with 99 % confidence." }
             p { "In the column " em { "bias" } ", the shaded band is what is accepted, whatever its width, so that "
                 "all rows share one scale. " em { "Could see" } " is the smallest bias that the comparison "
-                "would have found with a probability of 95 %." }
+                "would have found with a probability of 95 %. " em { "Bias < … (99 %)" } " is the bound of the bias, over "
+                "all channels, that holds for this comparison by itself; the intervals are wider, as they hold "
+                "for all comparisons together." }
             (facts(provenance))
         }
     }

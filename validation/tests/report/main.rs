@@ -8,9 +8,10 @@ mod rows;
 
 use browser::{Folder, exercise, failures};
 use etalon::report::{comparison, running};
-use etalon_validation::html;
+use etalon_validation::claim::Claim;
 use etalon_validation::json::Provenance;
 use etalon_validation::judged::{self, Against};
+use etalon_validation::{folders, html, table};
 
 /// The size of a desk's window and of a phone's (pixels).
 const DESK: [u32; 2] = [1280, 900];
@@ -82,6 +83,53 @@ fn a_report_is_one_file_of_a_sane_size() {
     assert!(html.contains("there is no &lt;reference&gt;"));
     // The default run has 120 rows of pictures as large as these or a little larger.
     assert!(html.len() < 7 * 100_000, "{}", html.len());
+}
+
+#[test]
+fn a_reference_says_who_made_it_and_how() {
+    for (name, expected) in [
+        ("cornell-box", ["mitsuba 3.9.1", "seeds 32", "spp 256"]),
+        // Mutant rejected: descriptions read as Mitsuba's alone.
+        (
+            "povray-spheres",
+            [
+                "povray 3.7.0.10.unofficial",
+                "options +FE -A -D +W128 +H96",
+                "size 128 × 96",
+            ],
+        ),
+    ] {
+        let claim = Claim::read(&folders::claims().join(format!("{name}.toml")));
+        let claim = claim.expect("a claim");
+        let html = html::page(&[rows::broken(&claim)], &provenance());
+        for text in expected {
+            assert!(html.contains(text), "{name}: {text}");
+        }
+    }
+}
+
+#[test]
+fn the_bound_that_is_counted_is_in_the_table_and_on_the_page() {
+    let claims = rows::claims();
+    let rows = rows::rows(&claims);
+    let bound = rows[0].compared.as_ref().ok().and_then(|c| c.bias_bound);
+    let percent = 100.0 * bound.expect("of pictures");
+    // Rounded up: 0.500001 % is not below 0.5 %.
+    let shown = format!("{:.4} %", (1e4 * percent).ceil() / 1e4);
+    assert!(table::head().contains("bias < (99 %)"));
+    assert!(table::line(&rows[0]).contains(&shown), "{shown}");
+    let page = validation();
+    assert!(page.contains(&format!("bias &lt; {shown} (99 %)")));
+    assert_eq!(page.matches(&shown).count(), 2, "the line and its detail");
+    // Headings stand over what they name.
+    let at = |line: &str, text: &str| {
+        line.find(text)
+            .map(|i| line[..i].chars().count() + text.chars().count())
+    };
+    assert_eq!(
+        at(&table::head(), "bias < (99 %)"),
+        at(&table::line(&rows[0]), &shown)
+    );
 }
 
 #[test]

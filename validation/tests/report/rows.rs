@@ -161,6 +161,12 @@ pub(crate) fn rows(claims: &[Claim]) -> Vec<Row<'_>> {
     ]
 }
 
+/// The row of a claim whose scene could not be rendered.
+pub(crate) fn broken(claim: &Claim) -> Row<'_> {
+    let reason = Err("it could not be rendered".to_owned());
+    row(task(claim, 0, None), reason, Outcome::Broken)
+}
+
 fn task(claim: &Claim, place: usize, fault: Option<Fault>) -> Task<'_> {
     let estimator = &claim.estimators[place];
     Task {

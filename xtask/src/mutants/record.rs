@@ -2,7 +2,7 @@
 
 use super::list::Mutant;
 use serde::{Deserialize, Serialize};
-use std::io::Write;
+use std::io::{ErrorKind, Write};
 use std::path::{Path, PathBuf};
 
 /// What became of a mutant.
@@ -60,6 +60,9 @@ pub(crate) struct Record {
     seed: u64,
     /// Whether the quick suite was to run after the named claims.
     named_only: bool,
+    /// The commit that it was planted in; absent where older programs wrote the record.
+    #[serde(default)]
+    commit: Option<String>,
     /// What became of it.
     pub(crate) fate: Fate,
     /// Who killed it.
@@ -74,7 +77,7 @@ pub(crate) struct Record {
 
 impl Record {
     /// A mutant's record; `fate` and what follows it are for the caller to fill in.
-    pub(crate) fn new(mutant: &Mutant, seed: u64, named_only: bool) -> Self {
+    pub(crate) fn new(mutant: &Mutant, seed: u64, named_only: bool, commit: &str) -> Self {
         Self {
             name: mutant.name.clone(),
             file: mutant.file.clone(),
@@ -82,12 +85,18 @@ impl Record {
             replacement: mutant.replacement.clone(),
             seed,
             named_only,
+            commit: Some(commit.to_owned()),
             fate: Fate::Survived,
             killer: None,
             as_named: false,
             message: None,
             seconds: 0.0,
         }
+    }
+
+    /// Whether it was planted in this commit.
+    pub(crate) fn is_of(&self, commit: &str) -> bool {
+        self.commit.as_deref() == Some(commit)
     }
 
     /// Whether this tells what became of `mutant` under `seed`. Whoever survived the named claims
@@ -131,6 +140,20 @@ impl Records {
         latest.find(|record| record.tells(mutant, seed, named_only))
     }
 
+    /// Forgets these mutants, in memory and in the file.
+    pub(crate) fn forget(&mut self, mutants: &[Mutant]) -> Result<(), String> {
+        let asked = |record: &Record| mutants.iter().any(|mutant| mutant.name == record.name);
+        let (_, kept) = std::mem::take(&mut self.all).into_iter().partition(asked);
+        match std::fs::remove_file(&self.path) {
+            Err(e) if e.kind() != ErrorKind::NotFound => {
+                return Err(format!("{}: {e}", self.path.display()));
+            }
+            _ => {}
+        }
+        let kept: Vec<Record> = kept;
+        kept.into_iter().try_for_each(|record| self.push(record))
+    }
+
     /// Keeps a record, in memory and in the file.
     pub(crate) fn push(&mut self, record: Record) -> Result<(), String> {
         let name = self.path.display();
@@ -153,7 +176,7 @@ mod tests {
     #[test]
     fn a_record_tells_of_the_same_change_only() {
         let mutants = super::super::list::read().expect("the list can be read");
-        let mut record = Record::new(&mutants[0], 1, true);
+        let mut record = Record::new(&mutants[0], 1, true, "abc");
         assert!(record.tells(&mutants[0], 1, true));
         // Mutants rejected: survivors of fewer claims, another seed or another change are kept.
         assert!(!record.tells(&mutants[0], 1, false));
@@ -163,5 +186,34 @@ mod tests {
         assert!(record.tells(&mutants[0], 1, false));
         record.fate = Fate::DoesNotBuild;
         assert!(!record.tells(&mutants[0], 1, true));
+    }
+
+    #[test]
+    fn a_new_beginning_for_some_leaves_the_others() {
+        let mutants = super::super::list::read().expect("the list can be read");
+        let path = std::env::temp_dir().join(format!("etalon-records-{}", std::process::id()));
+        let mut records = Records::open(&path);
+        for mutant in &mutants[..3] {
+            let record = Record::new(mutant, 1, true, "abc");
+            records.push(record).expect("written");
+        }
+        // Mutant rejected: everything is forgotten.
+        records.forget(&mutants[1..2]).expect("written");
+        let again = Records::open(&path);
+        for records in [&records, &again] {
+            let known = |i: usize| records.of(&mutants[i], 1, true);
+            assert!(known(0).is_some() && known(1).is_none() && known(2).is_some());
+            assert!(known(0).is_some_and(|record| record.is_of("abc") && !record.is_of("abd")));
+        }
+        std::fs::remove_file(&path).expect("removed");
+    }
+
+    #[test]
+    fn records_of_older_programs_are_of_no_known_commit() {
+        let mutants = super::super::list::read().expect("the list can be read");
+        let mut value = serde_json::json!(Record::new(&mutants[0], 1, true, "abc"));
+        value.as_object_mut().expect("an object").remove("commit");
+        let record: Record = serde_json::from_value(value).expect("a record");
+        assert!(record.tells(&mutants[0], 1, true) && !record.is_of("abc"));
     }
 }

@@ -55,10 +55,12 @@ impl Mitsuba {
     }
 }
 
-/// Whether a claim's reference belongs to the present state of its scene.
+/// Whether a claim's reference belongs to the present state of its scene, and is as large as the
+/// claim states.
 pub(super) fn is_fresh(claim: &Claim) -> Result<bool, String> {
-    let hash = run::load(claim, &run::defines(claim, None), None)?.hash;
-    Ok(reference::read(&claim.name, &hash).is_ok())
+    let expected = reference::expected(claim)?;
+    let read = reference::read_in(&folders::references(), &claim.name, &expected);
+    Ok(read.is_ok())
 }
 
 /// Renders all seeds of a claim's scene.

@@ -1,0 +1,59 @@
+//! Tiles that t calls off although their replicates are too far from normal for it.
+
+use etalon::judge::{Known, Rules};
+use etalon_film::{BoxFilter, ExactFilm, FilmSettings, Filter, RenderFacts};
+use etalon_images::Image;
+use etalon_statistics::Verdict;
+use etalon_validation::judged::{Against, judge};
+
+/// The verdict on tiles of 16² of a picture of two, of which `left` and `right` are the replicates;
+/// both ought to be ½, within 3 % and half a per cent.
+fn tiles(left: &[f64], right: &[f64]) -> Verdict {
+    let settings = FilmSettings::new(32, 16, Filter::Box(BoxFilter));
+    let mut film = ExactFilm::new(settings, &[]).expect("a small film");
+    for (left, right) in left.iter().zip(right) {
+        let pixel = |i: usize| (if i % 32 < 16 { *left } else { *right }) as f32;
+        let plane: Vec<f32> = (0..32 * 16).map(pixel).collect();
+        let names = ["R", "G", "B"];
+        let image = (names.iter()).fold(Image::new(32, 16), |i, n| i.with(*n, plane.clone()));
+        film.add_replicate(&image, 1).expect("it fits");
+    }
+    let picture = film.develop(RenderFacts::default());
+    let channels = ["R", "G", "B"].map(|name| (name.to_owned(), vec![0.5; 32 * 16]));
+    let known = Known {
+        size: [32, 16],
+        channels: channels.into(),
+    };
+    let judged = judge(&picture, Against::Known(&known), Rules::default(), false);
+    let tiles = judged.expect("comparable").judgement.tiles;
+    let row = tiles.iter().find(|row| row.side == 16);
+    row.expect("tiles of 16²").verdict
+}
+
+/// Replicates about `mean`, spread evenly, with a last one of its own.
+fn replicates(count: usize, mean: f64, last: f64) -> Vec<f64> {
+    let spread = |i: usize| mean + 0.002 * (i as f64 / (count - 1) as f64 - 0.5);
+    let mut all: Vec<f64> = (0..count).map(spread).collect();
+    all[count - 1] = last;
+    all
+}
+
+#[test]
+fn a_tile_within_its_tolerance_confirms_no_other() {
+    // Left, one of 16 replicates makes the variance: nobody can tell, whatever t says. Mutant
+    // rejected: p-values of equality, by which the right tile, 2 % off, would confirm it.
+    let wild = replicates(16, 0.8, 0.9);
+    let off = |mean: f64| replicates(16, mean, mean);
+    assert_eq!(tiles(&wild, &off(0.51)), Verdict::Undecided);
+    assert_eq!(tiles(&wild, &off(0.55)), Verdict::Differs);
+}
+
+#[test]
+fn a_bootstrap_confirms_what_t_has_said() {
+    // One of 32 replicates is far below the others. Mutant rejected: an interval that excludes
+    // no bias at all, in place of one beyond the tolerance.
+    let sound = replicates(32, 0.5, 0.5);
+    let off = |mean, last| tiles(&replicates(32, mean, last), &sound);
+    assert_eq!(off(0.521, 0.51), Verdict::Undecided);
+    assert_eq!(off(0.53, 0.52), Verdict::Differs);
+}
