@@ -20,7 +20,7 @@
 //! mutants = ["dropped cosine"] # faults that this very comparison must find
 //! ```
 
-use crate::convergence::Part;
+use crate::convergence::{Ladder, Part};
 use crate::fault::Fault;
 use crate::matrix::{self, Absence, Matrix};
 use crate::noise::Means;
@@ -105,14 +105,9 @@ pub enum Oracle {
         /// The estimator without the change.
         estimator: Box<Estimator>,
     },
-    /// How fast the squared error, or a `part` of it, falls: its exponent against samples per
-    /// replicate must be shown to lie within each estimator's `exponent`.
-    Convergence {
-        /// The closed form that tells the error.
-        formula: String,
-        /// Samples per replicate, powers of two for Sobol' points.
-        samples: Vec<u32>,
-    },
+    /// How fast the squared error, or a `part` of it, falls: its exponent must be shown to lie within
+    /// each estimator's `exponent`.
+    Convergence(Ladder),
     /// Whether standard errors are right: Student's intervals of 68, 95 and 99 % about a mean must be
     /// shown to cover the truth at their rate, and squared errors to be as large as reported.
     Noise {
@@ -181,7 +176,7 @@ impl Oracle {
             Self::Agreement { .. } => "agreement",
             Self::Energy { .. } => "energy",
             Self::Invariance { .. } => "invariance",
-            Self::Convergence { .. } => "convergence",
+            Self::Convergence(_) => "convergence",
             Self::Noise { .. } => "noise",
             Self::Povray { .. } => "povray",
         }
@@ -309,10 +304,8 @@ impl Claim {
             Oracle::Agreement { estimator } | Oracle::Invariance { estimator } => {
                 Some(estimator.as_ref())
             }
-            Oracle::Convergence { samples, .. } => {
-                if samples.len() < 3 || samples.windows(2).any(|pair| pair[0] >= pair[1]) {
-                    return Err("`samples` must be three or more growing numbers".to_owned());
-                }
+            Oracle::Convergence(ladder) => {
+                ladder.check()?;
                 None
             }
             Oracle::Noise {
@@ -343,7 +336,7 @@ impl Claim {
             }
         }
         for estimator in &self.estimators {
-            let convergence = matches!(self.oracle, Oracle::Convergence { .. });
+            let convergence = matches!(self.oracle, Oracle::Convergence(_));
             let invariance = matches!(self.oracle, Oracle::Invariance { .. });
             match estimator.exponent {
                 Some([low, high]) if low < high && convergence => {}

@@ -4,7 +4,7 @@
 //! reach b = −3 for smooth integrands (Owen 1997) and −1 − 1/d for discontinuous ones (He & Wang
 //! 2015). x are the pixels of one replicate of n samples, t those of the closed form; their mean
 //! squared distance, over pixels, channels and the replicates of a batch, is fitted by a power law
-//! in n. Batches are independent: the exponents of all of them are a sample, and their mean has a
+//! in n. Instead of samples something else may grow, such as the photons of a map. Batches are independent: the exponents of all of them are a sample, and their mean has a
 //! t-distributed error.
 //!
 //! Estimators that are biased but consistent have two exponents. With two replicates in a batch
@@ -28,6 +28,43 @@ use serde::{Deserialize, Serialize};
 
 /// Replicates of a batch: two, the fewest that have standard errors.
 const BATCH: u32 = 2;
+
+/// What is climbed while the error falls.
+#[derive(Clone, Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Ladder {
+    /// The closed form that tells the error.
+    pub formula: String,
+    /// Growing numbers: samples per replicate, powers of two for Sobol' points, or the values of a
+    /// parameter.
+    pub rungs: Vec<u32>,
+    /// The scene parameter that takes these values, if it is not the samples that grow: a replicate then has
+    /// as many on every rung, all of them together a budget's `spp`.
+    pub over: Option<String>,
+}
+
+impl Ladder {
+    /// # Errors
+    /// If it cannot be climbed.
+    pub(crate) fn check(&self) -> Result<(), String> {
+        if self.rungs.len() < 3 || self.rungs.windows(2).any(|pair| pair[0] >= pair[1]) {
+            return Err("`rungs` must be three or more growing numbers".to_owned());
+        }
+        Ok(())
+    }
+
+    /// An estimator on a rung, and the samples of a replicate there.
+    fn stand(&self, rung: u32, estimator: &Estimator, budget: Budget) -> (Estimator, u32) {
+        let mut standing = estimator.clone();
+        let Some(parameter) = &self.over else {
+            return (standing, rung);
+        };
+        let value = toml::Value::Integer(rung.into());
+        standing.defines.insert(parameter.clone(), value);
+        let replicates = budget.replicates * self.rungs.len() as u32;
+        (standing, (budget.spp / replicates).max(1))
+    }
+}
 
 /// A part of the squared error.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize)]
@@ -62,14 +99,16 @@ impl Part {
     }
 }
 
-/// How the squared error of one replicate falls with its samples.
+/// How the squared error of one replicate falls.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Fall {
-    /// Samples, squared error (the mean of the batches), and its standard error.
+    /// What grows from rung to rung.
+    pub over: String,
+    /// The rung, squared error (the mean of the batches), and its standard error.
     pub points: Vec<[f64; 3]>,
     /// The mean of the batches' fitted exponents.
     pub exponent: f64,
-    /// The fitted power law's squared error for one sample: the geometric mean of the batches'.
+    /// The fitted power law's squared error on a rung 1: the geometric mean of the batches'.
     pub factor: f64,
 }
 
@@ -89,10 +128,10 @@ pub struct Batches {
 /// If a picture cannot be rendered or has no error at all.
 pub fn batches(
     claim: &Claim,
-    (formula, samples): (&str, &[u32]),
+    ladder: &Ladder,
     estimator: &Estimator,
     fault: Option<Fault>,
-    replicates: u32,
+    budget: Budget,
     seed: u64,
 ) -> Result<Batches, String> {
     let estimator = match fault {
@@ -103,25 +142,33 @@ pub fn batches(
         Some(other) => return Err(format!("`{other}` cannot be planted here")),
         None => estimator,
     };
-    let loaded = rendering::load_for(claim, estimator)?;
-    let size = loaded.compiled.film.crop_size.to_array();
-    let known = closed_form::picture(formula, claim, size)?;
+    let rungs = &ladder.rungs;
+    let mut stands = Vec::new();
+    for rung in rungs {
+        let (standing, samples) = ladder.stand(*rung, estimator, budget);
+        stands.push((rendering::load_for(claim, &standing)?, samples));
+    }
+    let size = stands[0].0.compiled.film.crop_size.to_array();
+    let known = closed_form::picture(&ladder.formula, claim, size)?;
     let mut spent = 0;
     let (mut exponents, mut logarithms) = (Vec::new(), Vec::new());
-    let mut errors = vec![Vec::new(); samples.len()];
-    for batch in 0..(replicates / BATCH).max(2) {
+    let mut errors = vec![Vec::new(); rungs.len()];
+    for batch in 0..(budget.replicates / BATCH).max(2) {
         let (mut x, mut y) = (Vec::new(), Vec::new());
-        for (rung, n) in samples.iter().enumerate() {
+        for (rung, (loaded, samples)) in stands.iter().enumerate() {
             let budget = Budget {
-                spp: n * BATCH,
+                spp: samples * BATCH,
                 replicates: BATCH,
             };
             // All are independent of each other.
-            let number = u64::from(batch) * samples.len() as u64 + rung as u64;
+            let number = u64::from(batch) * rungs.len() as u64 + rung as u64;
             let seed = seed.wrapping_add((number + 1) << 32);
-            let plan = rendering::plan(&loaded, estimator, budget, seed);
-            let picture = rendering::picture(&loaded, &plan, estimator, None, None)?;
-            x.push(f64::from(plan.samples_per_replicate));
+            let plan = rendering::plan(loaded, estimator, budget, seed);
+            let picture = rendering::picture(loaded, &plan, estimator, None, None)?;
+            x.push(match &ladder.over {
+                Some(_) => f64::from(rungs[rung]),
+                None => f64::from(plan.samples_per_replicate),
+            });
             let error = squared_error(&picture, &known, estimator.part)?;
             y.push(error);
             errors[rung].push(error);
@@ -137,7 +184,8 @@ pub fn batches(
     };
     let mean = |values: &[f64]| Summary::of(values).map_or(f64::NAN, |s| s.mean());
     let fall = Fall {
-        points: samples.iter().zip(&errors).filter_map(point).collect(),
+        over: (ladder.over.clone()).unwrap_or_else(|| "samples per replicate".to_owned()),
+        points: rungs.iter().zip(&errors).filter_map(point).collect(),
         exponent: mean(&exponents),
         factor: float64::exp(mean(&logarithms)),
     };

@@ -7,6 +7,7 @@
 //! or the bootstrap agrees.
 
 use etalon::judge::{self, Judgement, Known, Rules, TileRow};
+use etalon::tolerance::Tolerance;
 use etalon_film::{Developed, Metadata};
 use etalon_statistics::bootstrap::Plan;
 use etalon_statistics::robust::{self, Symmetry};
@@ -82,9 +83,13 @@ pub fn judge(
         smallest = smallest.min(if exact { row.p_exact } else { own });
     }
     for row in &mut judgement.tiles {
-        let p = if exact { row.p_exact } else { row.p_differs };
         let of_image = (scales.iter()).find_map(|(name, x)| (*name == row.channel).then_some(*x));
-        let tolerance = Tolerance::new(rules, exact, of_image.unwrap_or(0.0));
+        let of_image = of_image.unwrap_or(0.0);
+        let (p, tolerance) = if exact {
+            (row.p_exact, Tolerance::exact(rules, of_image))
+        } else {
+            (row.p_differs, Tolerance::bounded(rules, of_image))
+        };
         if p <= alpha && !confirmed(metadata, against, row, alpha, tolerance)? {
             refusals.push(format!(
                 "{} tiles of {}²: those off are too far from normal",
@@ -163,34 +168,6 @@ fn scale_of(bias: f64, difference: f64, mean: f64) -> f64 {
         scale
     } else {
         mean.abs()
-    }
-}
-
-/// How far a tile may be off under the hypothesis that its row's p-value is of.
-#[derive(Clone, Copy)]
-struct Tolerance {
-    /// Relative to the tile's own mean.
-    own: f64,
-    /// Relative to nothing: the share of the image's mean.
-    fixed: f64,
-}
-
-impl Tolerance {
-    /// As `etalon::judge` has it: rounding for what is exact, the bounds for what is not.
-    fn new(rules: Rules, exact: bool, scale: f64) -> Self {
-        let (own, image) = if exact {
-            (rules.rounding, rules.rounding)
-        } else {
-            (rules.tile_bound, rules.image_bound)
-        };
-        Self {
-            own,
-            fixed: image * scale,
-        }
-    }
-
-    fn at(self, mean: f64) -> f64 {
-        self.own * mean.abs() + self.fixed
     }
 }
 

@@ -14,6 +14,8 @@
 //! [matrix.later]               # too noisy here for the default run: in the full run only
 //! naive = { spp = 4096, replicates = 32 }
 //! ```
+//!
+//! `full_only = true` leaves all rows of a matrix to the full run.
 
 use crate::budget::Budget;
 use crate::claim::{Claim, Estimator, Oracle};
@@ -32,6 +34,9 @@ pub struct Matrix {
     pub default: Budget,
     /// Which bias of the image's mean the default run must exclude, relative to it.
     pub bound: f64,
+    /// Whether only a full run makes these comparisons, with `default` for its first look.
+    #[serde(default)]
+    pub full_only: bool,
     /// Integrators that cannot render the scene, though they do not object, and why.
     #[serde(default)]
     pub without: BTreeMap<String, String>,
@@ -142,7 +147,7 @@ pub(crate) fn expand(claim: &mut Claim) -> Result<(), String> {
             mutants: Vec::new(),
             in_matrix: Some(Place {
                 bound: matrix.bound,
-                later: later.is_some(),
+                later: matrix.full_only || later.is_some(),
             }),
         });
     }

@@ -262,11 +262,9 @@ impl<'a> Comparison<'a> {
                 shown = Some(Box::new([made.picture, made.oracle]));
                 (made.measures, made.spp)
             }
-            Oracle::Convergence { formula, samples } => {
-                let rungs = (formula.as_str(), samples.as_slice());
-                let (replicates, seed) = (budget.replicates, options.seed);
-                let batches =
-                    convergence::batches(claim, rungs, estimator, fault, replicates, seed)?;
+            Oracle::Convergence(ladder) => {
+                let seed = options.seed;
+                let batches = convergence::batches(claim, ladder, estimator, fault, budget, seed)?;
                 let measure = convergence::judge(&batches.exponents, estimator, alpha)?;
                 fall = Some(batches.fall);
                 (vec![measure], batches.spp)
@@ -293,7 +291,10 @@ impl<'a> Comparison<'a> {
                     None => return self.pictures(turn, options, kept),
                 }
             }
-            _ => return self.pictures(turn, options, kept),
+            Oracle::ClosedForm { .. }
+            | Oracle::Reference { .. }
+            | Oracle::Agreement { .. }
+            | Oracle::Energy { .. } => return self.pictures(turn, options, kept),
         };
         let (verdict, p) = Measure::together(&measures);
         Ok(Compared {

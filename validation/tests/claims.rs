@@ -2,6 +2,7 @@
 //! to the scene's present state, and a number of mutants over all of them.
 
 use etalon_validation::claim::{Claim, Oracle, Sampler};
+use etalon_validation::convergence::Ladder;
 use etalon_validation::tier::Tier;
 use etalon_validation::{closed_form, folders, povray, reference, run};
 use std::collections::BTreeSet;
@@ -20,7 +21,7 @@ fn scenes_load_and_oracles_belong_to_them() {
         match &claim.oracle {
             Oracle::ClosedForm { formula }
             | Oracle::Energy { formula }
-            | Oracle::Convergence { formula, .. }
+            | Oracle::Convergence(Ladder { formula, .. })
             | Oracle::Noise { formula, .. } => {
                 let known = closed_form::picture(formula, &claim, size)
                     .unwrap_or_else(|message| panic!("{name}: {message}"));

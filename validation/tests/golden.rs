@@ -36,7 +36,10 @@ fn oracle(claim: &Claim) -> String {
         Oracle::Agreement { estimator: of } | Oracle::Invariance { estimator: of } => {
             format!("{kind} {}", estimator(of))
         }
-        Oracle::Convergence { formula, samples } => format!("{kind} {formula} {samples:?}"),
+        Oracle::Convergence(ladder) => {
+            let over = ladder.over.as_deref().unwrap_or("samples");
+            format!("{kind} {} over {over} {:?}", ladder.formula, ladder.rungs)
+        }
         Oracle::Noise {
             of,
             formula,

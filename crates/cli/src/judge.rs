@@ -10,6 +10,7 @@
 //!
 //! The error level α is shared equally (Bonferroni) by all of these questions.
 
+use crate::tolerance::Tolerance;
 use etalon_film::{Developed, Metadata, TileMeans};
 use etalon_statistics::{Replicates, TileDifferences, TilesError, Verdict};
 use serde::Serialize;
@@ -325,13 +326,14 @@ fn tile_row(
     alpha: f64,
 ) -> TileRow {
     let oracle = &comparison.oracle;
-    let tolerances = |own: f64, image: f64| -> Vec<f64> {
-        let tolerance = |mean: &f64| own * mean.abs() + image * image_scale;
-        oracle.iter().map(tolerance).collect()
+    let tolerances = |tolerance: Tolerance| -> Vec<f64> {
+        oracle.iter().map(|mean| tolerance.at(*mean)).collect()
     };
     let differences = &comparison.differences;
-    let decision = differences.decide(&tolerances(rules.tile_bound, rules.image_bound), alpha);
-    let exact = differences.decide(&tolerances(rules.rounding, rules.rounding), alpha);
+    let bounded = tolerances(Tolerance::bounded(rules, image_scale));
+    let decision = differences.decide(&bounded, alpha);
+    let exact = tolerances(Tolerance::exact(rules, image_scale));
+    let exact = differences.decide(&exact, alpha);
     let worst = exact.worst;
     let estimates = differences.estimates();
     TileRow {

@@ -18,6 +18,7 @@ pub mod resources;
 pub mod say;
 mod sizes;
 pub mod target;
+pub mod tolerance;
 
 /// The version of the program.
 pub const VERSION: &str = env!("CARGO_PKG_VERSION");

@@ -12,13 +12,17 @@
 //! "Light Transport Simulation with Vertex Connection and Merging"; Hachisuka, Pantaleoni, Jensen
 //! 2012). A corner that scatters discretely is neither connected nor merged.
 //!
+//! Without `connections` σ and σ' run over mergings alone: bidirectional photon mapping (Vorba 2011,
+//! "Bidirectional Photon Mapping"). Lights are then run into only along paths without any corner at which
+//! photons could be merged.
+//!
 //! A sample is a pass with photons of its own, n of them, and a replicate a progression whose
 //! radius shrinks as in [`crate::photons::radius`]. All paths of a pass have the same four
 //! wavelengths, so that all can be merged, dispersion or not; those of a progression lie evenly
 //! ([`crate::photons`]). Light walks that are connected and those that are merged are different
 //! ones: weights only ask how many could have made a path.
 
-use crate::bdpt::merge::{self, Merging};
+use crate::bdpt::merge::{self, Merging, Terms};
 use crate::bdpt::{Start, estimate};
 use crate::path::camera_ray;
 use crate::photons::radius::Radius;
@@ -29,10 +33,12 @@ use crate::settings::{PathSettings, ignore_scheduling};
 use etalon_params::Params;
 use etalon_sampling::Sampler;
 use etalon_spectrum::Wavelengths;
-use etalon_transport::{Draft, Integrator, Pass, PixelSite, Sink, TileSink, World};
+use etalon_transport::{
+    Draft, Finding, Integrator, Objection, Pass, PixelSite, Sight, Sink, TileSink, World,
+};
 
 /// Vertex connection and merging.
-#[derive(Clone, Debug, Default)]
+#[derive(Clone, Debug)]
 pub struct ConnectionMerging {
     /// Limits of the path.
     pub settings: PathSettings,
@@ -40,6 +46,19 @@ pub struct ConnectionMerging {
     pub radius: Radius,
     /// Photons per pass; `None` for as many as there are pixels.
     pub photons: Option<u32>,
+    /// Whether paths are connected, too, or merged only.
+    pub connections: bool,
+}
+
+impl Default for ConnectionMerging {
+    fn default() -> Self {
+        Self {
+            settings: PathSettings::default(),
+            radius: Radius::default(),
+            photons: None,
+            connections: true,
+        }
+    }
 }
 
 /// The photons of a pass.
@@ -51,13 +70,14 @@ pub struct State {
 
 impl ConnectionMerging {
     /// Reads the integrator from its description: Mitsuba's parameters of paths, `photons`,
-    /// `radius` and `alpha`.
+    /// `radius`, `alpha` and `connections`.
     pub fn from_params(params: &Params<'_>) -> Self {
         ignore_scheduling(params);
         Self {
             settings: PathSettings::from_params(params),
             radius: Radius::from_params(params),
             photons: read_count(params),
+            connections: params.boolean_or("connections", true),
         }
     }
 
@@ -85,7 +105,15 @@ impl Integrator for ConnectionMerging {
     type State = State;
 
     fn splats(&self) -> bool {
-        true
+        self.connections
+    }
+
+    fn objections(&self, sight: &Sight) -> Vec<Objection> {
+        sight.objections(if self.connections {
+            Finding::Either
+        } else {
+            Finding::Choosing
+        })
     }
 
     fn samples_per_pass(&self) -> Option<u32> {
@@ -97,14 +125,25 @@ impl Integrator for ConnectionMerging {
         let radius = self.radius.of(world, pass);
         let pixels = pass.size.x.saturating_mul(pass.size.y);
         let count = rounded(self.photons.unwrap_or(pixels), 1);
+        let terms = Terms {
+            radius,
+            count,
+            connections: self.connections,
+        };
         let photons = in_order(count, |index, found| {
             let mut sampler = numbers(pass, index, count);
-            let (settings, within) = (&self.settings, (radius, count));
-            merge::shoot(world, &wavelengths, settings, within, &mut sampler, found);
+            merge::shoot(
+                world,
+                &wavelengths,
+                &self.settings,
+                &terms,
+                &mut sampler,
+                found,
+            );
         });
         State {
             wavelengths,
-            merging: Merging::new(photons, radius, count),
+            merging: Merging::new(photons, terms),
         }
     }
 

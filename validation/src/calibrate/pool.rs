@@ -127,11 +127,8 @@ impl Pool {
         let (claim, estimator) = (task.claim, task.estimator);
         let first = task.budget(tier);
         let kind = match &claim.oracle {
-            Oracle::Convergence { formula, samples } => {
-                let rungs = (formula.as_str(), samples.as_slice());
-                let replicates = first.replicates;
-                let batches =
-                    convergence::batches(claim, rungs, estimator, None, replicates, seed)?;
+            Oracle::Convergence(ladder) => {
+                let batches = convergence::batches(claim, ladder, estimator, None, first, seed)?;
                 Kind::Exponents(batches.exponents)
             }
             Oracle::Noise {

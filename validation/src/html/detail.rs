@@ -3,7 +3,7 @@
 use super::efficiency;
 use super::line;
 use crate::claim::Oracle;
-use crate::convergence::Fall;
+use crate::convergence::{Fall, Ladder};
 use crate::json::{self, Provenance};
 use crate::look::Look;
 use crate::measure::Measure;
@@ -66,7 +66,7 @@ fn held_against(row: &Row<'_>) -> Markup {
     let claim = row.task.claim;
     html! {
         @match &claim.oracle {
-            Oracle::ClosedForm { formula } | Oracle::Energy { formula } | Oracle::Convergence { formula, .. }
+            Oracle::ClosedForm { formula } | Oracle::Energy { formula } | Oracle::Convergence(Ladder { formula, .. })
                 | Oracle::Noise { formula, .. } => { "the closed form " code { (formula) } }
             Oracle::Agreement { estimator } | Oracle::Invariance { estimator } => { "our own " (estimator.label()) }
             // References, whoever rendered them.
@@ -189,7 +189,7 @@ fn measures_table(measures: &[Measure]) -> Markup {
     }
 }
 
-/// Squared error against samples, with the fitted power law.
+/// Squared error against what grew, with the fitted power law.
 fn fallen(fall: &Fall, name: &str) -> Markup {
     let law = |x: f64| [x, fall.factor * float64::pow(x, fall.exponent)];
     let ends = fall.points.first().zip(fall.points.last());
@@ -203,7 +203,7 @@ fn fallen(fall: &Fall, name: &str) -> Markup {
     };
     html! {
         h3 { "Convergence" }
-        (plot::curves(&[curve], "samples per replicate", "squared error"))
+        (plot::curves(&[curve], &fall.over, "squared error"))
         p class="quiet" { "Points: means over batches, with standard errors; dashed: the power law that was fitted." }
     }
 }

@@ -142,6 +142,7 @@ pub(crate) fn rows(claims: &[Claim]) -> Vec<Row<'_>> {
     let exponent = measure("exponent of sobol points", -2.1, 0.2, [-4.0, -1.3]);
     let mut converged = of_measures(vec![exponent]);
     converged.fall = Some(Fall {
+        over: "samples per replicate".to_owned(),
         points: vec![[4.0, 1e-2, 1e-3], [16.0, 6e-4, 1e-4], [64.0, 3e-5, 4e-6]],
         exponent: -2.1,
         factor: 0.19,

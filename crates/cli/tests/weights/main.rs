@@ -140,6 +140,7 @@ fn merging<W: World>(world: &W, course: &Course, seed: u64) -> Result<(), TestCa
             alpha: 0.5,
         },
         photons: Some(PHOTONS),
+        connections: true,
     };
     let pass = Pass {
         seed,

@@ -84,6 +84,7 @@ impl<'w, W: World> Connector<'_, 'w, W> {
             connects: self.camera_connects,
             samples: self.site.pixels as f32,
             merging: self.area(),
+            connections: self.connections(),
         }
     }
 
@@ -93,6 +94,7 @@ impl<'w, W: World> Connector<'_, 'w, W> {
             emitted: start.emission.density.origin,
             sampled: first.direct,
             merging: self.area(),
+            connections: self.connections(),
         }
     }
 
@@ -155,6 +157,10 @@ impl<'w, W: World> Connector<'_, 'w, W> {
         let Some(mixed) = self.wanted(0, eye.len() + 2) else {
             return;
         };
+        if self.connections() == 0.0 && eye.iter().any(|corner| !corner.leaves_discretely) {
+            // Left to merging there.
+            return;
+        }
         let mut total = arrival.prefix.ratio.element_sum();
         if let [before @ .., first] = eye
             && mixed
@@ -185,7 +191,9 @@ impl<'w, W: World> Connector<'_, 'w, W> {
         if (self.only).is_some_and(|only| only.camera != eye.len() + 2) {
             return;
         }
-        self.sample_light(corner, eye, event);
+        if self.connections() > 0.0 {
+            self.sample_light(corner, eye, event);
+        }
         self.merge(corner, eye);
         let Some(start) = self.start else {
             return;

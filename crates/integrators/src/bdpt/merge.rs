@@ -47,40 +47,60 @@ pub(crate) struct Photon {
     segments: u32,
 }
 
+/// What is merged.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Terms {
+    /// r, within which photons are merged (m).
+    pub(crate) radius: f32,
+    /// n, the walks from lights.
+    pub(crate) count: u32,
+    /// Whether there are connections, too, and lights run into where merging could find them.
+    pub(crate) connections: bool,
+}
+
+impl Terms {
+    /// n π r² (m²).
+    fn area(&self) -> f32 {
+        self.count as f32 * core::f32::consts::PI * self.radius * self.radius
+    }
+
+    /// The techniques that connect, as a factor.
+    fn connections(&self) -> f32 {
+        if self.connections { 1.0 } else { 0.0 }
+    }
+}
+
 /// The photons of a pass.
 #[derive(Debug)]
 pub(crate) struct Merging {
     tree: KdTree,
     photons: Vec<Photon>,
-    radius_squared: f32,
-    /// n π r² (m²).
-    area: f32,
+    terms: Terms,
 }
 
 impl Merging {
-    /// Photons of `count` walks to be merged within a radius.
-    pub(crate) fn new(photons: Vec<Photon>, radius: f32, count: u32) -> Self {
+    /// Photons to be merged on these terms.
+    pub(crate) fn new(photons: Vec<Photon>, terms: Terms) -> Self {
         let (tree, order) = KdTree::new(photons.iter().map(|photon| photon.position));
         Self {
             tree,
             photons: order.iter().map(|i| photons[*i as usize]).collect(),
-            radius_squared: radius * radius,
-            area: area(radius, count),
+            terms,
         }
+    }
+
+    /// Whether there are techniques that connect.
+    pub(crate) fn connects(&self) -> bool {
+        self.terms.connections
     }
 }
 
-/// n π r².
-fn area(radius: f32, count: u32) -> f32 {
-    count as f32 * core::f32::consts::PI * radius * radius
-}
-
-/// Follows a walk from a light, and adds its photons; `count` walks will be merged within `radius`.
+/// Follows a walk from a light, and adds its photons.
 pub(crate) fn shoot<W: World>(
     world: &W,
     wavelengths: &Wavelengths,
     settings: &PathSettings,
-    (radius, count): (f32, u32),
+    terms: &Terms,
     sampler: &mut impl Sampler,
     photons: &mut Vec<Photon>,
 ) {
@@ -96,9 +116,8 @@ pub(crate) fn shoot<W: World>(
         &mut corners,
         usize::MAX,
     );
-    let merging = area(radius, count);
     let scatter = corners.iter().filter(|c| c.bsdf.has_continuous());
-    photons.extend(scatter.filter_map(|corner| photon(&start, &corners, corner, merging)));
+    photons.extend(scatter.filter_map(|corner| photon(&start, &corners, corner, terms)));
 }
 
 /// The photon that a corner is.
@@ -106,7 +125,7 @@ fn photon<B: Bsdf>(
     start: &FromLight,
     corners: &[Corner<B>],
     corner: &Corner<B>,
-    merging: f32,
+    terms: &Terms,
 ) -> Option<Photon> {
     let vertex = &corner.vertex;
     let cos = vertex.normal.dot(corner.wo).abs();
@@ -118,7 +137,8 @@ fn photon<B: Bsdf>(
             } else {
                 0.0
             };
-            (Vec4::splat(corner.direct / origin), Vec4::splat(found))
+            let connected = Vec4::splat(corner.direct / origin);
+            (connected, Vec4::splat(terms.connections() * found))
         }
         Some(index) => {
             let parent = &corners[index];
@@ -133,7 +153,8 @@ fn photon<B: Bsdf>(
                 can_be_hit: start.emission.origin.can_be_hit(),
                 emitted: origin,
                 sampled: corners[first].direct,
-                merging,
+                merging: terms.area(),
+                connections: terms.connections(),
             };
             let lane = |rest| fewer(corners, index, rest, ends, light, start.opposite, connects);
             let lanes = [Vec4::X, Vec4::Y, Vec4::Z, Vec4::W].map(lane);
@@ -154,7 +175,7 @@ fn photon<B: Bsdf>(
         value: corner.prefix.value / cos,
         ratio: corner.prefix.ratio,
         arrival: corner.arrival,
-        connected,
+        connected: terms.connections() * connected,
         fewer: fewer * corner.passed,
         segments: corner.segments,
     })
@@ -163,7 +184,12 @@ fn photon<B: Bsdf>(
 impl<'w, W: World> Connector<'_, 'w, W> {
     /// n π r², zero if nothing is merged.
     pub(super) fn area(&self) -> f32 {
-        self.merging.map_or(0.0, |merging| merging.area)
+        self.merging.map_or(0.0, |merging| merging.terms.area())
+    }
+
+    /// One if there are techniques that connect, and zero if merging is asked for alone.
+    pub(super) fn connections(&self) -> f32 {
+        (self.merging).map_or(1.0, |merging| merging.terms.connections())
     }
 
     /// Merges the camera walk's corner with the photons around it.
@@ -174,7 +200,8 @@ impl<'w, W: World> Connector<'_, 'w, W> {
         let (place, max_depth) = (corner.vertex.position, self.settings.max_depth);
         let (camera_end, theirs) = (self.camera_end(), corner.prefix.ratio);
         let mut radiance = Vec4::ZERO;
-        merging.tree.within(place, merging.radius_squared, |found| {
+        let radius_squared = merging.terms.radius * merging.terms.radius;
+        merging.tree.within(place, radius_squared, |found| {
             let photon = &merging.photons[found.place];
             if corner.segments.saturating_add(photon.segments) > max_depth
                 || photon.normal.dot(corner.vertex.normal) < FACING

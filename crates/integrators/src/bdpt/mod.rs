@@ -142,7 +142,10 @@ pub(crate) fn estimate<'w, W: World, S: Sampler, K: Sink>(
     let sensor = sensor_response(wavelengths);
     eye.clear();
     light.clear();
-    let mut start = FromLight::start(world, wavelengths, settings, sampler);
+    let connects = merging.is_none_or(Merging::connects);
+    let mut start = connects
+        .then(|| FromLight::start(world, wavelengths, settings, sampler))
+        .flatten();
     if let Some(start) = &mut start {
         start.walk(world, wavelengths, settings, sampler, light, usize::MAX);
     }

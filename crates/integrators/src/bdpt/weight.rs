@@ -36,6 +36,8 @@ pub(super) struct LightEnd {
     pub(super) sampled: f32,
     /// See [`CameraEnd::merging`].
     pub(super) merging: f32,
+    /// See [`CameraEnd::connections`].
+    pub(super) connections: f32,
 }
 
 /// Σ over techniques with fewer light vertices than a path whose last corner from the light is
@@ -74,11 +76,13 @@ pub(super) fn fewer<B>(
             Some(parent) => {
                 connects = !corners[parent].leaves_discretely;
                 if here && connects {
-                    sum += (product * corners[parent].prefix.ratio).element_sum();
+                    sum +=
+                        light.connections * (product * corners[parent].prefix.ratio).element_sum();
                 }
             }
             None => {
                 // σ = 1: light sampling from the first corner.
+                let product = product * light.connections;
                 if here {
                     sum += product.element_sum() * (light.sampled / light.emitted);
                 }
@@ -99,6 +103,8 @@ pub(super) struct CameraEnd {
     pub(super) connects: bool,
     /// How many samples can make a connection with the camera.
     pub(super) samples: f32,
+    /// Whether techniques without merging take part, as a number: one, or zero.
+    pub(super) connections: f32,
     /// n π r², the area on which photons are merged times their number (m²): over the density per area
     /// with which either walk arrives at a corner, what makes of a connection there a merging. Zero
     /// if there is none, as in `bdpt`.
@@ -138,10 +144,10 @@ pub(super) fn more<'c, B: 'c>(
             Some(next) => {
                 connects = !next.leaves_discretely;
                 if here && connects {
-                    sum += (product * next.prefix.ratio).element_sum();
+                    sum += camera.connections * (product * next.prefix.ratio).element_sum();
                 }
             }
-            None if here => sum += camera.samples * product.element_sum(),
+            None if here => sum += camera.connections * camera.samples * product.element_sum(),
             None => {}
         }
         step += 1;

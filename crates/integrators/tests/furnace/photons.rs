@@ -119,12 +119,22 @@ fn merging(max_depth: u32) -> ConnectionMerging {
             ..Radius::default()
         },
         photons: Some(PHOTONS),
+        ..ConnectionMerging::default()
     }
 }
 
-/// Nine comparisons at a family-wise α of 10⁻³: two-sided quantile of 10⁻³/9 of Student's t with 95
-/// degrees of freedom ≈ 4.03.
-const LIMIT: f64 = 4.03;
+/// `vcm` that merges only, and so takes more photons to see as much.
+fn merging_alone(max_depth: u32) -> ConnectionMerging {
+    ConnectionMerging {
+        photons: Some(4 * PHOTONS),
+        connections: false,
+        ..merging(max_depth)
+    }
+}
+
+/// Ten comparisons at a family-wise α of 10⁻³: two-sided quantile of 10⁻³/10 of Student's t with 95
+/// degrees of freedom ≈ 4.06.
+const LIMIT: f64 = 4.06;
 
 #[test]
 fn merging_agrees_with_the_geometric_series() {
@@ -171,6 +181,10 @@ fn merging_agrees_with_the_geometric_series() {
             z_score(&merging(3), &world, series(0.6, 3)),
         ),
         ("vcm, unlimited", z_score(&merging(u32::MAX), &world, 2.5)),
+        (
+            "vcm, merging alone",
+            z_score(&merging_alone(4), &world, limited),
+        ),
     ] {
         assert!(z.abs() < LIMIT, "{what}: z = {z:.2}");
     }
@@ -189,6 +203,10 @@ fn faults_are_noticed() {
                 z_score(&mapper(true, None, 0), &world, series(0.6, 4)),
             ),
             ("vcm", z_score(&merging(4), &world, series(0.6, 4))),
+            (
+                "vcm, merging alone",
+                z_score(&merging_alone(4), &world, series(0.6, 4)),
+            ),
         ] {
             assert!(
                 z.abs() > LIMIT,
