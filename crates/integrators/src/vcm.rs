@@ -29,7 +29,7 @@ use crate::settings::{PathSettings, ignore_scheduling};
 use etalon_params::Params;
 use etalon_sampling::Sampler;
 use etalon_spectrum::Wavelengths;
-use etalon_transport::{Draft, Integrator, Pass, PixelSite, Sink, TileSink, World};
+use etalon_transport::{Draft, Integrator, Pass, PixelSite, Remark, Sink, TileSink, World};
 
 /// Vertex connection and merging.
 #[derive(Clone, Debug, Default)]
@@ -70,6 +70,7 @@ impl ConnectionMerging {
         sampler: &mut impl Sampler,
     ) -> Start<'a> {
         let (_, ray, weight) = camera_ray(world, site, sampler);
+        world.remark(|| Remark::Wavelengths(state.wavelengths));
         Start {
             settings: &self.settings,
             only: None,
