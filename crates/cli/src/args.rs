@@ -101,7 +101,8 @@ pub struct RenderArgs {
     pub output: Option<PathBuf>,
     /// Draw one sample again, and say what happened vertex by vertex: sample S of replicate R of
     /// the pixel in column X and row Y, counted from 0. Nothing is rendered.
-    #[arg(long, value_name = "X,Y,R,S", value_parser = parse_replay)]
+    #[arg(long, value_name = "X,Y,R,S", value_parser = parse_replay,
+        conflicts_with_all = ["error", "time", "resume", "strategies", "part", "stats"])]
     pub replay: Option<ReplayAddress>,
     /// Samples per pixel; rounded up to what the sampler can stratify [default: the scene's].
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..))]
@@ -140,7 +141,7 @@ pub struct RenderArgs {
         value_parser = clap::value_parser!(u32).range(16..=1 << 20))]
     pub pilot: Option<u32>,
     /// Keep a checkpoint beside the image (OUT.checkpoint), and go on from it if there is one.
-    #[arg(long, conflicts_with_all = ["strategies", "replay"])]
+    #[arg(long, conflicts_with = "strategies")]
     pub resume: bool,
     /// Also write every technique of `bdpt` alone, weighted and unweighted, and a page with all.
     #[arg(long, value_name = "DIR", conflicts_with = "part")]

@@ -27,7 +27,9 @@ use crate::metropolis::{ChainSettings, Field, Found, Integrand, Kinds, State};
 use crate::settings::{PathSettings, ignore_scheduling};
 use etalon_params::Params;
 use etalon_sampling::Sampler;
-use etalon_transport::{Finding, Integrator, Objection, Pass, PixelSite, Sight, Sink, World};
+use etalon_transport::{
+    Finding, Integrator, Objection, Pass, PixelSite, Remark, Sight, Sink, World,
+};
 
 /// The numbers that choose the technique and the length: those between the moment and the first
 /// scattering event, which nothing else needs.
@@ -106,11 +108,20 @@ impl<'w, W: World> Integrand for Techniques<'w, W> {
             camera: vertices - light,
             weighted: true,
         };
+        (self.world).remark(|| Remark::Technique {
+            light: technique.light,
+            camera: technique.camera,
+        });
         sampler.skip_to(dim::FILM);
         let site = field.site(sampler.next_2d());
         let factor = field.area() * vertices as f32 / probability;
         let add = |raster, rgb: glam::Vec3| found.add(raster, rgb * factor);
         sample(self.world, settings, technique, &site, sampler, lists, add);
+    }
+
+    #[inline]
+    fn remark(&self, remark: impl FnOnce() -> Remark) -> bool {
+        self.world.remark(remark)
     }
 }
 

@@ -23,7 +23,9 @@ use crate::settings::{PathSettings, ignore_scheduling};
 use crate::walk::Walk;
 use etalon_params::Params;
 use etalon_sampling::Sampler;
-use etalon_transport::{Finding, Integrator, Objection, Pass, PixelSite, Sight, Sink, World};
+use etalon_transport::{
+    Finding, Integrator, Objection, Pass, PixelSite, Remark, Sight, Sink, World,
+};
 
 /// Primary sample space Metropolis light transport.
 #[derive(Clone, Debug, Default)]
@@ -75,6 +77,11 @@ impl<W: World> Integrand for Paths<'_, W> {
         let wanted = chains.least_corners()..u32::MAX;
         walk.follow(self.world, settings, &wanted);
         found.add(site.raster, walk.colour() * field.area());
+    }
+
+    #[inline]
+    fn remark(&self, remark: impl FnOnce() -> Remark) -> bool {
+        self.world.remark(remark)
     }
 }
 

@@ -34,7 +34,7 @@ use etalon_params::Params;
 use etalon_sampling::Sampler;
 use etalon_spectrum::Wavelengths;
 use etalon_transport::{
-    Draft, Finding, Integrator, Objection, Pass, PixelSite, Sight, Sink, TileSink, World,
+    Draft, Finding, Integrator, Objection, Pass, PixelSite, Remark, Sight, Sink, TileSink, World,
 };
 
 /// Vertex connection and merging.
@@ -90,6 +90,7 @@ impl ConnectionMerging {
         sampler: &mut impl Sampler,
     ) -> Start<'a> {
         let (_, ray, weight) = camera_ray(world, site, sampler);
+        world.remark(|| Remark::Wavelengths(state.wavelengths));
         Start {
             settings: &self.settings,
             only: None,

@@ -1,6 +1,6 @@
 //! The contract of a scattering model at a point.
 
-use crate::Chance;
+use crate::{Chance, Mixture};
 use etalon_math::{Density, Frame, SolidAngle};
 use glam::{Vec2, Vec3, Vec4};
 
@@ -86,4 +86,9 @@ pub trait Bsdf {
     /// Directional albedo or an approximation of it: for the `albedo` channel, and for choices that no
     /// expectation depends on (Russian roulette).
     fn albedo(&self, wo: Vec3) -> Vec4;
+
+    /// Tells whoever draws a sample again that what the model was asked last was for a mixture of its own
+    /// density with another; see [`crate::World::remark`].
+    #[inline]
+    fn mixed(&self, _mixture: impl FnOnce() -> Mixture) {}
 }

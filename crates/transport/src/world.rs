@@ -2,7 +2,7 @@
 
 use crate::{
     Bsdf, Camera, ClassicPhong, Emission, EmissionDensity, Hit, LightId, LightSample, Ray,
-    Receiver, Vertex,
+    Receiver, Remark, Vertex,
 };
 use etalon_math::{Density, SolidAngle};
 use etalon_spectrum::Wavelengths;
@@ -125,4 +125,12 @@ pub trait World: Sync {
 
     /// How many rays the calling thread has traced since it last asked.
     fn take_ray_count(&self) -> u64;
+
+    /// Tells whoever draws a sample again what cannot be seen from what was asked, and says whether
+    /// anybody listens: if so, more may be asked only to be told. A world that renders keeps this, and
+    /// the remark is never made.
+    #[inline]
+    fn remark(&self, _remark: impl FnOnce() -> Remark) -> bool {
+        false
+    }
 }

@@ -19,6 +19,7 @@ mod mutations;
 mod objections;
 mod render;
 mod replay;
+mod replay_methods;
 mod resume;
 mod statistics;
 mod strategies;

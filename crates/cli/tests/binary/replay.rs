@@ -77,7 +77,15 @@ fn every_estimator_can_be_replayed() {
         ("ao", &["radiance ("]),
         ("depth", &["radiance ("]),
         ("distribution", &["light 0 sampled", "radiance ("]),
-        ("vcm", &["walk 2: ", "radiance ("]),
+        (
+            "vcm",
+            &["walk 2: ", "photons that count within", "radiance ("],
+        ),
+        ("sppm", &["photons that count within", "radiance ("]),
+        ("photonmap", &["photons that count within", "radiance ("]),
+        ("guided", &["the guide's density", "radiance ("]),
+        ("pssmlt", &["Markov chains"]),
+        ("mmlt", &["Markov chains"]),
     ] {
         let arguments = [
             "render",

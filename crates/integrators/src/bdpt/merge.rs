@@ -16,7 +16,7 @@ use crate::photons::kdtree::KdTree;
 use crate::settings::PathSettings;
 use etalon_sampling::Sampler;
 use etalon_spectrum::Wavelengths;
-use etalon_transport::{Bsdf, Mode, World};
+use etalon_transport::{Bsdf, MergedPhoton, Mode, Remark, World};
 use glam::{Vec3, Vec4};
 
 /// The least cosine of the angle between the normals of surfaces that are merged.
@@ -200,8 +200,12 @@ impl<'w, W: World> Connector<'_, 'w, W> {
         let (place, max_depth) = (corner.vertex.position, self.settings.max_depth);
         let (camera_end, theirs) = (self.camera_end(), corner.prefix.ratio);
         let mut radiance = Vec4::ZERO;
-        let radius_squared = merging.terms.radius * merging.terms.radius;
-        merging.tree.within(place, radius_squared, |found| {
+        let radius = merging.terms.radius;
+        self.world.remark(|| Remark::Gathering {
+            radius,
+            among: merging.photons.len(),
+        });
+        merging.tree.within(place, radius * radius, |found| {
             let photon = &merging.photons[found.place];
             if corner.segments.saturating_add(photon.segments) > max_depth
                 || photon.normal.dot(corner.vertex.normal) < FACING
@@ -210,6 +214,7 @@ impl<'w, W: World> Connector<'_, 'w, W> {
             }
             let (value, density) =
                 (corner.bsdf).eval_and_density(corner.wo, photon.from, Mode::Radiance);
+            let scattering = value;
             let value = photon.value * value * corner.prefix.value;
             if value == Vec4::ZERO {
                 return;
@@ -224,7 +229,19 @@ impl<'w, W: World> Connector<'_, 'w, W> {
             };
             total += more(Some(corner), eye, Vec4::ONE, ends, true, camera_end);
             radiance += value * (photon.arrival / total);
+            self.world.remark(|| {
+                Remark::Photon(MergedPhoton {
+                    position: photon.position,
+                    distance: photon.position.distance(place),
+                    from: photon.from,
+                    segments: photon.segments,
+                    wavelengths: *self.wavelengths,
+                    scattering,
+                    estimate: value * (photon.arrival / total),
+                })
+            });
         });
+        self.world.remark(|| Remark::Gathered);
         self.radiance += radiance;
     }
 }

@@ -12,7 +12,7 @@ use super::field;
 use etalon_math::{Atom, Density, SolidAngle};
 use etalon_sampling::discrete::Quadtree;
 use etalon_sampling::hash::ONE_MINUS;
-use etalon_transport::{Bsdf, BsdfSample, Chance, Mode};
+use etalon_transport::{Bsdf, BsdfSample, Chance, Mixed, Mixture, Mode};
 use glam::{Vec2, Vec3, Vec4};
 
 /// A scattering model, and where light comes from.
@@ -26,11 +26,18 @@ pub(crate) struct Steered<'f, B> {
 }
 
 impl<B: Bsdf> Steered<'_, B> {
+    /// The learned density where light does not pass straight on: (1 − p₀)·p_g.
+    #[inline]
+    fn scattered(&self, learned: Density<SolidAngle>) -> Density<SolidAngle> {
+        let scattered = Vec4::ONE - self.bsdf.passing_probability();
+        Density::per_lane(learned.lanes() * scattered)
+    }
+
     /// The mixture's density, from the two that are mixed.
     #[inline]
     fn mix(&self, own: Density<SolidAngle>, learned: Density<SolidAngle>) -> Density<SolidAngle> {
-        let scattered = Vec4::ONE - self.bsdf.passing_probability();
-        Density::per_lane(own.lanes() * self.own + learned.lanes() * scattered * (1.0 - self.own))
+        let scattered = self.scattered(learned).lanes();
+        Density::per_lane(own.lanes() * self.own + scattered * (1.0 - self.own))
     }
 
     /// A direction of the learned density.
@@ -38,14 +45,25 @@ impl<B: Bsdf> Steered<'_, B> {
     fn sample_learned(&self, lobe: &Quadtree, wo: Vec3, u: Vec2, mode: Mode) -> Option<BsdfSample> {
         let (wi, learned) = field::sample(lobe, u);
         let (value, own) = self.bsdf.eval_and_density(wo, wi, mode);
-        (value != Vec4::ZERO).then(|| BsdfSample {
+        let sample = (value != Vec4::ZERO).then(|| BsdfSample {
             wi,
             value,
             chance: Chance::Continuous(self.mix(own, learned)),
             // Whichever side it is on; this only sways Russian roulette.
             eta: 1.0,
             passes: false,
-        })
+        });
+        self.bsdf.mixed(|| Mixture {
+            wi,
+            own: Chance::Continuous(own),
+            other: self.scattered(learned),
+            share: self.own,
+            mixed: Mixed::Sampled {
+                by_model: false,
+                sample,
+            },
+        });
+        sample
     }
 }
 
@@ -69,7 +87,18 @@ impl<B: Bsdf> Bsdf for Steered<'_, B> {
         let (value, own) = self.bsdf.eval_and_density(wo, wi, mode);
         match self.lobe {
             // What does not scatter needs no density.
-            Some(lobe) if value != Vec4::ZERO => (value, self.mix(own, field::density(lobe, wi))),
+            Some(lobe) if value != Vec4::ZERO => {
+                let learned = field::density(lobe, wi);
+                let density = self.mix(own, learned);
+                self.bsdf.mixed(|| Mixture {
+                    wi,
+                    own: Chance::Continuous(own),
+                    other: self.scattered(learned),
+                    share: self.own,
+                    mixed: Mixed::Weighed(density),
+                });
+                (value, density)
+            }
             _ => (value, own),
         }
     }
@@ -90,12 +119,28 @@ impl<B: Bsdf> Bsdf for Steered<'_, B> {
         }
         let u_lobe = passing + rest / self.own * (1.0 - passing);
         let mut sample = self.bsdf.sample(wo, u_lobe.min(ONE_MINUS), u, mode)?;
-        sample.chance = match sample.chance {
+        let own = sample.chance;
+        let (chance, other) = match own {
             Chance::Continuous(own) => {
-                Chance::Continuous(self.mix(own, field::density(lobe, sample.wi)))
+                let learned = field::density(lobe, sample.wi);
+                (Chance::Continuous(self.mix(own, learned)), learned)
             }
-            Chance::Discrete(Atom(probability)) => Chance::Discrete(Atom(probability * self.own)),
+            Chance::Discrete(Atom(probability)) => (
+                Chance::Discrete(Atom(probability * self.own)),
+                Density::uniform(0.0),
+            ),
         };
+        sample.chance = chance;
+        self.bsdf.mixed(|| Mixture {
+            wi: sample.wi,
+            own,
+            other: self.scattered(other),
+            share: self.own,
+            mixed: Mixed::Sampled {
+                by_model: true,
+                sample: Some(sample),
+            },
+        });
         Some(sample)
     }
 

@@ -2,11 +2,11 @@
 
 use super::bootstrap::{State, Stream, start_key};
 use super::found::{Contribution, Found};
-use super::primary::PrimarySample;
+use super::primary::{LogarithmicStep, PrimarySample};
 use super::{ChainSettings, Integrand};
 use core::ops::Range;
 use etalon_sampling::hash::derived_key;
-use etalon_transport::{PixelSite, Sink};
+use etalon_transport::{ChainRemark, PixelSite, Remark, Sink};
 
 impl State {
     /// Does the share of a site: its chains, and what it delivers of the bootstrap samples.
@@ -18,13 +18,26 @@ impl State {
         sink: &mut K,
     ) {
         if site.sample != 0 {
+            tell(integrand, || ChainRemark::HostedBefore);
             return;
         }
         let share = |count: usize| self.share(site, count);
-        for contribution in &self.contributions[share(self.contributions.len())] {
+        let (contributions, chains) = (share(self.contributions.len()), share(self.starts.len()));
+        tell(integrand, || ChainRemark::Hosts {
+            contributions: contributions.len(),
+            chains: chains.len(),
+            steps: self.length,
+        });
+        for (index, contribution) in &self.contributions[contributions] {
+            if tell(integrand, || ChainRemark::Uniform(*index)) {
+                // Whoever listens wants to know how it came about.
+                let mut sample = self.uniform_sample(settings, *index, 0);
+                let (lists, found) = (&mut T::Lists::default(), &mut Found::default());
+                integrand.find(&self.field, &self.pilot.kinds, &mut sample, lists, found);
+            }
             deliver(*contribution, sink);
         }
-        for chain in share(self.starts.len()) {
+        for chain in chains {
             self.run(integrand, settings, chain, sink);
         }
     }
@@ -39,6 +52,17 @@ impl State {
         begin(index)..begin(index + 1)
     }
 
+    /// The uniform sample with this index, about to take the steps that `course` selects.
+    fn uniform_sample(
+        &self,
+        settings: &ChainSettings,
+        index: u32,
+        course: u64,
+    ) -> PrimarySample<LogarithmicStep> {
+        let start = start_key(Stream::Seeds.key(self.seed, self.replicate), index);
+        PrimarySample::new(settings.step(), settings.large_step, start, course)
+    }
+
     /// Runs a chain from its start to its end.
     fn run<T: Integrand, K: Sink>(
         &self,
@@ -47,10 +71,10 @@ impl State {
         chain: usize,
         sink: &mut K,
     ) {
-        let key = |stream: Stream| stream.key(self.seed, self.replicate);
-        let start = start_key(key(Stream::Seeds), self.starts[chain]);
-        let course = derived_key(key(Stream::Chains), chain as u32);
-        let mut sample = PrimarySample::new(settings.step(), settings.large_step, start, course);
+        let course = Stream::Chains.key(self.seed, self.replicate);
+        let course = derived_key(course, chain as u32);
+        let start = self.starts[chain];
+        let mut sample = self.uniform_sample(settings, start, course);
         let mut lists = T::Lists::default();
         let (mut current, mut proposed) = (Found::default(), Found::default());
         let mut find = |sample: &mut PrimarySample<_>, found: &mut Found| {
@@ -60,11 +84,16 @@ impl State {
             found.measure(&self.field, &self.pilot.emphasis);
             found.brightness()
         };
+        tell(integrand, || ChainRemark::Begins {
+            number: chain,
+            start,
+        });
         let mut here = find(&mut sample, &mut current);
         // How much the current sample counts.
         let mut weight = 0.0;
-        for _ in 0..self.length {
+        for step in 0..self.length {
             let large = sample.propose();
+            tell(integrand, || ChainRemark::Proposal { step, large });
             let there = find(&mut sample, &mut proposed);
             let accepted = if there > 0.0 {
                 (there / here).min(1.0)
@@ -80,7 +109,14 @@ impl State {
             if large {
                 other += self.uniform_weight(there);
             }
-            if f64::from(sample.decide()) < accepted {
+            let goes = f64::from(sample.decide()) < accepted;
+            tell(integrand, || ChainRemark::Decision {
+                from: here,
+                to: there,
+                acceptance: accepted,
+                accepted: goes,
+            });
+            if goes {
                 sample.accept();
                 core::mem::swap(&mut current, &mut proposed);
                 core::mem::swap(&mut weight, &mut other);
@@ -91,10 +127,17 @@ impl State {
             // After the exchange, `proposed` is what the chain does not stay at.
             proposed.weighted(other).for_each(|one| deliver(one, sink));
         }
+        tell(integrand, || ChainRemark::Ends);
         current.weighted(weight).for_each(|one| deliver(one, sink));
     }
 }
 
 fn deliver<K: Sink>(contribution: Contribution, sink: &mut K) {
     sink.splat(contribution.raster, contribution.rgb.to_array());
+}
+
+/// Remarks something about chains; whether anybody listens.
+#[inline]
+fn tell<T: Integrand>(integrand: &T, remark: impl FnOnce() -> ChainRemark) -> bool {
+    integrand.remark(|| Remark::Chain(remark()))
 }

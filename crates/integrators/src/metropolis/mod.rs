@@ -60,7 +60,7 @@ use crate::walk::Walk;
 use core::ops::Range;
 use etalon_params::Params;
 use etalon_sampling::Sampler;
-use etalon_transport::{PixelSite, Sink, World};
+use etalon_transport::{PixelSite, Remark, Sink, World};
 use primary::LogarithmicStep;
 
 /// What a primary sample stands for.
@@ -80,6 +80,9 @@ pub(crate) trait Integrand: Sync {
         lists: &mut Self::Lists,
         found: &mut Found,
     );
+
+    /// Remarks something in the world of the paths, see [`World::remark`].
+    fn remark(&self, remark: impl FnOnce() -> Remark) -> bool;
 }
 
 /// How chains are run.

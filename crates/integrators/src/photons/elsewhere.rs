@@ -5,6 +5,7 @@
 //! the numbers that had found it, and, if a coloured choice of lobes then finds another, with
 //! others.
 
+use super::sets::{Lanes, WavelengthSets};
 use crate::prefix::Prefix;
 use etalon_spectrum::Wavelengths;
 use etalon_transport::{Bsdf, BsdfSample, Mode, Vertex, World};
@@ -72,8 +73,61 @@ impl Left {
     }
 }
 
+/// A camera path up to a surface where it gathers photons.
+#[derive(Clone, Copy)]
+pub(crate) struct Behind<'a> {
+    pub(crate) sets: &'a WavelengthSets,
+    /// Its own wavelengths, and its value and densities at them.
+    pub(crate) lanes: Lanes,
+    pub(crate) prefix: &'a Prefix,
+    /// Whether smooth dispersion has left one wavelength.
+    pub(crate) alone: bool,
+    /// The surfaces that it left.
+    pub(crate) path: &'a [Left],
+}
+
+impl Behind<'_> {
+    /// f/p₀ at the wavelengths of a set.
+    pub(crate) fn value<W: World>(&self, world: &W, set: usize) -> Vec4 {
+        if set == self.lanes.set {
+            self.lanes.to_set(self.prefix.value)
+        } else {
+            value(world, self.path, self.sets.get(set))
+        }
+    }
+
+    /// What f/p₀ is multiplied by for f over all densities that it could have been made with. With one
+    /// wavelength left only photons of its own set count, which must stand for those of all.
+    pub(crate) fn scale(&self) -> f32 {
+        let ways = if self.alone {
+            self.sets.len() as f32
+        } else {
+            1.0
+        };
+        ways / self.prefix.ratio.element_sum()
+    }
+
+    /// `rgb`, and what photons brought, a sum for each set, carried to the camera.
+    pub(crate) fn carried<W: World>(
+        &self,
+        world: &W,
+        sums: impl Iterator<Item = Vec4>,
+        mut rgb: Vec3,
+    ) -> Vec3 {
+        let scale = self.scale();
+        for (set, sum) in sums.enumerate() {
+            if sum == Vec4::ZERO {
+                continue;
+            }
+            let path = self.value(world, set);
+            rgb += self.sets.sensor(set).rgb(sum * path * scale);
+        }
+        rgb
+    }
+}
+
 /// f/p₀ of a path, f at other wavelengths.
-pub(crate) fn value<W: World>(world: &W, path: &[Left], wavelengths: &Wavelengths) -> Vec4 {
+fn value<W: World>(world: &W, path: &[Left], wavelengths: &Wavelengths) -> Vec4 {
     let mut value = Prefix::START.value;
     for left in path {
         value *= left.value(world, wavelengths);

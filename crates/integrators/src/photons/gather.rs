@@ -4,7 +4,7 @@
 //! it leaves light that is not direct to photons, and ends. With a final gather it goes on once in
 //! such a direction, and leaves to photons what it meets there.
 
-use super::elsewhere::{self, Left};
+use super::elsewhere::{Behind, Left};
 use super::is_sharp;
 use super::sets::{Lanes, WavelengthSets};
 use super::shoot::{Kind, Photon, PhotonMap};
@@ -17,7 +17,8 @@ use core::f32::consts::PI;
 use etalon_sampling::Sampler;
 use etalon_spectrum::Wavelengths;
 use etalon_transport::{
-    Bsdf, Camera, Chance, Draft, Mode, PixelSite, Ray, Receiver, Sink, TileSink, Vertex, World,
+    Bsdf, Camera, Chance, Draft, MergedPhoton, Mode, PixelSite, Ray, Receiver, Remark, Sink,
+    TileSink, Vertex, World,
 };
 use glam::{Vec3, Vec4};
 
@@ -161,6 +162,7 @@ fn follow<'w, W: World>(
     let lens = sampler.next_2d();
     let lanes = plan.sets.choose(sampler.next_1d());
     let time = sampler.next_1d();
+    world.remark(|| Remark::Wavelengths(plan.sets.of(lanes)));
     let start = world.camera().ray(site.raster, lens, time);
     scratch.path.clear();
     let mut gatherer = Gatherer {
@@ -317,6 +319,13 @@ impl<'w, W: World> Gatherer<'_, 'w, W> {
         let at = &mut scratch.at;
         let (world, depth, alone) = (self.world, self.depth, self.alone);
         let (max_depth, lanes) = (self.plan.settings.max_depth, self.lanes);
+        let behind = Behind {
+            sets,
+            lanes,
+            alone,
+            prefix: &self.prefix,
+            path: &scratch.path,
+        };
         let mut any = false;
         for layer in layers {
             let counts = if self.second {
@@ -342,12 +351,29 @@ impl<'w, W: World> Gatherer<'_, 'w, W> {
                 let value = model.eval(wo, photon.from, Mode::Radiance);
                 *sum += value * photon.value * kernel;
                 any = true;
+                world.remark(|| {
+                    let brought = value * photon.value * kernel;
+                    Remark::Photon(MergedPhoton {
+                        position: photon.position,
+                        distance: photon.position.distance(vertex.position),
+                        from: photon.from,
+                        segments: photon.segments,
+                        wavelengths: *sets.get(set),
+                        scattering: value,
+                        estimate: brought * behind.value(world, set) * behind.scale(),
+                    })
+                });
             };
             let lookup = &layer.lookup;
             let scale = 1.0 / layer.shot as f32;
             let radius_squared = lookup.radius * lookup.radius;
             let (tree, photons) = (&layer.map.tree, &layer.map.photons);
+            let gathering = |radius_squared: f32| Remark::Gathering {
+                radius: radius_squared.sqrt(),
+                among: photons.len(),
+            };
             if lookup.nearest == 0 {
+                world.remark(|| gathering(radius_squared));
                 tree.within(vertex.position, radius_squared, |found| {
                     let kernel = lookup.kernel.value(found.distance_squared, radius_squared);
                     merge(&photons[found.place], kernel * scale);
@@ -365,6 +391,7 @@ impl<'w, W: World> Gatherer<'_, 'w, W> {
                 } else {
                     (radius_squared, &nearest[..])
                 };
+                world.remark(|| gathering(reach));
                 for found in inside {
                     let kernel = lookup.kernel.value(found.distance_squared, reach);
                     merge(&photons[found.place], kernel * scale);
@@ -372,25 +399,8 @@ impl<'w, W: World> Gatherer<'_, 'w, W> {
             }
         }
         if any {
-            self.develop();
+            self.rgb = behind.carried(world, at.iter().map(|(_, sum)| *sum), self.rgb);
         }
-    }
-
-    /// Carries what photons brought along the path to the camera.
-    fn develop(&mut self) {
-        let (sets, scratch) = (self.plan.sets, &*self.scratch);
-        let all = sets.len() as f32;
-        let scale = if self.alone { all } else { 1.0 } / self.prefix.ratio.element_sum();
-        for (set, (_, sum)) in scratch.at.iter().enumerate() {
-            if *sum == Vec4::ZERO {
-                continue;
-            }
-            let path = if set == self.lanes.set {
-                self.lanes.to_set(self.prefix.value)
-            } else {
-                elsewhere::value(self.world, &scratch.path, sets.get(set))
-            };
-            self.rgb += sets.sensor(set).rgb(*sum * path * scale);
-        }
+        world.remark(|| Remark::Gathered);
     }
 }

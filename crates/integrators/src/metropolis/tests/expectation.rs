@@ -7,7 +7,7 @@
 use super::super::bootstrap::State;
 use super::super::{ChainSettings, Field, Found, Integrand, Kinds};
 use etalon_sampling::Sampler;
-use etalon_transport::{Pass, Sink};
+use etalon_transport::{Pass, Remark, Sink};
 use glam::{UVec2, Vec2, Vec3};
 
 /// The problem.
@@ -42,6 +42,10 @@ impl Integrand for Peak {
             return;
         };
         found.add(site.raster, Vec3::splat(value * field.area() / probability));
+    }
+
+    fn remark(&self, _: impl FnOnce() -> Remark) -> bool {
+        false
     }
 }
 

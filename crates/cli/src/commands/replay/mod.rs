@@ -1,0 +1,99 @@
+//! `etalon render --replay`: one sample again, told vertex by vertex.
+//!
+//! Four numbers in brackets belong to the four wavelengths; lane 0, the first, chose. `f/p` is the
+//! contribution of the walk so far over the density p₀ of the lane that chose; `p/p₀` are the
+//! lanes' densities over the same (see [`etalon_integrators::prefix`]). Neither contains Russian
+//! roulette, which only the estimator knows of.
+
+mod photons;
+mod tell;
+mod words;
+
+use super::{answer, fail};
+use crate::args::ReplayAddress;
+use crate::pipeline::{self, Loaded};
+use etalon_film::{ExactFilm, SampleCounts};
+use etalon_integrators::Plan;
+use etalon_integrators::replay::Address;
+use etalon_transport::Film;
+use glam::UVec2;
+use std::process::ExitCode;
+use tell::tell;
+use words::line;
+
+/// Draws the sample again and says what happened.
+pub fn run(
+    loaded: &Loaded,
+    plan: &Plan,
+    counts: Option<SampleCounts>,
+    address: &ReplayAddress,
+) -> ExitCode {
+    match told(loaded, plan, counts, address) {
+        Ok(text) => answer(&text, ExitCode::SUCCESS),
+        Err(message) => fail(message),
+    }
+}
+
+fn told(
+    loaded: &Loaded,
+    plan: &Plan,
+    counts: Option<SampleCounts>,
+    asked: &ReplayAddress,
+) -> Result<String, String> {
+    let settings = &loaded.compiled.film;
+    let pixel = UVec2::from(asked.pixel);
+    let from = settings.crop_offset;
+    let to = from + settings.crop_size;
+    if !(pixel.cmpge(from).all() && pixel.cmplt(to).all()) {
+        return Err(format!(
+            "`--replay`: there is no pixel ({}, {}): the film has columns {} to {} and rows {} to {}",
+            pixel.x,
+            pixel.y,
+            from.x,
+            to.x - 1,
+            from.y,
+            to.y - 1
+        ));
+    }
+    let bounded = |what: &str, given: u32, count: u32| match given < count {
+        true => Ok(()),
+        false => Err(format!(
+            "`--replay`: there is no {what} {given}: with these options there are {count}, counted \
+             from 0"
+        )),
+    };
+    bounded("replicate", asked.replicate, plan.replicates)?;
+    let channels = loaded.integrator.channels();
+    let film = ExactFilm::new(settings.clone(), &channels).map_err(|error| error.message)?;
+    let film = film.dealing(counts);
+    let samples = film.dealt(pixel, plan.samples_per_replicate);
+    bounded("sample", asked.sample, samples)?;
+    let address = Address {
+        pixel,
+        replicate: asked.replicate,
+        sample: asked.sample,
+    };
+    let replay = loaded
+        .integrator
+        .replay(&loaded.compiled.scene, &film, plan, &address);
+    let mut text = format!(
+        "{}: pixel ({}, {}), replicate {} of {}, sample {} of {}, seed {}, {} by {}\n",
+        loaded.path.display(),
+        pixel.x,
+        pixel.y,
+        asked.replicate,
+        plan.replicates,
+        asked.sample,
+        samples,
+        plan.seed,
+        loaded.integrator_name,
+        pipeline::sampler_name(plan.sampler),
+    );
+    if replay.weight != 1.0 {
+        line(&mut text, format!("film weight {}", replay.weight));
+    }
+    for event in &replay.events {
+        tell(&mut text, event, &loaded.compiled.names, &channels);
+    }
+    Ok(text)
+}
