@@ -66,7 +66,7 @@ impl<'w, W: World> Connector<'_, 'w, W> {
     }
 
     /// Whether a technique is to be weighed against the others; `None` if it is not asked for.
-    fn wanted(&self, light: usize, camera: usize) -> Option<bool> {
+    pub(super) fn wanted(&self, light: usize, camera: usize) -> Option<bool> {
         match self.only {
             None => Some(true),
             Some(only) => (only.light == light && only.camera == camera).then_some(only.weighted),
@@ -74,7 +74,7 @@ impl<'w, W: World> Connector<'_, 'w, W> {
     }
 
     /// Vertices of the light's walk up to a corner, the light included.
-    fn vertices(&self, index: usize) -> usize {
+    pub(super) fn vertices(&self, index: usize) -> usize {
         let parents = |corner: &usize| self.light[*corner].parent;
         1 + core::iter::successors(Some(index), parents).count()
     }
@@ -358,7 +358,12 @@ impl<'w, W: World> Connector<'_, 'w, W> {
 
     /// Density of a walk from the camera, come to `light` along `from`, arriving at the vertex before it on the
     /// light's walk.
-    fn behind(&self, start: &FromLight, light: &Corner<W::Bsdf<'w>>, from: Vec3) -> Vec4 {
+    pub(super) fn behind(
+        &self,
+        start: &FromLight,
+        light: &Corner<W::Bsdf<'w>>,
+        from: Vec3,
+    ) -> Vec4 {
         let position = light.vertex.position;
         let per_area = match light.parent {
             None => start.per_area(start.distance_squared(position)),
@@ -371,56 +376,12 @@ impl<'w, W: World> Connector<'_, 'w, W> {
         light.bsdf.density(from, light.wo).lanes() * light.passed * per_area
     }
 
-    fn fewer(&self, start: &FromLight, last: usize, rest: Vec4, ends: Ends) -> f32 {
+    pub(super) fn fewer(&self, start: &FromLight, last: usize, rest: Vec4, ends: Ends) -> f32 {
         let mut first = last;
         while let Some(parent) = self.light[first].parent {
             first = parent;
         }
         let end = self.light_end(start, &self.light[first]);
         fewer(self.light, last, rest, ends, end, start.opposite, true)
-    }
-
-    /// t = 1: every corner of the light's walk, seen by the camera.
-    pub(super) fn see_all(&self, mut splat: impl FnMut(Vec2, Vec4)) {
-        let Some(start) = self.start.filter(|_| self.site.pixels > 0) else {
-            return;
-        };
-        for (index, light) in self.light.iter().enumerate() {
-            if !light.bsdf.has_continuous() || light.segments >= self.settings.max_depth {
-                continue;
-            }
-            if let Some((raster, value)) = self.see(start, index, self.lens) {
-                splat(raster, value);
-            }
-        }
-    }
-
-    /// A corner of the light's walk as the camera sees it.
-    fn see(&self, start: &FromLight, index: usize, lens: Vec2) -> Option<(Vec2, Vec4)> {
-        let light = &self.light[index];
-        let mixed = self.wanted(self.vertices(index), 1)?;
-        let vertex = &light.vertex;
-        let connection = (self.world.camera()).connect(vertex.position, lens, self.site.margin)?;
-        let direction = connection.direction;
-        let value = light.bsdf.eval(light.wo, direction, Mode::Importance);
-        if value == Vec4::ZERO {
-            return None;
-        }
-        let origin = vertex.origin_toward(connection.target);
-        let ray = Ray::between(origin, connection.target, vertex.time)?;
-        let crossings = self.settings.max_depth - light.segments - 1;
-        let passage = self.world.passage(&ray, self.wavelengths, crossings)?;
-        let cos = vertex.normal.dot(direction).abs();
-        let ends = Ends {
-            here: passage.probability * (connection.weight * cos),
-            before: self.behind(start, light, direction),
-        };
-        let samples = self.site.pixels as f32;
-        let mut total = samples * light.prefix.ratio.element_sum();
-        if mixed {
-            total += self.fewer(start, index, Vec4::ONE, ends);
-        }
-        let value = light.prefix.value * value * passage.transmittance * connection.weight;
-        Some((connection.raster, value / total))
     }
 }

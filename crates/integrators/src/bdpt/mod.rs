@@ -38,6 +38,7 @@
 mod connect;
 mod corner;
 pub(crate) mod merge;
+mod see;
 pub(crate) mod single;
 mod subpath;
 mod weight;

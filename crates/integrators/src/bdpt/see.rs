@@ -1,0 +1,53 @@
+//! t = 1: the corners of a light's walk, as the camera sees them.
+
+use super::connect::Connector;
+use super::subpath::FromLight;
+use super::weight::Ends;
+use etalon_transport::{Bsdf, Camera, Mode, Ray, World};
+use glam::{Vec2, Vec4};
+
+impl<W: World> Connector<'_, '_, W> {
+    /// Every corner of the light's walk, seen by the camera.
+    pub(super) fn see_all(&self, mut splat: impl FnMut(Vec2, Vec4)) {
+        let Some(start) = self.start.filter(|_| self.site.pixels > 0) else {
+            return;
+        };
+        for (index, light) in self.light.iter().enumerate() {
+            if !light.bsdf.has_continuous() || light.segments >= self.settings.max_depth {
+                continue;
+            }
+            if let Some((raster, value)) = self.see(start, index, self.lens) {
+                splat(raster, value);
+            }
+        }
+    }
+
+    /// A corner of the light's walk as the camera sees it.
+    fn see(&self, start: &FromLight, index: usize, lens: Vec2) -> Option<(Vec2, Vec4)> {
+        let light = &self.light[index];
+        let mixed = self.wanted(self.vertices(index), 1)?;
+        let vertex = &light.vertex;
+        let connection = (self.world.camera()).connect(vertex.position, lens, self.site.margin)?;
+        let direction = connection.direction;
+        let value = light.bsdf.eval(light.wo, direction, Mode::Importance);
+        if value == Vec4::ZERO {
+            return None;
+        }
+        let origin = vertex.origin_toward(connection.target);
+        let ray = Ray::between(origin, connection.target, vertex.time)?;
+        let crossings = self.settings.max_depth - light.segments - 1;
+        let passage = self.world.passage(&ray, self.wavelengths, crossings)?;
+        let cos = vertex.normal.dot(direction).abs();
+        let ends = Ends {
+            here: passage.probability * (connection.weight * cos),
+            before: self.behind(start, light, direction),
+        };
+        let samples = self.site.pixels as f32;
+        let mut total = samples * light.prefix.ratio.element_sum();
+        if mixed {
+            total += self.fewer(start, index, Vec4::ONE, ends);
+        }
+        let value = light.prefix.value * value * passage.transmittance * connection.weight;
+        Some((connection.raster, value / total))
+    }
+}
