@@ -21,6 +21,7 @@ use crate::fault::Fault;
 use crate::measure::Measure;
 use crate::rendering;
 use etalon::judge::Known;
+use etalon::pipeline::Loaded;
 use etalon_film::Developed;
 use etalon_math::float64;
 use etalon_statistics::{Estimate, Line, Summary};
@@ -143,19 +144,29 @@ pub fn batches(
         None => estimator,
     };
     let rungs = &ladder.rungs;
-    let mut stands = Vec::new();
-    for rung in rungs {
-        let (standing, samples) = ladder.stand(*rung, estimator, budget);
-        stands.push((rendering::load_for(claim, &standing)?, samples));
-    }
-    let size = stands[0].0.compiled.film.crop_size.to_array();
+    let stands = rungs
+        .iter()
+        .map(|rung| ladder.stand(*rung, estimator, budget));
+    let stands: Vec<(Estimator, u32)> = stands.collect();
+    // Where only the samples grow, all rungs have one scene.
+    let different = if ladder.over.is_some() {
+        rungs.len()
+    } else {
+        1
+    };
+    let scenes = stands[..different]
+        .iter()
+        .map(|(standing, _)| rendering::load_for(claim, standing));
+    let scenes = scenes.collect::<Result<Vec<Loaded>, String>>()?;
+    let size = scenes[0].compiled.film.crop_size.to_array();
     let known = closed_form::picture(&ladder.formula, claim, size)?;
     let mut spent = 0;
     let (mut exponents, mut logarithms) = (Vec::new(), Vec::new());
     let mut errors = vec![Vec::new(); rungs.len()];
     for batch in 0..(budget.replicates / BATCH).max(2) {
         let (mut x, mut y) = (Vec::new(), Vec::new());
-        for (rung, (loaded, samples)) in stands.iter().enumerate() {
+        for (rung, (_, samples)) in stands.iter().enumerate() {
+            let loaded = &scenes[rung.min(different - 1)];
             let budget = Budget {
                 spp: samples * BATCH,
                 replicates: BATCH,

@@ -113,6 +113,8 @@ struct Group<'a> {
 struct Member<'a> {
     /// Its place among all tasks.
     place: usize,
+    /// Its place in the family.
+    hypothesis: usize,
     task: Task<'a>,
     /// What the last look came to; `None` in it if that broke.
     last: Option<Option<Verdict>>,
@@ -141,18 +143,22 @@ impl<'a> Group<'a> {
         looks: &'static [u32],
     ) -> Result<Self, String> {
         let mut family = Family::new(ALPHA).ok_or("the level is none")?;
+        // What another part of the run makes is a hypothesis of this one, too: all parts together
+        // have the error level of the whole.
         let members: Vec<Member<'a>> = tasks
-            .map(|(place, task)| {
-                family.declare(format!("{}: {}", task.claim.name, task.label()));
-                Member {
+            .filter_map(|(place, task)| {
+                let name = format!("{}: {}", task.claim.name, task.label());
+                let hypothesis = family.declare(name);
+                (!task.elsewhere).then_some(Member {
                     place,
+                    hypothesis,
                     task,
                     last: None,
                     p: 1.0,
                     looks: 0,
                     seconds: 0.0,
                     work: Duration::ZERO,
-                }
+                })
             })
             .collect();
         let levels = tier::granted(family.level_of_each(), looks)?;
@@ -197,17 +203,18 @@ impl<'a> Group<'a> {
 
     /// Corrects over all members.
     fn decide(mut self) -> Vec<(usize, Decision)> {
-        for (index, member) in self.members.iter().enumerate() {
+        for member in &self.members {
             // What broke keeps the p-value of 1 it was declared with.
             if matches!(member.last, Some(Some(_))) {
-                let _ = self.family.record(index, member.p.min(1.0));
+                let _ = self.family.record(member.hypothesis, member.p.min(1.0));
             }
         }
         let decisions = self.family.decide();
         let levels = self.levels;
-        let members = self.members.into_iter().zip(decisions);
+        let members = self.members.into_iter();
         members
-            .map(|(member, corrected)| {
+            .map(|member| {
+                let corrected = &decisions[member.hypothesis];
                 let verdict = member.last.flatten().map(|verdict| {
                     if corrected.rejected {
                         Verdict::Differs
@@ -228,8 +235,8 @@ impl<'a> Group<'a> {
     }
 }
 
-/// Decides all comparisons of a run together; `make` makes a look, and returns `None` if that
-/// cannot be done.
+/// Decides all comparisons of a run together, but for those made elsewhere; `make` makes a look, and
+/// returns `None` if that cannot be done.
 ///
 /// # Errors
 /// If the plan of the run makes no sense.

@@ -26,6 +26,8 @@ pub struct Provenance {
     pub seed: u64,
     /// Quick, default or full.
     pub tier: &'static str,
+    /// Which part of the run this is, as I/N, if it is not the whole.
+    pub part: Option<String>,
     /// Seconds of the whole run.
     pub seconds: f64,
 }
@@ -40,6 +42,7 @@ impl Provenance {
             threads: rayon::current_num_threads(),
             seed: options.seed,
             tier: options.tier.name(),
+            part: options.part.map(|part| part.to_string()),
             seconds,
         }
     }

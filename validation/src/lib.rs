@@ -2,7 +2,7 @@
 //!
 //! A [`claim`] is a TOML file in `validation/claims`: a scene, an oracle (a closed form, a
 //! reference by Mitsuba 3, another estimator, a rate of convergence, …), and the estimators that
-//! must agree with it. [`run`] renders and judges one of them, [`outcome`] looks at all until they
+//! must agree with it. [`tasks`] says which comparisons a run consists of, [`run`] renders and judges one of them, [`outcome`] looks at all until they
 //! are decided and corrects over the whole run, and [`table`], [`json`] and [`html`] tell people.
 //! [`fault`] plants faults to show that they are found.
 
@@ -35,4 +35,5 @@ pub mod run;
 mod sampler;
 pub mod state;
 pub mod table;
+pub mod tasks;
 pub mod tier;

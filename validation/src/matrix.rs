@@ -15,12 +15,13 @@
 //! naive = { spp = 4096, replicates = 32 }
 //! ```
 //!
-//! `full_only = true` leaves all rows of a matrix to the full run.
+//! `full_only = true` leaves all rows of a matrix to the full run. Then there is no `bound` to state: that
+//! run's own is asked of every row.
 
 use crate::budget::Budget;
 use crate::claim::{Claim, Estimator, Oracle};
 use crate::rendering;
-use crate::tier::Tier;
+use crate::tier::{FULL_BOUND, Tier};
 use etalon::pipeline::Loaded;
 use etalon_integrators::list;
 use serde::{Deserialize, Serialize};
@@ -32,8 +33,9 @@ use std::collections::BTreeMap;
 pub struct Matrix {
     /// Work of the default run for each.
     pub default: Budget,
-    /// Which bias of the image's mean the default run must exclude, relative to it.
-    pub bound: f64,
+    /// Which bias of the image's mean the default run must exclude, relative to it; stated unless
+    /// only a full run asks.
+    pub bound: Option<f64>,
     /// Whether only a full run makes these comparisons, with `default` for its first look.
     #[serde(default)]
     pub full_only: bool,
@@ -43,6 +45,26 @@ pub struct Matrix {
     /// Integrators that only a full run asks, and their work at its first look.
     #[serde(default)]
     pub later: BTreeMap<String, Budget>,
+}
+
+impl Matrix {
+    /// Which bias its rows must exclude.
+    ///
+    /// # Errors
+    /// If it is missing, not a share, or stated where another holds.
+    fn bound(&self) -> Result<f64, String> {
+        match (self.bound, self.full_only) {
+            (Some(bound), false) if bound > 0.0 && bound < 1.0 => Ok(bound),
+            (Some(bound), false) => Err(format!(
+                "`matrix`: a bound between 0 and 1 is expected, not {bound}"
+            )),
+            (None, false) => Err("`matrix`: `bound` is missing".to_owned()),
+            (None, true) => Ok(FULL_BOUND),
+            (Some(_), true) => Err(format!(
+                "`matrix`: with `full_only` there is no `bound`: a full run's is {FULL_BOUND} for every row"
+            )),
+        }
+    }
 }
 
 /// An unbiased integrator that has no row of its own in a claim's matrix.
@@ -57,7 +79,8 @@ pub struct Absence {
 /// A row of the matrix.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Place {
-    /// Which bias of the image's mean the default run must exclude, relative to it.
+    /// Which bias of the image's mean the first run that makes the comparison must exclude, relative
+    /// to it.
     pub bound: f64,
     /// Whether only a full run makes the comparison.
     pub later: bool,
@@ -98,9 +121,10 @@ pub(crate) fn expand(claim: &mut Claim) -> Result<(), String> {
     }
     let mut budgets = matrix.later.values().chain([&matrix.default]);
     let poor = budgets.any(|budget| budget.replicates < 2 || budget.spp < budget.replicates);
-    if poor || !(matrix.bound > 0.0 && matrix.bound < 1.0) {
-        return Err("`matrix`: a budget of at least 2 replicates, and a bound below 1".to_owned());
+    if poor {
+        return Err("`matrix`: a budget of at least 2 replicates".to_owned());
     }
+    let bound = matrix.bound()?;
     let listed = |name: &str| {
         let own = |e: &Estimator| e.integrator.as_deref().unwrap_or("path") == name;
         claim
@@ -146,7 +170,7 @@ pub(crate) fn expand(claim: &mut Claim) -> Result<(), String> {
             part: Default::default(),
             mutants: Vec::new(),
             in_matrix: Some(Place {
-                bound: matrix.bound,
+                bound,
                 later: matrix.full_only || later.is_some(),
             }),
         });

@@ -110,7 +110,7 @@ impl Outcome {
     }
 }
 
-/// Makes and decides all comparisons of a run together.
+/// Makes and decides all comparisons of a run together; those made elsewhere have no row.
 ///
 /// # Errors
 /// If the plan of the run makes no sense; what goes wrong in a comparison is its row's.
@@ -128,7 +128,8 @@ pub fn run<'a>(
         |turn| works[turn.place].look(turn, options, &kept),
         watch,
     )?;
-    let rows = tasks.into_iter().zip(works).zip(decisions);
+    let made = tasks.into_iter().zip(works);
+    let rows = made.filter(|(task, _)| !task.elsewhere).zip(decisions);
     Ok(rows
         .map(|((task, work), decision)| {
             let Decision {

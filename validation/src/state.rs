@@ -1,7 +1,7 @@
 //! What a full run has rendered so far, so that it can go on where it was interrupted.
 //!
 //! Every batch of replicates is kept as an EXR file with its tile means, in a folder that belongs
-//! to one build of the program, one seed and one choice of claims. A batch is taken up again only if its scene, plan,
+//! to one build of the program, one seed and one choice or part of claims. A batch is taken up again only if its scene, plan,
 //! seed and estimator are those asked for. The verdicts are computed anew from the batches: they, too, are the
 //! same as without the interruption.
 
@@ -28,7 +28,10 @@ impl State {
         let program = program.map_err(|e| format!("the program itself cannot be read: {e}"))?;
         let mut hasher = DefaultHasher::new();
         hasher.write(&program);
-        hasher.write(options.only.as_deref().unwrap_or_default().as_bytes());
+        let part = options.part.map(|part| part.to_string());
+        for choice in [&options.only, &part] {
+            hasher.write(choice.as_deref().unwrap_or_default().as_bytes());
+        }
         let folder = folder.join(format!("{:016x}-{}", hasher.finish(), options.seed));
         std::fs::create_dir_all(&folder).map_err(|e| format!("{}: {e}", folder.display()))?;
         Ok(Self { folder })

@@ -29,13 +29,16 @@ pub enum Tier {
 /// with a probability of 1 − [`crate::decision::ALPHA`].
 pub const STATED: f64 = 0.01;
 
+/// The relative bias of an image's mean that a full run excludes in every row.
+pub const FULL_BOUND: f64 = 0.005;
+
 impl Tier {
     /// The bias of an image's mean that each row must exclude by itself, at the level [`STATED`],
     /// in place of its claim's own bound, which others exclude for all rows together.
     pub fn stated_bound(self) -> Option<f64> {
         match self {
             Self::Quick | Self::Default => None,
-            Self::Full => Some(0.005),
+            Self::Full => Some(FULL_BOUND),
         }
     }
 

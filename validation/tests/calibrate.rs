@@ -70,6 +70,7 @@ fn null_runs_raise_no_alarm() {
         only: Some("furnace".to_owned()),
         tier: Tier::Quick,
         seed: 1,
+        part: None,
     };
     let mut tasks = run::tasks(&claims, &options);
     tasks.retain(|task| task.fault.is_none());

@@ -136,6 +136,7 @@ fn the_furnace_holds_and_its_mutants_are_found() {
         only: Some("furnace".to_owned()),
         tier: Tier::Quick,
         seed: 3,
+        part: None,
     };
     let claims: Vec<Claim> = claims.into_iter().filter(|c| c.name == "furnace").collect();
     let tasks = run::tasks(&claims, &options);
@@ -189,6 +190,7 @@ fn a_full_run_goes_on_until_half_a_per_cent_is_excluded() {
             only: None,
             tier,
             seed: 1,
+            part: None,
         };
         let rows = outcome::run(run::tasks(&claims, &options), &options, None, |_| ());
         let row = &rows.expect("a plan")[0];
@@ -250,6 +252,7 @@ fn an_undecided_comparison_gets_more_replicates_and_is_never_passed() {
         only: None,
         tier: Tier::Quick,
         seed: 1,
+        part: None,
     };
     let tasks = run::tasks(&claims, &options);
     let rows = outcome::run(tasks, &options, None, |_| ()).expect("a plan");
@@ -274,6 +277,7 @@ fn the_json_is_the_one_that_is_described() {
         only: None,
         tier: Tier::Quick,
         seed: 4,
+        part: None,
     };
     let tasks = run::tasks(&claims, &options);
     let rows = outcome::run(tasks, &options, None, |_| ()).expect("a plan");
@@ -292,4 +296,44 @@ fn the_json_is_the_one_that_is_described() {
         command,
         "cargo xtask validate --quick --only furnace --seed 4"
     );
+}
+
+#[test]
+fn parts_are_decided_as_parts_of_the_whole() {
+    // The levels are those of all comparisons together. Mutants rejected: a family of what the
+    // part makes, which would grant each larger shares; a comparison that no part, or two, make.
+    let claims = Claim::read_all(&folders::claims()).expect("claims can be read");
+    let mut claims: Vec<Claim> = (claims.into_iter())
+        .filter(|claim| {
+            ["furnace", "irradiance-point", "mirror-room"].contains(&claim.name.as_str())
+        })
+        .collect();
+    for estimator in claims.iter_mut().flat_map(|claim| &mut claim.estimators) {
+        (estimator.quick.spp, estimator.quick.replicates) = (16, 8);
+    }
+    let rows_of = |part: Option<&str>| {
+        let options = Options {
+            only: None,
+            tier: Tier::Quick,
+            seed: 3,
+            part: part.map(|part| part.parse().expect("a part")),
+        };
+        let tasks = run::tasks(&claims, &options);
+        let rows = outcome::run(tasks, &options, None, |_| ()).expect("a plan");
+        let rows = rows.into_iter().map(|row| {
+            let task = row.task;
+            let name = format!("{} {}", task.claim.name, task.label());
+            (name, row.history[0].level, row.history[0].value)
+        });
+        rows.collect::<Vec<_>>()
+    };
+    let whole = rows_of(None);
+    let [mut first, second] = ["1/2", "2/2"].map(|part| rows_of(Some(part)));
+    assert!(!first.is_empty() && !second.is_empty());
+    first.extend(second);
+    let sorted = |mut rows: Vec<(String, f64, f64)>| {
+        rows.sort_by(|a, b| a.0.cmp(&b.0));
+        rows
+    };
+    assert_eq!(sorted(first), sorted(whole));
 }

@@ -33,6 +33,7 @@ fn quick() -> Options {
         only: None,
         tier: Tier::Quick,
         seed: 1,
+        part: None,
     }
 }
 

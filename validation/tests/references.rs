@@ -114,6 +114,7 @@ fn a_reference_is_read_before_anything_is_rendered() {
         only: None,
         tier: Tier::Quick,
         seed: 1,
+        part: None,
     };
     let rows = outcome::run(run::tasks(&claims, &options), &options, None, |_| ());
     let rows = rows.expect("a plan");
@@ -199,6 +200,7 @@ fn a_claim_without_its_reference_breaks_the_run() {
         only: None,
         tier: Tier::Quick,
         seed: 1,
+        part: None,
     };
     let tasks = run::tasks(&claims, &options);
     let rows = outcome::run(tasks, &options, None, |_| ()).expect("a plan");

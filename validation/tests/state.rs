@@ -20,6 +20,7 @@ fn an_interrupted_run_goes_on_with_the_same_result() {
         only: None,
         tier: Tier::Full,
         seed: 5,
+        part: None,
     };
     let bias = |claims: &[Claim], state: &State| {
         let tasks = run::tasks(claims, &options);
@@ -84,6 +85,7 @@ fn the_oracle_of_several_estimators_is_rendered_once() {
         only: Some("camera-obscura-naive".to_owned()),
         tier: Tier::Quick,
         seed: 5,
+        part: None,
     };
     let tasks = run::tasks(&claims, &options);
     let estimators = tasks.len();

@@ -63,6 +63,7 @@ fn calibrate(arguments: &Arguments) -> Result<bool, String> {
             Tier::Default
         },
         seed: arguments.seed,
+        part: None,
     };
     let mut tasks = run::tasks(&claims, &options);
     tasks.retain(|task| task.fault.is_none());

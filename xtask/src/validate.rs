@@ -1,5 +1,6 @@
 //! `cargo xtask validate`: renders every claim, decides it, and reports.
 
+use etalon::part::PartOfMany;
 use etalon_validation::claim::Claim;
 use etalon_validation::json::{self, Provenance};
 use etalon_validation::outcome::{self, Conclusion, Progress};
@@ -15,7 +16,7 @@ use std::time::{Duration, Instant};
 /// What to validate.
 #[derive(Clone, Debug, clap::Args)]
 #[command(
-    after_help = "Exit code: 0 if every claim holds, 1 if any does not, 2 if the run or a comparison could not be made, 3 if anything is undecided.\n\nExamples:\n  cargo xtask validate --quick\n  cargo xtask validate --only irradiance --seed 7\n  cargo xtask validate --full\n  cargo xtask validate --quick --json\n  cargo xtask validate --list"
+    after_help = "Exit code: 0 if every claim holds, 1 if any does not, 2 if the run or a comparison could not be made, 3 if anything is undecided.\n\nExamples:\n  cargo xtask validate --quick\n  cargo xtask validate --only irradiance --seed 7\n  cargo xtask validate --full\n  cargo xtask validate --full --part 1/3   # and 2/3, 3/3 on other machines or days\n  cargo xtask validate --quick --json\n  cargo xtask validate --list"
 )]
 pub(crate) struct Arguments {
     /// Small budgets: two minutes on two cores
@@ -24,6 +25,10 @@ pub(crate) struct Arguments {
     /// Go on until every bias is bounded below 0.5 %: hours; goes on where it was interrupted
     #[arg(long)]
     full: bool,
+    /// Part I of N of a full run, decided as part of the whole: all claims hold if they do in every
+    /// part
+    #[arg(long, value_name = "I/N", requires = "full", conflicts_with = "list")]
+    part: Option<PartOfMany>,
     /// Only the claim of this name or, if there is none, those whose names contain it
     #[arg(long, value_name = "NAME")]
     only: Option<String>,
@@ -33,7 +38,8 @@ pub(crate) struct Arguments {
     /// Say which claims there are, and render nothing
     #[arg(long)]
     list: bool,
-    /// Where to put the report and its JSON [default: target/validation]
+    /// Where to put the report and its JSON [default: target/validation; of parts, a folder each in
+    /// it]
     #[arg(long, value_name = "DIR")]
     report: Option<PathBuf>,
     /// Write the decision as JSON to this file, or to standard output (the table then goes to
@@ -103,7 +109,13 @@ pub(crate) fn run(arguments: &Arguments) -> ExitCode {
 }
 
 fn validate(arguments: &Arguments) -> Result<Conclusion, String> {
-    let folder = arguments.report.clone().unwrap_or_else(folders::report);
+    let folder = arguments.report.clone().unwrap_or_else(|| {
+        let whole = folders::report();
+        match arguments.part {
+            Some(part) => whole.join(format!("part-{}-of-{}", part.number, part.count)),
+            None => whole,
+        }
+    });
     arguments.check_paths(&folder)?;
     let mut claims = Claim::read_all(&folders::claims())?;
     if let Some(name) = &arguments.only {
@@ -133,8 +145,14 @@ fn validate(arguments: &Arguments) -> Result<Conclusion, String> {
             _ => Tier::Default,
         },
         seed: arguments.seed,
+        part: arguments.part,
     };
     let tasks = run::tasks(&claims, &options);
+    if let Some(part) = options.part
+        && tasks.iter().all(|task| task.elsewhere)
+    {
+        return Err(format!("--part {part}: there are fewer claims than parts"));
+    }
     let state = match options.tier {
         Tier::Full => Some(State::open(&folders::report().join("full"), &options)?),
         Tier::Quick | Tier::Default => None,

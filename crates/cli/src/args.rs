@@ -1,5 +1,6 @@
 //! The command line.
 
+use crate::part::PartOfMany;
 use clap::{Args, Parser, Subcommand};
 use etalon_scene::LightChooser;
 use std::path::{Path, PathBuf};
@@ -147,7 +148,7 @@ pub struct RenderArgs {
     #[arg(long, value_name = "DIR", conflicts_with = "part")]
     pub strategies: Option<PathBuf>,
     /// Render part I of N: its share of the replicates, for `etalon merge`.
-    #[arg(long, value_name = "I/N", value_parser = parse_part)]
+    #[arg(long, value_name = "I/N")]
     pub part: Option<PartOfMany>,
     /// Write time, rays, memory and more as JSON.
     #[arg(long, value_name = "FILE.json")]
@@ -314,28 +315,6 @@ fn parse_replay(text: &str) -> Result<ReplayAddress, String> {
             "expected four numbers, such as 12,7,0,3: column, row, replicate, sample".to_owned(),
         ),
     }
-}
-
-/// One of the equal shares into which a render is split.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct PartOfMany {
-    /// Which one, counted from 1.
-    pub number: u32,
-    /// How many there are.
-    pub count: u32,
-}
-
-fn parse_part(text: &str) -> Result<PartOfMany, String> {
-    let part = text.split_once('/').and_then(|(number, count)| {
-        Some(PartOfMany {
-            number: number.parse().ok()?,
-            count: count.parse().ok()?,
-        })
-    });
-    part.filter(|part| (1..=part.count).contains(&part.number))
-        .ok_or_else(|| {
-            "expected I/N with I from 1 to N, such as 1/4 for the first of four".to_owned()
-        })
 }
 
 fn parse_error(text: &str) -> Result<f64, String> {

@@ -11,6 +11,7 @@ pub mod estimators;
 pub mod judge;
 pub mod keeping;
 mod objections;
+pub mod part;
 pub mod pipeline;
 pub mod progress;
 pub mod report;

@@ -39,6 +39,7 @@ const NOISE: f64 = 1e-6;
 
 /// What one comparison is dealt from.
 pub struct Pool {
+    tier: Tier,
     kind: Kind,
     /// Seconds that rendering it took.
     pub seconds: f64,
@@ -145,6 +146,7 @@ impl Pool {
             _ => Kind::Pictures(Box::new(Pictures::render(task, first, tier, seed, state)?)),
         };
         Ok(Self {
+            tier,
             kind,
             seconds: start.elapsed().as_secs_f64(),
         })
@@ -276,7 +278,7 @@ impl<'a> Table<'a> {
         multiple: u32,
         alpha: f64,
     ) -> Result<Dealt, String> {
-        let rules = self.task.rules(alpha);
+        let rules = self.task.rules(alpha, self.pool.tier);
         let exact = self.task.claim.oracle.is_exact();
         let want = |first: u32| (first * multiple) as usize;
         let judged = if let Some(known) = &pictures.known {

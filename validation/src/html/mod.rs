@@ -45,6 +45,9 @@ fn whole(rows: &[Row<'_>], provenance: &Provenance) -> Markup {
     html! {
         ul class="verdict" {
             li class={ "whole " (class) } { b { (text) } span { (meaning) } }
+            @if let Some(part) = &provenance.part {
+                li { b { (part) } span { "is the part that this is: the run passes if all do" } }
+            }
             li { b { (passed) } span { "passed" } }
             li class=[(failed > 0).then_some("failed")] { b { (failed) } span { "failed" } }
             li class=[(undecided > 0).then_some("undecided")] { b { (undecided) } span { "undecided" } }
@@ -93,11 +96,13 @@ fn about(provenance: &Provenance) -> Markup {
 }
 
 fn facts(provenance: &Provenance) -> Markup {
+    let part = provenance.part.as_ref();
+    let part = part.map_or_else(String::new, |part| format!(", part {part}"));
     html! {
         dl class="facts" {
             dt { "Etalon" } dd { (provenance.version) ", floating point " code { (provenance.floating_point) } }
             dt { "Machine" } dd { (provenance.machine) ", " (provenance.threads) " threads" }
-            dt { "Run" } dd { (provenance.tier) ", seed " (provenance.seed) ", "
+            dt { "Run" } dd { (provenance.tier) (part) ", seed " (provenance.seed) ", "
                 (format!("{:.0} s", provenance.seconds)) }
             dt { "The same as data" } dd { code { "report.json" } " beside this file" }
         }

@@ -30,6 +30,7 @@ fn provenance() -> Provenance {
         threads: 2,
         seed: 1,
         tier: "quick",
+        part: None,
         seconds: 61.5,
     }
 }

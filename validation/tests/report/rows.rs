@@ -171,6 +171,7 @@ pub(crate) fn broken(claim: &Claim) -> Row<'_> {
 fn task(claim: &Claim, place: usize, fault: Option<Fault>) -> Task<'_> {
     let estimator = &claim.estimators[place];
     Task {
+        elsewhere: false,
         claim,
         estimator,
         place,

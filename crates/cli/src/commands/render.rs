@@ -2,8 +2,9 @@
 
 use super::amount::{self, Amount};
 use super::{BAD_INPUT, delivery, fail, note, replay, strategies};
-use crate::args::{PartOfMany, RenderArgs};
+use crate::args::RenderArgs;
 use crate::keeping::Keeping;
+use crate::part::PartOfMany;
 use crate::pipeline::{self, LoadOptions, Loaded, Manner, Rendered};
 use crate::progress::Bar;
 use crate::{diagnose, say, target};
