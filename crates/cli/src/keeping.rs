@@ -7,7 +7,7 @@
 use crate::say;
 use etalon_film::{CheckpointFacts, ExactFilm, ExactTile, Part, RenderFacts, recorded_seconds};
 use etalon_integrators::Share;
-use etalon_transport::{Film, Placement};
+use etalon_transport::{Film, Placement, Placing};
 use glam::{UVec2, Vec2};
 use std::path::PathBuf;
 use std::time::{Duration, Instant};
@@ -137,6 +137,13 @@ impl Keeper {
     }
 }
 
+impl Placing for KeptFilm {
+    #[inline]
+    fn place(&self, pixel: UVec2, u: Vec2) -> Placement {
+        self.film.place(pixel, u)
+    }
+}
+
 impl Film for KeptFilm {
     type Tile<'f> = ExactTile<'f>;
 
@@ -151,11 +158,6 @@ impl Film for KeptFilm {
     #[inline]
     fn dealt(&self, pixel: UVec2, even: u32) -> u32 {
         self.film.dealt(pixel, even)
-    }
-
-    #[inline]
-    fn place(&self, pixel: UVec2, u: Vec2) -> Placement {
-        self.film.place(pixel, u)
     }
 
     fn margin(&self) -> f32 {

@@ -20,7 +20,7 @@ use crate::{FilmSettings, Metadata, PixelFilter};
 use etalon_images::Image;
 use etalon_params::Diagnostic;
 use etalon_statistics::{AtomicFixed128, Fault, Fixed128};
-use etalon_transport::{Channel, Film, Placement};
+use etalon_transport::{Channel, Film, Placement, Placing};
 use glam::{UVec2, Vec2};
 use std::sync::Mutex;
 
@@ -356,6 +356,17 @@ fn reserved<T>(count: u64) -> Option<Vec<T>> {
     Some(values)
 }
 
+impl Placing for ExactFilm {
+    #[inline]
+    fn place(&self, pixel: UVec2, u: Vec2) -> Placement {
+        let (offset, weight) = self.filter.sample(u);
+        Placement {
+            raster: pixel.as_vec2() + 0.5 + offset,
+            weight,
+        }
+    }
+}
+
 impl Film for ExactFilm {
     type Tile<'f> = ExactTile<'f>;
 
@@ -379,15 +390,6 @@ impl Film for ExactFilm {
         let place = pixel - self.settings.crop_offset;
         let width = self.settings.crop_size.x as usize;
         counts.of_pixels()[place.y as usize * width + place.x as usize]
-    }
-
-    #[inline]
-    fn place(&self, pixel: UVec2, u: Vec2) -> Placement {
-        let (offset, weight) = self.filter.sample(u);
-        Placement {
-            raster: pixel.as_vec2() + 0.5 + offset,
-            weight,
-        }
     }
 
     fn margin(&self) -> f32 {

@@ -2,7 +2,7 @@
 
 use etalon_film::{ExactFilm, FilmSettings, Filter, Lanczos, PixelFormat, RenderFacts};
 use etalon_sampling::{PixelSample, Sampler, Sobol};
-use etalon_transport::{Channel, Film, Sink, TileSink};
+use etalon_transport::{Channel, Film, Placing, Sink, TileSink};
 use glam::UVec2;
 use proptest::prelude::*;
 use proptest::test_runner::RngSeed;

@@ -6,7 +6,7 @@ use etalon_film::{
 };
 use etalon_math::float64;
 use etalon_sampling::{PixelSample, Sampler, SamplerKind};
-use etalon_transport::{Film, Sink, TileSink};
+use etalon_transport::{Film, Placing, Sink, TileSink};
 use glam::{DVec2, UVec2, Vec2};
 
 const SIDE: u32 = 6;

@@ -20,7 +20,7 @@ use etalon_sampling::Sampler;
 use etalon_sampling::warps::{square_to_cosine_hemisphere, square_to_uniform_hemisphere};
 use etalon_spectrum::Wavelengths;
 use etalon_transport::{
-    Bsdf, Integrator, Objection, Pass, PixelSite, Ray, Sight, Sink, Vertex, World,
+    Bsdf, Integrator, Objection, Pass, PixelSite, Placing, Ray, Sight, Sink, Vertex, World,
 };
 use glam::Vec3;
 
@@ -135,7 +135,7 @@ impl Integrator for AmbientOcclusion {
         Vec::new()
     }
 
-    fn prepare<W: World>(&self, _: &W, _: &Pass, _: Option<()>) {}
+    fn prepare<W: World>(&self, _: &W, _: &impl Placing, _: &Pass, _: Option<()>) {}
 
     fn sample<W: World, S: Sampler, K: Sink>(
         &self,

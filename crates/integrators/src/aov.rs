@@ -29,7 +29,8 @@ use etalon_params::{Diagnostic, Params};
 use etalon_sampling::Sampler;
 use etalon_spectrum::{Wavelengths, sensor_response};
 use etalon_transport::{
-    Bsdf, Camera, Channel, Integrator, Objection, Pass, PixelSite, Ray, Sight, Sink, Vertex, World,
+    Bsdf, Camera, Channel, Integrator, Objection, Pass, PixelSite, Placing, Ray, Sight, Sink,
+    Vertex, World,
 };
 use glam::{Vec2, Vec3};
 
@@ -166,7 +167,7 @@ impl Integrator for Aov {
         names.into_iter().map(Channel).collect()
     }
 
-    fn prepare<W: World>(&self, _: &W, _: &Pass, _: Option<()>) {}
+    fn prepare<W: World>(&self, _: &W, _: &impl Placing, _: &Pass, _: Option<()>) {}
 
     fn sample<W: World, S: Sampler, K: Sink>(
         &self,

@@ -18,7 +18,7 @@ use crate::settings::ignore_scheduling;
 use etalon_params::Params;
 use etalon_sampling::Sampler;
 use etalon_spectrum::sensor::response;
-use etalon_transport::{Integrator, Objection, Pass, PixelSite, Sight, Sink, World};
+use etalon_transport::{Integrator, Objection, Pass, PixelSite, Placing, Sight, Sink, World};
 use glam::Vec4;
 
 /// The distance integrator.
@@ -63,7 +63,7 @@ impl Integrator for Depth {
         Vec::new()
     }
 
-    fn prepare<W: World>(&self, _: &W, _: &Pass, _: Option<()>) {}
+    fn prepare<W: World>(&self, _: &W, _: &impl Placing, _: &Pass, _: Option<()>) {}
 
     fn sample<W: World, S: Sampler, K: Sink>(
         &self,

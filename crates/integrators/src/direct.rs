@@ -22,8 +22,8 @@ use etalon_params::Params;
 use etalon_sampling::Sampler;
 use etalon_spectrum::{Wavelengths, sensor_response};
 use etalon_transport::{
-    Bsdf, Chance, Finding, Integrator, Mode, Objection, Pass, PixelSite, Ray, Receiver, Sight,
-    Sink, Vertex, World,
+    Bsdf, Chance, Finding, Integrator, Mode, Objection, Pass, PixelSite, Placing, Ray, Receiver,
+    Sight, Sink, Vertex, World,
 };
 use glam::{Vec3, Vec4};
 
@@ -211,7 +211,7 @@ impl Integrator for Direct {
         })
     }
 
-    fn prepare<W: World>(&self, _: &W, _: &Pass, _: Option<()>) {}
+    fn prepare<W: World>(&self, _: &W, _: &impl Placing, _: &Pass, _: Option<()>) {}
 
     fn sample<W: World, S: Sampler, K: Sink>(
         &self,

@@ -25,7 +25,8 @@ use etalon_params::Params;
 use etalon_sampling::Sampler;
 use etalon_spectrum::{Wavelengths, sensor_response};
 use etalon_transport::{
-    Bsdf, Chance, Hit, Integrator, Mode, Pass, PixelSite, Ray, Receiver, Sink, Vertex, World,
+    Bsdf, Chance, Hit, Integrator, Mode, Pass, PixelSite, Placing, Ray, Receiver, Sink, Vertex,
+    World,
 };
 use glam::{Vec2, Vec3, Vec4};
 
@@ -295,7 +296,7 @@ impl Integrator for Distribution {
 
     type State = ();
 
-    fn prepare<W: World>(&self, _: &W, _: &Pass, _: Option<()>) {}
+    fn prepare<W: World>(&self, _: &W, _: &impl Placing, _: &Pass, _: Option<()>) {}
 
     fn sample<W: World, S: Sampler, K: Sink>(
         &self,

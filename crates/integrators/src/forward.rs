@@ -27,7 +27,8 @@ use etalon_params::Params;
 use etalon_sampling::Sampler;
 use etalon_spectrum::{SensorWeights, Wavelengths, sensor_response};
 use etalon_transport::{
-    Bsdf, Camera, Finding, Integrator, Objection, Pass, PixelSite, Ray, Sight, Sink, Subject, World,
+    Bsdf, Camera, Finding, Integrator, Objection, Pass, PixelSite, Placing, Ray, Sight, Sink,
+    Subject, World,
 };
 use glam::Vec4;
 
@@ -182,7 +183,7 @@ impl Integrator for Forward {
         objections
     }
 
-    fn prepare<W: World>(&self, _: &W, _: &Pass, _: Option<()>) {}
+    fn prepare<W: World>(&self, _: &W, _: &impl Placing, _: &Pass, _: Option<()>) {}
 
     fn sample<W: World, S: Sampler, K: Sink>(
         &self,

@@ -28,7 +28,7 @@ use crate::settings::{PathSettings, ignore_scheduling};
 use etalon_params::Params;
 use etalon_sampling::Sampler;
 use etalon_transport::{
-    Finding, Integrator, Objection, Pass, PixelSite, Remark, Sight, Sink, World,
+    Finding, Integrator, Objection, Pass, PixelSite, Placing, Remark, Sight, Sink, World,
 };
 
 /// The numbers that choose the technique and the length: those between the moment and the first
@@ -140,7 +140,13 @@ impl Integrator for Multiplexed {
         objections
     }
 
-    fn prepare<W: World>(&self, world: &W, pass: &Pass, before: Option<State>) -> State {
+    fn prepare<W: World>(
+        &self,
+        world: &W,
+        _: &impl Placing,
+        pass: &Pass,
+        before: Option<State>,
+    ) -> State {
         let integrator = self;
         State::prepare(
             &Techniques { integrator, world },

@@ -18,7 +18,9 @@ use crate::settings::ignore_scheduling;
 use etalon_params::Params;
 use etalon_sampling::Sampler;
 use etalon_spectrum::colour_space::rgb_to_xyz;
-use etalon_transport::{Channel, Integrator, Objection, Pass, PixelSite, Sight, Sink, World};
+use etalon_transport::{
+    Channel, Integrator, Objection, Pass, PixelSite, Placing, Sight, Sink, World,
+};
 use glam::Vec2;
 
 /// The moment integrator.
@@ -69,7 +71,7 @@ impl Integrator for Moment {
         names.into_iter().chain(squares).map(Channel).collect()
     }
 
-    fn prepare<W: World>(&self, _: &W, _: &Pass, _: Option<()>) {}
+    fn prepare<W: World>(&self, _: &W, _: &impl Placing, _: &Pass, _: Option<()>) {}
 
     fn sample<W: World, S: Sampler, K: Sink>(
         &self,

@@ -35,7 +35,8 @@ use etalon_sampling::Sampler;
 use etalon_sampling::warps::{square_to_cosine_hemisphere, square_to_uniform_hemisphere};
 use etalon_spectrum::{Wavelengths, sensor_response};
 use etalon_transport::{
-    Bsdf, Finding, Integrator, Mode, Objection, Pass, PixelSite, Ray, Sight, Sink, Vertex, World,
+    Bsdf, Finding, Integrator, Mode, Objection, Pass, PixelSite, Placing, Ray, Sight, Sink, Vertex,
+    World,
 };
 use glam::{Vec2, Vec3, Vec4};
 
@@ -239,7 +240,7 @@ impl Integrator for Naive {
         sight.objections(Finding::Hitting)
     }
 
-    fn prepare<W: World>(&self, _: &W, _: &Pass, _: Option<()>) {}
+    fn prepare<W: World>(&self, _: &W, _: &impl Placing, _: &Pass, _: Option<()>) {}
 
     fn sample<W: World, S: Sampler, K: Sink>(
         &self,

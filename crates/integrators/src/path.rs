@@ -25,7 +25,9 @@ use crate::walk::Walk;
 use etalon_params::Params;
 use etalon_sampling::Sampler;
 use etalon_spectrum::Wavelengths;
-use etalon_transport::{Camera, Draft, Integrator, Pass, PixelSite, Ray, Sink, TileSink, World};
+use etalon_transport::{
+    Camera, Draft, Integrator, Pass, PixelSite, Placing, Ray, Sink, TileSink, World,
+};
 
 /// The path tracer.
 #[derive(Clone, Debug, Default)]
@@ -96,7 +98,7 @@ impl Integrator for Path {
 
     type State = ();
 
-    fn prepare<W: World>(&self, _: &W, _: &Pass, _: Option<()>) {}
+    fn prepare<W: World>(&self, _: &W, _: &impl Placing, _: &Pass, _: Option<()>) {}
 
     fn sample<W: World, S: Sampler, K: Sink>(
         &self,

@@ -51,7 +51,7 @@ use crate::settings::{PathSettings, ignore_scheduling};
 use etalon_params::Params;
 use etalon_sampling::Sampler;
 use etalon_transport::{
-    Draft, Finding, Integrator, Objection, Pass, PixelSite, Sight, Sink, TileSink, World,
+    Draft, Finding, Integrator, Objection, Pass, PixelSite, Placing, Sight, Sink, TileSink, World,
 };
 
 /// The photon mapper.
@@ -202,7 +202,13 @@ impl Integrator for PhotonMapper {
         sight.objections(Finding::Choosing)
     }
 
-    fn prepare<W: World>(&self, world: &W, pass: &Pass, _: Option<State>) -> State {
+    fn prepare<W: World>(
+        &self,
+        world: &W,
+        _: &impl Placing,
+        pass: &Pass,
+        _: Option<State>,
+    ) -> State {
         let sets = WavelengthSets::new(world, pass, self.sets as usize);
         let shot = rounded(self.photons, self.sets);
         let mut photons = shoot(world, &self.settings, &sets, pass, shot);

@@ -24,7 +24,7 @@ use crate::walk::Walk;
 use etalon_params::Params;
 use etalon_sampling::Sampler;
 use etalon_transport::{
-    Finding, Integrator, Objection, Pass, PixelSite, Remark, Sight, Sink, World,
+    Finding, Integrator, Objection, Pass, PixelSite, Placing, Remark, Sight, Sink, World,
 };
 
 /// Primary sample space Metropolis light transport.
@@ -100,7 +100,13 @@ impl Integrator for PrimarySpace {
         objections
     }
 
-    fn prepare<W: World>(&self, world: &W, pass: &Pass, before: Option<State>) -> State {
+    fn prepare<W: World>(
+        &self,
+        world: &W,
+        _: &impl Placing,
+        pass: &Pass,
+        before: Option<State>,
+    ) -> State {
         let integrator = self;
         State::prepare(&Paths { integrator, world }, &self.chains, pass, before)
     }

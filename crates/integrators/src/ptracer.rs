@@ -23,7 +23,8 @@ use etalon_params::Params;
 use etalon_sampling::Sampler;
 use etalon_spectrum::{SensorWeights, Wavelengths, sensor_response};
 use etalon_transport::{
-    Bsdf, Camera, Finding, Integrator, Mode, Objection, Pass, PixelSite, Ray, Sight, Sink, World,
+    Bsdf, Camera, Finding, Integrator, Mode, Objection, Pass, PixelSite, Placing, Ray, Sight, Sink,
+    World,
 };
 use glam::{Vec2, Vec4};
 
@@ -212,7 +213,7 @@ impl Integrator for ParticleTracer {
         objections
     }
 
-    fn prepare<W: World>(&self, _: &W, _: &Pass, _: Option<()>) {}
+    fn prepare<W: World>(&self, _: &W, _: &impl Placing, _: &Pass, _: Option<()>) {}
 
     fn sample<W: World, S: Sampler, K: Sink>(
         &self,

@@ -131,7 +131,7 @@ pub fn render<W: World, I: Integrator, F: Film, P: Progress>(
             size,
             margin: film.margin().ceil() as u32,
         };
-        let state = integrator.prepare(world, &pass, before.take());
+        let state = integrator.prepare(world, &*film, &pass, before.take());
         let tile = |index: u32| {
             let corner = UVec2::new(index % tiles.x, index / tiles.x) * TILE;
             let from = origin + corner;

@@ -17,7 +17,7 @@ use crate::path::camera_ray;
 use crate::settings::ignore_scheduling;
 use etalon_params::Params;
 use etalon_sampling::Sampler;
-use etalon_transport::{Hit, Integrator, Objection, Pass, PixelSite, Sight, Sink, World};
+use etalon_transport::{Hit, Integrator, Objection, Pass, PixelSite, Placing, Sight, Sink, World};
 
 /// The signature integrator.
 #[derive(Clone, Copy, Debug, Default)]
@@ -69,7 +69,7 @@ impl Integrator for Signature {
         Vec::new()
     }
 
-    fn prepare<W: World>(&self, _: &W, _: &Pass, _: Option<()>) {}
+    fn prepare<W: World>(&self, _: &W, _: &impl Placing, _: &Pass, _: Option<()>) {}
 
     fn sample<W: World, S: Sampler, K: Sink>(
         &self,

@@ -23,7 +23,7 @@ use crate::settings::{PathSettings, ignore_scheduling};
 use etalon_params::Params;
 use etalon_sampling::Sampler;
 use etalon_transport::{
-    Draft, Finding, Integrator, Objection, Pass, PixelSite, Sight, Sink, TileSink, World,
+    Draft, Finding, Integrator, Objection, Pass, PixelSite, Placing, Sight, Sink, TileSink, World,
 };
 
 /// Stochastic progressive photon mapping.
@@ -119,7 +119,13 @@ impl Integrator for Progressive {
         Some(1)
     }
 
-    fn prepare<W: World>(&self, world: &W, pass: &Pass, _: Option<State>) -> State {
+    fn prepare<W: World>(
+        &self,
+        world: &W,
+        _: &impl Placing,
+        pass: &Pass,
+        _: Option<State>,
+    ) -> State {
         let sets = WavelengthSets::new(world, pass, self.sets as usize);
         let pixels = pass.size.x.saturating_mul(pass.size.y);
         let shot = rounded(self.photons.unwrap_or(pixels), self.sets);

@@ -34,7 +34,8 @@ use etalon_params::Params;
 use etalon_sampling::Sampler;
 use etalon_spectrum::Wavelengths;
 use etalon_transport::{
-    Draft, Finding, Integrator, Objection, Pass, PixelSite, Remark, Sight, Sink, TileSink, World,
+    Draft, Finding, Integrator, Objection, Pass, PixelSite, Placing, Remark, Sight, Sink, TileSink,
+    World,
 };
 
 /// Vertex connection and merging.
@@ -121,7 +122,13 @@ impl Integrator for ConnectionMerging {
         Some(1)
     }
 
-    fn prepare<W: World>(&self, world: &W, pass: &Pass, _: Option<State>) -> State {
+    fn prepare<W: World>(
+        &self,
+        world: &W,
+        _: &impl Placing,
+        pass: &Pass,
+        _: Option<State>,
+    ) -> State {
         let wavelengths = WavelengthSets::new(world, pass, 1).of_pass(pass);
         let radius = self.radius.of(world, pass);
         let pixels = pass.size.x.saturating_mul(pass.size.y);

@@ -93,6 +93,12 @@ impl<'a, S: Sampler, C: Companion> Walk<'a, S, C> {
         self.goes_on
     }
 
+    /// How opaque what it met is.
+    #[inline]
+    pub(crate) fn alpha(&self) -> f32 {
+        self.alpha
+    }
+
     /// Delivers what was found.
     #[inline]
     pub(crate) fn deliver(&self, sink: &mut impl Sink) {

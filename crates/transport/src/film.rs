@@ -39,8 +39,24 @@ pub trait TileSink: Sink {
     fn begin_sample(&mut self, pixel: UVec2, weight: f32);
 }
 
+/// A reconstruction filter from which film positions are drawn.
+pub trait Placing: Sync {
+    /// Draws a position for a sample of `pixel`.
+    fn place(&self, pixel: UVec2, u: Vec2) -> Placement;
+}
+
+/// A box of the size of a pixel.
+impl Placing for () {
+    fn place(&self, pixel: UVec2, u: Vec2) -> Placement {
+        Placement {
+            raster: pixel.as_vec2() + u,
+            weight: 1.0,
+        }
+    }
+}
+
 /// A film: pixels that accumulate exactly.
-pub trait Film: Sync {
+pub trait Film: Placing {
     /// The sink of a tile.
     type Tile<'f>: TileSink
     where
@@ -50,8 +66,6 @@ pub trait Film: Sync {
     fn origin(&self) -> UVec2;
     /// Size of the cropped region (pixels).
     fn size(&self) -> UVec2;
-    /// Draws a position for a sample of `pixel` from the reconstruction filter.
-    fn place(&self, pixel: UVec2, u: Vec2) -> Placement;
     /// How many samples of a replicate a pixel of the whole film gets, where all would get `even`
     /// if they were dealt evenly. Only films for estimators that neither splat nor pass several
     /// times deal otherwise.

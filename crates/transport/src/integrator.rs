@@ -1,6 +1,6 @@
 //! The contract of an estimator of light transport.
 
-use crate::{Channel, Finding, Objection, Sight, Sink, TileSink, World};
+use crate::{Channel, Finding, Objection, Placing, Sight, Sink, TileSink, World};
 use etalon_sampling::Sampler;
 use glam::{UVec2, Vec2};
 
@@ -96,12 +96,17 @@ pub trait Integrator: Sync {
         None
     }
 
-    /// Prepares a pass. `before` is what the pass before it used, if the same process rendered one: to
-    /// be kept (what is learned once for the whole image), changed, or only its memory used
-    /// again. The result may depend on the world, the pass and the estimator alone, never on
+    /// Prepares a pass. `placing` places samples on the film, if it takes some already. `before` is what
+    /// the pass before it used, if the same process rendered one: to be kept (what is learned once for the whole image), changed, or only its memory used
+    /// again. The result may depend on the world, the film, the pass and the estimator alone, never on
     /// whether there was a pass before, the number of threads, or time.
-    fn prepare<W: World>(&self, world: &W, pass: &Pass, before: Option<Self::State>)
-    -> Self::State;
+    fn prepare<W: World>(
+        &self,
+        world: &W,
+        placing: &impl Placing,
+        pass: &Pass,
+        before: Option<Self::State>,
+    ) -> Self::State;
 
     /// Draws one sample.
     fn sample<W: World, S: Sampler, K: Sink>(

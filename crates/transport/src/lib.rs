@@ -34,7 +34,7 @@ pub use build::{Build, Role};
 pub use camera::{Camera, CameraRay, Connection, Reception};
 pub use chance::Chance;
 pub use classic::ClassicPhong;
-pub use film::{Channel, Film, Placement, Sink, TileSink};
+pub use film::{Channel, Film, Placement, Placing, Sink, TileSink};
 pub use ids::{InstanceId, LightId, MaterialId, ShapeId, TextureId};
 pub use integrator::{Draft, Integrator, Pass, PixelSite};
 pub use light::{Emission, EmissionDensity, LightSample, Origin};

@@ -158,7 +158,7 @@ fn merging<W: World>(world: &W, course: &Course, seed: u64) -> Result<(), TestCa
     for turn in 0..LANES {
         for lane in 0..LANES {
             let script = Script::new(world, course, turn, lane);
-            let state = integrator.prepare(&script, &pass, None);
+            let state = integrator.prepare(&script, &(), &pass, None);
             let first = script.first();
             let made = |s: &usize| densities.made(*s, first) > 0.0;
             if densities.chance[first] == 0.0 || densities.value[lane] == 0.0 {

@@ -52,8 +52,8 @@ use etalon_params::Params;
 use etalon_sampling::Sampler;
 use etalon_spectrum::{Wavelengths, sensor_response};
 use etalon_transport::{
-    Draft, Finding, Integrator, Objection, Pass, PixelSite, Ray, Sight, Sink, Subject, TileSink,
-    World,
+    Draft, Finding, Integrator, Objection, Pass, PixelSite, Placing, Ray, Sight, Sink, Subject,
+    TileSink, World,
 };
 use glam::Vec4;
 use merge::Merging;
@@ -240,7 +240,7 @@ impl Integrator for Bidirectional {
         objections
     }
 
-    fn prepare<W: World>(&self, _: &W, _: &Pass, _: Option<()>) {}
+    fn prepare<W: World>(&self, _: &W, _: &impl Placing, _: &Pass, _: Option<()>) {}
 
     fn sample<W: World, S: Sampler, K: Sink>(
         &self,

@@ -19,14 +19,15 @@
 
 use super::field::{FACES, Field, Lesson, Region, face, place_of, refinement};
 use super::guide::Guide;
+use super::pictures::{Pictures, replicates};
 use super::pupil::{Pupil, Record};
 use crate::path::follow;
 use crate::settings::PathSettings;
 use crate::walk::Walk;
 use etalon_sampling::hash::{derived_key, mix64};
 use etalon_sampling::{Independent, PixelSample, Sampler, Sobol};
-use etalon_transport::{Pass, PixelSite, World};
-use glam::{UVec2, Vec3};
+use etalon_transport::{Pass, PixelSite, Placing, World};
+use glam::{UVec2, Vec3, Vec4};
 use rayon::prelude::*;
 use std::sync::atomic::{AtomicU64, Ordering};
 
@@ -53,6 +54,66 @@ const UNITS: f64 = (1 << 20) as f64;
 
 /// The largest record (units).
 const LARGEST: f64 = (1_u64 << 40) as f64;
+
+/// Where there is something to learn.
+struct Class<'a, W, P> {
+    world: &'a W,
+    placing: &'a P,
+    pass: &'a Pass,
+}
+
+/// How many paths of each pixel a round follows, and for whose picture.
+#[derive(Clone, Copy)]
+struct Round {
+    number: u32,
+    /// Independent streams of them: one for each replicate, or one alone.
+    streams: u32,
+    /// Paths of each stream.
+    each: u32,
+    /// Whether they are dealt to the replicates, and not thrown away.
+    dealt: bool,
+}
+
+impl Round {
+    /// A round of at most so many samples, dealt evenly if there is one for every replicate.
+    fn new(number: u32, samples: u32, replicates: u32) -> Self {
+        match samples / replicates {
+            0 => Self::thrown_away(number, samples),
+            each => Self {
+                number,
+                streams: replicates,
+                each,
+                dealt: true,
+            },
+        }
+    }
+
+    /// A round whose samples belong to no replicate.
+    fn thrown_away(number: u32, samples: u32) -> Self {
+        Self {
+            number,
+            streams: 1,
+            each: samples,
+            dealt: false,
+        }
+    }
+
+    /// Samples per pixel.
+    fn samples(self) -> u32 {
+        self.streams * self.each
+    }
+
+    /// Where the numbers of a sample come from.
+    fn address(self, seed: u64, pixel: UVec2, sample: u32) -> PixelSample {
+        PixelSample {
+            seed: mix64(mix64(seed ^ TRAINING).wrapping_add(self.number.into())),
+            replicate: sample / self.each,
+            pixel: (pixel.x, pixel.y),
+            sample: sample % self.each,
+            samples_per_replicate: self.each,
+        }
+    }
+}
 
 /// What is known of all records of a round, or of some.
 #[derive(Clone, Copy)]
@@ -169,70 +230,84 @@ impl<'f> Sums<'f> {
 }
 
 impl Lessons {
-    /// Learns the field of an image. A pure function of the world, the image's seed, its film and its number
-    /// of samples.
-    pub(crate) fn learn<W: World>(&self, world: &W, pass: &Pass) -> Field {
+    /// Learns the field of an image, and what is seen meanwhile. A pure function of the world, the image's
+    /// seed, its film and its number of samples.
+    pub(crate) fn learn<W: World>(
+        &self,
+        world: &W,
+        placing: &impl Placing,
+        pass: &Pass,
+    ) -> (Field, Pictures) {
+        let class = Class {
+            world,
+            placing,
+            pass,
+        };
+        let mut pictures = Pictures::black(pass);
         // Where paths go, and how bright it is there, so far.
         let nothing = Field::new(Vec3::ZERO, Vec3::ONE);
-        let first = self.round(world, pass, &nothing, 0, 1, None);
+        let first = self.round(
+            &class,
+            &nothing,
+            Round::thrown_away(0, 1),
+            None,
+            &mut pictures,
+        );
         if first.records == 0 {
-            return nothing;
+            return (nothing, pictures);
         }
         let mut field = Field::new(first.from, first.to);
         let mut tally = first;
-        let (mut round, mut samples, mut left) = (1, 1, self.samples.max(1));
+        let (mut number, mut samples, mut left) = (1, 1, self.samples.max(1));
         while left > 0 {
             // The last round takes what is left.
-            if left / 3 < samples {
-                samples = left;
-            }
+            let last = left / 3 < samples;
+            let round = Round::new(number, if last { left } else { samples }, replicates(pass));
             let mean = tally.weight / tally.records as f64;
             let scale = if mean > 0.0 { UNITS / mean } else { UNITS };
             let sums = Sums::new(&field, scale);
-            let found = self.round(world, pass, &field, round, samples, Some(&sums));
+            let found = self.round(&class, &field, round, Some(&sums), &mut pictures);
             let lessons = sums.lessons(self.share);
-            let most = self.records * f64::from(samples).sqrt();
+            let most = self.records * f64::from(round.samples()).sqrt();
             field = field.learned(lessons, most as u64);
             if found.weight > 0.0 {
                 tally = found;
             }
-            left -= samples;
-            (round, samples) = (round + 1, samples.saturating_mul(2));
+            left = if last { 0 } else { left - round.samples() };
+            (number, samples) = (number + 1, round.samples().saturating_mul(2));
         }
-        field
+        (field, pictures)
     }
 
-    /// Follows `samples` paths for every pixel.
-    fn round<W: World>(
+    /// Follows the paths of a round for every pixel.
+    fn round<W: World, P: Placing>(
         &self,
-        world: &W,
-        pass: &Pass,
+        class: &Class<'_, W, P>,
         field: &Field,
-        round: u32,
-        samples: u32,
+        round: Round,
         sums: Option<&Sums<'_>>,
+        pictures: &mut Pictures,
     ) -> Tally {
-        let seed = mix64(pass.seed ^ TRAINING);
+        let pass = class.pass;
         let guide = Guide {
             field,
             own: self.own,
             reflected: 1.0,
         };
-        let row = |row: u32| {
+        let row = |(row, mut seen): (u32, Option<&mut [Vec4]>)| {
             let mut tally = Tally::NOTHING;
             let mut pupil = Pupil::new(guide);
             for column in 0..pass.size.x {
                 let pixel = pass.origin + UVec2::new(column, row);
-                for sample in 0..samples {
-                    let address = PixelSample {
-                        seed,
-                        replicate: round,
-                        pixel: (pixel.x, pixel.y),
-                        sample,
-                        samples_per_replicate: samples,
-                    };
+                for sample in 0..round.samples() {
+                    let address = round.address(pass.seed, pixel, sample);
                     pupil.begin();
-                    pupil = self.path(world, pass, &address, pupil);
+                    let found;
+                    (pupil, found) = self.path(class, &address, pupil);
+                    if let Some(seen) = &mut seen {
+                        let picture = address.replicate + round.streams * column;
+                        seen[picture as usize] += found;
+                    }
                     let mut shifts =
                         Independent::from_key(derived_key(address.pixel_key() ^ TRAINING, sample));
                     for record in pupil.records() {
@@ -247,33 +322,42 @@ impl Lessons {
             tally
         };
         // Rows are joined in order, so that the sums of floats are the same for any number of threads.
-        let rows: Vec<Tally> = (0..pass.size.y).into_par_iter().map(row).collect();
-        rows.into_iter().fold(Tally::NOTHING, Tally::join)
+        let seen: Vec<Option<&mut [Vec4]>> = match round.dealt {
+            true => pictures.rows(round.each).into_iter().map(Some).collect(),
+            false => (0..pass.size.y).map(|_| None).collect(),
+        };
+        let rows = (0..pass.size.y).zip(seen).collect::<Vec<_>>();
+        let tallies: Vec<Tally> = rows.into_par_iter().map(row).collect();
+        tallies.into_iter().fold(Tally::NOTHING, Tally::join)
     }
 
-    /// Follows one path with a pupil.
-    fn path<'f, W: World>(
+    /// Follows one path with a pupil, and gives what it brings to its pixel: colour and alpha, by what it
+    /// counts on the film.
+    fn path<'f, W: World, P: Placing>(
         &self,
-        world: &W,
-        pass: &Pass,
+        class: &Class<'_, W, P>,
         address: &PixelSample,
         pupil: Pupil<'f>,
-    ) -> Pupil<'f> {
+    ) -> (Pupil<'f>, Vec4) {
+        let Class { world, pass, .. } = *class;
         let mut sampler = Sobol::start(address);
         let pixel = UVec2::from(address.pixel);
+        let placement = class.placing.place(pixel, sampler.next_2d());
         let site = PixelSite {
             pixel,
-            raster: pixel.as_vec2() + sampler.next_2d(),
+            raster: placement.raster,
             margin: 0.0,
             pixels: pass.size.element_product(),
-            spacing: 1.0,
+            // As for the image's own samples, whose textures these must find.
+            spacing: 1.0 / (pass.image_samples as f32).sqrt(),
             sample: address.sample,
         };
         let walk = Walk::start(world, &self.settings, &site, &mut sampler, pupil);
         let mut walks = [Some(walk)];
         follow(world, &self.settings, &mut walks);
         let [walk] = walks;
-        walk.map(Walk::into_companion)
-            .expect("a path that was followed is still there")
+        let walk = walk.expect("a path that was followed is still there");
+        let found = walk.colour().extend(walk.alpha()) * placement.weight;
+        (walk.into_companion(), found)
     }
 }

@@ -14,23 +14,26 @@
 //! **What is learned, when.** Once for an image, before its first sample: rounds of 1, 2, 4, … samples per
 //! pixel from a random stream of their own, together at most `training` times the image's samples (but at
 //! least one), and one sample per pixel to learn how large and how bright the scene is. Then the field is
-//! frozen. Its paths are thrown away: the image is made of its own samples only, so that its n samples are
-//! those of n samples, and training costs extra.
+//! frozen. The first rounds' paths are thrown away. From the round on that has a sample of each pixel for every
+//! replicate they are dealt to the replicates, and join their pictures (`pictures.rs`).
 //!
-//! **Why the standard error is right.** Let T be the field. Given T, replicates are independent, have one
-//! distribution, and each has the mean I, whatever T is: p_f alone finds all light. So the variance s²/R
-//! estimated from R replicates has the expectation Var(C̄ | T), and by the law of total variance
+//! **Why the standard error is right.** Let Fᵢ be the field that guides round i, the image's own samples being the
+//! last. It depends on earlier rounds only, and given it each replicate's part of the round is an
+//! independent estimate of the picture I: p_f alone finds all light, whatever Fᵢ is. So the parts of different
+//! replicates r ≠ s are uncorrelated, in one round or in two, i < j:
 //!
 //! ```text
-//! Var(C̄) = E[Var(C̄ | T)] + Var(E[C̄ | T]) = E[Var(C̄ | T)] + Var(I) = E[s²/R]
+//! Cov(Xᵢᵣ, Xᵢₛ) = E[Cov(Xᵢᵣ, Xᵢₛ | Fᵢ)] + Cov(I, I) = 0,      Cov(Xᵢᵣ, Xⱼₛ) = Cov(Xᵢᵣ, E[Xⱼₛ | rounds < j]) = Cov(Xᵢᵣ, I) = 0
 //! ```
 //!
-//! though all replicates share one T. The field depends on the scene, the seed, the film and the number of samples of
-//! the whole image, so any share of the replicates learns the same.
+//! and so are the replicates, sums of such parts with fixed weights. As each has one and the same distribution,
+//! their s²/R has the expectation Var(C̄), though all have learned together. The field depends on the scene, the
+//! seed, the film and the number of samples of the whole image, so any share of the replicates learns the same.
 
 mod field;
 mod guide;
 mod learning;
+mod pictures;
 mod pupil;
 mod steering;
 #[cfg(test)]
@@ -41,17 +44,18 @@ use crate::settings::{PathSettings, ignore_scheduling};
 use crate::walk::Walk;
 use etalon_params::Params;
 use etalon_sampling::Sampler;
-use etalon_transport::{Draft, Integrator, Pass, PixelSite, Sink, TileSink, World};
+use etalon_transport::{Draft, Integrator, Pass, PixelSite, Placing, Sink, TileSink, World};
 use field::Field;
 use guide::Guide;
 use learning::Lessons;
+use pictures::{Joined, Pictures};
 
 /// The guided path tracer.
 #[derive(Clone, Debug)]
 pub struct Guided {
     /// Limits of the path.
     pub settings: PathSettings,
-    /// Samples per pixel spent on learning, as a multiple of the image's.
+    /// Samples per pixel spent on learning, as a multiple of the image's own.
     pub training: f64,
     /// α, the probability of following the scattering model's own choice of direction; above 0, as it
     /// alone finds all light.
@@ -130,6 +134,11 @@ impl Guided {
 #[derive(Clone, Debug)]
 pub struct Learned {
     field: Field,
+    /// What was seen meanwhile.
+    pictures: Pictures,
+    /// The replicate that is being rendered, and its samples per pixel.
+    replicate: u32,
+    samples: u32,
 }
 
 impl Integrator for Guided {
@@ -137,13 +146,31 @@ impl Integrator for Guided {
 
     type State = Learned;
 
-    fn prepare<W: World>(&self, world: &W, pass: &Pass, before: Option<Learned>) -> Learned {
+    fn prepare<W: World>(
+        &self,
+        world: &W,
+        placing: &impl Placing,
+        pass: &Pass,
+        before: Option<Learned>,
+    ) -> Learned {
         // Learned for the image: every pass finds the same.
-        before.unwrap_or_else(|| Learned {
-            field: self.lessons(pass).learn(world, pass),
-        })
+        let learned = before.unwrap_or_else(|| {
+            let (field, pictures) = self.lessons(pass).learn(world, placing, pass);
+            Learned {
+                field,
+                pictures,
+                replicate: 0,
+                samples: 0,
+            }
+        });
+        Learned {
+            replicate: pass.replicate,
+            samples: pass.samples,
+            ..learned
+        }
     }
 
+    /// A sample of its own: only several together are joined by what training saw of their pixel.
     fn sample<W: World, S: Sampler, K: Sink>(
         &self,
         world: &W,
@@ -171,6 +198,13 @@ impl Integrator for Guided {
         drafts: &mut [Draft<S>],
         sink: &mut K,
     ) {
-        follow_drafts(world, &self.settings, self.guide(learned), drafts, sink);
+        let mut sink = Joined::new(sink, &learned.pictures, learned.replicate, learned.samples);
+        follow_drafts(
+            world,
+            &self.settings,
+            self.guide(learned),
+            drafts,
+            &mut sink,
+        );
     }
 }

@@ -71,7 +71,7 @@ pub fn replay<W: World, I: Integrator, F: Film>(
         margin: film.margin().ceil() as u32,
     };
     // What is learned does not depend on the passes before.
-    let state = integrator.prepare(world, &pass, None);
+    let state = integrator.prepare(world, film, &pass, None);
     let sample = PixelSample {
         seed: plan.seed,
         replicate: address.replicate,

@@ -36,7 +36,7 @@ mod tree;
 use etalon_params::Params;
 use etalon_sampling::Sampler;
 use etalon_transport::{
-    Draft, Integrator, Objection, Pass, PixelSite, Sight, Sink, Subject, TileSink, World,
+    Draft, Integrator, Objection, Pass, PixelSite, Placing, Sight, Sink, Subject, TileSink, World,
 };
 use glam::{UVec2, Vec4};
 pub use pixel::Grid;
@@ -180,7 +180,13 @@ impl Integrator for Whitted {
         sky.into_iter().chain(unlit).collect()
     }
 
-    fn prepare<W: World>(&self, _: &W, pass: &Pass, before: Option<Picture>) -> Picture {
+    fn prepare<W: World>(
+        &self,
+        _: &W,
+        _: &impl Placing,
+        pass: &Pass,
+        before: Option<Picture>,
+    ) -> Picture {
         before.unwrap_or_else(|| Picture::blank(pass))
     }
 

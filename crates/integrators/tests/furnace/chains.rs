@@ -29,7 +29,7 @@ fn z_score<I: Integrator>(integrator: &I, world: &Sphere, expected: f64) -> f64 
             size: UVec2::ONE,
             margin: 0,
         };
-        let state = integrator.prepare(world, &pass, before.take());
+        let state = integrator.prepare(world, &(), &pass, before.take());
         let mut meter = Meter::default();
         for sample in 0..SAMPLES {
             let mut sampler = Independent::start(&PixelSample {

@@ -68,7 +68,7 @@ fn sample_once<I: Integrator>(
 fn z_score<I: Integrator>(integrator: &I, world: &Sphere, expected: f64) -> f64 {
     let (mut sum, mut squares) = (0.0, 0.0);
     for replicate in 0..PASSES {
-        let state = integrator.prepare(world, &pass(replicate), None);
+        let state = integrator.prepare(world, &(), &pass(replicate), None);
         let mut meter = Meter::default();
         for sample in 0..SAMPLES {
             sample_once(integrator, world, &state, (replicate, sample), &mut meter);
@@ -224,7 +224,7 @@ fn any_number_of_threads_gives_the_same_bits() {
         let pool = rayon::ThreadPoolBuilder::new().num_threads(threads);
         let pool = pool.build().expect("a pool");
         let pass = pass(3);
-        let state = pool.install(|| integrator.prepare(&world, &pass, None));
+        let state = pool.install(|| integrator.prepare(&world, &(), &pass, None));
         let mut meter = Meter::default();
         for sample in 0..SAMPLES {
             sample_once(integrator, &world, &state, (3, sample), &mut meter);

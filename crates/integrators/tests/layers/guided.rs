@@ -6,9 +6,12 @@ use crate::measure::{LIMIT, measure};
 use crate::world::{Fault, Plane, Stack};
 use etalon_integrators::guided::{Guided, Learned};
 use etalon_integrators::settings::PathSettings;
-use etalon_sampling::Sampler;
-use etalon_transport::{Integrator, Pass, PixelSite, Sink, World};
-use glam::UVec2;
+use etalon_sampling::{Independent, PixelSample, Sampler};
+use etalon_statistics::Summary;
+use etalon_transport::{
+    Draft, Integrator, Pass, PixelSite, Placement, Placing, Sink, TileSink, World,
+};
+use glam::{UVec2, Vec2};
 
 const N: u32 = 60_000;
 
@@ -21,7 +24,7 @@ struct Prepared {
 impl Integrator for Prepared {
     type State = ();
 
-    fn prepare<W: World>(&self, _: &W, _: &Pass, _: Option<()>) {}
+    fn prepare<W: World>(&self, _: &W, _: &impl Placing, _: &Pass, _: Option<()>) {}
 
     fn sample<W: World, S: Sampler, K: Sink>(
         &self,
@@ -64,7 +67,7 @@ fn guided(max_depth: u32, rr_depth: u32) -> Guided {
 fn prepared(stack: &Stack, max_depth: u32, rr_depth: u32) -> Prepared {
     let integrator = guided(max_depth, rr_depth);
     Prepared {
-        learned: integrator.prepare(stack, &pass(0), None),
+        learned: integrator.prepare(stack, &(), &pass(0), None),
         integrator,
     }
 }
@@ -132,20 +135,163 @@ fn the_field_belongs_to_the_image() {
     let integrator = guided(8, 5);
     let learn = |threads: usize, replicate: u32| {
         let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build();
-        let learn = || integrator.prepare(&stack, &pass(replicate), None);
+        // Handed on to the first replicate, whichever learned it.
+        let learn = || {
+            let learned = integrator.prepare(&stack, &(), &pass(replicate), None);
+            integrator.prepare(&stack, &(), &pass(0), Some(learned))
+        };
         format!("{:?}", pool.expect("threads").install(learn))
     };
     let first = learn(1, 0);
     assert!(first.len() > 10_000, "it learned something");
     assert_eq!(first, learn(2, 0));
     assert_eq!(first, learn(16, 3));
-    let before = integrator.prepare(&stack, &pass(1), None);
-    let kept = integrator.prepare(&stack, &pass(2), Some(before));
+    let before = integrator.prepare(&stack, &(), &pass(1), None);
+    let kept = integrator.prepare(&stack, &(), &pass(0), Some(before));
     assert_eq!(first, format!("{kept:?}"));
     let other = Pass {
         image_samples: 256,
         ..pass(0)
     };
-    let other = integrator.prepare(&stack, &other, None);
+    let other = integrator.prepare(&stack, &(), &other, None);
     assert_ne!(first, format!("{other:?}"));
+}
+
+/// A filter that a quarter of the samples count against, as one with negative lobes. Here, where every place looks
+/// alike, all together make the picture [`LOBED`] times as bright.
+struct Lobed;
+
+const LOBED: f64 = 1.25;
+
+impl Placing for Lobed {
+    fn place(&self, pixel: UVec2, u: Vec2) -> Placement {
+        Placement {
+            raster: pixel.as_vec2() + u,
+            weight: if u.x < 0.75 { 2.0 } else { -1.0 },
+        }
+    }
+}
+
+/// Adds up what samples bring, by what they count.
+#[derive(Default)]
+struct Scale {
+    weight: f64,
+    sum: [f64; 3],
+}
+
+impl Sink for Scale {
+    fn radiance(&mut self, rgb: [f32; 3], _: f32) {
+        for (sum, value) in self.sum.iter_mut().zip(rgb) {
+            *sum += self.weight * f64::from(value);
+        }
+    }
+    fn splat(&mut self, _: Vec2, _: [f32; 3]) {
+        unreachable!("no estimator here splats");
+    }
+    fn channel(&mut self, _: usize, _: f32) {}
+}
+
+impl TileSink for Scale {
+    fn begin_sample(&mut self, _: UVec2, weight: f32) {
+        self.weight = f64::from(weight);
+    }
+}
+
+/// The mean colours of the replicates of a picture of two samples per pixel and replicate, with twenty more
+/// of training.
+fn replicate_means(stack: &Stack, size: UVec2, replicates: u32, seed: u64) -> Vec<[f64; 3]> {
+    let integrator = Guided {
+        training: 10.0,
+        ..guided(5, 3)
+    };
+    let (origin, samples) = (UVec2::new(3, 5), 2);
+    let mut before = None;
+    let mut replicate = |replicate| {
+        let pass = Pass {
+            seed,
+            samples,
+            image_samples: samples * replicates,
+            size,
+            ..self::pass(replicate)
+        };
+        let learned = integrator.prepare(stack, &Lobed, &pass, before.take());
+        let mut scale = Scale::default();
+        for pixel in 0..size.element_product() {
+            let pixel = origin + UVec2::new(pixel % size.x, pixel / size.x);
+            let draft = |sample| {
+                let mut sampler = Independent::start(&PixelSample {
+                    seed,
+                    replicate,
+                    pixel: pixel.into(),
+                    sample,
+                    samples_per_replicate: samples,
+                });
+                let Placement { raster, weight } = Lobed.place(pixel, sampler.next_2d());
+                let site = PixelSite {
+                    pixel,
+                    raster,
+                    margin: 0.0,
+                    pixels: 1,
+                    spacing: 1.0,
+                    sample,
+                };
+                Draft {
+                    site,
+                    weight,
+                    sampler,
+                }
+            };
+            let mut drafts: Vec<_> = (0..samples).map(draft).collect();
+            integrator.sample_all(stack, &learned, &mut drafts, &mut scale);
+        }
+        before = Some(learned);
+        let count = f64::from(samples * size.element_product());
+        scale.sum.map(|sum| sum / count)
+    };
+    (0..replicates).map(&mut replicate).collect()
+}
+
+/// What training saw joins the picture without bias. Mutants rejected: a mean that forgets what a sample counts
+/// on the film (half the light), training weighted by its sum or by what its rounds thrown away had, too.
+#[test]
+fn training_joins_the_picture() {
+    let stack = rainbow();
+    let exact = Exact {
+        stack: &stack,
+        max_depth: 5,
+        hidden: false,
+    };
+    let exact = exact.colour();
+    let means = replicate_means(&stack, UVec2::new(16, 24), 32, 5);
+    for channel in 0..3 {
+        let channel_means: Vec<f64> = means.iter().map(|mean| mean[channel]).collect();
+        let summary = Summary::of(&channel_means).expect("replicates");
+        let t = (summary.mean() - LOBED * exact[channel]) / summary.standard_error();
+        // |t| with 31 degrees of freedom: α = 10⁻³ over three channels.
+        assert!(t.abs() < 3.9, "{channel}: t = {t:.2}");
+        let relative = summary.standard_error() / exact[channel];
+        assert!(relative < 0.02, "too noisy to tell: {relative}");
+    }
+}
+
+/// Replicates that have learned together are uncorrelated: their spread tells the error of their mean. Mutant
+/// rejected: training dealt alike to all replicates, whose error none of them would see (ten times as
+/// much, four times over).
+#[test]
+fn replicates_tell_the_error_of_what_they_learned_together() {
+    let stack = rainbow();
+    let runs: Vec<Summary> = (0..400)
+        .map(|seed| {
+            let means = replicate_means(&stack, UVec2::new(4, 4), 4, 1000 + seed);
+            let green: Vec<f64> = means.iter().map(|mean| mean[1]).collect();
+            Summary::of(&green).expect("replicates")
+        })
+        .collect();
+    let means: Vec<f64> = runs.iter().map(Summary::mean).collect();
+    let true_variance = Summary::of(&means).expect("runs").variance();
+    let squared = |summary: &Summary| summary.standard_error() * summary.standard_error();
+    let told = runs.iter().map(squared).sum::<f64>() / runs.len() as f64;
+    // The ratio of χ² with 399 and 1200 degrees of freedom: a standard deviation of 8 %.
+    let ratio = true_variance / told;
+    assert!((0.72..1.33).contains(&ratio), "{ratio}");
 }

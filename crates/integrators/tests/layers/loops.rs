@@ -4,7 +4,7 @@ use crate::world::{Plane, Stack, ZERO};
 use etalon_integrators::{Outcome, Plan, Progress, Share, render};
 use etalon_sampling::{Sampler, SamplerKind};
 use etalon_transport::{
-    Channel, Film, Integrator, Pass, PixelSite, Placement, Sink, TileSink, World,
+    Channel, Film, Integrator, Pass, PixelSite, Placement, Placing, Sink, TileSink, World,
 };
 use glam::{UVec2, Vec2};
 use std::sync::Mutex;
@@ -76,6 +76,15 @@ impl TileSink for TallyTile<'_> {
     }
 }
 
+impl Placing for Tally {
+    fn place(&self, pixel: UVec2, u: Vec2) -> Placement {
+        Placement {
+            raster: pixel.as_vec2() + u,
+            weight: 2.0,
+        }
+    }
+}
+
 impl Film for Tally {
     type Tile<'f> = TallyTile<'f>;
     fn origin(&self) -> UVec2 {
@@ -83,12 +92,6 @@ impl Film for Tally {
     }
     fn size(&self) -> UVec2 {
         self.size
-    }
-    fn place(&self, pixel: UVec2, u: Vec2) -> Placement {
-        Placement {
-            raster: pixel.as_vec2() + u,
-            weight: 2.0,
-        }
     }
     fn margin(&self) -> f32 {
         1.5
@@ -136,7 +139,7 @@ impl Integrator for Marbles {
     fn samples_per_pass(&self) -> Option<u32> {
         self.samples_per_pass
     }
-    fn prepare<W: World>(&self, _: &W, pass: &Pass, before: Option<u32>) -> u32 {
+    fn prepare<W: World>(&self, _: &W, _: &impl Placing, pass: &Pass, before: Option<u32>) -> u32 {
         let expected = Pass {
             seed: 5,
             origin: self.origin,

@@ -67,7 +67,7 @@ fn seen(integrator: &Whitted, world: &Stack) -> [f32; 3] {
         sample: 0,
     };
     let mut sink = Seen([f32::NAN; 3]);
-    let picture = integrator.prepare(world, &PASS, None);
+    let picture = integrator.prepare(world, &(), &PASS, None);
     integrator.sample(world, &picture, &site, &mut sampler, &mut sink);
     sink.0
 }
