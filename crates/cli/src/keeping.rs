@@ -142,6 +142,11 @@ impl Placing for KeptFilm {
     fn place(&self, pixel: UVec2, u: Vec2) -> Placement {
         self.film.place(pixel, u)
     }
+
+    #[inline]
+    fn dealt(&self, pixel: UVec2, even: u32) -> u32 {
+        self.film.dealt(pixel, even)
+    }
 }
 
 impl Film for KeptFilm {
@@ -153,11 +158,6 @@ impl Film for KeptFilm {
 
     fn size(&self) -> UVec2 {
         self.film.size()
-    }
-
-    #[inline]
-    fn dealt(&self, pixel: UVec2, even: u32) -> u32 {
-        self.film.dealt(pixel, even)
     }
 
     fn margin(&self) -> f32 {

@@ -365,6 +365,16 @@ impl Placing for ExactFilm {
             weight,
         }
     }
+
+    #[inline]
+    fn dealt(&self, pixel: UVec2, even: u32) -> u32 {
+        let Some(counts) = &self.counts else {
+            return even;
+        };
+        let place = pixel - self.settings.crop_offset;
+        let width = self.settings.crop_size.x as usize;
+        counts.of_pixels()[place.y as usize * width + place.x as usize]
+    }
 }
 
 impl Film for ExactFilm {
@@ -380,16 +390,6 @@ impl Film for ExactFilm {
     )]
     fn size(&self) -> UVec2 {
         self.settings.crop_size
-    }
-
-    #[inline]
-    fn dealt(&self, pixel: UVec2, even: u32) -> u32 {
-        let Some(counts) = &self.counts else {
-            return even;
-        };
-        let place = pixel - self.settings.crop_offset;
-        let width = self.settings.crop_size.x as usize;
-        counts.of_pixels()[place.y as usize * width + place.x as usize]
     }
 
     fn margin(&self) -> f32 {

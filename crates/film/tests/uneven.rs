@@ -3,7 +3,7 @@
 use etalon_film::{
     CheckpointFacts, ExactFilm, FilmSettings, Filter, Part, RenderFacts, SAMPLES, SampleCounts,
 };
-use etalon_transport::{Film, Sink, TileSink};
+use etalon_transport::{Film, Placing, Sink, TileSink};
 use glam::UVec2;
 use std::io::Cursor;
 use std::path::Path;

@@ -205,8 +205,9 @@ impl Integrator for Direct {
     type State = ();
 
     fn objections(&self, sight: &Sight) -> Vec<Objection> {
-        sight.objections(match self.emitter_samples {
-            0 => Finding::Hitting,
+        sight.objections(match (self.emitter_samples, self.bsdf_samples) {
+            (0, _) => Finding::Hitting,
+            (_, 0) => Finding::Choosing,
             _ => Finding::Either,
         })
     }

@@ -16,6 +16,7 @@ pub mod direct;
 pub mod distribution;
 pub mod forward;
 pub mod guided;
+mod hidden;
 pub mod list;
 pub mod metropolis;
 pub mod mmlt;

@@ -151,9 +151,18 @@ impl PhotonMapper {
 
     fn plan<R>(&self, state: &State, with: impl FnOnce(&Plan<'_>) -> R) -> R {
         let kernel = self.cone.map_or(Kernel::Box, Kernel::Cone);
-        let [global, caustic] = [(self.global, 0), (self.caustic, 1)].map(|(map, radius)| Lookup {
-            radius: state.radii[radius],
-            nearest: map.nearest,
+        let [global_radius, caustic_radius] = state.radii;
+        let maps = [
+            (self.global, &state.global, global_radius),
+            (self.caustic, &state.caustic, caustic_radius),
+        ];
+        let [global, caustic] = maps.map(|(estimate, map, radius)| Lookup {
+            radius,
+            nearest: match estimate.radius {
+                // With fewer photons than are looked for, the farthest of them tells the radius.
+                None if estimate.nearest > 0 => estimate.nearest.min(map.photons.len().max(1)),
+                _ => estimate.nearest,
+            },
             kernel,
         });
         let first: fn(Kind) -> bool = if self.final_gather {

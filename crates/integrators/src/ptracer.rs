@@ -15,6 +15,7 @@
 //! stopped, the background included. With `hide_emitters` the camera looks through lights, as that of
 //! `path`. (Mitsuba's lights then still stand in the way of what is behind them.)
 
+use crate::hidden::way_to_camera;
 use crate::particle::{Met, Particle};
 use crate::path::camera_ray;
 use crate::prefix::Prefix;
@@ -144,57 +145,15 @@ impl ParticleTracer {
         }
         let origin = vertex.origin_toward(connection.target);
         let ray = Ray::between(origin, connection.target, vertex.time)?;
-        let transmittance = if self.settings.hide_emitters {
-            past_lights(
-                world,
-                wavelengths,
-                ray,
-                world.is_emitter(&met.hit),
-                crossings,
-            )?
+        let passage = if self.settings.hide_emitters {
+            let on_light = world.is_emitter(&met.hit);
+            way_to_camera(world, wavelengths, ray, on_light, crossings)?.passage
         } else {
-            world.passage(&ray, wavelengths, crossings)?.transmittance
+            world.passage(&ray, wavelengths, crossings)?
         };
-        let radiance = value * transmittance * connection.weight;
+        let radiance = value * passage.transmittance * connection.weight;
         Some((connection.raster, prefix.estimate(radiance, Vec4::ZERO)))
     }
-}
-
-/// What passes on the way to a camera that looks through lights; `None` if nothing does. It looks through
-/// those that are nothing but lights between them and the camera, the start of the way included (`on_light`).
-fn past_lights<W: World>(
-    world: &W,
-    wavelengths: &Wavelengths,
-    mut ray: Ray,
-    on_light: bool,
-    mut crossings: u32,
-) -> Option<Vec4> {
-    let (origin, end) = (ray.origin, ray.t_max);
-    let mut transmittance = Vec4::ONE;
-    // Whether the way starts on a light that is hidden so far, and whether one lies behind.
-    let (mut hidden, mut looked_through) = (on_light, false);
-    while let Some(hit) = world.intersect(&ray) {
-        let vertex = world.vertex(&ray, &hit);
-        if world.is_emitter(&hit) {
-            looked_through = true;
-        } else if looked_through || crossings == 0 {
-            // A light behind a surface that lets light pass is in the way like any other.
-            return None;
-        } else {
-            hidden = false;
-            crossings -= 1;
-            transmittance *= world.bsdf(&vertex, -ray.direction, wavelengths).passing();
-            if transmittance == Vec4::ZERO {
-                return None;
-            }
-        }
-        ray = vertex.spawn(ray.direction);
-        ray.t_max = end - (ray.origin - origin).dot(ray.direction);
-        if !(ray.t_max > 0.0) {
-            break;
-        }
-    }
-    (!hidden).then_some(transmittance)
 }
 
 impl Integrator for ParticleTracer {

@@ -126,6 +126,7 @@ pub fn render<W: World, I: Integrator, F: Film, P: Progress>(
             number,
             count: passes,
             samples: length.min(plan.samples_per_replicate - begin),
+            replicates: plan.replicates,
             image_samples: plan.samples_per_replicate.saturating_mul(plan.replicates),
             origin,
             size,

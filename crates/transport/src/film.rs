@@ -39,13 +39,20 @@ pub trait TileSink: Sink {
     fn begin_sample(&mut self, pixel: UVec2, weight: f32);
 }
 
-/// A reconstruction filter from which film positions are drawn.
+/// Where samples go.
 pub trait Placing: Sync {
-    /// Draws a position for a sample of `pixel`.
+    /// Draws a position for a sample of `pixel` from the reconstruction filter.
     fn place(&self, pixel: UVec2, u: Vec2) -> Placement;
+    /// How many samples of a replicate a pixel of the whole film gets, where all would get `even`
+    /// if they were dealt evenly. Only films for estimators that neither splat nor pass several
+    /// times deal otherwise.
+    #[inline]
+    fn dealt(&self, _pixel: UVec2, even: u32) -> u32 {
+        even
+    }
 }
 
-/// A box of the size of a pixel.
+/// Evenly, in a box of the size of a pixel.
 impl Placing for () {
     fn place(&self, pixel: UVec2, u: Vec2) -> Placement {
         Placement {
@@ -66,13 +73,6 @@ pub trait Film: Placing {
     fn origin(&self) -> UVec2;
     /// Size of the cropped region (pixels).
     fn size(&self) -> UVec2;
-    /// How many samples of a replicate a pixel of the whole film gets, where all would get `even`
-    /// if they were dealt evenly. Only films for estimators that neither splat nor pass several
-    /// times deal otherwise.
-    #[inline]
-    fn dealt(&self, _pixel: UVec2, even: u32) -> u32 {
-        even
-    }
     /// How far (pixels) beyond the film a splat can still matter.
     fn margin(&self) -> f32;
     /// How many light paths are drawn for each sample of a pixel, over the whole film: one per pixel; none

@@ -36,6 +36,8 @@ pub struct Pass {
     pub count: u32,
     /// Samples per pixel in this pass.
     pub samples: u32,
+    /// Replicates of the whole image, whoever renders them.
+    pub replicates: u32,
     /// Samples per pixel in the whole image: all passes of all replicates, whoever renders them.
     pub image_samples: u32,
     /// The first pixel of the cropped film.

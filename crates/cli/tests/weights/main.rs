@@ -148,6 +148,7 @@ fn merging<W: World>(world: &W, course: &Course, seed: u64) -> Result<(), TestCa
         number: 0,
         count: 1,
         samples: 1,
+        replicates: 1,
         image_samples: 1,
         origin: UVec2::ZERO,
         size: UVec2::new(PIXELS, 1),

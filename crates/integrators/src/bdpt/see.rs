@@ -3,6 +3,7 @@
 use super::connect::Connector;
 use super::subpath::FromLight;
 use super::weight::Ends;
+use crate::hidden::way_to_camera;
 use etalon_transport::{Bsdf, Camera, Mode, Ray, World};
 use glam::{Vec2, Vec4};
 
@@ -36,7 +37,14 @@ impl<W: World> Connector<'_, '_, W> {
         let origin = vertex.origin_toward(connection.target);
         let ray = Ray::between(origin, connection.target, vertex.time)?;
         let crossings = self.settings.max_depth - light.segments - 1;
-        let passage = self.world.passage(&ray, self.wavelengths, crossings)?;
+        let passage = if self.settings.hide_emitters {
+            let on_light = light.vertex.light.is_some();
+            let way = way_to_camera(self.world, self.wavelengths, ray, on_light, crossings)?;
+            // Past a light that it looks through, the camera's walk finds the corner alone.
+            Some(way.passage).filter(|_| !way.past_light)?
+        } else {
+            self.world.passage(&ray, self.wavelengths, crossings)?
+        };
         let cos = vertex.normal.dot(direction).abs();
         let ends = Ends {
             here: passage.probability * (connection.weight * cos),

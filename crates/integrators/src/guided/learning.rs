@@ -19,7 +19,7 @@
 
 use super::field::{FACES, Field, Lesson, Region, face, place_of, refinement};
 use super::guide::Guide;
-use super::pictures::{Pictures, replicates};
+use super::pictures::Pictures;
 use super::pupil::{Pupil, Record};
 use crate::path::follow;
 use crate::settings::PathSettings;
@@ -62,7 +62,7 @@ struct Class<'a, W, P> {
     pass: &'a Pass,
 }
 
-/// How many paths of each pixel a round follows, and for whose picture.
+/// How many paths of each pixel a round follows.
 #[derive(Clone, Copy)]
 struct Round {
     number: u32,
@@ -70,31 +70,27 @@ struct Round {
     streams: u32,
     /// Paths of each stream.
     each: u32,
-    /// Whether they are dealt to the replicates, and not thrown away.
-    dealt: bool,
 }
 
 impl Round {
-    /// A round of at most so many samples, dealt evenly if there is one for every replicate.
-    fn new(number: u32, samples: u32, replicates: u32) -> Self {
-        match samples / replicates {
-            0 => Self::thrown_away(number, samples),
-            each => Self {
-                number,
-                streams: replicates,
-                each,
-                dealt: true,
-            },
-        }
-    }
-
-    /// A round whose samples belong to no replicate.
-    fn thrown_away(number: u32, samples: u32) -> Self {
+    /// A round whose paths belong to no replicate.
+    fn alone(number: u32, samples: u32) -> Self {
         Self {
             number,
             streams: 1,
             each: samples,
-            dealt: false,
+        }
+    }
+
+    /// The last one, of at most so many samples: as many for each replicate if they are `dealt`.
+    fn last(number: u32, samples: u32, replicates: u32, dealt: bool) -> Self {
+        match dealt {
+            true => Self {
+                number,
+                streams: replicates,
+                each: samples / replicates,
+            },
+            false => Self::alone(number, samples),
         }
     }
 
@@ -237,56 +233,59 @@ impl Lessons {
         world: &W,
         placing: &impl Placing,
         pass: &Pass,
-    ) -> (Field, Pictures) {
+    ) -> (Field, Option<Pictures>) {
         let class = Class {
             world,
             placing,
             pass,
         };
-        let mut pictures = Pictures::black(pass);
         // Where paths go, and how bright it is there, so far.
         let nothing = Field::new(Vec3::ZERO, Vec3::ONE);
-        let first = self.round(
-            &class,
-            &nothing,
-            Round::thrown_away(0, 1),
-            None,
-            &mut pictures,
-        );
+        let first = self.round(&class, &nothing, Round::alone(0, 1), None, None);
         if first.records == 0 {
-            return (nothing, pictures);
+            return (nothing, None);
         }
         let mut field = Field::new(first.from, first.to);
         let mut tally = first;
         let (mut number, mut samples, mut left) = (1, 1, self.samples.max(1));
-        while left > 0 {
+        loop {
             // The last round takes what is left.
             let last = left / 3 < samples;
-            let round = Round::new(number, if last { left } else { samples }, replicates(pass));
+            let (round, mut pictures) = if last {
+                let pictures = Pictures::black(placing, pass, left / pass.replicates.max(1));
+                (
+                    Round::last(number, left, pass.replicates, pictures.is_some()),
+                    pictures,
+                )
+            } else {
+                (Round::alone(number, samples), None)
+            };
             let mean = tally.weight / tally.records as f64;
             let scale = if mean > 0.0 { UNITS / mean } else { UNITS };
             let sums = Sums::new(&field, scale);
-            let found = self.round(&class, &field, round, Some(&sums), &mut pictures);
+            let found = self.round(&class, &field, round, Some(&sums), pictures.as_mut());
             let lessons = sums.lessons(self.share);
             let most = self.records * f64::from(round.samples()).sqrt();
             field = field.learned(lessons, most as u64);
+            if last {
+                return (field, pictures);
+            }
             if found.weight > 0.0 {
                 tally = found;
             }
-            left = if last { 0 } else { left - round.samples() };
-            (number, samples) = (number + 1, round.samples().saturating_mul(2));
+            left -= samples;
+            (number, samples) = (number + 1, samples.saturating_mul(2));
         }
-        (field, pictures)
     }
 
-    /// Follows the paths of a round for every pixel.
+    /// Follows the paths of a round for every pixel, which `pictures` shows if there are any.
     fn round<W: World, P: Placing>(
         &self,
         class: &Class<'_, W, P>,
         field: &Field,
         round: Round,
         sums: Option<&Sums<'_>>,
-        pictures: &mut Pictures,
+        pictures: Option<&mut Pictures>,
     ) -> Tally {
         let pass = class.pass;
         let guide = Guide {
@@ -322,11 +321,11 @@ impl Lessons {
             tally
         };
         // Rows are joined in order, so that the sums of floats are the same for any number of threads.
-        let seen: Vec<Option<&mut [Vec4]>> = match round.dealt {
-            true => pictures.rows(round.each).into_iter().map(Some).collect(),
-            false => (0..pass.size.y).map(|_| None).collect(),
+        let seen: Vec<Option<&mut [Vec4]>> = match pictures {
+            Some(pictures) => pictures.rows().map(Some).collect(),
+            None => (0..pass.size.y).map(|_| None).collect(),
         };
-        let rows = (0..pass.size.y).zip(seen).collect::<Vec<_>>();
+        let rows: Vec<_> = (0..pass.size.y).zip(seen).collect();
         let tallies: Vec<Tally> = rows.into_par_iter().map(row).collect();
         tallies.into_iter().fold(Tally::NOTHING, Tally::join)
     }
@@ -358,6 +357,8 @@ impl Lessons {
         let [walk] = walks;
         let walk = walk.expect("a path that was followed is still there");
         let found = walk.colour().extend(walk.alpha()) * placement.weight;
+        // As the film leaves out what is no number; it tells of those among the image's own samples.
+        let found = if found.is_finite() { found } else { Vec4::ZERO };
         (walk.into_companion(), found)
     }
 }

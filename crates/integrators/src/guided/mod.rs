@@ -14,20 +14,20 @@
 //! **What is learned, when.** Once for an image, before its first sample: rounds of 1, 2, 4, … samples per
 //! pixel from a random stream of their own, together at most `training` times the image's samples (but at
 //! least one), and one sample per pixel to learn how large and how bright the scene is. Then the field is
-//! frozen. The first rounds' paths are thrown away. From the round on that has a sample of each pixel for every
-//! replicate they are dealt to the replicates, and join their pictures (`pictures.rs`).
+//! frozen. The first rounds' paths are thrown away. Those of the last round, half of all or more, are dealt to the
+//! replicates and join their pictures (`pictures.rs`), if there is one of each pixel for every replicate.
 //!
-//! **Why the standard error is right.** Let Fᵢ be the field that guides round i, the image's own samples being the
-//! last. It depends on earlier rounds only, and given it each replicate's part of the round is an
-//! independent estimate of the picture I: p_f alone finds all light, whatever Fᵢ is. So the parts of different
-//! replicates r ≠ s are uncorrelated, in one round or in two, i < j:
+//! **Why the standard error is right.** Let F be the field, T_r the last round's mean for replicate r, and X_r that of
+//! its own samples. Given the field that guides it, the T_r are independent estimates of the picture I: p_f alone finds
+//! all light, whatever guides it. Given F, which depends on nothing drawn later, so are the X_r. So for different
+//! replicates r ≠ s
 //!
 //! ```text
-//! Cov(Xᵢᵣ, Xᵢₛ) = E[Cov(Xᵢᵣ, Xᵢₛ | Fᵢ)] + Cov(I, I) = 0,      Cov(Xᵢᵣ, Xⱼₛ) = Cov(Xᵢᵣ, E[Xⱼₛ | rounds < j]) = Cov(Xᵢᵣ, I) = 0
+//! Cov(T_r, T_s) = 0,      Cov(X_r, X_s) = E[Cov(X_r, X_s | F)] + Cov(I, I) = 0,      Cov(T_r, X_s) = Cov(T_r, E[X_s | training]) = Cov(T_r, I) = 0
 //! ```
 //!
-//! and so are the replicates, sums of such parts with fixed weights. As each has one and the same distribution,
-//! their s²/R has the expectation Var(C̄), though all have learned together. The field depends on the scene, the
+//! and the replicates (1 − w)·X_r + w·T_r are uncorrelated. As each has one and the same distribution, their s²/R
+//! has the expectation Var(C̄), though all have learned together. The field depends on the scene, the
 //! seed, the film and the number of samples of the whole image, so any share of the replicates learns the same.
 
 mod field;
@@ -135,10 +135,9 @@ impl Guided {
 pub struct Learned {
     field: Field,
     /// What was seen meanwhile.
-    pictures: Pictures,
-    /// The replicate that is being rendered, and its samples per pixel.
+    pictures: Option<Pictures>,
+    /// The replicate that is being rendered.
     replicate: u32,
-    samples: u32,
 }
 
 impl Integrator for Guided {
@@ -160,12 +159,10 @@ impl Integrator for Guided {
                 field,
                 pictures,
                 replicate: 0,
-                samples: 0,
             }
         });
         Learned {
             replicate: pass.replicate,
-            samples: pass.samples,
             ..learned
         }
     }
@@ -198,13 +195,13 @@ impl Integrator for Guided {
         drafts: &mut [Draft<S>],
         sink: &mut K,
     ) {
-        let mut sink = Joined::new(sink, &learned.pictures, learned.replicate, learned.samples);
-        follow_drafts(
-            world,
-            &self.settings,
-            self.guide(learned),
-            drafts,
-            &mut sink,
-        );
+        let guide = self.guide(learned);
+        match &learned.pictures {
+            Some(pictures) => {
+                let mut sink = Joined::new(sink, pictures, learned.replicate);
+                follow_drafts(world, &self.settings, guide, drafts, &mut sink);
+            }
+            None => follow_drafts(world, &self.settings, guide, drafts, sink),
+        }
     }
 }

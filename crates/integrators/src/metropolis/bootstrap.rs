@@ -139,7 +139,7 @@ impl State {
         let pilot = kept
             .filter(|pilot| pilot.seed == pass.seed)
             .unwrap_or_else(|| Pilot::run(integrand, settings, field, pass.seed, samples));
-        let chains = (samples / u64::from(settings.length)).max(1);
+        let chains = (samples / u64::from(settings.length)).clamp(1, u32::MAX.into());
         let length = (samples / chains).min(u64::from(u32::MAX)) as u32;
         let steps = chains as f64 * f64::from(length);
         let seeds = settings.seeds.unwrap_or_else(|| {

@@ -44,7 +44,8 @@ pub struct Replay {
     pub events: Vec<Event>,
 }
 
-/// Draws a sample again, exactly as [`crate::render()`] with this plan does.
+/// Draws a sample again, exactly as [`crate::render()`] with this plan does, but for what an estimator makes of several
+/// samples together: `guided` lets those of its training join them on the way to the film.
 pub fn replay<W: World, I: Integrator, F: Film>(
     world: &W,
     integrator: &I,
@@ -65,6 +66,7 @@ pub fn replay<W: World, I: Integrator, F: Film>(
         number,
         count: passes,
         samples: length.min(samples - number * length),
+        replicates: plan.replicates,
         image_samples: samples.saturating_mul(plan.replicates),
         origin: film.origin(),
         size,

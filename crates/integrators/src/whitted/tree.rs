@@ -172,7 +172,8 @@ impl Whitted {
     /// The share of what a ray meets that it does not pass straight on.
     fn alpha<W: World>(&self, world: &W, mut ray: Ray, wavelengths: &Wavelengths) -> f32 {
         let mut open = 1.0;
-        for segment in 1..=self.max_depth {
+        let mut segment = 1;
+        while segment <= self.max_depth {
             let Some(hit) = world.intersect(&ray) else {
                 return 1.0 - open;
             };
@@ -181,6 +182,7 @@ impl Whitted {
             if !hidden {
                 let bsdf = world.bsdf(&vertex, -ray.direction, wavelengths);
                 open *= 0.25 * bsdf.passing_probability().element_sum();
+                segment += 1;
             }
             if open == 0.0 {
                 break;

@@ -24,6 +24,7 @@ fn z_score<I: Integrator>(integrator: &I, world: &Sphere, expected: f64) -> f64 
             number: 0,
             count: 1,
             samples: SAMPLES,
+            replicates: REPLICATES,
             image_samples: REPLICATES * SAMPLES,
             origin: UVec2::ZERO,
             size: UVec2::ONE,

@@ -30,6 +30,7 @@ fn pass(replicate: u32) -> Pass {
         number: 0,
         count: 1,
         samples: SAMPLES,
+        replicates: 1,
         image_samples: PASSES * SAMPLES,
         origin: UVec2::ZERO,
         size: UVec2::ONE,

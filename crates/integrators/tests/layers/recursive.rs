@@ -32,6 +32,7 @@ const PASS: Pass = Pass {
     number: 0,
     count: 1,
     samples: 1,
+    replicates: 1,
     image_samples: 1,
     origin: UVec2::ZERO,
     size: UVec2::ONE,

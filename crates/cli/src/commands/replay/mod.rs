@@ -15,7 +15,7 @@ use crate::pipeline::{self, Loaded};
 use etalon_film::{ExactFilm, SampleCounts};
 use etalon_integrators::Plan;
 use etalon_integrators::replay::Address;
-use etalon_transport::Film;
+use etalon_transport::Placing;
 use glam::UVec2;
 use std::process::ExitCode;
 use tell::tell;

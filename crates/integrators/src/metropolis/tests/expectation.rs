@@ -96,6 +96,7 @@ fn replicate(number: u32, before: Option<State>, change: Change) -> ([f64; 2], S
         number: 0,
         count: 1,
         samples: SAMPLES,
+        replicates: 1,
         image_samples: SAMPLES,
         origin: UVec2::ZERO,
         size: UVec2::new(2, 1),

@@ -1,0 +1,61 @@
+//! What a camera that looks through lights (`hide_emitters`) sees of a point on a surface.
+//!
+//! It looks through those that are nothing but lights between them and the camera. A light behind a
+//! surface that lets light pass is seen, and in the way, like any other surface; so is the point
+//! itself, unless it lies on a light that is hidden.
+
+use etalon_spectrum::Wavelengths;
+use etalon_transport::{Bsdf, Passage, Ray, World};
+use glam::Vec4;
+
+/// A way to the camera.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Way {
+    /// Straight travel past all surfaces that are not looked through.
+    pub(crate) passage: Passage,
+    /// Whether a light is looked through.
+    pub(crate) past_light: bool,
+}
+
+/// The way of `ray` to the camera, from a surface that is a light (`on_light`) or not, past at most so many
+/// surfaces; `None` if nothing is seen.
+pub(crate) fn way_to_camera<W: World>(
+    world: &W,
+    wavelengths: &Wavelengths,
+    mut ray: Ray,
+    on_light: bool,
+    mut crossings: u32,
+) -> Option<Way> {
+    let (origin, end) = (ray.origin, ray.t_max);
+    let mut passage = Passage::FREE;
+    // Lights that nothing follows so far, and whether the way starts on one of them.
+    let (mut lights, mut past_lights) = (0, Passage::FREE);
+    let mut hidden = on_light;
+    while let Some(hit) = world.intersect(&ray) {
+        let vertex = world.vertex(&ray, &hit);
+        let bsdf = world.bsdf(&vertex, -ray.direction, wavelengths);
+        lights += 1;
+        past_lights.transmittance *= bsdf.passing();
+        past_lights.probability *= bsdf.passing_probability();
+        if !world.is_emitter(&hit) {
+            // The lights before this surface are in the way like itself.
+            crossings = crossings.checked_sub(lights)?;
+            passage.transmittance *= past_lights.transmittance;
+            passage.probability *= past_lights.probability;
+            if passage.transmittance == Vec4::ZERO {
+                return None;
+            }
+            (lights, past_lights) = (0, Passage::FREE);
+            hidden = false;
+        }
+        ray = vertex.spawn(ray.direction);
+        ray.t_max = end - (ray.origin - origin).dot(ray.direction);
+        if !(ray.t_max > 0.0) {
+            break;
+        }
+    }
+    (!hidden).then_some(Way {
+        passage,
+        past_light: lights > 0,
+    })
+}
