@@ -39,11 +39,14 @@ const PASS: Pass = Pass {
     margin: 0,
 };
 
-struct Seen([f32; 3]);
+struct Seen {
+    rgb: [f32; 3],
+    alpha: f32,
+}
 
 impl Sink for Seen {
-    fn radiance(&mut self, rgb: [f32; 3], _: f32) {
-        self.0 = rgb;
+    fn radiance(&mut self, rgb: [f32; 3], alpha: f32) {
+        *self = Self { rgb, alpha };
     }
     fn splat(&mut self, _: Vec2, _: [f32; 3]) {
         unreachable!("it splats nothing");
@@ -52,6 +55,10 @@ impl Sink for Seen {
 }
 
 fn seen(integrator: &Whitted, world: &Stack) -> [f32; 3] {
+    look(integrator, world).rgb
+}
+
+fn look(integrator: &Whitted, world: &Stack) -> Seen {
     let mut sampler = Independent::start(&PixelSample {
         seed: 1,
         replicate: 0,
@@ -67,10 +74,13 @@ fn seen(integrator: &Whitted, world: &Stack) -> [f32; 3] {
         spacing: 1.0,
         sample: 0,
     };
-    let mut sink = Seen([f32::NAN; 3]);
+    let mut sink = Seen {
+        rgb: [f32::NAN; 3],
+        alpha: f32::NAN,
+    };
     let picture = integrator.prepare(world, &(), &PASS, None);
     integrator.sample(world, &picture, &site, &mut sampler, &mut sink);
-    sink.0
+    sink
 }
 
 /// The same by the exact radiances at the same wavelengths.
@@ -167,4 +177,23 @@ fn lights_with_an_extent_are_integrated_over_points() {
     // choice among lights would not show; the density of a hemisphere, halved, does.)
     let half = error(expected, expected.map(|x| 2.0 * x));
     assert!(half > 0.4);
+}
+
+/// Mutant rejected: a light that is looked through counts as a segment, or only the first one is looked through.
+#[test]
+fn hidden_lights_are_not_there_in_alpha() {
+    let lamp = |height| Plane {
+        height,
+        emission: [|_| 1.0; 2],
+        ..Plane::BLACK
+    };
+    let alpha = |planes, max_depth| {
+        let integrator = Whitted {
+            hide_emitters: true,
+            ..whitted(max_depth, 1)
+        };
+        look(&integrator, &Stack::new(planes, ZERO, 0.5, false)).alpha
+    };
+    assert_eq!(alpha(vec![lamp(1.0), lamp(2.0)], 4), 0.0);
+    assert_eq!(alpha(vec![Plane::WHITE, lamp(1.0), lamp(2.0)], 1), 1.0);
 }
