@@ -124,27 +124,37 @@ impl<W: World, S: Sampler> Tree<'_, W, S> {
         }
     }
 
-    fn grow(&mut self, mut branch: Branch) -> Found {
+    /// Everything that a branch finds. It is followed in a loop as long as one ray leaves each surface, so that a
+    /// path may be as long as it likes.
+    fn grow(&mut self, branch: Branch) -> Found {
+        let mut found = Found::default();
+        let mut next = Some(branch);
+        while let Some(branch) = next {
+            next = self.visit(branch, &mut found);
+        }
+        found
+    }
+
+    /// What a branch finds at the next surface, and on the rays that leave it unless it is a single one,
+    /// which is left to be followed.
+    fn visit(&mut self, mut branch: Branch, found: &mut Found) -> Option<Branch> {
         let (world, settings) = (self.world, self.integrator.settings);
-        let mut found = Found {
-            alpha: f32::from(!branch.straight),
-            ..Found::default()
-        };
+        found.alpha = found.alpha.max(f32::from(!branch.straight));
         let Some(hit) = self.meet(&mut branch) else {
             let visible = !settings.hide_emitters || !branch.straight;
             if visible && world.has_background() {
                 let direction = branch.ray.direction;
                 let radiance = world.background(direction, &self.wavelengths);
                 let other = branch.rival.at_background(world, direction);
-                found.radiance = branch.prefix.estimate(radiance, other);
+                found.radiance += branch.prefix.estimate(radiance, other);
                 found.alpha = 1.0;
             }
-            return found;
+            return None;
         };
         let emits = world.is_emitter(&hit);
         let last = branch.depth == settings.max_depth;
         if last && !emits && !branch.straight {
-            return found;
+            return None;
         }
         let vertex = world.vertex(&branch.ray, &hit);
         let wo = -branch.ray.direction;
@@ -160,7 +170,7 @@ impl<W: World, S: Sampler> Tree<'_, W, S> {
             // Where the path would go on we do not ask; how likely straight on, we know.
             let stopped = 1.0 - 0.25 * bsdf.passing_probability().element_sum();
             found.alpha = found.alpha.max(stopped);
-            return found;
+            return None;
         }
         let continuous = bsdf.has_continuous();
         let count = if continuous {
@@ -172,24 +182,23 @@ impl<W: World, S: Sampler> Tree<'_, W, S> {
         let mut alpha = 0.0;
         for number in 0..count {
             let event = self.event(number, count);
-            let mut sum = Found::default();
             if continuous {
-                sum.radiance += self.connect(&branch, &vertex, &bsdf, wo, &event);
+                found.radiance += self.connect(&branch, &vertex, &bsdf, wo, &event) * share;
             }
-            match self.scatter(&branch, &vertex, &bsdf, wo, &event) {
-                Next::Absorbed => sum.alpha = 1.0,
-                Next::Ended { straight } => sum.alpha = f32::from(!straight),
-                Next::Branch(next) => {
-                    let next = self.grow(next);
-                    sum.radiance += next.radiance;
-                    sum.alpha = next.alpha;
-                }
-            }
-            found.radiance += sum.radiance * share;
-            alpha += sum.alpha * share;
+            alpha += share
+                * match self.scatter(&branch, &vertex, &bsdf, wo, &event) {
+                    Next::Absorbed => 1.0,
+                    Next::Ended { straight } => f32::from(!straight),
+                    Next::Branch(next) if count == 1 => return Some(next),
+                    Next::Branch(next) => {
+                        let next = self.grow(next);
+                        found.radiance += next.radiance * share;
+                        next.alpha
+                    }
+                };
         }
         found.alpha = found.alpha.max(alpha);
-        found
+        None
     }
 
     /// The random numbers of sample `number` of `count` at a point. One coordinate of each

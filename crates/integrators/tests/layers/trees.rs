@@ -97,3 +97,17 @@ fn wrong_densities_are_noticed() {
         assert!(z > LIMIT, "{fault:?}: z = {z:.2}");
     }
 }
+
+/// Between two white planes no path ends. Mutant rejected: a call within a call for every segment, which a stack of
+/// two megabytes does not hold.
+#[test]
+fn a_path_may_be_as_long_as_it_likes() {
+    let white = |height| Plane {
+        height,
+        reflectance: |_| 0.9999,
+        ..Plane::WHITE
+    };
+    let stack = Stack::new(vec![white(0.0), white(1.0)], |_| 1.0, 0.5, false);
+    let tree = distribution(100_000, 100_000, 1, 1);
+    assert!(measure(&tree, &stack, 2).mean[3] > 0.99);
+}
