@@ -6,10 +6,21 @@ after row, into one file, and prints what rendered them as JSON.
 
 import argparse
 import json
+import math
 import os
 import sys
 
-import numpy as np
+
+def check_samples(spp):
+    """Refuses a number of samples that Mitsuba would not take as it is.
+
+    The stratified sampler rounds up to the next square without more than a remark in its log. The
+    reference would state fewer samples than it has.
+    """
+    side = math.isqrt(max(spp, 0))
+    if spp < 1 or side * side != spp:
+        near = " or ".join(str(n * n) for n in (side, side + 1) if n > 0)
+        sys.exit(f"--spp {spp}: stratified samples come in squares, such as {near}")
 
 
 def choose_variant(mi, wanted):
@@ -54,8 +65,10 @@ def main():
     parser.add_argument("--variant", default="llvm_ad_spectral")
     parser.add_argument("-D", "--define", action="append", default=[], metavar="KEY=VALUE")
     arguments = parser.parse_args()
+    check_samples(arguments.spp)
 
     import mitsuba as mi
+    import numpy as np
 
     variant = choose_variant(mi, arguments.variant)
     defines = dict(pair.split("=", 1) for pair in arguments.define)

@@ -35,7 +35,7 @@ pub(crate) enum Part {
 
 /// What tells one statement of an estimator from another. A claim may be edited between two runs of one
 /// program, and not everything in it leaves a trace in the picture's metadata.
-fn fingerprint(estimator: &Estimator) -> u32 {
+pub(crate) fn fingerprint(estimator: &Estimator) -> u32 {
     let mut hasher = DefaultHasher::new();
     hasher.write(format!("{estimator:?}").as_bytes());
     hasher.finish() as u32

@@ -12,6 +12,10 @@ pub struct Budget {
     pub replicates: u32,
 }
 
+/// The most that equality may leave to rounding, relative to the mean: what the coarsest of the
+/// formulas leaves to its quadrature (`rough-coat`). More would be a bias.
+const ROUNDING: f64 = 2e-3;
+
 /// Which biases matter.
 #[derive(Clone, Copy, Debug, Deserialize)]
 #[serde(default, deny_unknown_fields)]
@@ -31,5 +35,24 @@ impl Default for Bounds {
             tile: 0.03,
             rounding: 2e-5,
         }
+    }
+}
+
+impl Bounds {
+    /// Refuses numbers that make no sense.
+    ///
+    /// # Errors
+    /// Says which.
+    pub(crate) fn check(&self) -> Result<(), String> {
+        let sensible = |x: f64| x > 0.0 && x < 1.0;
+        if !sensible(self.image) || !sensible(self.tile) {
+            return Err("`bounds` must lie between 0 and 1".to_owned());
+        }
+        if !(0.0..=ROUNDING).contains(&self.rounding) {
+            return Err(format!(
+                "`bounds.rounding` must lie between 0 and {ROUNDING}"
+            ));
+        }
+        Ok(())
     }
 }

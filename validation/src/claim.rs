@@ -286,19 +286,31 @@ impl Claim {
             .unwrap_or_default()
             .to_string_lossy()
             .into_owned();
-        claim.check().map_err(error)?;
+        let bounded = text.parse::<toml::Table>();
+        let bounded = bounded.is_ok_and(|table| table.contains_key("bounds"));
+        claim.check(bounded).map_err(error)?;
         matrix::expand(&mut claim).map_err(error)?;
         Ok(claim)
     }
 
-    /// What no type can say: numbers that make sense, and fields that belong to the kind.
-    fn check(&self) -> Result<(), String> {
+    /// Whether `bounds` have a say in what it claims.
+    fn is_bounded(&self) -> bool {
+        match self.oracle {
+            Oracle::Convergence(_) | Oracle::Noise { .. } | Oracle::Povray { .. } => false,
+            // Bits have none.
+            _ => (self.estimators.iter()).any(|e| !e.change.is_some_and(Change::is_of_bits)),
+        }
+    }
+
+    /// What no type can say: sensible numbers, fields (`bounds`, if stated) that belong to the kind.
+    fn check(&self, bounded: bool) -> Result<(), String> {
         if self.estimators.is_empty() {
             return Err("a claim needs at least one estimator".to_owned());
         }
         let sensible = |x: f64| x > 0.0 && x < 1.0;
-        if !sensible(self.bounds.image) || !sensible(self.bounds.tile) {
-            return Err("`bounds` must lie between 0 and 1".to_owned());
+        self.bounds.check()?;
+        if bounded && !self.is_bounded() {
+            return Err("`bounds` belong to claims about means of pictures".to_owned());
         }
         let oracle = match &self.oracle {
             Oracle::Agreement { estimator } | Oracle::Invariance { estimator } => {
@@ -318,9 +330,8 @@ impl Claim {
             }
             Oracle::Povray { edges, excused } => {
                 if !sensible(*edges) || !sensible(*excused) || excused > edges {
-                    return Err(
-                        "`edges` and `excused` must be shares, the latter the smaller".to_owned(),
-                    );
+                    let message = "`edges` and `excused` must be shares, the latter the smaller";
+                    return Err(message.to_owned());
                 }
                 None
             }

@@ -3,7 +3,7 @@
 
 use crate::claim::{Claim, Oracle};
 use crate::outcome::{ALPHA, Conclusion, Row, counts};
-use crate::run::{Compared, Evidence, Options};
+use crate::run::{Compared, Evidence, Options, Plan};
 use crate::{folders, povray, reference, table};
 use serde::Serialize;
 use serde_json::{Value, json};
@@ -28,13 +28,17 @@ pub struct Provenance {
     pub tier: &'static str,
     /// Which part of the run this is, as I/N, if it is not the whole.
     pub part: Option<String>,
+    /// Comparisons of the whole run, those of its other parts included.
+    pub hypotheses: usize,
+    /// What tells their plan from others: parts of one run have the same.
+    pub plan: String,
     /// Seconds of the whole run.
     pub seconds: f64,
 }
 
 impl Provenance {
     /// Of a run on this machine.
-    pub fn of(options: &Options, seconds: f64) -> Self {
+    pub fn of(options: &Options, plan: Plan, seconds: f64) -> Self {
         Self {
             version: etalon::VERSION.to_owned(),
             floating_point: etalon_film::floating_point_fingerprint(),
@@ -43,6 +47,8 @@ impl Provenance {
             seed: options.seed,
             tier: options.tier.name(),
             part: options.part.map(|part| part.to_string()),
+            hypotheses: plan.hypotheses,
+            plan: plan.hash,
             seconds,
         }
     }
@@ -135,7 +141,7 @@ pub fn list(claims: &[Claim]) -> Value {
                 "title": claim.title,
                 "kind": claim.oracle.kind(),
                 "scene": claim.scene,
-                "quick": claim.quick,
+                "quick": claim.quick && !claim.full_only,
                 "estimators": claim.estimators.iter().map(|e| json!({
                     "estimator": e.label(),
                     "mutants": e.mutants.iter().map(ToString::to_string).collect::<Vec<_>>(),

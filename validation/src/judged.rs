@@ -3,6 +3,8 @@
 //! [`etalon::judge`] decides by Student's t. Where the replicates of a mean are too far from normal
 //! for that (`etalon_statistics::tails`, with the declared limits), the bias of the image is judged
 //! by the studentised bootstrap instead, and where that cannot reach the level, it is undecided. A
+//! whole run's levels, below 10⁻⁶ for each question, are beyond it; what is [`stated`] of a row by
+//! itself, with 99 % confidence, is not. A
 //! tile that t would call different keeps that verdict only if some such tile is within the limits
 //! or the bootstrap agrees.
 
@@ -113,26 +115,59 @@ pub fn judge(
     })
 }
 
-/// The greatest relative bias of an image's mean that is not excluded at the level `alpha`: the
-/// upper bound of the greatest |bias| among the channels.
+/// What is said of a picture by itself, at a level of its own ([`crate::tier::STATED`]).
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Stated {
+    /// The greatest relative bias of an image's mean that is not excluded: the upper bound of the
+    /// greatest |bias| among the channels.
+    pub bias: f64,
+    /// Whether equality may be believed, where it is claimed: every channel of which nobody could
+    /// ask it at the run's level has an interval here that does not exclude it.
+    pub equal: bool,
+}
+
+impl Stated {
+    /// The verdict of a run that asks each row by itself for the bound of its rules. What differs at
+    /// the run's level differs, and tiles keep their say.
+    pub fn verdict(&self, judgement: &Judgement) -> Verdict {
+        if judgement.verdict == Verdict::Differs {
+            return Verdict::Differs;
+        }
+        let own = if self.bias < judgement.rules.image_bound && self.equal {
+            Verdict::Agrees
+        } else {
+            Verdict::Undecided
+        };
+        let tiles = judgement.tiles.iter().map(|row| row.verdict);
+        tiles.fold(own, Verdict::and)
+    }
+}
+
+/// What can be said of a picture by itself at the level `alpha`. `exact` claims equality.
 ///
-/// No correction is due over the channels. The bound is exceeded only if the worst channel's bias
-/// is outside of that channel's own interval, whichever it is.
+/// No correction is due over the channels for the bias. The bound is exceeded only if the worst
+/// channel's bias is outside of that channel's own interval, whichever it is. Equality is not
+/// rejected here: what speaks against it only leaves the row undecided.
 ///
 /// # Errors
 /// One sentence, if the two cannot be compared.
-pub fn greatest_bias(
+pub fn stated(
     picture: &Developed,
     against: Against<'_>,
     judgement: &Judgement,
+    exact: bool,
     alpha: f64,
-) -> Result<f64, String> {
+) -> Result<Stated, String> {
     let metadata = picture.metadata.as_ref().ok_or("there are no statistics")?;
-    let mut greatest = 0.0_f64;
+    let mut stated = Stated {
+        bias: 0.0,
+        equal: true,
+    };
     for row in &judgement.images {
         let scale = scale_of(row.bias, row.mean - row.other_mean, row.other_mean);
+        let rounding = judgement.rules.rounding * scale;
         let samples = Samples::of(metadata, against, &row.channel, None, 0)?;
-        let harmless = samples.all_within(judgement.rules.rounding * scale);
+        let harmless = samples.all_within(rounding);
         let refused = if harmless { None } else { samples.judge(alpha) };
         let interval = match refused {
             Some((_, interval)) => interval,
@@ -140,11 +175,15 @@ pub fn greatest_bias(
                 .estimate()
                 .map(|estimate| estimate.interval(1.0 - alpha)),
         };
+        let unasked = exact && row.interval.iter().any(|end| end.is_infinite());
+        let excluded = |i: Interval| i.verdict(rounding) == Verdict::Differs;
+        stated.equal &= !(unasked && interval.is_none_or(excluded));
         let reach = interval.map_or(f64::INFINITY, |i| i.low.abs().max(i.high.abs()));
         // Nothing at all is no bias, whatever it is relative to.
-        greatest = greatest.max(if reach == 0.0 { 0.0 } else { reach / scale });
+        let bias = if reach == 0.0 { 0.0 } else { reach / scale };
+        stated.bias = stated.bias.max(bias);
     }
-    Ok(greatest)
+    Ok(stated)
 }
 
 /// The p-value that an interval at `alpha` stands for: 1, or a hair below `alpha` if it rejects. The

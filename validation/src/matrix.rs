@@ -15,8 +15,8 @@
 //! naive = { spp = 4096, replicates = 32 }
 //! ```
 //!
-//! `full_only = true` leaves all rows of a matrix to the full run. Then there is no `bound` to state: that
-//! run's own is asked of every row.
+//! `full_only = true` leaves all rows of a matrix to the full run. Of what that run alone makes its own
+//! bound is asked; where it makes all rows, there is no `bound` to state.
 
 use crate::budget::Budget;
 use crate::claim::{Claim, Estimator, Oracle};
@@ -34,7 +34,7 @@ pub struct Matrix {
     /// Work of the default run for each.
     pub default: Budget,
     /// Which bias of the image's mean the default run must exclude, relative to it; stated unless
-    /// only a full run asks.
+    /// the full run alone makes all rows.
     pub bound: Option<f64>,
     /// Whether only a full run makes these comparisons, with `default` for its first look.
     #[serde(default)]
@@ -48,23 +48,33 @@ pub struct Matrix {
 }
 
 impl Matrix {
-    /// Which bias its rows must exclude.
+    /// Refuses a bound that is no share, or that is stated where a full run's holds.
     ///
     /// # Errors
-    /// If it is missing, not a share, or stated where another holds.
-    fn bound(&self) -> Result<f64, String> {
-        match (self.bound, self.full_only) {
-            (Some(bound), false) if bound > 0.0 && bound < 1.0 => Ok(bound),
-            (Some(bound), false) => Err(format!(
+    /// Says which.
+    fn check(&self) -> Result<(), String> {
+        match self.bound {
+            Some(bound) if !(bound > 0.0 && bound < 1.0) => Err(format!(
                 "`matrix`: a bound between 0 and 1 is expected, not {bound}"
             )),
-            (None, false) => Err("`matrix`: `bound` is missing".to_owned()),
-            (None, true) => Ok(FULL_BOUND),
-            (Some(_), true) => Err(format!(
-                "`matrix`: with `full_only` there is no `bound`: a full run's is {FULL_BOUND} for every row"
-            )),
+            Some(_) if self.full_only => Err(without_bound("with `full_only`")),
+            _ => Ok(()),
         }
     }
+
+    /// What its rows must exclude if the full run alone makes them, or if the default run does, too.
+    fn bound(&self, later: bool) -> Result<f64, String> {
+        match self.bound {
+            _ if later => Ok(FULL_BOUND),
+            Some(bound) => Ok(bound),
+            None => Err("`matrix`: `bound` is missing".to_owned()),
+        }
+    }
+}
+
+/// What to say of a bound that no row has.
+fn without_bound(why: &str) -> String {
+    format!("`matrix`: {why} there is no `bound`: a full run's is {FULL_BOUND} for every row")
 }
 
 /// An unbiased integrator that has no row of its own in a claim's matrix.
@@ -124,7 +134,7 @@ pub(crate) fn expand(claim: &mut Claim) -> Result<(), String> {
     if poor {
         return Err("`matrix`: a budget of at least 2 replicates".to_owned());
     }
-    let bound = matrix.bound()?;
+    matrix.check()?;
     let listed = |name: &str| {
         let own = |e: &Estimator| e.integrator.as_deref().unwrap_or("path") == name;
         claim
@@ -155,8 +165,9 @@ pub(crate) fn expand(claim: &mut Claim) -> Result<(), String> {
             });
             continue;
         }
-        let later = matrix.later.get(name);
-        let budget = *later.unwrap_or(&matrix.default);
+        let own = matrix.later.get(name);
+        let budget = *own.unwrap_or(&matrix.default);
+        let later = matrix.full_only || own.is_some();
         rows.push(Estimator {
             adaptive: None,
             integrator: Some(name.to_owned()),
@@ -170,10 +181,16 @@ pub(crate) fn expand(claim: &mut Claim) -> Result<(), String> {
             part: Default::default(),
             mutants: Vec::new(),
             in_matrix: Some(Place {
-                bound,
-                later: matrix.full_only || later.is_some(),
+                bound: matrix.bound(later)?,
+                later,
             }),
         });
+    }
+    let later = |row: &Estimator| row.in_matrix.is_some_and(|place| place.later);
+    if matrix.bound.is_some() && rows.iter().all(later) {
+        return Err(without_bound(
+            "where the default run makes none of its rows",
+        ));
     }
     claim.estimators.extend(rows);
     claim.absent = absent;

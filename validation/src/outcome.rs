@@ -18,9 +18,9 @@ pub use crate::decision::{ALPHA, Progress};
 pub enum Outcome {
     /// It agrees; or it has a planted fault, which was found.
     Passed,
-    /// It differs; or a planted fault was not found.
+    /// It differs; or a planted fault is shown not to matter.
     Failed,
-    /// There were too few samples to say.
+    /// There were too few samples, or there was too little time, to say; of a planted fault, too.
     Undecided,
     /// The comparison could not be made.
     Broken,
@@ -104,8 +104,9 @@ impl Outcome {
         match (verdict, task.fault) {
             (None, _) => Self::Broken,
             (Some(Verdict::Agrees), None) | (Some(Verdict::Differs), Some(_)) => Self::Passed,
-            (Some(Verdict::Undecided), None) => Self::Undecided,
-            (Some(_), _) => Self::Failed,
+            // A fault that is missed for lack of samples says nothing against the program.
+            (Some(Verdict::Undecided), _) => Self::Undecided,
+            (Some(Verdict::Differs), None) | (Some(Verdict::Agrees), Some(_)) => Self::Failed,
         }
     }
 }

@@ -6,7 +6,7 @@
 use crate::claim::{Claim, Oracle};
 use crate::folders;
 use crate::rendering;
-use etalon_film::{Developed, ExactFilm, RenderFacts, read_developed};
+use etalon_film::{Developed, ExactFilm, Metadata, RenderFacts, read_developed};
 use etalon_images::{Image, write_atomically};
 use serde::{Deserialize, Serialize};
 use std::io::Write;
@@ -87,7 +87,8 @@ pub fn expected(claim: &Claim) -> Result<Expected, String> {
 ///
 /// # Errors
 /// If there is none, it cannot be read, it belongs to another state of the scene or was made with
-/// other numbers than the claim states, or it has numbers that are not finite.
+/// other numbers than the claim states or by somebody else than its description names, it lacks a
+/// channel or the means of a size of tiles, or it has numbers that are not finite.
 pub fn read(claim: &Claim) -> Result<Developed, String> {
     read_in(&folders::references(), &claim.name, &expected(claim)?)
 }
@@ -130,6 +131,16 @@ pub fn read_in(folder: &Path, name: &str, expected: &Expected) -> Result<Develop
     if metadata.scene_hash != expected.scene_hash {
         return Err(error("its scene is not the one its description names"));
     }
+    let maker = maker(&provenance.mitsuba, &provenance.variant);
+    if metadata.version != maker {
+        return Err(error(&format!(
+            "it was made by `{}`, its description names `{maker}`",
+            metadata.version
+        )));
+    }
+    if let Some(missing) = missing(metadata) {
+        return Err(error(&format!("it has no {missing}")));
+    }
     let ([w, h], [width, height]) = (metadata.film.crop_size, expected.size);
     if [w, h] != [width, height] {
         return Err(error(&format!(
@@ -137,6 +148,29 @@ pub fn read_in(folder: &Path, name: &str, expected: &Expected) -> Result<Develop
         )));
     }
     rendering::finite(picture).map_err(|reason| error(&reason))
+}
+
+/// What a reference says of who rendered it.
+fn maker(mitsuba: &str, variant: &str) -> String {
+    format!("Mitsuba {mitsuba} {variant}")
+}
+
+/// What a reference lacks, if anything: questions about what is not there would be left out of a
+/// comparison without a word.
+fn missing(metadata: &Metadata) -> Option<String> {
+    let channel = |name: &&str| metadata.channel_index(name).is_none();
+    let channel = ["R", "G", "B"].into_iter().find(channel);
+    // Every film of ours has them, whatever its size.
+    let means = [None, Some(16), Some(64)];
+    let means = means
+        .into_iter()
+        .find(|side| metadata.tiles(*side).is_none());
+    channel
+        .map(|name| format!("channel `{name}`"))
+        .or(means.map(|side| match side {
+            None => "means of the whole image".to_owned(),
+            Some(side) => format!("means of tiles of {side}² pixels"),
+        }))
 }
 
 /// What Mitsuba rendered.
@@ -191,7 +225,7 @@ pub fn write(claim: &Claim, rendered: &Rendered, spp: u32, pixels: &[f32]) -> Re
         spp,
     };
     let developed = film.develop(RenderFacts {
-        version: format!("Mitsuba {} {}", rendered.mitsuba, rendered.variant),
+        version: maker(&rendered.mitsuba, &rendered.variant),
         scene: provenance.scene.clone(),
         scene_hash: loaded.hash,
         integrator: loaded.integrator_name,

@@ -17,7 +17,7 @@ use etalon_images::{Frame, Image};
 use etalon_statistics::Verdict;
 
 pub use crate::rendering::{defines, load};
-pub use crate::tasks::{Options, Task, named, tasks, unknown};
+pub use crate::tasks::{Options, Plan, Task, named, tasks, unknown};
 
 /// What a comparison was decided by.
 pub enum Evidence {
@@ -137,7 +137,7 @@ impl<'a> Comparison<'a> {
             spp: first.spp * multiple,
             replicates: first.replicates * multiple,
         };
-        let (mut shown, mut fall) = (None, None);
+        let (mut shown, mut fall, mut replicates) = (None, None, budget.replicates);
         let (measures, spp) = match &claim.oracle {
             Oracle::Povray { edges, excused } => {
                 let limits = pixelwise::Limits {
@@ -163,6 +163,8 @@ impl<'a> Comparison<'a> {
                 tolerance,
             } => {
                 let counted = (*of, formula.as_str(), seeds * multiple);
+                // Those of all pictures, as its samples are.
+                replicates = seeds * multiple * first.replicates;
                 let (pictures, spp) =
                     noise::count(claim, counted, estimator, fault, first, options.seed)?;
                 (noise::judge(&pictures, *tolerance, alpha)?, spp)
@@ -189,7 +191,7 @@ impl<'a> Comparison<'a> {
             verdict,
             p,
             spp,
-            replicates: budget.replicates,
+            replicates,
             scene_hash: rendering::load_for(claim, estimator)?.hash,
             shown,
             fall,
@@ -255,18 +257,12 @@ impl<'a> Comparison<'a> {
         };
         let against = against.map_or(Against::Picture(&oracle), Against::Known);
         let judged = judged::judge(&picture, against, rules, exact)?;
-        let bias = judged::greatest_bias(&picture, against, &judged.judgement, turn.stated)?;
-        let verdict = match (judged.judgement.verdict, options.tier.stated_bound()) {
-            (Verdict::Agrees | Verdict::Undecided, Some(bound)) => {
-                let tiles = judged.judgement.tiles.iter().map(|row| row.verdict);
-                let stated = if bias < bound {
-                    Verdict::Agrees
-                } else {
-                    Verdict::Undecided
-                };
-                tiles.fold(stated, Verdict::and)
-            }
-            (verdict, _) => verdict,
+        let stated = judged::stated(&picture, against, &judged.judgement, exact, turn.stated)?;
+        // A planted fault is no row that a full run grants anything: it is found, or it is not.
+        let verdict = if options.tier.states_bounds() && fault.is_none() {
+            stated.verdict(&judged.judgement)
+        } else {
+            judged.judgement.verdict
         };
         self.picture = Some(picture.clone());
         Ok(Compared {
@@ -283,7 +279,7 @@ impl<'a> Comparison<'a> {
             scene_hash,
             shown: None,
             fall: None,
-            bias_bound: Some(bias),
+            bias_bound: Some(stated.bias),
         })
     }
 }

@@ -52,7 +52,7 @@ impl Task<'_> {
         let own = place.map_or(bounds.image, |place| place.bound);
         Rules {
             // What must be excluded in the end is a difference where it is shown.
-            image_bound: tier.stated_bound().map_or(own, |stated| own.min(stated)),
+            image_bound: tier.image_bound(own),
             tile_bound: bounds.tile,
             alpha,
             rounding: if exact { bounds.rounding } else { 0.0 },
@@ -124,4 +124,96 @@ pub fn tasks<'a>(claims: &'a [Claim], options: &Options) -> Vec<Task<'a>> {
         }
     }
     tasks
+}
+
+/// What a run asks, all of its parts together.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Plan {
+    /// Comparisons that are declared, whoever makes them.
+    pub hypotheses: usize,
+    /// The beginning of a hash over all that they state. Parts belong together only if it is the same:
+    /// the levels of each are those of its own plan, and claims are dealt by their places in it.
+    pub hash: String,
+}
+
+impl Plan {
+    /// Of these tasks, those made elsewhere included.
+    pub fn of(tasks: &[Task<'_>], options: &Options) -> Self {
+        let mut hasher = blake3::Hasher::new();
+        let mut state = |text: String| {
+            hasher.update(&(text.len() as u64).to_le_bytes());
+            hasher.update(text.as_bytes());
+        };
+        state(format!(
+            "{:?} {:?} {}",
+            options.tier, options.only, options.seed
+        ));
+        for task in tasks {
+            let claim = task.claim;
+            state(format!("{} {}", claim.name, claim.scene.display()));
+            state(format!("{:?} {:?}", claim.defines, claim.bounds));
+            state(format!("{:?}", claim.oracle));
+            state(format!("{:?} {:?}", task.estimator, task.fault));
+        }
+        Self {
+            hypotheses: tasks.len(),
+            hash: hasher.finalize().to_hex()[..12].to_owned(),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::folders;
+
+    #[test]
+    fn parts_of_one_plan_say_so_and_parts_of_others_do_not() {
+        let mut claims: Vec<Claim> = ["furnace", "mirror-room"]
+            .map(|name| Claim::read(&folders::claims().join(format!("{name}.toml"))))
+            .into_iter()
+            .collect::<Result<_, _>>()
+            .expect("claims");
+        let options = |part: Option<&str>| Options {
+            only: None,
+            tier: Tier::Full,
+            seed: 1,
+            part: part.map(|part| part.parse().expect("a part")),
+        };
+        let plan = |claims: &[Claim], options: &Options| Plan::of(&tasks(claims, options), options);
+        let whole = plan(&claims, &options(None));
+        assert_eq!(whole.hypotheses, tasks(&claims, &options(None)).len());
+        assert_eq!(whole.hash.len(), 12);
+        // Mutants rejected: a plan of what the part itself makes; a hash that forgets what is stated.
+        for part in ["1/2", "2/2"] {
+            assert_eq!(plan(&claims, &options(Some(part))), whole);
+        }
+        let mut others = vec![whole];
+        let seed = Options {
+            seed: 2,
+            ..options(None)
+        };
+        let tier = Options {
+            tier: Tier::Default,
+            ..options(None)
+        };
+        let only = Options {
+            only: Some("furnace".to_owned()),
+            ..options(None)
+        };
+        others.extend([&seed, &tier, &only].map(|options| plan(&claims, options)));
+        others.push(plan(&claims[..1], &options(None)));
+        claims[0].bounds.image *= 0.5;
+        others.push(plan(&claims, &options(None)));
+        claims[0].estimators[0].default.spp *= 2;
+        others.push(plan(&claims, &options(None)));
+        claims[0].oracle = claims[1].oracle.clone();
+        others.push(plan(&claims, &options(None)));
+        claims[0].name = "another".to_owned();
+        others.push(plan(&claims, &options(None)));
+        let mut hashes: Vec<&str> = others.iter().map(|plan| plan.hash.as_str()).collect();
+        hashes.sort_unstable();
+        hashes.dedup();
+        assert_eq!(hashes.len(), others.len(), "{others:?}");
+    }
 }

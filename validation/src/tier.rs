@@ -29,16 +29,23 @@ pub enum Tier {
 /// with a probability of 1 − [`crate::decision::ALPHA`].
 pub const STATED: f64 = 0.01;
 
-/// The relative bias of an image's mean that a full run excludes in every row.
+/// The relative bias of an image's mean that a full run excludes in every row, unless the claim's
+/// own bound is tighter still.
 pub const FULL_BOUND: f64 = 0.005;
 
 impl Tier {
-    /// The bias of an image's mean that each row must exclude by itself, at the level [`STATED`],
-    /// in place of its claim's own bound, which others exclude for all rows together.
-    pub fn stated_bound(self) -> Option<f64> {
+    /// Whether each row must exclude a bias of its image's mean by itself, at the level [`STATED`];
+    /// in other tiers the bias is excluded for all rows together.
+    pub fn states_bounds(self) -> bool {
+        self == Self::Full
+    }
+
+    /// The bias of an image's mean that a row must exclude whose claim's own bound is `own`: a full
+    /// run asks [`FULL_BOUND`], or the claim's own if that is tighter.
+    pub fn image_bound(self, own: f64) -> f64 {
         match self {
-            Self::Quick | Self::Default => None,
-            Self::Full => Some(FULL_BOUND),
+            Self::Quick | Self::Default => own,
+            Self::Full => own.min(FULL_BOUND),
         }
     }
 

@@ -1,5 +1,6 @@
 //! Calibration: it keeps silent about sound statistics, and speaks up about unsound ones.
 
+use etalon_statistics::error_rates::Rate;
 use etalon_statistics::{Estimate, Summary};
 use etalon_validation::calibrate::pool::Pool;
 use etalon_validation::calibrate::single::{SETTINGS, Single};
@@ -92,4 +93,52 @@ fn null_runs_raise_no_alarm() {
     // α = 10⁻² for each. Mutant: two hands that share replicates would have too few small ones.
     let rates = verdict::decades(&p_values);
     assert!(rates[..3].iter().all(|rate| rate.is_kept()), "{rates:?}");
+}
+
+#[test]
+fn null_runs_that_decide_nothing_keep_no_promise() {
+    // 1000 runs of two comparisons. Mutants rejected: no alarm is all that is asked, though what
+    // breaks, and what is never decided, raises none.
+    let kept = |second: null::Counts| {
+        let runs = null::NullRuns {
+            alarms: Rate::new(1e-3, u64::from(second.failed), 1000, CONFIDENCE).expect("a rate"),
+            undecided: second.undecided,
+            comparisons: vec![null::Counts::default(), second],
+            p_values: Vec::new(),
+        };
+        let promises = verdict::of_null_runs(&runs);
+        promises.iter().all(|promise| promise.holds)
+    };
+    let counts = |failed, undecided, broken| null::Counts {
+        failed,
+        undecided,
+        broken,
+    };
+    assert!(kept(counts(0, 0, 0)) && kept(counts(0, 990, 0)));
+    assert!(!kept(counts(1, 0, 0)) && !kept(counts(0, 991, 0)) && !kept(counts(0, 0, 1)));
+}
+
+#[test]
+fn replicates_of_another_estimator_are_not_taken_up() {
+    // The plan and the scene are the same. Mutant rejected: replicates that are told by the place of
+    // their estimator alone.
+    let claim = Claim::read(&folders::claims().join("furnace.toml")).expect("a claim");
+    let mut claims = vec![claim];
+    claims[0].estimators[0].mutants.clear();
+    let options = Options {
+        only: None,
+        tier: Tier::Quick,
+        seed: 1,
+        part: None,
+    };
+    let folder = tempfile::tempdir().expect("a folder");
+    let state = State::open(folder.path(), &options).expect("a state");
+    let render = |claims: &[Claim]| {
+        let task = run::tasks(claims, &options)[0];
+        Pool::render(task, Tier::Quick, 1, &state).expect("it renders");
+        state.len()
+    };
+    assert_eq!((render(&claims), render(&claims)), (1, 1));
+    claims[0].estimators[0].adaptive = Some(16);
+    assert_eq!(render(&claims), 2);
 }

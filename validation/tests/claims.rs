@@ -3,7 +3,7 @@
 
 use etalon_validation::claim::{Claim, Oracle, Sampler};
 use etalon_validation::convergence::Ladder;
-use etalon_validation::tier::Tier;
+use etalon_validation::tier::{FULL_BOUND, Tier};
 use etalon_validation::{closed_form, folders, povray, reference, run};
 use std::collections::BTreeSet;
 
@@ -234,11 +234,24 @@ fn a_wrong_claim_says_what_is_wrong() {
             ),
             "bounds",
         ),
+        (
+            good.replace(
+                "[[estimators]]",
+                "bounds = { rounding = 0.01 }\n[[estimators]]",
+            ),
+            "rounding",
+        ),
+        (
+            good.replace(
+                "[[estimators]]",
+                "bounds = { rounding = -1e-6 }\n[[estimators]]",
+            ),
+            "rounding",
+        ),
         // Mutant rejected: a scene that is not there as everybody's objection to it.
         (matrix("bound = 0.02"), "s.xml"),
         (matrix("full_only = true"), "s.xml"),
         (matrix("bound = 2"), "between 0 and 1"),
-        (matrix(""), "`bound` is missing"),
         (
             matrix("bound = 0.02\nfull_only = true"),
             "there is no `bound`",
@@ -257,4 +270,90 @@ fn a_wrong_claim_says_what_is_wrong() {
     std::fs::write(&path, good).expect("written");
     Claim::read(&path).expect("it is right");
     std::fs::remove_dir_all(&folder).expect("removed");
+}
+
+/// What is said of a claim of ours after a change of its text.
+fn said_of(name: &str, change: impl FnOnce(String) -> String) -> Result<Claim, String> {
+    let path = folders::claims().join(format!("{name}.toml"));
+    let text = change(std::fs::read_to_string(&path).expect("a claim"));
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = folder.path().join(format!("{name}.toml"));
+    std::fs::write(&path, text).expect("written");
+    Claim::read(&path)
+}
+
+#[test]
+fn bounds_are_stated_where_they_are_asked_for() {
+    // Mutant rejected: bounds that nobody looks at.
+    for name in [
+        "noise-furnace",
+        "convergence-sobol",
+        "povray-spheres",
+        "invariance-bits",
+    ] {
+        said_of(name, |text| text).expect("it is right");
+        let stated = said_of(name, |text| text + "\n[bounds]\nimage = 0.005\n");
+        let message = stated.expect_err("it has bounds");
+        assert!(message.contains("`bounds` belong to"), "{name}: {message}");
+    }
+    said_of("invariance-wavelengths", |text| {
+        text + "\n[bounds]\nimage = 0.005\n"
+    })
+    .expect("statistics have bounds");
+}
+
+#[test]
+fn a_matrix_states_the_bound_of_its_rows_in_the_default_run_and_no_other() {
+    let name = "material-plastic";
+    let claim = said_of(name, |text| text).expect("it is right");
+    let places = |later| {
+        let places = claim.estimators.iter().filter_map(|e| e.in_matrix);
+        places.filter(move |place| place.later == later)
+    };
+    // Mutant rejected: the default run's bound for rows that it does not make.
+    assert!(places(true).count() > 0 && places(true).all(|place| place.bound == FULL_BOUND));
+    assert!(places(false).count() > 0);
+    let bound = claim.matrix.as_ref().and_then(|matrix| matrix.bound);
+    assert!(places(false).all(|place| Some(place.bound) == bound));
+    let line = format!("bound = {}\n", bound.expect("stated"));
+    let missing = said_of(name, |text| text.replace(&line, ""));
+    let message = missing.expect_err("no bound");
+    assert!(message.contains("`bound` is missing"), "{message}");
+    // Everybody is left to the full run, one by one. Mutant rejected: a bound of no row.
+    let everybody = |text: String| {
+        let waiting = claim.estimators.iter();
+        let waiting = waiting.filter(|e| e.in_matrix.is_some_and(|place| !place.later));
+        let waiting: String = waiting
+            .filter_map(|e| e.integrator.as_deref())
+            .map(|name| format!("{name} = {{ spp = 64, replicates = 32 }}\n"))
+            .collect();
+        text.replace("[matrix.later]\n", &format!("[matrix.later]\n{waiting}"))
+    };
+    let message = said_of(name, everybody).expect_err("a bound of no row");
+    assert!(message.contains("there is no `bound`"), "{message}");
+    said_of(name, |text| everybody(text).replace(&line, "")).expect("it is right");
+}
+
+#[test]
+fn the_list_says_whether_the_quick_run_decides_a_claim() {
+    // Mutant rejected: what the claim says of the quick run alone, though only the full run makes it.
+    let mut claims = claims();
+    claims.truncate(1);
+    for (quick, full_only, decides) in [
+        (true, false, true),
+        (false, false, false),
+        (true, true, false),
+        (false, true, false),
+    ] {
+        (claims[0].quick, claims[0].full_only) = (quick, full_only);
+        let list = etalon_validation::json::list(&claims);
+        assert_eq!(list["claims"][0]["quick"], decides, "{quick} {full_only}");
+        let options = run::Options {
+            only: None,
+            tier: Tier::Quick,
+            seed: 1,
+            part: None,
+        };
+        assert_eq!(!run::tasks(&claims, &options).is_empty(), decides);
+    }
 }

@@ -1,6 +1,9 @@
 //! References that cannot be used: each gives a clear error, never a pass.
 
-use etalon_film::{BoxFilter, ExactFilm, FilmSettings, Filter, RenderFacts, read_developed};
+use etalon::judge::{Rules, judge};
+use etalon_film::{
+    BoxFilter, Developed, ExactFilm, FilmSettings, Filter, Metadata, RenderFacts, read_developed,
+};
 use etalon_images::Image;
 use etalon_validation::claim::{Claim, Oracle};
 use etalon_validation::folders;
@@ -98,6 +101,81 @@ fn a_reference_of_other_numbers_than_the_claim_states_is_an_error() {
     std::fs::write(&path, text.replace("\"spp\": 256", "\"spp\": 512")).expect("written");
     let message = folder.read(&expected).expect_err("fewer samples");
     assert!(message.contains("not as many samples"), "{message}");
+}
+
+/// What is said of the cornell box's reference after a change of it.
+fn said_of(name: &str, change: impl FnOnce(&mut Developed)) -> String {
+    let (folder, expected) = Folder::with_reference(name);
+    let path = folder.0.join("cornell-box.exr");
+    let mut picture = read_developed(&path).expect("a picture");
+    change(&mut picture);
+    picture.write_exr(&path).expect("written");
+    folder.read(&expected).expect_err("not whole")
+}
+
+fn facts(picture: &mut Developed) -> &mut Metadata {
+    picture.metadata.as_mut().expect("statistics")
+}
+
+#[test]
+fn a_reference_without_a_channel_or_a_size_of_tiles_is_an_error() {
+    // Mutants rejected: a reference is compared by what it happens to have.
+    for (index, name) in ["R", "G", "B"].into_iter().enumerate() {
+        let message = said_of(&format!("channel-{name}"), |picture| {
+            // The plane stays, under a name that is no colour's.
+            let other = format!("lost.{name}");
+            let mut image = Image::new(picture.image.width(), picture.image.height());
+            for channel in ["R", "G", "B"] {
+                let plane = picture.image.channel(channel).expect("a channel").to_vec();
+                let kept = if channel == name { &other } else { channel };
+                image.push(kept, plane);
+            }
+            picture.image = image;
+            facts(picture).channels[index] = other;
+        });
+        let expected = format!("it has no channel `{name}`");
+        assert!(message.contains(&expected), "{message}");
+    }
+    for (side, expected) in [
+        (None, "it has no means of the whole image"),
+        (Some(16), "it has no means of tiles of 16² pixels"),
+        (Some(64), "it has no means of tiles of 64² pixels"),
+    ] {
+        let message = said_of("sides", |picture| {
+            facts(picture)
+                .tile_means
+                .retain(|means| means.side() != side);
+        });
+        assert!(message.contains(expected), "{message}");
+        assert!(message.contains("cargo xtask references"), "{message}");
+    }
+}
+
+#[test]
+fn a_picture_of_our_own_is_no_reference() {
+    // It has the numbers that are asked for. Mutants rejected: nobody asks who made it, or with
+    // which variant.
+    for version in [etalon::VERSION, "Mitsuba 3.9.1 scalar_spectral"] {
+        let message = said_of("own", |picture| {
+            facts(picture).version = version.to_owned();
+        });
+        let expected = format!(
+            "it was made by `{version}`, its description names `Mitsuba 3.9.1 llvm_ad_spectral`"
+        );
+        assert!(message.contains(&expected), "{message}");
+    }
+}
+
+#[test]
+fn pictures_without_a_mean_of_the_whole_are_not_compared() {
+    // Mutant rejected: no mean differs where there is none.
+    let path = reference::picture_path("cornell-box");
+    let whole = read_developed(&path).expect("a picture");
+    let mut tiles = whole.clone();
+    facts(&mut tiles).tile_means.retain(|m| m.side().is_some());
+    let judged = judge(&whole, &tiles, Rules::default());
+    let message = judged.expect_err("refused");
+    assert!(message.contains("means of the whole image"), "{message}");
 }
 
 #[test]

@@ -1,6 +1,6 @@
 //! A full run goes on where it was interrupted, and takes up nothing but its own.
 
-use etalon_validation::claim::Claim;
+use etalon_validation::claim::{Claim, Oracle};
 use etalon_validation::outcome;
 use etalon_validation::run::{self, Options};
 use etalon_validation::state::State;
@@ -108,4 +108,31 @@ fn the_oracle_of_several_estimators_is_rendered_once() {
         assert_eq!(bias(&alone), bias(row));
     }
     let _ = std::fs::remove_dir_all(&folder);
+}
+
+#[test]
+fn replicates_of_a_noise_claim_are_those_of_all_its_pictures() {
+    // Its samples are. Mutant rejected: replicates of one picture, of which each would have as many
+    // samples as there are pictures.
+    let claim = Claim::read(&folders::claims().join("noise-furnace.toml")).expect("a claim");
+    let mut claims = vec![claim];
+    claims[0].estimators.truncate(1);
+    let estimator = &mut claims[0].estimators[0];
+    estimator.mutants.clear();
+    (estimator.quick.spp, estimator.quick.replicates) = (32, 8);
+    let Oracle::Noise { seeds, .. } = &mut claims[0].oracle else {
+        panic!("a claim about noise");
+    };
+    *seeds = 3;
+    let options = Options {
+        only: None,
+        tier: Tier::Quick,
+        seed: 5,
+        part: None,
+    };
+    let rows = outcome::run(run::tasks(&claims, &options), &options, None, |_| ());
+    for look in &rows.expect("a plan")[0].history {
+        assert_eq!(look.spp, u64::from(look.replicates) * 4);
+        assert_eq!(look.replicates % (3 * 8), 0);
+    }
 }

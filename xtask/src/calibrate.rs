@@ -1,5 +1,6 @@
 //! `cargo xtask calibrate`: shows that the validation's error rates are what they are said to be.
 
+use etalon_images::write_atomically;
 use etalon_validation::calibrate::null::{self, NullRuns};
 use etalon_validation::calibrate::pool::Pool;
 use etalon_validation::calibrate::single::{self, Single};
@@ -10,7 +11,7 @@ use etalon_validation::folders;
 use etalon_validation::run::{self, Options, Task};
 use etalon_validation::state::State;
 use etalon_validation::tier::Tier;
-use std::io::IsTerminal;
+use std::io::{IsTerminal, Write};
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 use std::time::Instant;
@@ -206,5 +207,6 @@ fn progress_ends() {
 }
 
 fn write(path: &Path, text: &str) -> Result<(), String> {
-    std::fs::write(path, text).map_err(|e| format!("{}: {e}", path.display()))
+    write_atomically(path, |file| file.write_all(text.as_bytes()))
+        .map_err(|e| format!("{}: {e}", path.display()))
 }

@@ -9,10 +9,12 @@ mod list;
 mod record;
 mod workspace;
 
+use etalon_images::write_atomically;
 use list::{Expected, Mutant};
 use record::{Fate, Killer, Record, Records};
 use serde_json::{Value, json};
 use std::collections::BTreeSet;
+use std::io::Write;
 use std::process::ExitCode;
 use std::time::{Duration, Instant};
 use workspace::{Run, Workspace};
@@ -338,7 +340,7 @@ fn conclude(
         "records": records,
     });
     let path = workspace::folder().join(arguments.report());
-    std::fs::write(&path, format!("{report:#}\n"))
+    write_atomically(&path, |file| writeln!(file, "{report:#}"))
         .map_err(|e| format!("{}: {e}", path.display()))?;
     println!("report: {}", path.display());
     Ok(passed)

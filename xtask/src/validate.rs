@@ -1,9 +1,10 @@
 //! `cargo xtask validate`: renders every claim, decides it, and reports.
 
 use etalon::part::PartOfMany;
+use etalon_images::write_atomically;
 use etalon_validation::claim::Claim;
 use etalon_validation::json::{self, Provenance};
-use etalon_validation::outcome::{self, Conclusion, Progress};
+use etalon_validation::outcome::{self, Conclusion, Outcome, Progress};
 use etalon_validation::run::{self, Options};
 use etalon_validation::state::State;
 use etalon_validation::tier::Tier;
@@ -148,6 +149,7 @@ fn validate(arguments: &Arguments) -> Result<Conclusion, String> {
         part: arguments.part,
     };
     let tasks = run::tasks(&claims, &options);
+    let plan = run::Plan::of(&tasks, &options);
     if let Some(part) = options.part
         && tasks.iter().all(|task| task.elsewhere)
     {
@@ -167,7 +169,7 @@ fn validate(arguments: &Arguments) -> Result<Conclusion, String> {
     if std::io::stderr().is_terminal() {
         eprint!("\r\x1b[K");
     }
-    let provenance = Provenance::of(&options, start.elapsed().as_secs_f64());
+    let provenance = Provenance::of(&options, plan, start.elapsed().as_secs_f64());
     let mut text = table::head();
     for row in &rows {
         text += "\n";
@@ -175,6 +177,12 @@ fn validate(arguments: &Arguments) -> Result<Conclusion, String> {
     }
     text += "\n";
     text += &table::summary(&rows, provenance.seconds);
+    if let Some(part) = &provenance.part {
+        text += &format!(
+            "\npart {part} of the plan {} of {} comparisons: parts belong together only if their plan is the same",
+            provenance.plan, provenance.hypotheses
+        );
+    }
     arguments.say(&text);
     let page = folder.join("report.html");
     write(&page, &html::page(&rows, &provenance))?;
@@ -183,9 +191,21 @@ fn validate(arguments: &Arguments) -> Result<Conclusion, String> {
     arguments.say(&format!("report: {}", page.display()));
     arguments.write_json(&json)?;
     if let Some(state) = state {
-        state.finish()?;
+        end(state, rows.iter().map(|row| row.outcome));
     }
     Ok(Conclusion::of(&rows))
+}
+
+/// Forgets the batches of a run that has ended. What broke may be mended and made again without the
+/// rest being rendered anew, so a run with such a row keeps its batches. The verdicts are written: what
+/// cannot be removed changes nothing about them.
+fn end(state: State, mut outcomes: impl Iterator<Item = Outcome>) {
+    if outcomes.any(|outcome| outcome == Outcome::Broken) {
+        return;
+    }
+    if let Err(message) = state.finish() {
+        eprintln!("warning: what the run has kept cannot be removed: {message}");
+    }
 }
 
 /// Says how far the run is: on one line of a terminal, and line by line in a full run's log.
@@ -227,7 +247,8 @@ fn duration(time: Duration) -> String {
 }
 
 fn write(path: &Path, text: &str) -> Result<(), String> {
-    std::fs::write(path, text).map_err(|e| format!("{}: {e}", path.display()))
+    write_atomically(path, |file| file.write_all(text.as_bytes()))
+        .map_err(|e| format!("{}: {e}", path.display()))
 }
 
 #[cfg(test)]
@@ -278,5 +299,28 @@ mod tests {
                 "{message}"
             );
         }
+    }
+
+    #[test]
+    fn a_run_keeps_its_batches_if_something_broke() {
+        // Mutants rejected: hours of batches are forgotten for one reference that is missing; a folder
+        // that is gone makes the run fail.
+        let folder = std::env::temp_dir().join(format!("etalon-end-{}", std::process::id()));
+        let options = Options {
+            only: None,
+            tier: Tier::Full,
+            seed: 1,
+            part: None,
+        };
+        let open = || State::open(&folder, &options).expect("a folder");
+        let below = open().folder().to_owned();
+        end(open(), [Outcome::Passed, Outcome::Broken].into_iter());
+        assert!(below.is_dir());
+        let worse = [Outcome::Passed, Outcome::Failed, Outcome::Undecided];
+        end(open(), worse.into_iter());
+        assert!(!below.exists());
+        let state = open();
+        std::fs::remove_dir_all(&folder).expect("removed");
+        end(state, worse.into_iter());
     }
 }

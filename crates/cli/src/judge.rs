@@ -261,6 +261,9 @@ fn decide(comparisons: &[Comparison], rules: Rules) -> Result<Judgement, String>
         .filter(|c| c.side.is_none())
         .map(|c| (c.channel.as_str(), c.oracle[0]))
         .collect();
+    if means.is_empty() {
+        return Err("there are no means of the whole image to compare".to_owned());
+    }
     let luminance = luminance(&means);
     let mut images = Vec::new();
     let mut tiles = Vec::new();

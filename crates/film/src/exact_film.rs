@@ -360,10 +360,8 @@ impl Placing for ExactFilm {
     #[inline]
     fn place(&self, pixel: UVec2, u: Vec2) -> Placement {
         let (offset, weight) = self.filter.sample(u);
-        Placement {
-            raster: pixel.as_vec2() + 0.5 + offset,
-            weight,
-        }
+        let raster = pixel.as_vec2() + 0.5 + offset;
+        Placement { raster, weight }
     }
 
     #[inline]

@@ -19,6 +19,9 @@ pub mod verdict;
 /// Null runs of the whole decision.
 pub const NULL_RUNS: u32 = 3000;
 
+/// The greatest share of the null runs that may leave one comparison undecided.
+pub const MOST_UNDECIDED: f64 = 0.99;
+
 /// Repetitions of a single comparison.
 pub const REPETITIONS: u32 = 1000;
 

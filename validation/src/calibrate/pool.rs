@@ -9,6 +9,7 @@
 //! - Exponents and coverages: batches and pictures are drawn with replacement.
 //! - Bits, and pixels without noise: nothing is left to chance, and nothing is dealt.
 
+use crate::batches;
 use crate::calibrate::CHANNEL;
 use crate::claim::{Budget, Oracle};
 use crate::convergence;
@@ -188,7 +189,9 @@ impl Pictures {
         };
         let loaded = rendering::load_for(claim, estimator)?;
         let plan = rendering::plan(&loaded, estimator, budget, seed);
-        let name = format!("{}-{}", claim.name, task.place);
+        // As in a run: a claim may be edited between two calibrations of one program.
+        let print = batches::fingerprint(estimator);
+        let name = format!("{}-{}-{print:08x}", claim.name, task.place);
         let picture = match state.read(&name, &plan, &loaded) {
             Some(picture) => picture,
             None => {

@@ -1,8 +1,8 @@
 //! What the calibration came to: the promises, and whether each is kept.
 
-use super::null::NullRuns;
+use super::null::{Counts, NullRuns};
 use super::single::Single;
-use super::{ALARMS, CONFIDENCE, COVERAGES, REPETITIONS};
+use super::{ALARMS, CONFIDENCE, COVERAGES, MOST_UNDECIDED, REPETITIONS};
 use crate::decision::ALPHA;
 use crate::run::Task;
 use etalon_statistics::error_rates::{self, Rate};
@@ -34,14 +34,34 @@ pub fn confidence_of_each(settings: usize) -> f64 {
 /// The promises of the null runs.
 pub fn of_null_runs(null: &NullRuns) -> Vec<Promise> {
     let (count, trials) = (null.alarms.count, null.alarms.trials);
-    vec![Promise {
-        what: "no false alarm of the whole decision in any null run".to_owned(),
-        seen: format!(
-            "{count} in {trials}: a rate of at most {:.1e} (promised {ALPHA:.0e})",
-            null.alarms.interval.high
-        ),
-        holds: count == 0,
-    }]
+    let broken: u32 = null.comparisons.iter().map(|counts| counts.broken).sum();
+    // What is never decided raises no alarm either, and shows nothing.
+    let idle = |counts: &&Counts| f64::from(counts.undecided) > MOST_UNDECIDED * trials as f64;
+    let idle = null.comparisons.iter().filter(idle).count();
+    let comparisons = null.comparisons.len();
+    vec![
+        Promise {
+            what: "no false alarm of the whole decision in any null run".to_owned(),
+            seen: format!(
+                "{count} in {trials}: a rate of at most {:.1e} (promised {ALPHA:.0e})",
+                null.alarms.interval.high
+            ),
+            holds: count == 0,
+        },
+        Promise {
+            what: "no comparison is without a decision in any null run".to_owned(),
+            seen: format!("{broken} broken"),
+            holds: broken == 0,
+        },
+        Promise {
+            what: format!(
+                "no comparison is undecided in more than {:.0} % of the null runs",
+                100.0 * MOST_UNDECIDED
+            ),
+            seen: format!("{idle} of {comparisons}"),
+            holds: idle == 0,
+        },
+    ]
 }
 
 /// The promises of a single comparison.

@@ -80,7 +80,8 @@ fn about(provenance: &Provenance) -> Markup {
             summary { "How to read this, and where it comes from" }
             p { "A comparison with a reference asks for equivalence: the interval of the bias must lie within "
                 "the bound. A closed form, or another estimator of ours, asks for equality as well. A mutant "
-                "is a fault planted on purpose: it passes if it is found. An interval that is too wide is "
+                "is a fault planted on purpose: it passes if it is found, and is undecided if that takes "
+                "more samples. An interval that is too wide is "
                 em { "undecided" } ", never a pass. Intervals and p-values are corrected over the whole run: "
                 "the probability that a sound renderer shows any failure is α = " (ALPHA) ". Only the bounds "
                 "that a full run asks for besides, and that the head of this page counts, are said of each "
@@ -104,6 +105,8 @@ fn facts(provenance: &Provenance) -> Markup {
             dt { "Machine" } dd { (provenance.machine) ", " (provenance.threads) " threads" }
             dt { "Run" } dd { (provenance.tier) (part) ", seed " (provenance.seed) ", "
                 (format!("{:.0} s", provenance.seconds)) }
+            dt { "Plan" } dd { code { (provenance.plan) } ", " (provenance.hypotheses) " comparisons"
+                @if !part.is_empty() { ", all parts together: parts of one run have the same plan" } }
             dt { "The same as data" } dd { code { "report.json" } " beside this file" }
         }
     }

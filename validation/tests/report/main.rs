@@ -31,6 +31,8 @@ fn provenance() -> Provenance {
         seed: 1,
         tier: "quick",
         part: None,
+        hypotheses: 8,
+        plan: "0123456789ab".to_owned(),
         seconds: 61.5,
     }
 }

@@ -4,9 +4,11 @@
 //! `target/mutants/workspace` with a target directory of its own beside it.
 
 use super::list::Mutant;
+use etalon_images::write_atomically;
 use etalon_validation::folders;
 use serde_json::Value;
 use std::fs;
+use std::io::Write;
 use std::path::{Path, PathBuf};
 use std::process::{Child, Command, Stdio};
 use std::time::{Duration, Instant};
@@ -107,7 +109,7 @@ impl Workspace {
         if !program.exists() {
             self.build()??;
             fs::create_dir_all(self.sound())
-                .and_then(|()| fs::copy(self.mutated(), &program))
+                .and_then(|()| copy_whole(&self.mutated(), &program))
                 .map_err(|e| format!("{}: {e}", program.display()))?;
         }
         Ok(())
@@ -135,7 +137,8 @@ impl Workspace {
         let run = self.run(&self.sound().join("xtask"), only, seed)?;
         if let Run::Rows(rows) = &run {
             let rows = Value::from(rows.clone()).to_string();
-            fs::write(&kept, rows).map_err(|e| format!("{}: {e}", kept.display()))?;
+            write_atomically(&kept, |file| file.write_all(rows.as_bytes()))
+                .map_err(|e| format!("{}: {e}", kept.display()))?;
         }
         Ok(run)
     }
@@ -180,6 +183,17 @@ impl Workspace {
             });
         Ok(rows.map_or_else(|| Run::Crashed(last_lines(&log)), Run::Rows))
     }
+}
+
+/// Copies a program, which is at `to` whole or not at all: half of one would be taken for the sound
+/// program by the next run. Its permissions are those of the original.
+fn copy_whole(from: &Path, to: &Path) -> std::io::Result<()> {
+    let half = to.with_extension(format!("{}.part", std::process::id()));
+    let copied = fs::copy(from, &half).and_then(|_| fs::rename(&half, to));
+    if copied.is_err() {
+        let _ = fs::remove_file(&half);
+    }
+    copied
 }
 
 /// Waits for `child`, and stops it after `limit`. Whether it ended by itself.
@@ -233,5 +247,24 @@ impl Drop for Planted {
         if let Err(error) = fs::write(&self.path, &self.sound) {
             eprintln!("error: {} stays mutated: {error}", self.path.display());
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_copy_is_whole_or_not_there() {
+        let folder = std::env::temp_dir().join(format!("etalon-copy-{}", std::process::id()));
+        fs::create_dir_all(&folder).expect("a folder");
+        let (from, to) = (folder.join("from"), folder.join("to"));
+        // Mutant rejected: a failed copy leaves a file that the next run takes for the program.
+        assert!(copy_whole(&from, &to).is_err() && !to.exists());
+        fs::write(&from, "a program").expect("written");
+        copy_whole(&from, &to).expect("copied");
+        assert_eq!(fs::read_to_string(&to).expect("readable"), "a program");
+        assert_eq!(fs::read_dir(&folder).map_or(0, Iterator::count), 2);
+        fs::remove_dir_all(&folder).expect("removed");
     }
 }
