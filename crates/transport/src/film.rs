@@ -83,6 +83,6 @@ pub trait Film: Placing {
     /// first sample of each pixel will be its replicate's sample `first`.
     fn tile(&self, from: UVec2, to: UVec2, alone: bool, first: u32) -> Self::Tile<'_>;
     /// Ends a replicate of `samples` samples per pixel (as many light paths per pixel for
-    /// splats; of as many as [`Film::dealt`] deals to each): its means join the statistics.
+    /// splats; of as many as [`Placing::dealt`] deals to each): its means join the statistics.
     fn end_replicate(&mut self, samples: u32);
 }
