@@ -95,7 +95,7 @@ impl Integrator for PrimarySpace {
     }
 
     fn objections(&self, sight: &Sight) -> Vec<Objection> {
-        let mut objections = sight.objections(Finding::Either);
+        let mut objections = sight.objections(Finding::FromCamera);
         objections.extend(sight.unsplattable());
         objections
     }

@@ -3,7 +3,7 @@
 //! A lattice of rays through the film, each with a lens position of its own, goes straight on
 //! through whatever lets light pass. Something small may slip through; what is found is there.
 
-use etalon_transport::{Bsdf, Camera, Mode, Ray, View, World};
+use etalon_transport::{Bsdf, Camera, Mode, Ray, Receiver, Vertex, View, World};
 use glam::{UVec2, Vec2, Vec3, Vec4};
 
 /// Rays along each side of the film.
@@ -24,37 +24,101 @@ pub(crate) fn look<W: World>(world: &W, origin: UVec2, size: UVec2) -> View {
         let raster = origin.as_vec2() + size.as_vec2() * cell / LATTICE as f32;
         let lens = (SPREAD * index as f32).fract();
         let start = world.camera().ray(raster, lens, 0.5);
-        view.reached += u32::from(reaches(world, start.ray, index));
+        match reach(world, start.ray, index) {
+            Some(Reached::Light) => view.reached += 1,
+            Some(Reached::Surface(vertex, wo)) => {
+                view.reached += 1;
+                view.veiled += u32::from(veiled(world, &vertex, wo, index));
+            }
+            None => {}
+        }
         follow(world, start.ray, &mut view);
     }
     view
 }
 
-/// Whether a ray that mirrors and glass send on comes to a light, or to something that scatters light.
+/// Where a ray ends that mirrors and glass send on.
+enum Reached {
+    /// At a light.
+    Light,
+    /// At a surface that scatters light in a continuum of directions, seen from this direction.
+    Surface(Vertex, Vec3),
+}
+
+/// Follows a ray that mirrors and glass send on to a light, or to something that scatters light.
 /// Where it may go on in several directions, the ray's number chooses.
-fn reaches<W: World>(world: &W, mut ray: Ray, number: u32) -> bool {
+fn reach<W: World>(world: &W, mut ray: Ray, number: u32) -> Option<Reached> {
     let wavelengths = world.wavelengths(0.5);
     for bounce in 0..PASSED {
         let Some(hit) = world.intersect(&ray) else {
-            return world.has_background();
+            return world.has_background().then_some(Reached::Light);
         };
         let vertex = world.vertex(&ray, &hit);
         let wo = -ray.direction;
         let bsdf = world.bsdf(&vertex, wo, &wavelengths);
-        if bsdf.has_continuous() && bsdf.albedo(wo) != Vec4::ZERO || world.is_emitter(&hit) {
-            return true;
+        if bsdf.has_continuous() && bsdf.albedo(wo) != Vec4::ZERO {
+            return Some(Reached::Surface(vertex, wo));
+        }
+        if world.is_emitter(&hit) {
+            return Some(Reached::Light);
         }
         let onward: Vec<Vec3> = (0..)
             .map_while(|index| bsdf.discrete(wo, index, Mode::Radiance))
             .filter(|sample| sample.value != Vec4::ZERO)
             .map(|sample| sample.wi)
             .collect();
-        let Some(&direction) =
-            onward.get(number.rotate_right(bounce) as usize % onward.len().max(1))
-        else {
-            return false;
+        let choice = number.rotate_right(bounce) as usize % onward.len().max(1);
+        ray = vertex.spawn(*onward.get(choice)?);
+    }
+    None
+}
+
+/// Whether a light that is but a point or a direction would light a surface, were it not for smooth glass
+/// in the way: the light bends there, so that no straight connection finds it. The ray's number chooses
+/// the light.
+fn veiled<W: World>(world: &W, vertex: &Vertex, wo: Vec3, number: u32) -> bool {
+    let wavelengths = world.wavelengths(0.5);
+    let [u_light, u, v] =
+        [0.819_172_5, 0.671_043_6, 0.549_700_5].map(|s| (s * number as f32).fract());
+    let Some(light) = world.sample_light(
+        &Receiver::from(vertex),
+        &wavelengths,
+        u_light,
+        Vec2::new(u, v),
+    ) else {
+        return false;
+    };
+    let shows = world
+        .bsdf(vertex, wo, &wavelengths)
+        .eval(wo, light.direction, Mode::Radiance);
+    if light.origin.can_be_hit() || shows * light.radiance == Vec4::ZERO {
+        return false;
+    }
+    let toward = |vertex: &Vertex| match light.target {
+        Some(target) => Ray::between(vertex.origin_toward(target), target, vertex.time),
+        None => Some(vertex.spawn(light.direction)),
+    };
+    let mut next = toward(vertex);
+    let mut bent = false;
+    for _ in 0..PASSED {
+        let Some(ray) = next else { return bent };
+        let Some(hit) = world.intersect(&ray) else {
+            return bent;
         };
-        ray = vertex.spawn(direction);
+        let at = world.vertex(&ray, &hit);
+        let wo = -ray.direction;
+        let bsdf = world.bsdf(&at, wo, &wavelengths);
+        let bends = (0..)
+            .map_while(|index| bsdf.discrete(wo, index, Mode::Radiance))
+            .any(|sample| {
+                let through = sample.wi.dot(at.normal) * wo.dot(at.normal) < 0.0;
+                through && !sample.passes && sample.value != Vec4::ZERO
+            });
+        if !bends && bsdf.passing() == Vec4::ZERO {
+            return false;
+        }
+        bent |= bends;
+        next = toward(&at);
     }
     false
 }

@@ -88,9 +88,9 @@ pub trait Integrator: Sync {
     }
 
     /// What it objects to in a scene, asked before anything is rendered. By default that of an
-    /// estimator which can both run into lights and choose them.
+    /// estimator whose paths from the camera can both run into lights and choose them.
     fn objections(&self, sight: &Sight) -> Vec<Objection> {
-        sight.objections(Finding::Either)
+        sight.objections(Finding::FromCamera)
     }
 
     /// Samples per pixel after which it must prepare again; `None` if a replicate is one pass.

@@ -32,6 +32,9 @@ pub struct View {
     /// Those that come, perhaps by way of mirrors and smooth glass, to a surface that scatters in a
     /// continuum of directions, or to a light.
     pub reached: u32,
+    /// Those of them that come to a surface which a light that is but a point or a direction lights
+    /// through smooth glass.
+    pub veiled: u32,
 }
 
 /// Plain facts of a scene that decide what an estimator can find in it.
@@ -61,6 +64,9 @@ pub enum Finding {
     Choosing,
     /// Both; either is enough.
     Either,
+    /// Both, and by paths from the camera alone: they come through smooth glass only to lights that they
+    /// run into.
+    FromCamera,
 }
 
 /// What an objection is about, for the place that the message shows.
@@ -127,6 +133,9 @@ impl Sight {
     pub fn objections(&self, finding: Finding) -> Vec<Objection> {
         let mut objections = self.missing(finding);
         objections.extend(self.unreached());
+        if finding == Finding::FromCamera {
+            objections.extend(self.veiled());
+        }
         if self.classic {
             let message = "this integrator follows light, and this material says nothing of how it \
                            scatters light";
@@ -204,6 +213,23 @@ impl Sight {
         })
     }
 
+    /// A remark where light that smooth glass bends on its way is missing, for an estimator that connects
+    /// surfaces with lights by straight lines.
+    fn veiled(&self) -> Option<Objection> {
+        let View { rays, veiled, .. } = self.view;
+        (veiled > 0).then(|| {
+            let share = (100.0 * f64::from(veiled) / f64::from(rays)).ceil();
+            let message = format!(
+                "this integrator cannot see light that comes through smooth glass to {share} % of the picture: \
+                 it connects surfaces with lights by straight lines, and a point or a direction is never hit"
+            );
+            Objection::remark(Subject::Integrator, message).help(
+                "use an estimator that follows light from the lights, too (`bdpt`, `vcm`), or give the lights an \
+                 extent",
+            )
+        })
+    }
+
     /// What is missing of the light for an estimator that finds it in one way.
     fn missing(&self, finding: Finding) -> Vec<Objection> {
         let LightCount {
@@ -223,7 +249,7 @@ impl Sight {
                 "it finds lights only by choosing them, and their `sampling_weight` is 0",
                 "give them a `sampling_weight` above 0",
             ),
-            Finding::Either => (
+            Finding::Either | Finding::FromCamera => (
                 either,
                 "their `sampling_weight` is 0, and a point or a direction is never hit",
                 "give them a `sampling_weight` above 0",
@@ -293,6 +319,7 @@ mod tests {
                 smooth,
                 lights,
                 reached: scattering.max(lights),
+                ..View::default()
             };
             let sight = Sight {
                 view,
@@ -332,8 +359,36 @@ mod tests {
     }
 
     #[test]
+    fn light_behind_glass_is_missed_from_the_camera_alone() {
+        let remarks = |veiled, finding| {
+            let view = View {
+                rays: 10,
+                reached: 10,
+                veiled,
+                ..View::default()
+            };
+            let sight = Sight {
+                view,
+                ..sight(1, 0, 1, 1)
+            };
+            let objections = sight.objections(finding);
+            objections.iter().map(|o| o.fatal).collect::<Vec<_>>()
+        };
+        assert_eq!(remarks(1, Finding::FromCamera), [false]);
+        assert!(remarks(0, Finding::FromCamera).is_empty());
+        for finding in [Finding::Either, Finding::Choosing] {
+            assert!(remarks(10, finding).is_empty());
+        }
+    }
+
+    #[test]
     fn darkness_is_remarked_upon() {
-        for finding in [Finding::Hitting, Finding::Choosing, Finding::Either] {
+        for finding in [
+            Finding::Hitting,
+            Finding::Choosing,
+            Finding::Either,
+            Finding::FromCamera,
+        ] {
             assert_eq!(fatal(Sight::default(), finding), Some(false));
         }
     }

@@ -38,11 +38,12 @@ fn named(integrator: &str) -> String {
 
 /// Rendering goes on, with this remark.
 #[track_caller]
-fn remarks(ran: Ran, place: &str, words: &str) {
+fn remarks(ran: Ran, place: &str, words: &str) -> Ran {
     let ran = ran.fine();
     let heading = format!("a.xml:{place}: note: ");
     assert!(ran.stderr.contains(&heading), "{}", ran.stderr);
     assert!(ran.stderr.contains(words), "{}", ran.stderr);
+    ran
 }
 
 /// Rendering is refused, with this error.
@@ -273,6 +274,60 @@ fn a_camera_that_sees_nothing_to_light_is_told() {
         says_nothing(inside("roughconductor", POINT));
         says_nothing(inside("conductor", lamp));
     }
+}
+
+#[test]
+fn light_that_glass_bends_is_missed_by_paths_from_the_camera_alone() {
+    // Between the light and the wall stands a pane that covers all of the picture, or half of it, or none.
+    let scene = |integrator: &str, left: f32, right: f32, bsdf: &str, light: &str| {
+        let (middle, half) = (f32::midpoint(left, right), (right - left) / 2.0);
+        let shapes = format!(
+            "<shape type=\"rectangle\"><transform name=\"to_world\"><scale x=\"8\" y=\"8\"/>\
+             <rotate y=\"1\" angle=\"180\"/><translate z=\"2\"/></transform></shape>\
+             <shape type=\"rectangle\"><transform name=\"to_world\"><scale x=\"{half}\" y=\"9\"/>\
+             <translate x=\"{middle}\" z=\"-1\"/></transform><bsdf type=\"{bsdf}\"/></shape>{light}"
+        );
+        render_shapes(&named(integrator), PINHOLE, &shapes)
+    };
+    let point =
+        "<emitter type=\"point\"><point name=\"position\" x=\"0\" y=\"0\" z=\"-2\"/></emitter>";
+    let sun = "<emitter type=\"directional\"><vector name=\"direction\" x=\"0\" y=\"0\" z=\"1\"/></emitter>";
+    let lamp = "<shape type=\"sphere\"><point name=\"center\" value=\"0, 0, -2\"/><float name=\"radius\" value=\"0.1\"/>\
+                <emitter type=\"area\"/></shape>";
+    let missed = "cannot see light that comes through smooth glass to";
+    for light in [point, sun] {
+        for integrator in ["path", "guided", "distribution", "pssmlt"] {
+            // Mutant rejected: nobody looks past the first surface in the way.
+            let ran = remarks(
+                scene(integrator, -9.0, 9.0, "dielectric", light),
+                "2:19",
+                missed,
+            );
+            assert!(ran.stderr.contains("100 %"), "{}", ran.stderr);
+        }
+        let half = remarks(scene("path", 0.0, 9.0, "dielectric", light), "2:19", missed);
+        let share = half
+            .stderr
+            .split("smooth glass to ")
+            .nth(1)
+            .expect("a share");
+        let share: f64 = share
+            .split(' ')
+            .next()
+            .expect("a number")
+            .parse()
+            .expect("a number");
+        assert!((40.0..=60.0).contains(&share), "{share} %");
+        for sees in ["bdpt", "vcm", "sppm"] {
+            says_nothing(scene(sees, -9.0, 9.0, "dielectric", light));
+        }
+        // Past it, or straight through, or not at all.
+        says_nothing(scene("path", 30.0, 40.0, "dielectric", light));
+        for bsdf in ["thindielectric", "conductor", "roughdielectric", "diffuse"] {
+            says_nothing(scene("path", -9.0, 9.0, bsdf, light));
+        }
+    }
+    says_nothing(scene("path", -9.0, 9.0, "dielectric", lamp));
 }
 
 /// A wall seen through a filter of this radius.
