@@ -55,6 +55,8 @@ pub(crate) struct Region {
     pub(crate) lobes: Lobes,
     /// The irradiance that scattering found on surfaces that look to each side, the mean of their records.
     pub(crate) irradiance: [f32; FACES],
+    /// α, the probability of following the scattering model's own choice there.
+    pub(crate) own: [f32; FACES],
 }
 
 impl Region {
@@ -74,13 +76,15 @@ pub(crate) struct Lesson {
     pub(crate) lobes: Lobes,
     /// The new irradiances.
     pub(crate) irradiance: [f32; FACES],
+    /// The new fractions α.
+    pub(crate) own: [f32; FACES],
     /// How many directions it was learned from.
     pub(crate) records: u64,
 }
 
 impl Field {
-    /// One region, of which nothing is known, that holds the box between two points.
-    pub(crate) fn new(from: Vec3, to: Vec3) -> Self {
+    /// One region, of which nothing is known, that holds the box between two points; `own` is the least α.
+    pub(crate) fn new(from: Vec3, to: Vec3, own: f32) -> Self {
         // A little larger, and never empty.
         let side = (to - from).max_element().max(f32::MIN_POSITIVE.sqrt()) * 1.001;
         Self {
@@ -91,6 +95,7 @@ impl Field {
                 size: Vec3::splat(side),
                 lobes: Lobes::default(),
                 irradiance: [0.0; FACES],
+                own: [own; FACES],
             }],
         }
     }
@@ -119,10 +124,13 @@ impl Field {
         }
     }
 
-    /// Where light comes from at a point of a surface with this normal, if that was learned.
+    /// Where light comes from at a point of a surface with this normal, if that was learned, and how often
+    /// the scattering model's own choice is followed all the same.
     #[inline]
-    pub(crate) fn lobe(&self, point: Vec3, normal: Vec3) -> Option<&Quadtree> {
-        self.regions[self.find(point)].lobes[face(normal)].as_ref()
+    pub(crate) fn lobe(&self, point: Vec3, normal: Vec3) -> Option<(&Quadtree, f32)> {
+        let region = &self.regions[self.find(point)];
+        let face = face(normal);
+        (region.lobes[face].as_ref()).map(|lobe| (lobe, region.own[face]))
     }
 
     /// The irradiance that scattering found around a point, on surfaces with this normal; 0 where nothing
@@ -176,6 +184,7 @@ impl Field {
                 size,
                 lobes: lesson.lobes.clone(),
                 irradiance: lesson.irradiance,
+                own: lesson.own,
             });
             return Child::Region(self.regions.len() as u32 - 1);
         }

@@ -16,8 +16,6 @@ use glam::Vec3;
 #[derive(Clone, Copy)]
 pub(crate) struct Guide<'f> {
     pub(crate) field: &'f Field,
-    /// The probability of following the scattering model's own choice.
-    pub(crate) own: f32,
     /// The product of the albedos along the path, over the probabilities with which it survived.
     pub(crate) reflected: f32,
 }
@@ -46,11 +44,7 @@ impl<'f> Companion for Guide<'f> {
         } else {
             None
         };
-        Steered {
-            bsdf,
-            lobe,
-            own: self.own,
-        }
+        Steered { bsdf, lobe }
     }
 
     #[inline]

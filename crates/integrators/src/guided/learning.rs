@@ -18,6 +18,7 @@
 //! take a leaf for itself, and 2²⁴ such records fit.
 
 use super::field::{FACES, Field, Lesson, Region, face, place_of, refinement};
+use super::fraction::Scores;
 use super::guide::Guide;
 use super::pictures::Pictures;
 use super::pupil::{Pupil, Record};
@@ -35,7 +36,7 @@ use std::sync::atomic::{AtomicU64, Ordering};
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Lessons {
     pub(crate) settings: PathSettings,
-    /// The probability of following the scattering model's own choice.
+    /// The least probability of following the scattering model's own choice.
     pub(crate) own: f32,
     /// Samples per pixel for all rounds together.
     pub(crate) samples: u32,
@@ -129,9 +130,12 @@ impl Tally {
     };
 
     fn add(&mut self, record: &Record) {
+        let Some(weight) = record.weight else {
+            return;
+        };
         self.from = self.from.min(record.position);
         self.to = self.to.max(record.position);
-        self.weight += f64::from(record.weight);
+        self.weight += f64::from(weight);
         self.records += 1;
     }
 
@@ -153,12 +157,16 @@ struct Sums<'f> {
     masses: Vec<AtomicU64>,
     /// The records of each region's faces.
     records: Vec<[AtomicU64; FACES]>,
+    /// How the scattering model's own choice did.
+    scores: Vec<[Scores; FACES]>,
+    /// The least probability of following it.
+    own: f32,
     /// Units per weight.
     scale: f64,
 }
 
 impl<'f> Sums<'f> {
-    fn new(field: &'f Field, scale: f64) -> Self {
+    fn new(field: &'f Field, own: f32, scale: f64) -> Self {
         let mut slots = 0;
         let mut begin = |region: &Region| {
             core::array::from_fn(|face| {
@@ -175,6 +183,10 @@ impl<'f> Sums<'f> {
             records: (field.regions().iter())
                 .map(|_| <[AtomicU64; FACES]>::default())
                 .collect(),
+            scores: (field.regions().iter())
+                .map(|_| <[Scores; FACES]>::default())
+                .collect(),
+            own,
             scale,
         }
     }
@@ -184,8 +196,14 @@ impl<'f> Sums<'f> {
         let size = self.field.regions()[self.field.find(record.position)].size;
         let index = self.field.find(record.position + shift * size);
         let face = face(record.normal);
+        if let Some((light, rivals)) = record.scattered {
+            self.scores[index][face].add(self.own, f64::from(light) * self.scale, rivals);
+        }
+        let Some(weight) = record.weight else {
+            return;
+        };
         self.records[index][face].fetch_add(1, Ordering::Relaxed);
-        let units = (f64::from(record.weight) * self.scale).min(LARGEST);
+        let units = (f64::from(weight) * self.scale).min(LARGEST);
         if !(units > 0.0) {
             return;
         }
@@ -204,6 +222,10 @@ impl<'f> Sums<'f> {
         let lesson = |(index, region): (usize, &Region)| {
             let records = self.records[index].each_ref().map(load);
             let mut irradiance = region.irradiance;
+            let own = core::array::from_fn(|face| {
+                let best = self.scores[index][face].best(self.own, records[face]);
+                best.unwrap_or(region.own[face])
+            });
             let lobes = core::array::from_fn(|face| {
                 let tree = region.tree(face);
                 let masses = &self.masses[self.first[index][face]..][..tree.slots()];
@@ -218,6 +240,7 @@ impl<'f> Sums<'f> {
             Lesson {
                 lobes,
                 irradiance,
+                own,
                 records: records.iter().sum(),
             }
         };
@@ -240,12 +263,12 @@ impl Lessons {
             pass,
         };
         // Where paths go, and how bright it is there, so far.
-        let nothing = Field::new(Vec3::ZERO, Vec3::ONE);
+        let nothing = Field::new(Vec3::ZERO, Vec3::ONE, self.own);
         let first = self.round(&class, &nothing, Round::alone(0, 1), None, None);
         if first.records == 0 {
             return (nothing, None);
         }
-        let mut field = Field::new(first.from, first.to);
+        let mut field = Field::new(first.from, first.to, self.own);
         let mut tally = first;
         let (mut number, mut samples, mut left) = (1, 1, self.samples.max(1));
         loop {
@@ -262,7 +285,7 @@ impl Lessons {
             };
             let mean = tally.weight / tally.records as f64;
             let scale = if mean > 0.0 { UNITS / mean } else { UNITS };
-            let sums = Sums::new(&field, scale);
+            let sums = Sums::new(&field, self.own, scale);
             let found = self.round(&class, &field, round, Some(&sums), pictures.as_mut());
             let lessons = sums.lessons(self.share);
             let most = self.records * f64::from(round.samples()).sqrt();
@@ -290,7 +313,6 @@ impl Lessons {
         let pass = class.pass;
         let guide = Guide {
             field,
-            own: self.own,
             reflected: 1.0,
         };
         let row = |(row, mut seen): (u32, Option<&mut [Vec4]>)| {

@@ -9,7 +9,8 @@
 //! and a learned one p_g, piecewise constant in space and direction, that is proportional to the radiance
 //! expected from each direction (Müller, Gross & Novák 2017, "Practical Path Guiding for Efficient
 //! Light-Transport Simulation"; Müller 2019, its chapter in "Path Guiding in Production"). The mixture is one
-//! technique with one density (single-sample balance); p_g is the same for all four wavelengths.
+//! technique with one density (single-sample balance); p_g is the same for all four wavelengths. How often each
+//! is followed, α, is learned as well, region by region (`fraction.rs`).
 //!
 //! **What is learned, when.** Once for an image, before its first sample: rounds of 1, 2, 4, … samples per
 //! pixel from a random stream of their own, together at most `training` times the image's samples (but at
@@ -31,6 +32,7 @@
 //! seed, the film and the number of samples of the whole image, so any share of the replicates learns the same.
 
 mod field;
+mod fraction;
 mod guide;
 mod learning;
 mod pictures;
@@ -57,8 +59,8 @@ pub struct Guided {
     pub settings: PathSettings,
     /// Samples per pixel spent on learning, as a multiple of the image's own.
     pub training: f64,
-    /// α, the probability of following the scattering model's own choice of direction; above 0, as it
-    /// alone finds all light.
+    /// The least α, the probability of following the scattering model's own choice of direction, and all that
+    /// there is to it where nothing was learned of it; above 0, as it alone finds all light.
     pub bsdf_sampling_fraction: f64,
     /// Records after which a region of space is halved (in the round of one sample per pixel; in a round
     /// of n samples √n times as many).
@@ -121,10 +123,9 @@ impl Guided {
         }
     }
 
-    fn guide<'f>(&self, learned: &'f Learned) -> Guide<'f> {
+    fn guide(learned: &Learned) -> Guide<'_> {
         Guide {
             field: &learned.field,
-            own: self.bsdf_sampling_fraction as f32,
             reflected: 1.0,
         }
     }
@@ -176,7 +177,7 @@ impl Integrator for Guided {
         sampler: &mut S,
         sink: &mut K,
     ) {
-        let guide = self.guide(learned);
+        let guide = Self::guide(learned);
         let mut walks = [Some(Walk::start(
             world,
             &self.settings,
@@ -195,7 +196,7 @@ impl Integrator for Guided {
         drafts: &mut [Draft<S>],
         sink: &mut K,
     ) {
-        let guide = self.guide(learned);
+        let guide = Self::guide(learned);
         match &learned.pictures {
             Some(pictures) => {
                 let mut sink = Joined::new(sink, pictures, learned.replicate);

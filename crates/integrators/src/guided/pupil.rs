@@ -14,6 +14,8 @@
 //! That term is true of diffuse surfaces. Where a surface scatters otherwise, the path itself tells what comes
 //! from it, up to the next diffuse one.
 
+use super::field;
+use super::fraction::Rivals;
 use super::guide::{Guide, toward};
 use super::steering::Steered;
 use crate::companion::Companion;
@@ -29,8 +31,13 @@ struct Corner {
     /// The shading normal on the side from which the path came.
     normal: Vec3,
     direction: Vec3,
-    /// The density of the direction, the mean over the lanes (sr⁻¹).
+    /// What the surface scatters there: f·|cos θ|, or the share of a discrete direction.
+    value: Vec4,
+    /// The density of the direction, the mean over the lanes (sr⁻¹), or the probability of a discrete one.
     density: f32,
+    discrete: bool,
+    /// How it might have been found, where something is known of where light comes from.
+    rivals: Option<Rivals>,
     /// The path that leaves the corner.
     prefix: Prefix,
     found: Vec4,
@@ -43,8 +50,12 @@ pub(crate) struct Record {
     /// The normal of the surface that it fell on.
     pub(crate) normal: Vec3,
     pub(crate) direction: Vec3,
-    /// Its irradiance on the surface: radiance times cosine, over the density of the direction.
-    pub(crate) weight: f32,
+    /// Its irradiance on the surface: radiance times cosine, over the density of the direction. `None` for a
+    /// discrete direction, which no lobe can find.
+    pub(crate) weight: Option<f32>,
+    /// What the surface scatters of it, over the density of the direction, and how else that might have been
+    /// found.
+    pub(crate) scattered: Option<(f32, Rivals)>,
 }
 
 /// Steers a path in training and remembers what it finds at every corner.
@@ -84,11 +95,17 @@ impl<'f> Pupil<'f> {
 
     /// What was found, corner by corner.
     pub(crate) fn records(&self) -> impl Iterator<Item = Record> {
-        self.corners.iter().map(|corner| Record {
-            position: corner.position,
-            normal: corner.normal,
-            direction: corner.direction,
-            weight: corner.incident() * corner.normal.dot(corner.direction).abs() / corner.density,
+        self.corners.iter().map(|corner| {
+            let cos = corner.normal.dot(corner.direction).abs();
+            let weight = corner.incident(Vec4::ONE) * cos / corner.density;
+            let scattered = |rivals| (corner.incident(corner.value) / corner.density, rivals);
+            Record {
+                position: corner.position,
+                normal: corner.normal,
+                direction: corner.direction,
+                weight: (!corner.discrete).then_some(weight),
+                scattered: corner.rivals.map(scattered),
+            }
         })
     }
 
@@ -105,13 +122,13 @@ impl<'f> Pupil<'f> {
 }
 
 impl Corner {
-    /// An estimate of the radiance that comes from the corner's direction, the mean over the lanes, which
-    /// are drawn as the eye sees. Exact in expectation where later densities are the same in all lanes; but
+    /// An estimate of the radiance that comes from the corner's direction, times `factor`, the mean over the lanes,
+    /// which are drawn as the eye sees. Exact in expectation where later densities are the same in all lanes; but
     /// for noise, nothing depends on it.
-    fn incident(&self) -> f32 {
+    fn incident(&self, factor: Vec4) -> f32 {
         let value = self.prefix.value;
         let seen = value.cmpgt(Vec4::ZERO);
-        let radiance = self.found * self.prefix.ratio.element_sum() / value;
+        let radiance = factor * self.found * self.prefix.ratio.element_sum() / value;
         0.25 * Vec4::select(seen, radiance, Vec4::ZERO).element_sum()
     }
 }
@@ -132,18 +149,44 @@ impl<'f> Companion for Pupil<'f> {
         prefix: &Prefix,
     ) {
         self.guide.scattered(vertex, bsdf, wo, sample, prefix);
-        if !sample.chance.is_discrete() {
-            let normal = toward(vertex, wo);
+        let normal = toward(vertex, wo);
+        let discrete = sample.chance.is_discrete();
+        if !discrete {
             let albedo = bsdf.albedo(wo);
             let diffuse = albedo.element_sum() * normal.dot(sample.wi).abs() * FRAC_1_PI;
             if DIFFUSE.contains(&(sample.value.element_sum() / diffuse)) {
                 self.reflect(vertex.position, normal, albedo);
             }
+        }
+        let density = 0.25 * sample.chance.lanes().element_sum();
+        let lobe = match bsdf.has_continuous() && !sample.passes {
+            true => self.guide.field.lobe(vertex.position, normal),
+            false => None,
+        };
+        let rivals = lobe.map(|(lobe, share)| match discrete {
+            true => Rivals {
+                own: 1.0,
+                learned: 0.0,
+            },
+            false => {
+                let scattered = 1.0 - 0.25 * bsdf.passing_probability().element_sum();
+                let learned = scattered * field::density(lobe, sample.wi).chooser();
+                let own = (density - (1.0 - share) * learned) / share;
+                Rivals {
+                    own: own.max(0.0),
+                    learned,
+                }
+            }
+        });
+        if !discrete || rivals.is_some() {
             self.corners.push(Corner {
                 position: vertex.position,
                 normal,
                 direction: sample.wi,
-                density: 0.25 * sample.chance.lanes().element_sum(),
+                value: sample.value,
+                density,
+                discrete,
+                rivals,
                 prefix: *prefix,
                 found: Vec4::ZERO,
             });
@@ -179,7 +222,8 @@ impl<'f> Companion for Pupil<'f> {
 mod tests {
     use super::*;
     use crate::guided::field::{FACES, Field, Lesson, Lobes};
-    use etalon_math::{Density, Frame, SolidAngle};
+    use etalon_math::{Atom, Density, Frame, SolidAngle};
+    use etalon_sampling::discrete::{Quadtree, Refinement};
     use etalon_transport::{Chance, InstanceId, LightId, MaterialId, Mode, ShapeId};
     use glam::Vec2;
 
@@ -242,12 +286,12 @@ mod tests {
         let lesson = Lesson {
             lobes: Lobes::default(),
             irradiance: [IRRADIANCE; FACES],
+            own: [0.5; FACES],
             records: 1,
         };
-        let field = Field::new(Vec3::ZERO, Vec3::ONE).learned(vec![lesson], 10);
+        let field = Field::new(Vec3::ZERO, Vec3::ONE, 0.5).learned(vec![lesson], 10);
         let mut pupil = Pupil::new(Guide {
             field: &field,
-            own: 0.5,
             reflected: 1.0,
         });
         pupil.begin();
@@ -273,7 +317,7 @@ mod tests {
             pupil.lit(radiance((16 << surface) as f32));
         }
         let first = pupil.records().next().expect("the first corner");
-        first.weight * DENSITY / COS
+        first.weight.expect("not discrete") * DENSITY / COS
     }
 
     #[test]
@@ -290,5 +334,62 @@ mod tests {
         let otherwise = first_record(gain) * survival - (4.0 + 32.0);
         let beyond = scattered * (8.0 + 64.0 + reflected);
         assert!(otherwise > 0.9 * beyond, "{otherwise}, {beyond}");
+    }
+
+    #[test]
+    fn a_corner_tells_what_it_scattered_and_how_else_that_might_have_been_found() {
+        const SHARE: f32 = 0.6;
+        let even = Quadtree::uniform().learned(
+            |_| 1.0,
+            Refinement {
+                share: 1.0,
+                depth: 1,
+            },
+        );
+        let lesson = Lesson {
+            lobes: core::array::from_fn(|_| even.clone()),
+            irradiance: [0.0; FACES],
+            own: [SHARE; FACES],
+            records: 1,
+        };
+        let field = Field::new(Vec3::ZERO, Vec3::ONE, 0.3).learned(vec![lesson], 10);
+        let wi = Vec3::new(0.6, 0.0, COS);
+        let scattered = |chance: Chance| {
+            let mut pupil = Pupil::new(Guide {
+                field: &field,
+                reflected: 1.0,
+            });
+            pupil.begin();
+            let sample = BsdfSample {
+                wi,
+                value: Vec4::splat(ALBEDO),
+                chance,
+                eta: 1.0,
+                passes: false,
+            };
+            let mut path = Prefix::START;
+            path.extend(sample.value, sample.chance.lanes());
+            pupil.scattered(&vertex(), &Grey, Vec3::Z, &sample, &path);
+            pupil.found(path.estimate(Vec4::splat(2.0), Vec4::ZERO));
+            let record = pupil.records().next().expect("a corner");
+            let (light, rivals) = record.scattered.expect("rivals");
+            (record.weight.is_some(), light, rivals)
+        };
+        let learned = 0.25 * FRAC_1_PI;
+        let mixed = SHARE * DENSITY + (1.0 - SHARE) * learned;
+        let (continuous, light, rivals) = scattered(Chance::Continuous(Density::uniform(mixed)));
+        assert!(
+            continuous && (light / (2.0 * ALBEDO / mixed) - 1.0).abs() < 1e-5,
+            "{light}"
+        );
+        assert!((rivals.own / DENSITY - 1.0).abs() < 1e-4, "{rivals:?}");
+        assert!((rivals.learned / learned - 1.0).abs() < 1e-5, "{rivals:?}");
+        // Discrete directions are found by the model alone.
+        let (continuous, light, rivals) = scattered(Chance::Discrete(Atom(Vec4::splat(0.25))));
+        assert!(
+            !continuous && (light / (2.0 * ALBEDO / 0.25) - 1.0).abs() < 1e-5,
+            "{light}"
+        );
+        assert_eq!((rivals.own, rivals.learned), (1.0, 0.0));
     }
 }

@@ -19,10 +19,9 @@ use glam::{Vec2, Vec3, Vec4};
 #[derive(Clone, Copy)]
 pub(crate) struct Steered<'f, B> {
     pub(crate) bsdf: B,
-    /// Where light comes from; `None` leaves the model as it is.
-    pub(crate) lobe: Option<&'f Quadtree>,
-    /// α, the probability of following the model's own choice.
-    pub(crate) own: f32,
+    /// Where light comes from, and α, the probability of following the model's own choice; `None` leaves
+    /// the model as it is.
+    pub(crate) lobe: Option<(&'f Quadtree, f32)>,
 }
 
 impl<B: Bsdf> Steered<'_, B> {
@@ -33,22 +32,33 @@ impl<B: Bsdf> Steered<'_, B> {
         Density::per_lane(learned.lanes() * scattered)
     }
 
-    /// The mixture's density, from the two that are mixed.
+    /// The mixture's density, from the two that are mixed, the model's with this share.
     #[inline]
-    fn mix(&self, own: Density<SolidAngle>, learned: Density<SolidAngle>) -> Density<SolidAngle> {
+    fn mix(
+        &self,
+        share: f32,
+        own: Density<SolidAngle>,
+        learned: Density<SolidAngle>,
+    ) -> Density<SolidAngle> {
         let scattered = self.scattered(learned).lanes();
-        Density::per_lane(own.lanes() * self.own + scattered * (1.0 - self.own))
+        Density::per_lane(own.lanes() * share + scattered * (1.0 - share))
     }
 
     /// A direction of the learned density.
     #[inline]
-    fn sample_learned(&self, lobe: &Quadtree, wo: Vec3, u: Vec2, mode: Mode) -> Option<BsdfSample> {
+    fn sample_learned(
+        &self,
+        (lobe, share): (&Quadtree, f32),
+        wo: Vec3,
+        u: Vec2,
+        mode: Mode,
+    ) -> Option<BsdfSample> {
         let (wi, learned) = field::sample(lobe, u);
         let (value, own) = self.bsdf.eval_and_density(wo, wi, mode);
         let sample = (value != Vec4::ZERO).then(|| BsdfSample {
             wi,
             value,
-            chance: Chance::Continuous(self.mix(own, learned)),
+            chance: Chance::Continuous(self.mix(share, own, learned)),
             // Whichever side it is on; this only sways Russian roulette.
             eta: 1.0,
             passes: false,
@@ -57,7 +67,7 @@ impl<B: Bsdf> Steered<'_, B> {
             wi,
             own: Chance::Continuous(own),
             other: self.scattered(learned),
-            share: self.own,
+            share,
             mixed: Mixed::Sampled {
                 by_model: false,
                 sample,
@@ -77,7 +87,7 @@ impl<B: Bsdf> Bsdf for Steered<'_, B> {
     fn density(&self, wo: Vec3, wi: Vec3) -> Density<SolidAngle> {
         let own = self.bsdf.density(wo, wi);
         match self.lobe {
-            Some(lobe) => self.mix(own, field::density(lobe, wi)),
+            Some((lobe, share)) => self.mix(share, own, field::density(lobe, wi)),
             None => own,
         }
     }
@@ -87,14 +97,14 @@ impl<B: Bsdf> Bsdf for Steered<'_, B> {
         let (value, own) = self.bsdf.eval_and_density(wo, wi, mode);
         match self.lobe {
             // What does not scatter needs no density.
-            Some(lobe) if value != Vec4::ZERO => {
+            Some((lobe, share)) if value != Vec4::ZERO => {
                 let learned = field::density(lobe, wi);
-                let density = self.mix(own, learned);
+                let density = self.mix(share, own, learned);
                 self.bsdf.mixed(|| Mixture {
                     wi,
                     own: Chance::Continuous(own),
                     other: self.scattered(learned),
-                    share: self.own,
+                    share,
                     mixed: Mixed::Weighed(density),
                 });
                 (value, density)
@@ -105,7 +115,7 @@ impl<B: Bsdf> Bsdf for Steered<'_, B> {
 
     #[inline]
     fn sample(&self, wo: Vec3, u_lobe: f32, u: Vec2, mode: Mode) -> Option<BsdfSample> {
-        let Some(lobe) = self.lobe else {
+        let Some((lobe, share)) = self.lobe else {
             return self.bsdf.sample(wo, u_lobe, u, mode);
         };
         // The lowest numbers pass straight on; the rest are divided anew.
@@ -114,19 +124,19 @@ impl<B: Bsdf> Bsdf for Steered<'_, B> {
             return self.bsdf.sample(wo, u_lobe, u, mode);
         }
         let rest = (u_lobe - passing) / (1.0 - passing);
-        if rest >= self.own {
-            return self.sample_learned(lobe, wo, u, mode);
+        if rest >= share {
+            return self.sample_learned((lobe, share), wo, u, mode);
         }
-        let u_lobe = passing + rest / self.own * (1.0 - passing);
+        let u_lobe = passing + rest / share * (1.0 - passing);
         let mut sample = self.bsdf.sample(wo, u_lobe.min(ONE_MINUS), u, mode)?;
         let own = sample.chance;
         let (chance, other) = match own {
             Chance::Continuous(own) => {
                 let learned = field::density(lobe, sample.wi);
-                (Chance::Continuous(self.mix(own, learned)), learned)
+                (Chance::Continuous(self.mix(share, own, learned)), learned)
             }
             Chance::Discrete(Atom(probability)) => (
-                Chance::Discrete(Atom(probability * self.own)),
+                Chance::Discrete(Atom(probability * share)),
                 Density::uniform(0.0),
             ),
         };
@@ -135,7 +145,7 @@ impl<B: Bsdf> Bsdf for Steered<'_, B> {
             wi: sample.wi,
             own,
             other: self.scattered(other),
-            share: self.own,
+            share,
             mixed: Mixed::Sampled {
                 by_model: true,
                 sample: Some(sample),

@@ -13,6 +13,7 @@ fn lessons(field: &Field, records: u64) -> Vec<Lesson> {
     let lesson = |_: &field::Region| Lesson {
         lobes: Lobes::default(),
         irradiance: [0.0; FACES],
+        own: [0.5; FACES],
         records,
     };
     field.regions().iter().map(lesson).collect()
@@ -20,7 +21,7 @@ fn lessons(field: &Field, records: u64) -> Vec<Lesson> {
 
 #[test]
 fn regions_are_halved_until_their_share_is_small() {
-    let mut field = Field::new(Vec3::ZERO, Vec3::new(2.0, 1.0, 0.5));
+    let mut field = Field::new(Vec3::ZERO, Vec3::new(2.0, 1.0, 0.5), 0.5);
     assert_eq!(field.find(Vec3::splat(0.3)), 0);
     // Of 1000 records at most 130 in each: eight parts; then four times as many.
     for (records, parts) in [(1000, 8), (400, 32)] {
@@ -187,8 +188,7 @@ fn a_steered_model_scatters_the_same_light() {
     for own in [0.1, 0.5, 1.0] {
         let steered = Steered {
             bsdf: Model,
-            lobe: Some(&lobe),
-            own,
+            lobe: Some((&lobe, own)),
         };
         let found = brings(&steered);
         // Standard errors are below 0.003 (weights at most 1/own, n = 400 000): z < 5.
@@ -228,7 +228,6 @@ fn what_nothing_is_known_of_is_left_alone() {
     let steered = Steered {
         bsdf: Model,
         lobe: None,
-        own: 0.5,
     };
     assert_eq!(brings(&steered), plain);
 }

@@ -1,0 +1,130 @@
+//! How often a path follows the scattering model's own choice, learned side by side with the light.
+//!
+//! ```text
+//! α = argmax E[f·L·|cos θ|/p · ln(α·p_f + (1 − α)·p_g)]     over the directions taken,
+//! ```
+//!
+//! which brings the mixture as near as it can come, by the Kullback-Leibler divergence, to the density that
+//! leaves no noise, f·L·|cos θ| (Müller 2019, "Practical Path Guiding in Production", in the course notes "Path
+//! Guiding in Production"). There α follows a gradient, one record after another; here a few are compared, whose
+//! sums do not depend on the order in which threads add.
+//!
+//! Where one fixed α serves all surfaces, a glossy one inside an object multiplies weights by up to 1/α at every
+//! corner: p_g, which does not know the lobe, is next to nothing where p_f is large. Through frosted glass
+//! ten such corners make one path as bright as the rest of the picture. There α comes out near one. It is never
+//! less than the stated one, whatever the records say: so weights keep their bound.
+
+use etalon_math::float::ln;
+use std::sync::atomic::{AtomicI64, Ordering};
+
+/// Fractions that are tried beside the least.
+const STEPS: usize = 7;
+
+/// The largest that is tried: what is learned is never quite left.
+const MOST: f32 = 0.95;
+
+/// The most that a record counts (units), so that the sums of 2²⁴ records fit.
+const LARGEST: f64 = (1_u64 << 37) as f64;
+
+/// Fewer records do not decide.
+const ENOUGH: u64 = 100;
+
+/// What is known of a direction that was taken.
+#[derive(Clone, Copy, Debug, Default)]
+pub(crate) struct Rivals {
+    /// p_f: how likely the scattering model takes it; 1 for a discrete direction.
+    pub(crate) own: f32,
+    /// p_g: how likely the learned lobe does; 0 for a discrete direction.
+    pub(crate) learned: f32,
+}
+
+impl Rivals {
+    fn mix(self, own: f32) -> f32 {
+        own * self.own + (1.0 - own) * self.learned
+    }
+}
+
+/// By how much each fraction is better than the least.
+#[derive(Debug, Default)]
+pub(crate) struct Scores([AtomicI64; STEPS]);
+
+/// The fraction of a step from 0, the least.
+fn fraction(least: f32, step: usize) -> f32 {
+    least + (MOST - least).max(0.0) * step as f32 / STEPS as f32
+}
+
+impl Scores {
+    /// Adds a record of light, in some unit.
+    pub(crate) fn add(&self, least: f32, light: f64, rivals: Rivals) {
+        let base = rivals.mix(least);
+        if !(base > 0.0 && light > 0.0) {
+            return;
+        }
+        let light = light.min(LARGEST);
+        for (step, score) in self.0.iter().enumerate() {
+            let gain = ln(rivals.mix(fraction(least, step + 1)) / base);
+            score.fetch_add((light * f64::from(gain)) as i64, Ordering::Relaxed);
+        }
+    }
+
+    /// The best, if there were records enough to tell.
+    pub(crate) fn best(&self, least: f32, records: u64) -> Option<f32> {
+        let scores = self.0.iter().map(|score| score.load(Ordering::Relaxed));
+        let (step, _) = std::iter::once(0)
+            .chain(scores)
+            .enumerate()
+            .max_by_key(|&(step, score)| (score, std::cmp::Reverse(step)))?;
+        (records >= ENOUGH).then(|| fraction(least, step))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const LEAST: f32 = 0.3;
+
+    /// What comes of light on a line of density (k + 1)·xᵏ, where the model's own is 5x⁴ and the learned one even.
+    fn best(k: i32) -> f32 {
+        let scores = Scores::default();
+        let n: u16 = 1000;
+        for i in 0..n {
+            let x = (f32::from(i) + 0.5) / f32::from(n);
+            let density = |k: i32| (k + 1) as f32 * x.powi(k);
+            let rivals = Rivals {
+                own: density(4),
+                learned: 1.0,
+            };
+            scores.add(LEAST, 1e6 * f64::from(density(k)), rivals);
+        }
+        scores.best(LEAST, n.into()).expect("records enough")
+    }
+
+    #[test]
+    fn the_better_density_is_followed_more() {
+        // The model's own, to the letter; the even one; and between them, by the sum of (k + 1)·xᵏ·ln(5αx⁴ + 1 − α).
+        assert_eq!(best(4), MOST);
+        assert_eq!(best(0), LEAST);
+        assert_eq!(best(2), fraction(LEAST, 5));
+    }
+
+    #[test]
+    fn few_records_and_darkness_decide_nothing() {
+        let scores = Scores::default();
+        let rivals = Rivals {
+            own: 9.0,
+            learned: 1.0,
+        };
+        for light in [0.0, -1.0, f64::NAN] {
+            scores.add(LEAST, light, rivals);
+        }
+        scores.add(LEAST, 1.0, Rivals::default());
+        assert_eq!(scores.best(LEAST, 1000), Some(LEAST));
+        scores.add(LEAST, f64::INFINITY, rivals);
+        assert_eq!(scores.best(LEAST, 1000), Some(MOST));
+        assert_eq!(scores.best(LEAST, ENOUGH - 1), None);
+        // One that follows the model alone stays so.
+        scores.add(1.0, 1.0, rivals);
+        assert_eq!(fraction(1.0, STEPS), 1.0);
+    }
+}
