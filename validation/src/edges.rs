@@ -145,7 +145,7 @@ fn lights(scene: &Scene, vertex: &Vertex, wo: Vec3, wavelengths: &Wavelengths) -
         if !shows {
             return None;
         }
-        let ray = toward(vertex, sample.direction, sample.target)?;
+        let ray = vertex.shadow_ray(sample.direction, sample.target)?;
         let through = passed(scene, ray, wavelengths)?;
         Some(Lit { light, through })
     };
@@ -169,7 +169,7 @@ fn passed(scene: &Scene, mut ray: Ray, wavelengths: &Wavelengths) -> Option<Vec<
             return None;
         }
         objects.push(object(&hit));
-        ray = toward(&vertex, ray.direction, ray.t_max.is_finite().then_some(end))?;
+        ray = vertex.shadow_ray(ray.direction, ray.t_max.is_finite().then_some(end))?;
     }
     Some(objects)
 }
@@ -180,13 +180,5 @@ fn object(hit: &Hit) -> (u32, u32) {
         (u32::MAX, hit.instance.0)
     } else {
         (hit.shape.0, u32::MAX)
-    }
-}
-
-/// The way from a vertex to a light's point, or to infinity.
-fn toward(vertex: &Vertex, direction: Vec3, target: Option<Vec3>) -> Option<Ray> {
-    match target {
-        None => Some(vertex.spawn(direction)),
-        Some(target) => Ray::between(vertex.origin_toward(target), target, vertex.time),
     }
 }

@@ -4,18 +4,20 @@
 use crate::claim::{Claim, Oracle};
 use crate::outcome::{ALPHA, Conclusion, Row, counts};
 use crate::run::{Compared, Evidence, Options, Plan};
-use crate::{folders, povray, reference, table};
+use crate::{folders, povray, program, reference, table};
 use serde::Serialize;
 use serde_json::{Value, json};
 
 /// The version of the description.
-pub const FORMAT: u32 = 2;
+pub const FORMAT: u32 = 3;
 
 /// Where a run's numbers come from.
 #[derive(Clone, Debug, Serialize)]
 pub struct Provenance {
     /// The version of the program.
     pub version: String,
+    /// What tells its build from others, if it could be read.
+    pub program: Option<String>,
     /// The fingerprint of its floating-point arithmetic.
     pub floating_point: String,
     /// Operating system and processor family.
@@ -41,6 +43,7 @@ impl Provenance {
     pub fn of(options: &Options, plan: Plan, seconds: f64) -> Self {
         Self {
             version: etalon::VERSION.to_owned(),
+            program: program::fingerprint().ok().map(str::to_owned),
             floating_point: etalon_film::floating_point_fingerprint(),
             machine: format!("{} {}", std::env::consts::OS, std::env::consts::ARCH),
             threads: rayon::current_num_threads(),

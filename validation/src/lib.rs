@@ -29,6 +29,7 @@ pub mod noise;
 pub mod outcome;
 pub mod pixelwise;
 pub mod povray;
+pub mod program;
 pub mod reference;
 pub mod rendering;
 pub mod run;

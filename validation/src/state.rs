@@ -1,10 +1,11 @@
 //! What a full run has rendered so far, so that it can go on where it was interrupted.
 //!
 //! Every batch of replicates is kept as an EXR file with its tile means, in a folder that belongs
-//! to one build of the program, one seed and one choice or part of claims. A batch is taken up again only if its scene, plan,
-//! seed and estimator are those asked for. The verdicts are computed anew from the batches: they, too, are the
-//! same as without the interruption.
+//! to one build of the program, one seed and one choice or part of claims. A batch is taken up again only if
+//! its scene, plan, seed and estimator are those asked for. The verdicts are computed anew from the batches:
+//! they, too, are the same as without the interruption.
 
+use crate::program;
 use crate::run::Options;
 use etalon::pipeline::Loaded;
 use etalon_film::{Developed, read_developed};
@@ -24,10 +25,8 @@ impl State {
     /// # Errors
     /// If the program cannot be read or the folder cannot be made.
     pub fn open(folder: &Path, options: &Options) -> Result<Self, String> {
-        let program = std::env::current_exe().and_then(std::fs::read);
-        let program = program.map_err(|e| format!("the program itself cannot be read: {e}"))?;
         let mut hasher = DefaultHasher::new();
-        hasher.write(&program);
+        hasher.write(program::fingerprint()?.as_bytes());
         let part = options.part.map(|part| part.to_string());
         for choice in [&options.only, &part] {
             hasher.write(choice.as_deref().unwrap_or_default().as_bytes());

@@ -179,8 +179,10 @@ fn validate(arguments: &Arguments) -> Result<Conclusion, String> {
     text += &table::summary(&rows, provenance.seconds);
     if let Some(part) = &provenance.part {
         text += &format!(
-            "\npart {part} of the plan {} of {} comparisons: parts belong together only if their plan is the same",
-            provenance.plan, provenance.hypotheses
+            "\npart {part} of the plan {} of {} comparisons, made by the program {}: parts belong together only if their plan is the same; of one program they are of one build",
+            provenance.plan,
+            provenance.hypotheses,
+            provenance.program.as_deref().unwrap_or("(unknown)")
         );
     }
     arguments.say(&text);

@@ -17,7 +17,6 @@ use crate::path::camera_ray;
 use crate::prefix::Prefix;
 use crate::rival::Rival;
 use crate::settings::{ignore_scheduling, read_max_depth};
-use crate::walk::shadow_ray;
 use etalon_params::Params;
 use etalon_sampling::Sampler;
 use etalon_spectrum::{Wavelengths, sensor_response};
@@ -148,7 +147,8 @@ impl Direct {
         if contribution == Vec4::ZERO {
             return Vec4::ZERO;
         }
-        let passage = shadow_ray(vertex, light.direction, light.target)
+        let passage = vertex
+            .shadow_ray(light.direction, light.target)
             .and_then(|ray| world.passage(&ray, wavelengths, 0));
         let Some(passage) = passage else {
             return Vec4::ZERO;

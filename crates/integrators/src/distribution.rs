@@ -20,7 +20,6 @@ use crate::path::camera_ray;
 use crate::prefix::Prefix;
 use crate::rival::Rival;
 use crate::settings::{PathSettings, ignore_scheduling};
-use crate::walk::shadow_ray;
 use etalon_params::Params;
 use etalon_sampling::Sampler;
 use etalon_spectrum::{Wavelengths, sensor_response};
@@ -241,7 +240,8 @@ impl<W: World, S: Sampler> Tree<'_, W, S> {
             return Vec4::ZERO;
         }
         let crossings = settings.max_depth - branch.depth - 1;
-        let passage = shadow_ray(vertex, light.direction, light.target)
+        let passage = vertex
+            .shadow_ray(light.direction, light.target)
             .and_then(|ray| world.passage(&ray, &self.wavelengths, crossings));
         let Some(passage) = passage else {
             return Vec4::ZERO;

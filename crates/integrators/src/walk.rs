@@ -216,7 +216,7 @@ impl<'a, S: Sampler, C: Companion> Walk<'a, S, C> {
         if contribution == Vec4::ZERO {
             return None;
         }
-        let ray = shadow_ray(vertex, light.direction, light.target)?;
+        let ray = vertex.shadow_ray(light.direction, light.target)?;
         let mut complete = self.prefix;
         complete.extend(contribution, light.chance.lanes());
         let by_scattering = match light.chance {
@@ -278,14 +278,5 @@ impl<'a, S: Sampler, C: Companion> Walk<'a, S, C> {
             self.radiance += estimate;
             self.companion.lit(estimate);
         }
-    }
-}
-
-/// The ray from a vertex to a light's point, or to infinity; `None` if the two coincide.
-#[inline]
-pub(crate) fn shadow_ray(vertex: &Vertex, direction: Vec3, target: Option<Vec3>) -> Option<Ray> {
-    match target {
-        None => Some(vertex.spawn(direction)),
-        Some(target) => Ray::between(vertex.origin_toward(target), target, vertex.time),
     }
 }

@@ -16,6 +16,9 @@ const PASSED: u32 = 64;
 /// number (Roberts 2018, "The Unreasonable Effectiveness of Quasirandom Sequences").
 const SPREAD: Vec2 = Vec2::new(0.754_877_7, 0.569_840_3);
 
+/// The same for three dimensions.
+const SPREAD_3: [f32; 3] = [0.819_172_5, 0.671_043_6, 0.549_700_5];
+
 /// Looks through the film's window of `size` pixels from `origin`.
 pub(crate) fn look<W: World>(world: &W, origin: UVec2, size: UVec2) -> View {
     let mut view = View::default();
@@ -78,8 +81,7 @@ fn reach<W: World>(world: &W, mut ray: Ray, number: u32) -> Option<Reached> {
 /// the light.
 fn veiled<W: World>(world: &W, vertex: &Vertex, wo: Vec3, number: u32) -> bool {
     let wavelengths = world.wavelengths(0.5);
-    let [u_light, u, v] =
-        [0.819_172_5, 0.671_043_6, 0.549_700_5].map(|s| (s * number as f32).fract());
+    let [u_light, u, v] = SPREAD_3.map(|s| (s * number as f32).fract());
     let Some(light) = world.sample_light(
         &Receiver::from(vertex),
         &wavelengths,
@@ -94,11 +96,7 @@ fn veiled<W: World>(world: &W, vertex: &Vertex, wo: Vec3, number: u32) -> bool {
     if light.origin.can_be_hit() || shows * light.radiance == Vec4::ZERO {
         return false;
     }
-    let toward = |vertex: &Vertex| match light.target {
-        Some(target) => Ray::between(vertex.origin_toward(target), target, vertex.time),
-        None => Some(vertex.spawn(light.direction)),
-    };
-    let mut next = toward(vertex);
+    let mut next = vertex.shadow_ray(light.direction, light.target);
     let mut bent = false;
     for _ in 0..PASSED {
         let Some(ray) = next else { return bent };
@@ -118,7 +116,7 @@ fn veiled<W: World>(world: &W, vertex: &Vertex, wo: Vec3, number: u32) -> bool {
             return false;
         }
         bent |= bends;
-        next = toward(&at);
+        next = at.shadow_ray(light.direction, light.target);
     }
     false
 }

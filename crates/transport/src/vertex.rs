@@ -76,4 +76,14 @@ impl Vertex {
             target - self.position,
         )
     }
+
+    /// The ray toward a light's `target`, or toward infinity in `direction` where a light has none;
+    /// nothing where the target is as near as rounding lets one tell.
+    #[inline]
+    pub fn shadow_ray(&self, direction: Vec3, target: Option<Vec3>) -> Option<Ray> {
+        match target {
+            None => Some(self.spawn(direction)),
+            Some(target) => Ray::between(self.origin_toward(target), target, self.time),
+        }
+    }
 }

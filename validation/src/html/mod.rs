@@ -101,12 +101,14 @@ fn facts(provenance: &Provenance) -> Markup {
     let part = part.map_or_else(String::new, |part| format!(", part {part}"));
     html! {
         dl class="facts" {
-            dt { "Etalon" } dd { (provenance.version) ", floating point " code { (provenance.floating_point) } }
+            dt { "Etalon" } dd { (provenance.version)
+                @if let Some(program) = &provenance.program { ", program " code { (program) } }
+                ", floating point " code { (provenance.floating_point) } }
             dt { "Machine" } dd { (provenance.machine) ", " (provenance.threads) " threads" }
             dt { "Run" } dd { (provenance.tier) (part) ", seed " (provenance.seed) ", "
                 (format!("{:.0} s", provenance.seconds)) }
             dt { "Plan" } dd { code { (provenance.plan) } ", " (provenance.hypotheses) " comparisons"
-                @if !part.is_empty() { ", all parts together: parts of one run have the same plan" } }
+                @if !part.is_empty() { ", all parts together: parts of one run have the same plan, and those of one build the same program" } }
             dt { "The same as data" } dd { code { "report.json" } " beside this file" }
         }
     }

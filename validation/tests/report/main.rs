@@ -25,6 +25,7 @@ fn script([width, _]: [u32; 2]) -> String {
 fn provenance() -> Provenance {
     Provenance {
         version: "0.0.0".to_owned(),
+        program: Some("89abcdef01234567".to_owned()),
         floating_point: "0123456789abcdef".to_owned(),
         machine: "a machine".to_owned(),
         threads: 2,

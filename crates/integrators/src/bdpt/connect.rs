@@ -8,7 +8,6 @@ use super::weight::{CameraEnd, Ends, LightEnd, fewer, more};
 use crate::dimensions::Event;
 use crate::prefix::Prefix;
 use crate::settings::PathSettings;
-use crate::walk::shadow_ray;
 use etalon_spectrum::Wavelengths;
 use etalon_transport::{
     Bsdf, Camera, Chance, Mode, Origin, PixelSite, Ray, Receiver, Vertex, World,
@@ -250,7 +249,7 @@ impl<'w, W: World> Connector<'_, 'w, W> {
         if contribution == Vec4::ZERO {
             return;
         }
-        let Some(ray) = shadow_ray(vertex, direction, light.target) else {
+        let Some(ray) = vertex.shadow_ray(direction, light.target) else {
             return;
         };
         let crossings = self.settings.max_depth - corner.segments - 1;

@@ -12,7 +12,6 @@ use crate::dimensions::{self as dim, Event};
 use crate::prefix::Prefix;
 use crate::rival::Rival;
 use crate::settings::PathSettings;
-use crate::walk::shadow_ray;
 use core::f32::consts::PI;
 use etalon_sampling::Sampler;
 use etalon_spectrum::Wavelengths;
@@ -292,7 +291,7 @@ impl<'w, W: World> Gatherer<'_, 'w, W> {
         if contribution == Vec4::ZERO || !(sharp || self.plan.sample_lights) {
             return;
         }
-        let Some(ray) = shadow_ray(vertex, light.direction, light.target) else {
+        let Some(ray) = vertex.shadow_ray(light.direction, light.target) else {
             return;
         };
         let crossings = self.plan.settings.max_depth - self.depth - 1;

@@ -2,7 +2,6 @@
 
 use super::tree::{Packet, SETS};
 use super::{Falloff, Whitted, phong};
-use crate::walk::shadow_ray;
 use etalon_spectrum::Wavelengths;
 use etalon_transport::{
     Bsdf, ClassicPhong, LightId, LightSample, Mode, Ray, Receiver, Vertex, World,
@@ -75,7 +74,7 @@ impl Whitted {
                 if shown.iter().all(|&shown| shown == Vec4::ZERO) {
                     continue;
                 }
-                let ray = shadow_ray(vertex, first.direction, first.target);
+                let ray = vertex.shadow_ray(first.direction, first.target);
                 if let Some(arrives) = ray.and_then(|ray| reach(world, ray, packets, crossings)) {
                     for ((packet, shown), arrives) in packets.iter().zip(shown).zip(arrives) {
                         sum += packet.response.rgb(shown * arrives);
