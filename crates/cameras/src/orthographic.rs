@@ -52,8 +52,6 @@ impl Orthographic {
 
     /// Reads `near_clip`, `far_clip` and `to_world`.
     pub fn from_params(params: &Params<'_>, window: FilmWindow) -> Option<Self> {
-        // Every projective camera of Mitsuba takes it; only a lens can be out of focus.
-        params.ignore(&["focus_distance"]);
         let clip = ClipRange::from_params(params);
         let pose = Pose::from_params(params, false)?;
         Some(Self::new(pose, window, clip))

@@ -45,8 +45,6 @@ impl Perspective {
             finite("principal_point_offset_x"),
             finite("principal_point_offset_y"),
         );
-        // Every projective camera of Mitsuba takes it; only a lens can be out of focus.
-        params.ignore(&["focus_distance"]);
         let half_width = half_width_from_params(params, window.aspect());
         let clip = ClipRange::from_params(params);
         let pose = Pose::from_params(params, true)?;

@@ -26,7 +26,8 @@ pub struct Cli {
 pub enum Command {
     /// Render a Mitsuba 3 XML scene to an EXR with standard errors.
     #[command(after_help = "\
-Ctrl-C finishes the pass and writes the image; a second one ends at once, without image.
+Ctrl-C finishes the replicate that is being rendered and writes an image of those that are finished;
+during a pilot, or a second time, it ends without an image.
 
 Exit codes: 0 done, 2 bad input or usage, 130 ended by Ctrl-C.
 
@@ -60,7 +61,7 @@ Examples:
     Compare(CompareArgs),
     /// Measure which of several estimators is better on a scene, and by how much.
     ///
-    /// Every combination of the integrators, samplers and filters takes part. Ratios are to the
+    /// Every combination of the integrators, samplers, filters and light choosers takes part. Ratios are to the
     /// first. A short pilot fixes how much each renders before anything is measured.
     #[command(after_help = "\
 Exit codes: 0 measured, 2 bad input or usage.

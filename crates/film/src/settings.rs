@@ -49,9 +49,6 @@ impl FilmSettings {
     /// 1/128 of a pixel.
     pub const LARGEST: u32 = 1 << 16;
 
-    /// Parameters that are accepted and cannot affect pixels.
-    pub const IGNORED: &'static [&'static str] = &["banner", "compensate"];
-
     /// An uncropped RGB film.
     pub fn new(width: u32, height: u32, filter: Filter) -> Self {
         let size = UVec2::new(width, height);
@@ -82,7 +79,6 @@ impl FilmSettings {
     /// pixels beyond the border are not needed, since no sample is shared between pixels.
     /// Numbers are always stored as 32-bit floats.
     pub fn from_params(params: &Params<'_>) -> Self {
-        params.ignore(Self::IGNORED);
         params.boolean_or("sample_border", false);
         let side = |name, default| extent(params, name, default, 1);
         let size = UVec2::new(side("width", 768), side("height", 576));

@@ -58,9 +58,6 @@ const PLUGINS: [(&str, FromParams); 7] = [
     }),
 ];
 
-/// Parameters of every shape that cannot affect pixels.
-const IGNORED: [&str; 1] = ["silhouette_sampling_weight"];
-
 impl Shape {
     /// The names of the shape plugins.
     pub fn plugins() -> impl Iterator<Item = &'static str> {
@@ -71,7 +68,6 @@ impl Shape {
     /// materials, lights and media are the caller's, as is [`Params::finish`]. After a mistake,
     /// which has been recorded, or if the plugin is not a shape of this list, `None`.
     pub fn from_params(params: &Params<'_>, build: &mut dyn Build) -> Option<Self> {
-        params.ignore(&IGNORED);
         let name = params.node.plugin.value.as_str();
         let (_, from_params) = PLUGINS.iter().find(|(plugin, _)| *plugin == name)?;
         from_params(params, build)

@@ -14,7 +14,6 @@
 
 use crate::dimensions::Event;
 use crate::path::camera_ray;
-use crate::settings::ignore_scheduling;
 use etalon_params::Params;
 use etalon_sampling::Sampler;
 use etalon_sampling::warps::{square_to_cosine_hemisphere, square_to_uniform_hemisphere};
@@ -49,9 +48,6 @@ impl AmbientOcclusion {
     /// Reads the integrator from its description: `distance` (default: unlimited), `sampling`
     /// (`cosine` or `uniform`) and `shading_samples` (1).
     pub fn from_params(params: &Params<'_>) -> Self {
-        ignore_scheduling(params);
-        // What decides about light has no meaning here.
-        params.ignore(&["max_depth", "rr_depth", "hide_emitters"]);
         let distance = match params.has("distance") {
             true => params.float_where("distance", 1.0, "a number above 0", |d| d > 0.0) as f32,
             false => f32::INFINITY,

@@ -24,7 +24,6 @@
 use crate::dimensions as dim;
 use crate::list::Nested;
 use crate::path::camera_ray;
-use crate::settings::ignore_scheduling;
 use etalon_params::{Diagnostic, Params};
 use etalon_sampling::Sampler;
 use etalon_spectrum::{Wavelengths, sensor_response};
@@ -97,8 +96,6 @@ pub struct Aov {
 impl Aov {
     /// Reads the integrator, its `aovs` list and the integrators nested in it.
     pub fn from_params(params: &Params<'_>) -> Option<Self> {
-        ignore_scheduling(params);
-        params.ignore(&["hide_emitters"]);
         let Some(text) = params.string("aovs") else {
             if !params.has("aovs") {
                 params.missing("aovs", "a list such as \"d:depth,n:sh_normal\"");

@@ -14,8 +14,6 @@
 //! channel of `aov`.
 
 use crate::path::camera_ray;
-use crate::settings::ignore_scheduling;
-use etalon_params::Params;
 use etalon_sampling::Sampler;
 use etalon_spectrum::sensor::response;
 use etalon_transport::{Integrator, Objection, Pass, PixelSite, Placing, Sight, Sink, World};
@@ -26,16 +24,6 @@ use glam::Vec4;
 pub struct Depth {
     /// Linear Rec.709 of the spectrum that is 1 everywhere.
     unit: [f32; 3],
-}
-
-impl Depth {
-    /// Reads the integrator from its description.
-    pub fn from_params(params: &Params<'_>) -> Self {
-        ignore_scheduling(params);
-        // Mitsuba accepts it for every sampling integrator; distance knows no lights.
-        params.ignore(&["hide_emitters"]);
-        Self::default()
-    }
 }
 
 impl Default for Depth {

@@ -16,7 +16,7 @@ use crate::dimensions::Event;
 use crate::path::camera_ray;
 use crate::prefix::Prefix;
 use crate::rival::Rival;
-use crate::settings::{ignore_scheduling, read_max_depth};
+use crate::settings::read_max_depth;
 use etalon_params::Params;
 use etalon_sampling::Sampler;
 use etalon_spectrum::{Wavelengths, sensor_response};
@@ -43,7 +43,6 @@ impl Direct {
     /// Reads the integrator from its description: `shading_samples` for both kinds, or
     /// `emitter_samples` and `bsdf_samples`; `max_depth` and `hide_emitters` as for paths.
     pub fn from_params(params: &Params<'_>) -> Self {
-        ignore_scheduling(params);
         let count = |name: &str, default: u32| {
             let value = params.integer_or(name, i64::from(default));
             u32::try_from(value)

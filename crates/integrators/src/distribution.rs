@@ -19,7 +19,7 @@ use crate::dimensions::Event;
 use crate::path::camera_ray;
 use crate::prefix::Prefix;
 use crate::rival::Rival;
-use crate::settings::{PathSettings, ignore_scheduling};
+use crate::settings::PathSettings;
 use etalon_params::Params;
 use etalon_sampling::Sampler;
 use etalon_spectrum::{Wavelengths, sensor_response};
@@ -43,7 +43,6 @@ pub struct Distribution {
 impl Distribution {
     /// Reads what [`PathSettings`] does, `samples` (4) and `decay` (2).
     pub fn from_params(params: &Params<'_>) -> Self {
-        ignore_scheduling(params);
         let settings = PathSettings::from_params(params);
         let count = |name: &str, default: u32| {
             let value = params.integer_or(name, i64::from(default));

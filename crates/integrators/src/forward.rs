@@ -22,7 +22,7 @@
 use crate::particle::Particle;
 use crate::path::camera_ray;
 use crate::prefix::Prefix;
-use crate::settings::{PathSettings, ignore_scheduling};
+use crate::settings::PathSettings;
 use etalon_params::Params;
 use etalon_sampling::Sampler;
 use etalon_spectrum::{SensorWeights, Wavelengths, sensor_response};
@@ -42,7 +42,6 @@ pub struct Forward {
 impl Forward {
     /// Reads the integrator from its description: Mitsuba's parameters of paths.
     pub fn from_params(params: &Params<'_>) -> Self {
-        ignore_scheduling(params);
         Self {
             settings: PathSettings::from_params(params),
         }

@@ -4,7 +4,7 @@
 //! of a scene it asks through [`etalon_transport::World`], so every estimator can be tested in a
 //! world without geometry.
 //!
-//! Adding an estimator: its file, and one line in [`list`].
+//! Adding an estimator: its file, its module below, and one line in [`list`].
 
 pub mod ao;
 pub mod aov;

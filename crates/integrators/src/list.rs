@@ -155,8 +155,8 @@ integrators! {
     "naive" => Naive: |p| Some(Naive::from_params(p));
     "direct" => Direct: |p| Some(Direct::from_params(p));
     "guided" => Guided: |p| Some(Guided::from_params(p));
-    "depth" => Depth: |p| Some(Depth::from_params(p));
-    "signature" => Signature: |p| Some(Signature::from_params(p));
+    "depth" => Depth: |_| Some(Depth::default());
+    "signature" => Signature: |_| Some(Signature);
     "bdpt" => Bidirectional: |p| Some(Bidirectional::from_params(p));
     "ptracer" => ParticleTracer: |p| Some(ParticleTracer::from_params(p));
     "pssmlt" => PrimarySpace: |p| Some(PrimarySpace::from_params(p));
@@ -196,7 +196,7 @@ impl Nested {
     }
 
     /// The integrators nested in a description, in its order. Integrators that splat are
-    /// refused: their contributions belong to no sample of the pixel.
+    /// refused, as their contributions belong to no sample of the pixel; and so are those that prepare.
     pub(crate) fn all(params: &Params<'_>) -> Option<Vec<Self>> {
         let mut nested = Vec::new();
         for (position, (property, node)) in
@@ -206,7 +206,7 @@ impl Nested {
             let obstacle = if integrator.splats() {
                 Some("its contributions land on any pixel")
             } else if integrator.prepares() {
-                Some("it learns before it samples, which is a render of its own")
+                Some("it prepares for a whole picture, which is a render of its own")
             } else {
                 None
             };

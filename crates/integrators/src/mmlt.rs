@@ -24,7 +24,7 @@ use crate::bdpt::Technique;
 use crate::bdpt::single::{Lists, sample};
 use crate::dimensions as dim;
 use crate::metropolis::{ChainSettings, Field, Found, Integrand, Kinds, State};
-use crate::settings::{PathSettings, ignore_scheduling};
+use crate::settings::PathSettings;
 use etalon_params::Params;
 use etalon_sampling::Sampler;
 use etalon_transport::{
@@ -50,7 +50,6 @@ pub struct Multiplexed {
 impl Multiplexed {
     /// Reads the integrator from its description.
     pub fn from_params(params: &Params<'_>) -> Self {
-        ignore_scheduling(params);
         let mut settings = PathSettings::from_params(params);
         if !params.has("max_depth") {
             let needed = format!("the longest path in segments, at most {LONGEST}");

@@ -14,7 +14,6 @@
 //! Mitsuba names them. The picture is that of the first nested integrator.
 
 use crate::list::Nested;
-use crate::settings::ignore_scheduling;
 use etalon_params::Params;
 use etalon_sampling::Sampler;
 use etalon_spectrum::colour_space::rgb_to_xyz;
@@ -33,8 +32,6 @@ pub struct Moment {
 impl Moment {
     /// Reads the integrator and the integrators nested in it.
     pub fn from_params(params: &Params<'_>) -> Option<Self> {
-        ignore_scheduling(params);
-        params.ignore(&["hide_emitters"]);
         let nested = Nested::all(params)?;
         if nested.is_empty() {
             params.error("`moment` needs a nested integrator");

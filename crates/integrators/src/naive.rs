@@ -27,7 +27,7 @@
 use crate::dimensions::Event;
 use crate::path::camera_ray;
 use crate::prefix::Prefix;
-use crate::settings::{PathSettings, ignore_scheduling};
+use crate::settings::PathSettings;
 use core::f32::consts::FRAC_1_PI;
 use etalon_math::Frame;
 use etalon_params::Params;
@@ -77,7 +77,6 @@ const BELOW_ONE: f32 = 1.0 - f32::EPSILON * 0.5;
 impl Naive {
     /// Reads the integrator from its description: Mitsuba's parameters of paths, and `directions`.
     pub fn from_params(params: &Params<'_>) -> Self {
-        ignore_scheduling(params);
         let directions = match params.choice("directions", "bsdf", &["bsdf", "cosine", "uniform"]) {
             "cosine" => Directions::Cosine,
             "uniform" => Directions::Uniform,

@@ -3,10 +3,11 @@
 //! The measurement of a pixel is an integral over paths x = x₀x₁…xₙ from the camera to a light,
 //!
 //! ```text
-//! C = Σₙ ∫ Le(xₙ→xₙ₋₁) · Πᵢ fᵢ·|cos θᵢ| dω₁…dωₙ
+//! C = Σₙ ∫ Le(xₙ→xₙ₋₁) · Π_{0<i<n} fᵢ·|cos θᵢ| dω₁…dωₙ₋₁
 //! ```
 //!
-//! (Kajiya 1986; Veach 1997, section 8.2). Directions are sampled from the scattering models;
+//! with ωᵢ the direction from xᵢ to xᵢ₊₁; the camera draws the one from x₀ (Kajiya 1986; Veach 1997,
+//! section 8.2). Directions are sampled from the scattering models;
 //! the last one also from the lights ("next-event estimation"); the two techniques and the four
 //! wavelengths are combined by one balance heuristic, see [`crate::prefix`].
 //!
@@ -20,7 +21,7 @@
 use crate::companion::Companion;
 use crate::dimensions as dim;
 use crate::render::TOGETHER;
-use crate::settings::{PathSettings, ignore_scheduling};
+use crate::settings::PathSettings;
 use crate::walk::Walk;
 use etalon_params::Params;
 use etalon_sampling::Sampler;
@@ -39,7 +40,6 @@ pub struct Path {
 impl Path {
     /// Reads the integrator from its description.
     pub fn from_params(params: &Params<'_>) -> Self {
-        ignore_scheduling(params);
         Self {
             settings: PathSettings::from_params(params),
         }

@@ -47,7 +47,7 @@ use crate::photons::radius::{from_pixels, read};
 use crate::photons::sets::WavelengthSets;
 use crate::photons::shoot::{Kind, PhotonMap, shoot};
 use crate::photons::{read_count, read_sets, rounded};
-use crate::settings::{PathSettings, ignore_scheduling};
+use crate::settings::PathSettings;
 use etalon_params::Params;
 use etalon_sampling::Sampler;
 use etalon_transport::{
@@ -119,7 +119,6 @@ impl PhotonMapper {
     /// `wavelength_sets`, `final_gather`, `filter` (`box` or `cone`), `cone`, and for both maps
     /// `global_radius`, `global_nearest`, `caustic_radius` and `caustic_nearest`.
     pub fn from_params(params: &Params<'_>) -> Self {
-        ignore_scheduling(params);
         let nearest = |name: &str| {
             let count = params.integer_or(name, 0);
             // The farthest photon only says how far away it is: of one alone nothing would be left.

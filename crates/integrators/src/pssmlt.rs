@@ -19,7 +19,7 @@
 
 use crate::dimensions as dim;
 use crate::metropolis::{ChainSettings, Field, Found, Integrand, Kinds, State};
-use crate::settings::{PathSettings, ignore_scheduling};
+use crate::settings::PathSettings;
 use crate::walk::Walk;
 use etalon_params::Params;
 use etalon_sampling::Sampler;
@@ -39,7 +39,6 @@ pub struct PrimarySpace {
 impl PrimarySpace {
     /// Reads the integrator from its description.
     pub fn from_params(params: &Params<'_>) -> Self {
-        ignore_scheduling(params);
         Self {
             settings: PathSettings::from_params(params),
             chains: ChainSettings::from_params(params),

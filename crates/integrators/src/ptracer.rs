@@ -19,7 +19,7 @@ use crate::hidden::way_to_camera;
 use crate::particle::{Met, Particle};
 use crate::path::camera_ray;
 use crate::prefix::Prefix;
-use crate::settings::{PathSettings, ignore_scheduling};
+use crate::settings::PathSettings;
 use etalon_params::Params;
 use etalon_sampling::Sampler;
 use etalon_spectrum::{SensorWeights, Wavelengths, sensor_response};
@@ -39,7 +39,6 @@ pub struct ParticleTracer {
 impl ParticleTracer {
     /// Reads the integrator from its description.
     pub fn from_params(params: &Params<'_>) -> Self {
-        ignore_scheduling(params);
         Self {
             settings: PathSettings::from_params(params),
         }

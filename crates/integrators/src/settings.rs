@@ -56,8 +56,3 @@ pub(crate) fn read_max_depth(params: &Params<'_>) -> u32 {
     }
     u32::try_from(max_depth).unwrap_or(u32::MAX)
 }
-
-/// Parameters of every Mitsuba integrator that cannot affect pixels.
-pub fn ignore_scheduling(params: &Params<'_>) {
-    params.ignore(&["block_size", "samples_per_pass", "timeout"]);
-}

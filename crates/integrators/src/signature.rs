@@ -1,7 +1,8 @@
 //! `signature`: a flat colour of its own for every object, to check geometry by.
 //!
 //! The object is the shape that a camera ray meets first, or the instance through which it meets
-//! it. Object number n, in the order of the scene file, has the linear colour
+//! it. Shapes count from 0 in the order of the scene file, those of a `shapegroup` included, instances
+//! from 2³¹. Object number n has the linear colour
 //!
 //! ```text
 //! cᵢ = 0.1 + 0.8 · frac(½ + (n + 1)·g⁻ⁱ),      i = 1, 2, 3,      g⁴ = g + 1
@@ -14,24 +15,12 @@
 //! pixels do.
 
 use crate::path::camera_ray;
-use crate::settings::ignore_scheduling;
-use etalon_params::Params;
 use etalon_sampling::Sampler;
 use etalon_transport::{Hit, Integrator, Objection, Pass, PixelSite, Placing, Sight, Sink, World};
 
 /// The signature integrator.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Signature;
-
-impl Signature {
-    /// Reads the integrator from its description.
-    pub fn from_params(params: &Params<'_>) -> Self {
-        ignore_scheduling(params);
-        // As for `depth`: colours of objects know no lights.
-        params.ignore(&["hide_emitters"]);
-        Self
-    }
-}
 
 /// The linear Rec.709 colour of object number `object`.
 ///

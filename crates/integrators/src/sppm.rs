@@ -19,7 +19,7 @@ use crate::photons::radius::Radius;
 use crate::photons::sets::WavelengthSets;
 use crate::photons::shoot::{Kind, PhotonMap, shoot};
 use crate::photons::{read_count, read_sets, rounded};
-use crate::settings::{PathSettings, ignore_scheduling};
+use crate::settings::PathSettings;
 use etalon_params::Params;
 use etalon_sampling::Sampler;
 use etalon_transport::{
@@ -69,7 +69,6 @@ impl Progressive {
     /// Reads the integrator from its description: Mitsuba's parameters of paths, `photons`,
     /// `radius`, `alpha`, `wavelength_sets` and `sample_lights`.
     pub fn from_params(params: &Params<'_>) -> Self {
-        ignore_scheduling(params);
         Self {
             settings: PathSettings::from_params(params),
             radius: Radius::from_params(params),

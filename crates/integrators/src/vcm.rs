@@ -29,7 +29,7 @@ use crate::photons::radius::Radius;
 use crate::photons::sets::WavelengthSets;
 use crate::photons::shoot::{in_order, numbers};
 use crate::photons::{read_count, rounded};
-use crate::settings::{PathSettings, ignore_scheduling};
+use crate::settings::PathSettings;
 use etalon_params::Params;
 use etalon_sampling::Sampler;
 use etalon_spectrum::Wavelengths;
@@ -73,7 +73,6 @@ impl ConnectionMerging {
     /// Reads the integrator from its description: Mitsuba's parameters of paths, `photons`,
     /// `radius`, `alpha` and `connections`.
     pub fn from_params(params: &Params<'_>) -> Self {
-        ignore_scheduling(params);
         Self {
             settings: PathSettings::from_params(params),
             radius: Radius::from_params(params),

@@ -24,7 +24,6 @@ pub struct ConstantLight {
 impl ConstantLight {
     /// Reads `radiance`. `to_world` turns a uniform sky into itself.
     pub fn from_params(params: &Params<'_>, build: &mut dyn Build) -> Self {
-        params.ignore(&["to_world"]);
         refuse_varying(params, "radiance");
         Self {
             radiance: build.texture(params, "radiance", Some(1.0), Role::Emission),

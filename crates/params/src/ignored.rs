@@ -1,7 +1,8 @@
 //! The one list of parameters that are accepted and change nothing.
 //!
-//! They belong to how Mitsuba works, not to what the picture is: its tiles, its acceleration
-//! structures, its accumulation. [`crate::Params::finish`] does not complain about them.
+//! Most belong to how Mitsuba works, not to what the picture is: its tiles, its acceleration
+//! structures, its accumulation; others mean nothing to one plugin of a class whose others take
+//! them. [`crate::Params::finish`] does not complain about them.
 //! `docs/ignored-parameters.md` is this list for people; a test keeps the two equal.
 
 use crate::{Class, Value};
@@ -31,7 +32,7 @@ pub struct Only {
 }
 
 /// The list.
-pub const IGNORED: [Ignored; 8] = [
+pub const IGNORED: [Ignored; 18] = [
     Ignored {
         class: Class::Scene,
         plugins: &[],
@@ -74,6 +75,13 @@ pub const IGNORED: [Ignored; 8] = [
         reason: "It asks for compensated summation. Accumulation here is exact.",
     },
     Ignored {
+        class: Class::Film,
+        plugins: &[],
+        names: &["sample_border"],
+        only: None,
+        reason: "Samples of pixels beyond the border are not needed: no sample is shared between pixels.",
+    },
+    Ignored {
         class: Class::Integrator,
         plugins: &[],
         names: &["block_size", "samples_per_pass"],
@@ -89,7 +97,49 @@ pub const IGNORED: [Ignored; 8] = [
             words: "not above 0, which means no limit",
             holds: is_not_positive,
         }),
-        reason: "Rendering ends when the samples are done, not when the time is up.",
+        reason: "Rendering ends when the samples are done, not when the time is up; `--time` fixes how many there are.",
+    },
+    Ignored {
+        class: Class::Integrator,
+        plugins: &["depth", "signature", "aov", "moment"],
+        names: &["hide_emitters"],
+        only: None,
+        reason: "They show distances, objects and properties of surfaces; integrators nested in them have their own.",
+    },
+    Ignored {
+        class: Class::Integrator,
+        plugins: &["ao"],
+        names: &["max_depth", "rr_depth", "hide_emitters"],
+        only: None,
+        reason: "Occlusion has one ray and knows no lights.",
+    },
+    Ignored {
+        class: Class::Integrator,
+        plugins: &["whitted"],
+        names: &["rr_depth"],
+        only: None,
+        reason: "Every branch is followed up to `max_depth`: nothing is cut at random.",
+    },
+    Ignored {
+        class: Class::Sensor,
+        plugins: &["perspective", "orthographic"],
+        names: &["focus_distance"],
+        only: None,
+        reason: "Only a lens can be out of focus.",
+    },
+    Ignored {
+        class: Class::Sampler,
+        plugins: &["multijitter", "orthogonal", "ldsampler"],
+        names: &["jitter", "strength"],
+        only: None,
+        reason: "The sampler `sobol` stands in for these, which is said.",
+    },
+    Ignored {
+        class: Class::Emitter,
+        plugins: &["constant"],
+        names: &["to_world"],
+        only: None,
+        reason: "A uniform sky looks the same however it is turned.",
     },
     Ignored {
         class: Class::Shape,
@@ -99,12 +149,33 @@ pub const IGNORED: [Ignored; 8] = [
         reason: "It weighs shapes in Mitsuba's estimation of derivatives.",
     },
     Ignored {
+        class: Class::Shape,
+        plugins: &["cube", "rectangle"],
+        names: &["face_normals"],
+        only: None,
+        reason: "Their faces are flat anyway.",
+    },
+    Ignored {
+        class: Class::Shape,
+        plugins: &["shapegroup"],
+        names: &["to_world"],
+        only: None,
+        reason: "Mitsuba does not use it either: instances are placed.",
+    },
+    Ignored {
         class: Class::Texture,
         plugins: &["bitmap"],
         names: &["accel", "format"],
         only: None,
         reason: "They choose how Mitsuba stores texels in memory. Here texels keep the precision \
                  of 32-bit floats.",
+    },
+    Ignored {
+        class: Class::Texture,
+        plugins: &["uniform"],
+        names: &["wavelength_min", "wavelength_max"],
+        only: None,
+        reason: "They say where Mitsuba samples wavelengths; the value holds everywhere.",
     },
 ];
 
@@ -116,21 +187,26 @@ fn is_not_positive(value: &Value) -> bool {
     }
 }
 
-/// Whether a parameter of a plugin with this value stands in the list.
-pub fn is_ignored(class: Class, plugin: &str, name: &str, value: &Value) -> bool {
-    IGNORED.iter().any(|entry| {
+/// The entry of a plugin's parameter, whatever its value.
+pub fn entry(class: Class, plugin: &str, name: &str) -> Option<&'static Ignored> {
+    IGNORED.iter().find(|entry| {
         entry.class == class
             && (entry.plugins.is_empty() || entry.plugins.contains(&plugin))
             && entry.names.contains(&name)
-            && entry.only.is_none_or(|only| (only.holds)(value))
     })
+}
+
+/// Whether a parameter of a plugin with this value stands in the list.
+pub fn is_ignored(class: Class, plugin: &str, name: &str, value: &Value) -> bool {
+    entry(class, plugin, name)
+        .is_some_and(|entry| entry.only.is_none_or(|only| (only.holds)(value)))
 }
 
 /// The list as Markdown.
 pub fn markdown() -> String {
     let mut text = String::from(
         "# Parameters that are accepted and ignored\n\n\
-         These parameters of Mitsuba 3 cannot change a picture made here. Every other parameter \
+         These parameters cannot change a picture made here. Every other parameter \
          that a plugin does not know is an error.\n\n\
          | object | parameter | why it changes nothing |\n|---|---|---|\n",
     );
@@ -167,5 +243,7 @@ mod tests {
         assert!(!is_ignored(Class::Texture, "checkerboard", "accel", &yes));
         let timeout = |x| is_ignored(Class::Integrator, "path", "timeout", &Value::Float(x));
         assert!(timeout(-1.0) && !timeout(3.0));
+        let focus = |plugin| entry(Class::Sensor, plugin, "focus_distance").is_some();
+        assert!(focus("perspective") && !focus("thinlens"));
     }
 }

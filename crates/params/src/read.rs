@@ -248,7 +248,8 @@ impl<'a> Params<'a> {
         children.first().map(|(_, node)| *node)
     }
 
-    /// Marks properties that are accepted but cannot affect pixels (see the documented list).
+    /// Marks properties that need no judgement, since a mistake about them has been reported. What is
+    /// accepted and changes nothing stands in the list of [`crate::ignored`] instead.
     pub fn ignore(&self, names: &[&str]) {
         for name in names {
             self.property(name);
@@ -264,6 +265,13 @@ impl<'a> Params<'a> {
             !p.is_used() && !crate::ignored::is_ignored(class, plugin, &p.name, &p.value)
         });
         for property in unused {
+            let entry = crate::ignored::entry(class, plugin, &property.name);
+            if let Some((entry, only)) = entry.and_then(|e| Some((e, e.only?))) {
+                let message = format!("`{}` must be {}", property.name, only.words);
+                self.diagnostics
+                    .push(Diagnostic::error(property.name_span, message).label(entry.reason));
+                continue;
+            }
             let message = if property.name.is_empty() {
                 format!(
                     "`{}` does not take {}",

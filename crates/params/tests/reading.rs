@@ -179,3 +179,25 @@ fn nothing_is_said_twice_about_one_place() {
         (1, "something else")
     );
 }
+
+#[test]
+fn what_would_change_nothing_is_passed_over_and_a_limit_of_time_is_not() {
+    // Mutant rejected: integrators that mark `timeout` as read, whatever it says.
+    let scene = Scene::new();
+    let said = |plugin: &str, properties| {
+        let node = scene.node(Class::Integrator, plugin, properties);
+        scene.messages(&node, |_| ())
+    };
+    let tiles = vec![
+        ("block_size", Value::Integer(32)),
+        ("timeout", Value::Float(-1.0)),
+    ];
+    assert_eq!(said("path", tiles), [""; 0]);
+    assert_eq!(
+        said("path", vec![("timeout", Value::Float(5.0))]),
+        ["s.xml:1:2: error: `timeout` must be not above 0, which means no limit"]
+    );
+    let lights = || vec![("hide_emitters", Value::Boolean(true))];
+    assert_eq!(said("depth", lights()), [""; 0]);
+    assert_eq!(said("path", lights()).len(), 1);
+}

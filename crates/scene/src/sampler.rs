@@ -52,7 +52,6 @@ impl SamplerSettings {
             },
             "sobol" => SamplerKind::Sobol,
             _ if REPLACED.contains(&name) => {
-                params.ignore(&["jitter", "strength"]);
                 diagnostics.push(
                     Diagnostic::note(
                         node.plugin.span,

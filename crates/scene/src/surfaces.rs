@@ -168,8 +168,6 @@ impl Surfaces {
             members.push((shape, carried.material));
             names.push(name(child));
         }
-        // Mitsuba accepts a placement here and does not use it.
-        params.ignore(&["to_world"]);
         params.finish();
         let group = self.geometry.add_group(members);
         self.names.shapes.append(&mut names);

@@ -6,7 +6,7 @@
 //! Lⱼ = fⱼ(x) / Σₜ Σₖ pₜ,ₖ(x),  C = Σⱼ Lⱼ s(λⱼ) / p(λⱼ)
 //!
 //! with s the response and p the density of the wavelength (Wilkie et al. 2014, equation 5, in the
-//! notation of DESIGN 4.1). For a path whose densities are equal in all lanes Lⱼ = fⱼ/(4 p(x)): the
+//! notation of ARCHITECTURE.md, "Wavelengths"). For a path whose densities are equal in all lanes Lⱼ = fⱼ/(4 p(x)): the
 //! sum over k already holds the division by four, so none follows here.
 
 use crate::Wavelengths;

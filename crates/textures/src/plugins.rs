@@ -115,11 +115,7 @@ impl TextureReader<'_> {
             number
         };
         let spectrum = match plugin {
-            "uniform" => {
-                // The range says where Mitsuba samples wavelengths; the value holds everywhere.
-                params.ignore(&["wavelength_min", "wavelength_max"]);
-                Spectrum::uniform(required("value")?)
-            }
+            "uniform" => Spectrum::uniform(required("value")?),
             "regular" => {
                 let (min, max) = (required("wavelength_min"), required("wavelength_max"));
                 let values = numbers("values")?;

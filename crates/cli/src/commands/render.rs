@@ -17,7 +17,7 @@ use std::path::Path;
 use std::process::ExitCode;
 use std::sync::atomic::{AtomicBool, Ordering};
 
-/// Set by Ctrl-C: finish the pass, write the image, stop.
+/// Set by Ctrl-C: finish the replicate, write the image, stop.
 static CANCELLED: AtomicBool = AtomicBool::new(false);
 
 /// Exit code of a render that Ctrl-C ended early (128 + SIGINT, as shells have it).

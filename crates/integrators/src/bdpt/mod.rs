@@ -45,7 +45,7 @@ mod weight;
 
 use crate::dimensions as dim;
 use crate::path::camera_ray;
-use crate::settings::{PathSettings, ignore_scheduling};
+use crate::settings::PathSettings;
 use connect::Connector;
 pub(crate) use corner::Corner;
 use etalon_params::Params;
@@ -84,7 +84,6 @@ impl Bidirectional {
     /// Reads the integrator from its description: Mitsuba's parameters of paths, and `s`, `t` and
     /// `weighted` for a single technique.
     pub fn from_params(params: &Params<'_>) -> Self {
-        ignore_scheduling(params);
         Self {
             settings: PathSettings::from_params(params),
             only: technique(params),

@@ -1,7 +1,7 @@
 //! `guided`: path tracing that has learned where light comes from.
 //!
 //! ```text
-//! C = Σₙ ∫ Le(xₙ→xₙ₋₁) · Πᵢ fᵢ·|cos θᵢ| dω₁…dωₙ,      ωᵢ ~ α·p_f(ω) + (1 − α)·p_g(ω | xᵢ)
+//! C = Σₙ ∫ Le(xₙ→xₙ₋₁) · Π_{0<i<n} fᵢ·|cos θᵢ| dω₁…dωₙ₋₁,      ωᵢ ~ α·p_f(ω) + (1 − α)·p_g(ω | xᵢ)
 //! ```
 //!
 //! The integral and all else are `path`'s ([`crate::path`]): its light samples, its balance over techniques and
@@ -42,7 +42,7 @@ mod steering;
 mod tests;
 
 use crate::path::{follow, follow_drafts};
-use crate::settings::{PathSettings, ignore_scheduling};
+use crate::settings::PathSettings;
 use crate::walk::Walk;
 use etalon_params::Params;
 use etalon_sampling::Sampler;
@@ -84,7 +84,6 @@ impl Default for Guided {
 impl Guided {
     /// Reads the integrator from its description.
     pub fn from_params(params: &Params<'_>) -> Self {
-        ignore_scheduling(params);
         let default = Self::default();
         let number = |name: &str, default: f64, from: f64, to: f64| {
             let value = params.float_or(name, default);

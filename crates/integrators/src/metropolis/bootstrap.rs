@@ -29,9 +29,8 @@ impl Stream {
     }
 }
 
-/// How often each kind of path is tried: in proportion to the root mean square of what it brings,
-/// which makes uniform samples tell most (Neyman 1934), but for an eighth of all that go to all
-/// alike.
+/// How often each kind of path is tried: in proportion to the light that it brings, but for a
+/// quarter of all that go to all alike.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Kinds {
     /// The sums of the probabilities up to and with each.

@@ -23,7 +23,7 @@
 //!
 //! Not all light is left to photons. Directions from x in which the density of scattering is above
 //! `SHARP` are followed by the camera path, as are mirrors and glass: there few photons would
-//! count. Direct light is sampled.
+//! count. Direct light is sampled, unless `sppm` is told to leave it to photons.
 
 pub(crate) mod elsewhere;
 pub(crate) mod gather;

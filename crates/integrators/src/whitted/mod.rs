@@ -43,8 +43,6 @@ pub use pixel::Grid;
 use std::sync::OnceLock;
 pub use tree::{Onward, onward};
 
-use crate::settings::ignore_scheduling;
-
 /// How the light of lamps without extent fades with distance.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Falloff {
@@ -81,8 +79,6 @@ impl Whitted {
     /// `light_samples` (1), `wavelengths` (36), `supersampling` (2), `adaptive` (0) and `contrast`
     /// (0.05).
     pub fn from_params(params: &Params<'_>) -> Self {
-        ignore_scheduling(params);
-        params.ignore(&["rr_depth"]);
         let count = |name: &str, default: u32, range: core::ops::RangeInclusive<u32>| {
             let value = params.integer_or(name, i64::from(default));
             let good = u32::try_from(value).ok().filter(|n| range.contains(n));
