@@ -182,7 +182,7 @@ fn nothing_is_said_twice_about_one_place() {
 
 #[test]
 fn what_would_change_nothing_is_passed_over_and_a_limit_of_time_is_not() {
-    // Mutant rejected: integrators that mark `timeout` as read, whatever it says.
+    // Mutant rejected: a list without its condition on `timeout`. (It reads no integrator.)
     let scene = Scene::new();
     let said = |plugin: &str, properties| {
         let node = scene.node(Class::Integrator, plugin, properties);
