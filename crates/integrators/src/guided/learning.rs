@@ -379,8 +379,6 @@ impl Lessons {
         let [walk] = walks;
         let walk = walk.expect("a path that was followed is still there");
         let found = walk.colour().extend(walk.alpha()) * placement.weight;
-        // As the film leaves out what is no number; it tells of those among the image's own samples.
-        let found = if found.is_finite() { found } else { Vec4::ZERO };
         (walk.into_companion(), found)
     }
 }

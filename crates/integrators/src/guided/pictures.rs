@@ -8,6 +8,9 @@
 //! round of training has drawn for this replicate: every sample counts alike. The weights of Müller (2019,
 //! §10.5.3), the inverse variances of the rounds, are estimated from the samples that they weigh, and
 //! so bias the picture; these are fixed beforehand.
+//!
+//! Where a path in training found what is no finite number, neither is T_r: that pixel's samples go without it, but for
+//! the first, which the film refuses, counts and tells the place of.
 
 use etalon_transport::{Pass, Placing, Sink, TileSink};
 use glam::{UVec2, Vec2, Vec4};
@@ -77,6 +80,8 @@ pub(crate) struct Joined<'a, K> {
     own: f32,
     /// w·T_r, over what a sample counts on the film, so that the film's mean over samples is that of T_r.
     training: Vec4,
+    /// The pixel of the last sample that was spoilt, so that the film is told once of each.
+    spoilt: Option<UVec2>,
 }
 
 impl<'a, K> Joined<'a, K> {
@@ -88,7 +93,15 @@ impl<'a, K> Joined<'a, K> {
             replicate,
             own: 1.0,
             training: Vec4::ZERO,
+            spoilt: None,
         }
+    }
+
+    /// Joins a pixel's first sample with what is no number, and leaves the others alone.
+    #[cold]
+    fn spoil(&mut self, pixel: UVec2, mean: Vec4) {
+        let told = self.spoilt.replace(pixel) == Some(pixel);
+        (self.own, self.training) = (1.0, if told { Vec4::ZERO } else { mean });
     }
 }
 
@@ -111,6 +124,10 @@ impl<K: TileSink> TileSink for Joined<'_, K> {
     fn begin_sample(&mut self, pixel: UVec2, weight: f32) {
         self.sink.begin_sample(pixel, weight);
         let (share, mean) = self.pictures.of(pixel, self.replicate);
-        (self.own, self.training) = (1.0 - share, mean * (share / weight));
+        if mean.is_finite() {
+            (self.own, self.training) = (1.0 - share, mean * (share / weight));
+        } else {
+            self.spoil(pixel, mean);
+        }
     }
 }

@@ -202,6 +202,52 @@ impl TileSink for Scale {
     }
 }
 
+/// A replicate's samples of a pixel.
+fn drafts(placing: &impl Placing, pass: &Pass, pixel: UVec2) -> Vec<Draft<Independent>> {
+    let dealt = placing.dealt(pixel, pass.samples);
+    let draft = |sample| {
+        let mut sampler = Independent::start(&PixelSample {
+            seed: pass.seed,
+            replicate: pass.replicate,
+            pixel: pixel.into(),
+            sample,
+            samples_per_replicate: dealt,
+        });
+        let Placement { raster, weight } = placing.place(pixel, sampler.next_2d());
+        let site = PixelSite {
+            pixel,
+            raster,
+            margin: 0.0,
+            pixels: 1,
+            spacing: 1.0,
+            sample,
+        };
+        Draft {
+            site,
+            weight,
+            sampler,
+        }
+    };
+    (0..dealt).map(draft).collect()
+}
+
+/// Lists what samples bring, their colours added up.
+struct Listed(Vec<f32>);
+
+impl Sink for Listed {
+    fn radiance(&mut self, rgb: [f32; 3], _: f32) {
+        self.0.push(rgb.iter().sum());
+    }
+    fn splat(&mut self, _: Vec2, _: [f32; 3]) {
+        unreachable!("no estimator here splats");
+    }
+    fn channel(&mut self, _: usize, _: f32) {}
+}
+
+impl TileSink for Listed {
+    fn begin_sample(&mut self, _: UVec2, _: f32) {}
+}
+
 /// The mean colours of the replicates of a picture of two or four samples per pixel and replicate, with ten
 /// more of training or so.
 fn replicate_means(stack: &Stack, size: UVec2, replicates: u32, seed: u64) -> Vec<[f64; 3]> {
@@ -226,30 +272,7 @@ fn replicate_means(stack: &Stack, size: UVec2, replicates: u32, seed: u64) -> Ve
             let mut scale = Scale::default();
             let pixel = origin + UVec2::new(pixel % size.x, pixel / size.x);
             let dealt = Lobed.dealt(pixel, samples);
-            let draft = |sample| {
-                let mut sampler = Independent::start(&PixelSample {
-                    seed,
-                    replicate,
-                    pixel: pixel.into(),
-                    sample,
-                    samples_per_replicate: dealt,
-                });
-                let Placement { raster, weight } = Lobed.place(pixel, sampler.next_2d());
-                let site = PixelSite {
-                    pixel,
-                    raster,
-                    margin: 0.0,
-                    pixels: 1,
-                    spacing: 1.0,
-                    sample,
-                };
-                Draft {
-                    site,
-                    weight,
-                    sampler,
-                }
-            };
-            let mut drafts: Vec<_> = (0..dealt).map(draft).collect();
+            let mut drafts = drafts(&Lobed, &pass, pixel);
             integrator.sample_all(stack, &learned, &mut drafts, &mut scale);
             for (mean, sum) in mean.iter_mut().zip(scale.sum) {
                 *mean += sum / f64::from(dealt * size.element_product());
@@ -304,4 +327,40 @@ fn replicates_tell_the_error_of_what_they_learned_together() {
     // The ratio of χ² with 399 and 1200 degrees of freedom: a standard deviation of 8 %.
     let ratio = true_variance / told;
     assert!((0.72..1.33).contains(&ratio), "{ratio}");
+}
+
+/// A film that makes no numbers of what training finds for one pixel.
+struct Spoiling;
+
+const SPOILT: UVec2 = UVec2::new(5, 9);
+
+impl Placing for Spoiling {
+    fn place(&self, pixel: UVec2, u: Vec2) -> Placement {
+        Placement {
+            raster: pixel.as_vec2() + u,
+            weight: if pixel == SPOILT { f32::NAN } else { 1.0 },
+        }
+    }
+}
+
+/// What is no number in training is told to the film, once, at its pixel; the pixel's other samples stand alone.
+/// Mutants rejected: training that leaves it out in silence, or spoils all the pixel's samples.
+#[test]
+fn what_is_no_number_in_training_is_refused_once() {
+    let stack = rainbow();
+    let pass = pass(0);
+    let integrator = Guided {
+        training: 10.0,
+        ..guided(5, 3)
+    };
+    let learned = integrator.prepare(&stack, &Spoiling, &pass, None);
+    for pixel in [SPOILT, SPOILT + UVec2::X] {
+        let mut list = Listed(vec![]);
+        let mut drafts = drafts(&(), &pass, pixel);
+        integrator.sample_all(&stack, &learned, &mut drafts, &mut list);
+        let refused: Vec<bool> = list.0.iter().map(|value| !value.is_finite()).collect();
+        let mut expected = vec![false; pass.samples as usize];
+        expected[0] = pixel == SPOILT;
+        assert_eq!(refused, expected, "{pixel}");
+    }
 }
