@@ -10,7 +10,7 @@
 //! so bias the picture; these are fixed beforehand.
 //!
 //! Where a path in training found what is no finite number, neither is T_r: that pixel's samples go without it, but for
-//! the first, which the film refuses, counts and tells the place of.
+//! the first of those drawn together, which the film refuses, counts and tells the place of.
 
 use etalon_transport::{Pass, Placing, Sink, TileSink};
 use glam::{UVec2, Vec2, Vec4};
@@ -80,7 +80,7 @@ pub(crate) struct Joined<'a, K> {
     own: f32,
     /// w·T_r, over what a sample counts on the film, so that the film's mean over samples is that of T_r.
     training: Vec4,
-    /// The pixel of the last sample that was spoilt, so that the film is told once of each.
+    /// The last pixel that the film was told of.
     spoilt: Option<UVec2>,
 }
 
