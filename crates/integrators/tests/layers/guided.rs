@@ -3,6 +3,7 @@
 use crate::agreement::everything;
 use crate::exact::Exact;
 use crate::measure::{LIMIT, measure};
+use crate::together::Record;
 use crate::world::{Fault, Plane, Stack};
 use etalon_integrators::guided::{Guided, Learned};
 use etalon_integrators::settings::PathSettings;
@@ -231,23 +232,6 @@ fn drafts(placing: &impl Placing, pass: &Pass, pixel: UVec2) -> Vec<Draft<Indepe
     (0..dealt).map(draft).collect()
 }
 
-/// Lists what samples bring, their colours added up.
-struct Listed(Vec<f32>);
-
-impl Sink for Listed {
-    fn radiance(&mut self, rgb: [f32; 3], _: f32) {
-        self.0.push(rgb.iter().sum());
-    }
-    fn splat(&mut self, _: Vec2, _: [f32; 3]) {
-        unreachable!("no estimator here splats");
-    }
-    fn channel(&mut self, _: usize, _: f32) {}
-}
-
-impl TileSink for Listed {
-    fn begin_sample(&mut self, _: UVec2, _: f32) {}
-}
-
 /// The mean colours of the replicates of a picture of two or four samples per pixel and replicate, with ten
 /// more of training or so.
 fn replicate_means(stack: &Stack, size: UVec2, replicates: u32, seed: u64) -> Vec<[f64; 3]> {
@@ -355,10 +339,17 @@ fn what_is_no_number_in_training_is_refused_once() {
     };
     let learned = integrator.prepare(&stack, &Spoiling, &pass, None);
     for pixel in [SPOILT, SPOILT + UVec2::X] {
-        let mut list = Listed(vec![]);
+        let mut record = Record::default();
         let mut drafts = drafts(&(), &pass, pixel);
-        integrator.sample_all(&stack, &learned, &mut drafts, &mut list);
-        let refused: Vec<bool> = list.0.iter().map(|value| !value.is_finite()).collect();
+        integrator.sample_all(&stack, &learned, &mut drafts, &mut record);
+        let no_number = |bits: [u32; 4]| {
+            !bits
+                .into_iter()
+                .all(|bits| f32::from_bits(bits).is_finite())
+        };
+        let refused: Vec<bool> = (record.samples.iter())
+            .map(|&(_, _, bits)| no_number(bits))
+            .collect();
         let mut expected = vec![false; pass.samples as usize];
         expected[0] = pixel == SPOILT;
         assert_eq!(refused, expected, "{pixel}");

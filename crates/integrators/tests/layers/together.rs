@@ -9,9 +9,9 @@ use glam::{UVec2, Vec2};
 
 /// What was delivered: pixel, weight, bits of colour and alpha.
 #[derive(Default)]
-struct Record {
+pub(crate) struct Record {
     of: (UVec2, f32),
-    samples: Vec<(UVec2, f32, [u32; 4])>,
+    pub(crate) samples: Vec<(UVec2, f32, [u32; 4])>,
 }
 
 impl Sink for Record {
@@ -20,10 +20,10 @@ impl Sink for Record {
         self.samples.push((self.of.0, self.of.1, bits));
     }
     fn splat(&mut self, _: Vec2, _: [f32; 3]) {
-        unreachable!("the path tracer does not splat");
+        unreachable!("no path tracer splats");
     }
     fn channel(&mut self, _: usize, _: f32) {
-        unreachable!("the path tracer has no channels");
+        unreachable!("no path tracer has channels");
     }
 }
 
