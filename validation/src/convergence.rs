@@ -159,7 +159,7 @@ pub fn batches(
         .map(|(standing, _)| rendering::load_for(claim, standing));
     let scenes = scenes.collect::<Result<Vec<Loaded>, String>>()?;
     let size = scenes[0].compiled.film.crop_size.to_array();
-    let known = closed_form::picture(&ladder.formula, claim, size)?;
+    let known = closed_form::picture(&ladder.formula, claim, estimator, size)?;
     let mut spent = 0;
     let (mut exponents, mut logarithms) = (Vec::new(), Vec::new());
     let mut errors = vec![Vec::new(); rungs.len()];

@@ -89,7 +89,7 @@ pub fn count(
         return Err("pixels of an integrator that splats depend on each other".to_owned());
     }
     let size = loaded.compiled.film.crop_size.to_array();
-    let known = closed_form::picture(formula, claim, size)?;
+    let known = closed_form::picture(formula, claim, estimator, size)?;
     let freedom = f64::from(budget.replicates) - 1.0;
     let (mut pictures, mut spent) = (Vec::new(), 0);
     for number in 0..seeds {

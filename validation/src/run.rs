@@ -237,7 +237,7 @@ impl<'a> Comparison<'a> {
         let (against, oracle) = match (&claim.oracle, stored) {
             (_, Some(stored)) => (None, stored),
             (Oracle::ClosedForm { formula } | Oracle::Energy { formula }, _) => {
-                known = closed_form::picture(formula, claim, size)?;
+                known = closed_form::picture(formula, claim, estimator, size)?;
                 (Some(&known), drawn(&known))
             }
             (Oracle::Agreement { estimator } | Oracle::Invariance { estimator }, _) => {

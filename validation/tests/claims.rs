@@ -23,12 +23,14 @@ fn scenes_load_and_oracles_belong_to_them() {
             | Oracle::Energy { formula }
             | Oracle::Convergence(Ladder { formula, .. })
             | Oracle::Noise { formula, .. } => {
-                let known = closed_form::picture(formula, &claim, size)
-                    .unwrap_or_else(|message| panic!("{name}: {message}"));
                 let pixels = (size[0] * size[1]) as usize;
-                for (channel, values) in &known.channels {
-                    assert_eq!(values.len(), pixels, "{name}, {channel}");
-                    assert!(values.iter().all(|v| v.is_finite()), "{name}, {channel}");
+                for estimator in &claim.estimators {
+                    let known = closed_form::picture(formula, &claim, estimator, size)
+                        .unwrap_or_else(|message| panic!("{name}: {message}"));
+                    for (channel, values) in &known.channels {
+                        assert_eq!(values.len(), pixels, "{name}, {channel}");
+                        assert!(values.iter().all(|v| v.is_finite()), "{name}, {channel}");
+                    }
                 }
             }
             Oracle::Reference { seeds, .. } => {

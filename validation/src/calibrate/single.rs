@@ -80,7 +80,9 @@ pub fn repeat(
     let loaded = rendering::load_for(&claim, estimator)?;
     let size = loaded.compiled.film.crop_size.to_array();
     let known = match &claim.oracle {
-        Oracle::ClosedForm { formula } => Some(closed_form::picture(formula, &claim, size)?),
+        Oracle::ClosedForm { formula } => {
+            Some(closed_form::picture(formula, &claim, estimator, size)?)
+        }
         _ => None,
     };
     let picture = |number: u64| {

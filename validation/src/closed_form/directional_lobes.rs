@@ -4,6 +4,9 @@
 //!   normal, and G₁ = 1 along it (Walter, Marschner, Li & Torrance, "Microfacet models for refraction
 //!   through rough surfaces", 2007). Beckmann: D = exp(−tan² h/α²)/(π α² cos⁴ h), G₁ by their
 //!   rational approximation. GGX: D = α²/(π cos⁴ h (α² + tan² h)²), G₁ = 2/(1 + √(1 + α² tan² θ)).
+//!   Brushed mirrors: in the plane of the light tan h is over the roughness along it, αᵤ, and α² in D
+//!   the product of the two.
+//! - Phong's model: L = E⊥ cos θᵢ (ρ/π + ρₛ (n + 2)/(2π) cosⁿ θᵢ) (Lafortune & Willems 1994).
 //! - Plastics beside their highlight: L = E⊥ cos θᵢ T(θᵢ) T(0)/η² · ρ/(1 − ρ' R)/π, with T = 1 − F,
 //!   and ρ' = 1 or, nonlinear, ρ (Wolff 1994; Mitsuba 3's `plastic`). R is the share of diffuse light
 //!   that is reflected back inside: for `plastic` by Egan and Hilgeman's fit (1973), as Mitsuba has it,
@@ -15,13 +18,13 @@ use super::light::{known, rgb};
 use super::pile_of_plates::reflectance;
 use crate::claim::Claim;
 use etalon::judge::Known;
-use etalon_math::float64::{exp, tan};
+use etalon_math::float64::{exp, pow, tan};
 use std::f64::consts::{FRAC_1_PI, FRAC_1_SQRT_2, FRAC_PI_8, PI};
 
 /// Patches in a row.
 const COLUMNS: u32 = 3;
 /// Rows of patches.
-const ROWS: u32 = 2;
+const ROWS: u32 = 3;
 
 /// The picture of the patches. They must be of whole pixels.
 pub fn picture(claim: &Claim, size: [u32; 2]) -> Result<Known, String> {
@@ -33,12 +36,15 @@ pub fn picture(claim: &Claim, size: [u32; 2]) -> Result<Known, String> {
     let (albedo, index) = (claim.number("reflectance")?, claim.number("index")?);
     let fit = -1.4399 / (index * index) + 0.7099 / index + 0.6681 + 0.0636 * index;
     let values = [
-        beckmann(first),
-        beckmann(second),
-        ggx(second),
+        beckmann([first, first]),
+        beckmann([second, second]),
+        ggx([second, second]),
         base(albedo, index, fit),
         base(albedo, index, albedo * fit),
-        beckmann(first),
+        beckmann([first, first]),
+        phong(albedo, claim.number("gloss")?, claim.number("exponent")?),
+        beckmann([first, second]),
+        ggx([second, first]),
     ];
     let colours = values.map(|value| rgb(|_| irradiance * value));
     Ok(known(size, |column, row| {
@@ -62,13 +68,12 @@ fn half() -> (f64, f64) {
     (t2, 1.0 / ((1.0 + t2) * (1.0 + t2)))
 }
 
-/// L/E⊥ of a rough mirror by Beckmann.
-fn beckmann(alpha: f64) -> f64 {
+/// L/E⊥ of a rough mirror by Beckmann, with its roughness along the light and across.
+fn beckmann([along, across]: [f64; 2]) -> f64 {
     let (t2, c4) = half();
-    let a2 = alpha * alpha;
-    let d = exp(-t2 / a2) / (PI * a2 * c4);
+    let d = exp(-t2 / (along * along)) / (PI * along * across * c4);
     // 1/(α tan 45°).
-    let a = 1.0 / alpha;
+    let a = 1.0 / along;
     let g = if a < 1.6 {
         (3.535 * a + 2.181 * a * a) / (1.0 + 2.276 * a + 2.577 * a * a)
     } else {
@@ -77,12 +82,19 @@ fn beckmann(alpha: f64) -> f64 {
     0.25 * d * g
 }
 
-/// L/E⊥ of a rough mirror by GGX.
-fn ggx(alpha: f64) -> f64 {
+/// L/E⊥ of a rough mirror by GGX, with its roughness along the light and across.
+fn ggx([along, across]: [f64; 2]) -> f64 {
     let (t2, c4) = half();
-    let a2 = alpha * alpha;
-    let d = a2 / (PI * c4 * (a2 + t2) * (a2 + t2));
+    let a2 = along * along;
+    let squared = (1.0 + t2 / a2) * (1.0 + t2 / a2);
+    let d = 1.0 / (PI * along * across * c4 * squared);
     0.25 * d * 2.0 / (1.0 + (1.0 + a2).sqrt())
+}
+
+/// L/E⊥ by Phong's model.
+fn phong(diffuse: f64, gloss: f64, exponent: f64) -> f64 {
+    let lobe = (exponent + 2.0) / 2.0 * pow(FRAC_1_SQRT_2, exponent);
+    FRAC_1_SQRT_2 * FRAC_1_PI * (diffuse + gloss * lobe)
 }
 
 /// L/E⊥ of a diffuse base of `albedo` below a coat; `lost` is ρ' R.
@@ -121,10 +133,10 @@ mod tests {
     fn distributions_are_normalised() {
         // ∫ D cos dω = 1 for Beckmann, as a function of t = tan² h: cos⁴ h ∫ … = ∫ exp(−t/α²)/α² dt.
         let (t2, c4) = half();
-        let d = 4.0 * beckmann(0.3);
+        let d = 4.0 * beckmann([0.3; 2]);
         assert!((d * PI * c4 * 0.09 / exp(-t2 / 0.09) - 1.0).abs() < 1e-12);
         // At α = 1 GGX is 1/π everywhere.
         let g = 2.0 / (1.0 + 2f64.sqrt());
-        assert!((4.0 * ggx(1.0) / g - FRAC_1_PI).abs() < 1e-12);
+        assert!((4.0 * ggx([1.0; 2]) / g - FRAC_1_PI).abs() < 1e-12);
     }
 }

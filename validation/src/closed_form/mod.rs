@@ -9,6 +9,7 @@ pub mod blend;
 pub mod colour_checker;
 pub mod delta_lights;
 pub mod directional_lobes;
+pub mod filter_shape;
 pub mod form_factors;
 pub mod furnace;
 pub mod glass;
@@ -27,14 +28,22 @@ pub mod rgb_patches;
 pub mod spectra;
 pub mod wrapped_bitmap;
 
-use crate::claim::Claim;
+use crate::claim::{Claim, Estimator};
 use etalon::judge::Known;
 
-/// The picture that a formula gives for a claim's scene at `size` pixels.
+/// The picture that a formula gives for a claim's scene, as one of its estimators sees it, at `size` pixels.
 ///
 /// # Errors
 /// If there is no such formula, or a number that it needs is missing.
-pub fn picture(formula: &str, claim: &Claim, size: [u32; 2]) -> Result<Known, String> {
+pub fn picture(
+    formula: &str,
+    claim: &Claim,
+    estimator: &Estimator,
+    size: [u32; 2],
+) -> Result<Known, String> {
+    let mut claim = claim.clone();
+    claim.defines.extend(estimator.defines.clone());
+    let claim = &claim;
     match formula {
         "furnace" => furnace::picture(claim, size),
         "white furnace" => furnace::white(claim, size),
@@ -69,6 +78,7 @@ pub fn picture(formula: &str, claim: &Claim, size: [u32; 2]) -> Result<Known, St
         "narrow sky" => narrow_sky::picture(claim, size),
         "wrapped bitmap" => wrapped_bitmap::picture(claim, size),
         "ambient corner" => ambient_corner::picture(claim, size),
+        "corner under a filter" => filter_shape::picture(claim, size),
         "colour checker" => colour_checker::picture(claim, size),
         other => Err(format!("there is no closed form called `{other}`")),
     }

@@ -1,7 +1,7 @@
 //! The prism: where a ray of each wavelength leaves it, and how much of it passes.
 //!
-//! Snell's law at both faces, sin θ = n(λ) sin θ′ with Cauchy's n = A + B/λ² (λ in µm), and
-//! Fresnel's transmittance for unpolarised light at both. A camera's ray that starts at x crosses
+//! Snell's law at both faces, sin θ = n(λ) sin θ′ with Cauchy's n = A + B/λ² + C/λ⁴ or Sellmeier's
+//! n² = 1 + Σ Bλ²/(λ² − C), λ in µm, and Fresnel's transmittance for unpolarised light at both. A camera's ray that starts at x crosses
 //! the plane of the lamp at X = x·m(λ) + c(λ): faces are planes, so X is affine in x, and the part
 //! of a pixel that sees the lamp at a wavelength is an interval.
 
@@ -24,7 +24,7 @@ const STEP: f64 = 0.05;
 
 /// The picture of the spectrum.
 pub fn picture(claim: &Claim, size: [u32; 2]) -> Result<Known, String> {
-    let (a, b) = (claim.number("cauchy_a")?, claim.number("cauchy_b")?);
+    let index = index(claim.text("glass")?)?;
     let radiance = claim.number("radiance")?;
     let (centre, half_width) = (claim.number("slit")?, claim.number("half_width")?);
     let columns = size[0] as usize;
@@ -32,7 +32,7 @@ pub fn picture(claim: &Claim, size: [u32; 2]) -> Result<Known, String> {
     let steps = (470.0 / STEP).round() as usize;
     for step in 0..steps {
         let lambda = 360.0 + (step as f64 + 0.5) * STEP;
-        let index = a + b / (lambda * lambda * 1e-6);
+        let index = index(lambda * lambda * 1e-6);
         let (at_zero, transmittance) = trace(0.0, index);
         let (at_one, _) = trace(1.0, index);
         let slope = at_one - at_zero;
@@ -50,6 +50,29 @@ pub fn picture(claim: &Claim, size: [u32; 2]) -> Result<Known, String> {
     }
     let colours: Vec<[f64; 3]> = xyz.into_iter().map(colour_space::xyz_to_rgb).collect();
     Ok(known(size, |column, _| colours[column as usize]))
+}
+
+/// The index as a function of λ² (µm²): `cauchy: A B C`, where C may be missing, or
+/// `sellmeier: B₁ B₂ B₃ C₁ C₂ C₃`.
+fn index(glass: &str) -> Result<impl Fn(f64) -> f64, String> {
+    let unknown = || format!("`{glass}` is no glass of Cauchy's or Sellmeier's");
+    let (law, numbers) = glass.split_once(':').ok_or_else(unknown)?;
+    let numbers: Vec<f64> = numbers
+        .split_whitespace()
+        .map(|word| word.parse().map_err(|_| unknown()))
+        .collect::<Result<_, _>>()?;
+    let sellmeier = match (law, numbers.len()) {
+        ("sellmeier", 6) => true,
+        ("cauchy", 2 | 3) => false,
+        _ => return Err(unknown()),
+    };
+    Ok(move |squared: f64| {
+        if sellmeier {
+            let term = |i: usize| numbers[i] * squared / (squared - numbers[i + 3]);
+            return (1.0 + (0..3).map(term).sum::<f64>()).sqrt();
+        }
+        numbers.iter().rev().fold(0.0, |sum, c| sum / squared + c)
+    })
 }
 
 /// Where the ray that starts at `x` and goes straight down crosses the lamp's plane, and how much
@@ -125,6 +148,18 @@ mod tests {
                 "{deviation} {expected}"
             );
         }
+    }
+
+    #[test]
+    fn the_flint_has_its_index() {
+        // N-SF11 at the yellow line of helium, by its data sheet: 1.78472.
+        let glass =
+            "sellmeier: 1.73759695 0.313747346 1.89878101 0.013188707 0.0623068142 155.23629";
+        let found = index(glass).expect("a glass")(0.587_561_8 * 0.587_561_8);
+        assert!((found - 1.784_72).abs() < 1e-5, "{found}");
+        let cauchy = index("cauchy: 1.5 0.1 0.01").expect("a glass");
+        assert!((cauchy(0.25) - 2.06).abs() < 1e-12);
+        assert!(index("cauchy: 1").is_err() && index("bk7").is_err());
     }
 
     #[test]
