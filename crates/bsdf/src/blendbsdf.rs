@@ -11,7 +11,6 @@ use crate::{Flattening, Material, Site, Traits};
 use etalon_math::Frame;
 use etalon_params::Params;
 use etalon_transport::{Build, Role, TextureId, Textures};
-use glam::Vec4;
 
 /// Parameters to test with (see [`crate::exemplars`]).
 pub const EXEMPLARS: &[&str] = &[
@@ -59,18 +58,5 @@ impl Description {
         let share = site.share(self.weight);
         self.nested[0].flatten(site, frame, weight * (1.0 - share), into);
         self.nested[1].flatten(site, frame, weight * share, into);
-    }
-
-    /// The light that passes and its probability, without resolving lobes.
-    pub fn passing<T: Textures>(&self, site: &Site<'_, T>, frame: Frame) -> (Vec4, f32) {
-        let share = site.share(self.weight);
-        let (a, b) = (
-            self.nested[0].passing(site, frame),
-            self.nested[1].passing(site, frame),
-        );
-        (
-            a.0 * (1.0 - share) + b.0 * share,
-            a.1 * (1.0 - share) + b.1 * share,
-        )
     }
 }

@@ -16,7 +16,6 @@ use crate::{Flattening, Site, Traits};
 use etalon_math::Frame;
 use etalon_params::Params;
 use etalon_transport::{Build, ClassicPhong, Role, TextureId, Textures};
-use glam::Vec4;
 
 /// Nothing for the harness of scattering models.
 pub const EXEMPLARS: &[&str] = &[];
@@ -86,9 +85,4 @@ impl Description {
 
     /// Adds nothing.
     pub fn flatten<T: Textures>(&self, _: &Site<'_, T>, _: Frame, _: f32, _: &mut Flattening<'_>) {}
-
-    /// Nothing passes as if the surface were not there.
-    pub fn passing<T: Textures>(&self, _: &Site<'_, T>, _: Frame) -> (Vec4, f32) {
-        (Vec4::ZERO, 0.0)
-    }
 }

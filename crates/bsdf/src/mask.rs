@@ -59,12 +59,4 @@ impl Description {
         into.pass(Vec4::splat(passing), passing);
         self.nested.flatten(site, frame, weight * opacity, into);
     }
-
-    /// The light that passes and its probability, without resolving lobes.
-    pub fn passing<T: Textures>(&self, site: &Site<'_, T>, frame: Frame) -> (Vec4, f32) {
-        let opacity = site.share(self.opacity);
-        let through = 1.0 - opacity;
-        let (energy, probability) = self.nested.passing(site, frame);
-        (energy * opacity + through, probability * opacity + through)
-    }
 }

@@ -7,7 +7,7 @@ use crate::{Flattening, Lobe, MAX_LOBES, Model, Resolved, Site, Traits};
 use etalon_math::Frame;
 use etalon_params::{Class, Diagnostic, Diagnostics, Node, Params};
 use etalon_spectrum::Wavelengths;
-use etalon_transport::{BsdfSample, Build, ClassicPhong, Mode, Passage, Textures, Vertex};
+use etalon_transport::{BsdfSample, Build, ClassicPhong, Mode, Textures, Vertex};
 use glam::{Vec2, Vec3, Vec4};
 use std::sync::Arc;
 
@@ -98,18 +98,6 @@ macro_rules! models {
                         probability: 1.0,
                     },
                 )
-            }
-
-            /// The light that passes straight on and its probability, without resolving lobes.
-            pub(crate) fn passing<T: Textures>(
-                &self,
-                site: &Site<'_, T>,
-                frame: Frame,
-            ) -> (Vec4, f32) {
-                match self {
-                    $(Self::$plain(_))|* => (Vec4::ZERO, 0.0),
-                    $(Self::$composed(description) => description.passing(site, frame),)*
-                }
             }
 
             /// Adds the material's lobes, together having the share `weight` of the light.
@@ -318,23 +306,6 @@ impl Material {
     /// Whether light may go straight on, so that shadow rays need a transmittance.
     pub fn has_passing(&self) -> bool {
         self.traits().passing
-    }
-
-    /// How light goes straight on toward `wo`: [`etalon_transport::Bsdf::passing`] and its
-    /// probability of the resolved material, at a fraction of the cost, for shadow rays.
-    pub fn passage<T: Textures>(
-        &self,
-        textures: &T,
-        vertex: &Vertex,
-        wo: Vec3,
-        wavelengths: &Wavelengths,
-    ) -> Passage {
-        let site = Site::new(textures, vertex, wo, wavelengths);
-        let (transmittance, probability) = self.passing(&site, vertex.shading);
-        Passage {
-            transmittance,
-            probability: Vec4::splat(probability),
-        }
     }
 
     fn resolve_composed<T: Textures>(&self, site: &Site<'_, T>, vertex: &Vertex) -> Resolved<'_> {

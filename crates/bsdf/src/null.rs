@@ -40,9 +40,4 @@ impl Description {
     ) {
         into.pass(Vec4::splat(weight), weight);
     }
-
-    /// The light that passes and its probability, without resolving lobes.
-    pub fn passing<T: Textures>(&self, _: &Site<'_, T>, _: Frame) -> (Vec4, f32) {
-        (Vec4::ONE, 1.0)
-    }
 }

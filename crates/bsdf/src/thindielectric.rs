@@ -14,7 +14,6 @@ use crate::{Flattening, Scatter, Site, Traits, fresnel};
 use etalon_math::Frame;
 use etalon_params::Params;
 use etalon_transport::{Build, Role, TextureId, Textures};
-use glam::Vec4;
 
 /// Parameters to test with (see [`crate::exemplars`]).
 pub const EXEMPLARS: &[&str] = &[
@@ -79,14 +78,5 @@ impl Description {
             site.spectrum(self.transmittance) * (weight * (1.0 - both)),
             weight * (1.0 - both),
         );
-    }
-
-    /// The light that passes and its probability, without resolving lobes.
-    pub fn passing<T: Textures>(&self, site: &Site<'_, T>, frame: Frame) -> (Vec4, f32) {
-        self.reflected(site, frame)
-            .map_or((Vec4::ZERO, 0.0), |both| {
-                let through = 1.0 - both;
-                (site.spectrum(self.transmittance) * through, through)
-            })
     }
 }

@@ -8,7 +8,6 @@ use crate::{Flattening, Material, Site, Traits};
 use etalon_math::Frame;
 use etalon_params::{Class, Diagnostic, Params};
 use etalon_transport::{Build, Textures};
-use glam::Vec4;
 
 /// Parameters to test with (see [`crate::exemplars`]).
 pub const EXEMPLARS: &[&str] = &[
@@ -88,14 +87,6 @@ impl Description {
     ) {
         if let Some((material, frame)) = self.side(site, frame) {
             material.flatten(site, frame, weight, into);
-        }
-    }
-
-    /// The light that passes and its probability, without resolving lobes.
-    pub fn passing<T: Textures>(&self, site: &Site<'_, T>, frame: Frame) -> (Vec4, f32) {
-        match self.side(site, frame) {
-            Some((material, frame)) => material.passing(site, frame),
-            None => (Vec4::ZERO, 0.0),
         }
     }
 }

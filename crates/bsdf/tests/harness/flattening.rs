@@ -117,20 +117,13 @@ fn only_materials_that_pass_light_need_transmittance() {
 }
 
 #[test]
-fn shadow_rays_see_what_passes() {
+fn what_says_that_nothing_passes_lets_nothing_pass() {
     let mut uniform = Uniform::new(12);
     for sample in Sample::exemplars() {
         for _ in 0..50 {
-            let wo = uniform.direction();
-            let (alone, resolved) = (sample.passage(wo), sample.at(wo));
-            let near = |a: Vec4, b: Vec4| (a - b).abs().max_element() < 1e-6;
-            assert!(
-                near(alone.transmittance, resolved.passing())
-                    && near(alone.probability, resolved.passing_probability()),
-                "{}",
-                sample.text
-            );
-            assert!(sample.material().has_passing() || alone.transmittance == Vec4::ZERO);
+            let passing = sample.at(uniform.direction()).passing();
+            let silent = sample.material().has_passing() || passing == Vec4::ZERO;
+            assert!(silent, "{}", sample.text);
         }
     }
 }

@@ -5,7 +5,6 @@ use etalon_bsdf::{Material, Resolved};
 use etalon_math::Frame;
 use etalon_params::{Diagnostic, Diagnostics, Node, Params, SpectrumText, Value};
 use etalon_spectrum::{Spectrum, Wavelengths};
-use etalon_transport::Passage;
 use etalon_transport::{
     AssetError, Assets, Build, InstanceId, LightId, MaterialId, MeshData, MeshFormat, Role,
     ShapeId, TextureId, TexturePoint, Textures, Vertex,
@@ -179,12 +178,6 @@ impl Sample {
     ) -> Resolved<'_> {
         self.material
             .resolve(&self.scene, &vertex(shading), wo, wavelengths)
-    }
-
-    /// How light passes toward `wo`.
-    pub(crate) fn passage(&self, wo: Vec3) -> Passage {
-        self.material
-            .passage(&self.scene, &vertex(Frame::IDENTITY), wo, &WAVELENGTHS)
     }
 
     /// What the material can do.
