@@ -9,6 +9,7 @@ pub mod blend;
 pub mod colour_checker;
 pub mod delta_lights;
 pub mod directional_lobes;
+pub mod field_of_view;
 pub mod filter_shape;
 pub mod form_factors;
 pub mod furnace;
@@ -78,6 +79,7 @@ pub fn picture(
         "narrow sky" => narrow_sky::picture(claim, size),
         "wrapped bitmap" => wrapped_bitmap::picture(claim, size),
         "ambient corner" => ambient_corner::picture(claim, size),
+        "rectangle in a field of view" => field_of_view::picture(claim, size),
         "corner under a filter" => filter_shape::picture(claim, size),
         "colour checker" => colour_checker::picture(claim, size),
         other => Err(format!("there is no closed form called `{other}`")),
