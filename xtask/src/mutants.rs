@@ -228,8 +228,15 @@ fn judge(
     record: &mut Record,
 ) -> Result<(), String> {
     // The commit may be older than the list.
-    let there = mutant.claims.iter().filter(|c| workspace.has_claim(c));
-    let named = there.map(|claim| Some(claim.as_str()));
+    let there: Vec<&String> = (mutant.claims.iter())
+        .filter(|claim| workspace.has_claim(claim))
+        .collect();
+    if there.is_empty() && arguments.named_only {
+        record.fate = Fate::DoesNotApply;
+        record.message = Some("the commit has none of its claims: `--fresh` takes the last".into());
+        return Ok(());
+    }
+    let named = there.iter().map(|claim| Some(claim.as_str()));
     let suite = (!arguments.named_only).then_some(None);
     for only in named.chain(suite) {
         match workspace.validate(only, arguments.seed)? {
