@@ -221,27 +221,19 @@ pub struct Estimator {
 impl Estimator {
     /// Its name in reports.
     pub fn label(&self) -> String {
-        // A parameter of a scene may name the integrator, whose other parameters then stay.
-        let defined = self
-            .defines
-            .get("integrator")
-            .and_then(|name| name.as_str());
+        // A parameter of a scene may name the integrator, whose other parameters then stay, or bring it whole.
+        let defined = ["integrator", "method"]
+            .iter()
+            .find_map(|key| self.defines.get(*key)?.as_str());
         let integrator = self.integrator.as_deref().or(defined).unwrap_or("path");
         let sampler = self.sampler.unwrap_or(Sampler::Sobol).name();
         let defines: String = pairs(&self.defines)
-            .filter(|(key, _)| key != "integrator")
+            .filter(|(key, _)| !["integrator", "method"].contains(&key.as_str()))
             .map(|(key, value)| format!(", {key}={value}"))
             .collect();
-        let change = match self.change {
-            None => "",
-            Some(Change::Threads) => ", threads",
-            Some(Change::Order) => ", order",
-            Some(Change::Parts) => ", parts",
-            Some(Change::Accelerator) => ", accelerator",
-            Some(Change::Crop) => ", crop",
-            Some(Change::Seed) => ", seed",
-            Some(Change::Wavelengths) => ", wavelengths",
-        };
+        let change = (self.change)
+            .map(|change| format!(", {change:?}").to_lowercase())
+            .unwrap_or_default();
         let chooser = (self.light_chooser.as_ref())
             .map(|name| format!(", {name} lights"))
             .unwrap_or_default();
@@ -273,6 +265,13 @@ pub fn pairs(
 }
 
 impl Claim {
+    /// The scene's parameters as an estimator, or the oracle alone, has them.
+    pub fn defines_of(&self, estimator: Option<&Estimator>) -> BTreeMap<String, toml::Value> {
+        let mut all = self.defines.clone();
+        all.extend(estimator.iter().flat_map(|e| e.defines.clone()));
+        all
+    }
+
     /// Reads the claim in a file.
     ///
     /// # Errors

@@ -13,14 +13,7 @@ use etalon_scene::LightChooser;
 
 /// The scene parameters of a claim, and of one of its estimators.
 pub fn defines(claim: &Claim, estimator: Option<&Estimator>) -> Vec<(String, String)> {
-    let mut all: Vec<_> = claim::pairs(&claim.defines).collect();
-    if let Some(estimator) = estimator {
-        for (key, value) in claim::pairs(&estimator.defines) {
-            all.retain(|(other, _)| *other != key);
-            all.push((key, value));
-        }
-    }
-    all
+    claim::pairs(&claim.defines_of(estimator)).collect()
 }
 
 /// Loads a claim's scene.

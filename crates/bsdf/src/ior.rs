@@ -100,8 +100,8 @@ impl Given {
     }
 }
 
-const ACCEPTED: &str = "a number above 0, the name of a dielectric, `cauchy: A B [C]` or \
-                        `sellmeier: B1 B2 B3 C1 C2 C3` (µm), or a spectrum";
+const ACCEPTED: &str = "a number above 0, the name of a dielectric, `cauchy: A B [C]`, \
+                        `sellmeier: B1 B2 B3 C1 C2 C3` (µm) or `sellmeier: NAME`, or a spectrum";
 
 fn named(name: &str) -> Option<f64> {
     ior::lookup(name.trim())
@@ -192,7 +192,7 @@ fn read(params: &Params<'_>, build: &mut dyn Build, name: &str, default: &str) -
     }
 }
 
-/// `cauchy: A B [C]` or `sellmeier: B1 B2 B3 C1 C2 C3`.
+/// `cauchy: A B [C]`, `sellmeier: B1 B2 B3 C1 C2 C3` or `sellmeier: NAME`.
 fn formula(params: &Params<'_>, property: &Property, text: &str) -> Option<RefractiveIndex> {
     let refuse = |message: String| {
         params
@@ -201,6 +201,22 @@ fn formula(params: &Params<'_>, property: &Property, text: &str) -> Option<Refra
         None
     };
     let (kind, numbers) = text.split_once(':')?;
+    let kind = kind.trim().to_ascii_lowercase();
+    // Names hold letters that no list of numbers has (`1e-3` begins with a digit).
+    let name = numbers.trim();
+    if kind == "sellmeier" && name.starts_with(char::is_alphabetic) {
+        let index = ior::dispersive(name);
+        if index.is_none() {
+            params.diagnostics.push(
+                Diagnostic::error(
+                    property.span,
+                    format!("no dispersion is known for `{name}`"),
+                )
+                .suggest(name, ior::dispersive_names()),
+            );
+        }
+        return index;
+    }
     let mut coefficients = Vec::new();
     for word in numbers
         .split([' ', ',', '\t', '\n'])
@@ -211,7 +227,6 @@ fn formula(params: &Params<'_>, property: &Property, text: &str) -> Option<Refra
             Err(_) => return refuse(format!("`{word}` is not a number")),
         }
     }
-    let kind = kind.trim().to_ascii_lowercase();
     let index: Result<RefractiveIndex, SpectrumError> = match (kind.as_str(), &coefficients[..]) {
         ("cauchy", &[a, b]) => RefractiveIndex::cauchy(a, b, 0.0),
         ("cauchy", &[a, b, c]) => RefractiveIndex::cauchy(a, b, c),

@@ -7,10 +7,9 @@
 //! Where a picture with colours is the weight, its luminance is meant (`docs/known-differences.md`): of
 //! the bytes (r, g, b) decoded as IEC 61966-2-1 says, 0.2126 R + 0.7152 G + 0.0722 B.
 
-use super::light::{known, rgb};
+use super::light::{decoded, known, rgb};
 use crate::claim::Claim;
 use etalon::judge::Known;
-use etalon_math::float64::pow;
 
 /// The bytes of `scenes/blend/tint.png`.
 const TINT: [u8; 3] = [210, 70, 240];
@@ -40,14 +39,7 @@ fn mixed(weight: f64, a: f64, b: f64) -> f64 {
 
 /// The luminance of a colour in sRGB.
 fn luminance(bytes: [u8; 3]) -> f64 {
-    let [r, g, b] = bytes.map(|byte| {
-        let c = f64::from(byte) / 255.0;
-        if c <= 0.040_45 {
-            c / 12.92
-        } else {
-            pow((c + 0.055) / 1.055, 2.4)
-        }
-    });
+    let [r, g, b] = bytes.map(decoded);
     0.2126 * r + 0.7152 * g + 0.0722 * b
 }
 

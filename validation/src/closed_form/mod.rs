@@ -42,9 +42,10 @@ pub fn picture(
     estimator: &Estimator,
     size: [u32; 2],
 ) -> Result<Known, String> {
-    let mut claim = claim.clone();
-    claim.defines.extend(estimator.defines.clone());
-    let claim = &claim;
+    let claim = &Claim {
+        defines: claim.defines_of(Some(estimator)),
+        ..claim.clone()
+    };
     match formula {
         "furnace" => furnace::picture(claim, size),
         "white furnace" => furnace::white(claim, size),

@@ -24,7 +24,10 @@ const STEP: f64 = 0.05;
 
 /// The picture of the spectrum.
 pub fn picture(claim: &Claim, size: [u32; 2]) -> Result<Known, String> {
-    let index = index(claim.text("glass")?)?;
+    let index = match claim.text("glass") {
+        Ok(glass) => index(glass)?,
+        Err(_) => index(&samples(claim.text("wavelengths")?, claim.text("indices")?))?,
+    };
     let radiance = claim.number("radiance")?;
     let (centre, half_width) = (claim.number("slit")?, claim.number("half_width")?);
     let columns = size[0] as usize;
@@ -52,27 +55,128 @@ pub fn picture(claim: &Claim, size: [u32; 2]) -> Result<Known, String> {
     Ok(known(size, |column, _| colours[column as usize]))
 }
 
-/// The index as a function of λ² (µm²): `cauchy: A B C`, where C may be missing, or
-/// `sellmeier: B₁ B₂ B₃ C₁ C₂ C₃`.
-fn index(glass: &str) -> Result<impl Fn(f64) -> f64, String> {
+/// Sellmeier's coefficients B₁ to B₃ and C₁ to C₃ (µm²) of materials that scenes may call by name, from
+/// SCHOTT's data sheets (*Optical Glass*, 2023), and of fused quartz by Malitson (1965).
+const GLASSES: [(&str, [f64; 6]); 5] = [
+    (
+        "bk7",
+        [
+            1.039_612_12,
+            0.231_792_344,
+            1.010_469_45,
+            0.006_000_698_67,
+            0.020_017_914_4,
+            103.560_653,
+        ],
+    ),
+    (
+        "f2",
+        [
+            1.345_333_59,
+            0.209_073_176,
+            0.937_357_162,
+            0.009_977_438_71,
+            0.047_045_076_7,
+            111.886_764,
+        ],
+    ),
+    (
+        "n-sf10",
+        [
+            1.621_539_02,
+            0.256_287_842,
+            1.644_475_52,
+            0.012_224_145_7,
+            0.059_573_677_5,
+            147.468_793,
+        ],
+    ),
+    (
+        "n-sf11",
+        [
+            1.737_596_95,
+            0.313_747_346,
+            1.898_781_01,
+            0.013_188_707,
+            0.062_306_814_2,
+            155.236_29,
+        ],
+    ),
+    (
+        "fused quartz",
+        [
+            0.696_166_3,
+            0.407_942_6,
+            0.897_479_4,
+            0.004_679_148_25,
+            0.013_512_063,
+            97.934_002_5,
+        ],
+    ),
+];
+
+/// The index as a function of λ² (µm²).
+type Index = Box<dyn Fn(f64) -> f64>;
+
+/// The index of `cauchy: A B C`, where C may be missing, of `sellmeier: B₁ B₂ B₃ C₁ C₂ C₃`, of
+/// `sellmeier: NAME`, or of a table, `λ:n, λ:n, …` (nm).
+fn index(glass: &str) -> Result<Index, String> {
+    match table(glass) {
+        Some(samples) => Ok(Box::new(move |squared| {
+            interpolated(&samples, 1e3 * squared.sqrt())
+        })),
+        None => dispersion_formula(glass),
+    }
+}
+
+/// A table as text, from its wavelengths and indices.
+fn samples(wavelengths: &str, indices: &str) -> String {
+    let pairs = wavelengths.split(',').zip(indices.split(','));
+    let pairs: Vec<String> = pairs.map(|(l, n)| format!("{l}:{n}")).collect();
+    pairs.join(",")
+}
+
+/// Pairs of a wavelength (nm) and an index.
+fn table(text: &str) -> Option<Vec<[f64; 2]>> {
+    let samples = text.split(',').map(|sample| {
+        let (lambda, value) = sample.split_once(':')?;
+        Some([lambda.trim().parse().ok()?, value.trim().parse().ok()?])
+    });
+    samples.collect()
+}
+
+/// Linear between samples, constant beyond the first and the last.
+fn interpolated(samples: &[[f64; 2]], lambda: f64) -> f64 {
+    let after = samples.partition_point(|sample| sample[0] <= lambda);
+    let [Some(low), Some(high)] = [after.checked_sub(1), Some(after)].map(|i| samples.get(i?))
+    else {
+        return samples[after.min(samples.len() - 1)][1];
+    };
+    low[1] + (high[1] - low[1]) * (lambda - low[0]) / (high[0] - low[0])
+}
+
+fn dispersion_formula(glass: &str) -> Result<Index, String> {
     let unknown = || format!("`{glass}` is no glass of Cauchy's or Sellmeier's");
     let (law, numbers) = glass.split_once(':').ok_or_else(unknown)?;
-    let numbers: Vec<f64> = numbers
-        .split_whitespace()
-        .map(|word| word.parse().map_err(|_| unknown()))
-        .collect::<Result<_, _>>()?;
+    let named = GLASSES.iter().find(|(name, _)| *name == numbers.trim());
+    let numbers: Vec<f64> = match named {
+        Some((_, coefficients)) => coefficients.to_vec(),
+        None => (numbers.split_whitespace())
+            .map(|word| word.parse().map_err(|_| unknown()))
+            .collect::<Result<_, _>>()?,
+    };
     let sellmeier = match (law, numbers.len()) {
         ("sellmeier", 6) => true,
         ("cauchy", 2 | 3) => false,
         _ => return Err(unknown()),
     };
-    Ok(move |squared: f64| {
+    Ok(Box::new(move |squared: f64| {
         if sellmeier {
             let term = |i: usize| numbers[i] * squared / (squared - numbers[i + 3]);
             return (1.0 + (0..3).map(term).sum::<f64>()).sqrt();
         }
         numbers.iter().rev().fold(0.0, |sum, c| sum / squared + c)
-    })
+    }))
 }
 
 /// Where the ray that starts at `x` and goes straight down crosses the lamp's plane, and how much
@@ -160,6 +264,26 @@ mod tests {
         let cauchy = index("cauchy: 1.5 0.1 0.01").expect("a glass");
         assert!((cauchy(0.25) - 2.06).abs() < 1e-12);
         assert!(index("cauchy: 1").is_err() && index("bk7").is_err());
+    }
+
+    #[test]
+    fn tables_are_linear_between_their_samples() {
+        let index = index("400:1.7, 500:1.6, 700:1.5").expect("a table");
+        let at = |nm: f64| index(nm * nm * 1e-6);
+        for (nm, expected) in [(380.0, 1.7), (450.0, 1.65), (600.0, 1.55), (800.0, 1.5)] {
+            assert!((at(nm) - expected).abs() < 1e-12, "{nm}");
+        }
+    }
+
+    #[test]
+    fn named_materials_have_their_indices() {
+        // At the yellow line of helium, by the data sheets and by Malitson.
+        let expected = [1.516_80, 1.620_04, 1.728_28, 1.784_72, 1.458_46];
+        for ((name, _), expected) in GLASSES.iter().zip(expected) {
+            let found = index(&format!("sellmeier: {name}")).expect("a name");
+            let found = found(0.587_561_8 * 0.587_561_8);
+            assert!((found - expected).abs() < 1e-5, "{name}: {found}");
+        }
     }
 
     #[test]

@@ -3,16 +3,14 @@
 //! Texel i of n stands for i mod n where the image is repeated, for the nearer end where it is held,
 //! and where it is mirrored for j or 2n − 1 − j with j = i mod 2n. Between the centres of texels,
 //! which are at (i + ½)/n, the reflectance is bilinear, or that of the texel around the point. Rows
-//! begin at v = 0. (Mitsuba 3's documentation of `bitmap`.) The bytes b of the file are decoded as
-//! sRGB: c = b/255; c/12.92 up to 0.04045, ((c + 0.055)/1.055)^2.4 beyond (IEC 61966-2-1).
+//! begin at v = 0. (Mitsuba 3's documentation of `bitmap`.) The bytes of the file are decoded as sRGB.
 //!
 //! A plane sends back ρ L.
 
-use super::light::{known, rgb};
+use super::light::{decoded, known, rgb};
 use super::pixels;
 use crate::claim::Claim;
 use etalon::judge::Known;
-use etalon_math::float64::pow;
 
 /// The bytes of `scenes/wrapped-bitmap/texels.png`.
 const TEXELS: [[u8; 4]; 3] = [[40, 200, 120, 255], [90, 0, 230, 160], [180, 70, 20, 140]];
@@ -81,12 +79,7 @@ fn nearest(u: f64, v: f64, wrap: Wrap) -> f64 {
 
 fn texel(i: f64, j: f64, wrap: Wrap) -> f64 {
     let (i, j) = (wrap(i as i64, 4) as usize, wrap(j as i64, 3) as usize);
-    let c = f64::from(TEXELS[j][i]) / 255.0;
-    if c <= 0.040_45 {
-        c / 12.92
-    } else {
-        pow((c + 0.055) / 1.055, 2.4)
-    }
+    decoded(TEXELS[j][i])
 }
 
 #[cfg(test)]
