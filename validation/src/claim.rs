@@ -24,6 +24,7 @@ use crate::convergence::{Ladder, Part};
 use crate::fault::Fault;
 use crate::matrix::{self, Absence, Matrix};
 use crate::noise::Means;
+use rayon::prelude::*;
 use serde::Deserialize;
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
@@ -382,8 +383,9 @@ impl Claim {
             .collect();
         paths.sort();
         let (mut claims, mut errors) = (Vec::new(), Vec::new());
-        for path in &paths {
-            match Self::read(path) {
+        let read: Vec<_> = paths.par_iter().map(|path| Self::read(path)).collect();
+        for claim in read {
+            match claim {
                 Ok(claim) => claims.push(claim),
                 Err(message) => errors.push(message),
             }

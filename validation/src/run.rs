@@ -162,9 +162,16 @@ impl<'a> Comparison<'a> {
                 seeds,
                 tolerance,
             } => {
-                let counted = (*of, formula.as_str(), seeds * multiple);
+                // A quarter of the pictures shows a fault.
+                let pictures = multiple
+                    * if fault.is_some() {
+                        seeds.div_ceil(4)
+                    } else {
+                        *seeds
+                    };
+                let counted = (*of, formula.as_str(), pictures);
                 // Those of all pictures, as its samples are.
-                replicates = seeds * multiple * first.replicates;
+                replicates = pictures * first.replicates;
                 let (pictures, spp) =
                     noise::count(claim, counted, estimator, fault, first, options.seed)?;
                 (noise::judge(&pictures, *tolerance, alpha)?, spp)

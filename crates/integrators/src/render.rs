@@ -10,8 +10,11 @@ use glam::UVec2;
 use rayon::prelude::*;
 use std::sync::atomic::{AtomicU64, Ordering};
 
-/// Side of a tile (pixels).
+/// Side of a tile (pixels) of pictures that have enough of them.
 pub const TILE: u32 = 16;
+
+/// A small picture has smaller tiles, so that each thread has this many to even out its load.
+const TILES_PER_THREAD: u32 = 8;
 
 /// How many samples are handed to the integrator at once.
 pub const TOGETHER: usize = 16;
@@ -94,6 +97,17 @@ impl Progress for () {
     }
 }
 
+/// The side of a tile (pixels) where so many threads share a picture of this size.
+fn tile_side(size: UVec2, threads: usize) -> u32 {
+    let enough = TILES_PER_THREAD.saturating_mul(u32::try_from(threads).unwrap_or(u32::MAX));
+    let tiles = |side: u32| size.x.div_ceil(side).saturating_mul(size.y.div_ceil(side));
+    let mut side = TILE;
+    while side > 1 && threads > 1 && tiles(side) < enough {
+        side /= 2;
+    }
+    side
+}
+
 /// Renders replicates into `film` on the current thread pool.
 pub fn render<W: World, I: Integrator, F: Film, P: Progress>(
     world: &W,
@@ -104,7 +118,8 @@ pub fn render<W: World, I: Integrator, F: Film, P: Progress>(
 ) -> Outcome {
     let origin = film.origin();
     let size = film.size();
-    let tiles = UVec2::new(size.x.div_ceil(TILE), size.y.div_ceil(TILE));
+    let side = tile_side(size, rayon::current_num_threads());
+    let tiles = UVec2::new(size.x.div_ceil(side), size.y.div_ceil(side));
     let (rays, samples) = (AtomicU64::new(0), AtomicU64::new(0));
     let mut outcome = Outcome {
         replicates: 0,
@@ -134,9 +149,9 @@ pub fn render<W: World, I: Integrator, F: Film, P: Progress>(
         };
         let state = integrator.prepare(world, &*film, &pass, before.take());
         let tile = |index: u32| {
-            let corner = UVec2::new(index % tiles.x, index / tiles.x) * TILE;
+            let corner = UVec2::new(index % tiles.x, index / tiles.x) * side;
             let from = origin + corner;
-            let to = origin + (corner + TILE).min(size);
+            let to = origin + (corner + side).min(size);
             let run = TileRun {
                 world,
                 integrator,
@@ -244,5 +259,20 @@ impl<W: World, I: Integrator, F: Film> TileRun<'_, W, I, F> {
         self.integrator
             .sample_all(self.world, self.state, &mut drafts, &mut sink);
         drawn
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn small_pictures_have_tiles_for_every_thread() {
+        let side = |x, y, threads| tile_side(UVec2::new(x, y), threads);
+        assert_eq!(side(512, 512, 2), TILE);
+        assert_eq!(side(32, 32, 2), 8);
+        assert_eq!(side(3, 3, 2), 1);
+        assert_eq!(side(3, 3, 1), TILE);
+        assert_eq!(side(1, 1, 64), 1);
     }
 }

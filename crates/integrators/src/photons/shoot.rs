@@ -65,7 +65,7 @@ impl PhotonMap {
 const ROW: u32 = u32::MAX;
 
 /// How many photons a thread traces at once.
-const CHUNK: u32 = 1024;
+const CHUNK: u32 = 256;
 
 /// The random numbers of photon `index` of `count`.
 pub(crate) fn numbers(pass: &Pass, index: u32, count: u32) -> Sobol {
