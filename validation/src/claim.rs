@@ -24,6 +24,7 @@ use crate::convergence::{Ladder, Part};
 use crate::fault::Fault;
 use crate::matrix::{self, Absence, Matrix};
 use crate::noise::Means;
+use rayon::iter::Either;
 use rayon::prelude::*;
 use serde::Deserialize;
 use std::collections::BTreeMap;
@@ -382,14 +383,11 @@ impl Claim {
             .filter(|path| path.extension().is_some_and(|e| e == "toml"))
             .collect();
         paths.sort();
-        let (mut claims, mut errors) = (Vec::new(), Vec::new());
-        let read: Vec<_> = paths.par_iter().map(|path| Self::read(path)).collect();
-        for claim in read {
-            match claim {
-                Ok(claim) => claims.push(claim),
-                Err(message) => errors.push(message),
-            }
-        }
+        let read = paths.par_iter().map(|path| Self::read(path));
+        let (claims, errors): (Vec<Self>, Vec<String>) = read.partition_map(|claim| match claim {
+            Ok(claim) => Either::Left(claim),
+            Err(message) => Either::Right(message),
+        });
         if errors.is_empty() {
             Ok(claims)
         } else {
