@@ -26,6 +26,7 @@ pub mod look;
 pub mod matrix;
 pub mod measure;
 pub mod noise;
+pub mod oracle;
 pub mod outcome;
 pub mod pixelwise;
 pub mod povray;

@@ -32,6 +32,9 @@ pub struct Provenance {
     pub skipped_seeds: Vec<u32>,
     /// Samples per pixel and seed.
     pub spp: u32,
+    /// Mitsuba's integrator, if not the scene's.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub integrator: Option<String>,
 }
 
 /// The picture's file.
@@ -64,6 +67,8 @@ pub struct Expected {
     pub spp: u32,
     /// How many seeds.
     pub seeds: u32,
+    /// Mitsuba's integrator, if not the scene's.
+    pub integrator: Option<String>,
 }
 
 /// What a claim expects of its reference, with its scene as it is now.
@@ -71,7 +76,12 @@ pub struct Expected {
 /// # Errors
 /// If the claim has no reference by Mitsuba, or its scene cannot be read.
 pub fn expected(claim: &Claim) -> Result<Expected, String> {
-    let Oracle::Reference { spp, seeds } = claim.oracle else {
+    let Oracle::Reference {
+        spp,
+        seeds,
+        ref integrator,
+    } = claim.oracle
+    else {
         return Err("this kind of claim has no reference by Mitsuba".to_owned());
     };
     let loaded = rendering::load(claim, &rendering::defines(claim, None), None)?;
@@ -80,6 +90,7 @@ pub fn expected(claim: &Claim) -> Result<Expected, String> {
         size: loaded.compiled.film.crop_size.to_array(),
         spp,
         seeds,
+        integrator: integrator.clone(),
     })
 }
 
@@ -115,6 +126,18 @@ pub fn read_in(folder: &Path, name: &str, expected: &Expected) -> Result<Develop
             "the reference was made with {} samples per pixel of {} seeds, the claim's `oracle` \
              states {} of {}: correct the claim, or {again}",
             made.0, made.1, expected.spp, expected.seeds
+        ));
+    }
+    if provenance.integrator != expected.integrator {
+        let name = |integrator: &Option<String>| match integrator {
+            Some(name) => format!("Mitsuba's `{name}`"),
+            None => "the scene's integrator".to_owned(),
+        };
+        return Err(format!(
+            "the reference was made by {}, the claim's `oracle` states {}: correct the claim, or \
+             {again}",
+            name(&provenance.integrator),
+            name(&expected.integrator)
         ));
     }
     let path = folder.join(format!("{name}.exr"));
@@ -223,12 +246,13 @@ pub fn write(claim: &Claim, rendered: &Rendered, spp: u32, pixels: &[f32]) -> Re
         seeds,
         skipped_seeds: rendered.skipped_seeds.clone(),
         spp,
+        integrator: expected(claim)?.integrator,
     };
     let developed = film.develop(RenderFacts {
         version: maker(&rendered.mitsuba, &rendered.variant),
         scene: provenance.scene.clone(),
         scene_hash: loaded.hash,
-        integrator: loaded.integrator_name,
+        integrator: (provenance.integrator.clone()).unwrap_or(loaded.integrator_name),
         sampler: "independent".to_owned(),
         seed: 1,
         seconds: None,

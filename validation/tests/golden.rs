@@ -32,7 +32,14 @@ fn oracle(claim: &Claim) -> String {
     let kind = claim.oracle.kind();
     match &claim.oracle {
         Oracle::ClosedForm { formula } | Oracle::Energy { formula } => format!("{kind} {formula}"),
-        Oracle::Reference { spp, seeds } => format!("{kind} {spp} x {seeds} seeds"),
+        Oracle::Reference {
+            spp,
+            seeds,
+            integrator,
+        } => {
+            let by = integrator.iter().map(|name| format!(" by {name}"));
+            format!("{kind} {spp} x {seeds} seeds{}", by.collect::<String>())
+        }
         Oracle::Agreement { estimator: of } | Oracle::Invariance { estimator: of } => {
             format!("{kind} {}", estimator(of))
         }
@@ -172,7 +179,11 @@ fn whatever_loosens_a_claim_changes_the_list() {
     }));
     assert!(changed("prism", &|claim| claim.absent.clear()));
     assert!(changed("cornell-box", &|claim| {
-        claim.oracle = Oracle::Reference { spp: 1, seeds: 32 };
+        claim.oracle = Oracle::Reference {
+            spp: 1,
+            seeds: 32,
+            integrator: None,
+        };
     }));
     assert!(changed("convergence-sobol", &|claim| {
         claim.estimators[0].exponent = Some([-9.0, -0.1]);

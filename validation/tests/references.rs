@@ -82,7 +82,11 @@ fn a_reference_of_other_numbers_than_the_claim_states_is_an_error() {
     // Mutants rejected: only the one or the other is compared.
     for (spp, seeds) in [(100_000, 32), (256, 999)] {
         let mut claim = claim();
-        claim.oracle = Oracle::Reference { spp, seeds };
+        claim.oracle = Oracle::Reference {
+            spp,
+            seeds,
+            integrator: None,
+        };
         let message = reference::read(&claim).expect_err("other numbers");
         let stated = format!(
             "256 samples per pixel of 32 seeds, the claim's `oracle` states {spp} of {seeds}"
@@ -101,6 +105,15 @@ fn a_reference_of_other_numbers_than_the_claim_states_is_an_error() {
     std::fs::write(&path, text.replace("\"spp\": 256", "\"spp\": 512")).expect("written");
     let message = folder.read(&expected).expect_err("fewer samples");
     assert!(message.contains("not as many samples"), "{message}");
+}
+
+#[test]
+fn a_reference_of_another_integrator_is_an_error() {
+    let (folder, mut expected) = Folder::with_reference("integrator");
+    expected.integrator = Some("volpath".to_owned());
+    let message = folder.read(&expected).expect_err("another integrator");
+    let stated = "made by the scene's integrator, the claim's `oracle` states Mitsuba's `volpath`";
+    assert!(message.contains(stated), "{message}");
 }
 
 /// What is said of the cornell box's reference after a change of it.

@@ -34,7 +34,7 @@ pub(crate) fn run(arguments: &Arguments) -> Result<(), String> {
     let mut found = false;
     for claim in wanted(&claims, arguments.only.as_deref()) {
         match claim.oracle {
-            Oracle::Reference { spp, seeds } => {
+            Oracle::Reference { spp, seeds, .. } => {
                 found = true;
                 if arguments.stale && mitsuba::is_fresh(claim)? {
                     continue;
