@@ -12,7 +12,7 @@ use etalon::judge::{self, Judgement, Known, Rules, TileRow};
 use etalon::tolerance::Tolerance;
 use etalon_film::{Developed, Metadata};
 use etalon_statistics::bootstrap::Plan;
-use etalon_statistics::robust::{self, Symmetry};
+use etalon_statistics::robust::{self, Method, Symmetry};
 use etalon_statistics::tails::Limits;
 use etalon_statistics::{Estimate, Interval, Replicates, Summary, Verdict};
 
@@ -321,7 +321,8 @@ impl Samples {
             }
         }?;
         let refusal = judged.refusal?;
-        let instead = match judged.interval {
+        let instead = match judged.method() {
+            Some(Method::Lowered) => "Student's t at a lower level",
             Some(_) => "bootstrap",
             None => "undecided",
         };

@@ -22,6 +22,7 @@ pub mod flip;
 pub mod group_sequential;
 pub mod interval;
 pub mod kolmogorov_smirnov;
+pub mod lowered;
 pub mod metrics;
 pub mod moments;
 pub mod multiplicity;

@@ -8,12 +8,15 @@
 //! - [`Symmetry::Unknown`] (differences from a known number, or of two unlike estimators): the
 //!   studentised bootstrap, for at least 20 replicates;
 //!
-//! and where that cannot reach the level, for lack of replicates or of resamples, the verdict is
-//! *undecided*. A tail whose variance may not exist is undecided whatever the test.
+//! Where that cannot reach the level, for lack of replicates or of resamples, Student's t is asked again
+//! at a level so much lower that skewness cannot lift it above the one asked for ([`crate::lowered`]). If
+//! there is none, or a single replicate makes most of the mean, the verdict is *undecided*. A tail whose
+//! variance may not exist is undecided whatever the test.
 
 use crate::bootstrap::Plan;
 use crate::estimate::Estimate;
 use crate::interval::Interval;
+use crate::lowered;
 use crate::sign_flip;
 use crate::studentised;
 use crate::summary::Summary;
@@ -38,6 +41,8 @@ pub enum Method {
     SignFlip,
     /// The studentised bootstrap.
     Bootstrap,
+    /// Student's t at a lower level, for the skewness.
+    Lowered,
 }
 
 /// An interval with its reasons.
@@ -66,13 +71,21 @@ impl Judgement {
     fn new(
         refusal: Option<Refusal>,
         student: Estimate,
+        standardised: f64,
         alpha: f64,
         otherwise: impl FnOnce() -> Option<(Interval, Method)>,
     ) -> Self {
+        let lowered = || {
+            let level = 2.0 * lowered::level(standardised, 0.5 * alpha)?;
+            Some((student.interval(1.0 - level), Method::Lowered))
+        };
         let interval = match refusal {
             None => Some((student.interval(1.0 - alpha), Method::Student)),
             Some(Refusal::HeavyTail { .. }) => None,
-            Some(_) => otherwise(),
+            Some(Refusal::Energy { .. }) => otherwise(),
+            Some(Refusal::Skewness { .. } | Refusal::Outlier { .. }) => {
+                otherwise().or_else(lowered)
+            }
         };
         Self { interval, refusal }
     }
@@ -88,13 +101,16 @@ pub fn judge(
     limits: &Limits,
     plan: &Plan,
 ) -> Option<Judgement> {
-    let refusal = Tails::of(sample)?.refusal(0.5 * alpha, limits);
+    let tails = Tails::of(sample)?;
+    let refusal = tails.refusal(0.5 * alpha, limits);
     let student = Estimate::mean(&Summary::of(sample)?);
-    Some(Judgement::new(refusal, student, alpha, || match symmetry {
+    let standard = tails.standardised_skewness();
+    let otherwise = || match symmetry {
         Symmetry::Exchangeable => flipped(sample, alpha, plan),
         Symmetry::Unknown => studentised::mean(sample, plan, 1.0 - alpha)
             .map(|interval| (interval, Method::Bootstrap)),
-    }))
+    };
+    Some(Judgement::new(refusal, student, standard, alpha, otherwise))
 }
 
 /// As [`judge`], for the difference of the means of two independent samples, `a` − `b`. Within the
@@ -131,14 +147,15 @@ pub fn judge_difference(
     let refusal = [&tails_a, &tails_b]
         .into_iter()
         .find_map(|tails| tails.refusal_given(standard, level, limits));
-    Some(Judgement::new(refusal, student, alpha, || match symmetry {
+    let otherwise = || match symmetry {
         Symmetry::Exchangeable if a.len() == b.len() => {
             let differences: Vec<f64> = a.iter().zip(b).map(|(a, b)| a - b).collect();
             flipped(&differences, alpha, plan)
         }
         _ => studentised::difference(a, b, plan, 1.0 - alpha)
             .map(|interval| (interval, Method::Bootstrap)),
-    }))
+    };
+    Some(Judgement::new(refusal, student, standard, alpha, otherwise))
 }
 
 fn flipped(sample: &[f64], alpha: f64, plan: &Plan) -> Option<(Interval, Method)> {

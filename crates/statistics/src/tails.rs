@@ -260,7 +260,7 @@ impl Tails {
 }
 
 /// The first Edgeworth term of the level of a one-sided t-test, relative to it.
-fn distortion(standardised: f64, alpha: f64) -> f64 {
+pub(crate) fn distortion(standardised: f64, alpha: f64) -> f64 {
     let z = normal::upper_quantile(alpha);
     let density = libm::exp(-0.5 * z * z) / (2.0 * PI).sqrt();
     standardised.abs() * (2.0 * z * z + 1.0) * density / (6.0 * alpha)

@@ -292,6 +292,7 @@ fn differences(this: &Cell, first: &Cell, others: usize, plan: &Plan) -> Vec<Dif
                 Method::Student => "student",
                 Method::SignFlip => "sign_flip",
                 Method::Bootstrap => "bootstrap",
+                Method::Lowered => "student_at_lower_level",
             }),
         }
     };
