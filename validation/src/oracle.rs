@@ -39,7 +39,7 @@ pub enum Oracle {
         /// The name of the closed form.
         formula: String,
     },
-    /// What must not change when something else does: see [`Change`]. The null hypothesis is
+    /// What must not change when something else does: see [`crate::claim::Change`]. The null hypothesis is
     /// equality, of bits or of statistics.
     Invariance {
         /// The estimator without the change.
