@@ -9,7 +9,7 @@
 //! ```
 //!
 //! makes up for it. There is one only as long as the skewness of the mean is moderate, up to some
-//! G₁/√n = 0.09 at a = 5·10⁻⁷: beyond, d grows faster than a′ falls, and nothing is said. Since exp d is more
+//! G₁/√n = 0.1 at a = 5·10⁻⁷: beyond, d grows faster than a′ falls, and nothing is said. Since exp d is more
 //! than what samples of gamma distributions show, their true levels are at most a (see the test).
 
 use crate::tails;
