@@ -80,6 +80,14 @@ impl Oracle {
         !matches!(self, Self::Reference { .. })
     }
 
+    /// Mitsuba's integrator, if it is stated and not the scene's.
+    pub fn integrator(&self) -> Option<&str> {
+        match self {
+            Self::Reference { integrator, .. } => integrator.as_deref(),
+            _ => None,
+        }
+    }
+
     /// The kind, as claims spell it.
     pub fn kind(&self) -> &'static str {
         match self {

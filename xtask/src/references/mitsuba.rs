@@ -36,8 +36,8 @@ impl Mitsuba {
     /// Makes the reference of a claim.
     pub(super) fn make(&self, claim: &Claim, spp: u32, seeds: u32) -> Result<(), String> {
         let mut defines = run::defines(claim, None);
-        let integrator = reference::expected(claim)?.integrator;
-        defines.extend(integrator.map(|name| ("integrator".to_owned(), name)));
+        let integrator = claim.oracle.integrator();
+        defines.extend(integrator.map(|name| ("integrator".to_owned(), name.to_owned())));
         let (rendered, pixels) =
             render(&self.python, &self.variant, claim, &defines, [spp, seeds])?;
         let error = reference::write(claim, &rendered, spp, &pixels)?;
