@@ -39,7 +39,7 @@ fn scenes_load_and_oracles_belong_to_them() {
                 let metadata = picture.metadata.expect("references have statistics");
                 assert_eq!(metadata.replicates, *seeds, "{name}");
                 assert_eq!(metadata.film.crop_size, size, "{name}");
-                assert!(size.iter().all(|n| *n <= 128), "{name} is too large");
+                assert!(size.iter().all(|n| *n <= 192), "{name} is too large");
                 assert!(*seeds >= 32, "{name} has too few seeds");
             }
             Oracle::Povray { .. } => {
