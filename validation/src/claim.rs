@@ -23,6 +23,7 @@
 use crate::convergence::Part;
 use crate::fault::Fault;
 use crate::matrix::{self, Absence, Matrix};
+use crate::tasks::{named, unknown};
 use rayon::iter::Either;
 use rayon::prelude::*;
 use serde::Deserialize;
@@ -181,6 +182,21 @@ pub fn pairs(
     })
 }
 
+/// All claims, or everything that is wrong with them.
+fn whole(
+    claims: impl ParallelIterator<Item = Result<Claim, String>>,
+) -> Result<Vec<Claim>, String> {
+    let (claims, errors): (Vec<Claim>, Vec<String>) = claims.partition_map(|claim| match claim {
+        Ok(claim) => Either::Left(claim),
+        Err(message) => Either::Right(message),
+    });
+    if errors.is_empty() {
+        Ok(claims)
+    } else {
+        Err(errors.join("\n"))
+    }
+}
+
 impl Claim {
     /// The scene's parameters as an estimator, or the oracle alone, has them.
     pub fn defines_of(&self, estimator: Option<&Estimator>) -> BTreeMap<String, toml::Value> {
@@ -194,6 +210,13 @@ impl Claim {
     /// # Errors
     /// Says what is wrong with the file, and where.
     pub fn read(path: &Path) -> Result<Self, String> {
+        let mut claim = Self::parse(path)?;
+        claim.expand(path)?;
+        Ok(claim)
+    }
+
+    /// The claim in a file as it is written, without the rows of its matrix: no scene is looked at.
+    fn parse(path: &Path) -> Result<Self, String> {
         let error = |message: String| format!("{}: {message}", path.display());
         let text = std::fs::read_to_string(path).map_err(|e| error(e.to_string()))?;
         let mut claim: Self = toml::from_str(&text).map_err(|e| error(e.to_string()))?;
@@ -205,8 +228,12 @@ impl Claim {
         let bounded = text.parse::<toml::Table>();
         let bounded = bounded.is_ok_and(|table| table.contains_key("bounds"));
         claim.check(bounded).map_err(error)?;
-        matrix::expand(&mut claim).map_err(error)?;
         Ok(claim)
+    }
+
+    /// Adds the rows of the matrix: every integrator is asked about the scene.
+    fn expand(&mut self, path: &Path) -> Result<(), String> {
+        matrix::expand(self).map_err(|message| format!("{}: {message}", path.display()))
     }
 
     /// Whether `bounds` have a say in what it claims.
@@ -291,6 +318,15 @@ impl Claim {
     /// # Errors
     /// Says what is wrong with every file that cannot be read.
     pub fn read_all(folder: &Path) -> Result<Vec<Self>, String> {
+        Self::read_named(folder, None)
+    }
+
+    /// Reads the claims that `name` means ([`named`]), all if it is `None`. Every file must be well
+    /// written, but the scenes of other claims are not looked at.
+    ///
+    /// # Errors
+    /// Says what is wrong with every file that cannot be read, or that no claim has such a name.
+    pub fn read_named(folder: &Path, name: Option<&str>) -> Result<Vec<Self>, String> {
         let entries =
             std::fs::read_dir(folder).map_err(|e| format!("{}: {e}", folder.display()))?;
         let mut paths: Vec<PathBuf> = entries
@@ -298,16 +334,18 @@ impl Claim {
             .filter(|path| path.extension().is_some_and(|e| e == "toml"))
             .collect();
         paths.sort();
-        let read = paths.par_iter().map(|path| Self::read(path));
-        let (claims, errors): (Vec<Self>, Vec<String>) = read.partition_map(|claim| match claim {
-            Ok(claim) => Either::Left(claim),
-            Err(message) => Either::Right(message),
-        });
-        if errors.is_empty() {
-            Ok(claims)
-        } else {
-            Err(errors.join("\n"))
+        let mut claims = whole(paths.par_iter().map(|path| Self::parse(path)))?;
+        if let Some(name) = name {
+            let chosen: Vec<Self> = named(&claims, name).into_iter().cloned().collect();
+            if chosen.is_empty() {
+                return Err(unknown(&claims, name));
+            }
+            claims = chosen;
         }
+        whole(claims.into_par_iter().map(|mut claim| {
+            claim.expand(&folder.join(format!("{}.toml", claim.name)))?;
+            Ok(claim)
+        }))
     }
 
     /// A number among the scene's parameters.

@@ -269,6 +269,13 @@ fn a_wrong_claim_says_what_is_wrong() {
         assert!(message.contains("wrong.toml"), "{message}");
         assert!(message.contains(expected), "{message}");
     }
+    // Mutant rejected: a claim that is asked for by its name waits for the scenes of the others.
+    std::fs::write(&path, matrix("bound = 0.02")).expect("written");
+    std::fs::write(folder.join("right.toml"), good).expect("written");
+    let named = |name| Claim::read_named(&folder, Some(name));
+    assert_eq!(named("right").expect("it is right")[0].name, "right");
+    assert!(named("wrong").expect_err("its scene").contains("s.xml"));
+    assert!(named("rihgt").expect_err("a slip").contains("right"));
     std::fs::write(&path, good).expect("written");
     Claim::read(&path).expect("it is right");
     std::fs::remove_dir_all(&folder).expect("removed");

@@ -55,7 +55,7 @@ pub(crate) fn run(arguments: &Arguments) -> ExitCode {
 }
 
 fn calibrate(arguments: &Arguments) -> Result<bool, String> {
-    let claims = Claim::read_all(&folders::claims())?;
+    let claims = Claim::read_named(&folders::claims(), arguments.only.as_deref())?;
     let options = Options {
         only: arguments.only.clone(),
         tier: if arguments.quick {

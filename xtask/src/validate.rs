@@ -118,14 +118,7 @@ fn validate(arguments: &Arguments) -> Result<Conclusion, String> {
         }
     });
     arguments.check_paths(&folder)?;
-    let mut claims = Claim::read_all(&folders::claims())?;
-    if let Some(name) = &arguments.only {
-        let named = run::named(&claims, name);
-        if named.is_empty() {
-            return Err(run::unknown(&claims, name));
-        }
-        claims = named.into_iter().cloned().collect();
-    }
+    let claims = Claim::read_named(&folders::claims(), arguments.only.as_deref())?;
     if arguments.list {
         for claim in &claims {
             arguments.say(&format!(
