@@ -69,7 +69,7 @@ fn calibrate(arguments: &Arguments) -> Result<bool, String> {
     let mut tasks = run::tasks(&claims, &options);
     tasks.retain(|task| task.fault.is_none());
     if tasks.is_empty() {
-        return Err("no claim has such a name: see `cargo xtask validate --list`".to_owned());
+        return Err("there is nothing to compare: every comparison has a planted fault".to_owned());
     }
     let folder = arguments.report.clone();
     let folder = folder.unwrap_or_else(|| folders::root().join("target/calibration"));
