@@ -1,7 +1,7 @@
 //! A corner of a subpath, and how densities change from solid angle to area.
 
 use crate::prefix::Prefix;
-use etalon_transport::{BsdfSample, Chance, Vertex};
+use etalon_transport::{Bsdf, BsdfSample, Chance, Vertex};
 use glam::{Vec3, Vec4};
 
 /// A surface that a subpath met. What it scatters next is known to the corner after it.
@@ -35,37 +35,85 @@ pub(crate) struct Corner<B> {
 }
 
 impl<B> Corner<B> {
-    /// The density of a sampled direction, per lane: per solid angle if it is continuous, else its probability
-    /// per projected solid angle, see [`crate::bdpt`]. `eta` belongs to the way along `direction`.
-    #[inline]
-    pub(super) fn density(&self, chance: Chance, direction: Vec3, eta: f32) -> Vec4 {
-        match chance {
-            Chance::Continuous(density) => density.lanes(),
-            Chance::Discrete(atom) => atom.0 * (self.vertex.normal.dot(direction).abs() * eta),
-        }
-    }
-
-    /// The densities of a sampled direction, and of its reverse: of having come along it and
-    /// leaving along `wo`.
+    /// The densities of a sampled direction, per lane, and of its reverse: of having come along it and
+    /// leaving along `wo`. Per solid angle if they are continuous, else see [`discrete`].
     #[inline]
     pub(super) fn both_densities(&self, sample: &BsdfSample) -> [Vec4; 2]
     where
-        B: etalon_transport::Bsdf,
+        B: Bsdf,
     {
-        let reverse = match sample.chance {
-            Chance::Continuous(_) => Chance::Continuous(self.bsdf.density(sample.wi, self.wo)),
-            // Reflected and refracted with the same probability either way.
-            discrete => discrete,
-        };
-        [
-            self.density(sample.chance, sample.wi, sample.eta),
-            self.density(reverse, self.wo, 1.0 / sample.eta),
-        ]
+        match sample.chance {
+            Chance::Continuous(density) => {
+                let back = self.bsdf.density(sample.wi, self.wo);
+                [density.lanes(), back.lanes()]
+            }
+            Chance::Discrete(atom) => discrete(self.wo, sample.wi, sample.eta).map(|d| atom.0 * d),
+        }
     }
 
     /// Solid angle per area here, seen from `distance_squared` away along `direction`.
     #[inline]
     pub(super) fn per_area(&self, direction: Vec3, distance_squared: f32) -> f32 {
         self.vertex.normal.dot(direction).abs() / distance_squared
+    }
+}
+
+/// What makes of the probability of a discrete direction `wi`, seen from `wo` with `eta` the index
+/// entered over the index left, a density along it, and of the same probability one along the way back: two
+/// numbers whose quotient is that of the two Dirac functions, each per unit solid angle, see
+/// [`crate::bdpt`]. They stand in every density of a path once, so that nothing else matters of them.
+///
+/// The cosines are those about the normal that turned the direction, ωₒ + η ωᵢ. That of the surface is
+/// another where normals are interpolated or mapped; with it a technique that finds a path with little
+/// density would pass for a good one, and leave single samples as bright as it can make them.
+#[inline]
+fn discrete(wo: Vec3, wi: Vec3, eta: f32) -> [f32; 2] {
+    // Reflected or passed straight: solid angles are kept.
+    if eta == 1.0 {
+        return [1.0; 2];
+    }
+    let normal = (wo + eta * wi).normalize();
+    [normal.dot(wi).abs() * eta, normal.dot(wo).abs() / eta]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A refraction about `normal` by Snell's law, with η the index entered over the index left.
+    fn refracted(wo: Vec3, normal: Vec3, eta: f32) -> Vec3 {
+        let cos = normal.dot(wo);
+        let sine_squared = (1.0 - cos * cos) / (eta * eta);
+        (normal * cos - wo) / eta - normal * (1.0 - sine_squared).sqrt()
+    }
+
+    /// Solid angle of the directions `wi` per solid angle of the directions `wo` that make them, by
+    /// central differences.
+    fn widening(wo: Vec3, turn: impl Fn(Vec3) -> Vec3) -> f32 {
+        let (s, t) = wo.any_orthonormal_pair();
+        let step = 4e-3;
+        let along = |axis: Vec3| {
+            let ends = [step, -step].map(|h| turn((wo + h * axis).normalize()));
+            (ends[0] - ends[1]) / (2.0 * step)
+        };
+        along(s).cross(along(t)).length()
+    }
+
+    /// Rejects the surface's normal in place of the one that refracts, a factor of 4 here, and η
+    /// in place of η².
+    #[test]
+    fn the_quotient_of_a_discrete_directions_densities_is_that_of_the_solid_angles() {
+        let wo = Vec3::new(0.3, -0.5, 0.9).normalize();
+        for (normal, eta) in [
+            (Vec3::Z, 1.5),
+            (Vec3::Z, 1.0 / 1.5),
+            (Vec3::new(0.3, 0.2, 0.8).normalize(), 1.5),
+            (Vec3::new(-0.4, -0.6, 0.7).normalize(), 1.0 / 1.3),
+        ] {
+            let turn = |wo| refracted(wo, normal, eta);
+            let [forward, back] = discrete(wo, turn(wo), eta);
+            let quotient = forward / back * widening(wo, turn);
+            assert!((quotient - 1.0).abs() < 2e-3, "off by {quotient}");
+        }
     }
 }

@@ -29,7 +29,8 @@
 //! *projected* solid angle, δ(ω_t − R(ω_i)) as a function of ω_t is η² times the same as a function
 //! of ω_i, with η the index on the side of ω_t over that on the side of ω_i (it follows from
 //! n² dσ⊥ being the same on both sides: Veach 1997, section 5.2). Each walk's density is given its own η,
-//! entering over leaving; their quotient has the square.
+//! entering over leaving; their quotient has the square. The projection is along the normal that
+//! turned the direction, which is not the surface's where normals are interpolated or mapped.
 //!
 //! Weights are functions of the path alone, however it was made, and so add up to one. A model resolved
 //! for one direction serves the way back, and a discrete direction is as likely one way as the
