@@ -60,8 +60,9 @@ impl<B> Corner<B> {
 
 /// What makes of the probability of a discrete direction `wi`, seen from `wo` with `eta` the index
 /// entered over the index left, a density along it, and of the same probability one along the way back: two
-/// numbers whose quotient is that of the two Dirac functions, each per unit solid angle, see
-/// [`crate::bdpt`]. They stand in every density of a path once, so that nothing else matters of them.
+/// numbers whose quotient, η² cos θᵢ / cos θₒ, is that of the two Dirac functions, each per unit solid
+/// angle, see [`crate::bdpt`]. They stand in every density of a path once, so that nothing else matters
+/// of them.
 ///
 /// The cosines are those about the normal that turned the direction, ωₒ + η ωᵢ. That of the surface is
 /// another where normals are interpolated or mapped; with it a technique that finds a path with little
@@ -72,8 +73,15 @@ fn discrete(wo: Vec3, wi: Vec3, eta: f32) -> [f32; 2] {
     if eta == 1.0 {
         return [1.0; 2];
     }
-    let normal = (wo + eta * wi).normalize();
-    [normal.dot(wi).abs() * eta, normal.dot(wo).abs() / eta]
+    // The cosines about the vector ωₒ + η ωᵢ, in d = 1 + ωₒ·ωᵢ, which is of order (η − 1)² where η is close
+    // to 1. That vector itself cancels there, at worst to zero.
+    let turned = 0.5 * (wo + wi).length_squared();
+    let excess = eta - 1.0;
+    let cos_i = (excess + turned).abs();
+    let cos_o = (excess - eta * turned).abs();
+    // Of the order of 1 for any η, so that no product along a path underflows.
+    let scale = 1.0 / (cos_i + cos_o);
+    [scale * cos_i * eta, scale * cos_o / eta]
 }
 
 #[cfg(test)]
@@ -115,5 +123,42 @@ mod tests {
             let quotient = forward / back * widening(wo, turn);
             assert!((quotient - 1.0).abs() < 2e-3, "off by {quotient}");
         }
+    }
+
+    /// Rejects the normal ωₒ + η ωᵢ taken as it stands: it can be zero in single precision.
+    #[test]
+    fn glass_that_hardly_refracts_keeps_solid_angles() {
+        let wo = Vec3::new(0.3, -0.5, 0.4).normalize();
+        for excess in [1e-2, -1e-2, 1e-4, 1e-5, -1e-5, f32::EPSILON, -f32::EPSILON] {
+            let eta = 1.0 + excess;
+            // Cancels in single precision, too: the quotient comes from Snell's law in double precision.
+            let cos_o = f64::from(wo.z);
+            let cos_i = (1.0 - (1.0 - cos_o * cos_o) / f64::from(eta).powi(2)).sqrt();
+            let expected = f64::from(eta).powi(2) * cos_i / cos_o;
+            let [forward, back] = discrete(wo, refracted(wo, Vec3::Z, eta), eta);
+            let off = f64::from(forward / back) / expected - 1.0;
+            assert!(off.abs() < 1e-4, "η = {eta}: off by {off}");
+        }
+        // As near as rounding comes to a sum of zero.
+        for excess in [f32::EPSILON, -0.5 * f32::EPSILON] {
+            let eta = 1.0 + excess;
+            let [forward, back] = discrete(wo, -wo / eta, eta);
+            assert!((forward / back - 1.0).abs() < 1e-5);
+        }
+    }
+
+    #[test]
+    fn a_discrete_direction_taken_back_has_the_inverse_quotient() {
+        let wo = Vec3::new(0.3, -0.5, 0.9).normalize();
+        for eta in [2.4, 1.5, 1.0 / 1.5, 1.0001, 0.9999] {
+            let wi = refracted(wo, Vec3::Z, eta);
+            let [forward, back] = discrete(wo, wi, eta);
+            let [again, home] = discrete(wi, wo, 1.0 / eta);
+            let product = forward / back * again / home;
+            assert!((product - 1.0).abs() < 1e-3, "η = {eta}: {product}");
+        }
+        let wi = Vec3::new(-0.3, 0.5, 0.9).normalize();
+        let [forward, back] = discrete(wo, wi, 1.0);
+        assert_eq!(forward, back, "reflected");
     }
 }
