@@ -2,14 +2,14 @@
 //! a test holds that page to what is written here.
 
 use crate::claim::{Claim, Oracle};
-use crate::outcome::{ALPHA, Conclusion, Row, counts};
+use crate::outcome::{ALARM, ALPHA, Conclusion, Row, counts};
 use crate::run::{Compared, Evidence, Options, Plan};
 use crate::{folders, povray, program, reference, table};
 use serde::Serialize;
 use serde_json::{Value, json};
 
 /// The version of the description.
-pub const FORMAT: u32 = 3;
+pub const FORMAT: u32 = 4;
 
 /// Where a run's numbers come from.
 #[derive(Clone, Debug, Serialize)]
@@ -76,6 +76,7 @@ pub fn of(rows: &[Row<'_>], provenance: &Provenance) -> Value {
         "format": FORMAT,
         "provenance": provenance,
         "alpha": ALPHA,
+        "alarm": ALARM,
         "exit_code": conclusion.exit_code(),
         "counts": {
             "passed": passed, "failed": failed, "undecided": undecided, "broken": broken,

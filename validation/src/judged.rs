@@ -7,18 +7,15 @@
 //! itself, with 99 % confidence, is not. A
 //! tile that t would call different keeps that verdict only if some such tile is within the limits
 //! or the bootstrap agrees.
+//!
+//! Two levels are asked at ([`crate::decision`]): that of the intervals, and the much lower one at which
+//! a failure is shown. A distribution that t may be trusted with at one can be too skewed for the other.
 
+use crate::samples::{Samples, p_of};
 use etalon::judge::{self, Judgement, Known, Rules, TileRow};
 use etalon::tolerance::Tolerance;
 use etalon_film::{Developed, Metadata};
-use etalon_statistics::bootstrap::Plan;
-use etalon_statistics::robust::{self, Method, Symmetry};
-use etalon_statistics::tails::Limits;
-use etalon_statistics::{Estimate, Interval, Replicates, Summary, Verdict};
-
-/// The most resamples of a bootstrap: enough for levels of 10⁻⁶, beyond which tails of 32 replicates are
-/// not to be believed.
-const RESAMPLES: f64 = 2e7;
+use etalon_statistics::{Interval, Verdict};
 
 /// What a picture is held against.
 #[derive(Clone, Copy)]
@@ -27,6 +24,15 @@ pub enum Against<'a> {
     Known(&'a Known),
     /// Another picture with replicates.
     Picture(&'a Developed),
+}
+
+/// What is asked of a picture beyond its rules.
+#[derive(Clone, Copy, Debug)]
+pub struct Asked {
+    /// Whether equality is claimed, and not only equivalence.
+    pub exact: bool,
+    /// The level at which a p-value shows a failure; that of the rules at most.
+    pub alarm: f64,
 }
 
 /// A judgement with its p-value.
@@ -40,7 +46,7 @@ pub struct Judged {
     pub refusals: Vec<String>,
 }
 
-/// Judges a picture. `exact` claims equality, not only equivalence.
+/// Judges a picture.
 ///
 /// # Errors
 /// One sentence, if the two cannot be compared.
@@ -48,14 +54,15 @@ pub fn judge(
     picture: &Developed,
     against: Against<'_>,
     rules: Rules,
-    exact: bool,
+    asked: Asked,
 ) -> Result<Judged, String> {
+    let exact = asked.exact;
     let mut judgement = match against {
         Against::Known(known) => judge::judge_known(picture, known, rules)?,
         Against::Picture(other) => judge::judge(picture, other, rules)?,
     };
     let questions = (judgement.images.len() + judgement.tiles.len()) as f64;
-    let alpha = rules.alpha / questions;
+    let (alpha, alarm) = (rules.alpha / questions, asked.alarm / questions);
     let metadata = picture.metadata.as_ref().ok_or("there are no statistics")?;
     let mut refusals = Vec::new();
     let mut smallest = 1.0_f64;
@@ -67,39 +74,48 @@ pub fn judge(
         // Deviations that do not matter need no distribution.
         let harmless = samples.all_within(rules.rounding * scale);
         let refused = if harmless { None } else { samples.judge(alpha) };
-        let own = match refused {
-            Some((refusal, interval)) => {
-                refusals.push(format!("{}: {refusal}", row.channel));
-                let interval = interval.unwrap_or(Interval {
-                    low: f64::NEG_INFINITY,
-                    high: f64::INFINITY,
-                });
-                row.interval = [interval.low / scale, interval.high / scale];
-                row.verdict = interval.verdict(rules.image_bound * scale);
-                let shown = |tolerance| interval.verdict(tolerance) == Verdict::Differs;
-                row.p_exact = p_of(shown(rules.rounding * scale), alpha);
-                p_of(row.verdict == Verdict::Differs, alpha)
-            }
-            None => samples.p_differs(scale * rules.image_bound),
+        let mut own = samples.p_differs(scale * rules.image_bound);
+        if let Some((refusal, interval)) = refused {
+            refusals.push(format!("{}: {refusal}", row.channel));
+            let interval = interval.unwrap_or(Interval {
+                low: f64::NEG_INFINITY,
+                high: f64::INFINITY,
+            });
+            row.interval = [interval.low / scale, interval.high / scale];
+            row.verdict = interval.verdict(rules.image_bound * scale);
+            let shown = |tolerance| interval.verdict(tolerance) == Verdict::Differs;
+            row.p_exact = p_of(shown(rules.rounding * scale), alpha);
+            own = p_of(row.verdict == Verdict::Differs, alpha);
+        }
+        let (p, tolerance) = if exact {
+            (&mut row.p_exact, rules.rounding)
+        } else {
+            (&mut own, rules.image_bound)
         };
-        smallest = smallest.min(if exact { row.p_exact } else { own });
+        if *p <= alpha && !harmless {
+            *p = samples.alarming(*p, tolerance * scale, [alpha, alarm]);
+        }
+        smallest = smallest.min(*p);
     }
     for row in &mut judgement.tiles {
         let of_image = (scales.iter()).find_map(|(name, x)| (*name == row.channel).then_some(*x));
         let of_image = of_image.unwrap_or(0.0);
-        let (p, tolerance) = if exact {
+        let (mut p, tolerance) = if exact {
             (row.p_exact, Tolerance::exact(rules, of_image))
         } else {
             (row.p_differs, Tolerance::bounded(rules, of_image))
         };
-        if p <= alpha && !confirmed(metadata, against, row, alpha, tolerance)? {
-            refusals.push(format!(
-                "{} tiles of {}²: those off are too far from normal",
-                row.channel, row.side
-            ));
-            row.verdict = Verdict::Undecided;
-            (row.p_exact, row.p_differs) = (1.0, 1.0);
-            continue;
+        if p <= alpha {
+            let Some(least) = confirmed(metadata, against, row, [alpha, alarm], tolerance)? else {
+                refusals.push(format!(
+                    "{} tiles of {}²: those off are too far from normal",
+                    row.channel, row.side
+                ));
+                row.verdict = Verdict::Undecided;
+                (row.p_exact, row.p_differs) = (1.0, 1.0);
+                continue;
+            };
+            p = least;
         }
         smallest = smallest.min(p);
     }
@@ -186,13 +202,6 @@ pub fn stated(
     Ok(stated)
 }
 
-/// The p-value that an interval at `alpha` stands for: 1, or a hair below `alpha` if it rejects. The
-/// corrections divide and multiply it by shares and numbers of hypotheses, and what rounding does to
-/// `alpha` itself on that way would take some rejections back.
-fn p_of(rejects: bool, alpha: f64) -> f64 {
-    if rejects { alpha * (1.0 - 1e-12) } else { 1.0 }
-}
-
 /// All means must agree, and no tile may differ or be in doubt.
 fn verdict(judgement: &Judgement) -> Verdict {
     let images = judgement.images.iter().map(|row| row.verdict);
@@ -210,182 +219,36 @@ fn scale_of(bias: f64, difference: f64, mean: f64) -> f64 {
     }
 }
 
-/// Whether any tile that t calls off by more than its tolerance is so without a normal
-/// approximation, or allows it.
+/// The least p-value, times the number of tiles, of those that t calls off by more than their
+/// tolerance and that are so without a normal approximation, or allow it; `None` if there is no such
+/// tile.
 fn confirmed(
     metadata: &Metadata,
     against: Against<'_>,
     row: &TileRow,
-    alpha: f64,
+    levels: [f64; 2],
     tolerance: Tolerance,
-) -> Result<bool, String> {
-    let each = alpha / row.tiles as f64;
+) -> Result<Option<f64>, String> {
+    let tiles = row.tiles as f64;
+    let each = levels.map(|level| level / tiles);
+    let mut smallest = None;
     for tile in 0..row.tiles {
         let samples = Samples::of(metadata, against, &row.channel, Some(row.side), tile)?;
         let tolerance = tolerance.at(samples.truth());
         // Holm's first step, in the form that `row`'s own p-values have.
-        if samples.p_differs(tolerance) * row.tiles as f64 > alpha {
+        let p = samples.p_differs(tolerance);
+        if p * tiles > levels[0] {
             continue;
         }
-        match samples.judge(each) {
-            None => return Ok(true),
+        let p = match samples.judge(each[0]) {
+            None => p,
             Some((_, Some(interval))) if interval.verdict(tolerance) == Verdict::Differs => {
-                return Ok(true);
+                p_of(true, each[0])
             }
-            Some(_) => {}
-        }
-    }
-    Ok(false)
-}
-
-/// The replicates of one mean, and of what it is held against.
-struct Samples {
-    own: Vec<f64>,
-    other: Other,
-}
-
-enum Other {
-    Known(f64),
-    Replicates(Vec<f64>),
-}
-
-impl Samples {
-    fn of(
-        metadata: &Metadata,
-        against: Against<'_>,
-        channel: &str,
-        side: Option<u32>,
-        tile: usize,
-    ) -> Result<Self, String> {
-        let of = |metadata: &Metadata| -> Result<Vec<f64>, String> {
-            let (means, tiles) = judge::replicates(metadata, channel, side)?;
-            let replicates = Replicates::new(&means, tiles).map_err(|e| e.to_string())?;
-            Ok(replicates.tile(tile).collect())
+            Some(_) => continue,
         };
-        let other = match against {
-            Against::Known(known) => Other::Known(tile_mean(known, channel, side, tile)?),
-            Against::Picture(picture) => {
-                let metadata = picture.metadata.as_ref().ok_or("there are no statistics")?;
-                Other::Replicates(of(metadata)?)
-            }
-        };
-        Ok(Self {
-            own: of(metadata)?,
-            other,
-        })
+        let p = tiles * samples.alarming(p, tolerance, each);
+        smallest = Some(smallest.map_or(p, |least: f64| least.min(p)));
     }
-
-    /// Whether no replicate is farther than this from what it ought to be.
-    fn all_within(&self, tolerance: f64) -> bool {
-        match &self.other {
-            Other::Known(known) => self.own.iter().all(|x| (x - known).abs() <= tolerance),
-            Other::Replicates(_) => false,
-        }
-    }
-
-    /// What the mean ought to be.
-    fn truth(&self) -> f64 {
-        match &self.other {
-            Other::Known(known) => *known,
-            Other::Replicates(other) => other.iter().sum::<f64>() / other.len() as f64,
-        }
-    }
-
-    /// The difference of the means.
-    fn estimate(&self) -> Option<Estimate> {
-        Summary::of(&self.own).and_then(|own| match &self.other {
-            Other::Known(known) => Some(Estimate::excess(&own, *known)),
-            Other::Replicates(other) => Some(Estimate::welch(&own, &Summary::of(other)?)),
-        })
-    }
-
-    /// The p-value, by Student's t, of a difference within ±`tolerance`.
-    fn p_differs(&self, tolerance: f64) -> f64 {
-        let estimate = self.estimate();
-        estimate.map_or(1.0, |estimate| estimate.p_differs(tolerance))
-    }
-
-    /// Why a normal approximation is refused, if it is, and the interval of the difference that
-    /// misses it with probability `alpha` at most, if there is one.
-    fn judge(&self, alpha: f64) -> Option<(String, Option<Interval>)> {
-        let resamples = (25.0 / alpha).clamp(9_999.0, RESAMPLES) as u32;
-        let plan = Plan::independent(resamples, 1);
-        let limits = &Limits::DECLARED;
-        let judged = match &self.other {
-            Other::Known(known) => {
-                let excess: Vec<f64> = self.own.iter().map(|x| x - known).collect();
-                robust::judge(&excess, alpha, Symmetry::Unknown, limits, &plan)
-            }
-            Other::Replicates(other) => {
-                robust::judge_difference(&self.own, other, alpha, Symmetry::Unknown, limits, &plan)
-            }
-        }?;
-        let refusal = judged.refusal?;
-        let instead = match judged.method() {
-            Some(Method::Lowered) => "Student's t at a lower level",
-            Some(_) => "bootstrap",
-            None => "undecided",
-        };
-        Some((
-            format!("{refusal} ({instead})"),
-            judged.interval.map(|(interval, _)| interval),
-        ))
-    }
-}
-
-/// The mean of a known picture over one tile of `side` pixels, or over the whole image.
-///
-/// # Errors
-/// If it has no such channel.
-pub(crate) fn tile_mean(
-    known: &Known,
-    channel: &str,
-    side: Option<u32>,
-    tile: usize,
-) -> Result<f64, String> {
-    let missing = || format!("nothing is known of channel `{channel}`");
-    let found = known.channels.iter().find(|(name, _)| name == channel);
-    let (_, pixels) = found.ok_or_else(missing)?;
-    let [width, height] = known.size.map(|n| n as usize);
-    let side = side.map_or(width.max(height), |side| side as usize);
-    let columns = width.div_ceil(side);
-    let (left, top) = (tile % columns * side, tile / columns * side);
-    let (right, bottom) = ((left + side).min(width), (top + side).min(height));
-    let sum: f64 = (top..bottom)
-        .map(|y| {
-            pixels[y * width + left..y * width + right]
-                .iter()
-                .sum::<f64>()
-        })
-        .sum();
-    Ok(sum / ((bottom - top) * (right - left)) as f64)
-}
-
-#[cfg(test)]
-mod tests {
-    use super::p_of;
-    use crate::decision::ALPHA;
-    use etalon_statistics::Family;
-
-    #[test]
-    fn a_rejected_interval_stays_rejected_through_every_correction() {
-        for size in 1_u32..300 {
-            for share in [0.23, 0.31, 0.41, 0.5, 0.77, 1.0] {
-                for questions in [3.0, 6.0, 9.0, 12.0] {
-                    let mut family = Family::new(ALPHA).expect("a level");
-                    (0..size).for_each(|i| {
-                        family.declare(i.to_string());
-                    });
-                    let level = family.level_of_each();
-                    let granted = level * share;
-                    // As `judge` and `decision` do. Mutant rejected: `alpha` itself, which one
-                    // combination in fifteen loses.
-                    let p = (p_of(true, granted / questions) * questions).min(1.0);
-                    let recorded = family.record(0, p / (granted / level));
-                    assert!(recorded.is_ok());
-                    assert!(family.decide()[0].rejected, "{size} {share} {questions}");
-                }
-            }
-        }
-    }
+    Ok(smallest)
 }

@@ -35,6 +35,7 @@ pub mod reference;
 pub mod rendering;
 pub mod run;
 mod sampler;
+mod samples;
 pub mod state;
 pub mod table;
 pub mod tasks;

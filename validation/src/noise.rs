@@ -19,9 +19,9 @@
 use crate::claim::{Budget, Claim, Estimator};
 use crate::closed_form;
 use crate::fault::Fault;
-use crate::judged;
 use crate::measure::{self, Measure};
 use crate::rendering;
+use crate::samples;
 use etalon::judge::{self, Known};
 use etalon_film::Developed;
 use etalon_statistics::{Estimate, Summary, proportion};
@@ -144,7 +144,7 @@ fn tiles(picture: &Developed, known: &Known) -> Result<Vec<Trial>, String> {
     let metadata = picture.metadata.as_ref().ok_or(missing)?;
     let (means, count) = judge::replicates(metadata, CHANNEL, SIDE)?;
     let trial = |tile: usize| {
-        let truth = judged::tile_mean(known, CHANNEL, SIDE, tile)?;
+        let truth = samples::tile_mean(known, CHANNEL, SIDE, tile)?;
         let relative = means.iter().skip(tile).step_by(count).map(|x| x / truth);
         let summary = Summary::of_iter(relative).ok_or(missing)?;
         Ok(Trial {

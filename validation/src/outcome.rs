@@ -10,7 +10,7 @@ use etalon_statistics::Verdict;
 use serde::Serialize;
 use std::time::Instant;
 
-pub use crate::decision::{ALPHA, Progress};
+pub use crate::decision::{ALARM, ALPHA, Progress};
 
 /// What a comparison came to.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]

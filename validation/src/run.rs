@@ -7,7 +7,7 @@ use crate::batches::{Batches, Part};
 use crate::claim::{Budget, Oracle};
 use crate::convergence::Fall;
 use crate::decision::Turn;
-use crate::judged::{self, Against};
+use crate::judged::{self, Against, Asked};
 use crate::kept::Kept;
 use crate::measure::Measure;
 use crate::{closed_form, convergence, invariance, noise, pixelwise, reference, rendering};
@@ -263,7 +263,11 @@ impl<'a> Comparison<'a> {
             }
         };
         let against = against.map_or(Against::Picture(&oracle), Against::Known);
-        let judged = judged::judge(&picture, against, rules, exact)?;
+        let asked = Asked {
+            exact,
+            alarm: turn.alarm,
+        };
+        let judged = judged::judge(&picture, against, rules, asked)?;
         let stated = judged::stated(&picture, against, &judged.judgement, exact, turn.stated)?;
         // A planted fault is no row that a full run grants anything: it is found, or it is not.
         let verdict = if options.tier.states_bounds() && fault.is_none() {

@@ -2,7 +2,7 @@
 
 use crate::claim::{Claim, Oracle};
 use crate::matrix::Absence;
-use crate::outcome::{ALPHA, Outcome, Row, counts};
+use crate::outcome::{ALARM, Outcome, Row, counts};
 use crate::run::{Compared, Evidence};
 use etalon::judge::Judgement;
 
@@ -172,7 +172,7 @@ pub fn summary(rows: &[Row<'_>], seconds: f64) -> String {
     let [passed, failed, undecided, broken] = counts(rows);
     let [below, asked] = bounded(rows);
     let mut text = format!(
-        "{} comparisons in {seconds:.0} s: {passed} passed, {failed} failed, {undecided} undecided, {broken} broken (α = {ALPHA} over the run)",
+        "{} comparisons in {seconds:.0} s: {passed} passed, {failed} failed, {undecided} undecided, {broken} broken (α = {ALARM:.0e} over the run)",
         rows.len()
     );
     if asked > 0 {

@@ -7,7 +7,7 @@ use etalon_film::{
 use etalon_images::Image;
 use etalon_validation::claim::{Claim, Oracle};
 use etalon_validation::folders;
-use etalon_validation::judged::{self, Against};
+use etalon_validation::judged::{self, Against, Asked};
 use etalon_validation::outcome::{self, Conclusion, Outcome};
 use etalon_validation::reference::{self, Expected};
 use etalon_validation::run::{self, Options};
@@ -271,7 +271,11 @@ fn pictures_of_another_size_are_not_compared() {
     };
     let against = picture(9);
     let against = Against::Picture(&against);
-    let judged = judged::judge(&picture(8), against, Default::default(), false);
+    let asked = Asked {
+        exact: false,
+        alarm: 1e-3,
+    };
+    let judged = judged::judge(&picture(8), against, Default::default(), asked);
     let message = judged.err().expect("refused");
     assert!(message.contains("differ in size"), "{message}");
 }

@@ -4,7 +4,7 @@ use etalon::judge::{Known, Rules};
 use etalon_film::{BoxFilter, Developed, ExactFilm, FilmSettings, Filter, RenderFacts};
 use etalon_images::Image;
 use etalon_statistics::Verdict;
-use etalon_validation::judged::{Against, judge, stated};
+use etalon_validation::judged::{Against, Asked, judge, stated};
 
 /// A picture of two tiles of 16², of which `left` and `right` are the replicates, and what it ought
 /// to be: ½.
@@ -27,10 +27,20 @@ fn picture(left: &[f64], right: &[f64]) -> (Developed, Known) {
     (picture, known)
 }
 
+/// Failures are shown at the level `alarm`.
+fn asked(exact: bool, alarm: f64) -> Asked {
+    Asked { exact, alarm }
+}
+
 /// The verdict on the tiles of such a picture, within 3 % and half a per cent.
 fn tiles(left: &[f64], right: &[f64]) -> Verdict {
     let (picture, known) = picture(left, right);
-    let judged = judge(&picture, Against::Known(&known), Rules::default(), false);
+    let judged = judge(
+        &picture,
+        Against::Known(&known),
+        Rules::default(),
+        asked(false, 1e-3),
+    );
     let tiles = judged.expect("comparable").judgement.tiles;
     let row = tiles.iter().find(|row| row.side == 16);
     row.expect("tiles of 16²").verdict
@@ -80,7 +90,7 @@ fn equality_that_nobody_could_ask_is_asked_where_it_can_be() {
         let all = replicates(32, mean, last);
         let (picture, known) = picture(&all, &all);
         let against = Against::Known(&known);
-        let judged = judge(&picture, against, rules, exact).expect("comparable");
+        let judged = judge(&picture, against, rules, asked(exact, 1e-8)).expect("comparable");
         let images = &judged.judgement.images;
         assert!(images.iter().all(|row| row.interval[1].is_infinite()));
         assert_eq!(judged.judgement.verdict, Verdict::Undecided);
@@ -93,4 +103,36 @@ fn equality_that_nobody_could_ask_is_asked_where_it_can_be() {
     assert_eq!(verdict(0.5, 0.505, true), Verdict::Agrees);
     // Of a reference equality is not claimed.
     assert_eq!(verdict(0.5006, 0.505, false), Verdict::Agrees);
+}
+
+#[test]
+fn a_failure_is_not_shown_by_an_interval_that_only_a_higher_level_has() {
+    // Replicates with a skewness of 1.9, 32 of them: at a level of 1 % a bootstrap excludes that the
+    // mean is ½, and at 10⁻⁹ nobody can tell. Mutants rejected: t's own p-value, which is below 10⁻⁹ in
+    // the image's mean and in tiles; and the p-value of the interval at 1 % taken for one at 10⁻⁹.
+    let skewed = |mean: f64| -> Vec<f64> {
+        // Sixth powers of uniform numbers.
+        let third = |i: usize| ((i as f64 + 0.5) / 32.0).powi(3);
+        (0..32).map(|i| mean + 0.01 * third(i) * third(i)).collect()
+    };
+    let p = |mean: f64, alarm: f64| {
+        let all = skewed(mean);
+        let (picture, known) = picture(&all, &all);
+        let rules = Rules {
+            alpha: 0.01,
+            rounding: 2e-5,
+            ..Rules::default()
+        };
+        let judged = judge(&picture, Against::Known(&known), rules, asked(true, alarm));
+        judged.expect("comparable").p
+    };
+    assert!(
+        p(0.503, 1e-9) > 0.009 && p(0.503, 1e-9) <= 0.01,
+        "in doubt, and no more"
+    );
+    assert!(
+        p(0.503, 1e-3) <= 1e-3,
+        "shown where a bootstrap reaches the level"
+    );
+    assert!(p(0.4986, 1e-9) > 0.01, "no doubt about what is true");
 }

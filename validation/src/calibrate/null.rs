@@ -5,7 +5,7 @@
 //! of those with a false alarm is binomial.
 
 use super::pool::{Pool, Question};
-use crate::decision::{self, ALPHA, Seen};
+use crate::decision::{self, ALARM, Seen};
 use crate::outcome::Outcome;
 use crate::run::Task;
 use crate::tier::Tier;
@@ -15,7 +15,7 @@ use std::sync::atomic::{AtomicU32, Ordering};
 
 /// What all null runs came to.
 pub struct NullRuns {
-    /// Runs with a false alarm, against [`ALPHA`].
+    /// Runs with a false alarm, against [`ALARM`].
     pub alarms: Rate,
     /// Runs with any comparison undecided.
     pub undecided: u32,
@@ -87,7 +87,7 @@ pub fn run(
         (question, of.map(|(_, p)| *p).collect())
     });
     Ok(NullRuns {
-        alarms: Rate::new(ALPHA, alarms, u64::from(runs), confidence)
+        alarms: Rate::new(ALARM, alarms, u64::from(runs), confidence)
             .ok_or("there are no null runs")?,
         undecided,
         comparisons,
@@ -104,10 +104,10 @@ fn once(tasks: &[Task<'_>], pools: &[Pool], tier: Tier, seed: u64) -> Result<Run
     let decisions = decision::decide(
         tasks,
         tier,
-        |look| {
-            let table = &mut tables[look.place];
-            let dealt = table.look(look.multiple, look.alpha).ok()?;
-            if look.multiple == 1 {
+        |turn| {
+            let table = &mut tables[turn.place];
+            let dealt = table.look(turn).ok()?;
+            if turn.multiple == 1 {
                 p_values.extend(table.questions());
             }
             Some(Seen {

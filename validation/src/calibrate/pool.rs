@@ -13,7 +13,8 @@ use crate::batches;
 use crate::calibrate::CHANNEL;
 use crate::claim::{Budget, Oracle};
 use crate::convergence;
-use crate::judged::{self, Against};
+use crate::decision::Turn;
+use crate::judged::{self, Against, Asked};
 use crate::measure::Measure;
 use crate::noise::{self, Counted};
 use crate::reference;
@@ -29,8 +30,14 @@ use rand::seq::SliceRandom;
 use rand::{RngExt, SeedableRng};
 use rand_pcg::Pcg64Mcg;
 
-/// The fewest replicates of a picture that are dealt from.
+/// The fewest replicates of a picture that two hands are dealt from.
 const LEAST: u32 = 64;
+
+/// The fewest that stand for the world of an estimator that is held against a formula. They have the
+/// skewness that chance has given them, with a standard deviation of √(6/n). Of 64 that is up to ±1
+/// where a thousand means are asked: too little for 32 drawn ones to show, and enough to raise the level of
+/// a t-test tenfold far out in its tail.
+const WORLD: u32 = 256;
 
 /// The side of the tiles that single questions are about (pixels).
 const SIDE: u32 = 16;
@@ -182,7 +189,12 @@ impl Pictures {
             }
             _ => (0, false),
         };
-        let replicates = (first.replicates + other).max(LEAST);
+        let is_world = matches!(
+            claim.oracle,
+            Oracle::ClosedForm { .. } | Oracle::Energy { .. }
+        );
+        let least = if is_world { WORLD } else { LEAST };
+        let replicates = (first.replicates + other).max(least);
         let budget = Budget {
             spp: first.spp / first.replicates * replicates,
             replicates,
@@ -203,10 +215,7 @@ impl Pictures {
         };
         let mut facts = picture.metadata.ok_or("there are no statistics")?;
         let means = std::mem::take(&mut facts.tile_means);
-        let known = match &claim.oracle {
-            Oracle::ClosedForm { .. } | Oracle::Energy { .. } => Some(mean_of_all(&facts, &means)?),
-            _ => None,
-        };
+        let known = is_world.then(|| mean_of_all(&facts, &means)).transpose()?;
         Ok(Self {
             facts,
             means,
@@ -238,14 +247,17 @@ impl Pictures {
 }
 
 impl<'a> Table<'a> {
-    /// Deals until there are `multiple` times the first look's replicates, and judges them at the
-    /// level `alpha`.
+    /// Deals until there are as many replicates as the look asks for, and judges them at the levels
+    /// that it is granted.
     ///
     /// # Errors
     /// If what was dealt cannot be judged.
-    pub fn look(&mut self, multiple: u32, alpha: f64) -> Result<Dealt, String> {
+    pub fn look(&mut self, turn: Turn) -> Result<Dealt, String> {
+        let Turn {
+            multiple, alpha, ..
+        } = turn;
         match &self.pool.kind {
-            Kind::Pictures(pictures) => self.pictures(pictures, multiple, alpha),
+            Kind::Pictures(pictures) => self.pictures(pictures, turn),
             Kind::Exponents(exponents) => {
                 let count = exponents.len() * multiple as usize;
                 let drawn: Vec<f64> = (0..count).map(|_| *self.draw(exponents)).collect();
@@ -275,21 +287,20 @@ impl<'a> Table<'a> {
         &all[self.random.random_range(0..all.len())]
     }
 
-    fn pictures(
-        &mut self,
-        pictures: &Pictures,
-        multiple: u32,
-        alpha: f64,
-    ) -> Result<Dealt, String> {
-        let rules = self.task.rules(alpha, self.pool.tier);
-        let exact = self.task.claim.oracle.is_exact();
+    fn pictures(&mut self, pictures: &Pictures, turn: Turn) -> Result<Dealt, String> {
+        let multiple = turn.multiple;
+        let rules = self.task.rules(turn.alpha, self.pool.tier);
+        let asked = Asked {
+            exact: self.task.claim.oracle.is_exact(),
+            alarm: turn.alarm,
+        };
         let want = |first: u32| (first * multiple) as usize;
         let judged = if let Some(known) = &pictures.known {
             while self.own.len() < want(pictures.own) {
                 let drawn = self.random.random_range(0..pictures.replicates());
                 self.own.push(drawn);
             }
-            judged::judge(&pictures.of(&self.own), Against::Known(known), rules, exact)?
+            judged::judge(&pictures.of(&self.own), Against::Known(known), rules, asked)?
         } else {
             let mut own = std::mem::take(&mut self.own);
             let mut other = std::mem::take(&mut self.other);
@@ -306,7 +317,7 @@ impl<'a> Table<'a> {
                 &pictures.of(&self.own),
                 Against::Picture(&against),
                 rules,
-                exact,
+                asked,
             )?
         };
         Ok(Dealt {

@@ -105,7 +105,7 @@ pub fn repeat(
                 .collect::<Result<_, String>>()?;
             estimates.push(match (&summaries[..], &known) {
                 ([own], Some(known)) => {
-                    Estimate::excess(own, crate::judged::tile_mean(known, CHANNEL, side, 0)?)
+                    Estimate::excess(own, crate::samples::tile_mean(known, CHANNEL, side, 0)?)
                 }
                 ([own, other], _) => Estimate::welch(own, other),
                 _ => return Err("a comparison has one picture or two".to_owned()),

@@ -47,7 +47,7 @@ fn validation() -> String {
 fn compared() -> String {
     let (known, truth) = rows::truth();
     let picture = rows::picture(5, 0.2, 1.0);
-    let judged = judged::judge(&picture, Against::Known(&known), rows::RULES, true);
+    let judged = judged::judge(&picture, Against::Known(&known), rows::RULES, rows::ASKED);
     let judgement = judged.expect("comparable").judgement;
     let names = [
         "a long name of a picture.exr".to_owned(),
@@ -145,7 +145,7 @@ fn a_running_bias_ends_with_the_decision() {
         (Against::Known(&known), &truth),
         (Against::Picture(&other), &other),
     ] {
-        let judged = judged::judge(&picture, against, rows::RULES, true);
+        let judged = judged::judge(&picture, against, rows::RULES, rows::ASKED);
         let judgement = judged.expect("comparable").judgement;
         let widest = judgement.widest().expect("a channel");
         let curve = running::of(&judgement, &picture, drawn).expect("replicates");

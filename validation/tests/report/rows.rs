@@ -8,7 +8,7 @@ use etalon_validation::claim::Claim;
 use etalon_validation::convergence::Fall;
 use etalon_validation::fault::Fault;
 use etalon_validation::folders;
-use etalon_validation::judged::{self, Against, Judged};
+use etalon_validation::judged::{self, Against, Asked, Judged};
 use etalon_validation::look::Look;
 use etalon_validation::measure::Measure;
 use etalon_validation::outcome::{Outcome, Row};
@@ -26,6 +26,12 @@ pub(crate) const RULES: Rules = Rules {
     tile_bound: 0.03,
     alpha: 1e-4,
     rounding: 1e-6,
+};
+
+/// Equality, at one level.
+pub(crate) const ASKED: Asked = Asked {
+    exact: true,
+    alarm: 1e-4,
 };
 
 /// 32 replicates with noise of 5 % per pixel, off by ∓`bias` left and right of the middle.
@@ -108,7 +114,7 @@ pub(crate) fn rows(claims: &[Claim]) -> Vec<Row<'_>> {
     };
     let (known, drawn) = truth();
     let against = |picture: Developed| {
-        let judged = judged::judge(&picture, Against::Known(&known), RULES, true);
+        let judged = judged::judge(&picture, Against::Known(&known), RULES, ASKED);
         of_pictures(picture, drawn.clone(), judged.expect("comparable"))
     };
     let own = picture(1, 0.0, 2.0);

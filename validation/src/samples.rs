@@ -1,0 +1,185 @@
+//! The replicates of one mean and of what it is held against: what t makes of them, and when it may.
+
+use crate::judged::Against;
+use etalon::judge::{self, Known};
+use etalon_film::Metadata;
+use etalon_statistics::bootstrap::Plan;
+use etalon_statistics::robust::{self, Method, Symmetry};
+use etalon_statistics::tails::Limits;
+use etalon_statistics::{Estimate, Interval, Replicates, Summary, Verdict};
+
+/// The most resamples of a bootstrap: enough for levels of 10⁻⁶, beyond which tails of 32 replicates are
+/// not to be believed.
+const RESAMPLES: f64 = 2e7;
+
+/// The replicates of one mean, and of what it is held against.
+pub(crate) struct Samples {
+    own: Vec<f64>,
+    other: Other,
+}
+
+pub(crate) enum Other {
+    Known(f64),
+    Replicates(Vec<f64>),
+}
+
+impl Samples {
+    pub(crate) fn of(
+        metadata: &Metadata,
+        against: Against<'_>,
+        channel: &str,
+        side: Option<u32>,
+        tile: usize,
+    ) -> Result<Self, String> {
+        let of = |metadata: &Metadata| -> Result<Vec<f64>, String> {
+            let (means, tiles) = judge::replicates(metadata, channel, side)?;
+            let replicates = Replicates::new(&means, tiles).map_err(|e| e.to_string())?;
+            Ok(replicates.tile(tile).collect())
+        };
+        let other = match against {
+            Against::Known(known) => Other::Known(tile_mean(known, channel, side, tile)?),
+            Against::Picture(picture) => {
+                let metadata = picture.metadata.as_ref().ok_or("there are no statistics")?;
+                Other::Replicates(of(metadata)?)
+            }
+        };
+        Ok(Self {
+            own: of(metadata)?,
+            other,
+        })
+    }
+
+    /// Whether no replicate is farther than this from what it ought to be.
+    pub(crate) fn all_within(&self, tolerance: f64) -> bool {
+        match &self.other {
+            Other::Known(known) => self.own.iter().all(|x| (x - known).abs() <= tolerance),
+            Other::Replicates(_) => false,
+        }
+    }
+
+    /// What the mean ought to be.
+    pub(crate) fn truth(&self) -> f64 {
+        match &self.other {
+            Other::Known(known) => *known,
+            Other::Replicates(other) => other.iter().sum::<f64>() / other.len() as f64,
+        }
+    }
+
+    /// The difference of the means.
+    pub(crate) fn estimate(&self) -> Option<Estimate> {
+        Summary::of(&self.own).and_then(|own| match &self.other {
+            Other::Known(known) => Some(Estimate::excess(&own, *known)),
+            Other::Replicates(other) => Some(Estimate::welch(&own, &Summary::of(other)?)),
+        })
+    }
+
+    /// The p-value, by Student's t, of a difference within ±`tolerance`.
+    pub(crate) fn p_differs(&self, tolerance: f64) -> f64 {
+        let estimate = self.estimate();
+        estimate.map_or(1.0, |estimate| estimate.p_differs(tolerance))
+    }
+
+    /// What is left of `p`, which shows a difference beyond ±`tolerance` at the first of two levels, if
+    /// the second and lower one is asked: there a normal approximation may be refused that the first
+    /// allows, and another interval can show what an interval at the first could not.
+    pub(crate) fn alarming(&self, p: f64, tolerance: f64, [alpha, alarm]: [f64; 2]) -> f64 {
+        match self.judge(alarm) {
+            None => p,
+            Some((_, Some(interval))) if interval.verdict(tolerance) == Verdict::Differs => {
+                p_of(true, alarm)
+            }
+            Some(_) => p.max(p_of(true, alpha)),
+        }
+    }
+
+    /// Why a normal approximation is refused, if it is, and the interval of the difference that
+    /// misses it with probability `alpha` at most, if there is one.
+    pub(crate) fn judge(&self, alpha: f64) -> Option<(String, Option<Interval>)> {
+        let resamples = (25.0 / alpha).clamp(9_999.0, RESAMPLES) as u32;
+        let plan = Plan::independent(resamples, 1);
+        let limits = &Limits::DECLARED;
+        let judged = match &self.other {
+            Other::Known(known) => {
+                let excess: Vec<f64> = self.own.iter().map(|x| x - known).collect();
+                robust::judge(&excess, alpha, Symmetry::Unknown, limits, &plan)
+            }
+            Other::Replicates(other) => {
+                robust::judge_difference(&self.own, other, alpha, Symmetry::Unknown, limits, &plan)
+            }
+        }?;
+        let refusal = judged.refusal?;
+        let instead = match judged.method() {
+            Some(Method::Lowered) => "Student's t at a lower level",
+            Some(_) => "bootstrap",
+            None => "undecided",
+        };
+        Some((
+            format!("{refusal} ({instead})"),
+            judged.interval.map(|(interval, _)| interval),
+        ))
+    }
+}
+
+/// The mean of a known picture over one tile of `side` pixels, or over the whole image.
+///
+/// # Errors
+/// If it has no such channel.
+pub(crate) fn tile_mean(
+    known: &Known,
+    channel: &str,
+    side: Option<u32>,
+    tile: usize,
+) -> Result<f64, String> {
+    let missing = || format!("nothing is known of channel `{channel}`");
+    let found = known.channels.iter().find(|(name, _)| name == channel);
+    let (_, pixels) = found.ok_or_else(missing)?;
+    let [width, height] = known.size.map(|n| n as usize);
+    let side = side.map_or(width.max(height), |side| side as usize);
+    let columns = width.div_ceil(side);
+    let (left, top) = (tile % columns * side, tile / columns * side);
+    let (right, bottom) = ((left + side).min(width), (top + side).min(height));
+    let sum: f64 = (top..bottom)
+        .map(|y| {
+            pixels[y * width + left..y * width + right]
+                .iter()
+                .sum::<f64>()
+        })
+        .sum();
+    Ok(sum / ((bottom - top) * (right - left)) as f64)
+}
+
+/// The p-value that an interval at `alpha` stands for: 1, or a hair below `alpha` if it rejects. The
+/// corrections divide and multiply it by shares and numbers of hypotheses, and what rounding does to
+/// `alpha` itself on that way would take some rejections back.
+pub(crate) fn p_of(rejects: bool, alpha: f64) -> f64 {
+    if rejects { alpha * (1.0 - 1e-12) } else { 1.0 }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::p_of;
+    use crate::decision::ALPHA;
+    use etalon_statistics::Family;
+
+    #[test]
+    fn a_rejected_interval_stays_rejected_through_every_correction() {
+        for size in 1_u32..300 {
+            for share in [0.23, 0.31, 0.41, 0.5, 0.77, 1.0] {
+                for questions in [3.0, 6.0, 9.0, 12.0] {
+                    let mut family = Family::new(ALPHA).expect("a level");
+                    (0..size).for_each(|i| {
+                        family.declare(i.to_string());
+                    });
+                    let level = family.level_of_each();
+                    let granted = level * share;
+                    // As `judge` and `decision` do. Mutant rejected: `alpha` itself, which one
+                    // combination in fifteen loses.
+                    let p = (p_of(true, granted / questions) * questions).min(1.0);
+                    let recorded = family.record(0, p / (granted / level));
+                    assert!(recorded.is_ok());
+                    assert!(family.decide()[0].rejected, "{size} {share} {questions}");
+                }
+            }
+        }
+    }
+}
