@@ -95,6 +95,8 @@ pub struct Seen {
 pub struct Decision {
     /// Agrees, differs or undecided, corrected over the whole run; absent for what broke.
     pub verdict: Option<Verdict>,
+    /// Whether it is undecided because it differs at the level of the intervals only.
+    pub in_doubt: bool,
     /// The p-value of "no fault", corrected over the whole run.
     pub p_corrected: Option<f64>,
     /// How often it was looked at.
@@ -128,8 +130,6 @@ struct Group<'a> {
     looks: &'static [u32],
     /// The level of the intervals at each look.
     levels: Vec<f64>,
-    /// The part of a comparison's share that each look is granted.
-    parts: Vec<f64>,
     /// What each look is granted of [`STATED`].
     stated: Vec<f64>,
     members: Vec<Member<'a>>,
@@ -187,13 +187,10 @@ impl<'a> Group<'a> {
                 })
             })
             .collect();
-        let each = ALPHA / family.len().max(1) as f64;
-        let levels = tier::granted(each, looks)?;
         Ok(Self {
+            levels: tier::granted(ALPHA / family.len().max(1) as f64, looks)?,
             family,
             looks,
-            parts: levels.iter().map(|level| level / each).collect(),
-            levels,
             stated: tier::granted(STATED, looks)?,
             members,
         })
@@ -210,7 +207,9 @@ impl<'a> Group<'a> {
 
     /// Looks at one comparison for the `number`-th time, from 0.
     fn look(&mut self, index: usize, number: usize, make: impl FnOnce(Turn) -> Option<Seen>) {
-        let (granted, part) = (self.levels[number], self.parts[number]);
+        let granted = self.levels[number];
+        // The same part of either level.
+        let part = granted * self.family.len() as f64 / ALPHA;
         let alarm = part * self.family.level_of_each();
         let member = &mut self.members[index];
         let (start, clock) = (Instant::now(), Clock::start());
@@ -251,16 +250,15 @@ impl<'a> Group<'a> {
         members
             .map(|member| {
                 let corrected = &decisions[member.hypothesis];
-                let verdict = member.last.flatten().map(|verdict| {
-                    match verdict {
-                        _ if corrected.rejected => Verdict::Differs,
-                        Verdict::Agrees => Verdict::Agrees,
-                        // In doubt, and no more.
-                        Verdict::Differs | Verdict::Undecided => Verdict::Undecided,
-                    }
+                let seen = member.last.flatten();
+                let verdict = seen.map(|verdict| match verdict {
+                    _ if corrected.rejected => Verdict::Differs,
+                    Verdict::Agrees => Verdict::Agrees,
+                    Verdict::Differs | Verdict::Undecided => Verdict::Undecided,
                 });
                 let decision = Decision {
                     verdict,
+                    in_doubt: !corrected.rejected && seen == Some(Verdict::Differs),
                     p_corrected: verdict.map(|_| corrected.adjusted),
                     looks: member.looks,
                     level: levels[member.looks.saturating_sub(1)],

@@ -125,6 +125,7 @@ fn row(row: &Row<'_>, provenance: &Provenance) -> Value {
         "p_corrected": row.p_corrected,
         "bias_bound": compared.ok().and_then(|compared| compared.bias_bound),
         "verdict": row.verdict.map(|v| v.to_string()),
+        "in_doubt": row.in_doubt,
         "outcome": row.outcome,
         "judgement": compared.ok().and_then(Compared::judgement),
         "measures": compared.map(Compared::measures).ok(),

@@ -86,6 +86,8 @@ pub struct Row<'a> {
     pub p_corrected: Option<f64>,
     /// Agrees, differs or undecided, corrected over the whole run.
     pub verdict: Option<Verdict>,
+    /// Whether it is undecided because it differs at the level of the intervals only.
+    pub in_doubt: bool,
     /// What that means.
     pub outcome: Outcome,
     /// How often it was looked at.
@@ -135,6 +137,7 @@ pub fn run<'a>(
         .map(|((task, work), decision)| {
             let Decision {
                 verdict,
+                in_doubt,
                 p_corrected,
                 looks,
                 level,
@@ -146,6 +149,7 @@ pub fn run<'a>(
                 compared: compared.unwrap_or_else(|| Err("there was no time to look".to_owned())),
                 p_corrected,
                 verdict,
+                in_doubt,
                 outcome: Outcome::of(&task, verdict),
                 looks,
                 level,

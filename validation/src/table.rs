@@ -42,7 +42,10 @@ pub fn line(row: &Row<'_>) -> String {
     let p = row
         .p_corrected
         .map_or("-".to_owned(), |p| format!("{p:.1e}"));
-    let verdict = row.verdict.map_or(String::new(), |v| v.to_string());
+    let verdict = match row.verdict {
+        _ if row.in_doubt => "in doubt".to_owned(),
+        verdict => verdict.map_or(String::new(), |v| v.to_string()),
+    };
     let text = format!(
         "{claim:<26} {estimator:<30} {:>7} {:>4} {:>6.1}  {interval:<24} {sees:>7} {bound:>13} {p:>9}  {verdict:<10} {}",
         compared.spp, row.looks, row.seconds, row.outcome

@@ -10,7 +10,8 @@ use etalon_validation::tier::Tier;
 
 #[test]
 fn a_doubt_gets_more_replicates_and_never_passes() {
-    // What `see` makes of the looks at one comparison: the verdict, and how many looks there were.
+    // What `see` makes of the looks at one comparison: the verdict, whether it is in doubt, and how many
+    // looks there were.
     let mut claims = Claim::read_all(&folders::claims()).expect("claims can be read");
     claims.retain(|claim| claim.name == "irradiance-disk");
     claims[0].estimators.truncate(1);
@@ -25,24 +26,28 @@ fn a_doubt_gets_more_replicates_and_never_passes() {
     let decide = |place: usize, see: &dyn Fn(Turn) -> Seen| {
         let all = decision::decide(&tasks, Tier::Default, |turn| Some(see(turn)), |_| {});
         let decision = all.expect("a plan")[place];
-        (decision.verdict.expect("decided"), decision.looks)
+        let verdict = decision.verdict.expect("decided");
+        (verdict, decision.in_doubt, decision.looks)
     };
     let seen = |verdict, p| Seen { verdict, p };
     let doubt = |turn: Turn| seen(Verdict::Differs, 0.5 * turn.alpha);
     // Mutants rejected: a failure at the level of the intervals; a doubt that passes, or ends the looks.
-    assert_eq!(decide(0, &doubt), (Verdict::Undecided, 3));
+    assert_eq!(decide(0, &doubt), (Verdict::Undecided, true, 3));
     // Equality in doubt, though the bias is within its bounds. Mutant rejected: that passes.
     let equality = |turn: Turn| seen(Verdict::Agrees, 0.5 * turn.alpha);
-    assert_eq!(decide(0, &equality), (Verdict::Undecided, 3));
+    assert_eq!(decide(0, &equality), (Verdict::Undecided, true, 3));
+    // Too wide an interval is no doubt. Mutant rejected: all that is undecided is in doubt.
+    let wide = |_: Turn| seen(Verdict::Undecided, 0.5);
+    assert_eq!(decide(0, &wide), (Verdict::Undecided, false, 3));
     // Chance: more replicates dispel it. Mutant rejected: a first look that is never forgotten.
     let chance = |turn: Turn| match turn.multiple {
         1 => doubt(turn),
         _ => seen(Verdict::Agrees, 0.5),
     };
-    assert_eq!(decide(0, &chance), (Verdict::Agrees, 2));
+    assert_eq!(decide(0, &chance), (Verdict::Agrees, false, 2));
     // A fault is shown as soon as it can be. Mutant rejected: all looks are made.
     let fault = |turn: Turn| seen(Verdict::Differs, 0.5 * turn.alarm);
-    assert_eq!(decide(0, &fault), (Verdict::Differs, 1));
+    assert_eq!(decide(0, &fault), (Verdict::Differs, false, 1));
     // Planted ones need no more than the level of the intervals.
-    assert_eq!(decide(1, &doubt), (Verdict::Differs, 1));
+    assert_eq!(decide(1, &doubt), (Verdict::Differs, false, 1));
 }

@@ -13,6 +13,7 @@
 pub mod null;
 pub mod page;
 pub mod pool;
+pub mod question;
 pub mod single;
 pub mod verdict;
 

@@ -4,7 +4,8 @@
 //! the replicates are dealt ([`super::pool`]) and not rendered. Runs are independent given the pools, so that the number
 //! of those with a false alarm is binomial.
 
-use super::pool::{Pool, Question};
+use super::pool::Pool;
+use super::question::Question;
 use crate::decision::{self, ALARM, Seen};
 use crate::outcome::Outcome;
 use crate::run::Task;

@@ -11,6 +11,7 @@
 
 use crate::batches;
 use crate::calibrate::CHANNEL;
+use crate::calibrate::question::Question;
 use crate::claim::{Budget, Oracle};
 use crate::convergence;
 use crate::decision::Turn;
@@ -74,40 +75,6 @@ struct Pictures {
     other_grows: bool,
 }
 
-/// Which question a p-value answers.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
-pub enum Question {
-    /// The image's mean, against a formula (Student's t).
-    MeanFormula,
-    /// A tile's mean, against a formula.
-    TileFormula,
-    /// The image's mean, of two pictures (Welch's t).
-    MeanPictures,
-    /// A tile's mean, of two pictures.
-    TilePictures,
-}
-
-impl Question {
-    /// All of them.
-    pub const ALL: [Self; 4] = [
-        Self::MeanFormula,
-        Self::TileFormula,
-        Self::MeanPictures,
-        Self::TilePictures,
-    ];
-}
-
-impl std::fmt::Display for Question {
-    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        f.pad(match self {
-            Self::MeanFormula => "image mean, formula",
-            Self::TileFormula => "tile mean, formula",
-            Self::MeanPictures => "image mean, two pictures",
-            Self::TilePictures => "tile mean, two pictures",
-        })
-    }
-}
-
 /// What a dealt look came to.
 pub struct Dealt {
     /// The decision at the look's level.
@@ -127,6 +94,14 @@ pub struct Table<'a> {
 }
 
 impl Pool {
+    /// How many replicates of a picture there are; `None` where nothing is dealt from one picture.
+    pub fn replicates(&self) -> Option<u32> {
+        match &self.kind {
+            Kind::Pictures(pictures) => Some(pictures.replicates()),
+            Kind::Exponents(_) | Kind::Coverages(_) | Kind::Certain => None,
+        }
+    }
+
     /// Renders what the looks of `task` are dealt from.
     ///
     /// # Errors

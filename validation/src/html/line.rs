@@ -89,6 +89,7 @@ pub(super) fn line(index: usize, row: &Row<'_>) -> Markup {
             @let verdict = row.verdict.map(|verdict| verdict.to_string());
             td role="cell" class="text" data-key="verdict" data-label="verdict" data-value=[verdict] {
                 @if let Some(verdict) = row.verdict { (report::verdict(verdict)) }
+                @if row.in_doubt { span class="numbers" { "in doubt" } }
             }
         }
     }

@@ -84,7 +84,7 @@ fn about(provenance: &Provenance) -> Markup {
                 "more samples. An interval that is too wide is "
                 em { "undecided" } ", never a pass. Intervals and p-values are corrected over the whole run: "
                 "the probability that a sound renderer shows any failure is " (ALARM) ", and that any interval "
-                "misses its truth " (ALPHA) ". What differs at the latter level only is undecided. Only the bounds "
+                "misses its truth " (ALPHA) ". What differs at the latter level only is " em { "in doubt" } ", and undecided. Only the bounds "
                 "that a full run asks for besides, and that the head of this page counts, are said of each "
                 "comparison by itself, with 99 % confidence." }
             p { "In the column " em { "bias" } ", the shaded band is what is accepted, whatever its width, so that "

@@ -11,7 +11,8 @@ use etalon::report::{comparison, running};
 use etalon_validation::claim::Claim;
 use etalon_validation::json::Provenance;
 use etalon_validation::judged::{self, Against};
-use etalon_validation::{folders, html, table};
+use etalon_validation::outcome::Row;
+use etalon_validation::{folders, html, json, table};
 
 /// The size of a desk's window and of a phone's (pixels).
 const DESK: [u32; 2] = [1280, 900];
@@ -134,6 +135,21 @@ fn the_bound_that_is_counted_is_in_the_table_and_on_the_page() {
         at(&table::head(), "bias < (99 %)"),
         at(&table::line(&rows[0]), &shown)
     );
+}
+
+#[test]
+fn what_is_in_doubt_is_told_from_what_is_too_wide() {
+    let claims = rows::claims();
+    let mut rows = rows::rows(&claims);
+    let told = |rows: &[Row<'_>]| {
+        let page = html::page(rows, &provenance());
+        let found = json::of(rows, &provenance())["rows"][2]["in_doubt"].clone();
+        let line = table::line(&rows[2]).contains("in doubt");
+        (found, line, page.matches("numbers\">in doubt<").count())
+    };
+    assert_eq!(told(&rows), (false.into(), false, 0));
+    rows[2].in_doubt = true;
+    assert_eq!(told(&rows), (true.into(), true, 1));
 }
 
 #[test]

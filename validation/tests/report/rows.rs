@@ -243,6 +243,7 @@ fn row(task: Task<'_>, compared: Result<Compared, String>, outcome: Outcome) -> 
         task,
         p_corrected: seen.map(|compared| compared.p),
         verdict: seen.map(|compared| compared.verdict),
+        in_doubt: false,
         outcome,
         looks: 1,
         level: 1e-5,
