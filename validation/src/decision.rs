@@ -21,9 +21,9 @@
 //!
 //! Both levels presume that means are as normal as their replicates look. A skewness that few replicates
 //! cannot show lifts them, and the more the lower they are: of 32 gamma-distributed replicates with a skewness of 0.7,
-//! Student's t on one side errs 37 times as often as it may at 10⁻⁸, 77 times at 10⁻¹⁰ (computed once, with the
-//! importance sampling of the tests of [`etalon_statistics::lowered`]; no test holds these two numbers). A level that allows one false alarm in a hundred thousand runs has
-//! room for a few such means.
+//! Student's t on one side errs 37 times as often as it may at 10⁻⁸, 77 times at 10⁻¹⁰ (computed once, with
+//! the importance sampling of the tests of [`etalon_statistics::lowered`]; no test holds these two numbers).
+//! A level that allows one false alarm in a hundred thousand runs has room for a few such means.
 //!
 //! How a look comes by its evidence is the caller's: [`crate::outcome`] renders, and
 //! [`crate::calibrate`] deals replicates that there are.

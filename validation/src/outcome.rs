@@ -82,20 +82,10 @@ pub struct Row<'a> {
     pub task: Task<'a>,
     /// The comparison at its last look, or why it could not be made.
     pub compared: Result<Compared, String>,
-    /// The p-value of "no fault", corrected over the whole run.
-    pub p_corrected: Option<f64>,
-    /// Agrees, differs or undecided, corrected over the whole run.
-    pub verdict: Option<Verdict>,
-    /// Whether it is undecided because it differs at the level of the intervals only.
-    pub in_doubt: bool,
+    /// What that came to, together with all others.
+    pub decision: Decision,
     /// What that means.
     pub outcome: Outcome,
-    /// How often it was looked at.
-    pub looks: usize,
-    /// The level of its intervals at the last look.
-    pub level: f64,
-    /// Seconds spent on it.
-    pub seconds: f64,
     /// What each look saw.
     pub history: Vec<Look>,
 }
@@ -134,28 +124,12 @@ pub fn run<'a>(
     let made = tasks.into_iter().zip(works);
     let rows = made.filter(|(task, _)| !task.elsewhere).zip(decisions);
     Ok(rows
-        .map(|((task, work), decision)| {
-            let Decision {
-                verdict,
-                in_doubt,
-                p_corrected,
-                looks,
-                level,
-                seconds,
-            } = decision;
-            let compared = work.last;
-            Row {
-                task,
-                compared: compared.unwrap_or_else(|| Err("there was no time to look".to_owned())),
-                p_corrected,
-                verdict,
-                in_doubt,
-                outcome: Outcome::of(&task, verdict),
-                looks,
-                level,
-                seconds,
-                history: work.history,
-            }
+        .map(|((task, work), decision)| Row {
+            task,
+            compared: (work.last).unwrap_or_else(|| Err("there was no time to look".to_owned())),
+            decision,
+            outcome: Outcome::of(&task, decision.verdict),
+            history: work.history,
         })
         .collect())
 }

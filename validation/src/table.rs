@@ -39,16 +39,14 @@ pub fn line(row: &Row<'_>) -> String {
     };
     let (interval, sees) = shown(compared);
     let bound = compared.bias_bound.map_or(String::new(), percent);
-    let p = row
-        .p_corrected
-        .map_or("-".to_owned(), |p| format!("{p:.1e}"));
-    let verdict = match row.verdict {
-        _ if row.in_doubt => "in doubt".to_owned(),
+    let p = (row.decision.p_corrected).map_or("-".to_owned(), |p| format!("{p:.1e}"));
+    let verdict = match row.decision.verdict {
+        Some(_) if row.decision.in_doubt => "in doubt".to_owned(),
         verdict => verdict.map_or(String::new(), |v| v.to_string()),
     };
     let text = format!(
         "{claim:<26} {estimator:<30} {:>7} {:>4} {:>6.1}  {interval:<24} {sees:>7} {bound:>13} {p:>9}  {verdict:<10} {}",
-        compared.spp, row.looks, row.seconds, row.outcome
+        compared.spp, row.decision.looks, row.decision.seconds, row.outcome
     );
     if row.outcome == Outcome::Passed {
         return text;

@@ -198,7 +198,7 @@ fn passed(claims: &[Claim], tier: Tier) -> (usize, f64) {
     let row = &rows.expect("a plan")[0];
     assert_eq!(row.outcome, Outcome::Passed, "{tier:?}");
     let compared = row.compared.as_ref().expect("made");
-    (row.looks, compared.bias_bound.expect("asked for"))
+    (row.decision.looks, compared.bias_bound.expect("asked for"))
 }
 
 #[test]
@@ -311,7 +311,7 @@ fn an_undecided_comparison_gets_more_replicates_and_is_never_passed() {
     let rows = outcome::run(tasks, &options, None, |_| ()).expect("a plan");
     assert_eq!(rows.len(), 1);
     assert_eq!(rows[0].outcome, Outcome::Undecided);
-    assert_eq!(rows[0].looks, 2);
+    assert_eq!(rows[0].decision.looks, 2);
     let compared = rows[0].compared.as_ref().expect("it can be compared");
     assert_eq!((compared.spp, compared.replicates), (128, 64));
     assert_eq!(Conclusion::of(&rows).exit_code(), 3);

@@ -92,7 +92,7 @@ fn the_quickest_twins_agree_and_their_mutants_are_found() {
     assert_eq!(rows.len(), 3 * 4 + 2);
     for row in &rows {
         assert_eq!(row.outcome, Outcome::Passed, "{}", row.task.label());
-        assert_eq!(row.looks, 1, "{}", row.task.label());
+        assert_eq!(row.decision.looks, 1, "{}", row.task.label());
         if row.task.fault.is_none() {
             let compared = row.compared.as_ref().expect("compared");
             let shown = compared.shown.as_ref().expect("two pictures");

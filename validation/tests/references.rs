@@ -302,6 +302,6 @@ fn a_claim_without_its_reference_breaks_the_run() {
     let broken = rows.iter().find(|row| row.outcome == Outcome::Broken);
     let broken = broken.expect("it cannot be compared");
     assert_eq!(broken.task.claim.name, "no-such-claim");
-    assert!(broken.p_corrected.is_none());
+    assert!(broken.decision.p_corrected.is_none());
     assert_eq!(Conclusion::of(&rows).exit_code(), 2);
 }

@@ -93,7 +93,7 @@ fn the_oracle_of_several_estimators_is_rendered_once() {
     let state = State::open(&folder, &options).expect("a folder");
     let shared = outcome::run(tasks, &options, Some(&state), |_| ()).expect("a plan");
     // One batch each, and the oracle's. Mutant rejected: an oracle that is told from the next one's by the estimator.
-    assert!(shared.iter().all(|row| row.looks == 1));
+    assert!(shared.iter().all(|row| row.decision.looks == 1));
     assert_eq!(state.len(), estimators + 1);
     // It is the picture that each would have had alone, without any folder, too.
     for row in &shared {

@@ -49,8 +49,8 @@ pub(super) fn detail(
                 @if let Some(bound) = compared.bias_bound {
                     dt { "Bias of the mean" } dd { "below " (table::percent(bound)) ", with 99 % confidence for this row by itself" }
                 }
-                dt { "Level" } dd { (format!("{:.1e}", row.level)) " at the last of " (row.looks)
-                    @if row.looks == 1 { " look" } @else { " looks" } }
+                dt { "Level" } dd { (format!("{:.1e}", row.decision.level)) " at the last of " (row.decision.looks)
+                    @if row.decision.looks == 1 { " look" } @else { " looks" } }
             }
             dt { "Made by" } dd { "Etalon " (provenance.version) ", floating point " code { (provenance.floating_point) }
                 ", " (provenance.machine) }

@@ -78,18 +78,18 @@ pub(super) fn line(index: usize, row: &Row<'_>) -> Markup {
             td role="cell" data-key="sees" data-label="could see" data-value=[sees] {
                 @if let Some(sees) = sees { (format!("{:.3} %", 100.0 * sees)) }
             }
-            td role="cell" data-key="p" data-label="p" data-value=[row.p_corrected] {
-                @if let Some(p) = row.p_corrected { (probability(p)) }
+            td role="cell" data-key="p" data-label="p" data-value=[row.decision.p_corrected] {
+                @if let Some(p) = row.decision.p_corrected { (probability(p)) }
             }
             td role="cell" data-key="spp" data-label="samples" data-value=[spp] {
                 @if let Some(spp) = spp { (spp) }
             }
-            td role="cell" data-key="looks" data-label="looks" data-value=(row.looks) { (row.looks) }
-            td role="cell" data-key="seconds" data-label="seconds" data-value=(row.seconds) { (format!("{:.1}", row.seconds)) }
-            @let verdict = row.verdict.map(|verdict| verdict.to_string());
+            td role="cell" data-key="looks" data-label="looks" data-value=(row.decision.looks) { (row.decision.looks) }
+            td role="cell" data-key="seconds" data-label="seconds" data-value=(row.decision.seconds) { (format!("{:.1}", row.decision.seconds)) }
+            @let verdict = row.decision.verdict.map(|verdict| verdict.to_string());
             td role="cell" class="text" data-key="verdict" data-label="verdict" data-value=[verdict] {
-                @if let Some(verdict) = row.verdict { (report::verdict(verdict)) }
-                @if row.in_doubt { span class="numbers" { "in doubt" } }
+                @if let Some(verdict) = row.decision.verdict { (report::verdict(verdict)) }
+                @if row.decision.in_doubt { span class="numbers" { "in doubt" } }
             }
         }
     }

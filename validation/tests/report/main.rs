@@ -148,7 +148,7 @@ fn what_is_in_doubt_is_told_from_what_is_too_wide() {
         (found, line, page.matches("numbers\">in doubt<").count())
     };
     assert_eq!(told(&rows), (false.into(), false, 0));
-    rows[2].in_doubt = true;
+    rows[2].decision.in_doubt = true;
     assert_eq!(told(&rows), (true.into(), true, 1));
 }
 

@@ -6,6 +6,7 @@ use etalon_images::{Frame, Image};
 use etalon_statistics::Verdict;
 use etalon_validation::claim::Claim;
 use etalon_validation::convergence::Fall;
+use etalon_validation::decision::Decision;
 use etalon_validation::fault::Fault;
 use etalon_validation::folders;
 use etalon_validation::judged::{self, Against, Asked, Judged};
@@ -128,7 +129,7 @@ pub(crate) fn rows(claims: &[Claim]) -> Vec<Row<'_>> {
         ..passed.history[0].clone()
     };
     passed.history.insert(0, earlier);
-    passed.looks = 2;
+    passed.decision.looks = 2;
     let fault = sphere.estimators[0].mutants.first().copied();
     let mutant = against(picture(2, 0.2, 1.0));
     let mutant = row(task(sphere, 0, fault), Ok(mutant), Outcome::Passed);
@@ -241,13 +242,15 @@ fn row(task: Task<'_>, compared: Result<Compared, String>, outcome: Outcome) -> 
     let seen = compared.as_ref().ok();
     Row {
         task,
-        p_corrected: seen.map(|compared| compared.p),
-        verdict: seen.map(|compared| compared.verdict),
-        in_doubt: false,
+        decision: Decision {
+            verdict: seen.map(|compared| compared.verdict),
+            in_doubt: false,
+            p_corrected: seen.map(|compared| compared.p),
+            looks: 1,
+            level: 1e-5,
+            seconds,
+        },
         outcome,
-        looks: 1,
-        level: 1e-5,
-        seconds,
         history: seen
             .and_then(|compared| Look::of(compared, 1e-5, seconds))
             .into_iter()
