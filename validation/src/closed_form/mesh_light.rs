@@ -1,59 +1,73 @@
-//! The irradiance of the plane z = 0 under a convex or flat light of triangles.
+//! The irradiance of the plane z = 0 under a convex or flat light of polygons.
 //!
-//! Every triangle that faces the point adds Lambert's sum over its edges,
+//! Every polygon that faces the point adds Lambert's sum over its edges,
 //! E = L/2 · Σ γᵢ n·(rᵢ × rᵢ₊₁)/|rᵢ × rᵢ₊₁| (*Photometria*, 1760; see [`super::irradiance`]):
-//! of a convex solid no such triangle hides another, and inner edges of a polygon cancel.
+//! of a convex solid no such polygon hides another, and inner edges cancel. A polygon may be
+//! concave: it is never cut.
 
 use super::irradiance::{Irradiance, lambert};
 use crate::claim::Claim;
 use crate::folders;
 use std::path::Path;
 
-/// Three corners, counterclockwise as seen from where the light goes.
-type Triangle = [[f64; 3]; 3];
+/// Corners in a plane, counterclockwise as seen from where the light goes.
+type Polygon = Vec<[f64; 3]>;
 
-/// Under the mesh in the file `mesh`, raised by `height`.
+/// Under the mesh in the file `mesh`, or in that of the corners of `lamp`, raised by `height`.
 pub fn mesh(claim: &Claim) -> Result<Irradiance, String> {
     let folder = folders::scenes().join("irradiance-mesh");
-    let mut triangles = read(&folder.join(claim.text("mesh")?))?;
+    let file = match claim.text("lamp") {
+        Ok(lamp) => format!("{lamp}.obj"),
+        Err(_) => claim.text("mesh")?.to_owned(),
+    };
+    let mut polygons = read(&folder.join(file))?;
     let height = claim.number("height")?;
-    for corner in triangles.iter_mut().flatten() {
+    for corner in polygons.iter_mut().flatten() {
         corner[2] += height;
         if corner[2] <= 0.0 {
             return Err("the light must be above the plane".to_owned());
         }
     }
-    Ok(Box::new(move |x, y| per_radiance(&triangles, x, y)))
+    Ok(Box::new(move |x, y| per_radiance(&polygons, x, y)))
 }
 
 /// E/L at a point of the plane.
-fn per_radiance(triangles: &[Triangle], x: f64, y: f64) -> f64 {
-    triangles
+fn per_radiance(polygons: &[Polygon], x: f64, y: f64) -> f64 {
+    let seen = polygons
         .iter()
-        .map(|corners| corners.map(|c| [c[0] - x, c[1] - y, c[2]]))
-        .filter(faces)
+        .map(|polygon| polygon.iter().map(|c| [c[0] - x, c[1] - y, c[2]]));
+    seen.map(Iterator::collect::<Polygon>)
+        .filter(|corners| faces(corners))
         .map(|corners| (0.5 * lambert(&corners)).abs())
         .sum()
 }
 
-/// Whether the triangle faces the origin.
-fn faces([a, b, c]: &Triangle) -> bool {
-    let [p, q] = [b, c].map(|to| [0, 1, 2].map(|i| to[i] - a[i]));
-    let normal = [
-        p[1] * q[2] - p[2] * q[1],
-        p[2] * q[0] - p[0] * q[2],
-        p[0] * q[1] - p[1] * q[0],
-    ];
-    normal[0] * a[0] + normal[1] * a[1] + normal[2] * a[2] < 0.0
+/// Whether the polygon faces the origin.
+fn faces(corners: &[[f64; 3]]) -> bool {
+    // The sum of cross products around a polygon is twice its area, as a vector.
+    let next = corners.iter().cycle().skip(1);
+    let normal = corners.iter().zip(next).fold([0.0; 3], |sum, (p, q)| {
+        [
+            sum[0] + p[1] * q[2] - p[2] * q[1],
+            sum[1] + p[2] * q[0] - p[0] * q[2],
+            sum[2] + p[0] * q[1] - p[1] * q[0],
+        ]
+    });
+    normal
+        .iter()
+        .zip(corners[0])
+        .map(|(n, c)| n * c)
+        .sum::<f64>()
+        < 0.0
 }
 
-/// Reads an OBJ file of `v` lines and triangular `f` lines of plain numbers.
-fn read(path: &Path) -> Result<Vec<Triangle>, String> {
+/// Reads an OBJ file of `v` and `f` lines of plain numbers.
+fn read(path: &Path) -> Result<Vec<Polygon>, String> {
     let text = std::fs::read_to_string(path).map_err(|e| format!("{}: {e}", path.display()))?;
     let mut corners: Vec<[f64; 3]> = Vec::new();
-    let mut triangles = Vec::new();
+    let mut polygons = Vec::new();
     for line in text.lines().filter(|line| !line.starts_with('#')) {
-        let wrong = || format!("{}: `{line}` is no corner and no triangle", path.display());
+        let wrong = || format!("{}: `{line}` is no corner and no polygon", path.display());
         let words: Vec<&str> = line.split_whitespace().collect();
         match words[..] {
             [] => {}
@@ -61,21 +75,18 @@ fn read(path: &Path) -> Result<Vec<Triangle>, String> {
                 let [x, y, z] = [x, y, z].map(|word| word.parse::<f64>().map_err(|_| wrong()));
                 corners.push([x?, y?, z?]);
             }
-            ["f", a, b, c] => {
-                let corner = |word: &str| {
+            ["f", ref words @ ..] if words.len() >= 3 => {
+                let corner = |word: &&str| {
                     let index = word.parse::<usize>().ok()?.checked_sub(1)?;
                     corners.get(index).copied()
                 };
-                let triangle = (corner(a), corner(b), corner(c));
-                let (Some(a), Some(b), Some(c)) = triangle else {
-                    return Err(wrong());
-                };
-                triangles.push([a, b, c]);
+                let polygon: Option<Polygon> = words.iter().map(corner).collect();
+                polygons.push(polygon.ok_or_else(wrong)?);
             }
             _ => return Err(wrong()),
         }
     }
-    Ok(triangles)
+    Ok(polygons)
 }
 
 #[cfg(test)]
@@ -83,10 +94,13 @@ mod tests {
     use super::*;
 
     /// ∫ cos θ cos θ'/d² dA: the definition, with the midpoints of n² parts of each triangle.
-    fn by_definition(triangles: &[Triangle], x: f64, y: f64) -> f64 {
+    fn by_definition(triangles: &[Polygon], x: f64, y: f64) -> f64 {
         const N: u32 = 128;
         let mut sum = 0.0;
-        for [a, b, c] in triangles {
+        for triangle in triangles {
+            let [a, b, c] = triangle[..] else {
+                panic!("{} corners", triangle.len());
+            };
             let [p, q] = [b, c].map(|to| [0, 1, 2].map(|i| to[i] - a[i]));
             let normal = [
                 p[1] * q[2] - p[2] * q[1],
@@ -133,14 +147,31 @@ mod tests {
         assert!(sum.iter().all(|s| (s / 256.0 - 1.0 / 3.0).abs() < 1e-12));
     }
 
+    /// The mesh of a claim, 1.2 above the plane.
+    fn raised(name: &str) -> Vec<Polygon> {
+        let path = folders::scenes().join("irradiance-mesh").join(name);
+        let mut polygons = read(&path).expect("the mesh of a claim");
+        for corner in polygons.iter_mut().flatten() {
+            corner[2] += 1.2;
+        }
+        polygons
+    }
+
+    /// Mutant rejected: a normal of the first three corners, which may be those of a notch.
+    #[test]
+    fn an_outline_is_what_it_is_cut_into() {
+        let (outline, star) = (raised("outline.obj"), raised("star.obj"));
+        assert_eq!(outline.len(), 1);
+        for [x, y] in [[0.1, 0.0], [0.9, -0.4], [-1.6, 1.9]] {
+            let [found, expected] = [&outline, &star].map(|mesh| per_radiance(mesh, x, y));
+            assert!((found / expected - 1.0).abs() < 1e-5, "{found} {expected}");
+        }
+    }
+
     #[test]
     fn meshes_are_the_integrals_over_their_triangles() {
         for name in ["star.obj", "octahedron.obj"] {
-            let path = folders::scenes().join("irradiance-mesh").join(name);
-            let mut triangles = read(&path).expect("the mesh of a claim");
-            for corner in triangles.iter_mut().flatten() {
-                corner[2] += 1.2;
-            }
+            let triangles = raised(name);
             for [x, y] in [[0.1, 0.0], [0.9, -0.4], [-1.6, 1.9]] {
                 let expected = by_definition(&triangles, x, y);
                 let found = per_radiance(&triangles, x, y);
@@ -157,15 +188,15 @@ mod tests {
         // A parallel unit square at unit distance, seen from below its corner: E/L = √½ atan √½
         // (Howell's configuration B-3 with A = B = 1).
         let square = [
-            [[0.0, 0.0, 1.0], [0.0, 1.0, 1.0], [1.0, 1.0, 1.0]],
-            [[0.0, 0.0, 1.0], [1.0, 1.0, 1.0], [1.0, 0.0, 1.0]],
+            vec![[0.0, 0.0, 1.0], [0.0, 1.0, 1.0], [1.0, 1.0, 1.0]],
+            vec![[0.0, 0.0, 1.0], [1.0, 1.0, 1.0], [1.0, 0.0, 1.0]],
         ];
         let half = 0.5f64.sqrt();
         let expected = half * etalon_math::float64::atan(half);
         let found = per_radiance(&square, 0.0, 0.0);
         assert!((found - expected).abs() < 1e-14, "{found} {expected}");
         // Its back gives nothing.
-        let turned = square.map(|[a, b, c]| [a, c, b]);
+        let turned = square.map(|triangle| triangle.into_iter().rev().collect());
         assert_eq!(per_radiance(&turned, 0.0, 0.0), 0.0);
     }
 }
