@@ -8,6 +8,7 @@
 use super::irradiance::{Irradiance, lambert};
 use crate::claim::Claim;
 use crate::folders;
+use glam::DVec3;
 use std::path::Path;
 
 /// Corners in a plane, counterclockwise as seen from where the light goes.
@@ -46,19 +47,9 @@ fn per_radiance(polygons: &[Polygon], x: f64, y: f64) -> f64 {
 fn faces(corners: &[[f64; 3]]) -> bool {
     // The sum of cross products around a polygon is twice its area, as a vector.
     let next = corners.iter().cycle().skip(1);
-    let normal = corners.iter().zip(next).fold([0.0; 3], |sum, (p, q)| {
-        [
-            sum[0] + p[1] * q[2] - p[2] * q[1],
-            sum[1] + p[2] * q[0] - p[0] * q[2],
-            sum[2] + p[0] * q[1] - p[1] * q[0],
-        ]
-    });
-    normal
-        .iter()
-        .zip(corners[0])
-        .map(|(n, c)| n * c)
-        .sum::<f64>()
-        < 0.0
+    let cross = |(&p, &q)| DVec3::from_array(p).cross(DVec3::from_array(q));
+    let normal: DVec3 = corners.iter().zip(next).map(cross).sum();
+    normal.dot(DVec3::from_array(corners[0])) < 0.0
 }
 
 /// Reads an OBJ file of `v` and `f` lines of plain numbers.
