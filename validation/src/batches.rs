@@ -55,6 +55,7 @@ impl Batches<'_> {
         let budget = Budget {
             spp: self.first.spp * more,
             replicates: self.first.replicates * more,
+            ..self.first
         };
         // Batches are independent: each has its own seed.
         let seed = seed.wrapping_add(u64::from(self.from) << 40);

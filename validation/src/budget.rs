@@ -10,6 +10,9 @@ pub struct Budget {
     pub spp: u32,
     /// Independent replicates.
     pub replicates: u32,
+    /// The bias of the image's mean that the default run must exclude with it, relative to it, if
+    /// not the claim's own bound: where seconds are too few for that.
+    pub bound: Option<f64>,
 }
 
 /// The most that equality may leave to rounding, relative to the mean: what the coarsest of the

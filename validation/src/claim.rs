@@ -15,8 +15,8 @@
 //!
 //! [[estimators]]
 //! sampler = "sobol"
-//! quick = { spp = 512, replicates = 32 }
-//! default = { spp = 4096, replicates = 32 }
+//! default = { spp = 512, replicates = 32 }    # absent: no row of the default run
+//! thorough = { spp = 4096, replicates = 32 }
 //! mutants = ["dropped cosine"] # faults that this very comparison must find
 //! ```
 
@@ -60,17 +60,10 @@ pub struct Claim {
     /// Bounds of what matters.
     #[serde(default)]
     pub bounds: Bounds,
-    /// Whether the quick run decides it, too.
-    #[serde(default = "yes")]
-    pub quick: bool,
-    /// Whether the full run alone decides it: its estimators are too noisy for the default run's
-    /// minutes.
+    /// Whether the full run alone decides it: its estimators are too noisy for the minutes of the
+    /// others.
     #[serde(default)]
     pub full_only: bool,
-}
-
-fn yes() -> bool {
-    true
 }
 
 /// What an invariance claim changes, beside an estimator's parameters.
@@ -117,10 +110,10 @@ pub struct Estimator {
     /// Further parameters of the scene, of this estimator only.
     #[serde(default)]
     pub defines: BTreeMap<String, toml::Value>,
-    /// Work of the quick run.
-    pub quick: Budget,
-    /// Work of the default run.
-    pub default: Budget,
+    /// Work of the default run, which makes no row of estimators that state none.
+    pub default: Option<Budget>,
+    /// Work of the thorough run, and of the full run's first look.
+    pub thorough: Budget,
     /// What is changed, in an invariance claim.
     pub change: Option<Change>,
     /// Between which numbers the exponent of the squared error must lie, in a convergence claim.
@@ -159,12 +152,19 @@ impl Estimator {
         format!("{integrator}, {sampler}{chooser}{adaptive}{defines}{change}")
     }
 
-    /// The budget that must suffice to find a fault: an eighth of the quick run's.
+    /// The work of the first run that makes its row.
+    pub fn least_budget(&self) -> Budget {
+        self.default.unwrap_or(self.thorough)
+    }
+
+    /// The budget that must suffice to find a fault: an eighth of the least; half of one that is
+    /// content with a wider `bound`, which is a fraction of what the claim's own bound takes.
     pub fn fault_budget(&self) -> Budget {
-        let Budget { spp, replicates } = self.quick;
+        let least = self.least_budget();
+        let part = if least.bound.is_some() { 2 } else { 8 };
         Budget {
-            spp: (spp / 8).max(replicates),
-            replicates,
+            spp: (least.spp / part).max(least.replicates),
+            ..least
         }
     }
 }
@@ -250,6 +250,13 @@ impl Claim {
         if self.estimators.is_empty() {
             return Err("a claim needs at least one estimator".to_owned());
         }
+        if !self.full_only && self.estimators.iter().all(|e| e.default.is_none()) {
+            return Err(
+                "the default run decides every claim, or `full_only` says that it does not: at least \
+                 one estimator needs a budget `default`"
+                    .to_owned(),
+            );
+        }
         let sensible = |x: f64| x > 0.0 && x < 1.0;
         self.bounds.check()?;
         if bounded && !self.is_bounded() {
@@ -281,13 +288,27 @@ impl Claim {
             _ => None,
         };
         for estimator in self.estimators.iter().chain(oracle) {
-            for budget in [estimator.quick, estimator.default] {
+            for budget in [estimator.least_budget(), estimator.thorough] {
                 if budget.replicates < 2 || budget.spp < budget.replicates {
                     return Err(
                         "a budget needs at least 2 replicates of at least 1 sample".to_owned()
                     );
                 }
             }
+        }
+        let mut own = self.estimators.iter();
+        let wide = |budget: Budget| {
+            budget
+                .bound
+                .is_some_and(|b| !(b > self.bounds.image && b < 1.0))
+        };
+        if own.any(|e| e.thorough.bound.is_some() || e.default.is_some_and(wide))
+            || oracle.is_some_and(|e| e.least_budget().bound.is_some())
+        {
+            return Err(
+                "a `bound` belongs to an estimator's budget `default`, and is wider than the claim's own"
+                    .to_owned(),
+            );
         }
         for estimator in &self.estimators {
             let convergence = matches!(self.oracle, Oracle::Convergence(_));
@@ -346,6 +367,13 @@ impl Claim {
             claim.expand(&folder.join(format!("{}.toml", claim.name)))?;
             Ok(claim)
         }))
+    }
+
+    /// Pixels of its pictures, as its parameters state; those against POV-Ray have the size of the
+    /// scene, 256² at most.
+    pub fn pixels(&self) -> f64 {
+        let side = |key| self.number(key).unwrap_or(256.0);
+        side("resx") * side("resy")
     }
 
     /// A number among the scene's parameters.

@@ -170,6 +170,7 @@ pub fn batches(
             let budget = Budget {
                 spp: samples * BATCH,
                 replicates: BATCH,
+                bound: None,
             };
             // All are independent of each other.
             let number = u64::from(batch) * rungs.len() as u64 + rung as u64;

@@ -30,7 +30,6 @@
 
 use crate::run::Task;
 use crate::tier::{self, FAULT_LOOKS, STATED, Tier};
-use etalon::resources;
 use etalon_statistics::{Family, Verdict};
 use std::time::{Duration, Instant};
 
@@ -39,32 +38,6 @@ pub const ALPHA: f64 = 1e-3;
 
 /// The probability that a run without faults shows a failure.
 pub const ALARM: f64 = 1e-5;
-
-/// Time of two processors since a run began; time of the wall where the system does not tell.
-struct Clock {
-    start: Instant,
-    processors: Option<Duration>,
-}
-
-impl Clock {
-    fn start() -> Self {
-        Self {
-            start: Instant::now(),
-            processors: resources::processor_time(),
-        }
-    }
-
-    fn elapsed(&self) -> Duration {
-        let now = self.processors.zip(resources::processor_time());
-        now.map_or_else(
-            || self.start.elapsed(),
-            |(before, now)| now.saturating_sub(before) / 2,
-        )
-    }
-}
-
-/// A further look that takes no longer than this is made even after the tier's deadline.
-const SHORT: Duration = Duration::from_secs(5);
 
 /// A look that is to be made.
 #[derive(Clone, Copy, Debug)]
@@ -147,8 +120,6 @@ struct Member<'a> {
     p: f64,
     looks: usize,
     seconds: f64,
-    /// Time of two processors.
-    work: Duration,
 }
 
 impl Member<'_> {
@@ -183,7 +154,6 @@ impl<'a> Group<'a> {
                     p: 1.0,
                     looks: 0,
                     seconds: 0.0,
-                    work: Duration::ZERO,
                 })
             })
             .collect();
@@ -212,7 +182,7 @@ impl<'a> Group<'a> {
         let part = granted * self.family.len() as f64 / ALPHA;
         let alarm = part * self.family.level_of_each();
         let member = &mut self.members[index];
-        let (start, clock) = (Instant::now(), Clock::start());
+        let start = Instant::now();
         let seen = make(Turn {
             place: member.place,
             multiple: self.looks[number],
@@ -221,7 +191,6 @@ impl<'a> Group<'a> {
             stated: self.stated[number],
         });
         member.seconds += start.elapsed().as_secs_f64();
-        member.work += clock.elapsed();
         if let Some(seen) = seen {
             member.p = member.p.min(seen.p / part);
         }
@@ -281,8 +250,7 @@ pub fn decide<'a>(
     mut make: impl FnMut(Turn) -> Option<Seen>,
     mut watch: impl FnMut(&Progress<'_>),
 ) -> Result<Vec<Decision>, String> {
-    let (start, clock) = (Instant::now(), Clock::start());
-    let deadline = tier.deadline();
+    let start = Instant::now();
     let of = |with_fault: bool| {
         let all = tasks.iter().copied().enumerate();
         all.filter(move |(_, task)| task.fault.is_some() == with_fault)
@@ -302,7 +270,7 @@ pub fn decide<'a>(
             let task = &group.members[index].task;
             let before = if look > 0 { group.looks[look - 1] } else { 0 };
             let more = f64::from(group.looks[look] - before);
-            more * f64::from(task.budget(tier).spp)
+            more * task.samples(tier)
         };
         let all: f64 = open.iter().map(|at| work(&groups, *at)).sum();
         let (began, mut finished) = (Instant::now(), 0.0);
@@ -313,14 +281,6 @@ pub fn decide<'a>(
                 Duration::from_secs_f64(spent.as_secs_f64() * (all - finished) / finished)
             });
             let (group, index) = at;
-            let before = groups[group].members[index].work;
-            // A further look takes as long as all before it, or a little longer. Short ones are
-            // always made.
-            let own_time = before.mul_f64(1.2);
-            let late = deadline.is_some_and(|deadline| clock.elapsed() + own_time > deadline);
-            if look > 0 && late && own_time > SHORT {
-                continue;
-            }
             watch(&Progress {
                 task: &groups[group].members[index].task,
                 look: look + 1,

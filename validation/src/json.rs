@@ -9,7 +9,7 @@ use serde::Serialize;
 use serde_json::{Value, json};
 
 /// The version of the description.
-pub const FORMAT: u32 = 4;
+pub const FORMAT: u32 = 5;
 
 /// Where a run's numbers come from.
 #[derive(Clone, Debug, Serialize)]
@@ -26,7 +26,7 @@ pub struct Provenance {
     pub threads: usize,
     /// The seed of everything.
     pub seed: u64,
-    /// Quick, default or full.
+    /// Default, thorough or full.
     pub tier: &'static str,
     /// Which part of the run this is, as I/N, if it is not the whole.
     pub part: Option<String>,
@@ -146,9 +146,10 @@ pub fn list(claims: &[Claim]) -> Value {
                 "title": claim.title,
                 "kind": claim.oracle.kind(),
                 "scene": claim.scene,
-                "quick": claim.quick && !claim.full_only,
+                "default": !claim.full_only,
                 "estimators": claim.estimators.iter().map(|e| json!({
                     "estimator": e.label(),
+                    "default": !claim.full_only && e.default.is_some(),
                     "mutants": e.mutants.iter().map(ToString::to_string).collect::<Vec<_>>(),
                 })).collect::<Vec<_>>(),
             })

@@ -1,17 +1,17 @@
 //! The agreement matrix: every unbiased integrator against every oracle.
 //!
 //! A claim names the integrators that it is about. With a table `matrix` all others take part, too,
-//! each as one more comparison of the default and the full run, unless they object to the scene when
+//! each as one more comparison of the thorough and the full run, unless they object to the scene when
 //! they are asked ([`etalon::pipeline::Loaded::complete`]): then the report says so, and why. An
 //! integrator that is added to the house so stands in all these rows without a word.
 //!
 //! ```toml
 //! [matrix]
-//! default = { spp = 256, replicates = 32 }
+//! thorough = { spp = 256, replicates = 32 }
 //! bound = 0.02                 # of the bias of the image's mean; half a per cent in a full run
 //! without = { ptracer = "sees nothing in a mirror" }
 //!
-//! [matrix.later]               # too noisy here for the default run: in the full run only
+//! [matrix.later]               # too noisy here for the thorough run: in the full run only
 //! naive = { spp = 4096, replicates = 32 }
 //! ```
 //!
@@ -31,12 +31,12 @@ use std::collections::BTreeMap;
 #[derive(Clone, Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Matrix {
-    /// Work of the default run for each.
-    pub default: Budget,
-    /// Which bias of the image's mean the default run must exclude, relative to it; stated unless
+    /// Work of the thorough run for each.
+    pub thorough: Budget,
+    /// Which bias of the image's mean the thorough run must exclude, relative to it; stated unless
     /// the full run alone makes all rows.
     pub bound: Option<f64>,
-    /// Whether only a full run makes these comparisons, with `default` for its first look.
+    /// Whether only a full run makes these comparisons, with `thorough` for its first look.
     #[serde(default)]
     pub full_only: bool,
     /// Integrators that cannot render the scene, though they do not object, and why.
@@ -62,7 +62,7 @@ impl Matrix {
         }
     }
 
-    /// What its rows must exclude if the full run alone makes them, or if the default run does, too.
+    /// What its rows must exclude if the full run alone makes them, or if the thorough run does, too.
     fn bound(&self, later: bool) -> Result<f64, String> {
         match self.bound {
             _ if later => Ok(FULL_BOUND),
@@ -100,8 +100,8 @@ impl Place {
     /// Whether a run makes the comparison.
     pub fn belongs_to(self, tier: Tier) -> bool {
         match tier {
-            Tier::Quick => false,
-            Tier::Default => !self.later,
+            Tier::Default => false,
+            Tier::Thorough => !self.later,
             Tier::Full => true,
         }
     }
@@ -129,7 +129,7 @@ pub(crate) fn expand(claim: &mut Claim) -> Result<(), String> {
             ));
         }
     }
-    let mut budgets = matrix.later.values().chain([&matrix.default]);
+    let mut budgets = matrix.later.values().chain([&matrix.thorough]);
     let poor = budgets.any(|budget| budget.replicates < 2 || budget.spp < budget.replicates);
     if poor {
         return Err("`matrix`: a budget of at least 2 replicates".to_owned());
@@ -166,7 +166,7 @@ pub(crate) fn expand(claim: &mut Claim) -> Result<(), String> {
             continue;
         }
         let own = matrix.later.get(name);
-        let budget = *own.unwrap_or(&matrix.default);
+        let budget = *own.unwrap_or(&matrix.thorough);
         let later = matrix.full_only || own.is_some();
         rows.push(Estimator {
             adaptive: None,
@@ -174,8 +174,8 @@ pub(crate) fn expand(claim: &mut Claim) -> Result<(), String> {
             sampler: None,
             light_chooser: None,
             defines: Default::default(),
-            quick: budget,
-            default: budget,
+            default: None,
+            thorough: budget,
             change: None,
             exponent: None,
             part: Default::default(),
@@ -189,7 +189,7 @@ pub(crate) fn expand(claim: &mut Claim) -> Result<(), String> {
     let later = |row: &Estimator| row.in_matrix.is_some_and(|place| place.later);
     if matrix.bound.is_some() && rows.iter().all(later) {
         return Err(without_bound(
-            "where the default run makes none of its rows",
+            "where the thorough run makes none of its rows",
         ));
     }
     claim.estimators.extend(rows);

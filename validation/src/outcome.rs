@@ -20,7 +20,7 @@ pub enum Outcome {
     Passed,
     /// It differs; or a planted fault is shown not to matter.
     Failed,
-    /// There were too few samples, or there was too little time, to say; of a planted fault, too.
+    /// There were too few samples to say; of a planted fault, too.
     Undecided,
     /// The comparison could not be made.
     Broken,
@@ -126,7 +126,7 @@ pub fn run<'a>(
     Ok(rows
         .map(|((task, work), decision)| Row {
             task,
-            compared: (work.last).unwrap_or_else(|| Err("there was no time to look".to_owned())),
+            compared: (work.last).unwrap_or_else(|| Err("it was not looked at".to_owned())),
             decision,
             outcome: Outcome::of(&task, decision.verdict),
             history: work.history,

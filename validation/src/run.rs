@@ -136,6 +136,7 @@ impl<'a> Comparison<'a> {
         let budget = Budget {
             spp: first.spp * multiple,
             replicates: first.replicates * multiple,
+            ..first
         };
         let (mut shown, mut fall, mut replicates) = (None, None, budget.replicates);
         let (measures, spp) = match &claim.oracle {

@@ -50,6 +50,11 @@ impl Task<'_> {
         let place = self.estimator.in_matrix;
         let exact = self.claim.oracle.is_exact();
         let own = place.map_or(bounds.image, |place| place.bound);
+        let default = self.estimator.default.and_then(|budget| budget.bound);
+        let own = match (tier, self.fault) {
+            (Tier::Default, None) => default.unwrap_or(own),
+            _ => own,
+        };
         Rules {
             // What must be excluded in the end is a difference where it is shown.
             image_bound: tier.image_bound(own),
@@ -63,12 +68,32 @@ impl Task<'_> {
     pub fn budget(&self, tier: Tier) -> Budget {
         match (self.fault, &self.claim.oracle) {
             // With fewer points, the midpoint rule's own error would be found.
-            (Some(_), Oracle::Povray { .. }) => self.estimator.quick,
+            (Some(_), Oracle::Povray { .. }) => self.estimator.least_budget(),
             // Faults of numbers are as costly to find as the numbers are to measure.
-            (Some(fault), _) if !fault.is_physical() => self.estimator.quick,
+            (Some(fault), _) if !fault.is_physical() => self.estimator.least_budget(),
             (Some(_), _) => self.estimator.fault_budget(),
             (None, _) => tier.budget(self.estimator),
         }
+    }
+}
+
+impl Task<'_> {
+    /// Samples of the first look, over all pixels and all pictures that it takes: what progress is
+    /// measured in, and what the default run's budget is stated in.
+    pub fn samples(&self, tier: Tier) -> f64 {
+        let own = f64::from(self.budget(tier).spp);
+        let spp = match &self.claim.oracle {
+            Oracle::Agreement { estimator } | Oracle::Invariance { estimator } => {
+                let other = match self.fault {
+                    Some(_) => estimator.fault_budget(),
+                    None => tier.budget(estimator),
+                };
+                own + f64::from(other.spp)
+            }
+            Oracle::Noise { seeds, .. } => own * f64::from(*seeds),
+            _ => own,
+        };
+        spp * self.claim.pixels()
     }
 }
 
@@ -98,8 +123,7 @@ pub fn tasks<'a>(claims: &'a [Claim], options: &Options) -> Vec<Task<'a>> {
         Some(name) => named(claims, name),
         None => {
             let decided = |claim: &&Claim| match options.tier {
-                Tier::Quick => claim.quick && !claim.full_only,
-                Tier::Default => !claim.full_only,
+                Tier::Default | Tier::Thorough => !claim.full_only,
                 Tier::Full => true,
             };
             claims.iter().filter(decided).collect()
@@ -108,9 +132,16 @@ pub fn tasks<'a>(claims: &'a [Claim], options: &Options) -> Vec<Task<'a>> {
     let mut tasks = Vec::new();
     for (number, claim) in chosen.into_iter().enumerate() {
         let elsewhere = options.part.is_some_and(|part| !part.is_dealt(number));
+        // Somebody who asks for a claim that the default run leaves out has asked for its own rows.
+        let left_out = claim.estimators.iter().all(|e| e.default.is_none());
+        let essential = |estimator: &Estimator| estimator.default.is_some() || left_out;
         for (place, estimator) in claim.estimators.iter().enumerate() {
             let row = estimator.in_matrix;
-            if row.is_some_and(|row| !row.belongs_to(options.tier)) {
+            let made = match row {
+                Some(row) => row.belongs_to(options.tier),
+                None => options.tier != Tier::Default || essential(estimator),
+            };
+            if !made {
                 continue;
             }
             let faults = estimator.mutants.iter().copied().map(Some);
@@ -194,7 +225,7 @@ mod tests {
             ..options(None)
         };
         let tier = Options {
-            tier: Tier::Default,
+            tier: Tier::Thorough,
             ..options(None)
         };
         let only = Options {
@@ -205,7 +236,7 @@ mod tests {
         others.push(plan(&claims[..1], &options(None)));
         claims[0].bounds.image *= 0.5;
         others.push(plan(&claims, &options(None)));
-        claims[0].estimators[0].default.spp *= 2;
+        claims[0].estimators[0].thorough.spp *= 2;
         others.push(plan(&claims, &options(None)));
         claims[0].oracle = claims[1].oracle.clone();
         others.push(plan(&claims, &options(None)));

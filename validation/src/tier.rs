@@ -1,24 +1,25 @@
-//! How thorough a run is: quick, default or full, and how often it may look again.
+//! How thorough a run is: default, thorough or full, and how often it may look again.
 //!
 //! Every comparison is looked at once with its budget. Those that are undecided get as many
 //! replicates again, and again, until they are decided or the plan ends: a group-sequential test
 //! whose levels are spent by Pocock's function over the planned replicates and never used twice.
+//! Counts alone decide how much is done, never a clock: the same program and seed give the same
+//! verdicts and numbers on any machine, however busy it is.
 //! Each look is judged by what it alone is granted, so that nothing is assumed of how the looks
 //! depend on each other.
 
 use crate::claim::{Budget, Estimator};
 use etalon_statistics::{Boundaries, Spending};
 use serde::Serialize;
-use std::time::Duration;
 
 /// How thorough a run is.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Tier {
-    /// Within two minutes on two cores.
-    Quick,
-    /// Within a quarter of an hour.
+    /// The essential rows of every claim, within three minutes on two cores.
     Default,
+    /// Every row that minutes can decide: about a quarter of an hour.
+    Thorough,
     /// Until every bias is bounded below 0.5 %; hours, if need be.
     Full,
 }
@@ -44,7 +45,7 @@ impl Tier {
     /// run asks [`FULL_BOUND`], or the claim's own if that is tighter.
     pub fn image_bound(self, own: f64) -> f64 {
         match self {
-            Self::Quick | Self::Default => own,
+            Self::Default | Self::Thorough => own,
             Self::Full => own.min(FULL_BOUND),
         }
     }
@@ -52,42 +53,32 @@ impl Tier {
     /// Replicates at each look, in multiples of the budget's.
     pub fn looks(self) -> &'static [u32] {
         match self {
-            Self::Quick => &[1, 2],
-            Self::Default => &[1, 2, 4],
+            Self::Default => &[1, 2, 4, 8],
+            Self::Thorough => &[1, 2, 4, 8],
             Self::Full => &[1, 2, 4, 8, 16, 32, 64],
         }
     }
 
-    /// When no further look begins that would end later, in time of two processors: what else a
-    /// machine does has no say in what is decided. It depends on the clock alone, so the error
-    /// levels hold.
-    pub fn deadline(self) -> Option<Duration> {
-        match self {
-            Self::Quick => Some(Duration::from_secs(105)),
-            Self::Default => Some(Duration::from_secs(13 * 60)),
-            Self::Full => None,
-        }
-    }
-
-    /// The first look's budget of an estimator.
+    /// The first look's budget of an estimator; that of the thorough run where the default run,
+    /// which then makes no row of it unless it is asked for by name, states none.
     pub fn budget(self, estimator: &Estimator) -> Budget {
         match self {
-            Self::Quick => estimator.quick,
-            Self::Default | Self::Full => estimator.default,
+            Self::Default => estimator.least_budget(),
+            Self::Thorough | Self::Full => estimator.thorough,
         }
     }
 
     /// Its name, as on the command line.
     pub fn name(self) -> &'static str {
         match self {
-            Self::Quick => "quick",
             Self::Default => "default",
+            Self::Thorough => "thorough",
             Self::Full => "full",
         }
     }
 }
 
-/// Looks at planted faults: up to what the quick run spends on the sound estimator.
+/// Looks at planted faults: up to what the default run spends on the sound estimator.
 pub const FAULT_LOOKS: &[u32] = &[1, 2, 4, 8];
 
 /// What each look may spend of `alpha`, with `looks` in multiples of the first; they add up to it.
@@ -113,8 +104,8 @@ mod tests {
     #[test]
     fn levels_add_up_and_the_first_look_is_granted_a_fair_share() {
         for looks in [
-            Tier::Quick.looks(),
             Tier::Default.looks(),
+            Tier::Thorough.looks(),
             Tier::Full.looks(),
         ] {
             let levels = granted(1e-5, looks).expect("growing looks");

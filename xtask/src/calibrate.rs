@@ -19,12 +19,12 @@ use std::time::Instant;
 /// How much to calibrate.
 #[derive(Clone, Debug, clap::Args)]
 #[command(
-    after_help = "Exit code: 0 if every promise is kept, 1 if one is not, 2 if it could not be made.\n\nExamples:\n  cargo xtask calibrate\n  cargo xtask calibrate --quick --runs 200 --repetitions 100"
+    after_help = "Exit code: 0 if every promise is kept, 1 if one is not, 2 if it could not be made.\n\nExamples:\n  cargo xtask calibrate\n  cargo xtask calibrate --small --runs 200 --repetitions 100"
 )]
 pub(crate) struct Arguments {
-    /// The budgets of the quick run, not of the default run
+    /// The comparisons and budgets of the default run, not of the thorough run
     #[arg(long)]
-    quick: bool,
+    small: bool,
     /// Only the claim of this name, or those whose names contain it, take part in the null runs
     #[arg(long, value_name = "NAME")]
     only: Option<String>,
@@ -58,10 +58,10 @@ fn calibrate(arguments: &Arguments) -> Result<bool, String> {
     let claims = Claim::read_named(&folders::claims(), arguments.only.as_deref())?;
     let options = Options {
         only: arguments.only.clone(),
-        tier: if arguments.quick {
-            Tier::Quick
-        } else {
+        tier: if arguments.small {
             Tier::Default
+        } else {
+            Tier::Thorough
         },
         seed: arguments.seed,
         part: None,

@@ -16,7 +16,7 @@ use std::process::ExitCode;
 #[derive(Parser)]
 #[command(
     name = "cargo xtask",
-    after_help = "Examples:\n  cargo xtask validate --quick\n  cargo xtask validate --only cornell-box\n  cargo xtask references --only veach-mis\n  cargo xtask tables"
+    after_help = "Examples:\n  cargo xtask validate\n  cargo xtask validate --only cornell-box\n  cargo xtask references --only veach-mis\n  cargo xtask tables"
 )]
 struct Arguments {
     #[command(subcommand)]

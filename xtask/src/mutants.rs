@@ -2,7 +2,7 @@
 //! shows that the claims of the validation find them.
 //!
 //! The list is `validation/mutants.toml`. Each mutant is built with the `fast` profile and put to
-//! the claims that must fail, then to the whole quick suite if those let it pass. A comparison
+//! the claims that must fail, then to the whole default suite if those let it pass. A comparison
 //! that fails in the sound program, too, kills nobody.
 
 mod list;
@@ -37,7 +37,7 @@ pub(crate) struct Arguments {
     /// Only see whether every mutant applies to the sources as they are
     #[arg(long, conflicts_with = "list")]
     check: bool,
-    /// Only the claims that each mutant names, not the quick suite after them
+    /// Only the claims that each mutant names, not the default suite after them
     #[arg(long)]
     named_only: bool,
     /// The seed of all pictures

@@ -17,12 +17,13 @@ use std::time::{Duration, Instant};
 /// What to validate.
 #[derive(Clone, Debug, clap::Args)]
 #[command(
-    after_help = "Exit code: 0 if every claim holds, 1 if any does not, 2 if the run or a comparison could not be made, 3 if anything is undecided.\n\nExamples:\n  cargo xtask validate --quick\n  cargo xtask validate --only irradiance --seed 7\n  cargo xtask validate --full\n  cargo xtask validate --full --part 1/3   # and 2/3, 3/3 on other machines or days\n  cargo xtask validate --quick --json\n  cargo xtask validate --list"
+    after_help = "Exit code: 0 if every claim holds, 1 if any does not, 2 if the run or a comparison could not be made, 3 if anything is undecided.\n\nExamples:\n  cargo xtask validate\n  cargo xtask validate --only irradiance --seed 7\n  cargo xtask validate --thorough\n  cargo xtask validate --full\n  cargo xtask validate --full --part 1/3   # and 2/3, 3/3 on other machines or days\n  cargo xtask validate --json\n  cargo xtask validate --list"
 )]
 pub(crate) struct Arguments {
-    /// Small budgets: two minutes on two cores
+    /// All rows that minutes can decide, the agreement of all integrators included: about a quarter
+    /// of an hour on two cores
     #[arg(long, conflicts_with = "full")]
-    quick: bool,
+    thorough: bool,
     /// Go on until every bias is bounded below 0.5 %: hours; goes on where it was interrupted
     #[arg(long)]
     full: bool,
@@ -133,8 +134,8 @@ fn validate(arguments: &Arguments) -> Result<Conclusion, String> {
     }
     let options = Options {
         only: arguments.only.clone(),
-        tier: match (arguments.quick, arguments.full) {
-            (true, _) => Tier::Quick,
+        tier: match (arguments.thorough, arguments.full) {
+            (true, _) => Tier::Thorough,
             (_, true) => Tier::Full,
             _ => Tier::Default,
         },
@@ -150,14 +151,15 @@ fn validate(arguments: &Arguments) -> Result<Conclusion, String> {
     }
     let state = match options.tier {
         Tier::Full => Some(State::open(&folders::report().join("full"), &options)?),
-        Tier::Quick | Tier::Default => None,
+        Tier::Default | Tier::Thorough => None,
     };
     if let Some(kept) = state.as_ref().map(State::len).filter(|kept| *kept > 0) {
         eprintln!("going on with {kept} batches of an interrupted run");
     }
     let start = Instant::now();
+    let mut watch = Watch::default();
     let rows = outcome::run(tasks, &options, state.as_ref(), |progress| {
-        show(progress, options.tier);
+        watch.show(progress);
     })?;
     if std::io::stderr().is_terminal() {
         eprint!("\r\x1b[K");
@@ -203,29 +205,44 @@ fn end(state: State, mut outcomes: impl Iterator<Item = Outcome>) {
     }
 }
 
-/// Says how far the run is: on one line of a terminal, and line by line in a full run's log.
-fn show(progress: &Progress<'_>, tier: Tier) {
-    let terminal = std::io::stderr().is_terminal();
-    if !terminal && tier != Tier::Full {
-        return;
+/// How often a log is told how far the run is.
+const LOG_EVERY: Duration = Duration::from_secs(10);
+
+/// Says how far the run is: on one line of a terminal, and in a log every ten seconds or so.
+#[derive(Default)]
+struct Watch {
+    told: Option<Instant>,
+}
+
+impl Watch {
+    fn show(&mut self, progress: &Progress<'_>) {
+        if std::io::stderr().is_terminal() {
+            eprint!("\r\x1b[K{}\r", line(progress));
+        } else if self.told.is_none_or(|told| told.elapsed() >= LOG_EVERY) {
+            eprintln!("{}", line(progress));
+            self.told = Some(Instant::now());
+        }
     }
+}
+
+/// Where the run is, and how long the rest takes. How many comparisons need a further look is not
+/// known beforehand; each look tells its own rest.
+fn line(progress: &Progress<'_>) -> String {
     let remaining = progress.remaining.map_or(String::new(), |rest| {
-        format!(", about {} left for this look", duration(rest))
+        format!(", about {} left", duration(rest))
     });
-    let line = format!(
-        "look {}, {} of {}: {} {} (after {}{remaining})",
-        progress.look,
+    let look = match progress.look {
+        1 => String::new(),
+        number => format!("look {number} at what is undecided, "),
+    };
+    format!(
+        "{look}{} of {}: {} {} (after {}{remaining})",
         progress.done + 1,
         progress.total,
         progress.task.claim.name,
         progress.task.label(),
         duration(progress.elapsed),
-    );
-    if terminal {
-        eprint!("\r\x1b[K{line}\r");
-    } else {
-        eprintln!("{line}");
-    }
+    )
 }
 
 /// Hours, minutes and seconds.

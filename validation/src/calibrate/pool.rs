@@ -173,6 +173,7 @@ impl Pictures {
         let budget = Budget {
             spp: first.spp / first.replicates * replicates,
             replicates,
+            ..first
         };
         let loaded = rendering::load_for(claim, estimator)?;
         let plan = rendering::plan(&loaded, estimator, budget, seed);

@@ -31,6 +31,7 @@ pub const SETTINGS: [Setting; 2] = [
         budget: Budget {
             spp: 128,
             replicates: 16,
+            bound: None,
         },
     },
     Setting {
@@ -39,6 +40,7 @@ pub const SETTINGS: [Setting; 2] = [
         budget: Budget {
             spp: 128,
             replicates: 16,
+            bound: None,
         },
     },
 ];

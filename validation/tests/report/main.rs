@@ -31,7 +31,7 @@ fn provenance() -> Provenance {
         machine: "a machine".to_owned(),
         threads: 2,
         seed: 1,
-        tier: "quick",
+        tier: "default",
         part: None,
         hypotheses: 8,
         plan: "0123456789ab".to_owned(),

@@ -58,7 +58,7 @@ pub(crate) struct Record {
     replacement: String,
     /// The seed of all pictures.
     seed: u64,
-    /// Whether the quick suite was to run after the named claims.
+    /// Whether the default suite was to run after the named claims.
     named_only: bool,
     /// The commit that it was planted in; absent where older programs wrote the record.
     #[serde(default)]
@@ -100,7 +100,7 @@ impl Record {
     }
 
     /// Whether this tells what became of `mutant` under `seed`. Whoever survived the named claims
-    /// alone has yet to see the quick suite, and mistakes are tried again.
+    /// alone has yet to see the default suite, and mistakes are tried again.
     pub(crate) fn tells(&self, mutant: &Mutant, seed: u64, named_only: bool) -> bool {
         let same = self.name == mutant.name
             && self.file == mutant.file

@@ -143,7 +143,7 @@ impl Workspace {
         Ok(run)
     }
 
-    /// Runs the quick suite, or the claims whose names contain `only`.
+    /// Runs the default suite, or the claims whose names contain `only`.
     pub(crate) fn validate(&self, only: Option<&str>, seed: u64) -> Result<Run, String> {
         self.run(&self.mutated(), only, seed)
     }
@@ -156,7 +156,7 @@ impl Workspace {
         }
         let mut command = Command::new(program);
         command
-            .args(["validate", "--quick", "--seed", &seed.to_string()])
+            .args(["validate", "--seed", &seed.to_string()])
             .arg("--report")
             .arg(&report);
         if let Some(name) = only {

@@ -1,8 +1,6 @@
 //! The maximum test against enumeration, and its error rate under dependence.
 
-mod checks;
-
-use checks::Random;
+use crate::checks::Random;
 use etalon_statistics::sign_flip::{self, Side};
 use etalon_statistics::{proportion, westfall_young};
 

@@ -18,13 +18,13 @@ fn a_doubt_gets_more_replicates_and_never_passes() {
     claims[0].estimators[0].mutants = vec![Fault::Energy];
     let options = Options {
         only: None,
-        tier: Tier::Default,
+        tier: Tier::Thorough,
         seed: 1,
         part: None,
     };
     let tasks = run::tasks(&claims, &options);
     let decide = |place: usize, see: &dyn Fn(Turn) -> Seen| {
-        let all = decision::decide(&tasks, Tier::Default, |turn| Some(see(turn)), |_| {});
+        let all = decision::decide(&tasks, Tier::Thorough, |turn| Some(see(turn)), |_| {});
         let decision = all.expect("a plan")[place];
         let verdict = decision.verdict.expect("decided");
         (verdict, decision.in_doubt, decision.looks)
@@ -32,13 +32,13 @@ fn a_doubt_gets_more_replicates_and_never_passes() {
     let seen = |verdict, p| Seen { verdict, p };
     let doubt = |turn: Turn| seen(Verdict::Differs, 0.5 * turn.alpha);
     // Mutants rejected: a failure at the level of the intervals; a doubt that passes, or ends the looks.
-    assert_eq!(decide(0, &doubt), (Verdict::Undecided, true, 3));
+    assert_eq!(decide(0, &doubt), (Verdict::Undecided, true, 4));
     // Equality in doubt, though the bias is within its bounds. Mutant rejected: that passes.
     let equality = |turn: Turn| seen(Verdict::Agrees, 0.5 * turn.alpha);
-    assert_eq!(decide(0, &equality), (Verdict::Undecided, true, 3));
+    assert_eq!(decide(0, &equality), (Verdict::Undecided, true, 4));
     // Too wide an interval is no doubt. Mutant rejected: all that is undecided is in doubt.
     let wide = |_: Turn| seen(Verdict::Undecided, 0.5);
-    assert_eq!(decide(0, &wide), (Verdict::Undecided, false, 3));
+    assert_eq!(decide(0, &wide), (Verdict::Undecided, false, 4));
     // Chance: more replicates dispel it. Mutant rejected: a first look that is never forgotten.
     let chance = |turn: Turn| match turn.multiple {
         1 => doubt(turn),

@@ -1,6 +1,6 @@
 //! A full run goes on where it was interrupted, and takes up nothing but its own.
 
-use etalon_validation::claim::{Claim, Oracle};
+use etalon_validation::claim::{Budget, Claim, Oracle};
 use etalon_validation::outcome;
 use etalon_validation::run::{self, Options};
 use etalon_validation::state::State;
@@ -13,7 +13,7 @@ fn an_interrupted_run_goes_on_with_the_same_result() {
     let mut claims = Claim::read_all(&folders::claims()).expect("claims can be read");
     claims.retain(|claim| claim.name == "furnace");
     for estimator in &mut claims[0].estimators {
-        estimator.default.spp = 256;
+        estimator.thorough.spp = 256;
         estimator.mutants.clear();
     }
     let options = Options {
@@ -46,7 +46,7 @@ fn an_interrupted_run_goes_on_with_the_same_result() {
     // Another seed has a state of its own; a batch of another plan or half a file is not taken up.
     let estimator = &claims[0].estimators[0];
     let loaded = rendering::load_for(&claims[0], estimator).expect("a scene");
-    let plan = rendering::plan(&loaded, estimator, estimator.default, options.seed);
+    let plan = rendering::plan(&loaded, estimator, estimator.thorough, options.seed);
     let files = std::fs::read_dir(again.folder()).expect("a folder");
     let name = files
         .map(|file| file.expect("readable").path())
@@ -83,7 +83,7 @@ fn the_oracle_of_several_estimators_is_rendered_once() {
     claims.iter_mut().for_each(|claim| claim.bounds.image = 0.5);
     let options = Options {
         only: Some("camera-obscura-naive".to_owned()),
-        tier: Tier::Quick,
+        tier: Tier::Default,
         seed: 5,
         part: None,
     };
@@ -119,14 +119,18 @@ fn replicates_of_a_noise_claim_are_those_of_all_its_pictures() {
     claims[0].estimators.truncate(1);
     let estimator = &mut claims[0].estimators[0];
     estimator.mutants.clear();
-    (estimator.quick.spp, estimator.quick.replicates) = (32, 8);
+    estimator.default = Some(Budget {
+        spp: 32,
+        replicates: 8,
+        bound: None,
+    });
     let Oracle::Noise { seeds, .. } = &mut claims[0].oracle else {
         panic!("a claim about noise");
     };
     *seeds = 3;
     let options = Options {
         only: None,
-        tier: Tier::Quick,
+        tier: Tier::Default,
         seed: 5,
         part: None,
     };

@@ -4,9 +4,7 @@
 // Reference values keep the digits they were computed to.
 #![allow(clippy::excessive_precision)]
 
-mod checks;
-
-use checks::{Random, near};
+use crate::checks::{Random, near};
 use etalon_statistics::{BiasVariance, Line, Summary, proportion};
 
 #[test]

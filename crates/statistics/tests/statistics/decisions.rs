@@ -3,9 +3,7 @@
 // Reference values keep the digits they were computed to.
 #![allow(clippy::excessive_precision)]
 
-mod checks;
-
-use checks::near;
+use crate::checks::near;
 use etalon_statistics::chi_squared::{CountsError, goodness_of_fit};
 use etalon_statistics::family::{benjamini_hochberg, holm, sidak, sidak_level};
 use etalon_statistics::{

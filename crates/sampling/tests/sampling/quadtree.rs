@@ -1,10 +1,8 @@
 //! Quadtrees that have learned: what they sample follows what they state.
 
-mod evidence;
-
+use crate::evidence::chi_square;
 use etalon_sampling::discrete::{Quadtree, Refinement};
 use etalon_sampling::hash::{mix64, random_float};
-use evidence::chi_square;
 use glam::Vec2;
 use proptest::prelude::*;
 use proptest::test_runner::RngSeed;

@@ -1,10 +1,8 @@
 //! What every sampler promises: a pure function of its address, uniform, and independent across
 //! pixels, samples, replicates, seeds and dimensions.
 
-mod evidence;
-
+use crate::evidence::{chi_square, uniform};
 use etalon_sampling::{AnySampler, PixelSample, Sampler, SamplerKind};
-use evidence::{chi_square, uniform};
 use glam::Vec2;
 
 const KINDS: [SamplerKind; 4] = [

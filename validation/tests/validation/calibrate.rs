@@ -69,7 +69,7 @@ fn null_runs_raise_no_alarm() {
     let claims = Claim::read_all(&folders::claims()).expect("claims can be read");
     let options = Options {
         only: Some("furnace".to_owned()),
-        tier: Tier::Quick,
+        tier: Tier::Default,
         seed: 1,
         part: None,
     };
@@ -79,11 +79,11 @@ fn null_runs_raise_no_alarm() {
     let state = State::open(folder.path(), &options).expect("a state");
     let pools: Vec<Pool> = tasks
         .iter()
-        .map(|task| Pool::render(*task, Tier::Quick, 1, &state).expect("it renders"))
+        .map(|task| Pool::render(*task, Tier::Default, 1, &state).expect("it renders"))
         .collect();
     // Mutant rejected: a formula's world of 64, whose skewness by chance raises false alarms.
     assert!(pools.iter().all(|pool| pool.replicates() >= Some(256)));
-    let runs = null::run(&tasks, &pools, Tier::Quick, (200, 1), CONFIDENCE, |_| {});
+    let runs = null::run(&tasks, &pools, Tier::Default, (200, 1), CONFIDENCE, |_| {});
     let runs = runs.expect("it runs");
     // The whole decision's α is 10⁻⁵: with 200 runs a rate of 5 % would be seen.
     assert_eq!(runs.alarms.count, 0);
@@ -129,7 +129,7 @@ fn replicates_of_another_estimator_are_not_taken_up() {
     claims[0].estimators[0].mutants.clear();
     let options = Options {
         only: None,
-        tier: Tier::Quick,
+        tier: Tier::Default,
         seed: 1,
         part: None,
     };
@@ -137,7 +137,7 @@ fn replicates_of_another_estimator_are_not_taken_up() {
     let state = State::open(folder.path(), &options).expect("a state");
     let render = |claims: &[Claim]| {
         let task = run::tasks(claims, &options)[0];
-        Pool::render(task, Tier::Quick, 1, &state).expect("it renders");
+        Pool::render(task, Tier::Default, 1, &state).expect("it renders");
         state.len()
     };
     assert_eq!((render(&claims), render(&claims)), (1, 1));

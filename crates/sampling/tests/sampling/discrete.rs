@@ -1,13 +1,11 @@
 //! Tables against the probabilities and densities they state.
 
-mod evidence;
-
+use crate::evidence::{Map, chi_square};
 use etalon_sampling::discrete::{
     AliasTable, Bilinear, PiecewiseConstant, PiecewiseConstant2d, PiecewiseLinear,
     SignedPiecewiseLinear, TableError,
 };
 use etalon_sampling::hash::{mix64, random_float};
-use evidence::{Map, chi_square};
 use glam::Vec2;
 
 /// Seeded uniform numbers.

@@ -4,9 +4,7 @@
 // Reference values keep the digits they were computed to.
 #![allow(clippy::excessive_precision)]
 
-mod checks;
-
-use checks::near;
+use crate::checks::near;
 use etalon_statistics::{chi_squared, normal, student_t};
 
 #[test]

@@ -4,9 +4,7 @@
 // Reference values keep the digits they were computed to.
 #![allow(clippy::excessive_precision)]
 
-mod checks;
-
-use checks::near;
+use crate::checks::near;
 use etalon_statistics::equivalence::{self, Bias};
 use etalon_statistics::{Estimate, Verdict, noncentral_t, normal, power, student_t};
 use proptest::prelude::*;

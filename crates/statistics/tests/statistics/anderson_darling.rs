@@ -3,9 +3,7 @@
 // Reference values keep the digits they were computed to.
 #![allow(clippy::excessive_precision)]
 
-mod checks;
-
-use checks::near;
+use crate::checks::near;
 use etalon_statistics::{anderson_darling, normal};
 
 /// Smirnov's integrals by mpmath 1.4 (`quad`, 40 digits); Anderson & Darling (1954) give 1.933,

@@ -1,8 +1,6 @@
 //! Levels of t-tests of skewed samples, far out in the tail, by importance sampling.
 
-mod checks;
-
-use checks::Random;
+use crate::checks::Random;
 use etalon_statistics::bootstrap::Plan;
 use etalon_statistics::robust::{Method, Symmetry, judge};
 use etalon_statistics::tails::{Limits, Refusal};

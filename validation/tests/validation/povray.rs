@@ -28,10 +28,10 @@ fn claim(name: &str) -> Claim {
     claims.find(|claim| claim.name == name).expect("a claim")
 }
 
-fn quick() -> Options {
+fn default() -> Options {
     Options {
         only: None,
-        tier: Tier::Quick,
+        tier: Tier::Default,
         seed: 1,
         part: None,
     }
@@ -84,11 +84,12 @@ fn colours_of_twins_are_those_of_the_integrator() {
 
 #[test]
 fn the_quickest_twins_agree_and_their_mutants_are_found() {
-    // Without noise nothing is left to chance. The slower twins are part of `validate --quick`.
+    // Without noise nothing is left to chance. The slower twins are part of `validate`.
     let claims: Vec<Claim> = (claims().into_iter())
         .filter(|claim| claim.name.contains("signature") || claim.name == "povray-spheres")
         .collect();
-    let rows = outcome::run(run::tasks(&claims, &quick()), &quick(), None, |_| ()).expect("a plan");
+    let rows =
+        outcome::run(run::tasks(&claims, &default()), &default(), None, |_| ()).expect("a plan");
     assert_eq!(rows.len(), 3 * 4 + 2);
     for row in &rows {
         assert_eq!(row.outcome, Outcome::Passed, "{}", row.task.label());
@@ -214,7 +215,8 @@ fn a_twin_without_its_reference_breaks_the_run() {
     let mut claim = claim(NAME);
     claim.name = "no-such-claim".to_owned();
     let claims = [claim];
-    let rows = outcome::run(run::tasks(&claims, &quick()), &quick(), None, |_| ()).expect("a plan");
+    let rows =
+        outcome::run(run::tasks(&claims, &default()), &default(), None, |_| ()).expect("a plan");
     // Not even a mutant counts as found.
     assert!(rows.iter().all(|row| row.outcome == Outcome::Broken));
     assert_eq!(Conclusion::of(&rows).exit_code(), 2);

@@ -5,7 +5,7 @@ use etalon::judge::{Judgement, Known, Rules, judge, judge_known};
 use etalon_film::{BoxFilter, Developed, ExactFilm, FilmSettings, Filter, RenderFacts};
 use etalon_images::Image;
 use etalon_statistics::Verdict;
-use etalon_validation::claim::Claim;
+use etalon_validation::claim::{Budget, Claim};
 use etalon_validation::fault::Fault;
 use etalon_validation::folders;
 use etalon_validation::outcome::{self, Conclusion, Outcome};
@@ -135,7 +135,7 @@ fn the_furnace_holds_and_its_mutants_are_found() {
     let claims = Claim::read_all(&folders::claims()).expect("claims can be read");
     let options = Options {
         only: Some("furnace".to_owned()),
-        tier: Tier::Quick,
+        tier: Tier::Default,
         seed: 3,
         part: None,
     };
@@ -179,8 +179,8 @@ fn poor(image: f64) -> Vec<Claim> {
         claim.estimators.truncate(1);
         for estimator in &mut claim.estimators {
             estimator.mutants.clear();
-            estimator.quick.spp = 32;
-            estimator.default.spp = 32;
+            estimator.thorough.spp = 32;
+            estimator.default = Some(estimator.thorough);
         }
     }
     claims
@@ -203,13 +203,13 @@ fn passed(claims: &[Claim], tier: Tier) -> (usize, f64) {
 
 #[test]
 fn a_full_run_goes_on_until_half_a_per_cent_is_excluded() {
-    // A claim whose own bound is 5 %, with few samples: the quick run is content with its first
+    // A claim whose own bound is 5 %, with few samples: the default run is content with its first
     // look, the full one with nothing above 0.5 %. Mutant rejected: a full run that asks nothing
     // more than the claim does.
     let claims = poor(0.05);
-    let ((quick, wide), (full, narrow)) =
-        (passed(&claims, Tier::Quick), passed(&claims, Tier::Full));
-    assert!(quick == 1 && wide > 0.005, "{quick} {wide}");
+    let ((first, wide), (full, narrow)) =
+        (passed(&claims, Tier::Default), passed(&claims, Tier::Full));
+    assert!(first == 1 && wide > 0.005, "{first} {wide}");
     assert!(full > 1 && narrow < 0.005, "{full} {narrow}");
 }
 
@@ -242,7 +242,7 @@ fn a_fault_that_is_missed_for_lack_of_samples_is_undecided() {
     ] {
         let options = Options {
             only: None,
-            tier: Tier::Quick,
+            tier: Tier::Default,
             seed: 1,
             part: None,
         };
@@ -290,7 +290,7 @@ fn batches_together_are_as_if_rendered_at_once() {
 
 #[test]
 fn an_undecided_comparison_gets_more_replicates_and_is_never_passed() {
-    // Far too few samples for a bound of 0.01 %: two looks, both undecided. α = 10⁻³.
+    // Far too few samples for a bound of 0.01 %: four looks, all undecided. α = 10⁻³.
     let mut claims = Claim::read_all(&folders::claims()).expect("claims can be read");
     claims.retain(|claim| claim.name == "irradiance-disk");
     for claim in &mut claims {
@@ -298,12 +298,12 @@ fn an_undecided_comparison_gets_more_replicates_and_is_never_passed() {
         claim.bounds.rounding = 0.0;
         for estimator in &mut claim.estimators {
             estimator.mutants.clear();
-            estimator.quick.spp = 64;
+            estimator.default.as_mut().expect("a budget").spp = 64;
         }
     }
     let options = Options {
         only: None,
-        tier: Tier::Quick,
+        tier: Tier::Default,
         seed: 1,
         part: None,
     };
@@ -311,9 +311,9 @@ fn an_undecided_comparison_gets_more_replicates_and_is_never_passed() {
     let rows = outcome::run(tasks, &options, None, |_| ()).expect("a plan");
     assert_eq!(rows.len(), 1);
     assert_eq!(rows[0].outcome, Outcome::Undecided);
-    assert_eq!(rows[0].decision.looks, 2);
+    assert_eq!(rows[0].decision.looks, 4);
     let compared = rows[0].compared.as_ref().expect("it can be compared");
-    assert_eq!((compared.spp, compared.replicates), (128, 64));
+    assert_eq!((compared.spp, compared.replicates), (512, 256));
     assert_eq!(Conclusion::of(&rows).exit_code(), 3);
 }
 
@@ -328,7 +328,7 @@ fn the_json_is_the_one_that_is_described() {
         .collect();
     let options = Options {
         only: None,
-        tier: Tier::Quick,
+        tier: Tier::Default,
         seed: 4,
         part: None,
     };
@@ -346,10 +346,67 @@ fn the_json_is_the_one_that_is_described() {
         assert!(page.contains(&format!("`{field}`")), "{field}");
     }
     let command = row["command"].as_str().expect("a command");
-    assert_eq!(
-        command,
-        "cargo xtask validate --quick --only furnace --seed 4"
+    assert_eq!(command, "cargo xtask validate --only furnace --seed 4");
+}
+
+/// A run's JSON without what tells of the machine: `seconds`, wherever they are, and `threads`.
+fn without_times(mut value: serde_json::Value) -> serde_json::Value {
+    match &mut value {
+        serde_json::Value::Object(fields) => {
+            fields.retain(|name, _| name != "seconds" && name != "threads");
+            for field in fields.values_mut() {
+                *field = without_times(field.take());
+            }
+        }
+        serde_json::Value::Array(items) => {
+            for item in items {
+                *item = without_times(item.take());
+            }
+        }
+        _ => {}
+    }
+    value
+}
+
+#[test]
+fn a_slow_machine_comes_to_the_same_verdicts_and_numbers() {
+    // A plan with a row that needs all its looks, once as fast as it goes and once on one thread that is held
+    // up before every look, beside a busy loop. Mutant rejected: looks that end by a clock.
+    use etalon_validation::json::{self, Provenance};
+    use std::sync::atomic::{AtomicBool, Ordering};
+    let mut claims = poor(1e-4);
+    claims.extend(
+        Claim::read_named(&folders::claims(), Some("furnace")).expect("claims can be read"),
     );
+    let options = Options {
+        only: None,
+        tier: Tier::Default,
+        seed: 2,
+        part: None,
+    };
+    let run = |pause: std::time::Duration| {
+        let tasks = run::tasks(&claims, &options);
+        let plan = run::Plan::of(&tasks, &options);
+        let rows = outcome::run(tasks, &options, None, |_| std::thread::sleep(pause));
+        let rows = rows.expect("a plan");
+        let looks: Vec<usize> = rows.iter().map(|row| row.decision.looks).collect();
+        let seconds = rows.iter().map(|row| row.decision.seconds).sum();
+        let value = json::of(&rows, &Provenance::of(&options, plan, seconds));
+        (looks, without_times(value))
+    };
+    let (looks, fast) = run(std::time::Duration::ZERO);
+    assert_eq!(looks.iter().max(), Some(&Tier::Default.looks().len()));
+    let busy = AtomicBool::new(true);
+    let (_, slow) = std::thread::scope(|scope| {
+        scope.spawn(|| while busy.load(Ordering::Relaxed) {});
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(1).build();
+        let slow = pool
+            .expect("a pool")
+            .install(|| run(std::time::Duration::from_millis(50)));
+        busy.store(false, Ordering::Relaxed);
+        slow
+    });
+    assert_eq!(fast, slow);
 }
 
 #[test]
@@ -363,12 +420,16 @@ fn parts_are_decided_as_parts_of_the_whole() {
         })
         .collect();
     for estimator in claims.iter_mut().flat_map(|claim| &mut claim.estimators) {
-        (estimator.quick.spp, estimator.quick.replicates) = (16, 8);
+        estimator.default = Some(Budget {
+            spp: 16,
+            replicates: 8,
+            bound: None,
+        });
     }
     let rows_of = |part: Option<&str>| {
         let options = Options {
             only: None,
-            tier: Tier::Quick,
+            tier: Tier::Default,
             seed: 3,
             part: part.map(|part| part.parse().expect("a part")),
         };

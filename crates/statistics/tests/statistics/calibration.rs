@@ -1,8 +1,6 @@
 //! Error rates of the tests under their hypotheses, and the faults they catch.
 
-mod checks;
-
-use checks::Random;
+use crate::checks::Random;
 use etalon_statistics::chi_squared::goodness_of_fit;
 use etalon_statistics::{
     Estimate, Replicates, Summary, TileDifferences, TilesError, Verdict, kolmogorov_smirnov,

@@ -1,9 +1,7 @@
 //! Permutations are permutations, and as random as shuffling asks; floats stay below one.
 
-mod evidence;
-
+use crate::evidence::uniform;
 use etalon_sampling::hash::{ONE_MINUS, mix64, permute, random_float};
-use evidence::uniform;
 
 #[test]
 fn floats_cover_the_interval_and_stay_below_one() {

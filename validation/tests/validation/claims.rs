@@ -54,7 +54,7 @@ fn scenes_load_and_oracles_belong_to_them() {
 }
 
 /// Who stands in the matrix, and who objects: `forward` needs a lens that it can hit, `naive` lamps
-/// that it can. Mutants: objections that are not asked for, rows in a quick run.
+/// that it can. Mutants: objections that are not asked for, rows in the default run.
 #[test]
 fn the_matrix_asks_all_who_do_not_object() {
     let claims = claims();
@@ -70,15 +70,15 @@ fn the_matrix_asks_all_who_do_not_object() {
         rows.filter_map(|t| t.estimator.integrator.clone())
             .collect()
     };
-    let rectangle = names("irradiance-rectangle", Tier::Default);
+    let rectangle = names("irradiance-rectangle", Tier::Thorough);
     for name in ["naive", "bdpt", "ptracer"] {
         assert!(rectangle.iter().any(|n| n == name), "{name}");
     }
     // The claim's own estimator is no second row.
     assert!(!rectangle.iter().any(|n| n == "forward" || n == "path"));
-    let point = names("irradiance-point", Tier::Default);
+    let point = names("irradiance-point", Tier::Thorough);
     assert!(point.iter().any(|n| n == "bdpt") && !point.iter().any(|n| n == "naive"));
-    assert_eq!(names("irradiance-rectangle", Tier::Quick), [""; 0]);
+    assert_eq!(names("irradiance-rectangle", Tier::Default), [""; 0]);
     // Who does not take part is told, and why: nothing vanishes.
     for (claim, integrator, why) in [
         ("irradiance-point", "naive", "running into them"),
@@ -106,7 +106,42 @@ fn the_matrix_asks_all_who_do_not_object() {
     }
     // What a claim leaves to the full run.
     let has = |tier| names("prism", tier).iter().any(|n| n == "mmlt");
-    assert!(has(Tier::Full) && !has(Tier::Default));
+    assert!(has(Tier::Full) && !has(Tier::Thorough));
+}
+
+/// The most samples that the first looks of a default run may take, over all pixels: two cores take them in
+/// somewhat more than two minutes.
+const DEFAULT_SAMPLES: f64 = 3.0e8;
+
+#[test]
+fn the_default_run_decides_every_claim_within_its_budget() {
+    // Mutant rejected: a claim that it forgets (but for those of the full run alone); a budget that nobody adds up.
+    let claims = claims();
+    let options = run::Options {
+        only: None,
+        tier: Tier::Default,
+        seed: 1,
+        part: None,
+    };
+    let tasks = run::tasks(&claims, &options);
+    let made: BTreeSet<&str> = tasks.iter().map(|t| t.claim.name.as_str()).collect();
+    let left_out = claims.iter().filter(|c| !made.contains(c.name.as_str()));
+    assert!(left_out.clone().all(|c| c.full_only));
+    assert!(left_out.count() < 8, "few claims wait for the full run");
+    let samples: f64 = tasks.iter().map(|task| task.samples(options.tier)).sum();
+    assert!(
+        samples < DEFAULT_SAMPLES,
+        "{samples:.2e} samples are declared"
+    );
+    let more = Tier::Thorough;
+    let options = run::Options {
+        tier: more,
+        ..options
+    };
+    let thorough: f64 = (run::tasks(&claims, &options).iter())
+        .map(|t| t.samples(more))
+        .sum();
+    assert!(thorough > 2.0 * samples, "{thorough:.2e}");
 }
 
 #[test]
@@ -126,13 +161,13 @@ fn what_edges_excuse_is_what_was_agreed() {
                 "{}",
                 claim.name
             );
-            for budget in [estimator.quick, estimator.default] {
+            for budget in [estimator.least_budget(), estimator.thorough] {
                 let points = budget.spp / budget.replicates;
                 assert!([1, 36].contains(&points), "{}: {points}", claim.name);
             }
         }
         let mutants = claim.estimators.iter().any(|e| !e.mutants.is_empty());
-        assert!(mutants && claim.quick, "{}", claim.name);
+        assert!(mutants && !claim.full_only, "{}", claim.name);
     }
     assert_eq!(
         found,
@@ -203,9 +238,9 @@ fn a_wrong_claim_says_what_is_wrong() {
     std::fs::create_dir_all(&folder).expect("a temporary folder");
     let path = folder.join("wrong.toml");
     let good = "title = \"t\"\nscene = \"s.xml\"\noracle = { kind = \"reference\", spp = 4 }\n\
-                [[estimators]]\nquick = { spp = 4, replicates = 2 }\ndefault = { spp = 4, replicates = 2 }\n";
+                [[estimators]]\ndefault = { spp = 4, replicates = 2 }\nthorough = { spp = 4, replicates = 2 }\n";
     let matrix =
-        |more: &str| format!("{good}[matrix]\ndefault = {{ spp = 4, replicates = 2 }}\n{more}\n");
+        |more: &str| format!("{good}[matrix]\nthorough = {{ spp = 4, replicates = 2 }}\n{more}\n");
     let cases = [
         (good.replace("title", "tilte"), "tilte"),
         (good.replace("\"reference\"", "\"hearsay\""), "hearsay"),
@@ -222,11 +257,23 @@ fn a_wrong_claim_says_what_is_wrong() {
         ),
         (good.replace("[[estimators]]", "[estimator]"), "estimator"),
         (
-            good.replace("quick =", "exponent = [-1.0, -2.0]\nquick ="),
+            good.replace(
+                "[[estimators]]\ndefault = { spp = 4, replicates = 2",
+                "[[estimators]]\ndefault = { spp = 4, replicates = 2, bound = 0.001",
+            ),
+            "wider than the claim's own",
+        ),
+        // Mutant rejected: a claim that the default run leaves out without a word.
+        (
+            good.replace("default = { spp = 4, replicates = 2 }\n", ""),
+            "`full_only`",
+        ),
+        (
+            good.replace("thorough =", "exponent = [-1.0, -2.0]\nthorough ="),
             "exponent",
         ),
         (
-            good.replace("quick =", "change = \"threads\"\nquick ="),
+            good.replace("thorough =", "change = \"threads\"\nthorough ="),
             "change",
         ),
         (
@@ -312,14 +359,14 @@ fn bounds_are_stated_where_they_are_asked_for() {
 }
 
 #[test]
-fn a_matrix_states_the_bound_of_its_rows_in_the_default_run_and_no_other() {
+fn a_matrix_states_the_bound_of_its_rows_in_the_thorough_run_and_no_other() {
     let name = "material-plastic";
     let claim = said_of(name, |text| text).expect("it is right");
     let places = |later| {
         let places = claim.estimators.iter().filter_map(|e| e.in_matrix);
         places.filter(move |place| place.later == later)
     };
-    // Mutant rejected: the default run's bound for rows that it does not make.
+    // Mutant rejected: the thorough run's bound for rows that it does not make.
     assert!(places(true).count() > 0 && places(true).all(|place| place.bound == FULL_BOUND));
     assert!(places(false).count() > 0);
     let bound = claim.matrix.as_ref().and_then(|matrix| matrix.bound);
@@ -344,22 +391,18 @@ fn a_matrix_states_the_bound_of_its_rows_in_the_default_run_and_no_other() {
 }
 
 #[test]
-fn the_list_says_whether_the_quick_run_decides_a_claim() {
-    // Mutant rejected: what the claim says of the quick run alone, though only the full run makes it.
+fn the_list_says_whether_the_default_run_decides_a_claim() {
+    // Mutant rejected: a claim that only the full run makes is said to be decided by default.
     let mut claims = claims();
     claims.truncate(1);
-    for (quick, full_only, decides) in [
-        (true, false, true),
-        (false, false, false),
-        (true, true, false),
-        (false, true, false),
-    ] {
-        (claims[0].quick, claims[0].full_only) = (quick, full_only);
+    for full_only in [false, true] {
+        let decides = !full_only;
+        claims[0].full_only = full_only;
         let list = etalon_validation::json::list(&claims);
-        assert_eq!(list["claims"][0]["quick"], decides, "{quick} {full_only}");
+        assert_eq!(list["claims"][0]["default"], decides);
         let options = run::Options {
             only: None,
-            tier: Tier::Quick,
+            tier: Tier::Default,
             seed: 1,
             part: None,
         };

@@ -3,9 +3,7 @@
 // Reference values keep the digits they were computed to.
 #![allow(clippy::excessive_precision)]
 
-mod checks;
-
-use checks::{Random, near};
+use crate::checks::{Random, near};
 use etalon_statistics::bootstrap::{self, Plan};
 use etalon_statistics::ratio::{self, Known};
 use etalon_statistics::sign_flip::{self, Side};

@@ -4,10 +4,8 @@
 //! is one over the Jacobian, by central differences. Together they say that uniform numbers
 //! become points with the stated density.
 
-mod evidence;
-
+use crate::evidence::Map;
 use etalon_sampling::warps::*;
-use evidence::Map;
 use glam::{Vec2, Vec3};
 
 /// The concentric map's derivative jumps at the square's diagonals and is undefined at its centre.

@@ -203,7 +203,7 @@ fn a_reference_is_read_before_anything_is_rendered() {
     let claims = [claim];
     let options = Options {
         only: None,
-        tier: Tier::Quick,
+        tier: Tier::Default,
         seed: 1,
         part: None,
     };
@@ -293,7 +293,7 @@ fn a_claim_without_its_reference_breaks_the_run() {
     }
     let options = Options {
         only: None,
-        tier: Tier::Quick,
+        tier: Tier::Default,
         seed: 1,
         part: None,
     };

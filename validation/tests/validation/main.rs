@@ -1,0 +1,13 @@
+//! Claims, their references, the decision, its calibration and what is kept of a run.
+//!
+//! One binary, as each takes its time to link; one concern per file.
+
+mod calibrate;
+mod claims;
+mod decision;
+mod doubt;
+mod pairs;
+mod povray;
+mod references;
+mod state;
+mod tails;
