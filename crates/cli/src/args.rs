@@ -269,7 +269,7 @@ pub struct EstimatorsArgs {
 /// Arguments of `convert`.
 #[derive(Debug, Args, Clone)]
 pub struct ConvertArgs {
-    /// The image to read (.exr, .hdr, .pfm).
+    /// The image to read (EXR, HDR, PFM, PNG, JPEG, BMP, TGA, PNM).
     pub input: PathBuf,
     /// The picture to write (.png, .hdr, .pfm).
     pub output: PathBuf,
