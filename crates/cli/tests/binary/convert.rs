@@ -215,6 +215,14 @@ fn other_formats_are_read_and_written_through_links() {
         workshop.run(&["convert", "a.ppm", "b.pfm"]).fine();
         assert_eq!(workshop.read("disk/b.pfm"), workshop.read("a.pfm"));
         assert!(std::fs::read_link(&link).is_ok());
+        // Before anything is rendered, what the link leads to must be a place for a file.
+        std::os::unix::fs::symlink("gone/c.exr", workshop.path("c.exr")).expect("linked");
+        let scene = crate::workshop::cornell_box();
+        let said = workshop
+            .run(&["render", &scene, "-o", "c.exr"])
+            .refused()
+            .stderr;
+        assert!(said.contains("no such folder"), "{said}");
     }
 }
 
