@@ -103,7 +103,7 @@ fn of_colour(image: &Image, colour: &Colour<'_>) -> Image {
     picture
 }
 
-/// The image made of the channels that begin with `prefix`.
+/// The image made of the channels that begin with `prefix`, or of the one that is called so.
 fn chosen(image: &Image, prefix: &str) -> Result<Image, String> {
     if let Some(colour) = image.colour_of_layer(prefix) {
         let opaque = Colour {
@@ -112,12 +112,14 @@ fn chosen(image: &Image, prefix: &str) -> Result<Image, String> {
         };
         return Ok(of_colour(image, &opaque));
     }
-    let sets: [&[&str]; 4] = [&["X", "Y", "Z"], &["U", "V"], &["T"], &["I"]];
+    let sets: [&[&str]; 5] = [&[""], &["X", "Y", "Z"], &["U", "V"], &["T"], &["I"]];
     for names in sets {
-        let found: Vec<&[f32]> = names
-            .iter()
-            .filter_map(|name| image.channel(&format!("{prefix}.{name}")))
-            .collect();
+        let whole = |name: &&str| match *name {
+            "" => prefix.to_owned(),
+            letter => format!("{prefix}.{letter}"),
+        };
+        let channels = names.iter().map(whole);
+        let found: Vec<&[f32]> = channels.filter_map(|name| image.channel(&name)).collect();
         if found.len() == names.len() {
             let mut chosen = Image::new(image.width(), image.height());
             for (position, name) in ["R", "G", "B"].into_iter().enumerate() {
@@ -133,7 +135,7 @@ fn chosen(image: &Image, prefix: &str) -> Result<Image, String> {
     }
     let names: Vec<&str> = image.channels().iter().map(|c| c.name.as_str()).collect();
     Err(format!(
-        "there are no channels `{prefix}.R`, … in the image; it has {}",
+        "there are no channels `{prefix}.R`, … in the image, nor one called `{prefix}`; it has {}",
         names.join(", ")
     ))
 }

@@ -157,6 +157,10 @@ fn the_input_is_blamed_for_what_it_lacks() {
         );
         assert!(!said.contains(output), "{said}");
     }
+    // What the message names can be shown.
+    let arguments = ["convert", "in.exr", "out.pfm", "--channels", "Z"];
+    workshop.run(&arguments).fine();
+    assert_eq!(colour_of(&workshop, "out.pfm"), [1.0; 3]);
 }
 
 #[test]

@@ -158,6 +158,9 @@ pub(super) fn failure(path: &Path, error: ::exr::error::Error) -> Error {
                  cannot be read; write R, G and B, or every channel at full size",
             )
         }
+        Cause::NotSupported(reason) if reason.contains("compression method") => {
+            Error::unsupported(path, format!("EXR: {reason}; write it with ZIP or PIZ"))
+        }
         Cause::NotSupported(reason) => Error::unsupported(path, format!("EXR: {reason}")),
         Cause::Invalid(reason) => Error::invalid(path, format!("EXR: {reason}")),
         Cause::Aborted => Error::invalid(path, "EXR: reading was aborted"),
