@@ -269,7 +269,7 @@ pub struct EstimatorsArgs {
 /// Arguments of `convert`.
 #[derive(Debug, Args, Clone)]
 pub struct ConvertArgs {
-    /// The image to read (.exr, .hdr, .pfm).
+    /// The image to read (EXR, HDR, PFM, PNG, JPEG, BMP, TGA, PNM).
     pub input: PathBuf,
     /// The picture to write (.png, .hdr, .pfm).
     pub output: PathBuf,
@@ -281,7 +281,8 @@ pub struct ConvertArgs {
         allow_negative_numbers = true
     )]
     pub exposure: f32,
-    /// Show the channels PREFIX.R, PREFIX.G, PREFIX.B (or X, Y, Z) instead of R, G, B.
+    /// Show the channels PREFIX.R, PREFIX.G, PREFIX.B (or X, Y, Z), or the one channel PREFIX,
+    /// instead of R, G, B.
     #[arg(long, value_name = "PREFIX")]
     pub channels: Option<String>,
 }

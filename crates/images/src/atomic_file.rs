@@ -9,8 +9,9 @@ use std::path::{Path, PathBuf};
 /// The new file lies beside `path` under a temporary name until it is complete and on the disk;
 /// renaming it is one step for every reader. If `write` fails, or the process is killed, `path`
 /// is what it was (a killed process may leave the temporary file, `.NAME.PID-N.part`). A
-/// symbolic link stays one: the file it points to is replaced. Something that is not a regular
-/// file, such as a device or a pipe, cannot be replaced and is written directly.
+/// symbolic link stays one: the file it points to is replaced, or made if it does not exist yet.
+/// Something that is not a regular file, such as a device or a pipe, cannot be replaced and is
+/// written directly.
 ///
 /// # Errors
 /// Whatever `write` or the operating system report.
@@ -18,7 +19,7 @@ pub fn write_atomically<T>(
     path: &Path,
     write: impl FnOnce(&mut BufWriter<File>) -> io::Result<T>,
 ) -> io::Result<T> {
-    let path = &fs::canonicalize(path).unwrap_or_else(|_| path.to_owned());
+    let path = &target(path)?;
     if fs::metadata(path).is_ok_and(|found| !found.is_file() && !found.is_dir()) {
         let mut device = BufWriter::new(OpenOptions::new().write(true).open(path)?);
         let value = write(&mut device)?;
@@ -43,6 +44,33 @@ pub fn write_atomically<T>(
         let _ = fs::remove_file(&temporary);
     }
     written
+}
+
+/// Where symbolic links lead from `path`; what stands there need not exist.
+///
+/// # Errors
+/// If there are more than 40 links, as in a circle.
+pub fn target(path: &Path) -> io::Result<PathBuf> {
+    if let Ok(real) = fs::canonicalize(path) {
+        return Ok(real);
+    }
+    let mut path = path.to_owned();
+    // A link to a pipe, such as /dev/stdout, leads to something without a path.
+    if path.exists() {
+        return Ok(path);
+    }
+    // As many as Linux follows.
+    for _ in 0..40 {
+        match fs::read_link(&path) {
+            // A relative link counts from its own folder.
+            Ok(link) => path = path.parent().unwrap_or(Path::new("")).join(link),
+            Err(_) => return Ok(path),
+        }
+    }
+    Err(io::Error::new(
+        ErrorKind::InvalidInput,
+        "too many levels of symbolic links",
+    ))
 }
 
 /// A new file in the folder of `path` that nobody else has open.
@@ -79,4 +107,50 @@ fn create_beside(path: &Path) -> io::Result<(PathBuf, File)> {
         ErrorKind::AlreadyExists,
         "no free temporary name beside the file",
     ))
+}
+
+#[cfg(all(test, unix))]
+mod tests {
+    use super::*;
+    use std::os::unix::fs::symlink;
+
+    /// The link stays, also where its target is not there yet, through a second link, and where
+    /// the target is named from the link's folder.
+    #[test]
+    fn links_are_written_through() {
+        let folder = tempfile::tempdir().expect("a folder");
+        let disk = folder.path().join("disk");
+        fs::create_dir(&disk).expect("a folder");
+        fs::write(disk.join("old"), "old").expect("written");
+        let links = [
+            ("absolute", disk.join("old")),
+            ("relative", PathBuf::from("disk/old")),
+            ("dangling", PathBuf::from("disk/new")),
+            ("second", PathBuf::from("dangling")),
+        ];
+        for (name, to) in &links {
+            symlink(to, folder.path().join(name)).expect("linked");
+        }
+        for (name, to) in &links {
+            let link = folder.path().join(name);
+            write_atomically(&link, |file| file.write_all(name.as_bytes())).expect("written");
+            assert_eq!(&fs::read_link(&link).expect("still a link"), to);
+            assert_eq!(fs::read_to_string(&link).expect("reads"), *name);
+        }
+        let read = |name| fs::read_to_string(disk.join(name)).expect("reads");
+        assert_eq!(
+            (read("old"), read("new")),
+            ("relative".into(), "second".into())
+        );
+        // No temporary file is left in either folder.
+        assert_eq!(fs::read_dir(&disk).expect("lists").count(), 2);
+        assert_eq!(fs::read_dir(folder.path()).expect("lists").count(), 5);
+
+        let nowhere = folder.path().join("nowhere");
+        symlink("missing/file", &nowhere).expect("linked");
+        write_atomically(&nowhere, |_| Ok(())).expect_err("no such folder");
+        symlink("loop", folder.path().join("loop")).expect("linked");
+        write_atomically(&folder.path().join("loop"), |_| Ok(())).expect_err("a circle");
+        assert!(fs::read_link(&nowhere).is_ok());
+    }
 }

@@ -17,10 +17,9 @@ use std::path::Path;
 /// [`Error::Unsupported`] for an image without colour, [`Error::Write`] where the operating
 /// system refuses.
 pub fn write(path: &Path, image: &Image) -> Result<Losses, Error> {
-    let colour = image
-        .colour()
-        .ok_or_else(|| Error::unsupported(path, "the image has no channels R, G, B or Y"))?;
-    write_atomically(path, |file| encode(file, image, colour))
+    let colour = image.needed_colour(path)?;
+    let planes = colour.planes.each_ref().map(|plane| &**plane);
+    write_atomically(path, |file| encode(file, image, planes))
         .map_err(|source| Error::write(path, source))
 }
 

@@ -1,4 +1,5 @@
-//! Pixel buffers; reading and writing EXR, PNG, JPEG, BMP and HDR, bounded against hostile files.
+//! Pixel buffers; reading EXR, PNG, JPEG, BMP, TGA, PNM, HDR and PFM, bounded against hostile files,
+//! and writing some of them.
 //!
 //! Renderings are [`Image`]s: named planes of 32-bit floats, read and written by [`exr`].
 //! Pictures for textures and screens are [`Raster`]s: interleaved pixels with the sample type
@@ -7,18 +8,27 @@
 //! sees half a file.
 
 pub mod atomic_file;
+pub mod chromaticities;
+pub mod colour;
 pub mod error;
 pub mod exr;
+mod foreign;
+pub mod format;
 pub mod hdr;
+mod layer_kind;
 pub mod losses;
 pub mod pfm;
 pub mod plane;
 pub mod png;
+mod png_encoding;
 pub mod raster;
 pub mod srgb;
 
 pub use atomic_file::write_atomically;
+pub use chromaticities::Chromaticities;
+pub use colour::Colour;
 pub use error::Error;
+pub use format::Format;
 pub use losses::Losses;
 pub use plane::{Channel, Frame, Image};
-pub use raster::{Format, Raster, RasterHeader, Samples};
+pub use raster::{Raster, RasterHeader, Samples};

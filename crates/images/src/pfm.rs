@@ -2,8 +2,8 @@
 //! sign gives the byte order (negative: little-endian), then rows of 32-bit floats from the
 //! *bottom*.
 
-use crate::raster::{Format, Raster};
-use crate::{Error, Image, write_atomically};
+use crate::raster::{Raster, Samples};
+use crate::{Error, Format, Image, write_atomically};
 use std::io::{self, Write};
 use std::path::Path;
 
@@ -95,11 +95,10 @@ pub fn decode(bytes: &[u8], path: &Path) -> Result<Raster, Error> {
         .rev()
         .flat_map(|row| row.chunks_exact(4).map(sample))
         .collect();
-    Ok(Raster::from_floats(
-        header.width,
-        header.height,
+    Ok(Raster::new(
+        [header.width, header.height],
         header.channels,
-        samples,
+        Samples::F32(samples),
         Format::Pfm,
     ))
 }
@@ -110,10 +109,9 @@ pub fn decode(bytes: &[u8], path: &Path) -> Result<Raster, Error> {
 /// [`Error::Unsupported`] for an image without colour, [`Error::Write`] where the operating
 /// system refuses.
 pub fn write(path: &Path, image: &Image) -> Result<(), Error> {
-    let colour = image
-        .colour()
-        .ok_or_else(|| Error::unsupported(path, "the image has no channels R, G, B or Y"))?;
-    write_atomically(path, |file| encode(file, image, colour))
+    let colour = image.needed_colour(path)?;
+    let planes = colour.planes.each_ref().map(|plane| &**plane);
+    write_atomically(path, |file| encode(file, image, planes))
         .map_err(|source| Error::write(path, source))
 }
 

@@ -1,5 +1,7 @@
 //! Images as named planes of floats, and where they lie in the whole picture.
 
+use crate::Chromaticities;
+
 /// One plane: a name and one sample per pixel, row after row from the top.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Channel {
@@ -15,6 +17,8 @@ pub struct Image {
     width: usize,
     height: usize,
     channels: Vec<Channel>,
+    part: String,
+    chromaticities: Option<Chromaticities>,
 }
 
 impl Image {
@@ -25,7 +29,36 @@ impl Image {
             width,
             height,
             channels: Vec::new(),
+            part: String::new(),
+            chromaticities: None,
         }
+    }
+
+    /// The image as that part of a file that has this name; it is the layer of the channels
+    /// without one.
+    #[must_use]
+    pub fn of_part(mut self, name: impl Into<String>) -> Self {
+        self.part = name.into();
+        self
+    }
+
+    /// The name of the part of a file that this is; empty if it has none.
+    #[must_use]
+    pub fn part(&self) -> &str {
+        &self.part
+    }
+
+    /// The image with other primaries than those of Rec. 709.
+    #[must_use]
+    pub fn with_chromaticities(mut self, chromaticities: Option<Chromaticities>) -> Self {
+        self.chromaticities = chromaticities;
+        self
+    }
+
+    /// The primaries of all R, G and B, if the file says them; else they are those of Rec. 709.
+    #[must_use]
+    pub fn chromaticities(&self) -> Option<Chromaticities> {
+        self.chromaticities
     }
 
     /// Adds a channel.
@@ -94,44 +127,6 @@ impl Image {
             .iter_mut()
             .find(|channel| channel.name == name)
             .map(|channel| channel.samples.as_mut_slice())
-    }
-
-    /// The channels that hold the picture's colour: `R`, `G`, `B` (or one `Y` three times), by
-    /// themselves or, failing that, in the first layer that has them (`default.R`, …).
-    #[must_use]
-    pub fn colour(&self) -> Option<[&[f32]; 3]> {
-        self.colour_of_layer("")
-            .or_else(|| self.colour_of_layer(self.colour_layer()?))
-    }
-
-    /// The opacity that belongs to [`Image::colour`], if there is any.
-    #[must_use]
-    pub fn alpha(&self) -> Option<&[f32]> {
-        if self.colour_of_layer("").is_some() {
-            self.channel("A")
-        } else {
-            self.channel(&format!("{}A", self.colour_layer()?))
-        }
-    }
-
-    /// The prefix, dot included, of the first layer with colour.
-    fn colour_layer(&self) -> Option<&str> {
-        self.channels
-            .iter()
-            .filter_map(|channel| {
-                let dot = channel.name.rfind('.')?;
-                Some(&channel.name[..=dot])
-            })
-            .find(|layer| self.colour_of_layer(layer).is_some())
-    }
-
-    fn colour_of_layer(&self, layer: &str) -> Option<[&[f32]; 3]> {
-        let channel = |name| self.channel(&format!("{layer}{name}"));
-        match (channel("R"), channel("G"), channel("B"), channel("Y")) {
-            (Some(r), Some(g), Some(b), _) => Some([r, g, b]),
-            (_, _, _, Some(y)) => Some([y, y, y]),
-            _ => None,
-        }
     }
 }
 

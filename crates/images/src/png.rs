@@ -1,7 +1,7 @@
 //! Eight-bit sRGB pictures for people, as PNG.
 
 use crate::losses::Losses;
-use crate::{Error, Image, srgb, write_atomically};
+use crate::{Colour, Error, Image, srgb, write_atomically};
 use image::codecs::png::PngEncoder;
 use image::{ExtendedColorType, ImageEncoder};
 use std::io;
@@ -18,9 +18,9 @@ use std::path::Path;
 /// [`Error::Unsupported`] for an image without colour, [`Error::Write`] where the operating
 /// system refuses.
 pub fn write(path: &Path, image: &Image, exposure: f32) -> Result<Losses, Error> {
-    let (bytes, losses) = develop(image, exposure)
-        .ok_or_else(|| Error::unsupported(path, "the image has no channels R, G, B or Y"))?;
-    let colour = if image.alpha().is_some() {
+    let colour = image.needed_colour(path)?;
+    let (bytes, losses) = develop_colour(&colour, exposure);
+    let colour = if colour.alpha.is_some() {
         ExtendedColorType::Rgba8
     } else {
         ExtendedColorType::Rgb8
@@ -33,24 +33,29 @@ pub fn write(path: &Path, image: &Image, exposure: f32) -> Result<Losses, Error>
 /// image without colour.
 #[must_use]
 pub fn develop(image: &Image, exposure: f32) -> Option<(Vec<u8>, Losses)> {
-    let colour = image.colour()?;
-    let alpha = image.alpha();
-    let gain = etalon_math::float::pow(2.0, exposure);
+    Some(develop_colour(&image.colour()?, exposure))
+}
+
+fn develop_colour(colour: &Colour<'_>, exposure: f32) -> (Vec<u8>, Losses) {
+    let alpha = colour.alpha;
+    let gain = gain(exposure);
     let mut losses = Losses::default();
-    let pixels = image.width() * image.height();
+    let pixels = colour.planes[0].len();
     let mut bytes = Vec::with_capacity(pixels * if alpha.is_some() { 4 } else { 3 });
     for pixel in 0..pixels {
         let opacity = alpha.map(|alpha| alpha[pixel]);
         let scale = match opacity {
-            Some(a) if a > 0.0 && a < 1.0 => gain / a,
+            Some(a) if a > 0.0 && a < 1.0 => gain / f64::from(a),
             _ => gain,
         };
-        let rgb = colour.map(|plane| plane[pixel]);
+        let rgb = colour.planes.each_ref().map(|plane| plane[pixel]);
         if rgb.iter().chain(&opacity).all(|x| x.is_finite()) {
             for x in rgb {
+                // In double precision: no finite gain of a finite sample is not a number.
+                let x = (f64::from(x) * scale) as f32;
                 losses.negative += usize::from(x < 0.0);
-                losses.too_bright += usize::from(x * scale > 1.0);
-                bytes.push(srgb::encode_u8(x * scale));
+                losses.too_bright += usize::from(x > 1.0);
+                bytes.push(srgb::encode_u8(x));
             }
         } else {
             losses.not_finite += 1;
@@ -64,7 +69,14 @@ pub fn develop(image: &Image, exposure: f32) -> Option<(Vec<u8>, Losses)> {
             });
         }
     }
-    Some((bytes, losses))
+    (bytes, losses)
+}
+
+/// The factor of so many stops: 2^`exposure`, held to what leaves 0 of every 32-bit float but 0
+/// and ∞, or ∞. It is finite, so that black stays black.
+#[must_use]
+pub fn gain(exposure: f32) -> f64 {
+    etalon_math::float64::pow(2.0, f64::from(exposure).clamp(-1000.0, 1000.0))
 }
 
 /// Encodes RGB bytes, three per pixel, as a PNG file in memory, for reports.

@@ -1,64 +1,9 @@
 //! Pictures with the samples they were stored with: what textures are made of.
 //!
-//! PNG, JPEG, BMP, Radiance HDR, PFM and EXR are told apart by their first bytes, never by the
-//! file's name.
+//! The formats are told apart by the files' content, never by their names.
 
-use crate::{Error, exr, pfm, srgb};
-use image::codecs::{bmp::BmpDecoder, hdr::HdrDecoder, jpeg::JpegDecoder, png::PngDecoder};
-use image::{ColorType, DynamicImage, ImageDecoder, Limits};
-use std::io::Cursor;
+use crate::{Error, Format, Image, exr, foreign, pfm, srgb};
 use std::path::Path;
-
-/// The kind of file.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub enum Format {
-    /// Portable Network Graphics.
-    Png,
-    /// JPEG.
-    Jpeg,
-    /// Windows bitmap.
-    Bmp,
-    /// Radiance RGBE.
-    Hdr,
-    /// Portable float map.
-    Pfm,
-    /// OpenEXR.
-    Exr,
-}
-
-impl Format {
-    /// The format of a file that begins with these bytes.
-    #[must_use]
-    pub fn of(bytes: &[u8]) -> Option<Self> {
-        const BEGINNINGS: [(&[u8], Format); 8] = [
-            (b"\x89PNG\r\n\x1a\n", Format::Png),
-            (b"\xff\xd8\xff", Format::Jpeg),
-            (b"BM", Format::Bmp),
-            (b"#?RADIANCE", Format::Hdr),
-            (b"#?RGBE", Format::Hdr),
-            (b"PF", Format::Pfm),
-            (b"Pf", Format::Pfm),
-            (b"\x76\x2f\x31\x01", Format::Exr),
-        ];
-        BEGINNINGS
-            .iter()
-            .find(|(beginning, _)| bytes.starts_with(beginning))
-            .map(|&(_, format)| format)
-    }
-}
-
-impl std::fmt::Display for Format {
-    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        f.write_str(match self {
-            Self::Png => "PNG",
-            Self::Jpeg => "JPEG",
-            Self::Bmp => "BMP",
-            Self::Hdr => "Radiance HDR",
-            Self::Pfm => "PFM",
-            Self::Exr => "OpenEXR",
-        })
-    }
-}
 
 /// Samples, pixel after pixel, row after row from the top.
 #[derive(Clone, Debug, PartialEq)]
@@ -79,6 +24,8 @@ pub struct Raster {
     channels: usize,
     samples: Samples,
     format: Format,
+    notes: Vec<String>,
+    encoding: Option<String>,
 }
 
 /// What a file says of itself.
@@ -97,20 +44,35 @@ pub struct RasterHeader {
 }
 
 impl Raster {
-    pub(crate) fn from_floats(
-        width: usize,
-        height: usize,
+    pub(crate) fn new(
+        [width, height]: [usize; 2],
         channels: usize,
-        samples: Vec<f32>,
+        samples: Samples,
         format: Format,
     ) -> Self {
         Self {
             width,
             height,
             channels,
-            samples: Samples::F32(samples),
+            samples,
             format,
+            notes: Vec::new(),
+            encoding: None,
         }
+    }
+
+    /// With notes for [`Raster::notes`], and one on the encoding.
+    pub(crate) fn noting(mut self, notes: Vec<String>, encoding: Option<String>) -> Self {
+        self.notes = notes;
+        self.encoding = encoding;
+        self
+    }
+
+    /// What whoever gave the file should know, each a sentence about "it". What concerns the
+    /// encoding of integers is left out if these are used as they are (`raw`).
+    pub fn notes(&self, raw: bool) -> impl Iterator<Item = &str> {
+        let encoding = self.encoding.as_deref().filter(|_| !raw);
+        self.notes.iter().map(String::as_str).chain(encoding)
     }
 
     /// Pixels in a row.
@@ -192,6 +154,33 @@ impl Raster {
     }
 }
 
+impl Raster {
+    /// The picture as planes of linear floats, by the usual names. Alpha of integer formats is
+    /// not multiplied into their colour, that of images is: so it is here.
+    #[must_use]
+    pub fn to_image(&self) -> Image {
+        let names: &[&str] = match self.channels {
+            1 => &["Y"],
+            2 => &["Y", "A"],
+            3 => &["R", "G", "B"],
+            _ => &["R", "G", "B", "A"],
+        };
+        let mut values = self.to_linear();
+        if self.has_alpha() && self.is_encoded() {
+            for pixel in values.chunks_exact_mut(self.channels) {
+                let (alpha, colour) = pixel.split_last_mut().expect("two samples at least");
+                colour.iter_mut().for_each(|x| *x *= *alpha);
+            }
+        }
+        let mut image = Image::new(self.width, self.height);
+        for (index, name) in names.iter().enumerate() {
+            let plane = values.iter().skip(index).step_by(names.len()).copied();
+            image.push(*name, plane.collect());
+        }
+        image
+    }
+}
+
 /// Reads a file of any format.
 ///
 /// # Errors
@@ -211,7 +200,7 @@ pub fn decode(bytes: &[u8], path: &Path) -> Result<Raster, Error> {
     match format(bytes, path)? {
         Format::Exr => from_exr(bytes, path),
         Format::Pfm => pfm::decode(bytes, path),
-        foreign => from_foreign(bytes, foreign, path),
+        other => foreign::decode(bytes, other, path),
     }
 }
 
@@ -237,14 +226,7 @@ pub fn decode_header(bytes: &[u8], path: &Path) -> Result<RasterHeader, Error> {
             let header = pfm::decode_header(bytes, path)?;
             (header.width, header.height, header.channels, 32)
         }
-        foreign => {
-            let decoder = decoder(bytes, foreign).map_err(|error| failure(path, error))?;
-            let (width, height) = decoder.dimensions();
-            let colour = decoder.color_type();
-            let channels = usize::from(colour.channel_count());
-            let bits = u32::from(colour.bits_per_pixel() / u16::from(colour.channel_count()));
-            (width as usize, height as usize, channels, bits)
-        }
+        other => return foreign::decode_header(bytes, other, path),
     };
     Ok(RasterHeader {
         format,
@@ -256,117 +238,30 @@ pub fn decode_header(bytes: &[u8], path: &Path) -> Result<RasterHeader, Error> {
 }
 
 fn format(bytes: &[u8], path: &Path) -> Result<Format, Error> {
-    Format::of(bytes).ok_or_else(|| {
-        Error::unsupported(
-            path,
-            "it is none of PNG, JPEG, BMP, Radiance HDR, PFM and OpenEXR",
-        )
-    })
+    Format::of(bytes)
+        .ok_or_else(|| Error::unsupported(path, format!("it is none of {}", Format::NAMES)))
 }
 
 fn from_exr(bytes: &[u8], path: &Path) -> Result<Raster, Error> {
-    let (image, _) = exr::decode(bytes, path)?.flatten();
-    let grey = image.channel("Y").is_some() && image.channel("R").is_none();
-    let planes: Vec<&[f32]> = match (image.colour(), image.channels()) {
-        (Some([grey_plane, ..]), _) if grey => vec![grey_plane],
-        (Some(colour), _) => colour.to_vec(),
-        (None, [only]) => vec![&only.samples],
-        (None, channels) => {
-            let names: Vec<_> = channels.iter().map(|c| c.name.as_str()).collect();
-            return Err(Error::unsupported(
-                path,
-                format!(
-                    "it has the channels {}; R, G and B, or Y, or a single one are expected",
-                    names.join(", ")
-                ),
-            ));
+    let document = exr::decode(bytes, path)?;
+    let ours = !document.text.is_empty();
+    let (image, _) = document.flatten();
+    let size = [image.width(), image.height()];
+    let raster = |planes: &[&[f32]], notes| {
+        let mut samples = Vec::with_capacity(size[0] * size[1] * planes.len());
+        for pixel in 0..size[0] * size[1] {
+            samples.extend(planes.iter().map(|plane| plane[pixel]));
         }
+        Raster::new(size, planes.len(), Samples::F32(samples), Format::Exr).noting(notes, None)
     };
-    let planes: Vec<&[f32]> = planes.into_iter().chain(image.alpha()).collect();
-    let pixels = image.width() * image.height();
-    let mut samples = Vec::with_capacity(pixels * planes.len());
-    for pixel in 0..pixels {
-        samples.extend(planes.iter().map(|plane| plane[pixel]));
+    if let (None, [only]) = (image.colour(), image.channels()) {
+        return Ok(raster(&[&only.samples], Vec::new()));
     }
-    Ok(Raster::from_floats(
-        image.width(),
-        image.height(),
-        planes.len(),
-        samples,
-        Format::Exr,
-    ))
-}
-
-/// A decoder that refuses images too large for the file.
-fn decoder(bytes: &[u8], format: Format) -> image::ImageResult<Box<dyn ImageDecoder + '_>> {
-    let mut limits = Limits::default();
-    limits.max_alloc = Some((1 << 28).max(1100 * bytes.len() as u64));
-    let bytes = Cursor::new(bytes);
-    let mut decoder: Box<dyn ImageDecoder> = match format {
-        Format::Png => Box::new(PngDecoder::with_limits(bytes, limits.clone())?),
-        Format::Jpeg => Box::new(JpegDecoder::new(bytes)?),
-        Format::Bmp => Box::new(BmpDecoder::new(bytes)?),
-        // Strictly, a file must begin with "#?RADIANCE"; many, Mitsuba's among them, do not.
-        _ => Box::new(HdrDecoder::new_nonstrict(bytes)?),
-    };
-    limits.reserve(decoder.total_bytes())?;
-    decoder.set_limits(limits)?;
-    Ok(decoder)
-}
-
-fn from_foreign(bytes: &[u8], format: Format, path: &Path) -> Result<Raster, Error> {
-    if format == Format::Jpeg && !jpeg_ends(bytes) {
-        return Err(Error::invalid(path, "the JPEG file ends too early"));
-    }
-    let decoded = decoder(bytes, format)
-        .and_then(DynamicImage::from_decoder)
-        .map_err(|error| failure(path, error))?;
-    let (width, height) = (decoded.width() as usize, decoded.height() as usize);
-    let channels = usize::from(decoded.color().channel_count());
-    let samples = match decoded.color() {
-        ColorType::L8 | ColorType::La8 | ColorType::Rgb8 | ColorType::Rgba8 => {
-            Samples::U8(decoded.into_bytes())
-        }
-        ColorType::L16 => Samples::U16(decoded.into_luma16().into_raw()),
-        ColorType::La16 => Samples::U16(decoded.into_luma_alpha16().into_raw()),
-        ColorType::Rgb16 => Samples::U16(decoded.into_rgb16().into_raw()),
-        ColorType::Rgba16 => Samples::U16(decoded.into_rgba16().into_raw()),
-        _ => match decoded {
-            DynamicImage::ImageRgb32F(image) => Samples::F32(image.into_raw()),
-            DynamicImage::ImageRgba32F(image) => Samples::F32(image.into_raw()),
-            other => {
-                return Err(Error::unsupported(
-                    path,
-                    format!("its pixels are {:?}", other.color()),
-                ));
-            }
-        },
-    };
-    Ok(Raster {
-        width,
-        height,
-        channels,
-        samples,
-        format,
-    })
-}
-
-/// Whether a JPEG file has the marker that ends its last scan. Its decoder would fill up what is
-/// missing with grey.
-fn jpeg_ends(bytes: &[u8]) -> bool {
-    let last = |marker: u8| bytes.windows(2).rposition(|pair| pair == [0xff, marker]);
-    last(0xd9) > last(0xda)
-}
-
-fn failure(path: &Path, error: image::ImageError) -> Error {
-    use image::ImageError as Cause;
-    match error {
-        Cause::Limits(limit) => Error::too_large(path, limit.to_string()),
-        Cause::Unsupported(what) => Error::unsupported(path, what.to_string()),
-        Cause::IoError(error) if error.kind() != std::io::ErrorKind::UnexpectedEof => {
-            Error::read(path, error)
-        }
-        Cause::IoError(_) => Error::invalid(path, "it ends too early"),
-        other => Error::invalid(path, other.to_string()),
-    }
+    let colour = image.needed_colour(path)?;
+    let count = if colour.grey { 1 } else { 3 };
+    let planes = colour.planes.iter().take(count).map(|plane| &**plane);
+    let planes: Vec<&[f32]> = planes.chain(colour.alpha).collect();
+    // In our own files the picture has no layer, and what else there is was asked for.
+    let notes = if ours { Vec::new() } else { colour.notes };
+    Ok(raster(&planes, notes))
 }

@@ -116,7 +116,9 @@ fn the_same_content_has_the_same_bytes() {
 fn several_parts_come_back_and_flatten() {
     let part = |name: &str, width, offset| Part {
         name: Some(name.to_owned()),
-        image: Image::new(width, 5).with("R", ramp(width * 5, 1)),
+        image: Image::new(width, 5)
+            .with("R", ramp(width * 5, 1))
+            .of_part(name),
         offset,
     };
     let parts = [
@@ -164,30 +166,6 @@ fn what_cannot_be_written_leaves_the_old_file() {
         Err(Error::Write { .. })
     ));
     assert!(matches!(exr::read(&nowhere), Err(Error::Read { .. })));
-}
-
-#[test]
-fn colour_is_found_by_itself_or_in_a_layer() {
-    let plane = |x: f32| vec![x];
-    let bare = Image::new(1, 1)
-        .with("Y", plane(9.0))
-        .with("R", plane(1.0))
-        .with("G", plane(2.0))
-        .with("B", plane(3.0))
-        .with("A", plane(4.0));
-    assert_eq!(bare.colour(), Some([&[1.0][..], &[2.0], &[3.0]]));
-    assert_eq!(bare.alpha(), Some(&[4.0][..]));
-    let layered = Image::new(1, 1)
-        .with("depth.Z", plane(0.0))
-        .with("a.b.B", plane(3.0))
-        .with("a.b.G", plane(2.0))
-        .with("a.b.R", plane(1.0))
-        .with("a.b.A", plane(5.0));
-    assert_eq!(layered.colour(), Some([&[1.0][..], &[2.0], &[3.0]]));
-    assert_eq!(layered.alpha(), Some(&[5.0][..]));
-    let grey = Image::new(1, 1).with("Y", plane(7.0));
-    assert_eq!(grey.colour(), Some([&[7.0][..]; 3]));
-    assert_eq!(Image::new(1, 1).with("Z", plane(7.0)).colour(), None);
 }
 
 /// A window of 2³⁰ × 2³⁰ pixels in a file of some hundred bytes must be refused before anything

@@ -1,7 +1,8 @@
 //! EXR files as other programs write them: every compression, sample type and block layout.
 
+use ::exr::meta::attribute::Chromaticities;
 use ::exr::prelude::*;
-use etalon_images::{Error, exr as ours};
+use etalon_images::{Error, exr as ours, raster};
 use proptest::prelude::{ProptestConfig, any, prop, proptest};
 use proptest::test_runner::RngSeed;
 use std::io::Cursor;
@@ -153,10 +154,96 @@ fn subsampled_images_are_refused() {
         + 2;
     bytes[at + 8..at + 12].copy_from_slice(&2_i32.to_le_bytes());
     let error = ours::decode(&bytes, Path::new("sub.exr")).expect_err("subsampled");
+    assert!(matches!(error, Error::Unsupported { .. }), "{error}");
+    assert!(error.to_string().contains("subsampled"), "{error}");
+}
+
+/// As of OpenEXR 3.5, which writes 13, ZSTD.
+#[test]
+fn newer_files_are_called_that() {
+    let mut bytes = mixed(Compression::ZIP16, Blocks::ScanLines);
+    let before = b"compression\0compression\0\x01\0\0\0";
+    let at = bytes.windows(before.len()).position(|w| w == before);
+    let at = at.expect("the attribute") + before.len();
+    for (number, word) in [(13, "13 (ZSTD)"), (99, "99")] {
+        bytes[at] = number;
+        for error in [
+            ours::decode(&bytes, Path::new("new.exr")).map(drop),
+            ours::decode_header(&bytes, Path::new("new.exr")).map(drop),
+        ] {
+            let error = error.expect_err("unknown");
+            assert!(matches!(error, Error::Unsupported { .. }), "{error}");
+            assert!(error.to_string().contains(word), "{error}");
+        }
+    }
+    let mut bytes = mixed(Compression::ZIP16, Blocks::ScanLines);
+    bytes[4] = 3;
+    let error = ours::decode(&bytes, Path::new("new.exr")).expect_err("version 3");
+    assert!(matches!(error, Error::Unsupported { .. }), "{error}");
+}
+
+/// Of several parts that with the colour keeps its channels' names, whatever the others' sizes.
+#[test]
+fn the_part_with_the_colour_is_the_picture() {
+    let part = |name: &str, size: (usize, usize), letters: [&str; 3], from: f32| {
+        let plane = |(i, letter): (usize, &str)| {
+            AnyChannel::new(
+                letter,
+                FlatSamples::F32(vec![from + i as f32; size.0 * size.1]),
+            )
+        };
+        let channels: SmallVec<[_; 4]> = letters.into_iter().enumerate().map(plane).collect();
+        let attributes = LayerAttributes::named(name);
+        Layer::new(
+            size,
+            attributes,
+            Encoding::default(),
+            AnyChannels::sort(channels),
+        )
+    };
+    let file = |layers: Vec<Layer<AnyChannels<FlatSamples>>>, primaries: bool| {
+        let window = IntegerBounds::from_dimensions((4, 4));
+        let mut attributes = ImageAttributes::new(window);
+        attributes.chromaticities = primaries.then_some(Chromaticities {
+            red: Vec2(0.713, 0.293),
+            green: Vec2(0.165, 0.830),
+            blue: Vec2(0.128, 0.044),
+            white: Vec2(0.32168, 0.33767),
+        });
+        let mut file = Cursor::new(Vec::new());
+        let image = Image::from_layers(attributes, layers);
+        image
+            .write()
+            .non_parallel()
+            .to_buffered(&mut file)
+            .expect("writes");
+        raster::decode(file.get_ref(), Path::new("parts.exr")).expect("a picture")
+    };
+    let (rgb, xyz) = (["R", "G", "B"], ["X", "Y", "Z"]);
+    let normal = || part("Normal", (3, 3), xyz, 5.0);
+    let picture = file(vec![normal(), part("beauty", (2, 1), rgb, 1.0)], false);
+    assert_eq!((picture.width(), picture.height()), (2, 1));
+    assert_eq!(picture.to_floats(), [1.0, 2.0, 3.0, 1.0, 2.0, 3.0]);
+    assert_eq!(picture.notes(false).count(), 0);
+
+    let ao = part("AO", (1, 1), rgb, 5.0);
+    let picture = file(vec![ao, part("Combined", (1, 1), rgb, 1.0)], true);
+    let right = [0.282_845, 2.112_026, 2.920_842];
+    let found = picture.to_floats();
     assert!(
-        matches!(error, Error::Unsupported { .. } | Error::Invalid { .. }),
-        "{error}"
+        found.iter().zip(right).all(|(a, b)| (a - b).abs() < 1e-3),
+        "{found:?}"
     );
+    let notes: Vec<_> = picture.notes(false).collect();
+    assert!(
+        notes[0].contains("`Combined`") && notes[0].contains("`AO`"),
+        "{notes:?}"
+    );
+
+    // The only part holds vectors: they are what they are.
+    let picture = file(vec![normal()], false);
+    assert_eq!(picture.to_floats()[..3], [5.0, 6.0, 7.0]);
+    assert_eq!(picture.notes(false).count(), 1);
 }
 
 proptest! {

@@ -98,12 +98,35 @@ fn jpeg_comes_back_nearly() {
         .zip(buffer.as_raw())
         .map(|(a, b)| a.abs_diff(*b));
     assert!(error.max().expect("samples") < 30);
+}
+
+/// A JPEG that ends too early is a picture as far as it goes, with a word; without the first of
+/// its pixels it is none.
+#[test]
+fn a_short_jpeg_is_read_as_far_as_it_goes() {
+    let buffer = image::RgbImage::from_fn(64, 64, |_, y| image::Rgb([200, 3 * y as u8, 10]));
+    let bytes = file(buffer, ImageFormat::Jpeg);
+    let whole = decode(&bytes);
+    assert_eq!(whole.notes(false).count(), 0);
+    let mut pictures = 0;
     for length in 0..bytes.len() - 1 {
-        assert!(
-            raster::decode(&bytes[..length], Path::new("short")).is_err(),
-            "{length}"
-        );
+        let Ok(short) = raster::decode(&bytes[..length], Path::new("short")) else {
+            assert_eq!(pictures, 0, "a longer file is worse");
+            continue;
+        };
+        pictures += 1;
+        let notes: Vec<_> = short.notes(false).collect();
+        assert!(notes[0].contains("ends too early"), "{notes:?}");
+        if length == bytes.len() - 60 {
+            // The upper half is there.
+            assert_eq!(
+                short.to_floats()[..64 * 3 * 8],
+                whole.to_floats()[..64 * 3 * 8]
+            );
+            assert_ne!(short.to_floats(), whole.to_floats());
+        }
     }
+    assert!(pictures > 60, "{pictures}");
 }
 
 fn float_image(width: usize, height: usize, scale: f32) -> Image {
@@ -139,9 +162,9 @@ fn hdr_is_rounded_to_its_steps() {
         assert_eq!(picture.format(), Format::Hdr);
         assert!(!picture.is_encoded());
         assert_eq!((picture.width(), picture.height()), (width, height));
-        let colour = image.colour().expect("colour");
+        let colour = image.colour().expect("colour").planes;
         for (pixel, rgb) in picture.to_linear().chunks(3).enumerate() {
-            let truth = colour.map(|plane| plane[pixel]);
+            let truth = colour.each_ref().map(|plane| plane[pixel]);
             let brightest = truth.into_iter().fold(0.0, f32::max);
             for (a, b) in rgb.iter().zip(truth) {
                 // Half a step, of which there are 128 to 256 up to the brightest channel.
@@ -197,8 +220,9 @@ fn pfm_comes_back_bit_by_bit() {
     let image = float_image(5, 3, -2.5);
     pfm::write(&path, &image).expect("writes");
     let picture = raster::read(&path).expect("reads");
-    let colour = image.colour().expect("colour");
-    let expected: Vec<f32> = (0..15).flat_map(|i| colour.map(|plane| plane[i])).collect();
+    let colour = image.colour().expect("colour").planes;
+    let pixel = |i: usize| colour.each_ref().map(|plane| plane[i]);
+    let expected: Vec<f32> = (0..15).flat_map(pixel).collect();
     assert_eq!(picture.samples(), &Samples::F32(expected));
 
     // Big-endian, grey, with a scale; rows from the bottom.
@@ -280,7 +304,7 @@ fn png_for_people() {
 
 #[test]
 fn other_files_are_refused() {
-    for bytes in [&b""[..], b"GIF89a", b"P", b"#?R"] {
+    for bytes in [&b""[..], b"GIF89a", b"P", b"P8 ", b"#?R", &[0; 18]] {
         let error = raster::decode(bytes, Path::new("what.png")).expect_err("not a picture");
         assert!(error.to_string().contains("what.png"), "{error}");
         assert!(matches!(error, Error::Unsupported { .. }));
@@ -302,6 +326,8 @@ fn samples() -> Vec<Vec<u8>> {
     let mut files = vec![
         file(rgb.clone(), ImageFormat::Png),
         file(rgb.clone(), ImageFormat::Bmp),
+        file(rgb.clone(), ImageFormat::Tga),
+        file(rgb.clone(), ImageFormat::Pnm),
         file(rgb, ImageFormat::Jpeg),
     ];
     hdr::write(&path, &image).expect("writes");
@@ -320,7 +346,9 @@ fn truncations_are_errors() {
         for length in 0..bytes.len() {
             // The last bytes of a PNG are a chunk without content.
             let outcome = raster::decode(&bytes[..length], Path::new("short"));
-            let complete = format == Format::Png && length + 12 >= bytes.len();
+            let complete = format == Format::Png && length + 12 >= bytes.len()
+                // Read as far as it goes.
+                || format == Format::Jpeg;
             assert!(
                 complete || outcome.is_err(),
                 "{format}: {length} of {}",

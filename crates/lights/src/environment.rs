@@ -118,6 +118,10 @@ impl EnvironmentMap {
                 return None;
             }
         };
+        for note in &pixels.notes {
+            let message = format!("`{filename}`: {note}");
+            params.diagnostics.push(Diagnostic::note(span, message));
+        }
         if pixels.negative > 0 {
             let message = format!(
                 "{} pixels of `{filename}` have negative components, which count as zero",
@@ -316,6 +320,8 @@ struct Pixels {
     rgb: Vec<[f32; 3]>,
     /// How many had negative components (now zero).
     negative: usize,
+    /// What whoever gave the file should know.
+    notes: Vec<String>,
 }
 
 fn decode(bytes: &[u8], filename: &str) -> Result<Pixels, String> {
@@ -350,5 +356,6 @@ fn decode(bytes: &[u8], filename: &str) -> Result<Pixels, String> {
         size: UVec2::new(width as u32, height as u32),
         rgb,
         negative,
+        notes: raster.notes(false).map(str::to_owned).collect(),
     })
 }

@@ -8,8 +8,9 @@ use std::path::Path;
 impl Pixels {
     /// Decodes an image file, whose format is known by its content. Integer samples are taken to
     /// be encoded as sRGB, unless `raw`; floats are linear. Alpha is dropped (not divided by), as
-    /// Mitsuba does. `name` is for messages, which name the file.
-    pub fn decode(bytes: &[u8], raw: bool, name: &str) -> Result<Self, String> {
+    /// Mitsuba does. `name` is for messages, which name the file. Beside the pixels stands what
+    /// their user should know of the file.
+    pub fn decode(bytes: &[u8], raw: bool, name: &str) -> Result<(Self, Vec<String>), String> {
         let raster = raster::decode(bytes, Path::new(name)).map_err(|error| error.to_string())?;
         let size = UVec2::new(raster.width() as u32, raster.height() as u32);
         let samples = if raw {
@@ -18,6 +19,8 @@ impl Pixels {
             raster.to_linear()
         };
         let channels = raster.channels();
+        let notes = raster.notes(raw);
+        let notes = notes.map(|note| format!("`{name}`: {note}")).collect();
         drop(raster);
         if size.x == 0 || size.y == 0 {
             return Err(format!("`{name}` is an empty image"));
@@ -35,6 +38,6 @@ impl Pixels {
             2 => Values::One(pixels.map(|pixel| pixel[0]).collect()),
             _ => Values::Three(pixels.map(|p| [p[0], p[1], p[2]]).collect()),
         };
-        Ok(Self { size, values })
+        Ok((Self { size, values }, notes))
     }
 }

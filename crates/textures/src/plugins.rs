@@ -212,13 +212,16 @@ impl TextureReader<'_> {
                 return None;
             }
         };
-        let pixels = match Pixels::decode(&bytes, raw, filename) {
-            Ok(pixels) => pixels,
+        let (pixels, notes) = match Pixels::decode(&bytes, raw, filename) {
+            Ok(decoded) => decoded,
             Err(message) => {
                 fail(message, None);
                 return None;
             }
         };
+        for note in notes {
+            self.diagnostics.push(Diagnostic::note(property.span, note));
+        }
         let negative = matches!(&pixels.values, Values::One(v) if v.iter().any(|&x| x < 0.0));
         if negative && role == Role::Emission {
             fail(

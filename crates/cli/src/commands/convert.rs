@@ -2,8 +2,7 @@
 
 use super::{fail, note};
 use crate::args::ConvertArgs;
-use etalon_images::raster::Raster;
-use etalon_images::{Image, Losses, exr, hdr, pfm, png, raster};
+use etalon_images::{Colour, Error, Format, Image, Losses, exr, hdr, pfm, png, raster};
 use std::path::Path;
 use std::process::ExitCode;
 
@@ -22,26 +21,36 @@ fn convert(args: &ConvertArgs) -> Result<Vec<String>, String> {
     if !args.exposure.is_finite() {
         return Err("--exposure must be a finite number of stops".to_owned());
     }
-    let mut image = read(&args.input)?;
-    if let Some(prefix) = &args.channels {
-        image = chosen(&image, prefix)?;
-    }
-    let losses = match extension(&args.output).as_str() {
-        "png" => png::write(&args.output, &image, args.exposure),
-        "hdr" | "rgbe" => hdr::write(&args.output, &brightened(image, args.exposure)),
+    let in_words = |error: Error| error.to_string();
+    let (image, mut notes, ours) = read(&args.input)?;
+    let colour = match &args.channels {
+        Some(prefix) => chosen(&image, prefix)?,
+        None => {
+            let colour = image.needed_colour(&args.input).map_err(in_words)?;
+            // In our own files the picture has no layer, and what else there is was asked for.
+            notes.extend(colour.notes.iter().filter(|_| !ours).cloned());
+            of_colour(&image, &colour)
+        }
+    };
+    let output = &args.output;
+    let losses = match extension(output).as_str() {
+        "png" => png::write(output, &colour, args.exposure),
+        "hdr" | "rgbe" => hdr::write(output, &brightened(colour, args.exposure, &mut notes)),
         "pfm" => {
-            let image = brightened(image, args.exposure);
-            pfm::write(&args.output, &image).map(|()| Losses::default())
+            let image = brightened(colour, args.exposure, &mut notes);
+            pfm::write(output, &image).map(|()| Losses::default())
         }
         _ => {
             return Err(format!(
                 "cannot write `{}`: the name must end in .png, .hdr or .pfm",
-                args.output.display()
+                output.display()
             ));
         }
     }
-    .map_err(|error| error.to_string())?;
-    Ok(losses_in_words(&losses))
+    .map_err(in_words)?;
+    let input = args.input.display();
+    let notes = notes.iter().map(|note| format!("`{input}`: {note}"));
+    Ok(notes.chain(losses_in_words(&losses)).collect())
 }
 
 /// What a simpler format could not hold, for people.
@@ -63,54 +72,54 @@ fn extension(path: &Path) -> String {
         .unwrap_or_default()
 }
 
-fn read(path: &Path) -> Result<Image, String> {
-    match extension(path).as_str() {
-        "exr" => {
-            let document = exr::read(path).map_err(|error| error.to_string())?;
-            Ok(document.flatten().0)
+/// The image in a file, what whoever gave it should know, and whether the file is our own.
+fn read(path: &Path) -> Result<(Image, Vec<String>, bool), String> {
+    let read = || {
+        let bytes = std::fs::read(path).map_err(|source| Error::Read {
+            path: path.to_owned(),
+            source,
+        })?;
+        if Format::of(&bytes) == Some(Format::Exr) {
+            let document = exr::decode(&bytes, path)?;
+            let ours = !document.text.is_empty();
+            return Ok((document.flatten().0, Vec::new(), ours));
         }
-        "hdr" | "rgbe" | "pfm" => {
-            let raster = raster::read(path).map_err(|error| error.to_string())?;
-            Ok(planes(&raster))
-        }
-        _ => Err(format!(
-            "cannot read `{}`: the name must end in .exr, .hdr or .pfm",
-            path.display()
-        )),
-    }
-}
-
-/// The planes of a picture of floats, by their usual names.
-fn planes(raster: &Raster) -> Image {
-    let names: &[&str] = match raster.channels() {
-        1 => &["Y"],
-        2 => &["Y", "A"],
-        3 => &["R", "G", "B"],
-        _ => &["R", "G", "B", "A"],
+        let raster = raster::decode(&bytes, path)?;
+        let notes = raster.notes(false).map(str::to_owned).collect();
+        Ok((raster.to_image(), notes, false))
     };
-    let values = raster.to_linear();
-    let mut image = Image::new(raster.width(), raster.height());
-    for (index, name) in names.iter().enumerate() {
-        let plane = values.iter().skip(index).step_by(names.len()).copied();
-        image.push(*name, plane.collect());
-    }
-    image
+    read().map_err(|error: Error| error.to_string())
 }
 
-/// The image made of the channels that begin with `prefix`.
+/// The image of a colour alone, in linear Rec. 709.
+fn of_colour(image: &Image, colour: &Colour<'_>) -> Image {
+    let mut picture = Image::new(image.width(), image.height());
+    for (name, plane) in ["R", "G", "B"].into_iter().zip(&colour.planes) {
+        picture.push(name, plane.to_vec());
+    }
+    if let Some(alpha) = colour.alpha {
+        picture.push("A", alpha.to_vec());
+    }
+    picture
+}
+
+/// The image made of the channels that begin with `prefix`, or of the one that is called so.
 fn chosen(image: &Image, prefix: &str) -> Result<Image, String> {
-    let sets: [&[&str]; 5] = [
-        &["R", "G", "B"],
-        &["X", "Y", "Z"],
-        &["U", "V"],
-        &["T"],
-        &["I"],
-    ];
+    if let Some(colour) = image.colour_of_layer(prefix) {
+        let opaque = Colour {
+            alpha: None,
+            ..colour
+        };
+        return Ok(of_colour(image, &opaque));
+    }
+    let sets: [&[&str]; 5] = [&[""], &["X", "Y", "Z"], &["U", "V"], &["T"], &["I"]];
     for names in sets {
-        let found: Vec<&[f32]> = names
-            .iter()
-            .filter_map(|name| image.channel(&format!("{prefix}.{name}")))
-            .collect();
+        let whole = |name: &&str| match *name {
+            "" => prefix.to_owned(),
+            letter => format!("{prefix}.{letter}"),
+        };
+        let channels = names.iter().map(whole);
+        let found: Vec<&[f32]> = channels.filter_map(|name| image.channel(&name)).collect();
         if found.len() == names.len() {
             let mut chosen = Image::new(image.width(), image.height());
             for (position, name) in ["R", "G", "B"].into_iter().enumerate() {
@@ -126,18 +135,27 @@ fn chosen(image: &Image, prefix: &str) -> Result<Image, String> {
     }
     let names: Vec<&str> = image.channels().iter().map(|c| c.name.as_str()).collect();
     Err(format!(
-        "there are no channels `{prefix}.R`, … in the image; it has {}",
+        "there are no channels `{prefix}.R`, … in the image, nor one called `{prefix}`; it has {}",
         names.join(", ")
     ))
 }
 
-fn brightened(image: Image, exposure: f32) -> Image {
-    let factor = etalon_math::float::pow(2.0, exposure);
-    let mut bright = Image::new(image.width(), image.height());
-    for channel in image.into_channels() {
-        let factor = if channel.name == "A" { 1.0 } else { factor };
-        let samples = channel.samples.iter().map(|v| v * factor).collect();
-        bright.push(channel.name, samples);
+fn brightened(mut image: Image, exposure: f32, notes: &mut Vec<String>) -> Image {
+    let gain = png::gain(exposure);
+    let mut infinite = 0;
+    for name in ["R", "G", "B"] {
+        let samples = image.channel_mut(name).into_iter().flatten();
+        for sample in samples {
+            // In double precision, so that no finite gain makes black something else than black.
+            let bright = (f64::from(*sample) * gain) as f32;
+            infinite += usize::from(sample.is_finite() && bright.is_infinite());
+            *sample = bright;
+        }
     }
-    bright
+    if infinite > 0 {
+        notes.push(format!(
+            "{infinite} samples are beyond 32-bit floats after the exposure, and became infinite"
+        ));
+    }
+    image
 }

@@ -6,6 +6,7 @@ use crate::args::InfoArgs;
 use crate::diagnose;
 use crate::pipeline::{self, LoadOptions};
 use etalon_film::{Developed, FaultKind, Offence, read_developed};
+use etalon_images::{Error, raster};
 use std::path::Path;
 use std::process::ExitCode;
 
@@ -21,11 +22,28 @@ pub fn run(args: &InfoArgs) -> ExitCode {
             Ok(developed) => answer(&image(&developed), ExitCode::SUCCESS),
             Err(error) => fail(error),
         },
-        _ => fail(format!(
-            "`{}` is neither a scene (.xml) nor an image (.exr)",
-            args.file.display()
-        )),
+        _ => match picture(&args.file) {
+            Ok(text) => answer(&text, ExitCode::SUCCESS),
+            Err(error) => fail(format!("neither a scene (.xml) nor an image: {error}")),
+        },
     }
+}
+
+/// What a picture of any other format says of itself.
+fn picture(path: &Path) -> Result<String, Error> {
+    let bytes = std::fs::read(path).map_err(|source| Error::Read {
+        path: path.to_owned(),
+        source,
+    })?;
+    let header = raster::decode_header(&bytes, path)?;
+    let mut text = format!(
+        "{} × {} pixels\n{}, {} channels of {} bits\n",
+        header.width, header.height, header.format, header.channels, header.bits
+    );
+    for note in raster::decode(&bytes, path)?.notes(false) {
+        text += &format!("note         {note}\n");
+    }
+    Ok(text)
 }
 
 fn image(developed: &Developed) -> String {
@@ -41,7 +59,13 @@ fn image(developed: &Developed) -> String {
         }
         text.push('\n');
     }
+    if let Some(primaries) = image.chromaticities() {
+        text += &format!("chromaticities {primaries}\n");
+    }
     let Some(m) = &developed.metadata else {
+        for note in image.colour().iter().flat_map(|colour| &colour.notes) {
+            text += &format!("note         {note}\n");
+        }
         text += "no metadata of Etalon\n";
         return text;
     };

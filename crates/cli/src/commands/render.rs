@@ -168,6 +168,11 @@ fn check_paths(args: &RenderArgs) -> Result<(), String> {
 /// Refuses a place where no file can be made.
 pub(super) fn check_place(path: &Path) -> Result<(), String> {
     let refuse = |reason: &dyn Display| Err(format!("cannot write {}: {reason}", path.display()));
+    // The file that a symbolic link names is made where it leads.
+    let path = match etalon_images::atomic_file::target(path) {
+        Ok(target) => target,
+        Err(error) => return refuse(&error),
+    };
     if path.is_dir() {
         return refuse(&"it is a folder");
     }

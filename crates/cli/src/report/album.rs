@@ -10,6 +10,7 @@ use base64::engine::general_purpose::STANDARD;
 use etalon_film::Developed;
 use etalon_images::Image;
 use maud::{Markup, PreEscaped, html};
+use std::borrow::Cow;
 use std::collections::BTreeMap;
 
 /// Pictures by the hash of what they hold.
@@ -39,7 +40,7 @@ impl Album {
 
     /// Stores an image's colour and says its name; `None` for an image without colour.
     pub fn add(&mut self, image: &Image) -> Option<String> {
-        let planes = image.colour()?.concat();
+        let planes = image.colour()?.planes.concat();
         let size = [image.width(), image.height()];
         Some(self.store(size, 3, &planes))
     }
@@ -70,7 +71,11 @@ impl Album {
             .into_iter()
             .find(|name| first.standard_error(name).is_some())?;
         let (x, s) = (a.channel(name)?, first.standard_error(name)?);
-        let y = b.channel(name).or_else(|| Some(b.colour()?[1]))?;
+        let y: Cow<'_, [f32]> = match b.channel(name) {
+            Some(y) => y.into(),
+            None if name == "G" => b.colour()?.planes.into_iter().nth(1)?,
+            None => luminance(b)?.into_iter().map(|y| y as f32).collect(),
+        };
         let t = second.standard_error(name);
         let plane: Vec<f32> = (0..x.len())
             .map(|i| {
@@ -131,7 +136,7 @@ impl Album {
 fn luminance(image: &Image) -> Option<Vec<f64>> {
     let colour = image.colour()?;
     let of = |i: usize| {
-        let parts = colour.iter().zip(LUMINANCE);
+        let parts = colour.planes.iter().zip(LUMINANCE);
         parts
             .map(|(plane, weight)| weight * f64::from(plane[i]))
             .sum()

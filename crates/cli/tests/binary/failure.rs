@@ -85,6 +85,10 @@ fn outputs_that_nobody_reads() {
     );
     assert_eq!(shell(&render).0, Some(0));
     assert!(workshop.files().contains(&"b.exr".to_owned()));
+    // A link to a pipe is written to as to the pipe.
+    let piped = "ln -s /dev/stdout o.pfm; [ \"$(etalon convert a.exr o.pfm | head -n 1)\" = PF ]";
+    assert_eq!(shell(piped).0, Some(0));
+    assert!(std::fs::read_link(workshop.path("o.pfm")).is_ok());
     let (code, said) = shell("etalon info a.exr > /dev/full");
     assert_eq!(code, Some(2));
     assert!(

@@ -175,3 +175,18 @@ fn other_component_formats_are_noted() {
     };
     assert!(message.contains("32-bit"), "{message}");
 }
+
+/// What a film in XYZ stores becomes the colour it was, to the last bits, wherever its file is used.
+/// With the white of the standard's four digits it would be off by 3 · 10⁻⁴.
+#[test]
+fn films_in_xyz_give_back_their_colours() {
+    let rgb = [0.2, 0.5, 0.9];
+    let mut image = etalon_images::Image::new(1, 1);
+    for (name, value) in ["X", "Y", "Z"].iter().zip(PixelFormat::Xyz.convert(rgb)) {
+        image.push(*name, vec![value]);
+    }
+    let colour = image.colour().expect("a colour");
+    for (found, right) in colour.planes.iter().zip(rgb) {
+        assert!((found[0] - right).abs() < 1e-6, "{} {right}", found[0]);
+    }
+}

@@ -1,7 +1,8 @@
 //! What an EXR file says of itself, without its pixels.
 
 use super::ATTRIBUTE;
-use crate::Error;
+use crate::{Chromaticities, Error};
+use ::exr::math::Vec2;
 use ::exr::meta::attribute::{AttributeValue, Text};
 use ::exr::meta::{BlockDescription, MetaData};
 use std::fs::File;
@@ -95,7 +96,39 @@ pub fn read_header(path: &Path) -> Result<Header, Error> {
 /// # Errors
 /// [`Error::Invalid`] and [`Error::Unsupported`].
 pub fn decode_header(bytes: &[u8], path: &Path) -> Result<Header, Error> {
-    Ok(describe(&metadata(bytes, path)?))
+    Ok(describe(&metadata_of_bytes(bytes, path)?))
+}
+
+/// As [`metadata`], of a file's bytes.
+pub(super) fn metadata_of_bytes(bytes: &[u8], path: &Path) -> Result<MetaData, Error> {
+    metadata(bytes, path).map_err(|error| match unknown_compression(bytes) {
+        Some(number) => {
+            let name = match number {
+                13 => " (ZSTD)",
+                _ => "",
+            };
+            Error::unsupported(
+                path,
+                format!(
+                    "EXR: its compression, number {number}{name}, is not known; it is of a newer \
+                     version of the format; write it with ZIP or PIZ"
+                ),
+            )
+        }
+        None => error,
+    })
+}
+
+/// The number of a compression beyond those of OpenEXR 3.4, if a header that could not be read
+/// has one.
+fn unknown_compression(bytes: &[u8]) -> Option<u8> {
+    const BEFORE: &[u8] = b"compression\0compression\0\x01\0\0\0";
+    let header = &bytes[..bytes.len().min(1 << 20)];
+    let places = header.windows(BEFORE.len() + 1);
+    let numbers = places.filter(|place| place.starts_with(BEFORE));
+    numbers
+        .map(|place| place[BEFORE.len()])
+        .find(|&number| number > 11)
 }
 
 /// The header as the decoder sees it.
@@ -115,6 +148,19 @@ pub(super) fn failure(path: &Path, error: ::exr::error::Error) -> Error {
             Error::invalid(path, "it ends too early")
         }
         Cause::Io(source) => Error::read(path, source),
+        // A size that is no multiple of the sampling, which is allowed, is called invalid.
+        Cause::NotSupported(reason) | Cause::Invalid(reason)
+            if reason.contains("subsampling") || reason.contains("sampling factor not") =>
+        {
+            Error::unsupported(
+                path,
+                "EXR: its channels are subsampled (as luminance with chroma mostly is), which \
+                 cannot be read; write R, G and B, or every channel at full size",
+            )
+        }
+        Cause::NotSupported(reason) if reason.contains("compression method") => {
+            Error::unsupported(path, format!("EXR: {reason}; write it with ZIP or PIZ"))
+        }
         Cause::NotSupported(reason) => Error::unsupported(path, format!("EXR: {reason}")),
         Cause::Invalid(reason) => Error::invalid(path, format!("EXR: {reason}")),
         Cause::Aborted => Error::invalid(path, "EXR: reading was aborted"),
@@ -137,6 +183,18 @@ pub(super) fn text(meta: &MetaData) -> String {
         Some((_, AttributeValue::Text(text))) => utf8(text),
         _ => String::new(),
     }
+}
+
+/// The primaries of the file's colours, if it says them.
+pub(super) fn chromaticities(header: &::exr::meta::header::Header) -> Option<Chromaticities> {
+    let stored = header.shared_attributes.chromaticities?;
+    let point = |Vec2(x, y)| [x, y];
+    Some(Chromaticities {
+        red: point(stored.red),
+        green: point(stored.green),
+        blue: point(stored.blue),
+        white: point(stored.white),
+    })
 }
 
 /// Width and height of the whole picture.

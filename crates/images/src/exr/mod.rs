@@ -3,7 +3,7 @@
 //! Files written here are scan lines of 32-bit floats under lossless ZIP (and of 32-bit whole
 //! numbers, where a caller has [`IntegerPlane`]s). Their bytes depend on the
 //! content alone: besides what the format demands there is exactly one attribute, [`ATTRIBUTE`],
-//! whose text (JSON, by convention) is the caller's.
+//! whose text (JSON, by convention) is the caller's, and the image's chromaticities if it has any.
 //!
 //! Read are scan lines and tiles, every lossless and lossy compression but HTJ2K, 16- and 32-bit
 //! floats and 32-bit integers, several parts, and the full resolution of mip maps. Deep and
@@ -14,7 +14,7 @@ mod header;
 mod read;
 mod write;
 
-use crate::{Frame, Image};
+use crate::{Frame, Image, colour};
 
 pub use header::{
     Attribute, Header, HeaderChannel, HeaderPart, SampleType, decode_header, read_header,
@@ -59,13 +59,15 @@ pub struct Document {
 impl Document {
     /// The channels of all parts as one image, and its place.
     ///
-    /// Channels of the first part keep their names; those of another part called `name` become
-    /// `name.channel`. Parts of another size or place than the first are left out, as are
-    /// channels whose name is already taken.
+    /// Channels of the part with the picture's colour (by the order of [`crate::colour`]; else the
+    /// first) keep their names; those of another part called `name` become `name.channel`. Parts
+    /// of another size or place than that are left out, as are channels whose name is already
+    /// taken.
     #[must_use]
     pub fn flatten(self) -> (Image, Frame) {
-        let mut parts = self.parts.into_iter();
-        let first = parts.next().expect("a document has at least one part");
+        let mut parts = self.parts;
+        let likeliest = (0..parts.len()).min_by_key(|&part| colour::rank(&parts[part].image));
+        let first = parts.remove(likeliest.expect("a document has at least one part"));
         let frame = Frame {
             offset: first.offset,
             size: self.size,
@@ -80,8 +82,11 @@ impl Document {
             }
             for channel in part.image.into_channels() {
                 let name = match &part.name {
-                    Some(part) => format!("{part}.{}", channel.name),
-                    None => channel.name,
+                    // Some programs repeat the part's name in those of its channels.
+                    Some(part) if !channel.name.starts_with(&format!("{part}.")) => {
+                        format!("{part}.{}", channel.name)
+                    }
+                    _ => channel.name,
                 };
                 if whole.channel(&name).is_none() {
                     whole.push(name, channel.samples);

@@ -67,7 +67,7 @@ fn decode_apart(
     prefix: Option<&str>,
 ) -> Result<(Document, Vec<IntegerPlane>), Error> {
     // The header alone comes first: nothing large may be allocated before it has been judged.
-    let meta = header::metadata(bytes, path)?;
+    let meta = header::metadata_of_bytes(bytes, path)?;
     bounds::check(path, &meta.headers, bytes.len())?;
 
     let chunks = Reader::read_from_buffered(Cursor::new(bytes), false)
@@ -251,7 +251,10 @@ impl Planes {
         path: &Path,
         integers: &mut Vec<IntegerPlane>,
     ) -> Result<Image, Error> {
-        let mut image = Image::new(self.width, self.height);
+        let part = header.own_attributes.layer_name.as_ref().map(header::utf8);
+        let mut image = Image::new(self.width, self.height)
+            .of_part(part.unwrap_or_default())
+            .with_chromaticities(header::chromaticities(header));
         for (samples, channel) in self.channels.into_iter().zip(&header.channels.list) {
             let name = header::utf8(&channel.name);
             let taken =

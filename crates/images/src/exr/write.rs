@@ -1,7 +1,7 @@
 //! Writing EXR files with reproducible bytes.
 
 use super::{ATTRIBUTE, IntegerPlane, Part};
-use crate::{Error, Frame, Image, write_atomically};
+use crate::{Chromaticities, Error, Frame, Image, write_atomically};
 use ::exr::block::writer::ChunksWriter;
 use ::exr::block::{self, UncompressedBlock};
 use ::exr::math::Vec2;
@@ -246,6 +246,7 @@ fn header(
     .with_display_window(IntegerBounds::new(Vec2(0, 0), Vec2(size[0], size[1])))
     .with_position(Vec2(part.offset[0], part.offset[1]));
     header.own_attributes.layer_name = part.name.map(bytes);
+    header.shared_attributes.chromaticities = image.chromaticities().map(stored);
     if !text.is_empty() {
         header
             .own_attributes
@@ -253,6 +254,16 @@ fn header(
             .insert(bytes(ATTRIBUTE), AttributeValue::Text(bytes(text)));
     }
     Ok(header)
+}
+
+fn stored(c: Chromaticities) -> ::exr::meta::attribute::Chromaticities {
+    let point = |[x, y]: [f32; 2]| Vec2(x, y);
+    ::exr::meta::attribute::Chromaticities {
+        red: point(c.red),
+        green: point(c.green),
+        blue: point(c.blue),
+        white: point(c.white),
+    }
 }
 
 /// UTF-8 bytes as they are.

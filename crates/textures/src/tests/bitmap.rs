@@ -235,6 +235,38 @@ fn integer_files_are_decoded_as_in_mitsuba() {
     assert!(close(linear.spectrum(0.25, 0.75), [0.577_580_75; 4], 1e-3));
 }
 
+/// Colours in XYZ are converted, `raw` or not, as in Mitsuba, whose numbers these are. Of two layers
+/// a note says which one it is.
+#[test]
+fn colours_are_rec_709_whatever_the_file_holds() {
+    let mut files = Files::default();
+    files.add("xyz.exr", 1, &[("X", &[0.3]), ("Y", &[0.4]), ("Z", &[0.5])]);
+    for raw in [false, true] {
+        let properties = vec![("filename", text("xyz.exr")), ("raw", Value::Boolean(raw))];
+        let texture = One::new(&files, &node("bitmap", properties), Role::Reflectance);
+        let colour = texture.colour(0.5, 0.5);
+        let right = Vec3::new(0.108_016, 0.480_398, 0.463_733);
+        assert!((colour - right).abs().max_element() < 3e-3, "{colour}");
+    }
+    let one = [0.25_f32];
+    let names = [
+        "AO.R",
+        "AO.G",
+        "AO.B",
+        "Combined.R",
+        "Combined.G",
+        "Combined.B",
+    ];
+    let channels: Vec<(&str, &[f32])> = names.iter().map(|name| (*name, &one[..])).collect();
+    files.add("two.exr", 1, &channels);
+    let properties = vec![("filename", text("two.exr"))];
+    let (.., messages) = read(&files, &node("bitmap", properties), Role::Reflectance);
+    assert!(
+        matches!(&messages[..], [m] if m.contains("`two.exr`") && m.contains("`Combined`")),
+        "{messages:?}"
+    );
+}
+
 proptest! {
     #![proptest_config(ProptestConfig {
         failure_persistence: None,
