@@ -121,6 +121,18 @@ impl Spectrum {
         }
     }
 
+    /// The same spectrum with every number it was made of held to `top` or below.
+    pub fn held_to(&self, top: f32) -> Self {
+        match self {
+            Self::Uniform(value) => Self::Uniform(value.min(top)),
+            Self::Regular(table) => Self::Regular(Arc::new((**table).clone().held_to(top))),
+            Self::Irregular(table) => Self::Irregular(Arc::new((**table).clone().held_to(top))),
+            Self::Blackbody(body) => Self::Regular(Arc::new(body.table().clone().held_to(top))),
+            // Their numbers are parts of a colour.
+            Self::Srgb(_) | Self::D65(_) => self.clone(),
+        }
+    }
+
     /// The mean value over 360–830 nm.
     pub fn mean(&self) -> f64 {
         self.power() / (LAMBDA_MAX - LAMBDA_MIN)

@@ -38,7 +38,7 @@ impl TextureReader<'_> {
                 let spectrum = self.spectrum(params, plugin.value.as_str());
                 let span = plugin.span;
                 spectrum
-                    .and_then(|spectrum| self.not_negative(spectrum, purpose, span))
+                    .and_then(|spectrum| self.admitted(spectrum, purpose, span))
                     .map(|spectrum| Texture::Constant(Constant::new(spectrum)))
             }
             _ => {
@@ -145,13 +145,12 @@ impl TextureReader<'_> {
                     );
                     return None;
                 };
-                let role = if unbounded {
-                    Role::Unbounded
-                } else {
-                    Role::Reflectance
-                };
+                if !unbounded {
+                    // As in Mitsuba: who asks for this plugin gets no other colour.
+                    return self.checked(Spectrum::reflectance(rgb.to_array()), property.span);
+                }
                 let purpose = Use {
-                    role,
+                    role: Role::Unbounded,
                     nested: false,
                 };
                 return self.colour(*rgb, purpose, property.span);
@@ -161,16 +160,9 @@ impl TextureReader<'_> {
     }
 
     fn bitmap(&mut self, params: &Params<'_>, role: Role) -> Option<Bitmap> {
-        let raw = params.boolean_or("raw", false);
-        let filter = match params.choice("filter_type", "bilinear", &["bilinear", "nearest"]) {
-            "nearest" => Filter::Nearest,
-            _ => Filter::Bilinear,
-        };
-        let wrap = match params.choice("wrap_mode", "repeat", &["repeat", "mirror", "clamp"]) {
-            "mirror" => Wrap::Mirror,
-            "clamp" => Wrap::Clamp,
-            _ => Wrap::Repeat,
-        };
+        let raw = params.boolean_or("raw", false) || is_linear(params);
+        let filter = filter(params);
+        let wrap = wrap(params);
         let to_uv = UvTransform::from_params(params);
         let Some(filename) = params.string("filename") else {
             if !params.has("filename") {
@@ -243,6 +235,59 @@ impl TextureReader<'_> {
         self.set.images.insert(key, Arc::clone(&image));
         Some(image)
     }
+}
+
+/// `filter_type`. Those of Mitsuba 0.6 that average over a pixel's footprint are left to the
+/// samples of the pixel, with a note.
+fn filter(params: &Params<'_>) -> Filter {
+    let names = ["bilinear", "nearest", "trilinear", "ewa"];
+    match params.choice("filter_type", "bilinear", &names) {
+        "nearest" => Filter::Nearest,
+        "bilinear" => Filter::Bilinear,
+        other => {
+            let span = params.property("filter_type").map(|p| p.span);
+            let message = format!(
+                "`{other}` is read as `bilinear`: a pixel's samples average over the texels it sees"
+            );
+            let span = span.unwrap_or(params.node.plugin.span);
+            params.diagnostics.push(Diagnostic::note(span, message));
+            Filter::Bilinear
+        }
+    }
+}
+
+/// `wrap_mode`, or Mitsuba 0.6's `wrap_mode_u` and `wrap_mode_v`, which must agree.
+fn wrap(params: &Params<'_>) -> Wrap {
+    let read = |name, default| params.choice(name, default, &["repeat", "mirror", "clamp"]);
+    let both = read("wrap_mode", "repeat");
+    let [u, v] = ["wrap_mode_u", "wrap_mode_v"].map(|name| read(name, both));
+    if u != v {
+        let message = format!("one mode for both directions is built, not `{u}` and `{v}`");
+        params.error_at("wrap_mode_v", message);
+    }
+    match u {
+        "mirror" => Wrap::Mirror,
+        "clamp" => Wrap::Clamp,
+        _ => Wrap::Repeat,
+    }
+}
+
+/// Whether Mitsuba 0.6's `gamma` says that the values are linear: 1 does; 0 and below leave it to
+/// the file, and so does 2.2, which is close to what files of integers hold.
+fn is_linear(params: &Params<'_>) -> bool {
+    let accepted = "1 (linear), 2.2 or -1 (as the file's format says)";
+    let gamma = params.float_where("gamma", -1.0, accepted, |gamma| {
+        gamma <= 0.0 || gamma == 1.0 || gamma == 2.2
+    });
+    if gamma == 2.2 {
+        params.diagnostics.push(Diagnostic::note(
+            params
+                .property("gamma")
+                .map_or(params.node.plugin.span, |p| p.span),
+            "a `gamma` of 2.2 is read as sRGB, which is close to it",
+        ));
+    }
+    gamma == 1.0
 }
 
 fn mesh_attribute(params: &Params<'_>) -> Option<MeshAttribute> {

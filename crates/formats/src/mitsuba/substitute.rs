@@ -4,8 +4,17 @@
 //! that stands before its use. At each `$` the longest known name wins (`$sppx` is `$spp`
 //! followed by an `x` unless `sppx` is known); `\$` is a dollar sign. What was inserted is not
 //! looked at again.
+//!
+//! `<default>`s whose values contain each other's names can double with every line. What they may
+//! grow to is therefore bounded: [`LONGEST_VALUE`] for one value, [`MOST_INSERTED`] for a scene.
 
 use etalon_params::Span;
+
+/// How long a value can become by what is inserted into it (bytes).
+pub(crate) const LONGEST_VALUE: usize = 1 << 16;
+
+/// How much can be inserted into all values of a scene together (bytes).
+pub(crate) const MOST_INSERTED: usize = 1 << 26;
 
 /// Where a parameter's value was written.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -30,6 +39,8 @@ pub(crate) struct Parameters {
     list: Vec<Parameter>,
     /// Names of all `<default>`s and of everything asked for, to suggest from.
     mentioned: Vec<String>,
+    /// Bytes inserted so far.
+    inserted: usize,
 }
 
 /// A value in which every `$name` has been replaced.
@@ -40,13 +51,26 @@ pub(crate) struct Substituted {
     pub(crate) defaults: Vec<Span>,
 }
 
-/// A `$name` that nobody has defined.
+/// A `$name` that cannot be replaced.
 #[derive(Debug, PartialEq)]
-pub(crate) struct Undefined {
+pub(crate) struct Irreplaceable {
     /// The name, which may be empty.
     pub(crate) name: String,
     /// Byte offset of the `$` in the text.
     pub(crate) offset: usize,
+    /// What is wrong with it.
+    pub(crate) trouble: Trouble,
+}
+
+/// Why a `$name` cannot be replaced.
+#[derive(Debug, PartialEq)]
+pub(crate) enum Trouble {
+    /// Nobody has defined it.
+    Undefined,
+    /// With it the value would be longer than [`LONGEST_VALUE`].
+    TooLong,
+    /// With it more than [`MOST_INSERTED`] would have been inserted.
+    TooMuch,
 }
 
 impl Parameters {
@@ -85,7 +109,7 @@ impl Parameters {
     }
 
     /// Replaces every `$name` in `text`.
-    pub(crate) fn substitute(&mut self, text: &str) -> Result<Substituted, Undefined> {
+    pub(crate) fn substitute(&mut self, text: &str) -> Result<Substituted, Irreplaceable> {
         let mut result = Substituted {
             text: String::with_capacity(text.len()),
             defaults: Vec::new(),
@@ -111,12 +135,33 @@ impl Parameters {
                 let name = rest[..end].to_owned();
                 self.mention(&name);
                 let offset = text.len() - rest.len() - 1;
-                return Err(Undefined { name, offset });
+                return Err(Irreplaceable {
+                    name,
+                    offset,
+                    trouble: Trouble::Undefined,
+                });
             };
             found.used = true;
+            self.inserted += found.value.len();
+            let trouble = if result.text.len() + found.value.len() > LONGEST_VALUE {
+                Some(Trouble::TooLong)
+            } else if self.inserted > MOST_INSERTED {
+                Some(Trouble::TooMuch)
+            } else {
+                None
+            };
+            if let Some(trouble) = trouble {
+                return Err(Irreplaceable {
+                    name: found.name.clone(),
+                    offset: text.len() - rest.len() - 1,
+                    trouble,
+                });
+            }
             result.text.push_str(&found.value);
             rest = &rest[found.name.len()..];
-            if let Origin::Default(span) = found.origin {
+            if let Origin::Default(span) = found.origin
+                && !result.defaults.contains(&span)
+            {
                 result.defaults.push(span);
             }
         }
@@ -163,9 +208,32 @@ mod tests {
 
     fn text(p: &mut Parameters, text: &str) -> String {
         p.substitute(text).map_or_else(
-            |u| format!("undefined `{}` at {}", u.name, u.offset),
+            |u| format!("{:?} `{}` at {}", u.trouble, u.name, u.offset),
             |s| s.text,
         )
+    }
+
+    #[test]
+    fn values_grow_to_a_bound_and_no_further() {
+        let mut p = Parameters::new(&[]);
+        let span = Span {
+            file: FileId(0),
+            start: 0,
+            end: 0,
+        };
+        p.add_default("a", &"x".repeat(LONGEST_VALUE / 2), span);
+        assert_eq!(text(&mut p, "$a$a").len(), LONGEST_VALUE);
+        // Only what is inserted counts: a long value without names is read as it is.
+        assert_eq!(text(&mut p, "$a$a,"), text(&mut p, "$a$a") + ",");
+        assert_eq!(text(&mut p, "$a,$a"), "TooLong `a` at 3");
+        let uses = MOST_INSERTED / (LONGEST_VALUE / 2);
+        let refused = (0..uses).position(|_| text(&mut p, "$a").starts_with("TooMuch"));
+        assert_eq!(refused, Some(uses - 8), "eight were inserted before");
+        // A value that was made of a thousand names still tells of each `<default>` once.
+        p = Parameters::new(&[]);
+        p.add_default("b", "y", span);
+        let made = p.substitute(&"$b".repeat(1000)).expect("short enough");
+        assert_eq!((made.text.len(), made.defaults.len()), (1000, 1));
     }
 
     #[test]
@@ -184,8 +252,8 @@ mod tests {
     #[test]
     fn unknown_names_are_reported_with_their_place() {
         let p = &mut parameters();
-        assert_eq!(text(p, "x $resx"), "undefined `resx` at 2");
-        assert_eq!(text(p, "5 $"), "undefined `` at 2");
+        assert_eq!(text(p, "x $resx"), "Undefined `resx` at 2");
+        assert_eq!(text(p, "5 $"), "Undefined `` at 2");
         assert_eq!(p.unused().collect::<Vec<_>>(), ["spp", "a"]);
     }
 }
