@@ -34,7 +34,7 @@ pub struct Only {
 }
 
 /// The list.
-pub const IGNORED: [Ignored; 27] = [
+pub const IGNORED: [Ignored; 29] = [
     Ignored {
         class: Class::Scene,
         plugins: &[],
@@ -181,10 +181,32 @@ pub const IGNORED: [Ignored; 27] = [
         reason: "Only a lens can be out of focus.",
     },
     Ignored {
+        class: Class::Sensor,
+        plugins: &[],
+        names: &["jitter"],
+        only: Some(Only {
+            words: "true",
+            holds: is_true,
+        }),
+        said: false,
+        reason: "Samples are spread over the reach of the reconstruction filter.",
+    },
+    Ignored {
+        class: Class::Sensor,
+        plugins: &[],
+        names: &["cone_scale"],
+        only: None,
+        said: false,
+        reason: "It widens what Mitsuba averages of a texture at a point. Here the samples of a \
+                 pixel average.",
+    },
+    Ignored {
         class: Class::Sampler,
         plugins: &[
             "multijitter",
             "orthogonal",
+            "bose",
+            "bush",
             "ldsampler",
             "halton",
             "hammersley",
@@ -277,6 +299,10 @@ pub const IGNORED: [Ignored; 27] = [
         reason: "They say where Mitsuba samples wavelengths; the value holds everywhere.",
     },
 ];
+
+fn is_true(value: &Value) -> bool {
+    matches!(value, Value::Boolean(true))
+}
 
 fn is_not_positive(value: &Value) -> bool {
     match value {

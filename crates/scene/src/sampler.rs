@@ -4,9 +4,11 @@ use etalon_params::{Class, Diagnostic, Diagnostics, Node, Params, plugins};
 use etalon_sampling::SamplerKind;
 
 /// Samplers of Mitsuba that are known but not built yet; `sobol` stands in for them.
-const REPLACED: [&str; 5] = [
+const REPLACED: [&str; 7] = [
     "multijitter",
     "orthogonal",
+    "bose",
+    "bush",
     "ldsampler",
     "halton",
     "hammersley",

@@ -7,7 +7,7 @@ use crate::{Texture, TextureReader, UvTransform, Wrap};
 use etalon_params::{Class, Diagnostic, Params, Value, plugins};
 use etalon_spectrum::{Blackbody, Spectrum};
 use etalon_transport::Role;
-use glam::{UVec2, Vec3};
+use glam::{DVec3, UVec2};
 use std::sync::Arc;
 
 /// Names of the textures and spectra that are built.
@@ -33,7 +33,7 @@ impl TextureReader<'_> {
             "checkerboard" => Some(self.checkerboard(params, purpose.role)),
             "mesh_attribute" => mesh_attribute(params).map(Texture::MeshAttribute),
             "d65" => self.d65(params),
-            "rawconstant" => rawconstant(params),
+            "rawconstant" => self.rawconstant(params, purpose),
             "uniform" | "regular" | "irregular" | "blackbody" | "srgb" => {
                 let spectrum = self.spectrum(params, plugin.value.as_str());
                 let span = plugin.span;
@@ -61,6 +61,37 @@ impl TextureReader<'_> {
             ],
             to_uv: UvTransform::from_params(params),
         })
+    }
+
+    /// A number or three as they are; a reflectance is held to 1 all the same.
+    fn rawconstant(&self, params: &Params<'_>, purpose: Use) -> Option<Texture> {
+        let Some(property) = params.property("value") else {
+            params.missing("value", "a number or three");
+            return None;
+        };
+        let values = match &property.value {
+            Value::Float(x) if x.is_finite() => DVec3::splat(*x),
+            Value::Integer(i) => DVec3::splat(*i as f64),
+            Value::Vector(v) | Value::Rgb(v) if v.is_finite() => *v,
+            other => {
+                let kind = other.kind();
+                params.error_at(
+                    "value",
+                    format!("`value` must be a finite number or three, not {kind}"),
+                );
+                return None;
+            }
+        };
+        let values = if purpose.role == Role::Reflectance && values.max_element() > 1.0 {
+            self.note_held(property.span);
+            values.min(DVec3::ONE)
+        } else {
+            values
+        };
+        Some(Texture::Constant(match &property.value {
+            Value::Float(_) | Value::Integer(_) => Constant::uniform(values.x as f32),
+            _ => Constant::raw(values.as_vec3()),
+        }))
     }
 
     fn d65(&mut self, params: &Params<'_>) -> Option<Texture> {
@@ -237,10 +268,10 @@ impl TextureReader<'_> {
     }
 }
 
-/// `filter_type`. Those of Mitsuba 0.6 that average over a pixel's footprint are left to the
+/// `filter_type`. Those of other versions of Mitsuba that average over a pixel's footprint are left to the
 /// samples of the pixel, with a note.
 fn filter(params: &Params<'_>) -> Filter {
-    let names = ["bilinear", "nearest", "trilinear", "ewa"];
+    let names = ["bilinear", "nearest", "trilinear", "ewa", "anisotropic"];
     match params.choice("filter_type", "bilinear", &names) {
         "nearest" => Filter::Nearest,
         "bilinear" => Filter::Bilinear,
@@ -306,28 +337,6 @@ fn mesh_attribute(params: &Params<'_>) -> Option<MeshAttribute> {
         name: name.to_owned(),
         scale,
     })
-}
-
-fn rawconstant(params: &Params<'_>) -> Option<Texture> {
-    let Some(property) = params.property("value") else {
-        params.missing("value", "a number or three");
-        return None;
-    };
-    let constant = match &property.value {
-        Value::Float(x) if x.is_finite() => Constant::uniform(*x as f32),
-        Value::Integer(i) => Constant::uniform(*i as f32),
-        Value::Vector(v) if v.is_finite() => Constant::raw(v.as_vec3()),
-        Value::Rgb(v) if v.is_finite() => Constant::raw(Vec3::from_array(v.as_vec3().to_array())),
-        other => {
-            let kind = other.kind();
-            params.error_at(
-                "value",
-                format!("`value` must be a finite number or three, not {kind}"),
-            );
-            return None;
-        }
-    };
-    Some(Texture::Constant(constant))
 }
 
 /// A list of numbers separated by commas or spaces.

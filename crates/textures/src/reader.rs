@@ -156,7 +156,8 @@ impl TextureReader<'_> {
         spectrum.held_to(1.0)
     }
 
-    fn note_held(&self, span: Span) {
+    /// Says that a value was held to 1.
+    pub(crate) fn note_held(&self, span: Span) {
         let message =
             "a reflectance, opacity or weight cannot be above 1: what is above counts as 1";
         self.diagnostics.push(Diagnostic::note(span, message));

@@ -16,7 +16,7 @@ use etalon_params::{Class, Diagnostic, Span, Spanned, Value};
 const KEPT: [&str; 3] = ["max_depth", "rr_depth", "hide_emitters"];
 
 /// What stands in for integrators that are not built, and in what they agree.
-const STAND_INS: [(&str, &str, &str); 16] = [
+const STAND_INS: [(&str, &str, &str); 17] = [
     ("volpath", "path", SAME_WITHOUT_MEDIA),
     ("volpath_simple", "path", SAME_WITHOUT_MEDIA),
     ("volpathmis", "path", SAME_WITHOUT_MEDIA),
@@ -33,6 +33,7 @@ const STAND_INS: [(&str, &str, &str); 16] = [
     ("photonmapper", "photonmap", SAME_METHOD),
     ("ppm", "sppm", SAME_METHOD),
     ("guided_path", "guided", SAME_METHOD),
+    ("path_guiding_integrator", "guided", SAME_METHOD),
 ];
 
 const SAME_WITHOUT_MEDIA: &str = "they agree where there are no media";
