@@ -39,6 +39,7 @@ pub const IGNORED: [Ignored; 29] = [
         class: Class::Scene,
         plugins: &[],
         names: &[
+            "embree_use_robust_intersection",
             "embree_use_robust_intersections",
             "kd_intersection_cost",
             "kd_traversal_cost",

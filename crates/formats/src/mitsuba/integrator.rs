@@ -16,7 +16,7 @@ use etalon_params::{Class, Diagnostic, Span, Spanned, Value};
 const KEPT: [&str; 3] = ["max_depth", "rr_depth", "hide_emitters"];
 
 /// What stands in for integrators that are not built, and in what they agree.
-const STAND_INS: [(&str, &str, &str); 17] = [
+const STAND_INS: [(&str, &str, &str); 18] = [
     ("volpath", "path", SAME_WITHOUT_MEDIA),
     ("volpath_simple", "path", SAME_WITHOUT_MEDIA),
     ("volpathmis", "path", SAME_WITHOUT_MEDIA),
@@ -34,6 +34,7 @@ const STAND_INS: [(&str, &str, &str); 17] = [
     ("ppm", "sppm", SAME_METHOD),
     ("guided_path", "guided", SAME_METHOD),
     ("path_guiding_integrator", "guided", SAME_METHOD),
+    ("recursive_path", "path", SAME_PICTURE),
 ];
 
 const SAME_WITHOUT_MEDIA: &str = "they agree where there are no media";

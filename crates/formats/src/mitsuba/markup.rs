@@ -30,9 +30,9 @@ pub(crate) fn tolerated(text: &str, file: FileId) -> Result<Cow<'_, str>, Diagno
             4 + length + 3
         } else if rest.starts_with("<![CDATA[") {
             rest.find("]]>").map_or(rest.len(), |end| end + 3)
-        } else if rest.starts_with("<?") {
+        } else if let Some(inside) = rest.strip_prefix("<?") {
             let length = rest.find("?>").map_or(rest.len(), |end| end + 2);
-            if before_root && start > 0 && rest[2..].starts_with("xml") {
+            if before_root && start > 0 && inside.starts_with("xml") {
                 blank.push(start..start + length);
             }
             length

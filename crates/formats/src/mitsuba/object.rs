@@ -295,6 +295,11 @@ fn default(reader: &mut Reader<'_>, file: &File, node: Node<'_, '_>) {
     no_children(reader, file, node);
     let accepted = Tag::Default.attributes();
     let Some(attributes) = Attributes::read(reader, file.id, node, accepted) else {
+        // Whoever uses the name is not to be blamed.
+        if let Some(name) = node.attribute("name").filter(|name| !name.is_empty()) {
+            let span = tag_span(file.id, node);
+            reader.parameters.add_default(name, None, span);
+        }
         return;
     };
     let (name, value) = (attributes.required("name"), attributes.required("value"));
@@ -304,7 +309,7 @@ fn default(reader: &mut Reader<'_>, file: &File, node: Node<'_, '_>) {
     }
     reader
         .parameters
-        .add_default(&name.text, &value.text, value.span);
+        .add_default(&name.text, Some(&value.text), value.span);
 }
 
 fn path(reader: &mut Reader<'_>, file: &mut File, node: Node<'_, '_>, in_root: bool) {

@@ -106,6 +106,7 @@ impl<'o> Reader<'o> {
             span
         };
         let diagnostic = match found.trouble {
+            Trouble::Broken => return None,
             Trouble::TooLong => Diagnostic::error(
                 place,
                 format!("with `${name}` this value would be longer than {LONGEST_VALUE} bytes"),

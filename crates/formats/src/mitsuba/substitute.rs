@@ -28,7 +28,8 @@ pub(crate) enum Origin {
 #[derive(Debug)]
 struct Parameter {
     name: String,
-    value: String,
+    /// `None` after a mistake in its `<default>`, about which enough has been said.
+    value: Option<String>,
     origin: Origin,
     used: bool,
 }
@@ -67,6 +68,8 @@ pub(crate) struct Irreplaceable {
 pub(crate) enum Trouble {
     /// Nobody has defined it.
     Undefined,
+    /// There is a mistake in its `<default>`, which has been reported.
+    Broken,
     /// With it the value would be longer than [`LONGEST_VALUE`].
     TooLong,
     /// With it more than [`MOST_INSERTED`] would have been inserted.
@@ -79,23 +82,24 @@ impl Parameters {
         let mut parameters = Self::default();
         for (name, value) in defines {
             parameters.list.retain(|p| p.name != *name);
-            parameters.insert(name, value, Origin::CommandLine);
+            parameters.insert(name, Some(value), Origin::CommandLine);
         }
         parameters
     }
 
-    fn insert(&mut self, name: &str, value: &str, origin: Origin) {
+    fn insert(&mut self, name: &str, value: Option<&str>, origin: Origin) {
         self.list.push(Parameter {
             name: name.to_owned(),
-            value: value.to_owned(),
+            value: value.map(str::to_owned),
             origin,
             used: false,
         });
         self.list.sort_by_key(|p| std::cmp::Reverse(p.name.len()));
     }
 
-    /// A `<default>`: it counts unless the name is known already.
-    pub(crate) fn add_default(&mut self, name: &str, value: &str, span: Span) {
+    /// A `<default>`: it counts unless the name is known already. One with a mistake in it has no
+    /// value.
+    pub(crate) fn add_default(&mut self, name: &str, value: Option<&str>, span: Span) {
         self.mention(name);
         if !self.list.iter().any(|p| p.name == name) {
             self.insert(name, value, Origin::Default(span));
@@ -142,22 +146,20 @@ impl Parameters {
                 });
             };
             found.used = true;
-            self.inserted += found.value.len();
-            let trouble = if result.text.len() + found.value.len() > LONGEST_VALUE {
-                Some(Trouble::TooLong)
-            } else if self.inserted > MOST_INSERTED {
-                Some(Trouble::TooMuch)
-            } else {
-                None
+            let added = found.value.as_ref().map_or(0, String::len);
+            self.inserted += added;
+            let value = match &found.value {
+                None => Err(Trouble::Broken),
+                Some(_) if result.text.len() + added > LONGEST_VALUE => Err(Trouble::TooLong),
+                Some(_) if self.inserted > MOST_INSERTED => Err(Trouble::TooMuch),
+                Some(value) => Ok(value),
             };
-            if let Some(trouble) = trouble {
-                return Err(Irreplaceable {
-                    name: found.name.clone(),
-                    offset: text.len() - rest.len() - 1,
-                    trouble,
-                });
-            }
-            result.text.push_str(&found.value);
+            let value = value.map_err(|trouble| Irreplaceable {
+                name: found.name.clone(),
+                offset: text.len() - rest.len() - 1,
+                trouble,
+            })?;
+            result.text.push_str(value);
             rest = &rest[found.name.len()..];
             if let Origin::Default(span) = found.origin
                 && !result.defaults.contains(&span)
@@ -200,9 +202,9 @@ mod tests {
             start: 3,
             end: 4,
         };
-        p.add_default("spp", "4", span);
-        p.add_default("sppx", "long", span);
-        p.add_default("b", "bee", span);
+        p.add_default("spp", Some("4"), span);
+        p.add_default("sppx", Some("long"), span);
+        p.add_default("b", Some("bee"), span);
         p
     }
 
@@ -221,7 +223,7 @@ mod tests {
             start: 0,
             end: 0,
         };
-        p.add_default("a", &"x".repeat(LONGEST_VALUE / 2), span);
+        p.add_default("a", Some(&"x".repeat(LONGEST_VALUE / 2)), span);
         assert_eq!(text(&mut p, "$a$a").len(), LONGEST_VALUE);
         // Only what is inserted counts: a long value without names is read as it is.
         assert_eq!(text(&mut p, "$a$a,"), text(&mut p, "$a$a") + ",");
@@ -231,7 +233,7 @@ mod tests {
         assert_eq!(refused, Some(uses - 8), "eight were inserted before");
         // A value that was made of a thousand names still tells of each `<default>` once.
         p = Parameters::new(&[]);
-        p.add_default("b", "y", span);
+        p.add_default("b", Some("y"), span);
         let made = p.substitute(&"$b".repeat(1000)).expect("short enough");
         assert_eq!((made.text.len(), made.defaults.len()), (1000, 1));
     }

@@ -64,6 +64,8 @@ fn defaults_that_double_without_end_are_refused_with_the_place() {
         &text,
         "main.xml:6:45: error: with `$v3` this value would be longer than 65536 bytes",
     );
+    // What follows from the first is not said.
+    assert_eq!(file(&text).lines().lines().count(), 1);
     // Each value is short enough, but there are very many.
     let mut text = String::from("<scene version='3.0.0'>\n");
     text += &format!("<default name='v' value='{}'/>\n", "x".repeat(60_000));
