@@ -5,6 +5,7 @@ use crate::reader::Use;
 use crate::{Bitmap, Checkerboard, Constant, Filter, Illuminated, MeshAttribute};
 use crate::{Texture, TextureReader, UvTransform, Wrap};
 use etalon_params::{Class, Diagnostic, Params, Value, plugins};
+use etalon_spectrum::spd::check_unit;
 use etalon_spectrum::{Blackbody, Spectrum};
 use etalon_transport::Role;
 use glam::{DVec3, UVec2};
@@ -32,7 +33,7 @@ impl TextureReader<'_> {
             "bitmap" => self.bitmap(params, purpose.role).map(Texture::Bitmap),
             "checkerboard" => Some(self.checkerboard(params, purpose.role)),
             "mesh_attribute" => mesh_attribute(params).map(Texture::MeshAttribute),
-            "d65" => self.d65(params),
+            "d65" => self.d65(params, purpose),
             "rawconstant" => self.rawconstant(params, purpose),
             "uniform" | "regular" | "irregular" | "blackbody" | "srgb" => {
                 let spectrum = self.spectrum(params, plugin.value.as_str());
@@ -94,7 +95,7 @@ impl TextureReader<'_> {
         }))
     }
 
-    fn d65(&mut self, params: &Params<'_>) -> Option<Texture> {
+    fn d65(&mut self, params: &Params<'_>, purpose: Use) -> Option<Texture> {
         let scale = params.float_where("scale", 1.0, "a finite number not below 0", |x| {
             x >= 0.0 && x.is_finite()
         }) as f32;
@@ -132,7 +133,8 @@ impl TextureReader<'_> {
                 None
             }
         }?;
-        Some(Texture::Constant(Constant::new(spectrum.scaled(scale))))
+        let spectrum = self.held(spectrum.scaled(scale), purpose, params.node.plugin.span);
+        Some(Texture::Constant(Constant::new(spectrum)))
     }
 
     fn spectrum(&self, params: &Params<'_>, plugin: &str) -> Option<Spectrum> {
@@ -149,11 +151,13 @@ impl TextureReader<'_> {
             "uniform" => Spectrum::uniform(required("value")?),
             "regular" => {
                 let (min, max) = (required("wavelength_min"), required("wavelength_max"));
+                in_nanometres(params, "wavelength_max", max.as_slice())?;
                 let values = numbers("values")?;
                 Spectrum::regular(min?, max?, &values)
             }
             "irregular" => {
                 let (wavelengths, values) = (numbers("wavelengths"), numbers("values"));
+                in_nanometres(params, "wavelengths", wavelengths.as_deref().unwrap_or(&[]))?;
                 Spectrum::irregular(&wavelengths?, &values?)
             }
             "blackbody" => {
@@ -337,6 +341,14 @@ fn mesh_attribute(params: &Params<'_>) -> Option<MeshAttribute> {
         name: name.to_owned(),
         scale,
     })
+}
+
+/// `None`, after a diagnostic, if the wavelengths in a property cannot be meant in nanometres.
+fn in_nanometres(params: &Params<'_>, name: &str, wavelengths: &[f64]) -> Option<()> {
+    let checked = check_unit(wavelengths);
+    checked
+        .map_err(|message| params.error_at(name, message))
+        .ok()
 }
 
 /// A list of numbers separated by commas or spaces.

@@ -148,7 +148,7 @@ impl TextureReader<'_> {
 
     /// A spectrum in its role: what no more than all light can be reflected of is held to 1, with
     /// a note. (Mitsuba 3 takes such numbers and spectra as they are and makes light of nothing.)
-    fn held(&self, spectrum: Spectrum, purpose: Use, span: Span) -> Spectrum {
+    pub(crate) fn held(&self, spectrum: Spectrum, purpose: Use, span: Span) -> Spectrum {
         if purpose.role != Role::Reflectance || !(spectrum.maximum() > 1.0) {
             return spectrum;
         }

@@ -280,6 +280,9 @@ fn reflectances_are_held_to_one() {
     let uneven = vec![(400.0, 0.2), (500.0, 2.0), (550.0, 0.25), (700.0, 0.75)];
     let held = vec![(400.0, 0.2), (500.0, 1.0), (550.0, 0.25), (700.0, 0.75)];
     assert_eq!(samples(uneven), samples(held));
+    // D65 reaches 1.17 at 480 nm; what is below 1 stays.
+    let lamp = eval(object("d65", vec![]), Role::Reflectance);
+    assert!(close(lamp, D65.map(|x| x.min(1.0)), 1e-3), "{lamp}");
     let nested = object(
         "checkerboard",
         vec![("color0", Value::Float(5.0)), ("color1", Value::Float(5.0))],
@@ -335,6 +338,26 @@ fn mistakes_are_refused() {
             ),
             role,
             "`x` in `wavelengths`",
+        ),
+        (
+            object(
+                "irregular",
+                vec![("wavelengths", text("0.4 0.7")), ("values", text("1 2"))],
+            ),
+            role,
+            "not in micrometres",
+        ),
+        (
+            object(
+                "regular",
+                vec![
+                    ("wavelength_min", number(0.4)),
+                    ("wavelength_max", number(0.7)),
+                    ("values", text("1 2")),
+                ],
+            ),
+            role,
+            "the wavelengths end at 0.7 nm",
         ),
         (
             object("mesh_attribute", vec![("name", text("colour"))]),
