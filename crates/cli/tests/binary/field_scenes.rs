@@ -115,6 +115,25 @@ fn the_outside_of_a_conductor_counts() {
     near(mirror("1.333", "water"), [0.0; 3], 1e-3);
 }
 
+/// Weights below one absorb the rest.
+#[test]
+fn mixtures_of_several_materials_are_weighted_sums() {
+    let grey = |reflectance: f32| {
+        format!(
+            "<bsdf type=\"diffuse\"><float name=\"reflectance\" value=\"{reflectance}\"/></bsdf>"
+        )
+    };
+    let mixture = |weights: &str, parts: &[f32]| {
+        let parts: String = parts.iter().map(|&part| grey(part)).collect();
+        let bsdf = format!(
+            "<bsdf type=\"mixturebsdf\"><string name=\"weights\" value=\"{weights}\"/>{parts}</bsdf>"
+        );
+        rendered(&plain("0.6.0", &on_rectangle(&bsdf))).0
+    };
+    near(mixture("0.7, 0.3", &[1.0, 0.2]), [0.76; 3], 0.02);
+    near(mixture("0.2 0.1 0.3", &[1.0, 0.5, 0.5]), [0.4; 3], 0.02);
+}
+
 #[test]
 fn films_samplers_and_parameters_of_old_scenes_are_read() {
     let body = on_rectangle("<bsdf type=\"Diffuse\"/>");
