@@ -65,8 +65,8 @@ impl RelativeIndex {
 
     /// The same for a model that has one index for all wavelengths, as f64.
     pub fn constant_from_params(params: &Params<'_>, default_interior: &str) -> Option<f64> {
-        let interior = read_number(params, "int_ior", default_interior);
-        let exterior = read_number(params, "ext_ior", "air");
+        let interior = number_from_params(params, "int_ior", default_interior);
+        let exterior = number_from_params(params, "ext_ior", "air");
         Some(interior? / exterior?)
     }
 
@@ -125,8 +125,8 @@ fn unknown_name(params: &Params<'_>, property: &Property, word: &str) {
     );
 }
 
-/// A number or a name.
-fn read_number(params: &Params<'_>, name: &str, default: &str) -> Option<f64> {
+/// One index for all wavelengths: a number or a name; `default` is a name.
+pub fn number_from_params(params: &Params<'_>, name: &str, default: &str) -> Option<f64> {
     let Some(property) = params.property(name) else {
         return named(default);
     };
@@ -177,7 +177,7 @@ fn read(params: &Params<'_>, build: &mut dyn Build, name: &str, default: &str) -
             build.nested_texture(node, Role::Unbounded),
         ))),
         Value::Float(_) | Value::Integer(_) | Value::String(_) => {
-            read_number(params, name, default).map(Given::Number)
+            number_from_params(params, name, default).map(Given::Number)
         }
         other => {
             params.diagnostics.push(

@@ -38,6 +38,7 @@ pub mod dielectric;
 pub mod diffuse;
 pub mod mask;
 pub mod mirror;
+pub mod mixturebsdf;
 pub mod null;
 pub mod phong;
 pub mod plastic;

@@ -1,27 +1,34 @@
 //! Reading the complex refractive index of a conductor: by name, or as `eta` and `k`.
 
 use crate::Site;
+use crate::ior::number_from_params;
 use etalon_params::{Diagnostic, Params};
 use etalon_spectrum::{Spectrum, conductors, parse_spd};
 use etalon_transport::{Build, Role, TextureId, Textures};
 use glam::Vec4;
 
-/// η and k, with textures. The outside is taken to be vacuum, as in Mitsuba.
+/// η and k, with textures. The outside is vacuum, as in Mitsuba 3, unless the scene says otherwise.
 #[derive(Clone, Debug)]
 pub struct Metal {
     eta: TextureId,
     k: TextureId,
+    /// 1 over the index outside.
+    inverse_exterior: f32,
 }
 
 impl Metal {
     /// Reads `material` (a name, or `none` for a perfect mirror), or `eta` (0) and `k` (1), whose
-    /// defaults are the perfect mirror too.
+    /// defaults are the perfect mirror too; and `ext_eta`, a number or a name (vacuum), by which
+    /// both are divided.
     pub fn from_params(params: &Params<'_>, build: &mut dyn Build) -> Option<Self> {
+        let exterior = number_from_params(params, "ext_eta", "vacuum");
+        let inverse_exterior = (1.0 / exterior?) as f32;
         let name = params.string("material").unwrap_or("none");
         if name == "none" {
             return Some(Self {
                 eta: build.texture(params, "eta", Some(0.0), Role::Unbounded),
                 k: build.texture(params, "k", Some(1.0), Role::Unbounded),
+                inverse_exterior,
             });
         }
         if params.has("eta") || params.has("k") {
@@ -41,13 +48,18 @@ impl Metal {
         Some(Self {
             eta: build.spectrum(eta),
             k: build.spectrum(k),
+            inverse_exterior,
         })
     }
 
-    /// η and k at a point, per lane.
+    /// η and k at a point relative to the outside, per lane.
     #[inline]
     pub fn resolve<T: Textures>(&self, site: &Site<'_, T>) -> (Vec4, Vec4) {
-        (site.spectrum(self.eta), site.spectrum(self.k))
+        let relative = self.inverse_exterior;
+        (
+            site.spectrum(self.eta) * relative,
+            site.spectrum(self.k) * relative,
+        )
     }
 }
 

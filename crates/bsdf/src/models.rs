@@ -253,8 +253,22 @@ impl Material {
         params: &Params<'_>,
         build: &mut dyn Build,
     ) -> Option<[Self; N]> {
+        let given = params.children(Class::Bsdf).len();
+        let materials = Self::all_nested(params, build)?;
+        if given != N {
+            params.error(format!(
+                "`{}` needs {N} nested BSDF{}, not {given}",
+                params.node.plugin.value,
+                if N == 1 { "" } else { "s" },
+            ));
+            return None;
+        }
+        materials.try_into().ok()
+    }
+
+    /// The materials nested in a composed one that could be read, in the order of the file.
+    pub(crate) fn all_nested(params: &Params<'_>, build: &mut dyn Build) -> Option<Vec<Self>> {
         let children = params.children(Class::Bsdf);
-        let given = children.len();
         for (_, node) in &children {
             if node.plugin.value == crate::classicphong::NAME {
                 let message = format!(
@@ -266,19 +280,10 @@ impl Material {
                 return None;
             }
         }
-        let materials: Vec<Self> = children
+        let materials = children
             .into_iter()
-            .filter_map(|(_, node)| Self::from_node(node, build, params.diagnostics))
-            .collect();
-        if given != N {
-            params.error(format!(
-                "`{}` needs {N} nested BSDF{}, not {given}",
-                params.node.plugin.value,
-                if N == 1 { "" } else { "s" },
-            ));
-            return None;
-        }
-        materials.try_into().ok()
+            .filter_map(|(_, node)| Self::from_node(node, build, params.diagnostics));
+        Some(materials.collect())
     }
 
     /// Whether it is a classic Phong material, and no scattering model.
@@ -331,6 +336,7 @@ models! {
         "mask" Mask mask,
         "twosided" TwoSided twosided,
         "blendbsdf" Blend blendbsdf,
+        "mixturebsdf" Mixture mixturebsdf,
         "null" Null null,
         "classicphong" ClassicPhong classicphong,
     }

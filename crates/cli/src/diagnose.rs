@@ -6,6 +6,8 @@
 use crate::say;
 use etalon_params::{Diagnostic, Severity, Sources, Span};
 use miette::{GraphicalReportHandler, GraphicalTheme, LabeledSpan, NamedSource, SourceCode};
+use std::collections::HashMap;
+use std::collections::hash_map::Entry;
 use std::fmt;
 use std::io::IsTerminal;
 use std::sync::Arc;
@@ -83,8 +85,9 @@ pub fn render(diagnostics: &[Diagnostic], sources: &Sources, coloured: bool) -> 
         .with_width(WIDTH)
         .with_links(false);
     let mut text = String::new();
-    for diagnostic in diagnostics.iter().take(MOST_SHOWN) {
-        text.push_str(&heading(diagnostic, sources, coloured));
+    let kinds = kinds(diagnostics);
+    for (diagnostic, more) in chosen(&kinds) {
+        text.push_str(&heading(diagnostic, *more, sources, coloured));
         let short = diagnostic
             .span
             .is_none_or(|span| fits(sources, span) && related_fit(diagnostic, sources));
@@ -95,14 +98,52 @@ pub fn render(diagnostics: &[Diagnostic], sources: &Sources, coloured: bool) -> 
         }
         text.push('\n');
     }
-    if let Some(more) = diagnostics.len().checked_sub(MOST_SHOWN + 1) {
+    if let Some(more) = kinds.len().checked_sub(MOST_SHOWN + 1) {
         text.push_str(&format!("… and {} more messages\n", more + 1));
     }
     text
 }
 
-/// `file:line:column: error: message`, in one line.
-fn heading(diagnostic: &Diagnostic, sources: &Sources, coloured: bool) -> String {
+/// The diagnostics, each note only where it is first made, with the number of further places.
+fn kinds(diagnostics: &[Diagnostic]) -> Vec<(&Diagnostic, usize)> {
+    let mut kinds: Vec<(&Diagnostic, usize)> = Vec::new();
+    let mut first: HashMap<&str, usize> = HashMap::new();
+    for diagnostic in diagnostics {
+        if diagnostic.severity == Severity::Note {
+            match first.entry(&diagnostic.message) {
+                Entry::Occupied(first) => {
+                    kinds[*first.get()].1 += 1;
+                    continue;
+                }
+                Entry::Vacant(place) => {
+                    place.insert(kinds.len());
+                }
+            }
+        }
+        kinds.push((diagnostic, 0));
+    }
+    kinds
+}
+
+/// Those that are shown, in their order: errors before notes if there are too many.
+fn chosen<'a, 'd>(
+    kinds: &'a [(&'d Diagnostic, usize)],
+) -> impl Iterator<Item = &'a (&'d Diagnostic, usize)> {
+    let is_error = |(diagnostic, _): &&(&Diagnostic, usize)| diagnostic.severity == Severity::Error;
+    let errors = kinds.iter().filter(is_error).count();
+    let mut notes_left = MOST_SHOWN.saturating_sub(errors);
+    let shown = kinds.iter().filter(move |kind| {
+        let take = is_error(kind) || notes_left > 0;
+        if !is_error(kind) {
+            notes_left = notes_left.saturating_sub(1);
+        }
+        take
+    });
+    shown.take(MOST_SHOWN)
+}
+
+/// `file:line:column: error: message`, in one line; `more` places say the same.
+fn heading(diagnostic: &Diagnostic, more: usize, sources: &Sources, coloured: bool) -> String {
     let (kind, colour) = match diagnostic.severity {
         Severity::Error => ("error", "31"),
         Severity::Note => ("note", "36"),
@@ -110,7 +151,12 @@ fn heading(diagnostic: &Diagnostic, sources: &Sources, coloured: bool) -> String
     let place = diagnostic.span.map_or_else(String::new, |span| {
         format!("{}: ", printable(&sources.location(span)))
     });
-    let message = printable(&diagnostic.message);
+    let mut message = printable(&diagnostic.message);
+    match more {
+        0 => {}
+        1 => message.push_str(" (and at one more place)"),
+        _ => message.push_str(&format!(" (and at {more} more places)")),
+    }
     match coloured {
         true => format!("\x1b[1m{place}\x1b[{colour}m{kind}:\x1b[39m {message}\x1b[0m\n"),
         false => format!("{place}{kind}: {message}\n"),
@@ -275,6 +321,43 @@ mod tests {
         assert!(text.ends_with("… and 3 more messages\n"), "{text}");
         assert_eq!(text.matches("error: no\n").count(), MOST_SHOWN);
         assert!(!render(&many[3..], &sources, false).contains("more"));
+    }
+
+    #[test]
+    fn each_note_is_made_once_and_none_hides_an_error() {
+        let mut sources = Sources::default();
+        let file = sources.add("a.xml", "0123456789".repeat(20));
+        let at = |start| Span {
+            file,
+            start,
+            end: start + 1,
+        };
+        let note = |start, message: &str| Diagnostic::note(at(start), message);
+        let mut all = vec![note(2, "held"), note(3, "other"), note(4, "held")];
+        all.push(note(5, "held"));
+        let text = render(&all, &sources, false);
+        assert!(
+            text.contains("a.xml:1:3: note: held (and at 2 more places)\n"),
+            "{text}"
+        );
+        assert_eq!(text.matches("note: ").count(), 2, "{text}");
+        // Sixty notes of their own kinds before an error, which is shown all the same.
+        let mut many: Vec<Diagnostic> = (0..60).map(|i| note(i, &format!("note {i}"))).collect();
+        many.push(Diagnostic::error(at(100), "wrong"));
+        let text = render(&many, &sources, false);
+        assert!(text.contains(":101: error: wrong\n"), "{text}");
+        assert!(text.ends_with("… and 11 more messages\n"), "{text}");
+        // Errors are counted one by one: each wants mending.
+        let twice = vec![
+            Diagnostic::error(at(1), "same"),
+            Diagnostic::error(at(2), "same"),
+        ];
+        assert_eq!(
+            render(&twice, &sources, false)
+                .matches("error: same\n")
+                .count(),
+            2
+        );
     }
 
     #[test]

@@ -102,13 +102,22 @@ impl FilmSettings {
 
     /// All but the crop.
     fn uncropped(params: &Params<'_>, size: UVec2) -> Self {
-        let names = PixelFormat::ALL.map(|(name, _)| name);
-        let name = params.choice("pixel_format", PixelFormat::default().name(), &names);
+        let mut names: Vec<_> = PixelFormat::ALL.iter().map(|(name, _)| *name).collect();
+        // As Mitsuba 0.6 spells it.
+        names.push("luminanceAlpha");
+        let name = match params.choice("pixel_format", PixelFormat::default().name(), &names) {
+            "luminanceAlpha" => "luminance_alpha",
+            name => name,
+        };
         let pixel_format = PixelFormat::ALL
             .into_iter()
             .find(|(known, _)| *known == name);
-        let files = ["openexr", "exr", "rgbe", "pfm"];
-        let file_format = match params.choice("file_format", "openexr", &files) {
+        let files: &[_] = match params.node.plugin.value.as_str() {
+            "ldrfilm" => &["openexr", "png", "jpeg"],
+            "mfilm" => &["openexr", "matlab", "mathematica", "numpy"],
+            _ => &["openexr", "exr", "rgbe", "pfm"],
+        };
+        let file_format = match params.choice("file_format", "openexr", files) {
             "rgbe" => FileFormat::Rgbe,
             "pfm" => FileFormat::Pfm,
             _ => FileFormat::OpenExr,

@@ -18,6 +18,8 @@ pub struct Ignored {
     pub names: &'static [&'static str],
     /// Which values are ignored; `None` means all.
     pub only: Option<Only>,
+    /// Whether a note says that they are ignored: with Mitsuba 0.6 they could change the picture.
+    pub said: bool,
     /// Why they cannot change the picture.
     pub reason: &'static str,
 }
@@ -32,11 +34,12 @@ pub struct Only {
 }
 
 /// The list.
-pub const IGNORED: [Ignored; 18] = [
+pub const IGNORED: [Ignored; 29] = [
     Ignored {
         class: Class::Scene,
         plugins: &[],
         names: &[
+            "embree_use_robust_intersection",
             "embree_use_robust_intersections",
             "kd_intersection_cost",
             "kd_traversal_cost",
@@ -50,6 +53,7 @@ pub const IGNORED: [Ignored; 18] = [
             "compact_acceleration_structures",
         ],
         only: None,
+        said: false,
         reason: "They tune Mitsuba's acceleration structures. Intersections here are always \
                  watertight, whatever the structure.",
     },
@@ -58,6 +62,7 @@ pub const IGNORED: [Ignored; 18] = [
         plugins: &[],
         names: &["allow_thread_reordering"],
         only: None,
+        said: false,
         reason: "It tunes the scheduling of GPU threads.",
     },
     Ignored {
@@ -65,6 +70,7 @@ pub const IGNORED: [Ignored; 18] = [
         plugins: &[],
         names: &["banner"],
         only: None,
+        said: false,
         reason: "Mitsuba 3 ignores it, too; no banner is ever drawn into a picture.",
     },
     Ignored {
@@ -72,13 +78,47 @@ pub const IGNORED: [Ignored; 18] = [
         plugins: &[],
         names: &["compensate"],
         only: None,
+        said: false,
         reason: "It asks for compensated summation. Accumulation here is exact.",
+    },
+    Ignored {
+        class: Class::Film,
+        plugins: &[],
+        names: &["high_quality_edges"],
+        only: None,
+        said: false,
+        reason: "It asked Mitsuba 0.6 for what `sample_border` asks for today.",
+    },
+    Ignored {
+        class: Class::Film,
+        plugins: &[],
+        names: &["attach_log"],
+        only: None,
+        said: false,
+        reason: "It asked Mitsuba 0.6 to keep its log in the file. Files here say how they were made.",
+    },
+    Ignored {
+        class: Class::Film,
+        plugins: &["ldrfilm"],
+        names: &["gamma", "exposure", "tonemap_method", "key", "burn"],
+        only: None,
+        said: false,
+        reason: "An `ldrfilm` is read as an `hdrfilm`, which is said: the picture stays linear.",
+    },
+    Ignored {
+        class: Class::Film,
+        plugins: &["mfilm"],
+        names: &["digits", "variable"],
+        only: None,
+        said: false,
+        reason: "An `mfilm` is read as an `hdrfilm`, which is said.",
     },
     Ignored {
         class: Class::Film,
         plugins: &[],
         names: &["sample_border"],
         only: None,
+        said: false,
         reason: "Samples of pixels beyond the border are not needed: no sample is shared between pixels.",
     },
     Ignored {
@@ -86,8 +126,17 @@ pub const IGNORED: [Ignored; 18] = [
         plugins: &[],
         names: &["block_size", "samples_per_pass"],
         only: None,
+        said: false,
         reason: "They cut the work into tiles and passes. Pictures here do not depend on how the \
                  work is cut.",
+    },
+    Ignored {
+        class: Class::Integrator,
+        plugins: &[],
+        names: &["strict_normals"],
+        only: None,
+        said: true,
+        reason: "Shading normals are treated as in Mitsuba 3, which has no such parameter.",
     },
     Ignored {
         class: Class::Integrator,
@@ -97,6 +146,7 @@ pub const IGNORED: [Ignored; 18] = [
             words: "not above 0, which means no limit",
             holds: is_not_positive,
         }),
+        said: false,
         reason: "Rendering ends when the samples are done, not when the time is up; `--time` fixes how many there are.",
     },
     Ignored {
@@ -104,6 +154,7 @@ pub const IGNORED: [Ignored; 18] = [
         plugins: &["depth", "signature", "aov", "moment"],
         names: &["hide_emitters"],
         only: None,
+        said: false,
         reason: "They show distances, objects and properties of surfaces; integrators nested in them have their own.",
     },
     Ignored {
@@ -111,6 +162,7 @@ pub const IGNORED: [Ignored; 18] = [
         plugins: &["ao"],
         names: &["max_depth", "rr_depth", "hide_emitters"],
         only: None,
+        said: false,
         reason: "Occlusion has one ray and knows no lights.",
     },
     Ignored {
@@ -118,6 +170,7 @@ pub const IGNORED: [Ignored; 18] = [
         plugins: &["whitted"],
         names: &["rr_depth"],
         only: None,
+        said: false,
         reason: "Every branch is followed up to `max_depth`: nothing is cut at random.",
     },
     Ignored {
@@ -125,20 +178,60 @@ pub const IGNORED: [Ignored; 18] = [
         plugins: &["perspective", "orthographic"],
         names: &["focus_distance"],
         only: None,
+        said: false,
         reason: "Only a lens can be out of focus.",
     },
     Ignored {
+        class: Class::Sensor,
+        plugins: &[],
+        names: &["jitter"],
+        only: Some(Only {
+            words: "true",
+            holds: is_true,
+        }),
+        said: false,
+        reason: "Samples are spread over the reach of the reconstruction filter.",
+    },
+    Ignored {
+        class: Class::Sensor,
+        plugins: &[],
+        names: &["cone_scale"],
+        only: None,
+        said: false,
+        reason: "It widens what Mitsuba averages of a texture at a point. Here the samples of a \
+                 pixel average.",
+    },
+    Ignored {
         class: Class::Sampler,
-        plugins: &["multijitter", "orthogonal", "ldsampler"],
+        plugins: &[
+            "multijitter",
+            "orthogonal",
+            "bose",
+            "bush",
+            "ldsampler",
+            "halton",
+            "hammersley",
+        ],
         names: &["jitter", "strength"],
         only: None,
+        said: false,
         reason: "The sampler `sobol` stands in for these, which is said.",
+    },
+    Ignored {
+        class: Class::Sampler,
+        plugins: &[],
+        names: &["dimension", "scramble"],
+        only: None,
+        said: false,
+        reason: "With Mitsuba 0.6 they choose how many dimensions are well distributed, and how they \
+                 are scrambled. Here all are, with a scramble of their own in every pixel.",
     },
     Ignored {
         class: Class::Emitter,
         plugins: &["constant"],
         names: &["to_world"],
         only: None,
+        said: false,
         reason: "A uniform sky looks the same however it is turned.",
     },
     Ignored {
@@ -146,13 +239,39 @@ pub const IGNORED: [Ignored; 18] = [
         plugins: &[],
         names: &["silhouette_sampling_weight"],
         only: None,
+        said: false,
         reason: "It weighs shapes in Mitsuba's estimation of derivatives.",
+    },
+    Ignored {
+        class: Class::Shape,
+        plugins: &["obj", "ply", "serialized"],
+        names: &["max_smooth_angle"],
+        only: None,
+        said: true,
+        reason: "Vertex normals are those of the file or of all faces around a vertex, as in Mitsuba 3.",
+    },
+    Ignored {
+        class: Class::Shape,
+        plugins: &["obj"],
+        names: &["collapse", "load_materials"],
+        only: None,
+        said: false,
+        reason: "All of a file is one shape, whose material stands in the scene.",
+    },
+    Ignored {
+        class: Class::Emitter,
+        plugins: &["envmap"],
+        names: &["cache", "gamma"],
+        only: None,
+        said: true,
+        reason: "Images are kept as they are, and decoded as their format says.",
     },
     Ignored {
         class: Class::Shape,
         plugins: &["cube", "rectangle"],
         names: &["face_normals"],
         only: None,
+        said: false,
         reason: "Their faces are flat anyway.",
     },
     Ignored {
@@ -160,14 +279,16 @@ pub const IGNORED: [Ignored; 18] = [
         plugins: &["shapegroup"],
         names: &["to_world"],
         only: None,
+        said: false,
         reason: "Mitsuba does not use it either: instances are placed.",
     },
     Ignored {
         class: Class::Texture,
         plugins: &["bitmap"],
-        names: &["accel", "format"],
+        names: &["accel", "format", "cache", "max_anisotropy"],
         only: None,
-        reason: "They choose how Mitsuba stores texels in memory. Here texels keep the precision \
+        said: false,
+        reason: "They choose how Mitsuba stores and filters texels. Here texels keep the precision \
                  of 32-bit floats.",
     },
     Ignored {
@@ -175,9 +296,14 @@ pub const IGNORED: [Ignored; 18] = [
         plugins: &["uniform"],
         names: &["wavelength_min", "wavelength_max"],
         only: None,
+        said: false,
         reason: "They say where Mitsuba samples wavelengths; the value holds everywhere.",
     },
 ];
+
+fn is_true(value: &Value) -> bool {
+    matches!(value, Value::Boolean(true))
+}
 
 fn is_not_positive(value: &Value) -> bool {
     match value {
@@ -207,7 +333,8 @@ pub fn markdown() -> String {
     let mut text = String::from(
         "# Parameters that are accepted and ignored\n\n\
          These parameters cannot change a picture made here. Every other parameter \
-         that a plugin does not know is an error.\n\n\
+         that a plugin does not know is an error; in files of a version before 2.0 it is ignored \
+         with a note, as Mitsuba 0.6 did.\n\n\
          | object | parameter | why it changes nothing |\n|---|---|---|\n",
     );
     for entry in &IGNORED {
@@ -221,7 +348,11 @@ pub fn markdown() -> String {
         if let Some(only) = entry.only {
             names = format!("{names} ({})", only.words);
         }
-        text.push_str(&format!("| {object} | {names} | {} |\n", entry.reason));
+        let note = if entry.said { " A note says so." } else { "" };
+        text.push_str(&format!(
+            "| {object} | {names} | {}{note} |\n",
+            entry.reason
+        ));
     }
     text
 }

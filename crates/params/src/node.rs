@@ -119,6 +119,7 @@ pub struct Property {
     /// Where the value stands.
     pub span: Span,
     used: AtomicBool,
+    lenient: bool,
 }
 
 impl Property {
@@ -130,7 +131,20 @@ impl Property {
             value,
             span,
             used: AtomicBool::new(false),
+            lenient: false,
         }
+    }
+
+    /// The same property, about which a plugin that does not know it only makes a note: it comes
+    /// from a file of Mitsuba 0.x, which warned of such and went on.
+    pub fn lenient(mut self) -> Self {
+        self.lenient = true;
+        self
+    }
+
+    /// Whether it is no mistake that no plugin knows it.
+    pub fn is_lenient(&self) -> bool {
+        self.lenient
     }
 
     /// Notes that somebody asked for it.

@@ -233,7 +233,13 @@ pub fn not_built<'a>(node: &Node, built: impl IntoIterator<Item = &'a str>) -> D
     let (name, class) = (node.plugin.value.as_str(), node.class.name());
     let built: Vec<&str> = built.into_iter().collect();
     let error = |message: String| Diagnostic::error(node.plugin.span, message);
-    let list = || format!("built: {}", built.join(", "));
+    let list = || match node.class {
+        Class::Integrator => format!(
+            "built: {}; `--integrator NAME` renders the scene with one of them",
+            built.join(", ")
+        ),
+        _ => format!("built: {}", built.join(", ")),
+    };
     match status(node.class, name) {
         Status::Mitsuba3 => {
             let diagnostic = error(format!(
@@ -315,6 +321,7 @@ mod tests {
             "`area` is a plugin of the class emitter, not bsdf (write `<emitter type=\"area\">`)"
         );
         assert!(words(Class::Bsdf, "ward").contains("belongs to Mitsuba 0.6"));
+        assert!(words(Class::Integrator, "my_research").contains("`--integrator NAME`"));
         assert_eq!(
             words(Class::Bsdf, "difuse"),
             "unknown bsdf plugin `difuse` (did you mean `diffuse`?)"

@@ -261,15 +261,22 @@ impl<'a> Params<'a> {
     pub fn finish(&self) {
         let known = self.known.borrow();
         let (class, plugin) = (self.node.class, self.node.plugin.value.as_str());
-        let unused = self.node.properties.iter().filter(|p| {
-            !p.is_used() && !crate::ignored::is_ignored(class, plugin, &p.name, &p.value)
-        });
-        for property in unused {
+        for property in self.node.properties.iter().filter(|p| !p.is_used()) {
             let entry = crate::ignored::entry(class, plugin, &property.name);
-            if let Some((entry, only)) = entry.and_then(|e| Some((e, e.only?))) {
-                let message = format!("`{}` must be {}", property.name, only.words);
-                self.diagnostics
-                    .push(Diagnostic::error(property.name_span, message).label(entry.reason));
+            if let Some(entry) = entry {
+                let diagnostic = match entry.only.filter(|only| !(only.holds)(&property.value)) {
+                    None if !entry.said => continue,
+                    None => Diagnostic::note(
+                        property.name_span,
+                        format!("`{}` has no effect: {}", property.name, entry.reason),
+                    ),
+                    Some(only) => Diagnostic::error(
+                        property.name_span,
+                        format!("`{}` must be {}", property.name, only.words),
+                    )
+                    .label(entry.reason),
+                };
+                self.diagnostics.push(diagnostic);
                 continue;
             }
             let message = if property.name.is_empty() {
@@ -284,8 +291,14 @@ impl<'a> Params<'a> {
                     self.node.plugin.value, property.name
                 )
             };
-            self.diagnostics.push(
+            let diagnostic = if property.is_lenient() {
+                let message = format!("{message}: it is ignored, as in Mitsuba 0.6");
+                Diagnostic::note(property.name_span, message)
+            } else {
                 Diagnostic::error(property.name_span, message)
+            };
+            self.diagnostics.push(
+                diagnostic
                     .label("not a parameter of this plugin")
                     .suggest(&property.name, known.iter().map(String::as_str)),
             );

@@ -10,7 +10,7 @@ use etalon_film::{FilmSettings, Filter};
 use etalon_geometry::AcceleratorKind;
 use etalon_lights::{Bounds, LightChooser, LightDescription, LightSet};
 use etalon_params::{Class, Diagnostic, Diagnostics, Node, Params, Property, Span, plugins};
-use etalon_transport::{Assets, Build, LightId, Role};
+use etalon_transport::{Assets, Build, LightId, Role, ShapeId};
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 
@@ -67,6 +67,7 @@ pub fn compile_with(
         &LightChooser::ALL.map(LightChooser::name),
     );
     read_unused_textures(&params, &mut builder);
+    read_definitions(&params, diagnostics);
     refuse_unknown_children(&params);
     params.finish();
     if diagnostics.has_errors() {
@@ -117,8 +118,18 @@ fn lights(
         }
     }
     for (_, node) in params.children(Class::Emitter) {
+        let is_definition = node.plugin.value == "area" && node.id.is_some();
+        let is_unused = !node.properties.iter().any(Property::is_used);
         let params = Params::new(node, diagnostics);
-        lights.extend(LightDescription::from_params(&params, None, builder));
+        // One that shapes refer to has been read with them.
+        let shape = is_definition.then_some(ShapeId(0));
+        let light = LightDescription::from_params(&params, shape, builder);
+        if !is_definition {
+            lights.extend(light);
+        } else if is_unused {
+            let message = "no shape refers to this `area` light: it shines nowhere";
+            diagnostics.push(Diagnostic::note(node.plugin.span, message));
+        }
     }
     lights
 }
@@ -160,12 +171,29 @@ fn sensor(
     Some((camera, film, sampler))
 }
 
+/// Films of Mitsuba 0.6 that store the same picture in other ways.
+const OTHER_FILMS: [&str; 3] = ["ldrfilm", "mfilm", "tiledhdrfilm"];
+
 /// The film of a sensor, by default Mitsuba's `hdrfilm`.
 fn film(sensor: &Params<'_>, diagnostics: &Diagnostics) -> Option<FilmSettings> {
     let Some(node) = sensor.child(Class::Film) else {
         return Some(FilmSettings::new(768, 576, Filter::default()));
     };
-    if node.plugin.value != "hdrfilm" {
+    read_film(node, diagnostics)
+}
+
+/// An `hdrfilm`, or one of Mitsuba 0.6's other films, which is read as one.
+fn read_film(node: &Node, diagnostics: &Diagnostics) -> Option<FilmSettings> {
+    let name = node.plugin.value.as_str();
+    if OTHER_FILMS.contains(&name) {
+        diagnostics.push(
+            Diagnostic::note(
+                node.plugin.span,
+                format!("the film `{name}` is read as an `hdrfilm`: the picture stays linear"),
+            )
+            .help("`etalon convert` makes a picture for the screen of it"),
+        );
+    } else if name != "hdrfilm" {
         diagnostics.push(plugins::not_built(node, ["hdrfilm"]));
         return None;
     }
@@ -173,6 +201,22 @@ fn film(sensor: &Params<'_>, diagnostics: &Diagnostics) -> Option<FilmSettings> 
     let film = FilmSettings::from_params(&params);
     params.finish();
     Some(film)
+}
+
+/// Films, filters and samplers at the top of a scene are definitions for others to refer to.
+/// All are read, so that mistakes in those that nobody refers to are found.
+fn read_definitions(params: &Params<'_>, diagnostics: &Diagnostics) {
+    for (_, node) in params.children(Class::Film) {
+        read_film(node, diagnostics);
+    }
+    for (_, node) in params.children(Class::Sampler) {
+        SamplerSettings::from_node(node, diagnostics);
+    }
+    for (_, node) in params.children(Class::ReconstructionFilter) {
+        let params = Params::new(node, diagnostics);
+        Filter::from_params(&params);
+        params.finish();
+    }
 }
 
 /// Textures at the top of a scene are definitions for others to refer to. Those that nobody

@@ -4,7 +4,15 @@ use etalon_params::{Class, Diagnostic, Diagnostics, Node, Params, plugins};
 use etalon_sampling::SamplerKind;
 
 /// Samplers of Mitsuba that are known but not built yet; `sobol` stands in for them.
-const REPLACED: [&str; 3] = ["multijitter", "orthogonal", "ldsampler"];
+const REPLACED: [&str; 7] = [
+    "multijitter",
+    "orthogonal",
+    "bose",
+    "bush",
+    "ldsampler",
+    "halton",
+    "hammersley",
+];
 
 /// Samplers that are built.
 const BUILT: [&str; 3] = ["independent", "stratified", "sobol"];
@@ -42,7 +50,8 @@ impl SamplerSettings {
             })
     }
 
-    fn from_node(node: &Node, diagnostics: &Diagnostics) -> Self {
+    /// Reads a sampler.
+    pub(crate) fn from_node(node: &Node, diagnostics: &Diagnostics) -> Self {
         let params = Params::new(node, diagnostics);
         let name = node.plugin.value.as_str();
         let kind = match name {

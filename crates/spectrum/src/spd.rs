@@ -38,7 +38,28 @@ pub fn parse_spd(text: &str) -> Result<Samples, (usize, String)> {
         last_line = number;
     }
     check_count(&samples).map_err(|m| (last_line, m))?;
+    check_unit(&samples.0).map_err(|m| (last_line, m))?;
     Ok(samples)
+}
+
+/// Whether ascending wavelengths can be meant in nanometres: a table that ends below 100 nm is
+/// zero wherever there is light, and one that ends between 0.1 and 100 is given in micrometres.
+///
+/// # Errors
+/// What is wrong with the last of them.
+pub fn check_unit(wavelengths: &[f64]) -> Result<(), String> {
+    match wavelengths.last() {
+        Some(&last) if last < 100.0 => Err(format!(
+            "the wavelengths end at {last} nm, where nothing is visible: they must be given in \
+             nanometres{}",
+            if last >= 0.1 {
+                ", not in micrometres"
+            } else {
+                ""
+            }
+        )),
+        _ => Ok(()),
+    }
 }
 
 /// Reads a file named `.spb`: the text of [`parse_spd`], as UTF-8.
@@ -151,7 +172,7 @@ mod tests {
         }
 
         #[test]
-        fn what_is_printed_is_read_back(start in 1.0_f64..500.0, steps in proptest::collection::vec((0.01_f64..50.0, -1e3_f64..1e3), 2..20)) {
+        fn what_is_printed_is_read_back(start in 100.0_f64..500.0, steps in proptest::collection::vec((0.01_f64..50.0, -1e3_f64..1e3), 2..20)) {
             let mut wavelength = start;
             let mut expected = (Vec::new(), Vec::new());
             let mut text = String::new();

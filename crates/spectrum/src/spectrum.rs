@@ -121,6 +121,24 @@ impl Spectrum {
         }
     }
 
+    /// The same spectrum with every number it was made of held to `top` or below; of the spectrum
+    /// of a colour, its value at every nanometre.
+    pub fn held_to(&self, top: f32) -> Self {
+        match self {
+            Self::Uniform(value) => Self::Uniform(value.min(top)),
+            Self::Regular(table) => Self::Regular(Arc::new((**table).clone().held_to(top))),
+            Self::Irregular(table) => Self::Irregular(Arc::new((**table).clone().held_to(top))),
+            Self::Blackbody(body) => Self::Regular(Arc::new(body.table().clone().held_to(top))),
+            Self::Srgb(_) | Self::D65(_) => {
+                let values = (LAMBDA_MIN as i32..=LAMBDA_MAX as i32)
+                    .map(|nm| self.eval_at(f64::from(nm)).min(f64::from(top)));
+                let values: Vec<f64> = values.collect();
+                // Refused only if a value is not finite, and a spectrum has none such.
+                Self::regular(LAMBDA_MIN, LAMBDA_MAX, &values).unwrap_or(Self::Uniform(top))
+            }
+        }
+    }
+
     /// The mean value over 360–830 nm.
     pub fn mean(&self) -> f64 {
         self.power() / (LAMBDA_MAX - LAMBDA_MIN)

@@ -68,6 +68,12 @@ impl Regular {
         self
     }
 
+    /// The same spectrum with no value above `top`.
+    pub fn held_to(mut self, top: f32) -> Self {
+        self.values.iter_mut().for_each(|v| *v = v.min(top));
+        self
+    }
+
     /// First and last wavelength, nm.
     pub fn range(&self) -> [f32; 2] {
         [self.min, self.max]
@@ -188,6 +194,21 @@ impl Irregular {
         for knot in &mut self.knots {
             knot[1] *= factor;
             knot[2] *= factor;
+        }
+        self
+    }
+
+    /// The same spectrum with no value above `top`.
+    pub fn held_to(mut self, top: f32) -> Self {
+        for i in 0..self.knots.len() {
+            self.knots[i][1] = self.knots[i][1].min(top);
+        }
+        for i in 1..self.knots.len() {
+            let [[x, y, _], [next_x, next_y, _]] = [self.knots[i - 1], self.knots[i]];
+            // A slope between values that stay is kept to the bit.
+            if y >= top || next_y >= top {
+                self.knots[i - 1][2] = (next_y - y) / (next_x - x);
+            }
         }
         self
     }

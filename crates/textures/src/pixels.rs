@@ -51,13 +51,20 @@ pub struct Image {
 }
 
 impl Image {
-    /// Prepares pixels for lookup. With `raw`, three channels stay what they are. Colours beyond
-    /// 1 are kept if `role` allows them, with a spectrum as for a bright `rgb` value; negative
-    /// ones never.
+    /// Prepares pixels for lookup. With `raw`, three channels stay what they are. Numbers and
+    /// colours beyond 1 are kept if `role` allows them, colours with a spectrum as for a bright
+    /// `rgb` value; negative colours never.
     pub fn new(pixels: Pixels, raw: bool, role: Role) -> Self {
         let mut moved = 0;
         let (texels, mean) = match pixels.values {
-            Values::One(values) => {
+            Values::One(mut values) => {
+                if role == Role::Reflectance {
+                    for value in &mut values {
+                        let held = value.clamp(0.0, 1.0);
+                        moved += usize::from(held != *value);
+                        *value = held;
+                    }
+                }
                 let mean = mean(values.iter().copied());
                 (Texels::Number(values), mean)
             }
@@ -162,6 +169,23 @@ fn upsample(values: Vec<[f32; 3]>, bright: bool, moved: &mut usize) -> Texels {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    /// Numbers of one channel are held as colours are, unless nothing bounds them.
+    #[test]
+    fn numbers_follow_their_role() {
+        let numbers = |role| {
+            let pixels = Pixels {
+                size: UVec2::new(3, 1),
+                values: Values::One(vec![-1.0, 0.5, 50.0]),
+            };
+            let image = Image::new(pixels, false, role);
+            (image.texels, image.moved)
+        };
+        let held = (Texels::Number(vec![0.0, 0.5, 1.0]), 2);
+        assert_eq!(numbers(Role::Reflectance), held);
+        let free = (Texels::Number(vec![-1.0, 0.5, 50.0]), 0);
+        assert_eq!(numbers(Role::Unbounded), free);
+    }
 
     /// Repetition and collisions do not change a texel: each is what its colour gives alone.
     #[test]

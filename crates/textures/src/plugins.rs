@@ -5,9 +5,10 @@ use crate::reader::Use;
 use crate::{Bitmap, Checkerboard, Constant, Filter, Illuminated, MeshAttribute};
 use crate::{Texture, TextureReader, UvTransform, Wrap};
 use etalon_params::{Class, Diagnostic, Params, Value, plugins};
+use etalon_spectrum::spd::check_unit;
 use etalon_spectrum::{Blackbody, Spectrum};
 use etalon_transport::Role;
-use glam::{UVec2, Vec3};
+use glam::{DVec3, UVec2};
 use std::sync::Arc;
 
 /// Names of the textures and spectra that are built.
@@ -32,13 +33,13 @@ impl TextureReader<'_> {
             "bitmap" => self.bitmap(params, purpose.role).map(Texture::Bitmap),
             "checkerboard" => Some(self.checkerboard(params, purpose.role)),
             "mesh_attribute" => mesh_attribute(params).map(Texture::MeshAttribute),
-            "d65" => self.d65(params),
-            "rawconstant" => rawconstant(params),
+            "d65" => self.d65(params, purpose),
+            "rawconstant" => self.rawconstant(params, purpose),
             "uniform" | "regular" | "irregular" | "blackbody" | "srgb" => {
                 let spectrum = self.spectrum(params, plugin.value.as_str());
                 let span = plugin.span;
                 spectrum
-                    .and_then(|spectrum| self.not_negative(spectrum, purpose, span))
+                    .and_then(|spectrum| self.admitted(spectrum, purpose, span))
                     .map(|spectrum| Texture::Constant(Constant::new(spectrum)))
             }
             _ => {
@@ -63,7 +64,38 @@ impl TextureReader<'_> {
         })
     }
 
-    fn d65(&mut self, params: &Params<'_>) -> Option<Texture> {
+    /// A number or three as they are; a reflectance is held to 1 all the same.
+    fn rawconstant(&self, params: &Params<'_>, purpose: Use) -> Option<Texture> {
+        let Some(property) = params.property("value") else {
+            params.missing("value", "a number or three");
+            return None;
+        };
+        let values = match &property.value {
+            Value::Float(x) if x.is_finite() => DVec3::splat(*x),
+            Value::Integer(i) => DVec3::splat(*i as f64),
+            Value::Vector(v) | Value::Rgb(v) if v.is_finite() => *v,
+            other => {
+                let kind = other.kind();
+                params.error_at(
+                    "value",
+                    format!("`value` must be a finite number or three, not {kind}"),
+                );
+                return None;
+            }
+        };
+        let values = if purpose.role == Role::Reflectance && values.max_element() > 1.0 {
+            self.note_held(property.span);
+            values.min(DVec3::ONE)
+        } else {
+            values
+        };
+        Some(Texture::Constant(match &property.value {
+            Value::Float(_) | Value::Integer(_) => Constant::uniform(values.x as f32),
+            _ => Constant::raw(values.as_vec3()),
+        }))
+    }
+
+    fn d65(&mut self, params: &Params<'_>, purpose: Use) -> Option<Texture> {
         let scale = params.float_where("scale", 1.0, "a finite number not below 0", |x| {
             x >= 0.0 && x.is_finite()
         }) as f32;
@@ -101,7 +133,8 @@ impl TextureReader<'_> {
                 None
             }
         }?;
-        Some(Texture::Constant(Constant::new(spectrum.scaled(scale))))
+        let spectrum = self.held(spectrum.scaled(scale), purpose, params.node.plugin.span);
+        Some(Texture::Constant(Constant::new(spectrum)))
     }
 
     fn spectrum(&self, params: &Params<'_>, plugin: &str) -> Option<Spectrum> {
@@ -118,11 +151,13 @@ impl TextureReader<'_> {
             "uniform" => Spectrum::uniform(required("value")?),
             "regular" => {
                 let (min, max) = (required("wavelength_min"), required("wavelength_max"));
+                in_nanometres(params, "wavelength_max", max.as_slice())?;
                 let values = numbers("values")?;
                 Spectrum::regular(min?, max?, &values)
             }
             "irregular" => {
                 let (wavelengths, values) = (numbers("wavelengths"), numbers("values"));
+                in_nanometres(params, "wavelengths", wavelengths.as_deref().unwrap_or(&[]))?;
                 Spectrum::irregular(&wavelengths?, &values?)
             }
             "blackbody" => {
@@ -145,13 +180,12 @@ impl TextureReader<'_> {
                     );
                     return None;
                 };
-                let role = if unbounded {
-                    Role::Unbounded
-                } else {
-                    Role::Reflectance
-                };
+                if !unbounded {
+                    // As in Mitsuba: who asks for this plugin gets no other colour.
+                    return self.checked(Spectrum::reflectance(rgb.to_array()), property.span);
+                }
                 let purpose = Use {
-                    role,
+                    role: Role::Unbounded,
                     nested: false,
                 };
                 return self.colour(*rgb, purpose, property.span);
@@ -161,16 +195,9 @@ impl TextureReader<'_> {
     }
 
     fn bitmap(&mut self, params: &Params<'_>, role: Role) -> Option<Bitmap> {
-        let raw = params.boolean_or("raw", false);
-        let filter = match params.choice("filter_type", "bilinear", &["bilinear", "nearest"]) {
-            "nearest" => Filter::Nearest,
-            _ => Filter::Bilinear,
-        };
-        let wrap = match params.choice("wrap_mode", "repeat", &["repeat", "mirror", "clamp"]) {
-            "mirror" => Wrap::Mirror,
-            "clamp" => Wrap::Clamp,
-            _ => Wrap::Repeat,
-        };
+        let raw = params.boolean_or("raw", false) || is_linear(params);
+        let filter = filter(params);
+        let wrap = wrap(params);
         let to_uv = UvTransform::from_params(params);
         let Some(filename) = params.string("filename") else {
             if !params.has("filename") {
@@ -248,6 +275,59 @@ impl TextureReader<'_> {
     }
 }
 
+/// `filter_type`. Those of other versions of Mitsuba that average over a pixel's footprint are left to the
+/// samples of the pixel, with a note.
+fn filter(params: &Params<'_>) -> Filter {
+    let names = ["bilinear", "nearest", "trilinear", "ewa", "anisotropic"];
+    match params.choice("filter_type", "bilinear", &names) {
+        "nearest" => Filter::Nearest,
+        "bilinear" => Filter::Bilinear,
+        other => {
+            let span = params.property("filter_type").map(|p| p.span);
+            let message = format!(
+                "`{other}` is read as `bilinear`: a pixel's samples average over the texels it sees"
+            );
+            let span = span.unwrap_or(params.node.plugin.span);
+            params.diagnostics.push(Diagnostic::note(span, message));
+            Filter::Bilinear
+        }
+    }
+}
+
+/// `wrap_mode`, or Mitsuba 0.6's `wrap_mode_u` and `wrap_mode_v`, which must agree.
+fn wrap(params: &Params<'_>) -> Wrap {
+    let read = |name, default| params.choice(name, default, &["repeat", "mirror", "clamp"]);
+    let both = read("wrap_mode", "repeat");
+    let [u, v] = ["wrap_mode_u", "wrap_mode_v"].map(|name| read(name, both));
+    if u != v {
+        let message = format!("one mode for both directions is built, not `{u}` and `{v}`");
+        params.error_at("wrap_mode_v", message);
+    }
+    match u {
+        "mirror" => Wrap::Mirror,
+        "clamp" => Wrap::Clamp,
+        _ => Wrap::Repeat,
+    }
+}
+
+/// Whether Mitsuba 0.6's `gamma` says that the values are linear: 1 does; 0 and below leave it to
+/// the file, and so does 2.2, which is close to what files of integers hold.
+fn is_linear(params: &Params<'_>) -> bool {
+    let accepted = "1 (linear), 2.2 or -1 (as the file's format says)";
+    let gamma = params.float_where("gamma", -1.0, accepted, |gamma| {
+        gamma <= 0.0 || gamma == 1.0 || gamma == 2.2
+    });
+    if gamma == 2.2 {
+        params.diagnostics.push(Diagnostic::note(
+            params
+                .property("gamma")
+                .map_or(params.node.plugin.span, |p| p.span),
+            "a `gamma` of 2.2 is read as sRGB, which is close to it",
+        ));
+    }
+    gamma == 1.0
+}
+
 fn mesh_attribute(params: &Params<'_>) -> Option<MeshAttribute> {
     let scale = params.float_where("scale", 1.0, "a finite number", f64::is_finite) as f32;
     let Some(name) = params.string("name") else {
@@ -266,26 +346,12 @@ fn mesh_attribute(params: &Params<'_>) -> Option<MeshAttribute> {
     })
 }
 
-fn rawconstant(params: &Params<'_>) -> Option<Texture> {
-    let Some(property) = params.property("value") else {
-        params.missing("value", "a number or three");
-        return None;
-    };
-    let constant = match &property.value {
-        Value::Float(x) if x.is_finite() => Constant::uniform(*x as f32),
-        Value::Integer(i) => Constant::uniform(*i as f32),
-        Value::Vector(v) if v.is_finite() => Constant::raw(v.as_vec3()),
-        Value::Rgb(v) if v.is_finite() => Constant::raw(Vec3::from_array(v.as_vec3().to_array())),
-        other => {
-            let kind = other.kind();
-            params.error_at(
-                "value",
-                format!("`value` must be a finite number or three, not {kind}"),
-            );
-            return None;
-        }
-    };
-    Some(Texture::Constant(constant))
+/// `None`, after a diagnostic, if the wavelengths in a property cannot be meant in nanometres.
+fn in_nanometres(params: &Params<'_>, name: &str, wavelengths: &[f64]) -> Option<()> {
+    let checked = check_unit(wavelengths);
+    checked
+        .map_err(|message| params.error_at(name, message))
+        .ok()
 }
 
 /// A list of numbers separated by commas or spaces.

@@ -142,7 +142,25 @@ impl TextureReader<'_> {
             self.refuse(span, format!("{x} is negative"), "numbers not below 0");
             return None;
         }
-        self.checked(spectrum, span)
+        let spectrum = self.checked(spectrum, span)?;
+        Some(self.held(spectrum, purpose, span))
+    }
+
+    /// A spectrum in its role: what no more than all light can be reflected of is held to 1, with
+    /// a note. (Mitsuba 3 takes such numbers and spectra as they are and makes light of nothing.)
+    pub(crate) fn held(&self, spectrum: Spectrum, purpose: Use, span: Span) -> Spectrum {
+        if purpose.role != Role::Reflectance || !(spectrum.maximum() > 1.0) {
+            return spectrum;
+        }
+        self.note_held(span);
+        spectrum.held_to(1.0)
+    }
+
+    /// Says that a value was held to 1.
+    pub(crate) fn note_held(&self, span: Span) {
+        let message =
+            "a reflectance, opacity or weight cannot be above 1: what is above counts as 1";
+        self.diagnostics.push(Diagnostic::note(span, message));
     }
 
     pub(crate) fn colour(&self, rgb: DVec3, purpose: Use, span: Span) -> Option<Spectrum> {
@@ -166,7 +184,12 @@ impl TextureReader<'_> {
                 Spectrum::reflectance(values.map(|x| x.clamp(0.0, 1.0)))
             }
             Role::Emission if !bounded => Spectrum::unbounded(values),
-            _ => Spectrum::reflectance(values),
+            _ => {
+                if values.iter().any(|&x| x > 1.0) {
+                    self.note_held(span);
+                }
+                Spectrum::reflectance(values.map(|x| x.min(1.0)))
+            }
         };
         self.checked(spectrum, span)
     }
@@ -180,11 +203,12 @@ impl TextureReader<'_> {
             }
         };
         let spectrum = self.checked(spectrum, span)?;
-        self.not_negative(spectrum, purpose, span)
+        self.admitted(spectrum, purpose, span)
     }
 
-    /// Refuses spectra below zero: no surface reflects and no light emits a negative amount.
-    pub(crate) fn not_negative(
+    /// Refuses spectra below zero: no surface reflects and no light emits a negative amount. Holds
+    /// those to 1 that cannot be above.
+    pub(crate) fn admitted(
         &self,
         spectrum: Spectrum,
         purpose: Use,
@@ -201,7 +225,7 @@ impl TextureReader<'_> {
             );
             return None;
         }
-        Some(spectrum)
+        Some(self.held(spectrum, purpose, span))
     }
 
     pub(crate) fn refuse(&self, span: Span, message: String, accepted: &str) {

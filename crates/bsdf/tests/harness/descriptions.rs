@@ -38,6 +38,16 @@ fn mistakes_are_named() {
         ),
         ("blendbsdf ( diffuse ) ( diffuse )", "weight"),
         (
+            "mixturebsdf weights=s:0.5,0.5 ( diffuse )",
+            "2 numbers for 1 nested",
+        ),
+        (
+            "mixturebsdf weights=s:0.5,0.6 ( diffuse ) ( diffuse )",
+            "add up to 1.1",
+        ),
+        ("mixturebsdf weights=s:-1 ( diffuse )", "`-1` in `weights`"),
+        ("mixturebsdf ( diffuse )", "needs the parameter `weights`"),
+        (
             "blendbsdf weight=f:0.5 ( diffuse )",
             "needs 2 nested BSDFs, not 1",
         ),

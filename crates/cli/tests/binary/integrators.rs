@@ -86,9 +86,9 @@ fn what_is_of_that_type_already_keeps_its_parameters() {
 #[test]
 fn another_may_replace_one_that_does_not_exist() {
     let workshop = Workshop::new();
-    let volpath = "<integrator type=\"volpath\"><integer name=\"max_depth\" value=\"3\"/>\
+    let stokes = "<integrator type=\"stokes\"><integer name=\"max_depth\" value=\"3\"/>\
         <float name=\"whatever\" value=\"1\"/></integrator>";
-    workshop.write("scene.xml", small_scene(volpath));
+    workshop.write("scene.xml", small_scene(stokes));
     workshop
         .run(&["render", "scene.xml", "-o", "a.exr"])
         .refused();

@@ -11,6 +11,7 @@ mod convert;
 mod determinism;
 mod estimators;
 mod failure;
+mod field_scenes;
 mod info;
 mod integrators;
 mod interrupt;

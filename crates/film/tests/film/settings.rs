@@ -131,8 +131,8 @@ fn mistakes_are_told() {
     error(vec![("pixel_format", word("luminence"))], "`luminance`");
     error(vec![("file_format", word("png"))], "openexr");
     error(
-        vec![("high_quality_edges", Value::Boolean(true))],
-        "high_quality_edges",
+        vec![("high_quality_corners", Value::Boolean(true))],
+        "high_quality_corners",
     );
     let filter = |plugin, properties| vec![("", filter_node(plugin, properties))];
     error(filter("gausian", vec![]), "`gaussian`");

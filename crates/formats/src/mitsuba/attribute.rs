@@ -102,7 +102,8 @@ impl<'a> Attributes<'a> {
             list: Vec::with_capacity(4),
             tag_span: tag_span(file, node),
         };
-        for attribute in node.attributes() {
+        // Those of other name spaces are for other programs.
+        for attribute in node.attributes().filter(|a| a.namespace().is_none()) {
             let name_span = span(file, attribute.range_qname());
             let value_span = span(file, attribute.range_value());
             if !accepted.iter().any(|a| bare(a) == attribute.name()) {

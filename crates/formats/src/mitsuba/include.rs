@@ -9,7 +9,7 @@ use super::number::excerpt;
 use super::object::object;
 use super::reader::{File, MOST_FILES, Reader};
 use super::tags::Tag;
-use super::{SourceFile, encoding, syntax, upgrade};
+use super::{SourceFile, encoding, markup, syntax, upgrade};
 use crate::SearchPath;
 use etalon_params::{Class, Diagnostic, FileId, Span};
 use roxmltree::{Document, Node, ParsingOptions};
@@ -152,7 +152,14 @@ pub(crate) fn read(
         nodes_limit: MOST_NODES,
         ..ParsingOptions::default()
     };
-    let document = match Document::parse_with_options(&text, options) {
+    let tolerated = match markup::tolerated(&text, id) {
+        Ok(tolerated) => tolerated,
+        Err(diagnostic) => {
+            reader.report(diagnostic);
+            return None;
+        }
+    };
+    let document = match Document::parse_with_options(&tolerated, options) {
         Ok(document) => document,
         Err(error) => {
             reader.report(syntax::diagnose(&error, id, &text));
@@ -205,11 +212,26 @@ fn root(
     })
 }
 
-/// The version of a file; a missing one is reported with the other attributes.
+/// The version of a file. The first ones wrote none, and named things as no later one does.
 fn version(reader: &mut Reader<'_>, file: FileId, node: Node<'_, '_>) -> upgrade::Version {
     const CURRENT: upgrade::Version = [3, 0, 0];
+    const FIRST: upgrade::Version = [0, 2, 0];
     let Some(attribute) = node.attribute_node("version") else {
-        return CURRENT;
+        let is_first = node
+            .children()
+            .any(|child| matches!(child.tag_name().name(), "camera" | "luminaire"));
+        let (version, words) = match is_first {
+            true => (FIRST, "0.2"),
+            false => (CURRENT, "3.0"),
+        };
+        reader.report(
+            Diagnostic::note(
+                tag_span(file, node),
+                format!("without a version, this is read as a file of version {words}"),
+            )
+            .help("write `<scene version=\"…\">`"),
+        );
+        return version;
     };
     upgrade::version(attribute.value()).unwrap_or_else(|| {
         let range = attribute.range_value();
@@ -223,7 +245,7 @@ fn version(reader: &mut Reader<'_>, file: FileId, node: Node<'_, '_>) -> upgrade
                 span,
                 format!("`{}` is not a version", excerpt(attribute.value())),
             )
-            .help("a version is three numbers, such as 3.0.0"),
+            .help("a version is up to three numbers, such as 3.0.0"),
         );
         CURRENT
     })

@@ -4,13 +4,127 @@
 //! properties only `max_depth`, `rr_depth` and `hide_emitters` are kept; an integrator that does
 //! not know one of these leaves it unused without complaint. One that has the type already keeps
 //! all. A scene without an integrator gets one.
+//!
+//! Without `--integrator`, some integrators that are not built are replaced in the same way by
+//! one that converges to the same picture, with a note: see [`stand_in`].
 
 use super::draft::{DraftObject, DraftProperty, DraftValue, ObjectId};
 use super::reader::Reader;
-use etalon_params::{Class, Span, Spanned};
+use etalon_params::{Class, Diagnostic, Span, Spanned, Value};
 
 /// The properties that survive the change.
 const KEPT: [&str; 3] = ["max_depth", "rr_depth", "hide_emitters"];
+
+/// What stands in for integrators that are not built, and in what they agree.
+const STAND_INS: [(&str, &str, &str); 18] = [
+    ("volpath", "path", SAME_WITHOUT_MEDIA),
+    ("volpath_simple", "path", SAME_WITHOUT_MEDIA),
+    ("volpathmis", "path", SAME_WITHOUT_MEDIA),
+    ("prbvolpath", "path", SAME_WITHOUT_MEDIA),
+    ("prb", "path", SAME_WITHOUT_DERIVATIVES),
+    ("prb_basic", "path", SAME_WITHOUT_DERIVATIVES),
+    ("prb_projective", "path", SAME_WITHOUT_DERIVATIVES),
+    ("prb_reparam", "path", SAME_WITHOUT_DERIVATIVES),
+    ("prb_threepoint", "path", SAME_WITHOUT_DERIVATIVES),
+    ("direct_projective", "direct", SAME_WITHOUT_DERIVATIVES),
+    ("direct_reparam", "direct", SAME_WITHOUT_DERIVATIVES),
+    ("erpt", "mmlt", SAME_PICTURE),
+    ("mlt", "mmlt", SAME_PICTURE),
+    ("photonmapper", "photonmap", SAME_METHOD),
+    ("ppm", "sppm", SAME_METHOD),
+    ("guided_path", "guided", SAME_METHOD),
+    ("path_guiding_integrator", "guided", SAME_METHOD),
+    ("recursive_path", "path", SAME_PICTURE),
+];
+
+const SAME_WITHOUT_MEDIA: &str = "they agree where there are no media";
+const SAME_WITHOUT_DERIVATIVES: &str = "they agree where no derivatives are asked for";
+const SAME_PICTURE: &str = "both converge to the same picture";
+const SAME_METHOD: &str = "it is the same method, with parameters of its own";
+
+/// The `max_depth` of Mitsuba's differentiable path integrators where the scene names none.
+const DIFFERENTIABLE_DEPTH: i64 = 6;
+
+/// Integrators of Mitsuba 0.6 that distribute the samples of another one, which stands in.
+const WRAPPERS: [&str; 2] = ["adaptive", "irrcache"];
+
+/// Replaces integrators that are not built by those that stand in for them.
+pub(crate) fn stand_in(reader: &mut Reader<'_>) {
+    for id in 0..reader.draft.objects.len() {
+        let object = &mut reader.draft.objects[id];
+        if object.class != Class::Integrator {
+            continue;
+        }
+        let name = object.plugin.value.as_str();
+        if WRAPPERS.contains(&name) {
+            unwrap(reader, id);
+            continue;
+        }
+        let Some((name, other, agree)) = STAND_INS.into_iter().find(|(old, ..)| *old == name)
+        else {
+            continue;
+        };
+        let span = object.plugin.span;
+        object.plugin.value = other.to_owned();
+        object
+            .properties
+            .retain(|property| KEPT.contains(&property.name.as_str()));
+        let is_bounded = object.properties.iter().any(|p| p.name == "max_depth");
+        if name.starts_with("prb") && !is_bounded {
+            object.properties.push(DraftProperty {
+                name: "max_depth".to_owned(),
+                name_span: span,
+                value: DraftValue::Plain(Value::Integer(DIFFERENTIABLE_DEPTH)),
+                span,
+                excused: false,
+                lenient: false,
+            });
+        }
+        // An integrator that does not know one of these is not to be blamed.
+        object.properties.iter_mut().for_each(|p| p.excused = true);
+        reader.report(
+            Diagnostic::note(
+                span,
+                format!("the integrator `{name}` is not built: `{other}` stands in for it"),
+            )
+            .help(agree),
+        );
+    }
+}
+
+/// Puts the only integrator inside of a wrapper in the wrapper's place.
+fn unwrap(reader: &mut Reader<'_>, wrapper: ObjectId) {
+    let inner: Vec<ObjectId> = nested(reader, wrapper);
+    let &[inner] = inner.as_slice() else {
+        return;
+    };
+    for object in &mut reader.draft.objects {
+        for property in &mut object.properties {
+            if matches!(property.value, DraftValue::Object(id) if id == wrapper) {
+                property.value = DraftValue::Object(inner);
+            }
+        }
+    }
+    let plugin = &reader.draft.objects[wrapper].plugin;
+    let message = format!(
+        "the integrator `{}` is not built: the `{}` inside of it stands in for it",
+        plugin.value, reader.draft.objects[inner].plugin.value
+    );
+    let diagnostic = Diagnostic::note(plugin.span, message).help(SAME_PICTURE);
+    reader.report(diagnostic);
+}
+
+/// The integrators directly inside of an object.
+fn nested(reader: &Reader<'_>, id: ObjectId) -> Vec<ObjectId> {
+    let objects = &reader.draft.objects;
+    let children = objects[id].properties.iter();
+    children
+        .filter_map(|property| match property.value {
+            DraftValue::Object(child) if objects[child].class == Class::Integrator => Some(child),
+            _ => None,
+        })
+        .collect()
+}
 
 /// Replaces the type of the innermost integrator of the scene `root`.
 pub(crate) fn replace(reader: &mut Reader<'_>, root: ObjectId, name: &str) {
@@ -51,34 +165,22 @@ pub(crate) fn replace(reader: &mut Reader<'_>, root: ObjectId, name: &str) {
             value: DraftValue::Object(id),
             span,
             excused: false,
+            lenient: false,
         });
     }
 }
 
 /// The integrators under `root` that contain no other.
 fn innermost(reader: &Reader<'_>, root: ObjectId) -> Vec<ObjectId> {
-    let nested = |id: ObjectId| {
-        let objects = &reader.draft.objects;
-        objects[id]
-            .properties
-            .iter()
-            .filter_map(|property| match property.value {
-                DraftValue::Object(child) if objects[child].class == Class::Integrator => {
-                    Some(child)
-                }
-                _ => None,
-            })
-            .collect::<Vec<_>>()
-    };
     let mut found = Vec::new();
     let mut seen = Vec::new();
-    let mut open = nested(root);
+    let mut open = nested(reader, root);
     while let Some(id) = open.pop() {
         if seen.contains(&id) {
             continue;
         }
         seen.push(id);
-        let inner = nested(id);
+        let inner = nested(reader, id);
         if inner.is_empty() {
             found.push(id);
         }

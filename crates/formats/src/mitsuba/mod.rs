@@ -7,10 +7,12 @@
 //! after a mistake, so that one run reports all of them.
 
 mod attribute;
+mod colour;
 mod draft;
 mod encoding;
 mod include;
 mod integrator;
+mod markup;
 mod number;
 mod object;
 mod property;
@@ -126,8 +128,9 @@ fn document(reader: &mut Reader<'_>, path: &Path) -> Option<Document> {
         return None;
     }
     references::resolve(reader);
-    if let Some(name) = &reader.options.integrator {
-        integrator::replace(reader, root.object, name);
+    match &reader.options.integrator {
+        Some(name) => integrator::replace(reader, root.object, name),
+        None => integrator::stand_in(reader),
     }
     reader.report_unused_parameters();
     let order = references::order(reader, root.object)?;

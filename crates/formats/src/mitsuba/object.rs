@@ -22,8 +22,8 @@ pub(crate) fn object(
     is_root: bool,
 ) -> Option<(ObjectId, DraftProperty)> {
     let accepted: &[&str] = match (is_root, class) {
-        (true, Class::Scene) => &["!version", "type", "id", "name"],
-        (true, _) => &["!version", "!type", "id", "name"],
+        (true, Class::Scene) => &["version", "type", "id", "name"],
+        (true, _) => &["version", "!type", "id", "name"],
         _ => Tag::Object(class).attributes(),
     };
     let attributes = Attributes::read(reader, file.id, node, accepted);
@@ -34,8 +34,10 @@ pub(crate) fn object(
             reader.report(plugin.error_whole(format!("`<{}>` needs a type", class.name())));
             None
         }
+        // All plugins are called in lower case; where names are those of files, `Rectangle` may
+        // have been found all the same.
         Some(plugin) => Some(Spanned {
-            value: plugin.text.clone().into_owned(),
+            value: plugin.text.trim().to_ascii_lowercase(),
             span: plugin.span,
         }),
         None => attributes.as_ref().map(|_| Spanned {
@@ -85,6 +87,7 @@ pub(crate) fn object(
         value: DraftValue::Object(this),
         span: reader.draft.objects[this].plugin.span,
         excused: false,
+        lenient: false,
     };
     sound.then_some((this, property))
 }
@@ -104,7 +107,7 @@ fn register(reader: &mut Reader<'_>, id: &str, span: Span, object: ObjectId) {
 /// Upgrades an object of an old file and reports names given twice.
 fn finish(reader: &mut Reader<'_>, file: &File, object: ObjectId) {
     if upgrade::is_old(file.version) {
-        upgrade::upgrade(&mut reader.draft.objects[object]);
+        upgrade::upgrade(&mut reader.draft.objects[object], file.version);
     }
     let duplicates = duplicates(&reader.draft.objects[object].properties);
     for &(later, first) in duplicates.iter().rev() {
@@ -198,19 +201,22 @@ fn element(
     level: usize,
     in_root: bool,
 ) {
-    let name = node.tag_name().name();
+    let name = upgrade::tag(file.version, node.tag_name().name());
     let tag = match Tag::of(name) {
         // A spectrum with a type is a plugin of the texture family.
         Some(Tag::Spectrum) if node.has_attribute("type") => Tag::Object(Class::Texture),
         Some(tag) => tag,
         None => {
-            reader.report(
-                Diagnostic::error(
-                    tag_span(file.id, node),
-                    format!("unknown element `<{name}>`"),
-                )
-                .suggest(name, TAGS.iter().map(|(known, _)| *known)),
-            );
+            let span = tag_span(file.id, node);
+            reader.report(match name {
+                "animation" => Diagnostic::error(span, "things that move are not built yet"),
+                "subsurface" => Diagnostic::error(
+                    span,
+                    "`<subsurface>` belongs to Mitsuba 0.6 and is not built yet",
+                ),
+                _ => Diagnostic::error(span, format!("unknown element `<{name}>`"))
+                    .suggest(name, TAGS.iter().map(|(known, _)| *known)),
+            });
             // What stands in it is read all the same: its ids may be referred to.
             let aside = reader.draft.objects.len();
             let span = tag_span(file.id, node);
@@ -264,6 +270,7 @@ fn reference(reader: &mut Reader<'_>, file: &File, parent: ObjectId, node: Node<
         value: DraftValue::Reference(id.text.clone().into_owned()),
         span: id.span,
         excused: false,
+        lenient: false,
     };
     reader.draft.objects[parent].properties.push(property);
 }
@@ -288,6 +295,11 @@ fn default(reader: &mut Reader<'_>, file: &File, node: Node<'_, '_>) {
     no_children(reader, file, node);
     let accepted = Tag::Default.attributes();
     let Some(attributes) = Attributes::read(reader, file.id, node, accepted) else {
+        // Whoever uses the name is not to be blamed.
+        if let Some(name) = node.attribute("name").filter(|name| !name.is_empty()) {
+            let span = tag_span(file.id, node);
+            reader.parameters.add_default(name, None, span);
+        }
         return;
     };
     let (name, value) = (attributes.required("name"), attributes.required("value"));
@@ -297,7 +309,7 @@ fn default(reader: &mut Reader<'_>, file: &File, node: Node<'_, '_>) {
     }
     reader
         .parameters
-        .add_default(&name.text, &value.text, value.span);
+        .add_default(&name.text, Some(&value.text), value.span);
 }
 
 fn path(reader: &mut Reader<'_>, file: &mut File, node: Node<'_, '_>, in_root: bool) {

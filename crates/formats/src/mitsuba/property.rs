@@ -8,8 +8,9 @@ use super::draft::{DraftProperty, DraftValue, ObjectId};
 use super::number;
 use super::reader::{File, Reader};
 use super::tags::{OPERATIONS, Tag};
-use super::{transform, upgrade};
+use super::{colour, transform};
 use etalon_params::{DMat4, DVec3, Diagnostic, Span, SpectrumText, Value};
+use etalon_spectrum::spd::check_unit;
 use roxmltree::Node;
 
 /// Reads a property and adds it to the object `parent`.
@@ -50,6 +51,7 @@ pub(crate) fn property(
         value: DraftValue::Plain(value),
         span,
         excused: false,
+        lenient: false,
     });
 }
 
@@ -63,6 +65,7 @@ fn value(
     let span = attributes
         .get("value")
         .or_else(|| attributes.get("filename"))
+        .or_else(|| attributes.get("temperature"))
         .map_or(attributes.tag_span, |a| a.span);
     let value = match tag {
         Tag::Float => Value::Float(attributes.float(reader, "value").unwrap_or(1.0)),
@@ -101,14 +104,20 @@ fn value(
             let (vector, span) = vector.unwrap_or((DVec3::Z, span));
             return (Value::Vector(vector), span);
         }
-        Tag::Rgb => Value::Rgb(match attributes.list(reader, "value", &[1, 3]).as_deref() {
-            Some(&[r, g, b]) => DVec3::new(r, g, b),
-            Some(&[grey]) => DVec3::splat(grey),
-            _ => DVec3::splat(0.5),
-        }),
-        Tag::Spectrum => Value::Spectrum(
-            spectrum(reader, file, attributes).unwrap_or(SpectrumText::Uniform(0.5)),
+        Tag::Rgb => {
+            Value::Rgb(colour::rgb(reader, attributes, file.version).unwrap_or(DVec3::splat(0.5)))
+        }
+        Tag::Srgb => Value::Rgb(colour::srgb(reader, attributes).unwrap_or(DVec3::splat(0.5))),
+        Tag::Blackbody => Value::Spectrum(
+            colour::blackbody(reader, attributes).unwrap_or(SpectrumText::Uniform(0.5)),
         ),
+        Tag::Spectrum => {
+            let old = colour::spectrum_without_wavelengths(reader, attributes, file.version);
+            old.unwrap_or_else(|| {
+                let spectrum = spectrum(reader, file, attributes);
+                Value::Spectrum(spectrum.unwrap_or(SpectrumText::Uniform(0.5)))
+            })
+        }
         _ => Value::String(attributes.required("value").text.clone().into_owned()),
     };
     (value, span)
@@ -122,8 +131,8 @@ fn stand_in(file: &File, tag: Tag, node: Node<'_, '_>) -> Option<DraftProperty> 
         Tag::Integer => Value::Integer(1),
         Tag::Boolean => Value::Boolean(false),
         Tag::Vector => Value::Vector(DVec3::Z),
-        Tag::Rgb => Value::Rgb(DVec3::splat(0.5)),
-        Tag::Spectrum => Value::Spectrum(SpectrumText::Uniform(0.5)),
+        Tag::Rgb | Tag::Srgb => Value::Rgb(DVec3::splat(0.5)),
+        Tag::Spectrum | Tag::Blackbody => Value::Spectrum(SpectrumText::Uniform(0.5)),
         Tag::Transform => Value::Transform(DMat4::IDENTITY),
         _ => Value::String(String::new()),
     };
@@ -145,6 +154,7 @@ fn stand_in(file: &File, tag: Tag, node: Node<'_, '_>) -> Option<DraftProperty> 
         value: DraftValue::Plain(value),
         span: written.map_or_else(|| tag_span(file.id, node), place),
         excused: false,
+        lenient: false,
     })
 }
 
@@ -231,6 +241,11 @@ fn spectrum_text(reader: &mut Reader<'_>, attributes: &Attributes<'_>) -> Option
         );
         return None;
     }
+    let wavelengths: Vec<f64> = samples.iter().map(|(wavelength, _)| *wavelength).collect();
+    if let Err(message) = check_unit(&wavelengths) {
+        reader.report(attribute.error_whole(message));
+        return None;
+    }
     Some(SpectrumText::Samples(samples))
 }
 
@@ -254,17 +269,15 @@ fn operations(reader: &mut Reader<'_>, file: &File, node: Node<'_, '_>) -> Optio
 
 fn operation(reader: &mut Reader<'_>, file: &File, node: Node<'_, '_>) -> Option<DMat4> {
     let written = node.tag_name().name();
-    let name = match written {
-        "lookAt" if upgrade::is_old(file.version) => "lookat",
-        name => name,
-    };
-    let Some((_, accepted)) = OPERATIONS.iter().find(|(known, _)| *known == name) else {
+    // Mitsuba 0.x wrote `lookAt`, and scenes that were carried over still do.
+    let known = |(name, _): &&(&str, _)| name.eq_ignore_ascii_case(written);
+    let Some(&(name, accepted)) = OPERATIONS.iter().find(known) else {
         reader.report(
             Diagnostic::error(
                 tag_span(file.id, node),
-                format!("`<{name}>` is not an operation of a transform"),
+                format!("`<{written}>` is not an operation of a transform"),
             )
-            .suggest(name, OPERATIONS.iter().map(|(known, _)| *known)),
+            .suggest(written, OPERATIONS.iter().map(|(known, _)| *known)),
         );
         return None;
     };
@@ -278,10 +291,38 @@ fn operation(reader: &mut Reader<'_>, file: &File, node: Node<'_, '_>) -> Option
             .map(|(factors, _)| DMat4::from_scale(factors)),
         "rotate" => rotation(reader, &attributes),
         "lookat" => look_at(reader, &attributes),
-        _ => attributes
-            .list(reader, "value", &[9, 16])
-            .and_then(|numbers| transform::matrix(&numbers)),
+        _ => matrix(reader, &attributes),
     }
+}
+
+/// The matrix of 16 numbers, whose last row must be that of an affine map, or of 9.
+fn matrix(reader: &mut Reader<'_>, attributes: &Attributes<'_>) -> Option<DMat4> {
+    /// How far the last row may be off by its rounding in the file.
+    const ROUNDING: f64 = 1e-5;
+    let mut numbers = attributes.list(reader, "value", &[9, 16])?;
+    if let Some(last) = numbers.get_mut(12..) {
+        let affine = [0.0, 0.0, 0.0, 1.0];
+        let differs = |(a, b): (&f64, &f64)| (a - b).abs() > ROUNDING;
+        if last.iter().zip(&affine).any(differs) {
+            let value = attributes.required("value");
+            let written: Vec<String> = last.iter().map(f64::to_string).collect();
+            let tokens = number::tokens(&value.text).map(|(range, _)| range);
+            let place = tokens.skip(12).reduce(|all, next| all.start..next.end);
+            let message = format!(
+                "the last row of the matrix is `{}`: this is no affine map",
+                written.join(" ")
+            );
+            let place = place.unwrap_or(0..value.text.len());
+            reader.report(
+                value
+                    .error(place, message)
+                    .help("the last row must be `0 0 0 1`; matrices are written row by row"),
+            );
+            return None;
+        }
+        last.copy_from_slice(&affine);
+    }
+    transform::matrix(&numbers)
 }
 
 fn rotation(reader: &mut Reader<'_>, attributes: &Attributes<'_>) -> Option<DMat4> {

@@ -2,7 +2,7 @@
 
 use super::draft::Draft;
 use super::number::excerpt;
-use super::substitute::{Parameters, Substituted};
+use super::substitute::{LONGEST_VALUE, MOST_INSERTED, Parameters, Substituted, Trouble};
 use super::upgrade::Version;
 use super::{ReadOptions, SourceFile};
 use crate::SearchPath;
@@ -93,30 +93,47 @@ impl<'o> Reader<'o> {
         span: Span,
         verbatim: bool,
     ) -> Option<Substituted> {
-        let undefined = match self.parameters.substitute(text) {
+        let found = match self.parameters.substitute(text) {
             Ok(substituted) => return Some(substituted),
-            Err(undefined) => undefined,
+            Err(found) => found,
         };
+        let name = &found.name;
         let place = if verbatim {
-            let start = span.start + undefined.offset as u32;
-            let end = start + 1 + undefined.name.len() as u32;
+            let start = span.start + found.offset as u32;
+            let end = start + 1 + name.len() as u32;
             Span { start, end, ..span }
         } else {
             span
         };
-        let diagnostic = if undefined.name.is_empty() {
-            Diagnostic::error(place, format!("`$` without a name in `{}`", excerpt(text)))
-                .help(r"a dollar sign itself is written `\$`")
-        } else {
-            let name = &undefined.name;
-            let near = etalon_params::suggest::nearest(name, self.parameters.names());
-            let help = match near {
-                Some(near) => format!("did you mean `${near}`?"),
-                None => {
-                    format!("define it with `<default name=\"{name}\" …>` or `-D {name}=VALUE`")
-                }
-            };
-            Diagnostic::error(place, format!("undefined parameter `${name}`")).help(help)
+        let diagnostic = match found.trouble {
+            Trouble::Broken => return None,
+            Trouble::TooLong => Diagnostic::error(
+                place,
+                format!("with `${name}` this value would be longer than {LONGEST_VALUE} bytes"),
+            )
+            .help("values that contain each other's names double with every `<default>`"),
+            Trouble::TooMuch => Diagnostic::error(
+                place,
+                format!(
+                    "with `${name}` the parameters of this scene would stand for more than \
+                     {MOST_INSERTED} bytes"
+                ),
+            )
+            .help("values that contain each other's names double with every `<default>`"),
+            Trouble::Undefined if name.is_empty() => {
+                Diagnostic::error(place, format!("`$` without a name in `{}`", excerpt(text)))
+                    .help(r"a dollar sign itself is written `\$`")
+            }
+            Trouble::Undefined => {
+                let near = etalon_params::suggest::nearest(name, self.parameters.names());
+                let help = match near {
+                    Some(near) => format!("did you mean `${near}`?"),
+                    None => {
+                        format!("define it with `<default name=\"{name}\" …>` or `-D {name}=VALUE`")
+                    }
+                };
+                Diagnostic::error(place, format!("undefined parameter `${name}`")).help(help)
+            }
         };
         self.report(diagnostic);
         None

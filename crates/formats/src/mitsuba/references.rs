@@ -225,7 +225,10 @@ fn finished(property: DraftProperty, built: &[Option<Arc<Node>>]) -> Option<Prop
         DraftValue::Object(child) => Value::Object(built[child].clone()?),
         DraftValue::Reference(_) => return None,
     };
-    let finished = Property::new(property.name, property.name_span, value, property.span);
+    let mut finished = Property::new(property.name, property.name_span, value, property.span);
+    if property.lenient {
+        finished = finished.lenient();
+    }
     if property.excused {
         finished.mark_used();
     }

@@ -4,8 +4,17 @@
 //! that stands before its use. At each `$` the longest known name wins (`$sppx` is `$spp`
 //! followed by an `x` unless `sppx` is known); `\$` is a dollar sign. What was inserted is not
 //! looked at again.
+//!
+//! `<default>`s whose values contain each other's names can double with every line. What they may
+//! grow to is therefore bounded: [`LONGEST_VALUE`] for one value, [`MOST_INSERTED`] for a scene.
 
 use etalon_params::Span;
+
+/// How long a value can become by what is inserted into it (bytes).
+pub(crate) const LONGEST_VALUE: usize = 1 << 16;
+
+/// How much can be inserted into all values of a scene together (bytes).
+pub(crate) const MOST_INSERTED: usize = 1 << 26;
 
 /// Where a parameter's value was written.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -19,7 +28,8 @@ pub(crate) enum Origin {
 #[derive(Debug)]
 struct Parameter {
     name: String,
-    value: String,
+    /// `None` after a mistake in its `<default>`, about which enough has been said.
+    value: Option<String>,
     origin: Origin,
     used: bool,
 }
@@ -30,6 +40,8 @@ pub(crate) struct Parameters {
     list: Vec<Parameter>,
     /// Names of all `<default>`s and of everything asked for, to suggest from.
     mentioned: Vec<String>,
+    /// Bytes inserted so far.
+    inserted: usize,
 }
 
 /// A value in which every `$name` has been replaced.
@@ -40,13 +52,28 @@ pub(crate) struct Substituted {
     pub(crate) defaults: Vec<Span>,
 }
 
-/// A `$name` that nobody has defined.
+/// A `$name` that cannot be replaced.
 #[derive(Debug, PartialEq)]
-pub(crate) struct Undefined {
+pub(crate) struct Irreplaceable {
     /// The name, which may be empty.
     pub(crate) name: String,
     /// Byte offset of the `$` in the text.
     pub(crate) offset: usize,
+    /// What is wrong with it.
+    pub(crate) trouble: Trouble,
+}
+
+/// Why a `$name` cannot be replaced.
+#[derive(Debug, PartialEq)]
+pub(crate) enum Trouble {
+    /// Nobody has defined it.
+    Undefined,
+    /// There is a mistake in its `<default>`, which has been reported.
+    Broken,
+    /// With it the value would be longer than [`LONGEST_VALUE`].
+    TooLong,
+    /// With it more than [`MOST_INSERTED`] would have been inserted.
+    TooMuch,
 }
 
 impl Parameters {
@@ -55,23 +82,24 @@ impl Parameters {
         let mut parameters = Self::default();
         for (name, value) in defines {
             parameters.list.retain(|p| p.name != *name);
-            parameters.insert(name, value, Origin::CommandLine);
+            parameters.insert(name, Some(value), Origin::CommandLine);
         }
         parameters
     }
 
-    fn insert(&mut self, name: &str, value: &str, origin: Origin) {
+    fn insert(&mut self, name: &str, value: Option<&str>, origin: Origin) {
         self.list.push(Parameter {
             name: name.to_owned(),
-            value: value.to_owned(),
+            value: value.map(str::to_owned),
             origin,
             used: false,
         });
         self.list.sort_by_key(|p| std::cmp::Reverse(p.name.len()));
     }
 
-    /// A `<default>`: it counts unless the name is known already.
-    pub(crate) fn add_default(&mut self, name: &str, value: &str, span: Span) {
+    /// A `<default>`: it counts unless the name is known already. One with a mistake in it has no
+    /// value.
+    pub(crate) fn add_default(&mut self, name: &str, value: Option<&str>, span: Span) {
         self.mention(name);
         if !self.list.iter().any(|p| p.name == name) {
             self.insert(name, value, Origin::Default(span));
@@ -85,7 +113,7 @@ impl Parameters {
     }
 
     /// Replaces every `$name` in `text`.
-    pub(crate) fn substitute(&mut self, text: &str) -> Result<Substituted, Undefined> {
+    pub(crate) fn substitute(&mut self, text: &str) -> Result<Substituted, Irreplaceable> {
         let mut result = Substituted {
             text: String::with_capacity(text.len()),
             defaults: Vec::new(),
@@ -111,12 +139,31 @@ impl Parameters {
                 let name = rest[..end].to_owned();
                 self.mention(&name);
                 let offset = text.len() - rest.len() - 1;
-                return Err(Undefined { name, offset });
+                return Err(Irreplaceable {
+                    name,
+                    offset,
+                    trouble: Trouble::Undefined,
+                });
             };
             found.used = true;
-            result.text.push_str(&found.value);
+            let added = found.value.as_ref().map_or(0, String::len);
+            self.inserted += added;
+            let value = match &found.value {
+                None => Err(Trouble::Broken),
+                Some(_) if result.text.len() + added > LONGEST_VALUE => Err(Trouble::TooLong),
+                Some(_) if self.inserted > MOST_INSERTED => Err(Trouble::TooMuch),
+                Some(value) => Ok(value),
+            };
+            let value = value.map_err(|trouble| Irreplaceable {
+                name: found.name.clone(),
+                offset: text.len() - rest.len() - 1,
+                trouble,
+            })?;
+            result.text.push_str(value);
             rest = &rest[found.name.len()..];
-            if let Origin::Default(span) = found.origin {
+            if let Origin::Default(span) = found.origin
+                && !result.defaults.contains(&span)
+            {
                 result.defaults.push(span);
             }
         }
@@ -155,17 +202,40 @@ mod tests {
             start: 3,
             end: 4,
         };
-        p.add_default("spp", "4", span);
-        p.add_default("sppx", "long", span);
-        p.add_default("b", "bee", span);
+        p.add_default("spp", Some("4"), span);
+        p.add_default("sppx", Some("long"), span);
+        p.add_default("b", Some("bee"), span);
         p
     }
 
     fn text(p: &mut Parameters, text: &str) -> String {
         p.substitute(text).map_or_else(
-            |u| format!("undefined `{}` at {}", u.name, u.offset),
+            |u| format!("{:?} `{}` at {}", u.trouble, u.name, u.offset),
             |s| s.text,
         )
+    }
+
+    #[test]
+    fn values_grow_to_a_bound_and_no_further() {
+        let mut p = Parameters::new(&[]);
+        let span = Span {
+            file: FileId(0),
+            start: 0,
+            end: 0,
+        };
+        p.add_default("a", Some(&"x".repeat(LONGEST_VALUE / 2)), span);
+        assert_eq!(text(&mut p, "$a$a").len(), LONGEST_VALUE);
+        // Only what is inserted counts: a long value without names is read as it is.
+        assert_eq!(text(&mut p, "$a$a,"), text(&mut p, "$a$a") + ",");
+        assert_eq!(text(&mut p, "$a,$a"), "TooLong `a` at 3");
+        let uses = MOST_INSERTED / (LONGEST_VALUE / 2);
+        let refused = (0..uses).position(|_| text(&mut p, "$a").starts_with("TooMuch"));
+        assert_eq!(refused, Some(uses - 8), "eight were inserted before");
+        // A value that was made of a thousand names still tells of each `<default>` once.
+        p = Parameters::new(&[]);
+        p.add_default("b", Some("y"), span);
+        let made = p.substitute(&"$b".repeat(1000)).expect("short enough");
+        assert_eq!((made.text.len(), made.defaults.len()), (1000, 1));
     }
 
     #[test]
@@ -184,8 +254,8 @@ mod tests {
     #[test]
     fn unknown_names_are_reported_with_their_place() {
         let p = &mut parameters();
-        assert_eq!(text(p, "x $resx"), "undefined `resx` at 2");
-        assert_eq!(text(p, "5 $"), "undefined `` at 2");
+        assert_eq!(text(p, "x $resx"), "Undefined `resx` at 2");
+        assert_eq!(text(p, "5 $"), "Undefined `` at 2");
         assert_eq!(p.unused().collect::<Vec<_>>(), ["spp", "a"]);
     }
 }

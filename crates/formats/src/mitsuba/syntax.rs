@@ -38,8 +38,8 @@ pub(crate) fn diagnose(error: &Error, file: FileId, text: &str) -> Diagnostic {
 fn describe(error: &Error) -> (String, Option<&'static str>) {
     match error {
         Error::DtdDetected => (
-            "document type declarations are not accepted".into(),
-            Some("remove `<!DOCTYPE …>`; use `<default>` and `$name` instead of entities"),
+            "a document type declaration can only stand, whole, before the scene".into(),
+            Some("remove `<!DOCTYPE …>`: scenes have no use for it"),
         ),
         Error::NoRootNode => ("the file contains no `<scene>`".into(), None),
         Error::UnclosedRootNode | Error::UnexpectedEndOfStream => (
@@ -93,7 +93,7 @@ fn describe(error: &Error) -> (String, Option<&'static str>) {
         Error::InvalidName(_) => ("a name was expected here".into(), None),
         Error::InvalidComment(_) => (
             "malformed comment".into(),
-            Some("comments are written `<!-- … -->` and contain no `--`"),
+            Some("comments are written `<!-- … -->`"),
         ),
         Error::InvalidCharacterData(_) => ("`]]>` cannot stand in text".into(), None),
         Error::UnknownToken(_) => (
@@ -156,7 +156,7 @@ mod tests {
         );
         assert!(message("").starts_with("s:1:1: error: the file contains no `<scene>`"));
         assert!(message("<a>\n<b/>\n").starts_with("s:2:5: error: the file ends"));
-        assert!(message("\n<!DOCTYPE a><a/>").starts_with("s:2:1: error: document type"));
+        assert!(message("\n<!DOCTYPE a").starts_with("s:2:1: error: a document type"));
         assert!(message("<a b='&q;'/>").starts_with("s:1:7: error: unknown entity `&q;`"));
         assert!(message("<a/><a/>").starts_with("s:1:5: error: there is something behind"));
         assert!(message("hello").starts_with("s:1:1: error: this is not XML"));

@@ -19,6 +19,10 @@ pub(crate) enum Tag {
     Vector,
     /// `<rgb>`.
     Rgb,
+    /// `<srgb>`, which Mitsuba 0.x had.
+    Srgb,
+    /// `<blackbody>`, which Mitsuba 0.x had.
+    Blackbody,
     /// `<spectrum>` without a `type`.
     Spectrum,
     /// `<transform>`.
@@ -38,7 +42,7 @@ pub(crate) enum Tag {
 }
 
 /// Every tag that may stand in an object.
-pub(crate) const TAGS: [(&str, Tag); 27] = [
+pub(crate) const TAGS: [(&str, Tag); 29] = [
     ("scene", Tag::Object(Class::Scene)),
     ("bsdf", Tag::Object(Class::Bsdf)),
     ("emitter", Tag::Object(Class::Emitter)),
@@ -59,6 +63,8 @@ pub(crate) const TAGS: [(&str, Tag); 27] = [
     ("point", Tag::Vector),
     ("vector", Tag::Vector),
     ("rgb", Tag::Rgb),
+    ("srgb", Tag::Srgb),
+    ("blackbody", Tag::Blackbody),
     ("spectrum", Tag::Spectrum),
     ("transform", Tag::Transform),
     ("ref", Tag::Reference),
@@ -95,11 +101,13 @@ impl Tag {
     pub(crate) fn attributes(self) -> &'static [&'static str] {
         match self {
             Self::Object(_) => &["!type", "id", "name"],
-            Self::Float | Self::Integer | Self::Boolean | Self::String | Self::Rgb => {
+            Self::Float | Self::Integer | Self::Boolean | Self::String | Self::Srgb => {
                 &["!name", "!value"]
             }
+            Self::Rgb => &["!name", "!value", "intent"],
+            Self::Blackbody => &["!name", "!temperature", "scale"],
             Self::Vector => &["!name", "x", "y", "z", "value"],
-            Self::Spectrum => &["!name", "value", "filename"],
+            Self::Spectrum => &["!name", "value", "filename", "intent"],
             Self::Transform => &["!name"],
             Self::Reference => &["!id", "name"],
             Self::Alias => &["!id", "!as"],

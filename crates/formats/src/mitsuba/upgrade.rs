@@ -3,20 +3,26 @@
 //! Files of a version before 2.0 write names in camel case (`toWorld`, `intIOR`); they become
 //! underscored. `diffuse` called its reflectance `diffuseReflectance`, and textures had
 //! `uoffset`, `voffset`, `uscale` and `vscale` where they now have `to_uv`, a scale after a
-//! translation.
+//! translation. Parameters that a plugin does not know earn a note only, since Mitsuba 0.x warned
+//! of them and went on.
+//!
+//! Before 0.4, sensors were `<camera>`s whose x axis pointed the other way, emitters were
+//! `<luminaire>`s, and some plugins and parameters had other names; they become what Mitsuba 0.6
+//! made of them (its `data/schema/upgrade_*.xsl`).
 
 use super::draft::{DraftObject, DraftProperty, DraftValue};
-use etalon_params::{DMat4, DVec3, Value};
+use etalon_params::{Class, DMat4, DVec3, Value};
 
 /// The version of a scene file.
 pub(crate) type Version = [u32; 3];
 
-/// A version as the files write it: three numbers with points between them.
+/// A version as the files write it: up to three numbers with points between them.
 pub(crate) fn version(text: &str) -> Option<Version> {
-    let mut numbers = text.trim().split('.').map(str::parse::<u32>);
-    let mut next = || numbers.next().and_then(Result::ok);
-    let version = [next()?, next()?, next()?];
-    numbers.next().is_none().then_some(version)
+    let mut version = [0; 3];
+    for (place, number) in text.trim().split('.').enumerate() {
+        *version.get_mut(place)? = number.parse().ok()?;
+    }
+    Some(version)
 }
 
 /// Whether the names of a file have to be upgraded.
@@ -44,15 +50,109 @@ fn underscored(name: &str) -> String {
     result
 }
 
-/// Upgrades the properties of an object of an old file.
-pub(crate) fn upgrade(object: &mut DraftObject) {
+/// Names of plugins before 0.4, and what they became.
+const PLUGINS: [(&str, &str); 9] = [
+    ("composite", "mixturebsdf"),
+    ("exrfilm", "hdrfilm"),
+    ("exrtexture", "bitmap"),
+    ("lambertian", "diffuse"),
+    ("ldrtexture", "bitmap"),
+    ("mixture", "mixturebsdf"),
+    ("pngfilm", "ldrfilm"),
+    ("roughglass", "roughdielectric"),
+    ("roughmetal", "roughconductor"),
+];
+
+/// Names of parameters before 0.4 with the class and plugin they belong to (`""`: any).
+const PARAMETERS: [(Class, &str, &str, &str); 13] = [
+    (Class::Bsdf, "roughdielectric", "alpha_b", "alpha"),
+    (Class::Bsdf, "roughconductor", "alpha_b", "alpha"),
+    (Class::Emitter, "", "intensity_scale", "scale"),
+    (Class::Emitter, "area", "intensity", "radiance"),
+    (Class::Emitter, "constant", "intensity", "radiance"),
+    (Class::Emitter, "directional", "intensity", "irradiance"),
+    (
+        Class::Integrator,
+        "",
+        "luminaire_samples",
+        "emitter_samples",
+    ),
+    (Class::Sensor, "", "focus_depth", "focus_distance"),
+    (Class::Shape, "sphere", "inverted", "flip_normals"),
+    (Class::Texture, "checkerboard", "bright_color", "color0"),
+    (Class::Texture, "checkerboard", "dark_color", "color1"),
+    (Class::Shape, "cylinder", "p1", "p0"),
+    (Class::Shape, "cylinder", "p2", "p1"),
+];
+
+/// Whether a file is of a version before 0.4.
+pub(crate) fn is_ancient(version: Version) -> bool {
+    version < [0, 4, 0]
+}
+
+/// What a tag of an old file is called today.
+pub(crate) fn tag(version: Version, name: &str) -> &str {
+    match name {
+        "camera" if is_ancient(version) => "sensor",
+        "luminaire" if is_ancient(version) => "emitter",
+        name => name,
+    }
+}
+
+/// Upgrades an object of an old file.
+pub(crate) fn upgrade(object: &mut DraftObject, version: Version) {
     for property in &mut object.properties {
         property.name = underscored(&property.name);
+        property.lenient = matches!(property.value, DraftValue::Plain(_));
         if object.plugin.value == "diffuse" && property.name == "diffuse_reflectance" {
             property.name = "reflectance".into();
         }
     }
+    if is_ancient(version) {
+        upgrade_ancient(object, version);
+    }
     upgrade_uv(&mut object.properties);
+}
+
+/// What changed with 0.3 and 0.4.
+fn upgrade_ancient(object: &mut DraftObject, version: Version) {
+    let plugin = &mut object.plugin.value;
+    if let Some((_, today)) = PLUGINS.iter().find(|(old, _)| old == plugin) {
+        *plugin = (*today).into();
+    }
+    for property in &mut object.properties {
+        // The ends of cylinders were renamed with 0.3 already.
+        let renamed = PARAMETERS.iter().find(|(class, of, old, _)| {
+            *class == object.class
+                && (of.is_empty() || of == plugin)
+                && *old == property.name
+                && (*of != "cylinder" || version < [0, 3, 0])
+        });
+        if let Some((_, _, _, today)) = renamed {
+            property.name = (*today).into();
+        }
+        let replaced = match (&property.value, property.name.as_str()) {
+            (DraftValue::Plain(Value::Boolean(smaller)), "map_smaller_side") => {
+                let axis = if *smaller { "smaller" } else { "larger" };
+                Some(("fov_axis", Value::String(axis.into())))
+            }
+            (DraftValue::Plain(Value::Boolean(alpha)), "alpha") if object.class == Class::Film => {
+                let format = if *alpha { "rgba" } else { "rgb" };
+                Some(("pixel_format", Value::String(format.into())))
+            }
+            (DraftValue::Plain(Value::Transform(to_world)), "to_world")
+                if object.class == Class::Sensor =>
+            {
+                let mirror = DMat4::from_scale(DVec3::new(-1.0, 1.0, 1.0));
+                Some(("to_world", Value::Transform(*to_world * mirror)))
+            }
+            _ => None,
+        };
+        if let Some((name, value)) = replaced {
+            property.name = name.into();
+            property.value = DraftValue::Plain(value);
+        }
+    }
 }
 
 fn upgrade_uv(properties: &mut Vec<DraftProperty>) {
@@ -83,6 +183,7 @@ fn upgrade_uv(properties: &mut Vec<DraftProperty>) {
             value: DraftValue::Plain(Value::Transform(to_uv)),
             span,
             excused: false,
+            lenient: false,
         });
     }
 }
@@ -108,10 +209,12 @@ mod tests {
     }
 
     #[test]
-    fn versions_are_three_numbers() {
+    fn versions_are_up_to_three_numbers() {
         assert_eq!(version("3.0.0"), Some([3, 0, 0]));
         assert_eq!(version("0.6.0"), Some([0, 6, 0]));
-        for text in ["", "3", "3.0", "3.0.0.0", "x", "3.-1.0"] {
+        assert_eq!(version("0.5"), Some([0, 5, 0]));
+        assert_eq!(version("3"), Some([3, 0, 0]));
+        for text in ["", "3.", "3.0.0.0", "x", "3.-1.0"] {
             assert_eq!(version(text), None, "{text}");
         }
         assert!(is_old([1, 9, 9]) && !is_old([2, 0, 0]));

@@ -50,8 +50,8 @@ impl Sphere {
     pub(crate) fn from_params(params: &Params<'_>) -> Option<Self> {
         let placement = Placement::from_params(params);
         let center = params.vector("center").unwrap_or(DVec3::ZERO);
-        let radius = params.float_where("radius", 1.0, "any finite number but 0", |r| {
-            r.is_finite() && r != 0.0
+        let radius = params.float_where("radius", 1.0, "a positive finite number", |r| {
+            r.is_finite() && r > 0.0
         });
         let flip = read_flip(params);
         let sphere = Self::new(&placement?, center, radius, flip);

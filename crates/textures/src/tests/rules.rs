@@ -53,7 +53,8 @@ const NEAR: f32 = 1.2e-4;
 #[test]
 fn numbers_are_constant_and_as_light_d65() {
     for value in [Value::Float(2.0), Value::Integer(2)] {
-        assert!(close(eval(value.clone(), Role::Reflectance), [2.0; 4], 0.0));
+        // No more than all light can be reflected.
+        assert!(close(eval(value.clone(), Role::Reflectance), [1.0; 4], 0.0));
         assert!(close(eval(value.clone(), Role::Unbounded), [2.0; 4], 0.0));
         assert!(close(
             eval(value, Role::Emission),
@@ -75,6 +76,11 @@ fn colours_follow_their_role() {
     let bright = || rgb(0.2, 0.5, 2.0);
     let light = [2.540_741, 1.456_653, 0.455_284_8, 0.185_323_7];
     assert!(close(eval(bright(), Role::Emission), light, 0.05));
+    assert!(close(
+        eval(bright(), Role::Reflectance),
+        eval(rgb(0.2, 0.5, 1.0), Role::Reflectance).to_array(),
+        0.0
+    ));
     // Mitsuba 3.9.1's `srgb` with `unbounded` evaluates to the same: components above 1 count as 1.
     let held = eval(rgb(0.2, 0.5, 1.0), Role::Reflectance).to_array();
     assert!(close(eval(bright(), Role::Unbounded), held, 0.0));
@@ -83,8 +89,8 @@ fn colours_follow_their_role() {
 }
 
 #[test]
-fn spectra_are_what_is_written_in_every_role() {
-    for role in [Role::Reflectance, Role::Emission, Role::Unbounded] {
+fn spectra_are_what_is_written_where_they_are_unbounded() {
+    for role in [Role::Emission, Role::Unbounded] {
         let uniform = Value::Spectrum(SpectrumText::Uniform(2.0));
         assert!(close(eval(uniform, role), [2.0; 4], 0.0));
         let pairs = vec![(400.0, 1.0), (500.0, 2.0), (650.0, 4.0)];
@@ -260,12 +266,46 @@ fn an_object_is_read_once_per_role() {
     assert_ne!(reader.node(&board, Role::Emission), first);
 }
 
+/// Each number that a reflectance is made of is held to 1; what is not above stays to the bit.
+#[test]
+fn reflectances_are_held_to_one() {
+    let samples = |pairs: Vec<(f64, f64)>| {
+        let table = Value::Spectrum(SpectrumText::Samples(pairs));
+        eval(table, Role::Reflectance)
+    };
+    // At 450, 540, 600 and 650 nm: on a flat top, and on slopes that lead to it.
+    let wide = vec![(400.0, 0.2), (500.0, 2.0), (600.0, 4.0), (700.0, 0.5)];
+    let held = vec![(400.0, 0.2), (500.0, 1.0), (600.0, 1.0), (700.0, 0.5)];
+    assert_eq!(samples(wide), samples(held));
+    let uneven = vec![(400.0, 0.2), (500.0, 2.0), (550.0, 0.25), (700.0, 0.75)];
+    let held = vec![(400.0, 0.2), (500.0, 1.0), (550.0, 0.25), (700.0, 0.75)];
+    assert_eq!(samples(uneven), samples(held));
+    // D65 reaches 1.17 at 480 nm; what is below 1 stays.
+    let lamp = eval(object("d65", vec![]), Role::Reflectance);
+    assert!(close(lamp, D65.map(|x| x.min(1.0)), 1e-3), "{lamp}");
+    let nested = object(
+        "checkerboard",
+        vec![("color0", Value::Float(5.0)), ("color1", Value::Float(5.0))],
+    );
+    assert_eq!(eval(nested, Role::Reflectance), Vec4::ONE);
+    let nested = object(
+        "checkerboard",
+        vec![("color0", Value::Float(5.0)), ("color1", Value::Float(5.0))],
+    );
+    assert_eq!(eval(nested, Role::Emission), Vec4::splat(5.0));
+}
+
 #[test]
 fn mistakes_are_refused() {
     let role = Role::Reflectance;
     let number = Value::Float;
     for (value, role, expected) in [
-        (rgb(0.2, 0.5, 2.0), role, "2"),
+        (rgb(-0.2, 0.5, 0.1), role, "-0.2"),
+        (
+            object("srgb", vec![("color", rgb(0.2, 0.5, 2.0))]),
+            role,
+            "2",
+        ),
         (rgb(-0.2, 0.5, 0.1), Role::Emission, "-0.2"),
         (number(f64::NAN), role, "NaN"),
         (number(-1.0), Role::Emission, "-1 is negative"),
@@ -298,6 +338,26 @@ fn mistakes_are_refused() {
             ),
             role,
             "`x` in `wavelengths`",
+        ),
+        (
+            object(
+                "irregular",
+                vec![("wavelengths", text("0.4 0.7")), ("values", text("1 2"))],
+            ),
+            role,
+            "not in micrometres",
+        ),
+        (
+            object(
+                "regular",
+                vec![
+                    ("wavelength_min", number(0.4)),
+                    ("wavelength_max", number(0.7)),
+                    ("values", text("1 2")),
+                ],
+            ),
+            role,
+            "the wavelengths end at 0.7 nm",
         ),
         (
             object("mesh_attribute", vec![("name", text("colour"))]),

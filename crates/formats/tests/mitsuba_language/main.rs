@@ -1,5 +1,7 @@
 //! The scene language, feature by feature.
 
+mod old_files;
+
 use etalon_formats::mitsuba::{Document, ReadOptions, ReadOutcome, read};
 use etalon_params::{Class, DMat4, DVec3, Node, Property, SpectrumText, Value};
 use std::path::Path;
