@@ -67,6 +67,7 @@ pub fn compile_with(
         &LightChooser::ALL.map(LightChooser::name),
     );
     read_unused_textures(&params, &mut builder);
+    surfaces.asked.note_ranges(&builder.textures, diagnostics);
     refuse_unknown_children(&params);
     params.finish();
     if diagnostics.has_errors() {

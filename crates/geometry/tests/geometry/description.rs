@@ -109,6 +109,11 @@ fn every_plugin_takes_its_parameters() {
             ("silhouette_sampling_weight", Value::Float(0.5)),
         ];
         match plugin {
+            "serialized" => properties.extend([
+                file("good"),
+                flag("face_normals", true),
+                ("shape_index", Value::Integer(2)),
+            ]),
             "obj" | "ply" => properties.extend([
                 file("good"),
                 flag("face_normals", true),
@@ -166,6 +171,15 @@ fn mistakes_are_told() {
         "ply",
         vec![file("nan")],
         &["`nan` cannot be used", "vertex 1", "NaN"],
+    );
+    let (_, messages) = make(
+        "serialized",
+        vec![file("good"), ("shape_index", Value::Integer(-1))],
+    );
+    assert!(
+        messages.starts_with("parameter `shape_index` of `serialized` cannot be -1")
+            && messages.lines().count() == 1,
+        "{messages}"
     );
     refused("ply", vec![file("index")], &["triangle 0", "only 3"]);
     // A value that is refused is told, though reading goes on with the default.
