@@ -7,6 +7,7 @@
 mod file_assets;
 mod mesh_error;
 pub mod mitsuba;
+mod nan;
 pub mod obj;
 pub mod ply;
 mod polygon;
