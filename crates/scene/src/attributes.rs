@@ -148,17 +148,16 @@ fn missing(name: &str, span: Span, stored: &[Attribute]) -> Diagnostic {
     let names = || stored.iter().map(|a| a.name.as_str());
     let listed: Vec<String> = (names().take(MOST_LISTED).map(|n| format!("`{n}`"))).collect();
     let held = match listed.as_slice() {
-        [] => "it stores none".to_owned(),
-        _ if stored.len() > MOST_LISTED => format!("it stores {}, …", listed.join(", ")),
-        _ => format!("it stores {}", listed.join(", ")),
+        [] => "the shape stores none".to_owned(),
+        _ if stored.len() > MOST_LISTED => format!("the shape stores {}, …", listed.join(", ")),
+        _ => format!("the shape stores {}", listed.join(", ")),
     };
-    let help = match suggest::nearest(name, names()) {
-        Some(near) => format!("did you mean `{near}`? {held}"),
-        None => held,
-    };
-    Diagnostic::error(span, format!("no mesh attribute `{name}`"))
-        .label("not stored in the shape's file")
-        .help(help)
+    let message = format!("no mesh attribute `{name}`: {held}");
+    let error = Diagnostic::error(span, message).label("not stored in the shape's file");
+    match suggest::nearest(name, names()) {
+        Some(near) => error.help(format!("did you mean `{near}`?")),
+        None => error,
+    }
 }
 
 fn coordinates(texture: &Node, shape: &Shape, place: Span, diagnostics: &Diagnostics) {

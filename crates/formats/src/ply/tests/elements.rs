@@ -78,7 +78,7 @@ fn strips_turn_left_and_right() {
     );
     assert_eq!(
         message(&file("3 0 1 5\n")),
-        "line 10: the face refers to vertex 5, but there are 5"
+        "line 15: the face refers to vertex 5, but there are 5"
     );
     assert!(message(&file("99 0 1 2\n")).ends_with("before all its elements have come"));
     let said = message(&file("3 0 1 -1\n"));
