@@ -193,6 +193,31 @@ mod tests {
     }
 
     #[test]
+    fn serialized_meshes_are_told_from_others() {
+        let (folder, assets) = folder();
+        std::fs::write(folder.path().join("s"), b"\x1c\x04\x04\0broken").expect("written");
+        let said = |format, name: &str| {
+            let error = assets.mesh(format, name).expect_err("broken");
+            (error.message, error.help.unwrap_or_default())
+        };
+        let serialized = MeshFormat::Serialized { shape_index: 0 };
+        let (message, help) = said(serialized, "s");
+        assert!(
+            message.starts_with("`s`, byte 0: the flags are damaged"),
+            "{message}"
+        );
+        assert_eq!(help, "");
+        for format in [MeshFormat::Obj, MeshFormat::Ply] {
+            assert!(said(format, "s").1.ends_with("use the shape `serialized`"));
+        }
+        assert!(said(serialized, "x.ply").1.ends_with("use the shape `ply`"));
+        assert!(said(serialized, "a.obj").1.ends_with("use the shape `obj`"));
+        let assets = FileAssets::new(assets.search().clone()).with_limit(4);
+        let error = assets.mesh(serialized, "s").expect_err("too large");
+        assert!(error.message.contains("more than the 4 that are accepted"));
+    }
+
+    #[test]
     fn errors_name_the_file() {
         let (folder, assets) = folder();
         let message = |name: &str| {

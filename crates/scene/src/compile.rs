@@ -67,13 +67,13 @@ pub fn compile_with(
         &LightChooser::ALL.map(LightChooser::name),
     );
     read_unused_textures(&params, &mut builder);
-    surfaces.asked.note_ranges(&builder.textures, diagnostics);
     refuse_unknown_children(&params);
     params.finish();
     if diagnostics.has_errors() {
         return None;
     }
     let (camera, film, sampler) = sensor?;
+    surfaces.asked.note_ranges(&builder.textures, diagnostics);
     builder.textures.finish_reading();
     let start = Instant::now();
     let geometry = surfaces.geometry.build_with(options.accelerator);
