@@ -126,11 +126,8 @@ fn shapes_are_found_by_their_number() {
             message(&bytes, u32::MAX),
             said.replace("shape 3:", "shape 4294967295:")
         );
-        let one = file(&[square().bytes(version)], width);
-        assert_eq!(
-            message(&one, 1),
-            "byte 0: there is no shape 1: the file has 1 shape, 0"
-        );
+        let one = message(&file(&[square().bytes(version)], width), 1);
+        assert!(one.ends_with("there is no shape 1: the file has 1 shape, 0"));
     }
 }
 
@@ -234,9 +231,8 @@ fn what_is_wrong_is_said() {
         message(&bytes[..4], 0),
         "byte 0: the data end before all flags have come"
     );
-    let mut damaged = bytes.clone();
-    damaged[4] = 0;
-    assert!(message(&damaged, 0).starts_with("byte 0: the flags are damaged: "));
+    let damaged = message(b"\x1c\x04\x04\0\0\0\0\0", 0);
+    assert!(damaged.starts_with("byte 0: the flags are damaged: "));
     assert!(message(&bytes[..bytes.len() / 2], 0).contains("the data end before all "));
     let mut model = square();
     model.triangles[1][2] = 4;

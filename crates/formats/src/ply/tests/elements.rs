@@ -70,8 +70,8 @@ fn strips_turn_left_and_right() {
             + strip
     };
     // A new strip begins to the left again; the triangles without area glue.
-    let mesh = read(&file("13 0 1 2 3 -1 2 3 4 4 -1 0 1 2\n"));
-    assert_eq!(mesh.triangles, [[0, 1, 2], [2, 1, 3], [2, 3, 4], [0, 1, 2]]);
+    let mesh = read(&file("13 0 1 2 -1 1 2 3 4 4 -1 0 1 2\n"));
+    assert_eq!(mesh.triangles, [[0, 1, 2], [1, 2, 3], [3, 2, 4], [0, 1, 2]]);
     assert_eq!(
         read(&file("6 0 1 1 2 3 4\n")).triangles,
         [[1, 2, 3], [3, 2, 4]]
