@@ -114,7 +114,8 @@ pub(super) fn strips(
             let mut turned = false;
             for _ in 0..source.length(count)? {
                 let index = source.integer(item)?;
-                if index < 0 {
+                // In unsigned lists −1 is the number that no vertex can have.
+                if index < 0 || index == i64::from(u32::MAX) {
                     (last, turned) = ([None; 2], false);
                     continue;
                 }
