@@ -1,8 +1,9 @@
 //! The files of a scene, looked up along its search path.
 
-use crate::{SearchPath, obj, ply, read_bounded};
+use crate::{SearchPath, obj, open_bounded, ply, read_bounded, serialized};
 use etalon_transport::{AssetError, Assets, MeshData, MeshFormat};
 use std::collections::{BTreeSet, HashMap};
+use std::io::{Read, Seek};
 use std::path::{Path, PathBuf};
 use std::sync::{Arc, Mutex, MutexGuard, Weak};
 
@@ -73,6 +74,25 @@ impl FileAssets {
         Ok(path)
     }
 
+    /// One mesh of a file that may hold thousands: no more of it is read than that.
+    fn serialized(&self, name: &str, path: &Path, index: u32) -> Result<MeshData, AssetError> {
+        let unreadable = |reason: String| AssetError {
+            message: format!("cannot read `{name}`: {reason}"),
+            help: None,
+        };
+        let mut file = open_bounded(path, self.limit).map_err(unreadable)?;
+        let mesh = serialized::read(&mut file, index);
+        mesh.map_err(|error| {
+            let mut head = [0; 4];
+            let again = file.rewind().and_then(|()| file.read_exact(&mut head));
+            let format = MeshFormat::Serialized { shape_index: index };
+            AssetError {
+                message: format!("`{name}`, {error}"),
+                help: again.ok().and_then(|()| looks_like_another(format, &head)),
+            }
+        })
+    }
+
     fn read(&self, name: &str, path: &Path) -> Result<Vec<u8>, AssetError> {
         read_bounded(path, self.limit).map_err(|reason| AssetError {
             message: format!("cannot read `{name}`: {reason}"),
@@ -103,10 +123,13 @@ impl Assets for FileAssets {
 
     fn mesh(&self, format: MeshFormat, name: &str) -> Result<MeshData, AssetError> {
         let path = self.find(name)?;
+        if let MeshFormat::Serialized { shape_index } = format {
+            return self.serialized(name, &path, shape_index);
+        }
         let bytes = self.read(name, &path)?;
         let mesh = match format {
             MeshFormat::Obj => obj::parse(&bytes),
-            MeshFormat::Ply => ply::parse(&bytes),
+            _ => ply::parse(&bytes),
         };
         mesh.map_err(|error| AssetError {
             message: format!("`{name}`, {error}"),
@@ -118,13 +141,21 @@ impl Assets for FileAssets {
 /// A hint for files that were given to the wrong reader.
 fn looks_like_another(format: MeshFormat, bytes: &[u8]) -> Option<String> {
     let is_ply = bytes.starts_with(b"ply\n") || bytes.starts_with(b"ply\r");
-    match format {
-        MeshFormat::Obj if is_ply => Some("this is a PLY file: use the shape `ply`".into()),
-        MeshFormat::Ply if bytes.starts_with(b"v ") || bytes.starts_with(b"# ") => {
-            Some("this may be an OBJ file: use the shape `obj`".into())
+    let is_serialized = bytes.starts_with(&serialized::MAGIC.to_le_bytes());
+    let may_be_obj = bytes.starts_with(b"v ") || bytes.starts_with(b"# ");
+    let help = match format {
+        MeshFormat::Obj | MeshFormat::Serialized { .. } if is_ply => {
+            "this is a PLY file: use the shape `ply`"
         }
-        _ => None,
-    }
+        MeshFormat::Obj | MeshFormat::Ply if is_serialized => {
+            "this is one of Mitsuba's serialized files: use the shape `serialized`"
+        }
+        MeshFormat::Ply | MeshFormat::Serialized { .. } if may_be_obj => {
+            "this may be an OBJ file: use the shape `obj`"
+        }
+        _ => return None,
+    };
+    Some(help.into())
 }
 
 #[cfg(test)]
@@ -159,6 +190,31 @@ mod tests {
         let (_folder, assets) = folder();
         let mesh = assets.mesh(MeshFormat::Obj, "a.obj").expect("read");
         assert_eq!(mesh.triangles, [[0, 1, 2]]);
+    }
+
+    #[test]
+    fn serialized_meshes_are_told_from_others() {
+        let (folder, assets) = folder();
+        std::fs::write(folder.path().join("s"), b"\x1c\x04\x04\0broken").expect("written");
+        let said = |format, name: &str| {
+            let error = assets.mesh(format, name).expect_err("broken");
+            (error.message, error.help.unwrap_or_default())
+        };
+        let serialized = MeshFormat::Serialized { shape_index: 0 };
+        let (message, help) = said(serialized, "s");
+        assert!(
+            message.starts_with("`s`, byte 0: the flags are damaged"),
+            "{message}"
+        );
+        assert_eq!(help, "");
+        for format in [MeshFormat::Obj, MeshFormat::Ply] {
+            assert!(said(format, "s").1.ends_with("use the shape `serialized`"));
+        }
+        assert!(said(serialized, "x.ply").1.ends_with("use the shape `ply`"));
+        assert!(said(serialized, "a.obj").1.ends_with("use the shape `obj`"));
+        let assets = FileAssets::new(assets.search().clone()).with_limit(4);
+        let error = assets.mesh(serialized, "s").expect_err("too large");
+        assert!(error.message.contains("more than the 4 that are accepted"));
     }
 
     #[test]

@@ -1,4 +1,4 @@
-//! Files in: Mitsuba XML, OBJ, PLY.
+//! Files in: Mitsuba XML, OBJ, PLY, Mitsuba's serialized meshes.
 //!
 //! [`mitsuba`] turns a scene file into the description tree; [`FileAssets`] finds and reads the
 //! files that a scene refers to. Nothing here trusts a file: sizes are checked before memory is
@@ -7,25 +7,48 @@
 mod file_assets;
 mod mesh_error;
 pub mod mitsuba;
+mod nan;
 pub mod obj;
 pub mod ply;
 mod polygon;
 mod search_path;
+pub mod serialized;
+mod unused;
 
 pub use file_assets::FileAssets;
 pub use mesh_error::{MeshError, Place};
 pub use search_path::SearchPath;
 
-use std::io::Read;
+use std::fs::File;
+use std::io::{BufReader, Read};
 use std::path::Path;
 
 /// The bytes of a regular file of at most `limit` bytes, or why they cannot be had.
 pub(crate) fn read_bounded(path: &Path, limit: u64) -> Result<Vec<u8>, String> {
-    let reason = |error: std::io::Error| match error.kind() {
+    let length = bounded_length(path, limit)?;
+    let mut bytes = Vec::with_capacity(length as usize);
+    File::open(path)
+        .and_then(|file| file.take(limit).read_to_end(&mut bytes))
+        .map_err(reason)?;
+    Ok(bytes)
+}
+
+/// A regular file of at most `limit` bytes, to read from here and there.
+pub(crate) fn open_bounded(path: &Path, limit: u64) -> Result<BufReader<File>, String> {
+    bounded_length(path, limit)?;
+    File::open(path).map(BufReader::new).map_err(reason)
+}
+
+fn reason(error: std::io::Error) -> String {
+    match error.kind() {
         std::io::ErrorKind::NotFound => "there is no such file".to_owned(),
         std::io::ErrorKind::PermissionDenied => "permission denied".to_owned(),
         _ => error.to_string(),
-    };
+    }
+}
+
+/// How many bytes a regular file has, if they are at most `limit`.
+fn bounded_length(path: &Path, limit: u64) -> Result<u64, String> {
     let metadata = std::fs::metadata(path).map_err(reason)?;
     if metadata.is_dir() {
         return Err("it is a folder".to_owned());
@@ -39,9 +62,5 @@ pub(crate) fn read_bounded(path: &Path, limit: u64) -> Result<Vec<u8>, String> {
             metadata.len()
         ));
     }
-    let mut bytes = Vec::with_capacity(metadata.len() as usize);
-    std::fs::File::open(path)
-        .and_then(|file| file.take(limit).read_to_end(&mut bytes))
-        .map_err(reason)?;
-    Ok(bytes)
+    Ok(metadata.len())
 }

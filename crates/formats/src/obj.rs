@@ -72,14 +72,11 @@ fn mesh(faces: &tobj::Mesh, forms: &[(Form, usize)]) -> Result<MeshData, String>
         .iter()
         .map(|&uv| uv.into())
         .collect();
-    if !(positions.iter().all(|p| p.is_finite())
-        && normals.iter().all(|n| n.is_finite())
-        && uvs.iter().all(|uv| uv.is_finite()))
-    {
-        return Err("a number in the file is not finite".into());
-    }
-
     let (corners, vertices) = share(faces, forms)?;
+    let used = |c: &Corner| positions[c.position as usize];
+    if !corners.iter().all(|c| used(c).is_finite()) {
+        return Err("a position in the file is not finite".into());
+    }
     let mut triangles = Vec::with_capacity(vertices.len() / 3);
     let mut polygon = Vec::new();
     let mut rest = &vertices[..];
@@ -100,9 +97,8 @@ fn mesh(faces: &tobj::Mesh, forms: &[(Form, usize)]) -> Result<MeshData, String>
         return Err("the file contains no faces of three or more corners".into());
     }
 
-    let position = |c: &Corner| positions[c.position as usize];
     let mut mesh = MeshData {
-        positions: corners.iter().map(position).collect(),
+        positions: corners.iter().map(used).collect(),
         triangles,
         ..MeshData::default()
     };
@@ -113,6 +109,7 @@ fn mesh(faces: &tobj::Mesh, forms: &[(Form, usize)]) -> Result<MeshData, String>
     if corners.iter().any(|c| c.normal != Corner::NONE) {
         let normal = |c: &Corner| normals.get(c.normal as usize).copied();
         let given: Vec<Option<Vec3>> = corners.iter().map(normal).collect();
+        // Those that are given but not finite stay so: the shape computes them, and says so.
         mesh.normals = complete_normals(&mesh, &given);
     }
     let colours = vec3s(&faces.vertex_color);

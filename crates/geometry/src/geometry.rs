@@ -324,9 +324,10 @@ impl Shapes for Geometry {
         name: &str,
         primitive: u32,
         parameters: Vec2,
+        range: [f32; 2],
     ) -> Option<Vec3> {
         self.shape(shape)
             .mesh()?
-            .attribute(name, primitive, parameters)
+            .attribute(name, primitive, parameters, range)
     }
 }

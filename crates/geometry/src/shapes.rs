@@ -44,9 +44,12 @@ pub enum Shape {
 type FromParams = fn(&Params<'_>, &mut dyn Build) -> Option<Shape>;
 
 /// The list of shape plugins.
-const PLUGINS: [(&str, FromParams); 7] = [
+const PLUGINS: [(&str, FromParams); 8] = [
     ("obj", |p, b| file_mesh::obj(p, b).map(Shape::Mesh)),
     ("ply", |p, b| file_mesh::ply(p, b).map(Shape::Mesh)),
+    ("serialized", |p, b| {
+        file_mesh::serialized(p, b).map(Shape::Mesh)
+    }),
     ("cube", |p, _| cube::from_params(p).map(Shape::Mesh)),
     ("rectangle", |p, _| {
         Rectangle::from_params(p).map(Shape::Rectangle)

@@ -194,7 +194,7 @@ impl Shapes for SmallWorld {
         0.25 * d.length_squared() / cosine
     }
 
-    fn attribute(&self, _: ShapeId, _: &str, _: u32, _: Vec2) -> Option<Vec3> {
+    fn attribute(&self, _: ShapeId, _: &str, _: u32, _: Vec2, _: [f32; 2]) -> Option<Vec3> {
         None
     }
 }

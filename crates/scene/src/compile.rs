@@ -74,6 +74,7 @@ pub fn compile_with(
         return None;
     }
     let (camera, film, sampler) = sensor?;
+    surfaces.asked.note_ranges(&builder.textures, diagnostics);
     builder.textures.finish_reading();
     let start = Instant::now();
     let geometry = surfaces.geometry.build_with(options.accelerator);

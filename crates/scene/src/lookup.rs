@@ -76,7 +76,9 @@ impl Shapes for Lookup {
         name: &str,
         primitive: u32,
         parameters: Vec2,
+        range: [f32; 2],
     ) -> Option<Vec3> {
-        self.geometry.attribute(shape, name, primitive, parameters)
+        let geometry = &self.geometry;
+        geometry.attribute(shape, name, primitive, parameters, range)
     }
 }

@@ -1,6 +1,6 @@
 //! Shapes, groups, instances and their materials.
 
-use crate::attributes;
+use crate::attributes::Asked;
 use crate::builder::Builder;
 use etalon_bsdf::{Material, classicphong};
 use etalon_geometry::{GeometryBuilder, GroupId, Placement, Shape};
@@ -53,6 +53,8 @@ pub struct Surfaces {
     pub names: Names,
     /// Where the first classic Phong material is described, if a shape has one.
     pub classic: Option<Span>,
+    /// What textures ask of the shapes.
+    pub(crate) asked: Asked,
     by_node: HashMap<usize, MaterialId>,
     groups: HashMap<usize, GroupId>,
     black: Option<MaterialId>,
@@ -114,7 +116,8 @@ impl Surfaces {
         let bsdf = params.child(Class::Bsdf);
         if let Some(shape) = &shape {
             for user in emitter.iter().chain(bsdf) {
-                attributes::check(shape, node.plugin.span, user, builder.diagnostics);
+                let place = node.plugin.span;
+                self.asked.by(user, shape, place, builder.diagnostics);
             }
         }
         let material = match bsdf {

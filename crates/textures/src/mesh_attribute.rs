@@ -4,10 +4,13 @@
 //! spectrum; one channel is a number, the same at all wavelengths. (Mitsuba interpolates the
 //! coefficients of the spectra instead; the two agree on the vertices and wherever neighbours
 //! agree.)
+//!
+//! Stored numbers that the texture's role rules out count as the nearest that it allows: a
+//! reflectance, times `scale`, lies in [0, 1], nothing else is below 0.
 
 use crate::recovered::luminance;
-use etalon_spectrum::RgbCoefficients;
-use etalon_transport::{Shapes, TexturePoint};
+use etalon_spectrum::{RgbCoefficients, RgbSpectrum};
+use etalon_transport::{Role, Shapes, TexturePoint};
 use glam::{Vec3, Vec4};
 
 /// A named attribute, scaled.
@@ -15,11 +18,22 @@ use glam::{Vec3, Vec4};
 pub struct MeshAttribute {
     /// `vertex_…` or `face_…`.
     pub name: String,
-    /// A factor.
+    /// A factor, not below 0.
     pub scale: f32,
+    /// What the quantity is.
+    pub role: Role,
 }
 
 impl MeshAttribute {
+    /// What a stored number, not yet scaled, is held to.
+    #[inline]
+    pub fn range(&self) -> [f32; 2] {
+        match self.role {
+            Role::Reflectance => [0.0, (1.0 / self.scale).min(f32::MAX)],
+            Role::Emission | Role::Unbounded => [0.0, f32::MAX],
+        }
+    }
+
     /// The interpolated channels; black away from shapes and where the shape has no such
     /// attribute, which the scene rules out when it is compiled (see
     /// [`crate::TextureSet::attributes`]).
@@ -28,8 +42,9 @@ impl MeshAttribute {
         if !at.shape.is_some() {
             return Vec3::ZERO;
         }
+        let (primitive, parameters) = (at.primitive, at.parameters);
         shapes
-            .attribute(at.shape, &self.name, at.primitive, at.parameters)
+            .attribute(at.shape, &self.name, primitive, parameters, self.range())
             .unwrap_or(Vec3::ZERO)
     }
 
@@ -37,12 +52,23 @@ impl MeshAttribute {
     #[inline]
     pub fn spectrum(&self, shapes: &impl Shapes, at: &TexturePoint, lambda: Vec4) -> Vec4 {
         let value = self.stored(shapes, at);
-        let unscaled = if value.x == value.y && value.y == value.z {
-            Vec4::splat(value.x)
-        } else {
-            RgbCoefficients::from_rgb(value.to_array()).eval(lambda)
-        };
-        unscaled * self.scale
+        if value.x == value.y && value.y == value.z {
+            return Vec4::splat(value.x * self.scale);
+        }
+        let bright = value.max_element() > 1.0;
+        if self.role == Role::Reflectance && (bright || self.scale > 1.0) {
+            // Scaled first: a spectrum that is multiplied may exceed 1 where its colour does not.
+            let scaled = value * self.scale;
+            return RgbCoefficients::from_rgb(scaled.to_array()).eval(lambda);
+        }
+        if !bright {
+            return RgbCoefficients::from_rgb(value.to_array()).eval(lambda) * self.scale;
+        }
+        // Refused only if not finite or negative, and neither is left.
+        match RgbSpectrum::unbounded(value.as_dvec3().to_array()) {
+            Ok(spectrum) => spectrum.coefficients().eval(lambda) * (spectrum.scale() * self.scale),
+            Err(_) => Vec4::ZERO,
+        }
     }
 
     /// The number: the luminance of a colour.

@@ -32,7 +32,7 @@ impl TextureReader<'_> {
         let texture = match plugin.value.as_str() {
             "bitmap" => self.bitmap(params, purpose.role).map(Texture::Bitmap),
             "checkerboard" => Some(self.checkerboard(params, purpose.role)),
-            "mesh_attribute" => mesh_attribute(params).map(Texture::MeshAttribute),
+            "mesh_attribute" => mesh_attribute(params, purpose.role).map(Texture::MeshAttribute),
             "d65" => self.d65(params, purpose),
             "rawconstant" => self.rawconstant(params, purpose),
             "uniform" | "regular" | "irregular" | "blackbody" | "srgb" => {
@@ -328,8 +328,10 @@ fn is_linear(params: &Params<'_>) -> bool {
     gamma == 1.0
 }
 
-fn mesh_attribute(params: &Params<'_>) -> Option<MeshAttribute> {
-    let scale = params.float_where("scale", 1.0, "a finite number", f64::is_finite) as f32;
+fn mesh_attribute(params: &Params<'_>, role: Role) -> Option<MeshAttribute> {
+    let scale = params.float_where("scale", 1.0, "a finite number not below 0", |x| {
+        x >= 0.0 && x.is_finite()
+    }) as f32;
     let Some(name) = params.string("name") else {
         if !params.has("name") {
             params.missing("name", "`vertex_…` or `face_…`");
@@ -343,6 +345,7 @@ fn mesh_attribute(params: &Params<'_>) -> Option<MeshAttribute> {
     Some(MeshAttribute {
         name: name.to_owned(),
         scale,
+        role,
     })
 }
 

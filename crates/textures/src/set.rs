@@ -57,6 +57,15 @@ impl TextureSet {
             })
     }
 
+    /// The textures that an object was read as: one for each role in which it is used.
+    pub fn read_as(&self, node: &Arc<Node>) -> impl Iterator<Item = TextureId> {
+        let address = Arc::as_ptr(node) as usize;
+        let roles = [Role::Reflectance, Role::Emission, Role::Unbounded];
+        roles
+            .into_iter()
+            .filter_map(move |role| self.read.get(&(address, role)).copied())
+    }
+
     /// Whether `texture` is `other` or refers to it.
     pub fn uses(&self, texture: TextureId, other: TextureId) -> bool {
         texture == other

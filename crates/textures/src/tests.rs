@@ -83,7 +83,8 @@ impl Assets for Files {
     }
 }
 
-/// One shape, whose attribute `vertex_color` is (parameters, ½) and `face_grey` is 3.
+/// One shape, whose attribute `vertex_color` is (parameters, ½), `face_grey` 3, and
+/// `vertex_bytes` (51, 102, −255).
 struct OneShape;
 
 impl Shapes for OneShape {
@@ -105,12 +106,21 @@ impl Shapes for OneShape {
     fn density_toward(&self, _: ShapeId, _: &Receiver, _: &SurfacePoint) -> f32 {
         0.0
     }
-    fn attribute(&self, _: ShapeId, name: &str, _: u32, parameters: Vec2) -> Option<Vec3> {
-        match name {
-            "vertex_color" => Some(parameters.extend(0.5)),
-            "face_grey" => Some(Vec3::splat(3.0)),
-            _ => None,
-        }
+    fn attribute(
+        &self,
+        _: ShapeId,
+        name: &str,
+        _: u32,
+        parameters: Vec2,
+        [low, high]: [f32; 2],
+    ) -> Option<Vec3> {
+        let stored = match name {
+            "vertex_color" => parameters.extend(0.5),
+            "face_grey" => Vec3::splat(3.0),
+            "vertex_bytes" => Vec3::new(51.0, 102.0, -255.0),
+            _ => return None,
+        };
+        Some(stored.clamp(Vec3::splat(low), Vec3::splat(high)))
     }
 }
 

@@ -20,6 +20,11 @@ pub enum MeshFormat {
     Obj,
     /// Stanford PLY.
     Ply,
+    /// One mesh of those in a `.serialized` file of Mitsuba's.
+    Serialized {
+        /// Which one, counted from 0.
+        shape_index: u32,
+    },
 }
 
 /// Lookup of files along the scene's search path.

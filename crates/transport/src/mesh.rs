@@ -26,4 +26,11 @@ pub struct MeshData {
     pub triangles: Vec<[u32; 3]>,
     /// Further quantities.
     pub attributes: Vec<Attribute>,
+    /// Vertices of which the last ones are copies, in their order: corners that differ only in
+    /// their texture coordinates, and share a computed normal.
+    pub copies: Vec<u32>,
+    /// Whether the file itself asks for the triangles' own normals.
+    pub face_normals: bool,
+    /// What is odd about the file, though it could be read: a sentence each, without its name.
+    pub notes: Vec<String>,
 }

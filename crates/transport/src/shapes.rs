@@ -106,12 +106,14 @@ pub trait Shapes {
     fn density_toward(&self, shape: ShapeId, from: &Receiver, at: &SurfacePoint) -> f32;
 
     /// The value of a mesh attribute at a point of a primitive (three channels; one-channel
-    /// attributes are repeated). `None` if the shape has no such attribute.
+    /// attributes are repeated). Each stored number counts as the nearest in `range`, before
+    /// they are interpolated. `None` if the shape has no such attribute.
     fn attribute(
         &self,
         shape: ShapeId,
         name: &str,
         primitive: u32,
         parameters: Vec2,
+        range: [f32; 2],
     ) -> Option<Vec3>;
 }

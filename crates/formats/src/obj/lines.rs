@@ -75,10 +75,16 @@ impl<'a> Lines<'a> {
             return None;
         }
         self.number += 1;
-        let end = self.rest.iter().position(|&b| b == b'\n');
-        let line = &self.rest[..end.unwrap_or(self.rest.len())];
-        self.rest = end.map_or(&[], |end| &self.rest[end + 1..]);
-        let line = line.strip_suffix(b"\r").unwrap_or(line);
+        let end = self.rest.iter().position(|&b| b == b'\n' || b == b'\r');
+        let (line, ending) = self.rest.split_at(end.unwrap_or(self.rest.len()));
+        // A carriage return ends a line alone, too; one too many is part of the same ending.
+        let length = match ending {
+            [b'\r', b'\n', ..] => 2,
+            [b'\r', b'\r', b'\n', ..] => 3,
+            [] => 0,
+            _ => 1,
+        };
+        self.rest = &ending[length..];
         let line = match line.iter().position(|&b| b == b'#') {
             Some(comment) => return Some((&line[..comment], false)),
             None => line,

@@ -5,6 +5,7 @@
 
 use super::lines::{Line, Lines};
 use crate::mesh_error::MeshError;
+use crate::nan::is_nan;
 
 /// How many positions, texture coordinates and normals there are.
 pub(super) type Counts = [usize; 3];
@@ -89,9 +90,12 @@ fn numbers<'l>(
             return Err(line.error(format!("a number of this {what} is missing")));
         };
         let parsed = std::str::from_utf8(word).ok().and_then(|w| w.parse().ok());
-        let number: f32 =
-            parsed.ok_or_else(|| line.error(format!("`{}` is not a number", text(word))))?;
-        if !number.is_finite() {
+        let nan = is_nan(word).then_some(f32::NAN);
+        let number: f32 = parsed
+            .or(nan)
+            .ok_or_else(|| line.error(format!("`{}` is not a number", text(word))))?;
+        // Normals and texture coordinates do without some numbers.
+        if !number.is_finite() && what != NAMES[1] && what != NAMES[2] {
             return Err(line.error(format!("`{}` in this {what} is not finite", text(word))));
         }
     }

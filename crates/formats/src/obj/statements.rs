@@ -11,6 +11,7 @@
 
 use super::lines::{Line, Lines};
 use super::mistakes::{Counts, check, list_of};
+use crate::nan::is_nan;
 use std::io::{BufRead, Error, ErrorKind, Read, Result};
 
 /// How much text is prepared at once, in bytes.
@@ -82,6 +83,7 @@ impl<'a> Statements<'a> {
         let mut found = 0;
         for word in words.take(wanted) {
             self.ready.push(b' ');
+            let word = if is_nan(word) { b"nan" } else { word };
             self.ready.extend_from_slice(word);
             found += 1;
         }

@@ -162,6 +162,33 @@ fn concave_faces_are_not_fanned() {
 }
 
 #[test]
+fn lines_end_in_three_ways() {
+    let file = format!("# by hand\n{SQUARE}vt 0 1\nf 1 2 \\\n3 # a\nf 1 3 4\n");
+    let mesh = parse(file.as_bytes()).expect("read");
+    assert_eq!(mesh.triangles, [[0, 1, 2], [0, 2, 3]]);
+    for ending in ["\r", "\r\n", "\r\r\n"] {
+        let text = file.replace('\n', ending);
+        assert_eq!(parse(text.as_bytes()).expect("read"), mesh, "{ending:?}");
+        let broken = file.replace("f 1 3 4", "f 1 3 5").replace('\n', ending);
+        let error = parse(broken.as_bytes()).expect_err("no fifth");
+        assert_eq!(error.place, Place::Line(9), "{ending:?}");
+    }
+}
+
+#[test]
+fn numbers_that_are_none_harm_nobody_who_does_not_use_them() {
+    let mesh = square("v nan 0 0\nvn nan nan nan\nvn -nan(ind) 0 1\nvn 0 0 1\nf 1//1 2//2 3//3\n");
+    let mesh = mesh.expect("nobody uses the fifth");
+    let finite: Vec<bool> = mesh.normals.iter().map(|n| n.is_finite()).collect();
+    assert_eq!(finite, [false, false, true]);
+    let error = square("vn nan 0 0\nv nan 0 0\nf 1//1 2//1 5//1\n").expect_err("the fifth is used");
+    assert_eq!(
+        error.to_string(),
+        "line 6: `nan` in this position is not finite"
+    );
+}
+
+#[test]
 fn colours_of_some_vertices_only() {
     for text in [
         "v 0 0 0 1 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n",

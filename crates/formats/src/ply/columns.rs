@@ -33,6 +33,28 @@ enum Data<'a> {
     },
 }
 
+/// Where the elements of one kind stand in the file.
+#[derive(Clone, Copy)]
+pub(super) enum Places {
+    /// As rows of bytes.
+    Rows { start: usize, stride: usize },
+    /// In lines from this one.
+    Lines(usize),
+    /// Nobody kept track.
+    Unknown,
+}
+
+impl Places {
+    /// Where one of them stands.
+    pub(super) fn of(self, index: usize) -> Place {
+        match self {
+            Self::Rows { start, stride } => Place::Byte(start + index * stride),
+            Self::Lines(first) => Place::Line(first + index),
+            Self::Unknown => Place::Whole,
+        }
+    }
+}
+
 impl<'a> Columns<'a> {
     /// Reads all elements of one kind.
     pub(super) fn read(element: &Element, source: &mut Source<'a>) -> Result<Self, MeshError> {
@@ -123,50 +145,31 @@ impl<'a> Columns<'a> {
     }
 
     /// Three properties of every element, as vectors.
-    pub(super) fn vec3(&self, properties: &[usize], what: &str) -> Result<Vec<Vec3>, MeshError> {
+    pub(super) fn vec3(&self, properties: &[usize]) -> Vec<Vec3> {
         let mut vectors = Vec::with_capacity(self.count);
-        let mut good = true;
         self.visit(properties, |row| {
-            let v = Vec3::new(row[0], row[1], row[2]);
-            good &= v.is_finite();
-            vectors.push(v);
+            vectors.push(Vec3::new(row[0], row[1], row[2]));
         });
-        if good {
-            return Ok(vectors);
-        }
-        let bad = vectors.iter().position(|v| !v.is_finite()).unwrap_or(0);
-        Err(self.not_finite(bad, what))
+        vectors
     }
 
     /// Some properties of every element, one element after the other.
-    pub(super) fn gather(&self, properties: &[usize], what: &str) -> Result<Vec<f32>, MeshError> {
+    pub(super) fn gather(&self, properties: &[usize]) -> Vec<f32> {
         let mut values = Vec::with_capacity(self.count * properties.len());
-        let mut good = true;
-        self.visit(properties, |row| {
-            good &= row.iter().all(|x| x.is_finite());
-            values.extend_from_slice(row);
-        });
-        if good {
-            return Ok(values);
-        }
-        let bad = values.iter().position(|x| !x.is_finite()).unwrap_or(0);
-        Err(self.not_finite(bad / properties.len(), what))
+        self.visit(properties, |row| values.extend_from_slice(row));
+        values
     }
 
-    #[cold]
-    fn not_finite(&self, index: usize, what: &str) -> MeshError {
-        let place = match &self.data {
-            Data::Rows { start, stride, .. } => Place::Byte(start + index * stride),
+    /// Where the elements stand.
+    pub(super) fn places(&self) -> Places {
+        match self.data {
+            Data::Rows { start, stride, .. } => Places::Rows { start, stride },
             Data::Values {
                 first_line: Some(line),
                 ..
-            } => Place::Line(line + index),
-            Data::Values { .. } => Place::Whole,
-        };
-        MeshError::new(
-            place,
-            format!("the {what} of element {index} is not finite"),
-        )
+            } => Places::Lines(line),
+            Data::Values { .. } => Places::Unknown,
+        }
     }
 
     /// Calls `f` with the values of some properties of each element in turn.

@@ -128,11 +128,12 @@ impl Header {
         let mut properties = 0;
         let mut at = 0;
         let mut number = 0;
+        let ending = line_ending(bytes);
         loop {
             number += 1;
             let error = |message: String| MeshError::new(Place::Line(number), message);
             let rest = &bytes[at..bytes.len().min(MOST_BYTES)];
-            let Some(end) = rest.iter().position(|&b| b == b'\n') else {
+            let Some(end) = rest.iter().position(|&b| b == ending) else {
                 return Err(error(if number == 1 {
                     "the file does not begin with a line `ply`".into()
                 } else {
@@ -209,6 +210,15 @@ impl Header {
             data: at,
             lines: number,
         })
+    }
+}
+
+/// What ends the lines of the header: a line feed, or a carriage return that none follows.
+fn line_ending(bytes: &[u8]) -> u8 {
+    let first = bytes.iter().position(|&b| b == b'\n' || b == b'\r');
+    match first.map(|at| &bytes[at..]) {
+        Some([b'\r', b'\n', ..]) | None => b'\n',
+        Some(rest) => rest[0],
     }
 }
 

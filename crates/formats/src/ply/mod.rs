@@ -2,28 +2,27 @@
 //!
 //! Of the element `vertex` are read `x y z`, `nx ny nz`, a pair of texture coordinates
 //! (`u v`, `s t`, `texture_u texture_v`, `texture_s texture_t`) and every further number as an
-//! attribute; of `face` the corners (`vertex_indices` or `vertex_index`) and attributes. Polygons are cut
-//! into triangles, which inherit the attributes of their face. Other elements and lists are
-//! skipped.
+//! attribute; of `face` the corners (`vertex_indices` or `vertex_index`), attributes, and the list
+//! `texcoord` of texture coordinates at its corners, which go before those of vertices; of
+//! `tristrips` the corners. Elements may come in any order. Polygons are cut into triangles, which
+//! inherit the attributes of their face. Other elements and lists are skipped.
 //!
 //! Attributes are grouped and named as in Mitsuba 3: see `attributes.rs`.
 
 mod attributes;
 mod columns;
+mod faces;
 mod header;
 mod source;
 
 use crate::mesh_error::{MeshError, Place};
-use crate::polygon::triangulate;
+use crate::unused;
 use attributes::groups;
-use columns::Columns;
+use columns::{Columns, Places};
 use etalon_transport::{Attribute, MeshData};
-use glam::{Vec2, Vec3};
+use glam::Vec2;
 use header::{Element, Header, Kind, Property};
 use source::Source;
-
-/// The most corners of one face.
-const MOST_CORNERS: usize = 1 << 20;
 
 /// The names of texture coordinates.
 const UV_NAMES: [[&str; 2]; 4] = [
@@ -38,34 +37,82 @@ pub fn parse(bytes: &[u8]) -> Result<MeshData, MeshError> {
     let header = Header::parse(bytes)?;
     let mut source = Source::new(bytes, &header);
     let mut mesh = MeshData::default();
-    let mut seen_vertices = false;
-    let mut seen_faces = false;
-    for element in &header.elements {
+    let mut places = None;
+    // What stands before the vertices waits for them.
+    let mut early = Vec::new();
+    for (i, element) in header.elements.iter().enumerate() {
+        let first = !header.elements[..i].iter().any(|e| e.name == element.name);
         match element.name.as_str() {
-            "vertex" if !seen_vertices => {
-                seen_vertices = true;
-                vertices(element, &mut source, &mut mesh)?;
-            }
-            "face" if !seen_faces => {
-                if !seen_vertices {
-                    return Err(MeshError::new(
-                        Place::Line(element.line),
-                        "the element `face` stands before `vertex`",
-                    ));
+            "vertex" if first => {
+                places = Some(vertices(element, &mut source, &mut mesh)?);
+                for (element, mut source) in early.drain(..) {
+                    triangles(element, &mut source, &mut mesh)?;
                 }
-                seen_faces = true;
-                faces(element, &mut source, &mut mesh)?;
             }
+            "face" | "tristrips" if first && places.is_none() => {
+                early.push((element, source.clone()));
+                skip(element, &mut source)?;
+            }
+            "face" | "tristrips" if first => triangles(element, &mut source, &mut mesh)?,
             _ => skip(element, &mut source)?,
         }
     }
-    if !seen_vertices || !seen_faces || mesh.triangles.is_empty() {
-        return Err(MeshError::new(
-            Place::Whole,
-            "the file contains no faces of three or more corners",
-        ));
+    if mesh.triangles.is_empty() {
+        return Err(MeshError::new(Place::Whole, no_faces(&header)));
     }
+    if let (Err(i), Some(places)) = (unused::settle(&mut mesh.positions, &mesh.triangles), places) {
+        let message = format!("the position of element {i} is not finite");
+        return Err(MeshError::new(places.of(i), message));
+    }
+    tidy_attributes(&mut mesh);
     Ok(mesh)
+}
+
+fn no_faces(header: &Header) -> String {
+    let elements: Vec<String> = (header.elements.iter().take(8))
+        .map(|e| format!("{} `{}`", e.count, e.name))
+        .collect();
+    let held = match elements.as_slice() {
+        [] => "nothing".to_owned(),
+        elements => elements.join(", "),
+    };
+    format!("the file contains no faces of three or more corners; it holds {held}")
+}
+
+fn triangles(
+    element: &Element,
+    source: &mut Source<'_>,
+    mesh: &mut MeshData,
+) -> Result<(), MeshError> {
+    match element.name.as_str() {
+        "face" => faces::faces(element, source, mesh),
+        _ => faces::strips(element, source, mesh),
+    }
+}
+
+/// Drops attributes of faces that strips have not, and says what is not followed.
+fn tidy_attributes(mesh: &mut MeshData) {
+    let triangles = mesh.triangles.len();
+    let notes = &mut mesh.notes;
+    mesh.attributes.retain(|a| {
+        let fits = !a.name.starts_with("face_") || a.values.len() == a.channels * triangles;
+        if !fits {
+            notes.push(format!(
+                "`{}` is left out: triangle strips have none",
+                a.name
+            ));
+        }
+        fits
+    });
+    let several = (mesh.attributes.iter())
+        .filter(|a| a.name == "face_texnumber" && !mesh.uvs.is_empty())
+        .any(|a| a.values.iter().any(|&v| v != a.values[0]));
+    if several {
+        mesh.notes.push(
+            "its faces refer to several images (`texnumber`); a texture is put on all of them"
+                .into(),
+        );
+    }
 }
 
 /// Reads past an element that nobody needs.
@@ -99,7 +146,7 @@ fn vertices(
     element: &Element,
     source: &mut Source<'_>,
     mesh: &mut MeshData,
-) -> Result<(), MeshError> {
+) -> Result<Places, MeshError> {
     if u32::try_from(element.count).is_err() {
         return Err(MeshError::new(
             Place::Line(element.line),
@@ -118,18 +165,19 @@ fn vertices(
     let columns = Columns::read(element, source)?;
     let normal = find(&["nx", "ny", "nz"]);
     let uv = UV_NAMES.iter().find_map(|names| find(names));
-    mesh.positions = columns.vec3(&xyz, "position")?;
+    mesh.positions = columns.vec3(&xyz);
     let mut used = xyz;
     if let Some(normal) = normal {
-        mesh.normals = columns.vec3(&normal, "normal")?;
+        mesh.normals = columns.vec3(&normal);
         used.extend(normal);
     }
     if let Some(uv) = uv {
-        let pairs = columns.gather(&uv, "texture coordinate")?;
+        let pairs = columns.gather(&uv);
         mesh.uvs = pairs.chunks_exact(2).map(Vec2::from_slice).collect();
         used.extend(uv);
     }
-    add_attributes("vertex", element, &used, &columns, mesh)
+    add_attributes("vertex", element, &used, &columns, mesh);
+    Ok(columns.places())
 }
 
 /// Adds the properties that are not `used` as attributes.
@@ -139,7 +187,7 @@ fn add_attributes(
     used: &[usize],
     columns: &Columns<'_>,
     mesh: &mut MeshData,
-) -> Result<(), MeshError> {
+) {
     let free: Vec<(usize, &str)> = element
         .properties
         .iter()
@@ -148,118 +196,12 @@ fn add_attributes(
         .map(|(i, p)| (i, p.name.as_str()))
         .collect();
     for group in groups(&free) {
-        let values = columns.gather(&group.properties, "attribute")?;
+        let values = columns.gather(&group.properties);
         mesh.attributes.push(Attribute {
             name: format!("{prefix}_{}", group.name),
             channels: group.properties.len(),
             values,
         });
-    }
-    Ok(())
-}
-
-fn faces(element: &Element, source: &mut Source<'_>, mesh: &mut MeshData) -> Result<(), MeshError> {
-    let list = ["vertex_indices", "vertex_index"]
-        .iter()
-        .find_map(|name| element.find(name));
-    let Some((list, Kind::List { count, item })) = list.map(|i| (i, element.properties[i].kind))
-    else {
-        return Err(MeshError::new(
-            Place::Line(element.line),
-            "the element `face` needs the list `vertex_indices`",
-        ));
-    };
-    let mut reader = FaceReader {
-        positions: std::mem::take(&mut mesh.positions),
-        triangles: Vec::with_capacity(source.room_for(
-            element.count,
-            count.size() + 3 * item.size(),
-            4,
-        )),
-        corners: Vec::new(),
-        polygon: Vec::new(),
-    };
-    // The number of triangles of every face, needed where faces have attributes.
-    let mut owners: Vec<u32> = Vec::new();
-    let free: Vec<usize> = (0..element.properties.len())
-        .filter(|&i| matches!(element.properties[i].kind, Kind::Number(_)))
-        .collect();
-    let mut values: Vec<f64> = Vec::new();
-    for _ in 0..element.count {
-        for (i, property) in element.properties.iter().enumerate() {
-            if i == list {
-                let before = reader.triangles.len();
-                reader.face(source, count, item)?;
-                if !free.is_empty() {
-                    owners.push((reader.triangles.len() - before) as u32);
-                }
-            } else if let Kind::Number(number) = property.kind {
-                values.push(source.number(number)?);
-            } else {
-                skip_property(property, source)?;
-            }
-        }
-    }
-    mesh.positions = reader.positions;
-    mesh.triangles = reader.triangles;
-    if !free.is_empty() {
-        let columns = Columns::from_faces(&free, &values, &owners);
-        add_attributes("face", element, &[list], &columns, mesh)?;
-    }
-    Ok(())
-}
-
-struct FaceReader {
-    positions: Vec<Vec3>,
-    triangles: Vec<[u32; 3]>,
-    corners: Vec<u32>,
-    polygon: Vec<Vec3>,
-}
-
-impl FaceReader {
-    /// Reads one face and cuts it into triangles.
-    #[inline]
-    fn face(
-        &mut self,
-        source: &mut Source<'_>,
-        count: header::Number,
-        item: header::Number,
-    ) -> Result<(), MeshError> {
-        let length = source.length(count)?;
-        if length == 3 {
-            let triangle = [
-                self.index(source, item)?,
-                self.index(source, item)?,
-                self.index(source, item)?,
-            ];
-            self.triangles.push(triangle);
-            return Ok(());
-        }
-        if length > MOST_CORNERS {
-            return Err(source.error(format!("a face with {length} corners")));
-        }
-        self.corners.clear();
-        self.polygon.clear();
-        for _ in 0..length {
-            let index = self.index(source, item)?;
-            self.corners.push(index);
-            self.polygon.push(self.positions[index as usize]);
-        }
-        let (corners, triangles) = (&self.corners, &mut self.triangles);
-        triangulate(&self.polygon, |t| triangles.push(t.map(|i| corners[i])));
-        Ok(())
-    }
-
-    #[inline]
-    fn index(&self, source: &mut Source<'_>, item: header::Number) -> Result<u32, MeshError> {
-        let index = source.integer(item)?;
-        if (0..self.positions.len() as i64).contains(&index) {
-            return Ok(index as u32);
-        }
-        Err(source.error(format!(
-            "the face refers to vertex {index}, but there are {}",
-            self.positions.len()
-        )))
     }
 }
 

@@ -2,8 +2,10 @@
 
 use super::header::{Element, Format, Header, Number};
 use crate::mesh_error::{MeshError, Place};
+use crate::nan::is_nan;
 
 /// The data section and how far it has been read.
+#[derive(Clone)]
 pub(super) struct Source<'a> {
     bytes: &'a [u8],
     at: usize,
@@ -41,7 +43,9 @@ impl<'a> Source<'a> {
             if !b.is_ascii_whitespace() {
                 break;
             }
-            self.line += usize::from(*b == b'\n');
+            // A lone carriage return ends a line, too.
+            let ends = *b == b'\n' || *b == b'\r' && self.bytes.get(self.at + 1) != Some(&b'\n');
+            self.line += usize::from(ends);
             self.at += 1;
         }
     }
@@ -121,7 +125,11 @@ impl<'a> Source<'a> {
     pub(super) fn number(&mut self, number: Number) -> Result<f64, MeshError> {
         if self.format == Format::Ascii {
             let word = self.word()?;
-            return word.parse().map_err(|_| self.not_a_number(word));
+            return match word.parse() {
+                Ok(number) => Ok(number),
+                Err(_) if is_nan(word.as_bytes()) => Ok(f64::NAN),
+                Err(_) => Err(self.not_a_number(word)),
+            };
         }
         let big = self.format == Format::BigEndian;
         Ok(match number.size() {

@@ -1,10 +1,13 @@
 //! PLY files of all three formats, broken ones, and agreement with the crate `ply-rs-bw`.
 
 use super::*;
+use glam::Vec3;
 use ply_rs_bw::parser::Parser;
 use ply_rs_bw::ply::{DefaultElement, Property as TheirProperty};
 use proptest::prelude::*;
 use proptest::test_runner::RngSeed;
+
+mod elements;
 
 /// A text file with these properties of vertices (besides `x y z`), vertices and faces.
 fn text(properties: &str, vertices: &[&str], face_properties: &str, faces: &[&str]) -> String {
@@ -114,7 +117,7 @@ fn mistakes_have_a_place() {
     );
     assert_eq!(
         mesh(&SQUARE, &["2 0 1"]),
-        "the file contains no faces of three or more corners"
+        "the file contains no faces of three or more corners; it holds 4 `vertex`, 1 `face`"
     );
     for (file, said) in [
         ("", "line 1: the file does not begin with a line `ply`"),

@@ -1,31 +1,44 @@
-//! Meshes from files: the plugins `obj` and `ply`.
+//! Meshes from files: the plugins `obj`, `ply` and `serialized`.
 
 use crate::placement::Placement;
 use crate::shapes::mesh::{Mesh, MeshOptions};
 use crate::shapes::solid::read_flip;
 use etalon_params::{Diagnostic, Params};
-use etalon_transport::{Build, MeshFormat};
+use etalon_transport::{Build, MeshData, MeshFormat};
 
 /// Reads an `obj`; v is flipped unless the scene says otherwise, as in Mitsuba.
 pub(crate) fn obj(params: &Params<'_>, build: &mut dyn Build) -> Option<Mesh> {
-    read(params, build, MeshFormat::Obj, true)
+    read(params, build, Some(MeshFormat::Obj), Some(true))
 }
 
 /// Reads a `ply`.
 pub(crate) fn ply(params: &Params<'_>, build: &mut dyn Build) -> Option<Mesh> {
-    read(params, build, MeshFormat::Ply, false)
+    read(params, build, Some(MeshFormat::Ply), Some(false))
 }
 
+/// Reads a `serialized`; as in Mitsuba, its texture coordinates stand as they are.
+pub(crate) fn serialized(params: &Params<'_>, build: &mut dyn Build) -> Option<Mesh> {
+    let index = params.integer_or("shape_index", 0);
+    let shape_index = u32::try_from(index).ok();
+    if shape_index.is_none() {
+        params.refuse("shape_index", index, "an integer from 0 to 4294967295");
+    }
+    let format = shape_index.map(|shape_index| MeshFormat::Serialized { shape_index });
+    read(params, build, format, None)
+}
+
+/// Reads a mesh; without a format, only looks at the parameters.
 fn read(
     params: &Params<'_>,
     build: &mut dyn Build,
-    format: MeshFormat,
-    flip_tex_coords: bool,
+    format: Option<MeshFormat>,
+    flip_tex_coords: Option<bool>,
 ) -> Option<Mesh> {
     let placement = Placement::from_params(params);
     let face_normals = params.boolean_or("face_normals", false);
     let flip_normals = read_flip(params);
-    let flip_tex_coords = params.boolean_or("flip_tex_coords", flip_tex_coords);
+    let flip_tex_coords =
+        flip_tex_coords.is_some_and(|default| params.boolean_or("flip_tex_coords", default));
     let Some(filename) = params.string("filename") else {
         if !params.has("filename") {
             params.missing("filename", "the mesh file");
@@ -35,7 +48,7 @@ fn read(
     let span = params
         .property("filename")
         .map_or(params.node.plugin.span, |p| p.span);
-    let data = match build.assets().mesh(format, filename) {
+    let data = match build.assets().mesh(format?, filename) {
         Ok(data) => data,
         Err(error) => {
             let mut diagnostic = Diagnostic::error(span, error.message);
@@ -44,13 +57,13 @@ fn read(
             return None;
         }
     };
-    if data.triangles.is_empty() {
-        let message = format!("`{filename}` has no triangles: nothing will be seen of it");
+    for note in notes(&data, face_normals || data.face_normals) {
+        let message = format!("`{filename}`: {note}");
         params.diagnostics.push(Diagnostic::note(span, message));
     }
     let options = MeshOptions {
         placement: placement?,
-        face_normals,
+        face_normals: face_normals || data.face_normals,
         flip_normals,
         flip_tex_coords,
     };
@@ -62,4 +75,27 @@ fn read(
             None
         }
     }
+}
+
+/// What to say of a file that can be used.
+fn notes(data: &MeshData, face_normals: bool) -> Vec<String> {
+    let mut notes = data.notes.clone();
+    if data.triangles.is_empty() {
+        notes.push("the mesh has no triangles: nothing will be seen of it".into());
+    }
+    let count = data.normals.iter().filter(|n| !n.is_finite()).count();
+    if count > 0 && !face_normals {
+        notes.push(format!(
+            "{count} of the {} normals are not finite; they are computed from the triangles instead",
+            data.normals.len()
+        ));
+    }
+    let count = data.uvs.iter().filter(|uv| !uv.is_finite()).count();
+    if count > 0 {
+        notes.push(format!(
+            "{count} of the {} texture coordinates are not finite; they count as 0, 0",
+            data.uvs.len()
+        ));
+    }
+    notes
 }

@@ -6,7 +6,7 @@
 //!
 //! Normals follow Mitsuba 3: a file's vertex normals are taken along by `to_world` (as
 //! covectors); if it has none, they are computed in the world, weighted by the angle at the
-//! vertex (Thürmer & Wüthrich 1998); `face_normals` discards both. The geometric normal is the
+//! vertex (Thürmer & Wüthrich 1998), as are those that are not finite; `face_normals` discards both. The geometric normal is the
 //! one of the two perpendiculars that lies on the shading normal's side, so that "outside" never
 //! depends on the winding of a file that has normals.
 //!
@@ -64,6 +64,9 @@ impl Mesh {
     /// Places a mesh; says what is wrong with data that no surface can have.
     pub fn new(mut data: MeshData, options: &MeshOptions) -> Result<Self, String> {
         check(&data)?;
+        for uv in data.uvs.iter_mut().filter(|uv| !uv.is_finite()) {
+            *uv = Vec2::ZERO;
+        }
         let placement = &options.placement;
         if *placement != Placement::IDENTITY {
             for p in &mut data.positions {
@@ -76,13 +79,10 @@ impl Mesh {
         let mut normals = core::mem::take(&mut data.normals);
         if options.face_normals {
             normals = Vec::new();
-        } else if normals.is_empty() {
-            normals = super::vertex_normals(&data.positions, &data.triangles);
+        } else if !normals.iter().any(|n| n.is_finite()) {
+            normals = computed_normals(&data);
         } else {
-            for n in &mut normals {
-                let placed = placement.normal(n.as_dvec3());
-                *n = placed.try_normalize().unwrap_or(DVec3::ZERO).as_vec3();
-            }
+            place_normals(&mut normals, &data, placement);
         }
         if options.flip_normals {
             normals.iter_mut().for_each(|n| *n = -*n);
@@ -236,16 +236,24 @@ impl Mesh {
         }
     }
 
-    /// The attribute `name` at a point of a triangle, as three channels.
-    pub(crate) fn attribute(&self, name: &str, primitive: u32, b: Vec2) -> Option<Vec3> {
+    /// The attribute `name` at a point of a triangle, as three channels; each stored number counts
+    /// as the nearest in the range.
+    pub(crate) fn attribute(
+        &self,
+        name: &str,
+        primitive: u32,
+        b: Vec2,
+        [low, high]: [f32; 2],
+    ) -> Option<Vec3> {
         let attribute = self.attributes.iter().find(|a| a.name == name)?;
         let at = |index: usize| -> Vec3 {
             let values = &attribute.values[index * attribute.channels..];
-            match attribute.channels {
+            let stored = match attribute.channels {
                 1 => Vec3::splat(values[0]),
                 2 => Vec3::new(values[0], values[1], 0.0),
                 _ => Vec3::new(values[0], values[1], values[2]),
-            }
+            };
+            stored.clamp(Vec3::splat(low), Vec3::splat(high))
         };
         if name.starts_with("face_") {
             return Some(at(primitive as usize));
@@ -254,9 +262,54 @@ impl Mesh {
         Some(a0 * (1.0 - b.x - b.y) + a1 * b.x + a2 * b.y)
     }
 
-    /// Whether there is an attribute called `name`.
-    pub fn has_attribute(&self, name: &str) -> bool {
-        self.attributes.iter().any(|a| a.name == name)
+    /// What is stored on its vertices and faces.
+    pub fn attributes(&self) -> &[Attribute] {
+        &self.attributes
+    }
+
+    /// Whether it has texture coordinates.
+    pub fn has_uvs(&self) -> bool {
+        !self.uvs.is_empty()
+    }
+}
+
+/// Vertex normals of positions in the world; copies of a vertex get one normal together.
+fn computed_normals(data: &MeshData) -> Vec<Vec3> {
+    if data.copies.is_empty() {
+        return super::vertex_normals(&data.positions, &data.triangles);
+    }
+    let first = data.positions.len() - data.copies.len();
+    let original = |i: u32| match (i as usize).checked_sub(first) {
+        Some(copy) => data.copies[copy],
+        None => i,
+    };
+    let joined: Vec<[u32; 3]> = (data.triangles.iter())
+        .map(|triangle| triangle.map(original))
+        .collect();
+    let mut normals = super::vertex_normals(&data.positions, &joined);
+    for (copy, &vertex) in data.copies.iter().enumerate() {
+        normals[first + copy] = normals[vertex as usize];
+    }
+    normals
+}
+
+/// Takes normals into the world, where `data` stands already; computes those that are not finite,
+/// on the side on which the others are.
+fn place_normals(normals: &mut [Vec3], data: &MeshData, placement: &Placement) {
+    let mut computed = Vec::new();
+    if !normals.iter().all(|n| n.is_finite()) {
+        computed = computed_normals(data);
+        if placement.mirrors() {
+            computed.iter_mut().for_each(|n| *n = -*n);
+        }
+    }
+    for (i, n) in normals.iter_mut().enumerate() {
+        *n = if n.is_finite() {
+            let placed = placement.normal(n.as_dvec3());
+            placed.try_normalize().unwrap_or(DVec3::ZERO).as_vec3()
+        } else {
+            computed[i]
+        };
     }
 }
 
@@ -265,15 +318,6 @@ fn check(data: &MeshData) -> Result<(), String> {
     let count = data.positions.len();
     if let Some(i) = data.positions.iter().position(|p| !p.is_finite()) {
         return Err(format!("vertex {i} of the mesh is {}", data.positions[i]));
-    }
-    if let Some(i) = data.normals.iter().position(|n| !n.is_finite()) {
-        return Err(format!("normal {i} of the mesh is {}", data.normals[i]));
-    }
-    if let Some(i) = data.uvs.iter().position(|uv| !uv.is_finite()) {
-        return Err(format!(
-            "texture coordinate {i} of the mesh is {}",
-            data.uvs[i]
-        ));
     }
     let outside = |t: &[u32; 3]| t.iter().any(|&i| i as usize >= count);
     if let Some(i) = data.triangles.iter().position(outside) {
@@ -290,6 +334,10 @@ fn check(data: &MeshData) -> Result<(), String> {
             return Err(format!("the mesh has {count} vertices but {length} {what}"));
         }
     }
+    let first = count.checked_sub(data.copies.len());
+    if first.is_none_or(|first| data.copies.iter().any(|&c| c as usize >= first)) {
+        return Err("the mesh has copies of vertices that it does not have".into());
+    }
     for attribute in &data.attributes {
         let of = if attribute.name.starts_with("face_") {
             data.triangles.len()
@@ -298,10 +346,9 @@ fn check(data: &MeshData) -> Result<(), String> {
         };
         if !(1..=4).contains(&attribute.channels)
             || attribute.values.len() != attribute.channels * of
-            || !attribute.values.iter().all(|v| v.is_finite())
         {
             return Err(format!(
-                "the mesh attribute `{}` needs 1 to 4 finite values for each of {of}",
+                "the mesh attribute `{}` needs 1 to 4 values for each of {of}",
                 attribute.name
             ));
         }

@@ -4,7 +4,7 @@ use etalon_geometry::Shape;
 use etalon_params::{
     Class, DMat4, DVec3, Diagnostics, FileId, Node, Params, Property, Span, Spanned, Value,
 };
-use etalon_transport::{AssetError, Assets, Build, MeshData, MeshFormat, Role, TextureId};
+use etalon_transport::{AssetError, Assets, Build, MeshData, MeshFormat, Ray, Role, TextureId};
 use glam::{Vec2, Vec3};
 use std::sync::Arc;
 
@@ -37,6 +37,11 @@ impl Assets for Files {
             "nan" => data.positions[1].y = f32::NAN,
             "index" => data.triangles[0][2] = 3,
             "empty" => data.triangles.clear(),
+            "faceted" => {
+                data.normals = vec![Vec3::new(0.6, 0.0, 0.8); 3];
+                data.face_normals = true;
+                data.notes = vec!["it is odd".into()];
+            }
             _ => {
                 return Err(AssetError {
                     message: format!("no file `{path}`"),
@@ -109,6 +114,11 @@ fn every_plugin_takes_its_parameters() {
             ("silhouette_sampling_weight", Value::Float(0.5)),
         ];
         match plugin {
+            "serialized" => properties.extend([
+                file("good"),
+                flag("face_normals", true),
+                ("shape_index", Value::Integer(2)),
+            ]),
             "obj" | "ply" => properties.extend([
                 file("good"),
                 flag("face_normals", true),
@@ -133,6 +143,17 @@ fn every_plugin_takes_its_parameters() {
         );
     }
     assert!(make("teapot", vec![]).0.is_none());
+}
+
+/// A file may ask for face normals itself, and its notes are handed on.
+#[test]
+fn files_have_wishes() {
+    let (shape, messages) = make("serialized", vec![file("faceted")]);
+    assert_eq!(messages, "`faceted`: it is odd; \n");
+    let geometry = crate::things::geometry_of(shape);
+    let ray = Ray::new(Vec3::new(0.2, 0.2, 1.0), -Vec3::Z, 0.0);
+    let hit = geometry.intersect(&ray).expect("it is below");
+    assert_eq!(geometry.vertex(&ray, &hit).shading.n, Vec3::Z);
 }
 
 #[test]
@@ -166,6 +187,15 @@ fn mistakes_are_told() {
         "ply",
         vec![file("nan")],
         &["`nan` cannot be used", "vertex 1", "NaN"],
+    );
+    let (_, messages) = make(
+        "serialized",
+        vec![file("good"), ("shape_index", Value::Integer(-1))],
+    );
+    assert!(
+        messages.starts_with("parameter `shape_index` of `serialized` cannot be -1")
+            && messages.lines().count() == 1,
+        "{messages}"
     );
     refused("ply", vec![file("index")], &["triangle 0", "only 3"]);
     // A value that is refused is told, though reading goes on with the default.

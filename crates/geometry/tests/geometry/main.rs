@@ -3,6 +3,7 @@
 mod accelerators;
 mod description;
 mod instances;
+mod normals;
 mod reintersection;
 mod sampling;
 mod things;

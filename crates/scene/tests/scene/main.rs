@@ -1,6 +1,7 @@
 //! From scene files to compiled scenes: defaults, sharing, lights, instances, surfaces that let
 //! light pass, settings of samplers, and what is said of mistakes.
 
+mod attributes;
 mod compiled;
 mod mistakes;
 mod passing;
