@@ -5,7 +5,7 @@ use crate::builder::GroupId;
 use crate::nearest::Nearest;
 use crate::placement::Placement;
 use crate::probe::Probe;
-use crate::scope::{GroupOthers, Scope, Thing, intersect_solid, occludes_solid};
+use crate::scope::{GroupOthers, Scope, Thing, intersect_solid, is_jumped, occludes_solid};
 use crate::shapes::Shape;
 use crate::surface::Owner;
 use etalon_math::DirectionCone;
@@ -72,9 +72,7 @@ impl WorldOthers<'_> {
     fn enter(&self, instance: InstanceId, probe: &Probe) -> (&Group, Probe) {
         let Instance { group, placement } = &self.0.instances[instance.0 as usize];
         let group = &self.0.groups[group.0 as usize];
-        let origin = placement.local_point(probe.origin.as_dvec3()).as_vec3();
-        // Not normalised, so that t means the same inside as outside.
-        let direction = placement.local_vector(probe.direction.as_dvec3()).as_vec3();
+        let (origin, direction) = placement.local_ray(probe.origin, probe.direction);
         (group, group.scope.probe(origin, direction))
     }
 
@@ -92,7 +90,9 @@ impl Others for WorldOthers<'_> {
         match self.0.world.scope.locate(primitive).0 {
             Thing::Shape(shape) => {
                 if let Some(solid) = self.0.shapes[shape.0 as usize].solid() {
-                    intersect_solid(solid, primitive, probe, nearest);
+                    intersect_solid(solid, primitive, probe, nearest, |t| {
+                        is_jumped(&self.0.shapes, shape, probe, t)
+                    });
                 }
             }
             Thing::Instance(instance) => {
@@ -117,7 +117,11 @@ impl Others for WorldOthers<'_> {
         match self.0.world.scope.locate(primitive).0 {
             Thing::Shape(shape) => self.0.shapes[shape.0 as usize]
                 .solid()
-                .is_some_and(|solid| occludes_solid(solid, probe, t_max)),
+                .is_some_and(|solid| {
+                    occludes_solid(solid, probe, t_max, |t| {
+                        is_jumped(&self.0.shapes, shape, probe, t)
+                    })
+                }),
             Thing::Instance(instance) => {
                 let (group, local) = self.enter(instance, probe);
                 group
@@ -129,10 +133,18 @@ impl Others for WorldOthers<'_> {
 }
 
 impl Geometry {
+    #[inline(always)]
+    fn probe(&self, ray: &Ray) -> Probe {
+        Probe {
+            departure: ray.departure,
+            ..self.world.scope.probe(ray.origin, ray.direction)
+        }
+    }
+
     /// The nearest surface along a ray, strictly between its ends.
     #[inline]
     pub fn intersect(&self, ray: &Ray) -> Option<Hit> {
-        let probe = self.world.scope.probe(ray.origin, ray.direction);
+        let probe = self.probe(ray);
         let mut nearest = Nearest::within(ray.t_max);
         self.world
             .accelerator
@@ -166,7 +178,7 @@ impl Geometry {
     /// Whether anything lies strictly between the ends of a ray.
     #[inline]
     pub fn occluded(&self, ray: &Ray) -> bool {
-        let probe = self.world.scope.probe(ray.origin, ray.direction);
+        let probe = self.probe(ray);
         self.world
             .accelerator
             .occluded(&probe, &WorldOthers(self), ray.t_max)
@@ -216,11 +228,15 @@ impl Geometry {
                 mesh.surface_between(corners, hit.primitive, hit.parameters)
             }
             (_, Some(solid)) => {
-                let mut p = ray.origin.as_dvec3() + ray.direction.as_dvec3() * f64::from(hit.t);
-                if let Some(placement) = placement {
-                    p = placement.local_point(p);
-                }
-                let surface = solid.surface_near(p);
+                // Again, as it was found: rounding t would move the point of a small shape far
+                // away to anywhere on it.
+                let (origin, direction) = match placement {
+                    Some(placement) => placement.local_ray(ray.origin, ray.direction),
+                    None => (ray.origin, ray.direction),
+                };
+                let (origin, direction) = (origin.as_dvec3(), direction.as_dvec3());
+                let t = solid.crossing_near(origin, direction, hit.t.into());
+                let surface = solid.surface_near(origin + direction * t);
                 parameters = surface.uv;
                 surface
             }

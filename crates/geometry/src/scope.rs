@@ -150,41 +150,72 @@ impl Others for GroupOthers<'_> {
     #[inline]
     fn intersect(&self, primitive: u32, probe: &Probe, nearest: &mut Nearest) {
         if let Some(solid) = self.solid(primitive) {
-            intersect_solid(solid, primitive, probe, nearest);
+            intersect_solid(solid, primitive, probe, nearest, |_| false);
         }
     }
 
     #[inline]
     fn occludes(&self, primitive: u32, probe: &Probe, t_max: f32) -> bool {
         self.solid(primitive)
-            .is_some_and(|solid| occludes_solid(solid, probe, t_max))
+            .is_some_and(|solid| occludes_solid(solid, probe, t_max, |_| false))
     }
 }
 
-/// Notes the nearest crossing of a smooth shape, if it wins.
+/// Distances along a ray of two smooth shapes that differ by no more than this are the same.
+#[inline]
+fn tolerance(probe: &Probe, t: f64) -> f64 {
+    // 2⁻⁴³: some thousand roundings.
+    const RELATIVE: f64 = 1.0 / (1_u64 << 43) as f64;
+    (f64::from(probe.origin.abs().max_element()) + t.abs()) * RELATIVE
+}
+
+/// Whether the crossing at `t` of `shape` lies behind the origin of a ray, but after the surface of
+/// another shape that the ray leaves: whether the ray's start has jumped over it.
+#[inline]
+pub(crate) fn is_jumped(shapes: &[Shape], shape: ShapeId, probe: &Probe, t: f64) -> bool {
+    let departure = probe.departure;
+    // A rough test first, which holds for nearly all that comes here; false for NaN.
+    if !(t <= 0.0 && t > 4.0 * f64::from(departure.t)) || departure.shape == shape {
+        return false;
+    }
+    let Some(left) = shapes[departure.shape.0 as usize].solid() else {
+        return false;
+    };
+    let (origin, direction) = (probe.origin.as_dvec3(), probe.direction.as_dvec3());
+    let start = left.crossing_near(origin, direction, departure.t.into());
+    t - start > tolerance(probe, t)
+}
+
+/// Notes the nearest crossing of a smooth shape, if it wins; of those behind the ray's origin the
+/// ones that count are `ahead` nevertheless.
 #[inline]
 pub(crate) fn intersect_solid(
     solid: &dyn Solid,
     primitive: u32,
     probe: &Probe,
     nearest: &mut Nearest,
+    ahead: impl Fn(f64) -> bool,
 ) {
     for t in solid.crossings(probe.origin.as_dvec3(), probe.direction.as_dvec3()) {
-        let t = t as f32;
-        if t > 0.0 {
-            if nearest.loses_to(t, primitive) {
-                nearest.set(t, primitive, 0, glam::Vec2::ZERO);
+        if (t as f32) > 0.0 || ahead(t) {
+            if nearest.loses_to_smooth(t, primitive, tolerance(probe, t)) {
+                nearest.set_smooth(t, primitive);
             }
             return;
         }
     }
 }
 
-/// Whether a smooth shape is crossed before `t_max`.
+/// Whether a smooth shape is crossed before `t_max`; `ahead` as in [`intersect_solid`].
 #[inline]
-pub(crate) fn occludes_solid(solid: &dyn Solid, probe: &Probe, t_max: f32) -> bool {
+pub(crate) fn occludes_solid(
+    solid: &dyn Solid,
+    probe: &Probe,
+    t_max: f32,
+    ahead: impl Fn(f64) -> bool,
+) -> bool {
     solid
         .crossings(probe.origin.as_dvec3(), probe.direction.as_dvec3())
         .into_iter()
-        .any(|t| t > 0.0 && (t as f32) < t_max)
+        .any(|t| (t > 0.0 || ahead(t)) && (t as f32) < t_max)
 }

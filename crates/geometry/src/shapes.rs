@@ -247,7 +247,9 @@ impl Shape {
 }
 
 fn seen_triangle(mesh: &Mesh, primitive: u32, from: Vec3) -> Option<SphericalTriangle> {
-    SphericalTriangle::new(mesh.corners(primitive).map(|p| p - from))
+    // Single precision would round the edges of a triangle that is small and far.
+    let seen = |p: Vec3| p.as_dvec3() - from.as_dvec3();
+    SphericalTriangle::new(mesh.corners(primitive).map(seen))
 }
 
 /// Uniform density by area as seen from a point: r² / (A |cos θ|), infinite edge-on.

@@ -228,6 +228,7 @@ impl Mesh {
         Surface {
             position,
             error,
+            depth: f32::NAN,
             normal,
             shading: Frame::from_normal_and_tangent(shading_normal, dp_du),
             uv,
