@@ -69,15 +69,22 @@ impl Nearest {
     }
 
     /// Whether a hit of a smooth shape would win. Against another smooth shape it counts to
-    /// double precision; within `tolerance` they are at the same place.
+    /// double precision; within `tolerance` they are at the same place, and `precedes` tells whether
+    /// the new one is before the primitive that was nearest.
     #[inline]
-    pub(crate) fn loses_to_smooth(&self, t: f64, primitive: u32, tolerance: f64) -> bool {
+    pub(crate) fn loses_to_smooth(
+        &self,
+        t: f64,
+        primitive: u32,
+        tolerance: f64,
+        precedes: impl FnOnce(u32) -> bool,
+    ) -> bool {
         if !self.found || self.exact.is_nan() {
             return self.loses_to(single(t), primitive);
         }
         let ahead = self.exact - t;
         if ahead.abs() <= tolerance {
-            primitive < self.primitive
+            precedes(self.primitive)
         } else {
             ahead > 0.0
         }

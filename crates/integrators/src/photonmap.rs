@@ -40,7 +40,7 @@
 //! Solution of an Unreported Intrinsic Bias in Photon Mapping Density Estimation with Constant Kernel").
 //!
 //! Without a radius and a number of nearest photons, r is the width of two pixels, or less where the map
-//! is so dense that a look-up would find more than 128 photons on average ([`crate::photons::radius`]).
+//! is so dense that a look-up would find more than 32 photons on average ([`crate::photons::radius`]).
 //!
 //! Every replicate has maps of its own. A given radius stays as it is, so its bias vanishes neither with
 //! samples and replicates nor with photons; that of the k nearest does with more photons.

@@ -273,7 +273,8 @@ fn triangles() -> Vec<[Vec3; 3]> {
 #[test]
 fn spherical_triangles() {
     for corners in triangles() {
-        let triangle = SphericalTriangle::new(corners.map(Vec3::as_dvec3)).expect("well-conditioned");
+        let triangle =
+            SphericalTriangle::new(corners.map(Vec3::as_dvec3)).expect("well-conditioned");
         let name = format!("spherical triangle {corners:?}");
         let size = triangle.solid_angle().sqrt().min(1.0);
         let map = Map {

@@ -12,7 +12,7 @@ use glam::Vec3;
 pub struct Departure {
     /// The shape that is left.
     pub shape: ShapeId,
-    /// The parameter of the crossing, not above 0; 0 if it is not known so well.
+    /// The parameter of the crossing, not above 0.
     pub t: f32,
 }
 

@@ -79,7 +79,7 @@ impl Vertex {
         let height = (origin - self.position).dot(self.normal) - self.depth;
         let t = -height / direction.dot(self.normal);
         // False for NaN, too.
-        if t < 0.0 && t > f32::NEG_INFINITY {
+        if t <= 0.0 && t > f32::NEG_INFINITY {
             Departure {
                 shape: self.shape,
                 t,

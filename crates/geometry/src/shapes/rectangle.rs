@@ -99,6 +99,10 @@ impl Rectangle {
         &self.mesh
     }
 
+    pub(crate) fn set_touching(&mut self) {
+        self.mesh.touches = true;
+    }
+
     /// Unit normal, outside.
     pub(crate) fn normal(&self) -> Vec3 {
         self.normal

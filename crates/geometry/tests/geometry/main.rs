@@ -2,8 +2,10 @@
 
 mod accelerators;
 mod description;
+mod far_lights;
 mod instances;
 mod reintersection;
 mod sampling;
 mod things;
+mod touching;
 mod watertight;

@@ -30,7 +30,7 @@ pub(crate) const ALPHA: f64 = 2.0 / 3.0;
 const PIXELS: f32 = 2.0;
 
 /// The most photons that a look-up of a map finds on average where the radius is not given.
-pub(crate) const MOST_FOUND: usize = 128;
+pub(crate) const MOST_FOUND: usize = 32;
 
 /// Rays along each side of the film that look for the size of pixels.
 const GRID: u32 = 16;
