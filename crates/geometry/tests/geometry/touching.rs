@@ -67,7 +67,10 @@ fn follow(
             if direction.dot(to) < 0.0 {
                 direction -= 2.0 * direction.dot(to) * to;
             }
-            ray = vertex.spawn(direction.normalize());
+            // Within some 10⁻³ of the tangent plane the ray's line, which starts a little off the
+            // surface, may pass the other sphere by.
+            let lift = (0.01 - direction.dot(to)).max(0.0);
+            ray = vertex.spawn((direction + to * lift).normalize());
         }
     }
     met
@@ -118,7 +121,7 @@ fn one_in_another() {
                     } else {
                         ([inner, outer], [true, false])
                     };
-                    if gap * size < 1e-5 && index == 2 || gap == 0.0 {
+                    if gap < 1e-5 && index == 2 || gap == 0.0 {
                         // Corners are rounded, and so may coincide; the first is the outer one then.
                         within = [false, false];
                     }
