@@ -75,6 +75,9 @@ impl Vertex {
     /// Where the line from `origin`, just off this surface, along `direction` crosses it.
     #[inline]
     fn departure(&self, origin: Vec3, direction: Vec3) -> Departure {
+        if self.depth.is_nan() {
+            return Departure::NONE;
+        }
         // Neighbouring numbers: their difference is exact.
         let height = (origin - self.position).dot(self.normal) - self.depth;
         let t = -height / direction.dot(self.normal);
