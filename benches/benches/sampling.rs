@@ -56,7 +56,8 @@ fn maps(criterion: &mut Criterion) {
     let corner = Vec3::new(-0.5, -0.4, 1.0);
     each("spherical triangle, set up and sampled", &|u| {
         let corners = [corner, corner + Vec3::X, corner + Vec3::new(u.x, 1.0, 0.0)];
-        warps::SphericalTriangle::new(corners).map_or(Vec3::ZERO, |light| light.sample(u))
+        warps::SphericalTriangle::new(corners.map(Vec3::as_dvec3))
+            .map_or(Vec3::ZERO, |light| light.sample(u))
     });
     each("spherical rectangle, set up and sampled", &|u| {
         let corner = corner + 0.1 * u.extend(0.0);

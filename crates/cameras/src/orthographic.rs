@@ -10,7 +10,7 @@
 
 use crate::{ClipRange, FilmWindow, Pose};
 use etalon_params::Params;
-use etalon_transport::{Camera, CameraRay, Connection, Ray};
+use etalon_transport::{Camera, CameraRay, Connection, Departure, Ray};
 use glam::{Vec2, Vec3};
 
 /// A camera without perspective.
@@ -68,6 +68,7 @@ impl Camera for Orthographic {
                 direction: self.direction,
                 t_max: self.length,
                 time,
+                departure: Departure::NONE,
             },
             weight: 1.0,
         }

@@ -14,7 +14,7 @@
 use crate::field_of_view::half_width_from_params;
 use crate::{ClipRange, FilmWindow, ImagePlane, Pose};
 use etalon_params::Params;
-use etalon_transport::{Camera, CameraRay, Connection, Ray};
+use etalon_transport::{Camera, CameraRay, Connection, Departure, Ray};
 use glam::{DVec2, Vec2, Vec3};
 
 /// A pinhole camera.
@@ -67,6 +67,7 @@ impl Camera for Perspective {
                 direction: seen / length,
                 t_max: (self.far - self.near) * length,
                 time,
+                departure: Departure::NONE,
             },
             weight: 1.0,
         }

@@ -19,7 +19,7 @@ use crate::field_of_view::half_width_from_params;
 use crate::{ClipRange, FilmWindow, ImagePlane, Pose};
 use etalon_params::Params;
 use etalon_sampling::warps::square_to_concentric_disk;
-use etalon_transport::{Camera, CameraRay, Connection, Ray, Reception};
+use etalon_transport::{Camera, CameraRay, Connection, Departure, Ray, Reception};
 use glam::{DVec2, Vec2, Vec3};
 
 /// A camera with an ideal lens.
@@ -102,6 +102,7 @@ impl Camera for ThinLens {
                 direction: seen / length,
                 t_max: (self.far - self.near) * length,
                 time,
+                departure: Departure::NONE,
             },
             weight: 1.0,
         }

@@ -5,6 +5,7 @@ use crate::geometry::{Attachment, Geometry, Group, Instance};
 use crate::placement::Placement;
 use crate::scope::{Contents, Scope, Thing};
 use crate::shapes::Shape;
+use crate::touching::touching;
 use etalon_transport::{InstanceId, LightId, MaterialId, ShapeId};
 use glam::DVec3;
 use rayon::prelude::*;
@@ -35,7 +36,11 @@ impl GeometryBuilder {
     fn push(&mut self, shape: Shape, material: MaterialId, light: LightId) -> ShapeId {
         let id = ShapeId(self.shapes.len() as u32);
         self.shapes.push(shape);
-        self.attachments.push(Attachment { material, light });
+        self.attachments.push(Attachment {
+            material,
+            light,
+            refractive: false,
+        });
         id
     }
 
@@ -49,6 +54,12 @@ impl GeometryBuilder {
     /// Sets the light that a shape is, where lights are numbered after shapes.
     pub fn set_light(&mut self, shape: ShapeId, light: LightId) {
         self.attachments[shape.0 as usize].light = light;
+    }
+
+    /// Says that light is refracted into a shape of the world, so that surfaces next to its own matter
+    /// however near they are.
+    pub fn set_refractive(&mut self, shape: ShapeId) {
+        self.attachments[shape.0 as usize].refractive = true;
     }
 
     /// A shape that was added.
@@ -80,17 +91,22 @@ impl GeometryBuilder {
     /// Builds accelerators of a certain kind.
     pub fn build_with(self, kind: AcceleratorKind) -> Geometry {
         let Self {
-            shapes,
+            mut shapes,
             attachments,
             world,
             groups,
             instances,
         } = self;
+        let refractive = attachments.iter().enumerate().filter(|(_, a)| a.refractive);
+        let refractive: Vec<usize> = refractive.map(|(index, _)| index).collect();
+        for index in touching(&shapes, &refractive) {
+            shapes[index].set_touching();
+        }
         let scope_of = |members: &[ShapeId]| {
             let mut scope = Scope::default();
             for &id in members {
                 let shape = &shapes[id.0 as usize];
-                let primitives = shape.mesh().map_or(1, |m| m.triangle_count() as u32);
+                let primitives = shape.triangles().map_or(1, |m| m.triangle_count() as u32);
                 scope.add(Thing::Shape(id), primitives, shape.bounds());
             }
             scope

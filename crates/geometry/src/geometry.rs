@@ -1,13 +1,14 @@
 //! All surfaces of a scene: what a ray hits, and what is known of the point it hits.
 
-use crate::accelerator::{Accelerator, Bounds, Others};
+use crate::accelerator::{Accelerator, Bounds};
 use crate::builder::GroupId;
 use crate::nearest::Nearest;
 use crate::placement::Placement;
 use crate::probe::Probe;
-use crate::scope::{GroupOthers, Scope, Thing, intersect_solid, occludes_solid};
+use crate::scope::{Scope, Thing};
 use crate::shapes::Shape;
 use crate::surface::Owner;
+use crate::world::WorldOthers;
 use etalon_math::DirectionCone;
 use etalon_transport::{
     Hit, InstanceId, LightId, MaterialId, Ray, Receiver, SampledPoint, ShapeId, Shapes,
@@ -20,6 +21,8 @@ use glam::{Vec2, Vec3};
 pub(crate) struct Attachment {
     pub(crate) material: MaterialId,
     pub(crate) light: LightId,
+    /// Whether light is refracted into it.
+    pub(crate) refractive: bool,
 }
 
 /// Shapes with an accelerator of their own.
@@ -63,76 +66,19 @@ pub struct GeometryStatistics {
     pub bytes: usize,
 }
 
-/// Intersects what is not a triangle of the world: smooth shapes and instances.
-struct WorldOthers<'a>(&'a Geometry);
-
-impl WorldOthers<'_> {
-    /// The instance's group and the ray in its space.
-    #[inline]
-    fn enter(&self, instance: InstanceId, probe: &Probe) -> (&Group, Probe) {
-        let Instance { group, placement } = &self.0.instances[instance.0 as usize];
-        let group = &self.0.groups[group.0 as usize];
-        let origin = placement.local_point(probe.origin.as_dvec3()).as_vec3();
-        // Not normalised, so that t means the same inside as outside.
-        let direction = placement.local_vector(probe.direction.as_dvec3()).as_vec3();
-        (group, group.scope.probe(origin, direction))
-    }
-
-    fn inside<'a>(&'a self, group: &'a Group) -> GroupOthers<'a> {
-        GroupOthers {
-            scope: &group.scope,
-            shapes: &self.0.shapes,
-        }
-    }
-}
-
-impl Others for WorldOthers<'_> {
-    #[inline]
-    fn intersect(&self, primitive: u32, probe: &Probe, nearest: &mut Nearest) {
-        match self.0.world.scope.locate(primitive).0 {
-            Thing::Shape(shape) => {
-                if let Some(solid) = self.0.shapes[shape.0 as usize].solid() {
-                    intersect_solid(solid, primitive, probe, nearest);
-                }
-            }
-            Thing::Instance(instance) => {
-                let (group, local) = self.enter(instance, probe);
-                let mut inside = nearest.inside(primitive);
-                group
-                    .accelerator
-                    .intersect(&local, &self.inside(group), &mut inside);
-                if inside.found {
-                    *nearest = Nearest {
-                        primitive,
-                        inner: inside.primitive,
-                        ..inside
-                    };
-                }
-            }
-        }
-    }
-
-    #[inline]
-    fn occludes(&self, primitive: u32, probe: &Probe, t_max: f32) -> bool {
-        match self.0.world.scope.locate(primitive).0 {
-            Thing::Shape(shape) => self.0.shapes[shape.0 as usize]
-                .solid()
-                .is_some_and(|solid| occludes_solid(solid, probe, t_max)),
-            Thing::Instance(instance) => {
-                let (group, local) = self.enter(instance, probe);
-                group
-                    .accelerator
-                    .occluded(&local, &self.inside(group), t_max)
-            }
-        }
-    }
-}
-
 impl Geometry {
+    #[inline(always)]
+    fn probe(&self, ray: &Ray) -> Probe {
+        Probe {
+            departure: ray.departure,
+            ..self.world.scope.probe(ray.origin, ray.direction)
+        }
+    }
+
     /// The nearest surface along a ray, strictly between its ends.
     #[inline]
     pub fn intersect(&self, ray: &Ray) -> Option<Hit> {
-        let probe = self.world.scope.probe(ray.origin, ray.direction);
+        let probe = self.probe(ray);
         let mut nearest = Nearest::within(ray.t_max);
         self.world
             .accelerator
@@ -166,7 +112,7 @@ impl Geometry {
     /// Whether anything lies strictly between the ends of a ray.
     #[inline]
     pub fn occluded(&self, ray: &Ray) -> bool {
-        let probe = self.world.scope.probe(ray.origin, ray.direction);
+        let probe = self.probe(ray);
         self.world
             .accelerator
             .occluded(&probe, &WorldOthers(self), ray.t_max)
@@ -174,7 +120,9 @@ impl Geometry {
 
     #[inline]
     fn owner(&self, shape: ShapeId, instance: InstanceId) -> Owner {
-        let Attachment { material, light } = self.attachments[shape.0 as usize];
+        let Attachment {
+            material, light, ..
+        } = self.attachments[shape.0 as usize];
         Owner {
             shape,
             instance,
@@ -207,22 +155,36 @@ impl Geometry {
             .instance
             .is_some()
             .then(|| &self.instances[hit.instance.0 as usize].placement);
-        let mut parameters = hit.parameters;
+        let (mut primitive, mut parameters) = (hit.primitive, hit.parameters);
         let surface = match (shape, shape.solid()) {
-            (Shape::Rectangle(rectangle), _) => rectangle.surface(hit.primitive, hit.parameters),
-            (Shape::Mesh(mesh), _) => {
+            (Shape::Rectangle(rectangle), None) => rectangle.surface(primitive, parameters),
+            (Shape::Mesh(mesh), None) => {
                 // Tracing the ray has brought the accelerator's copy of the corners close.
                 let corners = self.accelerator(hit.instance).corners(hit.slot);
                 mesh.surface_between(corners, hit.primitive, hit.parameters)
             }
             (_, Some(solid)) => {
-                let mut p = ray.origin.as_dvec3() + ray.direction.as_dvec3() * f64::from(hit.t);
-                if let Some(placement) = placement {
-                    p = placement.local_point(p);
+                // Again, as it was found: rounding t would move the point of a small shape far
+                // away to anywhere on it.
+                let (origin, direction) = match placement {
+                    Some(placement) => placement.local_ray(ray.origin, ray.direction),
+                    None => (ray.origin, ray.direction),
+                };
+                let (origin, direction) = (origin.as_dvec3(), direction.as_dvec3());
+                let t = solid.crossing_near(origin, direction, hit.t.into());
+                let point = origin + direction * t;
+                if let Some(mesh) = shape.mesh() {
+                    (primitive, parameters) = mesh.place_near(point);
+                    let surface = match shape {
+                        Shape::Rectangle(rectangle) => rectangle.surface(primitive, parameters),
+                        _ => mesh.surface(primitive, parameters),
+                    };
+                    mesh.with_depth(primitive, surface)
+                } else {
+                    let surface = solid.surface_near(point);
+                    parameters = surface.uv;
+                    surface
                 }
-                let surface = solid.surface_near(p);
-                parameters = surface.uv;
-                surface
             }
             (_, None) => unreachable!("a shape is a mesh or a solid"),
         };
@@ -231,7 +193,7 @@ impl Geometry {
         Vertex {
             t: hit.t,
             time: ray.time,
-            ..surface.vertex(&owner, hit.primitive, parameters)
+            ..surface.vertex(&owner, primitive, parameters)
         }
     }
 

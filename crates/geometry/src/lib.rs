@@ -18,6 +18,8 @@ mod probe;
 mod scope;
 pub mod shapes;
 mod surface;
+mod touching;
+mod world;
 
 pub use accelerator::{AcceleratorKind, Bounds};
 pub use builder::{GeometryBuilder, GroupId};

@@ -1,4 +1,7 @@
 //! The nearest hit so far, and which of two hits at the same distance wins.
+//!
+//! Two smooth shapes may lie closer than single precision tells, as water in a glass does. Which of
+//! them is met first is decided in double precision.
 
 use glam::Vec2;
 
@@ -10,8 +13,10 @@ use glam::Vec2;
 /// so the winner does not depend on the order in which an accelerator visits primitives.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Nearest {
-    /// Distance in units of the direction's length.
+    /// Distance in units of the direction's length, not below 0.
     pub(crate) t: f32,
+    /// The same of a smooth shape to double precision; NaN of anything else.
+    pub(crate) exact: f64,
     /// Primitive of the accelerator.
     pub(crate) primitive: u32,
     /// Primitive of the group's accelerator, if `primitive` is an instance.
@@ -24,12 +29,20 @@ pub(crate) struct Nearest {
     pub(crate) found: bool,
 }
 
+/// A distance in single precision; 0 for what lies just behind the origin, see
+/// [`Departure`](etalon_transport::Departure).
+#[inline]
+fn single(t: f64) -> f32 {
+    (t as f32).max(0.0)
+}
+
 impl Nearest {
     /// Nothing yet, and nothing at or beyond `t_max` will count.
     #[inline]
     pub(crate) fn within(t_max: f32) -> Self {
         Self {
             t: t_max,
+            exact: f64::NAN,
             primitive: 0,
             inner: 0,
             slot: 0,
@@ -55,11 +68,41 @@ impl Nearest {
         t < self.t || (t == self.t && primitive < self.primitive)
     }
 
+    /// Whether a hit of a smooth shape would win. Against another smooth shape it counts to
+    /// double precision; within `tolerance` they are at the same place, and `precedes` tells whether
+    /// the new one is before the primitive that was nearest.
+    #[inline]
+    pub(crate) fn loses_to_smooth(
+        &self,
+        t: f64,
+        primitive: u32,
+        tolerance: f64,
+        precedes: impl FnOnce(u32) -> bool,
+    ) -> bool {
+        if !self.found || self.exact.is_nan() {
+            return self.loses_to(single(t), primitive);
+        }
+        let ahead = self.exact - t;
+        if ahead.abs() <= tolerance {
+            precedes(self.primitive)
+        } else {
+            ahead > 0.0
+        }
+    }
+
+    /// Notes a hit of a smooth shape that wins.
+    #[inline]
+    pub(crate) fn set_smooth(&mut self, t: f64, primitive: u32) {
+        self.set(single(t), primitive, 0, Vec2::ZERO);
+        self.exact = t;
+    }
+
     /// Notes a hit that wins.
     #[inline]
     pub(crate) fn set(&mut self, t: f32, primitive: u32, slot: u32, parameters: Vec2) {
         *self = Self {
             t,
+            exact: f64::NAN,
             primitive,
             inner: 0,
             slot,

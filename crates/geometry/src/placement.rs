@@ -5,7 +5,7 @@
 //! one rounding of single precision.
 
 use etalon_params::{DMat4, Diagnostic, Params};
-use glam::{DAffine3, DMat3, DVec3};
+use glam::{DAffine3, DMat3, DVec3, Vec3};
 
 /// An invertible affine map from a shape's own space to the world.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -81,6 +81,16 @@ impl Placement {
     #[inline]
     pub fn local_point(&self, p: DVec3) -> DVec3 {
         self.inverse.transform_point3(p)
+    }
+
+    /// A ray's origin and direction in the shape's space. The direction is not normalised, so that
+    /// t means the same there.
+    #[inline]
+    pub(crate) fn local_ray(&self, origin: Vec3, direction: Vec3) -> (Vec3, Vec3) {
+        (
+            self.local_point(origin.as_dvec3()).as_vec3(),
+            self.local_vector(direction.as_dvec3()).as_vec3(),
+        )
     }
 
     /// The vector of the shape's space whose image is the world's `v`.

@@ -1,5 +1,6 @@
 //! A ray made ready for boxes and triangles.
 
+use etalon_transport::Departure;
 use glam::{Vec3, Vec3A};
 
 /// Rays and geometry are nearer than this (m) to the origin of space, or not met.
@@ -34,6 +35,8 @@ pub(crate) struct Probe {
     /// (o + e)/d for the planes that are entered and (o − e)/d for those that are left.
     pub(crate) entered: [f32; 3],
     pub(crate) left: [f32; 3],
+    /// The surface that the ray leaves.
+    pub(crate) departure: Departure,
 }
 
 impl Probe {
@@ -76,6 +79,7 @@ impl Probe {
             inverse: inverse.to_array(),
             entered: ((from + outward) * inverse).to_array(),
             left: ((from - outward) * inverse).to_array(),
+            departure: Departure::NONE,
         };
         if !(reach < FARTHEST && direction.is_finite()) {
             // Enters every box at +∞ and leaves it at −∞: nothing is hit.

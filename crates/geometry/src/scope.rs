@@ -102,7 +102,7 @@ impl Primitives for Contents<'_> {
     fn triangle(&self, primitive: u32) -> Option<[Vec3; 3]> {
         match self.scope.locate(primitive) {
             (Thing::Shape(shape), index) => {
-                let mesh = self.shapes[shape.0 as usize].mesh()?;
+                let mesh = self.shapes[shape.0 as usize].triangles()?;
                 Some(mesh.corners(index))
             }
             (Thing::Instance(_), _) => None,
@@ -111,7 +111,7 @@ impl Primitives for Contents<'_> {
 
     fn is_triangle(&self, primitive: u32) -> bool {
         match self.scope.locate(primitive).0 {
-            Thing::Shape(shape) => self.shapes[shape.0 as usize].mesh().is_some(),
+            Thing::Shape(shape) => self.shapes[shape.0 as usize].triangles().is_some(),
             Thing::Instance(_) => false,
         }
     }
@@ -120,7 +120,7 @@ impl Primitives for Contents<'_> {
         match self.scope.locate(primitive) {
             (Thing::Shape(shape), index) => {
                 let shape = &self.shapes[shape.0 as usize];
-                match shape.mesh() {
+                match shape.triangles() {
                     Some(mesh) => Bounds::around(&mesh.corners(index)),
                     None => shape.bounds(),
                 }
@@ -146,19 +146,56 @@ impl GroupOthers<'_> {
     }
 }
 
+/// Shapes of instances are known in single precision only.
+impl Order for GroupOthers<'_> {
+    #[inline]
+    fn is_ahead(&self, _: u32, _: &Probe, t: f64) -> bool {
+        is_in_front(t)
+    }
+
+    #[inline]
+    fn precedes(&self, a: u32, b: u32, _: &Probe, _: f64) -> bool {
+        a < b
+    }
+}
+
 impl Others for GroupOthers<'_> {
     #[inline]
     fn intersect(&self, primitive: u32, probe: &Probe, nearest: &mut Nearest) {
         if let Some(solid) = self.solid(primitive) {
-            intersect_solid(solid, primitive, probe, nearest);
+            intersect_solid(solid, primitive, probe, nearest, self);
         }
     }
 
     #[inline]
     fn occludes(&self, primitive: u32, probe: &Probe, t_max: f32) -> bool {
         self.solid(primitive)
-            .is_some_and(|solid| occludes_solid(solid, probe, t_max))
+            .is_some_and(|solid| occludes_solid(solid, primitive, probe, t_max, self))
     }
+}
+
+/// Distances along a ray of two smooth shapes that differ by no more than this are the same.
+#[inline]
+pub(crate) fn tolerance(probe: &Probe, t: f64) -> f64 {
+    // 2⁻⁴³: some thousand roundings.
+    const RELATIVE: f64 = 1.0 / (1_u64 << 43) as f64;
+    (f64::from(probe.origin.abs().max_element()) + t.abs()) * RELATIVE
+}
+
+/// Whether a crossing is in front of a ray's origin.
+#[inline]
+pub(crate) fn is_in_front(t: f64) -> bool {
+    (t as f32) > 0.0
+}
+
+/// Which of two smooth shapes a ray crosses first, where distances do not tell.
+pub(crate) trait Order {
+    /// Whether the crossing at `t` of a primitive is ahead of the ray: in front of its origin, or
+    /// behind it but after the surface that the ray leaves, whose distance from the origin has
+    /// jumped over it. False for NaN.
+    fn is_ahead(&self, primitive: u32, probe: &Probe, t: f64) -> bool;
+    /// Whether primitive `a` comes before primitive `b` at the same place.
+    fn precedes(&self, a: u32, b: u32, probe: &Probe, t: f64) -> bool;
 }
 
 /// Notes the nearest crossing of a smooth shape, if it wins.
@@ -168,12 +205,13 @@ pub(crate) fn intersect_solid(
     primitive: u32,
     probe: &Probe,
     nearest: &mut Nearest,
+    order: &impl Order,
 ) {
     for t in solid.crossings(probe.origin.as_dvec3(), probe.direction.as_dvec3()) {
-        let t = t as f32;
-        if t > 0.0 {
-            if nearest.loses_to(t, primitive) {
-                nearest.set(t, primitive, 0, glam::Vec2::ZERO);
+        if order.is_ahead(primitive, probe, t) {
+            let precedes = |other| order.precedes(primitive, other, probe, t);
+            if nearest.loses_to_smooth(t, primitive, tolerance(probe, t), precedes) {
+                nearest.set_smooth(t, primitive);
             }
             return;
         }
@@ -182,9 +220,15 @@ pub(crate) fn intersect_solid(
 
 /// Whether a smooth shape is crossed before `t_max`.
 #[inline]
-pub(crate) fn occludes_solid(solid: &dyn Solid, probe: &Probe, t_max: f32) -> bool {
+pub(crate) fn occludes_solid(
+    solid: &dyn Solid,
+    primitive: u32,
+    probe: &Probe,
+    t_max: f32,
+    order: &impl Order,
+) -> bool {
     solid
         .crossings(probe.origin.as_dvec3(), probe.direction.as_dvec3())
         .into_iter()
-        .any(|t| t > 0.0 && (t as f32) < t_max)
+        .any(|t| order.is_ahead(primitive, probe, t) && (t as f32) < t_max)
 }

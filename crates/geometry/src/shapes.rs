@@ -1,5 +1,6 @@
 //! Every shape, and the one list through which a plugin's name finds its shape.
 
+mod convex;
 pub mod cube;
 pub mod cylinder;
 pub mod disk;
@@ -86,10 +87,27 @@ impl Shape {
         }
     }
 
-    /// The smooth shape, if it is one.
+    /// The triangles that an accelerator intersects.
+    #[inline]
+    pub(crate) fn triangles(&self) -> Option<&Mesh> {
+        self.mesh().filter(|mesh| !mesh.touches)
+    }
+
+    /// Says that it nearly touches another shape, so that single precision does not tell them apart.
+    pub(crate) fn set_touching(&mut self) {
+        match self {
+            Self::Mesh(mesh) => mesh.touches = true,
+            Self::Rectangle(rectangle) => rectangle.set_touching(),
+            _ => {}
+        }
+    }
+
+    /// The smooth shape, if it is one, or the mesh that is treated like one.
     #[inline]
     pub(crate) fn solid(&self) -> Option<&dyn Solid> {
         match self {
+            Self::Mesh(mesh) if mesh.touches => Some(mesh),
+            Self::Rectangle(rectangle) if rectangle.mesh().touches => Some(rectangle.mesh()),
             Self::Disk(disk) => Some(disk),
             Self::Sphere(sphere) => Some(sphere),
             Self::Cylinder(cylinder) => Some(cylinder),
@@ -250,7 +268,9 @@ impl Shape {
 }
 
 fn seen_triangle(mesh: &Mesh, primitive: u32, from: Vec3) -> Option<SphericalTriangle> {
-    SphericalTriangle::new(mesh.corners(primitive).map(|p| p - from))
+    // Single precision would round the edges of a triangle that is small and far.
+    let seen = |p: Vec3| p.as_dvec3() - from.as_dvec3();
+    SphericalTriangle::new(mesh.corners(primitive).map(seen))
 }
 
 /// Uniform density by area as seen from a point: r² / (A |cos θ|), infinite edge-on.

@@ -14,6 +14,8 @@ pub(crate) struct Surface {
     pub(crate) position: Vec3,
     /// Bound on the absolute error of each coordinate of `position`.
     pub(crate) error: Vec3,
+    /// How far along `normal` from `position` the surface is; NaN if not known, see [`Vertex`].
+    pub(crate) depth: f32,
     /// Unit geometric normal, outside.
     pub(crate) normal: Vec3,
     /// Shading frame, its first tangent as near to ∂p/∂u as the shading normal lets it be.
@@ -31,11 +33,13 @@ impl Surface {
     /// doubled because the next ray's intersection rounds as well.
     pub(crate) fn exact(p: DVec3, normal: DVec3, uv: Vec2, dp_du: DVec3, dp_dv: DVec3) -> Self {
         let position = p.as_vec3();
+        let depth = (p - position.as_dvec3()).dot(normal) as f32;
         let normal = normal.as_vec3();
         let dp_du = dp_du.as_vec3();
         Self {
             position,
             error: position.abs() * gamma(2) + f32::MIN_POSITIVE,
+            depth,
             normal,
             shading: Frame::from_normal_and_tangent(normal, dp_du),
             uv,
@@ -60,6 +64,8 @@ impl Surface {
             error: spread.as_vec3() * (1.0 + gamma(4))
                 + position.abs() * gamma(2)
                 + f32::MIN_POSITIVE,
+            // A ray is rounded on its way into the shape's space.
+            depth: f32::NAN,
             normal: unit(self.normal),
             shading: Frame::from_normal_and_tangent(unit(self.shading.n), dp_du),
             uv: self.uv,
@@ -72,6 +78,7 @@ impl Surface {
     pub(crate) fn flipped_if(mut self, flip: bool) -> Self {
         if flip {
             self.normal = -self.normal;
+            self.depth = -self.depth;
             self.shading = self.shading.flipped();
         }
         self
@@ -99,6 +106,7 @@ impl Surface {
         Vertex {
             position: self.position,
             error: self.error,
+            depth: self.depth,
             normal: self.normal,
             shading: self.shading,
             uv: self.uv,

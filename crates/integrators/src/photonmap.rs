@@ -39,11 +39,14 @@
 //! while with a box all k would bring k/(k − 1) of it (García, Ureña, Sbert 2012, "Description and
 //! Solution of an Unreported Intrinsic Bias in Photon Mapping Density Estimation with Constant Kernel").
 //!
+//! Without a radius and a number of nearest photons, r is the width of two pixels, or less where the map
+//! is so dense that a look-up would find more than 32 photons on average ([`crate::photons::radius`]).
+//!
 //! Every replicate has maps of its own. A given radius stays as it is, so its bias vanishes neither with
 //! samples and replicates nor with photons; that of the k nearest does with more photons.
 
 use crate::photons::gather::{Kernel, Layer, Lookup, Plan, follow_all, follow_one};
-use crate::photons::radius::{from_pixels, read};
+use crate::photons::radius::{MOST_FOUND, from_pixels, held, read};
 use crate::photons::sets::WavelengthSets;
 use crate::photons::shoot::{Kind, PhotonMap, shoot};
 use crate::photons::{read_count, read_sets, rounded};
@@ -77,7 +80,7 @@ pub struct PhotonMapper {
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Estimate {
     /// The radius, or the largest if the nearest photons are looked for (m); `None` for the width
-    /// of some pixels, or as large as need be.
+    /// of some pixels or less, or as large as need be.
     pub radius: Option<f32>,
     /// How many photons are looked for; all within the radius if zero.
     pub nearest: usize,
@@ -110,8 +113,10 @@ pub struct State {
     caustic: PhotonMap,
     global: PhotonMap,
     shot: u32,
-    /// The radii of both (m).
+    /// The radii of both (m), …
     radii: [f32; 2],
+    /// … and that of two pixels where it was too much for a map (m).
+    held: [Option<f32>; 2],
 }
 
 impl PhotonMapper {
@@ -226,18 +231,44 @@ impl Integrator for PhotonMapper {
             // Nobody asks the global map for others.
             photons.retain(|photon| photon.kind == Kind::Indirect);
         }
-        let radius = |map: Estimate| match (map.radius, map.nearest) {
-            (Some(radius), _) => radius,
-            (None, 0) => from_pixels(world, pass),
-            (None, _) => ANYWHERE,
-        };
+        let global = PhotonMap::new(photons);
+        let mut limits = [None; 2];
+        let maps = [(self.global, &global), (self.caustic, &caustic)];
+        let radii = core::array::from_fn(|i| {
+            let (estimate, map) = maps[i];
+            match (estimate.radius, estimate.nearest) {
+                (Some(radius), _) => radius,
+                (None, 0) => {
+                    let wide = from_pixels(world, pass);
+                    let radius = held(world, pass, &map.tree, wide);
+                    limits[i] = (radius < wide).then_some(wide);
+                    radius
+                }
+                (None, _) => ANYWHERE,
+            }
+        });
         State {
             sets,
             caustic,
-            global: PhotonMap::new(photons),
+            global,
             shot,
-            radii: [self.global, self.caustic].map(radius),
+            radii,
+            held: limits,
         }
+    }
+
+    fn remarks(&self, state: &State) -> Vec<String> {
+        let names = ["global_radius", "caustic_radius"];
+        let held = (names.into_iter().zip(state.held).zip(state.radii))
+            .filter_map(|((name, wide), radius)| Some((name, wide?, radius)));
+        held.map(|(name, wide, radius)| {
+            format!(
+                "`{name}` is {radius:.3} m instead of two pixels ({wide:.3} m), within which a \
+                 look-up would find more than {MOST_FOUND} photons on average; give `{name}` to \
+                 have another"
+            )
+        })
+        .collect()
     }
 
     fn sample<W: World, S: Sampler, K: Sink>(

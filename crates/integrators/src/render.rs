@@ -71,7 +71,7 @@ impl Plan {
 }
 
 /// What happened.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Outcome {
     /// Replicates finished; fewer than planned if the render was cancelled.
     pub replicates: u32,
@@ -79,6 +79,8 @@ pub struct Outcome {
     pub samples: u64,
     /// Rays traced.
     pub rays: u64,
+    /// What the estimator remarked when it first prepared, see [`Integrator::remarks`].
+    pub remarks: Vec<String>,
 }
 
 /// Watches a render.
@@ -125,6 +127,7 @@ pub fn render<W: World, I: Integrator, F: Film, P: Progress>(
         replicates: 0,
         samples: 0,
         rays: 0,
+        remarks: Vec::new(),
     };
     let Share { first, count } = plan.share();
     let lengths = integrator.samples_per_pass();
@@ -148,6 +151,9 @@ pub fn render<W: World, I: Integrator, F: Film, P: Progress>(
             margin: film.margin().ceil() as u32,
         };
         let state = integrator.prepare(world, &*film, &pass, before.take());
+        if (replicate, number) == (first, 0) {
+            outcome.remarks = integrator.remarks(&state);
+        }
         let tile = |index: u32| {
             let corner = UVec2::new(index % tiles.x, index / tiles.x) * side;
             let from = origin + corner;

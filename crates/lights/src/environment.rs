@@ -1,16 +1,18 @@
 //! `envmap`: radiance from infinity, given by a latitude-longitude image.
 //!
 //! The image has texels at u = (i + ½)/w and v = j/(h − 1): the first and last rows lie on the
-//! poles. As in Mitsuba, spectra and brightnesses of the four texels around a direction are
-//! interpolated each for itself,
+//! poles; a single row reaches from pole to pole. The radiances of the four texels around a
+//! direction are interpolated bilinearly,
 //!
 //! ```text
-//! L(ω, λ) = scale · D65(λ) · [Σ wᵢ sᵢ(λ)] · [Σ wᵢ mᵢ]
+//! L(ω, λ) = scale · D65(λ) · Σ wᵢ mᵢ sᵢ(λ)
 //! ```
 //!
 //! where mᵢ is twice the largest component of texel i and sᵢ the smooth spectrum of rgbᵢ/mᵢ.
-//! Directions are chosen with a density bilinear in (u, v) through the nodes
-//! (r + g + b)/3 · sin θ; optionally less their mean (Karlík, Šik, Vévoda, Skřivan, Křivánek 2019,
+//! Directions are chosen with a density bilinear in (u, v) through the nodes (r + g + b)/3 · sⱼ,
+//! where sⱼ is the mean of sin θ over the row's hat function ([`row_weights`]): positive at the
+//! poles, too, so that the density vanishes nowhere where the radiance does not. Optionally the
+//! brightness counts less its mean (Karlík, Šik, Vévoda, Skřivan, Křivánek 2019,
 //! "MIS Compensation"), which leaves dark regions to other techniques. An estimator that has no
 //! other technique, such as `direct` with `bsdf_samples` zero, then misses those regions.
 
@@ -29,6 +31,30 @@ use std::sync::{Arc, LazyLock};
 
 /// D65, scaled so that it looks white with luminance one.
 static WHITE: LazyLock<Regular> = LazyLock::new(illuminants::d65_spectrum);
+
+/// The mean of sin πv over the hat function of each of `height` ≥ 2 rows at v = j/(h − 1), with
+/// k = π/(h − 1):
+///
+/// ```text
+/// sⱼ = sin(jk) · 2(1 − cos k)/k²,     s₀ = s₍ₕ₋₁₎ = (1 − sin k / k) · 2/k
+/// ```
+fn row_weights(height: usize) -> impl Fn(usize) -> f64 {
+    let k = core::f64::consts::PI / (height - 1) as f64;
+    // sin²(k/2) for (1 − cos k)/2, and a series for 1 − sin k / k where it would cancel.
+    let half = float64::sin(0.5 * k) / (0.5 * k);
+    let pole = if k < 1e-2 {
+        k / 3.0 * (1.0 - k * k / 20.0)
+    } else {
+        (1.0 - float64::sin(k) / k) * 2.0 / k
+    };
+    move |row| {
+        if row == 0 || row + 1 == height {
+            pole
+        } else {
+            float64::sin(row as f64 * k) * half * half
+        }
+    }
+}
 
 /// An image at infinity.
 #[derive(Clone, Debug)]
@@ -134,19 +160,20 @@ impl EnvironmentMap {
 
     fn new(pose: Pose, scale: f32, pixels: &Pixels, compensated: bool) -> Self {
         let (width, height) = (pixels.size.x as usize, pixels.size.y as usize);
-        let sine = |row: usize| {
-            float64::sin(core::f64::consts::PI * row as f64 / (height - 1) as f64).max(0.0)
-        };
+        let sine = row_weights(height);
         let brightness = |rgb: &[f32; 3]| rgb.iter().map(|&c| f64::from(c)).sum::<f64>() / 3.0;
         let mut sums = [0.0; 3];
         let mut least = f64::INFINITY;
         for (row, texels) in pixels.rgb.chunks_exact(width).enumerate() {
+            // Half of the hat function of a row at a pole lies beyond it.
+            let at_pole = row == 0 || row + 1 == height;
+            let share = sine(row) * if at_pole { 0.5 } else { 1.0 };
             for rgb in texels {
                 let value = brightness(rgb);
                 least = least.min(value);
                 sums[0] += value;
-                sums[1] += value * sine(row);
-                sums[2] += sine(row);
+                sums[1] += value * share;
+                sums[2] += share;
             }
         }
         let average = sums[0] / pixels.rgb.len() as f64;
@@ -205,13 +232,11 @@ impl EnvironmentMap {
     fn radiance(&self, place: Vec2, wavelengths: &Wavelengths) -> Vec4 {
         let Cell { texels, weights } = self.image.cell(place);
         let mut spectrum = Vec4::ZERO;
-        let mut factor = 0.0;
         for (texel, weight) in texels.into_iter().zip(weights) {
             let [a, b, c, m] = self.image.texels[texel].to_array();
-            spectrum += RgbCoefficients([a, b, c]).eval(wavelengths.lambda) * weight;
-            factor += m * weight;
+            spectrum += RgbCoefficients([a, b, c]).eval(wavelengths.lambda) * (m * weight);
         }
-        WHITE.eval(wavelengths.lambda) * spectrum * (factor * self.scale)
+        WHITE.eval(wavelengths.lambda) * spectrum * self.scale
     }
 
     /// Radiance seen along the unit vector `direction`.
@@ -314,7 +339,7 @@ fn texel(rgb: [f32; 3]) -> Vec4 {
     Vec4::new(a, b, c, factor)
 }
 
-/// Linear Rec.709 pixels, row after row from the top.
+/// Linear Rec.709 pixels, row after row from the top; at least two rows.
 struct Pixels {
     size: UVec2,
     rgb: Vec<[f32; 3]>,
@@ -327,12 +352,6 @@ struct Pixels {
 fn decode(bytes: &[u8], filename: &str) -> Result<Pixels, String> {
     let raster = raster::decode(bytes, Path::new(filename)).map_err(|error| error.to_string())?;
     let (width, height) = (raster.width(), raster.height());
-    if width < 2 || height < 3 {
-        return Err(format!(
-            "`{filename}` is too small for an environment map: it needs at least 2 × 3 pixels, \
-             not {width} × {height}"
-        ));
-    }
     let channels = raster.channels();
     let values = raster.to_linear();
     let mut negative = 0;
@@ -352,8 +371,12 @@ fn decode(bytes: &[u8], filename: &str) -> Result<Pixels, String> {
         negative += usize::from(colour.iter().any(|&c| c < 0.0));
         rgb.push(colour.map(|c| c.max(0.0)));
     }
+    if height == 1 {
+        // The same from pole to pole.
+        rgb.extend_from_within(..);
+    }
     Ok(Pixels {
-        size: UVec2::new(width as u32, height as u32),
+        size: UVec2::new(width as u32, height.max(2) as u32),
         rgb,
         negative,
         notes: raster.notes(false).map(str::to_owned).collect(),

@@ -209,6 +209,7 @@ fn upward(position: Vec3, normal: Vec3) -> Vertex {
     Vertex {
         position,
         error: Vec3::splat(1e-6),
+        depth: f32::NAN,
         normal,
         shading: Frame::from_normal(normal),
         uv: Vec2::ZERO,

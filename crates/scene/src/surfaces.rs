@@ -4,7 +4,7 @@ use crate::attributes::Asked;
 use crate::builder::Builder;
 use etalon_bsdf::{Material, classicphong};
 use etalon_geometry::{GeometryBuilder, GroupId, Placement, Shape};
-use etalon_params::{Class, Diagnostic, Node, Params, Span, plugins};
+use etalon_params::{Class, Diagnostic, Node, Params, Span, Value, plugins};
 use etalon_textures::{Constant, Texture};
 use etalon_transport::{LightId, MaterialId, ShapeId};
 use std::collections::HashMap;
@@ -74,6 +74,16 @@ pub fn read(scene: &Params<'_>, builder: &mut Builder<'_>) -> Surfaces {
     surfaces
 }
 
+/// Whether what is described here contains a smooth or rough dielectric.
+fn refracts(node: &Node) -> bool {
+    let dielectric = matches!(node.plugin.value.as_str(), "dielectric" | "roughdielectric");
+    (node.class == Class::Bsdf && dielectric)
+        || (node.properties.iter()).any(|property| match &property.value {
+            Value::Object(child) => child.class == Class::Bsdf && refracts(child),
+            _ => false,
+        })
+}
+
 /// What a shape carries besides its form.
 struct Carried {
     material: MaterialId,
@@ -95,6 +105,9 @@ impl Surfaces {
                 let id = self
                     .geometry
                     .add_shape(shape, carried.material, LightId::NONE);
+                if refracts(node) {
+                    self.geometry.set_refractive(id);
+                }
                 self.names.shapes.push(name(node));
                 if let Some(emitter) = carried.emitter {
                     self.emitting.push(Emitting { shape: id, emitter });

@@ -110,6 +110,11 @@ pub trait Integrator: Sync {
         before: Option<Self::State>,
     ) -> Self::State;
 
+    /// What the user should know of a preparation, one sentence each.
+    fn remarks(&self, _state: &Self::State) -> Vec<String> {
+        Vec::new()
+    }
+
     /// Draws one sample.
     fn sample<W: World, S: Sampler, K: Sink>(
         &self,

@@ -40,7 +40,7 @@ pub use integrator::{Draft, Integrator, Pass, PixelSite};
 pub use light::{Emission, EmissionDensity, LightSample, Origin};
 pub use mesh::{Attribute, MeshData};
 pub use phase::{Phase, PhaseSample};
-pub use ray::Ray;
+pub use ray::{Departure, Ray};
 pub use remark::{ChainRemark, MergedPhoton, Mixed, Mixture, Remark};
 pub use shapes::{Receiver, SampledPoint, Shapes, SurfacePoint};
 pub use sight::{Finding, LightCount, Objection, Sight, Subject, View};

@@ -1,6 +1,28 @@
 //! Rays.
 
+use crate::ShapeId;
 use glam::Vec3;
+
+/// Where a ray crosses the surface that it leaves, behind its origin.
+///
+/// Rays start a little off their surface, so that they do not meet it again. A second surface may
+/// lie in between, closer than single precision tells: what a ray crosses after `t` counts as
+/// ahead of it, if it belongs to another shape.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Departure {
+    /// The shape that is left.
+    pub shape: ShapeId,
+    /// The parameter of the crossing, not above 0.
+    pub t: f32,
+}
+
+impl Departure {
+    /// From no surface, or from one that is not known to more than single precision.
+    pub const NONE: Self = Self {
+        shape: ShapeId::NONE,
+        t: 0.0,
+    };
+}
 
 /// A half-line or segment, with the time at which it travels.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -13,6 +35,8 @@ pub struct Ray {
     pub t_max: f32,
     /// The moment within the shutter interval, from 0 (opening) to 1 (closing).
     pub time: f32,
+    /// The surface that it leaves.
+    pub departure: Departure,
 }
 
 impl Ray {
@@ -24,6 +48,7 @@ impl Ray {
             direction,
             t_max: f32::INFINITY,
             time,
+            departure: Departure::NONE,
         }
     }
 
@@ -38,6 +63,7 @@ impl Ray {
             direction: d / distance,
             t_max: distance * (1.0 - 8.0 * f32::EPSILON),
             time,
+            departure: Departure::NONE,
         })
     }
 

@@ -1,6 +1,6 @@
 //! Where a ray met a surface.
 
-use crate::{InstanceId, LightId, MaterialId, Ray, ShapeId};
+use crate::{Departure, InstanceId, LightId, MaterialId, Ray, ShapeId};
 use etalon_math::{Frame, offset_origin};
 use glam::{Vec2, Vec3};
 
@@ -30,6 +30,9 @@ pub struct Vertex {
     pub position: Vec3,
     /// Bound on the absolute error of each coordinate of `position`.
     pub error: Vec3,
+    /// How far along `normal` from `position` the surface is (m), to about 10⁻¹³ of the
+    /// coordinates; NaN if that is not known.
+    pub depth: f32,
     /// Unit geometric normal, on the side that the shape calls outside.
     pub normal: Vec3,
     /// Shading frame: `n` the interpolated normal (flipped with the shape), `s` along ∂p/∂u.
@@ -63,7 +66,30 @@ impl Vertex {
     #[inline]
     pub fn spawn(&self, direction: Vec3) -> Ray {
         let origin = offset_origin(self.position, self.error, self.normal, direction);
-        Ray::new(origin, direction, self.time)
+        Ray {
+            departure: self.departure(origin, direction),
+            ..Ray::new(origin, direction, self.time)
+        }
+    }
+
+    /// Where the line from `origin`, just off this surface, along `direction` crosses it.
+    #[inline]
+    fn departure(&self, origin: Vec3, direction: Vec3) -> Departure {
+        if self.depth.is_nan() {
+            return Departure::NONE;
+        }
+        // Neighbouring numbers: their difference is exact.
+        let height = (origin - self.position).dot(self.normal) - self.depth;
+        let t = -height / direction.dot(self.normal);
+        // False for NaN, too.
+        if t <= 0.0 && t > f32::NEG_INFINITY {
+            Departure {
+                shape: self.shape,
+                t,
+            }
+        } else {
+            Departure::NONE
+        }
     }
 
     /// The origin of a ray that leaves this surface toward `target`.
@@ -83,7 +109,13 @@ impl Vertex {
     pub fn shadow_ray(&self, direction: Vec3, target: Option<Vec3>) -> Option<Ray> {
         match target {
             None => Some(self.spawn(direction)),
-            Some(target) => Ray::between(self.origin_toward(target), target, self.time),
+            Some(target) => {
+                let ray = Ray::between(self.origin_toward(target), target, self.time)?;
+                Some(Ray {
+                    departure: self.departure(ray.origin, ray.direction),
+                    ..ray
+                })
+            }
         }
     }
 }

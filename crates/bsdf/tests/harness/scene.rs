@@ -191,6 +191,7 @@ fn vertex(shading: Frame) -> Vertex {
     Vertex {
         position: Vec3::ZERO,
         error: Vec3::ZERO,
+        depth: f32::NAN,
         normal: Vec3::Z,
         shading,
         uv: Vec2::ZERO,

@@ -62,6 +62,9 @@ pub(super) fn deliver(
             None => say::remark("warning: whether the target is reached is unknown\n"),
         }
     }
+    for remark in &rendered.outcome.remarks {
+        say::remark(&format!("note: {remark}\n"));
+    }
     let black = is_black(&rendered.developed);
     if black {
         say::remark("warning: the picture is black: not one sample found light\n");

@@ -58,6 +58,8 @@ pub struct Mesh {
     /// vertex normals.
     reversed: bool,
     by_area: OnceLock<Option<AliasTable>>,
+    /// Whether it is intersected in double precision, see [`crate::touching`].
+    pub(crate) touches: bool,
 }
 
 impl Mesh {
@@ -98,6 +100,7 @@ impl Mesh {
             attributes: data.attributes,
             reversed: options.flip_normals,
             by_area: OnceLock::new(),
+            touches: false,
         })
     }
 
@@ -228,6 +231,7 @@ impl Mesh {
         Surface {
             position,
             error,
+            depth: f32::NAN,
             normal,
             shading: Frame::from_normal_and_tangent(shading_normal, dp_du),
             uv,

@@ -17,7 +17,7 @@ use etalon_math::{Frame, gamma};
 use etalon_params::Params;
 use etalon_sampling::warps::{RectangleSides, RectangleView, SphericalRectangle};
 use etalon_transport::{MeshData, Receiver, SampledPoint, ShapeId, SurfacePoint, TexturePoint};
-use glam::{BVec2, Vec2, Vec3};
+use glam::{BVec2, DVec3, Vec2, Vec3};
 
 /// A rectangle or parallelogram.
 #[derive(Debug)]
@@ -57,10 +57,17 @@ impl Rectangle {
             ..MeshOptions::default()
         };
         let mesh = Mesh::new(data, &options)?.outside(flip != placement.mirrors());
-        let [corner, x, y] = mesh.corners(0);
-        let edges = [x - corner, y - corner];
-        let [a, b] = edges.map(|e| e.as_dvec3());
-        let normal = mesh.surface(0, Vec2::ZERO).normal;
+        let [corner, ..] = mesh.corners(0);
+        // Not between corners, whose rounding far away from the origin may be as large as a small
+        // rectangle.
+        let [a, b] = [DVec3::X, DVec3::Y].map(|axis| placement.vector(axis) * 2.0);
+        let edges = [a, b].map(|edge| edge.as_vec3());
+        let upward = a.cross(b).normalize().as_vec3();
+        let normal = if flip != placement.mirrors() {
+            -upward
+        } else {
+            upward
+        };
         let reach = corner.abs() + edges[0].abs() + edges[1].abs();
         Ok(Self {
             normal,
@@ -92,6 +99,10 @@ impl Rectangle {
         &self.mesh
     }
 
+    pub(crate) fn set_touching(&mut self) {
+        self.mesh.touches = true;
+    }
+
     /// Unit normal, outside.
     pub(crate) fn normal(&self) -> Vec3 {
         self.normal
@@ -110,6 +121,7 @@ impl Rectangle {
         Surface {
             position: self.corner + self.edges[0] * uv.x + self.edges[1] * uv.y,
             error: self.error,
+            depth: f32::NAN,
             normal: self.normal,
             shading: self.shading,
             uv,

@@ -10,6 +10,19 @@ pub(crate) trait Solid {
     /// where there is none. The direction need not be a unit vector.
     fn crossings(&self, origin: DVec3, direction: DVec3) -> [f64; 2];
 
+    /// The crossing nearest to `t` of the line, to the precision of double numbers; `t` itself if
+    /// there is none.
+    fn crossing_near(&self, origin: DVec3, direction: DVec3, t: f64) -> f64 {
+        let [a, b] = self.crossings(origin, direction);
+        // Also where one of them is NaN.
+        let nearer = if (b - t).abs() < (a - t).abs() || a.is_nan() {
+            b
+        } else {
+            a
+        };
+        if nearer.is_nan() { t } else { nearer }
+    }
+
     /// The surface point at `p`, which is on the surface up to rounding; `p` is projected first.
     fn surface_near(&self, p: DVec3) -> Surface;
 

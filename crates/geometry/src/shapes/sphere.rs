@@ -107,8 +107,7 @@ impl Sphere {
 
     /// The cone in which an observer outside sees the sphere.
     fn cone(&self, from: Vec3) -> Option<SphereCone> {
-        let center = (self.center - from.as_dvec3()).as_vec3();
-        SphereCone::new(center, self.radius as f32)
+        SphereCone::new(self.center - from.as_dvec3(), self.radius)
     }
 
     /// A point chosen by solid angle from outside, by area from inside; with its density (sr⁻¹).
@@ -118,24 +117,17 @@ impl Sphere {
             let density = self.density_toward(from, surface.position, surface.normal);
             return (surface, density);
         };
-        let direction = cone.sample(u).as_dvec3();
-        // The nearer point along that direction: of the two on the line, the one before the
-        // closest approach (which rounding may put just outside of the sphere).
-        let to_center = self.center - from.as_dvec3();
-        let along = to_center.dot(direction) / direction.length_squared();
-        let perpendicular = direction * along - to_center;
-        let half = float64::safe_sqrt(self.radius * self.radius - perpendicular.length_squared());
-        let normal = perpendicular - direction.normalize() * half;
-        (self.surface(normal.normalize()), cone.density())
+        (self.surface(cone.sample_normal(u)), cone.density())
     }
 
     /// The density (sr⁻¹) of [`Sphere::sample_toward`] at a point of the sphere.
     pub(crate) fn density_toward(&self, from: Vec3, position: Vec3, normal: Vec3) -> f32 {
         match self.cone(from) {
-            // From outside, only the near side is ever chosen.
+            // From outside, only the near side is ever chosen. The normal tells it even where the
+            // position is rounded by more than the radius.
             Some(cone) => {
-                let outward = position.as_dvec3() - self.center;
-                let near = outward.dot((from - position).as_dvec3()) >= 0.0;
+                let outward = if self.inward { -normal } else { normal };
+                let near = outward.dot(from - position) >= 0.0;
                 if near { cone.density() } else { 0.0 }
             }
             None => super::area_density_toward(self.area(), from, position, normal),

@@ -2,9 +2,11 @@
 
 mod accelerators;
 mod description;
+mod far_lights;
 mod instances;
 mod normals;
 mod reintersection;
 mod sampling;
 mod things;
+mod touching;
 mod watertight;

@@ -264,6 +264,7 @@ mod tests {
         Vertex {
             position: Vec3::splat(0.5),
             error: Vec3::ZERO,
+            depth: f32::NAN,
             normal: Vec3::Z,
             shading: Frame::from_normal(Vec3::Z),
             uv: Vec2::ZERO,

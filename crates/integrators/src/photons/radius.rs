@@ -14,17 +14,23 @@
 //!
 //! Unless the scene says, the first radius is `PIXELS` times the width of a pixel on what the
 //! camera sees: the median over a grid of rays of the distance between their first hits and those
-//! of rays one pixel aside, if both went as far.
+//! of rays one pixel aside, if both went as far. On a small film that may be a good part of the
+//! scene; where a map is dense ([`held`]), the radius is therefore the largest within which the
+//! first hits of those rays have `MOST_FOUND` photons on average.
 
+use crate::photons::kdtree::KdTree;
 use etalon_params::Params;
 use etalon_transport::{Camera, Pass, World};
-use glam::Vec2;
+use glam::{Vec2, Vec3};
 
 /// α where the scene does not say.
 pub(crate) const ALPHA: f64 = 2.0 / 3.0;
 
 /// The default radius in pixels.
 const PIXELS: f32 = 2.0;
+
+/// The most photons that a look-up of a map finds on average where the radius is not given.
+pub(crate) const MOST_FOUND: usize = 32;
 
 /// Rays along each side of the film that look for the size of pixels.
 const GRID: u32 = 16;
@@ -82,29 +88,48 @@ fn shrunk(alpha: f64, pass: u32) -> f64 {
         .sqrt()
 }
 
+/// What a grid of rays over the film meets: the point, and the distance to that of a ray one pixel
+/// aside that goes as far.
+fn seen<W: World>(world: &W, pass: &Pass) -> Vec<(Vec3, f32)> {
+    let camera = world.camera();
+    let points = (0..GRID * GRID).filter_map(|i| {
+        let place = (Vec2::new((i % GRID) as f32, (i / GRID) as f32) + 0.5) / GRID as f32;
+        let raster = pass.origin.as_vec2() + place * pass.size.as_vec2();
+        let ray = camera.ray(raster, Vec2::splat(0.5), 0.5).ray;
+        let t = world.intersect(&ray)?.t;
+        let aside = camera.ray(raster + Vec2::X, Vec2::splat(0.5), 0.5).ray;
+        Some((ray.at(t), ray.at(t).distance(aside.at(t))))
+    });
+    points.collect()
+}
+
 /// Some pixels' width on what the camera sees; 1 if it sees nothing.
 pub(crate) fn from_pixels<W: World>(world: &W, pass: &Pass) -> f32 {
-    let camera = world.camera();
-    let hit = |raster: Vec2| {
-        let ray = camera.ray(raster, Vec2::splat(0.5), 0.5).ray;
-        let hit = world.intersect(&ray)?;
-        Some((ray, hit.t))
-    };
-    let mut widths = Vec::new();
-    for y in 0..GRID {
-        for x in 0..GRID {
-            let place = (Vec2::new(x as f32, y as f32) + 0.5) / GRID as f32;
-            let raster = pass.origin.as_vec2() + place * pass.size.as_vec2();
-            if let Some((ray, t)) = hit(raster) {
-                let aside = camera.ray(raster + Vec2::X, Vec2::splat(0.5), 0.5).ray;
-                widths.push(ray.at(t).distance(aside.at(t)));
-            }
-        }
-    }
+    let seen = seen(world, pass);
+    let mut widths: Vec<f32> = seen.into_iter().map(|(_, width)| width).collect();
     widths.retain(|width| *width > 0.0 && width.is_finite());
     widths.sort_by(f32::total_cmp);
     let median = widths.get(widths.len() / 2);
     median.map_or(1.0, |width| PIXELS * width)
+}
+
+/// At most `radius`, such that the points seen by the camera have no more than [`MOST_FOUND`]
+/// photons within it on average.
+pub(crate) fn held<W: World>(world: &W, pass: &Pass, tree: &KdTree, radius: f32) -> f32 {
+    let points = seen(world, pass);
+    let most = points.len() * MOST_FOUND;
+    let (mut found, mut squared) = (Vec::new(), Vec::new());
+    for (point, _) in &points {
+        // Twice as many: places with fewer make up for those with more.
+        tree.nearest(*point, 2 * MOST_FOUND, radius * radius, &mut found);
+        squared.extend(found.iter().map(|photon| photon.distance_squared));
+    }
+    if squared.len() <= most {
+        return radius;
+    }
+    let (_, at, _) = squared.select_nth_unstable_by(most, f32::total_cmp);
+    // Zero if all photons are where the camera looks.
+    if *at > 0.0 { at.sqrt() } else { radius }
 }
 
 #[cfg(test)]

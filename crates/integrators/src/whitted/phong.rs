@@ -91,6 +91,7 @@ mod tests {
         Vertex {
             position: Vec3::ZERO,
             error: Vec3::ZERO,
+            depth: f32::NAN,
             normal: Vec3::Z,
             shading: Frame::from_normal(Vec3::Z),
             uv: Vec2::ZERO,

@@ -251,3 +251,39 @@ fn any_number_of_threads_gives_the_same_bits() {
         ..merging(4)
     });
 }
+
+/// Two pixels are half of the sphere here. Without a given radius a look-up is held to some tens of
+/// photons, so that four times as many photons make the radius half as large, and a remark says so.
+#[test]
+fn a_default_radius_is_held_where_photons_are_dense() {
+    let world = Sphere::new(0.6, Fault::None);
+    let remarks = |photons: u32, radius: Option<f32>| {
+        let sets = 1;
+        let global = Estimate { radius, nearest: 0 };
+        let mapper = PhotonMapper {
+            photons,
+            sets,
+            global,
+            ..mapper(false, None, 0)
+        };
+        let state = mapper.prepare(&world, &(), &pass(0), None);
+        mapper.remarks(&state)
+    };
+    let held = |photons: u32| -> f32 {
+        let remarks = remarks(photons, None);
+        let [remark] = &remarks[..] else {
+            panic!("one map is held: {remarks:?}");
+        };
+        let metres = remark
+            .split_once(" is ")
+            .and_then(|(_, rest)| rest.split_once(" m "));
+        metres.expect("a radius").0.parse().expect("a number")
+    };
+    let (few, many) = (held(1 << 12), held(1 << 14));
+    assert!((few / many - 2.0).abs() < 0.2, "{few} {many}");
+    // π r² of the sphere's 4π have 32 of the photons, each of which comes by two to four times.
+    let found = |radius: f32, photons: f32| radius * radius / 4.0 * photons;
+    assert!((4.0..32.0).contains(&found(many, 16384.0)), "{many}");
+    assert_eq!(remarks(1 << 14, Some(0.3)), Vec::<String>::new());
+    assert_eq!(remarks(4, None), Vec::<String>::new());
+}

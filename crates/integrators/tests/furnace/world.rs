@@ -199,6 +199,7 @@ impl World for Sphere {
         Vertex {
             position: -normal,
             error: Vec3::splat(1e-6),
+            depth: f32::NAN,
             normal,
             shading: Frame::from_normal(normal),
             uv: Vec2::ZERO,

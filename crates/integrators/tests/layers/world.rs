@@ -185,6 +185,7 @@ impl World for Stack {
         Vertex {
             position: Vec3::Z * plane.height,
             error: Vec3::ZERO,
+            depth: f32::NAN,
             normal: Vec3::Z,
             shading: Frame::from_normal(Vec3::Z),
             uv: Vec2::ZERO,

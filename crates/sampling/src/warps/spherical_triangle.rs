@@ -43,8 +43,7 @@ impl SphericalTriangle {
     /// The triangle with the given corners, as seen from the origin. `None` if its solid angle
     /// lies outside 10⁻⁶ … 6.2 sr: sample its area then.
     #[inline]
-    pub fn new(corners: [Vec3; 3]) -> Option<Self> {
-        let corners = corners.map(Vec3::as_dvec3);
+    pub fn new(corners: [DVec3; 3]) -> Option<Self> {
         let [a, b, c] = corners;
         let [la, lb, lc] = corners.map(DVec3::length);
         // By edges: differences of nearby corners are exact.

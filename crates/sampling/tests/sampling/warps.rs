@@ -6,7 +6,7 @@
 
 use crate::evidence::Map;
 use etalon_sampling::warps::*;
-use glam::{Vec2, Vec3};
+use glam::{DVec3, Vec2, Vec3};
 
 /// The concentric map's derivative jumps at the square's diagonals and is undefined at its centre.
 fn diagonals(u: Vec2) -> bool {
@@ -127,7 +127,7 @@ fn sphere_seen_from_outside() {
         (Vec3::new(0.0, 0.0, -1.0), 0.999),
         (Vec3::new(30.0, -40.0, 0.0), 1.0),
     ] {
-        let cone = SphereCone::new(center, radius).expect("outside");
+        let cone = SphereCone::new(center.as_dvec3(), radius.into()).expect("outside");
         let map = Map {
             name: "sphere cone",
             sample: &|u| cone.sample(u),
@@ -142,9 +142,9 @@ fn sphere_seen_from_outside() {
             assert!(center.dot(w) > 0.0);
         }
     }
-    assert!(SphereCone::new(Vec3::X, 1.0).is_none());
-    assert!(SphereCone::new(Vec3::X, 1.5).is_none());
-    assert!(SphereCone::new(Vec3::ZERO, 1.0).is_none());
+    assert!(SphereCone::new(DVec3::X, 1.0).is_none());
+    assert!(SphereCone::new(DVec3::X, 1.5).is_none());
+    assert!(SphereCone::new(DVec3::ZERO, 1.0).is_none());
 }
 
 #[test]
@@ -271,7 +271,8 @@ fn triangles() -> Vec<[Vec3; 3]> {
 #[test]
 fn spherical_triangles() {
     for corners in triangles() {
-        let triangle = SphericalTriangle::new(corners).expect("well-conditioned");
+        let triangle =
+            SphericalTriangle::new(corners.map(Vec3::as_dvec3)).expect("well-conditioned");
         let name = format!("spherical triangle {corners:?}");
         let size = triangle.solid_angle().sqrt().min(1.0);
         let map = Map {
@@ -305,13 +306,13 @@ fn spherical_triangles() {
         }
     }
     // An octant is π/2; turning it over changes nothing.
-    let octant = SphericalTriangle::new([Vec3::Y, Vec3::X, Vec3::Z]).expect("an octant");
+    let octant = SphericalTriangle::new([DVec3::Y, DVec3::X, DVec3::Z]).expect("an octant");
     assert!((octant.solid_angle() - core::f32::consts::FRAC_PI_2).abs() < 1e-6);
     // In the triangle's plane, at a corner, and far away.
-    let flat = [Vec3::X, Vec3::Y, Vec3::new(2.0, 3.0, 0.0)];
+    let flat = [DVec3::X, DVec3::Y, DVec3::new(2.0, 3.0, 0.0)];
     assert!(SphericalTriangle::new(flat).is_none());
-    assert!(SphericalTriangle::new([Vec3::ZERO, Vec3::X, Vec3::Y]).is_none());
-    let far = [Vec3::X, Vec3::Y, Vec3::Z].map(|corner| corner + 1e4);
+    assert!(SphericalTriangle::new([DVec3::ZERO, DVec3::X, DVec3::Y]).is_none());
+    let far = [DVec3::X, DVec3::Y, DVec3::Z].map(|corner| corner + 1e4);
     assert!(SphericalTriangle::new(far).is_none());
 }
 

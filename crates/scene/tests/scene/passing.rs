@@ -1,6 +1,6 @@
 //! Straight travel through surfaces that let light pass.
 
-use crate::reading::{LANES, scene};
+use crate::reading::{LANES, down, meet, scene};
 use etalon_transport::{Ray, World};
 use glam::{Vec3, Vec4};
 use proptest::prelude::*;
@@ -112,5 +112,29 @@ proptest! {
             prop_assert!(error.abs() < 1e-5, "{} for {expected}", found.transmittance);
             prop_assert!(crossed == 0 || world.passage(&ray, &LANES, crossed - 1).is_none());
         }
+    }
+}
+
+/// Boxes of water in boxes of glass that touch: both surfaces are met, whatever holds the dielectric.
+/// Rejects a scene that does not tell the geometry what refracts.
+#[test]
+fn dielectrics_that_touch_are_both_met() {
+    let water = "<bsdf type=\"dielectric\"/>";
+    let named = "<bsdf type=\"mask\"><bsdf type=\"roughdielectric\"/></bsdf>";
+    for (inner, outer) in [(water, named), (named, water)] {
+        let cube = |size: &str, bsdf: &str| {
+            format!(
+                "<shape type=\"cube\"><transform name=\"to_world\"><scale value=\"{size}\"/>\
+                 </transform>{bsdf}</shape>"
+            )
+        };
+        let scene = scene(&(cube("1", outer) + &cube("0.9999999", inner)));
+        let mut ray = down(0.3, 0.2);
+        let mut met = Vec::new();
+        while let Some((_, vertex)) = meet(&scene, &ray) {
+            met.push(vertex.shape.0);
+            ray = vertex.spawn(ray.direction);
+        }
+        assert_eq!(met, [0, 1, 1, 0]);
     }
 }

@@ -192,6 +192,25 @@ fn colours_beyond_one_are_kept_for_light_and_moved_for_reflectance() {
     assert!(close(light.spectrum(0.25, 0.25), expected.to_array(), 1e-5));
 }
 
+/// Beside black a bright texel keeps its share: w · 10⁵, not w² · 10⁵, as where a colour and its
+/// brightness are interpolated each for itself.
+#[test]
+fn light_is_interpolated_as_light() {
+    let mut files = files();
+    let sun = [1e5, 0.0, 0.0, 0.0];
+    files.add("sun.exr", 2, &[("R", &sun), ("G", &sun), ("B", &sun)]);
+    let description = node("bitmap", vec![("filename", text("sun.exr"))]);
+    let light = One::new(&files, &description, Role::Emission);
+    let whole = light.spectrum(0.25, 0.25);
+    for (u, v, share) in [(0.5, 0.25, 0.5), (0.5, 0.5, 0.25), (0.375, 0.25, 0.75)] {
+        let found = light.spectrum(u, v) / whole;
+        assert!(
+            (found - share).abs().max_element() < 1e-4,
+            "{found} {share}"
+        );
+    }
+}
+
 #[test]
 fn mistakes_are_refused() {
     for (properties, expected) in [
