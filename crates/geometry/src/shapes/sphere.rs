@@ -27,6 +27,10 @@ pub struct Sphere {
     inward: bool,
 }
 
+/// How far rounding moves a point of a sphere off it, relative to its coordinates: a few roundings
+/// of single precision.
+const ROUNDING: f64 = 4.0 * f32::EPSILON as f64;
+
 impl Sphere {
     /// The image under `placement` of the sphere around `center` with radius `radius` ≠ 0 (m). As
     /// in Mitsuba, a map that mirrors turns the sphere inside out; so do a negative radius (which
@@ -105,9 +109,13 @@ impl Sphere {
         self.surface(square_to_uniform_sphere(u).as_dvec3().normalize())
     }
 
-    /// The cone in which an observer outside sees the sphere.
+    /// The cone in which an observer outside sees the sphere. A point of the sphere itself, which
+    /// rounding puts on either side, sees it from inside if at all.
     fn cone(&self, from: Vec3) -> Option<SphereCone> {
-        SphereCone::new(self.center - from.as_dvec3(), self.radius)
+        let center = self.center - from.as_dvec3();
+        let rounding = ROUNDING * (f64::from(from.abs().max_element()) + self.radius);
+        let outside = center.length() > self.radius + rounding;
+        outside.then(|| SphereCone::new(center, self.radius))?
     }
 
     /// A point chosen by solid angle from outside, by area from inside; with its density (sr⁻¹).

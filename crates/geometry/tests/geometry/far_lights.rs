@@ -58,6 +58,21 @@ fn at_angle(degrees: f64) -> DVec3 {
     DVec3::new(sin, 0.0, cos)
 }
 
+/// Inside a glowing sphere E = π L everywhere, on the sphere too. Rejects points of the sphere that rounding puts
+/// outside and that then see the hemisphere outside: every other one was dark.
+#[test]
+fn a_sphere_lights_its_own_inside() {
+    for i in 0..40 {
+        let radius = 1.0 + 0.137 * f64::from(i);
+        let center = DVec3::new(0.3, -0.7, 0.11 * f64::from(i));
+        let inward = Sphere::new(&place(DMat4::IDENTITY), center, radius, true);
+        let geometry = geometry_of([Shape::Sphere(inward.expect("round"))]);
+        let bottom = (center - DVec3::Z * radius).as_vec3();
+        let found = irradiance(&geometry, bottom) / PI;
+        assert!((found - 1.0).abs() < 0.02, "{i}: {found}");
+    }
+}
+
 /// E = π L (r/d)² cos θ above the horizon. Rejects a position, a normal or a cone in single precision:
 /// the light of r/d = 10⁻⁸ was half.
 #[test]
