@@ -1,5 +1,6 @@
 //! The command line.
 
+use crate::outputs::Outputs;
 use crate::part::PartOfMany;
 use clap::{Args, Parser, Subcommand};
 use etalon_scene::LightChooser;
@@ -13,7 +14,7 @@ use std::path::{Path, PathBuf};
     about,
     max_term_width = 100,
     after_help = "\
-Exit codes: 0 done, 2 bad input or usage, 130 ended by Ctrl-C; `compare`: 1 different, 3 inconclusive."
+Exit codes: 0 done, 2 bad input or usage, 130 ended by Ctrl-C or a signal; `compare`: 1 different, 3 inconclusive."
 )]
 pub struct Cli {
     /// What to do.
@@ -26,13 +27,15 @@ pub struct Cli {
 pub enum Command {
     /// Render a Mitsuba 3 XML scene to an EXR with standard errors.
     #[command(after_help = "\
-Ctrl-C finishes the replicate that is being rendered and writes an image of those that are finished;
-during a pilot, or a second time, it ends without an image.
+Ctrl-C, SIGTERM and SIGHUP stop within two seconds. An image is written of the replicates that are
+finished; if none is, of the samples that there are, without standard errors. With `--resume` nothing
+is lost. During a pilot, or a second time, they end without an image.
 
-Exit codes: 0 done, 2 bad input or usage, 130 ended by Ctrl-C.
+Exit codes: 0 done, 2 bad input or usage, 130 ended by Ctrl-C or such a signal.
 
 Examples:
-  etalon render scenes/cornell-box/scene.xml -o cornell.exr
+  etalon render scenes/cornell-box/scene.xml
+  etalon render scene.xml -o cornell.png
   etalon render scene.xml -o out.exr --spp 256 --seed 7 -D resx=512 -D resy=512
   etalon render scene.xml -o direct.exr --integrator direct --stats stats.json
   etalon render scene.xml -o out.exr --error 0.01
@@ -93,14 +96,18 @@ Examples:
 
 /// Arguments of `render`.
 #[derive(Debug, Args, Clone)]
-#[command(group = clap::ArgGroup::new("wanted").required(true).args(["output", "replay"]))]
+#[command(group = clap::ArgGroup::new("wanted").args(["output", "replay"]))]
 #[command(group = clap::ArgGroup::new("piloted").multiple(true).args(["error", "adaptive"]))]
 pub struct RenderArgs {
     /// The scene (Mitsuba 3 XML).
     pub scene: PathBuf,
-    /// The image to write (.exr; .hdr and .pfm without standard errors).
+    /// The image to write: .exr; .png writes a picture beside an .exr; .hdr and .pfm hold no
+    /// standard errors [default: the scene's name with .exr, in this folder].
     #[arg(short, long, value_name = "OUT.exr")]
     pub output: Option<PathBuf>,
+    /// What is written for it.
+    #[arg(skip)]
+    pub outputs: Option<Outputs>,
     /// Draw one sample again, and say what happened vertex by vertex: sample S of replicate R of
     /// the pixel in column X and row Y, counted from 0. Nothing is rendered.
     #[arg(long, value_name = "X,Y,R,S", value_parser = parse_replay,
@@ -165,7 +172,7 @@ pub struct RenderArgs {
 impl RenderArgs {
     /// The image to write: there is one, unless a sample is replayed.
     pub fn output(&self) -> &Path {
-        self.output.as_deref().unwrap_or_else(|| Path::new(""))
+        (self.outputs.as_ref()).map_or(Path::new(""), |outputs| &outputs.image)
     }
 }
 

@@ -6,7 +6,8 @@ use super::entrant::{self, Entrant, Lists};
 use super::findings::Findings;
 use super::reference::Reference;
 use super::schedule::{Pace, Schedule, Share, Size};
-use crate::pipeline::{self, LoadOptions, Loaded, Refusal};
+use crate::memory;
+use crate::pipeline::{LoadOptions, Loaded, Refusal};
 use etalon_integrators::Progress;
 use etalon_params::Diagnostic;
 use etalon_sampling::hash::{derived_key, stream_key};
@@ -308,7 +309,7 @@ fn check_memory(scene: &Loaded, entrants: &[Entrant]) -> Result<(), Failure> {
             sources: scene.sources.clone(),
         })
     };
-    pipeline::check_memory(scene, planes.max().unwrap_or(3)).map_err(refuse)
+    memory::check(scene, planes.max().unwrap_or(3), false).map_err(refuse)
 }
 
 /// The share of the time that the pilot may take, all estimators together.

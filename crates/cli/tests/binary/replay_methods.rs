@@ -142,7 +142,7 @@ fn chains_are_told_path_by_path() {
         );
         let said = replayed(&integrator, "0,0,0,0");
         let number = |line: &str| numbers(line);
-        let share = said.lines().find(|line| line.contains("pixel's share: "));
+        let share = said.lines().find(|line| line.contains("sample's share: "));
         let share = number(share.expect("it hosts something"));
         let [contributions, chains, steps] = [share[0], share[1], share[2]].map(|n| n as usize);
         assert!(contributions > 0 && chains == 1 && steps > 100, "{share:?}");
