@@ -417,6 +417,11 @@ fn refusal(path: &Path) -> impl Fn(String) -> ReadError + Copy {
 /// Why a file that may well be sound is not a part.
 fn no_part(metadata: Option<&Metadata>) -> String {
     match metadata {
+        Some(metadata) if metadata.replicates == 0 => {
+            "its render was interrupted within the first replicate: it is not a part, which has \
+             whole replicates"
+                .to_owned()
+        }
         Some(metadata) => format!(
             "it is a whole image of {} replicates, not a part (`etalon render --part I/N` renders \
              one): it does not hold the exact sums",
