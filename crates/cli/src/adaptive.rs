@@ -87,11 +87,11 @@ pub fn check(loaded: &Loaded) -> Result<(), Diagnostic> {
 ///
 /// # Errors
 /// If the film has no colours, or `progress` says to stop.
-pub fn pilot<P: Progress>(
+pub fn pilot(
     loaded: &Loaded,
     plan: &Plan,
     samples: u32,
-    progress: &P,
+    progress: &dyn Progress,
 ) -> Result<Distribution, Failure> {
     let each = plan.sampler.round_up(samples.div_ceil(2 * GROUPS));
     let size = loaded.compiled.film.crop_size.to_array();

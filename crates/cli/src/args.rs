@@ -1,5 +1,6 @@
 //! The command line.
 
+use crate::outputs::Outputs;
 use crate::part::PartOfMany;
 use clap::{Args, Parser, Subcommand};
 use etalon_scene::LightChooser;
@@ -13,7 +14,7 @@ use std::path::{Path, PathBuf};
     about,
     max_term_width = 100,
     after_help = "\
-Exit codes: 0 done, 2 bad input or usage, 130 ended by Ctrl-C; `compare`: 1 different, 3 inconclusive."
+Exit codes: 0 done, 2 bad input or usage, 130 ended by Ctrl-C or a signal; `compare`: 1 different, 3 inconclusive."
 )]
 pub struct Cli {
     /// What to do.
@@ -26,13 +27,15 @@ pub struct Cli {
 pub enum Command {
     /// Render a Mitsuba 3 XML scene to an EXR with standard errors.
     #[command(after_help = "\
-Ctrl-C finishes the replicate that is being rendered and writes an image of those that are finished;
-during a pilot, or a second time, it ends without an image.
+Ctrl-C, SIGTERM and SIGHUP stop within two seconds. An image is written of the replicates that are
+finished; if none is, of the samples that there are, without standard errors. With `--resume` nothing
+is lost. During a pilot, or a second time, they end without an image.
 
-Exit codes: 0 done, 2 bad input or usage, 130 ended by Ctrl-C.
+Exit codes: 0 done, 2 bad input or usage, 130 ended by Ctrl-C or such a signal.
 
 Examples:
-  etalon render scenes/cornell-box/scene.xml -o cornell.exr
+  etalon render scenes/cornell-box/scene.xml
+  etalon render scene.xml -o cornell.png
   etalon render scene.xml -o out.exr --spp 256 --seed 7 -D resx=512 -D resy=512
   etalon render scene.xml -o direct.exr --integrator direct --stats stats.json
   etalon render scene.xml -o out.exr --error 0.01
@@ -93,27 +96,31 @@ Examples:
 
 /// Arguments of `render`.
 #[derive(Debug, Args, Clone)]
-#[command(group = clap::ArgGroup::new("wanted").required(true).args(["output", "replay"]))]
+#[command(group = clap::ArgGroup::new("wanted").args(["output", "replay"]))]
 #[command(group = clap::ArgGroup::new("piloted").multiple(true).args(["error", "adaptive"]))]
 pub struct RenderArgs {
     /// The scene (Mitsuba 3 XML).
     pub scene: PathBuf,
-    /// The image to write (.exr; .hdr and .pfm without standard errors).
+    /// The image to write: .exr; .png writes a picture beside an .exr; .hdr and .pfm hold no
+    /// standard errors [default: the scene's name with .exr, in this folder].
     #[arg(short, long, value_name = "OUT.exr")]
     pub output: Option<PathBuf>,
+    /// What is written for it.
+    #[arg(skip)]
+    pub outputs: Option<Outputs>,
     /// Draw one sample again, and say what happened vertex by vertex: sample S of replicate R of
     /// the pixel in column X and row Y, counted from 0. Nothing is rendered.
-    #[arg(long, value_name = "X,Y,R,S", value_parser = parse_replay,
+    #[arg(long, value_name = "X,Y,R,S", value_parser = parse_replay, allow_hyphen_values = true,
         conflicts_with_all = ["error", "time", "resume", "strategies", "part", "stats"])]
     pub replay: Option<ReplayAddress>,
     /// Samples per pixel; rounded up to what the sampler can stratify [default: the scene's].
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..))]
+    #[arg(long, value_name = "N", value_parser = whole::<1, { u32::MAX }>, allow_negative_numbers = true)]
     pub spp: Option<u32>,
     /// Seed of all randomness [default: the scene's sampler's, or 0].
-    #[arg(long, value_name = "S")]
+    #[arg(long, value_name = "S", value_parser = parse_seed, allow_negative_numbers = true)]
     pub seed: Option<u64>,
     /// Threads [default: one per processor].
-    #[arg(long, value_name = "T", value_parser = clap::value_parser!(u32).range(1..=1024))]
+    #[arg(long, value_name = "T", value_parser = whole::<1, 1024>, allow_negative_numbers = true)]
     pub threads: Option<u32>,
     /// Replace the type of the innermost integrator (keeps max_depth, rr_depth, hide_emitters; all
     /// of its parameters if it has that type).
@@ -127,20 +134,20 @@ pub struct RenderArgs {
     #[arg(short = 'D', value_name = "key=value", value_parser = parse_define)]
     pub define: Vec<(String, String)>,
     /// Independent replicates the image is the mean of [default: 8, or fewer if spp is less].
-    #[arg(long, value_name = "R", value_parser = clap::value_parser!(u32).range(1..=4096))]
+    #[arg(long, value_name = "R", value_parser = whole::<1, 4096>, allow_negative_numbers = true)]
     pub replicates: Option<u32>,
     /// As many samples as a relative standard error below REL takes, with 95 % confidence.
-    #[arg(long, value_name = "REL", value_parser = parse_error, conflicts_with_all = ["spp", "time", "part", "strategies"])]
+    #[arg(long, value_name = "REL", value_parser = parse_error, allow_negative_numbers = true, conflicts_with_all = ["spp", "time", "part", "strategies"])]
     pub error: Option<f64>,
     /// As many samples as fit into so many seconds.
-    #[arg(long, value_name = "SECONDS", value_parser = parse_seconds, conflicts_with_all = ["spp", "part", "strategies"])]
+    #[arg(long, value_name = "SECONDS", value_parser = parse_seconds, allow_negative_numbers = true, conflicts_with_all = ["spp", "part", "strategies"])]
     pub time: Option<f64>,
     /// More samples where the noise is, as a pilot finds it; the pilot is no part of the image.
     #[arg(long, conflicts_with = "strategies")]
     pub adaptive: bool,
     /// Samples per pixel of the pilot before `--error` and `--adaptive` [default: 64].
     #[arg(long, value_name = "N", requires = "piloted",
-        value_parser = clap::value_parser!(u32).range(16..=1 << 20))]
+        value_parser = whole::<16, { 1 << 20 }>, allow_negative_numbers = true)]
     pub pilot: Option<u32>,
     /// Keep a checkpoint beside the image (OUT.checkpoint), and go on from it if there is one.
     #[arg(long, conflicts_with = "strategies")]
@@ -149,7 +156,7 @@ pub struct RenderArgs {
     #[arg(long, value_name = "DIR", conflicts_with = "part")]
     pub strategies: Option<PathBuf>,
     /// Render part I of N: its share of the replicates, for `etalon merge`.
-    #[arg(long, value_name = "I/N")]
+    #[arg(long, value_name = "I/N", allow_hyphen_values = true)]
     pub part: Option<PartOfMany>,
     /// Write time, rays, memory and more as JSON.
     #[arg(long, value_name = "FILE.json")]
@@ -165,7 +172,7 @@ pub struct RenderArgs {
 impl RenderArgs {
     /// The image to write: there is one, unless a sample is replayed.
     pub fn output(&self) -> &Path {
-        self.output.as_deref().unwrap_or_else(|| Path::new(""))
+        (self.outputs.as_ref()).map_or(Path::new(""), |outputs| &outputs.image)
     }
 }
 
@@ -200,14 +207,17 @@ pub struct CompareArgs {
     #[arg(long)]
     pub json: bool,
     /// The bias of the image mean that would matter, relative to the channel's mean.
-    #[arg(long, value_name = "DELTA", default_value_t = 0.005)]
+    #[arg(long, value_name = "DELTA", default_value_t = 0.005, value_parser = parse_probability,
+        allow_negative_numbers = true)]
     pub bound: f64,
     /// The bias of a tile that would matter, relative to the tile's own mean (plus `--bound` of
     /// the image's).
-    #[arg(long, value_name = "DELTA", default_value_t = 0.03)]
+    #[arg(long, value_name = "DELTA", default_value_t = 0.03, value_parser = parse_probability,
+        allow_negative_numbers = true)]
     pub tile_bound: f64,
     /// Probability of calling equal images different.
-    #[arg(long, value_name = "ALPHA", default_value_t = 0.001)]
+    #[arg(long, value_name = "ALPHA", default_value_t = 0.001, value_parser = parse_probability,
+        allow_negative_numbers = true)]
     pub alpha: f64,
 }
 
@@ -230,7 +240,7 @@ pub struct EstimatorsArgs {
     #[arg(long, value_name = "A,B,…", value_delimiter = ',', value_parser = parse_light_chooser)]
     pub light_choosers: Vec<LightChooser>,
     /// Time for all rendering together (s).
-    #[arg(long, value_name = "SECONDS")]
+    #[arg(long, value_name = "SECONDS", allow_negative_numbers = true)]
     pub time: f64,
     /// A converged picture to measure errors against [default: rendered with the first estimator].
     #[arg(long, value_name = "FILE.exr")]
@@ -240,6 +250,7 @@ pub struct EstimatorsArgs {
         long,
         value_name = "SHARE",
         default_value_t = 0.3,
+        allow_negative_numbers = true,
         conflicts_with = "reference"
     )]
     pub reference_share: f64,
@@ -250,10 +261,11 @@ pub struct EstimatorsArgs {
     #[arg(long, value_name = "FILE.json")]
     pub json: Option<PathBuf>,
     /// Seed of all randomness.
-    #[arg(long, value_name = "S", default_value_t = 0)]
+    #[arg(long, value_name = "S", default_value_t = 0, value_parser = parse_seed,
+        allow_negative_numbers = true)]
     pub seed: u64,
     /// Threads [default: one per processor].
-    #[arg(long, value_name = "T", value_parser = clap::value_parser!(u32).range(1..=1024))]
+    #[arg(long, value_name = "T", value_parser = whole::<1, 1024>, allow_negative_numbers = true)]
     pub threads: Option<u32>,
     /// Give a scene parameter ($key) a value.
     #[arg(short = 'D', value_name = "key=value", value_parser = parse_define)]
@@ -319,6 +331,25 @@ fn parse_replay(text: &str) -> Result<ReplayAddress, String> {
     }
 }
 
+/// A whole number from `LOW` to `HIGH`.
+fn whole<const LOW: u32, const HIGH: u32>(text: &str) -> Result<u32, String> {
+    let number = text.parse().ok();
+    number
+        .filter(|number| (LOW..=HIGH).contains(number))
+        .ok_or_else(|| format!("expected a whole number from {LOW} to {HIGH}"))
+}
+
+fn parse_seed(text: &str) -> Result<u64, String> {
+    (text.parse()).map_err(|_| format!("expected a whole number from 0 to {}", u64::MAX))
+}
+
+fn parse_probability(text: &str) -> Result<f64, String> {
+    let number = text.parse().ok();
+    number
+        .filter(|number| *number > 0.0 && *number < 1.0)
+        .ok_or_else(|| "expected a number between 0 and 1, such as 0.01".to_owned())
+}
+
 fn parse_error(text: &str) -> Result<f64, String> {
     let error = text.parse().ok();
     error
@@ -337,7 +368,9 @@ fn parse_seconds(text: &str) -> Result<f64, String> {
     let seconds = text.parse().ok();
     seconds
         .filter(|seconds| (1e-3..=1e8).contains(seconds))
-        .ok_or_else(|| "expected a number of seconds, such as 60".to_owned())
+        .ok_or_else(|| {
+            "expected a number of seconds from 0.001 to 100000000, such as 60".to_owned()
+        })
 }
 
 fn parse_define(text: &str) -> Result<(String, String), String> {

@@ -2,7 +2,9 @@
 //!
 //! A checkpoint is written when a replicate is finished: after the first one, and then whenever the
 //! time since the last is twenty times what writing took, so that writing never costs more than 5 %
-//! or so. It appears under its name only when it is complete, in place of the one before.
+//! or so. Within a long replicate one is written between rounds over the film, now and then, and
+//! when the render is interrupted. It appears under its name only when it is complete, in place of
+//! the one before.
 
 use crate::say;
 use etalon_film::{CheckpointFacts, ExactFilm, ExactTile, Part, RenderFacts, recorded_seconds};
@@ -14,6 +16,9 @@ use std::time::{Duration, Instant};
 
 /// Time between checkpoints, in units of what writing one takes.
 const PATIENCE: u32 = 20;
+
+/// The least time between checkpoints within a replicate.
+const WITHIN: Duration = Duration::from_secs(10);
 
 /// How to keep a render, and what was kept of it.
 #[derive(Clone, Debug)]
@@ -27,6 +32,16 @@ pub struct Keeping {
 }
 
 impl Keeping {
+    /// Samples of the replicate that was being rendered, all pixels together.
+    pub(crate) fn samples_begun(&self) -> u64 {
+        let metadata = self.earlier.as_ref().map(Part::metadata);
+        metadata.map_or(0, |metadata| {
+            let [width, height] = metadata.film.crop_size.map(f64::from);
+            let mean = metadata.unfinished.map_or(0.0, |begun| begun.mean);
+            (mean * width * height).round() as u64
+        })
+    }
+
     /// Replicates that are finished, and the time that they took as far as it is known.
     pub(crate) fn finished(&self) -> (u32, Duration) {
         let metadata = self.earlier.as_ref().map(Part::metadata);
@@ -44,7 +59,8 @@ struct Keeper {
     path: PathBuf,
     facts: RenderFacts,
     checkpoint: CheckpointFacts,
-    of: u32,
+    /// Replicates of the whole, and samples per pixel of each.
+    of: (u32, u32),
     /// Replicates when nothing remains to be done.
     last: u32,
     /// When rendering began, and the time of earlier runs.
@@ -63,8 +79,8 @@ pub(crate) struct KeptFilm {
 }
 
 impl KeptFilm {
-    /// This film, kept as `keeping` says while the replicates of `share`, of `of` in all, are
-    /// rendered.
+    /// This film, kept as `keeping` says while the replicates of `share` are rendered, of `of`
+    /// replicates and samples per pixel of each in all.
     ///
     /// # Errors
     /// If the checkpoint to go on from is of another film.
@@ -73,7 +89,7 @@ impl KeptFilm {
         keeping: Option<Keeping>,
         facts: &RenderFacts,
         share: Share,
-        of: u32,
+        of: (u32, u32),
     ) -> Result<Self, String> {
         let Some(keeping) = keeping else {
             return Ok(Self { film, keeper: None });
@@ -100,7 +116,7 @@ impl KeptFilm {
         })
     }
 
-    /// The film, after what is finished has been kept if the render was interrupted.
+    /// The film, after what there is has been kept if the render was interrupted.
     pub(crate) fn finish(mut self) -> ExactFilm {
         if let Some(keeper) = &mut self.keeper
             && self.film.replicates() < keeper.last
@@ -118,6 +134,12 @@ impl Keeper {
         replicates < self.last && self.written.is_none_or(rested)
     }
 
+    /// Whether one is worth its time within a replicate.
+    fn is_due_within(&self) -> bool {
+        let (when, took) = self.written.unwrap_or((self.begin, Duration::ZERO));
+        when.elapsed() >= WITHIN.max(PATIENCE * took)
+    }
+
     fn write(&mut self, film: &mut ExactFilm) {
         let begin = Instant::now();
         let facts = RenderFacts {
@@ -127,7 +149,7 @@ impl Keeper {
         let written = film.lend_part(facts, self.of, self.checkpoint.clone(), |part| {
             part.write_exr(&self.path)
         });
-        if let Err(error) = written
+        if let Some(Err(error)) = written
             && !self.failed
         {
             self.failed = true;
@@ -168,8 +190,20 @@ impl Film for KeptFilm {
         self.film.light_paths()
     }
 
-    fn tile(&self, from: UVec2, to: UVec2, alone: bool, first: u32) -> ExactTile<'_> {
-        self.film.tile(from, to, alone, first)
+    fn tile(&self, from: UVec2, to: UVec2, alone: bool) -> ExactTile<'_> {
+        self.film.tile(from, to, alone)
+    }
+
+    fn done(&self, pixel: UVec2) -> u32 {
+        self.film.done(pixel)
+    }
+
+    fn end_round(&mut self) {
+        if let Some(keeper) = &mut self.keeper
+            && keeper.is_due_within()
+        {
+            keeper.write(&mut self.film);
+        }
     }
 
     fn end_replicate(&mut self, samples: u32) {

@@ -1,7 +1,7 @@
 //! From a scene file to an image: the way every command and every claim takes.
 
 use crate::keeping::{Keeping, KeptFilm};
-use crate::{VERSION, objections, resources};
+use crate::{VERSION, memory, objections};
 use etalon_film::{
     Developed, ExactFilm, FilmSettings, Filter, Part, PixelFilter, RenderFacts, SampleCounts,
     recorded_seconds,
@@ -60,8 +60,10 @@ pub struct Loaded {
     pub load_time: Duration,
     /// Time to build the accelerator.
     pub build_time: Duration,
+    /// The files that it was read from.
+    pub inputs: Vec<PathBuf>,
     /// Where the film is described, for messages about its size.
-    film_place: Span,
+    pub(crate) film_place: Span,
 }
 
 /// Reads and compiles a scene.
@@ -115,6 +117,7 @@ pub fn load(path: &Path, options: &LoadOptions) -> Result<Loaded, Refusal> {
                     compiled,
                     integrator,
                     scene_hash(&document, &assets, options),
+                    inputs(&document, &assets),
                     place(&document.root, &[Class::Sensor, Class::Film]),
                 )
             });
@@ -122,7 +125,7 @@ pub fn load(path: &Path, options: &LoadOptions) -> Result<Loaded, Refusal> {
         messages.extend(diagnostics.into_sorted());
         messages.sort_by_key(|d| (d.span.is_none(), d.span.map(|s| (s.file, s.start))));
     }
-    let Some((compiled, (integrator, integrator_name), hash, film_place)) = loaded else {
+    let Some((compiled, (integrator, integrator_name), hash, inputs, film_place)) = loaded else {
         return Err(Refusal {
             diagnostics: messages,
             sources,
@@ -138,6 +141,7 @@ pub fn load(path: &Path, options: &LoadOptions) -> Result<Loaded, Refusal> {
         hash,
         sources,
         path: path.to_owned(),
+        inputs,
         load_time: start.elapsed().saturating_sub(build_time),
         build_time,
         film_place,
@@ -206,6 +210,12 @@ fn full_name(node: &Node) -> String {
         .chain(nested)
         .collect::<Vec<_>>()
         .join("/")
+}
+
+/// The files of a scene, and those that it refers to.
+fn inputs(document: &Document, assets: &FileAssets) -> Vec<PathBuf> {
+    let files = document.files.iter().map(|file| file.path.clone());
+    files.chain(assets.used()).collect()
 }
 
 /// A hash over everything that decides the scene: its files, the files it refers to, and what
@@ -277,40 +287,19 @@ pub struct Rendered {
     pub outcome: Outcome,
     /// How long it took.
     pub time: Duration,
-    /// The replicates that were planned here; fewer are finished if the render was interrupted.
+    /// The replicates that were planned here; fewer are finished if the render was interrupted. If none is,
+    /// the image is of the samples that there are of the first, if there are any, and without
+    /// standard errors.
     pub replicates: u32,
     /// Those of them that a checkpoint had finished before.
     pub finished: u32,
 }
 
-/// What a pixel takes in one channel while it is rendered, developed and written (bytes): the
-/// film's sums, the mean and its standard error, and both again on their way to the file.
-const PIXEL_BYTES: u64 = 64 + 8 + 8;
-
-/// What it takes besides, in the file of a part: the planes of its exact sums.
-const PART_BYTES: u64 = 48;
-
-/// Refuses a film that the memory cannot hold, rather than let the system end the process.
-pub(crate) fn check_memory(loaded: &Loaded, channels: usize) -> Result<(), Diagnostic> {
-    check_bytes(loaded, channels, PIXEL_BYTES)
-}
-
-fn check_bytes(loaded: &Loaded, channels: usize, bytes: u64) -> Result<(), Diagnostic> {
-    let [width, height] = loaded.compiled.film.crop_size.to_array().map(u64::from);
-    let needed = (width * height).saturating_mul(channels as u64 * bytes);
-    match resources::available_memory_bytes() {
-        Some(available) if needed > available => {
-            let gib = |bytes: u64| bytes as f64 / f64::from(1 << 30);
-            let message = format!(
-                "a film of {width} × {height} pixels with {channels} channels takes {:.1} GiB of \
-                 memory, and {:.1} GiB are free",
-                gib(needed),
-                gib(available)
-            );
-            Err(Diagnostic::error(loaded.film_place, message)
-                .help("render a smaller film, or crop it (`crop_width`, `crop_offset_x`, …)"))
-        }
-        _ => Ok(()),
+impl Rendered {
+    /// Whether there is anything in the image: not if it was interrupted at once.
+    pub fn has_samples(&self) -> bool {
+        let metadata = self.developed.metadata.as_ref();
+        self.outcome.replicates > 0 || metadata.is_some_and(|m| m.unfinished.is_some())
     }
 }
 
@@ -318,10 +307,10 @@ fn check_bytes(loaded: &Loaded, channels: usize, bytes: u64) -> Result<(), Diagn
 ///
 /// # Errors
 /// If there is no memory for the film.
-pub fn render<P: Progress>(
+pub fn render(
     loaded: &Loaded,
     plan: &Plan,
-    progress: &P,
+    progress: &dyn Progress,
 ) -> Result<Rendered, Diagnostic> {
     render_as(loaded, plan, Manner::default(), progress)
 }
@@ -352,11 +341,11 @@ pub(crate) fn facts(loaded: &Loaded, plan: &Plan) -> RenderFacts {
 ///
 /// # Errors
 /// If there is no memory for the film, or the checkpoint to go on from is of another.
-pub fn render_as<P: Progress>(
+pub fn render_as(
     loaded: &Loaded,
     plan: &Plan,
     manner: Manner,
-    progress: &P,
+    progress: &dyn Progress,
 ) -> Result<Rendered, Diagnostic> {
     let start = Instant::now();
     let compiled = &loaded.compiled;
@@ -366,16 +355,16 @@ pub fn render_as<P: Progress>(
     let share = plan.share();
     let Manner { counts, keeping } = manner;
     let exact = plan.share.is_some() || keeping.is_some();
-    let further = if exact { PART_BYTES } else { 0 };
-    check_bytes(loaded, planes, PIXEL_BYTES + further)?;
+    memory::check(loaded, planes, exact)?;
     let film = ExactFilm::new(compiled.film.clone(), &channels)
         .map_err(|error| at(error, loaded.film_place))?
         .starting_at(share.first)
         .dealing(counts);
     let (finished, before) = keeping.as_ref().map(Keeping::finished).unwrap_or_default();
     let facts = facts(loaded, plan);
-    let mut film = KeptFilm::new(film, keeping, &facts, share, plan.replicates)
-        .map_err(Diagnostic::error_nowhere)?;
+    let of = (plan.replicates, plan.samples_per_replicate);
+    let mut film =
+        KeptFilm::new(film, keeping, &facts, share, of).map_err(Diagnostic::error_nowhere)?;
     let remaining = Plan {
         share: Some(Share {
             first: share.first + finished,
@@ -387,17 +376,20 @@ pub fn render_as<P: Progress>(
         .integrator
         .render(&compiled.scene, &mut film, &remaining, progress);
     outcome.replicates += finished;
-    let film = film.finish();
+    let mut film = film.finish();
     let time = start.elapsed();
     let facts = RenderFacts {
         seconds: recorded_seconds(before + time),
         ..facts
     };
-    let (developed, part) = if plan.share.is_some() {
-        let part = film.into_part(facts, plan.replicates);
-        (part.picture(), Some(part))
-    } else {
-        (film.develop(facts), None)
+    let unfinished = film.develop_unfinished(facts.clone(), plan.samples_per_replicate);
+    let (developed, part) = match unfinished {
+        Some(developed) => (developed, None),
+        None if plan.share.is_some() && film.replicates() > 0 => {
+            let part = film.into_part(facts, plan.replicates);
+            (part.picture(), Some(part))
+        }
+        None => (film.develop(facts), None),
     };
     Ok(Rendered {
         developed,

@@ -46,7 +46,7 @@ impl Progress for Bar<'_> {
     fn tile_done(&self, samples: u64) {
         self.bar.inc(samples);
         if self.cancelled.load(Ordering::Relaxed) {
-            self.bar.set_message("(stopping after this pass)");
+            self.bar.set_message("(stopping)");
         }
     }
 

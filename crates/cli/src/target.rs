@@ -125,13 +125,13 @@ impl From<Diagnostic> for Failure {
 ///
 /// # Errors
 /// If no number of samples can reach the target, or `progress` says to stop.
-pub fn fix<P: Progress>(
+pub fn fix(
     loaded: &Loaded,
     plan: &Plan,
     target: Target,
     pilot: Pilot<'_>,
     replicates: Option<u32>,
-    progress: &P,
+    progress: &dyn Progress,
 ) -> Result<Fixed, Failure> {
     let (needed, taken) = match target {
         Target::Error(error) => error_pilot(loaded, plan, error, pilot, progress)?,
@@ -161,11 +161,11 @@ pub struct Pilot<'a> {
 ///
 /// # Errors
 /// As [`fix`].
-pub fn affordable<P: Progress>(
+pub fn affordable(
     loaded: &Loaded,
     plan: &Plan,
     seconds: f64,
-    progress: &P,
+    progress: &dyn Progress,
 ) -> Result<u32, Failure> {
     let (_, cold) = picture(loaded, plan, None, GROUPS, 1, progress)?;
     let pace = cold / 2.0;
@@ -177,13 +177,13 @@ pub fn affordable<P: Progress>(
 }
 
 /// One picture of a pilot: two replicates.
-pub(crate) fn picture<P: Progress>(
+pub(crate) fn picture(
     loaded: &Loaded,
     plan: &Plan,
     distribution: Option<&Distribution>,
     index: u32,
     samples: u32,
-    progress: &P,
+    progress: &dyn Progress,
 ) -> Result<(Developed, f64), Failure> {
     let small = Plan {
         seed: derived_key(mix64(plan.seed ^ SEEDS), index),
@@ -203,12 +203,12 @@ pub(crate) fn picture<P: Progress>(
 }
 
 /// The samples per pixel that bring the relative standard error below `error`, and those of the pilot.
-fn error_pilot<P: Progress>(
+fn error_pilot(
     loaded: &Loaded,
     plan: &Plan,
     error: f64,
     pilot: Pilot<'_>,
-    progress: &P,
+    progress: &dyn Progress,
 ) -> Result<(f64, u32), Failure> {
     let each = plan.sampler.round_up(pilot.samples.div_ceil(2 * GROUPS));
     let mut found = Vec::new();
@@ -265,12 +265,12 @@ fn samples_for(found: &[Noise], samples: f64, error: f64) -> Result<f64, &'stati
 }
 
 /// The samples per pixel that fit into a time, and those of the pilot.
-fn time_pilot<P: Progress>(
+fn time_pilot(
     loaded: &Loaded,
     plan: &Plan,
     seconds: f64,
     pilot: Pilot<'_>,
-    progress: &P,
+    progress: &dyn Progress,
 ) -> Result<(f64, u32), Failure> {
     let Pilot {
         distribution,

@@ -1,8 +1,9 @@
 //! Checkpoints: a film that is written while it is being filled, and that is filled further later.
 //!
-//! A checkpoint is the part ([`Part`]) of the replicates finished so far, which holds exact sums. A
-//! film that takes it over stands where the one that wrote it stood; so the picture that it ends as
-//! has the bits of one that was never interrupted.
+//! A checkpoint is the part ([`Part`]) of the replicates finished so far, which holds exact sums,
+//! and those of the replicate that is being rendered: there may be none but this one. A film that
+//! takes it over stands where the one that wrote it stood; so the picture that it ends as has the
+//! bits of one that was never interrupted.
 
 use crate::{ExactFilm, Metadata, Part, RenderFacts};
 use serde::{Deserialize, Serialize};
@@ -26,23 +27,27 @@ impl ExactFilm {
         Metadata::new(self, facts)
     }
 
-    /// Hands the replicates finished so far, as a part of a picture of `of` replicates, to
-    /// `use_part`, without making a copy of the sums.
+    /// Hands all there is so far, as a part of a picture of `of` replicates of `samples` per pixel,
+    /// to `use_part`, without making a copy of the finished sums; `None` if there is nothing.
     ///
     /// # Panics
-    /// As [`ExactFilm::into_part`].
+    /// If the replicates are not among `of`, or these are more than [`crate::PartFacts::MOST`].
     pub fn lend_part<T>(
         &mut self,
         facts: RenderFacts,
-        of: u32,
+        (of, samples): (u32, u32),
         checkpoint: CheckpointFacts,
         use_part: impl FnOnce(&Part) -> T,
-    ) -> T {
+    ) -> Option<T> {
+        let unfinished = self.unfinished();
+        if self.replicates() == 0 && unfinished.is_none() {
+            return None;
+        }
         let mut part = self.take_part(facts, of);
-        part.mark(checkpoint);
+        part.mark(checkpoint, unfinished.map(|sums| (sums, samples)));
         let value = use_part(&part);
         self.put_sums(part.into_parts().1);
-        value
+        Some(value)
     }
 
     /// Goes on after the replicates of a checkpoint. The film is new, and of the same first
@@ -54,23 +59,26 @@ impl ExactFilm {
     pub fn go_on(self, checkpoint: Part) -> Result<Self, String> {
         let first = self.first_replicate();
         let here = checkpoint.replicates();
-        if self.replicates() > 0 || here.iter().next() != Some(first) {
+        if self.replicates() > 0 || here.iter().next().unwrap_or(first) != first {
             return Err(format!(
                 "its replicates are {here}, and this render begins with {first}"
             ));
         }
-        if here.end() - first != here.count() {
+        if !here.is_empty() && here.end() - first != here.count() {
             return Err(format!("there are gaps in its replicates {here}"));
         }
         let size = self.settings().crop_size.to_array();
         let counts = checkpoint.counts().cloned();
-        let (metadata, sums) = checkpoint.into_parts();
+        let (metadata, sums, unfinished) = checkpoint.into_parts();
         if metadata.channels != self.channels() || metadata.film.crop_size != size {
             return Err("it is of another film".to_owned());
         }
         let mut film = self.dealing(counts);
         film.put_sums(sums);
         film.go_on_after(metadata)?;
+        if let Some(unfinished) = unfinished {
+            film.go_on_with(unfinished);
+        }
         Ok(film)
     }
 }

@@ -133,6 +133,26 @@ impl ExactFilm {
     }
 }
 
+impl ExactFilm {
+    /// The picture of a first replicate that was to have so many samples per pixel and was
+    /// interrupted: every pixel is the mean of the samples that it has, without standard errors.
+    /// `None` if a replicate is finished, or no sample is there.
+    pub fn develop_unfinished(&mut self, facts: RenderFacts, samples: u32) -> Option<Developed> {
+        let unfinished = self.unfinished().filter(|_| self.replicates() == 0)?;
+        let mut developed = self.develop(facts);
+        let size = [developed.image.width(), developed.image.height()];
+        developed.image = unfinished.image(self.channels(), size);
+        let mut facts = unfinished.facts(samples);
+        let mut metadata = developed.metadata?;
+        metadata.spp = facts.mean as u64;
+        // They are those of the picture.
+        metadata.faults = std::mem::take(&mut facts.faults);
+        metadata.unfinished = Some(facts);
+        developed.metadata = Some(metadata);
+        Some(developed)
+    }
+}
+
 impl Developed {
     /// The standard errors of a channel, if there are any.
     pub fn standard_error(&self, name: &str) -> Option<&[f32]> {

@@ -1,28 +1,29 @@
 //! The film: pixels that accumulate exactly, replicate by replicate.
 //!
-//! While a replicate is rendered, every pixel and channel has one exact sum
-//! ([`AtomicFixed128`]), to which tiles add once per pixel and splats add directly. When the
-//! replicate ends, the sums are divided by the number of samples; these means, and their
+//! While a replicate is rendered, every pixel and channel has one exact sum (`running.rs`), to
+//! which tiles add once per pixel; splats have sums of their own. When the replicate ends, the sums are divided by the number of samples; these means, and their
 //! squares, join exact sums over replicates, and tile means are taken. All of this is integer
 //! arithmetic, so the bits of an image depend on neither threads nor the order of tiles.
 //!
-//! Memory: 64 bytes per pixel and channel (48 MiB for 512 × 512 in RGB).
+//! Memory: 64 bytes per pixel and channel and 16 per pixel (52 MiB for 512 × 512 in RGB), and
+//! another 16 for each colour of a pixel where samples splat.
 
 use crate::exact_sums::{EXACT, ExactSums};
 use crate::faults::{FaultLog, Offence};
-use crate::outliers::OutlierLog;
+use crate::outliers::{OutlierLog, Standing};
 use crate::pixel_moments::PixelMoments;
 use crate::replicate_end::{self, Divisor};
+use crate::running::{Running, reserved};
 use crate::sample_counts::{SAMPLES, SampleCounts};
 use crate::tile_means::TileMeans;
 use crate::tile_sink::ExactTile;
+use crate::unfinished::Unfinished;
 use crate::{FilmSettings, Metadata, PixelFilter};
 use etalon_images::Image;
 use etalon_params::Diagnostic;
-use etalon_statistics::{AtomicFixed128, Fault, Fixed128};
+use etalon_statistics::{Fault, Fixed128};
 use etalon_transport::{Channel, Film, Placement, Placing};
 use glam::{UVec2, Vec2};
-use std::sync::Mutex;
 
 /// What the name of a channel with standard errors begins with.
 pub const STANDARD_ERROR: &str = "standard_error.";
@@ -34,9 +35,9 @@ pub struct ExactFilm {
     filter: PixelFilter,
     /// All channels: colours, alpha, then the integrator's.
     channels: Vec<String>,
-    /// Sums of the replicate being rendered, by row, column and channel.
-    current: Vec<AtomicFixed128>,
-    /// Sums over finished replicates, in the same order.
+    /// The replicate being rendered.
+    running: Running,
+    /// Sums over finished replicates, by row, column and channel.
     moments: Vec<PixelMoments>,
     /// The number of the first replicate, and how many are finished.
     first: u32,
@@ -45,8 +46,8 @@ pub struct ExactFilm {
     /// The samples of each pixel in a replicate, if they are not dealt evenly.
     counts: Option<SampleCounts>,
     tiles: [TileMeans; 3],
-    faults: Mutex<FaultLog>,
-    outliers: Mutex<OutlierLog>,
+    faults: FaultLog,
+    outliers: OutlierLog,
 }
 
 impl ExactFilm {
@@ -79,27 +80,29 @@ impl ExactFilm {
             channels.push(name.clone());
         }
         let size = settings.crop_size;
-        let count = u64::from(size.x) * u64::from(size.y) * channels.len() as u64;
-        let (Some(mut current), Some(mut moments)) = (reserved(count), reserved(count)) else {
+        let pixels = u64::from(size.x) * u64::from(size.y);
+        let count = pixels * channels.len() as u64;
+        let colours = format.colours().len();
+        let running = Running::new(pixels, channels.len(), colours);
+        let (Some(running), Some(mut moments)) = (running, reserved(count)) else {
             let (w, h, n) = (size.x, size.y, channels.len());
             let message = format!("there is no memory for {w} × {h} pixels of {n} channels");
             return Err(Diagnostic::error_nowhere(message)
                 .help("a film takes 64 bytes per pixel and channel; crop it or make it smaller"));
         };
-        current.resize_with(count as usize, AtomicFixed128::new);
         moments.resize(count as usize, PixelMoments::ZERO);
         let means = |side| TileMeans::new(side, size.to_array(), channels.len() as u32);
         Ok(Self {
             filter: PixelFilter::new(settings.filter),
-            current,
+            running,
             moments,
             first: 0,
             replicates: 0,
             samples: 0,
             counts: None,
             tiles: replicate_end::TILES.map(means),
-            faults: Mutex::default(),
-            outliers: Mutex::default(),
+            faults: FaultLog::default(),
+            outliers: OutlierLog::default(),
             channels,
             settings,
         })
@@ -163,20 +166,14 @@ impl ExactFilm {
         self.samples
     }
 
-    /// What was refused so far.
+    /// What was refused in finished replicates.
     pub fn faults(&self) -> FaultLog {
-        self.faults
-            .lock()
-            .unwrap_or_else(|e| e.into_inner())
-            .clone()
+        self.faults.clone()
     }
 
-    /// What stood out so far.
+    /// What stood out in finished replicates.
     pub fn outliers(&self) -> OutlierLog {
-        self.outliers
-            .lock()
-            .unwrap_or_else(|e| e.into_inner())
-            .clone()
+        self.outliers.clone()
     }
 
     /// Means over tiles of 16² and 64² pixels and over the whole image.
@@ -207,8 +204,9 @@ impl ExactFilm {
         });
         let planes: Vec<&[f32]> = planes.collect::<Result<_, String>>()?;
         let mut log = FaultLog::default();
-        for (i, sums) in self.current.chunks_exact(planes.len()).enumerate() {
-            for ((sum, plane), name) in sums.iter().zip(&planes).zip(&self.channels) {
+        for i in 0..size[0] * size[1] {
+            let sums = self.running.of_pixel(i).iter();
+            for ((sum, plane), name) in sums.zip(&planes).zip(&self.channels) {
                 if let Err(fault) = sum.add(plane[i]) {
                     let place = [i % size[0], i / size[0]].map(|n| n as u32);
                     let pixel = UVec2::from(place) + self.settings.crop_offset;
@@ -224,18 +222,34 @@ impl ExactFilm {
     /// Divides the current sums by `divisor`, and lets the means join the statistics as those
     /// of `samples` per pixel.
     fn finish_replicate(&mut self, divisor: Divisor<'_>, samples: u64) {
+        let (origin, size) = (self.settings.crop_offset, self.settings.crop_size);
+        let replicate = self.replicate();
         let layout = replicate_end::Layout {
             channels: &self.channels,
-            origin: self.settings.crop_offset,
-            size: self.settings.crop_size,
-            replicate: self.first + self.replicates,
+            origin,
+            size,
+            replicate,
         };
-        let (sums, log) = layout.finish(&mut self.current, &mut self.moments, divisor);
-        let size = self.settings.crop_size.to_array();
+        self.outliers
+            .merge(self.running.outliers(origin, size.x, replicate));
+        let mut lost = FaultLog::default();
+        let whole = self.running.whole(|pixel, channel, fault| {
+            let place = UVec2::new(pixel as u32 % size.x, pixel as u32 / size.x);
+            lost.note(Offence {
+                replicate,
+                pixel: (origin + place).to_array(),
+                sample: None,
+                source: self.channels[channel].clone(),
+                kind: fault.into(),
+            });
+        });
+        let (sums, log) = layout.finish(whole, &mut self.moments, divisor);
         for (means, sums) in self.tiles.iter_mut().zip(&sums) {
-            means.push(sums, divisor.of_tiles(), size);
+            means.push(sums, divisor.of_tiles(), size.to_array());
         }
-        self.report(log);
+        for log in [lost, log, self.running.begin()] {
+            self.faults.merge(log);
+        }
         self.replicates += 1;
         self.samples += samples;
     }
@@ -261,9 +275,31 @@ impl ExactFilm {
             .map_err(|_| "its tile means are not those of a film".to_owned())?;
         self.replicates = metadata.replicates;
         self.samples = metadata.spp;
-        self.faults = Mutex::new(metadata.faults);
-        self.outliers = Mutex::new(metadata.outliers);
+        self.faults = metadata.faults;
+        self.outliers = metadata.outliers;
         Ok(())
+    }
+
+    /// The replicate that is not finished, if it has been begun.
+    pub(crate) fn unfinished(&mut self) -> Option<Unfinished> {
+        self.running.snapshot()
+    }
+
+    /// Makes it go on with a replicate that is not finished, of as many pixels and channels.
+    pub(crate) fn go_on_with(&mut self, unfinished: Unfinished) {
+        self.running.restore(unfinished);
+    }
+
+    /// The samples that a pixel of the whole film has in this replicate, and what they bring.
+    pub(crate) fn progress(&self, pixel: UVec2) -> (u32, Standing) {
+        let index = self.index(pixel - self.settings.crop_offset);
+        (self.running.samples(index), self.running.standing(index))
+    }
+
+    /// Notes how many samples a pixel of the whole film has, and what they bring.
+    pub(crate) fn advance(&self, pixel: UVec2, samples: u32, standing: &Standing) {
+        let index = self.index(pixel - self.settings.crop_offset);
+        self.running.advance(index, samples, standing);
     }
 
     /// Adds sums to a pixel of the whole film, and empties them.
@@ -274,9 +310,9 @@ impl ExactFilm {
         sums: &mut [Fixed128],
         faults: &mut FaultLog,
     ) {
-        let first = self.index(pixel - self.settings.crop_offset);
-        for (channel, sum) in sums.iter_mut().enumerate() {
-            let current = &self.current[first + channel];
+        let index = self.index(pixel - self.settings.crop_offset);
+        let pairs = self.running.of_pixel(index).iter().zip(sums);
+        for (channel, (current, sum)) in pairs.enumerate() {
             let outcome = if alone {
                 current.merge_alone(*sum)
             } else {
@@ -289,13 +325,9 @@ impl ExactFilm {
         }
     }
 
-    /// Adds the first terms of a pixel counted within the crop; says whether all went well.
-    pub(crate) fn add(&self, pixel: UVec2, terms: &[f32]) -> Result<(), Fault> {
-        let first = self.index(pixel);
-        terms
-            .iter()
-            .zip(&self.current[first..])
-            .try_for_each(|(term, sum)| sum.add(*term))
+    /// Adds a splat's colours to a pixel counted within the crop; says whether all went well.
+    pub(crate) fn splat(&self, pixel: UVec2, colours: &[f32]) -> Result<(), Fault> {
+        self.running.splat(self.index(pixel), colours)
     }
 
     /// The number of the replicate that is being rendered.
@@ -322,38 +354,14 @@ impl ExactFilm {
 
     /// Adds a tile's log.
     pub(crate) fn report(&self, log: FaultLog) {
-        if !log.is_empty() {
-            self.faults
-                .lock()
-                .unwrap_or_else(|e| e.into_inner())
-                .merge(log);
-        }
+        self.running.report(log);
     }
 
-    /// Adds what stood out in a tile.
-    pub(crate) fn report_outliers(&self, log: OutlierLog) {
-        if !log.is_empty() {
-            self.outliers
-                .lock()
-                .unwrap_or_else(|e| e.into_inner())
-                .merge(log);
-        }
-    }
-
-    /// Where the sums of a pixel counted within the crop begin.
+    /// The place of a pixel counted within the crop.
     fn index(&self, pixel: UVec2) -> usize {
         let width = self.settings.crop_size.x as usize;
-        (pixel.y as usize * width + pixel.x as usize) * self.channels.len()
+        pixel.y as usize * width + pixel.x as usize
     }
-}
-
-/// Room for `count` values, if there is memory for them.
-fn reserved<T>(count: u64) -> Option<Vec<T>> {
-    let mut values = Vec::new();
-    values
-        .try_reserve_exact(usize::try_from(count).ok()?)
-        .ok()?;
-    Some(values)
 }
 
 impl Placing for ExactFilm {
@@ -369,9 +377,7 @@ impl Placing for ExactFilm {
         let Some(counts) = &self.counts else {
             return even;
         };
-        let place = pixel - self.settings.crop_offset;
-        let width = self.settings.crop_size.x as usize;
-        counts.of_pixels()[place.y as usize * width + place.x as usize]
+        counts.of_pixels()[self.index(pixel - self.settings.crop_offset)]
     }
 }
 
@@ -401,8 +407,13 @@ impl Film for ExactFilm {
         }
     }
 
-    fn tile(&self, from: UVec2, to: UVec2, alone: bool, first: u32) -> ExactTile<'_> {
-        ExactTile::new(self, from, to, alone, first)
+    fn tile(&self, from: UVec2, to: UVec2, alone: bool) -> ExactTile<'_> {
+        ExactTile::new(self, from, to, alone)
+    }
+
+    fn done(&self, pixel: UVec2) -> u32 {
+        let index = self.index(pixel - self.settings.crop_offset);
+        self.running.samples(index)
     }
 
     fn end_replicate(&mut self, samples: u32) {

@@ -11,6 +11,7 @@ mod exact_sums;
 mod half_line;
 mod pixel_moments;
 mod replicate_end;
+mod running;
 mod splat;
 mod tile_sink;
 
@@ -29,6 +30,7 @@ pub mod replicate_set;
 pub mod sample_counts;
 pub mod settings;
 pub mod tile_means;
+pub mod unfinished;
 
 pub use checkpoint::CheckpointFacts;
 pub use developed::{Developed, ReadError, read_developed};
@@ -48,3 +50,4 @@ pub use sample_counts::{DealtFacts, SAMPLES, SampleCounts};
 pub use settings::{FileFormat, FilmSettings};
 pub use tile_means::TileMeans;
 pub use tile_sink::ExactTile;
+pub use unfinished::UnfinishedFacts;

@@ -61,7 +61,7 @@ pub fn disagreements(first: &Metadata, second: &Metadata) -> Vec<Disagreement> {
             m.part.as_ref().map_or(m.replicates, |p| p.of).to_string()
         }),
         ("number of samples per replicate", |m| {
-            (m.spp / u64::from(m.replicates.max(1))).to_string()
+            m.samples_per_replicate().to_string()
         }),
         ("distribution of samples", |m| {
             m.adaptive.as_ref().map_or("even".to_owned(), |dealt| {

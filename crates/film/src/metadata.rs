@@ -2,7 +2,7 @@
 
 use crate::{
     CheckpointFacts, DealtFacts, FaultLog, FilmSettings, OutlierLog, PartFacts, SampleCounts,
-    TileMeans, floating_point_fingerprint,
+    TileMeans, UnfinishedFacts, floating_point_fingerprint,
 };
 use serde::{Deserialize, Serialize};
 use std::time::Duration;
@@ -68,7 +68,8 @@ pub struct Metadata {
     /// Samples per pixel, all replicates together; where they are dealt unevenly, as many as they
     /// would be evenly.
     pub spp: u64,
-    /// Independent replicates. With one, there are no standard errors.
+    /// Independent replicates that are finished. With one, there are no standard errors; with none,
+    /// the picture is of what there is of the first.
     pub replicates: u32,
     /// Which replicates these are, if they are a part of a picture's.
     #[serde(default, skip_serializing_if = "Option::is_none")]
@@ -76,6 +77,9 @@ pub struct Metadata {
     /// Of what render this is a checkpoint, if it is one.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub checkpoint: Option<CheckpointFacts>,
+    /// The replicate that was being rendered when the render was interrupted, if the file has it.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub unfinished: Option<UnfinishedFacts>,
     /// How the samples were dealt, if not evenly.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub adaptive: Option<DealtFacts>,
@@ -117,6 +121,7 @@ impl Metadata {
             replicates: film.replicates(),
             part: None,
             checkpoint: None,
+            unfinished: None,
             adaptive: film.counts().map(SampleCounts::facts),
             seed: facts.seed,
             seconds: facts.seconds,
@@ -132,6 +137,14 @@ impl Metadata {
             faults: film.faults(),
             outliers: film.outliers(),
             tile_means: film.tile_means().to_vec(),
+        }
+    }
+
+    /// Samples per pixel of a replicate.
+    pub fn samples_per_replicate(&self) -> u64 {
+        match &self.unfinished {
+            Some(unfinished) => unfinished.samples_per_replicate.into(),
+            None => self.spp / u64::from(self.replicates.max(1)),
         }
     }
 
@@ -198,7 +211,7 @@ impl Metadata {
             }
         }
         match &self.part {
-            Some(part) => part.check(self.replicates, self.spp),
+            Some(part) => part.check(self.replicates, self.spp, self.unfinished.is_some()),
             None => Ok(()),
         }
     }

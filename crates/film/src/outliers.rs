@@ -112,7 +112,7 @@ fn exponent(x: f32) -> i32 {
 }
 
 /// What the samples of one pixel bring, one after the other.
-#[derive(Clone, Copy, Debug, Default)]
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(crate) struct Standing {
     total: f32,
     most: f32,
@@ -128,6 +128,20 @@ impl Standing {
         if value > self.most {
             self.most = value;
             self.sample = sample;
+        }
+    }
+
+    /// Its numbers as words, to be kept.
+    pub(crate) fn words(&self) -> [u32; 3] {
+        [self.total.to_bits(), self.most.to_bits(), self.sample]
+    }
+
+    /// Of words that were kept.
+    pub(crate) fn from_words([total, most, sample]: [u32; 3]) -> Self {
+        Self {
+            total: f32::from_bits(total),
+            most: f32::from_bits(most),
+            sample,
         }
     }
 

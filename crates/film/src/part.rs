@@ -10,8 +10,10 @@ use crate::developed::{self, ReadError, image_of, metadata_of};
 use crate::exact_sums::{EXACT, ExactSums};
 use crate::merge::{Conflict, disagreements};
 use crate::metadata::recorded_seconds;
+use crate::unfinished::Unfinished;
 use crate::{
-    CheckpointFacts, Developed, ExactFilm, Metadata, RenderFacts, ReplicateSet, SampleCounts,
+    CheckpointFacts, Developed, ExactFilm, Metadata, PixelFormat, RenderFacts, ReplicateSet,
+    SampleCounts,
 };
 use etalon_images::{Error, Frame, exr};
 use serde::{Deserialize, Serialize};
@@ -38,14 +40,15 @@ impl PartFacts {
     /// The most replicates whose exact sums cannot leave their range.
     pub const MOST: u32 = 1 << 15;
 
-    /// What is wrong with them beside a picture of `count` replicates, if anything.
-    pub(crate) fn check(&self, count: u32, spp: u64) -> Result<(), String> {
+    /// What is wrong with them beside a picture of `count` replicates, if anything. There may be
+    /// none if one was begun.
+    pub(crate) fn check(&self, count: u32, spp: u64, begun: bool) -> Result<(), String> {
         let sound = self.of <= Self::MOST
             && self.replicates.end() <= self.of
-            && !self.replicates.is_empty()
+            && (begun || !self.replicates.is_empty())
             && self.replicates.count() == count
             && spp.is_multiple_of(count.into())
-            && spp / u64::from(count) <= u32::MAX.into();
+            && spp / u64::from(count.max(1)) <= u32::MAX.into();
         if sound {
             return Ok(());
         }
@@ -63,6 +66,8 @@ pub struct Part {
     facts: PartFacts,
     sums: ExactSums,
     counts: Option<SampleCounts>,
+    /// Of a checkpoint: the replicate that was being rendered.
+    unfinished: Option<Unfinished>,
 }
 
 impl ExactFilm {
@@ -73,15 +78,16 @@ impl ExactFilm {
     /// [`PartFacts::MOST`].
     #[must_use]
     pub fn into_part(mut self, facts: RenderFacts, of: u32) -> Part {
+        assert!(self.replicates() > 0, "a part has replicates");
         self.take_part(facts, of)
     }
 
-    /// As [`ExactFilm::into_part`], but leaves an empty husk.
+    /// As [`ExactFilm::into_part`], but leaves an empty husk, and there may be no replicate.
     pub(crate) fn take_part(&mut self, facts: RenderFacts, of: u32) -> Part {
         let first = self.first_replicate();
         let replicates = ReplicateSet::new(first..first + self.replicates());
         assert!(
-            !replicates.is_empty() && replicates.end() <= of && of <= PartFacts::MOST,
+            replicates.end() <= of && of <= PartFacts::MOST,
             "a part has replicates of its whole"
         );
         Part {
@@ -93,6 +99,7 @@ impl ExactFilm {
             },
             sums: self.take_sums(),
             counts: self.counts().cloned(),
+            unfinished: None,
         }
     }
 }
@@ -122,14 +129,26 @@ impl Part {
         self.described()
     }
 
-    /// Makes it a checkpoint.
-    pub(crate) fn mark(&mut self, checkpoint: CheckpointFacts) {
+    /// Makes it a checkpoint, with the replicate that was being rendered and the samples per pixel
+    /// that this was to have.
+    pub(crate) fn mark(
+        &mut self,
+        checkpoint: CheckpointFacts,
+        unfinished: Option<(Unfinished, u32)>,
+    ) {
         self.metadata.checkpoint = Some(checkpoint);
+        let (unfinished, facts) = unfinished
+            .map(|(sums, samples)| {
+                let facts = sums.facts(samples);
+                (sums, facts)
+            })
+            .unzip();
+        (self.unfinished, self.metadata.unfinished) = (unfinished, facts);
     }
 
-    /// What it says of itself, and the exact sums.
-    pub(crate) fn into_parts(self) -> (Metadata, ExactSums) {
-        (self.metadata, self.sums)
+    /// What it says of itself, the exact sums, and those of the replicate that was being rendered.
+    pub(crate) fn into_parts(self) -> (Metadata, ExactSums, Option<Unfinished>) {
+        (self.metadata, self.sums, self.unfinished)
     }
 
     /// Adds the replicates of another part.
@@ -172,6 +191,9 @@ impl Part {
             _ => None,
         };
         self.facts.replicates = here.union(there);
+        // Only whole replicates are merged.
+        self.unfinished = None;
+        self.metadata.unfinished = None;
         Ok(())
     }
 
@@ -189,6 +211,7 @@ impl Part {
             .is_empty()
             .then(|| Metadata {
                 checkpoint: None,
+                unfinished: None,
                 ..self.metadata.clone()
             })
             .map(|metadata| self.developed(metadata))
@@ -198,14 +221,20 @@ impl Part {
         let size = metadata.film.crop_size.map(|n| n as usize);
         let moments = self.sums.moments();
         let seconds = metadata.seconds;
-        Developed {
-            image: image_of(
+        let image = match &self.unfinished {
+            Some(unfinished) if metadata.replicates == 0 => {
+                unfinished.image(&metadata.channels, size)
+            }
+            _ => image_of(
                 &metadata.channels,
                 moments,
                 metadata.replicates,
                 size,
                 self.counts.as_ref(),
             ),
+        };
+        Developed {
+            image,
             frame: Frame {
                 offset: metadata.film.crop_offset.map(|n| n as i32),
                 size: metadata.film.size.map(|n| n as usize),
@@ -238,6 +267,9 @@ impl Part {
         for count in self.counts.iter().flat_map(SampleCounts::of_pixels) {
             hasher.update(&count.to_le_bytes());
         }
+        if let Some(unfinished) = &self.unfinished {
+            unfinished.hash_into(&mut hasher);
+        }
         hasher.finalize().to_hex().to_string()
     }
 
@@ -268,6 +300,8 @@ impl Part {
             name: COUNTS.to_owned(),
             samples: counts.of_pixels().to_vec(),
         }));
+        let unfinished = self.unfinished.iter();
+        planes.extend(unfinished.flat_map(|sums| sums.planes(&self.metadata.channels)));
         planes
     }
 
@@ -346,6 +380,15 @@ impl Part {
                 Some(counts)
             }
         };
+        let named = |(name, _): &&(&str, PixelFormat)| *name == metadata.film.pixel_format;
+        let format = PixelFormat::ALL.iter().find(named);
+        let colours = format.map_or(0, |(_, format)| format.colours().len());
+        let unfinished = (metadata.unfinished.as_ref())
+            .map(|facts| {
+                Unfinished::from_planes(&planes, facts, &metadata.channels, colours, pixels)
+            })
+            .transpose()
+            .map_err(refused)?;
         let sums =
             ExactSums::from_planes(planes, &metadata.channels, pixels, count).map_err(refused)?;
         let part = Self {
@@ -353,6 +396,7 @@ impl Part {
             facts,
             sums,
             counts,
+            unfinished,
         };
         if part.checksum() != checksum {
             return Err(refused(
@@ -373,6 +417,11 @@ fn refusal(path: &Path) -> impl Fn(String) -> ReadError + Copy {
 /// Why a file that may well be sound is not a part.
 fn no_part(metadata: Option<&Metadata>) -> String {
     match metadata {
+        Some(metadata) if metadata.replicates == 0 => {
+            "its render was interrupted within the first replicate: it is not a part, which has \
+             whole replicates"
+                .to_owned()
+        }
         Some(metadata) => format!(
             "it is a whole image of {} replicates, not a part (`etalon render --part I/N` renders \
              one): it does not hold the exact sums",

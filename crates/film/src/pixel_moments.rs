@@ -76,8 +76,10 @@ impl PixelMoments {
         let sum = Fixed128::from_bits(number(0).cast_signed());
         let squares = U256::from_words(number(8), number(4));
         // Each replicate is below 2⁴⁸, which is 2¹¹² in units of the sum.
+        let none = count == 0 && words == [0; WORDS];
         let in_range = sum.to_bits().unsigned_abs() >> 112 < u128::from(count)
-            && squares.to_words().0 >> 96 < u128::from(count);
+            && squares.to_words().0 >> 96 < u128::from(count)
+            || none;
         Moments::from_parts(count, sum, squares)?;
         in_range.then_some(Self { sum, squares })
     }

@@ -43,7 +43,7 @@ impl Taps {
                 for (term, colour) in terms.iter_mut().zip(colours) {
                     *term = colour * weight;
                 }
-                let added = film.add(pixel, &terms[..colours.len()]);
+                let added = film.splat(pixel, &terms[..colours.len()]);
                 outcome = outcome.and(added);
             }
         }

@@ -1,6 +1,6 @@
 //! The sink of a tile: a pixel's samples are summed here and delivered once.
 
-use crate::outliers::{Outlier, OutlierLog, Standing};
+use crate::outliers::Standing;
 use crate::{ExactFilm, faults::FaultLog, splat::Taps};
 use etalon_statistics::{Fault, Fixed128};
 use etalon_transport::{Sink, TileSink};
@@ -20,22 +20,15 @@ pub struct ExactTile<'f> {
     /// Samples begun in this pixel, and the number of the first of them in the replicate.
     samples: u32,
     first: u32,
-    /// What they bring.
+    /// What all of the pixel's samples so far bring.
     standing: Standing,
     weight: f32,
     taps: Taps,
     faults: FaultLog,
-    outliers: OutlierLog,
 }
 
 impl<'f> ExactTile<'f> {
-    pub(crate) fn new(
-        film: &'f ExactFilm,
-        from: UVec2,
-        to: UVec2,
-        alone: bool,
-        first: u32,
-    ) -> Self {
+    pub(crate) fn new(film: &'f ExactFilm, from: UVec2, to: UVec2, alone: bool) -> Self {
         let begin = film.settings().crop_offset;
         let end = begin + film.settings().crop_size;
         assert!(
@@ -51,12 +44,11 @@ impl<'f> ExactTile<'f> {
             to,
             pixel: from,
             samples: 0,
-            first,
+            first: 0,
             standing: Standing::default(),
             weight: 1.0,
             taps: Taps::default(),
             faults: FaultLog::default(),
-            outliers: OutlierLog::default(),
         }
     }
 
@@ -70,8 +62,8 @@ impl<'f> ExactTile<'f> {
     /// Notes what the sample brings.
     #[inline]
     fn bring(&mut self, [r, g, b]: [f32; 3], weight: f32) {
-        self.standing
-            .bring(self.samples.wrapping_sub(1), r.max(g).max(b) * weight);
+        let sample = (self.first + self.samples).wrapping_sub(1);
+        self.standing.bring(sample, r.max(g).max(b) * weight);
     }
 
     fn add(&mut self, channel: usize, value: f32) {
@@ -142,21 +134,15 @@ impl ExactTile<'_> {
         );
         self.end_pixel();
         self.pixel = pixel;
+        (self.first, self.standing) = self.film.progress(pixel);
     }
 
     fn end_pixel(&mut self) {
         if self.samples > 0 {
             self.film
                 .deliver(self.pixel, self.alone, &mut self.sums, &mut self.faults);
-            if let Some((sample, value)) = self.standing.outstanding(self.samples) {
-                self.outliers.note(Outlier {
-                    replicate: self.film.replicate(),
-                    pixel: self.pixel.to_array(),
-                    sample: self.first + sample,
-                    value,
-                    lift: value / self.samples as f32,
-                });
-            }
+            let samples = self.first + self.samples;
+            self.film.advance(self.pixel, samples, &self.standing);
             self.standing = Standing::default();
             self.samples = 0;
         }
@@ -167,8 +153,6 @@ impl Drop for ExactTile<'_> {
     fn drop(&mut self) {
         self.end_pixel();
         self.film.report(std::mem::take(&mut self.faults));
-        self.film
-            .report_outliers(std::mem::take(&mut self.outliers));
     }
 }
 

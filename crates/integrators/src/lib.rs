@@ -32,6 +32,7 @@ pub mod ptracer;
 pub mod render;
 pub mod replay;
 mod rival;
+mod rounds;
 pub mod settings;
 pub mod signature;
 pub mod sppm;

@@ -96,12 +96,12 @@ macro_rules! integrators {
             }
 
             /// Renders with it: see [`render`].
-            pub fn render<W: World, F: Film, P: Progress>(
+            pub fn render<W: World, F: Film>(
                 &self,
                 world: &W,
                 film: &mut F,
                 plan: &Plan,
-                progress: &P,
+                progress: &dyn Progress,
             ) -> Outcome {
                 match self {
                     $(Self::$variant(integrator) => render(world, integrator, film, plan, progress),)*

@@ -142,7 +142,7 @@ impl Integrator for Multiplexed {
     fn prepare<W: World>(
         &self,
         world: &W,
-        _: &impl Placing,
+        placing: &impl Placing,
         pass: &Pass,
         before: Option<State>,
     ) -> State {
@@ -150,6 +150,7 @@ impl Integrator for Multiplexed {
         State::prepare(
             &Techniques { integrator, world },
             &self.chains,
+            placing,
             pass,
             before,
         )

@@ -218,13 +218,13 @@ impl Integrator for PhotonMapper {
     fn prepare<W: World>(
         &self,
         world: &W,
-        _: &impl Placing,
+        placing: &impl Placing,
         pass: &Pass,
         _: Option<State>,
     ) -> State {
         let sets = WavelengthSets::new(world, pass, self.sets as usize);
         let shot = rounded(self.photons, self.sets);
-        let mut photons = shoot(world, &self.settings, &sets, pass, shot);
+        let mut photons = shoot(world, placing, &self.settings, &sets, pass, shot);
         let caustic = photons.iter().filter(|p| p.kind == Kind::Caustic);
         let caustic = PhotonMap::new(caustic.copied().collect());
         if !self.final_gather {

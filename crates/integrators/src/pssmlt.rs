@@ -102,12 +102,13 @@ impl Integrator for PrimarySpace {
     fn prepare<W: World>(
         &self,
         world: &W,
-        _: &impl Placing,
+        placing: &impl Placing,
         pass: &Pass,
         before: Option<State>,
     ) -> State {
         let integrator = self;
-        State::prepare(&Paths { integrator, world }, &self.chains, pass, before)
+        let paths = Paths { integrator, world };
+        State::prepare(&paths, &self.chains, placing, pass, before)
     }
 
     fn sample<W: World, S: Sampler, K: Sink>(

@@ -1,14 +1,17 @@
 //! The render loop: replicates × passes × tiles × pixels × samples.
 //!
 //! A replicate is an independent estimate of the whole image, made in one pass or in as many as the
-//! integrator asks for. Tiles of a pass run in parallel; since a sample is a pure function of its address and the film accumulates exactly,
-//! neither the number of threads nor the order of tiles changes a bit.
+//! integrator asks for. Tiles of a pass run in parallel, and a long pass goes over all of them in
+//! several rounds, so that a picture that is interrupted has some samples everywhere. Since a
+//! sample is a pure function of its address and the film accumulates exactly, neither the number of
+//! threads nor the order of tiles nor the rounds change a bit, and a render goes on from any sample.
 
+use crate::rounds::{Batches, Pace};
 use etalon_sampling::{Independent, PixelSample, Sampler, SamplerKind, Sobol, Stratified};
-use etalon_transport::{Draft, Film, Integrator, Pass, PixelSite, World};
-use glam::UVec2;
+use etalon_transport::{Draft, Film, Integrator, Pass, PixelSite, Placement, Placing, World};
+use glam::{UVec2, Vec2};
 use rayon::prelude::*;
-use std::sync::atomic::{AtomicU64, Ordering};
+use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
 
 /// Side of a tile (pixels) of pictures that have enough of them.
 pub const TILE: u32 = 16;
@@ -87,7 +90,7 @@ pub struct Outcome {
 pub trait Progress: Sync {
     /// A tile is done, with so many samples.
     fn tile_done(&self, samples: u64);
-    /// Whether to stop after the replicate that is being rendered.
+    /// Whether to stop, as soon as the samples are finished that have been begun.
     fn cancelled(&self) -> bool;
 }
 
@@ -110,133 +113,254 @@ fn tile_side(size: UVec2, threads: usize) -> u32 {
     side
 }
 
-/// Renders replicates into `film` on the current thread pool.
-pub fn render<W: World, I: Integrator, F: Film, P: Progress>(
+/// What is asked before a pass, with somebody who may say stop.
+struct Asked<'a, F> {
+    film: &'a F,
+    progress: &'a dyn Progress,
+}
+
+impl<F: Film> Placing for Asked<'_, F> {
+    fn place(&self, pixel: UVec2, u: Vec2) -> Placement {
+        self.film.place(pixel, u)
+    }
+
+    fn dealt(&self, pixel: UVec2, even: u32) -> u32 {
+        self.film.dealt(pixel, even)
+    }
+
+    fn stopped(&self) -> bool {
+        self.progress.cancelled()
+    }
+}
+
+/// Renders replicates into `film` on the current thread pool, and goes on where the film has some
+/// samples of the first of them already. If it is cancelled, the film keeps the replicate that was
+/// being rendered.
+pub fn render<W: World, I: Integrator, F: Film>(
     world: &W,
     integrator: &I,
     film: &mut F,
     plan: &Plan,
-    progress: &P,
+    progress: &dyn Progress,
 ) -> Outcome {
-    let origin = film.origin();
-    let size = film.size();
-    let side = tile_side(size, rayon::current_num_threads());
-    let tiles = UVec2::new(size.x.div_ceil(side), size.y.div_ceil(side));
-    let (rays, samples) = (AtomicU64::new(0), AtomicU64::new(0));
-    let mut outcome = Outcome {
-        replicates: 0,
-        samples: 0,
-        rays: 0,
-        remarks: Vec::new(),
+    let side = tile_side(film.size(), rayon::current_num_threads());
+    let mut run = Run {
+        world,
+        integrator,
+        progress,
+        plan,
+        side,
+        rays: AtomicU64::new(0),
+        samples: AtomicU64::new(0),
+        pace: Pace::default(),
+        batches: Batches::new(TOGETHER),
+        remarks: None,
     };
     let Share { first, count } = plan.share();
-    let lengths = integrator.samples_per_pass();
-    let length = lengths.map_or(plan.samples_per_replicate, |length| length.max(1));
-    let passes = plan.samples_per_replicate.div_ceil(length).max(1);
     let mut before = None;
-    for (replicate, number) in (first..first + count)
-        .flat_map(|replicate| (0..passes).map(move |number| (replicate, number)))
-    {
-        let begin = number * length;
-        let pass = Pass {
-            seed: plan.seed,
-            replicate,
-            number,
-            count: passes,
-            samples: length.min(plan.samples_per_replicate - begin),
-            replicates: plan.replicates,
-            image_samples: plan.samples_per_replicate.saturating_mul(plan.replicates),
-            origin,
-            size,
-            margin: film.margin().ceil() as u32,
-        };
-        let state = integrator.prepare(world, &*film, &pass, before.take());
-        if (replicate, number) == (first, 0) {
-            outcome.remarks = integrator.remarks(&state);
-        }
-        let tile = |index: u32| {
-            let corner = UVec2::new(index % tiles.x, index / tiles.x) * side;
-            let from = origin + corner;
-            let to = origin + (corner + side).min(size);
-            let run = TileRun {
-                world,
-                integrator,
-                state: &state,
-                film: &*film,
-                plan,
-                pass: &pass,
-                begin,
-            };
-            let drawn = match plan.sampler {
-                SamplerKind::Independent => run.render(from, to, Independent::start),
-                SamplerKind::Sobol => run.render(from, to, Sobol::start),
-                SamplerKind::Stratified { jitter } => {
-                    run.render(from, to, |sample| Stratified::with_jitter(sample, jitter))
-                }
-            };
-            rays.fetch_add(world.take_ray_count(), Ordering::Relaxed);
-            progress.tile_done(drawn);
-            samples.fetch_add(drawn, Ordering::Relaxed);
-        };
-        (0..tiles.x * tiles.y)
-            .into_par_iter()
-            .with_max_len(1)
-            .for_each(tile);
-        before = Some(state);
-        if number + 1 < passes {
-            continue;
-        }
-        film.end_replicate(plan.samples_per_replicate);
-        outcome.replicates += 1;
-        if progress.cancelled() {
-            break;
-        }
+    let finished = (first..first + count)
+        .take_while(|replicate| run.replicate(film, *replicate, &mut before))
+        .count();
+    Outcome {
+        replicates: finished as u32,
+        samples: run.samples.into_inner(),
+        rays: run.rays.into_inner(),
+        remarks: run.remarks.unwrap_or_default(),
     }
-    outcome.rays = rays.into_inner();
-    outcome.samples = samples.into_inner();
-    outcome
 }
 
-/// One tile of one replicate.
-struct TileRun<'a, W: World, I: Integrator, F: Film> {
+/// What does not change while an image is rendered.
+struct Run<'a, W, I> {
     world: &'a W,
     integrator: &'a I,
-    state: &'a I::State,
-    film: &'a F,
+    progress: &'a dyn Progress,
     plan: &'a Plan,
-    pass: &'a Pass,
-    /// The first sample of the pass.
-    begin: u32,
+    /// Side of a tile (pixels).
+    side: u32,
+    rays: AtomicU64,
+    samples: AtomicU64,
+    pace: Pace,
+    batches: Batches,
+    /// What the integrator remarked when it first prepared.
+    remarks: Option<Vec<String>>,
 }
 
-impl<W: World, I: Integrator, F: Film> TileRun<'_, W, I, F> {
-    /// Renders the pixels in [`from`, `to`); gives the number of samples drawn.
-    fn render<S: Sampler>(&self, from: UVec2, to: UVec2, start: impl Fn(&PixelSample) -> S) -> u64 {
-        let samples = self.plan.samples_per_replicate;
-        let spp = samples as f32 * self.plan.replicates as f32;
+impl<W: World, I: Integrator> Run<'_, W, I> {
+    /// Renders a replicate; says whether it is finished. `before` is what the pass before it used.
+    fn replicate<F: Film>(
+        &mut self,
+        film: &mut F,
+        replicate: u32,
+        before: &mut Option<I::State>,
+    ) -> bool {
+        let plan = self.plan;
+        let (origin, size) = (film.origin(), film.size());
+        let lengths = self.integrator.samples_per_pass();
+        let length = lengths.map_or(plan.samples_per_replicate, |length| length.max(1));
+        let passes = plan.samples_per_replicate.div_ceil(length).max(1);
+        let done = done(film, plan.samples_per_replicate);
+        for number in done / length..passes {
+            let begin = number * length;
+            let pass = Pass {
+                seed: plan.seed,
+                replicate,
+                number,
+                count: passes,
+                samples: length.min(plan.samples_per_replicate - begin),
+                replicates: plan.replicates,
+                image_samples: plan.samples_per_replicate.saturating_mul(plan.replicates),
+                origin,
+                size,
+                margin: film.margin().ceil() as u32,
+            };
+            if self.progress.cancelled() {
+                return false;
+            }
+            let asked = Asked {
+                film: &*film,
+                progress: self.progress,
+            };
+            let state = self
+                .integrator
+                .prepare(self.world, &asked, &pass, before.take());
+            self.remarks
+                .get_or_insert_with(|| self.integrator.remarks(&state));
+            // What was left half done is of no use.
+            let until = done.saturating_sub(begin);
+            if self.progress.cancelled() || !self.pass(film, &pass, [begin, until], &state) {
+                return false;
+            }
+            *before = Some(state);
+        }
+        film.end_replicate(plan.samples_per_replicate);
+        true
+    }
+
+    /// Goes over the film until a pass is finished; says whether it is. The pass begins with the
+    /// replicate's sample `begin`, and `until` of its samples are there.
+    fn pass<F: Film>(
+        &mut self,
+        film: &mut F,
+        pass: &Pass,
+        [begin, mut until]: [u32; 2],
+        state: &I::State,
+    ) -> bool {
+        let size = film.size();
+        let pixels = u64::from(size.x) * u64::from(size.y);
+        let tiles = UVec2::new(size.x.div_ceil(self.side), size.y.div_ceil(self.side));
+        self.pace.begin();
+        while until < pass.samples {
+            until += self.pace.round(pixels).min(pass.samples - until);
+            let (drawn, cut) = (AtomicU64::new(0), AtomicBool::new(false));
+            let tile = |index: u32| {
+                let corner = UVec2::new(index % tiles.x, index / tiles.x) * self.side;
+                let from = pass.origin + corner;
+                let to = pass.origin + (corner + self.side).min(size);
+                let round = Round {
+                    run: self,
+                    state,
+                    film: &*film,
+                    pass,
+                    begin,
+                    until,
+                };
+                let (here, whole) = match self.plan.sampler {
+                    SamplerKind::Independent => round.tile(from, to, Independent::start),
+                    SamplerKind::Sobol => round.tile(from, to, Sobol::start),
+                    SamplerKind::Stratified { jitter } => {
+                        round.tile(from, to, |sample| Stratified::with_jitter(sample, jitter))
+                    }
+                };
+                let traced = self.world.take_ray_count();
+                self.rays.fetch_add(traced, Ordering::Relaxed);
+                self.progress.tile_done(here);
+                drawn.fetch_add(here, Ordering::Relaxed);
+                cut.fetch_or(!whole, Ordering::Relaxed);
+            };
+            (0..tiles.x * tiles.y)
+                .into_par_iter()
+                .with_max_len(1)
+                .for_each(tile);
+            let drawn = drawn.into_inner();
+            self.samples.fetch_add(drawn, Ordering::Relaxed);
+            self.pace.end_round(drawn);
+            if cut.into_inner() {
+                return false;
+            }
+            if until < pass.samples {
+                film.end_round();
+            }
+        }
+        true
+    }
+}
+
+/// How many of a replicate's samples every pixel has at least, where all are dealt this many.
+fn done<F: Film>(film: &F, samples: u32) -> u32 {
+    let (origin, size) = (film.origin(), film.size());
+    let pixels = (0..size.y).flat_map(|y| (0..size.x).map(move |x| origin + UVec2::new(x, y)));
+    let done = pixels.map(|pixel| {
+        let dealt = u64::from(film.dealt(pixel, samples).max(1));
+        u64::from(film.done(pixel)) * u64::from(samples) / dealt
+    });
+    done.min()
+        .map_or(samples, |done| (done as u32).min(samples))
+}
+
+/// One round over the film, of a pass that begins with sample `begin`: up to so many of its samples.
+struct Round<'a, 'r, W: World, I: Integrator, F: Film> {
+    run: &'a Run<'r, W, I>,
+    state: &'a I::State,
+    film: &'a F,
+    pass: &'a Pass,
+    begin: u32,
+    until: u32,
+}
+
+impl<W: World, I: Integrator, F: Film> Round<'_, '_, W, I, F> {
+    /// Renders the pixels in [`from`, `to`); gives the number of samples drawn, and whether these
+    /// are all.
+    fn tile<S: Sampler>(
+        &self,
+        from: UVec2,
+        to: UVec2,
+        start: impl Fn(&PixelSample) -> S,
+    ) -> (u64, bool) {
+        let Run {
+            integrator,
+            progress,
+            plan,
+            batches,
+            ..
+        } = self.run;
+        let samples = plan.samples_per_replicate;
+        let spp = samples as f32 * plan.replicates as f32;
         let spacing = 1.0 / spp.sqrt();
         let margin = self.film.margin();
-        let alone = !self.integrator.splats();
-        let mut sink = self.film.tile(from, to, alone, self.begin);
+        let alone = !integrator.splats();
+        let mut sink = self.film.tile(from, to, alone);
         let mut drafts = Vec::with_capacity(TOGETHER);
         let mut drawn = 0;
+        let mut deliver = |drafts: &mut Vec<Draft<S>>| {
+            batches.measure(|| {
+                (integrator).sample_all(self.run.world, self.state, drafts, &mut sink);
+            });
+            drafts.clear();
+        };
         for y in from.y..to.y {
             for x in from.x..to.x {
                 let pixel = UVec2::new(x, y);
                 let dealt = self.film.dealt(pixel, samples);
-                // Only where a replicate is one pass may pixels differ.
-                let here = if self.pass.count == 1 {
-                    dealt
-                } else {
-                    self.pass.samples
-                };
-                drawn += u64::from(here);
-                for sample in 0..here {
+                for sample in self.film.done(pixel).max(self.begin)..self.target(dealt) {
+                    // Asked while no draft waits, so that what was begun is finished.
+                    if drafts.is_empty() && progress.cancelled() {
+                        return (drawn, false);
+                    }
                     let mut sampler = start(&PixelSample {
-                        seed: self.plan.seed,
+                        seed: plan.seed,
                         replicate: self.pass.replicate,
                         pixel: (x, y),
-                        sample: self.begin + sample,
+                        sample,
                         samples_per_replicate: dealt,
                     });
                     let placement = self.film.place(pixel, sampler.next_2d());
@@ -246,7 +370,7 @@ impl<W: World, I: Integrator, F: Film> TileRun<'_, W, I, F> {
                         margin,
                         pixels: self.film.light_paths(),
                         spacing,
-                        sample,
+                        sample: sample - self.begin,
                     };
                     let weight = placement.weight;
                     drafts.push(Draft {
@@ -254,17 +378,25 @@ impl<W: World, I: Integrator, F: Film> TileRun<'_, W, I, F> {
                         weight,
                         sampler,
                     });
-                    if drafts.len() == TOGETHER {
-                        self.integrator
-                            .sample_all(self.world, self.state, &mut drafts, &mut sink);
-                        drafts.clear();
+                    drawn += 1;
+                    if drafts.len() >= batches.size() {
+                        deliver(&mut drafts);
                     }
                 }
             }
         }
-        self.integrator
-            .sample_all(self.world, self.state, &mut drafts, &mut sink);
-        drawn
+        deliver(&mut drafts);
+        (drawn, true)
+    }
+
+    /// How many samples of the replicate a pixel has after this round, of those that it is dealt.
+    fn target(&self, dealt: u32) -> u32 {
+        // Only where a replicate is one pass may pixels differ; they come along alike.
+        if self.pass.count > 1 {
+            return self.begin + self.until;
+        }
+        let [dealt, until, of] = [dealt, self.until, self.pass.samples].map(u64::from);
+        (dealt * until).div_ceil(of) as u32
     }
 }
 

@@ -121,14 +121,14 @@ impl Integrator for Progressive {
     fn prepare<W: World>(
         &self,
         world: &W,
-        _: &impl Placing,
+        placing: &impl Placing,
         pass: &Pass,
         _: Option<State>,
     ) -> State {
         let sets = WavelengthSets::new(world, pass, self.sets as usize);
         let pixels = pass.size.x.saturating_mul(pass.size.y);
         let shot = rounded(self.photons.unwrap_or(pixels), self.sets);
-        let photons = shoot(world, &self.settings, &sets, pass, shot);
+        let photons = shoot(world, placing, &self.settings, &sets, pass, shot);
         State {
             sets,
             map: PhotonMap::new(photons),

@@ -124,7 +124,7 @@ impl Integrator for ConnectionMerging {
     fn prepare<W: World>(
         &self,
         world: &W,
-        _: &impl Placing,
+        placing: &impl Placing,
         pass: &Pass,
         _: Option<State>,
     ) -> State {
@@ -137,7 +137,7 @@ impl Integrator for ConnectionMerging {
             count,
             connections: self.connections,
         };
-        let photons = in_order(count, |index, found| {
+        let photons = in_order(count, placing, |index, found| {
             let mut sampler = numbers(pass, index, count);
             merge::shoot(
                 world,

@@ -50,6 +50,13 @@ pub trait Placing: Sync {
     fn dealt(&self, _pixel: UVec2, even: u32) -> u32 {
         even
     }
+
+    /// Whether the render was asked to stop. Whatever is prepared for it will not be used then, and
+    /// may be left half done; whoever prepares for long asks now and then.
+    #[inline]
+    fn stopped(&self) -> bool {
+        false
+    }
 }
 
 /// Evenly, in a box of the size of a pixel.
@@ -79,9 +86,15 @@ pub trait Film: Placing {
     /// where the reconstruction filter is so narrow that splats would practically never find a pixel.
     fn light_paths(&self) -> u32;
     /// A sink for the pixels in [`from`, `to`) of the whole film; it delivers on drop. `alone`
-    /// promises that meanwhile nothing else adds to these pixels, no other tile and no splat. The
-    /// first sample of each pixel will be its replicate's sample `first`.
-    fn tile(&self, from: UVec2, to: UVec2, alone: bool, first: u32) -> Self::Tile<'_>;
+    /// promises that meanwhile nothing else adds to these pixels, no other tile and no splat.
+    fn tile(&self, from: UVec2, to: UVec2, alone: bool) -> Self::Tile<'_>;
+    /// How many samples a pixel of the whole film has in the replicate that is being rendered: its
+    /// first ones. A render that was interrupted goes on after them.
+    fn done(&self, _pixel: UVec2) -> u32 {
+        0
+    }
+    /// Called between two rounds over the film, when no tile is open.
+    fn end_round(&mut self) {}
     /// Ends a replicate of `samples` samples per pixel (as many light paths per pixel for
     /// splats; of as many as [`Placing::dealt`] deals to each): its means join the statistics.
     fn end_replicate(&mut self, samples: u32);

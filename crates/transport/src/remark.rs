@@ -41,10 +41,10 @@ pub enum Remark {
 /// A remark about Markov chains of paths.
 #[derive(Clone, Copy, Debug)]
 pub enum ChainRemark {
-    /// The pixel's share of the Markov chains and of the samples with which they begin is done with its
-    /// first sample in the pass, which is another one.
-    HostedBefore,
-    /// The sample does its pixel's share of these.
+    /// The Markov chains, and the samples with which they begin, are spread over the samples of all pixels;
+    /// this one has none.
+    HostsNone,
+    /// The sample does its share of these.
     Hosts {
         /// Contributions of the replicate's uniform samples.
         contributions: usize,

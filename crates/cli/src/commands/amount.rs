@@ -245,13 +245,20 @@ fn go_on(
     let earlier = Part::read(path).map_err(|error| refused(error.to_string()))?;
     let of = metadata.part.as_ref().map_or(0, |part| part.of);
     if !args.quiet {
+        let begun = metadata.unfinished.as_ref().map(|begun| {
+            format!(
+                ", and {:.1} of {} samples per pixel of another",
+                begun.mean, begun.samples_per_replicate
+            )
+        });
         note(format!(
-            "going on after {} of {of} replicates ({})",
+            "going on after {} of {of} replicates{} ({})",
             metadata.replicates,
+            begun.unwrap_or_default(),
             path.display()
         ));
     }
-    let each = metadata.spp / u64::from(metadata.replicates.max(1));
+    let each = metadata.samples_per_replicate();
     let seconds = facts.pilot_seconds.unwrap_or(0.0);
     Ok(Amount {
         plan: Plan {
@@ -279,8 +286,12 @@ fn differences(
     here.adaptive.clone_from(&there.adaptive);
     here.replicates = there.replicates;
     here.spp = there.spp;
+    here.unfinished.clone_from(&there.unfinished);
     if args.error.is_none() && args.time.is_none() {
         here.spp = u64::from(plan.samples_per_replicate) * u64::from(there.replicates);
+        if let Some(begun) = &mut here.unfinished {
+            begun.samples_per_replicate = plan.samples_per_replicate;
+        }
         if let Some(part) = &mut here.part {
             part.of = plan.replicates;
         }

@@ -17,10 +17,6 @@ const INCONCLUSIVE: u8 = 3;
 
 /// Compares two images.
 pub fn run(args: &CompareArgs) -> ExitCode {
-    let good = |x: f64| x > 0.0 && x < 1.0;
-    if !(good(args.bound) && good(args.tile_bound) && good(args.alpha)) {
-        return fail("--bound, --tile-bound and --alpha must lie between 0 and 1");
-    }
     let first = match read_developed(&args.a) {
         Ok(image) => image,
         Err(error) => return fail(error),
@@ -105,6 +101,17 @@ fn unfit(image: &Developed) -> Option<String> {
     let Some(metadata) = &image.metadata else {
         return Some("was not written by Etalon: it has no replicates to judge by".to_owned());
     };
+    if let Some(facts) = metadata
+        .unfinished
+        .as_ref()
+        .filter(|_| metadata.replicates == 0)
+    {
+        return Some(format!(
+            "was interrupted within its first replicate, at {:.1} of {} samples per pixel, and so has no \
+             standard error: render it to its end",
+            facts.mean, facts.samples_per_replicate
+        ));
+    }
     if metadata.replicates < 2 {
         return Some(
             "has a single replicate and so no standard error: render it with --replicates"

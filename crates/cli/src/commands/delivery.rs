@@ -1,14 +1,14 @@
 //! What `render` leaves behind: the image, the statistics, and a few lines on how it went.
 
 use super::convert::losses_in_words;
-use super::note;
 use super::trouble::{Again, Fireflies, faults_to_json, fireflies_to_json};
+use super::{amount, note};
 use crate::args::RenderArgs;
 use crate::pipeline::{Loaded, Rendered};
 use crate::target::Noise;
 use crate::{resources, say};
-use etalon_film::{Developed, Metadata};
-use etalon_images::{Losses, hdr, pfm, write_atomically};
+use etalon_film::{Developed, Metadata, UnfinishedFacts};
+use etalon_images::{Losses, hdr, pfm, png, write_atomically};
 use etalon_integrators::Plan;
 use std::io::Write;
 use std::path::Path;
@@ -21,6 +21,7 @@ pub(super) fn deliver(
     plan: &Plan,
     pilot: Option<(u32, f64)>,
 ) -> Result<(), String> {
+    let metadata = rendered.developed.metadata.as_ref();
     let losses = match &rendered.part {
         Some(part) => part
             .write_exr(args.output())
@@ -31,7 +32,12 @@ pub(super) fn deliver(
     if !args.quiet {
         losses_in_words(&losses).iter().for_each(note);
     }
-    let metadata = rendered.developed.metadata.as_ref();
+    if let Some(picture) = args.outputs.as_ref().and_then(|o| o.picture.as_deref()) {
+        write_picture(args, picture, &rendered.developed)?;
+    }
+    if let Some(facts) = metadata.and_then(|m| m.unfinished.as_ref()) {
+        say::remark(&unfinished_in_words(args, facts));
+    }
     let dealt = metadata.and_then(|m| m.adaptive.as_ref());
     let again = Again {
         args,
@@ -76,6 +82,7 @@ pub(super) fn deliver(
             _ if black => "black".to_owned(),
             Some(0.0) => "no noise (all replicates are alike)".to_owned(),
             Some(error) => format!("mean relative standard error {:.2} %", 100.0 * error),
+            None if rendered.outcome.replicates == 0 => "no standard error".to_owned(),
             None => "no standard error (one replicate)".to_owned(),
         };
         let stopped = match rendered.outcome.replicates {
@@ -95,6 +102,49 @@ pub(super) fn deliver(
         ));
     }
     Ok(())
+}
+
+/// Writes the picture beside the image.
+fn write_picture(args: &RenderArgs, path: &Path, developed: &Developed) -> Result<(), String> {
+    let losses = png::write(path, &developed.image, 0.0).map_err(|error| error.to_string())?;
+    if !args.quiet && losses.not_finite > 0 {
+        note(format!(
+            "{}: {} samples are not finite and magenta",
+            path.display(),
+            losses.not_finite
+        ));
+    }
+    Ok(())
+}
+
+/// Says of what samples an image is without any finished replicate.
+fn unfinished_in_words(args: &RenderArgs, facts: &UnfinishedFacts) -> String {
+    let image = args.output().display();
+    let each = match (facts.least, facts.most) {
+        (least, most) if least == most => format!("{least}"),
+        (least, most) => format!("{least} to {most}"),
+    };
+    let mut text = format!(
+        "warning: stopped within the first replicate: {image} is of {each} of {} samples per pixel, \
+         without standard errors\n",
+        facts.samples_per_replicate
+    );
+    if facts.without > 0 {
+        text += &format!(
+            "warning: {} pixels have no sample yet and are black\n",
+            facts.without
+        );
+    }
+    if args.part.is_some() {
+        text += &format!("warning: {image} is no part that `etalon merge` takes\n");
+    }
+    if args.resume {
+        text += &format!(
+            "note: the same command goes on from {}\n",
+            amount::checkpoint(args).display()
+        );
+    }
+    text
 }
 
 /// Whether nothing at all was found, in any channel but alpha.
@@ -177,6 +227,7 @@ fn stats(
         "pilot_seconds": pilot.map(|(_, seconds)| seconds),
         "adaptive": metadata.and_then(|m| m.adaptive.as_ref()),
         "resumed_replicates": rendered.finished,
+        "unfinished": metadata.and_then(|m| m.unfinished.as_ref()),
         "non_finite": metadata.map(|m| m.faults.total()),
         "faults": metadata.map(|m| faults_to_json(&m.faults, again)),
         "fireflies": metadata.map(|m| fireflies_to_json(&rendered.developed, m, again)),

@@ -1,10 +1,10 @@
 //! `etalon estimators`.
 
-use super::render::check_place;
 use super::{BAD_INPUT, answer, fail};
 use crate::args::EstimatorsArgs;
 use crate::diagnose;
 use crate::estimators::{Failure, Findings, Options, Trial, page, table};
+use crate::outputs::check_place;
 use crate::pipeline::LoadOptions;
 use crate::progress::Bar;
 use etalon_images::write_atomically;

@@ -82,6 +82,16 @@ fn image(developed: &Developed) -> String {
             part.of.saturating_sub(1)
         );
     }
+    if let Some(begun) = &m.unfinished {
+        let what = match m.replicates {
+            0 => "the picture is of the first replicate, which",
+            _ => "another replicate",
+        };
+        text += &format!(
+            "interrupted  {what} has {} to {} of {} samples per pixel, {:.1} on average\n",
+            begun.least, begun.most, begun.samples_per_replicate, begun.mean
+        );
+    }
     if let Some(dealt) = &m.adaptive {
         text += &format!(
             "dealt        {} to {} to a pixel of a replicate, {:.2} on average, by a pilot of {} samples \

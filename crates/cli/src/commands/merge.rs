@@ -1,8 +1,8 @@
 //! `etalon merge`.
 
-use super::render::check_place;
 use super::{BAD_INPUT, fail};
 use crate::args::MergeArgs;
+use crate::outputs::check_place;
 use crate::say;
 use etalon_film::{Developed, Metadata, Part, ReplicateSet, disagreements};
 use std::path::{Path, PathBuf};
@@ -88,6 +88,12 @@ fn problems(args: &MergeArgs) -> Vec<String> {
     let mut all = ReplicateSet::default();
     for (index, (path, metadata)) in known.iter().enumerate() {
         let here = replicates(metadata);
+        if here.is_empty() {
+            problems.push(format!(
+                "{} has no finished replicate: go on with its render (`--resume`), or leave it out",
+                path.display()
+            ));
+        }
         for (earlier, of_earlier) in &known[..index] {
             let common = here.intersection(&replicates(of_earlier));
             if !common.is_empty() {

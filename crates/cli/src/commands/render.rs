@@ -4,37 +4,29 @@ use super::amount::{self, Amount};
 use super::{BAD_INPUT, delivery, fail, note, replay, strategies};
 use crate::args::RenderArgs;
 use crate::keeping::Keeping;
+use crate::outputs::Outputs;
 use crate::part::PartOfMany;
 use crate::pipeline::{self, LoadOptions, Loaded, Manner, Rendered};
 use crate::progress::Bar;
-use crate::{diagnose, say, target};
+use crate::{diagnose, interrupt, say, target};
 use etalon_integrators::Share;
 use etalon_params::Diagnostic;
-use std::fmt::Display;
-use std::fs::{self, OpenOptions};
+use std::fs;
 use std::io::ErrorKind;
 use std::path::Path;
 use std::process::ExitCode;
-use std::sync::atomic::{AtomicBool, Ordering};
-
-/// Set by Ctrl-C: finish the replicate, write the image, stop.
-static CANCELLED: AtomicBool = AtomicBool::new(false);
-
-/// Exit code of a render that Ctrl-C ended early (128 + SIGINT, as shells have it).
-const INTERRUPTED: u8 = 130;
 
 /// Renders a scene to a file.
 pub fn run(args: &RenderArgs) -> ExitCode {
-    if args.replay.is_none()
-        && let Err(message) = check_paths(args)
-    {
-        return fail(message);
-    }
+    let args = match with_outputs(args) {
+        Ok(args) => args,
+        Err(message) => return fail(message),
+    };
     let threads = args.threads.unwrap_or(0) as usize;
     let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build();
     match pool {
         // Everything happens on these threads: reading meshes and pictures, too.
-        Ok(pool) => pool.install(|| run_here(args)),
+        Ok(pool) => pool.install(|| run_here(&args)),
         Err(error) => fail(format!("cannot start threads: {error}")),
     }
 }
@@ -74,8 +66,17 @@ fn run_here(args: &RenderArgs) -> ExitCode {
         Ok(techniques) => techniques,
         Err(message) => return fail(message),
     };
-    listen_for_interrupts();
-    let amount = match amount::decide(args, &loaded, &CANCELLED) {
+    if let Some(outputs) = &args.outputs
+        && let Err(message) = outputs.check_inputs(args, &loaded.inputs)
+    {
+        return fail(message);
+    }
+    if let Err(error) = interrupt::listen() {
+        note(format!(
+            "Ctrl-C will end the render without an image: {error}"
+        ));
+    }
+    let amount = match amount::decide(args, &loaded, interrupt::flag()) {
         Ok(amount) => amount,
         Err(failure) => return give_up(failure, &loaded),
     };
@@ -84,6 +85,10 @@ fn run_here(args: &RenderArgs) -> ExitCode {
         Ok(rendered) => rendered,
         Err(diagnostic) => return give_up(diagnostic.into(), &loaded),
     };
+    if !rendered.has_samples() {
+        say::remark("stopped before the first sample, without an image\n");
+        return ExitCode::from(interrupt::STOPPED);
+    }
     if let Err(message) = delivery::deliver(args, &loaded, &rendered, &plan, pilot) {
         return fail(message);
     }
@@ -92,8 +97,13 @@ fn run_here(args: &RenderArgs) -> ExitCode {
     }
     if let Some((folder, integrator)) = techniques {
         let each = |loaded: &Loaded| {
+            if interrupt::asked() {
+                return Ok(None);
+            }
             let amount = Amount::plain(amount::plan(args, loaded));
-            Ok(render(args, loaded, amount)?.developed)
+            let rendered = render(args, loaded, amount)?;
+            let whole = rendered.outcome.replicates == rendered.replicates;
+            Ok(whole.then_some(rendered.developed))
         };
         match strategies::write(folder, args, &mut loaded, &integrator, each) {
             Ok(Ok(())) => {}
@@ -104,8 +114,8 @@ fn run_here(args: &RenderArgs) -> ExitCode {
             Err(message) => return fail(message),
         }
     }
-    if CANCELLED.load(Ordering::Relaxed) {
-        return ExitCode::from(INTERRUPTED);
+    if interrupt::asked() {
+        return ExitCode::from(interrupt::STOPPED);
     }
     ExitCode::SUCCESS
 }
@@ -115,7 +125,7 @@ fn give_up(failure: target::Failure, loaded: &Loaded) -> ExitCode {
     match failure {
         target::Failure::Cancelled => {
             say::remark("stopped during the pilot, without an image\n");
-            ExitCode::from(INTERRUPTED)
+            ExitCode::from(interrupt::STOPPED)
         }
         target::Failure::Refused(diagnostic) => {
             diagnose::print(&[diagnostic], &loaded.sources);
@@ -135,75 +145,29 @@ fn remove(checkpoint: &Path) {
     }
 }
 
-/// Refuses folders that are not there and outputs that could not be written anyway, before hours
-/// are spent on them.
-fn check_paths(args: &RenderArgs) -> Result<(), String> {
-    let extension = args
-        .output()
-        .extension()
-        .map(|e| e.to_string_lossy().to_lowercase());
-    match extension.as_deref() {
-        Some("exr" | "hdr" | "rgbe" | "pfm") => {}
-        _ => {
-            return Err(format!(
-                "cannot write {}: the name must end in .exr (or .hdr, .pfm)",
-                args.output().display()
-            ));
-        }
-    }
-    if args.part.is_some() && extension.as_deref() != Some("exr") {
-        return Err(format!(
-            "cannot write {}: only .exr can hold a part's exact sums",
-            args.output().display()
-        ));
+/// The arguments with the outputs that they stand for, unless a sample is replayed.
+fn with_outputs(args: &RenderArgs) -> Result<RenderArgs, String> {
+    let mut args = args.clone();
+    if args.replay.is_some() {
+        return Ok(args);
     }
     if let Some(folder) = args.data.iter().find(|folder| !folder.is_dir()) {
         return Err(format!("there is no folder {}", folder.display()));
     }
-    std::iter::once(args.output())
-        .chain(args.stats.as_deref())
-        .try_for_each(check_place)
-}
-
-/// Refuses a place where no file can be made.
-pub(super) fn check_place(path: &Path) -> Result<(), String> {
-    let refuse = |reason: &dyn Display| Err(format!("cannot write {}: {reason}", path.display()));
-    // The file that a symbolic link names is made where it leads.
-    let path = match etalon_images::atomic_file::target(path) {
-        Ok(target) => target,
-        Err(error) => return refuse(&error),
-    };
-    if path.is_dir() {
-        return refuse(&"it is a folder");
+    let outputs = Outputs::of(&args)?;
+    outputs.check(&args)?;
+    if !args.quiet && !outputs.named {
+        note(match &outputs.picture {
+            Some(picture) => format!(
+                "{} is a picture to look at; standard errors and all else are in {}",
+                picture.display(),
+                outputs.image.display()
+            ),
+            None => format!("without `-o` the image goes to {}", outputs.image.display()),
+        });
     }
-    if path.exists() {
-        return Ok(());
-    }
-    let folder = path.parent().filter(|p| !p.as_os_str().is_empty());
-    if folder.is_some_and(|folder| !folder.is_dir()) {
-        return refuse(&"there is no such folder");
-    }
-    // Only trying tells whether a file can be made there.
-    let trial = path.with_file_name(format!(".etalon-{}.part", std::process::id()));
-    let made = OpenOptions::new()
-        .write(true)
-        .create_new(true)
-        .open(&trial)
-        .and_then(|_| std::fs::remove_file(&trial));
-    made.or_else(|error| refuse(&error))
-}
-
-fn listen_for_interrupts() {
-    // A second Ctrl-C does not wait.
-    let handler = || {
-        if CANCELLED.swap(true, Ordering::Relaxed) {
-            std::process::exit(i32::from(INTERRUPTED));
-        }
-    };
-    // Without a handler Ctrl-C still ends the program, only without an image.
-    if ctrlc::set_handler(handler).is_err() {
-        note("Ctrl-C will not write the image");
-    }
+    args.outputs = Some(outputs);
+    Ok(args)
 }
 
 /// Renders what was decided.
@@ -221,8 +185,9 @@ fn render(args: &RenderArgs, loaded: &Loaded, amount: Amount) -> Result<Rendered
     let finished = keeping.as_ref().map_or(0, |keeping| keeping.finished().0);
     let here = plan.share().count.saturating_sub(finished);
     let samples = u64::from(here) * u64::from(plan.samples_per_replicate);
-    let samples = samples * u64::from(size.x) * u64::from(size.y);
-    let bar = Bar::new(samples, args.quiet, &CANCELLED);
+    let begun = keeping.as_ref().map_or(0, Keeping::samples_begun);
+    let samples = (samples * u64::from(size.x) * u64::from(size.y)).saturating_sub(begun);
+    let bar = Bar::new(samples, args.quiet, interrupt::flag());
     let manner = Manner {
         counts: amount.counts,
         keeping,

@@ -51,7 +51,8 @@ struct Shown {
     pictures: [Developed; 2],
 }
 
-/// Renders every technique with `render` and writes the pictures and the page.
+/// Renders every technique with `render` and writes the pictures and the page, as far as that gives
+/// pictures before it is interrupted.
 ///
 /// # Errors
 /// If a file cannot be written; a diagnostic if rendering is refused.
@@ -60,12 +61,12 @@ pub fn write(
     args: &RenderArgs,
     loaded: &mut Loaded,
     integrator: &Bidirectional,
-    mut render: impl FnMut(&Loaded) -> Result<Developed, Diagnostic>,
+    mut render: impl FnMut(&Loaded) -> Result<Option<Developed>, Diagnostic>,
 ) -> Result<Result<(), Diagnostic>, String> {
     let error = |e: &dyn std::fmt::Display| format!("cannot write {}: {e}", folder.display());
     std::fs::create_dir_all(folder).map_err(|e| error(&e))?;
     let mut shown = Vec::new();
-    for vertices in 2..=integrator.settings.max_depth as usize + 1 {
+    'all: for vertices in 2..=integrator.settings.max_depth as usize + 1 {
         for light in 0..vertices {
             let camera = vertices - light;
             if (light, camera) == (1, 1) {
@@ -82,7 +83,8 @@ pub fn write(
                     ..integrator.clone()
                 });
                 let picture = match render(loaded) {
-                    Ok(picture) => picture,
+                    Ok(Some(picture)) => picture,
+                    Ok(None) => break 'all,
                     Err(diagnostic) => return Ok(Err(diagnostic)),
                 };
                 let suffix = if weighted { "" } else { "-unweighted" };

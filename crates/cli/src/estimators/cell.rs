@@ -29,11 +29,11 @@ pub struct Rendered {
 ///
 /// # Errors
 /// One sentence, if there is no memory for it.
-pub fn render<P: Progress>(
+pub fn render(
     entrant: &Entrant,
     samples: u32,
     seed: u64,
-    progress: &P,
+    progress: &dyn Progress,
 ) -> Result<Rendered, String> {
     let channels = entrant.integrator.channels();
     let mut film =

@@ -102,12 +102,12 @@ impl Reference {
     ///
     /// # Errors
     /// One sentence, if there is no memory for it or a pixel is not finite.
-    pub fn render<P: Progress>(
+    pub fn render(
         entrant: &Entrant,
         size: Size,
         seed: u64,
         share_of_time: f64,
-        progress: &P,
+        progress: &dyn Progress,
     ) -> Result<Self, String> {
         let channels = entrant.integrator.channels();
         let mut film =

@@ -6,7 +6,8 @@ use super::entrant::{self, Entrant, Lists};
 use super::findings::Findings;
 use super::reference::Reference;
 use super::schedule::{Pace, Schedule, Share, Size};
-use crate::pipeline::{self, LoadOptions, Loaded, Refusal};
+use crate::memory;
+use crate::pipeline::{LoadOptions, Loaded, Refusal};
 use etalon_integrators::Progress;
 use etalon_params::Diagnostic;
 use etalon_sampling::hash::{derived_key, stream_key};
@@ -234,7 +235,7 @@ impl Trial {
     ///
     /// # Errors
     /// If memory runs out, a pixel is not finite, or `progress` says to stop.
-    pub fn run<P: Progress>(mut self, progress: &P) -> Result<Findings, Failure> {
+    pub fn run(mut self, progress: &dyn Progress) -> Result<Findings, Failure> {
         let start = Instant::now();
         let reference = match self.reference.take() {
             Some(reference) => reference,
@@ -271,7 +272,7 @@ impl Trial {
         Ok(analysis::findings(&measured))
     }
 
-    fn render_reference<P: Progress>(&self, progress: &P) -> Result<Reference, Failure> {
+    fn render_reference(&self, progress: &dyn Progress) -> Result<Reference, Failure> {
         let size = self.schedule.reference;
         let size = size.expect("a schedule without reference is made where there is a file");
         let seed = seed(&self.options, Purpose::Reference, 0, 0, 0);
@@ -308,7 +309,7 @@ fn check_memory(scene: &Loaded, entrants: &[Entrant]) -> Result<(), Failure> {
             sources: scene.sources.clone(),
         })
     };
-    pipeline::check_memory(scene, planes.max().unwrap_or(3)).map_err(refuse)
+    memory::check(scene, planes.max().unwrap_or(3), false).map_err(refuse)
 }
 
 /// The share of the time that the pilot may take, all estimators together.

@@ -142,7 +142,7 @@ fn chains_are_told_path_by_path() {
         );
         let said = replayed(&integrator, "0,0,0,0");
         let number = |line: &str| numbers(line);
-        let share = said.lines().find(|line| line.contains("pixel's share: "));
+        let share = said.lines().find(|line| line.contains("sample's share: "));
         let share = number(share.expect("it hosts something"));
         let [contributions, chains, steps] = [share[0], share[1], share[2]].map(|n| n as usize);
         assert!(contributions > 0 && chains == 1 && steps > 100, "{share:?}");
@@ -176,7 +176,7 @@ fn chains_are_told_path_by_path() {
         assert_eq!(said.contains("technique s = "), !pssmlt);
         // Other samples say where to look.
         let said = replayed(&integrator, "0,0,0,1");
-        assert!(said.contains("belongs to its sample 0"), "{said}");
+        assert!(said.contains("belong to other samples"), "{said}");
         assert!(!said.contains("splat"), "{said}");
     }
 }

@@ -65,7 +65,7 @@ fn render(side: UVec2, threads: usize, key: impl Fn(usize) -> u64) -> ExactFilm 
         pool.install(|| {
             order.par_iter().with_max_len(1).for_each(|&i| {
                 let (from, to) = tiles[i];
-                let mut tile = film.tile(from, to, false, 0);
+                let mut tile = film.tile(from, to, false);
                 for y in from.y..to.y {
                     for x in from.x..to.x {
                         sample(&film, &mut tile, replicate, UVec2::new(x, y));
@@ -125,7 +125,7 @@ proptest! {
 fn cancellation_is_exact() {
     let mut film = ExactFilm::new(FilmSettings::new(1, 1, Filter::default()), &[]).expect("names");
     {
-        let mut tile = film.tile(UVec2::ZERO, UVec2::ONE, false, 0);
+        let mut tile = film.tile(UVec2::ZERO, UVec2::ONE, false);
         for value in [1e14, 1.0, -1e14, 1e-7] {
             tile.begin_sample(UVec2::ZERO, 1.0);
             tile.radiance([value; 3], 1.0);
@@ -143,7 +143,7 @@ fn an_unfinished_replicate_does_not_count() {
     let begun = render(UVec2::splat(16), 1, |i| i as u64);
     {
         let pixel = begun.origin();
-        let mut tile = begun.tile(pixel, pixel + 1, false, 0);
+        let mut tile = begun.tile(pixel, pixel + 1, false);
         sample(&begun, &mut tile, 2, pixel);
     }
     assert_eq!(bits(&begun), bits(&finished));

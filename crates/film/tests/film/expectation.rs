@@ -73,7 +73,7 @@ fn estimate(filter: Filter, kind: SamplerKind, samples: u32, splats: bool) -> Ex
     let (from, to) = (film.origin(), film.origin() + film.size());
     let margin = film.margin();
     for replicate in 0..16 {
-        let mut tile = film.tile(from, to, false, 0);
+        let mut tile = film.tile(from, to, false);
         for y in from.y..to.y {
             for x in from.x..to.x {
                 let pixel = UVec2::new(x, y);
@@ -170,7 +170,7 @@ fn a_constant_stays_constant() {
         let (from, to) = (film.origin(), film.origin() + film.size());
         let mut weight = 0.0f32;
         {
-            let mut tile = film.tile(from, to, false, 0);
+            let mut tile = film.tile(from, to, false);
             for pixel in (from.y..to.y).flat_map(|y| (from.x..to.x).map(move |x| (x, y))) {
                 for sample in 0..samples {
                     let mut sampler = SamplerKind::Sobol.start(&PixelSample {
@@ -213,7 +213,7 @@ fn splats_of_a_constant_make_a_flat_image() {
         let per_pixel = 16;
         let margin = film.margin().ceil() as i32;
         {
-            let mut tile = film.tile(from, to, false, 0);
+            let mut tile = film.tile(from, to, false);
             tile.begin_sample(from, 1.0);
             let area = 1.0 / (per_pixel * per_pixel) as f32;
             let lattice = |from: u32, to: u32| {

@@ -20,7 +20,7 @@ fn developed(replicates: u32, seconds: Option<f64>) -> Developed {
     let channels = [Channel("dd.y.T".to_owned()), Channel("m2_img.X".to_owned())];
     let mut film = ExactFilm::new(settings, &channels).expect("names");
     for replicate in 0..replicates {
-        let mut tile = film.tile(film.origin(), film.origin() + film.size(), false, 0);
+        let mut tile = film.tile(film.origin(), film.origin() + film.size(), false);
         for i in 0..19 * 17 {
             tile.begin_sample(film.origin() + UVec2::new(i % 19, i / 19), 1.0);
             let value = (i as f32 + 0.1) / (replicate as f32 + 3.0);

@@ -40,7 +40,7 @@ fn film(first: u32, count: u32, seed: u64) -> ExactFilm {
     let film = ExactFilm::new(settings, &[Channel("dd.y".to_owned())]).expect("names");
     let mut film = film.starting_at(first);
     for replicate in first..first + count {
-        let mut tile = film.tile(film.origin(), film.origin() + film.size(), false, 0);
+        let mut tile = film.tile(film.origin(), film.origin() + film.size(), false);
         for i in 0..19 * 17u32 {
             let pixel = film.origin() + UVec2::new(i % 19, i / 19);
             for sample in 0..3u64 {

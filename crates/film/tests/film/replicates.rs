@@ -25,7 +25,7 @@ fn feed(
 ) {
     let (from, to) = (film.origin(), film.origin() + film.size());
     for replicate in 0..replicates {
-        let mut tile = film.tile(from, to, false, 0);
+        let mut tile = film.tile(from, to, false);
         for y in from.y..to.y {
             for x in from.x..to.x {
                 for sample in 0..samples {
@@ -169,7 +169,7 @@ fn formats_are_converted_before_they_are_squared() {
         };
         let mut film = ExactFilm::new(settings, &[Channel("depth.T".to_owned())]).expect("names");
         for replicate in 0..4 {
-            let mut tile = film.tile(UVec2::ZERO, UVec2::splat(4), false, 0);
+            let mut tile = film.tile(UVec2::ZERO, UVec2::splat(4), false);
             for pixel in (0..16).map(|i| UVec2::new(i % 4, i / 4)) {
                 tile.begin_sample(pixel, 1.0);
                 let noise = uniform([pixel.x, pixel.y, replicate, 0]) - 0.5;
@@ -217,7 +217,7 @@ fn bad_numbers_are_counted_and_left_out() {
     };
     let mut film = ExactFilm::new(settings, &[Channel("depth.T".to_owned())]).expect("names");
     {
-        let mut tile = film.tile(film.origin(), film.origin() + film.size(), false, 0);
+        let mut tile = film.tile(film.origin(), film.origin() + film.size(), false);
         for pixel in [UVec2::new(3, 2), UVec2::new(2, 1)] {
             for bad in [1.0, f32::NAN, f32::INFINITY, 1e30] {
                 tile.begin_sample(pixel, 1.0);

@@ -290,6 +290,9 @@ impl Lessons {
             let lessons = sums.lessons(self.share);
             let most = self.records * f64::from(round.samples()).sqrt();
             field = field.learned(lessons, most as u64);
+            if placing.stopped() {
+                return (field, None);
+            }
             if last {
                 return (field, pictures);
             }
@@ -321,6 +324,9 @@ impl Lessons {
             for column in 0..pass.size.x {
                 let pixel = pass.origin + UVec2::new(column, row);
                 for sample in 0..round.samples() {
+                    if class.placing.stopped() {
+                        return tally;
+                    }
                     let address = round.address(pass.seed, pixel, sample);
                     pupil.begin();
                     let found;

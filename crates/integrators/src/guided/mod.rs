@@ -198,7 +198,8 @@ impl Integrator for Guided {
         let guide = Self::guide(learned);
         match &learned.pictures {
             Some(pictures) => {
-                let mut sink = Joined::new(sink, pictures, learned.replicate);
+                let first = drafts.iter().map(|draft| draft.site.sample == 0).collect();
+                let mut sink = Joined::new(sink, pictures, learned.replicate, first);
                 follow_drafts(world, &self.settings, guide, drafts, &mut sink);
             }
             None => follow_drafts(world, &self.settings, guide, drafts, sink),

@@ -10,7 +10,7 @@
 //! so bias the picture; these are fixed beforehand.
 //!
 //! Where a path in training found what is no finite number, neither is T_r: that pixel's samples go without it, but for
-//! the first of those drawn together, which the film refuses, counts and tells the place of.
+//! the first in the replicate, which the film refuses, counts and tells the place of.
 
 use etalon_transport::{Pass, Placing, Sink, TileSink};
 use glam::{UVec2, Vec2, Vec4};
@@ -80,28 +80,32 @@ pub(crate) struct Joined<'a, K> {
     own: f32,
     /// w·T_r, over what a sample counts on the film, so that the film's mean over samples is that of T_r.
     training: Vec4,
-    /// The last pixel that the film was told of.
-    spoilt: Option<UVec2>,
+    /// Whether each of the samples to come is its pixel's first in the replicate.
+    first: std::vec::IntoIter<bool>,
 }
 
 impl<'a, K> Joined<'a, K> {
-    /// Of a replicate.
-    pub(crate) fn new(sink: &'a mut K, pictures: &'a Pictures, replicate: u32) -> Self {
+    /// Of a replicate, for samples of which these are their pixels' first.
+    pub(crate) fn new(
+        sink: &'a mut K,
+        pictures: &'a Pictures,
+        replicate: u32,
+        first: Vec<bool>,
+    ) -> Self {
         Self {
             sink,
             pictures,
             replicate,
             own: 1.0,
             training: Vec4::ZERO,
-            spoilt: None,
+            first: first.into_iter(),
         }
     }
 
     /// Joins a pixel's first sample with what is no number, and leaves the others alone.
     #[cold]
-    fn spoil(&mut self, pixel: UVec2, mean: Vec4) {
-        let told = self.spoilt.replace(pixel) == Some(pixel);
-        (self.own, self.training) = (1.0, if told { Vec4::ZERO } else { mean });
+    fn spoil(&mut self, first: bool, mean: Vec4) {
+        (self.own, self.training) = (1.0, if first { mean } else { Vec4::ZERO });
     }
 }
 
@@ -124,10 +128,11 @@ impl<K: TileSink> TileSink for Joined<'_, K> {
     fn begin_sample(&mut self, pixel: UVec2, weight: f32) {
         self.sink.begin_sample(pixel, weight);
         let (share, mean) = self.pictures.of(pixel, self.replicate);
+        let first = self.first.next() == Some(true);
         if mean.is_finite() {
             (self.own, self.training) = (1.0 - share, mean * (share / weight));
         } else {
-            self.spoil(pixel, mean);
+            self.spoil(first, mean);
         }
     }
 }

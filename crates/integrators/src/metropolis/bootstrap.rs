@@ -5,7 +5,7 @@ use super::found::{Contribution, Field, Found};
 use super::primary::PrimarySample;
 use super::{ChainSettings, Integrand};
 use etalon_sampling::hash::{derived_key, mix64, random_float, stream_key};
-use etalon_transport::Pass;
+use etalon_transport::{Pass, Placing};
 use glam::Vec2;
 use rayon::prelude::*;
 
@@ -98,6 +98,8 @@ pub struct State {
     pub(super) starts: Vec<u32>,
     /// Steps per chain.
     pub(super) length: u32,
+    /// Samples per pixel of the replicate.
+    pub(super) samples: u32,
     /// What a contribution of one step is multiplied by, for a film that divides by the samples of
     /// a pixel.
     pub(super) scale: f64,
@@ -129,6 +131,7 @@ impl State {
     pub(crate) fn prepare<T: Integrand>(
         integrand: &T,
         settings: &ChainSettings,
+        placing: &impl Placing,
         pass: &Pass,
         before: Option<Self>,
     ) -> Self {
@@ -137,7 +140,7 @@ impl State {
         let kept = before.map(|state| state.pilot);
         let pilot = kept
             .filter(|pilot| pilot.seed == pass.seed)
-            .unwrap_or_else(|| Pilot::run(integrand, settings, field, pass.seed, samples));
+            .unwrap_or_else(|| Pilot::run(integrand, settings, placing, field, pass.seed, samples));
         let chains = (samples / u64::from(settings.length)).clamp(1, u32::MAX.into());
         let length = (samples / chains).min(u64::from(u32::MAX)) as u32;
         let steps = chains as f64 * f64::from(length);
@@ -155,11 +158,12 @@ impl State {
             brightness: 0.0,
             starts: Vec::new(),
             length,
+            samples: pass.samples,
             scale: f64::from(pass.samples) / steps,
             contributions: Vec::new(),
         };
         if integrand.kinds() > 0 {
-            state.begin(integrand, settings, seeds, chains as u32);
+            state.begin(integrand, settings, placing, seeds, chains as u32);
         }
         state
     }
@@ -169,6 +173,7 @@ impl State {
         &mut self,
         integrand: &T,
         settings: &ChainSettings,
+        placing: &impl Placing,
         seeds: u32,
         chains: u32,
     ) {
@@ -177,7 +182,7 @@ impl State {
             kinds, emphasis, ..
         } = &self.pilot;
         let drawn = draw(
-            integrand,
+            (integrand, placing),
             settings,
             self.field,
             (kinds, emphasis),
@@ -225,6 +230,7 @@ impl Pilot {
     fn run<T: Integrand>(
         integrand: &T,
         settings: &ChainSettings,
+        placing: &impl Placing,
         field: Field,
         seed: u64,
         samples: u64,
@@ -249,7 +255,8 @@ impl Pilot {
                 task.extend(each);
             }
         };
-        let drawn: Vec<_> = draw(integrand, settings, field, learned, key, pilot, note)
+        let asked = (integrand, placing);
+        let drawn: Vec<_> = draw(asked, settings, field, learned, key, pilot, note)
             .into_iter()
             .flatten()
             .collect();
@@ -276,9 +283,10 @@ pub(super) fn start_key(key: u64, index: u32) -> u64 {
     derived_key(key, index)
 }
 
-/// Draws `count` uniform samples and notes what they found, some to a task, in order.
+/// Draws `count` uniform samples, fewer if the film is told to stop, and notes what they found, some
+/// to a task, in order.
 fn draw<T: Integrand, N: Default + Send>(
-    integrand: &T,
+    (integrand, placing): (&T, &impl Placing),
     settings: &ChainSettings,
     field: Field,
     (kinds, emphasis): (&Kinds, &Emphasis),
@@ -294,6 +302,9 @@ fn draw<T: Integrand, N: Default + Send>(
             let mut found = Found::default();
             let mut sample = PrimarySample::new(settings.step(), settings.large_step, 0, 0);
             for index in task * TASK..count.min((task + 1) * TASK) {
+                if placing.stopped() {
+                    break;
+                }
                 sample.restart(start_key(key, index));
                 found.clear();
                 integrand.find(&field, kinds, &mut sample, &mut lists, &mut found);

@@ -9,7 +9,9 @@ use etalon_sampling::hash::derived_key;
 use etalon_transport::{ChainRemark, PixelSite, Remark, Sink};
 
 impl State {
-    /// Does the share of a site: its chains, and what it delivers of the bootstrap samples.
+    /// Does the share of a sample: its chains, and what it delivers of the bootstrap samples. They
+    /// are spread evenly over the samples of all pixels, so that none takes long, and a replicate
+    /// that is cut short has as large a share of chains as of samples.
     pub(crate) fn host<T: Integrand, K: Sink>(
         &self,
         integrand: &T,
@@ -17,12 +19,12 @@ impl State {
         site: &PixelSite,
         sink: &mut K,
     ) {
-        if site.sample != 0 {
-            tell(integrand, || ChainRemark::HostedBefore);
-            return;
-        }
         let share = |count: usize| self.share(site, count);
         let (contributions, chains) = (share(self.contributions.len()), share(self.starts.len()));
+        if contributions.is_empty() && chains.is_empty() {
+            tell(integrand, || ChainRemark::HostsNone);
+            return;
+        }
         tell(integrand, || ChainRemark::Hosts {
             contributions: contributions.len(),
             chains: chains.len(),
@@ -42,14 +44,15 @@ impl State {
         }
     }
 
-    /// Which of so many things a pixel hosts: they are dealt evenly.
+    /// Which of so many things a sample hosts: they are dealt evenly.
     fn share(&self, site: &PixelSite, count: usize) -> Range<usize> {
         let place = site.pixel - self.field.origin();
         let index = u64::from(place.y) * u64::from(self.field.width()) + u64::from(place.x);
-        let begin = |index: u64| {
-            (u128::from(index) * count as u128).div_ceil(u128::from(site.pixels.max(1))) as usize
-        };
-        begin(index)..begin(index + 1)
+        let samples = u128::from(self.samples);
+        let of = samples * u128::from(site.pixels.max(1));
+        let begin = |slot: u128| (slot * count as u128).div_ceil(of) as usize;
+        let slot = u128::from(index) * samples + u128::from(site.sample);
+        begin(slot)..begin(slot + 1)
     }
 
     /// The uniform sample with this index, about to take the steps that `course` selects.

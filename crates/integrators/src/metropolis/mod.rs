@@ -39,7 +39,7 @@
 //! keeps its four wavelengths, and dispersion needs no care of its own.
 //!
 //! As many steps are made as there are samples in the replicate, cut into chains of equal length;
-//! chains are hosted by pixels spread evenly over the film. Light with few corners
+//! chains are hosted by samples spread evenly over the film and the replicate. Light with few corners
 //! (`separate_direct`) is found by the ordinary samples of the path tracer, which also give
 //! alpha.
 

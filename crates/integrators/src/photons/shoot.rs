@@ -11,7 +11,7 @@ use crate::particle::{Met, Particle};
 use crate::settings::PathSettings;
 use etalon_sampling::hash::mix64;
 use etalon_sampling::{PixelSample, Sobol};
-use etalon_transport::{Bsdf, Chance, Pass, World};
+use etalon_transport::{Bsdf, Chance, Pass, Placing, World};
 use glam::{Vec3, Vec4};
 use rayon::prelude::*;
 
@@ -79,12 +79,19 @@ pub(crate) fn numbers(pass: &Pass, index: u32, count: u32) -> Sobol {
 }
 
 /// Everything that `trace` finds for the numbers below `count`, in their order whatever the number
-/// of threads.
-pub(crate) fn in_order<T: Send>(count: u32, trace: impl Fn(u32, &mut Vec<T>) + Sync) -> Vec<T> {
+/// of threads; less if `placing` says to stop.
+pub(crate) fn in_order<T: Send>(
+    count: u32,
+    placing: &impl Placing,
+    trace: impl Fn(u32, &mut Vec<T>) + Sync,
+) -> Vec<T> {
     let chunk = |chunk: u32| {
         let mut found = Vec::new();
         let begin = chunk * CHUNK;
         for index in begin..(begin + CHUNK).min(count) {
+            if placing.stopped() {
+                break;
+            }
             trace(index, &mut found);
         }
         found
@@ -96,9 +103,11 @@ pub(crate) fn in_order<T: Send>(count: u32, trace: impl Fn(u32, &mut Vec<T>) + S
     chunks.into_iter().flatten().collect()
 }
 
-/// Shoots `count` photons, a multiple of four times the number of sets.
+/// Shoots `count` photons, a multiple of four times the number of sets, unless `placing` says to
+/// stop.
 pub(crate) fn shoot<W: World>(
     world: &W,
+    placing: &impl Placing,
     settings: &PathSettings,
     sets: &WavelengthSets,
     pass: &Pass,
@@ -107,7 +116,7 @@ pub(crate) fn shoot<W: World>(
     // Successive photons share their wavelengths, so that each share of them is as evenly spread
     // as the whole.
     let share = count / (4 * sets.len() as u32);
-    in_order(count, |index, found| {
+    in_order(count, placing, |index, found| {
         let lanes = (index / share) as usize;
         let lanes = Lanes {
             set: lanes / 4,

@@ -96,8 +96,8 @@ pub(super) fn mixed(mixture: &Mixture) -> String {
 /// What an estimator says of its chains.
 pub(super) fn chain(remark: &ChainRemark) -> String {
     match remark {
-        ChainRemark::HostedBefore => {
-            "the pixel's share of Markov chains and uniform samples belongs to its sample 0"
+        ChainRemark::HostsNone => {
+            "the Markov chains and uniform samples belong to other samples of this and other pixels"
                 .to_owned()
         }
         ChainRemark::Hosts {
@@ -105,7 +105,7 @@ pub(super) fn chain(remark: &ChainRemark) -> String {
             chains,
             steps,
         } => format!(
-            "the pixel's share: {contributions} contributions of uniform samples, and Markov chains: \
+            "the sample's share: {contributions} contributions of uniform samples, and Markov chains: \
              {chains}, of {steps} steps each"
         ),
         ChainRemark::Uniform(index) => format!("-- uniform sample {index}"),

@@ -102,7 +102,7 @@ fn replicate(number: u32, before: Option<State>, change: Change) -> ([f64; 2], S
         size: UVec2::new(2, 1),
         margin: 1,
     };
-    let prepare = |before| State::prepare(&Peak, &settings(), &pass, before);
+    let prepare = |before| State::prepare(&Peak, &settings(), &(), &pass, before);
     let pristine = prepare(before);
     let mut state = pristine.clone();
     match change {
@@ -123,7 +123,10 @@ fn replicate(number: u32, before: Option<State>, change: Change) -> ([f64; 2], S
         let mut site = Field::of(&pass).site(Vec2::ZERO);
         site.pixel = UVec2::new(x, 0);
         site.pixels = 2;
-        state.host(&Peak, &settings(), &site, &mut sink);
+        for sample in 0..SAMPLES {
+            site.sample = sample;
+            state.host(&Peak, &settings(), &site, &mut sink);
+        }
     }
     (sink.0.map(|sum| sum / f64::from(SAMPLES)), pristine)
 }

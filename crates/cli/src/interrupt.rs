@@ -1,0 +1,51 @@
+//! Signals that ask to stop: Ctrl-C, and what queues and closed terminals send.
+//!
+//! The first of them sets a flag, which everybody who works for long looks at; a second one, of
+//! whatever kind, ends the process at once.
+
+use signal_hook::consts::{SIGINT, SIGTERM};
+use signal_hook::flag;
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::{Arc, LazyLock};
+
+/// Exit code of work that was stopped (128 + SIGINT, as shells have it), whichever signal it was.
+pub const STOPPED: u8 = 130;
+
+static ASKED: LazyLock<Arc<AtomicBool>> = LazyLock::new(Arc::default);
+
+/// Set by the first signal after [`listen`].
+pub fn flag() -> &'static AtomicBool {
+    &ASKED
+}
+
+/// Whether somebody asked to stop.
+pub fn asked() -> bool {
+    ASKED.load(Ordering::Relaxed)
+}
+
+/// From now on the first signal sets the flag, rather than end the process.
+///
+/// # Errors
+/// If the system refuses; signals end the process then, as if nobody listened.
+pub fn listen() -> std::io::Result<()> {
+    let mut signals = vec![SIGINT, SIGTERM];
+    #[cfg(unix)]
+    if !hangups_are_ignored() {
+        signals.push(signal_hook::consts::SIGHUP);
+    }
+    for signal in signals {
+        // Done in this order: only a flag that is set already ends the process.
+        flag::register_conditional_shutdown(signal, STOPPED.into(), Arc::clone(&ASKED))?;
+        flag::register(signal, Arc::clone(&ASKED))?;
+    }
+    Ok(())
+}
+
+/// Whether whoever started the process wants it to outlive its terminal, as `nohup` does.
+#[cfg(unix)]
+fn hangups_are_ignored() -> bool {
+    let status = std::fs::read_to_string("/proc/self/status").unwrap_or_default();
+    let mask = status.lines().find_map(|line| line.strip_prefix("SigIgn:"));
+    let mask = mask.and_then(|mask| u64::from_str_radix(mask.trim(), 16).ok());
+    mask.is_some_and(|mask| mask & (1 << (signal_hook::consts::SIGHUP - 1)) != 0)
+}

@@ -1,0 +1,195 @@
+//! The replicate that is being rendered: one exact sum per pixel and channel, and how many samples
+//! it is of.
+//!
+//! Samples come in any number of rounds, so that a render can be interrupted between any two of
+//! them: what a pixel has is a count of samples, the sums over them, and what stood out among
+//! them. Splats have sums of their own: those of a pixel are of the samples of all pixels.
+
+use crate::faults::FaultLog;
+use crate::outliers::{Outlier, OutlierLog, Standing};
+use crate::unfinished::Unfinished;
+use etalon_statistics::{AtomicFixed128, Fault, Fixed128};
+use glam::UVec2;
+use std::sync::atomic::{AtomicU32, Ordering};
+use std::sync::{Mutex, OnceLock};
+
+/// Sums of a replicate that is not finished.
+#[derive(Debug)]
+pub(crate) struct Running {
+    channels: usize,
+    /// What samples bring to their own pixels, by row, column and channel.
+    own: Vec<AtomicFixed128>,
+    /// What splats bring to the colours; made for the first of them.
+    colours: usize,
+    splats: OnceLock<Box<[AtomicFixed128]>>,
+    /// By row and column.
+    pixels: Vec<PixelProgress>,
+    /// What was refused in it.
+    faults: Mutex<FaultLog>,
+}
+
+/// How far a pixel is. Only the tile that has the pixel writes to it.
+#[derive(Debug, Default)]
+struct PixelProgress {
+    samples: AtomicU32,
+    /// Of [`Standing`]: the floats' bits, and the sample.
+    standing: [AtomicU32; 3],
+}
+
+impl Running {
+    /// Nothing yet, for so many pixels; `None` if there is no memory for it.
+    pub(crate) fn new(pixels: u64, channels: usize, colours: usize) -> Option<Self> {
+        let sums = pixels.checked_mul(channels as u64)?;
+        let (mut own, mut progress) = (reserved(sums)?, reserved(pixels)?);
+        own.resize_with(sums as usize, AtomicFixed128::new);
+        progress.resize_with(pixels as usize, PixelProgress::default);
+        Some(Self {
+            channels,
+            own,
+            colours,
+            splats: OnceLock::new(),
+            pixels: progress,
+            faults: Mutex::default(),
+        })
+    }
+
+    /// The sums of a pixel's samples.
+    pub(crate) fn of_pixel(&self, pixel: usize) -> &[AtomicFixed128] {
+        &self.own[pixel * self.channels..][..self.channels]
+    }
+
+    /// Adds the colours of a splat to a pixel; says whether all went well.
+    pub(crate) fn splat(&self, pixel: usize, colours: &[f32]) -> Result<(), Fault> {
+        let sums = self.splats.get_or_init(|| self.no_splats());
+        let sums = &sums[pixel * self.colours..];
+        let mut pairs = colours.iter().zip(sums);
+        pairs.try_for_each(|(term, sum)| sum.add(*term))
+    }
+
+    fn no_splats(&self) -> Box<[AtomicFixed128]> {
+        let count = self.pixels.len() * self.colours;
+        (0..count).map(|_| AtomicFixed128::new()).collect()
+    }
+
+    /// The samples that a pixel has.
+    #[inline]
+    pub(crate) fn samples(&self, pixel: usize) -> u32 {
+        self.pixels[pixel].samples.load(Ordering::Relaxed)
+    }
+
+    /// What a pixel's samples bring.
+    pub(crate) fn standing(&self, pixel: usize) -> Standing {
+        let words = &self.pixels[pixel].standing;
+        Standing::from_words(words.each_ref().map(|word| word.load(Ordering::Relaxed)))
+    }
+
+    /// Notes that a pixel has so many samples, which bring this.
+    pub(crate) fn advance(&self, pixel: usize, samples: u32, standing: &Standing) {
+        let progress = &self.pixels[pixel];
+        progress.samples.store(samples, Ordering::Relaxed);
+        for (word, value) in progress.standing.iter().zip(standing.words()) {
+            word.store(value, Ordering::Relaxed);
+        }
+    }
+
+    /// Adds a tile's log.
+    pub(crate) fn report(&self, log: FaultLog) {
+        if !log.is_empty() {
+            self.faults
+                .lock()
+                .unwrap_or_else(|e| e.into_inner())
+                .merge(log);
+        }
+    }
+
+    /// The samples that stand out in `replicate`, of a film whose rows have `width` pixels.
+    pub(crate) fn outliers(&self, origin: UVec2, width: u32, replicate: u32) -> OutlierLog {
+        let mut log = OutlierLog::default();
+        for (index, place) in (0..self.pixels.len()).zip(0..) {
+            let samples = self.samples(index);
+            if let Some((sample, value)) = self.standing(index).outstanding(samples) {
+                let pixel = origin + UVec2::new(place % width, place / width);
+                log.note(Outlier {
+                    replicate,
+                    pixel: pixel.to_array(),
+                    sample,
+                    value,
+                    lift: value / samples as f32,
+                });
+            }
+        }
+        log
+    }
+
+    /// Adds the splats to the sums of the pixels, and gives these, to be emptied. `refuse` hears of
+    /// sums that leave their range, by pixel and channel.
+    pub(crate) fn whole(
+        &mut self,
+        mut refuse: impl FnMut(usize, usize, Fault),
+    ) -> &mut [AtomicFixed128] {
+        if let Some(splats) = self.splats.get_mut() {
+            let pixels = self.own.chunks_exact_mut(self.channels);
+            let splats = splats.chunks_exact_mut(self.colours);
+            for (pixel, (own, splats)) in pixels.zip(splats).enumerate() {
+                for (channel, (own, splat)) in own.iter_mut().zip(splats).enumerate() {
+                    if let Err(fault) = own.merge_alone(splat.take()) {
+                        refuse(pixel, channel, fault);
+                    }
+                }
+            }
+        }
+        &mut self.own
+    }
+
+    /// Begins anew, after the sums have been emptied; gives what was refused.
+    pub(crate) fn begin(&mut self) -> FaultLog {
+        self.pixels.fill_with(PixelProgress::default);
+        std::mem::take(self.faults.get_mut().unwrap_or_else(|e| e.into_inner()))
+    }
+
+    /// What there is, if any sample is there.
+    pub(crate) fn snapshot(&mut self) -> Option<Unfinished> {
+        let pixels = 0..self.pixels.len();
+        let samples: Vec<u32> = pixels.clone().map(|pixel| self.samples(pixel)).collect();
+        if samples.iter().all(|&count| count == 0) {
+            return None;
+        }
+        let read =
+            |sums: &mut [AtomicFixed128]| sums.iter_mut().map(AtomicFixed128::load).collect();
+        Some(Unfinished {
+            standing: pixels.map(|pixel| self.standing(pixel)).collect(),
+            samples,
+            own: read(&mut self.own),
+            splats: self
+                .splats
+                .get_mut()
+                .map(|splats| read(splats))
+                .unwrap_or_default(),
+            faults: (self.faults.get_mut().unwrap_or_else(|e| e.into_inner())).clone(),
+        })
+    }
+
+    /// Goes on from what there was, of as many pixels and channels.
+    pub(crate) fn restore(&mut self, unfinished: Unfinished) {
+        let made = |sums: Vec<Fixed128>| sums.into_iter().map(AtomicFixed128::from_fixed);
+        let pixels = unfinished.samples.iter().zip(&unfinished.standing);
+        for (pixel, (samples, standing)) in pixels.enumerate() {
+            self.advance(pixel, *samples, standing);
+        }
+        self.own = made(unfinished.own).collect();
+        self.splats = match unfinished.splats.is_empty() {
+            true => OnceLock::new(),
+            false => OnceLock::from(made(unfinished.splats).collect::<Box<[_]>>()),
+        };
+        self.faults = Mutex::new(unfinished.faults);
+    }
+}
+
+/// Room for `count` values, if there is memory for them.
+pub(crate) fn reserved<T>(count: u64) -> Option<Vec<T>> {
+    let mut values = Vec::new();
+    values
+        .try_reserve_exact(usize::try_from(count).ok()?)
+        .ok()?;
+    Some(values)
+}
