@@ -86,8 +86,8 @@ pub fn measure(
             let first = first()?;
             let compiled = linear(claim, estimator, loaded)?;
             let mut film = film(&compiled)?;
-            let scene = &compiled.scene;
-            loaded.integrator.render(scene, &mut film, &other, &());
+            let estimator = (&loaded.integrator, &compiled.scene);
+            pipeline::render_into(&mut film, estimator, &other, &());
             let facts = rendering::facts(loaded, &other, loaded.integrator_name.clone());
             let changed = rendering::finite(film.develop(facts))?;
             let name = "numbers that a linear scan changes".to_owned();
@@ -161,8 +161,8 @@ fn one_after_another(loaded: &Loaded, plans: [Plan; 2]) -> Result<Developed, Str
     let compiled = &loaded.compiled;
     let mut film = film(compiled)?;
     for plan in &plans {
-        let scene = &compiled.scene;
-        loaded.integrator.render(scene, &mut film, plan, &());
+        let estimator = (&loaded.integrator, &compiled.scene);
+        pipeline::render_into(&mut film, estimator, plan, &());
     }
     let facts = rendering::facts(loaded, &plans[0], loaded.integrator_name.clone());
     rendering::finite(film.develop(facts))

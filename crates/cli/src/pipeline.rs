@@ -11,7 +11,7 @@ use etalon_formats::mitsuba::{self, Document, ReadOptions, ReadOutcome};
 use etalon_integrators::{AnyIntegrator, Outcome, Plan, Progress, Share};
 use etalon_params::{Class, Diagnostic, Diagnostics, Node, Params, Sources, Span, Value};
 use etalon_sampling::SamplerKind;
-use etalon_scene::{CompileOptions, Compiled, LightChooser};
+use etalon_scene::{CompileOptions, Compiled, LightChooser, Scene};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::time::{Duration, Instant};
@@ -313,6 +313,18 @@ pub fn render(
     progress: &dyn Progress,
 ) -> Result<Rendered, Diagnostic> {
     render_as(loaded, plan, Manner::default(), progress)
+}
+
+/// Renders into a film of one's own. Not generic, so that whoever calls it need not compile all
+/// integrators again.
+#[inline(never)]
+pub fn render_into(
+    film: &mut ExactFilm,
+    (integrator, scene): (&AnyIntegrator, &Scene),
+    plan: &Plan,
+    progress: &dyn Progress,
+) -> Outcome {
+    integrator.render(scene, film, plan, progress)
 }
 
 /// What is not ordinary about a render.

@@ -8,6 +8,7 @@
 use super::entrant::Entrant;
 use super::reference::{Reference, interleaved};
 use super::schedule::Size;
+use crate::pipeline::render_into;
 use etalon_film::{ExactFilm, RenderFacts};
 use etalon_integrators::{Plan, Progress};
 use etalon_statistics::Picture;
@@ -46,8 +47,8 @@ pub fn render(
         sampler: entrant.sampler,
     };
     let start = Instant::now();
-    let world = &entrant.compiled.scene;
-    entrant.integrator.render(world, &mut film, &plan, progress);
+    let estimator = (&entrant.integrator, &entrant.compiled.scene);
+    render_into(&mut film, estimator, &plan, progress);
     let seconds = start.elapsed().as_secs_f64();
     let faults = film.faults().total();
     let developed = film.develop(RenderFacts::default());

@@ -13,7 +13,7 @@
 use super::entrant::Entrant;
 use super::schedule::Size;
 use crate::VERSION;
-use crate::pipeline::sampler_name;
+use crate::pipeline::{render_into, sampler_name};
 use etalon_film::{Developed, ExactFilm, RenderFacts, read_developed};
 use etalon_images::Image;
 use etalon_integrators::{Plan, Progress};
@@ -119,9 +119,8 @@ impl Reference {
             samples_per_replicate: size.samples,
             sampler: entrant.sampler,
         };
-        let compiled = &entrant.compiled;
-        let render = &entrant.integrator;
-        render.render(&compiled.scene, &mut film, &plan, progress);
+        let estimator = (&entrant.integrator, &entrant.compiled.scene);
+        render_into(&mut film, estimator, &plan, progress);
         let developed = film.develop(RenderFacts {
             version: VERSION.to_owned(),
             ..RenderFacts::default()
