@@ -51,8 +51,8 @@ pub fn run(args: &CompareArgs) -> ExitCode {
     }
     let black = [(&args.a, &first), (&args.b, &second)]
         .into_iter()
-        .filter_map(|(path, image)| Some(format!("{} {}", path.display(), black(image)?)));
-    if let Some(reason) = black.last() {
+        .find_map(|(path, image)| Some(format!("{} {}", path.display(), black(image)?)));
+    if let Some(reason) = black {
         return say_inconclusive(args, &reason, [&first, &second]);
     }
     if let Some(seed) = shared_seed(&first, &second) {
