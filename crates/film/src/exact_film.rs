@@ -19,7 +19,6 @@ use crate::tile_means::TileMeans;
 use crate::tile_sink::ExactTile;
 use crate::unfinished::Unfinished;
 use crate::{FilmSettings, Metadata, PixelFilter};
-use etalon_images::Image;
 use etalon_params::Diagnostic;
 use etalon_statistics::{Fault, Fixed128};
 use etalon_transport::{Channel, Film, Placement, Placing};
@@ -36,7 +35,7 @@ pub struct ExactFilm {
     /// All channels: colours, alpha, then the integrator's.
     channels: Vec<String>,
     /// The replicate being rendered.
-    running: Running,
+    pub(crate) running: Running,
     /// Sums over finished replicates, by row, column and channel.
     moments: Vec<PixelMoments>,
     /// The number of the first replicate, and how many are finished.
@@ -181,47 +180,9 @@ impl ExactFilm {
         &self.tiles
     }
 
-    /// Adds a replicate that was rendered elsewhere: an independent estimate of the whole crop,
-    /// of `samples` per pixel, with one channel for each of [`ExactFilm::channels`].
-    ///
-    /// This is how other renderers' images, one per seed, become a reference with standard
-    /// errors and tile means.
-    ///
-    /// # Errors
-    /// If the image has another size or lacks a channel.
-    pub fn add_replicate(&mut self, image: &Image, samples: u64) -> Result<(), String> {
-        let [width, height] = self.settings.crop_size.to_array();
-        let size = [image.width(), image.height()];
-        if size != [width, height].map(|n| n as usize) {
-            let [w, h] = size;
-            return Err(format!(
-                "the image has {w} × {h} pixels, not {width} × {height}"
-            ));
-        }
-        let planes = self.channels.iter().map(|name| {
-            let plane = image.channel(name);
-            plane.ok_or_else(|| format!("the image has no channel `{name}`"))
-        });
-        let planes: Vec<&[f32]> = planes.collect::<Result<_, String>>()?;
-        let mut log = FaultLog::default();
-        for i in 0..size[0] * size[1] {
-            let sums = self.running.of_pixel(i).iter();
-            for ((sum, plane), name) in sums.zip(&planes).zip(&self.channels) {
-                if let Err(fault) = sum.add(plane[i]) {
-                    let place = [i % size[0], i / size[0]].map(|n| n as u32);
-                    let pixel = UVec2::from(place) + self.settings.crop_offset;
-                    log.note(self.offence(pixel, None, name, fault));
-                }
-            }
-        }
-        self.report(log);
-        self.finish_replicate(Divisor::Even(1), samples);
-        Ok(())
-    }
-
     /// Divides the current sums by `divisor`, and lets the means join the statistics as those
     /// of `samples` per pixel.
-    fn finish_replicate(&mut self, divisor: Divisor<'_>, samples: u64) {
+    pub(crate) fn finish_replicate(&mut self, divisor: Divisor<'_>, samples: u64) {
         let (origin, size) = (self.settings.crop_offset, self.settings.crop_size);
         let replicate = self.replicate();
         let layout = replicate_end::Layout {

@@ -49,6 +49,12 @@ pub fn run(args: &CompareArgs) -> ExitCode {
     if let Some(reason) = unfit {
         return say_inconclusive(args, &reason, [&first, &second]);
     }
+    let black = [(&args.a, &first), (&args.b, &second)]
+        .into_iter()
+        .find_map(|(path, image)| Some(format!("{} {}", path.display(), black(image)?)));
+    if let Some(reason) = black {
+        return say_inconclusive(args, &reason, [&first, &second]);
+    }
     if let Some(seed) = shared_seed(&first, &second) {
         note(format!(
             "both images were rendered with seed {seed}: what they share of their noise \
@@ -129,6 +135,25 @@ fn unfit(image: &Developed) -> Option<String> {
     whole
         .is_none_or(|means| means.replicates() < 2)
         .then(|| "carries no tile means of its replicates: there is nothing to judge by".to_owned())
+}
+
+/// Why a black image cannot be judged, if it is one.
+///
+/// Its replicates do not spread, but that is no knowledge: of n samples that all found nothing, the chance of one to
+/// find something is below ln(1/α)/n with confidence 1 − α, and what it would find has no bound. An estimator
+/// that misses what is rare leaves the same picture as a scene without light.
+fn black(image: &Developed) -> Option<String> {
+    let metadata = image.metadata.as_ref()?;
+    let colours = ["R", "G", "B", "X", "Y", "Z"];
+    let mut planes = colours.iter().filter_map(|name| image.image.channel(name));
+    let is_black = planes.all(|pixels| pixels.iter().all(|value| *value == 0.0));
+    is_black.then(|| {
+        format!(
+            "is black: not one of its {} samples per pixel found light, and so nothing tells how far it may \
+             be off; either there is none, or `{}` cannot find it or needs more samples",
+            metadata.spp, metadata.integrator
+        )
+    })
 }
 
 /// Says that these images cannot be judged, which is no pass.

@@ -89,7 +89,14 @@ pub fn findings(measured: &Measured<'_>) -> Findings {
             estimators: first_pictures.map(Option::unwrap_or_default).collect(),
         },
     };
-    findings.remarks = remarks::about(&findings);
+    let of_cell = |cell: &Cell| cell.measured.iter().all(|one| one.mean == [0.0; 3]);
+    let black = remarks::Black {
+        reference: (measured.reference.picture().values().iter()).all(|value| *value == 0.0),
+        estimators: (measured.cells.iter())
+            .map(|cells| cells.iter().all(of_cell))
+            .collect(),
+    };
+    findings.remarks = remarks::about(&findings, &black);
     findings
 }
 

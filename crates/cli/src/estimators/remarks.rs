@@ -11,12 +11,44 @@ const MUCH_BIAS: f64 = 0.1;
 /// The p-value of a power law below which it is called none.
 const NO_LINE: f64 = 1e-3;
 
+/// Where nothing but black was found.
+#[derive(Clone, Debug)]
+pub struct Black {
+    /// Whether the reference is black.
+    pub reference: bool,
+    /// Whether all pictures of each estimator are.
+    pub estimators: Vec<bool>,
+}
+
 /// All remarks, each one sentence.
-pub fn about(findings: &Findings) -> Vec<String> {
+pub fn about(findings: &Findings, black: &Black) -> Vec<String> {
     let mut remarks = Vec::new();
-    reference(findings, &mut remarks);
+    if black.reference && black.estimators.iter().all(|&black| black) {
+        remarks.push(
+            "the picture is black: not one sample found light, neither of the reference nor of any \
+             estimator, so there is no error to compare"
+                .to_owned(),
+        );
+        return remarks;
+    }
+    if black.reference {
+        remarks.push(
+            "the reference is black, and the scene is not: it says nothing of the errors; take another \
+             estimator or a file for it"
+                .to_owned(),
+        );
+    } else {
+        reference(findings, &mut remarks);
+    }
     let first = findings.estimators.first().map_or("", |row| &row.name);
-    for row in &findings.estimators {
+    for (row, &black) in findings.estimators.iter().zip(&black.estimators) {
+        if black {
+            remarks.push(format!(
+                "the pictures of `{}` are black: not one of its samples found light",
+                row.name
+            ));
+            continue;
+        }
         let shown = row.differences.iter().filter(|d| d.is_shown());
         let worst = shown.max_by(|a, b| a.relative.abs().total_cmp(&b.relative.abs()));
         if let Some(worst) = worst {
@@ -37,7 +69,13 @@ pub fn about(findings: &Findings) -> Vec<String> {
                 row.name
             ));
         }
-        if row.convergence.exponent.value.is_none() {
+        let noisy = row.equal_time.rel_mse.value != Some(0.0);
+        if row.convergence.exponent.value.is_none() && !noisy {
+            remarks.push(format!(
+                "`{}` has no exponent: its pictures have no error at all",
+                row.name
+            ));
+        } else if row.convergence.exponent.value.is_none() {
             remarks.push(format!(
                 "`{}` has no exponent: {} sizes do not make a line; give more time",
                 row.name,
@@ -74,7 +112,8 @@ fn reference(findings: &Findings, remarks: &mut Vec<String>) {
     let errors = findings.estimators.iter();
     let errors = errors.filter_map(|row| Some((row.equal_time.rel_mse.value?, &row.name)));
     if let Some((error, name)) = errors.min_by(|a, b| a.0.total_cmp(&b.0))
-        && !(noise < CONVERGED * error)
+        // Where there is neither noise nor error there is nothing to wish for.
+        && !(noise < CONVERGED * error || noise == 0.0)
     {
         let share = match error > 0.0 {
             true => format!("{:.0} %", 100.0 * noise / error),

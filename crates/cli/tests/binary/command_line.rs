@@ -84,3 +84,53 @@ fn messages_have_no_colours_where_nobody_looks() {
         ran.stderr
     );
 }
+
+/// A number that cannot be is told what could be, not how to pass it as something else.
+#[test]
+fn negative_numbers_are_told_what_is_accepted() {
+    let workshop = Workshop::new();
+    let whole = "expected a whole number from ";
+    for (option, value, words) in [
+        ("--time", "-1", "expected a number of seconds from 0.001"),
+        ("--time", "-1e9", "expected a number of seconds from 0.001"),
+        (
+            "--seed",
+            "-1",
+            "expected a whole number from 0 to 18446744073709551615",
+        ),
+        ("--seed", "1.5", whole),
+        (
+            "--spp",
+            "-1",
+            "expected a whole number from 1 to 4294967295",
+        ),
+        ("--spp", "4294967296", whole),
+        ("--threads", "-2", "expected a whole number from 1 to 1024"),
+        (
+            "--replicates",
+            "-3",
+            "expected a whole number from 1 to 4096",
+        ),
+        ("--error", "-0.1", "expected a number from 0.000001 to 1"),
+        ("--part", "-1/2", "expected I/N"),
+        ("--replay", "-1,0,0,0", "expected four numbers"),
+    ] {
+        let ran = workshop.run(&["render", "a.xml", option, value]).refused();
+        assert!(
+            ran.stderr.contains(words),
+            "{option} {value}: {}",
+            ran.stderr
+        );
+        assert!(!ran.stderr.contains("-- -"), "{option}: {}", ran.stderr);
+    }
+    for option in ["--bound", "--tile-bound", "--alpha"] {
+        let ran = workshop.run(&["compare", "a.exr", "b.exr", option, "-1"]);
+        let said = ran.refused().stderr;
+        assert!(said.contains("expected a number between 0 and 1"), "{said}");
+    }
+    for option in ["--time", "--seed", "--threads", "--reference-share"] {
+        let ran = workshop.run(&["estimators", "a.xml", option, "-1"]);
+        let said = ran.refused().stderr;
+        assert!(!said.contains("-- -1"), "{option}: {said}");
+    }
+}

@@ -270,3 +270,34 @@ fn what_carries_no_replicates_is_inconclusive() {
     let ran = compare(&workshop, ["a.exr", "two.exr"], &[]);
     assert_eq!(ran.code, Some(3), "{}", ran.stdout);
 }
+
+/// Samples that all find nothing have no spread, which is no knowledge of the mean: what is rare looks the same.
+/// Mutant: the zero spread is believed, and the pictures differ.
+#[test]
+fn a_black_picture_is_inconclusive() {
+    let workshop = Workshop::new();
+    let lit = crate::workshop::small_scene("<integrator type=\"path\"/>");
+    workshop.write("lit.xml", &lit);
+    let light = "<emitter type=\"constant\"><rgb name=\"radiance\" value=\"0 0 0\"/></emitter>";
+    workshop.write(
+        "dark.xml",
+        lit.replace("<emitter type=\"constant\"/>", light),
+    );
+    for name in ["lit", "dark"] {
+        let (scene, image) = (format!("{name}.xml"), format!("{name}.exr"));
+        workshop.run(&["render", &scene, "-o", &image, "-q"]).fine();
+    }
+    for names in [["lit.exr", "dark.exr"], ["dark.exr", "lit.exr"]] {
+        let ran = compare(&workshop, names, &[]);
+        assert_eq!(ran.code, Some(3), "{}", ran.stdout);
+        let words = "inconclusive: dark.exr is black: not one of its 16 samples per pixel";
+        assert!(ran.stdout.starts_with(words), "{}", ran.stdout);
+        let ran = compare(&workshop, names, &["--json"]);
+        assert_eq!(ran.code, Some(3));
+        assert!(
+            ran.stdout.contains("\"verdict\": \"undecided\""),
+            "{}",
+            ran.stdout
+        );
+    }
+}

@@ -367,3 +367,33 @@ fn an_integrator_that_splats_cannot_be_nested() {
         .fine();
     assert!(ran.stdout.contains("aov/direct"), "{}", ran.stdout);
 }
+
+/// A black scene is called black, instead of badly measured.
+#[test]
+fn black_pictures_are_called_black() {
+    let workshop = Workshop::new();
+    let light = "<emitter type=\"constant\"><rgb name=\"radiance\" value=\"0 0 0\"/></emitter>";
+    let scene = crate::workshop::small_scene("<integrator type=\"path\"/>");
+    workshop.write(
+        "a.xml",
+        scene.replace("<emitter type=\"constant\"/>", light),
+    );
+    let arguments = [
+        "estimators",
+        "a.xml",
+        "--integrators",
+        "path,direct",
+        "--time",
+        "1",
+    ];
+    let said = workshop.run(&arguments).fine().stdout;
+    let notes: Vec<&str> = said
+        .lines()
+        .filter(|line| line.starts_with("note: "))
+        .collect();
+    assert_eq!(notes.len(), 1, "{said}");
+    assert!(
+        notes[0].starts_with("note: the picture is black: not one sample"),
+        "{said}"
+    );
+}

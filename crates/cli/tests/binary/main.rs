@@ -18,6 +18,7 @@ mod interrupt;
 mod merge;
 mod mutations;
 mod objections;
+mod outputs;
 mod render;
 mod replay;
 mod replay_methods;

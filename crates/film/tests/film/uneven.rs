@@ -159,7 +159,11 @@ fn draw(film: &ExactFilm, until: impl Fn(u32) -> u32) {
             tile.begin_sample(pixel, 1.0);
             let one = ((i * 12 + sample).wrapping_mul(2_654_435_761) >> 8) as f32;
             let value = if i % 5 == 0 && sample == 3 { 1e12 } else { one };
-            let blue = if one as u32 % 97 == 0 { f32::NAN } else { -one };
+            let blue = if (one as u32).is_multiple_of(97) {
+                f32::NAN
+            } else {
+                -one
+            };
             tile.radiance([value, 1e-9 * one, blue], 1.0);
             let elsewhere = OFFSET + UVec2::new(i * 7 % SIZE[0], i * 5 % SIZE[1]);
             tile.splat(elsewhere.as_vec2() + 0.7, [0.3 * one, 1.0, 0.0]);
