@@ -20,6 +20,7 @@ pub mod progress;
 pub mod report;
 pub mod resources;
 pub mod say;
+mod scene_hash;
 mod sizes;
 pub mod target;
 pub mod tolerance;

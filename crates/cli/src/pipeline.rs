@@ -1,6 +1,7 @@
 //! From a scene file to an image: the way every command and every claim takes.
 
 use crate::keeping::{Keeping, KeptFilm};
+use crate::scene_hash::scene_hash;
 use crate::{VERSION, memory, objections};
 use etalon_film::{
     Developed, ExactFilm, FilmSettings, Filter, Part, PixelFilter, RenderFacts, SampleCounts,
@@ -218,34 +219,6 @@ fn inputs(document: &Document, assets: &FileAssets) -> Vec<PathBuf> {
     files.chain(assets.used()).collect()
 }
 
-/// A hash over everything that decides the scene: its files, the files it refers to, and what
-/// the command line said.
-fn scene_hash(document: &Document, assets: &FileAssets, options: &LoadOptions) -> String {
-    let mut hasher = blake3::Hasher::new();
-    let mut add = |bytes: &[u8]| {
-        hasher.update(&(bytes.len() as u64).to_le_bytes());
-        hasher.update(bytes);
-    };
-    for file in &document.files {
-        add(&file.bytes);
-    }
-    for path in assets.used() {
-        // Whatever cannot be read now could not be read before either.
-        add(&std::fs::read(path).unwrap_or_default());
-    }
-    for (key, value) in &options.defines {
-        add(key.as_bytes());
-        add(value.as_bytes());
-    }
-    if let Some(name) = &options.integrator {
-        add(name.as_bytes());
-    }
-    if let Some(chooser) = options.light_chooser {
-        add(chooser.name().as_bytes());
-    }
-    hasher.finalize().to_hex()[..16].to_owned()
-}
-
 /// How to render a loaded scene.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct RenderOptions {
@@ -315,9 +288,7 @@ pub fn render(
     render_as(loaded, plan, Manner::default(), progress)
 }
 
-/// Renders into a film of one's own. Not generic, so that whoever calls it need not compile all
-/// integrators again.
-#[inline(never)]
+/// Renders into a film of one's own. Not generic: its callers need not compile all integrators.
 pub fn render_into(
     film: &mut ExactFilm,
     (integrator, scene): (&AnyIntegrator, &Scene),

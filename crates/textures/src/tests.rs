@@ -13,6 +13,7 @@ use std::path::Path;
 use std::sync::Arc;
 
 mod bitmap;
+mod mesh_attribute;
 mod rules;
 
 const NOWHERE: Span = Span {

@@ -6,6 +6,7 @@ mod calibrate;
 mod claims;
 mod decision;
 mod doubt;
+mod load;
 mod pairs;
 mod povray;
 mod references;

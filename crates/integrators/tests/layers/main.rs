@@ -16,6 +16,7 @@ mod measure;
 mod naive;
 mod recursive;
 mod scatter;
+mod tally;
 mod together;
 mod trees;
 mod visibility;

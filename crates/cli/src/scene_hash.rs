@@ -1,0 +1,37 @@
+//! What tells one scene from another, as a hash.
+
+use crate::pipeline::LoadOptions;
+use etalon_formats::FileAssets;
+use etalon_formats::mitsuba::Document;
+
+/// A hash over everything that decides the scene: its files, the files it refers to, and what
+/// the command line said.
+pub(crate) fn scene_hash(
+    document: &Document,
+    assets: &FileAssets,
+    options: &LoadOptions,
+) -> String {
+    let mut hasher = blake3::Hasher::new();
+    let mut add = |bytes: &[u8]| {
+        hasher.update(&(bytes.len() as u64).to_le_bytes());
+        hasher.update(bytes);
+    };
+    for file in &document.files {
+        add(&file.bytes);
+    }
+    for path in assets.used() {
+        // Whatever cannot be read now could not be read before either.
+        add(&std::fs::read(path).unwrap_or_default());
+    }
+    for (key, value) in &options.defines {
+        add(key.as_bytes());
+        add(value.as_bytes());
+    }
+    if let Some(name) = &options.integrator {
+        add(name.as_bytes());
+    }
+    if let Some(chooser) = options.light_chooser {
+        add(chooser.name().as_bytes());
+    }
+    hasher.finalize().to_hex()[..16].to_owned()
+}
