@@ -56,7 +56,11 @@ fn a_slow_machine_comes_to_the_same_verdicts_and_numbers() {
     assert_eq!(looks.iter().max(), Some(&Tier::Default.looks().len()));
     let busy = AtomicBool::new(true);
     let (_, slow) = std::thread::scope(|scope| {
-        scope.spawn(|| while busy.load(Ordering::Relaxed) {});
+        scope.spawn(|| {
+            while busy.load(Ordering::Relaxed) {
+                std::hint::spin_loop();
+            }
+        });
         let pool = rayon::ThreadPoolBuilder::new().num_threads(1).build();
         let slow = pool
             .expect("a pool")
