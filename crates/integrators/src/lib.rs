@@ -34,6 +34,7 @@ pub mod replay;
 mod rival;
 mod rounds;
 pub mod settings;
+mod share;
 pub mod signature;
 pub mod sppm;
 pub mod vcm;
@@ -41,4 +42,5 @@ mod walk;
 pub mod whitted;
 
 pub use list::{AnyIntegrator, names};
-pub use render::{Outcome, Plan, Progress, Share, render};
+pub use render::{Outcome, Plan, Progress, render};
+pub use share::Share;

@@ -7,6 +7,7 @@
 //! threads nor the order of tiles nor the rounds change a bit, and a render goes on from any sample.
 
 use crate::rounds::{Batches, Pace};
+use crate::share::Share;
 use etalon_sampling::{Independent, PixelSample, Sampler, SamplerKind, Sobol, Stratified};
 use etalon_transport::{Draft, Film, Integrator, Pass, PixelSite, Placement, Placing, World};
 use glam::{UVec2, Vec2};
@@ -35,32 +36,6 @@ pub struct Plan {
     pub samples_per_replicate: u32,
     /// The kind of sampler.
     pub sampler: SamplerKind,
-}
-
-/// Some of an image's replicates, each what it would be in a render of all of them.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Share {
-    /// The first.
-    pub first: u32,
-    /// How many.
-    pub count: u32,
-}
-
-impl Share {
-    /// Share `index` of `count`, counted from 0, where `replicates` are dealt in order and as
-    /// evenly as they can be; `None` if there is no such share or it would be empty.
-    pub fn of(replicates: u32, index: u32, count: u32) -> Option<Self> {
-        if index >= count || count > replicates {
-            return None;
-        }
-        let begin = |index: u32| {
-            let before = u64::from(replicates) * u64::from(index) / u64::from(count);
-            u32::try_from(before).ok()
-        };
-        let first = begin(index)?;
-        let count = begin(index + 1)? - first;
-        Some(Self { first, count })
-    }
 }
 
 impl Plan {

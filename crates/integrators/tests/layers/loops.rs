@@ -272,25 +272,3 @@ fn passes_draw_the_samples_of_a_replicate() {
         }
     }
 }
-
-#[test]
-fn replicates_are_dealt_evenly_and_in_order() {
-    for replicates in (1..40).chain([4095, 4096, u32::MAX]) {
-        for count in (1..=replicates.min(50)).chain([replicates]).take(50) {
-            let mut next = 0;
-            for index in 0..count {
-                let share = Share::of(replicates, index, count).expect("enough for all");
-                assert_eq!(share.first, next);
-                assert!([0, 1].contains(&(share.count - replicates / count)));
-                next += share.count;
-            }
-            assert_eq!(next, replicates);
-        }
-        assert_eq!(
-            Share::of(replicates, 0, replicates.saturating_add(1)).is_none(),
-            replicates < u32::MAX
-        );
-    }
-    assert_eq!(Share::of(4, 2, 2), None);
-    assert_eq!(Share::of(4, 0, 0), None);
-}
