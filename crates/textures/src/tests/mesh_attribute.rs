@@ -1,8 +1,6 @@
 //! Attributes of meshes as textures.
 
-use super::rules::*;
 use super::*;
-use etalon_params::Params;
 
 #[test]
 fn mesh_attributes_come_from_the_shape() {

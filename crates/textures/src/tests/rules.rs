@@ -4,20 +4,16 @@ use super::*;
 use etalon_params::{DMat4, DVec3, Params, SpectrumText};
 use glam::DVec3 as Rgb;
 
-pub(super) fn rgb(r: f64, g: f64, b: f64) -> Value {
+fn rgb(r: f64, g: f64, b: f64) -> Value {
     Value::Rgb(Rgb::new(r, g, b))
 }
 
-pub(super) fn object(plugin: &str, properties: Vec<(&str, Value)>) -> Value {
+fn object(plugin: &str, properties: Vec<(&str, Value)>) -> Value {
     Value::Object(node(plugin, properties))
 }
 
 /// The texture in a parameter, or the messages why there is none.
-pub(super) fn parameter(
-    value: Option<Value>,
-    default: Option<f64>,
-    role: Role,
-) -> Result<One, Vec<String>> {
+fn parameter(value: Option<Value>, default: Option<f64>, role: Role) -> Result<One, Vec<String>> {
     let properties = value.map(|value| ("radiance", value));
     let owner = node("owner", properties.into_iter().collect());
     let mut set = TextureSet::new();
@@ -43,7 +39,7 @@ pub(super) fn parameter(
     }
 }
 
-pub(super) fn eval(value: Value, role: Role) -> Vec4 {
+fn eval(value: Value, role: Role) -> Vec4 {
     let texture = parameter(Some(value), None, role).unwrap_or_else(|m| panic!("{m:?}"));
     texture.spectrum(0.25, 0.25)
 }
