@@ -85,9 +85,9 @@ pub fn measure(
         Some(Change::Accelerator) => {
             let first = first()?;
             let compiled = linear(claim, estimator, loaded)?;
-            let mut film = film(&compiled)?;
+            let film = film(&compiled)?;
             let estimator = (&loaded.integrator, &compiled.scene);
-            pipeline::render_into(&mut film, estimator, &other, &());
+            let film = pipeline::render_into(film, estimator, &other, &());
             let facts = rendering::facts(loaded, &other, loaded.integrator_name.clone());
             let changed = rendering::finite(film.develop(facts))?;
             let name = "numbers that a linear scan changes".to_owned();
@@ -162,7 +162,7 @@ fn one_after_another(loaded: &Loaded, plans: [Plan; 2]) -> Result<Developed, Str
     let mut film = film(compiled)?;
     for plan in &plans {
         let estimator = (&loaded.integrator, &compiled.scene);
-        pipeline::render_into(&mut film, estimator, plan, &());
+        film = pipeline::render_into(film, estimator, plan, &());
     }
     let facts = rendering::facts(loaded, &plans[0], loaded.integrator_name.clone());
     rendering::finite(film.develop(facts))

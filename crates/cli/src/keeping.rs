@@ -92,7 +92,7 @@ impl KeptFilm {
         of: (u32, u32),
     ) -> Result<Self, String> {
         let Some(keeping) = keeping else {
-            return Ok(Self { film, keeper: None });
+            return Ok(Self::passing(film));
         };
         let (_, before) = keeping.finished();
         let film = match keeping.earlier {
@@ -114,6 +114,11 @@ impl KeptFilm {
             film,
             keeper: Some(keeper),
         })
+    }
+
+    /// A film of which nothing is kept.
+    pub(crate) fn passing(film: ExactFilm) -> Self {
+        Self { film, keeper: None }
     }
 
     /// The film, after what there is has been kept if the render was interrupted.

@@ -288,14 +288,17 @@ pub fn render(
     render_as(loaded, plan, Manner::default(), progress)
 }
 
-/// Renders into a film of one's own. Not generic: its callers need not compile all integrators.
+/// Renders into a film of one's own, and gives it back. Not generic, and through the type of film that
+/// [`render_as`] uses: all integrators are compiled once.
 pub fn render_into(
-    film: &mut ExactFilm,
+    film: ExactFilm,
     (integrator, scene): (&AnyIntegrator, &Scene),
     plan: &Plan,
     progress: &dyn Progress,
-) -> Outcome {
-    integrator.render(scene, film, plan, progress)
+) -> ExactFilm {
+    let mut film = KeptFilm::passing(film);
+    integrator.render(scene, &mut film, plan, progress);
+    film.finish()
 }
 
 /// What is not ordinary about a render.

@@ -10,7 +10,7 @@
 //!
 //! where mᵢ is twice the largest component of texel i and sᵢ the smooth spectrum of rgbᵢ/mᵢ.
 //! Directions are chosen with a density bilinear in (u, v) through the nodes (r + g + b)/3 · sⱼ,
-//! where sⱼ is the mean of sin θ over the row's hat function ([`row_weights`]): positive at the
+//! where sⱼ is the mean of sin θ over the row's hat function (`row_weights`): positive at the
 //! poles, too, so that the density vanishes nowhere where the radiance does not. Optionally the
 //! brightness counts less its mean (Karlík, Šik, Vévoda, Skřivan, Křivánek 2019,
 //! "MIS Compensation"), which leaves dark regions to other techniques. An estimator that has no

@@ -1,5 +1,6 @@
 //! Calibration: it keeps silent about sound statistics, and speaks up about unsound ones.
 
+use crate::claims::claims;
 use etalon_statistics::error_rates::Rate;
 use etalon_statistics::{Estimate, Summary};
 use etalon_validation::calibrate::pool::Pool;
@@ -66,7 +67,7 @@ fn a_standard_error_off_by_a_root_of_two_is_caught() {
 
 #[test]
 fn null_runs_raise_no_alarm() {
-    let claims = Claim::read_all(&folders::claims()).expect("claims can be read");
+    let claims = claims();
     let options = Options {
         only: Some("furnace".to_owned()),
         tier: Tier::Default,

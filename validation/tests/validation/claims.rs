@@ -6,9 +6,13 @@ use etalon_validation::convergence::Ladder;
 use etalon_validation::tier::{FULL_BOUND, Tier};
 use etalon_validation::{closed_form, folders, povray, reference, run};
 use std::collections::BTreeSet;
+use std::sync::OnceLock;
 
-fn claims() -> Vec<Claim> {
-    Claim::read_all(&folders::claims()).expect("claims can be read")
+/// All claims. They are read once, as every scene is asked what each integrator objects to.
+pub(crate) fn claims() -> Vec<Claim> {
+    static ALL: OnceLock<Vec<Claim>> = OnceLock::new();
+    let read = || Claim::read_all(&folders::claims()).expect("claims can be read");
+    ALL.get_or_init(read).clone()
 }
 
 #[test]

@@ -1,6 +1,7 @@
 //! The decision itself: on synthetic pictures whose bias is known, and on a claim with and
 //! without faults.
 
+use crate::claims::claims;
 use etalon::judge::{Judgement, Known, Rules, judge, judge_known};
 use etalon_film::{BoxFilter, Developed, ExactFilm, FilmSettings, Filter, RenderFacts};
 use etalon_images::Image;
@@ -132,7 +133,7 @@ fn pictures_of_different_size_are_refused() {
 #[test]
 fn the_furnace_holds_and_its_mutants_are_found() {
     // α = 10⁻³ over the three comparisons; rejected: wrong light density, energy × 1.02.
-    let claims = Claim::read_all(&folders::claims()).expect("claims can be read");
+    let claims = claims();
     let options = Options {
         only: Some("furnace".to_owned()),
         tier: Tier::Default,
@@ -172,7 +173,7 @@ fn the_stated_bound_is_exceeded_no_more_often_than_it_says() {
 
 /// One estimator of a closed form with few samples, whose claim has the bound `image` of its own.
 pub(crate) fn poor(image: f64) -> Vec<Claim> {
-    let mut claims = Claim::read_all(&folders::claims()).expect("claims can be read");
+    let mut claims = claims();
     claims.retain(|claim| claim.name == "irradiance-disk");
     for claim in &mut claims {
         claim.bounds.image = image;
@@ -291,7 +292,7 @@ fn batches_together_are_as_if_rendered_at_once() {
 #[test]
 fn an_undecided_comparison_gets_more_replicates_and_is_never_passed() {
     // Far too few samples for a bound of 0.01 %: four looks, all undecided. α = 10⁻³.
-    let mut claims = Claim::read_all(&folders::claims()).expect("claims can be read");
+    let mut claims = claims();
     claims.retain(|claim| claim.name == "irradiance-disk");
     for claim in &mut claims {
         claim.bounds.image = 1e-4;
@@ -325,7 +326,7 @@ fn the_json_is_the_one_that_is_described() {
     use etalon_validation::json::{self, Provenance};
     let page = std::fs::read_to_string(folders::root().join("docs/validation-json.md"));
     let page = page.expect("the page can be read");
-    let claims = Claim::read_all(&folders::claims()).expect("claims can be read");
+    let claims = claims();
     let claims: Vec<Claim> = (claims.into_iter())
         .filter(|c| c.name == "furnace" || c.name == "invariance-bits")
         .collect();
@@ -356,7 +357,7 @@ fn the_json_is_the_one_that_is_described() {
 fn parts_are_decided_as_parts_of_the_whole() {
     // The levels are those of all comparisons together. Mutants rejected: a family of what the
     // part makes, which would grant each larger shares; a comparison that no part, or two, make.
-    let claims = Claim::read_all(&folders::claims()).expect("claims can be read");
+    let claims = claims();
     let mut claims: Vec<Claim> = (claims.into_iter())
         .filter(|claim| {
             ["furnace", "irradiance-point", "mirror-room"].contains(&claim.name.as_str())

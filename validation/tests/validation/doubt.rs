@@ -1,10 +1,9 @@
 //! What differs at the level of the intervals and not at that of alarms.
 
+use crate::claims::claims;
 use etalon_statistics::Verdict;
-use etalon_validation::claim::Claim;
 use etalon_validation::decision::{self, Seen, Turn};
 use etalon_validation::fault::Fault;
-use etalon_validation::folders;
 use etalon_validation::run::{self, Options};
 use etalon_validation::tier::Tier;
 
@@ -12,7 +11,7 @@ use etalon_validation::tier::Tier;
 fn a_doubt_gets_more_replicates_and_never_passes() {
     // What `see` makes of the looks at one comparison: the verdict, whether it is in doubt, and how many
     // looks there were.
-    let mut claims = Claim::read_all(&folders::claims()).expect("claims can be read");
+    let mut claims = claims();
     claims.retain(|claim| claim.name == "irradiance-disk");
     claims[0].estimators.truncate(1);
     claims[0].estimators[0].mutants = vec![Fault::Energy];

@@ -1,6 +1,7 @@
 //! Twins by POV-Ray: their colours, references that cannot be used, and what the pixelwise
 //! comparison finds and forgives.
 
+use crate::claims;
 use etalon_film::{BoxFilter, Developed, ExactFilm, FilmSettings, Filter, RenderFacts};
 use etalon_images::{Frame, Image, exr};
 use etalon_integrators::signature;
@@ -18,7 +19,7 @@ use std::path::PathBuf;
 const NAME: &str = "povray-signature-perspective";
 
 fn claims() -> Vec<Claim> {
-    let claims = Claim::read_all(&folders::claims()).expect("claims can be read");
+    let claims = claims::claims();
     let twins = |claim: &Claim| matches!(claim.oracle, Oracle::Povray { .. });
     claims.into_iter().filter(twins).collect()
 }

@@ -1,5 +1,6 @@
 //! References that cannot be used: each gives a clear error, never a pass.
 
+use crate::claims::claims;
 use etalon::judge::{Rules, judge};
 use etalon_film::{
     BoxFilter, Developed, ExactFilm, FilmSettings, Filter, Metadata, RenderFacts, read_developed,
@@ -282,7 +283,7 @@ fn pictures_of_another_size_are_not_compared() {
 
 #[test]
 fn a_claim_without_its_reference_breaks_the_run() {
-    let claims = Claim::read_all(&folders::claims()).expect("claims can be read");
+    let claims = claims();
     let mut claims: Vec<Claim> = (claims.into_iter())
         .filter(|claim| claim.name == "foliage" || claim.name == "irradiance-disk")
         .collect();

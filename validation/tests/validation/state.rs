@@ -1,5 +1,6 @@
 //! A full run goes on where it was interrupted, and takes up nothing but its own.
 
+use crate::claims::claims;
 use etalon_validation::claim::{Budget, Claim, Oracle};
 use etalon_validation::outcome;
 use etalon_validation::run::{self, Options};
@@ -10,7 +11,7 @@ use etalon_validation::{folders, rendering};
 #[test]
 fn an_interrupted_run_goes_on_with_the_same_result() {
     let folder = std::env::temp_dir().join(format!("etalon-state-{}", std::process::id()));
-    let mut claims = Claim::read_all(&folders::claims()).expect("claims can be read");
+    let mut claims = claims();
     claims.retain(|claim| claim.name == "furnace");
     for estimator in &mut claims[0].estimators {
         estimator.thorough.spp = 256;
@@ -78,7 +79,7 @@ fn an_interrupted_run_goes_on_with_the_same_result() {
 #[test]
 fn the_oracle_of_several_estimators_is_rendered_once() {
     let folder = std::env::temp_dir().join(format!("etalon-oracle-{}", std::process::id()));
-    let mut claims = Claim::read_all(&folders::claims()).expect("claims can be read");
+    let mut claims = claims();
     claims.retain(|claim| claim.name == "camera-obscura-naive");
     // One look shall do, at all estimators.
     claims[0].bounds.image = 0.5;

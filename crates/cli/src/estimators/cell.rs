@@ -37,8 +37,7 @@ pub fn render(
     progress: &dyn Progress,
 ) -> Result<Rendered, String> {
     let channels = entrant.integrator.channels();
-    let mut film =
-        ExactFilm::new(entrant.film.clone(), &channels).map_err(|error| error.message)?;
+    let film = ExactFilm::new(entrant.film.clone(), &channels).map_err(|error| error.message)?;
     let plan = Plan {
         seed,
         replicates: 1,
@@ -48,7 +47,7 @@ pub fn render(
     };
     let start = Instant::now();
     let estimator = (&entrant.integrator, &entrant.compiled.scene);
-    render_into(&mut film, estimator, &plan, progress);
+    let film = render_into(film, estimator, &plan, progress);
     let seconds = start.elapsed().as_secs_f64();
     let faults = film.faults().total();
     let developed = film.develop(RenderFacts::default());

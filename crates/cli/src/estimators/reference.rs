@@ -110,7 +110,7 @@ impl Reference {
         progress: &dyn Progress,
     ) -> Result<Self, String> {
         let channels = entrant.integrator.channels();
-        let mut film =
+        let film =
             ExactFilm::new(entrant.film.clone(), &channels).map_err(|error| error.message)?;
         let plan = Plan {
             seed,
@@ -120,7 +120,7 @@ impl Reference {
             sampler: entrant.sampler,
         };
         let estimator = (&entrant.integrator, &entrant.compiled.scene);
-        render_into(&mut film, estimator, &plan, progress);
+        let film = render_into(film, estimator, &plan, progress);
         let developed = film.develop(RenderFacts {
             version: VERSION.to_owned(),
             ..RenderFacts::default()

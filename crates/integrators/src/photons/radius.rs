@@ -15,7 +15,7 @@
 //! Unless the scene says, the first radius is `PIXELS` times the width of a pixel on what the
 //! camera sees: the median over a grid of rays of the distance between their first hits and those
 //! of rays one pixel aside, if both went as far. On a small film that may be a good part of the
-//! scene; where a map is dense ([`held`]), the radius is therefore the largest within which the
+//! scene; where a map is dense (`held`), the radius is therefore the largest within which the
 //! first hits of those rays have `MOST_FOUND` photons on average.
 
 use crate::photons::kdtree::KdTree;
