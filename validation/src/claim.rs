@@ -157,14 +157,21 @@ impl Estimator {
         self.default.unwrap_or(self.thorough)
     }
 
-    /// The budget that must suffice to find a fault: an eighth of the least; half of one that is
-    /// content with a wider `bound`, which is a fraction of what the claim's own bound takes.
+    /// Whether the default run looks for its faults: not with a budget that is content with a wider
+    /// `bound` than the one that they must break.
+    pub fn finds_faults_by_default(&self) -> bool {
+        self.least_budget().bound.is_none()
+    }
+
+    /// The budget that must suffice to find a fault: an eighth of the first run's that looks for it.
     pub fn fault_budget(&self) -> Budget {
-        let least = self.least_budget();
-        let part = if least.bound.is_some() { 2 } else { 8 };
+        let budget = match self.default {
+            Some(budget) if self.finds_faults_by_default() => budget,
+            _ => self.thorough,
+        };
         Budget {
-            spp: (least.spp / part).max(least.replicates),
-            ..least
+            spp: (budget.spp / 8).max(budget.replicates),
+            ..budget
         }
     }
 }

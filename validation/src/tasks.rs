@@ -144,7 +144,9 @@ pub fn tasks<'a>(claims: &'a [Claim], options: &Options) -> Vec<Task<'a>> {
             if !made {
                 continue;
             }
+            let looked_for = options.tier != Tier::Default || estimator.finds_faults_by_default();
             let faults = estimator.mutants.iter().copied().map(Some);
+            let faults = faults.filter(|_| looked_for);
             tasks.extend(std::iter::once(None).chain(faults).map(|fault| Task {
                 claim,
                 estimator,
