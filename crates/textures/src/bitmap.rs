@@ -5,11 +5,15 @@
 //! the coefficients cᵢ instead would give colours that are in none of the texels.
 
 use crate::footprint::Footprint;
-use crate::pixels::{Image, Texels};
+use crate::pixels::{Image, Pixels, Texels, Values};
+use crate::reader::Use;
 use crate::recovered::{self, luminance};
-use crate::{Filter, UvTransform, Wrap};
+use crate::texture::TextureModel;
+use crate::{Filter, Texture, TextureReader, TextureSet, UvTransform, Wrap};
+use etalon_params::{Diagnostic, Params};
 use etalon_spectrum::RgbCoefficients;
-use glam::{Vec2, Vec3, Vec4};
+use etalon_transport::{Role, Shapes, TexturePoint};
+use glam::{UVec2, Vec2, Vec3, Vec4};
 use std::ops::{Add, Mul};
 use std::sync::Arc;
 
@@ -84,4 +88,169 @@ impl Bitmap {
             }
         }
     }
+}
+
+impl TextureModel for Bitmap {
+    #[inline]
+    fn spectrum(&self, _: &TextureSet, _: &impl Shapes, at: &TexturePoint, lambda: Vec4) -> Vec4 {
+        Self::spectrum(self, at.uv, lambda)
+    }
+
+    #[inline]
+    fn number(&self, _: &TextureSet, _: &impl Shapes, at: &TexturePoint) -> f32 {
+        Self::number(self, at.uv)
+    }
+
+    #[inline]
+    fn colour(&self, _: &TextureSet, _: &impl Shapes, at: &TexturePoint) -> Vec3 {
+        Self::colour(self, at.uv)
+    }
+
+    fn mean(&self, _: &TextureSet) -> f32 {
+        self.image.mean
+    }
+
+    fn is_constant(&self, _: &TextureSet) -> bool {
+        self.image.size == UVec2::ONE
+    }
+}
+
+pub(crate) fn read(
+    reader: &mut TextureReader<'_>,
+    params: &Params<'_>,
+    Use { role, .. }: Use,
+) -> Option<Texture> {
+    let raw = params.boolean_or("raw", false) || is_linear(params);
+    let filter = filter(params);
+    let wrap = wrap(params);
+    let to_uv = UvTransform::from_params(params);
+    let Some(filename) = params.string("filename") else {
+        if !params.has("filename") {
+            params.missing("filename", "the name of an image file");
+        }
+        return None;
+    };
+    let image = image(reader, params, filename, raw, role)?;
+    Some(Texture::from(Bitmap {
+        image,
+        filter,
+        wrap,
+        to_uv,
+    }))
+}
+
+/// The image in a file, prepared for lookup; files are read once.
+fn image(
+    reader: &mut TextureReader<'_>,
+    params: &Params<'_>,
+    filename: &str,
+    raw: bool,
+    role: Role,
+) -> Option<Arc<Image>> {
+    let key = (filename.to_owned(), raw, role != Role::Reflectance);
+    if let Some(image) = reader.set.images.get(&key) {
+        return Some(Arc::clone(image));
+    }
+    let property = params.property("filename")?;
+    let fail = |message: String, help: Option<String>| {
+        let mut diagnostic = Diagnostic::error(property.span, message);
+        diagnostic.help = help;
+        reader.diagnostics.push(diagnostic);
+    };
+    let bytes = match reader.assets.bytes(filename) {
+        Ok(bytes) => bytes,
+        Err(error) => {
+            fail(error.message, error.help);
+            return None;
+        }
+    };
+    let (pixels, notes) = match Pixels::decode(&bytes, raw, filename) {
+        Ok(decoded) => decoded,
+        Err(message) => {
+            fail(message, None);
+            return None;
+        }
+    };
+    for note in notes {
+        reader
+            .diagnostics
+            .push(Diagnostic::note(property.span, note));
+    }
+    let negative = matches!(&pixels.values, Values::One(v) if v.iter().any(|&x| x < 0.0));
+    if negative && role == Role::Emission {
+        fail(
+            format!("`{filename}` has negative values, which no light can emit"),
+            None,
+        );
+        return None;
+    }
+    let image = Image::new(pixels, raw, role);
+    if image.moved > 0 {
+        let UVec2 { x, y } = image.size;
+        let message = format!(
+            "{} of the {} texels of `{filename}` lie outside of what this colour can be; \
+             their components count as the nearest that can",
+            image.moved,
+            u64::from(x) * u64::from(y),
+        );
+        reader
+            .diagnostics
+            .push(Diagnostic::note(property.span, message));
+    }
+    let image = Arc::new(image);
+    reader.set.images.insert(key, Arc::clone(&image));
+    Some(image)
+}
+
+/// `filter_type`. Those of other versions of Mitsuba that average over a pixel's footprint are left to the
+/// samples of the pixel, with a note.
+fn filter(params: &Params<'_>) -> Filter {
+    let names = ["bilinear", "nearest", "trilinear", "ewa", "anisotropic"];
+    match params.choice("filter_type", "bilinear", &names) {
+        "nearest" => Filter::Nearest,
+        "bilinear" => Filter::Bilinear,
+        other => {
+            let span = params.property("filter_type").map(|p| p.span);
+            let message = format!(
+                "`{other}` is read as `bilinear`: a pixel's samples average over the texels it sees"
+            );
+            let span = span.unwrap_or(params.node.plugin.span);
+            params.diagnostics.push(Diagnostic::note(span, message));
+            Filter::Bilinear
+        }
+    }
+}
+
+/// `wrap_mode`, or Mitsuba 0.6's `wrap_mode_u` and `wrap_mode_v`, which must agree.
+fn wrap(params: &Params<'_>) -> Wrap {
+    let read = |name, default| params.choice(name, default, &["repeat", "mirror", "clamp"]);
+    let both = read("wrap_mode", "repeat");
+    let [u, v] = ["wrap_mode_u", "wrap_mode_v"].map(|name| read(name, both));
+    if u != v {
+        let message = format!("one mode for both directions is built, not `{u}` and `{v}`");
+        params.error_at("wrap_mode_v", message);
+    }
+    match u {
+        "mirror" => Wrap::Mirror,
+        "clamp" => Wrap::Clamp,
+        _ => Wrap::Repeat,
+    }
+}
+
+/// Whether Mitsuba 0.6's `gamma` says that the values are linear: 1 does; 0 and below leave it to
+/// the file, and so does 2.2, which is close to what files of integers hold.
+fn is_linear(params: &Params<'_>) -> bool {
+    let accepted = "1 (linear), 2.2 or -1 (as the file's format says)";
+    let gamma = params.float_where("gamma", -1.0, accepted, |gamma| {
+        gamma <= 0.0 || gamma == 1.0 || gamma == 2.2
+    });
+    if gamma == 2.2 {
+        params.diagnostics.push(Diagnostic::note(
+            params
+                .property("gamma")
+                .map_or(params.node.plugin.span, |p| p.span),
+            "a `gamma` of 2.2 is read as sRGB, which is close to it",
+        ));
+    }
+    gamma == 1.0
 }

@@ -5,8 +5,14 @@
 //! scenes made for it rely on the picture it gives, so this does the same.
 
 use crate::UvTransform;
+use crate::reader::Use;
+use crate::texture::TextureModel;
+use crate::{Texture, TextureReader, TextureSet};
+use etalon_params::Params;
 use etalon_transport::TextureId;
+use etalon_transport::{Shapes, TexturePoint};
 use glam::Vec2;
+use glam::{Vec3, Vec4};
 
 /// Two textures in squares.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -37,4 +43,55 @@ impl Checkerboard {
     pub fn for_number(&self, uv: Vec2) -> TextureId {
         self.colours[1 - self.square(uv)]
     }
+}
+
+impl TextureModel for Checkerboard {
+    #[inline]
+    fn spectrum(
+        &self,
+        set: &TextureSet,
+        shapes: &impl Shapes,
+        at: &TexturePoint,
+        lambda: Vec4,
+    ) -> Vec4 {
+        set.spectrum(self.for_spectrum(at.uv), shapes, at, lambda)
+    }
+
+    #[inline]
+    fn number(&self, set: &TextureSet, shapes: &impl Shapes, at: &TexturePoint) -> f32 {
+        set.number(self.for_number(at.uv), shapes, at)
+    }
+
+    #[inline]
+    fn colour(&self, set: &TextureSet, shapes: &impl Shapes, at: &TexturePoint) -> Vec3 {
+        set.colour(self.for_spectrum(at.uv), shapes, at)
+    }
+
+    fn mean(&self, set: &TextureSet) -> f32 {
+        let [a, b] = self.colours;
+        0.5 * (set.mean(a) + set.mean(b))
+    }
+
+    fn is_constant(&self, _: &TextureSet) -> bool {
+        self.colours[0] == self.colours[1]
+    }
+
+    fn nested(&self) -> &[TextureId] {
+        &self.colours
+    }
+}
+
+pub(crate) fn read(
+    reader: &mut TextureReader<'_>,
+    params: &Params<'_>,
+    Use { role, .. }: Use,
+) -> Option<Texture> {
+    let nested = Use { role, nested: true };
+    Some(Texture::from(Checkerboard {
+        colours: [
+            reader.parameter_in(params, "color0", Some(0.4), nested),
+            reader.parameter_in(params, "color1", Some(0.2), nested),
+        ],
+        to_uv: UvTransform::from_params(params),
+    }))
 }

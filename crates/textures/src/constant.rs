@@ -1,7 +1,13 @@
 //! The same spectrum everywhere.
 
+use crate::reader::Use;
+use crate::texture::TextureModel;
+use crate::{Texture, TextureReader, TextureSet};
+use etalon_params::{Params, Value};
 use etalon_spectrum::{RgbSpectrum, Spectrum, colour_space};
+use etalon_transport::{Role, Shapes, TexturePoint};
 use glam::Vec3;
+use glam::{DVec3, Vec4};
 
 /// A spectrum with everything that others ask of a texture worked out in advance.
 #[derive(Clone, Debug, PartialEq)]
@@ -60,4 +66,64 @@ impl Constant {
             ..Self::new(spectrum)
         }
     }
+}
+
+impl TextureModel for Constant {
+    #[inline]
+    fn spectrum(&self, _: &TextureSet, _: &impl Shapes, _: &TexturePoint, lambda: Vec4) -> Vec4 {
+        self.spectrum.eval(lambda)
+    }
+
+    #[inline]
+    fn number(&self, _: &TextureSet, _: &impl Shapes, _: &TexturePoint) -> f32 {
+        self.number
+    }
+
+    #[inline]
+    fn colour(&self, _: &TextureSet, _: &impl Shapes, _: &TexturePoint) -> Vec3 {
+        self.colour
+    }
+
+    fn mean(&self, _: &TextureSet) -> f32 {
+        self.mean
+    }
+
+    fn is_constant(&self, _: &TextureSet) -> bool {
+        true
+    }
+}
+
+/// `rawconstant`: a number or three as they are; a reflectance is held to 1 all the same.
+pub(crate) fn read(
+    reader: &mut TextureReader<'_>,
+    params: &Params<'_>,
+    purpose: Use,
+) -> Option<Texture> {
+    let Some(property) = params.property("value") else {
+        params.missing("value", "a number or three");
+        return None;
+    };
+    let values = match &property.value {
+        Value::Float(x) if x.is_finite() => DVec3::splat(*x),
+        Value::Integer(i) => DVec3::splat(*i as f64),
+        Value::Vector(v) | Value::Rgb(v) if v.is_finite() => *v,
+        other => {
+            let kind = other.kind();
+            params.error_at(
+                "value",
+                format!("`value` must be a finite number or three, not {kind}"),
+            );
+            return None;
+        }
+    };
+    let values = if purpose.role == Role::Reflectance && values.max_element() > 1.0 {
+        reader.note_held(property.span);
+        values.min(DVec3::ONE)
+    } else {
+        values
+    };
+    Some(Texture::Constant(match &property.value {
+        Value::Float(_) | Value::Integer(_) => Constant::uniform(values.x as f32),
+        _ => Constant::raw(values.as_vec3()),
+    }))
 }

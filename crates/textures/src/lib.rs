@@ -17,10 +17,10 @@ pub mod footprint;
 pub mod illuminated;
 pub mod mesh_attribute;
 pub mod pixels;
-pub mod plugins;
 pub mod reader;
 pub mod recovered;
 pub mod set;
+mod spectra;
 pub mod texture;
 pub mod uv_transform;
 

@@ -8,7 +8,11 @@
 //! Stored numbers that the texture's role rules out count as the nearest that it allows: a
 //! reflectance, times `scale`, lies in [0, 1], nothing else is below 0.
 
+use crate::reader::Use;
 use crate::recovered::luminance;
+use crate::texture::TextureModel;
+use crate::{Texture, TextureReader, TextureSet};
+use etalon_params::Params;
 use etalon_spectrum::{RgbCoefficients, RgbSpectrum};
 use etalon_transport::{Role, Shapes, TexturePoint};
 use glam::{Vec3, Vec4};
@@ -86,4 +90,56 @@ impl MeshAttribute {
     pub fn colour(&self, shapes: &impl Shapes, at: &TexturePoint) -> Vec3 {
         self.stored(shapes, at) * self.scale
     }
+}
+
+impl TextureModel for MeshAttribute {
+    #[inline]
+    fn spectrum(
+        &self,
+        _: &TextureSet,
+        shapes: &impl Shapes,
+        at: &TexturePoint,
+        lambda: Vec4,
+    ) -> Vec4 {
+        Self::spectrum(self, shapes, at, lambda)
+    }
+
+    #[inline]
+    fn number(&self, _: &TextureSet, shapes: &impl Shapes, at: &TexturePoint) -> f32 {
+        Self::number(self, shapes, at)
+    }
+
+    #[inline]
+    fn colour(&self, _: &TextureSet, shapes: &impl Shapes, at: &TexturePoint) -> Vec3 {
+        Self::colour(self, shapes, at)
+    }
+
+    fn mean(&self, _: &TextureSet) -> f32 {
+        0.5 * self.scale
+    }
+}
+
+pub(crate) fn read(
+    _: &mut TextureReader<'_>,
+    params: &Params<'_>,
+    Use { role, .. }: Use,
+) -> Option<Texture> {
+    let scale = params.float_where("scale", 1.0, "a finite number not below 0", |x| {
+        x >= 0.0 && x.is_finite()
+    }) as f32;
+    let Some(name) = params.string("name") else {
+        if !params.has("name") {
+            params.missing("name", "`vertex_…` or `face_…`");
+        }
+        return None;
+    };
+    if !name.starts_with("vertex_") && !name.starts_with("face_") {
+        params.refuse("name", format!("`{name}`"), "`vertex_…` or `face_…`");
+        return None;
+    }
+    Some(Texture::from(MeshAttribute {
+        name: name.to_owned(),
+        scale,
+        role,
+    }))
 }

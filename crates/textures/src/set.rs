@@ -69,11 +69,7 @@ impl TextureSet {
     /// Whether `texture` is `other` or refers to it.
     pub fn uses(&self, texture: TextureId, other: TextureId) -> bool {
         texture == other
-            || match self.get(texture) {
-                Texture::Checkerboard(t) => t.colours.iter().any(|&c| self.uses(c, other)),
-                Texture::Illuminated(t) => self.uses(t.inner, other),
-                _ => false,
-            }
+            || (self.get(texture).nested().iter()).any(|&nested| self.uses(nested, other))
     }
 
     /// Forgets what was needed only while reading (which nodes and files were read already).

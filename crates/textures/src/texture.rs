@@ -1,22 +1,115 @@
-//! The list of textures, and how each answers.
+//! The list of textures, and how each is found by its plugin's name.
+//!
+//! To add a texture, write its file and add one line to the list.
 
-use crate::{Bitmap, Checkerboard, Constant, Illuminated, MeshAttribute, TextureSet};
-use etalon_transport::{Shapes, TexturePoint};
+use crate::reader::Use;
+use crate::{
+    Bitmap, Checkerboard, Constant, Illuminated, MeshAttribute, TextureReader, TextureSet,
+};
+use crate::{bitmap, checkerboard, constant, illuminated, mesh_attribute, spectra};
+use etalon_params::{Params, plugins};
+use etalon_transport::{Shapes, TextureId, TexturePoint};
 use glam::{Vec3, Vec4};
 
-/// Any texture.
-#[derive(Clone, Debug, PartialEq)]
-pub enum Texture {
+/// What a texture is asked at a point. `set` holds the textures that it refers to.
+pub(crate) trait TextureModel {
+    /// The spectrum, for the wavelengths `lambda` (nm).
+    fn spectrum(
+        &self,
+        set: &TextureSet,
+        shapes: &impl Shapes,
+        at: &TexturePoint,
+        lambda: Vec4,
+    ) -> Vec4;
+
+    /// The number.
+    fn number(&self, set: &TextureSet, shapes: &impl Shapes, at: &TexturePoint) -> f32;
+
+    /// Three raw channels.
+    fn colour(&self, set: &TextureSet, shapes: &impl Shapes, at: &TexturePoint) -> Vec3;
+
+    /// The mean over the texture and the wavelengths, for choosing among lobes and lights only:
+    /// images are averaged over their texels as if `to_uv` showed all of them alike, and a mesh
+    /// attribute, whose values are not known here, counts as ½.
+    fn mean(&self, set: &TextureSet) -> f32;
+
+    /// Whether the texture is the same everywhere.
+    fn is_constant(&self, _: &TextureSet) -> bool {
+        false
+    }
+
+    /// The textures that it refers to.
+    fn nested(&self) -> &[TextureId] {
+        &[]
+    }
+}
+
+macro_rules! textures {
+    ($($(#[doc = $doc:literal])* $model:ident { $($plugin:literal => $read:expr,)* })*) => {
+        /// Any texture.
+        #[derive(Clone, Debug, PartialEq)]
+        pub enum Texture {
+            $($(#[doc = $doc])* $model($model),)*
+        }
+
+        /// Names of the textures and spectra that are built.
+        pub const BUILT: &[&str] = &[$($($plugin,)*)*];
+
+        $(impl From<$model> for Texture {
+            fn from(texture: $model) -> Self {
+                Self::$model(texture)
+            }
+        })*
+
+        impl TextureReader<'_> {
+            /// Reads a nested object; `None` after a mistake.
+            pub(crate) fn plugin(&mut self, params: &Params<'_>, purpose: Use) -> Option<Texture> {
+                type Read =
+                    fn(&mut TextureReader<'_>, &Params<'_>, Use) -> Option<Texture>;
+                let read: Read = match params.node.plugin.value.as_str() {
+                    $($($plugin => $read,)*)*
+                    _ => {
+                        let built = BUILT.iter().copied();
+                        self.diagnostics.push(plugins::not_built(params.node, built));
+                        return None;
+                    }
+                };
+                let texture = read(self, params, purpose);
+                params.finish();
+                texture
+            }
+        }
+
+        /// Asks the texture, whichever it is.
+        macro_rules! ask {
+            ($texture:expr, $it:ident => $answer:expr) => {
+                match $texture {
+                    $(Texture::$model($it) => $answer,)*
+                }
+            };
+        }
+    };
+}
+
+// The list: each texture with the plugins that make it.
+textures! {
     /// The same everywhere.
-    Constant(Constant),
+    Constant {
+        "blackbody" => spectra::read,
+        "irregular" => spectra::read,
+        "rawconstant" => constant::read,
+        "regular" => spectra::read,
+        "srgb" => spectra::read,
+        "uniform" => spectra::read,
+    }
     /// An image.
-    Bitmap(Bitmap),
+    Bitmap { "bitmap" => bitmap::read, }
     /// Two textures in squares.
-    Checkerboard(Checkerboard),
+    Checkerboard { "checkerboard" => checkerboard::read, }
     /// A quantity stored on a mesh.
-    MeshAttribute(MeshAttribute),
+    MeshAttribute { "mesh_attribute" => mesh_attribute::read, }
     /// Another texture times D65.
-    Illuminated(Illuminated),
+    Illuminated { "d65" => illuminated::read, }
 }
 
 impl Texture {
@@ -30,67 +123,35 @@ impl Texture {
         at: &TexturePoint,
         lambda: Vec4,
     ) -> Vec4 {
-        match self {
-            Self::Constant(texture) => texture.spectrum.eval(lambda),
-            Self::Bitmap(texture) => texture.spectrum(at.uv, lambda),
-            Self::Checkerboard(texture) => {
-                set.spectrum(texture.for_spectrum(at.uv), shapes, at, lambda)
-            }
-            Self::MeshAttribute(texture) => texture.spectrum(shapes, at, lambda),
-            Self::Illuminated(texture) => {
-                set.spectrum(texture.inner, shapes, at, lambda) * texture.factor(lambda)
-            }
-        }
+        ask!(self, texture => TextureModel::spectrum(texture, set, shapes, at, lambda))
     }
 
     /// The number at a point.
     #[inline]
     pub fn number(&self, set: &TextureSet, shapes: &impl Shapes, at: &TexturePoint) -> f32 {
-        match self {
-            Self::Constant(texture) => texture.number,
-            Self::Bitmap(texture) => texture.number(at.uv),
-            Self::Checkerboard(texture) => set.number(texture.for_number(at.uv), shapes, at),
-            Self::MeshAttribute(texture) => texture.number(shapes, at),
-            Self::Illuminated(texture) => set.number(texture.inner, shapes, at) * texture.scale,
-        }
+        ask!(self, texture => TextureModel::number(texture, set, shapes, at))
     }
 
     /// Three raw channels at a point.
     #[inline]
     pub fn colour(&self, set: &TextureSet, shapes: &impl Shapes, at: &TexturePoint) -> Vec3 {
-        match self {
-            Self::Constant(texture) => texture.colour,
-            Self::Bitmap(texture) => texture.colour(at.uv),
-            Self::Checkerboard(texture) => set.colour(texture.for_spectrum(at.uv), shapes, at),
-            Self::MeshAttribute(texture) => texture.colour(shapes, at),
-            Self::Illuminated(texture) => set.colour(texture.inner, shapes, at) * texture.scale,
-        }
+        ask!(self, texture => TextureModel::colour(texture, set, shapes, at))
     }
 
     /// The mean over the texture and the wavelengths, for choosing among lobes and lights only:
     /// images are averaged over their texels as if `to_uv` showed all of them alike, and a mesh
     /// attribute, whose values are not known here, counts as ½.
     pub fn mean(&self, set: &TextureSet) -> f32 {
-        match self {
-            Self::Constant(texture) => texture.mean,
-            Self::Bitmap(texture) => texture.image.mean,
-            Self::Checkerboard(texture) => {
-                let [a, b] = texture.colours;
-                0.5 * (set.mean(a) + set.mean(b))
-            }
-            Self::MeshAttribute(texture) => 0.5 * texture.scale,
-            Self::Illuminated(texture) => set.mean(texture.inner) * texture.scale,
-        }
+        ask!(self, texture => texture.mean(set))
     }
 
     /// Whether the texture is the same everywhere.
     pub fn is_constant(&self, set: &TextureSet) -> bool {
-        match self {
-            Self::Constant(_) => true,
-            Self::Bitmap(texture) => texture.image.size == glam::UVec2::ONE,
-            Self::Checkerboard(texture) => texture.colours[0] == texture.colours[1],
-            Self::MeshAttribute(_) => false,
-            Self::Illuminated(texture) => set.is_constant(texture.inner),
-        }
+        ask!(self, texture => texture.is_constant(set))
+    }
+
+    /// The textures that it refers to.
+    pub(crate) fn nested(&self) -> &[TextureId] {
+        ask!(self, texture => texture.nested())
     }
 }
