@@ -14,6 +14,7 @@ fn path(kind: SamplerKind, sample: u32) -> Vec2 {
         pixel: (30, 40),
         sample,
         samples_per_replicate: 16,
+        blocks: 1,
     });
     (0..36).fold(Vec2::ZERO, |sum, _| sum + sampler.next_2d())
 }

@@ -104,6 +104,10 @@ pub struct Estimator {
     pub sampler: Option<Sampler>,
     /// How points choose the light that they ask, if not as the scene says.
     pub light_chooser: Option<String>,
+    /// Whether its replicates are blocks of one sequence, as `render` has them by default; otherwise they
+    /// are independent.
+    #[serde(default)]
+    pub blocks: bool,
     /// Samples per pixel of a pilot that deals the samples to pixels, as `render --adaptive` does;
     /// without one every pixel has equally many.
     pub adaptive: Option<u32>,
@@ -149,7 +153,8 @@ impl Estimator {
             .map(|name| format!(", {name} lights"))
             .unwrap_or_default();
         let adaptive = self.adaptive.map_or("", |_| ", adaptive");
-        format!("{integrator}, {sampler}{chooser}{adaptive}{defines}{change}")
+        let blocks = if self.blocks { ", blocks" } else { "" };
+        format!("{integrator}, {sampler}{chooser}{blocks}{adaptive}{defines}{change}")
     }
 
     /// The work of the first run that makes its row.

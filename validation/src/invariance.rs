@@ -105,6 +105,7 @@ pub fn measure(
                     spp: Some(plan.samples_per_replicate * plan.replicates),
                     seed: Some(seed),
                     replicates: Some(plan.replicates),
+                    independent_replicates: plan.replicate_kind.is_independent(),
                     sampler: Some(plan.sampler),
                 },
             );

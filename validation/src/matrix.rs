@@ -170,6 +170,7 @@ pub(crate) fn expand(claim: &mut Claim) -> Result<(), String> {
         let later = matrix.full_only || own.is_some();
         rows.push(Estimator {
             adaptive: None,
+            blocks: false,
             integrator: Some(name.to_owned()),
             sampler: None,
             light_chooser: None,

@@ -8,6 +8,7 @@ use crate::folders;
 use crate::rendering;
 use etalon_film::{Developed, ExactFilm, Metadata, RenderFacts, read_developed};
 use etalon_images::{Image, write_atomically};
+use etalon_sampling::ReplicateKind;
 use serde::{Deserialize, Serialize};
 use std::io::Write;
 use std::path::{Path, PathBuf};
@@ -249,6 +250,7 @@ pub fn write(claim: &Claim, rendered: &Rendered, spp: u32, pixels: &[f32]) -> Re
         scene_hash: loaded.hash,
         integrator: (provenance.integrator.clone()).unwrap_or(loaded.integrator_name),
         sampler: "independent".to_owned(),
+        replicate_kind: ReplicateKind::Independent,
         seed: 1,
         seconds: None,
     });

@@ -77,6 +77,7 @@ pub fn plan(loaded: &Loaded, estimator: &Estimator, budget: Budget, seed: u64) -
             spp: Some(budget.spp),
             seed: Some(seed),
             replicates: Some(budget.replicates),
+            independent_replicates: !estimator.blocks,
             sampler: Some(estimator.sampler.map_or(SamplerKind::Sobol, Into::into)),
         },
     )
@@ -160,6 +161,7 @@ pub fn facts(loaded: &Loaded, plan: &Plan, integrator: String) -> RenderFacts {
         scene_hash: loaded.hash.clone(),
         integrator,
         sampler: pipeline::sampler_name(plan.sampler).to_owned(),
+        replicate_kind: plan.replicate_kind,
         seed: plan.seed,
         seconds: None,
     }

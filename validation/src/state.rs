@@ -59,6 +59,7 @@ impl State {
         let same = facts.scene_hash == loaded.hash
             && facts.seed == plan.seed
             && facts.replicates == plan.replicates
+            && facts.replicate_kind == plan.replicate_kind
             && facts.spp == spp;
         same.then_some(batch)
     }

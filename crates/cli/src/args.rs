@@ -133,9 +133,12 @@ pub struct RenderArgs {
     /// Give a scene parameter ($key) a value.
     #[arg(short = 'D', value_name = "key=value", value_parser = parse_define)]
     pub define: Vec<(String, String)>,
-    /// Independent replicates the image is the mean of [default: 8, or fewer if spp is less].
+    /// Replicates the image is the mean of [default: 8, or fewer if spp is less].
     #[arg(long, value_name = "R", value_parser = whole::<1, 4096>, allow_negative_numbers = true)]
     pub replicates: Option<u32>,
+    /// Independent replicates instead of blocks of one sequence: noisier, with unbiased squared standard errors.
+    #[arg(long)]
+    pub independent_replicates: bool,
     /// As many samples as a relative standard error below REL takes, with 95 % confidence.
     #[arg(long, value_name = "REL", value_parser = parse_error, allow_negative_numbers = true, conflicts_with_all = ["spp", "time", "part", "strategies"])]
     pub error: Option<f64>,

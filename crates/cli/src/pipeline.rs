@@ -11,7 +11,7 @@ use etalon_formats::FileAssets;
 use etalon_formats::mitsuba::{self, Document, ReadOptions, ReadOutcome};
 use etalon_integrators::{AnyIntegrator, Outcome, Plan, Progress, Share};
 use etalon_params::{Class, Diagnostic, Diagnostics, Node, Params, Sources, Span, Value};
-use etalon_sampling::SamplerKind;
+use etalon_sampling::{ReplicateKind, SamplerKind};
 use etalon_scene::{CompileOptions, Compiled, LightChooser, Scene};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -226,8 +226,10 @@ pub struct RenderOptions {
     pub spp: Option<u32>,
     /// Seed, if not the scene's.
     pub seed: Option<u64>,
-    /// Independent replicates, if not the default.
+    /// Replicates, if not the default number.
     pub replicates: Option<u32>,
+    /// Independent replicates, also where the integrator could have blocks of one sequence.
+    pub independent_replicates: bool,
     /// Kind of sampler, if not the scene's.
     pub sampler: Option<SamplerKind>,
 }
@@ -244,6 +246,10 @@ pub fn plan(loaded: &Loaded, options: &RenderOptions) -> Plan {
     Plan {
         seed: options.seed.unwrap_or(settings.seed),
         replicates,
+        replicate_kind: match options.independent_replicates {
+            true => ReplicateKind::Independent,
+            false => loaded.integrator.replicate_kind(),
+        },
         share: None,
         samples_per_replicate: sampler.round_up(spp.div_ceil(replicates)),
         sampler,
@@ -318,6 +324,7 @@ pub(crate) fn facts(loaded: &Loaded, plan: &Plan) -> RenderFacts {
         scene_hash: loaded.hash.clone(),
         integrator: loaded.integrator_name.clone(),
         sampler: sampler_name(plan.sampler).to_owned(),
+        replicate_kind: plan.replicate_kind,
         seed: plan.seed,
         seconds: None,
     }

@@ -58,11 +58,13 @@ pub(crate) fn nearest(sampler: SamplerKind, wanted: f64, dither: f64) -> u32 {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use etalon_sampling::ReplicateKind;
 
     fn plan(sampler: SamplerKind) -> Plan {
         Plan {
             seed: 1,
             replicates: 8,
+            replicate_kind: ReplicateKind::Independent,
             share: None,
             samples_per_replicate: 4,
             sampler,

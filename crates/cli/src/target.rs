@@ -24,6 +24,7 @@ use etalon_film::Developed;
 use etalon_integrators::{Plan, Progress};
 use etalon_math::float64;
 use etalon_params::Diagnostic;
+use etalon_sampling::ReplicateKind;
 use etalon_sampling::hash::{derived_key, mix64};
 use etalon_statistics::{Summary, student_t};
 use std::time::Instant;
@@ -176,7 +177,7 @@ pub fn affordable(
     Ok(samples)
 }
 
-/// One picture of a pilot: two replicates.
+/// One picture of a pilot: two replicates, independent so that their spread is the noise of one.
 pub(crate) fn picture(
     loaded: &Loaded,
     plan: &Plan,
@@ -188,6 +189,7 @@ pub(crate) fn picture(
     let small = Plan {
         seed: derived_key(mix64(plan.seed ^ SEEDS), index),
         replicates: 2,
+        replicate_kind: ReplicateKind::Independent,
         samples_per_replicate: samples,
         ..*plan
     };

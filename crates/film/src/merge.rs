@@ -50,7 +50,7 @@ impl fmt::Display for Disagreement {
 #[must_use]
 pub fn disagreements(first: &Metadata, second: &Metadata) -> Vec<Disagreement> {
     type View = fn(&Metadata) -> String;
-    let views: [(&'static str, View); 13] = [
+    let views: [(&'static str, View); 14] = [
         ("version of Etalon", |m| m.version.clone()),
         ("floating-point fingerprint", |m| m.floating_point.clone()),
         ("scene's hash", |m| m.scene_hash.clone()),
@@ -60,6 +60,7 @@ pub fn disagreements(first: &Metadata, second: &Metadata) -> Vec<Disagreement> {
         ("number of replicates of the whole", |m| {
             m.part.as_ref().map_or(m.replicates, |p| p.of).to_string()
         }),
+        ("kind of replicates", |m| m.replicate_kind.name().to_owned()),
         ("number of samples per replicate", |m| {
             m.samples_per_replicate().to_string()
         }),

@@ -4,6 +4,7 @@ use crate::{
     CheckpointFacts, DealtFacts, FaultLog, FilmSettings, OutlierLog, PartFacts, SampleCounts,
     TileMeans, UnfinishedFacts, floating_point_fingerprint,
 };
+use etalon_sampling::ReplicateKind;
 use serde::{Deserialize, Serialize};
 use std::time::Duration;
 
@@ -20,6 +21,8 @@ pub struct RenderFacts {
     pub integrator: String,
     /// The sampler.
     pub sampler: String,
+    /// What replicates have to do with each other.
+    pub replicate_kind: ReplicateKind,
     /// The seed.
     pub seed: u64,
     /// How long rendering took (s); see [`recorded_seconds`].
@@ -68,9 +71,13 @@ pub struct Metadata {
     /// Samples per pixel, all replicates together; where they are dealt unevenly, as many as they
     /// would be evenly.
     pub spp: u64,
-    /// Independent replicates that are finished. With one, there are no standard errors; with none,
+    /// Replicates that are finished. With one, there are no standard errors; with none,
     /// the picture is of what there is of the first.
     pub replicates: u32,
+    /// What they have to do with each other; independent if not stated. The standard errors of blocks are
+    /// upper estimates.
+    #[serde(default, skip_serializing_if = "ReplicateKind::is_independent")]
+    pub replicate_kind: ReplicateKind,
     /// Which replicates these are, if they are a part of a picture's.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub part: Option<PartFacts>,
@@ -119,6 +126,7 @@ impl Metadata {
             sampler: facts.sampler,
             spp: film.samples(),
             replicates: film.replicates(),
+            replicate_kind: facts.replicate_kind,
             part: None,
             checkpoint: None,
             unfinished: None,

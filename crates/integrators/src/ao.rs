@@ -15,8 +15,8 @@
 use crate::dimensions::Event;
 use crate::path::camera_ray;
 use etalon_params::Params;
-use etalon_sampling::Sampler;
 use etalon_sampling::warps::{square_to_cosine_hemisphere, square_to_uniform_hemisphere};
+use etalon_sampling::{ReplicateKind, Sampler};
 use etalon_spectrum::Wavelengths;
 use etalon_transport::{
     Bsdf, Integrator, Objection, Pass, PixelSite, Placing, Ray, Sight, Sink, Vertex, World,
@@ -125,6 +125,10 @@ impl AmbientOcclusion {
 
 impl Integrator for AmbientOcclusion {
     type State = ();
+
+    fn replicate_kind(&self) -> ReplicateKind {
+        ReplicateKind::Blocks
+    }
 
     /// It asks for no light.
     fn objections(&self, _: &Sight) -> Vec<Objection> {

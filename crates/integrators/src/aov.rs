@@ -25,7 +25,7 @@ use crate::dimensions as dim;
 use crate::list::Nested;
 use crate::path::camera_ray;
 use etalon_params::{Diagnostic, Params};
-use etalon_sampling::Sampler;
+use etalon_sampling::{ReplicateKind, Sampler};
 use etalon_spectrum::{Wavelengths, sensor_response};
 use etalon_transport::{
     Bsdf, Camera, Channel, Integrator, Objection, Pass, PixelSite, Placing, Ray, Sight, Sink,
@@ -136,6 +136,10 @@ impl Aov {
 
 impl Integrator for Aov {
     type State = ();
+
+    fn replicate_kind(&self) -> ReplicateKind {
+        Nested::replicate_kind(&self.nested)
+    }
 
     /// Those of the integrators inside.
     fn objections(&self, sight: &Sight) -> Vec<Objection> {

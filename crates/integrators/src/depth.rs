@@ -14,7 +14,7 @@
 //! channel of `aov`.
 
 use crate::path::camera_ray;
-use etalon_sampling::Sampler;
+use etalon_sampling::{ReplicateKind, Sampler};
 use etalon_spectrum::sensor::response;
 use etalon_transport::{Integrator, Objection, Pass, PixelSite, Placing, Sight, Sink, World};
 use glam::Vec4;
@@ -45,6 +45,10 @@ impl Default for Depth {
 
 impl Integrator for Depth {
     type State = ();
+
+    fn replicate_kind(&self) -> ReplicateKind {
+        ReplicateKind::Blocks
+    }
 
     /// It asks for no light.
     fn objections(&self, _: &Sight) -> Vec<Objection> {

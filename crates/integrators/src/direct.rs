@@ -18,7 +18,7 @@ use crate::prefix::Prefix;
 use crate::rival::Rival;
 use crate::settings::read_max_depth;
 use etalon_params::Params;
-use etalon_sampling::Sampler;
+use etalon_sampling::{ReplicateKind, Sampler};
 use etalon_spectrum::{Wavelengths, sensor_response};
 use etalon_transport::{
     Bsdf, Chance, Finding, Integrator, Mode, Objection, Pass, PixelSite, Placing, Ray, Receiver,
@@ -202,6 +202,10 @@ impl Direct {
 
 impl Integrator for Direct {
     type State = ();
+
+    fn replicate_kind(&self) -> ReplicateKind {
+        ReplicateKind::Blocks
+    }
 
     fn objections(&self, sight: &Sight) -> Vec<Objection> {
         sight.objections(match (self.emitter_samples, self.bsdf_samples) {

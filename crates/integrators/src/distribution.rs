@@ -21,7 +21,7 @@ use crate::prefix::Prefix;
 use crate::rival::Rival;
 use crate::settings::PathSettings;
 use etalon_params::Params;
-use etalon_sampling::Sampler;
+use etalon_sampling::{ReplicateKind, Sampler};
 use etalon_spectrum::{Wavelengths, sensor_response};
 use etalon_transport::{
     Bsdf, Chance, Hit, Integrator, Mode, Pass, PixelSite, Placing, Ray, Receiver, Sink, Vertex,
@@ -303,6 +303,10 @@ impl Integrator for Distribution {
     const UNBIASED: bool = true;
 
     type State = ();
+
+    fn replicate_kind(&self) -> ReplicateKind {
+        ReplicateKind::Blocks
+    }
 
     fn prepare<W: World>(&self, _: &W, _: &impl Placing, _: &Pass, _: Option<()>) {}
 

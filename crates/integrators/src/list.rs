@@ -23,7 +23,7 @@ use crate::vcm::ConnectionMerging;
 use crate::whitted::Whitted;
 use core::any::Any;
 use etalon_params::{Class, Diagnostics, Node, Params, plugins};
-use etalon_sampling::Sampler;
+use etalon_sampling::{ReplicateKind, Sampler};
 use etalon_transport::{Channel, Film, Integrator, Objection, PixelSite, Sight, Sink, World};
 use glam::Vec2;
 
@@ -77,6 +77,13 @@ macro_rules! integrators {
             pub fn splats(&self) -> bool {
                 match self {
                     $(Self::$variant(integrator) => integrator.splats(),)*
+                }
+            }
+
+            /// What its replicates may have to do with each other.
+            pub fn replicate_kind(&self) -> ReplicateKind {
+                match self {
+                    $(Self::$variant(integrator) => integrator.replicate_kind(),)*
                 }
             }
 
@@ -193,6 +200,15 @@ impl Nested {
     pub(crate) fn objections(nested: &[Self], sight: &Sight) -> Vec<Objection> {
         let each = nested.iter().map(|n| n.integrator.objections(sight));
         each.flatten().collect()
+    }
+
+    /// Blocks, if all nested integrators may have them.
+    pub(crate) fn replicate_kind(nested: &[Self]) -> ReplicateKind {
+        let mut kinds = nested.iter().map(|n| n.integrator.replicate_kind());
+        match kinds.all(|kind| kind == ReplicateKind::Blocks) {
+            true => ReplicateKind::Blocks,
+            false => ReplicateKind::Independent,
+        }
     }
 
     /// The integrators nested in a description, in its order. Integrators that splat are

@@ -15,7 +15,7 @@
 
 use crate::list::Nested;
 use etalon_params::Params;
-use etalon_sampling::Sampler;
+use etalon_sampling::{ReplicateKind, Sampler};
 use etalon_spectrum::colour_space::rgb_to_xyz;
 use etalon_transport::{
     Channel, Integrator, Objection, Pass, PixelSite, Placing, Sight, Sink, World,
@@ -47,6 +47,10 @@ impl Moment {
 
 impl Integrator for Moment {
     type State = ();
+
+    fn replicate_kind(&self) -> ReplicateKind {
+        Nested::replicate_kind(&self.nested)
+    }
 
     /// Those of the integrators inside.
     fn objections(&self, sight: &Sight) -> Vec<Objection> {

@@ -31,8 +31,8 @@ use crate::settings::PathSettings;
 use core::f32::consts::FRAC_1_PI;
 use etalon_math::Frame;
 use etalon_params::Params;
-use etalon_sampling::Sampler;
 use etalon_sampling::warps::{square_to_cosine_hemisphere, square_to_uniform_hemisphere};
+use etalon_sampling::{ReplicateKind, Sampler};
 use etalon_spectrum::{Wavelengths, sensor_response};
 use etalon_transport::{
     Bsdf, Finding, Integrator, Mode, Objection, Pass, PixelSite, Placing, Ray, Sight, Sink, Vertex,
@@ -234,6 +234,10 @@ impl Integrator for Naive {
     const UNBIASED: bool = true;
 
     type State = ();
+
+    fn replicate_kind(&self) -> ReplicateKind {
+        ReplicateKind::Blocks
+    }
 
     fn objections(&self, sight: &Sight) -> Vec<Objection> {
         sight.objections(Finding::Hitting)

@@ -24,7 +24,7 @@ use crate::render::TOGETHER;
 use crate::settings::PathSettings;
 use crate::walk::Walk;
 use etalon_params::Params;
-use etalon_sampling::Sampler;
+use etalon_sampling::{ReplicateKind, Sampler};
 use etalon_spectrum::Wavelengths;
 use etalon_transport::{
     Camera, Draft, Integrator, Pass, PixelSite, Placing, Ray, Sink, TileSink, World,
@@ -97,6 +97,10 @@ impl Integrator for Path {
     const UNBIASED: bool = true;
 
     type State = ();
+
+    fn replicate_kind(&self) -> ReplicateKind {
+        ReplicateKind::Blocks
+    }
 
     fn prepare<W: World>(&self, _: &W, _: &impl Placing, _: &Pass, _: Option<()>) {}
 

@@ -21,7 +21,7 @@ use crate::path::camera_ray;
 use crate::prefix::Prefix;
 use crate::settings::PathSettings;
 use etalon_params::Params;
-use etalon_sampling::Sampler;
+use etalon_sampling::{ReplicateKind, Sampler};
 use etalon_spectrum::{SensorWeights, Wavelengths, sensor_response};
 use etalon_transport::{
     Bsdf, Camera, Finding, Integrator, Mode, Objection, Pass, PixelSite, Placing, Ray, Sight, Sink,
@@ -159,6 +159,10 @@ impl Integrator for ParticleTracer {
     const UNBIASED: bool = true;
 
     type State = ();
+
+    fn replicate_kind(&self) -> ReplicateKind {
+        ReplicateKind::Blocks
+    }
 
     fn splats(&self) -> bool {
         true

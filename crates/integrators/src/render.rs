@@ -1,14 +1,16 @@
 //! The render loop: replicates × passes × tiles × pixels × samples.
 //!
-//! A replicate is an independent estimate of the whole image, made in one pass or in as many as the
-//! integrator asks for. Tiles of a pass run in parallel, and a long pass goes over all of them in
+//! A replicate is an estimate of the whole image, independent of the others or a block of the sequence that
+//! they make up together ([`ReplicateKind`]), made in one pass or in as many as the integrator asks for. Tiles of a pass run in parallel, and a long pass goes over all of them in
 //! several rounds, so that a picture that is interrupted has some samples everywhere. Since a
 //! sample is a pure function of its address and the film accumulates exactly, neither the number of
 //! threads nor the order of tiles nor the rounds change a bit, and a render goes on from any sample.
 
 use crate::rounds::{Batches, Pace};
 use crate::share::Share;
-use etalon_sampling::{Independent, PixelSample, Sampler, SamplerKind, Sobol, Stratified};
+use etalon_sampling::{
+    Independent, PixelSample, ReplicateKind, Sampler, SamplerKind, Sobol, Stratified,
+};
 use etalon_transport::{Draft, Film, Integrator, Pass, PixelSite, Placement, Placing, World};
 use glam::{UVec2, Vec2};
 use rayon::prelude::*;
@@ -28,8 +30,11 @@ pub const TOGETHER: usize = 16;
 pub struct Plan {
     /// The seed of the image.
     pub seed: u64,
-    /// Independent replicates of the image.
+    /// Replicates of the image.
     pub replicates: u32,
+    /// What they have to do with each other. Blocks are for integrators that declare them
+    /// ([`Integrator::replicate_kind`]).
+    pub replicate_kind: ReplicateKind,
     /// The replicates that are rendered here; `None` for all of them.
     pub share: Option<Share>,
     /// Samples per pixel in each replicate.
@@ -45,6 +50,27 @@ impl Plan {
             first: 0,
             count: self.replicates,
         })
+    }
+
+    /// Where a sample's numbers are drawn from: sample `sample` of `dealt` that the pixel gets in a
+    /// replicate.
+    #[inline]
+    pub(crate) fn address(
+        &self,
+        replicate: u32,
+        pixel: UVec2,
+        sample: u32,
+        dealt: u32,
+    ) -> PixelSample {
+        let within = PixelSample {
+            seed: self.seed,
+            replicate,
+            pixel: pixel.into(),
+            sample,
+            samples_per_replicate: dealt,
+            blocks: 1,
+        };
+        self.replicate_kind.address(within, self.replicates)
     }
 }
 
@@ -331,13 +357,8 @@ impl<W: World, I: Integrator, F: Film> Round<'_, '_, W, I, F> {
                     if drafts.is_empty() && progress.cancelled() {
                         return (drawn, false);
                     }
-                    let mut sampler = start(&PixelSample {
-                        seed: plan.seed,
-                        replicate: self.pass.replicate,
-                        pixel: (x, y),
-                        sample,
-                        samples_per_replicate: dealt,
-                    });
+                    let replicate = self.pass.replicate;
+                    let mut sampler = start(&plan.address(replicate, pixel, sample, dealt));
                     let placement = self.film.place(pixel, sampler.next_2d());
                     let site = PixelSite {
                         pixel,

@@ -15,7 +15,7 @@
 //! pixels do.
 
 use crate::path::camera_ray;
-use etalon_sampling::Sampler;
+use etalon_sampling::{ReplicateKind, Sampler};
 use etalon_transport::{Hit, Integrator, Objection, Pass, PixelSite, Placing, Sight, Sink, World};
 
 /// The signature integrator.
@@ -52,6 +52,10 @@ fn object(hit: &Hit) -> u32 {
 
 impl Integrator for Signature {
     type State = ();
+
+    fn replicate_kind(&self) -> ReplicateKind {
+        ReplicateKind::Blocks
+    }
 
     /// It asks for no light.
     fn objections(&self, _: &Sight) -> Vec<Objection> {

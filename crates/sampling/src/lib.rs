@@ -8,6 +8,7 @@ pub mod discrete;
 pub mod hash;
 pub mod independent;
 pub mod kind;
+pub mod replicate_kind;
 pub mod sampler;
 pub mod sobol;
 pub mod stratified;
@@ -15,6 +16,7 @@ pub mod warps;
 
 pub use independent::Independent;
 pub use kind::{AnySampler, SamplerKind};
+pub use replicate_kind::ReplicateKind;
 pub use sampler::{PixelSample, Sampler};
 pub use sobol::Sobol;
 pub use stratified::Stratified;

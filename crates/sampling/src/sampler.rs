@@ -22,8 +22,12 @@ pub struct PixelSample {
     /// How many samples this pixel takes in this replicate; samplers that stratify spread
     /// their strata over that many. See [`SamplerKind::round_up`](crate::SamplerKind::round_up)
     /// for the counts they like; any count of at least 1 is valid. Indices at or beyond the
-    /// count are valid too: they begin a further, independently drawn set of strata.
+    /// count (of all blocks) are valid too: they begin a further, independently drawn set of strata.
     pub samples_per_replicate: u32,
+    /// How many replicates are blocks of this one sequence, one after the other, each of
+    /// `samples_per_replicate`; 1 if replicates are independent. Samplers that stratify spread
+    /// finer strata over all of them. See [`ReplicateKind`](crate::ReplicateKind).
+    pub blocks: u32,
 }
 
 impl PixelSample {

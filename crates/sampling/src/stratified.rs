@@ -5,6 +5,10 @@
 //! one; which cell is a random permutation by dimension. Without jitter it is the centre of
 //! the cell. Another n works too: then a pair uses the cells of ⌊√n⌋² or more (the smallest grid
 //! that holds n), some of which stay empty, at random.
+//!
+//! Where replicates are blocks of one sequence, each block is such a set of n samples, and each of its
+//! strata is divided into R, of which every block takes another one: together they are n·R samples,
+//! each in its own part.
 
 use crate::hash::{ONE_MINUS, derived_key, mix64, permute, random_float};
 use crate::sampler::{PixelSample, Sampler};
@@ -14,9 +18,15 @@ use glam::Vec2;
 #[derive(Clone, Debug)]
 pub struct Stratified {
     key: u64,
-    sample: u32,
+    /// Among those of all blocks.
+    sample: u64,
+    /// The sample within its block, and the samples of a block.
+    place: u32,
     count: u32,
     side: u32,
+    /// Which block, and of how many.
+    block: u32,
+    blocks: u32,
     jitter: bool,
     dimension: u32,
 }
@@ -33,12 +43,19 @@ impl Stratified {
     #[inline]
     pub fn with_jitter(sample: &PixelSample, jitter: bool) -> Self {
         let count = sample.samples_per_replicate.max(1);
+        let blocks = sample.blocks.max(1);
+        let all = u64::from(count) * u64::from(blocks);
+        let [index, each] = [sample.sample, count].map(u64::from);
+        let within = index % all;
         Self {
             // Samples past the count begin a new set of strata.
-            key: derived_key(sample.pixel_key(), sample.sample / count),
-            sample: sample.sample % count,
+            key: derived_key(sample.pixel_key(), (index / all) as u32),
+            sample: within,
+            place: (within % each) as u32,
             count,
             side: ceil_sqrt(count),
+            block: (within / each) as u32,
+            blocks,
             jitter,
             dimension: 0,
         }
@@ -48,12 +65,37 @@ impl Stratified {
     #[inline]
     fn offset(&self, key: u64) -> Vec2 {
         if self.jitter {
-            let bits = mix64(key ^ u64::from(self.sample) << 32);
+            let bits = mix64(key ^ self.sample << 32);
             Vec2::new(random_float(bits as u32), random_float((bits >> 32) as u32))
         } else {
             Vec2::splat(0.5)
         }
     }
+
+    /// The key by which this block shuffles its strata.
+    #[inline]
+    fn shuffle(&self, key: u64) -> u64 {
+        match self.block {
+            0 => key,
+            block => derived_key(key, block),
+        }
+    }
+
+    /// The part of a stratum that this block takes.
+    #[inline]
+    fn part(&self, stratum: u32, key: u64) -> u32 {
+        match self.blocks {
+            1 => 0,
+            blocks => permute(self.block, blocks, derived_key(!key, stratum)),
+        }
+    }
+}
+
+/// The columns of the most nearly square grid of exactly `parts` cells: at most as many as rows.
+#[inline]
+fn columns(parts: u32) -> u32 {
+    let divides = |columns: &u32| parts.is_multiple_of(*columns);
+    (1..=parts.isqrt()).rev().find(divides).unwrap_or(1)
 }
 
 /// The smallest r with r² ≥ n.
@@ -67,8 +109,10 @@ impl Sampler for Stratified {
     fn next_1d(&mut self) -> f32 {
         let key = derived_key(self.key, self.dimension);
         self.dimension += 1;
-        let stratum = permute(self.sample, self.count, key);
-        ((stratum as f32 + self.offset(key).x) / self.count as f32).min(ONE_MINUS)
+        let stratum = permute(self.place, self.count, self.shuffle(key));
+        let part = self.part(stratum, key) as f32;
+        let within = (part + self.offset(key).x) / self.blocks as f32;
+        ((stratum as f32 + within) / self.count as f32).min(ONE_MINUS)
     }
 
     #[inline]
@@ -76,9 +120,14 @@ impl Sampler for Stratified {
         self.dimension = self.dimension.next_multiple_of(2);
         let key = derived_key(self.key, self.dimension);
         self.dimension += 2;
-        let cell = permute(self.sample, self.side * self.side, key);
+        let cell = permute(self.place, self.side * self.side, self.shuffle(key));
         let corner = Vec2::new((cell % self.side) as f32, (cell / self.side) as f32);
-        ((corner + self.offset(key)) / self.side as f32).min(Vec2::splat(ONE_MINUS))
+        let part = self.part(cell, key);
+        let columns = columns(self.blocks);
+        let grid = Vec2::new(columns as f32, (self.blocks / columns) as f32);
+        let part = Vec2::new((part % columns) as f32, (part / columns) as f32);
+        let within = (part + self.offset(key)) / grid;
+        ((corner + within) / self.side as f32).min(Vec2::splat(ONE_MINUS))
     }
 
     #[inline]

@@ -1,7 +1,7 @@
 //! The contract of an estimator of light transport.
 
 use crate::{Channel, Finding, Objection, Placing, Sight, Sink, TileSink, World};
-use etalon_sampling::Sampler;
+use etalon_sampling::{ReplicateKind, Sampler};
 use glam::{UVec2, Vec2};
 
 /// The place for which a sample is drawn.
@@ -67,7 +67,7 @@ pub struct Draft<S> {
 /// progression.
 ///
 /// A sample is a pure function of the sampler's numbers; the estimator of an image is the mean
-/// over independent replicates (ARCHITECTURE.md, "Replicates").
+/// over its replicates (ARCHITECTURE.md, "Replicates").
 pub trait Integrator: Sync {
     /// What is learned before sampling starts (photon maps, guiding trees); `()` for a path
     /// tracer.
@@ -91,6 +91,13 @@ pub trait Integrator: Sync {
     /// estimator whose paths from the camera can both run into lights and choose them.
     fn objections(&self, sight: &Sight) -> Vec<Objection> {
         sight.objections(Finding::FromCamera)
+    }
+
+    /// What its replicates may have to do with each other: [`ReplicateKind::Blocks`] if every sample is an
+    /// unbiased estimate that depends on nothing but the sampler's numbers, so that any block of them is a
+    /// replicate. Not so where a replicate has a preparation, a progression or a chain of its own.
+    fn replicate_kind(&self) -> ReplicateKind {
+        ReplicateKind::Independent
     }
 
     /// Samples per pixel after which it must prepare again; `None` if a replicate is one pass.

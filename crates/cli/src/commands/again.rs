@@ -41,6 +41,11 @@ pub(super) fn command(
         "--spp {spp} --replicates {} --seed {}",
         plan.replicates, plan.seed
     ));
+    // No harm where the integrator has no other.
+    words.extend(
+        (plan.replicate_kind.is_independent() && args.independent_replicates)
+            .then(|| "--independent-replicates".to_owned()),
+    );
     words.extend(pilot.map(|pilot| format!("--adaptive --pilot {pilot}")));
     words.push(format!("--replay {x},{y},{replicate},{sample}"));
     words.join(" ")
@@ -51,7 +56,7 @@ mod tests {
     use super::*;
     use crate::args::{Cli, Command};
     use clap::Parser;
-    use etalon_sampling::SamplerKind;
+    use etalon_sampling::{ReplicateKind, SamplerKind};
 
     /// Whoever copies the command draws the very sample, whatever defaults the scene has.
     #[test]
@@ -65,6 +70,7 @@ mod tests {
         let plan = Plan {
             seed: 7,
             replicates: 4,
+            replicate_kind: ReplicateKind::Independent,
             share: None,
             samples_per_replicate: 8,
             sampler: SamplerKind::Sobol,

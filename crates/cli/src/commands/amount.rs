@@ -46,6 +46,7 @@ pub(super) fn plan(args: &RenderArgs, loaded: &Loaded) -> Plan {
         spp: args.spp,
         seed: args.seed,
         replicates: args.replicates,
+        independent_replicates: args.independent_replicates,
         sampler: None,
     };
     pipeline::plan(loaded, &options)

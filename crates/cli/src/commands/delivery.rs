@@ -220,6 +220,7 @@ fn stats(
         "rays_per_second": rendered.outcome.rays as f64 / seconds,
         "spp": metadata.map(|m| m.spp),
         "replicates": rendered.outcome.replicates,
+        "replicate_kind": metadata.map(|m| m.replicate_kind),
         "part": metadata.and_then(|m| m.part.as_ref()),
         "mean_relative_standard_error": rendered.developed.mean_relative_standard_error(),
         "relative_standard_error": relative_error(rendered),

@@ -7,6 +7,7 @@ use crate::diagnose;
 use crate::pipeline::{self, LoadOptions};
 use etalon_film::{Developed, FaultKind, Offence, read_developed};
 use etalon_images::{Error, raster};
+use etalon_sampling::ReplicateKind;
 use std::path::Path;
 use std::process::ExitCode;
 
@@ -75,6 +76,9 @@ fn image(developed: &Developed) -> String {
         "samples      {} per pixel, {} replicates, {}, seed {}\n",
         m.spp, m.replicates, m.sampler, m.seed
     );
+    if m.replicate_kind == ReplicateKind::Blocks && m.replicates > 1 {
+        text += "replicates   blocks of one sequence: standard errors are upper estimates\n";
+    }
     if let Some(part) = &m.part {
         text += &format!(
             "part         the replicates {} of 0 to {}, with exact sums for `etalon merge`\n",

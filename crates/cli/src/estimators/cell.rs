@@ -11,6 +11,7 @@ use super::schedule::Size;
 use crate::pipeline::render_into;
 use etalon_film::{ExactFilm, RenderFacts};
 use etalon_integrators::{Plan, Progress};
+use etalon_sampling::ReplicateKind;
 use etalon_statistics::Picture;
 use etalon_statistics::metrics::{EPSILON, mse, rel_mse};
 use std::time::Instant;
@@ -41,6 +42,7 @@ pub fn render(
     let plan = Plan {
         seed,
         replicates: 1,
+        replicate_kind: ReplicateKind::Independent,
         share: None,
         samples_per_replicate: samples,
         sampler: entrant.sampler,

@@ -17,6 +17,7 @@ use crate::pipeline::{render_into, sampler_name};
 use etalon_film::{Developed, ExactFilm, RenderFacts, read_developed};
 use etalon_images::Image;
 use etalon_integrators::{Plan, Progress};
+use etalon_sampling::ReplicateKind;
 use etalon_statistics::Picture;
 use etalon_statistics::metrics::EPSILON;
 use serde::Serialize;
@@ -115,6 +116,7 @@ impl Reference {
         let plan = Plan {
             seed,
             replicates: size.replicates,
+            replicate_kind: ReplicateKind::Independent,
             share: None,
             samples_per_replicate: size.samples,
             sampler: entrant.sampler,

@@ -33,6 +33,7 @@ fn sample(film: &ExactFilm, tile: &mut impl TileSink, replicate: u32, pixel: UVe
             pixel: (pixel.x, pixel.y),
             sample,
             samples_per_replicate: SAMPLES,
+            blocks: 1,
         });
         let placement = film.place(pixel, sampler.next_2d());
         tile.begin_sample(pixel, placement.weight);

@@ -84,6 +84,7 @@ fn estimate(filter: Filter, kind: SamplerKind, samples: u32, splats: bool) -> Ex
                         pixel: (x, y),
                         sample,
                         samples_per_replicate: samples,
+                        blocks: 1,
                     });
                     if splats {
                         // A uniform position on the film and its margin, over its density; one
@@ -179,6 +180,7 @@ fn a_constant_stays_constant() {
                         pixel,
                         sample,
                         samples_per_replicate: samples,
+                        blocks: 1,
                     });
                     let placement = film.place(UVec2::from(pixel), sampler.next_2d());
                     weight = weight.max(placement.weight);

@@ -5,6 +5,7 @@ use etalon_film::{
     read_developed,
 };
 use etalon_images::{Frame, Image, exr};
+use etalon_sampling::ReplicateKind;
 use etalon_transport::{Channel, Film, Sink, TileSink};
 use glam::UVec2;
 use proptest::prelude::*;
@@ -37,6 +38,7 @@ fn developed(replicates: u32, seconds: Option<f64>) -> Developed {
         scene_hash: "0123".to_owned(),
         integrator: "aov/path".to_owned(),
         sampler: "sobol".to_owned(),
+        replicate_kind: ReplicateKind::Independent,
         seed: u64::MAX - 5,
         seconds,
     })

@@ -6,6 +6,7 @@ use etalon_film::{
     RenderFacts, disagreements, read_developed,
 };
 use etalon_images::exr;
+use etalon_sampling::ReplicateKind;
 use etalon_sampling::hash::mix64;
 use etalon_transport::{Channel, Film, Sink, TileSink};
 use glam::{UVec2, Vec2};
@@ -23,6 +24,7 @@ fn facts(seed: u64) -> RenderFacts {
         scene_hash: "0123".to_owned(),
         integrator: "path".to_owned(),
         sampler: "sobol".to_owned(),
+        replicate_kind: ReplicateKind::Independent,
         seed,
         seconds: None,
     }

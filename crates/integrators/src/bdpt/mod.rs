@@ -50,7 +50,7 @@ use crate::settings::PathSettings;
 use connect::Connector;
 pub(crate) use corner::Corner;
 use etalon_params::Params;
-use etalon_sampling::Sampler;
+use etalon_sampling::{ReplicateKind, Sampler};
 use etalon_spectrum::{Wavelengths, sensor_response};
 use etalon_transport::{
     Draft, Finding, Integrator, Objection, Pass, PixelSite, Placing, Ray, Sight, Sink, Subject,
@@ -207,6 +207,10 @@ impl Integrator for Bidirectional {
     const UNBIASED: bool = true;
 
     type State = ();
+
+    fn replicate_kind(&self) -> ReplicateKind {
+        ReplicateKind::Blocks
+    }
 
     fn splats(&self) -> bool {
         true

@@ -108,6 +108,7 @@ impl Round {
             pixel: (pixel.x, pixel.y),
             sample: sample % self.each,
             samples_per_replicate: self.each,
+            blocks: 1,
         }
     }
 }

@@ -75,6 +75,7 @@ pub(crate) fn numbers(pass: &Pass, index: u32, count: u32) -> Sobol {
         pixel: (pass.number, ROW),
         sample: index,
         samples_per_replicate: count,
+        blocks: 1,
     })
 }
 

@@ -18,7 +18,7 @@ pub use event::{Event, Gathered};
 
 use crate::render::Plan;
 use any_sampler::AnySampler;
-use etalon_sampling::{PixelSample, Sampler};
+use etalon_sampling::Sampler;
 use etalon_transport::{Film, Integrator, Pass, PixelSite, Sink, World};
 use glam::{UVec2, Vec2};
 use notes::Notebook;
@@ -74,13 +74,8 @@ pub fn replay<W: World, I: Integrator, F: Film>(
     };
     // What is learned does not depend on the passes before.
     let state = integrator.prepare(world, film, &pass, None);
-    let sample = PixelSample {
-        seed: plan.seed,
-        replicate: address.replicate,
-        pixel: address.pixel.into(),
-        sample: address.sample,
-        samples_per_replicate: film.dealt(address.pixel, samples),
-    };
+    let dealt = film.dealt(address.pixel, samples);
+    let sample = plan.address(address.replicate, address.pixel, address.sample, dealt);
     let mut sampler = AnySampler::start(plan.sampler, &sample);
     let placement = film.place(address.pixel, sampler.next_2d());
     let spp = samples as f32 * plan.replicates as f32;

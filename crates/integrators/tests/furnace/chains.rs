@@ -39,6 +39,7 @@ fn z_score<I: Integrator>(integrator: &I, world: &Sphere, expected: f64) -> f64 
                 pixel: (0, 0),
                 sample,
                 samples_per_replicate: SAMPLES,
+                blocks: 1,
             });
             let site = PixelSite {
                 pixel: UVec2::ZERO,

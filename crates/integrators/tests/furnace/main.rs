@@ -59,6 +59,7 @@ fn z_score<I: Integrator<State = ()>>(
             pixel: (0, 0),
             sample,
             samples_per_replicate: n,
+            blocks: 1,
         });
         let site = PixelSite {
             pixel: UVec2::ZERO,

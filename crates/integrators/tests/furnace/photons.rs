@@ -52,6 +52,7 @@ fn sample_once<I: Integrator>(
         pixel: (0, 0),
         sample,
         samples_per_replicate: SAMPLES,
+        blocks: 1,
     });
     let site = PixelSite {
         pixel: UVec2::ZERO,

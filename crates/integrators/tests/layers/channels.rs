@@ -75,6 +75,7 @@ fn sample<I: Integrator<State = ()>>(integrator: &I, world: &Stack, sample: u32)
         pixel: (0, 0),
         sample,
         samples_per_replicate: 8,
+        blocks: 1,
     });
     let site = PixelSite {
         pixel: UVec2::ZERO,

@@ -213,6 +213,7 @@ fn drafts(placing: &impl Placing, pass: &Pass, pixel: UVec2) -> Vec<Draft<Indepe
             pixel: pixel.into(),
             sample,
             samples_per_replicate: dealt,
+            blocks: 1,
         });
         let Placement { raster, weight } = placing.place(pixel, sampler.next_2d());
         let site = PixelSite {

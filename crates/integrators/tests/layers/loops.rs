@@ -3,7 +3,7 @@
 use crate::tally::Tally;
 use crate::world::{Plane, Stack, ZERO};
 use etalon_integrators::{Outcome, Plan, Progress, Share, render};
-use etalon_sampling::{Sampler, SamplerKind};
+use etalon_sampling::{ReplicateKind, Sampler, SamplerKind};
 use etalon_transport::{Channel, Integrator, Pass, PixelSite, Placing, Sink, World};
 use glam::UVec2;
 use std::sync::atomic::{AtomicU32, AtomicU64, Ordering};
@@ -138,6 +138,7 @@ fn run_on(
     let plan = Plan {
         seed: 5,
         replicates: 3,
+        replicate_kind: ReplicateKind::Independent,
         share,
         samples_per_replicate: 4,
         sampler,

@@ -43,6 +43,7 @@ pub(crate) fn measure<I: Integrator<State = ()>>(
             pixel: (0, 0),
             sample,
             samples_per_replicate: n,
+            blocks: 1,
         });
         let site = PixelSite {
             pixel: UVec2::ZERO,

@@ -65,6 +65,7 @@ fn look(integrator: &Whitted, world: &Stack) -> Seen {
         pixel: (0, 0),
         sample: 0,
         samples_per_replicate: 1,
+        blocks: 1,
     });
     let site = PixelSite {
         pixel: UVec2::ZERO,

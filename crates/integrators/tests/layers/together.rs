@@ -41,6 +41,7 @@ fn drafts(count: u32) -> Vec<Draft<Sobol>> {
             pixel: (sample / 4, 0),
             sample: sample % 4,
             samples_per_replicate: 4,
+            blocks: 1,
         });
         let site = PixelSite {
             pixel: UVec2::new(sample / 4, 0),

@@ -2,6 +2,7 @@
 //!
 //! One binary, as each takes its time to link; one concern per file.
 
+mod blocks;
 mod discrete;
 mod evidence;
 mod hash;

@@ -21,6 +21,7 @@ fn address(i: u32) -> PixelSample {
         pixel: (i % 100, i / 100),
         sample: i % 16,
         samples_per_replicate: 16,
+        blocks: 1,
     }
 }
 
@@ -68,6 +69,7 @@ fn values_are_stable() {
             pixel: (17, 99),
             sample: 5,
             samples_per_replicate: 16,
+            blocks: 1,
         });
         let single = sampler.next_1d();
         let pair = sampler.next_2d();
@@ -153,6 +155,7 @@ fn stratified_samples_fill_every_stratum_once() {
                         pixel: (3, 4),
                         sample: set * count + i,
                         samples_per_replicate: count,
+                        blocks: 1,
                     });
                     let p = sampler.next_2d() * side as f32;
                     cells[p.y as usize * side as usize + p.x as usize] += 1;

@@ -10,6 +10,7 @@ fn address(replicate: u32, sample: u32, count: u32) -> PixelSample {
         pixel: (12, 5),
         sample,
         samples_per_replicate: count,
+        blocks: 1,
     }
 }
 

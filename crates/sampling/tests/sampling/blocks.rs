@@ -1,0 +1,135 @@
+//! Replicates as blocks of one sequence: each is what an independent replicate is, and together they
+//! are one replicate of as many samples.
+
+use etalon_sampling::{PixelSample, ReplicateKind, Sampler, SamplerKind};
+use glam::Vec2;
+
+const BLOCKS: [u32; 6] = [1, 2, 3, 4, 7, 8];
+
+/// Where sample `sample` of `each` of block `block` of `blocks` is drawn from.
+fn address(block: u32, sample: u32, each: u32, blocks: u32) -> PixelSample {
+    let within = PixelSample {
+        seed: 9,
+        replicate: block,
+        pixel: (5, 8),
+        sample,
+        samples_per_replicate: each,
+        blocks: 1,
+    };
+    ReplicateKind::Blocks.address(within, blocks)
+}
+
+/// The pair at `dimension`, and the number after it.
+fn numbers(kind: SamplerKind, address: &PixelSample, dimension: u32) -> (Vec2, f32) {
+    let mut sampler = kind.start(address);
+    sampler.skip_to(dimension);
+    (sampler.next_2d(), sampler.next_1d())
+}
+
+/// Whether points of [0, 1)² fill each cell of a grid once.
+fn fill(points: impl Iterator<Item = Vec2>, [columns, rows]: [u32; 2]) -> bool {
+    let mut cells = vec![0; (columns * rows) as usize];
+    for point in points {
+        let cell = (point * Vec2::new(columns as f32, rows as f32)).as_uvec2();
+        cells[(cell.y * columns + cell.x) as usize] += 1;
+    }
+    cells.iter().all(|&n| n == 1)
+}
+
+#[test]
+fn blocks_of_sobol_are_one_sequence() {
+    for (blocks, each) in [(8, 4), (4, 1), (3, 8), (5, 3)] {
+        for index in 0..blocks * each {
+            let alone = address(0, index, blocks * each, 1);
+            let dealt = address(index / each, index % each, each, blocks);
+            let [alone, dealt] = [alone, dealt].map(|at| numbers(SamplerKind::Sobol, &at, 8));
+            assert_eq!(alone, dealt);
+        }
+    }
+}
+
+#[test]
+fn each_block_of_sobol_is_a_net() {
+    // Mutant: blocks that begin one sample late.
+    let filled = |blocks: u32, late: u32, grid: [u32; 2]| {
+        (0..blocks).all(|block| {
+            let point = |i| numbers(SamplerKind::Sobol, &address(block, i + late, 16, blocks), 8).0;
+            fill((0..16).map(point), grid)
+        })
+    };
+    for grid in [[16, 1], [8, 2], [4, 4], [2, 8], [1, 16]] {
+        assert!(BLOCKS.iter().all(|&blocks| filled(blocks, 0, grid)));
+    }
+    assert!(!filled(8, 1, [4, 4]));
+}
+
+#[test]
+fn blocks_of_strata_fill_finer_strata_together() {
+    for jitter in [true, false] {
+        let kind = SamplerKind::Stratified { jitter };
+        for (blocks, parts) in
+            BLOCKS
+                .into_iter()
+                .zip([[1, 1], [1, 2], [1, 3], [2, 2], [1, 7], [2, 4]])
+        {
+            for side in [1, 2, 4] {
+                let each = side * side;
+                let at = |index: u32| {
+                    numbers(kind, &address(index / each, index % each, each, blocks), 6)
+                };
+                let pairs = |indices: std::ops::Range<u32>| indices.map(move |i| at(i).0);
+                let singles =
+                    |indices: std::ops::Range<u32>| indices.map(move |i| Vec2::new(at(i).1, 0.0));
+                // Each block, then all of them. Mutant: blocks with strata of their own only.
+                for block in 0..blocks {
+                    let own = block * each..(block + 1) * each;
+                    assert!(fill(pairs(own.clone()), [side, side]), "{blocks} {each}");
+                    assert!(fill(singles(own), [each, 1]), "{blocks} {each}");
+                }
+                let all = 0..blocks * each;
+                assert!(
+                    fill(pairs(all.clone()), parts.map(|n| n * side)),
+                    "{blocks} {each}"
+                );
+                assert!(fill(singles(all), [blocks * each, 1]), "{blocks} {each}");
+            }
+        }
+    }
+}
+
+/// A block alone must be a fair sample: every point uniform, whichever block and sample.
+#[test]
+fn every_sample_of_a_block_is_uniform() {
+    for kind in [SamplerKind::Stratified { jitter: true }, SamplerKind::Sobol] {
+        for (block, sample) in [(0, 0), (2, 1), (7, 3)] {
+            let mut cells = vec![0.0; 64];
+            for seed in 0..20_000 {
+                let at = PixelSample {
+                    seed,
+                    ..address(block, sample, 4, 8)
+                };
+                let cell = (numbers(kind, &at, 4).0 * 8.0).as_uvec2();
+                cells[(cell.y * 8 + cell.x) as usize] += 1.0;
+            }
+            // α = 10⁻⁴ for each of 6 tests.
+            assert!(
+                crate::evidence::uniform(&cells) > 1e-4,
+                "{kind:?} {block} {sample}"
+            );
+        }
+    }
+}
+
+#[test]
+fn more_samples_than_a_sequence_has_begin_another() {
+    let last = address(7, (1 << 29) - 1, 1 << 29, 8);
+    assert_eq!((last.replicate, last.sample), (0, u32::MAX));
+    let next = address(8, 0, 1 << 29, 16);
+    assert_eq!((next.replicate, next.sample), (1, 0));
+}
+
+#[test]
+fn independent_replicates_keep_their_address() {
+    let own = address(0, 3, 4, 1);
+    assert_eq!(ReplicateKind::Independent.address(own, 8), own);
+}
