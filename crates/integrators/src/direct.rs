@@ -108,17 +108,36 @@ impl Direct {
             return (result, 1.0);
         }
         let bsdf = world.bsdf(&vertex, wo, wavelengths);
+        let mut from = Receiver::new(&vertex, wo, &bsdf);
+        from.combined = self.bsdf_samples > 0;
         let mut event = 0;
         if bsdf.has_continuous() {
             for _ in 0..self.emitter_samples {
-                result += self.light_sample(world, wavelengths, &vertex, &bsdf, wo, sampler, event);
+                result += self.light_sample(
+                    world,
+                    wavelengths,
+                    &vertex,
+                    &from,
+                    &bsdf,
+                    wo,
+                    sampler,
+                    event,
+                );
                 event += 1;
             }
         }
         event = 0;
         for _ in 0..self.bsdf_samples {
-            result +=
-                self.scattering_sample(world, wavelengths, &vertex, &bsdf, wo, sampler, event);
+            result += self.scattering_sample(
+                world,
+                wavelengths,
+                &vertex,
+                &from,
+                &bsdf,
+                wo,
+                sampler,
+                event,
+            );
             event += 1;
         }
         (result, 1.0)
@@ -130,14 +149,14 @@ impl Direct {
         world: &W,
         wavelengths: &Wavelengths,
         vertex: &Vertex,
+        from: &Receiver,
         bsdf: &W::Bsdf<'_>,
         wo: Vec3,
         sampler: &mut S,
         event: u32,
     ) -> Vec4 {
         let event = Event::draw(sampler, event);
-        let from = Receiver::from(vertex);
-        let Some(light) = world.sample_light(&from, wavelengths, event.light_choice, event.light)
+        let Some(light) = world.sample_light(from, wavelengths, event.light_choice, event.light)
         else {
             return Vec4::ZERO;
         };
@@ -170,6 +189,7 @@ impl Direct {
         world: &W,
         wavelengths: &Wavelengths,
         vertex: &Vertex,
+        from: &Receiver,
         bsdf: &W::Bsdf<'_>,
         wo: Vec3,
         sampler: &mut S,
@@ -180,7 +200,7 @@ impl Direct {
             return Vec4::ZERO;
         };
         let mut path = Prefix::START;
-        let mut rival = Rival::NONE.after(&path, vertex, &sample);
+        let mut rival = Rival::NONE.after(&path, from, &sample);
         path.extend(sample.value, sample.chance.lanes());
         path.ratio *= self.bsdf_samples as f32;
         rival.ratio *= self.emitter_samples as f32;

@@ -21,9 +21,9 @@ impl Rival {
         ratio: Vec4::ZERO,
     };
 
-    /// The rival after sampling `sample` at `vertex`, reached by `before`.
+    /// The rival after sampling `sample` where light was sampled for `from`, reached by `before`.
     #[inline]
-    pub(crate) fn after(self, before: &Prefix, vertex: &Vertex, sample: &BsdfSample) -> Self {
+    pub(crate) fn after(self, before: &Prefix, from: &Receiver, sample: &BsdfSample) -> Self {
         let chance = sample.chance.lanes().x;
         if sample.passes {
             Self {
@@ -34,7 +34,7 @@ impl Rival {
             Self::NONE
         } else {
             Self {
-                from: Receiver::from(vertex),
+                from: *from,
                 ratio: before.ratio / chance,
             }
         }

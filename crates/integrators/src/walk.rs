@@ -189,28 +189,29 @@ impl<'a, S: Sampler, C: Companion> Walk<'a, S, C> {
             return;
         }
         let event = Event::draw(self.sampler, self.depth - 1);
+        let from = Receiver::new(&vertex, wo, &bsdf).combined();
         if bsdf.has_continuous() {
             let crossings = settings.max_depth - self.depth - 1;
-            self.connection = self.connect(world, &vertex, &bsdf, wo, crossings, &event);
+            self.connection = self.connect(world, &vertex, &from, &bsdf, wo, crossings, &event);
             self.companion.aimed();
         }
-        self.scatter(&vertex, &bsdf, wo, settings, &event);
+        self.scatter(&vertex, &from, &bsdf, wo, settings, &event);
     }
 
     /// Next-event estimation: the light chosen, weighted against scattering.
+    #[allow(clippy::too_many_arguments)]
     #[inline]
     fn connect<W: World>(
         &self,
         world: &W,
         vertex: &Vertex,
+        from: &Receiver,
         bsdf: &impl Bsdf,
         wo: Vec3,
         crossings: u32,
         event: &Event,
     ) -> Option<Connection> {
-        let from = Receiver::from(vertex);
-        let light =
-            world.sample_light(&from, &self.wavelengths, event.light_choice, event.light)?;
+        let light = world.sample_light(from, &self.wavelengths, event.light_choice, event.light)?;
         let (value, density) = bsdf.eval_and_density(wo, light.direction, Mode::Radiance);
         let contribution = value * light.radiance;
         if contribution == Vec4::ZERO {
@@ -237,6 +238,7 @@ impl<'a, S: Sampler, C: Companion> Walk<'a, S, C> {
     fn scatter(
         &mut self,
         vertex: &Vertex,
+        from: &Receiver,
         bsdf: &impl Bsdf,
         wo: Vec3,
         settings: &PathSettings,
@@ -250,7 +252,7 @@ impl<'a, S: Sampler, C: Companion> Walk<'a, S, C> {
             self.alpha = 1.0;
             self.corners += 1;
         }
-        self.rival = self.rival.after(&self.prefix, vertex, &sample);
+        self.rival = self.rival.after(&self.prefix, from, &sample);
         self.prefix.extend(sample.value, sample.chance.lanes());
         self.eta *= sample.eta;
         self.ray = vertex.spawn(sample.wi);

@@ -202,7 +202,7 @@ impl LightSet {
     pub fn background_density(&self, from: &Receiver, direction: Vec3) -> Density<SolidAngle> {
         self.backgrounds.iter().fold(Density::ZERO, |sum, &light| {
             let probability = self.selector.probability(from, light);
-            sum + self.get(light).background_density(direction) * probability
+            sum + self.get(light).background_density(from, direction) * probability
         })
     }
 

@@ -14,6 +14,7 @@ use std::collections::HashMap;
 use std::sync::Arc;
 
 mod adjoint;
+mod constant;
 mod environment;
 mod mistakes;
 mod mitsuba;
@@ -201,7 +202,7 @@ impl Shapes for SmallWorld {
 
 /// A receiver with the given normal.
 fn receiver(position: Vec3, normal: Vec3) -> Receiver {
-    Receiver { position, normal }
+    Receiver::on_surface(position, normal)
 }
 
 /// A point of a surface with the given normal.

@@ -186,7 +186,7 @@ fn one_bright_texel_brings_its_energy() {
                 let sample = light.sample(&world, &from, &WAVELENGTHS, u).expect("light");
                 let direct = (sample.radiance / white()).x;
                 toward += f64::from(direct / sample.chance.lanes().x);
-                let density = light.background_density(sample.direction).chooser();
+                let density = light.background_density(&from, sample.direction).chooser();
                 assert!((density / sample.chance.lanes().x - 1.0).abs() < 2e-2);
                 let particle = light
                     .emit(&world, &bounds, &WAVELENGTHS, Vec2::splat(0.5), u)
@@ -208,6 +208,11 @@ fn one_bright_texel_brings_its_energy() {
             }
         }
     }
+}
+
+/// A receiver that does not combine light sampling with scattering.
+fn alone() -> Receiver {
+    receiver(Vec3::ZERO, Vec3::Z)
 }
 
 /// A midpoint rule in (θ, φ) that does not know of texels.
@@ -251,8 +256,10 @@ fn variants() -> Vec<(SmallWorld, Light)> {
 #[test]
 fn densities_integrate_to_one() {
     for (_, light) in variants() {
-        let total = integrate(|d| f64::from(light.background_density(d).chooser()));
-        assert!((total - 1.0).abs() < 2e-3, "{total}");
+        for from in [alone(), alone().combined()] {
+            let total = integrate(|d| f64::from(light.background_density(&from, d).chooser()));
+            assert!((total - 1.0).abs() < 2e-3, "{total}");
+        }
     }
 }
 
@@ -265,6 +272,7 @@ fn directions_follow_the_density() {
     const FINE: usize = 24;
     const COUNT: usize = 60_000;
     for (index, (world, light)) in variants().into_iter().enumerate() {
+        let from = alone().combined();
         let mut expected = vec![0.0; ROWS * COLUMNS];
         // Steps of θ, since the density per solid angle has a pole at the poles.
         let border = |y: usize| etalon_math::float64::acos(1.0 - 2.0 * y as f64 / ROWS as f64);
@@ -280,13 +288,12 @@ fn directions_follow_the_density() {
                 let turns = (x as f32 + 0.5) / (COLUMNS * FINE) as f32;
                 let (sin, cos) = etalon_math::float::sin_cos_turns(turns);
                 let d = Vec3::new(sin * sin_theta, cos_theta, -cos * sin_theta);
-                let mass = f64::from(light.background_density(d).chooser()) * solid_angle;
+                let mass = f64::from(light.background_density(&from, d).chooser()) * solid_angle;
                 expected[y / FINE * COLUMNS + x / FINE] += mass * COUNT as f64;
             }
         }
         let mut observed = vec![0_u64; ROWS * COLUMNS];
         let mut random = numbers(100 + index as u64);
-        let from = receiver(Vec3::ZERO, Vec3::Z);
         for _ in 0..COUNT {
             let sample = light
                 .sample(&world, &from, &WAVELENGTHS, random.next_2d())
