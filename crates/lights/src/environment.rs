@@ -121,7 +121,7 @@ impl EnvironmentMap {
         let scale = params.float_where("scale", 1.0, "a finite number not below 0", |x| {
             x >= 0.0 && x.is_finite()
         });
-        let compensated = params.boolean_or("mis_compensation", false);
+        let compensated = params.boolean_or("mis_compensation", true);
         let pose = Pose::from_params(params);
         let Some(filename) = params.string("filename") else {
             if !params.has("filename") {

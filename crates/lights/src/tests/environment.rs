@@ -263,6 +263,34 @@ fn densities_integrate_to_one() {
     }
 }
 
+/// Compensation leaves dark regions to scattering, if there is any to find them, and is the default.
+/// Rejects the compensated distribution for receivers that have light sampling only.
+#[test]
+fn compensation_is_for_receivers_that_scatter() {
+    let compensated = |value| vec![("mis_compensation", Value::Boolean(value))];
+    let maps = [vec![], compensated(true), compensated(false)];
+    for (properties, leaves_out) in maps.into_iter().zip([true, true, false]) {
+        let (_, light) = sky(8, &grey(), properties);
+        let densities = |d| [alone(), alone().combined()].map(|f| light.background_density(&f, d));
+        let (mut all, mut left_out) = (0, 0);
+        for i in 0..200 {
+            let turns = (i % 20) as f32 / 20.0;
+            let (sin, cos) = etalon_math::float::sin_cos_turns(turns);
+            let d = Vec3::new(sin, 0.2 * (i / 20) as f32 - 0.9, cos).normalize();
+            let [all_of_it, rest] = densities(d).map(|density| density.chooser());
+            if light.background(&SmallWorld::default(), d, &WAVELENGTHS) != Vec4::ZERO {
+                all += 1;
+                assert!(all_of_it > 0.0, "{d}");
+                left_out += i32::from(rest == 0.0);
+            }
+        }
+        assert!(
+            all > 100 && (left_out > 20) == leaves_out,
+            "{left_out} of {all}"
+        );
+    }
+}
+
 /// Directions follow the density: χ² over 12 × 24 cells of equal solid angle, α = 10⁻³ for each
 /// of five maps. Rejects a density that lacks the half texel.
 #[test]
