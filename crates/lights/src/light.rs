@@ -161,6 +161,17 @@ impl Light {
         }
     }
 
+    /// Whether all its samples bring `from` the same irradiance if nothing is in the way.
+    #[inline]
+    pub fn is_even(&self, from: &Receiver) -> bool {
+        match self {
+            Self::Point(_) | Self::Spot(_) | Self::Directional(_) => true,
+            // Of what receives on both sides it is a part, and the best there is.
+            Self::Constant(_) => from.normal != Vec3::ZERO,
+            Self::Area(_) | Self::Environment(_) => false,
+        }
+    }
+
     /// The density with which [`Light::sample`] from `from` finds the surface point `at`.
     #[inline]
     pub fn density(

@@ -16,6 +16,7 @@ use std::sync::Arc;
 mod adjoint;
 mod constant;
 mod environment;
+mod few;
 mod mistakes;
 mod mitsuba;
 mod selection;

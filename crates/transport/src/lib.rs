@@ -38,7 +38,7 @@ pub use classic::ClassicPhong;
 pub use film::{Channel, Film, Placement, Placing, Sink, TileSink};
 pub use ids::{InstanceId, LightId, MaterialId, ShapeId, TextureId};
 pub use integrator::{Draft, Integrator, Pass, PixelSite};
-pub use light::{Emission, EmissionDensity, LightSample, Origin};
+pub use light::{Emission, EmissionDensity, LightSample, LightVariety, Origin};
 pub use mesh::{Attribute, MeshData};
 pub use phase::{Phase, PhaseSample};
 pub use ray::{Departure, Ray};

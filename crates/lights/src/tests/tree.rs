@@ -15,11 +15,11 @@ fn direction(z: f64, turn: f64) -> Vec3 {
         .normalize()
 }
 
-fn place() -> impl Strategy<Value = Vec3> {
+pub(super) fn place() -> impl Strategy<Value = Vec3> {
     prop::array::uniform3(-3.0_f32..3.0).prop_map(Vec3::from_array)
 }
 
-fn unit() -> impl Strategy<Value = Vec3> {
+pub(super) fn unit() -> impl Strategy<Value = Vec3> {
     (-1.0..1.0_f64, 0.0..1.0_f64).prop_map(|(z, turn)| direction(z, turn))
 }
 
