@@ -8,7 +8,8 @@ use etalon_math::{Density, Frame, SolidAngle};
 use etalon_spectrum::Wavelengths;
 use etalon_transport::{
     Bsdf, BsdfSample, Camera, CameraRay, Chance, Connection, Emission, EmissionDensity, Hit,
-    InstanceId, LightId, LightSample, Mode, Origin, Passage, Ray, Receiver, ShapeId, Vertex, World,
+    InstanceId, LightId, LightSample, LightVariety, Mode, Origin, Passage, Ray, Receiver, ShapeId,
+    Vertex, World,
 };
 use glam::{Vec2, Vec3, Vec4};
 use std::sync::atomic::{AtomicUsize, Ordering};
@@ -295,6 +296,10 @@ impl<'s, W: World> World for Script<'s, W> {
             light: start.light,
         })
     }
+    fn light_variety(&self, from: &Receiver) -> LightVariety {
+        self.world.light_variety(from)
+    }
+
     fn light_count(&self) -> u32 {
         self.world.light_count()
     }
