@@ -286,7 +286,8 @@ impl<'s, W: World> World for Script<'s, W> {
                 (Some(at), radiance, atom(), 1.0)
             }
         };
-        Some(LightSample {
+        // What light sampling never finds is left to the others.
+        (chance.lanes().x > 0.0).then(|| LightSample {
             direction,
             target,
             radiance: self.shining(radiance, wavelengths),
