@@ -156,14 +156,12 @@ impl Geometry {
             .is_some()
             .then(|| &self.instances[hit.instance.0 as usize].placement);
         let (mut primitive, mut parameters) = (hit.primitive, hit.parameters);
-        let surface = match (shape, shape.solid()) {
-            (Shape::Rectangle(rectangle), None) => rectangle.surface(primitive, parameters),
-            (Shape::Mesh(mesh), None) => {
-                // Tracing the ray has brought the accelerator's copy of the corners close.
-                let corners = self.accelerator(hit.instance).corners(hit.slot);
-                mesh.surface_between(corners, hit.primitive, hit.parameters)
-            }
-            (_, Some(solid)) => {
+        let surface = match shape.solid() {
+            // Tracing the ray has brought the accelerator's copy of the corners close.
+            None => shape.triangle(primitive, parameters, || {
+                self.accelerator(hit.instance).corners(hit.slot)
+            }),
+            Some(solid) => {
                 // Again, as it was found: rounding t would move the point of a small shape far
                 // away to anywhere on it.
                 let (origin, direction) = match placement {
@@ -173,21 +171,22 @@ impl Geometry {
                 let (origin, direction) = (origin.as_dvec3(), direction.as_dvec3());
                 let t = solid.crossing_near(origin, direction, hit.t.into());
                 let point = origin + direction * t;
-                if let Some(mesh) = shape.mesh() {
-                    (primitive, parameters) = mesh.place_near(point);
-                    let surface = match shape {
-                        Shape::Rectangle(rectangle) => rectangle.surface(primitive, parameters),
-                        _ => mesh.surface(primitive, parameters),
-                    };
-                    mesh.with_depth(primitive, surface)
-                } else {
-                    let surface = solid.surface_near(point);
-                    parameters = surface.uv;
-                    surface
-                }
+                Some(match shape.mesh() {
+                    Some(mesh) => {
+                        (primitive, parameters) = mesh.place_near(point);
+                        let corners = || mesh.corners(primitive);
+                        let surface = shape.triangle(primitive, parameters, corners);
+                        mesh.with_depth(primitive, surface.expect("it has triangles"))
+                    }
+                    None => {
+                        let surface = solid.surface_near(point);
+                        parameters = surface.uv;
+                        surface
+                    }
+                })
             }
-            (_, None) => unreachable!("a shape is a mesh or a solid"),
         };
+        let surface = surface.expect("a shape has triangles or is a solid");
         let surface = placement.map_or(surface, |placement| surface.placed(placement));
         let owner = self.owner(hit.shape, hit.instance);
         Vertex {

@@ -100,6 +100,12 @@ impl Surface {
         }
     }
 
+    /// The same of a shape in one piece.
+    #[inline(always)] // As above.
+    pub(crate) fn whole(&self) -> SurfacePoint {
+        self.point(0, self.uv)
+    }
+
     /// The vertex at this point.
     #[inline]
     pub(crate) fn vertex(&self, owner: &Owner, primitive: u32, parameters: Vec2) -> Vertex {

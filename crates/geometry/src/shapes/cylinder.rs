@@ -8,11 +8,13 @@
 //! around the axis, carried along by `to_world`.
 
 use crate::placement::{Placement, perpendicular};
+use crate::shapes::model::ShapeModel;
 use crate::shapes::solid::{Solid, read_flip};
 use crate::surface::Surface;
 use core::f64::consts::TAU;
 use etalon_math::{Frame, float64};
 use etalon_params::Params;
+use etalon_transport::SurfacePoint;
 use glam::{DVec2, DVec3, Vec2};
 
 /// An open cylinder.
@@ -81,11 +83,6 @@ impl Cylinder {
         cylinder
     }
 
-    /// Surface area (m²).
-    pub fn area(&self) -> f64 {
-        TAU * self.radius * self.length
-    }
-
     /// The point at the direction `across` (unit) from the axis, at the fraction `v` along it.
     fn surface(&self, across: DVec2, v: f64) -> Surface {
         let phi = float64::atan2(across.y, across.x);
@@ -106,15 +103,25 @@ impl Cylinder {
         .flipped_if(self.inward)
     }
 
-    /// A point chosen uniformly by area.
-    pub(crate) fn sample_area(&self, u: Vec2) -> Surface {
-        let (sin, cos) = etalon_math::float::sin_cos_turns(u.x);
-        let across = DVec2::new(cos.into(), sin.into()).normalize();
-        self.surface(across, u.y.into())
-    }
-
     fn local(&self, v: DVec3) -> DVec3 {
         DVec3::new(self.x.dot(v), self.y.dot(v), self.z.dot(v))
+    }
+}
+
+impl ShapeModel for Cylinder {
+    #[inline]
+    fn solid(&self) -> Option<&dyn Solid> {
+        Some(self)
+    }
+
+    fn area(&self) -> f64 {
+        TAU * self.radius * self.length
+    }
+
+    fn sample_area(&self, u: Vec2) -> Option<SurfacePoint> {
+        let (sin, cos) = etalon_math::float::sin_cos_turns(u.x);
+        let across = DVec2::new(cos.into(), sin.into()).normalize();
+        Some(self.surface(across, u.y.into()).whole())
     }
 }
 

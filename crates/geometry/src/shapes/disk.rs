@@ -7,12 +7,14 @@
 //! with c, a, b the images of the origin and of the x and y axes.
 
 use crate::placement::Placement;
+use crate::shapes::model::ShapeModel;
 use crate::shapes::solid::{Solid, read_flip};
 use crate::surface::Surface;
 use core::f64::consts::{PI, TAU};
-use etalon_math::float64;
+use etalon_math::{DirectionCone, float64};
 use etalon_params::Params;
 use etalon_sampling::warps::square_to_concentric_disk;
+use etalon_transport::SurfacePoint;
 use glam::{DVec2, DVec3, Vec2};
 
 /// A disk.
@@ -48,15 +50,6 @@ impl Disk {
         (finite && normal.is_finite() && disk.area > 0.0).then_some(disk)
     }
 
-    /// Unit normal, outside.
-    pub(crate) fn normal(&self) -> DVec3 {
-        if self.inward {
-            -self.normal
-        } else {
-            self.normal
-        }
-    }
-
     /// Reads `flip_normals` and `to_world`.
     pub(crate) fn from_params(params: &Params<'_>) -> Option<Self> {
         let placement = Placement::from_params(params);
@@ -69,11 +62,6 @@ impl Disk {
             );
         }
         disk
-    }
-
-    /// Surface area (m²).
-    pub fn area(&self) -> f64 {
-        self.area
     }
 
     fn coordinates(&self, p: DVec3) -> DVec2 {
@@ -104,10 +92,31 @@ impl Disk {
         )
         .flipped_if(self.inward)
     }
+}
 
-    /// A point chosen uniformly by area.
-    pub(crate) fn sample_area(&self, u: Vec2) -> Surface {
-        self.surface(square_to_concentric_disk(u).as_dvec2())
+impl ShapeModel for Disk {
+    #[inline]
+    fn solid(&self) -> Option<&dyn Solid> {
+        Some(self)
+    }
+
+    fn normals(&self) -> DirectionCone {
+        DirectionCone::along(if self.inward {
+            -self.normal
+        } else {
+            self.normal
+        })
+    }
+
+    fn area(&self) -> f64 {
+        self.area
+    }
+
+    fn sample_area(&self, u: Vec2) -> Option<SurfacePoint> {
+        Some(
+            self.surface(square_to_concentric_disk(u).as_dvec2())
+                .whole(),
+        )
     }
 }
 

@@ -11,9 +11,10 @@
 
 use crate::placement::{Placement, perpendicular};
 use crate::shapes::mesh::{Mesh, MeshOptions};
+use crate::shapes::model::ShapeModel;
 use crate::shapes::solid::{read_face_normals, read_flip};
 use crate::surface::Surface;
-use etalon_math::{Frame, gamma};
+use etalon_math::{DirectionCone, Frame, gamma};
 use etalon_params::Params;
 use etalon_sampling::warps::{RectangleSides, RectangleView, SphericalRectangle};
 use etalon_transport::{MeshData, Receiver, SampledPoint, ShapeId, SurfacePoint, TexturePoint};
@@ -93,26 +94,6 @@ impl Rectangle {
             .ok()
     }
 
-    /// Its two triangles.
-    #[inline]
-    pub fn mesh(&self) -> &Mesh {
-        &self.mesh
-    }
-
-    pub(crate) fn set_touching(&mut self) {
-        self.mesh.touches = true;
-    }
-
-    /// Unit normal, outside.
-    pub(crate) fn normal(&self) -> Vec3 {
-        self.normal
-    }
-
-    /// Surface area (m²).
-    pub fn area(&self) -> f64 {
-        self.area
-    }
-
     /// The surface point with barycentric coordinates `b` of a triangle's second and third
     /// corner. Nearly all of it is the same everywhere.
     #[inline]
@@ -163,13 +144,40 @@ impl Rectangle {
     /// The density (sr⁻¹) of a point chosen with the density `density` on the unit square.
     #[inline]
     fn per_solid_angle(&self, density: f32, from: Vec3, position: Vec3) -> f32 {
-        density * super::area_density_toward(self.area, from, position, self.normal)
+        density * super::model::area_density_toward(self.area, from, position, self.normal)
+    }
+}
+
+impl ShapeModel for Rectangle {
+    #[inline]
+    fn mesh(&self) -> Option<&Mesh> {
+        Some(&self.mesh)
     }
 
-    /// A point chosen for a receiver, with its density (sr⁻¹).
+    fn mesh_mut(&mut self) -> Option<&mut Mesh> {
+        Some(&mut self.mesh)
+    }
+
     #[inline]
-    pub(crate) fn sample_toward(&self, from: &Receiver, u: Vec2) -> SampledPoint {
-        match self.seen_from(from) {
+    fn triangle(&self, primitive: u32, b: Vec2, _: impl FnOnce() -> [Vec3; 3]) -> Option<Surface> {
+        Some(self.surface(primitive, b))
+    }
+
+    fn normals(&self) -> DirectionCone {
+        DirectionCone::along(self.normal.as_dvec3())
+    }
+
+    fn area(&self) -> f64 {
+        self.area
+    }
+
+    fn sample_area(&self, u: Vec2) -> Option<SurfacePoint> {
+        Some(self.at(u))
+    }
+
+    #[inline]
+    fn sample_toward(&self, from: &Receiver, u: Vec2) -> Option<SampledPoint> {
+        Some(match self.seen_from(from) {
             View::Near(seen) => SampledPoint {
                 point: self.at(seen.sample_position(u)),
                 density: seen.density(),
@@ -183,11 +191,10 @@ impl Rectangle {
                     density: self.per_solid_angle(density, from.position, point.position),
                 }
             }
-        }
+        })
     }
 
-    /// The density (sr⁻¹) of [`Rectangle::sample_toward`] at a point of the rectangle.
-    pub(crate) fn density_toward(&self, from: &Receiver, at: &SurfacePoint) -> f32 {
+    fn density_toward(&self, from: &Receiver, at: &SurfacePoint) -> f32 {
         match self.seen_from(from) {
             View::Near(seen) => seen.density(),
             View::Far(view) => {

@@ -9,12 +9,14 @@
 //! loses nothing for far origins or for origins on the surface.
 
 use crate::placement::{Placement, perpendicular};
+use crate::shapes::model::ShapeModel;
 use crate::shapes::solid::{Solid, read_flip};
 use crate::surface::Surface;
 use core::f64::consts::{PI, TAU};
 use etalon_math::float64;
 use etalon_params::Params;
 use etalon_sampling::warps::{SphereCone, square_to_uniform_sphere};
+use etalon_transport::{Receiver, SampledPoint, SurfacePoint};
 use glam::{DMat3, DVec3, Vec2, Vec3};
 
 /// A sphere.
@@ -68,11 +70,6 @@ impl Sphere {
         sphere
     }
 
-    /// Surface area (m²).
-    pub fn area(&self) -> f64 {
-        2.0 * TAU * self.radius * self.radius
-    }
-
     /// The point in the direction `normal` (unit) from the centre.
     fn surface(&self, normal: DVec3) -> Surface {
         let local = self.axes.transpose() * normal;
@@ -104,11 +101,6 @@ impl Sphere {
         .flipped_if(self.inward)
     }
 
-    /// A point chosen uniformly by area.
-    pub(crate) fn sample_area(&self, u: Vec2) -> Surface {
-        self.surface(square_to_uniform_sphere(u).as_dvec3().normalize())
-    }
-
     /// The cone in which an observer outside sees the sphere. A point of the sphere itself, which
     /// rounding puts on either side, sees it from inside if at all.
     fn cone(&self, from: Vec3) -> Option<SphereCone> {
@@ -117,28 +109,46 @@ impl Sphere {
         let outside = center.length() > self.radius + rounding;
         outside.then(|| SphereCone::new(center, self.radius))?
     }
+}
 
-    /// A point chosen by solid angle from outside, by area from inside; with its density (sr⁻¹).
-    pub(crate) fn sample_toward(&self, from: Vec3, u: Vec2) -> (Surface, f32) {
-        let Some(cone) = self.cone(from) else {
-            let surface = self.sample_area(u);
-            let density = self.density_toward(from, surface.position, surface.normal);
-            return (surface, density);
-        };
-        (self.surface(cone.sample_normal(u)), cone.density())
+impl ShapeModel for Sphere {
+    #[inline]
+    fn solid(&self) -> Option<&dyn Solid> {
+        Some(self)
     }
 
-    /// The density (sr⁻¹) of [`Sphere::sample_toward`] at a point of the sphere.
-    pub(crate) fn density_toward(&self, from: Vec3, position: Vec3, normal: Vec3) -> f32 {
-        match self.cone(from) {
+    fn area(&self) -> f64 {
+        2.0 * TAU * self.radius * self.radius
+    }
+
+    fn sample_area(&self, u: Vec2) -> Option<SurfacePoint> {
+        let normal = square_to_uniform_sphere(u).as_dvec3().normalize();
+        Some(self.surface(normal).whole())
+    }
+
+    /// By solid angle from outside, by area from inside.
+    fn sample_toward(&self, from: &Receiver, u: Vec2) -> Option<SampledPoint> {
+        let Some(cone) = self.cone(from.position) else {
+            let point = self.sample_area(u)?;
+            let density = self.area_density_toward(from.position, &point);
+            return Some(SampledPoint { point, density });
+        };
+        Some(SampledPoint {
+            point: self.surface(cone.sample_normal(u)).whole(),
+            density: cone.density(),
+        })
+    }
+
+    fn density_toward(&self, from: &Receiver, at: &SurfacePoint) -> f32 {
+        match self.cone(from.position) {
             // From outside, only the near side is ever chosen. The normal tells it even where the
             // position is rounded by more than the radius.
             Some(cone) => {
-                let outward = if self.inward { -normal } else { normal };
-                let near = outward.dot(from - position) >= 0.0;
+                let outward = if self.inward { -at.normal } else { at.normal };
+                let near = outward.dot(from.position - at.position) >= 0.0;
                 if near { cone.density() } else { 0.0 }
             }
-            None => super::area_density_toward(self.area(), from, position, normal),
+            None => self.area_density_toward(from.position, at),
         }
     }
 }
