@@ -12,17 +12,18 @@
 //! like any other, shadow rays are stopped by such surfaces, and alpha is 1 wherever there is a
 //! surface, 0 before the background.
 
+use crate::candidates::{Aim, Candidates};
 use crate::dimensions::Event;
 use crate::path::camera_ray;
 use crate::prefix::Prefix;
 use crate::rival::Rival;
-use crate::settings::read_max_depth;
+use crate::settings::{LightCandidates, read_max_depth};
 use etalon_params::Params;
 use etalon_sampling::{ReplicateKind, Sampler};
 use etalon_spectrum::{Wavelengths, sensor_response};
 use etalon_transport::{
-    Bsdf, Chance, Finding, Integrator, Mode, Objection, Pass, PixelSite, Placing, Ray, Receiver,
-    Sight, Sink, Vertex, World,
+    Bsdf, Finding, Integrator, LightSample, Mode, Objection, Pass, PixelSite, Placing, Ray,
+    Receiver, Sight, Sink, Vertex, World,
 };
 use glam::{Vec3, Vec4};
 
@@ -31,6 +32,8 @@ use glam::{Vec3, Vec4};
 pub struct Direct {
     /// Directions sampled from the lights.
     pub emitter_samples: u32,
+    /// How many light samples compete for each of the shadow rays.
+    pub light_candidates: LightCandidates,
     /// Directions sampled from the scattering model.
     pub bsdf_samples: u32,
     /// Longest path in segments: 1 shows lights only, 2 or more direct light too.
@@ -64,6 +67,7 @@ impl Direct {
         }
         let direct = Self {
             emitter_samples: count("emitter_samples", both),
+            light_candidates: LightCandidates::from_params(params),
             bsdf_samples: count("bsdf_samples", both),
             max_depth: read_max_depth(params),
             hide_emitters: params.boolean_or("hide_emitters", false),
@@ -72,6 +76,11 @@ impl Direct {
             params.error("`direct` needs at least one light or scattering sample");
         }
         direct
+    }
+
+    /// How many light samples compete for a shadow ray at `from`.
+    fn candidates<W: World>(&self, world: &W, from: &Receiver) -> Candidates {
+        Candidates::at(self.light_candidates, world, from)
     }
 
     fn incident<W: World, S: Sampler>(
@@ -108,17 +117,36 @@ impl Direct {
             return (result, 1.0);
         }
         let bsdf = world.bsdf(&vertex, wo, wavelengths);
+        let mut from = Receiver::new(&vertex, wo, &bsdf);
+        from.combined = self.bsdf_samples > 0;
         let mut event = 0;
         if bsdf.has_continuous() {
             for _ in 0..self.emitter_samples {
-                result += self.light_sample(world, wavelengths, &vertex, &bsdf, wo, sampler, event);
+                result += self.light_sample(
+                    world,
+                    wavelengths,
+                    &vertex,
+                    &from,
+                    &bsdf,
+                    wo,
+                    sampler,
+                    event,
+                );
                 event += 1;
             }
         }
         event = 0;
         for _ in 0..self.bsdf_samples {
-            result +=
-                self.scattering_sample(world, wavelengths, &vertex, &bsdf, wo, sampler, event);
+            result += self.scattering_sample(
+                world,
+                wavelengths,
+                &vertex,
+                &from,
+                &bsdf,
+                wo,
+                sampler,
+                event,
+            );
             event += 1;
         }
         (result, 1.0)
@@ -130,38 +158,29 @@ impl Direct {
         world: &W,
         wavelengths: &Wavelengths,
         vertex: &Vertex,
+        from: &Receiver,
         bsdf: &W::Bsdf<'_>,
         wo: Vec3,
         sampler: &mut S,
         event: u32,
     ) -> Vec4 {
         let event = Event::draw(sampler, event);
-        let from = Receiver::from(vertex);
-        let Some(light) = world.sample_light(&from, wavelengths, event.light_choice, event.light)
-        else {
-            return Vec4::ZERO;
-        };
-        let (value, density) = bsdf.eval_and_density(wo, light.direction, Mode::Radiance);
-        let contribution = value * light.radiance;
-        if contribution == Vec4::ZERO {
-            return Vec4::ZERO;
-        }
-        let passage = vertex
-            .shadow_ray(light.direction, light.target)
-            .and_then(|ray| world.passage(&ray, wavelengths, 0));
-        let Some(passage) = passage else {
-            return Vec4::ZERO;
-        };
-        let mut path = Prefix::START;
-        path.extend(contribution * passage.transmittance, light.chance.lanes());
-        path.ratio *= self.emitter_samples as f32;
-        let by_scattering = match light.chance {
-            Chance::Discrete(_) => Vec4::ZERO,
-            Chance::Continuous(chosen) => {
-                density.lanes() * (self.bsdf_samples as f32 / chosen.chooser())
-            }
-        };
-        path.estimate(Vec4::ONE, by_scattering)
+        let candidates = self.candidates(world, from);
+        let balance = [
+            self.emitter_samples as f32 * candidates.weighed,
+            self.bsdf_samples as f32,
+        ];
+        let aim = |light: &LightSample| Aim::new(light, &Prefix::START, bsdf, wo, balance);
+        let passage = candidates
+            .draw(world, from, wavelengths, &event, sampler, aim)
+            .and_then(|aim| {
+                let ray = vertex.shadow_ray(aim.direction, aim.target)?;
+                Some((aim, world.passage(&ray, wavelengths, 0)?))
+            });
+        passage.map_or(Vec4::ZERO, |(aim, passage)| {
+            // Scattering counts what passes straight on as a sample of its own.
+            aim.estimate(passage.transmittance, Vec4::ONE)
+        })
     }
 
     #[allow(clippy::too_many_arguments)]
@@ -170,6 +189,7 @@ impl Direct {
         world: &W,
         wavelengths: &Wavelengths,
         vertex: &Vertex,
+        from: &Receiver,
         bsdf: &W::Bsdf<'_>,
         wo: Vec3,
         sampler: &mut S,
@@ -180,10 +200,10 @@ impl Direct {
             return Vec4::ZERO;
         };
         let mut path = Prefix::START;
-        let mut rival = Rival::NONE.after(&path, vertex, &sample);
+        let light_samples = self.emitter_samples as f32 * self.candidates(world, from).weighed;
+        let rival = Rival::NONE.after(&path, from, &sample, light_samples);
         path.extend(sample.value, sample.chance.lanes());
         path.ratio *= self.bsdf_samples as f32;
-        rival.ratio *= self.emitter_samples as f32;
         let ray = vertex.spawn(sample.wi);
         match world.intersect(&ray) {
             None if world.has_background() => {

@@ -177,14 +177,15 @@ impl<W: World, S: Sampler> Tree<'_, W, S> {
             1
         };
         let share = 1.0 / count as f32;
+        let from = Receiver::new(&vertex, wo, &bsdf).combined();
         let mut alpha = 0.0;
         for number in 0..count {
             let event = self.event(number, count);
             if continuous {
-                found.radiance += self.connect(&branch, &vertex, &bsdf, wo, &event) * share;
+                found.radiance += self.connect(&branch, &vertex, &from, &bsdf, wo, &event) * share;
             }
             alpha += share
-                * match self.scatter(&branch, &vertex, &bsdf, wo, &event) {
+                * match self.scatter(&branch, &vertex, &from, &bsdf, wo, &event) {
                     Next::Absorbed => 1.0,
                     Next::Ended { straight } => f32::from(!straight),
                     Next::Branch(next) if count == 1 => return Some(next),
@@ -223,13 +224,13 @@ impl<W: World, S: Sampler> Tree<'_, W, S> {
         &self,
         branch: &Branch,
         vertex: &Vertex,
+        from: &Receiver,
         bsdf: &W::Bsdf<'_>,
         wo: Vec3,
         event: &Event,
     ) -> Vec4 {
         let (world, settings) = (self.world, self.integrator.settings);
-        let from = Receiver::from(vertex);
-        let light = world.sample_light(&from, &self.wavelengths, event.light_choice, event.light);
+        let light = world.sample_light(from, &self.wavelengths, event.light_choice, event.light);
         let Some(light) = light else {
             return Vec4::ZERO;
         };
@@ -260,6 +261,7 @@ impl<W: World, S: Sampler> Tree<'_, W, S> {
         &self,
         branch: &Branch,
         vertex: &Vertex,
+        from: &Receiver,
         bsdf: &W::Bsdf<'_>,
         wo: Vec3,
         event: &Event,
@@ -269,7 +271,7 @@ impl<W: World, S: Sampler> Tree<'_, W, S> {
         };
         let mut next = Branch {
             ray: vertex.spawn(sample.wi),
-            rival: branch.rival.after(&branch.prefix, vertex, &sample),
+            rival: branch.rival.after(&branch.prefix, from, &sample, 1.0),
             eta: branch.eta * sample.eta,
             depth: branch.depth + 1,
             bounces: branch.bounces + u32::from(bsdf.has_continuous()),

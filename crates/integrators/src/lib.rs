@@ -9,6 +9,7 @@
 pub mod ao;
 pub mod aov;
 pub mod bdpt;
+mod candidates;
 mod companion;
 pub mod depth;
 pub mod dimensions;

@@ -21,7 +21,7 @@
 use crate::companion::Companion;
 use crate::dimensions as dim;
 use crate::render::TOGETHER;
-use crate::settings::PathSettings;
+use crate::settings::{LightCandidates, PathSettings};
 use crate::walk::Walk;
 use etalon_params::Params;
 use etalon_sampling::{ReplicateKind, Sampler};
@@ -35,6 +35,8 @@ use etalon_transport::{
 pub struct Path {
     /// Limits of the path.
     pub settings: PathSettings,
+    /// How many light samples compete for a shadow ray where the path is not yet scattered at random.
+    pub light_candidates: LightCandidates,
 }
 
 impl Path {
@@ -42,6 +44,7 @@ impl Path {
     pub fn from_params(params: &Params<'_>) -> Self {
         Self {
             settings: PathSettings::from_params(params),
+            light_candidates: LightCandidates::from_params(params),
         }
     }
 }
@@ -71,6 +74,7 @@ pub(crate) fn follow<W: World, S: Sampler, C: Companion>(
 pub(crate) fn follow_drafts<W: World, S: Sampler, K: TileSink, C: Companion + Copy>(
     world: &W,
     settings: &PathSettings,
+    candidates: LightCandidates,
     companion: C,
     drafts: &mut [Draft<S>],
     sink: &mut K,
@@ -83,7 +87,7 @@ pub(crate) fn follow_drafts<W: World, S: Sampler, K: TileSink, C: Companion + Co
             *place = Some((draft.site.pixel, draft.weight));
             let sampler = &mut draft.sampler;
             let walk = Walk::start(world, settings, &draft.site, sampler, companion);
-            Some(walk)
+            Some(walk.with_candidates(candidates))
         });
         follow(world, settings, &mut walks);
         for (walk, (pixel, weight)) in walks.iter().flatten().zip(places.iter().flatten()) {
@@ -112,7 +116,8 @@ impl Integrator for Path {
         sampler: &mut S,
         sink: &mut K,
     ) {
-        let walk = Walk::start(world, &self.settings, site, sampler, ());
+        let walk = Walk::start(world, &self.settings, site, sampler, ())
+            .with_candidates(self.light_candidates);
         let mut walks = [Some(walk)];
         follow(world, &self.settings, &mut walks);
         walks.iter().flatten().for_each(|walk| walk.deliver(sink));
@@ -125,7 +130,8 @@ impl Integrator for Path {
         drafts: &mut [Draft<S>],
         sink: &mut K,
     ) {
-        follow_drafts(world, &self.settings, (), drafts, sink);
+        let candidates = self.light_candidates;
+        follow_drafts(world, &self.settings, candidates, (), drafts, sink);
     }
 }
 

@@ -21,9 +21,16 @@ impl Rival {
         ratio: Vec4::ZERO,
     };
 
-    /// The rival after sampling `sample` at `vertex`, reached by `before`.
+    /// The rival after sampling `sample` where as many as `light_samples` lights were sampled for `from`,
+    /// reached by `before`.
     #[inline]
-    pub(crate) fn after(self, before: &Prefix, vertex: &Vertex, sample: &BsdfSample) -> Self {
+    pub(crate) fn after(
+        self,
+        before: &Prefix,
+        from: &Receiver,
+        sample: &BsdfSample,
+        light_samples: f32,
+    ) -> Self {
         let chance = sample.chance.lanes().x;
         if sample.passes {
             Self {
@@ -34,8 +41,8 @@ impl Rival {
             Self::NONE
         } else {
             Self {
-                from: Receiver::from(vertex),
-                ratio: before.ratio / chance,
+                from: *from,
+                ratio: before.ratio * (light_samples / chance),
             }
         }
     }

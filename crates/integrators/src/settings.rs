@@ -1,5 +1,6 @@
 //! Parameters that several integrators share.
 
+use core::num::NonZeroU32;
 use etalon_params::{Diagnostic, Params};
 
 /// Path length limits and the visibility of lights, with Mitsuba's meaning.
@@ -36,6 +37,33 @@ impl PathSettings {
             rr_depth: u32::try_from(rr_depth).unwrap_or(5),
             hide_emitters: params.boolean_or("hide_emitters", false),
         }
+    }
+}
+
+/// How many light samples compete for a shadow ray; `None` leaves it to the lights.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct LightCandidates(pub Option<NonZeroU32>);
+
+impl LightCandidates {
+    /// One: each light sample gets its shadow ray.
+    pub const ONE: Self = Self(Some(NonZeroU32::MIN));
+
+    /// The most that may.
+    const MOST: u32 = 64;
+
+    /// Reads `light_candidates`.
+    pub fn from_params(params: &Params<'_>) -> Self {
+        const NAME: &str = "light_candidates";
+        if !params.has(NAME) {
+            return Self(None);
+        }
+        let value = params.integer_or(NAME, 1);
+        let count = u32::try_from(value).ok().filter(|n| *n <= Self::MOST);
+        let count = count.and_then(NonZeroU32::new);
+        if count.is_none() {
+            params.refuse(NAME, value, "1, 2, … 64");
+        }
+        Self(count)
     }
 }
 

@@ -1,15 +1,18 @@
 //! One path of the path tracer, from surface to surface.
 
+use crate::candidates::{Aim, Candidates};
 use crate::companion::Companion;
 use crate::dimensions::Event;
 use crate::path::camera_ray;
 use crate::prefix::Prefix;
 use crate::rival::Rival;
-use crate::settings::PathSettings;
+use crate::settings::{LightCandidates, PathSettings};
 use core::ops::Range;
 use etalon_sampling::Sampler;
 use etalon_spectrum::{Wavelengths, sensor_response};
-use etalon_transport::{Bsdf, Chance, Hit, Mode, PixelSite, Ray, Receiver, Sink, Vertex, World};
+use etalon_transport::{
+    Bsdf, Hit, LightSample, Mode, PixelSite, Ray, Receiver, Sink, Vertex, World,
+};
 use glam::{Vec3, Vec4};
 
 /// A path being followed.
@@ -32,6 +35,9 @@ pub(crate) struct Walk<'a, S, C = ()> {
     /// Whether the path goes on with `ray`.
     goes_on: bool,
     connection: Option<Connection>,
+    /// How many light samples compete for the shadow ray of the next surface. One, once the path was scattered at
+    /// random: what is farther down the path adds less noise than the samples take time.
+    candidates: LightCandidates,
     /// The radiance found, per lane, over the sum of all densities' ratios (see
     /// [`Prefix::estimate`]).
     radiance: Vec4,
@@ -45,10 +51,7 @@ pub(crate) struct Walk<'a, S, C = ()> {
 struct Connection {
     ray: Ray,
     crossings: u32,
-    /// Everything but what lies in between.
-    complete: Prefix,
-    /// pₜ,ₖ / p₀ of finding the same path by scattering, but for passing what lies in between.
-    by_scattering: Vec4,
+    aim: Aim,
 }
 
 impl<'a, S: Sampler, C: Companion> Walk<'a, S, C> {
@@ -75,10 +78,17 @@ impl<'a, S: Sampler, C: Companion> Walk<'a, S, C> {
             corners: 0,
             goes_on: settings.max_depth > 0,
             connection: None,
+            candidates: LightCandidates::ONE,
             radiance: Vec4::ZERO,
             alpha: 0.0,
             companion,
         }
+    }
+
+    /// The same with several light samples for one shadow ray.
+    #[inline]
+    pub(crate) fn with_candidates(self, candidates: LightCandidates) -> Self {
+        Self { candidates, ..self }
     }
 
     /// The companion, at the end.
@@ -189,58 +199,45 @@ impl<'a, S: Sampler, C: Companion> Walk<'a, S, C> {
             return;
         }
         let event = Event::draw(self.sampler, self.depth - 1);
+        let from = Receiver::new(&vertex, wo, &bsdf).combined();
+        let candidates = Candidates::at(self.candidates, world, &from);
         if bsdf.has_continuous() {
-            let crossings = settings.max_depth - self.depth - 1;
-            self.connection = self.connect(world, &vertex, &bsdf, wo, crossings, &event);
+            let prefix = self.prefix;
+            let balance = [candidates.weighed, 1.0];
+            let aim = |light: &LightSample| Aim::new(light, &prefix, &bsdf, wo, balance);
+            let aim = candidates.draw(world, &from, &self.wavelengths, &event, self.sampler, aim);
+            self.connection = aim.and_then(|aim| {
+                Some(Connection {
+                    ray: vertex.shadow_ray(aim.direction, aim.target)?,
+                    crossings: settings.max_depth - self.depth - 1,
+                    aim,
+                })
+            });
             self.companion.aimed();
         }
-        self.scatter(&vertex, &bsdf, wo, settings, &event);
-    }
-
-    /// Next-event estimation: the light chosen, weighted against scattering.
-    #[inline]
-    fn connect<W: World>(
-        &self,
-        world: &W,
-        vertex: &Vertex,
-        bsdf: &impl Bsdf,
-        wo: Vec3,
-        crossings: u32,
-        event: &Event,
-    ) -> Option<Connection> {
-        let from = Receiver::from(vertex);
-        let light =
-            world.sample_light(&from, &self.wavelengths, event.light_choice, event.light)?;
-        let (value, density) = bsdf.eval_and_density(wo, light.direction, Mode::Radiance);
-        let contribution = value * light.radiance;
-        if contribution == Vec4::ZERO {
-            return None;
-        }
-        let ray = vertex.shadow_ray(light.direction, light.target)?;
-        let mut complete = self.prefix;
-        complete.extend(contribution, light.chance.lanes());
-        let by_scattering = match light.chance {
-            // Scattering never finds a discrete light.
-            Chance::Discrete(_) => Vec4::ZERO,
-            Chance::Continuous(chosen) => self.prefix.ratio * density.lanes() / chosen.chooser(),
-        };
-        Some(Connection {
-            ray,
-            crossings,
-            complete,
-            by_scattering,
-        })
+        self.scatter(
+            &vertex,
+            &from,
+            &bsdf,
+            wo,
+            settings,
+            &event,
+            candidates.weighed,
+        );
     }
 
     /// Takes the path around the corner, or ends it.
+    #[allow(clippy::too_many_arguments)]
     #[inline]
     fn scatter(
         &mut self,
         vertex: &Vertex,
+        from: &Receiver,
         bsdf: &impl Bsdf,
         wo: Vec3,
         settings: &PathSettings,
         event: &Event,
+        light_samples: f32,
     ) {
         let Some(sample) = bsdf.sample(wo, event.lobe, event.direction, Mode::Radiance) else {
             self.alpha = 1.0;
@@ -250,7 +247,10 @@ impl<'a, S: Sampler, C: Companion> Walk<'a, S, C> {
             self.alpha = 1.0;
             self.corners += 1;
         }
-        self.rival = self.rival.after(&self.prefix, vertex, &sample);
+        if !sample.chance.is_discrete() {
+            self.candidates = LightCandidates::ONE;
+        }
+        self.rival = self.rival.after(&self.prefix, from, &sample, light_samples);
         self.prefix.extend(sample.value, sample.chance.lanes());
         self.eta *= sample.eta;
         self.ray = vertex.spawn(sample.wi);
@@ -273,8 +273,9 @@ impl<'a, S: Sampler, C: Companion> Walk<'a, S, C> {
             return;
         };
         if let Some(passage) = world.passage(&light.ray, &self.wavelengths, light.crossings) {
-            let by_scattering = light.by_scattering * passage.probability;
-            let estimate = (light.complete).estimate(passage.transmittance, by_scattering);
+            let estimate = light
+                .aim
+                .estimate(passage.transmittance, passage.probability);
             self.radiance += estimate;
             self.companion.lit(estimate);
         }

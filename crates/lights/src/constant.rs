@@ -1,18 +1,32 @@
 //! `constant`: the same radiance L(λ) from everywhere at infinity. Its power is that which enters
 //! the scene's bounding sphere, Φ = 4π · π r² L.
+//!
+//! A receiver with the normal n chooses the direction ω with the density
+//!
+//! ```text
+//! one side:     max(0, n·ω)/π
+//! both sides:   ½ |n·ω|/2π + ½ 1/4π
+//! in space:     1/4π
+//! ```
+//!
+//! The first is in proportion to the irradiance. The second has a part without cosine: what receives light
+//! on both sides may scatter it by lobes with normals of their own, whose cosines do not vanish with n·ω.
 
 use crate::Bounds;
 use crate::light::anywhere;
 use crate::uniformity::refuse_varying;
-use etalon_math::{Density, SolidAngle};
+use etalon_math::{Density, Frame, SolidAngle};
 use etalon_params::Params;
-use etalon_sampling::warps::{UNIFORM_SPHERE_DENSITY, square_to_uniform_sphere};
+use etalon_sampling::warps::{
+    UNIFORM_SPHERE_DENSITY, cosine_hemisphere_density, square_to_cosine_hemisphere,
+    square_to_uniform_sphere,
+};
 use etalon_spectrum::Wavelengths;
 use etalon_transport::{
-    Build, Chance, Emission, EmissionDensity, LightId, LightSample, Origin, Role, TextureId,
-    Textures,
+    Build, Chance, Emission, EmissionDensity, LightId, LightSample, Origin, Receiver, Role,
+    TextureId, Textures,
 };
-use glam::{Vec2, Vec4};
+use glam::{Vec2, Vec3, Vec4};
 
 /// A uniform sky all around.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -36,29 +50,53 @@ impl ConstantLight {
         textures.spectrum(self.radiance, &anywhere(), wavelengths.lambda)
     }
 
-    /// Density of the directions of [`ConstantLight::sample`]: 1/(4π) everywhere.
+    /// Density of the directions of [`ConstantLight::sample`]: see the head of this file.
     #[inline]
-    pub fn density(&self) -> Density<SolidAngle> {
-        Density::uniform(UNIFORM_SPHERE_DENSITY)
+    pub fn density(&self, from: &Receiver, direction: Vec3) -> Density<SolidAngle> {
+        let cos = from.normal.dot(direction);
+        Density::uniform(if from.normal == Vec3::ZERO {
+            UNIFORM_SPHERE_DENSITY
+        } else if from.one_sided {
+            cosine_hemisphere_density(cos)
+        } else {
+            0.5 * (UNIFORM_SPHERE_DENSITY + 0.5 * cosine_hemisphere_density(cos.abs()))
+        })
     }
 
-    /// A direction, uniform over the sphere.
+    /// A direction; `None` where rounding puts it on the horizon.
     #[inline]
     pub fn sample(
         &self,
         textures: &impl Textures,
+        from: &Receiver,
         wavelengths: &Wavelengths,
         u: Vec2,
-    ) -> LightSample {
-        LightSample {
-            direction: square_to_uniform_sphere(u),
+    ) -> Option<LightSample> {
+        let about =
+            |u: Vec2| Frame::from_normal(from.normal).to_world(square_to_cosine_hemisphere(u));
+        let direction = if from.normal == Vec3::ZERO {
+            square_to_uniform_sphere(u)
+        } else if from.one_sided {
+            about(u)
+        } else {
+            // The first number chooses among four quarters, and is used again within its own.
+            let quarter = 4.0 * u.x;
+            match quarter {
+                ..1.0 => about(Vec2::new(quarter, u.y)),
+                1.0..2.0 => -about(Vec2::new(quarter - 1.0, u.y)),
+                _ => square_to_uniform_sphere(Vec2::new(0.5 * quarter - 1.0, u.y)),
+            }
+        };
+        let density = self.density(from, direction);
+        (density.chooser() > 0.0).then(|| LightSample {
+            direction,
             target: None,
             radiance: self.background(textures, wavelengths),
-            chance: Chance::Continuous(self.density()),
+            chance: Chance::Continuous(density),
             cos: 1.0,
             origin: Origin::Sky,
             light: LightId::NONE,
-        }
+        })
     }
 
     /// A particle.

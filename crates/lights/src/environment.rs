@@ -11,10 +11,10 @@
 //! where mᵢ is twice the largest component of texel i and sᵢ the smooth spectrum of rgbᵢ/mᵢ.
 //! Directions are chosen with a density bilinear in (u, v) through the nodes (r + g + b)/3 · sⱼ,
 //! where sⱼ is the mean of sin θ over the row's hat function (`row_weights`): positive at the
-//! poles, too, so that the density vanishes nowhere where the radiance does not. Optionally the
-//! brightness counts less its mean (Karlík, Šik, Vévoda, Skřivan, Křivánek 2019,
-//! "MIS Compensation"), which leaves dark regions to other techniques. An estimator that has no
-//! other technique, such as `direct` with `bsdf_samples` zero, then misses those regions.
+//! poles, too, so that the density vanishes nowhere where the radiance does not. For receivers that
+//! combine light sampling with scattering the brightness counts less its mean (Karlík, Šik, Vévoda,
+//! Skřivan, Křivánek 2019, "MIS Compensation"), which leaves dark regions to scattering. All
+//! others, such as `direct` with `bsdf_samples` zero, and particles have the whole brightness.
 
 use crate::latitude_longitude as map;
 use crate::pose::Pose;
@@ -24,7 +24,9 @@ use etalon_math::{Density, SolidAngle, float64};
 use etalon_params::{Diagnostic, Params};
 use etalon_sampling::discrete::Bilinear;
 use etalon_spectrum::{Regular, RgbCoefficients, Spectrum, Wavelengths, illuminants};
-use etalon_transport::{Build, Chance, Emission, EmissionDensity, LightId, LightSample, Origin};
+use etalon_transport::{
+    Build, Chance, Emission, EmissionDensity, LightId, LightSample, Origin, Receiver,
+};
 use glam::{UVec2, Vec2, Vec3, Vec4};
 use std::path::Path;
 use std::sync::{Arc, LazyLock};
@@ -70,11 +72,11 @@ pub struct EnvironmentMap {
 /// Distributions of directions over the moved unit square; `None` if the image is black.
 #[derive(Clone, Debug)]
 struct Tables {
-    /// For directions toward the sky.
-    toward: Option<Arc<Bilinear>>,
-    /// For particles from the sky, whose every direction must be possible, since no other
-    /// technique makes up for what compensation leaves out.
-    from: Option<Arc<Bilinear>>,
+    /// For directions toward the sky where scattering finds what compensation leaves out.
+    combined: Option<Arc<Bilinear>>,
+    /// For directions and particles of which every one must be possible, since no other
+    /// technique makes up for what is left out.
+    alone: Option<Arc<Bilinear>>,
 }
 
 /// Texels: three coefficients of a spectrum and its factor.
@@ -119,7 +121,7 @@ impl EnvironmentMap {
         let scale = params.float_where("scale", 1.0, "a finite number not below 0", |x| {
             x >= 0.0 && x.is_finite()
         });
-        let compensated = params.boolean_or("mis_compensation", false);
+        let compensated = params.boolean_or("mis_compensation", true);
         let pose = Pose::from_params(params);
         let Some(filename) = params.string("filename") else {
             if !params.has("filename") {
@@ -194,11 +196,11 @@ impl EnvironmentMap {
             }
             Bilinear::new(&nodes, width + 1).ok().map(Arc::new)
         };
-        let from = table(0.0);
-        let toward = if offset > 0.0 {
+        let alone = table(0.0);
+        let combined = if offset > 0.0 {
             table(offset)
         } else {
-            from.clone()
+            alone.clone()
         };
         let texels = pixels.rgb.iter().map(|&rgb| texel(rgb)).collect();
         let white = Spectrum::D65(etalon_spectrum::RgbSpectrum::WHITE).mean();
@@ -209,7 +211,7 @@ impl EnvironmentMap {
                 size: pixels.size,
                 texels,
             }),
-            tables: Tables { toward, from },
+            tables: Tables { combined, alone },
             mean: sums[1] / sums[2] * white * f64::from(scale),
         }
     }
@@ -245,18 +247,25 @@ impl EnvironmentMap {
         self.radiance(self.place(self.pose.to_local(direction)), wavelengths)
     }
 
+    /// The distribution of directions from which `from` asks.
+    #[inline]
+    fn toward(&self, from: &Receiver) -> Option<&Bilinear> {
+        let Tables { combined, alone } = &self.tables;
+        if from.combined { combined } else { alone }.as_deref()
+    }
+
     /// Density of the directions of [`EnvironmentMap::sample`]; zero at the very poles, which
     /// are never sampled.
     #[inline]
-    pub fn density(&self, direction: Vec3) -> Density<SolidAngle> {
-        Density::uniform(self.density_of(self.tables.toward.as_deref(), direction))
+    pub fn density(&self, from: &Receiver, direction: Vec3) -> Density<SolidAngle> {
+        Density::uniform(self.density_of(self.toward(from), direction))
     }
 
     /// Density (sr⁻¹) with which [`EnvironmentMap::emit`] chooses the point of the sky in
     /// `direction`.
     #[inline]
     pub fn emission_density(&self, direction: Vec3) -> f32 {
-        self.density_of(self.tables.from.as_deref(), direction)
+        self.density_of(self.tables.alone.as_deref(), direction)
     }
 
     #[inline]
@@ -283,8 +292,13 @@ impl EnvironmentMap {
 
     /// A direction to the sky.
     #[inline]
-    pub fn sample(&self, wavelengths: &Wavelengths, u: Vec2) -> Option<LightSample> {
-        let (direction, place, density) = self.choose(self.tables.toward.as_ref()?, u)?;
+    pub fn sample(
+        &self,
+        from: &Receiver,
+        wavelengths: &Wavelengths,
+        u: Vec2,
+    ) -> Option<LightSample> {
+        let (direction, place, density) = self.choose(self.toward(from)?, u)?;
         Some(LightSample {
             direction,
             target: None,
@@ -305,7 +319,7 @@ impl EnvironmentMap {
         u_position: Vec2,
         u_direction: Vec2,
     ) -> Option<Emission> {
-        let (toward, place, density) = self.choose(self.tables.from.as_ref()?, u_direction)?;
+        let (toward, place, density) = self.choose(self.tables.alone.as_ref()?, u_direction)?;
         let factor = bounds.cross_section() as f32 / density;
         let ray = bounds.ray_into(-toward, u_position);
         Some(Emission {

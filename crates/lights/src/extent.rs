@@ -12,7 +12,8 @@
 //! where d = |x − c|, θ is the angle between a and the way to x, θᵢ that between n (or −n) and the way
 //! to c, and θᵤ the angle of the sphere as seen from x (A. Conty Estevez and C. Kulla, Importance sampling of
 //! many lights with adaptive tree splitting, 2018, equation 3). No light of the cluster reaches a point
-//! where I = 0. The bracket of θᵢ′ is 1 where there is no surface.
+//! where I = 0. The bracket of θᵢ′ is 1 where there is no surface; where light from one side only counts, θᵢ is
+//! not folded to that side, and I = 0 where θᵢ′ is beyond a right angle.
 
 use etalon_math::DirectionCone;
 use etalon_transport::Receiver;
@@ -144,8 +145,9 @@ impl Promise {
         }
         let mut promise = self.power * angle[0] / squared;
         if from.normal != Vec3::ZERO {
-            let cos = from.normal.dot(direction).abs().min(1.0);
-            promise *= less([cos, sine(cos)], sphere)[0];
+            let cos = from.normal.dot(direction).clamp(-1.0, 1.0);
+            let cos = if from.one_sided { cos } else { cos.abs() };
+            promise *= Receiver::counted(less([cos, sine(cos)], sphere)[0]);
         }
         promise
     }

@@ -6,6 +6,7 @@ use crate::{
 };
 use etalon_math::{Density, DirectionCone, SolidAngle};
 use etalon_params::{Class, Diagnostic, Params, plugins};
+use etalon_sampling::warps::UNIFORM_SPHERE_DENSITY;
 use etalon_spectrum::Wavelengths;
 use etalon_transport::{
     Build, Emission, EmissionDensity, LightSample, Receiver, ShapeId, Shapes, SurfacePoint,
@@ -155,8 +156,19 @@ impl Light {
             Self::Point(light) => light.sample(scene, from.position, wavelengths),
             Self::Spot(light) => light.sample(scene, from.position, wavelengths),
             Self::Directional(light) => Some(light.sample(scene, wavelengths)),
-            Self::Constant(light) => Some(light.sample(scene, wavelengths, u)),
-            Self::Environment(light) => light.sample(wavelengths, u),
+            Self::Constant(light) => light.sample(scene, from, wavelengths, u),
+            Self::Environment(light) => light.sample(from, wavelengths, u),
+        }
+    }
+
+    /// Whether all its samples bring `from` the same irradiance if nothing is in the way.
+    #[inline]
+    pub fn is_even(&self, from: &Receiver) -> bool {
+        match self {
+            Self::Point(_) | Self::Spot(_) | Self::Directional(_) => true,
+            // Of what receives on both sides it is a part, and the best there is.
+            Self::Constant(_) => from.normal != Vec3::ZERO,
+            Self::Area(_) | Self::Environment(_) => false,
         }
     }
 
@@ -174,12 +186,12 @@ impl Light {
         }
     }
 
-    /// The density with which [`Light::sample`] finds the background in `direction`.
+    /// The density with which [`Light::sample`] from `from` finds the background in `direction`.
     #[inline]
-    pub fn background_density(&self, direction: Vec3) -> Density<SolidAngle> {
+    pub fn background_density(&self, from: &Receiver, direction: Vec3) -> Density<SolidAngle> {
         match self {
-            Self::Constant(light) => light.density(),
-            Self::Environment(light) => light.density(direction),
+            Self::Constant(light) => light.density(from, direction),
+            Self::Environment(light) => light.density(from, direction),
             _ => Density::ZERO,
         }
     }
@@ -199,7 +211,7 @@ impl Light {
             Self::Point(light) => (1.0, light.direction_density()),
             Self::Spot(light) => (1.0, light.direction_density(direction)),
             Self::Directional(_) => (1.0, bounds.ray_density()),
-            Self::Constant(light) => (light.density().chooser(), bounds.ray_density()),
+            Self::Constant(_) => (UNIFORM_SPHERE_DENSITY, bounds.ray_density()),
             Self::Environment(light) => (light.emission_density(-direction), bounds.ray_density()),
         };
         EmissionDensity { origin, ray }
@@ -234,6 +246,14 @@ impl Light {
             Self::Point(light) => Some(extent_of_point(light.position, DirectionCone::ALL, 0.0)),
             Self::Spot(light) => Some(light.extent()),
             Self::Directional(_) | Self::Constant(_) | Self::Environment(_) => None,
+        }
+    }
+
+    /// The one direction in which a light at infinity is, if there is but one (unit).
+    pub fn toward(&self) -> Option<Vec3> {
+        match self {
+            Self::Directional(light) => Some(-light.direction),
+            _ => None,
         }
     }
 

@@ -2,16 +2,18 @@
 //!
 //! A particle's light is chosen in proportion to its power times its `sampling_weight`. The light that a
 //! point asks is chosen so, too, or by another rule ([`LightChooser`]): all alike, or by what the point
-//! may expect of it ([`LightTree`]).
+//! may expect of it ([`FewLights`], [`LightTree`]).
 //!
 //! The power of a light at infinity is what enters the scene's bounding sphere, which says little of what
 //! arrives where the eye looks (one large ground plane makes it huge). So, where there are lights
-//! of both kinds, each kind is given half of the choices (but for `uniform`).
+//! of both kinds, each kind is given half of the choices by power and by the tree.
 
 use crate::extent::LightExtent;
+use crate::few::FewLights;
 use crate::tree::LightTree;
 use etalon_sampling::discrete::AliasTable;
 use etalon_transport::{LightId, Receiver};
+use glam::Vec3;
 
 /// A chosen light.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -33,7 +35,8 @@ pub enum LightChooser {
     Power,
     /// By what the point may expect of it: power, distance, and which way both face.
     Tree,
-    /// By power among few lights, with a tree among many ([`LightChooser::FEW`]).
+    /// By what the point may expect of each among few lights, with a tree among many
+    /// ([`LightChooser::FEW`]).
     #[default]
     Automatic,
 }
@@ -70,6 +73,17 @@ pub struct Candidate {
     pub weight: f64,
     /// Where it is; `None` at infinity.
     pub extent: Option<LightExtent>,
+    /// What is known of it at infinity.
+    pub far: Far,
+}
+
+/// What the selector knows of a light at infinity.
+#[derive(Clone, Copy, Debug)]
+pub struct Far {
+    /// The area across which its power enters the scene (m²).
+    pub cross_section: f64,
+    /// The one direction in which it is, if there is but one.
+    pub toward: Option<Vec3>,
 }
 
 /// A distribution over lights.
@@ -86,6 +100,8 @@ pub struct LightSelector {
 enum ForPoints {
     /// The same for all.
     Table(AliasTable),
+    /// For each its own, of few lights.
+    Few(FewLights),
     /// For each its own, of the lights that have a place.
     Tree {
         tree: LightTree,
@@ -117,7 +133,7 @@ impl LightSelector {
         let few = lights.iter().filter(|l| weight(l) > 0.0).count() <= LightChooser::FEW;
         let for_points = match chooser {
             LightChooser::Power => None,
-            LightChooser::Automatic if few => None,
+            LightChooser::Automatic if few => FewLights::new(lights).map(ForPoints::Few),
             LightChooser::Uniform => table(&|light| match light.power > 0.0 {
                 true => light.weight,
                 false => 0.0,
@@ -160,6 +176,7 @@ impl LightSelector {
         match &self.for_points {
             None => self.choose_to_emit(u),
             Some(ForPoints::Table(table)) => chosen(table, u),
+            Some(ForPoints::Few(few)) => few.choose(from, u),
             Some(ForPoints::Tree {
                 tree,
                 far,
@@ -190,6 +207,7 @@ impl LightSelector {
         match &self.for_points {
             None => self.probability_to_emit(light),
             Some(ForPoints::Table(table)) => table.probability(light.0 as usize),
+            Some(ForPoints::Few(few)) => few.probability(from, light),
             Some(ForPoints::Tree {
                 tree,
                 far,

@@ -1,11 +1,11 @@
 //! All lights of a scene.
 
-use crate::{Bounds, Candidate, Light, LightChooser, LightDescription, LightSelector};
+use crate::{Bounds, Candidate, Far, Light, LightChooser, LightDescription, LightSelector};
 use etalon_math::{Atom, Density, SolidAngle};
 use etalon_spectrum::Wavelengths;
 use etalon_transport::{
-    Chance, Emission, EmissionDensity, LightCount, LightId, LightSample, Origin, Receiver, Shapes,
-    SurfacePoint, Textures, Vertex,
+    Chance, Emission, EmissionDensity, LightCount, LightId, LightSample, LightVariety, Origin,
+    Receiver, Shapes, SurfacePoint, Textures, Vertex,
 };
 use glam::{Vec2, Vec3, Vec4};
 
@@ -18,6 +18,8 @@ pub struct LightSet {
     backgrounds: Vec<LightId>,
     powers: Vec<f64>,
     selector: LightSelector,
+    /// The only light that is ever chosen.
+    lone: Option<LightId>,
     bounds: Bounds,
 }
 
@@ -44,10 +46,20 @@ impl LightSet {
                 power,
                 weight,
                 extent: light.extent(scene),
+                far: Far {
+                    cross_section: bounds.cross_section(),
+                    toward: light.toward(),
+                },
             })
             .collect();
+        let selector = LightSelector::new(&candidates, chooser);
+        let mut chosen = (0..lights.len() as u32)
+            .map(LightId)
+            .filter(|&light| selector.probability_to_emit(light) > 0.0);
+        let lone = chosen.next().filter(|_| chosen.next().is_none());
         Self {
-            selector: LightSelector::new(&candidates, chooser),
+            selector,
+            lone,
             lights,
             backgrounds,
             powers,
@@ -163,6 +175,16 @@ impl LightSet {
         Some(sample)
     }
 
+    /// In what samples of [`LightSet::sample`] from `from` may differ.
+    #[inline]
+    pub fn light_variety(&self, from: &Receiver) -> LightVariety {
+        match self.lone.map(|light| self.get(light)) {
+            None => LightVariety::Several,
+            Some(light) if light.is_even(from) => LightVariety::Even,
+            Some(_) => LightVariety::Single,
+        }
+    }
+
     /// A direction toward one light, as if it were the only one.
     #[inline]
     pub fn sample_one(
@@ -202,7 +224,7 @@ impl LightSet {
     pub fn background_density(&self, from: &Receiver, direction: Vec3) -> Density<SolidAngle> {
         self.backgrounds.iter().fold(Density::ZERO, |sum, &light| {
             let probability = self.selector.probability(from, light);
-            sum + self.get(light).background_density(direction) * probability
+            sum + self.get(light).background_density(from, direction) * probability
         })
     }
 

@@ -14,7 +14,9 @@ use std::collections::HashMap;
 use std::sync::Arc;
 
 mod adjoint;
+mod constant;
 mod environment;
+mod few;
 mod mistakes;
 mod mitsuba;
 mod selection;
@@ -201,7 +203,7 @@ impl Shapes for SmallWorld {
 
 /// A receiver with the given normal.
 fn receiver(position: Vec3, normal: Vec3) -> Receiver {
-    Receiver { position, normal }
+    Receiver::on_surface(position, normal)
 }
 
 /// A point of a surface with the given normal.

@@ -8,8 +8,8 @@ use etalon_lights::LightSet;
 use etalon_math::{Density, SolidAngle};
 use etalon_spectrum::{WavelengthDistribution, Wavelengths};
 use etalon_transport::{
-    Bsdf, Camera, ClassicPhong, Emission, EmissionDensity, Hit, LightId, LightSample, Passage, Ray,
-    Receiver, Sight, Vertex, World,
+    Bsdf, Camera, ClassicPhong, Emission, EmissionDensity, Hit, LightId, LightSample, LightVariety,
+    Passage, Ray, Receiver, Sight, Vertex, World,
 };
 use glam::{UVec2, Vec2, Vec3, Vec4};
 
@@ -155,6 +155,11 @@ impl World for Scene {
     ) -> Option<LightSample> {
         self.lights
             .sample(&self.lookup, from, wavelengths, u_light, u)
+    }
+
+    #[inline]
+    fn light_variety(&self, from: &Receiver) -> LightVariety {
+        self.lights.light_variety(from)
     }
 
     fn light_count(&self) -> u32 {

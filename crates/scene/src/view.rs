@@ -83,7 +83,7 @@ fn veiled<W: World>(world: &W, vertex: &Vertex, wo: Vec3, number: u32) -> bool {
     let wavelengths = world.wavelengths(0.5);
     let [u_light, u, v] = SPREAD_3.map(|s| (s * number as f32).fract());
     let Some(light) = world.sample_light(
-        &Receiver::from(vertex),
+        &Receiver::on_surface(vertex.position, vertex.shading.n),
         &wavelengths,
         u_light,
         Vec2::new(u, v),

@@ -26,6 +26,17 @@ pub struct LightSample {
     pub light: LightId,
 }
 
+/// In what light samples at one point may differ if nothing is in the way.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum LightVariety {
+    /// In nothing that a diffuse surface would show: all bring the same irradiance.
+    Even,
+    /// All are of one light.
+    Single,
+    /// They may be of several lights.
+    Several,
+}
+
 /// How likely a particle's start is, by the two choices that make it.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct EmissionDensity {

@@ -1,38 +1,8 @@
 //! What others may ask of shapes.
 
-use crate::{ShapeId, TexturePoint, Vertex};
+use crate::{Receiver, ShapeId, TexturePoint, Vertex};
 use etalon_math::{DirectionCone, offset_origin};
 use glam::{Vec2, Vec3};
-
-/// The point whose light is asked for: all that choosing a light, and a point of it, may depend on.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Receiver {
-    /// Where (m, world).
-    pub position: Vec3,
-    /// Unit shading normal of the surface there, on either side, so that light from grazing
-    /// directions is chosen less often; zero where there is no surface.
-    pub normal: Vec3,
-}
-
-impl Receiver {
-    /// A point on no surface.
-    pub const fn in_space(position: Vec3) -> Self {
-        Self {
-            position,
-            normal: Vec3::ZERO,
-        }
-    }
-}
-
-impl From<&Vertex> for Receiver {
-    #[inline]
-    fn from(vertex: &Vertex) -> Self {
-        Self {
-            position: vertex.position,
-            normal: vertex.shading.n,
-        }
-    }
-}
 
 /// A point of a shape: as much of a [`Vertex`] as light that starts or ends there needs.
 #[derive(Clone, Copy, Debug)]

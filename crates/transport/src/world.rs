@@ -1,8 +1,8 @@
 //! The contract of a scene: all that an integrator may ask.
 
 use crate::{
-    Bsdf, Camera, ClassicPhong, Emission, EmissionDensity, Hit, LightId, LightSample, Ray,
-    Receiver, Remark, Vertex,
+    Bsdf, Camera, ClassicPhong, Emission, EmissionDensity, Hit, LightId, LightSample, LightVariety,
+    Ray, Receiver, Remark, Vertex,
 };
 use etalon_math::{Density, SolidAngle};
 use etalon_spectrum::Wavelengths;
@@ -81,6 +81,13 @@ pub trait World: Sync {
         u_light: f32,
         u: Vec2,
     ) -> Option<LightSample>;
+
+    /// In what samples of [`World::sample_light`] from `from` may differ: whether anything can be gained by
+    /// choosing among several of them. Any answer is right, as long as it is always the same.
+    #[inline]
+    fn light_variety(&self, _from: &Receiver) -> LightVariety {
+        LightVariety::Several
+    }
 
     /// How many lights there are. Their ids count from 0.
     fn light_count(&self) -> u32;

@@ -26,6 +26,13 @@ pub(crate) struct Densities {
     pub(crate) total: f64,
 }
 
+/// The first surface from the light, as light sampling sees it on the way from the camera.
+fn receiver<W: World>(world: &W, course: &Course, wavelengths: &Wavelengths) -> Receiver {
+    let wo = course.direction(1, 2);
+    let vertex = &course.surfaces[0];
+    Receiver::new(vertex, wo, &world.bsdf(vertex, wo, wavelengths)).combined()
+}
+
 /// A path as one lane sees it that chooses.
 struct Lane {
     value: f64,
@@ -95,8 +102,8 @@ impl Lane {
         if !start.origin.can_be_hit() {
             from_camera[0] = 0.0;
         }
-        let receiver = Receiver::from(&course.surfaces[0]);
         let direction = course.direction(1, 0);
+        let receiver = receiver(world, course, &wavelengths);
         let sampled = match (start.origin, &course.lamp) {
             (Origin::Surface, Some(lamp)) => {
                 f64::from(world.light_density(&receiver, lamp, direction).chooser())
@@ -214,7 +221,7 @@ pub(crate) fn of_lanes<W: World>(
             }
         }
     }
-    let from = Receiver::from(&course.surfaces[0]);
+    let from = receiver(world, course, wavelengths);
     let direction = course.direction(1, 0);
     if let Some(lamp) = &course.lamp {
         let density = world.light_density(&from, lamp, direction);

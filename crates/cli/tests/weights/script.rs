@@ -8,7 +8,8 @@ use etalon_math::{Density, Frame, SolidAngle};
 use etalon_spectrum::Wavelengths;
 use etalon_transport::{
     Bsdf, BsdfSample, Camera, CameraRay, Chance, Connection, Emission, EmissionDensity, Hit,
-    InstanceId, LightId, LightSample, Mode, Origin, Passage, Ray, Receiver, ShapeId, Vertex, World,
+    InstanceId, LightId, LightSample, LightVariety, Mode, Origin, Passage, Ray, Receiver, ShapeId,
+    Vertex, World,
 };
 use glam::{Vec2, Vec3, Vec4};
 use std::sync::atomic::{AtomicUsize, Ordering};
@@ -285,7 +286,8 @@ impl<'s, W: World> World for Script<'s, W> {
                 (Some(at), radiance, atom(), 1.0)
             }
         };
-        Some(LightSample {
+        // What light sampling never finds is left to the others.
+        (chance.lanes().x > 0.0).then(|| LightSample {
             direction,
             target,
             radiance: self.shining(radiance, wavelengths),
@@ -295,6 +297,10 @@ impl<'s, W: World> World for Script<'s, W> {
             light: start.light,
         })
     }
+    fn light_variety(&self, from: &Receiver) -> LightVariety {
+        self.world.light_variety(from)
+    }
+
     fn light_count(&self) -> u32 {
         self.world.light_count()
     }

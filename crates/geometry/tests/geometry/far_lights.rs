@@ -12,10 +12,7 @@ const ID: ShapeId = ShapeId(0);
 
 /// A receiver at `at` whose normal is +z.
 fn receiver(at: Vec3) -> Receiver {
-    Receiver {
-        position: at,
-        normal: Vec3::Z,
-    }
+    Receiver::on_surface(at, Vec3::Z)
 }
 
 /// Irradiance at `at` over the radiance of the shape, from sampled points that face it.

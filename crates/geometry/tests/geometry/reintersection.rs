@@ -146,10 +146,7 @@ fn sampled_points_lie_on_the_shape_and_are_seen() {
             let id = ShapeId(0);
             for _ in 0..1000 {
                 let from = shift + random.direction() * scale * (1.8 + 3.0 * random.number());
-                let receiver = Receiver {
-                    position: from,
-                    normal: random.direction(),
-                };
+                let receiver = Receiver::on_surface(from, random.direction());
                 for point in [
                     Some(geometry.sample_area(id, random.square())),
                     geometry.sample_toward(id, &receiver, random.square()),

@@ -38,10 +38,7 @@ fn views() -> Vec<(String, Geometry, Receiver)> {
         (Vec3::new(0.1, -0.2, 0.9), Vec3::new(0.3, -0.2, -0.9)),
     ];
     for (i, (position, normal)) in observers.into_iter().enumerate() {
-        let from = Receiver {
-            position,
-            normal: normal.normalize_or_zero(),
-        };
+        let from = Receiver::on_surface(position, normal.normalize_or_zero());
         let mut add = |name: &str, shape: Shape| {
             let name = format!("{name} from {position}");
             views.push((name, geometry_of([shape]), from));

@@ -9,9 +9,7 @@ use crate::dimensions::Event;
 use crate::prefix::Prefix;
 use crate::settings::PathSettings;
 use etalon_spectrum::Wavelengths;
-use etalon_transport::{
-    Bsdf, Camera, Chance, Mode, Origin, PixelSite, Ray, Receiver, Vertex, World,
-};
+use etalon_transport::{Bsdf, Camera, Chance, Mode, Origin, PixelSite, Ray, Vertex, World};
 use glam::{Vec2, Vec3, Vec4};
 
 /// The camera's walk at a light.
@@ -110,7 +108,7 @@ impl<'w, W: World> Connector<'_, 'w, W> {
         self.find(arrival, radiance, eye, |first| {
             let cos = vertex.normal.dot(wo).abs();
             let distance_squared = vertex.position.distance_squared(first.vertex.position);
-            let from = Receiver::from(&first.vertex);
+            let from = first.receiver();
             let sampled = world.light_density(&from, vertex, -wo).lanes();
             let emission = world.emission_density(vertex.light, wo, cos);
             Rivals {
@@ -132,7 +130,7 @@ impl<'w, W: World> Connector<'_, 'w, W> {
         let radiance = world.background(direction, self.wavelengths);
         self.find(arrival, radiance, eye, |first| {
             let emission = world.background_emission_density(direction);
-            let from = Receiver::from(&first.vertex);
+            let from = first.receiver();
             Rivals {
                 sampled: world.background_density(&from, direction).lanes(),
                 emitted: emission.origin,
@@ -236,7 +234,8 @@ impl<'w, W: World> Connector<'_, 'w, W> {
             return;
         };
         let (vertex, world) = (&corner.vertex, self.world);
-        let from = Receiver::from(vertex);
+        let mut from = corner.receiver();
+        from.combined = mixed;
         let (choice, u) = (event.light_choice, event.light);
         let Some(light) = world.sample_light(&from, self.wavelengths, choice, u) else {
             return;

@@ -1,7 +1,7 @@
 //! A corner of a subpath, and how densities change from solid angle to area.
 
 use crate::prefix::Prefix;
-use etalon_transport::{Bsdf, BsdfSample, Chance, Vertex};
+use etalon_transport::{Bsdf, BsdfSample, Chance, Receiver, Vertex};
 use glam::{Vec3, Vec4};
 
 /// A surface that a subpath met. What it scatters next is known to the corner after it.
@@ -49,6 +49,16 @@ impl<B> Corner<B> {
             }
             Chance::Discrete(atom) => discrete(self.wo, sample.wi, sample.eta).map(|d| atom.0 * d),
         }
+    }
+
+    /// The corner as light arrives at it that some technique is to find; on a light's walk, where what
+    /// scatters to one side only is lit from `wo`'s.
+    #[inline]
+    pub(super) fn receiver(&self) -> Receiver
+    where
+        B: Bsdf,
+    {
+        Receiver::new(&self.vertex, self.wo, &self.bsdf).combined()
     }
 
     /// Solid angle per area here, seen from `distance_squared` away along `direction`.

@@ -7,7 +7,7 @@ use crate::prefix::Prefix;
 use crate::settings::PathSettings;
 use etalon_sampling::Sampler;
 use etalon_spectrum::Wavelengths;
-use etalon_transport::{Bsdf, Emission, Mode, Origin, Ray, Receiver, Vertex, World};
+use etalon_transport::{Bsdf, Emission, Mode, Origin, Ray, Vertex, World};
 use glam::{Vec3, Vec4};
 
 /// The numbers of the camera walk's events, of the emission, and of the light walk's events lie
@@ -149,10 +149,10 @@ impl FromLight {
     /// The density with which light sampling at the first corner would have chosen this start, in
     /// the measure of the emission's.
     #[inline]
-    pub(super) fn sampled<W: World>(&self, world: &W, at: &Vertex) -> f32 {
-        let density = world.sampled_density(&Receiver::from(at), &self.emission);
+    pub(super) fn sampled<W: World>(&self, world: &W, at: &Corner<W::Bsdf<'_>>) -> f32 {
+        let density = world.sampled_density(&at.receiver(), &self.emission);
         match self.emission.origin {
-            Origin::Surface => density * self.per_area(self.distance_squared(at.position)),
+            Origin::Surface => density * self.per_area(self.distance_squared(at.vertex.position)),
             _ => density,
         }
     }
@@ -208,7 +208,7 @@ impl FromLight {
                 return;
             }
             if parent.is_none() {
-                corner.direct = self.sampled(world, &vertex);
+                corner.direct = self.sampled(world, &corner);
             }
             let place = corners.len();
             if bsdf.has_continuous() {

@@ -42,7 +42,7 @@ mod steering;
 mod tests;
 
 use crate::path::{follow, follow_drafts};
-use crate::settings::PathSettings;
+use crate::settings::{LightCandidates, PathSettings};
 use crate::walk::Walk;
 use etalon_params::Params;
 use etalon_sampling::Sampler;
@@ -200,9 +200,23 @@ impl Integrator for Guided {
             Some(pictures) => {
                 let first = drafts.iter().map(|draft| draft.site.sample == 0).collect();
                 let mut sink = Joined::new(sink, pictures, learned.replicate, first);
-                follow_drafts(world, &self.settings, guide, drafts, &mut sink);
+                follow_drafts(
+                    world,
+                    &self.settings,
+                    LightCandidates::ONE,
+                    guide,
+                    drafts,
+                    &mut sink,
+                );
             }
-            None => follow_drafts(world, &self.settings, guide, drafts, sink),
+            None => follow_drafts(
+                world,
+                &self.settings,
+                LightCandidates::ONE,
+                guide,
+                drafts,
+                sink,
+            ),
         }
     }
 }

@@ -223,9 +223,11 @@ impl<'w, W: World> Gatherer<'_, 'w, W> {
                 break;
             }
             let event = Event::draw(sampler, self.depth - 1);
+            // Scattering is weighed against light sampling in sharp directions only.
+            let from = Receiver::new(&vertex, wo, &bsdf);
             if bsdf.has_continuous() {
                 if !self.second {
-                    self.see_light(&vertex, &bsdf, wo, &event);
+                    self.see_light(&vertex, &from, &bsdf, wo, &event);
                 }
                 self.gather(&vertex, &bsdf, wo);
             }
@@ -250,7 +252,7 @@ impl<'w, W: World> Gatherer<'_, 'w, W> {
                 _ => {}
             }
             let mut left = Left::new(vertex, wo, &sample, event.lobe, event.direction);
-            self.rival = self.rival.after(&self.prefix, &vertex, &sample);
+            self.rival = self.rival.after(&self.prefix, &from, &sample, 1.0);
             self.prefix.extend(sample.value, sample.chance.lanes());
             eta *= sample.eta;
             ray = vertex.spawn(sample.wi);
@@ -278,11 +280,17 @@ impl<'w, W: World> Gatherer<'_, 'w, W> {
     }
 
     /// Adds direct light, weighed against following the same direction if that is sharp.
-    fn see_light(&mut self, vertex: &Vertex, bsdf: &W::Bsdf<'w>, wo: Vec3, event: &Event) {
+    fn see_light(
+        &mut self,
+        vertex: &Vertex,
+        from: &Receiver,
+        bsdf: &W::Bsdf<'w>,
+        wo: Vec3,
+        event: &Event,
+    ) {
         let world = self.world;
-        let from = Receiver::from(vertex);
         let (choice, u) = (event.light_choice, event.light);
-        let Some(light) = world.sample_light(&from, &self.wavelengths, choice, u) else {
+        let Some(light) = world.sample_light(from, &self.wavelengths, choice, u) else {
             return;
         };
         let (value, density) = bsdf.eval_and_density(wo, light.direction, Mode::Radiance);

@@ -7,7 +7,7 @@ use etalon_math::{Density, SolidAngle};
 use etalon_spectrum::Wavelengths;
 use etalon_transport::{
     Camera, CameraRay, ClassicPhong, Connection, Emission, EmissionDensity, Hit, LightId,
-    LightSample, Passage, Ray, Receiver, Reception, Remark, Vertex, World,
+    LightSample, LightVariety, Passage, Ray, Receiver, Reception, Remark, Vertex, World,
 };
 use glam::{Vec2, Vec3, Vec4};
 
@@ -158,6 +158,10 @@ impl<'a, W: World> World for Recorder<'a, W> {
         let sample = self.world.sample_light(from, wavelengths, u_light, u);
         self.notebook.note(Event::Light(sample));
         sample
+    }
+
+    fn light_variety(&self, from: &Receiver) -> LightVariety {
+        self.world.light_variety(from)
     }
 
     fn light_count(&self) -> u32 {

@@ -43,7 +43,10 @@ impl Whitted {
                 None => Surface::Scattering(world.bsdf(vertex, wo, wavelengths)),
             })
         });
-        let from = Receiver::from(vertex);
+        let from = match &surfaces[0] {
+            Some(Surface::Scattering(bsdf)) => Receiver::new(vertex, wo, bsdf),
+            _ => Receiver::on_surface(vertex.position, vertex.shading.n),
+        };
         let side = self.light_samples;
         let mut sum = Vec3::ZERO;
         for light in (0..world.light_count()).map(LightId) {

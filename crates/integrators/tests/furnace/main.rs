@@ -14,7 +14,7 @@ use etalon_integrators::bdpt::Bidirectional;
 use etalon_integrators::direct::Direct;
 use etalon_integrators::path::Path;
 use etalon_integrators::ptracer::ParticleTracer;
-use etalon_integrators::settings::PathSettings;
+use etalon_integrators::settings::{LightCandidates, PathSettings};
 use etalon_sampling::{Independent, PixelSample, Sampler};
 use etalon_spectrum::sensor;
 use etalon_transport::*;
@@ -101,6 +101,7 @@ fn estimators_agree_with_the_geometric_series() {
     let limited = |n| settings(n);
     let path = |n| Path {
         settings: limited(n),
+        ..Path::default()
     };
     let light = |n| ParticleTracer {
         settings: limited(n),
@@ -114,6 +115,7 @@ fn estimators_agree_with_the_geometric_series() {
         emitter_samples: 2,
         bsdf_samples: 1,
         hide_emitters: false,
+        light_candidates: LightCandidates::default(),
     };
     for (what, z) in [
         (
@@ -152,6 +154,7 @@ fn estimators_agree_with_the_geometric_series() {
 fn faults_are_noticed() {
     let path = Path {
         settings: settings(3),
+        ..Path::default()
     };
     let light = ParticleTracer {
         settings: settings(3),

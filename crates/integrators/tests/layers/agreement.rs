@@ -4,9 +4,10 @@
 use crate::exact::Exact;
 use crate::measure::{LIMIT, measure};
 use crate::world::{Fault, Plane, Stack, ZERO};
+use core::num::NonZeroU32;
 use etalon_integrators::direct::Direct;
 use etalon_integrators::path::Path;
-use etalon_integrators::settings::PathSettings;
+use etalon_integrators::settings::{LightCandidates, PathSettings};
 
 const N: u32 = 60_000;
 
@@ -67,6 +68,7 @@ fn path(max_depth: u32, rr_depth: u32) -> Path {
             rr_depth,
             hide_emitters: false,
         },
+        ..Path::default()
     }
 }
 
@@ -112,6 +114,7 @@ fn direct_is_a_path_of_two_segments() {
                 emitter_samples,
                 bsdf_samples,
                 hide_emitters: false,
+                light_candidates: LightCandidates::default(),
             };
             let z = measure(&direct, &stack, N / 3).z(expected);
             assert!(
@@ -126,11 +129,40 @@ fn direct_is_a_path_of_two_segments() {
         emitter_samples: 2,
         bsdf_samples: 0,
         hide_emitters: false,
+        light_candidates: LightCandidates::default(),
     };
     let mut stack = everything();
     stack.planes.retain(|p| p.height != 1.0);
     let z = measure(&direct, &stack, N).z(exact(&stack, 2));
     assert!(z < LIMIT, "light samples only: z = {z:.2}");
+}
+
+/// One shadow ray for several light samples, whatever lies in the way. Rejects samples that do not count against
+/// scattering as often as they are drawn, on either side, and a choice that forgets its probability.
+#[test]
+fn competing_light_samples_change_no_mean() {
+    for (name, stack) in [("everything", everything()), ("rainbow", rainbow())] {
+        for count in [1, 2, 5] {
+            let light_candidates = LightCandidates(NonZeroU32::new(count));
+            let path = Path {
+                light_candidates,
+                ..path(7, NO_ROULETTE)
+            };
+            let z = measure(&path, &stack, N).z(exact(&stack, 7));
+            assert!(z < LIMIT, "path, {name}, {count} candidates: z = {z:.2}");
+            for (emitter_samples, bsdf_samples) in [(1, 1), (2, 3)] {
+                let direct = Direct {
+                    max_depth: u32::MAX,
+                    emitter_samples,
+                    light_candidates,
+                    bsdf_samples,
+                    hide_emitters: false,
+                };
+                let z = measure(&direct, &stack, N / 3).z(exact(&stack, 2));
+                assert!(z < LIMIT, "direct, {name}, {count} candidates: z = {z:.2}");
+            }
+        }
+    }
 }
 
 #[test]
@@ -152,6 +184,7 @@ fn wrong_densities_are_noticed() {
         emitter_samples: 1,
         bsdf_samples: 2,
         hide_emitters: false,
+        light_candidates: LightCandidates::default(),
     };
     let stack = everything().with(Fault::LightChoice);
     let stack = Stack {

@@ -59,6 +59,7 @@ fn path(rr_depth: u32) -> Path {
             rr_depth,
             ..PathSettings::default()
         },
+        ..Path::default()
     }
 }
 

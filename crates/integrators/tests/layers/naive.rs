@@ -65,7 +65,14 @@ fn hidden_lights_and_alpha_are_those_of_path() {
     for (stack, max_depth) in [(everything(), 2), (everything(), 5), (rainbow(), 4)] {
         for hide in [true, false] {
             let limits = settings(max_depth, u32::MAX, hide);
-            let path = measure(&Path { settings: limits }, &stack, N);
+            let path = measure(
+                &Path {
+                    settings: limits,
+                    ..Path::default()
+                },
+                &stack,
+                N,
+            );
             for directions in ALL {
                 let found = measure(&naive(limits, directions), &stack, N);
                 let z = found.z(exact(&stack, max_depth, hide));

@@ -74,6 +74,7 @@ fn the_path_tracer_gives_the_same_bits_for_one_and_for_many() {
                 rr_depth: 4,
                 hide_emitters: false,
             },
+            ..Path::default()
         };
         for count in [0, 1, 5, 16, 17, 100] {
             let mut alone = Record::default();

@@ -6,7 +6,7 @@ use crate::measure::{LIMIT, measure};
 use crate::world::{Fault, Plane, Stack, ZERO};
 use etalon_integrators::distribution::Distribution;
 use etalon_integrators::path::Path;
-use etalon_integrators::settings::PathSettings;
+use etalon_integrators::settings::{LightCandidates, PathSettings};
 
 fn settings(max_depth: u32, rr_depth: u32) -> PathSettings {
     PathSettings {
@@ -49,6 +49,7 @@ fn with_one_branch_it_is_path_number_for_number() {
         for (max_depth, rr_depth) in [(0, 5), (1, 5), (2, 5), (4, 1), (u32::MAX, 2)] {
             let path = Path {
                 settings: settings(max_depth, rr_depth),
+                light_candidates: LightCandidates::ONE,
             };
             let tree = distribution(max_depth, rr_depth, 1, 1);
             let [a, b] = [measure(&path, &stack, 500), measure(&tree, &stack, 500)];

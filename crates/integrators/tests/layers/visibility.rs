@@ -6,7 +6,7 @@ use crate::world::{Plane, Stack, ZERO};
 use etalon_integrators::direct::Direct;
 use etalon_integrators::path::Path;
 use etalon_integrators::ptracer::ParticleTracer;
-use etalon_integrators::settings::PathSettings;
+use etalon_integrators::settings::{LightCandidates, PathSettings};
 
 const N: u32 = 40_000;
 
@@ -17,6 +17,7 @@ fn path(max_depth: u32) -> Path {
             rr_depth: 5,
             hide_emitters: true,
         },
+        ..Path::default()
     }
 }
 
@@ -84,7 +85,15 @@ fn alpha_is_what_does_not_go_straight_through() {
             hide_emitters,
             ..PathSettings::default()
         };
-        measure(&Path { settings }, &stack, N).mean[3]
+        measure(
+            &Path {
+                settings,
+                ..Path::default()
+            },
+            &stack,
+            N,
+        )
+        .mean[3]
     };
     // Standard deviation √(0.75 · 0.25 / N); α = 10⁻⁶ two-sided.
     let tolerance = 4.9 * (0.1875 / f64::from(N)).sqrt();
@@ -103,6 +112,7 @@ fn alpha_is_what_does_not_go_straight_through() {
         emitter_samples: 1,
         bsdf_samples: 1,
         hide_emitters: false,
+        light_candidates: LightCandidates::default(),
     };
     let seen = Stack::new(vec![veil(1.0)], |_| 1.0, 0.0, true);
     assert_eq!(measure(&direct, &seen, 100).mean[3], 1.0);

@@ -186,7 +186,7 @@ fn one_bright_texel_brings_its_energy() {
                 let sample = light.sample(&world, &from, &WAVELENGTHS, u).expect("light");
                 let direct = (sample.radiance / white()).x;
                 toward += f64::from(direct / sample.chance.lanes().x);
-                let density = light.background_density(sample.direction).chooser();
+                let density = light.background_density(&from, sample.direction).chooser();
                 assert!((density / sample.chance.lanes().x - 1.0).abs() < 2e-2);
                 let particle = light
                     .emit(&world, &bounds, &WAVELENGTHS, Vec2::splat(0.5), u)
@@ -208,6 +208,11 @@ fn one_bright_texel_brings_its_energy() {
             }
         }
     }
+}
+
+/// A receiver that does not combine light sampling with scattering.
+fn alone() -> Receiver {
+    receiver(Vec3::ZERO, Vec3::Z)
 }
 
 /// A midpoint rule in (θ, φ) that does not know of texels.
@@ -251,8 +256,38 @@ fn variants() -> Vec<(SmallWorld, Light)> {
 #[test]
 fn densities_integrate_to_one() {
     for (_, light) in variants() {
-        let total = integrate(|d| f64::from(light.background_density(d).chooser()));
-        assert!((total - 1.0).abs() < 2e-3, "{total}");
+        for from in [alone(), alone().combined()] {
+            let total = integrate(|d| f64::from(light.background_density(&from, d).chooser()));
+            assert!((total - 1.0).abs() < 2e-3, "{total}");
+        }
+    }
+}
+
+/// Compensation leaves dark regions to scattering, if there is any to find them, and is the default.
+/// Rejects the compensated distribution for receivers that have light sampling only.
+#[test]
+fn compensation_is_for_receivers_that_scatter() {
+    let compensated = |value| vec![("mis_compensation", Value::Boolean(value))];
+    let maps = [vec![], compensated(true), compensated(false)];
+    for (properties, leaves_out) in maps.into_iter().zip([true, true, false]) {
+        let (_, light) = sky(8, &grey(), properties);
+        let densities = |d| [alone(), alone().combined()].map(|f| light.background_density(&f, d));
+        let (mut all, mut left_out) = (0, 0);
+        for i in 0..200 {
+            let turns = (i % 20) as f32 / 20.0;
+            let (sin, cos) = etalon_math::float::sin_cos_turns(turns);
+            let d = Vec3::new(sin, 0.2 * (i / 20) as f32 - 0.9, cos).normalize();
+            let [all_of_it, rest] = densities(d).map(|density| density.chooser());
+            if light.background(&SmallWorld::default(), d, &WAVELENGTHS) != Vec4::ZERO {
+                all += 1;
+                assert!(all_of_it > 0.0, "{d}");
+                left_out += i32::from(rest == 0.0);
+            }
+        }
+        assert!(
+            all > 100 && (left_out > 20) == leaves_out,
+            "{left_out} of {all}"
+        );
     }
 }
 
@@ -265,6 +300,7 @@ fn directions_follow_the_density() {
     const FINE: usize = 24;
     const COUNT: usize = 60_000;
     for (index, (world, light)) in variants().into_iter().enumerate() {
+        let from = alone().combined();
         let mut expected = vec![0.0; ROWS * COLUMNS];
         // Steps of θ, since the density per solid angle has a pole at the poles.
         let border = |y: usize| etalon_math::float64::acos(1.0 - 2.0 * y as f64 / ROWS as f64);
@@ -280,13 +316,12 @@ fn directions_follow_the_density() {
                 let turns = (x as f32 + 0.5) / (COLUMNS * FINE) as f32;
                 let (sin, cos) = etalon_math::float::sin_cos_turns(turns);
                 let d = Vec3::new(sin * sin_theta, cos_theta, -cos * sin_theta);
-                let mass = f64::from(light.background_density(d).chooser()) * solid_angle;
+                let mass = f64::from(light.background_density(&from, d).chooser()) * solid_angle;
                 expected[y / FINE * COLUMNS + x / FINE] += mass * COUNT as f64;
             }
         }
         let mut observed = vec![0_u64; ROWS * COLUMNS];
         let mut random = numbers(100 + index as u64);
-        let from = receiver(Vec3::ZERO, Vec3::Z);
         for _ in 0..COUNT {
             let sample = light
                 .sample(&world, &from, &WAVELENGTHS, random.next_2d())

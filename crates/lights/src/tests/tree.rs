@@ -15,11 +15,11 @@ fn direction(z: f64, turn: f64) -> Vec3 {
         .normalize()
 }
 
-fn place() -> impl Strategy<Value = Vec3> {
+pub(super) fn place() -> impl Strategy<Value = Vec3> {
     prop::array::uniform3(-3.0_f32..3.0).prop_map(Vec3::from_array)
 }
 
-fn unit() -> impl Strategy<Value = Vec3> {
+pub(super) fn unit() -> impl Strategy<Value = Vec3> {
     (-1.0..1.0_f64, 0.0..1.0_f64).prop_map(|(z, turn)| direction(z, turn))
 }
 
@@ -67,7 +67,7 @@ proptest! {
         places in lights(), from in place(), normal in unit(), number in 0.0_f32..1.0,
     ) {
         let (_, set) = scene(&places);
-        let from = Receiver { position: from, normal };
+        let from = Receiver::on_surface(from, normal);
         let each = |i: usize| set.selector().probability(&from, LightId(i as u32));
         let sum: f32 = (0..set.len()).map(each).sum();
         // What a cluster promises and neither half keeps is lost.
@@ -87,7 +87,7 @@ proptest! {
         places in lights(), from in place(), normal in unit(), u in 0.0_f32..1.0, v in 0.0_f32..1.0,
     ) {
         let (world, set) = scene(&places);
-        let from = Receiver { position: from, normal };
+        let from = Receiver::on_surface(from, normal);
         for index in 0..set.len() {
             let light = LightId(index as u32);
             if set.selector().probability(&from, light) > 0.0 {
@@ -110,7 +110,7 @@ proptest! {
             cos_edge: 0.0,
             power: 1.0,
         };
-        let from = Receiver { position: from, normal };
+        let from = Receiver::on_surface(from, normal);
         let whole = Promise::new(&extent(a).union(extent(b))).at(&from);
         let parts = [a, b].map(|p| Promise::new(&extent(p)).at(&from));
         prop_assert!(whole > 0.0 || parts == [0.0; 2], "{whole} of {parts:?}");

@@ -1,0 +1,167 @@
+//! Several light samples that compete for one shadow ray.
+//!
+//! A vertex draws M light samples x₁ … x_M; the choice of the light is stratified over them, and one pair of
+//! numbers is turned for each. With gᵢ the estimate of xᵢ as one of M light samples beside scattering, and
+//! ĝᵢ the same if nothing is in the way, one is chosen with the probability Σ ĝᵢ / Σⱼ Σ ĝⱼ (the inner sums
+//! over the wavelengths), gets the only shadow ray, and counts gᵢ over that probability. Whatever the samples,
+//! the mean over the choice is Σᵢ gᵢ, that is what M shadow rays would bring: the choice needs no
+//! density of its own, and may depend on all wavelengths (J. Talbot, D. Cline, P. Egbert, Importance
+//! resampling for global illumination, 2005, with the balance heuristic in the target).
+//!
+//! A lone light whose samples are all alike gains nothing and loses: visibility then decides, which the
+//! choice does not see, and scattering is trusted less than it deserves. There one light sample is drawn.
+
+use crate::dimensions::Event;
+use crate::prefix::Prefix;
+use crate::settings::LightCandidates;
+use etalon_sampling::Sampler;
+use etalon_spectrum::Wavelengths;
+use etalon_transport::{Bsdf, Chance, LightSample, LightVariety, Mode, Receiver, World};
+use glam::{Vec2, Vec3, Vec4};
+
+/// Multiples of this spread evenly over a square, modulo one: powers of the inverse of the plastic
+/// number (Roberts 2018, "The Unreasonable Effectiveness of Quasirandom Sequences").
+const TURN: Vec2 = Vec2::new(0.754_877_7, 0.569_840_3);
+
+/// How many there are of several lights unless a scene says so.
+const AUTOMATIC: u32 = 2;
+
+/// The largest number below one.
+const BELOW_ONE: f32 = 1.0 - f32::EPSILON / 2.0;
+
+/// How many light samples a vertex draws for its shadow ray.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Candidates {
+    /// M; not zero.
+    pub(crate) count: u32,
+    /// As how many light samples they count against scattering.
+    pub(crate) weighed: f32,
+}
+
+/// A light sample before its shadow ray is traced.
+#[derive(Clone, Copy)]
+pub(crate) struct Aim {
+    /// Unit direction to the light.
+    pub(crate) direction: Vec3,
+    /// Where on the light, if it is not at infinity.
+    pub(crate) target: Option<Vec3>,
+    /// Everything but what lies in between.
+    complete: Prefix,
+    /// pₜ,ₖ / p₀ of finding the same path by scattering, but for passing what lies in between.
+    by_scattering: Vec4,
+}
+
+impl Aim {
+    /// The path `before` to a vertex, extended to `light`; `None` if it brings nothing. `lights` samples of
+    /// lights compete with `scattering` samples of `bsdf`.
+    #[inline]
+    pub(crate) fn new(
+        light: &LightSample,
+        before: &Prefix,
+        bsdf: &impl Bsdf,
+        wo: Vec3,
+        [lights, scattering]: [f32; 2],
+    ) -> Option<Self> {
+        let (value, density) = bsdf.eval_and_density(wo, light.direction, Mode::Radiance);
+        let contribution = value * light.radiance;
+        if contribution == Vec4::ZERO {
+            return None;
+        }
+        let mut complete = *before;
+        complete.extend(contribution, light.chance.lanes());
+        complete.ratio *= lights;
+        let by_scattering = match light.chance {
+            // Scattering never finds a discrete light.
+            Chance::Discrete(_) => Vec4::ZERO,
+            Chance::Continuous(chosen) => {
+                before.ratio * density.lanes() * (scattering / chosen.chooser())
+            }
+        };
+        Some(Self {
+            direction: light.direction,
+            target: light.target,
+            complete,
+            by_scattering,
+        })
+    }
+
+    /// What it brings through `transmittance`, where scattering would have passed what lies in between with the
+    /// probability `passing`.
+    #[inline]
+    pub(crate) fn estimate(&self, transmittance: Vec4, passing: Vec4) -> Vec4 {
+        (self.complete).estimate(transmittance, self.by_scattering * passing)
+    }
+}
+
+impl Candidates {
+    /// One light sample.
+    pub(crate) const ONE: Self = Self {
+        count: 1,
+        weighed: 1.0,
+    };
+
+    /// As many as `wanted` says at a receiver with such lights.
+    #[inline]
+    pub(crate) fn at<W: World>(wanted: LightCandidates, world: &W, from: &Receiver) -> Self {
+        let count = match wanted {
+            LightCandidates(Some(count)) if count.get() == 1 => return Self::ONE,
+            LightCandidates(count) => match (count, world.light_variety(from)) {
+                (_, LightVariety::Even) | (None, LightVariety::Single) => return Self::ONE,
+                (None, LightVariety::Several) => AUTOMATIC,
+                (Some(count), _) => count.get(),
+            },
+        };
+        Self {
+            count,
+            weighed: count as f32,
+        }
+    }
+
+    /// Draws them, and chooses one; `aim` says what a light sample brings. Draws one more number of `sampler`
+    /// than the event has, if there is a choice.
+    #[inline]
+    pub(crate) fn draw<W: World>(
+        self,
+        world: &W,
+        from: &Receiver,
+        wavelengths: &Wavelengths,
+        event: &Event,
+        sampler: &mut impl Sampler,
+        aim: impl Fn(&LightSample) -> Option<Aim>,
+    ) -> Option<Aim> {
+        if self.count == 1 {
+            let (choice, u) = (event.light_choice, event.light);
+            return aim(&world.sample_light(from, wavelengths, choice, u)?);
+        }
+        let mut number = sampler.next_1d();
+        let (mut chosen, mut sum) = (None, 0.0);
+        for i in 0..self.count {
+            let choice = ((event.light_choice + i as f32) / self.count as f32).min(BELOW_ONE);
+            let u = (event.light + TURN * i as f32)
+                .fract()
+                .min(Vec2::splat(BELOW_ONE));
+            let light = world.sample_light(from, wavelengths, choice, u);
+            let Some(candidate) = light.as_ref().and_then(&aim) else {
+                continue;
+            };
+            let expected = candidate.estimate(Vec4::ONE, Vec4::ONE).element_sum();
+            if !expected.is_finite() {
+                // Not for the choice to hide.
+                return Some(candidate);
+            }
+            if expected > 0.0 {
+                sum += expected;
+                let p = expected / sum;
+                if number < p {
+                    number = (number / p).min(BELOW_ONE);
+                    chosen = Some((candidate, expected));
+                } else {
+                    number = ((number - p) / (1.0 - p)).min(BELOW_ONE);
+                }
+            }
+        }
+        let (mut aim, expected) = chosen?;
+        aim.complete.value *= self.weighed / self.count as f32 * (sum / expected);
+        Some(aim)
+    }
+}

@@ -1,0 +1,89 @@
+//! A point that receives light: what the choice of a light and of a direction toward it may know.
+
+use crate::{Bsdf, Vertex};
+use glam::Vec3;
+
+/// A point at which light is to arrive. Densities of light sampling are those for a receiver: whoever
+/// weighs a direction found otherwise must ask with the same receiver.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Receiver {
+    /// Where (m, world).
+    pub position: Vec3,
+    /// Unit shading normal of the surface there, so that light from grazing directions is chosen
+    /// less often; zero where there is no surface.
+    pub normal: Vec3,
+    /// Whether only light from the side to which `normal` points counts.
+    pub one_sided: bool,
+    /// Whether what light sampling leaves out is found by scattering, weighted by both densities
+    /// (multiple importance sampling). If not, every direction from which light may come must be
+    /// possible.
+    pub combined: bool,
+}
+
+impl Receiver {
+    /// A point on no surface.
+    pub const fn in_space(position: Vec3) -> Self {
+        Self::on_surface(position, Vec3::ZERO)
+    }
+
+    /// A point of a surface with the unit normal `normal` that receives light on both sides.
+    pub const fn on_surface(position: Vec3, normal: Vec3) -> Self {
+        Self {
+            position,
+            normal,
+            one_sided: false,
+            combined: false,
+        }
+    }
+
+    /// The point `vertex` as `bsdf`, the model there for `wo`, receives light.
+    #[inline]
+    pub fn new(vertex: &Vertex, wo: Vec3, bsdf: &impl Bsdf) -> Self {
+        match bsdf.hemisphere() {
+            Some(frame) => Self {
+                normal: if frame.n.dot(wo) < 0.0 {
+                    -frame.n
+                } else {
+                    frame.n
+                },
+                one_sided: true,
+                ..Self::in_space(vertex.position)
+            },
+            None => Self::on_surface(vertex.position, vertex.shading.n),
+        }
+    }
+
+    /// What the cosine `cos` with the normal counts in a choice that must not leave out what may
+    /// arrive: not less than that of a grazing direction, within rounding of which it is taken to be zero only
+    /// beyond the horizon.
+    #[inline]
+    pub fn counted(cos: f32) -> f32 {
+        const GRAZING: f32 = 1e-4;
+        if cos < -GRAZING {
+            0.0
+        } else {
+            cos.max(GRAZING)
+        }
+    }
+
+    /// [`Receiver::counted`] of light from the unit vector `direction`; 1 where there is no surface.
+    #[inline]
+    pub fn facing(&self, direction: Vec3) -> f32 {
+        let cos = self.normal.dot(direction);
+        match self.one_sided {
+            _ if self.normal == Vec3::ZERO => 1.0,
+            true => Self::counted(cos),
+            false => Self::counted(cos.abs()),
+        }
+    }
+
+    /// The same for an estimator that combines light sampling with scattering.
+    #[must_use]
+    #[inline]
+    pub const fn combined(self) -> Self {
+        Self {
+            combined: true,
+            ..self
+        }
+    }
+}
