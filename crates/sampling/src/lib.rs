@@ -12,6 +12,7 @@ pub mod mis;
 pub mod sampler;
 pub mod sobol;
 pub mod stratified;
+pub mod stratified_pair;
 pub mod warps;
 
 pub use independent::Independent;
@@ -19,3 +20,4 @@ pub use kind::{AnySampler, SamplerKind};
 pub use sampler::{PixelSample, Sampler};
 pub use sobol::Sobol;
 pub use stratified::Stratified;
+pub use stratified_pair::stratified_pair;

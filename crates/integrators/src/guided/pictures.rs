@@ -39,7 +39,8 @@ impl Pictures {
     pub(crate) fn black(placing: &impl Placing, pass: &Pass, samples: u32) -> Option<Self> {
         let pixels = u64::from(pass.size.x) * u64::from(pass.size.y);
         let bytes = pixels * (u64::from(pass.replicates) * 16 + 4);
-        if samples == 0 || bytes > MOST {
+        // A sample of training counts for one pixel, which samples that pixels share cannot be joined by.
+        if samples == 0 || bytes > MOST || placing.shares_samples() {
             return None;
         }
         let pixel = |index: u32| pass.origin + UVec2::new(index % pass.size.x, index / pass.size.x);
