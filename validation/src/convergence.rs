@@ -113,99 +113,105 @@ pub struct Fall {
     pub factor: f64,
 }
 
-/// What the batches of an estimator came to.
+/// What the batches of an estimator came to; more of them may be added.
+#[derive(Clone, Debug, Default)]
 pub struct Batches {
     /// The exponent of each independent batch.
     pub exponents: Vec<f64>,
-    /// How the error fell, over all of them.
-    pub fall: Fall,
+    /// The logarithm of the fitted power law's squared error on a rung 1, of each batch.
+    logarithms: Vec<f64>,
+    /// The squared errors of all batches, by rung.
+    errors: Vec<Vec<f64>>,
     /// The samples spent.
     pub spp: u64,
 }
 
-/// The exponents of an estimator's squared error, one of each independent batch.
-///
-/// # Errors
-/// If a picture cannot be rendered or has no error at all.
-pub fn batches(
-    claim: &Claim,
-    ladder: &Ladder,
-    estimator: &Estimator,
-    fault: Option<Fault>,
-    budget: Budget,
-    seed: u64,
-) -> Result<Batches, String> {
-    let estimator = match fault {
-        Some(Fault::IndependentSamples) => &Estimator {
-            sampler: Some(Sampler::Independent),
-            ..estimator.clone()
-        },
-        Some(other) => return Err(format!("`{other}` cannot be planted here")),
-        None => estimator,
-    };
-    let rungs = &ladder.rungs;
-    let stands = rungs
-        .iter()
-        .map(|rung| ladder.stand(*rung, estimator, budget));
-    let stands: Vec<(Estimator, u32)> = stands.collect();
-    // Where only the samples grow, all rungs have one scene.
-    let different = if ladder.over.is_some() {
-        rungs.len()
-    } else {
-        1
-    };
-    let scenes = stands[..different]
-        .iter()
-        .map(|(standing, _)| rendering::load_for(claim, standing));
-    let scenes = scenes.collect::<Result<Vec<Loaded>, String>>()?;
-    let size = scenes[0].compiled.film.crop_size.to_array();
-    let known = closed_form::picture(&ladder.formula, claim, estimator, size)?;
-    let mut spent = 0;
-    let (mut exponents, mut logarithms) = (Vec::new(), Vec::new());
-    let mut errors = vec![Vec::new(); rungs.len()];
-    for batch in 0..(budget.replicates / BATCH).max(2) {
-        let (mut x, mut y) = (Vec::new(), Vec::new());
-        for (rung, (_, samples)) in stands.iter().enumerate() {
-            let loaded = &scenes[rung.min(different - 1)];
-            let budget = Budget {
-                spp: samples * BATCH,
-                replicates: BATCH,
-                bound: None,
-            };
-            // All are independent of each other.
-            let number = u64::from(batch) * rungs.len() as u64 + rung as u64;
-            let seed = seed.wrapping_add((number + 1) << 32);
-            let plan = rendering::plan(loaded, estimator, budget, seed);
-            let picture = rendering::picture(loaded, &plan, estimator, None, None)?;
-            x.push(match &ladder.over {
-                Some(_) => f64::from(rungs[rung]),
-                None => f64::from(plan.samples_per_replicate),
-            });
-            let error = squared_error(&picture, &known, estimator.part)?;
-            y.push(error);
-            errors[rung].push(error);
-            spent += u64::from(plan.samples_per_replicate * BATCH);
+impl Batches {
+    /// Renders until there are as many batches as the budget has replicates for.
+    ///
+    /// # Errors
+    /// If a picture cannot be rendered or has no error at all.
+    pub fn extend(
+        &mut self,
+        claim: &Claim,
+        ladder: &Ladder,
+        (estimator, fault): (&Estimator, Option<Fault>),
+        budget: Budget,
+        seed: u64,
+    ) -> Result<(), String> {
+        let estimator = match fault {
+            Some(Fault::IndependentSamples) => &Estimator {
+                sampler: Some(Sampler::Independent),
+                ..estimator.clone()
+            },
+            Some(other) => return Err(format!("`{other}` cannot be planted here")),
+            None => estimator,
+        };
+        let rungs = &ladder.rungs;
+        let stands = rungs
+            .iter()
+            .map(|rung| ladder.stand(*rung, estimator, budget));
+        let stands: Vec<(Estimator, u32)> = stands.collect();
+        // Where only the samples grow, all rungs have one scene.
+        let different = if ladder.over.is_some() {
+            rungs.len()
+        } else {
+            1
+        };
+        let scenes = stands[..different]
+            .iter()
+            .map(|(standing, _)| rendering::load_for(claim, standing));
+        let scenes = scenes.collect::<Result<Vec<Loaded>, String>>()?;
+        let size = scenes[0].compiled.film.crop_size.to_array();
+        let known = closed_form::picture(&ladder.formula, claim, estimator, size)?;
+        self.errors.resize(rungs.len(), Vec::new());
+        let batches = (budget.replicates / BATCH).max(2);
+        for batch in self.exponents.len() as u32..batches {
+            let (mut x, mut y) = (Vec::new(), Vec::new());
+            for (rung, (_, samples)) in stands.iter().enumerate() {
+                let loaded = &scenes[rung.min(different - 1)];
+                let budget = Budget {
+                    spp: samples * BATCH,
+                    replicates: BATCH,
+                    bound: None,
+                };
+                // All are independent of each other.
+                let number = u64::from(batch) * rungs.len() as u64 + rung as u64;
+                let seed = seed.wrapping_add((number + 1) << 32);
+                let plan = rendering::plan(loaded, estimator, budget, seed);
+                let picture = rendering::picture(loaded, &plan, estimator, None, None)?;
+                x.push(match &ladder.over {
+                    Some(_) => f64::from(rungs[rung]),
+                    None => f64::from(plan.samples_per_replicate),
+                });
+                let error = squared_error(&picture, &known, estimator.part)?;
+                y.push(error);
+                self.errors[rung].push(error);
+                self.spp += u64::from(plan.samples_per_replicate * BATCH);
+            }
+            let fit =
+                Line::fit_power_law(&x, &y).ok_or("there is no error whose fall can be seen")?;
+            self.exponents.push(fit.slope.value());
+            self.logarithms.push(fit.intercept.value());
         }
-        let fit = Line::fit_power_law(&x, &y).ok_or("there is no error whose fall can be seen")?;
-        exponents.push(fit.slope.value());
-        logarithms.push(fit.intercept.value());
+        Ok(())
     }
-    let point = |(n, errors): (&u32, &Vec<f64>)| {
-        let summary = Summary::of(errors)?;
-        Some([f64::from(*n), summary.mean(), summary.standard_error()])
-    };
-    let mean = |values: &[f64]| Summary::of(values).map_or(f64::NAN, |s| s.mean());
-    let fall = Fall {
-        over: (ladder.over.clone()).unwrap_or_else(|| "samples per replicate".to_owned()),
-        points: rungs.iter().zip(&errors).filter_map(point).collect(),
-        exponent: mean(&exponents),
-        factor: float64::exp(mean(&logarithms)),
-    };
-    Ok(Batches {
-        exponents,
-        fall,
-        spp: spent,
-    })
+
+    /// How the error fell, over all of them.
+    pub fn fall(&self, ladder: &Ladder) -> Fall {
+        let point = |(n, errors): (&u32, &Vec<f64>)| {
+            let summary = Summary::of(errors)?;
+            Some([f64::from(*n), summary.mean(), summary.standard_error()])
+        };
+        let mean = |values: &[f64]| Summary::of(values).map_or(f64::NAN, |s| s.mean());
+        let points = ladder.rungs.iter().zip(&self.errors);
+        Fall {
+            over: (ladder.over.clone()).unwrap_or_else(|| "samples per replicate".to_owned()),
+            points: points.filter_map(point).collect(),
+            exponent: mean(&self.exponents),
+            factor: float64::exp(mean(&self.logarithms)),
+        }
+    }
 }
 
 /// The exponent of all batches together, judged at `alpha`.

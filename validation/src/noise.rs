@@ -26,6 +26,7 @@ use etalon::judge::{self, Known};
 use etalon_film::Developed;
 use etalon_statistics::{Estimate, Summary, proportion};
 use serde::Deserialize;
+use std::ops::Range;
 
 /// The levels whose intervals are counted.
 pub const LEVELS: [f64; 3] = [0.68, 0.95, 0.99];
@@ -67,18 +68,19 @@ struct Trial {
     error: f64,
 }
 
-/// Counts the means of each of `seeds` pictures; and the samples spent.
+/// Counts the means of each of the pictures with these numbers; the samples that one takes are those
+/// of the budget.
 ///
 /// # Errors
 /// If a picture cannot be rendered, or an integrator makes pixels depend on each other.
 pub fn count(
     claim: &Claim,
-    (of, formula, seeds): (Means, &str, u32),
+    (of, formula, numbers): (Means, &str, Range<u32>),
     estimator: &Estimator,
     fault: Option<Fault>,
     budget: Budget,
     seed: u64,
-) -> Result<(Vec<Counted>, u64), String> {
+) -> Result<Vec<Counted>, String> {
     let shrink = match fault {
         None => 1.0,
         Some(Fault::StandardError) => std::f64::consts::FRAC_1_SQRT_2,
@@ -91,8 +93,8 @@ pub fn count(
     let size = loaded.compiled.film.crop_size.to_array();
     let known = closed_form::picture(formula, claim, estimator, size)?;
     let freedom = f64::from(budget.replicates) - 1.0;
-    let (mut pictures, mut spent) = (Vec::new(), 0);
-    for number in 0..seeds {
+    let mut pictures = Vec::new();
+    for number in numbers {
         let seed = seed.wrapping_add((u64::from(number) + 1) << 32);
         let plan = rendering::plan(&loaded, estimator, budget, seed);
         let picture = rendering::picture(&loaded, &plan, estimator, None, None)?;
@@ -105,9 +107,8 @@ pub fn count(
         }
         let counted = Counted::of(&trials, freedom);
         pictures.push(counted.ok_or("a mean or its truth is not a number above 0")?);
-        spent += u64::from(plan.samples_per_replicate) * u64::from(budget.replicates);
     }
-    Ok((pictures, spent))
+    Ok(pictures)
 }
 
 /// The coverages and the squared error over all pictures, judged at `alpha` together.

@@ -82,6 +82,10 @@ pub struct Comparison<'a> {
     task: Task<'a>,
     picture: Option<Developed>,
     oracle: Option<Developed>,
+    /// The pictures counted so far, of a claim about noise.
+    counted: Vec<noise::Counted>,
+    /// The batches so far, of a claim about convergence.
+    batches: convergence::Batches,
     /// Replicates so far, in multiples of the first look's.
     multiple: u32,
 }
@@ -96,6 +100,8 @@ impl<'a> Comparison<'a> {
             task,
             picture: None,
             oracle: None,
+            counted: Vec::new(),
+            batches: convergence::Batches::default(),
             multiple: 0,
         }
     }
@@ -152,9 +158,10 @@ impl<'a> Comparison<'a> {
             }
             Oracle::Convergence(ladder) => {
                 let seed = options.seed;
-                let batches = convergence::batches(claim, ladder, estimator, fault, budget, seed)?;
+                let batches = &mut self.batches;
+                batches.extend(claim, ladder, (estimator, fault), budget, seed)?;
                 let measure = convergence::judge(&batches.exponents, estimator, alpha)?;
-                fall = Some(batches.fall);
+                fall = Some(batches.fall(ladder));
                 (vec![measure], batches.spp)
             }
             Oracle::Noise {
@@ -164,18 +171,19 @@ impl<'a> Comparison<'a> {
                 tolerance,
             } => {
                 // A quarter of the pictures shows a fault.
-                let pictures = multiple
-                    * if fault.is_some() {
-                        seeds.div_ceil(4)
-                    } else {
-                        *seeds
-                    };
-                let counted = (*of, formula.as_str(), pictures);
+                let seeds = if fault.is_some() {
+                    seeds.div_ceil(4)
+                } else {
+                    *seeds
+                };
+                let pictures = multiple * seeds;
+                let counted = (*of, formula.as_str(), self.counted.len() as u32..pictures);
+                let more = noise::count(claim, counted, estimator, fault, first, options.seed)?;
+                self.counted.extend(more);
                 // Those of all pictures, as its samples are.
                 replicates = pictures * first.replicates;
-                let (pictures, spp) =
-                    noise::count(claim, counted, estimator, fault, first, options.seed)?;
-                (noise::judge(&pictures, *tolerance, alpha)?, spp)
+                let measures = noise::judge(&self.counted, *tolerance, alpha)?;
+                (measures, u64::from(pictures) * u64::from(first.spp))
             }
             Oracle::Invariance { .. } => {
                 let loaded = rendering::load_for(claim, estimator)?;

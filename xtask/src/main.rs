@@ -1,4 +1,4 @@
-//! The tasks of the house: `cargo xtask validate`, `references`, `mutants`, `calibrate`, `efficiency`, `bits`, `scenes`, `tables`.
+//! The tasks of the house: `cargo xtask validate`, `references`, `mutants`, `calibrate`, `efficiency`, `speed`, `bits`, `scenes`, `tables`.
 
 mod bits;
 mod calibrate;
@@ -6,6 +6,7 @@ mod efficiency;
 mod mutants;
 mod references;
 mod scenes;
+mod speed;
 mod tables;
 mod validate;
 
@@ -35,6 +36,8 @@ enum Task {
     Calibrate(calibrate::Arguments),
     /// Measure by how much estimators are better than others (`benches/efficiency.toml`)
     Efficiency(efficiency::Arguments),
+    /// Measure noise, time and efficiency on a list of scenes, beside Mitsuba 3's (`benches/speed.toml`)
+    Speed(speed::Arguments),
     /// Check that threads and build profiles do not change a bit (builds `release`: minutes)
     Bits,
     /// Write the generated files of `scenes/` anew
@@ -50,6 +53,7 @@ fn main() -> ExitCode {
         Task::Calibrate(arguments) => return calibrate::run(&arguments),
         Task::References(arguments) => references::run(&arguments),
         Task::Efficiency(arguments) => efficiency::run(&arguments),
+        Task::Speed(arguments) => speed::run(&arguments),
         Task::Bits => bits::run(),
         Task::Scenes => scenes::run(),
         Task::Tables(arguments) => tables::run(&arguments),

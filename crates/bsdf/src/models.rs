@@ -5,7 +5,7 @@
 
 use crate::{Flattening, Lobe, MAX_LOBES, Model, Resolved, Site, Traits};
 use etalon_math::Frame;
-use etalon_params::{Class, Diagnostic, Diagnostics, Node, Params};
+use etalon_params::{Class, Diagnostic, Diagnostics, Node, Params, plugins};
 use etalon_spectrum::Wavelengths;
 use etalon_transport::{BsdfSample, Build, ClassicPhong, Mode, Textures, Vertex};
 use glam::{Vec2, Vec3, Vec4};
@@ -179,21 +179,6 @@ macro_rules! models {
     };
 }
 
-/// Mitsuba's BSDF plugins that are not built yet.
-const NOT_BUILT_YET: [&str; 11] = [
-    "bumpmap",
-    "circular",
-    "hair",
-    "measured",
-    "measured_polarized",
-    "normalmap",
-    "polarizer",
-    "pplastic",
-    "principled",
-    "principledthin",
-    "retarder",
-];
-
 impl Material {
     /// The material that a node describes. After a mistake, which has been recorded, `None`.
     pub fn from_params(
@@ -224,7 +209,6 @@ impl Material {
         build: &mut dyn Build,
         diagnostics: &Diagnostics,
     ) -> Option<Self> {
-        let name = node.plugin.value.as_str();
         let params = Params::new(node, diagnostics);
         match Self::from_named(&params, build) {
             Some(material) => {
@@ -232,16 +216,7 @@ impl Material {
                 material
             }
             None => {
-                let error = if NOT_BUILT_YET.contains(&name) {
-                    Diagnostic::error(
-                        node.plugin.span,
-                        format!("Mitsuba's BSDF `{name}` is not built yet"),
-                    )
-                } else {
-                    Diagnostic::error(node.plugin.span, format!("unknown BSDF `{name}`"))
-                        .suggest(name, plugin_names())
-                };
-                diagnostics.push(error);
+                diagnostics.push(plugins::not_built(node, plugin_names()));
                 None
             }
         }

@@ -1,28 +1,10 @@
 //! What the process has used, and what it may use.
 
 use std::fs::read_to_string;
-use std::time::Duration;
 
 /// The largest resident size of this process so far (bytes), where the system tells.
 pub fn peak_memory_bytes() -> Option<u64> {
     field(&read_to_string("/proc/self/status").ok()?, "VmHWM:")
-}
-
-/// The processor time that all threads of this process have taken so far, where the system tells.
-pub fn processor_time() -> Option<Duration> {
-    ticks(&read_to_string("/proc/self/stat").ok()?).map(|n| n * TICK)
-}
-
-/// The unit in which Linux tells processor time, on all machines that we build for.
-const TICK: Duration = Duration::from_millis(10);
-
-/// User and system time of a line of `/proc/PID/stat`: the 14th and 15th field. The second one, the
-/// program's name in brackets, may contain anything.
-fn ticks(stat: &str) -> Option<u32> {
-    let mut fields = stat.rsplit_once(')')?.1.split_whitespace().skip(11);
-    let user: u32 = fields.next()?.parse().ok()?;
-    let system: u32 = fields.next()?.parse().ok()?;
-    Some(user + system)
 }
 
 /// The memory that may still be taken without driving others out (bytes), where the system
@@ -57,8 +39,5 @@ mod tests {
         let text = "VmPeak:\t  9 kB\nVmHWM:\t  12 kB\n";
         assert_eq!(field(text, "VmHWM:"), Some(12 << 10));
         assert_eq!(field(text, "VmSwap:"), None);
-        let stat = "31 (a (b) c) S 1 2 3 4 5 6 7 8 9 10 170 4 0 0 20";
-        assert_eq!(ticks(stat), Some(174));
-        assert_eq!(ticks("31 (name"), None);
     }
 }

@@ -8,7 +8,6 @@ pub mod discrete;
 pub mod hash;
 pub mod independent;
 pub mod kind;
-pub mod mis;
 pub mod sampler;
 pub mod sobol;
 pub mod stratified;

@@ -119,7 +119,8 @@ fn lights(
         }
     }
     for (_, node) in params.children(Class::Emitter) {
-        let is_definition = node.plugin.value == "area" && node.id.is_some();
+        // At the top of a scene it is no light but a definition, with or without an `id`.
+        let is_definition = node.plugin.value == "area";
         let is_unused = !node.properties.iter().any(Property::is_used);
         let params = Params::new(node, diagnostics);
         // One that shapes refer to has been read with them.

@@ -33,13 +33,6 @@ pub enum LookError {
         /// At the refused look.
         information: f64,
     },
-    /// The claim is decided; data after the decision cannot change it.
-    Decided,
-    /// No claim has this index.
-    NoSuchClaim {
-        /// The index.
-        index: usize,
-    },
 }
 
 impl std::fmt::Display for LookError {
@@ -53,8 +46,6 @@ impl std::fmt::Display for LookError {
                 "a look at {information} of the planned information must come after {previous}, \
                  by at least {LEAST_STEP}, and not beyond 1"
             ),
-            Self::Decided => f.write_str("the claim is decided already"),
-            Self::NoSuchClaim { index } => write!(f, "there is no claim {index}"),
         }
     }
 }
@@ -109,16 +100,6 @@ impl Boundaries {
     #[must_use]
     pub fn looks(&self) -> &[Bound] {
         &self.bounds
-    }
-
-    /// Whether these are the looks of `earlier` and one more, at this share of the information.
-    pub(crate) fn follow(&self, earlier: &Self, information: f64) -> bool {
-        let last = self.bounds.split_last();
-        last.is_some_and(|(last, before)| {
-            last.information == information
-                && before == earlier.bounds
-                && (self.alpha, self.spending) == (earlier.alpha, earlier.spending)
-        })
     }
 
     /// The critical value of the next look, at this share of the planned information. When the

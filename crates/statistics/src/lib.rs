@@ -1,5 +1,5 @@
 //! Statistics for testing simulations against each other: exact accumulators, hypothesis and
-//! equivalence tests, multiplicity, power, sequential plans, resampling, image metrics.
+//! equivalence tests, multiplicity, power, group-sequential plans, resampling, image metrics.
 //!
 //! This crate knows nothing of light: it sums numbers exactly ([`Fixed128`], [`AtomicFixed128`],
 //! [`Moments`]), describes samples of independent replicates ([`Summary`]), and decides with stated
@@ -7,18 +7,14 @@
 //!
 #![doc = include_str!("../README.md")]
 
-pub mod anderson_darling;
 pub mod atomic;
-pub mod bias_variance;
 pub mod bootstrap;
 pub mod chi_squared;
-pub mod equivalence;
 pub mod error_rates;
 pub mod estimate;
 pub mod exact;
 pub mod family;
 pub mod fault;
-pub mod flip;
 pub mod group_sequential;
 pub mod interval;
 pub mod kolmogorov_smirnov;
@@ -28,7 +24,6 @@ pub mod moments;
 pub mod multiplicity;
 pub mod noncentral_t;
 pub mod normal;
-pub mod permutation;
 pub mod picture;
 pub mod power;
 pub mod proportion;
@@ -39,7 +34,6 @@ pub mod regression;
 pub mod resampling_test;
 pub mod robust;
 mod scale_error;
-pub mod sequential;
 pub mod sign_flip;
 pub mod spending;
 pub mod student_t;
@@ -48,12 +42,9 @@ pub mod summary;
 pub mod tails;
 pub mod tiles;
 pub mod verdict;
-pub mod westfall_young;
 pub mod wide;
 
 pub use atomic::AtomicFixed128;
-pub use bias_variance::BiasVariance;
-pub use equivalence::{Bias, Equivalence};
 pub use estimate::Estimate;
 pub use exact::Fixed128;
 pub use family::{Decision, Family};
@@ -67,7 +58,6 @@ pub use ratio::Ratio;
 pub use regression::{Line, LineWithErrors};
 pub use resampling_test::ResamplingTest;
 pub use robust::Judgement;
-pub use sequential::{Campaign, Dependence, Look, SequentialClaim};
 pub use spending::Spending;
 pub use summary::Summary;
 pub use tails::Tails;

@@ -112,15 +112,15 @@ impl Pool {
         let first = task.budget(tier);
         let kind = match &claim.oracle {
             Oracle::Convergence(ladder) => {
-                let batches = convergence::batches(claim, ladder, estimator, None, first, seed)?;
+                let mut batches = convergence::Batches::default();
+                batches.extend(claim, ladder, (estimator, None), first, seed)?;
                 Kind::Exponents(batches.exponents)
             }
             Oracle::Noise {
                 of, formula, seeds, ..
             } => {
-                let counted = (*of, formula.as_str(), *seeds);
-                let (pictures, _) = noise::count(claim, counted, estimator, None, first, seed)?;
-                Kind::Coverages(pictures)
+                let counted = (*of, formula.as_str(), 0..*seeds);
+                Kind::Coverages(noise::count(claim, counted, estimator, None, first, seed)?)
             }
             Oracle::Invariance { .. } if estimator.change.is_some_and(|c| c.is_of_bits()) => {
                 Kind::Certain

@@ -86,11 +86,7 @@ fn render(
     for (key, value) in defines {
         command.arg("-D").arg(format!("{key}={value}"));
     }
-    if std::env::var_os("DRJIT_LIBLLVM_PATH").is_none()
-        && let Some(library) = llvm()
-    {
-        command.env("DRJIT_LIBLLVM_PATH", library);
-    }
+    find_llvm(&mut command);
     let output = command
         .stderr(std::process::Stdio::inherit())
         .output()
@@ -111,6 +107,15 @@ fn render(
     Ok((rendered, pixels))
 }
 
+/// Tells Mitsuba where LLVM is, unless it is told already.
+pub(crate) fn find_llvm(command: &mut Command) {
+    if std::env::var_os("DRJIT_LIBLLVM_PATH").is_none()
+        && let Some(library) = llvm()
+    {
+        command.env("DRJIT_LIBLLVM_PATH", library);
+    }
+}
+
 /// The newest LLVM that Mitsuba accepts, if the system has one.
 fn llvm() -> Option<PathBuf> {
     (17..=21).rev().find_map(|version| {
@@ -123,14 +128,24 @@ fn llvm() -> Option<PathBuf> {
     })
 }
 
+/// The Python interpreter that is to have Mitsuba.
+fn interpreter() -> PathBuf {
+    std::env::var_os("ETALON_PYTHON").map_or_else(
+        || folders::root().join("target/venv/bin/python"),
+        PathBuf::from,
+    )
+}
+
+/// A Python interpreter that has Mitsuba, if there is one already.
+pub(crate) fn installed() -> Option<PathBuf> {
+    Some(interpreter()).filter(|python| has_mitsuba(python))
+}
+
 /// A Python interpreter that has Mitsuba.
 fn python() -> Result<PathBuf, String> {
-    if let Some(python) = std::env::var_os("ETALON_PYTHON") {
-        return Ok(python.into());
-    }
-    let folder = folders::root().join("target/venv");
-    let python = folder.join("bin/python");
-    if !has_mitsuba(&python) {
+    let python = interpreter();
+    if std::env::var_os("ETALON_PYTHON").is_none() && !has_mitsuba(&python) {
+        let folder = folders::root().join("target/venv");
         println!("making {} with {MITSUBA}", folder.display());
         check(Command::new("python3").args(["-m", "venv"]).arg(&folder))?;
         let pip = ["-m", "pip", "install", "--quiet", MITSUBA, "numpy"];

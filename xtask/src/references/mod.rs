@@ -1,6 +1,6 @@
 //! `cargo xtask references`: has the references of claims rendered, by Mitsuba 3 and by POV-Ray.
 
-mod mitsuba;
+pub(crate) mod mitsuba;
 mod povray;
 
 use etalon_validation::claim::{Claim, Oracle};

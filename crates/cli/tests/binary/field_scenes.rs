@@ -195,6 +195,14 @@ fn definitions_may_stand_at_the_top() {
         said.contains("no shape refers to this `area` light"),
         "{said}"
     );
+    // Nobody can refer to one without an `id`.
+    let nameless = lamp.replace(" id=\"lamp\"", "");
+    let (colour, said) = rendered(&plain("3.0.0", &nameless));
+    near(colour, [1.0; 3], 0.02);
+    assert!(
+        said.contains("no shape refers to this `area` light"),
+        "{said}"
+    );
     // Mistakes in them are found although nobody uses them.
     let film = "<film type=\"hdrfilm\" id=\"f\"><integer name=\"widht\" value=\"3\"/></film>";
     refused(&plain("3.0.0", film), "`hdrfilm` has no parameter `widht`");

@@ -5,7 +5,6 @@
 mod discrete;
 mod evidence;
 mod hash;
-mod heuristics;
 mod quadtree;
 mod samplers;
 mod sobol;

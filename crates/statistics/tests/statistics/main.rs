@@ -2,20 +2,17 @@
 //!
 //! One binary, as each takes its time to link; one concern per file.
 
-mod anderson_darling;
 mod calibration;
 mod checks;
 mod decisions;
 mod distributions;
 mod error_rates;
 mod exact;
-mod flip;
+mod group_sequential;
 mod lowered;
 mod metrics;
 mod moments;
 mod power;
 mod regression;
 mod resampling;
-mod sequential;
 mod tails;
-mod westfall_young;

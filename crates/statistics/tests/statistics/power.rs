@@ -5,8 +5,7 @@
 #![allow(clippy::excessive_precision)]
 
 use crate::checks::near;
-use etalon_statistics::equivalence::{self, Bias};
-use etalon_statistics::{Estimate, Verdict, noncentral_t, normal, power, student_t};
+use etalon_statistics::{Estimate, noncentral_t, normal, power, student_t};
 use proptest::prelude::*;
 
 #[test]
@@ -133,50 +132,6 @@ fn power_of_equivalence() {
     assert!(power::certifiable(0.0, 9.0, 0.6, 0.9).is_nan());
 }
 
-#[test]
-fn biases() {
-    // d = 0.02, s = 0.01, ν = 14: p = P(T₁₄ > 3) = 0.004 775 8…, by mpmath.
-    let estimate = Estimate::new(0.02, 0.01, 14.0).expect("finite");
-    let tested = equivalence::test(&estimate, 0.05, 0.01);
-    near(tested.p_value, student_t::sf(3.0, 14.0), 1e-12);
-    near(tested.p_below, student_t::sf(7.0, 14.0), 1e-12);
-    assert_eq!(tested.p_above, tested.p_value);
-    assert_eq!(tested.p_value, estimate.p_agrees(0.05));
-    assert_eq!(tested.verdict, Verdict::Agrees);
-    near(
-        tested.interval.high,
-        0.02 + 0.01 * student_t::upper_quantile(0.01, 14.0),
-        1e-12,
-    );
-    assert_eq!(
-        equivalence::test(&estimate, 0.03, 0.01).verdict,
-        Verdict::Undecided
-    );
-    let far = Estimate::new(0.2, 0.01, 14.0).expect("finite");
-    assert_eq!(
-        equivalence::test(&far, 0.03, 0.01).verdict,
-        Verdict::Differs
-    );
-
-    let denominator = equivalence::denominator(0.002, 0.5).expect("positive");
-    assert_eq!(denominator, 0.025);
-    assert_eq!(equivalence::denominator(-0.5, 0.5), Some(0.5));
-    assert_eq!(equivalence::denominator(0.0, 0.0), None);
-    assert_eq!(equivalence::denominator(f64::NAN, 1.0), None);
-    let bias = Bias::new(estimate, denominator).expect("positive");
-    near(bias.relative().value(), 0.8, 1e-14);
-    near(bias.relative().standard_error(), 0.4, 1e-14);
-    assert_eq!(bias.absolute(), estimate);
-    assert_eq!(bias.test(2.0, 0.01).verdict, Verdict::Agrees);
-    near(
-        bias.bound(0.99),
-        0.8 + 0.4 * student_t::upper_quantile(0.005, 14.0),
-        1e-12,
-    );
-    assert_eq!(Bias::new(estimate, 0.0), None);
-    assert_eq!(Bias::new(estimate, 1e-320), None);
-}
-
 proptest! {
     #![proptest_config(ProptestConfig {
         cases: 64,
@@ -184,20 +139,6 @@ proptest! {
         failure_persistence: None,
         ..ProptestConfig::default()
     })]
-
-    /// Both one-sided tests reject exactly when the interval of confidence 1 − 2α is inside.
-    #[test]
-    fn tests_and_intervals_are_one(
-        value in -2.0..2.0_f64, error in 0.01..1.0_f64, df in 1.0..100.0_f64,
-        margin in 0.1..3.0_f64, alpha in 1e-6..0.4_f64,
-    ) {
-        let estimate = Estimate::new(value, error, df).expect("finite");
-        let tested = equivalence::test(&estimate, margin, alpha);
-        let edge = (tested.interval.bound() / margin - 1.0).abs();
-        if edge > 1e-9 {
-            prop_assert_eq!(tested.verdict == Verdict::Agrees, tested.interval.bound() <= margin);
-        }
-    }
 
     /// More effect, more degrees of freedom or a laxer level: more power.
     #[test]

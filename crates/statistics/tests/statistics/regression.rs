@@ -1,11 +1,10 @@
-//! Lines with known errors, and bias apart from variance, against 30-digit arithmetic (mpmath) and
-//! their own error rates.
+//! Lines with known errors against 30-digit arithmetic (mpmath) and their own error rates.
 
 // Reference values keep the digits they were computed to.
 #![allow(clippy::excessive_precision)]
 
 use crate::checks::{Random, near};
-use etalon_statistics::{BiasVariance, Line, Summary, proportion};
+use etalon_statistics::{Line, proportion};
 
 #[test]
 fn known_errors() {
@@ -120,90 +119,4 @@ fn logarithms_are_corrected() {
     near(fit.line.slope.value(), -1.0, 1e-13);
     near(fit.line.intercept.value(), 1.098_612_288_668_109_7, 1e-13);
     near(fit.p_straight, 1.0, 1e-12);
-}
-
-/// The jackknife by its definition: the estimates without each replicate, one by one.
-#[test]
-fn leaving_out_replicates() {
-    let replicates = [1.1, 2.3, 0.8, 1.9, 1.3, 2.2, 0.9, 1.6, 1.4, 2.1];
-    let truth = [1.0, 2.0];
-    let whole = BiasVariance::of(&replicates, &truth).expect("replicates");
-    let without: Vec<BiasVariance> = (0..5)
-        .map(|left_out| {
-            let (before, after) = replicates.split_at(2 * left_out);
-            let rest = [before, &after[2..]].concat();
-            BiasVariance::of(&rest, &truth).expect("replicates")
-        })
-        .collect();
-    for part in [
-        |parts: &BiasVariance| parts.mean_squared_error,
-        |parts: &BiasVariance| parts.bias_squared,
-        |parts: &BiasVariance| parts.variance,
-    ] {
-        let values: Vec<f64> = without.iter().map(|parts| part(parts).value()).collect();
-        let spread = Summary::of(&values).expect("finite").variance() * 4.0;
-        near(
-            part(&whole).standard_error(),
-            (spread * 4.0 / 5.0).sqrt(),
-            1e-10,
-        );
-    }
-}
-
-#[test]
-fn one_number_by_hand() {
-    // For a single number bias² is (x̄ − t)² − s²/R and the variance s².
-    let sample = [1.1, 0.8, 1.3, 0.9, 1.4];
-    let parts = BiasVariance::of(&sample, &[1.0]).expect("replicates");
-    let summary = Summary::of(&sample).expect("finite");
-    let bias = summary.mean() - 1.0;
-    near(parts.variance.value(), summary.variance(), 1e-12);
-    near(
-        parts.bias_squared.value(),
-        bias * bias - summary.variance_of_mean(),
-        1e-12,
-    );
-    near(
-        parts.mean_squared_error.value(),
-        (0.01 + 0.04 + 0.09 + 0.01 + 0.16) / 5.0,
-        1e-12,
-    );
-    // The jackknife's error of a mean is its standard error.
-    let squares = sample.map(|x| (x - 1.0) * (x - 1.0));
-    near(
-        parts.mean_squared_error.standard_error(),
-        Summary::of(&squares).expect("finite").standard_error(),
-        1e-12,
-    );
-    assert_eq!(BiasVariance::of(&sample[..2], &[1.0]), None);
-    assert_eq!(BiasVariance::of(&sample, &[1.0, 1.0]), None);
-    assert_eq!(BiasVariance::of(&[f64::NAN; 3], &[1.0]), None);
-}
-
-/// Sixteen replicates of 50 pixels with a common error (so pixels depend on each other), variance
-/// 0.05 and bias 0 or 0.3: the estimates' means over 400 runs are right within four standard errors,
-/// and without bias the squared bias is negative about half the time.
-#[test]
-fn bias_and_variance_are_told_apart() {
-    let mut random = Random(8);
-    for bias in [0.0, 0.3] {
-        let (mut squares, mut variances, mut negative) = (Vec::new(), Vec::new(), 0);
-        for _ in 0..400 {
-            let mut replicates = Vec::new();
-            for _ in 0..16 {
-                let common = 0.1 * random.normal();
-                replicates.extend((0..50).map(|_| 1.0 + bias + common + 0.2 * random.normal()));
-            }
-            let parts = BiasVariance::of(&replicates, &[1.0; 50]).expect("replicates");
-            negative += u32::from(parts.bias_squared.value() < 0.0);
-            squares.push(parts.bias_squared.value());
-            variances.push(parts.variance.value());
-        }
-        for (values, truth) in [(squares, bias * bias), (variances, 0.05)] {
-            let summary = Summary::of(&values).expect("finite");
-            let distance = (summary.mean() - truth).abs() / summary.standard_error();
-            assert!(distance < 4.0, "{bias}: {distance}");
-        }
-        assert_eq!((100..320).contains(&negative), bias == 0.0, "{negative}");
-    }
 }

@@ -7,9 +7,7 @@ use crate::checks::{Random, near};
 use etalon_statistics::bootstrap::{self, Plan};
 use etalon_statistics::ratio::{self, Known};
 use etalon_statistics::sign_flip::{self, Side};
-use etalon_statistics::{
-    Estimate, Interval, Summary, permutation, proportion, student_t, studentised,
-};
+use etalon_statistics::{Estimate, Interval, Summary, proportion, student_t, studentised};
 use proptest::prelude::*;
 
 #[test]
@@ -86,27 +84,6 @@ fn typical_values() {
         "{drawn:?} {student:?}"
     );
     assert_eq!(sign_flip::interval(&spread, 0.9999, 9_999, 4), None);
-}
-
-#[test]
-fn permutations() {
-    // 150 of 462 by enumeration of |t| (Python's itertools over SciPy's `ttest_ind`).
-    let a = [27.5, 21.0, 19.0, 23.6, 17.0];
-    let b = [27.1, 22.0, 20.8, 23.4, 23.5, 25.8];
-    let exact = permutation::test(&a, &b, 1, 0).expect("finite");
-    assert!(exact.exact);
-    near(exact.p_value, 150.0 / 462.0, 1e-14);
-    near(exact.least, 1.0 / 462.0, 1e-14);
-    // Twelve and twelve are drawn: 2.7 million divisions. Quite different: as small as can be.
-    let low: Vec<f64> = (0..12).map(f64::from).collect();
-    let high: Vec<f64> = low.iter().map(|x| x + 100.0).collect();
-    let drawn = permutation::test(&low, &high, 499, 3).expect("finite");
-    assert!(!drawn.exact);
-    near(drawn.p_value, 1.0 / 500.0, 1e-12);
-    let same = permutation::test(&[1.0; 4], &[1.0; 4], 9, 3).expect("finite");
-    assert_eq!(same.p_value, 1.0);
-    assert_eq!(permutation::test(&[1.0], &b, 9, 3), None);
-    assert_eq!(permutation::test(&[1.0, f64::NAN], &b, 9, 3), None);
 }
 
 /// Efron & Tibshirani's (1993) law school data: entrance test and grades, correlation 0.776.
