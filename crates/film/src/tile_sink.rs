@@ -195,6 +195,12 @@ impl TileSink for ExactTile<'_> {
         }
         self.begin_spread(pixel, placement);
     }
+
+    fn radiance_alone(&mut self, rgb: [f32; 3], alpha: f32) {
+        let spreading = std::mem::replace(&mut self.spreading, false);
+        self.radiance(rgb, alpha);
+        self.spreading = spreading;
+    }
 }
 
 impl ExactTile<'_> {

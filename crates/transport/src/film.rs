@@ -47,6 +47,13 @@ pub trait TileSink: Sink {
     fn begin_placed(&mut self, pixel: UVec2, placement: &Placement) {
         self.begin_sample(pixel, placement.weight);
     }
+
+    /// Adds radiance and alpha, as a part of what the current sample found, to its pixel alone: what counts for that
+    /// pixel by the filter already. Not for samples of pixels around the film.
+    #[inline]
+    fn radiance_alone(&mut self, rgb: [f32; 3], alpha: f32) {
+        self.radiance(rgb, alpha);
+    }
 }
 
 /// Where samples go.
