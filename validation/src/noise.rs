@@ -13,7 +13,8 @@
 //!   where a replicate has many samples or their noise is known to be nearly normal.
 //!
 //! Trials are independent: those of different seeds are, and so are pixels of one picture, and tiles
-//! which share no pixel, unless the integrator splats. One channel is counted, as those of a pixel
+//! which share no pixel, unless the integrator splats or pixels share samples: claims are of films whose filter is `box` or
+//! importance-sampled (checked). One channel is counted, as those of a pixel
 //! are not independent of each other. Errors are relative to the truth.
 
 use crate::claim::{Budget, Claim, Estimator};
@@ -23,7 +24,7 @@ use crate::measure::{self, Measure};
 use crate::rendering;
 use crate::samples;
 use etalon::judge::{self, Known};
-use etalon_film::Developed;
+use etalon_film::{Developed, Metadata};
 use etalon_statistics::{Estimate, Summary, proportion};
 use serde::Deserialize;
 use std::ops::Range;
@@ -98,6 +99,10 @@ pub fn count(
         let seed = seed.wrapping_add((u64::from(number) + 1) << 32);
         let plan = rendering::plan(&loaded, estimator, budget, seed);
         let picture = rendering::picture(&loaded, &plan, estimator, None, None)?;
+        let shared = |metadata: &Metadata| metadata.film.filter_method.is_some();
+        if picture.metadata.as_ref().is_some_and(shared) {
+            return Err("pixels that share samples depend on each other".to_owned());
+        }
         let mut trials = match of {
             Means::Pixels => pixels(&picture, &known)?,
             Means::Tiles => tiles(&picture, &known)?,

@@ -312,8 +312,8 @@ pub struct InfoArgs {
 /// A sample to be drawn again.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct ReplayAddress {
-    /// Column and row of its pixel.
-    pub pixel: [u32; 2],
+    /// Column and row of its pixel, which may lie around the film.
+    pub pixel: [i32; 2],
     /// Its replicate.
     pub replicate: u32,
     /// Its number within pixel and replicate.
@@ -321,17 +321,18 @@ pub struct ReplayAddress {
 }
 
 fn parse_replay(text: &str) -> Result<ReplayAddress, String> {
-    let numbers: Option<Vec<u32>> = text.split(',').map(|n| n.trim().parse().ok()).collect();
-    match numbers.as_deref() {
-        Some(&[x, y, replicate, sample]) => Ok(ReplayAddress {
-            pixel: [x, y],
-            replicate,
-            sample,
-        }),
-        _ => Err(
-            "expected four numbers, such as 12,7,0,3: column, row, replicate, sample".to_owned(),
-        ),
-    }
+    let address = || {
+        let mut words = text.split(',').map(str::trim);
+        let address = ReplayAddress {
+            pixel: [words.next()?.parse().ok()?, words.next()?.parse().ok()?],
+            replicate: words.next()?.parse().ok()?,
+            sample: words.next()?.parse().ok()?,
+        };
+        words.next().is_none().then_some(address)
+    };
+    address().ok_or_else(|| {
+        "expected four numbers, such as 12,7,0,3: column, row, replicate, sample".to_owned()
+    })
 }
 
 /// A whole number from `LOW` to `HIGH`.

@@ -171,6 +171,16 @@ impl Placing for KeptFilm {
     }
 
     #[inline]
+    fn place_alone(&self, pixel: UVec2, u: Vec2) -> Placement {
+        self.film.place_alone(pixel, u)
+    }
+
+    #[inline]
+    fn shares_samples(&self) -> bool {
+        self.film.shares_samples()
+    }
+
+    #[inline]
     fn dealt(&self, pixel: UVec2, even: u32) -> u32 {
         self.film.dealt(pixel, even)
     }
@@ -189,6 +199,10 @@ impl Film for KeptFilm {
 
     fn margin(&self) -> f32 {
         self.film.margin()
+    }
+
+    fn rim(&self) -> u32 {
+        self.film.rim()
     }
 
     fn light_paths(&self) -> u32 {

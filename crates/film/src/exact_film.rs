@@ -10,19 +10,20 @@
 
 use crate::exact_sums::{EXACT, ExactSums};
 use crate::faults::{FaultLog, Offence};
+use crate::filter_method::FilterMethod;
+use crate::footprint::Footprint;
 use crate::outliers::{OutlierLog, Standing};
 use crate::pixel_moments::PixelMoments;
 use crate::replicate_end::{self, Divisor};
 use crate::running::{Running, reserved};
 use crate::sample_counts::{SAMPLES, SampleCounts};
 use crate::tile_means::TileMeans;
-use crate::tile_sink::ExactTile;
-use crate::unfinished::Unfinished;
+use crate::unfinished::{Unfinished, reached};
 use crate::{FilmSettings, Metadata, PixelFilter};
 use etalon_params::Diagnostic;
 use etalon_statistics::{Fault, Fixed128};
-use etalon_transport::{Channel, Film, Placement, Placing};
-use glam::{UVec2, Vec2};
+use etalon_transport::Channel;
+use glam::{IVec2, UVec2};
 
 /// What the name of a channel with standard errors begins with.
 pub const STANDARD_ERROR: &str = "standard_error.";
@@ -32,6 +33,8 @@ pub const STANDARD_ERROR: &str = "standard_error.";
 pub struct ExactFilm {
     settings: FilmSettings,
     filter: PixelFilter,
+    /// What a sample counts around it, if its pixel is not the only one.
+    footprint: Option<Footprint>,
     /// All channels: colours, alpha, then the integrator's.
     channels: Vec<String>,
     /// The replicate being rendered.
@@ -43,7 +46,7 @@ pub struct ExactFilm {
     replicates: u32,
     samples: u64,
     /// The samples of each pixel in a replicate, if they are not dealt evenly.
-    counts: Option<SampleCounts>,
+    pub(crate) counts: Option<SampleCounts>,
     tiles: [TileMeans; 3],
     faults: FaultLog,
     outliers: OutlierLog,
@@ -82,7 +85,11 @@ impl ExactFilm {
         let pixels = u64::from(size.x) * u64::from(size.y);
         let count = pixels * channels.len() as u64;
         let colours = format.colours().len();
-        let running = Running::new(pixels, channels.len(), colours);
+        let method = settings.filter_method.with(&settings.filter);
+        let footprint =
+            (method != FilterMethod::ImportanceSampling).then(|| Footprint::new(&settings.filter));
+        let weighted = method == FilterMethod::WeightedMean;
+        let running = Running::new(pixels, channels.len(), colours, weighted);
         let (Some(running), Some(mut moments)) = (running, reserved(count)) else {
             let (w, h, n) = (size.x, size.y, channels.len());
             let message = format!("there is no memory for {w} × {h} pixels of {n} channels");
@@ -93,6 +100,7 @@ impl ExactFilm {
         let means = |side| TileMeans::new(side, size.to_array(), channels.len() as u32);
         Ok(Self {
             filter: PixelFilter::new(settings.filter),
+            footprint,
             running,
             moments,
             first: 0,
@@ -194,11 +202,15 @@ impl ExactFilm {
         self.outliers
             .merge(self.running.outliers(origin, size.x, replicate));
         let mut lost = FaultLog::default();
-        let whole = self.running.whole(|pixel, channel, fault| {
+        let (divisor, of_splats) = match divisor {
+            Divisor::Even(samples) if self.running.is_weighted() => (Divisor::Even(1), samples),
+            divisor => (divisor, 1),
+        };
+        let whole = self.running.whole(of_splats, |pixel, channel, fault| {
             let place = UVec2::new(pixel as u32 % size.x, pixel as u32 / size.x);
             lost.note(Offence {
                 replicate,
-                pixel: (origin + place).to_array(),
+                pixel: (origin + place).as_ivec2().to_array(),
                 sample: None,
                 source: self.channels[channel].clone(),
                 kind: fault.into(),
@@ -243,7 +255,19 @@ impl ExactFilm {
 
     /// The replicate that is not finished, if it has been begun.
     pub(crate) fn unfinished(&mut self) -> Option<Unfinished> {
-        self.running.snapshot()
+        let mut unfinished = self.running.snapshot()?;
+        if let Some(footprint) = self
+            .footprint
+            .as_ref()
+            .filter(|_| !self.running.is_weighted())
+        {
+            let size = self.settings.crop_size.to_array().map(|n| n as usize);
+            let counts = (0..).zip(&unfinished.samples);
+            let weighted =
+                counts.map(|(pixel, n)| f64::from(*n) * f64::from(self.weight_of(pixel)));
+            unfinished.weights = reached(footprint, weighted.collect(), size);
+        }
+        Some(unfinished)
     }
 
     /// Makes it go on with a replicate that is not finished, of as many pixels and channels.
@@ -272,8 +296,7 @@ impl ExactFilm {
         faults: &mut FaultLog,
     ) {
         let index = self.index(pixel - self.settings.crop_offset);
-        let pairs = self.running.of_pixel(index).iter().zip(sums);
-        for (channel, (current, sum)) in pairs.enumerate() {
+        for (channel, (current, sum)) in self.running.of_pixel(index).zip(sums).enumerate() {
             let outcome = if alone {
                 current.merge_alone(*sum)
             } else {
@@ -281,7 +304,8 @@ impl ExactFilm {
             };
             *sum = Fixed128::ZERO;
             if let Err(fault) = outcome {
-                faults.note(self.offence(pixel, None, &self.channels[channel], fault));
+                let source = self.channels.get(channel).map_or("weight", String::as_str);
+                faults.note(self.offence(pixel.as_ivec2(), None, source, fault));
             }
         }
     }
@@ -289,6 +313,35 @@ impl ExactFilm {
     /// Adds a splat's colours to a pixel counted within the crop; says whether all went well.
     pub(crate) fn splat(&self, pixel: UVec2, colours: &[f32]) -> Result<(), Fault> {
         self.running.splat(self.index(pixel), colours)
+    }
+
+    /// What a sample counts around it, if its pixel is not the only one.
+    pub(crate) fn footprint(&self) -> Option<&Footprint> {
+        self.footprint.as_ref()
+    }
+
+    /// How many sums a pixel has: its channels', and that of the weights if they are divided by it.
+    pub(crate) fn sums_per_pixel(&self) -> usize {
+        self.channels.len() + usize::from(self.running.is_weighted())
+    }
+
+    /// The pixel of the film next to a pixel, counted from the crop's first, that may lie around it.
+    pub(crate) fn nearest(&self, pixel: IVec2) -> UVec2 {
+        let last = self.settings.crop_size.as_ivec2() - 1;
+        pixel.clamp(IVec2::ZERO, last).as_uvec2() + self.settings.crop_offset
+    }
+
+    /// What a sample of a pixel counts where pixels share samples and have different numbers of them: their mean over
+    /// its own.
+    pub(crate) fn deal_weight(&self, pixel: UVec2) -> f32 {
+        self.weight_of(self.index(pixel - self.settings.crop_offset))
+    }
+
+    fn weight_of(&self, index: usize) -> f32 {
+        let counts = self.counts.as_ref().filter(|_| self.footprint.is_some());
+        counts.map_or(1.0, |counts| {
+            counts.rounded_mean() as f32 / counts.of_pixels()[index] as f32
+        })
     }
 
     /// The number of the replicate that is being rendered.
@@ -299,7 +352,7 @@ impl ExactFilm {
     /// The record of a refused number.
     pub(crate) fn offence(
         &self,
-        pixel: UVec2,
+        pixel: IVec2,
         sample: Option<u32>,
         source: &str,
         fault: Fault,
@@ -319,73 +372,8 @@ impl ExactFilm {
     }
 
     /// The place of a pixel counted within the crop.
-    fn index(&self, pixel: UVec2) -> usize {
+    pub(crate) fn index(&self, pixel: UVec2) -> usize {
         let width = self.settings.crop_size.x as usize;
         pixel.y as usize * width + pixel.x as usize
-    }
-}
-
-impl Placing for ExactFilm {
-    #[inline]
-    fn place(&self, pixel: UVec2, u: Vec2) -> Placement {
-        let (offset, weight) = self.filter.sample(u);
-        let raster = pixel.as_vec2() + 0.5 + offset;
-        Placement { raster, weight }
-    }
-
-    #[inline]
-    fn dealt(&self, pixel: UVec2, even: u32) -> u32 {
-        let Some(counts) = &self.counts else {
-            return even;
-        };
-        counts.of_pixels()[self.index(pixel - self.settings.crop_offset)]
-    }
-}
-
-impl Film for ExactFilm {
-    type Tile<'f> = ExactTile<'f>;
-
-    fn origin(&self) -> UVec2 {
-        self.settings.crop_offset
-    }
-
-    #[expect(
-        clippy::misnamed_getters,
-        reason = "to a renderer, the film is its crop"
-    )]
-    fn size(&self) -> UVec2 {
-        self.settings.crop_size
-    }
-
-    fn margin(&self) -> f32 {
-        self.filter.margin()
-    }
-
-    fn light_paths(&self) -> u32 {
-        match self.filter.catches_splats() {
-            true => self.settings.crop_size.element_product(),
-            false => 0,
-        }
-    }
-
-    fn tile(&self, from: UVec2, to: UVec2, alone: bool) -> ExactTile<'_> {
-        ExactTile::new(self, from, to, alone)
-    }
-
-    fn done(&self, pixel: UVec2) -> u32 {
-        let index = self.index(pixel - self.settings.crop_offset);
-        self.running.samples(index)
-    }
-
-    fn end_replicate(&mut self, samples: u32) {
-        let counts = self.counts.take();
-        match &counts {
-            Some(counts) => {
-                self.finish_replicate(Divisor::OfPixels(counts.of_pixels()), samples.into());
-            }
-            None if samples == 0 => return,
-            None => self.finish_replicate(Divisor::Even(samples.into()), samples.into()),
-        }
-        self.counts = counts;
     }
 }

@@ -30,8 +30,8 @@ impl From<Fault> for FaultKind {
 pub struct Offence {
     /// The replicate.
     pub replicate: u32,
-    /// The pixel for which the sample was drawn.
-    pub pixel: [u32; 2],
+    /// The pixel for which the sample was drawn; it may lie a little outside of the film.
+    pub pixel: [i32; 2],
     /// The index of the sample within the pixel and replicate; absent where only the sum of
     /// many is out of range.
     #[serde(default, skip_serializing_if = "Option::is_none")]

@@ -31,12 +31,12 @@ impl ExactFilm {
         let planes: Vec<&[f32]> = planes.collect::<Result<_, String>>()?;
         let mut log = FaultLog::default();
         for i in 0..size[0] * size[1] {
-            let sums = self.running.of_pixel(i).iter();
+            let sums = self.running.of_pixel(i);
             for ((sum, plane), name) in sums.zip(&planes).zip(self.channels()) {
                 if let Err(fault) = sum.add(plane[i]) {
                     let place = [i % size[0], i / size[0]].map(|n| n as u32);
                     let pixel = UVec2::from(place) + self.settings().crop_offset;
-                    log.note(self.offence(pixel, None, name, fault));
+                    log.note(self.offence(pixel.as_ivec2(), None, name, fault));
                 }
             }
         }

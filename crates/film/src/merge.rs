@@ -77,7 +77,9 @@ pub fn disagreements(first: &Metadata, second: &Metadata) -> Vec<Disagreement> {
             format!("{w} × {h} pixels, of these {cw} × {ch} at {x}, {y}")
         }),
         ("filter", |m| {
-            format!("{}, {}", m.film.filter, m.film.pixel_format)
+            let method = m.film.filter_method.as_deref();
+            let method = method.unwrap_or("importance_sampling");
+            format!("{} ({method}), {}", m.film.filter, m.film.pixel_format)
         }),
         ("list of channels", |m| m.channels.join(", ")),
         ("choice of tiles", |m| {

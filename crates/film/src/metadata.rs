@@ -51,6 +51,9 @@ pub struct FilmFacts {
     pub pixel_format: String,
     /// The reconstruction filter and its parameters.
     pub filter: String,
+    /// How it was applied; absent where no sample is shared between pixels.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub filter_method: Option<String>,
 }
 
 /// Everything a file says of itself.
@@ -140,6 +143,9 @@ impl Metadata {
                 crop_size: settings.crop_size.to_array(),
                 pixel_format: settings.pixel_format.name().to_owned(),
                 filter: settings.filter.to_string(),
+                filter_method: film
+                    .footprint()
+                    .map(|_| settings.filter_method.name().to_owned()),
             },
             channels: film.channels().to_vec(),
             faults: film.faults(),

@@ -109,7 +109,7 @@ impl Layout<'_> {
                     let pixel = self.origin + UVec2::new(x, row * SIDE + y);
                     log.note(Offence {
                         replicate: self.replicate,
-                        pixel: pixel.to_array(),
+                        pixel: pixel.as_ivec2().to_array(),
                         sample: None,
                         source: self.channels[channel].clone(),
                         kind: fault.into(),

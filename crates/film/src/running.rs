@@ -22,6 +22,8 @@ pub(crate) struct Running {
     /// What splats bring to the colours; made for the first of them.
     colours: usize,
     splats: OnceLock<Box<[AtomicFixed128]>>,
+    /// What samples count for each pixel, by row and column, if sums are divided by it; else empty.
+    weights: Vec<AtomicFixed128>,
     /// By row and column.
     pixels: Vec<PixelProgress>,
     /// What was refused in it.
@@ -38,24 +40,39 @@ struct PixelProgress {
 
 impl Running {
     /// Nothing yet, for so many pixels; `None` if there is no memory for it.
-    pub(crate) fn new(pixels: u64, channels: usize, colours: usize) -> Option<Self> {
+    pub(crate) fn new(
+        pixels: u64,
+        channels: usize,
+        colours: usize,
+        weighted: bool,
+    ) -> Option<Self> {
         let sums = pixels.checked_mul(channels as u64)?;
         let (mut own, mut progress) = (reserved(sums)?, reserved(pixels)?);
         own.resize_with(sums as usize, AtomicFixed128::new);
         progress.resize_with(pixels as usize, PixelProgress::default);
+        let weighted = if weighted { pixels } else { 0 };
+        let mut weights = reserved(weighted)?;
+        weights.resize_with(weighted as usize, AtomicFixed128::new);
         Some(Self {
             channels,
             own,
             colours,
             splats: OnceLock::new(),
+            weights,
             pixels: progress,
             faults: Mutex::default(),
         })
     }
 
-    /// The sums of a pixel's samples.
-    pub(crate) fn of_pixel(&self, pixel: usize) -> &[AtomicFixed128] {
-        &self.own[pixel * self.channels..][..self.channels]
+    /// The sums of a pixel's samples, and that of what they count if sums are divided by it.
+    pub(crate) fn of_pixel(&self, pixel: usize) -> impl Iterator<Item = &AtomicFixed128> {
+        let own = &self.own[pixel * self.channels..][..self.channels];
+        own.iter().chain(self.weights.get(pixel))
+    }
+
+    /// Whether sums are divided by what samples count.
+    pub(crate) fn is_weighted(&self) -> bool {
+        !self.weights.is_empty()
     }
 
     /// Adds the colours of a splat to a pixel; says whether all went well.
@@ -121,18 +138,33 @@ impl Running {
         log
     }
 
-    /// Adds the splats to the sums of the pixels, and gives these, to be emptied. `refuse` hears of
+    /// Adds the splats to the sums of the pixels, and gives these, to be emptied. Sums that are divided by what samples
+    /// count become means, and splats are divided by `samples` then. `refuse` hears of
     /// sums that leave their range, by pixel and channel.
     pub(crate) fn whole(
         &mut self,
+        samples: u64,
         mut refuse: impl FnMut(usize, usize, Fault),
     ) -> &mut [AtomicFixed128] {
+        let weights = self.weights.iter_mut();
+        let pixels = self.own.chunks_exact_mut(self.channels).zip(weights);
+        for (pixel, (own, weight)) in pixels.enumerate() {
+            let weight = weight.take().to_f64();
+            for (channel, sum) in own.iter_mut().enumerate() {
+                let total = sum.take().to_f64();
+                let mean = if total == 0.0 { 0.0 } else { total / weight };
+                match Fixed128::from_f64(mean) {
+                    Ok(mean) => *sum = AtomicFixed128::from_fixed(mean),
+                    Err(fault) => refuse(pixel, channel, fault),
+                }
+            }
+        }
         if let Some(splats) = self.splats.get_mut() {
             let pixels = self.own.chunks_exact_mut(self.channels);
             let splats = splats.chunks_exact_mut(self.colours);
             for (pixel, (own, splats)) in pixels.zip(splats).enumerate() {
                 for (channel, (own, splat)) in own.iter_mut().zip(splats).enumerate() {
-                    if let Err(fault) = own.merge_alone(splat.take()) {
+                    if let Err(fault) = own.merge_alone(splat.take().mean_fixed(samples)) {
                         refuse(pixel, channel, fault);
                     }
                 }
@@ -157,6 +189,7 @@ impl Running {
         let read =
             |sums: &mut [AtomicFixed128]| sums.iter_mut().map(AtomicFixed128::load).collect();
         Some(Unfinished {
+            weights: read(&mut self.weights),
             standing: pixels.map(|pixel| self.standing(pixel)).collect(),
             samples,
             own: read(&mut self.own),
@@ -177,6 +210,10 @@ impl Running {
             self.advance(pixel, *samples, standing);
         }
         self.own = made(unfinished.own).collect();
+        // Those of other methods follow from the numbers of samples.
+        if self.is_weighted() {
+            self.weights = made(unfinished.weights).collect();
+        }
         self.splats = match unfinished.splats.is_empty() {
             true => OnceLock::new(),
             false => OnceLock::from(made(unfinished.splats).collect::<Box<[_]>>()),

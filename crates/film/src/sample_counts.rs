@@ -40,6 +40,12 @@ impl SampleCounts {
         self.of_pixel.iter().map(|&count| u64::from(count)).sum()
     }
 
+    /// The mean over pixels, rounded; 1 at least.
+    pub(crate) fn rounded_mean(&self) -> u32 {
+        let pixels = self.of_pixel.len() as u64;
+        ((self.total() + pixels / 2) / pixels).max(1) as u32
+    }
+
     /// What a file says of them.
     pub fn facts(&self) -> DealtFacts {
         let mut hasher = blake3::Hasher::new();

@@ -1,6 +1,6 @@
 //! The film of a scene: `hdrfilm`.
 
-use crate::{Filter, PixelFormat};
+use crate::{Filter, FilterMethod, PixelFormat};
 use etalon_params::{Class, Diagnostic, Params};
 use glam::UVec2;
 
@@ -42,6 +42,8 @@ pub struct FilmSettings {
     pub file_format: FileFormat,
     /// The reconstruction filter.
     pub filter: Filter,
+    /// How it is applied.
+    pub filter_method: FilterMethod,
 }
 
 impl FilmSettings {
@@ -59,6 +61,7 @@ impl FilmSettings {
             pixel_format: PixelFormat::default(),
             file_format: FileFormat::default(),
             filter,
+            filter_method: FilterMethod::default(),
         }
     }
 
@@ -75,8 +78,8 @@ impl FilmSettings {
     /// Reads an `hdrfilm` with Mitsuba's names and defaults; mistakes go to
     /// `params.diagnostics`. Calling `finish` on `params` is left to the caller.
     ///
-    /// `sample_border` is accepted, but all films behave as if it were true: samples of the
-    /// pixels beyond the border are not needed, since no sample is shared between pixels.
+    /// `sample_border` is accepted, but all films behave as if it were true: where pixels share samples, so do
+    /// those beyond the border.
     /// Numbers are always stored as 32-bit floats.
     pub fn from_params(params: &Params<'_>) -> Self {
         params.boolean_or("sample_border", false);
@@ -139,6 +142,7 @@ impl FilmSettings {
                 filter
             })
             .unwrap_or_default();
+        let filter_method = filter_method(params, &filter);
         Self {
             size,
             crop_offset: UVec2::ZERO,
@@ -146,8 +150,30 @@ impl FilmSettings {
             pixel_format: pixel_format.map_or_else(PixelFormat::default, |(_, format)| format),
             file_format,
             filter,
+            filter_method,
         }
     }
+}
+
+/// Reads `filter_method`; says so where the filter is too wide for what was asked.
+fn filter_method(params: &Params<'_>, filter: &Filter) -> FilterMethod {
+    let names = FilterMethod::ALL.map(|(name, _)| name);
+    let name = params.choice("filter_method", FilterMethod::default().name(), &names);
+    let named = FilterMethod::ALL
+        .into_iter()
+        .find(|(known, _)| *known == name);
+    let method = named.map_or_else(FilterMethod::default, |(_, method)| method);
+    if filter.radius() > FilterMethod::WIDEST && method != FilterMethod::ImportanceSampling {
+        let property = params.property("filter_method");
+        let span = property.map_or(params.node.plugin.span, |p| p.span);
+        let message = format!(
+            "the filter reaches {:.1} pixels far: it is importance-sampled, since pixels share samples up to {} pixels",
+            filter.radius(),
+            FilterMethod::WIDEST
+        );
+        params.diagnostics.push(Diagnostic::note(span, message));
+    }
+    method
 }
 
 /// Reports a crop that ends beyond the film, at the first of these parameters that is given.

@@ -1,28 +1,37 @@
-//! The sink of a tile: a pixel's samples are summed here and delivered once.
+//! The sink of a tile: a pixel's samples are summed here and delivered once, and those that pixels share are
+//! summed for the whole tile ([`crate::spread`]).
 
 use crate::outliers::Standing;
+use crate::spread::{Spread, Term};
 use crate::{ExactFilm, faults::FaultLog, splat::Taps};
 use etalon_statistics::{Fault, Fixed128};
-use etalon_transport::{Sink, TileSink};
-use glam::{UVec2, Vec2};
+use etalon_transport::{Film, Placement, Sink, TileSink};
+use glam::{IVec2, UVec2, Vec2};
 
 /// Takes the samples of one tile's pixels, one pixel after the other.
 #[derive(Debug)]
 pub struct ExactTile<'f> {
     film: &'f ExactFilm,
     alone: bool,
-    /// The pixel's sums: colours, alpha, the integrator's channels.
+    /// The pixel's sums: colours, alpha, the integrator's channels, and what samples count if the film divides by it.
     sums: Vec<Fixed128>,
+    /// Where samples count that pixels share, and whether the current one is one of them.
+    spread: Option<Box<Spread>>,
+    spreading: bool,
     colours: usize,
     from: UVec2,
     to: UVec2,
     pixel: UVec2,
+    /// The place of the current sample's pixel: that, or one around the film.
+    place: IVec2,
     /// Samples begun in this pixel, and the number of the first of them in the replicate.
     samples: u32,
     first: u32,
     /// What all of the pixel's samples so far bring.
     standing: Standing,
     weight: f32,
+    /// What samples of this pixel count besides.
+    dealt: f32,
     taps: Taps,
     faults: FaultLog,
 }
@@ -35,18 +44,28 @@ impl<'f> ExactTile<'f> {
             from.cmpge(begin).all() && to.cmple(end).all(),
             "a tile lies within the crop"
         );
+        let sums = film.sums_per_pixel();
+        let spread = film.footprint().map(|footprint| {
+            let within = [from - begin, to - begin].map(|corner| corner.as_ivec2());
+            let size = film.settings().crop_size.as_ivec2();
+            Box::new(Spread::new(footprint, within, size, sums))
+        });
         Self {
             film,
             alone,
-            sums: vec![Fixed128::ZERO; film.channels().len()],
+            sums: vec![Fixed128::ZERO; sums],
+            spread,
+            spreading: false,
             colours: film.settings().pixel_format.colours().len(),
             from,
             to,
             pixel: from,
+            place: from.as_ivec2(),
             samples: 0,
             first: 0,
             standing: Standing::default(),
             weight: 1.0,
+            dealt: 1.0,
             taps: Taps::default(),
             faults: FaultLog::default(),
         }
@@ -55,21 +74,54 @@ impl<'f> ExactTile<'f> {
     #[cold]
     fn refuse(&mut self, source: &str, fault: Fault) {
         let sample = self.samples.checked_sub(1).map(|n| self.first + n);
-        let offence = self.film.offence(self.pixel, sample, source, fault);
+        let offence = self.film.offence(self.place, sample, source, fault);
         self.faults.note(offence);
     }
 
     /// Notes what the sample brings.
     #[inline]
     fn bring(&mut self, [r, g, b]: [f32; 3], weight: f32) {
+        if self.place != self.pixel.as_ivec2() {
+            return;
+        }
         let sample = (self.first + self.samples).wrapping_sub(1);
         self.standing.bring(sample, r.max(g).max(b) * weight);
     }
 
     fn add(&mut self, channel: usize, value: f32) {
-        if let Err(fault) = self.sums[channel].add(value * self.weight) {
+        let value = value * self.weight;
+        let outcome = match &mut self.spread {
+            Some(spread) if self.spreading => {
+                Term::new(value).map(|term| spread.add(channel, [term]))
+            }
+            _ => self.sums[channel].add(value),
+        };
+        if let Err(fault) = outcome {
             let film = self.film;
             self.refuse(&film.channels()[channel], fault);
+        }
+    }
+
+    /// Adds a colour that pixels share: all of it or nothing.
+    #[inline]
+    fn share(&mut self, rgb: [f32; 3], colour: [f32; 3]) {
+        let Some(spread) = &mut self.spread else {
+            return;
+        };
+        let [x, y, z] = colour.map(|value| Term::new(value * self.weight));
+        let outcome = match self.colours {
+            1 => x.map(|x| spread.add(0, [x])),
+            _ => (|| {
+                spread.add(0, [x?, y?, z?]);
+                Ok(())
+            })(),
+        };
+        match outcome {
+            Ok(()) => {
+                let most = spread.most() * (self.weight / self.dealt).abs();
+                self.bring(rgb, most);
+            }
+            Err(fault) => self.refuse("radiance", cause(rgb).unwrap_or(fault)),
         }
     }
 }
@@ -79,6 +131,13 @@ impl Sink for ExactTile<'_> {
     fn radiance(&mut self, rgb: [f32; 3], alpha: f32) {
         let format = self.film.settings().pixel_format;
         let colour = format.convert(rgb);
+        if self.spreading {
+            self.share(rgb, colour);
+            if format.has_alpha() {
+                self.add(self.colours, alpha);
+            }
+            return;
+        }
         match fixed(&colour[..self.colours], self.weight) {
             Ok(terms) => {
                 self.bring(rgb, self.weight.abs());
@@ -121,11 +180,79 @@ impl TileSink for ExactTile<'_> {
             self.begin_pixel(pixel);
         }
         self.samples += 1;
-        self.weight = weight;
+        self.place = pixel.as_ivec2();
+        self.weight = weight * self.dealt;
+        self.spreading = false;
+        if self.sums.len() > self.film.channels().len() {
+            self.add(self.sums.len() - 1, 1.0);
+        }
+    }
+
+    #[inline]
+    fn begin_placed(&mut self, pixel: UVec2, placement: &Placement) {
+        if self.spread.is_none() {
+            return self.begin_sample(pixel, placement.weight);
+        }
+        self.begin_spread(pixel, placement);
+    }
+
+    fn radiance_alone(&mut self, rgb: [f32; 3], alpha: f32) {
+        let spreading = std::mem::replace(&mut self.spreading, false);
+        self.radiance(rgb, alpha);
+        self.spreading = spreading;
     }
 }
 
 impl ExactTile<'_> {
+    fn begin_spread(&mut self, pixel: UVec2, placement: &Placement) {
+        let film = self.film;
+        let (Some(spread), Some(footprint)) = (&mut self.spread, film.footprint()) else {
+            return;
+        };
+        let place = pixel.as_ivec2();
+        let within = place - film.settings().crop_offset.as_ivec2();
+        let offset = placement.raster - place.as_vec2() - 0.5;
+        spread.place(footprint, within, offset);
+        let own = film.nearest(within);
+        if own != self.pixel || self.samples == 0 {
+            self.begin_pixel(own);
+        }
+        if own == pixel {
+            self.samples += 1;
+        }
+        self.place = place;
+        self.weight = placement.weight * self.dealt;
+        self.spreading = true;
+        let channels = film.channels().len();
+        if self.sums.len() > channels {
+            // `add` names channels where it refuses; weights are always sound.
+            if let (Some(spread), Ok(term)) = (&mut self.spread, Term::new(self.weight)) {
+                spread.add(channels, [term]);
+            }
+        }
+    }
+
+    /// Adds what pixels share to the film.
+    fn end_tile(&mut self) {
+        let Some(spread) = &mut self.spread else {
+            return;
+        };
+        let film = self.film;
+        let reach = IVec2::splat(film.rim() as i32);
+        let origin = film.settings().crop_offset;
+        let [from, to] = [self.from, self.to].map(|corner| (corner - origin).as_ivec2());
+        let end = film.settings().crop_size.as_ivec2();
+        // Other tiles reach the pixels around this one, and those at its sides.
+        let low = IVec2::select(from.cmpgt(IVec2::ZERO), from + reach, from);
+        let high = IVec2::select(to.cmplt(end), to - reach, to);
+        let (alone, faults) = (self.alone, &mut self.faults);
+        spread.deliver(|pixel, sums| {
+            let inside = pixel.cmpge(low).all() && pixel.cmplt(high).all();
+            let place = pixel.as_uvec2() + origin;
+            film.deliver(place, alone && inside, sums, faults);
+        });
+    }
+
     #[cold]
     fn begin_pixel(&mut self, pixel: UVec2) {
         assert!(
@@ -135,6 +262,7 @@ impl ExactTile<'_> {
         self.end_pixel();
         self.pixel = pixel;
         (self.first, self.standing) = self.film.progress(pixel);
+        self.dealt = self.film.deal_weight(pixel);
     }
 
     fn end_pixel(&mut self) {
@@ -152,6 +280,7 @@ impl ExactTile<'_> {
 impl Drop for ExactTile<'_> {
     fn drop(&mut self) {
         self.end_pixel();
+        self.end_tile();
         self.film.report(std::mem::take(&mut self.faults));
     }
 }

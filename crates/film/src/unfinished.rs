@@ -1,18 +1,21 @@
 //! A replicate that was interrupted: what a checkpoint keeps of it, and the picture that it makes
 //! if nothing else is there.
 //!
-//! The picture divides every pixel by its own number of samples. Splats come from the samples of
+//! The picture divides every pixel by its own number of samples; where pixels share samples, by what those that
+//! are there count for it: their weights' sum with `weighted_mean`, and with `splatting` that sum's expectation
+//! for the numbers of samples around it. Splats come from the samples of
 //! all pixels, so theirs are divided by the mean number. It has no standard error: there is
 //! nothing whose spread could tell it.
 //!
 //! In a file a channel `NAME` takes four planes of 32-bit words `exact.NAME.unfinished.0` to `.3`,
 //! the sum over a pixel's samples, and as many of its splats, `exact.NAME.splats.0` to `.3`, both
 //! in two's complement and units of 2⁻⁶⁴, least significant word first. `exact.unfinished` is the
-//! number of samples, and `exact.unfinished.standing.0` to `.2` what stands out among them (two
+//! number of samples, `exact.unfinished.weight.0` to `.3` what they count where pixels share them, and `exact.unfinished.standing.0` to `.2` what stands out among them (two
 //! floats' bits, and the number of a sample).
 
 use crate::exact_sums::EXACT;
 use crate::faults::FaultLog;
+use crate::footprint::Footprint;
 use crate::outliers::Standing;
 use crate::sample_counts::SAMPLES;
 use etalon_images::Image;
@@ -35,12 +38,15 @@ pub struct UnfinishedFacts {
     pub most: u32,
     /// The mean over pixels.
     pub mean: f64,
-    /// Pixels without any sample, which are black.
+    /// Pixels that no sample counts for, which are black.
     #[serde(default, skip_serializing_if = "is_zero")]
     pub without: u64,
     /// Whether samples splat.
     #[serde(default, skip_serializing_if = "std::ops::Not::not")]
     pub splats: bool,
+    /// Whether pixels share samples.
+    #[serde(default, skip_serializing_if = "std::ops::Not::not")]
+    pub shared: bool,
     /// Numbers that were refused in it.
     #[serde(default, skip_serializing_if = "FaultLog::is_empty")]
     pub faults: FaultLog,
@@ -58,6 +64,8 @@ pub(crate) struct Unfinished {
     pub(crate) own: Vec<Fixed128>,
     /// Sums of splats, by row, column and colour; empty if there are none.
     pub(crate) splats: Vec<Fixed128>,
+    /// What samples count for each pixel, by row and column; empty if pixels share none.
+    pub(crate) weights: Vec<Fixed128>,
     /// Samples of each pixel, and what stands out among them.
     pub(crate) samples: Vec<u32>,
     pub(crate) standing: Vec<Standing>,
@@ -73,7 +81,15 @@ impl Unfinished {
             least: self.samples.iter().copied().min().unwrap_or(0),
             most: self.samples.iter().copied().max().unwrap_or(0),
             mean: self.mean_samples(),
-            without: self.samples.iter().filter(|count| **count == 0).count() as u64,
+            without: match self.weights.is_empty() {
+                true => self.samples.iter().filter(|n| **n == 0).count() as u64,
+                false => self
+                    .weights
+                    .iter()
+                    .filter(|w| **w == Fixed128::ZERO)
+                    .count() as u64,
+            },
+            shared: !self.weights.is_empty(),
             splats: !self.splats.is_empty(),
             faults: self.faults.clone(),
         }
@@ -99,9 +115,10 @@ impl Unfinished {
         for (channel, name) in channels.iter().enumerate() {
             let value = |(pixel, &samples): (usize, &u32)| {
                 let sum = self.own[pixel * channels.len() + channel];
-                let own = match samples {
-                    0 => 0.0,
-                    samples => sum.mean(samples.into()),
+                let own = match (self.weights.get(pixel), samples) {
+                    (Some(&Fixed128::ZERO), _) | (None, 0) => 0.0,
+                    (Some(weight), _) => sum.to_f64() / weight.to_f64(),
+                    (None, samples) => sum.mean(samples.into()),
                 };
                 let splats = match channel < colours {
                     true => self.splats[pixel * colours + channel].to_f64() / mean,
@@ -121,16 +138,20 @@ impl Unfinished {
     pub(crate) fn planes(&self, names: &[String]) -> Vec<IntegerPlane> {
         let mut planes = Vec::new();
         let colours = self.colours();
+        let words = |name: &str, kind, channel, sums: &[Fixed128], step| {
+            [0, 1, 2, 3].map(|word| IntegerPlane {
+                name: plane_name(name, kind, word),
+                samples: (sums.iter().skip(channel).step_by(step))
+                    .map(|sum| (sum.to_bits() >> (32 * word)) as u32)
+                    .collect(),
+            })
+        };
+        if !self.weights.is_empty() {
+            planes.extend(words("", Kind::Weights, 0, &self.weights, 1));
+        }
         for (channel, name) in names.iter().enumerate() {
             let mut push = |kind, sums: &[Fixed128], step| {
-                planes.extend((0..4).map(|word| {
-                    IntegerPlane {
-                        name: plane_name(name, kind, word),
-                        samples: (sums.iter().skip(channel).step_by(step))
-                            .map(|sum| (sum.to_bits() >> (32 * word)) as u32)
-                            .collect(),
-                    }
-                }));
+                planes.extend(words(name, kind, channel, sums, step));
             };
             push(Kind::Own, &self.own, names.len());
             if channel < colours {
@@ -194,6 +215,10 @@ impl Unfinished {
                 true => sums(Kind::Splats, &names[..colours.min(names.len())])?,
                 false => Vec::new(),
             },
+            weights: match facts.shared {
+                true => sums(Kind::Weights, &[String::new()])?,
+                false => Vec::new(),
+            },
             samples: plane(COUNTS)?.to_vec(),
             standing: (0..pixels)
                 .map(|pixel| Standing::from_words([total[pixel], most[pixel], sample[pixel]]))
@@ -208,7 +233,8 @@ impl Unfinished {
 
     /// Feeds all numbers to a checksum.
     pub(crate) fn hash_into(&self, hasher: &mut blake3::Hasher) {
-        for sum in self.own.iter().chain(&self.splats) {
+        let sums = self.own.iter().chain(&self.splats);
+        for sum in sums.chain(&self.weights) {
             hasher.update(&sum.to_bits().to_le_bytes());
         }
         let standing = self.standing.iter().flat_map(Standing::words);
@@ -223,15 +249,42 @@ impl Unfinished {
 enum Kind {
     Own,
     Splats,
+    /// Not of a channel.
+    Weights,
 }
 
 fn plane_name(channel: &str, kind: Kind, word: usize) -> String {
     match kind {
         Kind::Own => format!("{EXACT}{channel}.unfinished.{word}"),
         Kind::Splats => format!("{EXACT}{channel}.splats.{word}"),
+        Kind::Weights => format!("{COUNTS}.weight.{word}"),
     }
 }
 
 fn standing_name(word: usize) -> String {
     format!("{COUNTS}.standing.{word}")
+}
+
+/// What samples count for each pixel in expectation, by row and column, if those of the pixels count this much in all
+/// and those around the film as much as those of the pixel next to them.
+pub(crate) fn reached(
+    footprint: &Footprint,
+    mut counts: Vec<f64>,
+    [width, height]: [usize; 2],
+) -> Vec<Fixed128> {
+    let shares = footprint.shares();
+    for (length, step, lines) in [(width, 1, height), (height, width, width)] {
+        for line in 0..lines {
+            let first = line * (if step == 1 { width } else { 1 });
+            let own: Vec<f64> = (0..length).map(|i| counts[first + i * step]).collect();
+            for i in 0..length {
+                let both = shares.iter().enumerate().skip(1).map(|(away, share)| {
+                    share * (own[i.saturating_sub(away)] + own[(i + away).min(length - 1)])
+                });
+                counts[first + i * step] = shares[0] * own[i] + both.sum::<f64>();
+            }
+        }
+    }
+    let fixed = |count| Fixed128::from_f64(count).unwrap_or(Fixed128::ZERO);
+    counts.into_iter().map(fixed).collect()
 }

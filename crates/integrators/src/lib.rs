@@ -27,6 +27,7 @@ mod particle;
 pub mod path;
 pub mod photonmap;
 pub mod photons;
+mod positions;
 pub mod prefix;
 pub mod pssmlt;
 pub mod ptracer;

@@ -84,14 +84,14 @@ pub(crate) fn follow_drafts<W: World, S: Sampler, K: TileSink, C: Companion + Co
         let mut each = drafts.iter_mut().zip(&mut places);
         let mut walks: [Option<Walk<'_, S, C>>; TOGETHER] = core::array::from_fn(|_| {
             let (draft, place) = each.next()?;
-            *place = Some((draft.site.pixel, draft.weight));
+            *place = Some((draft.site.pixel, draft.placement()));
             let sampler = &mut draft.sampler;
             let walk = Walk::start(world, settings, &draft.site, sampler, companion);
             Some(walk.with_candidates(candidates))
         });
         follow(world, settings, &mut walks);
-        for (walk, (pixel, weight)) in walks.iter().flatten().zip(places.iter().flatten()) {
-            sink.begin_sample(*pixel, *weight);
+        for (walk, (pixel, placement)) in walks.iter().flatten().zip(places.iter().flatten()) {
+            sink.begin_placed(*pixel, placement);
             walk.deliver(sink);
         }
     }

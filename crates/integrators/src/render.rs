@@ -6,13 +6,14 @@
 //! sample is a pure function of its address and the film accumulates exactly, neither the number of
 //! threads nor the order of tiles nor the rounds change a bit, and a render goes on from any sample.
 
+use crate::positions::{Asked, around, position};
 use crate::rounds::{Batches, Pace};
 use crate::share::Share;
 use etalon_sampling::{
     Independent, PixelSample, ReplicateKind, Sampler, SamplerKind, Sobol, Stratified,
 };
-use etalon_transport::{Draft, Film, Integrator, Pass, PixelSite, Placement, Placing, World};
-use glam::{UVec2, Vec2};
+use etalon_transport::{Draft, Film, Integrator, Pass, PixelSite, World};
+use glam::UVec2;
 use rayon::prelude::*;
 use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
 
@@ -112,26 +113,6 @@ fn tile_side(size: UVec2, threads: usize) -> u32 {
         side /= 2;
     }
     side
-}
-
-/// What is asked before a pass, with somebody who may say stop.
-struct Asked<'a, F> {
-    film: &'a F,
-    progress: &'a dyn Progress,
-}
-
-impl<F: Film> Placing for Asked<'_, F> {
-    fn place(&self, pixel: UVec2, u: Vec2) -> Placement {
-        self.film.place(pixel, u)
-    }
-
-    fn dealt(&self, pixel: UVec2, even: u32) -> u32 {
-        self.film.dealt(pixel, even)
-    }
-
-    fn stopped(&self) -> bool {
-        self.progress.cancelled()
-    }
 }
 
 /// Renders replicates into `film` on the current thread pool, and goes on where the film has some
@@ -338,6 +319,7 @@ impl<W: World, I: Integrator, F: Film> Round<'_, '_, W, I, F> {
         let spp = samples as f32 * plan.replicates as f32;
         let spacing = 1.0 / spp.sqrt();
         let margin = self.film.margin();
+        let (rim, pixels) = (self.film.rim(), self.film.light_paths());
         let alone = !integrator.splats();
         let mut sink = self.film.tile(from, to, alone);
         let mut drafts = Vec::with_capacity(TOGETHER);
@@ -357,27 +339,31 @@ impl<W: World, I: Integrator, F: Film> Round<'_, '_, W, I, F> {
                     if drafts.is_empty() && progress.cancelled() {
                         return (drawn, false);
                     }
-                    let replicate = self.pass.replicate;
-                    let mut sampler = start(&plan.address(replicate, pixel, sample, dealt));
-                    let placement = self.film.place(pixel, sampler.next_2d());
-                    let site = PixelSite {
-                        pixel,
-                        raster: placement.raster,
-                        margin,
-                        pixels: self.film.light_paths(),
-                        spacing,
-                        sample: sample - self.begin,
-                    };
-                    let weight = placement.weight;
-                    drafts.push(Draft {
-                        site,
-                        weight,
-                        sampler,
-                    });
-                    drawn += 1;
-                    if drafts.len() >= batches.size() {
-                        deliver(&mut drafts);
+                    for pixel in around(pixel, self.pass, rim) {
+                        let address = plan.address(self.pass.replicate, pixel, sample, dealt);
+                        let mut sampler = start(&address);
+                        let numbers = sampler.next_2d();
+                        let numbers = position(self.film, plan.sampler, &address, numbers);
+                        let placement = self.film.place(pixel, numbers);
+                        let site = PixelSite {
+                            pixel,
+                            raster: placement.raster,
+                            margin,
+                            pixels,
+                            spacing,
+                            sample: sample - self.begin,
+                        };
+                        let weight = placement.weight;
+                        drafts.push(Draft {
+                            site,
+                            weight,
+                            sampler,
+                        });
+                        if drafts.len() >= batches.size() {
+                            deliver(&mut drafts);
+                        }
                     }
+                    drawn += 1;
                 }
             }
         }

@@ -176,7 +176,7 @@ impl Integrator for ConnectionMerging {
     ) {
         let (mut eye, mut light) = (Vec::new(), Vec::new());
         for draft in drafts {
-            sink.begin_sample(draft.site.pixel, draft.weight);
+            sink.begin_placed(draft.site.pixel, &draft.placement());
             let lists = [&mut eye, &mut light];
             let start = self.start(world, state, &draft.site, &mut draft.sampler);
             let (site, sampler) = (&draft.site, &mut draft.sampler);

@@ -12,6 +12,7 @@ pub mod replicate_kind;
 pub mod sampler;
 pub mod sobol;
 pub mod stratified;
+pub mod stratified_pair;
 pub mod warps;
 
 pub use independent::Independent;
@@ -20,3 +21,4 @@ pub use replicate_kind::ReplicateKind;
 pub use sampler::{PixelSample, Sampler};
 pub use sobol::Sobol;
 pub use stratified::Stratified;
+pub use stratified_pair::stratified_pair;

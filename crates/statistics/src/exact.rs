@@ -148,12 +148,14 @@ impl Fixed128 {
 
     /// The integer behind the sum, in units of 2⁻⁶⁴.
     #[must_use]
+    #[inline]
     pub const fn to_bits(self) -> i128 {
         self.0
     }
 
     /// The sum with this integer, in units of 2⁻⁶⁴.
     #[must_use]
+    #[inline]
     pub const fn from_bits(bits: i128) -> Self {
         Self(bits)
     }

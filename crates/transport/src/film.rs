@@ -36,13 +36,46 @@ pub trait Sink {
 pub trait TileSink: Sink {
     /// What follows is found by a sample of `pixel` (of the whole film) that counts `weight` (see
     /// [`Placement`]). The samples of a pixel come one after the other.
+    ///
+    /// It counts for this pixel alone.
     fn begin_sample(&mut self, pixel: UVec2, weight: f32);
+
+    /// What follows is found by a sample of `pixel` at this place: it counts for all pixels under the filter if
+    /// pixels share samples (see [`Placing::shares_samples`]). The samples of pixels around the film come after one of
+    /// the pixel next to them.
+    #[inline]
+    fn begin_placed(&mut self, pixel: UVec2, placement: &Placement) {
+        self.begin_sample(pixel, placement.weight);
+    }
+
+    /// Adds radiance and alpha, as a part of what the current sample found, to its pixel alone: what counts for that
+    /// pixel by the filter already. Not for samples of pixels around the film.
+    #[inline]
+    fn radiance_alone(&mut self, rgb: [f32; 3], alpha: f32) {
+        self.radiance(rgb, alpha);
+    }
 }
 
 /// Where samples go.
 pub trait Placing: Sync {
-    /// Draws a position for a sample of `pixel` from the reconstruction filter.
+    /// Draws a position for a sample of `pixel`: from the reconstruction filter, or evenly in the pixel if pixels share
+    /// samples. Pixels left of the film or above it have negative coordinates, modulo 2³².
     fn place(&self, pixel: UVec2, u: Vec2) -> Placement;
+
+    /// Draws a position for a sample of `pixel` from the reconstruction filter, whoever shares samples: one that
+    /// counts for this pixel alone.
+    #[inline]
+    fn place_alone(&self, pixel: UVec2, u: Vec2) -> Placement {
+        self.place(pixel, u)
+    }
+
+    /// Whether a sample counts for all pixels under the filter. The picture of a constant is a constant then only as far as
+    /// positions are stratified.
+    #[inline]
+    fn shares_samples(&self) -> bool {
+        false
+    }
+
     /// How many samples of a replicate a pixel of the whole film gets, where all would get `even`
     /// if they were dealt evenly. Only films for estimators that neither splat nor pass several
     /// times deal otherwise.
@@ -63,7 +96,7 @@ pub trait Placing: Sync {
 impl Placing for () {
     fn place(&self, pixel: UVec2, u: Vec2) -> Placement {
         Placement {
-            raster: pixel.as_vec2() + u,
+            raster: pixel.as_ivec2().as_vec2() + u,
             weight: 1.0,
         }
     }
@@ -82,7 +115,12 @@ pub trait Film: Placing {
     fn size(&self) -> UVec2;
     /// How far (pixels) beyond the film a splat can still matter.
     fn margin(&self) -> f32;
-    /// How many light paths are drawn for each sample of a pixel, over the whole film: one per pixel; none
+    /// How many pixels beyond its border take samples, too: these count for the pixels within. They have as many as the
+    /// pixel next to them, one after each of its.
+    fn rim(&self) -> u32 {
+        0
+    }
+    /// How many light paths are drawn for each sample of a pixel, over the whole film: one per pixel, around it too; none
     /// where the reconstruction filter is so narrow that splats would practically never find a pixel.
     fn light_paths(&self) -> u32;
     /// A sink for the pixels in [`from`, `to`) of the whole film; it delivers on drop. `alone`

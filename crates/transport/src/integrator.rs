@@ -1,13 +1,13 @@
 //! The contract of an estimator of light transport.
 
-use crate::{Channel, Finding, Objection, Placing, Sight, Sink, TileSink, World};
+use crate::{Channel, Finding, Objection, Placement, Placing, Sight, Sink, TileSink, World};
 use etalon_sampling::{ReplicateKind, Sampler};
 use glam::{UVec2, Vec2};
 
 /// The place for which a sample is drawn.
 #[derive(Clone, Copy, Debug)]
 pub struct PixelSite {
-    /// The pixel of the whole film.
+    /// The pixel of the whole film, or around it (see [`crate::Film::rim`]); coordinates are modulo 2³².
     pub pixel: UVec2,
     /// The film position drawn from the reconstruction filter (pixels).
     pub raster: Vec2,
@@ -58,6 +58,17 @@ pub struct Draft<S> {
     pub weight: f32,
     /// Its random numbers; those of the film position are used up.
     pub sampler: S,
+}
+
+impl<S> Draft<S> {
+    /// Where it lies on the film.
+    #[inline]
+    pub fn placement(&self) -> Placement {
+        Placement {
+            raster: self.site.raster,
+            weight: self.weight,
+        }
+    }
 }
 
 /// An estimator: prepares before every pass, then turns random numbers into contributions.
@@ -143,7 +154,7 @@ pub trait Integrator: Sync {
         sink: &mut K,
     ) {
         for draft in drafts {
-            sink.begin_sample(draft.site.pixel, draft.weight);
+            sink.begin_placed(draft.site.pixel, &draft.placement());
             self.sample(world, state, &draft.site, &mut draft.sampler, sink);
         }
     }

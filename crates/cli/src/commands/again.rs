@@ -9,7 +9,7 @@ pub(super) fn command(
     args: &RenderArgs,
     plan: &Plan,
     pilot: Option<u32>,
-    [x, y]: [u32; 2],
+    [x, y]: [i32; 2],
     replicate: u32,
     sample: u32,
 ) -> String {

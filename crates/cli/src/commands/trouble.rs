@@ -97,13 +97,14 @@ pub(super) struct Again<'a> {
 }
 
 impl Again<'_> {
-    fn command(&self, pixel: [u32; 2], replicate: u32, sample: u32) -> String {
+    fn command(&self, pixel: [i32; 2], replicate: u32, sample: u32) -> String {
         again::command(self.args, self.plan, self.pilot, pixel, replicate, sample)
     }
 
     /// The command for a sample that stands out.
     pub(super) fn of_outlier(&self, outlier: &Outlier) -> String {
-        self.command(outlier.pixel, outlier.replicate, outlier.sample)
+        let pixel = outlier.pixel.map(u32::cast_signed);
+        self.command(pixel, outlier.replicate, outlier.sample)
     }
 
     /// The command for the first refused number that a single sample is to blame for.

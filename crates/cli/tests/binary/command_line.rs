@@ -113,7 +113,7 @@ fn negative_numbers_are_told_what_is_accepted() {
         ),
         ("--error", "-0.1", "expected a number from 0.000001 to 1"),
         ("--part", "-1/2", "expected I/N"),
-        ("--replay", "-1,0,0,0", "expected four numbers"),
+        ("--replay", "-1,0,-1,0", "expected four numbers"),
     ] {
         let ran = workshop.run(&["render", "a.xml", option, value]).refused();
         assert!(

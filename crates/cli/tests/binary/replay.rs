@@ -110,8 +110,11 @@ fn samples_that_are_not_there() {
     let workshop = Workshop::new();
     workshop.write("a.xml", small_scene(""));
     for (address, words) in [
-        ("20,0,0,0", "columns 0 to 19 and rows 0 to 11"),
-        ("0,12,0,0", "no pixel (0, 12)"),
+        (
+            "22,0,0,0",
+            "columns 0 to 19 and rows 0 to 11, and samples up to 2 pixels around them",
+        ),
+        ("0,-3,0,0", "no pixel (0, -3)"),
         ("0,0,8,0", "no replicate 8: with these options there are 8"),
         ("0,0,0,2", "no sample 2: with these options there are 2"),
         ("0,0,0", "expected four numbers"),
@@ -122,6 +125,13 @@ fn samples_that_are_not_there() {
             .refused();
         assert!(ran.stderr.contains(words), "{}", ran.stderr);
     }
+    // Those around the film count for pixels in it.
+    let around = workshop.run(&["render", "a.xml", "--replay", "-2,13,0,0"]);
+    let said = around.fine().stdout;
+    assert!(
+        said.contains("pixel (-2, 13)") && said.contains("camera ray at raster (-1."),
+        "{said}"
+    );
     // Either a picture or a replay.
     let both = ["render", "a.xml", "-o", "a.exr", "--replay", "0,0,0,0"];
     workshop.run(&both).refused();

@@ -1,6 +1,8 @@
 //! The film's bits depend on nothing but what is added: not on tiles, threads or order.
 
-use etalon_film::{ExactFilm, FilmSettings, Filter, Lanczos, PixelFormat, RenderFacts};
+use etalon_film::{
+    ExactFilm, FilmSettings, Filter, FilterMethod, Lanczos, PixelFormat, RenderFacts,
+};
 use etalon_sampling::{PixelSample, Sampler, Sobol};
 use etalon_transport::{Channel, Film, Placing, Sink, TileSink};
 use glam::UVec2;
@@ -12,9 +14,10 @@ const WIDTH: u32 = 37;
 const HEIGHT: u32 = 41;
 const SAMPLES: u32 = 4;
 
-fn film() -> ExactFilm {
+fn film(filter_method: FilterMethod) -> ExactFilm {
     let filter = Filter::Lanczos(Lanczos::new(2).expect("valid"));
     let settings = FilmSettings {
+        filter_method,
         pixel_format: PixelFormat::Xyza,
         crop_offset: UVec2::new(3, 5),
         crop_size: UVec2::new(WIDTH, HEIGHT),
@@ -36,7 +39,7 @@ fn sample(film: &ExactFilm, tile: &mut impl TileSink, replicate: u32, pixel: UVe
             blocks: 1,
         });
         let placement = film.place(pixel, sampler.next_2d());
-        tile.begin_sample(pixel, placement.weight);
+        tile.begin_placed(pixel, &placement);
         let [r, g, b] = [0, 1, 2].map(|_| sampler.next_1d());
         tile.radiance([r * 1e3, g * 1e-3, b], f32::from(r > 0.3));
         tile.channel(0, r + g);
@@ -46,12 +49,17 @@ fn sample(film: &ExactFilm, tile: &mut impl TileSink, replicate: u32, pixel: UVe
 }
 
 /// The film after two replicates, in tiles of `side` pixels taken in the order of `key`.
-fn render(side: UVec2, threads: usize, key: impl Fn(usize) -> u64) -> ExactFilm {
+fn render(
+    method: FilterMethod,
+    side: UVec2,
+    threads: usize,
+    key: impl Fn(usize) -> u64,
+) -> ExactFilm {
     let pool = rayon::ThreadPoolBuilder::new()
         .num_threads(threads)
         .build()
         .expect("threads");
-    let mut film = film();
+    let mut film = film(method);
     let (from, to) = (film.origin(), film.origin() + film.size());
     let mut tiles = Vec::new();
     for y in (from.y..to.y).step_by(side.y as usize) {
@@ -110,14 +118,16 @@ proptest! {
         threads in prop::sample::select(vec![1usize, 2, 16]),
         key in any::<u64>(),
     ) {
-        let one = render(UVec2::splat(64), 1, |i| i as u64);
-        let many = render(UVec2::new(side.0, side.1), threads, |i| {
-            (i as u64).wrapping_mul(key | 1)
-        });
-        let (one, many) = (bits(&one), bits(&many));
-        prop_assert_eq!(one.len(), many.len());
-        prop_assert!(one == many);
-        prop_assert!(one.iter().any(|b| *b != 0));
+        for (_, method) in FilterMethod::ALL {
+            let one = render(method, UVec2::splat(64), 1, |i| i as u64);
+            let many = render(method, UVec2::new(side.0, side.1), threads, |i| {
+                (i as u64).wrapping_mul(key | 1)
+            });
+            let (one, many) = (bits(&one), bits(&many));
+            prop_assert_eq!(one.len(), many.len());
+            prop_assert!(one == many);
+            prop_assert!(one.iter().any(|b| *b != 0));
+        }
     }
 }
 
@@ -140,8 +150,8 @@ fn cancellation_is_exact() {
 /// A replicate that was begun but not ended leaves no trace in the picture.
 #[test]
 fn an_unfinished_replicate_does_not_count() {
-    let finished = render(UVec2::splat(16), 1, |i| i as u64);
-    let begun = render(UVec2::splat(16), 1, |i| i as u64);
+    let finished = render(FilterMethod::default(), UVec2::splat(16), 1, |i| i as u64);
+    let begun = render(FilterMethod::default(), UVec2::splat(16), 1, |i| i as u64);
     {
         let pixel = begun.origin();
         let mut tile = begun.tile(pixel, pixel + 1, false);

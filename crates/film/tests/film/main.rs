@@ -9,4 +9,5 @@ mod filters;
 mod parts;
 mod replicates;
 mod settings;
+mod sharing;
 mod uneven;

@@ -274,7 +274,7 @@ impl Integrator for Bidirectional {
     ) {
         let (mut eye, mut light) = (Vec::new(), Vec::new());
         for draft in drafts {
-            sink.begin_sample(draft.site.pixel, draft.weight);
+            sink.begin_placed(draft.site.pixel, &draft.placement());
             let lists = [&mut eye, &mut light];
             let start = self.start(world, &draft.site, &mut draft.sampler);
             estimate(world, &start, &draft.site, &mut draft.sampler, sink, lists);

@@ -370,7 +370,7 @@ impl Lessons {
         let Class { world, pass, .. } = *class;
         let mut sampler = Sobol::start(address);
         let pixel = UVec2::from(address.pixel);
-        let placement = class.placing.place(pixel, sampler.next_2d());
+        let placement = class.placing.place_alone(pixel, sampler.next_2d());
         let site = PixelSite {
             pixel,
             raster: placement.raster,

@@ -12,7 +12,7 @@
 //! Where a path in training found what is no finite number, neither is T_r: that pixel's samples go without it, but for
 //! the first in the replicate, which the film refuses, counts and tells the place of.
 
-use etalon_transport::{Pass, Placing, Sink, TileSink};
+use etalon_transport::{Pass, Placement, Placing, Sink, TileSink};
 use glam::{UVec2, Vec2, Vec4};
 
 /// Where pictures would take more memory than this (bytes), there are none.
@@ -22,7 +22,10 @@ const MOST: u64 = 1 << 30;
 #[derive(Clone, Debug)]
 pub(crate) struct Pictures {
     origin: UVec2,
+    size: UVec2,
     width: usize,
+    /// Whether pixels share samples; those of training they do not.
+    shared: bool,
     replicates: usize,
     /// k
     samples: u32,
@@ -43,13 +46,20 @@ impl Pictures {
             return None;
         }
         let pixel = |index: u32| pass.origin + UVec2::new(index % pass.size.x, index / pass.size.x);
+        let shared = placing.shares_samples();
         let share = |index: u32| {
-            let own = placing.dealt(pixel(index), pass.samples);
+            // A pixel that samples of several count for weighs them all alike.
+            let own = match shared {
+                true => pass.samples,
+                false => placing.dealt(pixel(index), pass.samples),
+            };
             (f64::from(samples) / (f64::from(samples) + f64::from(own))) as f32
         };
         Some(Self {
             origin: pass.origin,
+            size: pass.size,
             width: pass.size.x as usize,
+            shared,
             replicates: pass.replicates as usize,
             samples,
             shares: (0..pixels as u32).map(share).collect(),
@@ -62,9 +72,12 @@ impl Pictures {
         self.sums.chunks_mut((self.width * self.replicates).max(1))
     }
 
-    /// w and T_r of a pixel.
+    /// w and T_r of a pixel; T_r of those around the film counts for none.
     fn of(&self, pixel: UVec2, replicate: u32) -> (f32, Vec4) {
-        let place = pixel - self.origin;
+        let place = pixel.wrapping_sub(self.origin);
+        if !place.cmplt(self.size).all() {
+            return (self.shares[0], Vec4::ZERO);
+        }
         let pixel = place.y as usize * self.width + place.x as usize;
         let sum = self.sums[pixel * self.replicates + replicate as usize];
         (self.shares[pixel], sum / self.samples as f32)
@@ -111,8 +124,17 @@ impl<'a, K> Joined<'a, K> {
 
 impl<K: TileSink> Sink for Joined<'_, K> {
     fn radiance(&mut self, [r, g, b]: [f32; 3], alpha: f32) {
-        let joined = Vec4::new(r, g, b, alpha) * self.own + self.training;
+        let mut joined = Vec4::new(r, g, b, alpha) * self.own;
+        let training = self.training;
+        let alone = self.pictures.shared && training.is_finite();
+        if !alone {
+            joined += training;
+        }
         self.sink.radiance(joined.truncate().to_array(), joined.w);
+        if alone && training != Vec4::ZERO {
+            let colour = training.truncate().to_array();
+            self.sink.radiance_alone(colour, training.w);
+        }
     }
 
     fn splat(&mut self, raster: Vec2, rgb: [f32; 3]) {
@@ -127,6 +149,18 @@ impl<K: TileSink> Sink for Joined<'_, K> {
 impl<K: TileSink> TileSink for Joined<'_, K> {
     fn begin_sample(&mut self, pixel: UVec2, weight: f32) {
         self.sink.begin_sample(pixel, weight);
+        self.join(pixel, weight);
+    }
+
+    fn begin_placed(&mut self, pixel: UVec2, placement: &Placement) {
+        self.sink.begin_placed(pixel, placement);
+        self.join(pixel, placement.weight);
+    }
+}
+
+impl<K> Joined<'_, K> {
+    /// Finds what joins a sample of a pixel.
+    fn join(&mut self, pixel: UVec2, weight: f32) {
         let (share, mean) = self.pictures.of(pixel, self.replicate);
         let first = self.first.next() == Some(true);
         if mean.is_finite() {

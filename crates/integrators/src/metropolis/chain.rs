@@ -46,10 +46,15 @@ impl State {
 
     /// Which of so many things a sample hosts: they are dealt evenly.
     fn share(&self, site: &PixelSite, count: usize) -> Range<usize> {
-        let place = site.pixel - self.field.origin();
-        let index = u64::from(place.y) * u64::from(self.field.width()) + u64::from(place.x);
+        // Pixels around the film host none.
+        let place = site.pixel.wrapping_sub(self.field.origin());
+        let size = self.field.pixels();
+        if !place.cmplt(size).all() {
+            return 0..0;
+        }
+        let index = u64::from(place.y) * u64::from(size.x) + u64::from(place.x);
         let samples = u128::from(self.samples);
-        let of = samples * u128::from(site.pixels.max(1));
+        let of = samples * u128::from(size.x) * u128::from(size.y);
         let begin = |slot: u128| (slot * count as u128).div_ceil(of) as usize;
         let slot = u128::from(index) * samples + u128::from(site.sample);
         begin(slot)..begin(slot + 1)

@@ -111,9 +111,9 @@ impl Field {
         self.origin
     }
 
-    /// How many pixels the film has in a row.
-    pub(crate) fn width(&self) -> u32 {
-        self.size.x - 2 * self.margin
+    /// How many pixels the film has in a row and in a column.
+    pub(crate) fn pixels(&self) -> UVec2 {
+        self.size - 2 * self.margin
     }
 
     /// Its upper left corner.

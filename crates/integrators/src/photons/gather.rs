@@ -142,7 +142,7 @@ pub(crate) fn follow_all<W: World, S: Sampler>(
 ) {
     let mut scratch = Scratch::default();
     for draft in drafts {
-        sink.begin_sample(draft.site.pixel, draft.weight);
+        sink.begin_placed(draft.site.pixel, &draft.placement());
         let (site, sampler) = (&draft.site, &mut draft.sampler);
         follow(world, plan, site, sampler, &mut scratch, sink);
     }

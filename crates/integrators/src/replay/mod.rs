@@ -16,6 +16,7 @@ mod tests;
 
 pub use event::{Event, Gathered};
 
+use crate::positions::position;
 use crate::render::Plan;
 use any_sampler::AnySampler;
 use etalon_sampling::Sampler;
@@ -77,7 +78,9 @@ pub fn replay<W: World, I: Integrator, F: Film>(
     let dealt = film.dealt(address.pixel, samples);
     let sample = plan.address(address.replicate, address.pixel, address.sample, dealt);
     let mut sampler = AnySampler::start(plan.sampler, &sample);
-    let placement = film.place(address.pixel, sampler.next_2d());
+    let numbers = sampler.next_2d();
+    let numbers = position(film, plan.sampler, &sample, numbers);
+    let placement = film.place(address.pixel, numbers);
     let spp = samples as f32 * plan.replicates as f32;
     let site = PixelSite {
         pixel: address.pixel,

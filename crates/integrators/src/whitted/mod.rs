@@ -154,7 +154,17 @@ impl Picture {
         }
     }
 
+    /// Whether it has a pixel, which may lie around the film.
+    fn has(&self, pixel: UVec2) -> bool {
+        let place = pixel.wrapping_sub(self.origin);
+        let height = self.pixels.len() / self.width as usize;
+        place.x < self.width && (place.y as usize) < height
+    }
+
     fn pixel(&self, pixel: UVec2, look: impl FnOnce() -> Vec4) -> Vec4 {
+        if !self.has(pixel) {
+            return look();
+        }
         let place = pixel - self.origin;
         let index = place.y as usize * self.width as usize + place.x as usize;
         *self.pixels[index].get_or_init(look)
@@ -207,6 +217,10 @@ impl Integrator for Whitted {
         sink: &mut K,
     ) {
         for Draft { site, sampler, .. } in drafts {
+            // Pixels around the film are of no use to it.
+            if !picture.has(site.pixel) {
+                continue;
+            }
             sink.begin_sample(site.pixel, 1.0);
             self.sample(world, picture, site, sampler, sink);
         }

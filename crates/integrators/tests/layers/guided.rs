@@ -161,7 +161,10 @@ fn the_field_belongs_to_the_image() {
 
 /// A filter that a quarter of the samples count against, as one with negative lobes. Here, where every place looks
 /// alike, all together make the picture [`LOBED`] times as bright.
-struct Lobed;
+struct Lobed {
+    /// Whether pixels share samples, so that those of training join one by one.
+    shares: bool,
+}
 
 const LOBED: f64 = 1.25;
 
@@ -175,6 +178,10 @@ impl Placing for Lobed {
 
     fn dealt(&self, pixel: UVec2, even: u32) -> u32 {
         even * (1 + pixel.x % 2)
+    }
+
+    fn shares_samples(&self) -> bool {
+        self.shares
     }
 }
 
@@ -235,7 +242,13 @@ fn drafts(placing: &impl Placing, pass: &Pass, pixel: UVec2) -> Vec<Draft<Indepe
 
 /// The mean colours of the replicates of a picture of two or four samples per pixel and replicate, with ten
 /// more of training or so.
-fn replicate_means(stack: &Stack, size: UVec2, replicates: u32, seed: u64) -> Vec<[f64; 3]> {
+fn replicate_means(
+    placing: &Lobed,
+    stack: &Stack,
+    size: UVec2,
+    replicates: u32,
+    seed: u64,
+) -> Vec<[f64; 3]> {
     let integrator = Guided {
         training: 10.0,
         ..guided(5, 3)
@@ -251,13 +264,13 @@ fn replicate_means(stack: &Stack, size: UVec2, replicates: u32, seed: u64) -> Ve
             size,
             ..self::pass(replicate)
         };
-        let learned = integrator.prepare(stack, &Lobed, &pass, before.take());
+        let learned = integrator.prepare(stack, placing, &pass, before.take());
         let mut mean = [0.0; 3];
         for pixel in 0..size.element_product() {
             let mut scale = Scale::default();
             let pixel = origin + UVec2::new(pixel % size.x, pixel / size.x);
-            let dealt = Lobed.dealt(pixel, samples);
-            let mut drafts = drafts(&Lobed, &pass, pixel);
+            let dealt = placing.dealt(pixel, samples);
+            let mut drafts = drafts(placing, &pass, pixel);
             integrator.sample_all(stack, &learned, &mut drafts, &mut scale);
             for (mean, sum) in mean.iter_mut().zip(scale.sum) {
                 *mean += sum / f64::from(dealt * size.element_product());
@@ -280,12 +293,16 @@ fn training_joins_the_picture() {
         hidden: false,
     };
     let exact = exact.colour();
-    let means = replicate_means(&stack, UVec2::new(16, 24), 32, 5);
-    for channel in 0..3 {
+    for (shares, channel) in [false, true]
+        .into_iter()
+        .flat_map(|s| [(s, 0), (s, 1), (s, 2)])
+    {
+        let placing = Lobed { shares };
+        let means = replicate_means(&placing, &stack, UVec2::new(16, 24), 32, 5);
         let channel_means: Vec<f64> = means.iter().map(|mean| mean[channel]).collect();
         let summary = Summary::of(&channel_means).expect("replicates");
         let t = (summary.mean() - LOBED * exact[channel]) / summary.standard_error();
-        // |t| with 31 degrees of freedom: α = 10⁻³ over three channels.
+        // |t| with 31 degrees of freedom: α = 10⁻³ over six means.
         assert!(t.abs() < 3.9, "{channel}: t = {t:.2}");
         let relative = summary.standard_error() / exact[channel];
         assert!(relative < 0.02, "too noisy to tell: {relative}");
@@ -300,7 +317,13 @@ fn replicates_tell_the_error_of_what_they_learned_together() {
     let stack = rainbow();
     let runs: Vec<Summary> = (0..400)
         .map(|seed| {
-            let means = replicate_means(&stack, UVec2::new(4, 4), 4, 1000 + seed);
+            let means = replicate_means(
+                &Lobed { shares: false },
+                &stack,
+                UVec2::new(4, 4),
+                4,
+                1000 + seed,
+            );
             let green: Vec<f64> = means.iter().map(|mean| mean[1]).collect();
             Summary::of(&green).expect("replicates")
         })

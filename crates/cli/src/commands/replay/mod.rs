@@ -15,8 +15,8 @@ use crate::pipeline::{self, Loaded};
 use etalon_film::{ExactFilm, SampleCounts};
 use etalon_integrators::Plan;
 use etalon_integrators::replay::Address;
-use etalon_transport::Placing;
-use glam::UVec2;
+use etalon_transport::{Film, Placing};
+use glam::IVec2;
 use std::process::ExitCode;
 use tell::tell;
 use words::line;
@@ -41,12 +41,22 @@ fn told(
     asked: &ReplayAddress,
 ) -> Result<String, String> {
     let settings = &loaded.compiled.film;
-    let pixel = UVec2::from(asked.pixel);
-    let from = settings.crop_offset;
-    let to = from + settings.crop_size;
-    if !(pixel.cmpge(from).all() && pixel.cmplt(to).all()) {
+    let channels = loaded.integrator.channels();
+    let film = ExactFilm::new(settings.clone(), &channels).map_err(|error| error.message)?;
+    let film = film.dealing(counts);
+    let place = IVec2::from(asked.pixel);
+    let from = settings.crop_offset.as_ivec2();
+    let to = from + settings.crop_size.as_ivec2();
+    let rim = film.rim() as i32;
+    let (low, high) = (from - rim, to + rim);
+    if !(place.cmpge(low).all() && place.cmplt(high).all()) {
+        let around = match rim {
+            0 => String::new(),
+            rim => format!(", and samples up to {rim} pixels around them"),
+        };
+        let pixel = place;
         return Err(format!(
-            "`--replay`: there is no pixel ({}, {}): the film has columns {} to {} and rows {} to {}",
+            "`--replay`: there is no pixel ({}, {}): the film has columns {} to {} and rows {} to {}{around}",
             pixel.x,
             pixel.y,
             from.x,
@@ -63,9 +73,7 @@ fn told(
         )),
     };
     bounded("replicate", asked.replicate, plan.replicates)?;
-    let channels = loaded.integrator.channels();
-    let film = ExactFilm::new(settings.clone(), &channels).map_err(|error| error.message)?;
-    let film = film.dealing(counts);
+    let pixel = place.as_uvec2();
     let samples = film.dealt(pixel, plan.samples_per_replicate);
     bounded("sample", asked.sample, samples)?;
     let address = Address {
@@ -79,8 +87,8 @@ fn told(
     let mut text = format!(
         "{}: pixel ({}, {}), replicate {} of {}, sample {} of {}, seed {}, {} by {}\n",
         loaded.path.display(),
-        pixel.x,
-        pixel.y,
+        place.x,
+        place.y,
         asked.replicate,
         plan.replicates,
         asked.sample,
