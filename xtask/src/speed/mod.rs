@@ -136,10 +136,13 @@ pub(crate) fn run(arguments: &Arguments) -> Result<(), String> {
         eprintln!("Mitsuba is not there: Etalon alone");
     }
     let mut rows: Vec<Row> = Vec::new();
+    println!("{}", table::HEAD);
     for entry in &entries {
-        eprintln!("{}", entry.name);
         match pool.install(|| measure(arguments, entry, python.as_deref())) {
-            Ok(row) => rows.push(row),
+            Ok(row) => {
+                println!("{}", table::line(&row));
+                rows.push(row);
+            }
             // One scene of many that one program cannot read is no reason to measure none.
             Err(message) => eprintln!("error: {message}"),
         }
@@ -147,7 +150,9 @@ pub(crate) fn run(arguments: &Arguments) -> Result<(), String> {
     if rows.is_empty() {
         return Err("nothing was measured".to_owned());
     }
-    println!("{}", table::markdown(&rows));
+    if let Some(mean) = table::mean_line(&rows) {
+        println!("{mean}");
+    }
     if let Some(file) = &arguments.json {
         let text = serde_json::to_string_pretty(&rows).map_err(|e| e.to_string())?;
         fs::write(file, text).map_err(|e| format!("{}: {e}", file.display()))?;

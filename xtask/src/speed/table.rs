@@ -3,7 +3,6 @@
 use super::pictures::Facts;
 use etalon_math::float64;
 use serde::Serialize;
-use std::fmt::Write;
 
 /// A scene.
 #[derive(Clone, Debug, Serialize)]
@@ -11,6 +10,11 @@ pub(super) struct Row {
     pub(super) scene: String,
     pub(super) etalon: Facts,
     pub(super) mitsuba: Option<Facts>,
+}
+
+/// The error of a sum or difference of independent numbers with these.
+fn both(a: f64, b: f64) -> f64 {
+    (a * a + b * b).sqrt()
 }
 
 /// Ours over theirs.
@@ -28,62 +32,65 @@ impl Ratios {
     fn of(ours: &Facts, theirs: &Facts) -> Self {
         let ([v, e], [w, f]) = (ours.relative_variance, theirs.relative_variance);
         let variance = v / w;
-        let error = variance * (e / v).hypot(f / w);
+        let error = variance * both(e / v, f / w);
         let ([m, r], [n, s]) = (ours.mean, theirs.mean);
         Self {
             variance,
             within: 1.96 * error,
             rate: ours.rate() / theirs.rate(),
             efficiency: ours.efficiency() / theirs.efficiency(),
-            brightness: [m / n - 1.0, (m - n) / r.hypot(s)],
+            brightness: [m / n - 1.0, (m - n) / both(r, s)],
         }
     }
 }
 
-/// The table: ratios to Mitsuba where it took part, and what Etalon does by itself.
-pub(super) fn markdown(rows: &[Row]) -> String {
-    let mut text = "| scene | variance | M samples/s | variance / Mitsuba's | samples/s / Mitsuba's | efficiency / Mitsuba's | mean − Mitsuba's |\n|---|---|---|---|---|---|---|\n".to_owned();
-    let mut all = Vec::new();
-    for Row {
+/// The head of the table: ratios to Mitsuba where it takes part, and what Etalon does by itself.
+pub(super) const HEAD: &str = "\
+| scene | variance | M samples/s | variance / Mitsuba's | samples/s / Mitsuba's | efficiency / Mitsuba's | mean − Mitsuba's |
+|---|---|---|---|---|---|---|";
+
+/// The line of a scene.
+pub(super) fn line(row: &Row) -> String {
+    let Row {
         scene,
         etalon,
         mitsuba,
-    } in rows
-    {
-        let (variance, rate) = (etalon.relative_variance[0], etalon.rate() / 1e6);
-        // Writing to a string cannot fail.
-        let _ = write!(text, "| {scene} | {variance:.3e} | {rate:.3} |");
-        let _ = match mitsuba {
-            None => writeln!(text, " | | | |"),
-            Some(theirs) => {
-                let ratios = Ratios::of(etalon, theirs);
-                let [off, sigmas] = ratios.brightness;
-                let line = writeln!(
-                    text,
-                    " {:.3} ± {:.3} | {:.2} | {:.2} | {:+.2} % ({sigmas:+.1} σ) |",
-                    ratios.variance,
-                    ratios.within,
-                    ratios.rate,
-                    ratios.efficiency,
-                    100.0 * off,
-                );
-                all.push(ratios);
-                line
-            }
-        };
-    }
-    if !all.is_empty() {
-        let mean = |of: fn(&Ratios) -> f64| {
-            let sum: f64 = all.iter().map(|ratios| float64::ln(of(ratios))).sum();
-            float64::exp(sum / all.len() as f64)
-        };
-        let _ = writeln!(
-            text,
+    } = row;
+    let (variance, rate) = (etalon.relative_variance[0], etalon.rate() / 1e6);
+    let ours = format!("| {scene} | {variance:.3e} | {rate:.3} |");
+    let Some(theirs) = mitsuba else {
+        return format!("{ours} | | | |");
+    };
+    let ratios = Ratios::of(etalon, theirs);
+    let [off, sigmas] = ratios.brightness;
+    format!(
+        "{ours} {:.3} ± {:.3} | {:.2} | {:.2} | {:+.2} % ({sigmas:+.1} σ) |",
+        ratios.variance,
+        ratios.within,
+        ratios.rate,
+        ratios.efficiency,
+        100.0 * off,
+    )
+}
+
+/// The geometric means over all scenes that both programs rendered, if there are any.
+pub(super) fn mean_line(rows: &[Row]) -> Option<String> {
+    let both = rows
+        .iter()
+        .filter_map(|row| Some((&row.etalon, row.mitsuba.as_ref()?)));
+    let all: Vec<Ratios> = both
+        .map(|(ours, theirs)| Ratios::of(ours, theirs))
+        .collect();
+    let mean = |of: fn(&Ratios) -> f64| {
+        let sum: f64 = all.iter().map(|ratios| float64::ln(of(ratios))).sum();
+        float64::exp(sum / all.len() as f64)
+    };
+    (!all.is_empty()).then(|| {
+        format!(
             "| **geometric mean** | | | **{:.3}** | **{:.2}** | **{:.2}** | |",
             mean(|r| r.variance),
             mean(|r| r.rate),
             mean(|r| r.efficiency)
-        );
-    }
-    text
+        )
+    })
 }
