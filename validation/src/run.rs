@@ -175,7 +175,10 @@ impl<'a> Comparison<'a> {
                 replicates = pictures * first.replicates;
                 let (pictures, spp) =
                     noise::count(claim, counted, estimator, fault, first, options.seed)?;
-                (noise::judge(&pictures, *tolerance, alpha)?, spp)
+                (
+                    noise::judge(&pictures, estimator.blocks, *tolerance, alpha)?,
+                    spp,
+                )
             }
             Oracle::Invariance { .. } => {
                 let loaded = rendering::load_for(claim, estimator)?;
