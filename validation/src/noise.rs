@@ -12,6 +12,9 @@
 //!   this is claimed of the means of tiles, which comparisons are decided by, and of pixels only
 //!   where a replicate has many samples or their noise is known to be nearly normal.
 //!
+//! Of replicates that are blocks of one sequence the standard error is an upper estimate, so the statements
+//! are one-sided: the squared error is at most the reported one, and intervals cover at least at their rate.
+//!
 //! Trials are independent: those of different seeds are, and so are pixels of one picture, and tiles
 //! which share no pixel, unless the integrator splats or pixels share samples: claims are of films whose filter is `box` or
 //! importance-sampled (checked). One channel is counted, as those of a pixel
@@ -116,15 +119,21 @@ pub fn count(
     Ok(pictures)
 }
 
-/// The coverages and the squared error over all pictures, judged at `alpha` together.
+/// The coverages and the squared error over all pictures, judged at `alpha` together; one-sided if the
+/// replicates are `blocks`.
 ///
 /// # Errors
 /// If there is nothing to count.
-pub fn judge(pictures: &[Counted], tolerance: f64, alpha: f64) -> Result<Vec<Measure>, String> {
+pub fn judge(
+    pictures: &[Counted],
+    blocks: bool,
+    tolerance: f64,
+    alpha: f64,
+) -> Result<Vec<Measure>, String> {
     let all = (pictures.iter()).fold(Counted::default(), |all, picture| all.and(picture));
     let each = alpha / (LEVELS.len() + 1) as f64;
-    let coverages = (0..LEVELS.len()).map(|index| all.coverage(index, tolerance, each));
-    let ratio = std::iter::once_with(|| all.squared_error(each));
+    let coverages = (0..LEVELS.len()).map(|index| all.coverage(index, blocks, tolerance, each));
+    let ratio = std::iter::once_with(|| all.squared_error(blocks, each));
     let measures: Option<Vec<Measure>> = coverages.chain(ratio).collect();
     measures.ok_or_else(|| "there is nothing to count".to_owned())
 }
@@ -190,11 +199,16 @@ impl Counted {
 
     /// How often the interval of a level covers the truth. The same number of a proportion's standard
     /// deviations is accepted at every level.
-    fn coverage(&self, index: usize, tolerance: f64, alpha: f64) -> Option<Measure> {
+    fn coverage(&self, index: usize, blocks: bool, tolerance: f64, alpha: f64) -> Option<Measure> {
         let (count, level) = (self.covered[index], LEVELS[index]);
         let spread = |p: f64| (p * (1.0 - p)).sqrt();
         let tolerance = tolerance * spread(level) / spread(LEVELS[0]);
-        let accepted = [level - tolerance, (level + tolerance).min(1.0)];
+        let most = if blocks {
+            1.0
+        } else {
+            (level + tolerance).min(1.0)
+        };
+        let accepted = [level - tolerance, most];
         let interval = proportion::interval(count, self.trials, 1.0 - alpha)?;
         let bounds = [interval.low, interval.high];
         Some(Measure {
@@ -208,13 +222,14 @@ impl Counted {
     }
 
     /// The mean squared error over the reported one.
-    fn squared_error(&self, alpha: f64) -> Option<Measure> {
+    fn squared_error(&self, blocks: bool, alpha: f64) -> Option<Measure> {
         let [errors, reported, aa, ab, bb] = self.squares;
         let ratio = errors / reported;
         // Σ (a − ratio b)².
         let residuals = (aa - 2.0 * ratio * ab + ratio * ratio * bb).max(0.0);
         let estimate = Estimate::with_known_error(ratio, residuals.sqrt() / reported)?;
-        let accepted = [1.0 - RATIO_TOLERANCE, 1.0 + RATIO_TOLERANCE];
+        let least = if blocks { 0.0 } else { 1.0 - RATIO_TOLERANCE };
+        let accepted = [least, 1.0 + RATIO_TOLERANCE];
         let name = "squared error over the reported".to_owned();
         Some(Measure::new(name, &estimate, accepted, alpha))
     }
@@ -254,22 +269,39 @@ mod tests {
     fn normal_noise_passes_and_errors_that_are_too_small_do_not() {
         // α = 10⁻⁴ in each measure.
         let mut trials = trials(16_384);
-        let judged = |trials: &[Trial]| {
+        let judged = |trials: &[Trial], blocks: bool| {
             let counted = Counted::of(trials, 7.0).expect("numbers");
-            let mut measures = judge(&[counted], 0.03, 4e-4).expect("trials");
+            let mut measures = judge(&[counted], blocks, 0.03, 4e-4).expect("trials");
             let ratio = measures.pop().expect("four measures");
             let shares: Vec<_> = measures.iter().map(|share| share.verdict).collect();
             (shares, ratio)
         };
-        let (shares, ratio) = judged(&trials);
+        let (shares, ratio) = judged(&trials, false);
         assert_eq!(shares, [etalon_statistics::Verdict::Agrees; 3]);
         assert_eq!(ratio.verdict, etalon_statistics::Verdict::Agrees);
+        // Upper estimates are right for blocks, and wrong for independent replicates.
+        for trial in &mut trials {
+            trial.error *= 1.5;
+        }
+        for (blocks, verdict) in [
+            (true, etalon_statistics::Verdict::Agrees),
+            (false, etalon_statistics::Verdict::Differs),
+        ] {
+            let (shares, ratio) = judged(&trials, blocks);
+            assert_eq!(shares[..2], [verdict; 2]);
+            assert_eq!(ratio.verdict, verdict);
+        }
+        for trial in &mut trials {
+            trial.error /= 1.5;
+        }
         // Mutant rejected: standard errors too small by √2.
         for trial in &mut trials {
             trial.error *= std::f64::consts::FRAC_1_SQRT_2;
         }
-        let (shares, ratio) = judged(&trials);
-        assert_eq!(shares, [etalon_statistics::Verdict::Differs; 3]);
-        assert!((ratio.value - 2.0).abs() < 0.1 && ratio.p < 1e-9);
+        for blocks in [false, true] {
+            let (shares, ratio) = judged(&trials, blocks);
+            assert_eq!(shares, [etalon_statistics::Verdict::Differs; 3]);
+            assert!((ratio.value - 2.0).abs() < 0.1 && ratio.p < 1e-9);
+        }
     }
 }

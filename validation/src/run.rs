@@ -182,7 +182,8 @@ impl<'a> Comparison<'a> {
                 self.counted.extend(more);
                 // Those of all pictures, as its samples are.
                 replicates = pictures * first.replicates;
-                let measures = noise::judge(&self.counted, *tolerance, alpha)?;
+                let blocks = estimator.blocks;
+                let measures = noise::judge(&self.counted, blocks, *tolerance, alpha)?;
                 (measures, u64::from(pictures) * u64::from(first.spp))
             }
             Oracle::Invariance { .. } => {

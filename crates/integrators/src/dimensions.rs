@@ -3,6 +3,12 @@
 //! The layout is fixed, so that what one bounce happens to use never shifts the next, and a
 //! low-discrepancy sampler spends its best dimensions on the choices that matter most. Pairs
 //! begin at even dimensions.
+//!
+//! Measured with `sobol`, one replicate of 32 samples, as variance over that of this layout: the first light in the
+//! film position's group of four, in place of the lens, with the lobe, the choice of a light and the first
+//! direction in the second group: 0.91 to 1.00 (0.95) for direct light alone on four scenes, 0.95 to 1.05 (1.00) at
+//! full depth on seven, but 1.26 with a lens (`depth-of-field`). Five jointly scrambled dimensions of Joe and Kuo
+//! (2008) for film, first light and lobe: 0.84 to 0.97, 0.98 to 1.02, and 1.26. So film and lens stay together.
 
 use etalon_sampling::Sampler;
 use glam::Vec2;

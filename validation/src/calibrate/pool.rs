@@ -249,7 +249,9 @@ impl<'a> Table<'a> {
                 };
                 let count = counted.len() * multiple as usize;
                 let drawn: Vec<Counted> = (0..count).map(|_| *self.draw(counted)).collect();
-                let (verdict, p) = Measure::together(&noise::judge(&drawn, *tolerance, alpha)?);
+                let blocks = self.task.estimator.blocks;
+                let measures = noise::judge(&drawn, blocks, *tolerance, alpha)?;
+                let (verdict, p) = Measure::together(&measures);
                 Ok(Dealt { verdict, p })
             }
             Kind::Certain => Ok(Dealt {

@@ -41,11 +41,8 @@ pub(super) fn command(
         "--spp {spp} --replicates {} --seed {}",
         plan.replicates, plan.seed
     ));
-    // No harm where the integrator has no other.
-    words.extend(
-        (plan.replicate_kind.is_independent() && args.independent_replicates)
-            .then(|| "--independent-replicates".to_owned()),
-    );
+    let independent = args.independent_replicates;
+    words.extend(independent.then(|| "--independent-replicates".to_owned()));
     words.extend(pilot.map(|pilot| format!("--adaptive --pilot {pilot}")));
     words.push(format!("--replay {x},{y},{replicate},{sample}"));
     words.join(" ")
@@ -81,5 +78,11 @@ mod tests {
         assert_eq!(command(&args, &plan, None, [12, 5], 2, 3), expected);
         let dealt = expected.replace("--replay", "--adaptive --pilot 64 --replay");
         assert_eq!(command(&args, &plan, Some(64), [12, 5], 2, 3), dealt);
+        let args = RenderArgs {
+            independent_replicates: true,
+            ..args
+        };
+        let independent = expected.replace("--replay", "--independent-replicates --replay");
+        assert_eq!(command(&args, &plan, None, [12, 5], 2, 3), independent);
     }
 }

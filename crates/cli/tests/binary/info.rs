@@ -14,6 +14,7 @@ fn of_an_image() {
         "  standard_error.G     mean 0.",
         "integrator   path\n",
         "samples      8 per pixel, 8 replicates, independent, seed 3\n",
+        "replicates   blocks of one sequence: standard errors are upper estimates\n",
         "film         rgb, box\n",
         " % mean relative standard error\n",
     ] {

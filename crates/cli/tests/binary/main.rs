@@ -5,6 +5,7 @@
 mod adaptive;
 mod bad_files;
 mod bad_scenes;
+mod blocks;
 mod command_line;
 mod compare;
 mod convert;

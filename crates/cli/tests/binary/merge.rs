@@ -158,6 +158,8 @@ fn what_does_not_belong_together_is_refused() {
     part("seed.exr", &["2/2", "--spp", "8", "--seed", "9"]);
     part("spp.exr", &["2/2", "--spp", "16"]);
     part("of.exr", &["2/2", "--spp", "4", "--replicates", "4"]);
+    let kind = ["2/2", "--spp", "8", "--independent-replicates"];
+    part("kind.exr", &kind);
     part("size.exr", &["2/2", "--spp", "8", "-D", "max_depth=3"]);
     workshop.render("whole.exr", &["-q", "--spp", "8"]);
     workshop.write("text.exr", "nothing like a picture");
@@ -173,6 +175,10 @@ fn what_does_not_belong_together_is_refused() {
     differ(
         "of.exr",
         "the number of replicates of the whole is 8 in the first, 4 in the second",
+    );
+    differ(
+        "kind.exr",
+        "the kind of replicates is blocks in the first, independent in the second",
     );
     differ("size.exr", "the scene's hash is ");
     let twice = "a.exr and c.exr both have the replicates 2 to 3";

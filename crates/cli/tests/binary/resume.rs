@@ -123,6 +123,10 @@ fn a_checkpoint_of_something_else_is_refused() {
         &and(&["--integrator", "direct"]),
         "the integrator is `path`",
     );
+    refused(
+        &and(&["--independent-replicates"]),
+        "the kind of replicates is blocks there, independent here",
+    );
     refused(&and(&["-D", "resx=23"]), "the scene's hash");
     refused(
         &and(&["--adaptive"]),

@@ -133,3 +133,62 @@ fn independent_replicates_keep_their_address() {
     let own = address(0, 3, 4, 1);
     assert_eq!(ReplicateKind::Independent.address(own, 8), own);
 }
+
+/// Of many pixels, the shares of 95 % intervals that cover the truth, and the mean squared error over the
+/// reported one, of an integrand over pairs with R = 8 blocks of 4; `block` chooses the block's address.
+fn intervals(
+    kind: SamplerKind,
+    (integrand, truth): (fn(Vec2) -> f64, f64),
+    block: fn(u32) -> u32,
+) -> (f64, f64) {
+    const PIXELS: u64 = 4000;
+    let (mut covered, mut errors, mut reported) = (0.0, 0.0, 0.0);
+    for seed in 0..PIXELS {
+        let mean = |replicate| {
+            let value = |sample| {
+                let at = address(block(replicate), sample, 4, 8);
+                integrand(numbers(kind, &PixelSample { seed, ..at }, 8).0)
+            };
+            (0..4).map(value).sum::<f64>() / 4.0
+        };
+        let means: [f64; 8] = std::array::from_fn(|replicate| mean(replicate as u32));
+        let summary = etalon_statistics::Summary::of(&means).expect("eight numbers");
+        let (off, error) = (summary.mean() - truth, summary.standard_error());
+        // Student's t with seven degrees of freedom.
+        covered += f64::from(u8::from(off.abs() <= 2.3646 * error));
+        errors += off * off;
+        reported += error * error;
+    }
+    (covered / PIXELS as f64, errors / reported)
+}
+
+/// The standard error from the spread of blocks is an upper estimate: intervals cover at least at their
+/// rate. No theorem: a checkerboard aligned with the net is a known exception.
+#[test]
+fn the_spread_of_blocks_overstates_the_error() {
+    let edge: (fn(Vec2) -> f64, f64) = (|p| f64::from(u8::from(p.x + 0.3 * p.y < 0.6)), 0.45);
+    let disc: (fn(Vec2) -> f64, f64) = (
+        |p| f64::from(u8::from(p.length_squared() < 0.64)),
+        0.16 * std::f64::consts::PI,
+    );
+    let smooth: (fn(Vec2) -> f64, f64) = (|p| f64::from(p.x * p.y), 0.25);
+    for kind in [SamplerKind::Stratified { jitter: true }, SamplerKind::Sobol] {
+        for integrand in [edge, disc, smooth] {
+            let (covered, ratio) = intervals(kind, integrand, |block| block);
+            // 3.3 standard deviations of the share of 4000 at 0.95.
+            assert!(
+                covered > 0.9386 && ratio < 1.0,
+                "{kind:?}: {covered} {ratio}"
+            );
+            // Mutant: the second half of the blocks repeats the first, so that blocks correlate.
+            // (A smooth function is so well integrated that even this does no harm.)
+            if integrand.1 != smooth.1 {
+                let (covered, _) = intervals(kind, integrand, |block| block % 4);
+                assert!(covered < 0.92, "{kind:?}: {covered}");
+            }
+        }
+    }
+    // Independent numbers have nothing to gain: the squared error is the reported one.
+    let (_, ratio) = intervals(SamplerKind::Independent, edge, |block| block);
+    assert!((ratio - 1.0).abs() < 0.1, "{ratio}");
+}
