@@ -1,15 +1,16 @@
 //! Several light samples that compete for one shadow ray.
 //!
 //! A vertex draws M light samples x₁ … x_M; the choice of the light is stratified over them, and one pair of
-//! numbers is turned for each. With gᵢ the estimate of xᵢ as one of M light samples beside scattering, and
-//! ĝᵢ the same if nothing is in the way, one is chosen with the probability Σ ĝᵢ / Σⱼ Σ ĝⱼ (the inner sums
-//! over the wavelengths), gets the only shadow ray, and counts gᵢ over that probability. Whatever the samples,
-//! the mean over the choice is Σᵢ gᵢ, that is what M shadow rays would bring: the choice needs no
-//! density of its own, and may depend on all wavelengths (J. Talbot, D. Cline, P. Egbert, Importance
-//! resampling for global illumination, 2005, with the balance heuristic in the target).
+//! numbers is turned for each. With gᵢ the estimate that one light sample xᵢ would bring beside scattering, and ĝᵢ
+//! the same if nothing is in the way, one is chosen with the probability Σ ĝᵢ / Σⱼ Σ ĝⱼ (the inner sums over the
+//! wavelengths), gets the only shadow ray, and counts gᵢ/M over that probability. Whatever the samples, the mean
+//! over the choice is Σᵢ gᵢ/M, the mean of what M shadow rays would bring: the choice needs no density of its own,
+//! and may depend on all wavelengths (J. Talbot, D. Cline, P. Egbert, Importance resampling for global
+//! illumination, 2005, with the balance heuristic in the target).
 //!
-//! A lone light whose samples are all alike gains nothing and loses: visibility then decides, which the
-//! choice does not see, and scattering is trusted less than it deserves. There one light sample is drawn.
+//! Against scattering they count as one light sample, not as M. The balance heuristic for M would trust them
+//! as far as M shadow rays, which they are not: where visibility decides, or which of two lights, that was measured to
+//! double the variance. For the same reason one sample is drawn of a lone light whose samples are all alike.
 
 use crate::dimensions::Event;
 use crate::prefix::Prefix;
@@ -29,14 +30,9 @@ const AUTOMATIC: u32 = 2;
 /// The largest number below one.
 const BELOW_ONE: f32 = 1.0 - f32::EPSILON / 2.0;
 
-/// How many light samples a vertex draws for its shadow ray.
+/// How many light samples a vertex draws for its shadow ray; not zero.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) struct Candidates {
-    /// M; not zero.
-    pub(crate) count: u32,
-    /// As how many light samples they count against scattering.
-    pub(crate) weighed: f32,
-}
+pub(crate) struct Candidates(u32);
 
 /// A light sample before its shadow ray is traced.
 #[derive(Clone, Copy)]
@@ -95,10 +91,7 @@ impl Aim {
 
 impl Candidates {
     /// One light sample.
-    pub(crate) const ONE: Self = Self {
-        count: 1,
-        weighed: 1.0,
-    };
+    const ONE: Self = Self(1);
 
     /// As many as `wanted` says at a receiver with such lights.
     #[inline]
@@ -111,10 +104,7 @@ impl Candidates {
                 (Some(count), _) => count.get(),
             },
         };
-        Self {
-            count,
-            weighed: count as f32,
-        }
+        Self(count)
     }
 
     /// Draws them, and chooses one; `aim` says what a light sample brings. Draws one more number of `sampler`
@@ -129,14 +119,16 @@ impl Candidates {
         sampler: &mut impl Sampler,
         aim: impl Fn(&LightSample) -> Option<Aim>,
     ) -> Option<Aim> {
-        if self.count == 1 {
+        if self == Self::ONE {
             let (choice, u) = (event.light_choice, event.light);
             return aim(&world.sample_light(from, wavelengths, choice, u)?);
         }
-        let mut number = sampler.next_1d();
+        // The better number decides which candidate counts, and so which light: the candidates' lights
+        // are nearly the same for all samples.
+        let (mut number, shift) = (event.light_choice, sampler.next_1d());
         let (mut chosen, mut sum) = (None, 0.0);
-        for i in 0..self.count {
-            let choice = ((event.light_choice + i as f32) / self.count as f32).min(BELOW_ONE);
+        for i in 0..self.0 {
+            let choice = ((shift + i as f32) / self.0 as f32).min(BELOW_ONE);
             let u = (event.light + TURN * i as f32)
                 .fract()
                 .min(Vec2::splat(BELOW_ONE));
@@ -161,7 +153,7 @@ impl Candidates {
             }
         }
         let (mut aim, expected) = chosen?;
-        aim.complete.value *= self.weighed / self.count as f32 * (sum / expected);
+        aim.complete.value *= sum / (expected * self.0 as f32);
         Some(aim)
     }
 }

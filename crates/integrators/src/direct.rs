@@ -78,11 +78,6 @@ impl Direct {
         direct
     }
 
-    /// How many light samples compete for a shadow ray at `from`.
-    fn candidates<W: World>(&self, world: &W, from: &Receiver) -> Candidates {
-        Candidates::at(self.light_candidates, world, from)
-    }
-
     fn incident<W: World, S: Sampler>(
         &self,
         world: &W,
@@ -165,11 +160,8 @@ impl Direct {
         event: u32,
     ) -> Vec4 {
         let event = Event::draw(sampler, event);
-        let candidates = self.candidates(world, from);
-        let balance = [
-            self.emitter_samples as f32 * candidates.weighed,
-            self.bsdf_samples as f32,
-        ];
+        let candidates = Candidates::at(self.light_candidates, world, from);
+        let balance = [self.emitter_samples as f32, self.bsdf_samples as f32];
         let aim = |light: &LightSample| Aim::new(light, &Prefix::START, bsdf, wo, balance);
         let passage = candidates
             .draw(world, from, wavelengths, &event, sampler, aim)
@@ -200,10 +192,10 @@ impl Direct {
             return Vec4::ZERO;
         };
         let mut path = Prefix::START;
-        let light_samples = self.emitter_samples as f32 * self.candidates(world, from).weighed;
-        let rival = Rival::NONE.after(&path, from, &sample, light_samples);
+        let mut rival = Rival::NONE.after(&path, from, &sample);
         path.extend(sample.value, sample.chance.lanes());
         path.ratio *= self.bsdf_samples as f32;
+        rival.ratio *= self.emitter_samples as f32;
         let ray = vertex.spawn(sample.wi);
         match world.intersect(&ray) {
             None if world.has_background() => {

@@ -271,7 +271,7 @@ impl<W: World, S: Sampler> Tree<'_, W, S> {
         };
         let mut next = Branch {
             ray: vertex.spawn(sample.wi),
-            rival: branch.rival.after(&branch.prefix, from, &sample, 1.0),
+            rival: branch.rival.after(&branch.prefix, from, &sample),
             eta: branch.eta * sample.eta,
             depth: branch.depth + 1,
             bounces: branch.bounces + u32::from(bsdf.has_continuous()),

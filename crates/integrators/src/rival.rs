@@ -21,16 +21,9 @@ impl Rival {
         ratio: Vec4::ZERO,
     };
 
-    /// The rival after sampling `sample` where as many as `light_samples` lights were sampled for `from`,
-    /// reached by `before`.
+    /// The rival after sampling `sample` where light was sampled for `from`, reached by `before`.
     #[inline]
-    pub(crate) fn after(
-        self,
-        before: &Prefix,
-        from: &Receiver,
-        sample: &BsdfSample,
-        light_samples: f32,
-    ) -> Self {
+    pub(crate) fn after(self, before: &Prefix, from: &Receiver, sample: &BsdfSample) -> Self {
         let chance = sample.chance.lanes().x;
         if sample.passes {
             Self {
@@ -42,7 +35,7 @@ impl Rival {
         } else {
             Self {
                 from: *from,
-                ratio: before.ratio * (light_samples / chance),
+                ratio: before.ratio / chance,
             }
         }
     }

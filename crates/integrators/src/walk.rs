@@ -200,11 +200,10 @@ impl<'a, S: Sampler, C: Companion> Walk<'a, S, C> {
         }
         let event = Event::draw(self.sampler, self.depth - 1);
         let from = Receiver::new(&vertex, wo, &bsdf).combined();
-        let candidates = Candidates::at(self.candidates, world, &from);
         if bsdf.has_continuous() {
             let prefix = self.prefix;
-            let balance = [candidates.weighed, 1.0];
-            let aim = |light: &LightSample| Aim::new(light, &prefix, &bsdf, wo, balance);
+            let candidates = Candidates::at(self.candidates, world, &from);
+            let aim = |light: &LightSample| Aim::new(light, &prefix, &bsdf, wo, [1.0; 2]);
             let aim = candidates.draw(world, &from, &self.wavelengths, &event, self.sampler, aim);
             self.connection = aim.and_then(|aim| {
                 Some(Connection {
@@ -215,19 +214,10 @@ impl<'a, S: Sampler, C: Companion> Walk<'a, S, C> {
             });
             self.companion.aimed();
         }
-        self.scatter(
-            &vertex,
-            &from,
-            &bsdf,
-            wo,
-            settings,
-            &event,
-            candidates.weighed,
-        );
+        self.scatter(&vertex, &from, &bsdf, wo, settings, &event);
     }
 
     /// Takes the path around the corner, or ends it.
-    #[allow(clippy::too_many_arguments)]
     #[inline]
     fn scatter(
         &mut self,
@@ -237,7 +227,6 @@ impl<'a, S: Sampler, C: Companion> Walk<'a, S, C> {
         wo: Vec3,
         settings: &PathSettings,
         event: &Event,
-        light_samples: f32,
     ) {
         let Some(sample) = bsdf.sample(wo, event.lobe, event.direction, Mode::Radiance) else {
             self.alpha = 1.0;
@@ -250,7 +239,7 @@ impl<'a, S: Sampler, C: Companion> Walk<'a, S, C> {
         if !sample.chance.is_discrete() {
             self.candidates = LightCandidates::ONE;
         }
-        self.rival = self.rival.after(&self.prefix, from, &sample, light_samples);
+        self.rival = self.rival.after(&self.prefix, from, &sample);
         self.prefix.extend(sample.value, sample.chance.lanes());
         self.eta *= sample.eta;
         self.ray = vertex.spawn(sample.wi);

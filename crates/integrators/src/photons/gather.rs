@@ -252,7 +252,7 @@ impl<'w, W: World> Gatherer<'_, 'w, W> {
                 _ => {}
             }
             let mut left = Left::new(vertex, wo, &sample, event.lobe, event.direction);
-            self.rival = self.rival.after(&self.prefix, &from, &sample, 1.0);
+            self.rival = self.rival.after(&self.prefix, &from, &sample);
             self.prefix.extend(sample.value, sample.chance.lanes());
             eta *= sample.eta;
             ray = vertex.spawn(sample.wi);

@@ -137,8 +137,8 @@ fn direct_is_a_path_of_two_segments() {
     assert!(z < LIMIT, "light samples only: z = {z:.2}");
 }
 
-/// One shadow ray for several light samples, whatever lies in the way. Rejects samples that do not count against
-/// scattering as often as they are drawn, on either side, and a choice that forgets its probability.
+/// One shadow ray for several light samples, whatever lies in the way. Rejects samples that count against scattering
+/// as often as they are drawn on one side only, and a choice that forgets its probability.
 #[test]
 fn competing_light_samples_change_no_mean() {
     for (name, stack) in [("everything", everything()), ("rainbow", rainbow())] {
