@@ -157,6 +157,27 @@ fn paths_without_segments_are_remarked_upon() {
 }
 
 #[test]
+fn numbers_of_light_candidates_are_checked() {
+    for (name, place) in [("path", "2:65"), ("direct", "2:67")] {
+        let with = |count: &str| {
+            let count = format!("<integer name=\"light_candidates\" value=\"{count}\"/>");
+            let integrator = format!("<integrator type=\"{name}\">{count}</integrator>");
+            render(&integrator, PINHOLE, POINT)
+        };
+        for wrong in ["0", "-1", "65"] {
+            refuses(with(wrong), place, "1, 2, … 64");
+        }
+        says_nothing(with("1"));
+        says_nothing(with("64"));
+    }
+    // Those that draw one know no such parameter.
+    let bdpt =
+        "<integrator type=\"bdpt\"><integer name=\"light_candidates\" value=\"2\"/></integrator>";
+    let ran = render(bdpt, PINHOLE, POINT);
+    assert!(ran.stderr.contains("light_candidates"), "{}", ran.stderr);
+}
+
+#[test]
 fn forward_needs_an_aperture() {
     for lights in [LAMP, "", POINT] {
         let ran = render(&named("forward"), PINHOLE, lights);
