@@ -5,9 +5,13 @@ use crate::workshop::{Workshop, small_scene};
 use etalon_film::Developed;
 use etalon_sampling::ReplicateKind;
 
-/// A scene in which samples are `sobol`'s.
+/// A scene in which samples are `sobol`'s, under a lamp.
 fn scene(integrator: &str) -> String {
-    small_scene(integrator).replace("\"independent\"", "\"sobol\"")
+    let lamp = "<shape type=\"sphere\"><point name=\"center\" value=\"1, 2, 0\"/>
+        <float name=\"radius\" value=\"0.2\"/><emitter type=\"area\"/></shape>";
+    small_scene(integrator)
+        .replace("\"independent\"", "\"sobol\"")
+        .replace("<emitter type=\"constant\"/>", lamp)
 }
 
 /// Renders `scene.xml` of the workshop.

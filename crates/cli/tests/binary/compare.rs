@@ -22,7 +22,7 @@ fn compare(workshop: &Workshop, names: [&str; 2], further: &[&str]) -> Ran {
 #[test]
 fn equal_pictures_agree_within_a_bound_that_their_noise_allows() {
     let workshop = three_images();
-    let wide = ["--bound", "0.2", "--tile-bound", "0.5"];
+    let wide = ["--bound", "0.3", "--tile-bound", "0.5"];
     let ran = compare(&workshop, ["a.exr", "b.exr"], &wide).fine();
     assert!(ran.stdout.contains("\nagrees ("), "{}", ran.stdout);
     for word in [
