@@ -251,7 +251,7 @@ impl Claim {
     /// Whether `bounds` have a say in what it claims.
     fn is_bounded(&self) -> bool {
         match self.oracle {
-            Oracle::Convergence(_) | Oracle::Noise { .. } | Oracle::Povray { .. } => false,
+            Oracle::Convergence(_) | Oracle::Noise(_) | Oracle::Povray { .. } => false,
             // Bits have none.
             _ => (self.estimators.iter()).any(|e| !e.change.is_some_and(Change::is_of_bits)),
         }
@@ -282,12 +282,8 @@ impl Claim {
                 ladder.check()?;
                 None
             }
-            Oracle::Noise {
-                seeds, tolerance, ..
-            } => {
-                if *seeds == 0 || !sensible(*tolerance) {
-                    return Err("`seeds` and `tolerance` must be above 0".to_owned());
-                }
+            Oracle::Noise(counting) => {
+                counting.check()?;
                 None
             }
             Oracle::Povray { edges, excused } => {

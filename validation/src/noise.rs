@@ -26,6 +26,7 @@ use crate::fault::Fault;
 use crate::measure::{self, Measure};
 use crate::rendering;
 use crate::samples;
+use crate::tier::Tier;
 use etalon::judge::{self, Known};
 use etalon_film::{Developed, Metadata};
 use etalon_statistics::{Estimate, Summary, proportion};
@@ -55,6 +56,68 @@ pub enum Means {
     Tiles,
 }
 
+/// What a noise claim counts, and how much of it.
+#[derive(Clone, Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Counting {
+    /// Whose means.
+    #[serde(default)]
+    pub of: Means,
+    /// The closed form that tells the truth.
+    pub formula: String,
+    /// How many pictures, each with its own seed.
+    pub seeds: u32,
+    /// How far a rate may be from what it ought to be.
+    pub tolerance: f64,
+    /// What the default run makes instead, where seconds do not suffice for that tolerance.
+    pub default: Option<Effort>,
+}
+
+/// How much is counted, and how far off what is counted may be.
+#[derive(Clone, Copy, Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Effort {
+    /// How many pictures, each with its own seed.
+    pub seeds: u32,
+    /// How far a rate may be from what it ought to be.
+    pub tolerance: f64,
+}
+
+impl Counting {
+    /// What is made of it in a tier. A quarter of the pictures shows a fault, and of the fewest.
+    pub fn effort(&self, tier: Tier, fault: Option<Fault>) -> Effort {
+        let all = Effort {
+            seeds: self.seeds,
+            tolerance: self.tolerance,
+        };
+        let least = self.default.unwrap_or(all);
+        match (fault, tier) {
+            (Some(_), _) => Effort {
+                seeds: least.seeds.div_ceil(4),
+                ..least
+            },
+            (None, Tier::Default) => least,
+            (None, Tier::Thorough | Tier::Full) => all,
+        }
+    }
+
+    /// Refuses numbers that make no sense.
+    ///
+    /// # Errors
+    /// Says which.
+    pub fn check(&self) -> Result<(), String> {
+        let sensible = |x: f64| x > 0.0 && x < 1.0;
+        if self.seeds == 0 || !sensible(self.tolerance) {
+            return Err("`seeds` and `tolerance` must be above 0".to_owned());
+        }
+        let less = |e: Effort| e.seeds > 0 && e.seeds < self.seeds && sensible(e.tolerance);
+        if !self.default.is_none_or(less) {
+            return Err("`default` needs fewer `seeds`, and a `tolerance` above 0".to_owned());
+        }
+        Ok(())
+    }
+}
+
 /// What is counted of a picture, or of several.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Counted {
@@ -79,7 +142,7 @@ struct Trial {
 /// If a picture cannot be rendered, or an integrator makes pixels depend on each other.
 pub fn count(
     claim: &Claim,
-    (of, formula, numbers): (Means, &str, Range<u32>),
+    (counting, numbers): (&Counting, Range<u32>),
     estimator: &Estimator,
     fault: Option<Fault>,
     budget: Budget,
@@ -95,7 +158,7 @@ pub fn count(
         return Err("pixels of an integrator that splats depend on each other".to_owned());
     }
     let size = loaded.compiled.film.crop_size.to_array();
-    let known = closed_form::picture(formula, claim, estimator, size)?;
+    let known = closed_form::picture(&counting.formula, claim, estimator, size)?;
     let freedom = f64::from(budget.replicates) - 1.0;
     let mut pictures = Vec::new();
     for number in numbers {
@@ -106,7 +169,7 @@ pub fn count(
         if picture.metadata.as_ref().is_some_and(shared) {
             return Err("pixels that share samples depend on each other".to_owned());
         }
-        let mut trials = match of {
+        let mut trials = match counting.of {
             Means::Pixels => pixels(&picture, &known)?,
             Means::Tiles => tiles(&picture, &known)?,
         };

@@ -3,7 +3,7 @@
 
 use crate::claim::Estimator;
 use crate::convergence::Ladder;
-use crate::noise::Means;
+use crate::noise::Counting;
 use serde::Deserialize;
 
 /// What an estimator is held against.
@@ -50,17 +50,7 @@ pub enum Oracle {
     Convergence(Ladder),
     /// Whether standard errors are right: Student's intervals of 68, 95 and 99 % about a mean must be
     /// shown to cover the truth at their rate, and squared errors to be as large as reported.
-    Noise {
-        /// Whose means.
-        #[serde(default)]
-        of: Means,
-        /// The closed form that tells the truth.
-        formula: String,
-        /// How many pictures, each with its own seed.
-        seeds: u32,
-        /// How far a rate may be from what it ought to be.
-        tolerance: f64,
-    },
+    Noise(Counting),
     /// A picture by POV-Ray of the scene's twin: every pixel agrees, see [`crate::pixelwise`].
     Povray {
         /// The greatest share of pixels next to an edge.
@@ -97,7 +87,7 @@ impl Oracle {
             Self::Energy { .. } => "energy",
             Self::Invariance { .. } => "invariance",
             Self::Convergence(_) => "convergence",
-            Self::Noise { .. } => "noise",
+            Self::Noise(_) => "noise",
             Self::Povray { .. } => "povray",
         }
     }

@@ -10,6 +10,7 @@ use crate::decision::Turn;
 use crate::judged::{self, Against, Asked};
 use crate::kept::Kept;
 use crate::measure::Measure;
+use crate::noise::Effort;
 use crate::{closed_form, convergence, invariance, noise, pixelwise, reference, rendering};
 use etalon::judge::{Judgement, Known};
 use etalon_film::Developed;
@@ -164,26 +165,17 @@ impl<'a> Comparison<'a> {
                 fall = Some(batches.fall(ladder));
                 (vec![measure], batches.spp)
             }
-            Oracle::Noise {
-                of,
-                formula,
-                seeds,
-                tolerance,
-            } => {
-                // A quarter of the pictures shows a fault.
-                let seeds = if fault.is_some() {
-                    seeds.div_ceil(4)
-                } else {
-                    *seeds
-                };
+            Oracle::Noise(counting) => {
+                let Effort { seeds, tolerance } = counting.effort(options.tier, fault);
                 let pictures = multiple * seeds;
-                let counted = (*of, formula.as_str(), self.counted.len() as u32..pictures);
-                let more = noise::count(claim, counted, estimator, fault, first, options.seed)?;
+                let numbers = self.counted.len() as u32..pictures;
+                let of = (counting, numbers);
+                let more = noise::count(claim, of, estimator, fault, first, options.seed)?;
                 self.counted.extend(more);
                 // Those of all pictures, as its samples are.
                 replicates = pictures * first.replicates;
                 let blocks = estimator.blocks;
-                let measures = noise::judge(&self.counted, blocks, *tolerance, alpha)?;
+                let measures = noise::judge(&self.counted, blocks, tolerance, alpha)?;
                 (measures, u64::from(pictures) * u64::from(first.spp))
             }
             Oracle::Invariance { .. } => {

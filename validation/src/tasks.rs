@@ -90,7 +90,7 @@ impl Task<'_> {
                 };
                 own + f64::from(other.spp)
             }
-            Oracle::Noise { seeds, .. } => own * f64::from(*seeds),
+            Oracle::Noise(counting) => own * f64::from(counting.effort(tier, self.fault).seeds),
             _ => own,
         };
         spp * self.claim.pixels()

@@ -116,11 +116,9 @@ impl Pool {
                 batches.extend(claim, ladder, (estimator, None), first, seed)?;
                 Kind::Exponents(batches.exponents)
             }
-            Oracle::Noise {
-                of, formula, seeds, ..
-            } => {
-                let counted = (*of, formula.as_str(), 0..*seeds);
-                Kind::Coverages(noise::count(claim, counted, estimator, None, first, seed)?)
+            Oracle::Noise(counting) => {
+                let of = (counting, 0..counting.effort(tier, None).seeds);
+                Kind::Coverages(noise::count(claim, of, estimator, None, first, seed)?)
             }
             Oracle::Invariance { .. } if estimator.change.is_some_and(|c| c.is_of_bits()) => {
                 Kind::Certain
@@ -244,13 +242,14 @@ impl<'a> Table<'a> {
                 })
             }
             Kind::Coverages(counted) => {
-                let Oracle::Noise { tolerance, .. } = &self.task.claim.oracle else {
+                let Oracle::Noise(counting) = &self.task.claim.oracle else {
                     return Err("coverages belong to claims about noise".to_owned());
                 };
+                let tolerance = counting.effort(self.pool.tier, None).tolerance;
                 let count = counted.len() * multiple as usize;
                 let drawn: Vec<Counted> = (0..count).map(|_| *self.draw(counted)).collect();
                 let blocks = self.task.estimator.blocks;
-                let measures = noise::judge(&drawn, blocks, *tolerance, alpha)?;
+                let measures = noise::judge(&drawn, blocks, tolerance, alpha)?;
                 let (verdict, p) = Measure::together(&measures);
                 Ok(Dealt { verdict, p })
             }

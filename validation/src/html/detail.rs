@@ -7,6 +7,7 @@ use crate::convergence::{Fall, Ladder};
 use crate::json::{self, Provenance};
 use crate::look::Look;
 use crate::measure::Measure;
+use crate::noise::Counting;
 use crate::outcome::Row;
 use crate::run::{Compared, Evidence};
 use crate::table;
@@ -67,7 +68,7 @@ fn held_against(row: &Row<'_>) -> Markup {
     html! {
         @match &claim.oracle {
             Oracle::ClosedForm { formula } | Oracle::Energy { formula } | Oracle::Convergence(Ladder { formula, .. })
-                | Oracle::Noise { formula, .. } => { "the closed form " code { (formula) } }
+                | Oracle::Noise(Counting { formula, .. }) => { "the closed form " code { (formula) } }
             Oracle::Agreement { estimator } | Oracle::Invariance { estimator } => { "our own " (estimator.label()) }
             // References, whoever rendered them.
             _ => {

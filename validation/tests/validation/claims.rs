@@ -3,6 +3,7 @@
 
 use etalon_validation::claim::{Claim, Oracle, Sampler};
 use etalon_validation::convergence::Ladder;
+use etalon_validation::noise::Counting;
 use etalon_validation::tier::{FULL_BOUND, Tier};
 use etalon_validation::{closed_form, folders, povray, reference, run};
 use std::collections::BTreeSet;
@@ -26,7 +27,7 @@ fn scenes_load_and_oracles_belong_to_them() {
             Oracle::ClosedForm { formula }
             | Oracle::Energy { formula }
             | Oracle::Convergence(Ladder { formula, .. })
-            | Oracle::Noise { formula, .. } => {
+            | Oracle::Noise(Counting { formula, .. }) => {
                 let pixels = (size[0] * size[1]) as usize;
                 for estimator in &claim.estimators {
                     let known = closed_form::picture(formula, &claim, estimator, size)

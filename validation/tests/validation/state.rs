@@ -130,10 +130,10 @@ fn replicates_of_a_noise_claim_are_those_of_all_its_pictures() {
         replicates: 8,
         bound: None,
     });
-    let Oracle::Noise { seeds, .. } = &mut claims[0].oracle else {
+    let Oracle::Noise(counting) = &mut claims[0].oracle else {
         panic!("a claim about noise");
     };
-    *seeds = 3;
+    counting.seeds = 3;
     let options = Options {
         only: None,
         tier: Tier::Default,

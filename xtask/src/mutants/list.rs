@@ -1,8 +1,10 @@
 //! The list of mutants, `validation/mutants.toml`, and whether it still fits the sources.
 
+use super::pattern;
 use etalon_validation::claim::Claim;
 use etalon_validation::folders;
 use serde::Deserialize;
+use std::cell::OnceCell;
 use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 
@@ -14,7 +16,7 @@ pub(crate) struct Mutant {
     pub(crate) name: String,
     /// The file, from the root of the workspace.
     pub(crate) file: PathBuf,
-    /// What is replaced; it occurs exactly once.
+    /// What is replaced; it occurs exactly once, in whatever layout.
     pub(crate) text: String,
     /// What it becomes.
     pub(crate) replacement: String,
@@ -24,22 +26,6 @@ pub(crate) struct Mutant {
     pub(crate) claims: Vec<String>,
     /// Whether the energy of some claim's scene changes by 1 % or more.
     pub(crate) moves_energy: bool,
-    /// What becomes of it today.
-    #[serde(default)]
-    pub(crate) expected: Expected,
-    /// Why it survives, and which claim would kill it.
-    pub(crate) reason: Option<String>,
-}
-
-/// What becomes of a mutant.
-#[derive(Clone, Copy, Debug, Default, Deserialize, PartialEq, Eq)]
-#[serde(rename_all = "snake_case")]
-pub(crate) enum Expected {
-    /// A claim fails.
-    #[default]
-    Killed,
-    /// No claim can see it yet.
-    Survives,
 }
 
 #[derive(Deserialize)]
@@ -57,23 +43,94 @@ pub(crate) fn read() -> Result<Vec<Mutant>, String> {
     Ok(file.mutants)
 }
 
+/// A mutant's change to one file.
+pub(crate) struct Application {
+    /// The file, from the root of the workspace.
+    pub(crate) file: PathBuf,
+    /// The file's text with the fault in it.
+    pub(crate) mutated: String,
+    /// The identifiers that are called otherwise than in the list, as `old -> new`.
+    pub(crate) renamed: Vec<String>,
+}
+
 impl Mutant {
-    /// The file below `root` with the fault in it.
-    pub(crate) fn applied(&self, root: &Path) -> Result<String, String> {
-        let path = root.join(&self.file);
-        let source =
-            std::fs::read_to_string(&path).map_err(|e| format!("{}: {e}", self.file.display()))?;
-        match source.matches(&self.text).count() {
-            1 if self.text != self.replacement => {
-                Ok(source.replacen(&self.text, &self.replacement, 1))
+    /// Where the fault goes among the sources below `root`: where its text stands in its file; failing
+    /// that in another file; failing that, in either, under other names. It must be one place.
+    pub(crate) fn applied(&self, root: &Path) -> Result<Application, String> {
+        if self.text == self.replacement {
+            return Err("its text and its replacement are the same".to_owned());
+        }
+        let own = [self.file.clone()];
+        let others = OnceCell::new();
+        for (renamed, moved) in [(false, false), (false, true), (true, false), (true, true)] {
+            let files: &[PathBuf] = if moved {
+                others.get_or_init(|| sources(root))
+            } else {
+                &own
+            };
+            if let Some(application) = self.applied_to(root, files, renamed)? {
+                return Ok(application);
             }
-            1 => Err("its text and its replacement are the same".to_owned()),
-            count => Err(format!(
-                "its text occurs {count} times in {}, not once",
-                self.file.display()
-            )),
+        }
+        let file = self.file.display();
+        Err(format!("its text occurs neither in {file} nor elsewhere"))
+    }
+
+    fn applied_to(
+        &self,
+        root: &Path,
+        files: &[PathBuf],
+        renamed: bool,
+    ) -> Result<Option<Application>, String> {
+        let mut applications = Vec::new();
+        for file in files {
+            let Ok(source) = std::fs::read_to_string(root.join(file)) else {
+                continue;
+            };
+            for found in pattern::find(&source, &self.text, renamed) {
+                let replacement = found.renamed(&self.replacement);
+                applications.push(Application {
+                    file: file.clone(),
+                    mutated: [
+                        &source[..found.place.start],
+                        &replacement,
+                        &source[found.place.end..],
+                    ]
+                    .concat(),
+                    renamed: found.changes(),
+                });
+            }
+        }
+        match applications.len() {
+            0 | 1 => Ok(applications.pop()),
+            count => {
+                let file = applications[0].file.display();
+                Err(format!(
+                    "its text occurs {count} times, not once: first in {file}"
+                ))
+            }
         }
     }
+}
+
+/// The sources of all crates, from `root`.
+fn sources(root: &Path) -> Vec<PathBuf> {
+    let mut files = Vec::new();
+    let mut folders = vec![root.join("crates")];
+    while let Some(folder) = folders.pop() {
+        for entry in std::fs::read_dir(folder).into_iter().flatten().flatten() {
+            let path = entry.path();
+            if path.is_dir() {
+                folders.push(path);
+            } else if path.extension().is_some_and(|e| e == "rs")
+                && path.components().any(|part| part.as_os_str() == "src")
+            {
+                files.extend(path.strip_prefix(root).map(Path::to_owned));
+            }
+        }
+    }
+    files.sort_unstable();
+    files
 }
 
 /// What is wrong with the list; nothing if every entry applies to the sources below `root` and
@@ -99,16 +156,8 @@ pub(crate) fn mistakes(mutants: &[Mutant], root: &Path) -> Result<Vec<String>, S
         for claim in mutant.claims.iter().filter(|c| !claims.contains(*c)) {
             complain(format!("there is no claim `{claim}`"));
         }
-        let explained = mutant.reason.as_ref().is_some_and(|r| !r.is_empty());
-        match mutant.expected {
-            Expected::Killed if mutant.claims.is_empty() => {
-                complain("it names no claim that must fail".to_owned());
-            }
-            Expected::Survives if !explained => complain("it gives no `reason`".to_owned()),
-            Expected::Survives if mutant.moves_energy => {
-                complain("what moves energy must not survive".to_owned());
-            }
-            _ => {}
+        if mutant.claims.is_empty() {
+            complain("it names no claim that must fail".to_owned());
         }
     }
     Ok(mistakes)
@@ -127,14 +176,30 @@ mod tests {
     }
 
     #[test]
-    fn a_text_that_occurs_twice_does_not_apply() {
+    fn a_text_that_occurs_twice_or_never_does_not_apply() {
         let mut mutant = read().expect("the list can be read").swap_remove(0);
         // Mutant rejected: a check that is content with one occurrence or more.
-        mutant.text = "\n".to_owned();
-        let error = mutant.applied(&folders::root()).expect_err("many lines");
+        mutant.text = "self".to_owned();
+        let error = mutant.applied(&folders::root()).err().expect("many words");
         assert!(error.contains("not once"), "{error}");
-        mutant.text = "no such text in any file of ours, not even here".to_owned();
-        let error = mutant.applied(&folders::root()).expect_err("no such text");
-        assert!(error.contains("occurs 0 times"), "{error}");
+        mutant.text = "no 1 such 2 text 3 in 4 any 5 of 6 ours".to_owned();
+        let error = mutant.applied(&folders::root()).err().expect("no text");
+        assert!(error.contains("neither in"), "{error}");
+    }
+
+    #[test]
+    fn a_mutant_outlives_a_move_and_a_renaming() {
+        let mut mutant = read().expect("the list can be read").swap_remove(0);
+        let root = folders::root();
+        let there = mutant.applied(&root).expect("applies");
+        mutant.file = "crates/integrators/src/gone.rs".into();
+        mutant.text = mutant.text.replace("value", "beta").replace("ratio", "r_u");
+        mutant.replacement = mutant
+            .replacement
+            .replace("value", "beta")
+            .replace("ratio", "r_u");
+        let again = mutant.applied(&root).expect("applies under other names");
+        assert_eq!((again.file, again.mutated), (there.file, there.mutated));
+        assert!(!again.renamed.is_empty());
     }
 }

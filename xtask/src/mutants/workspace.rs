@@ -67,11 +67,11 @@ impl Workspace {
 
     /// Plants a fault.
     pub(crate) fn plant(&self, mutant: &Mutant) -> Result<Planted, String> {
-        let path = self.root().join(&mutant.file);
-        let mutated = mutant.applied(&self.root())?;
+        let application = mutant.applied(&self.root())?;
+        let path = self.root().join(&application.file);
         let sound = fs::read(&path).map_err(|e| e.to_string())?;
         let planted = Planted { path, sound };
-        fs::write(&planted.path, mutated).map_err(|e| e.to_string())?;
+        fs::write(&planted.path, application.mutated).map_err(|e| e.to_string())?;
         Ok(planted)
     }
 
