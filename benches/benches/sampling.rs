@@ -2,13 +2,13 @@
 
 use criterion::{Criterion, criterion_group, criterion_main};
 use etalon_sampling::discrete::{AliasTable, PiecewiseConstant2d};
-use etalon_sampling::{PixelSample, Sampler, SamplerKind, warps};
+use etalon_sampling::{SampleId, Sampler, SamplerKind, warps};
 use glam::{Vec2, Vec3};
 use std::hint::black_box;
 
 /// One sample of a path of eight bounces: the start, and 36 pairs of dimensions.
 fn path(kind: SamplerKind, sample: u32) -> Vec2 {
-    let mut sampler = kind.start(&PixelSample {
+    let mut sampler = kind.start(&SampleId {
         seed: 1,
         replicate: 2,
         pixel: (30, 40),

@@ -5,14 +5,14 @@
 //! R₁(R₁−1)s₁² + R₂(R₂−1)s₂² + R₁R₂/(R₁+R₂) (m₁−m₂)² (Chan, Golub & LeVeque 1983). Tile means, which
 //! every test is made of, are those of both.
 
-use etalon_film::Developed;
+use etalon_film::RenderedImage;
 use etalon_images::Image;
 
 /// `first` and `second` together.
 ///
 /// # Errors
 /// If they are not batches of one estimator: other sizes, channels, scenes or samples.
-pub fn merge(first: &Developed, second: &Developed) -> Result<Developed, String> {
+pub fn merge(first: &RenderedImage, second: &RenderedImage) -> Result<RenderedImage, String> {
     let missing = "a batch has no statistics";
     let (a, b) = (
         first.metadata.as_ref().ok_or(missing)?,
@@ -37,7 +37,7 @@ pub fn merge(first: &Developed, second: &Developed) -> Result<Developed, String>
     let mut image = Image::new(first.image.width(), first.image.height());
     let mut errors = Vec::new();
     for name in &a.channels {
-        let plane = |of: &Developed| of.image.channel(name).map(<[f32]>::to_vec);
+        let plane = |of: &RenderedImage| of.image.channel(name).map(<[f32]>::to_vec);
         let (Some(ma), Some(mb)) = (plane(first), plane(second)) else {
             return Err(format!("a batch has no channel `{name}`"));
         };
@@ -62,7 +62,7 @@ pub fn merge(first: &Developed, second: &Developed) -> Result<Developed, String>
     for (name, plane) in errors {
         image.push(name, plane);
     }
-    Ok(Developed {
+    Ok(RenderedImage {
         image,
         frame: first.frame,
         metadata: Some(metadata),

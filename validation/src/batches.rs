@@ -2,12 +2,12 @@
 
 use crate::accumulate;
 use crate::claim::{Budget, Estimator, Oracle};
-use crate::fault::Fault;
-use crate::kept::{Kept, Wanted};
+use crate::fault::PlantedFault;
+use crate::kept::{BatchCache, Wanted};
 use crate::rendering;
 use crate::run::Task;
-use etalon_film::Developed;
-use etalon_integrators::Plan;
+use etalon_film::RenderedImage;
+use etalon_integrators::RenderPlan;
 use std::hash::{DefaultHasher, Hasher};
 
 /// The replicates that a look adds.
@@ -21,12 +21,12 @@ pub(crate) struct Batches<'a> {
     /// Replicates there shall be.
     pub(crate) to: u32,
     /// Where finished batches are kept.
-    pub(crate) kept: &'a Kept<'a>,
+    pub(crate) kept: &'a BatchCache<'a>,
 }
 
 /// Which side of a comparison a batch belongs to.
 #[derive(Clone, Copy, PartialEq, Eq)]
-pub(crate) enum Part {
+pub(crate) enum Side {
     /// The estimator under test.
     Own,
     /// The estimator that it is held against.
@@ -46,11 +46,11 @@ impl Batches<'_> {
     /// rendered again.
     pub(crate) fn extend(
         &self,
-        so_far: Option<Developed>,
+        so_far: Option<RenderedImage>,
         estimator: &Estimator,
         seed: u64,
-        part: Part,
-    ) -> Result<Developed, String> {
+        part: Side,
+    ) -> Result<RenderedImage, String> {
         let more = self.to - self.from;
         let budget = Budget {
             spp: self.first.spp * more,
@@ -65,13 +65,13 @@ impl Batches<'_> {
         let wanted = Wanted {
             claim: &self.task.claim.name,
             name: &name,
-            shared: part == Part::Oracle,
+            shared: part == Side::Oracle,
             plan: &plan,
             loaded: &loaded,
         };
         let batch = self.kept.or_else(&wanted, || {
             let change = match (part, &self.task.claim.oracle) {
-                (Part::Own, Oracle::Invariance { .. }) => estimator.change,
+                (Side::Own, Oracle::Invariance { .. }) => estimator.change,
                 _ => None,
             };
             rendering::picture(&loaded, &plan, estimator, self.fault(part), change)
@@ -84,20 +84,20 @@ impl Batches<'_> {
     }
 
     /// The fault of a side: the oracle has none.
-    fn fault(&self, part: Part) -> Option<Fault> {
-        self.task.fault.filter(|_| part == Part::Own)
+    fn fault(&self, part: Side) -> Option<PlantedFault> {
+        self.task.fault.filter(|_| part == Side::Own)
     }
 
     /// What tells a batch from all others of the claim. The oracle's belong to no estimator.
-    fn name(&self, estimator: &Estimator, plan: &Plan, part: Part) -> String {
+    fn name(&self, estimator: &Estimator, plan: &RenderPlan, part: Side) -> String {
         let (from, print) = (self.from, fingerprint(estimator));
         match part {
-            Part::Own => {
+            Side::Own => {
                 let fault = self.task.fault.map(|fault| format!("-{fault}"));
                 let fault = fault.unwrap_or_default().replace([' ', '/'], "_");
                 format!("{}-own-{from}-{print:08x}{fault}", self.task.place)
             }
-            Part::Oracle => {
+            Side::Oracle => {
                 let (replicates, each) = (plan.replicates, plan.samples_per_replicate);
                 format!("oracle-{from}-{print:08x}-{replicates}x{each}")
             }

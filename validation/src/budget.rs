@@ -22,7 +22,7 @@ const ROUNDING: f64 = 2e-3;
 /// Which biases matter.
 #[derive(Clone, Copy, Debug, Deserialize)]
 #[serde(default, deny_unknown_fields)]
-pub struct Bounds {
+pub struct BiasBounds {
     /// Of the image's mean, relative to it.
     pub image: f64,
     /// Of a tile's mean, relative to it (`image` of the image's mean is added).
@@ -31,7 +31,7 @@ pub struct Bounds {
     pub rounding: f64,
 }
 
-impl Default for Bounds {
+impl Default for BiasBounds {
     fn default() -> Self {
         Self {
             image: 0.005,
@@ -41,7 +41,7 @@ impl Default for Bounds {
     }
 }
 
-impl Bounds {
+impl BiasBounds {
     /// Refuses numbers that make no sense.
     ///
     /// # Errors

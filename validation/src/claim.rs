@@ -21,8 +21,8 @@
 //! ```
 
 use crate::convergence::Part;
-use crate::fault::Fault;
-use crate::matrix::{self, Absence, Matrix};
+use crate::fault::PlantedFault;
+use crate::matrix::{self, Matrix, SkippedIntegrator};
 use crate::tasks::{named, unknown};
 use rayon::iter::Either;
 use rayon::prelude::*;
@@ -30,7 +30,7 @@ use serde::Deserialize;
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
-pub use crate::budget::{Bounds, Budget};
+pub use crate::budget::{BiasBounds, Budget};
 pub use crate::oracle::Oracle;
 pub use crate::sampler::Sampler;
 
@@ -56,10 +56,10 @@ pub struct Claim {
     pub matrix: Option<Matrix>,
     /// Those of them that do not take part.
     #[serde(skip)]
-    pub absent: Vec<Absence>,
+    pub absent: Vec<SkippedIntegrator>,
     /// Bounds of what matters.
     #[serde(default)]
-    pub bounds: Bounds,
+    pub bounds: BiasBounds,
     /// Whether the full run alone decides it: its estimators are too noisy for the minutes of the
     /// others.
     #[serde(default)]
@@ -127,7 +127,7 @@ pub struct Estimator {
     pub part: Part,
     /// Faults that must be found.
     #[serde(default)]
-    pub mutants: Vec<Fault>,
+    pub mutants: Vec<PlantedFault>,
     /// Whether it stands in the matrix of integrators only.
     #[serde(skip)]
     pub in_matrix: Option<matrix::Place>,
@@ -149,12 +149,12 @@ impl Estimator {
         let change = (self.change)
             .map(|change| format!(", {change:?}").to_lowercase())
             .unwrap_or_default();
-        let chooser = (self.light_chooser.as_ref())
+        let hero = (self.light_chooser.as_ref())
             .map(|name| format!(", {name} lights"))
             .unwrap_or_default();
         let adaptive = self.adaptive.map_or("", |_| ", adaptive");
         let blocks = if self.blocks { ", blocks" } else { "" };
-        format!("{integrator}, {sampler}{chooser}{blocks}{adaptive}{defines}{change}")
+        format!("{integrator}, {sampler}{hero}{blocks}{adaptive}{defines}{change}")
     }
 
     /// The work of the first run that makes its row.

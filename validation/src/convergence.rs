@@ -17,12 +17,12 @@
 
 use crate::claim::{Budget, Claim, Estimator, Sampler};
 use crate::closed_form;
-use crate::fault::Fault;
+use crate::fault::PlantedFault;
 use crate::measure::Measure;
 use crate::rendering;
-use etalon::judge::Known;
+use etalon::judge::ExactImage;
 use etalon::pipeline::Loaded;
-use etalon_film::Developed;
+use etalon_film::RenderedImage;
 use etalon_math::float64;
 use etalon_statistics::{Estimate, Line, Summary};
 use serde::{Deserialize, Serialize};
@@ -135,12 +135,12 @@ impl Batches {
         &mut self,
         claim: &Claim,
         ladder: &Ladder,
-        (estimator, fault): (&Estimator, Option<Fault>),
+        (estimator, fault): (&Estimator, Option<PlantedFault>),
         budget: Budget,
         seed: u64,
     ) -> Result<(), String> {
         let estimator = match fault {
-            Some(Fault::IndependentSamples) => &Estimator {
+            Some(PlantedFault::IndependentSamples) => &Estimator {
                 sampler: Some(Sampler::Independent),
                 ..estimator.clone()
             },
@@ -233,7 +233,7 @@ pub fn judge(exponents: &[f64], estimator: &Estimator, alpha: f64) -> Result<Mea
 /// The mean over pixels, channels and replicates of a part of the squared error. With s the
 /// standard error of the mean m, all of it is (1/R) Σ (xᵢ − t)² = (R − 1) s² + (m − t)², the
 /// variance R s², and the squared bias (m − t)² − s².
-fn squared_error(picture: &Developed, known: &Known, part: Part) -> Result<f64, String> {
+fn squared_error(picture: &RenderedImage, known: &ExactImage, part: Part) -> Result<f64, String> {
     let missing = "the picture has no standard errors";
     let metadata = picture.metadata.as_ref().ok_or(missing)?;
     let replicates = f64::from(metadata.replicates);

@@ -2,7 +2,7 @@
 //!
 //! Two error levels hold for the whole run, as its two errors cost differently:
 //!
-//! - [`ALARM`] = 10⁻⁵ is the probability that a run without any fault in the renderer shows a
+//! - [`FALSE_POSITIVE_LEVEL`] = 10⁻⁵ is the probability that a run without any fault in the renderer shows a
 //!   failure. A failure sends people to look for a fault, so thousands of sound runs shall go by
 //!   without one.
 //! - [`ALPHA`] = 10⁻³ is the probability that any of the intervals misses its truth, and so that a bias
@@ -37,11 +37,11 @@ use std::time::{Duration, Instant};
 pub const ALPHA: f64 = 1e-3;
 
 /// The probability that a run without faults shows a failure.
-pub const ALARM: f64 = 1e-5;
+pub const FALSE_POSITIVE_LEVEL: f64 = 1e-5;
 
 /// A look that is to be made.
 #[derive(Clone, Copy, Debug)]
-pub struct Turn {
+pub struct Stage {
     /// The task's place among all tasks.
     pub place: usize,
     /// How many replicates there shall be, in multiples of the first look's.
@@ -176,14 +176,14 @@ impl<'a> Group<'a> {
     }
 
     /// Looks at one comparison for the `number`-th time, from 0.
-    fn look(&mut self, index: usize, number: usize, make: impl FnOnce(Turn) -> Option<Seen>) {
+    fn look(&mut self, index: usize, number: usize, make: impl FnOnce(Stage) -> Option<Seen>) {
         let granted = self.levels[number];
         // The same part of either level.
         let part = granted * self.family.len() as f64 / ALPHA;
         let alarm = part * self.family.level_of_each();
         let member = &mut self.members[index];
         let start = Instant::now();
-        let seen = make(Turn {
+        let seen = make(Stage {
             place: member.place,
             multiple: self.looks[number],
             alpha: granted,
@@ -247,7 +247,7 @@ impl<'a> Group<'a> {
 pub fn decide<'a>(
     tasks: &[Task<'a>],
     tier: Tier,
-    mut make: impl FnMut(Turn) -> Option<Seen>,
+    mut make: impl FnMut(Stage) -> Option<Seen>,
     mut watch: impl FnMut(&Progress<'_>),
 ) -> Result<Vec<Decision>, String> {
     let start = Instant::now();
@@ -256,7 +256,7 @@ pub fn decide<'a>(
         all.filter(move |(_, task)| task.fault.is_some() == with_fault)
     };
     let mut groups = [
-        Group::new(of(false), tier.looks(), ALARM)?,
+        Group::new(of(false), tier.looks(), FALSE_POSITIVE_LEVEL)?,
         Group::new(of(true), FAULT_LOOKS, ALPHA)?,
     ];
     let most = groups.iter().map(|group| group.looks.len()).max();

@@ -22,7 +22,8 @@ use etalon_integrators::whitted::onward;
 use etalon_scene::Scene;
 use etalon_spectrum::Wavelengths;
 use etalon_transport::{
-    Bsdf, Camera, ClassicPhong, Hit, LightId, Mode, Ray, Receiver, Vertex, World,
+    Bsdf, Camera, Hit, LegacyPhong, LightId, LightSampleContext, Ray, SurfaceInteraction,
+    TransportMode, World,
 };
 use glam::{UVec2, Vec2, Vec3};
 use rayon::prelude::*;
@@ -34,7 +35,7 @@ const LEAST: f32 = 1e-3;
 const DEPTH: u32 = 16;
 
 /// All that is seen through a pixel's centre, in the order in which it is met.
-type Sight = Vec<Surface>;
+type PixelKey = Vec<Surface>;
 
 #[derive(Clone, Debug, PartialEq, Eq)]
 struct Surface {
@@ -55,7 +56,7 @@ struct Lit {
 /// Which pixels of a film of `size` pixels, row by row, are next to an edge.
 pub fn edges(scene: &Scene, size: UVec2) -> Vec<bool> {
     let [width, height] = size.to_array();
-    let sights: Vec<Sight> = (0..width * height)
+    let sights: Vec<PixelKey> = (0..width * height)
         .into_par_iter()
         .map(|i| {
             let raster = Vec2::new((i % width) as f32, (i / width) as f32) + 0.5;
@@ -80,7 +81,7 @@ pub fn edges(scene: &Scene, size: UVec2) -> Vec<bool> {
 }
 
 /// Adds what a ray sees that came by `way`, counts `weight`, and may meet so many surfaces.
-fn look(scene: &Scene, ray: &Ray, (way, weight, depth): (u64, f32, u32), sight: &mut Sight) {
+fn look(scene: &Scene, ray: &Ray, (way, weight, depth): (u64, f32, u32), sight: &mut PixelKey) {
     let Some(hit) = scene.intersect(ray) else {
         return;
     };
@@ -113,10 +114,15 @@ fn look(scene: &Scene, ray: &Ray, (way, weight, depth): (u64, f32, u32), sight: 
     }
 }
 
-fn albedo(scene: &Scene, vertex: &Vertex, wo: Vec3, wavelengths: &Wavelengths) -> Vec<u32> {
-    let numbers = match scene.classic(vertex, wavelengths) {
+fn albedo(
+    scene: &Scene,
+    vertex: &SurfaceInteraction,
+    wo: Vec3,
+    wavelengths: &Wavelengths,
+) -> Vec<u32> {
+    let numbers = match scene.legacy_phong(vertex, wavelengths) {
         None => vec![scene.bsdf(vertex, wo, wavelengths).albedo(wo)],
-        Some(ClassicPhong {
+        Some(LegacyPhong {
             ambient,
             diffuse,
             specular,
@@ -128,17 +134,22 @@ fn albedo(scene: &Scene, vertex: &Vertex, wo: Vec3, wavelengths: &Wavelengths) -
     numbers.map(f32::to_bits).collect()
 }
 
-fn lights(scene: &Scene, vertex: &Vertex, wo: Vec3, wavelengths: &Wavelengths) -> Vec<Lit> {
+fn lights(
+    scene: &Scene,
+    vertex: &SurfaceInteraction,
+    wo: Vec3,
+    wavelengths: &Wavelengths,
+) -> Vec<Lit> {
     // In space, so that no light is left out for shining from behind.
-    let from = Receiver::in_space(vertex.position);
+    let from = LightSampleContext::in_space(vertex.position);
     let lit = |light: u32| {
         let middle = Vec2::splat(0.5);
         let sample = scene.sample_one_light(LightId(light), &from, wavelengths, middle)?;
-        let shows = if scene.classic(vertex, wavelengths).is_some() {
+        let shows = if scene.legacy_phong(vertex, wavelengths).is_some() {
             vertex.shading.n.dot(sample.direction) * vertex.shading.n.dot(wo) > 0.0
         } else {
             let bsdf = scene.bsdf(vertex, wo, wavelengths);
-            bsdf.eval(wo, sample.direction, Mode::Radiance)
+            bsdf.eval(wo, sample.direction, TransportMode::Radiance)
                 .max_element()
                 > 0.0
         };
@@ -158,11 +169,11 @@ fn passed(scene: &Scene, mut ray: Ray, wavelengths: &Wavelengths) -> Option<Vec<
     let end = ray.origin + ray.direction * ray.t_max;
     while let Some(hit) = scene.intersect(&ray) {
         let vertex = scene.vertex(&ray, &hit);
-        let open = match scene.classic(&vertex, wavelengths) {
+        let open = match scene.legacy_phong(&vertex, wavelengths) {
             Some(material) => material.transparency > 0.0,
             None => {
                 let bsdf = scene.bsdf(&vertex, -ray.direction, wavelengths);
-                bsdf.passing().max_element() > 0.0
+                bsdf.null_transmittance().max_element() > 0.0
             }
         };
         if !open {

@@ -7,15 +7,15 @@
 use etalon_math::{Density, SolidAngle};
 use etalon_spectrum::Wavelengths;
 use etalon_transport::{
-    Bsdf, BsdfSample, Chance, ClassicPhong, Emission, EmissionDensity, Hit, LightId, LightSample,
-    Mode, Passage, Ray, Receiver, Vertex, World,
+    Bsdf, BsdfSample, Emission, EmissionPdf, Hit, LegacyPhong, LightId, LightSample,
+    LightSampleContext, Ray, SamplePdf, SurfaceInteraction, Transmission, TransportMode, World,
 };
 use glam::{Vec2, Vec3, Vec4};
 use serde::Deserialize;
 
 /// A physical fault.
 #[derive(Clone, Copy, Debug, Deserialize, PartialEq, Eq)]
-pub enum Fault {
+pub enum PlantedFault {
     /// Scattering without |cos θi|.
     #[serde(rename = "dropped cosine")]
     DroppedCosine,
@@ -46,7 +46,7 @@ pub enum Fault {
     SlightEnergy,
 }
 
-impl Fault {
+impl PlantedFault {
     /// Whether it is a fault of the world, and not of how it is sampled or what is reported.
     pub fn is_physical(self) -> bool {
         match self {
@@ -61,7 +61,7 @@ impl Fault {
     }
 }
 
-impl std::fmt::Display for Fault {
+impl std::fmt::Display for PlantedFault {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         f.write_str(match self {
             Self::DroppedCosine => "dropped cosine",
@@ -80,13 +80,13 @@ impl std::fmt::Display for Fault {
 /// A world with a fault, or with other lanes.
 pub struct Faulty<'a, W> {
     world: &'a W,
-    fault: Option<Fault>,
+    fault: Option<PlantedFault>,
     rotation: usize,
 }
 
 impl<'a, W: World> Faulty<'a, W> {
     /// `world`, but for `fault`, and with wavelengths' lanes rotated by `rotation`.
-    pub fn new(world: &'a W, fault: Option<Fault>, rotation: usize) -> Self {
+    pub fn new(world: &'a W, fault: Option<PlantedFault>, rotation: usize) -> Self {
         Self {
             world,
             fault,
@@ -95,7 +95,7 @@ impl<'a, W: World> Faulty<'a, W> {
     }
 
     fn energy(&self) -> f32 {
-        if self.fault == Some(Fault::Energy) {
+        if self.fault == Some(PlantedFault::Energy) {
             1.02
         } else {
             1.0
@@ -104,10 +104,10 @@ impl<'a, W: World> Faulty<'a, W> {
 
     fn faulty(&self, mut sample: LightSample) -> LightSample {
         sample.radiance *= self.energy();
-        if let (Some(Fault::WrongLightDensity), Chance::Continuous(density)) =
+        if let (Some(PlantedFault::WrongLightDensity), SamplePdf::Continuous(density)) =
             (self.fault, sample.chance)
         {
-            sample.chance = Chance::Continuous(Density::per_lane(0.5 * density.lanes()));
+            sample.chance = SamplePdf::Continuous(Density::per_lane(0.5 * density.lanes()));
         }
         sample
     }
@@ -131,7 +131,7 @@ impl<B> FaultyBsdf<B> {
 }
 
 impl<B: Bsdf> Bsdf for FaultyBsdf<B> {
-    fn eval(&self, wo: Vec3, wi: Vec3, mode: Mode) -> Vec4 {
+    fn eval(&self, wo: Vec3, wi: Vec3, mode: TransportMode) -> Vec4 {
         self.without_cosine(wi, self.model.eval(wo, wi, mode))
     }
 
@@ -139,9 +139,9 @@ impl<B: Bsdf> Bsdf for FaultyBsdf<B> {
         self.model.density(wo, wi)
     }
 
-    fn sample(&self, wo: Vec3, u_lobe: f32, u: Vec2, mode: Mode) -> Option<BsdfSample> {
+    fn sample(&self, wo: Vec3, u_lobe: f32, u: Vec2, mode: TransportMode) -> Option<BsdfSample> {
         let sample = self.model.sample(wo, u_lobe, u, mode)?;
-        if sample.chance.is_discrete() {
+        if sample.chance.is_delta() {
             return Some(sample);
         }
         Some(BsdfSample {
@@ -150,7 +150,7 @@ impl<B: Bsdf> Bsdf for FaultyBsdf<B> {
         })
     }
 
-    fn discrete(&self, wo: Vec3, index: u32, mode: Mode) -> Option<BsdfSample> {
+    fn discrete(&self, wo: Vec3, index: u32, mode: TransportMode) -> Option<BsdfSample> {
         self.model.discrete(wo, index, mode)
     }
 
@@ -158,12 +158,12 @@ impl<B: Bsdf> Bsdf for FaultyBsdf<B> {
         self.model.has_continuous()
     }
 
-    fn passing(&self) -> Vec4 {
-        self.model.passing()
+    fn null_transmittance(&self) -> Vec4 {
+        self.model.null_transmittance()
     }
 
-    fn passing_probability(&self) -> Vec4 {
-        self.model.passing_probability()
+    fn null_probability(&self) -> Vec4 {
+        self.model.null_probability()
     }
 
     fn albedo(&self, wo: Vec3) -> Vec4 {
@@ -190,26 +190,40 @@ impl<W: World> World for Faulty<'_, W> {
         self.world.intersect(ray)
     }
 
-    fn vertex(&self, ray: &Ray, hit: &Hit) -> Vertex {
+    fn vertex(&self, ray: &Ray, hit: &Hit) -> SurfaceInteraction {
         self.world.vertex(ray, hit)
     }
 
-    fn passage(&self, ray: &Ray, wavelengths: &Wavelengths, crossings: u32) -> Option<Passage> {
-        self.world.passage(ray, wavelengths, crossings)
+    fn transmittance(
+        &self,
+        ray: &Ray,
+        wavelengths: &Wavelengths,
+        crossings: u32,
+    ) -> Option<Transmission> {
+        self.world.transmittance(ray, wavelengths, crossings)
     }
 
-    fn bsdf(&self, vertex: &Vertex, wo: Vec3, wavelengths: &Wavelengths) -> Self::Bsdf<'_> {
+    fn bsdf(
+        &self,
+        vertex: &SurfaceInteraction,
+        wo: Vec3,
+        wavelengths: &Wavelengths,
+    ) -> Self::Bsdf<'_> {
         FaultyBsdf {
             model: self.world.bsdf(vertex, wo, wavelengths),
-            missing: (self.fault == Some(Fault::DroppedCosine)).then_some(vertex.shading.n),
+            missing: (self.fault == Some(PlantedFault::DroppedCosine)).then_some(vertex.shading.n),
         }
     }
 
-    fn classic(&self, vertex: &Vertex, wavelengths: &Wavelengths) -> Option<ClassicPhong> {
-        self.world.classic(vertex, wavelengths)
+    fn legacy_phong(
+        &self,
+        vertex: &SurfaceInteraction,
+        wavelengths: &Wavelengths,
+    ) -> Option<LegacyPhong> {
+        self.world.legacy_phong(vertex, wavelengths)
     }
 
-    fn emitted(&self, vertex: &Vertex, wo: Vec3, wavelengths: &Wavelengths) -> Vec4 {
+    fn emitted(&self, vertex: &SurfaceInteraction, wo: Vec3, wavelengths: &Wavelengths) -> Vec4 {
         self.energy() * self.world.emitted(vertex, wo, wavelengths)
     }
 
@@ -227,7 +241,7 @@ impl<W: World> World for Faulty<'_, W> {
 
     fn sample_light(
         &self,
-        from: &Receiver,
+        from: &LightSampleContext,
         wavelengths: &Wavelengths,
         u_light: f32,
         u: Vec2,
@@ -243,7 +257,7 @@ impl<W: World> World for Faulty<'_, W> {
     fn sample_one_light(
         &self,
         light: LightId,
-        from: &Receiver,
+        from: &LightSampleContext,
         wavelengths: &Wavelengths,
         u: Vec2,
     ) -> Option<LightSample> {
@@ -251,11 +265,20 @@ impl<W: World> World for Faulty<'_, W> {
         Some(self.faulty(sample))
     }
 
-    fn light_density(&self, from: &Receiver, at: &Vertex, direction: Vec3) -> Density<SolidAngle> {
+    fn light_density(
+        &self,
+        from: &LightSampleContext,
+        at: &SurfaceInteraction,
+        direction: Vec3,
+    ) -> Density<SolidAngle> {
         self.world.light_density(from, at, direction)
     }
 
-    fn background_density(&self, from: &Receiver, direction: Vec3) -> Density<SolidAngle> {
+    fn background_density(
+        &self,
+        from: &LightSampleContext,
+        direction: Vec3,
+    ) -> Density<SolidAngle> {
         self.world.background_density(from, direction)
     }
 
@@ -273,16 +296,16 @@ impl<W: World> World for Faulty<'_, W> {
         })
     }
 
-    fn emission_density(&self, light: LightId, direction: Vec3, cos: f32) -> EmissionDensity {
+    fn emission_density(&self, light: LightId, direction: Vec3, cos: f32) -> EmissionPdf {
         self.world.emission_density(light, direction, cos)
     }
 
-    fn background_emission_density(&self, direction: Vec3) -> EmissionDensity {
+    fn background_emission_density(&self, direction: Vec3) -> EmissionPdf {
         self.world.background_emission_density(direction)
     }
 
-    fn sampled_density(&self, from: &Receiver, start: &Emission) -> f32 {
-        self.world.sampled_density(from, start)
+    fn light_sample_density(&self, from: &LightSampleContext, start: &Emission) -> f32 {
+        self.world.light_sample_density(from, start)
     }
 
     fn take_ray_count(&self) -> u64 {

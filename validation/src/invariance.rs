@@ -5,14 +5,14 @@
 //! about every bit of every channel and of every tile mean, and a single difference breaks them.
 
 use crate::claim::{Change, Claim, Estimator, Oracle};
-use crate::fault::Fault;
+use crate::fault::PlantedFault;
 use crate::measure::Measure;
 use crate::rendering;
 use etalon::pipeline::{self, Loaded, RenderOptions};
-use etalon_film::{Developed, ExactFilm, Part, TileMeans};
+use etalon_film::{ExactFilm, Part, RenderedImage, TileMeans};
 use etalon_formats::FileAssets;
 use etalon_formats::mitsuba::{self, ReadOptions};
-use etalon_integrators::{Plan, Share};
+use etalon_integrators::{RenderPlan, ReplicateRange};
 use etalon_params::Diagnostics;
 use etalon_scene::{AcceleratorKind, CompileOptions, Compiled};
 use std::io::Cursor;
@@ -32,13 +32,13 @@ pub fn measure(
     claim: &Claim,
     estimator: &Estimator,
     loaded: &Loaded,
-    plan: &Plan,
-    fault: Option<Fault>,
-) -> Result<Option<(Vec<Measure>, Developed)>, String> {
+    plan: &RenderPlan,
+    fault: Option<PlantedFault>,
+) -> Result<Option<(Vec<Measure>, RenderedImage)>, String> {
     // The fault: the changed picture is of another seed.
     let other = match fault {
         None => *plan,
-        Some(Fault::AnotherSeed) => Plan {
+        Some(PlantedFault::AnotherSeed) => RenderPlan {
             seed: plan.seed ^ 1,
             ..*plan
         },
@@ -134,19 +134,19 @@ pub fn measure(
 
 fn on_threads(
     count: usize,
-    work: impl FnOnce() -> Result<Developed, String> + Send,
-) -> Result<Developed, String> {
+    work: impl FnOnce() -> Result<RenderedImage, String> + Send,
+) -> Result<RenderedImage, String> {
     let pool = rayon::ThreadPoolBuilder::new().num_threads(count).build();
     pool.map_err(|e| e.to_string())?.install(work)
 }
 
 /// Two independent halves of a plan.
-fn halves(plan: &Plan) -> [Plan; 2] {
-    let half = Plan {
+fn halves(plan: &RenderPlan) -> [RenderPlan; 2] {
+    let half = RenderPlan {
         replicates: plan.replicates.div_ceil(2),
         ..*plan
     };
-    let rest = Plan {
+    let rest = RenderPlan {
         seed: plan.seed ^ 0x5eed,
         ..half
     };
@@ -158,7 +158,7 @@ fn film(compiled: &Compiled) -> Result<ExactFilm, String> {
 }
 
 /// All replicates of one plan, then those of another, in one film.
-fn one_after_another(loaded: &Loaded, plans: [Plan; 2]) -> Result<Developed, String> {
+fn one_after_another(loaded: &Loaded, plans: [RenderPlan; 2]) -> Result<RenderedImage, String> {
     let compiled = &loaded.compiled;
     let mut film = film(compiled)?;
     for plan in &plans {
@@ -171,12 +171,12 @@ fn one_after_another(loaded: &Loaded, plans: [Plan; 2]) -> Result<Developed, Str
 
 /// The picture of a plan that is rendered in so many parts. These pass through files' bytes and
 /// are merged, the last one first.
-fn merged(loaded: &Loaded, plan: &Plan, count: u32) -> Result<Developed, String> {
+fn merged(loaded: &Loaded, plan: &RenderPlan, count: u32) -> Result<RenderedImage, String> {
     let mut merged: Option<Part> = None;
     for index in (0..count).rev() {
-        let share = Share::of(plan.replicates, index, count);
+        let share = ReplicateRange::of(plan.replicates, index, count);
         let share = share.ok_or("there are more parts than replicates")?;
-        let plan = Plan {
+        let plan = RenderPlan {
             share: Some(share),
             ..*plan
         };
@@ -221,7 +221,7 @@ fn linear(claim: &Claim, estimator: &Estimator, loaded: &Loaded) -> Result<Compi
 
 /// How many numbers of two pictures differ in their bits; the second's replicates begin with the
 /// first's replicate `shift`.
-fn differing(first: &Developed, second: &Developed, shift: u32) -> usize {
+fn differing(first: &RenderedImage, second: &RenderedImage, shift: u32) -> usize {
     let (Some(a), Some(b)) = (&first.metadata, &second.metadata) else {
         return 1;
     };
@@ -238,7 +238,7 @@ fn differing(first: &Developed, second: &Developed, shift: u32) -> usize {
             name.clone(),
             format!("{}{name}", etalon_film::STANDARD_ERROR),
         ] {
-            let plane = |of: &Developed| of.image.channel(&name).map(<[f32]>::to_vec);
+            let plane = |of: &RenderedImage| of.image.channel(&name).map(<[f32]>::to_vec);
             let (x, y) = (plane(first), plane(second));
             count += unequal(&x.unwrap_or_default(), &y.unwrap_or_default());
         }
@@ -258,7 +258,7 @@ fn differing(first: &Developed, second: &Developed, shift: u32) -> usize {
 ///
 /// # Errors
 /// If all is black, or a picture has no statistics.
-fn repeated(pictures: &[Developed]) -> Result<usize, String> {
+fn repeated(pictures: &[RenderedImage]) -> Result<usize, String> {
     let mut replicates: Vec<Vec<u32>> = Vec::new();
     for picture in pictures {
         let metadata = picture.metadata.as_ref();
@@ -285,7 +285,7 @@ fn repeated(pictures: &[Developed]) -> Result<usize, String> {
 ///
 /// # Errors
 /// If it is not a part, but all of it or beyond it: nothing would be shown then.
-fn differing_part(whole: &Developed, part: &Developed) -> Result<usize, String> {
+fn differing_part(whole: &RenderedImage, part: &RenderedImage) -> Result<usize, String> {
     let missing = "a picture has no statistics";
     let channels = &whole.metadata.as_ref().ok_or(missing)?.channels;
     let [from, to] = [whole, part].map(|picture| picture.frame.offset);
@@ -303,7 +303,7 @@ fn differing_part(whole: &Developed, part: &Developed) -> Result<usize, String> 
             name.clone(),
             format!("{}{name}", etalon_film::STANDARD_ERROR),
         ] {
-            let plane = |of: &Developed| of.image.channel(&name).map(<[f32]>::to_vec);
+            let plane = |of: &RenderedImage| of.image.channel(&name).map(<[f32]>::to_vec);
             let (x, y) = (plane(whole).ok_or(missing)?, plane(part).ok_or(missing)?);
             for (row, pixels) in y.chunks_exact(inner[0]).enumerate() {
                 let begin = (top + row) * outer[0] + left;

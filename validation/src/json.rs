@@ -2,8 +2,8 @@
 //! a test holds that page to what is written here.
 
 use crate::claim::{Claim, Oracle};
-use crate::outcome::{ALARM, ALPHA, Conclusion, Row, counts};
-use crate::run::{Compared, Evidence, Options, Plan};
+use crate::outcome::{ALPHA, Conclusion, FALSE_POSITIVE_LEVEL, Row, counts};
+use crate::run::{Compared, Evidence, Options, RunPlan};
 use crate::{folders, povray, program, reference, table};
 use serde::Serialize;
 use serde_json::{Value, json};
@@ -40,7 +40,7 @@ pub struct Provenance {
 
 impl Provenance {
     /// Of a run on this machine.
-    pub fn of(options: &Options, plan: Plan, seconds: f64) -> Self {
+    pub fn of(options: &Options, plan: RunPlan, seconds: f64) -> Self {
         Self {
             version: etalon::VERSION.to_owned(),
             program: program::fingerprint().ok().map(str::to_owned),
@@ -76,7 +76,7 @@ pub fn of(rows: &[Row<'_>], provenance: &Provenance) -> Value {
         "format": FORMAT,
         "provenance": provenance,
         "alpha": ALPHA,
-        "alarm": ALARM,
+        "alarm": FALSE_POSITIVE_LEVEL,
         "exit_code": conclusion.exit_code(),
         "counts": {
             "passed": passed, "failed": failed, "undecided": undecided, "broken": broken,

@@ -12,18 +12,18 @@
 //! a failure is shown. A distribution that t may be trusted with at one can be too skewed for the other.
 
 use crate::samples::{Samples, p_of};
-use etalon::judge::{self, Judgement, Known, Rules, TileRow};
+use etalon::judge::{self, ExactImage, ImageComparison, TileRow, Tolerances};
 use etalon::tolerance::Tolerance;
-use etalon_film::{Developed, Metadata};
+use etalon_film::{Metadata, RenderedImage};
 use etalon_statistics::{Interval, Verdict};
 
 /// What a picture is held against.
 #[derive(Clone, Copy)]
 pub enum Against<'a> {
     /// A formula.
-    Known(&'a Known),
+    ExactImage(&'a ExactImage),
     /// Another picture with replicates.
-    Picture(&'a Developed),
+    Picture(&'a RenderedImage),
 }
 
 /// What is asked of a picture beyond its rules.
@@ -38,7 +38,7 @@ pub struct Asked {
 /// A judgement with its p-value.
 pub struct Judged {
     /// The decision of this look.
-    pub judgement: Judgement,
+    pub judgement: ImageComparison,
     /// The p-value of "no fault": of equality for exact oracles, of a bias within the bounds for
     /// others; corrected over all questions of the comparison.
     pub p: f64,
@@ -51,14 +51,14 @@ pub struct Judged {
 /// # Errors
 /// One sentence, if the two cannot be compared.
 pub fn judge(
-    picture: &Developed,
+    picture: &RenderedImage,
     against: Against<'_>,
-    rules: Rules,
+    rules: Tolerances,
     asked: Asked,
 ) -> Result<Judged, String> {
     let exact = asked.exact;
     let mut judgement = match against {
-        Against::Known(known) => judge::judge_known(picture, known, rules)?,
+        Against::ExactImage(known) => judge::judge_known(picture, known, rules)?,
         Against::Picture(other) => judge::judge(picture, other, rules)?,
     };
     let questions = (judgement.images.len() + judgement.tiles.len()) as f64;
@@ -133,7 +133,7 @@ pub fn judge(
 
 /// What is said of a picture by itself, at a level of its own ([`crate::tier::STATED`]).
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Stated {
+pub struct RowClaim {
     /// The greatest relative bias of an image's mean that is not excluded: the upper bound of the
     /// greatest |bias| among the channels.
     pub bias: f64,
@@ -142,10 +142,10 @@ pub struct Stated {
     pub equal: bool,
 }
 
-impl Stated {
+impl RowClaim {
     /// The verdict of a run that asks each row by itself for the bound of its rules. What differs at
     /// the run's level differs, and tiles keep their say.
-    pub fn verdict(&self, judgement: &Judgement) -> Verdict {
+    pub fn verdict(&self, judgement: &ImageComparison) -> Verdict {
         if judgement.verdict == Verdict::Differs {
             return Verdict::Differs;
         }
@@ -168,14 +168,14 @@ impl Stated {
 /// # Errors
 /// One sentence, if the two cannot be compared.
 pub fn stated(
-    picture: &Developed,
+    picture: &RenderedImage,
     against: Against<'_>,
-    judgement: &Judgement,
+    judgement: &ImageComparison,
     exact: bool,
     alpha: f64,
-) -> Result<Stated, String> {
+) -> Result<RowClaim, String> {
     let metadata = picture.metadata.as_ref().ok_or("there are no statistics")?;
-    let mut stated = Stated {
+    let mut stated = RowClaim {
         bias: 0.0,
         equal: true,
     };
@@ -203,7 +203,7 @@ pub fn stated(
 }
 
 /// All means must agree, and no tile may differ or be in doubt.
-fn verdict(judgement: &Judgement) -> Verdict {
+fn verdict(judgement: &ImageComparison) -> Verdict {
     let images = judgement.images.iter().map(|row| row.verdict);
     let tiles = judgement.tiles.iter().map(|row| row.verdict);
     images.chain(tiles).fold(Verdict::Agrees, Verdict::and)

@@ -7,13 +7,13 @@
 
 use crate::state::State;
 use etalon::pipeline::Loaded;
-use etalon_film::Developed;
-use etalon_integrators::Plan;
+use etalon_film::RenderedImage;
+use etalon_integrators::RenderPlan;
 use std::cell::RefCell;
 use std::collections::HashMap;
 
 /// What there is already.
-pub(crate) struct Kept<'a> {
+pub(crate) struct BatchCache<'a> {
     state: Option<&'a State>,
     oracles: RefCell<Oracles>,
 }
@@ -22,7 +22,7 @@ pub(crate) struct Kept<'a> {
 #[derive(Default)]
 struct Oracles {
     claim: String,
-    batches: HashMap<String, Developed>,
+    batches: HashMap<String, RenderedImage>,
 }
 
 /// Which batch.
@@ -34,12 +34,12 @@ pub(crate) struct Wanted<'a> {
     /// Whether other comparisons of the claim want it, too.
     pub(crate) shared: bool,
     /// How it is rendered.
-    pub(crate) plan: &'a Plan,
+    pub(crate) plan: &'a RenderPlan,
     /// Its scene.
     pub(crate) loaded: &'a Loaded,
 }
 
-impl<'a> Kept<'a> {
+impl<'a> BatchCache<'a> {
     /// Nothing yet, but for what is on disk.
     pub(crate) fn new(state: Option<&'a State>) -> Self {
         Self {
@@ -55,8 +55,8 @@ impl<'a> Kept<'a> {
     pub(crate) fn or_else(
         &self,
         wanted: &Wanted<'_>,
-        render: impl FnOnce() -> Result<Developed, String>,
-    ) -> Result<Developed, String> {
+        render: impl FnOnce() -> Result<RenderedImage, String>,
+    ) -> Result<RenderedImage, String> {
         if let Some(batch) = self.oracles.borrow().get(wanted) {
             return Ok(batch.clone());
         }
@@ -80,14 +80,14 @@ impl<'a> Kept<'a> {
 }
 
 impl Oracles {
-    fn get(&self, wanted: &Wanted<'_>) -> Option<&Developed> {
+    fn get(&self, wanted: &Wanted<'_>) -> Option<&RenderedImage> {
         if !wanted.shared || self.claim != wanted.claim {
             return None;
         }
         self.batches.get(wanted.name)
     }
 
-    fn put(&mut self, wanted: &Wanted<'_>, batch: &Developed) {
+    fn put(&mut self, wanted: &Wanted<'_>, batch: &RenderedImage) {
         if self.claim != wanted.claim {
             self.claim = wanted.claim.to_owned();
             self.batches.clear();

@@ -79,7 +79,7 @@ fn without_bound(why: &str) -> String {
 
 /// An unbiased integrator that has no row of its own in a claim's matrix.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]
-pub struct Absence {
+pub struct SkippedIntegrator {
     /// Its name.
     pub integrator: String,
     /// What it objects to in the scene, or what the claim says of it.
@@ -159,7 +159,7 @@ pub(crate) fn expand(claim: &mut Claim) -> Result<(), String> {
             })?,
         };
         if let Some(reason) = reason {
-            absent.push(Absence {
+            absent.push(SkippedIntegrator {
                 integrator: name.to_owned(),
                 reason,
             });

@@ -22,13 +22,13 @@
 
 use crate::claim::{Budget, Claim, Estimator};
 use crate::closed_form;
-use crate::fault::Fault;
+use crate::fault::PlantedFault;
 use crate::measure::{self, Measure};
 use crate::rendering;
 use crate::samples;
 use crate::tier::Tier;
-use etalon::judge::{self, Known};
-use etalon_film::{Developed, Metadata};
+use etalon::judge::{self, ExactImage};
+use etalon_film::{Metadata, RenderedImage};
 use etalon_statistics::{Estimate, Summary, proportion};
 use serde::Deserialize;
 use std::ops::Range;
@@ -85,7 +85,7 @@ pub struct Effort {
 
 impl Counting {
     /// What is made of it in a tier. A quarter of the pictures shows a fault, and of the fewest.
-    pub fn effort(&self, tier: Tier, fault: Option<Fault>) -> Effort {
+    pub fn effort(&self, tier: Tier, fault: Option<PlantedFault>) -> Effort {
         let all = Effort {
             seeds: self.seeds,
             tolerance: self.tolerance,
@@ -144,13 +144,13 @@ pub fn count(
     claim: &Claim,
     (counting, numbers): (&Counting, Range<u32>),
     estimator: &Estimator,
-    fault: Option<Fault>,
+    fault: Option<PlantedFault>,
     budget: Budget,
     seed: u64,
 ) -> Result<Vec<Counted>, String> {
     let shrink = match fault {
         None => 1.0,
-        Some(Fault::StandardError) => std::f64::consts::FRAC_1_SQRT_2,
+        Some(PlantedFault::StandardError) => std::f64::consts::FRAC_1_SQRT_2,
         Some(other) => return Err(format!("`{other}` cannot be planted here")),
     };
     let loaded = rendering::load_for(claim, estimator)?;
@@ -202,7 +202,7 @@ pub fn judge(
 }
 
 /// The pixels of a picture.
-fn pixels(picture: &Developed, known: &Known) -> Result<Vec<Trial>, String> {
+fn pixels(picture: &RenderedImage, known: &ExactImage) -> Result<Vec<Trial>, String> {
     let missing = "the picture has no standard errors, or nothing is known of it";
     let found = known.channels.iter().find(|(name, _)| name == CHANNEL);
     let (_, truth) = found.ok_or(missing)?;
@@ -217,7 +217,7 @@ fn pixels(picture: &Developed, known: &Known) -> Result<Vec<Trial>, String> {
 }
 
 /// The tiles of a picture.
-fn tiles(picture: &Developed, known: &Known) -> Result<Vec<Trial>, String> {
+fn tiles(picture: &RenderedImage, known: &ExactImage) -> Result<Vec<Trial>, String> {
     let missing = "the picture has too few replicates";
     let metadata = picture.metadata.as_ref().ok_or(missing)?;
     let (means, count) = judge::replicates(metadata, CHANNEL, SIDE)?;

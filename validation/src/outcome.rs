@@ -1,8 +1,8 @@
 //! What became of a run: every comparison rendered, looked at until it is decided, and judged
 //! together with all others ([`crate::decision`]).
 
-use crate::decision::{self, Decision, Seen, Turn};
-use crate::kept::Kept;
+use crate::decision::{self, Decision, Seen, Stage};
+use crate::kept::BatchCache;
 use crate::look::Look;
 use crate::run::{Compared, Comparison, Options, Task};
 use crate::state::State;
@@ -10,7 +10,7 @@ use etalon_statistics::Verdict;
 use serde::Serialize;
 use std::time::Instant;
 
-pub use crate::decision::{ALARM, ALPHA, Progress};
+pub use crate::decision::{ALPHA, FALSE_POSITIVE_LEVEL, Progress};
 
 /// What a comparison came to.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
@@ -114,7 +114,7 @@ pub fn run<'a>(
     watch: impl FnMut(&Progress<'_>),
 ) -> Result<Vec<Row<'a>>, String> {
     let mut works: Vec<Work<'a>> = tasks.iter().copied().map(Work::new).collect();
-    let kept = Kept::new(state);
+    let kept = BatchCache::new(state);
     let decisions = decision::decide(
         &tasks,
         options.tier,
@@ -152,7 +152,7 @@ impl<'a> Work<'a> {
         }
     }
 
-    fn look(&mut self, turn: Turn, options: &Options, kept: &Kept<'_>) -> Option<Seen> {
+    fn look(&mut self, turn: Stage, options: &Options, kept: &BatchCache<'_>) -> Option<Seen> {
         let start = Instant::now();
         let compared = self.comparison.look(turn, options, kept);
         self.seconds += start.elapsed().as_secs_f64();

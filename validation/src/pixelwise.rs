@@ -24,12 +24,12 @@
 
 use crate::claim::{Budget, Claim, Estimator};
 use crate::edges;
-use crate::fault::Fault;
+use crate::fault::PlantedFault;
 use crate::folders;
 use crate::measure::Measure;
 use crate::povray;
 use crate::rendering;
-use etalon_film::Developed;
+use etalon_film::RenderedImage;
 use etalon_images::Image;
 use etalon_statistics::Estimate;
 
@@ -55,9 +55,9 @@ pub struct Compared {
     /// What was counted.
     pub measures: Vec<Measure>,
     /// Our picture.
-    pub picture: Developed,
+    pub picture: RenderedImage,
     /// POV-Ray's.
-    pub oracle: Developed,
+    pub oracle: RenderedImage,
     /// Samples per pixel, all replicates together.
     pub spp: u64,
 }
@@ -70,7 +70,7 @@ pub fn compare(
     claim: &Claim,
     limits: Limits,
     estimator: &Estimator,
-    fault: Option<Fault>,
+    fault: Option<PlantedFault>,
     budget: Budget,
     (seed, alpha): (u64, f64),
 ) -> Result<Compared, String> {
@@ -134,8 +134,8 @@ struct Pixel {
 /// # Errors
 /// If one of them lacks a colour, ours its standard errors, or they differ in size.
 pub fn measure(
-    picture: &Developed,
-    oracle: &Developed,
+    picture: &RenderedImage,
+    oracle: &RenderedImage,
     edges: &[bool],
     limits: Limits,
     alpha: f64,
@@ -189,7 +189,11 @@ pub fn measure(
     ])
 }
 
-fn pixels(picture: &Developed, oracle: &Developed, alpha: f64) -> Result<Vec<Pixel>, String> {
+fn pixels(
+    picture: &RenderedImage,
+    oracle: &RenderedImage,
+    alpha: f64,
+) -> Result<Vec<Pixel>, String> {
     let missing = |what: &str| format!("the picture has no {what}");
     let metadata = (picture.metadata.as_ref()).ok_or_else(|| missing("standard errors"))?;
     let freedom = f64::from(metadata.replicates) - 1.0;
@@ -231,20 +235,20 @@ fn pixels(picture: &Developed, oracle: &Developed, alpha: f64) -> Result<Vec<Pix
 }
 
 /// Plants a fault into a finished picture.
-fn spoil(image: &mut Image, fault: Fault) -> Result<(), String> {
+fn spoil(image: &mut Image, fault: PlantedFault) -> Result<(), String> {
     let width = image.width();
     for channel in CHANNELS {
         let Some(plane) = image.channel_mut(channel) else {
             continue;
         };
         match fault {
-            Fault::ShiftedPixel => {
+            PlantedFault::ShiftedPixel => {
                 for row in plane.chunks_mut(width) {
                     row.copy_within(..width - 1, 1);
                 }
             }
-            Fault::Mirrored => plane.chunks_mut(width).for_each(<[f32]>::reverse),
-            Fault::SlightEnergy => plane.iter_mut().for_each(|value| *value *= 1.01),
+            PlantedFault::Mirrored => plane.chunks_mut(width).for_each(<[f32]>::reverse),
+            PlantedFault::SlightEnergy => plane.iter_mut().for_each(|value| *value *= 1.01),
             other => return Err(format!("`{other}` cannot be planted here")),
         }
     }

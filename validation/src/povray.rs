@@ -8,7 +8,7 @@
 use crate::claim::Claim;
 use crate::folders;
 use crate::rendering;
-use etalon_film::Developed;
+use etalon_film::RenderedImage;
 use etalon_images::{Frame, exr, write_atomically};
 use serde::{Deserialize, Serialize};
 use std::io::Write;
@@ -38,7 +38,7 @@ pub struct Provenance {
 
 /// Both twins' present state.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Twins {
+pub struct ScenePair {
     /// A hash over ours.
     pub scene_hash: String,
     /// A hash over POV-Ray's.
@@ -64,7 +64,7 @@ pub fn options([width, height]: [u32; 2]) -> Vec<String> {
 ///
 /// # Errors
 /// If either cannot be read.
-pub fn twins(claim: &Claim) -> Result<Twins, String> {
+pub fn twins(claim: &Claim) -> Result<ScenePair, String> {
     let loaded = rendering::load(claim, &rendering::defines(claim, None), None)?;
     let path = folders::scenes().join(twin(&claim.scene));
     let text = std::fs::read(&path).map_err(|e| {
@@ -73,7 +73,7 @@ pub fn twins(claim: &Claim) -> Result<Twins, String> {
             path.display()
         )
     })?;
-    Ok(Twins {
+    Ok(ScenePair {
         scene_hash: loaded.hash,
         twin_hash: blake3::hash(&text).to_hex()[..16].to_owned(),
         size: loaded.compiled.film.crop_size.to_array(),
@@ -100,7 +100,7 @@ fn again(name: &str) -> String {
 /// # Errors
 /// If there is none, it cannot be read, it belongs to another state of either twin, it has
 /// another size, or numbers that are not finite.
-pub fn read_in(folder: &Path, name: &str, twins: &Twins) -> Result<Developed, String> {
+pub fn read_in(folder: &Path, name: &str, twins: &ScenePair) -> Result<RenderedImage, String> {
     let again = again(name);
     let made = provenance(folder, name)?;
     for (of, found, expected) in [
@@ -130,7 +130,7 @@ pub fn read_in(folder: &Path, name: &str, twins: &Twins) -> Result<Developed, St
     {
         return Err(error("it has no channels R, G and B".to_owned()));
     }
-    let picture = Developed {
+    let picture = RenderedImage {
         frame: Frame::whole(&image),
         image,
         metadata: None,

@@ -6,7 +6,7 @@
 use crate::claim::{Claim, Oracle};
 use crate::folders;
 use crate::rendering;
-use etalon_film::{Developed, ExactFilm, Metadata, RenderFacts, read_developed};
+use etalon_film::{ExactFilm, Metadata, RenderFacts, RenderedImage, read_developed};
 use etalon_images::{Image, write_atomically};
 use etalon_sampling::ReplicateKind;
 use serde::{Deserialize, Serialize};
@@ -96,7 +96,7 @@ pub fn expected(claim: &Claim) -> Result<Expected, String> {
 /// If there is none, it cannot be read, it belongs to another state of the scene or was made with
 /// other numbers than the claim states or by somebody else than its description names, it lacks a
 /// channel or the means of a size of tiles, or it has numbers that are not finite.
-pub fn read(claim: &Claim) -> Result<Developed, String> {
+pub fn read(claim: &Claim) -> Result<RenderedImage, String> {
     read_in(&folders::references(), &claim.name, &expected(claim)?)
 }
 
@@ -104,7 +104,7 @@ pub fn read(claim: &Claim) -> Result<Developed, String> {
 ///
 /// # Errors
 /// As [`read`].
-pub fn read_in(folder: &Path, name: &str, expected: &Expected) -> Result<Developed, String> {
+pub fn read_in(folder: &Path, name: &str, expected: &Expected) -> Result<RenderedImage, String> {
     let again = format!("make it with `cargo xtask references --only {name}`");
     let path = folder.join(format!("{name}.json"));
     let text =
@@ -264,7 +264,7 @@ pub fn write(claim: &Claim, rendered: &Rendered, spp: u32, pixels: &[f32]) -> Re
 }
 
 /// The largest relative standard error of a channel's mean.
-fn relative_error(picture: &Developed) -> Result<f64, String> {
+fn relative_error(picture: &RenderedImage) -> Result<f64, String> {
     let metadata = picture.metadata.as_ref().ok_or("there are no statistics")?;
     let mut largest = 0.0_f64;
     for channel in ["R", "G", "B"] {

@@ -1,15 +1,15 @@
 //! Rendering a claim's scene: with an estimator, perhaps with a fault or a change.
 
 use crate::claim::{self, Budget, Change, Claim, Estimator};
-use crate::fault::{Fault, Faulty};
+use crate::fault::{Faulty, PlantedFault};
 use crate::folders;
 use etalon::adaptive;
-use etalon::pipeline::{self, LoadOptions, Loaded, Manner, RenderOptions};
+use etalon::pipeline::{self, LoadOptions, Loaded, RenderControls, RenderOptions};
 use etalon::target::Failure;
-use etalon_film::{Developed, ExactFilm, RenderFacts, SampleCounts};
-use etalon_integrators::Plan;
+use etalon_film::{ExactFilm, RenderFacts, RenderedImage, SampleCounts};
+use etalon_integrators::RenderPlan;
 use etalon_sampling::SamplerKind;
-use etalon_scene::LightChooser;
+use etalon_scene::LightSamplerKind;
 
 /// The scene parameters of a claim, and of one of its estimators.
 pub fn defines(claim: &Claim, estimator: Option<&Estimator>) -> Vec<(String, String)> {
@@ -55,7 +55,7 @@ pub fn load_for(claim: &Claim, estimator: &Estimator) -> Result<Loaded, String> 
         None => None,
         Some(name) => {
             let unknown = || format!("there is no light chooser `{name}`");
-            Some(LightChooser::named(name).ok_or_else(unknown)?)
+            Some(LightSamplerKind::named(name).ok_or_else(unknown)?)
         }
     };
     load_with(
@@ -70,7 +70,7 @@ pub fn load_for(claim: &Claim, estimator: &Estimator) -> Result<Loaded, String> 
 }
 
 /// How an estimator spends a budget.
-pub fn plan(loaded: &Loaded, estimator: &Estimator, budget: Budget, seed: u64) -> Plan {
+pub fn plan(loaded: &Loaded, estimator: &Estimator, budget: Budget, seed: u64) -> RenderPlan {
     pipeline::plan(
         loaded,
         &RenderOptions {
@@ -90,7 +90,7 @@ pub fn plan(loaded: &Loaded, estimator: &Estimator, budget: Budget, seed: u64) -
 /// If the integrator's samples cannot be dealt to pixels.
 fn counts(
     loaded: &Loaded,
-    plan: &Plan,
+    plan: &RenderPlan,
     estimator: &Estimator,
 ) -> Result<Option<SampleCounts>, String> {
     let Some(pilot) = estimator.adaptive else {
@@ -110,20 +110,20 @@ fn counts(
 /// If it cannot be rendered so, or numbers are not finite.
 pub fn picture(
     loaded: &Loaded,
-    plan: &Plan,
+    plan: &RenderPlan,
     estimator: &Estimator,
-    fault: Option<Fault>,
+    fault: Option<PlantedFault>,
     change: Option<Change>,
-) -> Result<Developed, String> {
+) -> Result<RenderedImage, String> {
     let counts = counts(loaded, plan, estimator)?;
     let rotation = match change {
         Some(Change::Wavelengths) => 1,
         _ => 0,
     };
-    let developed = if rotation > 0 || fault.is_some_and(Fault::is_physical) {
+    let developed = if rotation > 0 || fault.is_some_and(PlantedFault::is_physical) {
         altered(loaded, plan, counts, (fault, rotation))?
     } else {
-        let manner = Manner {
+        let manner = RenderControls {
             counts,
             keeping: None,
         };
@@ -137,7 +137,7 @@ pub fn picture(
 ///
 /// # Errors
 /// Says how many there are.
-pub fn finite(picture: Developed) -> Result<Developed, String> {
+pub fn finite(picture: RenderedImage) -> Result<RenderedImage, String> {
     let faults = picture.metadata.as_ref().map_or(0, |m| m.faults.total());
     if faults > 0 {
         return Err(format!("{faults} numbers were not finite or out of range"));
@@ -154,7 +154,7 @@ pub fn finite(picture: Developed) -> Result<Developed, String> {
 }
 
 /// What a film knows of a render.
-pub fn facts(loaded: &Loaded, plan: &Plan, integrator: String) -> RenderFacts {
+pub fn facts(loaded: &Loaded, plan: &RenderPlan, integrator: String) -> RenderFacts {
     RenderFacts {
         version: etalon::VERSION.to_owned(),
         scene: loaded.path.display().to_string(),
@@ -170,10 +170,10 @@ pub fn facts(loaded: &Loaded, plan: &Plan, integrator: String) -> RenderFacts {
 /// Renders the picture of a world with a fault, or with its wavelengths' lanes rotated.
 fn altered(
     loaded: &Loaded,
-    plan: &Plan,
+    plan: &RenderPlan,
     counts: Option<SampleCounts>,
-    (fault, rotation): (Option<Fault>, usize),
-) -> Result<Developed, String> {
+    (fault, rotation): (Option<PlantedFault>, usize),
+) -> Result<RenderedImage, String> {
     let compiled = &loaded.compiled;
     let named = loaded.integrator.channels();
     let film = ExactFilm::new(compiled.film.clone(), &named).map_err(|e| e.message)?;

@@ -3,33 +3,33 @@
 //! A [`Comparison`] is looked at once or several times; each look adds replicates with seeds of
 //! their own to those there are, and judges them all.
 
-use crate::batches::{Batches, Part};
+use crate::batches::{Batches, Side};
 use crate::claim::{Budget, Oracle};
 use crate::convergence::Fall;
-use crate::decision::Turn;
+use crate::decision::Stage;
 use crate::judged::{self, Against, Asked};
-use crate::kept::Kept;
+use crate::kept::BatchCache;
 use crate::measure::Measure;
 use crate::noise::Effort;
 use crate::{closed_form, convergence, invariance, noise, pixelwise, reference, rendering};
-use etalon::judge::{Judgement, Known};
-use etalon_film::Developed;
+use etalon::judge::{ExactImage, ImageComparison};
+use etalon_film::RenderedImage;
 use etalon_images::{Frame, Image};
 use etalon_statistics::Verdict;
 
 pub use crate::rendering::{defines, load};
-pub use crate::tasks::{Options, Plan, Task, named, tasks, unknown};
+pub use crate::tasks::{Options, RunPlan, Task, named, tasks, unknown};
 
 /// What a comparison was decided by.
 pub enum Evidence {
     /// Pictures and their means.
     Pictures {
         /// Our picture.
-        picture: Box<Developed>,
+        picture: Box<RenderedImage>,
         /// What it ought to be.
-        oracle: Box<Developed>,
+        oracle: Box<RenderedImage>,
         /// The decision, before it is corrected over the whole run.
-        judgement: Judgement,
+        judgement: ImageComparison,
         /// Where the normal approximation was refused.
         refusals: Vec<String>,
     },
@@ -52,7 +52,7 @@ pub struct Compared {
     /// The hash of the scene's content.
     pub scene_hash: String,
     /// Our picture and what it ought to be, where the measures were taken of pictures.
-    pub shown: Option<Box<[Developed; 2]>>,
+    pub shown: Option<Box<[RenderedImage; 2]>>,
     /// How the squared error falls, for claims of convergence.
     pub fall: Option<Fall>,
     /// The greatest relative bias of an image's mean that is not excluded with 99 % confidence
@@ -62,7 +62,7 @@ pub struct Compared {
 
 impl Compared {
     /// The judgement on pictures, if there is one.
-    pub fn judgement(&self) -> Option<&Judgement> {
+    pub fn judgement(&self) -> Option<&ImageComparison> {
         match &self.evidence {
             Evidence::Pictures { judgement, .. } => Some(judgement),
             Evidence::Measures(_) => None,
@@ -81,8 +81,8 @@ impl Compared {
 /// A comparison and the replicates there are so far.
 pub struct Comparison<'a> {
     task: Task<'a>,
-    picture: Option<Developed>,
-    oracle: Option<Developed>,
+    picture: Option<RenderedImage>,
+    oracle: Option<RenderedImage>,
     /// The pictures counted so far, of a claim about noise.
     counted: Vec<noise::Counted>,
     /// The batches so far, of a claim about convergence.
@@ -115,9 +115,9 @@ impl<'a> Comparison<'a> {
     /// finite.
     pub(crate) fn look(
         &mut self,
-        turn: Turn,
+        turn: Stage,
         options: &Options,
-        kept: &Kept<'_>,
+        kept: &BatchCache<'_>,
     ) -> Result<Compared, String> {
         let compared = self.measured(turn, options, kept);
         self.multiple = turn.multiple;
@@ -126,9 +126,9 @@ impl<'a> Comparison<'a> {
 
     fn measured(
         &mut self,
-        turn: Turn,
+        turn: Stage,
         options: &Options,
-        kept: &Kept<'_>,
+        kept: &BatchCache<'_>,
     ) -> Result<Compared, String> {
         let Task {
             claim,
@@ -136,7 +136,7 @@ impl<'a> Comparison<'a> {
             fault,
             ..
         } = self.task;
-        let Turn {
+        let Stage {
             multiple, alpha, ..
         } = turn;
         let first = self.task.budget(options.tier);
@@ -210,9 +210,9 @@ impl<'a> Comparison<'a> {
 
     fn pictures(
         &mut self,
-        turn: Turn,
+        turn: Stage,
         options: &Options,
-        kept: &Kept<'_>,
+        kept: &BatchCache<'_>,
     ) -> Result<Compared, String> {
         let Task {
             claim,
@@ -237,7 +237,7 @@ impl<'a> Comparison<'a> {
             to: turn.multiple,
             kept,
         };
-        let picture = work.extend(self.picture.take(), estimator, options.seed, Part::Own)?;
+        let picture = work.extend(self.picture.take(), estimator, options.seed, Side::Own)?;
         let facts = picture.metadata.as_ref().ok_or("there are no statistics")?;
         let (spp, replicates) = (facts.spp, facts.replicates);
         let scene_hash = facts.scene_hash.clone();
@@ -256,7 +256,7 @@ impl<'a> Comparison<'a> {
                     Some(_) => estimator.fault_budget(),
                     None => options.tier.budget(estimator),
                 };
-                let oracle = work.extend(self.oracle.take(), estimator, seed, Part::Oracle)?;
+                let oracle = work.extend(self.oracle.take(), estimator, seed, Side::Oracle)?;
                 self.oracle = Some(oracle.clone());
                 (None, oracle)
             }
@@ -264,7 +264,7 @@ impl<'a> Comparison<'a> {
                 return Err("this kind of claim compares no pictures".to_owned());
             }
         };
-        let against = against.map_or(Against::Picture(&oracle), Against::Known);
+        let against = against.map_or(Against::Picture(&oracle), Against::ExactImage);
         let asked = Asked {
             exact,
             alarm: turn.alarm,
@@ -298,13 +298,13 @@ impl<'a> Comparison<'a> {
 }
 
 /// A known picture, for the eye.
-fn drawn(known: &Known) -> Developed {
+fn drawn(known: &ExactImage) -> RenderedImage {
     let [width, height] = known.size.map(|n| n as usize);
     let mut image = Image::new(width, height);
     for (name, pixels) in &known.channels {
         image.push(name.as_str(), pixels.iter().map(|p| *p as f32).collect());
     }
-    Developed {
+    RenderedImage {
         frame: Frame::whole(&image),
         image,
         metadata: None,

@@ -1,9 +1,9 @@
 //! The replicates of one mean and of what it is held against: what t makes of them, and when it may.
 
 use crate::judged::Against;
-use etalon::judge::{self, Known};
+use etalon::judge::{self, ExactImage};
 use etalon_film::Metadata;
-use etalon_statistics::bootstrap::Plan;
+use etalon_statistics::bootstrap::Resampling;
 use etalon_statistics::robust::{self, Method, Symmetry};
 use etalon_statistics::tails::Limits;
 use etalon_statistics::{Estimate, Interval, Replicates, Summary, Verdict};
@@ -19,7 +19,7 @@ pub(crate) struct Samples {
 }
 
 pub(crate) enum Other {
-    Known(f64),
+    ExactImage(f64),
     Replicates(Vec<f64>),
 }
 
@@ -37,7 +37,7 @@ impl Samples {
             Ok(replicates.tile(tile).collect())
         };
         let other = match against {
-            Against::Known(known) => Other::Known(tile_mean(known, channel, side, tile)?),
+            Against::ExactImage(known) => Other::ExactImage(tile_mean(known, channel, side, tile)?),
             Against::Picture(picture) => {
                 let metadata = picture.metadata.as_ref().ok_or("there are no statistics")?;
                 Other::Replicates(of(metadata)?)
@@ -52,7 +52,7 @@ impl Samples {
     /// Whether no replicate is farther than this from what it ought to be.
     pub(crate) fn all_within(&self, tolerance: f64) -> bool {
         match &self.other {
-            Other::Known(known) => self.own.iter().all(|x| (x - known).abs() <= tolerance),
+            Other::ExactImage(known) => self.own.iter().all(|x| (x - known).abs() <= tolerance),
             Other::Replicates(_) => false,
         }
     }
@@ -60,7 +60,7 @@ impl Samples {
     /// What the mean ought to be.
     pub(crate) fn truth(&self) -> f64 {
         match &self.other {
-            Other::Known(known) => *known,
+            Other::ExactImage(known) => *known,
             Other::Replicates(other) => other.iter().sum::<f64>() / other.len() as f64,
         }
     }
@@ -68,7 +68,7 @@ impl Samples {
     /// The difference of the means.
     pub(crate) fn estimate(&self) -> Option<Estimate> {
         Summary::of(&self.own).and_then(|own| match &self.other {
-            Other::Known(known) => Some(Estimate::excess(&own, *known)),
+            Other::ExactImage(known) => Some(Estimate::excess(&own, *known)),
             Other::Replicates(other) => Some(Estimate::welch(&own, &Summary::of(other)?)),
         })
     }
@@ -96,10 +96,10 @@ impl Samples {
     /// misses it with probability `alpha` at most, if there is one.
     pub(crate) fn judge(&self, alpha: f64) -> Option<(String, Option<Interval>)> {
         let resamples = (25.0 / alpha).clamp(9_999.0, RESAMPLES) as u32;
-        let plan = Plan::independent(resamples, 1);
+        let plan = Resampling::independent(resamples, 1);
         let limits = &Limits::DECLARED;
         let judged = match &self.other {
-            Other::Known(known) => {
+            Other::ExactImage(known) => {
                 let excess: Vec<f64> = self.own.iter().map(|x| x - known).collect();
                 robust::judge(&excess, alpha, Symmetry::Unknown, limits, &plan)
             }
@@ -125,7 +125,7 @@ impl Samples {
 /// # Errors
 /// If it has no such channel.
 pub(crate) fn tile_mean(
-    known: &Known,
+    known: &ExactImage,
     channel: &str,
     side: Option<u32>,
     tile: usize,

@@ -8,8 +8,8 @@
 use crate::program;
 use crate::run::Options;
 use etalon::pipeline::Loaded;
-use etalon_film::{Developed, read_developed};
-use etalon_integrators::Plan;
+use etalon_film::{RenderedImage, read_developed};
+use etalon_integrators::RenderPlan;
 use std::hash::{DefaultHasher, Hasher};
 use std::path::{Path, PathBuf};
 
@@ -52,7 +52,7 @@ impl State {
     }
 
     /// A batch, if it is there, whole, and the one that is asked for.
-    pub fn read(&self, name: &str, plan: &Plan, loaded: &Loaded) -> Option<Developed> {
+    pub fn read(&self, name: &str, plan: &RenderPlan, loaded: &Loaded) -> Option<RenderedImage> {
         let batch = read_developed(&self.path(name)).ok()?;
         let facts = batch.metadata.as_ref()?;
         let spp = u64::from(plan.replicates) * u64::from(plan.samples_per_replicate);
@@ -68,7 +68,7 @@ impl State {
     ///
     /// # Errors
     /// If it cannot be written.
-    pub fn write(&self, name: &str, batch: &Developed) -> Result<(), String> {
+    pub fn write(&self, name: &str, batch: &RenderedImage) -> Result<(), String> {
         let path = self.path(name);
         batch.write_exr(&path).map_err(|e| e.to_string())
     }

@@ -1,10 +1,10 @@
 //! The table on standard output.
 
 use crate::claim::{Claim, Oracle};
-use crate::matrix::Absence;
-use crate::outcome::{ALARM, Outcome, Row, counts};
+use crate::matrix::SkippedIntegrator;
+use crate::outcome::{FALSE_POSITIVE_LEVEL, Outcome, Row, counts};
 use crate::run::{Compared, Evidence};
-use etalon::judge::Judgement;
+use etalon::judge::ImageComparison;
 
 /// The headings of the table.
 pub fn head() -> String {
@@ -65,7 +65,7 @@ pub(crate) fn percent(bound: f64) -> String {
 
 /// The interval that reaches farthest, and the smallest bias that could have been found.
 fn shown(compared: &Compared) -> (String, String) {
-    if let Some(channel) = compared.judgement().and_then(Judgement::widest) {
+    if let Some(channel) = compared.judgement().and_then(ImageComparison::widest) {
         return (
             format!(
                 "{} [{:+.4}, {:+.4}]",
@@ -156,7 +156,7 @@ pub fn bounded(rows: &[Row<'_>]) -> [usize; 2] {
 }
 
 /// Who does not take part in the matrices of a run's claims, with the claim.
-pub fn absent<'a>(rows: &[Row<'a>]) -> Vec<(&'a str, &'a Absence)> {
+pub fn absent<'a>(rows: &[Row<'a>]) -> Vec<(&'a str, &'a SkippedIntegrator)> {
     let mut claims: Vec<&Claim> = rows.iter().map(|row| row.task.claim).collect();
     claims.dedup_by_key(|claim| &claim.name);
     let each = |claim: &'a Claim| {
@@ -173,7 +173,7 @@ pub fn summary(rows: &[Row<'_>], seconds: f64) -> String {
     let [passed, failed, undecided, broken] = counts(rows);
     let [below, asked] = bounded(rows);
     let mut text = format!(
-        "{} comparisons in {seconds:.0} s: {passed} passed, {failed} failed, {undecided} undecided, {broken} broken (α = {ALARM:.0e} over the run)",
+        "{} comparisons in {seconds:.0} s: {passed} passed, {failed} failed, {undecided} undecided, {broken} broken (α = {FALSE_POSITIVE_LEVEL:.0e} over the run)",
         rows.len()
     );
     if asked > 0 {

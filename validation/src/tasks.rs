@@ -1,9 +1,9 @@
 //! What a run consists of: the comparisons that the chosen claims ask for.
 
 use crate::claim::{Budget, Claim, Estimator, Oracle};
-use crate::fault::Fault;
+use crate::fault::PlantedFault;
 use crate::tier::Tier;
-use etalon::judge::Rules;
+use etalon::judge::Tolerances;
 use etalon::part::PartOfMany;
 use etalon_params::suggest::nearest;
 
@@ -30,7 +30,7 @@ pub struct Task<'a> {
     /// Its place among the claim's estimators.
     pub place: usize,
     /// The fault, for a comparison that must find it.
-    pub fault: Option<Fault>,
+    pub fault: Option<PlantedFault>,
     /// Whether another part of the run makes it: it is counted here, and not looked at.
     pub elsewhere: bool,
 }
@@ -45,7 +45,7 @@ impl Task<'_> {
     }
 
     /// How pictures are judged at the level `alpha`.
-    pub fn rules(&self, alpha: f64, tier: Tier) -> Rules {
+    pub fn rules(&self, alpha: f64, tier: Tier) -> Tolerances {
         let bounds = self.claim.bounds;
         let place = self.estimator.in_matrix;
         let exact = self.claim.oracle.is_exact();
@@ -55,7 +55,7 @@ impl Task<'_> {
             (Tier::Default, None) => default.unwrap_or(own),
             _ => own,
         };
-        Rules {
+        Tolerances {
             // What must be excluded in the end is a difference where it is shown.
             image_bound: tier.image_bound(own),
             tile_bound: bounds.tile,
@@ -161,7 +161,7 @@ pub fn tasks<'a>(claims: &'a [Claim], options: &Options) -> Vec<Task<'a>> {
 
 /// What a run asks, all of its parts together.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Plan {
+pub struct RunPlan {
     /// Comparisons that are declared, whoever makes them.
     pub hypotheses: usize,
     /// The beginning of a hash over all that they state. Parts belong together only if it is the same:
@@ -169,7 +169,7 @@ pub struct Plan {
     pub hash: String,
 }
 
-impl Plan {
+impl RunPlan {
     /// Of these tasks, those made elsewhere included.
     pub fn of(tasks: &[Task<'_>], options: &Options) -> Self {
         let mut hasher = blake3::Hasher::new();
@@ -213,7 +213,8 @@ mod tests {
             seed: 1,
             part: part.map(|part| part.parse().expect("a part")),
         };
-        let plan = |claims: &[Claim], options: &Options| Plan::of(&tasks(claims, options), options);
+        let plan =
+            |claims: &[Claim], options: &Options| RunPlan::of(&tasks(claims, options), options);
         let whole = plan(&claims, &options(None));
         assert_eq!(whole.hypotheses, tasks(&claims, &options(None)).len());
         assert_eq!(whole.hash.len(), 12);

@@ -77,6 +77,15 @@ pub(crate) fn run(arguments: &Arguments) -> ExitCode {
 fn mutants(arguments: &Arguments) -> Result<bool, String> {
     let mut mutants = list::read()?;
     if arguments.check {
+        for mutant in &mutants {
+            let Ok(there) = mutant.applied(&etalon_validation::folders::root()) else {
+                continue;
+            };
+            if there.file != mutant.file || !there.renamed.is_empty() {
+                let (file, names) = (there.file.display(), there.renamed.join(", "));
+                println!("note: {}: found in {file} {names}", mutant.name);
+            }
+        }
         let mistakes = list::mistakes(&mutants, &etalon_validation::folders::root())?;
         for mistake in &mistakes {
             eprintln!("error: {mistake}");

@@ -143,7 +143,7 @@ fn validate(arguments: &Arguments) -> Result<Conclusion, String> {
         part: arguments.part,
     };
     let tasks = run::tasks(&claims, &options);
-    let plan = run::Plan::of(&tasks, &options);
+    let plan = run::RunPlan::of(&tasks, &options);
     if let Some(part) = options.part
         && tasks.iter().all(|task| task.elsewhere)
     {

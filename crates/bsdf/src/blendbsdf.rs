@@ -7,12 +7,12 @@
 //! Mitsuba's plugin of that name. The nested materials are chosen with the probabilities 1 − w
 //! and w.
 
-use crate::{Flattening, Material, Site, Traits};
+use crate::{LobeList, Material, MaterialFlags, ShadingContext};
 use etalon_math::Frame;
 use etalon_params::Params;
-use etalon_transport::{Build, Role, TextureId, Textures};
+use etalon_transport::{Build, SpectrumKind, TextureId, Textures};
 
-/// Parameters to test with (see [`crate::exemplars`]).
+/// Parameters to test with (see [`crate::test_materials`]).
 pub const EXEMPLARS: &[&str] = &[
     "blendbsdf weight=f:0.3 ( diffuse reflectance=u:0.8 ) ( roughconductor alpha=f:0.3 )",
     "blendbsdf weight=f:0.6 ( mask opacity=f:0.5 ( plastic ) ) ( blendbsdf weight=f:0.5 \
@@ -29,7 +29,7 @@ pub struct Description {
 impl Description {
     /// Reads `weight` (required) and two nested materials.
     pub fn from_params(params: &Params<'_>, build: &mut dyn Build) -> Option<Self> {
-        let weight = build.texture(params, "weight", None, Role::Reflectance);
+        let weight = build.texture(params, "weight", None, SpectrumKind::Reflectance);
         let nested = Material::nested::<2>(params, build)?;
         Some(Self {
             weight,
@@ -38,11 +38,11 @@ impl Description {
     }
 
     /// What either can do, with the lobes of both.
-    pub fn traits(&self) -> Traits {
+    pub fn traits(&self) -> MaterialFlags {
         let [a, b] = [self.nested[0].traits(), self.nested[1].traits()];
-        Traits {
+        MaterialFlags {
             lobes: a.lobes + b.lobes,
-            passing: a.passing || b.passing,
+            null: a.null || b.null,
             transmission: a.transmission || b.transmission,
         }
     }
@@ -50,10 +50,10 @@ impl Description {
     /// Both nested materials with their shares.
     pub fn flatten<'a, T: Textures>(
         &'a self,
-        site: &Site<'_, T>,
+        site: &ShadingContext<'_, T>,
         frame: Frame,
         weight: f32,
-        into: &mut Flattening<'a>,
+        into: &mut LobeList<'a>,
     ) {
         let share = site.share(self.weight);
         self.nested[0].flatten(site, frame, weight * (1.0 - share), into);

@@ -6,16 +6,16 @@
 //!
 //! Phong (1975), *Illumination for Computer Generated Pictures*; Whitted (1980), *An Improved
 //! Illumination Model for Shaded Display*. Nothing scatters here: this file reads the parameters
-//! and looks their textures up, and who can show them asks for them ([`Material::classic`]). To
+//! and looks their textures up, and who can show them asks for them ([`Material::legacy_phong`]). To
 //! everybody else such a surface would be black, so the scene is refused before it comes to that.
 //!
-//! [`Material::classic`]: crate::Material::classic
+//! [`Material::legacy_phong`]: crate::Material::classic
 
 use crate::ior::RelativeIndex;
-use crate::{Flattening, Site, Traits};
+use crate::{LobeList, MaterialFlags, ShadingContext};
 use etalon_math::Frame;
 use etalon_params::Params;
-use etalon_transport::{Build, ClassicPhong, Role, TextureId, Textures};
+use etalon_transport::{Build, LegacyPhong, SpectrumKind, TextureId, Textures};
 
 /// Nothing for the harness of scattering models.
 pub const EXEMPLARS: &[&str] = &[];
@@ -40,9 +40,9 @@ impl Description {
     /// `transparency` (0), `int_ior` (bk7) and `ext_ior` (air).
     pub fn from_params(params: &Params<'_>, build: &mut dyn Build) -> Option<Self> {
         // Ambient light is white: colours are what it shows, so they are those of emitted light.
-        let ambient = build.texture(params, "ambient", Some(0.0), Role::Emission);
+        let ambient = build.texture(params, "ambient", Some(0.0), SpectrumKind::Emission);
         let mut factor =
-            |name, default| build.texture(params, name, Some(default), Role::Reflectance);
+            |name, default| build.texture(params, name, Some(default), SpectrumKind::Reflectance);
         let diffuse = factor("diffuse", 0.5);
         let specular = factor("specular", 0.0);
         let global = factor("global", 0.0);
@@ -62,17 +62,17 @@ impl Description {
     }
 
     /// No lobes: it does not scatter.
-    pub fn traits(&self) -> Traits {
-        Traits {
+    pub fn traits(&self) -> MaterialFlags {
+        MaterialFlags {
             lobes: 0,
-            passing: false,
+            null: false,
             transmission: true,
         }
     }
 
     /// The material at a point.
-    pub fn resolve<T: Textures>(&self, site: &Site<'_, T>) -> ClassicPhong {
-        ClassicPhong {
+    pub fn resolve<T: Textures>(&self, site: &ShadingContext<'_, T>) -> LegacyPhong {
+        LegacyPhong {
             ambient: site.spectrum(self.ambient),
             diffuse: site.spectrum(self.diffuse),
             specular: site.spectrum(self.specular),
@@ -84,5 +84,12 @@ impl Description {
     }
 
     /// Adds nothing.
-    pub fn flatten<T: Textures>(&self, _: &Site<'_, T>, _: Frame, _: f32, _: &mut Flattening<'_>) {}
+    pub fn flatten<T: Textures>(
+        &self,
+        _: &ShadingContext<'_, T>,
+        _: Frame,
+        _: f32,
+        _: &mut LobeList<'_>,
+    ) {
+    }
 }

@@ -13,10 +13,10 @@
 
 use core::f32::consts::FRAC_1_PI;
 use etalon_params::Params;
-use etalon_transport::{Build, Role, TextureId, Textures};
+use etalon_transport::{Build, SpectrumKind, TextureId, Textures};
 use glam::Vec4;
 
-use crate::Site;
+use crate::ShadingContext;
 use crate::ior::RelativeIndex;
 
 /// Textures and numbers of a coated diffuse base.
@@ -34,7 +34,7 @@ impl Coating {
     /// `int_ior` (polypropylene) and `ext_ior` (air).
     pub fn from_params(params: &Params<'_>, build: &mut dyn Build) -> Option<Self> {
         let mut factor =
-            |name, default| build.texture(params, name, Some(default), Role::Reflectance);
+            |name, default| build.texture(params, name, Some(default), SpectrumKind::Reflectance);
         let diffuse = factor("diffuse_reflectance", 0.5);
         let specular = factor("specular_reflectance", 1.0);
         Some(Self {
@@ -47,7 +47,7 @@ impl Coating {
 
     /// The base at a point, for the internal reflectance R.
     #[inline]
-    pub fn resolve<T: Textures>(&self, site: &Site<'_, T>, internal: f32) -> Coat {
+    pub fn resolve<T: Textures>(&self, site: &ShadingContext<'_, T>, internal: f32) -> Coat {
         let eta = self.eta as f32;
         Coat::new(
             eta,

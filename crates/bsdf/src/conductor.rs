@@ -8,13 +8,15 @@
 
 use crate::metal::Metal;
 use crate::refraction::reflect;
-use crate::{Model, Site, fresnel};
-use etalon_math::Atom;
+use crate::{Bxdf, ShadingContext, fresnel};
+use etalon_math::DeltaProbability;
 use etalon_params::Params;
-use etalon_transport::{BsdfSample, Build, Chance, Mode, Role, TextureId, Textures};
+use etalon_transport::{
+    BsdfSample, Build, SamplePdf, SpectrumKind, TextureId, Textures, TransportMode,
+};
 use glam::{Vec2, Vec3, Vec4};
 
-/// Parameters to test with (see [`crate::exemplars`]).
+/// Parameters to test with (see [`crate::test_materials`]).
 pub const EXEMPLARS: &[&str] = &[
     "conductor",
     "conductor eta=t:400:1.5,700:0.2 k=t:400:1.8,700:3.5",
@@ -30,8 +32,12 @@ pub struct Description {
 impl Description {
     /// Reads the metal (see [`Metal`]) and `specular_reflectance` (1).
     pub fn from_params(params: &Params<'_>, build: &mut dyn Build) -> Option<Self> {
-        let reflectance =
-            build.texture(params, "specular_reflectance", Some(1.0), Role::Reflectance);
+        let reflectance = build.texture(
+            params,
+            "specular_reflectance",
+            Some(1.0),
+            SpectrumKind::Reflectance,
+        );
         Some(Self {
             metal: Metal::from_params(params, build)?,
             reflectance,
@@ -39,7 +45,7 @@ impl Description {
     }
 
     /// The model at a point.
-    pub fn resolve<T: Textures>(&self, site: &Site<'_, T>) -> Conductor {
+    pub fn resolve<T: Textures>(&self, site: &ShadingContext<'_, T>) -> Conductor {
         let (eta, k) = self.metal.resolve(site);
         Conductor {
             eta,
@@ -60,25 +66,25 @@ pub struct Conductor {
     pub reflectance: Vec4,
 }
 
-impl Model for Conductor {
-    fn eval_and_density(&self, _: Vec3, _: Vec3, _: Mode) -> (Vec4, Vec4) {
+impl Bxdf for Conductor {
+    fn eval_and_density(&self, _: Vec3, _: Vec3, _: TransportMode) -> (Vec4, Vec4) {
         (Vec4::ZERO, Vec4::ZERO)
     }
 
-    fn sample(&self, wo: Vec3, _: f32, _: Vec2, _: Mode) -> Option<BsdfSample> {
+    fn sample(&self, wo: Vec3, _: f32, _: Vec2, _: TransportMode) -> Option<BsdfSample> {
         if !(wo.z > 0.0) {
             return None;
         }
         Some(BsdfSample {
             wi: reflect(wo, Vec3::Z),
             value: self.reflectance * fresnel::conductor(wo.z.min(1.0), self.eta, self.k),
-            chance: Chance::Discrete(Atom::uniform(1.0)),
+            chance: SamplePdf::Discrete(DeltaProbability::uniform(1.0)),
             eta: 1.0,
-            passes: false,
+            is_null: false,
         })
     }
 
-    fn discrete(&self, wo: Vec3, index: u32, mode: Mode) -> Option<BsdfSample> {
+    fn discrete(&self, wo: Vec3, index: u32, mode: TransportMode) -> Option<BsdfSample> {
         (index == 0)
             .then(|| self.sample(wo, 0.0, Vec2::ZERO, mode))
             .flatten()

@@ -13,13 +13,15 @@
 
 use crate::ior::RelativeIndex;
 use crate::refraction::reflect;
-use crate::{Model, Site, fresnel};
-use etalon_math::Atom;
+use crate::{Bxdf, ShadingContext, fresnel};
+use etalon_math::DeltaProbability;
 use etalon_params::Params;
-use etalon_transport::{BsdfSample, Build, Chance, Mode, Role, TextureId, Textures};
+use etalon_transport::{
+    BsdfSample, Build, SamplePdf, SpectrumKind, TextureId, Textures, TransportMode,
+};
 use glam::{Vec2, Vec3, Vec4};
 
-/// Parameters to test with (see [`crate::exemplars`]).
+/// Parameters to test with (see [`crate::test_materials`]).
 pub const EXEMPLARS: &[&str] = &[
     "dielectric",
     "dielectric int_ior=f:1 ext_ior=f:1.7",
@@ -38,7 +40,7 @@ impl Description {
     /// Reads `int_ior` (bk7), `ext_ior` (air), `specular_reflectance` (1) and
     /// `specular_transmittance` (1).
     pub fn from_params(params: &Params<'_>, build: &mut dyn Build) -> Option<Self> {
-        let mut factor = |name| build.texture(params, name, Some(1.0), Role::Reflectance);
+        let mut factor = |name| build.texture(params, name, Some(1.0), SpectrumKind::Reflectance);
         let reflectance = factor("specular_reflectance");
         let transmittance = factor("specular_transmittance");
         Some(Self {
@@ -49,7 +51,7 @@ impl Description {
     }
 
     /// The model at a point.
-    pub fn resolve<T: Textures>(&self, site: &Site<'_, T>) -> Dielectric {
+    pub fn resolve<T: Textures>(&self, site: &ShadingContext<'_, T>) -> Dielectric {
         Dielectric {
             eta: self.eta.eval(site),
             reflectance: site.spectrum(self.reflectance),
@@ -69,12 +71,12 @@ pub struct Dielectric {
     pub transmittance: Vec4,
 }
 
-impl Model for Dielectric {
-    fn eval_and_density(&self, _: Vec3, _: Vec3, _: Mode) -> (Vec4, Vec4) {
+impl Bxdf for Dielectric {
+    fn eval_and_density(&self, _: Vec3, _: Vec3, _: TransportMode) -> (Vec4, Vec4) {
         (Vec4::ZERO, Vec4::ZERO)
     }
 
-    fn sample(&self, wo: Vec3, u_lobe: f32, _: Vec2, mode: Mode) -> Option<BsdfSample> {
+    fn sample(&self, wo: Vec3, u_lobe: f32, _: Vec2, mode: TransportMode) -> Option<BsdfSample> {
         let (eta, fresnel) = self.interface(wo)?;
         if u_lobe < fresnel.x {
             Some(self.reflected(wo, fresnel))
@@ -83,7 +85,7 @@ impl Model for Dielectric {
         }
     }
 
-    fn discrete(&self, wo: Vec3, index: u32, mode: Mode) -> Option<BsdfSample> {
+    fn discrete(&self, wo: Vec3, index: u32, mode: TransportMode) -> Option<BsdfSample> {
         let (eta, fresnel) = self.interface(wo)?;
         match index {
             0 => Some(self.reflected(wo, fresnel)),
@@ -92,9 +94,9 @@ impl Model for Dielectric {
                 (self.refracted(wo, eta, fresnel, mode)).unwrap_or(BsdfSample {
                     wi: -wo,
                     value: Vec4::ZERO,
-                    chance: Chance::Discrete(Atom(Vec4::ZERO)),
+                    chance: SamplePdf::Discrete(DeltaProbability(Vec4::ZERO)),
                     eta: 1.0,
-                    passes: false,
+                    is_null: false,
                 }),
             ),
             _ => None,
@@ -124,27 +126,33 @@ impl Dielectric {
         BsdfSample {
             wi: reflect(wo, Vec3::Z),
             value: self.reflectance * fresnel,
-            chance: Chance::Discrete(Atom(fresnel)),
+            chance: SamplePdf::Discrete(DeltaProbability(fresnel)),
             eta: 1.0,
-            passes: false,
+            is_null: false,
         }
     }
 
     #[inline]
-    fn refracted(&self, wo: Vec3, eta: Vec4, fresnel: Vec4, mode: Mode) -> Option<BsdfSample> {
+    fn refracted(
+        &self,
+        wo: Vec3,
+        eta: Vec4,
+        fresnel: Vec4,
+        mode: TransportMode,
+    ) -> Option<BsdfSample> {
         let (_, cos_t) = fresnel::dielectric(wo.z.abs(), eta.x);
         let together = Vec4::select(eta.cmpeq(Vec4::splat(eta.x)), Vec4::ONE, Vec4::ZERO);
         let transmitted = (1.0 - fresnel) * together;
         let scale = match mode {
-            Mode::Radiance => 1.0 / (eta.x * eta.x),
-            Mode::Importance => 1.0,
+            TransportMode::Radiance => 1.0 / (eta.x * eta.x),
+            TransportMode::Importance => 1.0,
         };
         (transmitted.x > 0.0).then(|| BsdfSample {
             wi: Vec3::new(-wo.x / eta.x, -wo.y / eta.x, cos_t.copysign(-wo.z)).normalize(),
             value: self.transmittance * transmitted * scale,
-            chance: Chance::Discrete(Atom(transmitted)),
+            chance: SamplePdf::Discrete(DeltaProbability(transmitted)),
             eta: eta.x,
-            passes: false,
+            is_null: false,
         })
     }
 }

@@ -6,15 +6,17 @@
 //!
 //! Lambert (1760), *Photometria*. Sampled with density cos θi / π.
 
-use crate::{Model, Site};
+use crate::{Bxdf, ShadingContext};
 use core::f32::consts::FRAC_1_PI;
 use etalon_math::Density;
 use etalon_params::Params;
 use etalon_sampling::warps::square_to_cosine_hemisphere;
-use etalon_transport::{BsdfSample, Build, Chance, Mode, Role, TextureId, Textures};
+use etalon_transport::{
+    BsdfSample, Build, SamplePdf, SpectrumKind, TextureId, Textures, TransportMode,
+};
 use glam::{Vec2, Vec3, Vec4};
 
-/// Parameters to test with (see [`crate::exemplars`]).
+/// Parameters to test with (see [`crate::test_materials`]).
 pub const EXEMPLARS: &[&str] = &["diffuse", "diffuse reflectance=t:400:0.1,700:0.9"];
 
 /// `diffuse` in a scene file.
@@ -32,13 +34,13 @@ impl Description {
     /// Reads `reflectance` (0.5).
     pub fn from_params(params: &Params<'_>, build: &mut dyn Build) -> Option<Self> {
         Some(Self {
-            reflectance: build.texture(params, "reflectance", Some(0.5), Role::Reflectance),
+            reflectance: build.texture(params, "reflectance", Some(0.5), SpectrumKind::Reflectance),
         })
     }
 
     /// The model at a point.
     #[inline]
-    pub fn resolve<T: Textures>(&self, site: &Site<'_, T>) -> Diffuse {
+    pub fn resolve<T: Textures>(&self, site: &ShadingContext<'_, T>) -> Diffuse {
         Diffuse {
             reflectance: site.spectrum(self.reflectance),
         }
@@ -52,9 +54,9 @@ pub struct Diffuse {
     pub reflectance: Vec4,
 }
 
-impl Model for Diffuse {
+impl Bxdf for Diffuse {
     #[inline]
-    fn eval_and_density(&self, wo: Vec3, wi: Vec3, _: Mode) -> (Vec4, Vec4) {
+    fn eval_and_density(&self, wo: Vec3, wi: Vec3, _: TransportMode) -> (Vec4, Vec4) {
         let density = if wo.z > 0.0 && wi.z > 0.0 {
             wi.z * FRAC_1_PI
         } else {
@@ -64,7 +66,7 @@ impl Model for Diffuse {
     }
 
     #[inline]
-    fn sample(&self, wo: Vec3, _: f32, u: Vec2, _: Mode) -> Option<BsdfSample> {
+    fn sample(&self, wo: Vec3, _: f32, u: Vec2, _: TransportMode) -> Option<BsdfSample> {
         if !(wo.z > 0.0) {
             return None;
         }
@@ -73,9 +75,9 @@ impl Model for Diffuse {
         Some(BsdfSample {
             wi,
             value: self.reflectance * density,
-            chance: Chance::Continuous(Density::uniform(density)),
+            chance: SamplePdf::Continuous(Density::uniform(density)),
             eta: 1.0,
-            passes: false,
+            is_null: false,
         })
     }
 

@@ -6,10 +6,10 @@
 
 use etalon_params::{Class, Diagnostic, Params, Property, SpectrumText, Value};
 use etalon_spectrum::{LAMBDA_MAX, LAMBDA_MIN, RefractiveIndex, Spectrum, SpectrumError, ior};
-use etalon_transport::{Build, Role, TextureId, Textures};
+use etalon_transport::{Build, SpectrumKind, TextureId, Textures};
 use glam::Vec4;
 
-use crate::Site;
+use crate::ShadingContext;
 
 /// The index inside over the index outside.
 #[derive(Clone, Debug)]
@@ -35,7 +35,7 @@ pub enum Index {
 }
 
 impl Index {
-    fn eval<T: Textures>(&self, site: &Site<'_, T>) -> Vec4 {
+    fn eval<T: Textures>(&self, site: &ShadingContext<'_, T>) -> Vec4 {
         match self {
             Self::Formula(index) => index.eval(site.lambda),
             Self::Texture(texture) => site.spectrum(*texture),
@@ -73,7 +73,7 @@ impl RelativeIndex {
     /// The index at a point, per lane. Where a nested spectrum gives none (it is zero beyond its
     /// table) the interface is taken to be absent: 1.
     #[inline]
-    pub fn eval<T: Textures>(&self, site: &Site<'_, T>) -> Vec4 {
+    pub fn eval<T: Textures>(&self, site: &ShadingContext<'_, T>) -> Vec4 {
         match self {
             Self::Constant(eta) => Vec4::splat(*eta),
             Self::Dispersive { interior, exterior } => {
@@ -174,7 +174,7 @@ fn read(params: &Params<'_>, build: &mut dyn Build, name: &str, default: &str) -
             table(params, name, samples).map(|index| Given::Index(Index::Formula(index)))
         }
         Value::Object(node) if node.class == Class::Texture => Some(Given::Index(Index::Texture(
-            build.nested_texture(node, Role::Unbounded),
+            build.nested_texture(node, SpectrumKind::Unbounded),
         ))),
         Value::Float(_) | Value::Integer(_) | Value::String(_) => {
             number_from_params(params, name, default).map(Given::Number)

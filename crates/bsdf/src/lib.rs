@@ -1,21 +1,21 @@
 //! Scattering models, one file each, and their resolution at a hit.
 //!
 //! A [`Material`] is what a scene file said: a model's parameters with textures. At a hit it
-//! *resolves* ([`Material::resolve`]) into a [`Resolved`]: a small `Copy` value that knows neither
+//! *resolves* ([`Material::resolve`]) into a [`BsdfAtPoint`]: a small `Copy` value that knows neither
 //! textures nor scene and implements [`etalon_transport::Bsdf`]. `twosided` vanishes there;
 //! `mask` and `blendbsdf` flatten into at most [`MAX_LOBES`] weighted lobes plus the light that
 //! passes straight on.
 //!
 //! Each model is one file: its equation and source, its textured description, its plain
-//! [`Model`] in a local frame whose z is the shading normal, and its exemplars, by which the test
+//! [`Bxdf`] in a local frame whose z is the shading normal, and its exemplars, by which the test
 //! harness holds it to account. The list of all of them is in [`models`].
 //!
 //! Everywhere `wo` is the known direction, `wi` the sampled one, both leave the point, and values
 //! include |cos θi|. A model's density is per wavelength lane: what it would have been had that
 //! lane been the one that chose.
 
-pub mod flatten;
 pub mod lobe;
+pub mod lobe_list;
 pub mod model;
 pub mod models;
 pub mod resolved;
@@ -48,9 +48,9 @@ pub mod roughplastic;
 pub mod thindielectric;
 pub mod twosided;
 
-pub use flatten::{Flattening, Site};
 pub use lobe::Lobe;
-pub use model::Model;
-pub use models::{Material, Scatter, exemplars, plugin_names};
-pub use resolved::{MAX_LOBES, Resolved};
-pub use traits::Traits;
+pub use lobe_list::{LobeList, ShadingContext};
+pub use model::Bxdf;
+pub use models::{AnyBxdf, Material, plugin_names, test_materials};
+pub use resolved::{BsdfAtPoint, MAX_LOBES};
+pub use traits::MaterialFlags;

@@ -1,15 +1,15 @@
 //! One weighted lobe with its own frame.
 
-use crate::{Model, Scatter};
+use crate::{AnyBxdf, Bxdf};
 use etalon_math::Frame;
-use etalon_transport::{BsdfSample, Chance, Mode};
+use etalon_transport::{BsdfSample, SamplePdf, TransportMode};
 use glam::{Vec2, Vec3, Vec4};
 
 /// A model in its frame, with its share of the light.
 #[derive(Clone, Copy, Debug)]
 pub struct Lobe<'a> {
     /// The model.
-    pub scatter: Scatter<'a>,
+    pub scatter: AnyBxdf<'a>,
     /// The frame of the model's local directions; `n` is the shading normal.
     pub frame: Frame,
     /// Factor of the model's value.
@@ -21,13 +21,19 @@ pub struct Lobe<'a> {
 impl Lobe<'_> {
     /// Weighted value, and density times the probability of this lobe, for world directions.
     #[inline]
-    pub fn eval_and_density(&self, normal: Vec3, wo: Vec3, wi: Vec3, mode: Mode) -> (Vec4, Vec4) {
+    pub fn eval_and_density(
+        &self,
+        normal: Vec3,
+        wo: Vec3,
+        wi: Vec3,
+        mode: TransportMode,
+    ) -> (Vec4, Vec4) {
         let (value, density) =
             self.scatter
                 .eval_and_density(self.frame.to_local(wo), self.frame.to_local(wi), mode);
         let factor = match mode {
-            Mode::Radiance => self.weight,
-            Mode::Importance => self.weight * self.adjoint(normal, wo, wi),
+            TransportMode::Radiance => self.weight,
+            TransportMode::Importance => self.weight * self.adjoint(normal, wo, wi),
         };
         (value * factor, density * self.probability)
     }
@@ -40,7 +46,7 @@ impl Lobe<'_> {
         wo: Vec3,
         u_lobe: f32,
         u: Vec2,
-        mode: Mode,
+        mode: TransportMode,
     ) -> Option<BsdfSample> {
         let local = self
             .scatter
@@ -49,7 +55,13 @@ impl Lobe<'_> {
     }
 
     /// The discrete direction number `index` of this lobe, weighted.
-    pub fn discrete(&self, normal: Vec3, wo: Vec3, index: u32, mode: Mode) -> Option<BsdfSample> {
+    pub fn discrete(
+        &self,
+        normal: Vec3,
+        wo: Vec3,
+        index: u32,
+        mode: TransportMode,
+    ) -> Option<BsdfSample> {
         let local = self
             .scatter
             .discrete(self.frame.to_local(wo), index, mode)?;
@@ -57,16 +69,22 @@ impl Lobe<'_> {
     }
 
     #[inline]
-    fn in_world(&self, normal: Vec3, wo: Vec3, mode: Mode, local: BsdfSample) -> BsdfSample {
+    fn in_world(
+        &self,
+        normal: Vec3,
+        wo: Vec3,
+        mode: TransportMode,
+        local: BsdfSample,
+    ) -> BsdfSample {
         let wi = self.frame.to_world(local.wi);
         let factor = match mode {
-            Mode::Radiance => self.weight,
-            Mode::Importance => self.weight * self.adjoint(normal, wo, wi),
+            TransportMode::Radiance => self.weight,
+            TransportMode::Importance => self.weight * self.adjoint(normal, wo, wi),
         };
         let chance = match local.chance {
-            Chance::Continuous(density) => Chance::Continuous(density * self.probability),
-            Chance::Discrete(atom) => {
-                Chance::Discrete(etalon_math::Atom(atom.0 * self.probability))
+            SamplePdf::Continuous(density) => SamplePdf::Continuous(density * self.probability),
+            SamplePdf::Discrete(atom) => {
+                SamplePdf::Discrete(etalon_math::DeltaProbability(atom.0 * self.probability))
             }
         };
         BsdfSample {

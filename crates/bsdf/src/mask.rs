@@ -6,13 +6,13 @@
 //!
 //! Mitsuba's plugin of that name. Light passes straight with the probability 1 − o.
 
-use crate::{Flattening, Material, Site, Traits};
+use crate::{LobeList, Material, MaterialFlags, ShadingContext};
 use etalon_math::Frame;
 use etalon_params::Params;
-use etalon_transport::{Build, Role, TextureId, Textures};
+use etalon_transport::{Build, SpectrumKind, TextureId, Textures};
 use glam::Vec4;
 
-/// Parameters to test with (see [`crate::exemplars`]).
+/// Parameters to test with (see [`crate::test_materials`]).
 pub const EXEMPLARS: &[&str] = &[
     "mask opacity=f:0.3 ( diffuse )",
     "mask opacity=f:0.6 ( thindielectric )",
@@ -28,7 +28,7 @@ pub struct Description {
 impl Description {
     /// Reads `opacity` (0.5) and one nested material.
     pub fn from_params(params: &Params<'_>, build: &mut dyn Build) -> Option<Self> {
-        let opacity = build.texture(params, "opacity", Some(0.5), Role::Reflectance);
+        let opacity = build.texture(params, "opacity", Some(0.5), SpectrumKind::Reflectance);
         let nested = Material::nested::<1>(params, build)?;
         let [nested] = nested;
         Some(Self {
@@ -38,9 +38,9 @@ impl Description {
     }
 
     /// What the nested material can do, and passing.
-    pub fn traits(&self) -> Traits {
-        Traits {
-            passing: true,
+    pub fn traits(&self) -> MaterialFlags {
+        MaterialFlags {
+            null: true,
             transmission: true,
             ..self.nested.traits()
         }
@@ -49,10 +49,10 @@ impl Description {
     /// Passing light, and the nested material with the share o.
     pub fn flatten<'a, T: Textures>(
         &'a self,
-        site: &Site<'_, T>,
+        site: &ShadingContext<'_, T>,
         frame: Frame,
         weight: f32,
-        into: &mut Flattening<'a>,
+        into: &mut LobeList<'a>,
     ) {
         let opacity = site.share(self.opacity);
         let passing = weight * (1.0 - opacity);

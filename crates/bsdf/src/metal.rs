@@ -1,10 +1,10 @@
 //! Reading the complex refractive index of a conductor: by name, or as `eta` and `k`.
 
-use crate::Site;
+use crate::ShadingContext;
 use crate::ior::number_from_params;
 use etalon_params::{Diagnostic, Params};
 use etalon_spectrum::{Spectrum, conductors, parse_spd};
-use etalon_transport::{Build, Role, TextureId, Textures};
+use etalon_transport::{Build, SpectrumKind, TextureId, Textures};
 use glam::Vec4;
 
 /// η and k, with textures. The outside is vacuum, as in Mitsuba 3, unless the scene says otherwise.
@@ -26,8 +26,8 @@ impl Metal {
         let name = params.string("material").unwrap_or("none");
         if name == "none" {
             return Some(Self {
-                eta: build.texture(params, "eta", Some(0.0), Role::Unbounded),
-                k: build.texture(params, "k", Some(1.0), Role::Unbounded),
+                eta: build.texture(params, "eta", Some(0.0), SpectrumKind::Unbounded),
+                k: build.texture(params, "k", Some(1.0), SpectrumKind::Unbounded),
                 inverse_exterior,
             });
         }
@@ -54,7 +54,7 @@ impl Metal {
 
     /// η and k at a point relative to the outside, per lane.
     #[inline]
-    pub fn resolve<T: Textures>(&self, site: &Site<'_, T>) -> (Vec4, Vec4) {
+    pub fn resolve<T: Textures>(&self, site: &ShadingContext<'_, T>) -> (Vec4, Vec4) {
         let relative = self.inverse_exterior;
         (
             site.spectrum(self.eta) * relative,

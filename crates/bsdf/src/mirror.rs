@@ -1,10 +1,10 @@
 //! A perfect mirror on both sides, times a factor: what is left of models whose refraction
 //! passes straight on.
 
-use crate::Model;
+use crate::Bxdf;
 use crate::refraction::reflect;
-use etalon_math::Atom;
-use etalon_transport::{BsdfSample, Chance, Mode};
+use etalon_math::DeltaProbability;
+use etalon_transport::{BsdfSample, SamplePdf, TransportMode};
 use glam::{Vec2, Vec3, Vec4};
 
 /// Reflects a fraction of the light, independent of direction.
@@ -14,22 +14,22 @@ pub struct Mirror {
     pub reflectance: Vec4,
 }
 
-impl Model for Mirror {
-    fn eval_and_density(&self, _: Vec3, _: Vec3, _: Mode) -> (Vec4, Vec4) {
+impl Bxdf for Mirror {
+    fn eval_and_density(&self, _: Vec3, _: Vec3, _: TransportMode) -> (Vec4, Vec4) {
         (Vec4::ZERO, Vec4::ZERO)
     }
 
-    fn sample(&self, wo: Vec3, _: f32, _: Vec2, _: Mode) -> Option<BsdfSample> {
+    fn sample(&self, wo: Vec3, _: f32, _: Vec2, _: TransportMode) -> Option<BsdfSample> {
         Some(BsdfSample {
             wi: reflect(wo, Vec3::Z),
             value: self.reflectance,
-            chance: Chance::Discrete(Atom::uniform(1.0)),
+            chance: SamplePdf::Discrete(DeltaProbability::uniform(1.0)),
             eta: 1.0,
-            passes: false,
+            is_null: false,
         })
     }
 
-    fn discrete(&self, wo: Vec3, index: u32, mode: Mode) -> Option<BsdfSample> {
+    fn discrete(&self, wo: Vec3, index: u32, mode: TransportMode) -> Option<BsdfSample> {
         (index == 0)
             .then(|| self.sample(wo, 0.0, Vec2::ZERO, mode))
             .flatten()

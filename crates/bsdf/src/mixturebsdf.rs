@@ -7,13 +7,13 @@
 //! Mitsuba 0.6's plugin of that name (Mitsuba 3 has `blendbsdf` only). What the weights leave of
 //! one is absorbed: a black material has that share.
 
-use crate::{Flattening, Material, Site, Traits, diffuse};
+use crate::{LobeList, Material, MaterialFlags, ShadingContext, diffuse};
 use etalon_math::Frame;
 use etalon_params::Params;
 use etalon_spectrum::Spectrum;
 use etalon_transport::{Build, Textures};
 
-/// Parameters to test with (see [`crate::exemplars`]).
+/// Parameters to test with (see [`crate::test_materials`]).
 pub const EXEMPLARS: &[&str] = &[
     "mixturebsdf weights=s:0.7,0.3 ( diffuse reflectance=u:0.8 ) ( roughconductor alpha=f:0.3 )",
     "mixturebsdf weights=s:0.5,0.2,0.1 ( diffuse ) ( plastic ) ( roughdielectric alpha=f:0.4 )",
@@ -73,16 +73,16 @@ impl Description {
     }
 
     /// What any of them can do, with the lobes of all.
-    pub fn traits(&self) -> Traits {
-        let mut all = Traits {
+    pub fn traits(&self) -> MaterialFlags {
+        let mut all = MaterialFlags {
             lobes: 0,
-            passing: false,
+            null: false,
             transmission: false,
         };
         for (_, material) in &self.parts {
             let traits = material.traits();
             all.lobes += traits.lobes;
-            all.passing |= traits.passing;
+            all.null |= traits.null;
             all.transmission |= traits.transmission;
         }
         all
@@ -91,10 +91,10 @@ impl Description {
     /// All nested materials with their shares.
     pub fn flatten<'a, T: Textures>(
         &'a self,
-        site: &Site<'_, T>,
+        site: &ShadingContext<'_, T>,
         frame: Frame,
         weight: f32,
-        into: &mut Flattening<'a>,
+        into: &mut LobeList<'a>,
     ) {
         for (share, material) in &self.parts {
             material.flatten(site, frame, weight * share, into);

@@ -1,24 +1,24 @@
 //! What every scattering model must do, in its local frame.
 
-use etalon_transport::{BsdfSample, Mode};
+use etalon_transport::{BsdfSample, TransportMode};
 use glam::{Vec2, Vec3, Vec4};
 
 /// A scattering model with plain parameters, in the local frame whose z is the shading normal.
 ///
 /// Evaluation cannot fail: directions at or below the horizon, or degenerate ones, give zero.
-pub trait Model: Copy {
+pub trait Bxdf: Copy {
     /// f(wo, wi)·|cos θi| of the continuous lobes (sr⁻¹), and the density per steradian with which
-    /// [`Model::sample`] finds the continuous direction `wi` — both per lane, and both zero for a
+    /// [`Bxdf::sample`] finds the continuous direction `wi` — both per lane, and both zero for a
     /// direction that the other says cannot be.
-    fn eval_and_density(&self, wo: Vec3, wi: Vec3, mode: Mode) -> (Vec4, Vec4);
+    fn eval_and_density(&self, wo: Vec3, wi: Vec3, mode: TransportMode) -> (Vec4, Vec4);
 
     /// Samples a direction, as [`etalon_transport::Bsdf::sample`] but in the local frame.
-    fn sample(&self, wo: Vec3, u_lobe: f32, u: Vec2, mode: Mode) -> Option<BsdfSample>;
+    fn sample(&self, wo: Vec3, u_lobe: f32, u: Vec2, mode: TransportMode) -> Option<BsdfSample>;
 
-    /// The discrete direction number `index`, as [`Model::sample`] would sample it; `None` beyond
+    /// The discrete direction number `index`, as [`Bxdf::sample`] would sample it; `None` beyond
     /// the last. A model without any keeps this.
     #[inline]
-    fn discrete(&self, _wo: Vec3, _index: u32, _mode: Mode) -> Option<BsdfSample> {
+    fn discrete(&self, _wo: Vec3, _index: u32, _mode: TransportMode) -> Option<BsdfSample> {
         None
     }
 
@@ -38,6 +38,8 @@ pub trait Model: Copy {
     /// What the `albedo` channel shows, as in Mitsuba: the reflectance of a diffuse base whichever
     /// side is seen; of other models the value toward the normal, times π; nothing of mirrors.
     fn albedo(&self, wo: Vec3) -> Vec4 {
-        self.eval_and_density(wo, Vec3::Z, Mode::Radiance).0 * core::f32::consts::PI
+        self.eval_and_density(wo, Vec3::Z, TransportMode::Radiance)
+            .0
+            * core::f32::consts::PI
     }
 }

@@ -3,11 +3,13 @@
 //! To add a model, write its file and add one line to the list at the end of this one. The
 //! scene keyword, the documentation table and the whole test harness follow from it.
 
-use crate::{Flattening, Lobe, MAX_LOBES, Model, Resolved, Site, Traits};
+use crate::{BsdfAtPoint, Bxdf, Lobe, LobeList, MAX_LOBES, MaterialFlags, ShadingContext};
 use etalon_math::Frame;
 use etalon_params::{Class, Diagnostic, Diagnostics, Node, Params, plugins};
 use etalon_spectrum::Wavelengths;
-use etalon_transport::{BsdfSample, Build, ClassicPhong, Mode, Textures, Vertex};
+use etalon_transport::{
+    BsdfSample, Build, LegacyPhong, SurfaceInteraction, Textures, TransportMode,
+};
 use glam::{Vec2, Vec3, Vec4};
 use std::sync::Arc;
 
@@ -31,7 +33,7 @@ macro_rules! models {
 
         /// A model with plain parameters.
         #[derive(Clone, Copy, Debug)]
-        pub enum Scatter<'a> {
+        pub enum AnyBxdf<'a> {
             $(#[doc = concat!("See [`crate::", stringify!($plain_module), "`].")]
             $plain(crate::$plain_module::$plain $(<$life>)?),)*
             $(#[doc = concat!("See [`crate::", stringify!($lobe_module), "`].")]
@@ -46,7 +48,7 @@ macro_rules! models {
         /// Materials by which the tests hold every model to account, in a one-line notation:
         /// `plugin key=kind:value … ( nested ) …`, with the kinds `f` number, `s` string, `b`
         /// boolean, `u` uniform and `t` tabulated spectrum.
-        pub fn exemplars() -> impl Iterator<Item = &'static str> {
+        pub fn test_materials() -> impl Iterator<Item = &'static str> {
             [$(crate::$plain_module::EXEMPLARS,)* $(crate::$composed_module::EXEMPLARS,)*]
                 .into_iter()
                 .flatten()
@@ -68,9 +70,9 @@ macro_rules! models {
             }
 
             /// What the material can do.
-            pub fn traits(&self) -> Traits {
+            pub fn traits(&self) -> MaterialFlags {
                 match self {
-                    $(Self::$plain(_) => Traits::$traits,)*
+                    $(Self::$plain(_) => MaterialFlags::$traits,)*
                     $(Self::$composed(description) => description.traits(),)*
                 }
             }
@@ -80,16 +82,16 @@ macro_rules! models {
             pub fn resolve<T: Textures>(
                 &self,
                 textures: &T,
-                vertex: &Vertex,
+                vertex: &SurfaceInteraction,
                 wo: Vec3,
                 wavelengths: &Wavelengths,
-            ) -> Resolved<'_> {
-                let site = Site::new(textures, vertex, wo, wavelengths);
+            ) -> BsdfAtPoint<'_> {
+                let site = ShadingContext::new(textures, vertex, wo, wavelengths);
                 let scatter = match self {
-                    $(Self::$plain(description) => Scatter::$plain(description.resolve(&site)),)*
+                    $(Self::$plain(description) => AnyBxdf::$plain(description.resolve(&site)),)*
                     $(Self::$composed(_))|* => return self.resolve_composed(&site, vertex),
                 };
-                Resolved::one(
+                BsdfAtPoint::one(
                     vertex.normal,
                     Lobe {
                         scatter,
@@ -103,17 +105,17 @@ macro_rules! models {
             /// Adds the material's lobes, together having the share `weight` of the light.
             pub fn flatten<'a, T: Textures>(
                 &'a self,
-                site: &Site<'_, T>,
+                site: &ShadingContext<'_, T>,
                 frame: Frame,
                 weight: f32,
-                into: &mut Flattening<'a>,
+                into: &mut LobeList<'a>,
             ) {
                 if !(weight > 0.0) {
                     return;
                 }
                 match self {
                     $(Self::$plain(description) => into.push(
-                        Scatter::$plain(description.resolve(site)),
+                        AnyBxdf::$plain(description.resolve(site)),
                         frame,
                         weight,
                         weight,
@@ -123,9 +125,9 @@ macro_rules! models {
             }
         }
 
-        impl Model for Scatter<'_> {
+        impl Bxdf for AnyBxdf<'_> {
             #[inline]
-            fn eval_and_density(&self, wo: Vec3, wi: Vec3, mode: Mode) -> (Vec4, Vec4) {
+            fn eval_and_density(&self, wo: Vec3, wi: Vec3, mode: TransportMode) -> (Vec4, Vec4) {
                 match self {
                     $(Self::$plain(model) => model.eval_and_density(wo, wi, mode),)*
                     $(Self::$lobe(model) => model.eval_and_density(wo, wi, mode),)*
@@ -133,14 +135,14 @@ macro_rules! models {
             }
 
             #[inline]
-            fn sample(&self, wo: Vec3, u_lobe: f32, u: Vec2, mode: Mode) -> Option<BsdfSample> {
+            fn sample(&self, wo: Vec3, u_lobe: f32, u: Vec2, mode: TransportMode) -> Option<BsdfSample> {
                 match self {
                     $(Self::$plain(model) => model.sample(wo, u_lobe, u, mode),)*
                     $(Self::$lobe(model) => model.sample(wo, u_lobe, u, mode),)*
                 }
             }
 
-            fn discrete(&self, wo: Vec3, index: u32, mode: Mode) -> Option<BsdfSample> {
+            fn discrete(&self, wo: Vec3, index: u32, mode: TransportMode) -> Option<BsdfSample> {
                 match self {
                     $(Self::$plain(model) => model.discrete(wo, index, mode),)*
                     $(Self::$lobe(model) => model.discrete(wo, index, mode),)*
@@ -263,20 +265,20 @@ impl Material {
 
     /// Whether it is a classic Phong material, and no scattering model.
     pub fn is_classic(&self) -> bool {
-        matches!(self, Self::ClassicPhong(_))
+        matches!(self, Self::LegacyPhong(_))
     }
 
     /// The classic Phong material at a point, if it is one and no scattering model.
-    pub fn classic<T: Textures>(
+    pub fn legacy_phong<T: Textures>(
         &self,
         textures: &T,
-        vertex: &Vertex,
+        vertex: &SurfaceInteraction,
         wavelengths: &Wavelengths,
-    ) -> Option<ClassicPhong> {
+    ) -> Option<LegacyPhong> {
         match self {
-            Self::ClassicPhong(description) => {
+            Self::LegacyPhong(description) => {
                 // No parameter depends on where it is seen from.
-                let site = Site::new(textures, vertex, vertex.normal, wavelengths);
+                let site = ShadingContext::new(textures, vertex, vertex.normal, wavelengths);
                 Some(description.resolve(&site))
             }
             _ => None,
@@ -284,12 +286,16 @@ impl Material {
     }
 
     /// Whether light may go straight on, so that shadow rays need a transmittance.
-    pub fn has_passing(&self) -> bool {
-        self.traits().passing
+    pub fn has_null(&self) -> bool {
+        self.traits().null
     }
 
-    fn resolve_composed<T: Textures>(&self, site: &Site<'_, T>, vertex: &Vertex) -> Resolved<'_> {
-        let mut lobes = Flattening::default();
+    fn resolve_composed<T: Textures>(
+        &self,
+        site: &ShadingContext<'_, T>,
+        vertex: &SurfaceInteraction,
+    ) -> BsdfAtPoint<'_> {
+        let mut lobes = LobeList::default();
         self.flatten(site, vertex.shading, 1.0, &mut lobes);
         lobes.resolved(vertex.normal)
     }
@@ -313,7 +319,7 @@ models! {
         "blendbsdf" Blend blendbsdf,
         "mixturebsdf" Mixture mixturebsdf,
         "null" Null null,
-        "classicphong" ClassicPhong classicphong,
+        "classicphong" LegacyPhong classicphong,
     }
     lobes {
         Mirror mirror,

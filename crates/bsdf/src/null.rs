@@ -2,13 +2,13 @@
 //!
 //! It separates media without scattering. Mitsuba's plugin of that name.
 
-use crate::{Flattening, Site, Traits};
+use crate::{LobeList, MaterialFlags, ShadingContext};
 use etalon_math::Frame;
 use etalon_params::Params;
 use etalon_transport::{Build, Textures};
 use glam::Vec4;
 
-/// Parameters to test with (see [`crate::exemplars`]).
+/// Parameters to test with (see [`crate::test_materials`]).
 pub const EXEMPLARS: &[&str] = &["null"];
 
 /// `null` in a scene file; it has no parameters.
@@ -22,10 +22,10 @@ impl Description {
     }
 
     /// Nothing but passing light.
-    pub fn traits(&self) -> Traits {
-        Traits {
+    pub fn traits(&self) -> MaterialFlags {
+        MaterialFlags {
             lobes: 0,
-            passing: true,
+            null: true,
             transmission: true,
         }
     }
@@ -33,10 +33,10 @@ impl Description {
     /// All of the share `weight` passes.
     pub fn flatten<T: Textures>(
         &self,
-        _: &Site<'_, T>,
+        _: &ShadingContext<'_, T>,
         _: Frame,
         weight: f32,
-        into: &mut Flattening<'_>,
+        into: &mut LobeList<'_>,
     ) {
         into.pass(Vec4::splat(weight), weight);
     }

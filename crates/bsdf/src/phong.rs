@@ -11,15 +11,17 @@
 //! (n + 1)/(2π) cosⁿα; of its directions those below the surface are lost.
 
 use crate::refraction::reflect;
-use crate::{Model, Site};
+use crate::{Bxdf, ShadingContext};
 use core::f32::consts::{FRAC_1_PI, TAU};
 use etalon_math::{Density, Frame, float};
 use etalon_params::Params;
 use etalon_sampling::warps::square_to_cosine_hemisphere;
-use etalon_transport::{BsdfSample, Build, Chance, Mode, Role, TextureId, Textures};
+use etalon_transport::{
+    BsdfSample, Build, SamplePdf, SpectrumKind, TextureId, Textures, TransportMode,
+};
 use glam::{Vec2, Vec3, Vec4};
 
-/// Parameters to test with (see [`crate::exemplars`]).
+/// Parameters to test with (see [`crate::test_materials`]).
 pub const EXEMPLARS: &[&str] = &[
     "phong",
     "phong exponent=f:4 diffuse_reflectance=u:0 specular_reflectance=t:400:0.2,700:0.9",
@@ -38,7 +40,7 @@ impl Description {
     /// Reads `diffuse_reflectance` (0.5), `specular_reflectance` (0.2) and `exponent` (30).
     pub fn from_params(params: &Params<'_>, build: &mut dyn Build) -> Option<Self> {
         let mut factor =
-            |name, default| build.texture(params, name, Some(default), Role::Reflectance);
+            |name, default| build.texture(params, name, Some(default), SpectrumKind::Reflectance);
         let diffuse = factor("diffuse_reflectance", 0.5);
         let specular = factor("specular_reflectance", 0.2);
         let exponent = params.float_where("exponent", 30.0, "a number from 0 to 1000000", |n| {
@@ -53,7 +55,7 @@ impl Description {
 
     /// The model at a point.
     #[inline]
-    pub fn resolve<T: Textures>(&self, site: &Site<'_, T>) -> Phong {
+    pub fn resolve<T: Textures>(&self, site: &ShadingContext<'_, T>) -> Phong {
         Phong::new(
             site.spectrum(self.diffuse),
             site.spectrum(self.specular),
@@ -92,8 +94,8 @@ impl Phong {
     }
 }
 
-impl Model for Phong {
-    fn eval_and_density(&self, wo: Vec3, wi: Vec3, _: Mode) -> (Vec4, Vec4) {
+impl Bxdf for Phong {
+    fn eval_and_density(&self, wo: Vec3, wi: Vec3, _: TransportMode) -> (Vec4, Vec4) {
         if !(wo.z > 0.0 && wi.z > 0.0) {
             return (Vec4::ZERO, Vec4::ZERO);
         }
@@ -105,7 +107,7 @@ impl Model for Phong {
         (value * wi.z, Vec4::splat(density))
     }
 
-    fn sample(&self, wo: Vec3, u_lobe: f32, u: Vec2, mode: Mode) -> Option<BsdfSample> {
+    fn sample(&self, wo: Vec3, u_lobe: f32, u: Vec2, mode: TransportMode) -> Option<BsdfSample> {
         if !(wo.z > 0.0) {
             return None;
         }
@@ -122,9 +124,9 @@ impl Model for Phong {
         (density.x > 0.0).then_some(BsdfSample {
             wi,
             value,
-            chance: Chance::Continuous(Density::per_lane(density)),
+            chance: SamplePdf::Continuous(Density::per_lane(density)),
             eta: 1.0,
-            passes: false,
+            is_null: false,
         })
     }
 

@@ -10,15 +10,15 @@
 
 use crate::coating::{Coat, Coating};
 use crate::refraction::reflect;
-use crate::{Model, Site, fresnel};
+use crate::{Bxdf, ShadingContext, fresnel};
 use core::f32::consts::FRAC_1_PI;
-use etalon_math::{Atom, Density};
+use etalon_math::{DeltaProbability, Density};
 use etalon_params::Params;
 use etalon_sampling::warps::square_to_cosine_hemisphere;
-use etalon_transport::{BsdfSample, Build, Chance, Mode, Textures};
+use etalon_transport::{BsdfSample, Build, SamplePdf, Textures, TransportMode};
 use glam::{Vec2, Vec3, Vec4};
 
-/// Parameters to test with (see [`crate::exemplars`]).
+/// Parameters to test with (see [`crate::test_materials`]).
 pub const EXEMPLARS: &[&str] = &[
     "plastic",
     "plastic nonlinear=b:true int_ior=f:1.9 diffuse_reflectance=t:400:0.1,700:0.9",
@@ -42,7 +42,7 @@ impl Description {
     }
 
     /// The model at a point.
-    pub fn resolve<T: Textures>(&self, site: &Site<'_, T>) -> Plastic {
+    pub fn resolve<T: Textures>(&self, site: &ShadingContext<'_, T>) -> Plastic {
         Plastic {
             coat: self.coating.resolve(site, self.internal),
         }
@@ -68,15 +68,15 @@ impl Plastic {
         BsdfSample {
             wi: reflect(wo, Vec3::Z),
             value: self.coat.specular * (1.0 - transmitted),
-            chance: Chance::Discrete(Atom::uniform(specular)),
+            chance: SamplePdf::Discrete(DeltaProbability::uniform(specular)),
             eta: 1.0,
-            passes: false,
+            is_null: false,
         }
     }
 }
 
-impl Model for Plastic {
-    fn eval_and_density(&self, wo: Vec3, wi: Vec3, _: Mode) -> (Vec4, Vec4) {
+impl Bxdf for Plastic {
+    fn eval_and_density(&self, wo: Vec3, wi: Vec3, _: TransportMode) -> (Vec4, Vec4) {
         if !(wo.z > 0.0 && wi.z > 0.0) {
             return (Vec4::ZERO, Vec4::ZERO);
         }
@@ -88,7 +88,7 @@ impl Model for Plastic {
         )
     }
 
-    fn sample(&self, wo: Vec3, u_lobe: f32, u: Vec2, mode: Mode) -> Option<BsdfSample> {
+    fn sample(&self, wo: Vec3, u_lobe: f32, u: Vec2, mode: TransportMode) -> Option<BsdfSample> {
         if !(wo.z > 0.0) {
             return None;
         }
@@ -102,13 +102,13 @@ impl Model for Plastic {
         (density.x > 0.0).then_some(BsdfSample {
             wi,
             value,
-            chance: Chance::Continuous(Density::per_lane(density)),
+            chance: SamplePdf::Continuous(Density::per_lane(density)),
             eta: 1.0,
-            passes: false,
+            is_null: false,
         })
     }
 
-    fn discrete(&self, wo: Vec3, index: u32, _: Mode) -> Option<BsdfSample> {
+    fn discrete(&self, wo: Vec3, index: u32, _: TransportMode) -> Option<BsdfSample> {
         (index == 0 && wo.z > 0.0).then(|| {
             let transmitted = self.transmitted(wo.z);
             self.mirrored(wo, transmitted, self.coat.specular_probability(transmitted))

@@ -1,8 +1,8 @@
 //! A material at one point: at most [`MAX_LOBES`] lobes, and light that passes straight on.
 
-use crate::{Lobe, Model};
-use etalon_math::{Atom, Density, Frame, SolidAngle};
-use etalon_transport::{Bsdf, BsdfSample, Chance, Mode};
+use crate::{Bxdf, Lobe};
+use etalon_math::{DeltaProbability, Density, Frame, SolidAngle};
+use etalon_transport::{Bsdf, BsdfSample, SamplePdf, TransportMode};
 use glam::{Vec2, Vec3, Vec4};
 
 /// The most lobes a material may flatten into; a scene that needs more is refused when it loads.
@@ -10,13 +10,13 @@ pub const MAX_LOBES: usize = 4;
 
 /// A material resolved at a point, for a known `wo` and four wavelengths.
 #[derive(Clone, Copy, Debug)]
-pub struct Resolved<'a> {
+pub struct BsdfAtPoint<'a> {
     /// Unit geometric normal, for the adjoint of shading normals.
     normal: Vec3,
     /// The fraction of light that goes straight on.
-    passing: Vec4,
+    null: Vec4,
     /// The probability with which sampling goes straight on.
-    passing_probability: f32,
+    null_probability: f32,
     lobes: Lobes<'a>,
 }
 
@@ -32,14 +32,14 @@ enum Lobes<'a> {
     },
 }
 
-impl<'a> Resolved<'a> {
+impl<'a> BsdfAtPoint<'a> {
     /// A single lobe that has all the light.
     #[inline]
     pub(crate) fn one(normal: Vec3, lobe: Lobe<'a>) -> Self {
         Self {
             normal,
-            passing: Vec4::ZERO,
-            passing_probability: 0.0,
+            null: Vec4::ZERO,
+            null_probability: 0.0,
             lobes: Lobes::One(lobe),
         }
     }
@@ -47,8 +47,8 @@ impl<'a> Resolved<'a> {
     /// Several weighted lobes and passing light.
     pub(crate) fn several(
         normal: Vec3,
-        passing: Vec4,
-        passing_probability: f32,
+        null_transmittance: Vec4,
+        null_probability: f32,
         lobes: &[Lobe<'a>],
     ) -> Self {
         let lobes = match *lobes {
@@ -63,8 +63,8 @@ impl<'a> Resolved<'a> {
         };
         Self {
             normal,
-            passing,
-            passing_probability,
+            null: null_transmittance,
+            null_probability,
             lobes,
         }
     }
@@ -82,17 +82,23 @@ impl<'a> Resolved<'a> {
     fn pass(&self, wo: Vec3) -> BsdfSample {
         BsdfSample {
             wi: -wo,
-            value: self.passing,
-            chance: Chance::Discrete(Atom::uniform(self.passing_probability)),
+            value: self.null,
+            chance: SamplePdf::Discrete(DeltaProbability::uniform(self.null_probability)),
             eta: 1.0,
-            passes: true,
+            is_null: true,
         }
     }
 
     /// Chooses among several lobes. A continuous direction gets the value and density of all
     /// of them together.
     #[inline(never)]
-    fn sample_many(&self, wo: Vec3, mut u_lobe: f32, u: Vec2, mode: Mode) -> Option<BsdfSample> {
+    fn sample_many(
+        &self,
+        wo: Vec3,
+        mut u_lobe: f32,
+        u: Vec2,
+        mode: TransportMode,
+    ) -> Option<BsdfSample> {
         let lobes = self.lobes();
         let mut chosen = None;
         for (index, lobe) in lobes
@@ -108,14 +114,14 @@ impl<'a> Resolved<'a> {
         }
         let (index, u_inner) = chosen?;
         let mut sample = lobes[index].sample(self.normal, wo, u_inner, u, mode)?;
-        if let Chance::Continuous(density) = sample.chance {
+        if let SamplePdf::Continuous(density) = sample.chance {
             let mut lanes = density.lanes();
             for (_, other) in lobes.iter().enumerate().filter(|(i, _)| *i != index) {
                 let (value, density) = other.eval_and_density(self.normal, wo, sample.wi, mode);
                 sample.value += value;
                 lanes += density;
             }
-            sample.chance = Chance::Continuous(Density::per_lane(lanes));
+            sample.chance = SamplePdf::Continuous(Density::per_lane(lanes));
         }
         Some(sample)
     }
@@ -124,19 +130,24 @@ impl<'a> Resolved<'a> {
 /// The largest float below 1: what remains of a uniform number after its use stays below 1.
 pub(crate) const ONE_MINUS_EPSILON: f32 = 1.0 - f32::EPSILON * 0.5;
 
-impl Bsdf for Resolved<'_> {
+impl Bsdf for BsdfAtPoint<'_> {
     #[inline]
-    fn eval(&self, wo: Vec3, wi: Vec3, mode: Mode) -> Vec4 {
+    fn eval(&self, wo: Vec3, wi: Vec3, mode: TransportMode) -> Vec4 {
         self.eval_and_density(wo, wi, mode).0
     }
 
     #[inline]
     fn density(&self, wo: Vec3, wi: Vec3) -> Density<SolidAngle> {
-        self.eval_and_density(wo, wi, Mode::Radiance).1
+        self.eval_and_density(wo, wi, TransportMode::Radiance).1
     }
 
     #[inline]
-    fn eval_and_density(&self, wo: Vec3, wi: Vec3, mode: Mode) -> (Vec4, Density<SolidAngle>) {
+    fn eval_and_density(
+        &self,
+        wo: Vec3,
+        wi: Vec3,
+        mode: TransportMode,
+    ) -> (Vec4, Density<SolidAngle>) {
         let (value, density) = match &self.lobes {
             Lobes::One(lobe) => lobe.eval_and_density(self.normal, wo, wi, mode),
             Lobes::None => (Vec4::ZERO, Vec4::ZERO),
@@ -153,13 +164,13 @@ impl Bsdf for Resolved<'_> {
     }
 
     #[inline]
-    fn sample(&self, wo: Vec3, u_lobe: f32, u: Vec2, mode: Mode) -> Option<BsdfSample> {
+    fn sample(&self, wo: Vec3, u_lobe: f32, u: Vec2, mode: TransportMode) -> Option<BsdfSample> {
         let mut u_lobe = u_lobe;
-        if self.passing_probability > 0.0 {
-            if u_lobe < self.passing_probability {
+        if self.null_probability > 0.0 {
+            if u_lobe < self.null_probability {
                 return Some(self.pass(wo));
             }
-            u_lobe -= self.passing_probability;
+            u_lobe -= self.null_probability;
         }
         match &self.lobes {
             Lobes::One(lobe) => {
@@ -175,9 +186,9 @@ impl Bsdf for Resolved<'_> {
         }
     }
 
-    fn discrete(&self, wo: Vec3, index: u32, mode: Mode) -> Option<BsdfSample> {
+    fn discrete(&self, wo: Vec3, index: u32, mode: TransportMode) -> Option<BsdfSample> {
         let mut index = index;
-        if self.passing_probability > 0.0 {
+        if self.null_probability > 0.0 {
             if index == 0 {
                 return Some(self.pass(wo));
             }
@@ -216,13 +227,13 @@ impl Bsdf for Resolved<'_> {
     }
 
     #[inline]
-    fn passing(&self) -> Vec4 {
-        self.passing
+    fn null_transmittance(&self) -> Vec4 {
+        self.null
     }
 
     #[inline]
-    fn passing_probability(&self) -> Vec4 {
-        Vec4::splat(self.passing_probability)
+    fn null_probability(&self) -> Vec4 {
+        Vec4::splat(self.null_probability)
     }
 
     /// The mean over the lobes; what passes does not count.

@@ -11,13 +11,15 @@ use crate::metal::Metal;
 use crate::microfacet::Microfacet;
 use crate::refraction::{half_way, reflect};
 use crate::roughness::Roughness;
-use crate::{Model, Site, fresnel};
+use crate::{Bxdf, ShadingContext, fresnel};
 use etalon_math::Density;
 use etalon_params::Params;
-use etalon_transport::{BsdfSample, Build, Chance, Mode, Role, TextureId, Textures};
+use etalon_transport::{
+    BsdfSample, Build, SamplePdf, SpectrumKind, TextureId, Textures, TransportMode,
+};
 use glam::{Vec2, Vec3, Vec4};
 
-/// Parameters to test with (see [`crate::exemplars`]).
+/// Parameters to test with (see [`crate::test_materials`]).
 pub const EXEMPLARS: &[&str] = &[
     "roughconductor alpha=f:0.2",
     "roughconductor alpha_u=f:0.6 alpha_v=f:0.2 eta=t:400:1.5,700:0.2 k=t:400:1.8,700:3.5",
@@ -38,8 +40,12 @@ impl Description {
     /// Reads the metal (see [`Metal`]), `specular_reflectance` (1) and the roughness (see
     /// [`Roughness`]).
     pub fn from_params(params: &Params<'_>, build: &mut dyn Build) -> Option<Self> {
-        let reflectance =
-            build.texture(params, "specular_reflectance", Some(1.0), Role::Reflectance);
+        let reflectance = build.texture(
+            params,
+            "specular_reflectance",
+            Some(1.0),
+            SpectrumKind::Reflectance,
+        );
         let metal = Metal::from_params(params, build);
         let roughness = Roughness::from_params(params, build);
         Some(Self {
@@ -50,7 +56,7 @@ impl Description {
     }
 
     /// The model at a point.
-    pub fn resolve<T: Textures>(&self, site: &Site<'_, T>) -> RoughConductor {
+    pub fn resolve<T: Textures>(&self, site: &ShadingContext<'_, T>) -> RoughConductor {
         let (eta, k) = self.metal.resolve(site);
         RoughConductor {
             eta,
@@ -74,8 +80,8 @@ pub struct RoughConductor {
     pub microfacet: Microfacet,
 }
 
-impl Model for RoughConductor {
-    fn eval_and_density(&self, wo: Vec3, wi: Vec3, _: Mode) -> (Vec4, Vec4) {
+impl Bxdf for RoughConductor {
+    fn eval_and_density(&self, wo: Vec3, wi: Vec3, _: TransportMode) -> (Vec4, Vec4) {
         if !(wo.z > 0.0 && wi.z > 0.0) {
             return (Vec4::ZERO, Vec4::ZERO);
         }
@@ -91,7 +97,7 @@ impl Model for RoughConductor {
         (value, Vec4::splat(density))
     }
 
-    fn sample(&self, wo: Vec3, _: f32, u: Vec2, mode: Mode) -> Option<BsdfSample> {
+    fn sample(&self, wo: Vec3, _: f32, u: Vec2, mode: TransportMode) -> Option<BsdfSample> {
         if !(wo.z > 0.0) {
             return None;
         }
@@ -100,9 +106,9 @@ impl Model for RoughConductor {
         (density.x > 0.0).then_some(BsdfSample {
             wi,
             value,
-            chance: Chance::Continuous(Density::per_lane(density)),
+            chance: SamplePdf::Continuous(Density::per_lane(density)),
             eta: 1.0,
-            passes: false,
+            is_null: false,
         })
     }
 

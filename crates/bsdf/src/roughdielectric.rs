@@ -17,13 +17,15 @@ use crate::ior::RelativeIndex;
 use crate::microfacet::Microfacet;
 use crate::refraction::{half_way, reflect, refract};
 use crate::roughness::Roughness;
-use crate::{Model, Site, fresnel};
+use crate::{Bxdf, ShadingContext, fresnel};
 use etalon_math::Density;
 use etalon_params::Params;
-use etalon_transport::{BsdfSample, Build, Chance, Mode, Role, TextureId, Textures};
+use etalon_transport::{
+    BsdfSample, Build, SamplePdf, SpectrumKind, TextureId, Textures, TransportMode,
+};
 use glam::{Vec2, Vec3, Vec4};
 
-/// Parameters to test with (see [`crate::exemplars`]).
+/// Parameters to test with (see [`crate::test_materials`]).
 pub const EXEMPLARS: &[&str] = &[
     "roughdielectric alpha=f:0.3",
     "roughdielectric alpha_u=f:0.2 alpha_v=f:0.5 distribution=s:ggx int_ior=f:1.8",
@@ -47,7 +49,7 @@ impl Description {
     /// Reads `int_ior` (bk7), `ext_ior` (air), which must differ, `specular_reflectance` (1),
     /// `specular_transmittance` (1) and the roughness (see [`Roughness`]).
     pub fn from_params(params: &Params<'_>, build: &mut dyn Build) -> Option<Self> {
-        let mut factor = |name| build.texture(params, name, Some(1.0), Role::Reflectance);
+        let mut factor = |name| build.texture(params, name, Some(1.0), SpectrumKind::Reflectance);
         let reflectance = factor("specular_reflectance");
         let transmittance = factor("specular_transmittance");
         let eta = RelativeIndex::from_params(params, build, "bk7");
@@ -66,7 +68,7 @@ impl Description {
     }
 
     /// The model at a point.
-    pub fn resolve<T: Textures>(&self, site: &Site<'_, T>) -> RoughDielectric {
+    pub fn resolve<T: Textures>(&self, site: &ShadingContext<'_, T>) -> RoughDielectric {
         RoughDielectric {
             eta: self.eta.eval(site),
             reflectance: site.spectrum(self.reflectance),
@@ -139,7 +141,7 @@ impl RoughDielectric {
     }
 
     /// Transmission of one lane from `wo` above to `wi` below, without the factor τ.
-    fn transmission(&self, wo: Vec3, wi: Vec3, eta: f32, mode: Mode) -> (f32, f32) {
+    fn transmission(&self, wo: Vec3, wi: Vec3, eta: f32, mode: TransportMode) -> (f32, f32) {
         let half = wo + wi * eta;
         let length = half.length();
         if !(length > 1e-12) {
@@ -157,8 +159,8 @@ impl RoughDielectric {
         // |∂m/∂wi|, of which wo·m + η wi·m = ±|wo + η wi| (ibid., eq. 17).
         let jacobian = eta * eta * -cos_i / (length * length);
         let scale = match mode {
-            Mode::Radiance => 1.0 / (eta * eta),
-            Mode::Importance => 1.0,
+            TransportMode::Radiance => 1.0 / (eta * eta),
+            TransportMode::Importance => 1.0,
         };
         (
             scale * through * d * shadowing * cos_o * jacobian / wo.z,
@@ -167,8 +169,8 @@ impl RoughDielectric {
     }
 }
 
-impl Model for RoughDielectric {
-    fn eval_and_density(&self, wo: Vec3, wi: Vec3, mode: Mode) -> (Vec4, Vec4) {
+impl Bxdf for RoughDielectric {
+    fn eval_and_density(&self, wo: Vec3, wi: Vec3, mode: TransportMode) -> (Vec4, Vec4) {
         if wo.z == 0.0 || wi.z == 0.0 {
             return (Vec4::ZERO, Vec4::ZERO);
         }
@@ -192,7 +194,7 @@ impl Model for RoughDielectric {
         (self.transmittance * value, density)
     }
 
-    fn sample(&self, wo: Vec3, u_lobe: f32, u: Vec2, mode: Mode) -> Option<BsdfSample> {
+    fn sample(&self, wo: Vec3, u_lobe: f32, u: Vec2, mode: TransportMode) -> Option<BsdfSample> {
         if wo.z == 0.0 {
             return None;
         }
@@ -217,9 +219,9 @@ impl Model for RoughDielectric {
         (density.x > 0.0).then_some(BsdfSample {
             wi,
             value,
-            chance: Chance::Continuous(Density::per_lane(density)),
+            chance: SamplePdf::Continuous(Density::per_lane(density)),
             eta,
-            passes: false,
+            is_null: false,
         })
     }
 

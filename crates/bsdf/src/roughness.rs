@@ -1,9 +1,9 @@
 //! Reading the roughness of a microfacet model.
 
-use crate::Site;
+use crate::ShadingContext;
 use crate::microfacet::{Kind, LEAST_ALPHA, Microfacet};
 use etalon_params::{Params, Value};
-use etalon_transport::{Build, Role, TextureId, Textures};
+use etalon_transport::{Build, SpectrumKind, TextureId, Textures};
 use glam::Vec2;
 
 /// What to say when a number is refused.
@@ -50,7 +50,7 @@ impl Roughness {
 
     /// The distribution at a point.
     #[inline]
-    pub fn resolve<T: Textures>(&self, site: &Site<'_, T>) -> Microfacet {
+    pub fn resolve<T: Textures>(&self, site: &ShadingContext<'_, T>) -> Microfacet {
         let alpha_u = site.number(self.alpha_u);
         let alpha_v = if self.alpha_v == self.alpha_u {
             alpha_u
@@ -96,5 +96,5 @@ fn read(
             return None;
         }
     }
-    Some(build.texture(params, name, default, Role::Unbounded))
+    Some(build.texture(params, name, default, SpectrumKind::Unbounded))
 }

@@ -11,15 +11,15 @@ use crate::coating::{Coat, Coating};
 use crate::microfacet::Microfacet;
 use crate::refraction::{half_way, reflect};
 use crate::rough_fresnel::RoughFresnel;
-use crate::{Model, Site, fresnel, roughness};
+use crate::{Bxdf, ShadingContext, fresnel, roughness};
 use core::f32::consts::FRAC_1_PI;
 use etalon_math::Density;
 use etalon_params::Params;
 use etalon_sampling::warps::square_to_cosine_hemisphere;
-use etalon_transport::{BsdfSample, Build, Chance, Mode, Textures};
+use etalon_transport::{BsdfSample, Build, SamplePdf, Textures, TransportMode};
 use glam::{Vec2, Vec3, Vec4};
 
-/// Parameters to test with (see [`crate::exemplars`]).
+/// Parameters to test with (see [`crate::test_materials`]).
 pub const EXEMPLARS: &[&str] = &[
     "roughplastic alpha=f:0.2",
     "roughplastic alpha=f:0.4 distribution=s:ggx nonlinear=b:true diffuse_reflectance=t:400:0.1,700:0.9",
@@ -49,7 +49,7 @@ impl Description {
     }
 
     /// The model at a point.
-    pub fn resolve<T: Textures>(&self, site: &Site<'_, T>) -> RoughPlastic<'_> {
+    pub fn resolve<T: Textures>(&self, site: &ShadingContext<'_, T>) -> RoughPlastic<'_> {
         RoughPlastic {
             coat: self.coating.resolve(site, self.interface.internal),
             microfacet: self.microfacet,
@@ -69,8 +69,8 @@ pub struct RoughPlastic<'a> {
     pub interface: &'a RoughFresnel,
 }
 
-impl Model for RoughPlastic<'_> {
-    fn eval_and_density(&self, wo: Vec3, wi: Vec3, _: Mode) -> (Vec4, Vec4) {
+impl Bxdf for RoughPlastic<'_> {
+    fn eval_and_density(&self, wo: Vec3, wi: Vec3, _: TransportMode) -> (Vec4, Vec4) {
         if !(wo.z > 0.0 && wi.z > 0.0) {
             return (Vec4::ZERO, Vec4::ZERO);
         }
@@ -91,7 +91,7 @@ impl Model for RoughPlastic<'_> {
         (value, Vec4::splat(density))
     }
 
-    fn sample(&self, wo: Vec3, u_lobe: f32, u: Vec2, mode: Mode) -> Option<BsdfSample> {
+    fn sample(&self, wo: Vec3, u_lobe: f32, u: Vec2, mode: TransportMode) -> Option<BsdfSample> {
         if !(wo.z > 0.0) {
             return None;
         }
@@ -105,9 +105,9 @@ impl Model for RoughPlastic<'_> {
         (density.x > 0.0).then_some(BsdfSample {
             wi,
             value,
-            chance: Chance::Continuous(Density::per_lane(density)),
+            chance: SamplePdf::Continuous(Density::per_lane(density)),
             eta: 1.0,
-            passes: false,
+            is_null: false,
         })
     }
 

@@ -10,12 +10,12 @@
 
 use crate::ior::RelativeIndex;
 use crate::mirror::Mirror;
-use crate::{Flattening, Scatter, Site, Traits, fresnel};
+use crate::{AnyBxdf, LobeList, MaterialFlags, ShadingContext, fresnel};
 use etalon_math::Frame;
 use etalon_params::Params;
-use etalon_transport::{Build, Role, TextureId, Textures};
+use etalon_transport::{Build, SpectrumKind, TextureId, Textures};
 
-/// Parameters to test with (see [`crate::exemplars`]).
+/// Parameters to test with (see [`crate::test_materials`]).
 pub const EXEMPLARS: &[&str] = &[
     "thindielectric",
     "thindielectric int_ior=f:2 specular_transmittance=t:400:0.1,700:0.9",
@@ -33,7 +33,7 @@ impl Description {
     /// Reads `int_ior` (bk7), `ext_ior` (air), `specular_reflectance` (1) and
     /// `specular_transmittance` (1).
     pub fn from_params(params: &Params<'_>, build: &mut dyn Build) -> Option<Self> {
-        let mut factor = |name| build.texture(params, name, Some(1.0), Role::Reflectance);
+        let mut factor = |name| build.texture(params, name, Some(1.0), SpectrumKind::Reflectance);
         let reflectance = factor("specular_reflectance");
         let transmittance = factor("specular_transmittance");
         Some(Self {
@@ -44,16 +44,16 @@ impl Description {
     }
 
     /// A mirror, and light that passes.
-    pub fn traits(&self) -> Traits {
-        Traits {
+    pub fn traits(&self) -> MaterialFlags {
+        MaterialFlags {
             lobes: 1,
-            passing: true,
+            null: true,
             transmission: true,
         }
     }
 
     /// R', unless `wo` lies in the surface.
-    fn reflected<T: Textures>(&self, site: &Site<'_, T>, frame: Frame) -> Option<f32> {
+    fn reflected<T: Textures>(&self, site: &ShadingContext<'_, T>, frame: Frame) -> Option<f32> {
         let cos = frame.n.dot(site.wo).abs().min(1.0);
         let one = fresnel::dielectric(cos, self.eta).0;
         (cos > 0.0).then_some(2.0 * one / (1.0 + one))
@@ -62,10 +62,10 @@ impl Description {
     /// The reflected light as a mirror, the rest passing.
     pub fn flatten<T: Textures>(
         &self,
-        site: &Site<'_, T>,
+        site: &ShadingContext<'_, T>,
         frame: Frame,
         weight: f32,
-        into: &mut Flattening<'_>,
+        into: &mut LobeList<'_>,
     ) {
         let Some(both) = self.reflected(site, frame) else {
             return;
@@ -73,7 +73,7 @@ impl Description {
         let mirror = Mirror {
             reflectance: site.spectrum(self.reflectance) * both,
         };
-        into.push(Scatter::Mirror(mirror), frame, weight, weight * both);
+        into.push(AnyBxdf::Mirror(mirror), frame, weight, weight * both);
         into.pass(
             site.spectrum(self.transmittance) * (weight * (1.0 - both)),
             weight * (1.0 - both),

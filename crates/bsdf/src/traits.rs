@@ -2,26 +2,26 @@
 
 /// What a material can do, known when it is loaded.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Traits {
+pub struct MaterialFlags {
     /// The most lobes it resolves into.
     pub lobes: usize,
     /// Whether light may go straight on (`null`, `mask`, `thindielectric`).
-    pub passing: bool,
+    pub null: bool,
     /// Whether light may reach the other side at all.
     pub transmission: bool,
 }
 
-impl Traits {
+impl MaterialFlags {
     /// One lobe that reflects.
     pub const REFLECTING: Self = Self {
         lobes: 1,
-        passing: false,
+        null: false,
         transmission: false,
     };
     /// One lobe that also transmits.
     pub const REFRACTING: Self = Self {
         lobes: 1,
-        passing: false,
+        null: false,
         transmission: true,
     };
 }

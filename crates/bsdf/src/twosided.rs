@@ -4,12 +4,12 @@
 //! the frame turned about, so that both see the light from their own front. One material serves
 //! both sides unless a second is given for the back. Mitsuba's plugin of that name.
 
-use crate::{Flattening, Material, Site, Traits};
+use crate::{LobeList, Material, MaterialFlags, ShadingContext};
 use etalon_math::Frame;
 use etalon_params::{Class, Diagnostic, Params};
 use etalon_transport::{Build, Textures};
 
-/// Parameters to test with (see [`crate::exemplars`]).
+/// Parameters to test with (see [`crate::test_materials`]).
 pub const EXEMPLARS: &[&str] = &[
     "twosided ( diffuse )",
     "twosided ( roughconductor alpha_u=f:0.2 alpha_v=f:0.5 ) ( diffuse reflectance=u:0.2 )",
@@ -55,18 +55,22 @@ impl Description {
     }
 
     /// What either side can do.
-    pub fn traits(&self) -> Traits {
+    pub fn traits(&self) -> MaterialFlags {
         let a = self.front.traits();
         let b = self.back.as_ref().map_or(a, |back| back.traits());
-        Traits {
+        MaterialFlags {
             lobes: a.lobes.max(b.lobes),
-            passing: a.passing || b.passing,
+            null: a.null || b.null,
             transmission: a.transmission || b.transmission,
         }
     }
 
     /// The material of the side where `wo` lies, and its frame.
-    fn side<T: Textures>(&self, site: &Site<'_, T>, frame: Frame) -> Option<(&Material, Frame)> {
+    fn side<T: Textures>(
+        &self,
+        site: &ShadingContext<'_, T>,
+        frame: Frame,
+    ) -> Option<(&Material, Frame)> {
         let cos = frame.n.dot(site.wo);
         if cos > 0.0 {
             Some((&self.front, frame))
@@ -80,10 +84,10 @@ impl Description {
     /// The material of the side where `wo` lies; none for a direction in the surface itself.
     pub fn flatten<'a, T: Textures>(
         &'a self,
-        site: &Site<'_, T>,
+        site: &ShadingContext<'_, T>,
         frame: Frame,
         weight: f32,
-        into: &mut Flattening<'a>,
+        into: &mut LobeList<'a>,
     ) {
         if let Some((material, frame)) = self.side(site, frame) {
             material.flatten(site, frame, weight, into);

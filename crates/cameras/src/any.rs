@@ -2,7 +2,7 @@
 
 use crate::{FilmWindow, Orthographic, Perspective, Shutter, ThinLens};
 use etalon_params::{Class, Diagnostic, Params, plugins};
-use etalon_transport::{Camera, CameraRay, Connection, Ray, Reception};
+use etalon_transport::{ApertureHit, Camera, CameraRay, CameraSample, Ray};
 use glam::{Vec2, Vec3};
 
 macro_rules! cameras {
@@ -34,13 +34,13 @@ macro_rules! cameras {
             }
 
             #[inline]
-            fn connect(&self, point: Vec3, lens: Vec2, margin: f32) -> Option<Connection> {
+            fn connect(&self, point: Vec3, lens: Vec2, margin: f32) -> Option<CameraSample> {
                 match self { $(Self::$variant(camera) => camera.connect(point, lens, margin),)* }
             }
 
             #[inline]
-            fn receive(&self, ray: &Ray, margin: f32) -> Option<Reception> {
-                match self { $(Self::$variant(camera) => camera.receive(ray, margin),)* }
+            fn intersect_aperture(&self, ray: &Ray, margin: f32) -> Option<ApertureHit> {
+                match self { $(Self::$variant(camera) => camera.intersect_aperture(ray, margin),)* }
             }
 
             fn can_receive(&self) -> bool {

@@ -6,7 +6,7 @@
 //!
 //! A camera's measures are chosen so that a pixel is the mean radiance over its filter: a ray has
 //! weight one, and a connection's weight is the Jacobian between film area and the beam's
-//! cross-section (see [`etalon_transport::Connection`]).
+//! cross-section (see [`etalon_transport::CameraSample`]).
 
 pub mod any;
 pub mod clip;

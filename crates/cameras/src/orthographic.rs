@@ -10,7 +10,7 @@
 
 use crate::{ClipRange, FilmWindow, Pose};
 use etalon_params::Params;
-use etalon_transport::{Camera, CameraRay, Connection, Departure, Ray};
+use etalon_transport::{Camera, CameraRay, CameraSample, Departure, Ray};
 use glam::{Vec2, Vec3};
 
 /// A camera without perspective.
@@ -75,14 +75,14 @@ impl Camera for Orthographic {
     }
 
     #[inline]
-    fn connect(&self, point: Vec3, _lens: Vec2, margin: f32) -> Option<Connection> {
+    fn connect(&self, point: Vec3, _lens: Vec2, margin: f32) -> Option<CameraSample> {
         let local = self.pose.to_camera(point);
         let t = (local.z - self.near) * self.stretch;
         if !(t > 0.0 && t < self.length) {
             return None;
         }
         let raster = (self.corner - local.truncate()) / self.pixel;
-        self.window.contains(raster, margin).then(|| Connection {
+        self.window.contains(raster, margin).then(|| CameraSample {
             raster,
             direction: -self.direction,
             target: point - self.direction * t,

@@ -14,7 +14,7 @@
 use crate::field_of_view::half_width_from_params;
 use crate::{ClipRange, FilmWindow, ImagePlane, Pose};
 use etalon_params::Params;
-use etalon_transport::{Camera, CameraRay, Connection, Departure, Ray};
+use etalon_transport::{Camera, CameraRay, CameraSample, Departure, Ray};
 use glam::{DVec2, Vec2, Vec3};
 
 /// A pinhole camera.
@@ -74,7 +74,7 @@ impl Camera for Perspective {
     }
 
     #[inline]
-    fn connect(&self, point: Vec3, _lens: Vec2, margin: f32) -> Option<Connection> {
+    fn connect(&self, point: Vec3, _lens: Vec2, margin: f32) -> Option<CameraSample> {
         let local = self.pose.to_camera(point);
         let depth = local.z;
         if !(depth > self.near && depth < self.far) {
@@ -87,7 +87,7 @@ impl Camera for Perspective {
         let to_point = point - self.pose.position;
         let distance = to_point.length();
         let seen = to_point / depth;
-        Some(Connection {
+        Some(CameraSample {
             raster,
             direction: -to_point / distance,
             target: self.pose.position + seen * self.near,

@@ -19,7 +19,7 @@ use crate::field_of_view::half_width_from_params;
 use crate::{ClipRange, FilmWindow, ImagePlane, Pose};
 use etalon_params::Params;
 use etalon_sampling::warps::square_to_concentric_disk;
-use etalon_transport::{Camera, CameraRay, Connection, Departure, Ray, Reception};
+use etalon_transport::{ApertureHit, Camera, CameraRay, CameraSample, Departure, Ray};
 use glam::{DVec2, Vec2, Vec3};
 
 /// A camera with an ideal lens.
@@ -109,7 +109,7 @@ impl Camera for ThinLens {
     }
 
     #[inline]
-    fn connect(&self, point: Vec3, lens: Vec2, margin: f32) -> Option<Connection> {
+    fn connect(&self, point: Vec3, lens: Vec2, margin: f32) -> Option<CameraSample> {
         let local = self.pose.to_camera(point);
         let depth = local.z;
         if !(depth > self.near && depth < self.far) {
@@ -124,7 +124,7 @@ impl Camera for ThinLens {
         let origin = self.pose.position + self.pose.vector(aperture.extend(0.0));
         let to_point = point - origin;
         let distance = to_point.length();
-        Some(Connection {
+        Some(CameraSample {
             raster,
             direction: -to_point / distance,
             target: origin + to_point * (self.near / depth),
@@ -133,7 +133,7 @@ impl Camera for ThinLens {
     }
 
     #[inline]
-    fn receive(&self, ray: &Ray, margin: f32) -> Option<Reception> {
+    fn intersect_aperture(&self, ray: &Ray, margin: f32) -> Option<ApertureHit> {
         // In camera space the ray is o + t·d and the aperture lies in z = 0, looking toward +z.
         let origin = self.pose.to_camera(ray.origin);
         let direction = self.pose.to_camera(self.pose.position + ray.direction);
@@ -154,7 +154,7 @@ impl Camera for ThinLens {
         let area = core::f32::consts::PI * self.aperture_radius * self.aperture_radius;
         let volume = self.pose.volume;
         let fourth_power = (depth_per_length * depth_per_length).powi(2);
-        Some(Reception {
+        Some(ApertureHit {
             raster,
             t: (origin.z - self.near) / depth_per_length,
             weight: 1.0 / (fourth_power * volume * volume * self.image.pixel_area() * area),

@@ -30,8 +30,8 @@
 use crate::pipeline::Loaded;
 use crate::sizes::nearest;
 use crate::target::{self, Failure, GROUPS};
-use etalon_film::{Developed, SampleCounts};
-use etalon_integrators::{Plan, Progress};
+use etalon_film::{RenderedImage, SampleCounts};
+use etalon_integrators::{Progress, RenderPlan};
 use etalon_params::Diagnostic;
 use etalon_sampling::SamplerKind;
 use etalon_sampling::hash::mix64;
@@ -89,7 +89,7 @@ pub fn check(loaded: &Loaded) -> Result<(), Diagnostic> {
 /// If the film has no colours, or `progress` says to stop.
 pub fn pilot(
     loaded: &Loaded,
-    plan: &Plan,
+    plan: &RenderPlan,
     samples: u32,
     progress: &dyn Progress,
 ) -> Result<Distribution, Failure> {
@@ -126,7 +126,7 @@ impl Noise {
     }
 
     /// Adds a picture.
-    fn add(&mut self, developed: &Developed) -> Result<(), Diagnostic> {
+    fn add(&mut self, developed: &RenderedImage) -> Result<(), Diagnostic> {
         let names = ["R", "G", "B", "X", "Y", "Z"];
         let planes = names.iter().filter_map(|name| {
             Some((

@@ -3,7 +3,7 @@
 use crate::outputs::Outputs;
 use crate::part::PartOfMany;
 use clap::{Args, Parser, Subcommand};
-use etalon_scene::LightChooser;
+use etalon_scene::LightSamplerKind;
 use std::path::{Path, PathBuf};
 
 /// A spectral renderer whose estimators are held to account by statistics.
@@ -129,7 +129,7 @@ pub struct RenderArgs {
     /// How a point chooses the light that it asks: automatic, uniform, power, tree [default: the
     /// scene's].
     #[arg(long, value_name = "NAME", value_parser = parse_light_chooser)]
-    pub light_chooser: Option<LightChooser>,
+    pub light_chooser: Option<LightSamplerKind>,
     /// Give a scene parameter ($key) a value.
     #[arg(short = 'D', value_name = "key=value", value_parser = parse_define)]
     pub define: Vec<(String, String)>,
@@ -241,7 +241,7 @@ pub struct EstimatorsArgs {
     /// Rules by which a point chooses the light that it asks: automatic, uniform, power, tree
     /// [default: the scene's].
     #[arg(long, value_name = "A,B,…", value_delimiter = ',', value_parser = parse_light_chooser)]
-    pub light_choosers: Vec<LightChooser>,
+    pub light_choosers: Vec<LightSamplerKind>,
     /// Time for all rendering together (s).
     #[arg(long, value_name = "SECONDS", allow_negative_numbers = true)]
     pub time: f64,
@@ -361,9 +361,9 @@ fn parse_error(text: &str) -> Result<f64, String> {
         .ok_or_else(|| "expected a number from 0.000001 to 1, such as 0.01 for 1 %".to_owned())
 }
 
-fn parse_light_chooser(text: &str) -> Result<LightChooser, String> {
-    LightChooser::named(text).ok_or_else(|| {
-        let names = LightChooser::ALL.map(LightChooser::name);
+fn parse_light_chooser(text: &str) -> Result<LightSamplerKind, String> {
+    LightSamplerKind::named(text).ok_or_else(|| {
+        let names = LightSamplerKind::ALL.map(LightSamplerKind::name);
         format!("expected one of {}", names.join(", "))
     })
 }

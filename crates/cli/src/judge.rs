@@ -11,17 +11,16 @@
 //! The error level α is shared equally (Bonferroni) by all of these questions.
 
 use crate::tolerance::Tolerance;
-use etalon_film::{Developed, Metadata, TileMeans};
+use etalon_film::{Metadata, RenderedImage, TileMeans};
 use etalon_statistics::{Replicates, TileDifferences, TilesError, Verdict};
 use serde::Serialize;
 
 /// How large a bias matters, and how sure the verdict must be.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
-pub struct Rules {
+pub struct Tolerances {
     /// Bias of an image's mean that matters, relative to the channel's mean.
     pub image_bound: f64,
-    /// Bias of a tile that matters, relative to the tile's own mean; `image_bound` of the
-    /// image's mean is added.
+    /// Bias of a tile that matters, relative to its own mean, plus `image_bound` of the image's.
     pub tile_bound: f64,
     /// Probability of calling equal images different, over everything that is asked.
     pub alpha: f64,
@@ -29,7 +28,7 @@ pub struct Rules {
     pub rounding: f64,
 }
 
-impl Default for Rules {
+impl Default for Tolerances {
     fn default() -> Self {
         Self {
             image_bound: 0.005,
@@ -96,9 +95,9 @@ fn as_text<S: serde::Serializer>(verdict: &Verdict, serializer: S) -> Result<S::
 
 /// The whole comparison.
 #[derive(Clone, Debug, Serialize)]
-pub struct Judgement {
+pub struct ImageComparison {
     /// The rules that were applied.
-    pub rules: Rules,
+    pub rules: Tolerances,
     /// Means of the image.
     pub images: Vec<ImageRow>,
     /// Means of tiles.
@@ -111,7 +110,7 @@ pub struct Judgement {
     pub p_exact: f64,
 }
 
-impl Judgement {
+impl ImageComparison {
     /// The interval that shows most bias, and the smallest bias that could have been found.
     pub fn widest(&self) -> Option<&ImageRow> {
         let reach = |row: &&ImageRow| row.interval[0].abs().max(row.interval[1].abs());
@@ -125,7 +124,11 @@ impl Judgement {
 ///
 /// # Errors
 /// One sentence, if they cannot be compared.
-pub fn judge(first: &Developed, second: &Developed, rules: Rules) -> Result<Judgement, String> {
+pub fn judge(
+    first: &RenderedImage,
+    second: &RenderedImage,
+    rules: Tolerances,
+) -> Result<ImageComparison, String> {
     let a = metadata(first, "the first image")?;
     let b = metadata(second, "the second image")?;
     same_size(a.film.crop_size, b.film.crop_size)?;
@@ -149,14 +152,14 @@ pub fn judge(first: &Developed, second: &Developed, rules: Rules) -> Result<Judg
 
 /// A picture that is known without error: the expected value of each pixel.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Known {
+pub struct ExactImage {
     /// Width and height (pixels).
     pub size: [u32; 2],
     /// Channels with their pixels, row after row.
     pub channels: Vec<(String, Vec<f64>)>,
 }
 
-impl Known {
+impl ExactImage {
     /// The means over tiles of `side` pixels, or over the whole image, row after row.
     fn tile_means(&self, pixels: &[f64], side: Option<u32>) -> Vec<f64> {
         let [width, height] = self.size.map(|n| n as usize);
@@ -178,7 +181,11 @@ impl Known {
 ///
 /// # Errors
 /// One sentence, if they cannot be compared.
-pub fn judge_known(image: &Developed, known: &Known, rules: Rules) -> Result<Judgement, String> {
+pub fn judge_known(
+    image: &RenderedImage,
+    known: &ExactImage,
+    rules: Tolerances,
+) -> Result<ImageComparison, String> {
     let a = metadata(image, "the image")?;
     same_size(a.film.crop_size, known.size)?;
     let pixels = |name: &str| known.channels.iter().find(|(channel, _)| channel == name);
@@ -254,7 +261,7 @@ fn sides(a: &Metadata) -> impl Iterator<Item = Option<u32>> {
 }
 
 /// Decides all comparisons together.
-fn decide(comparisons: &[Comparison], rules: Rules) -> Result<Judgement, String> {
+fn decide(comparisons: &[Comparison], rules: Tolerances) -> Result<ImageComparison, String> {
     let alpha = rules.alpha / comparisons.len() as f64;
     let means: Vec<(&str, f64)> = comparisons
         .iter()
@@ -290,7 +297,7 @@ fn decide(comparisons: &[Comparison], rules: Rules) -> Result<Judgement, String>
         .map(|row| row.p_exact)
         .chain(tiles.iter().map(|row| row.p_exact))
         .fold(1.0, f64::min);
-    Ok(Judgement {
+    Ok(ImageComparison {
         rules,
         p_exact: (smallest * comparisons.len() as f64).min(1.0),
         images,
@@ -306,7 +313,13 @@ fn scale(mean: f64, luminance: f64) -> f64 {
     if scale > 0.0 { scale } else { 1.0 }
 }
 
-fn image_row(comparison: &Comparison, mean: f64, scale: f64, rules: Rules, alpha: f64) -> ImageRow {
+fn image_row(
+    comparison: &Comparison,
+    mean: f64,
+    scale: f64,
+    rules: Tolerances,
+    alpha: f64,
+) -> ImageRow {
     let estimate = &comparison.differences.estimates()[0];
     let interval = estimate.interval(1.0 - alpha);
     ImageRow {
@@ -325,7 +338,7 @@ fn tile_row(
     comparison: &Comparison,
     side: u32,
     image_scale: f64,
-    rules: Rules,
+    rules: Tolerances,
     alpha: f64,
 ) -> TileRow {
     let oracle = &comparison.oracle;
@@ -361,7 +374,7 @@ fn tile_row(
     }
 }
 
-fn metadata<'a>(image: &'a Developed, which: &str) -> Result<&'a Metadata, String> {
+fn metadata<'a>(image: &'a RenderedImage, which: &str) -> Result<&'a Metadata, String> {
     let metadata = image.metadata.as_ref().ok_or_else(|| {
         format!("{which} was not written by Etalon: it has no replicates to judge by")
     })?;

@@ -5,12 +5,12 @@
 
 pub mod adaptive;
 pub mod args;
+pub mod checkpointing;
 pub mod commands;
 pub mod diagnose;
 pub mod estimators;
 pub mod interrupt;
 pub mod judge;
-pub mod keeping;
 mod memory;
 mod objections;
 pub mod outputs;

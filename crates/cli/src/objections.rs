@@ -2,11 +2,15 @@
 
 use crate::pipeline::place;
 use etalon_params::{Class, Diagnostic, Node, Span, Value};
-use etalon_transport::{Objection, Subject};
+use etalon_transport::{Incompatibility, Subject};
 
-/// An objection as a message at the place in the scene file that it is about; `classic` is where a
+/// An objection as a message at the place in the scene file that it is about; `legacy_phong` is where a
 /// classic Phong material is described.
-pub(crate) fn diagnostic(objection: Objection, root: &Node, classic: Option<Span>) -> Diagnostic {
+pub(crate) fn diagnostic(
+    objection: Incompatibility,
+    root: &Node,
+    classic: Option<Span>,
+) -> Diagnostic {
     let span = match objection.subject {
         Subject::Integrator => place(root, &[Class::Integrator]),
         Subject::Parameter(name) => {

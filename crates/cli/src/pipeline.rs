@@ -1,18 +1,18 @@
 //! From a scene file to an image: the way every command and every claim takes.
 
-use crate::keeping::{Keeping, KeptFilm};
+use crate::checkpointing::{Checkpointing, CheckpointingFilm};
 use crate::scene_hash::scene_hash;
 use crate::{VERSION, memory, objections};
 use etalon_film::{
-    Developed, ExactFilm, FilmSettings, Filter, Part, PixelFilter, RenderFacts, SampleCounts,
+    ExactFilm, FilmSettings, Filter, Part, PixelFilter, RenderFacts, RenderedImage, SampleCounts,
     recorded_seconds,
 };
 use etalon_formats::FileAssets;
 use etalon_formats::mitsuba::{self, Document, ReadOptions, ReadOutcome};
-use etalon_integrators::{AnyIntegrator, Outcome, Plan, Progress, Share};
+use etalon_integrators::{AnyIntegrator, Progress, RenderPlan, RenderStatistics, ReplicateRange};
 use etalon_params::{Class, Diagnostic, Diagnostics, Node, Params, Sources, Span, Value};
 use etalon_sampling::{ReplicateKind, SamplerKind};
-use etalon_scene::{CompileOptions, Compiled, LightChooser, Scene};
+use etalon_scene::{CompileOptions, Compiled, LightSamplerKind, Scene};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::time::{Duration, Instant};
@@ -27,12 +27,12 @@ pub struct LoadOptions {
     /// Further folders with data.
     pub data: Vec<PathBuf>,
     /// How points choose the light that they ask, if not as the scene says.
-    pub light_chooser: Option<LightChooser>,
+    pub light_chooser: Option<LightSamplerKind>,
 }
 
 /// Why a scene cannot be used: what is wrong, and the texts in which it stands.
 #[derive(Debug)]
-pub struct Refusal {
+pub struct LoadError {
     /// The messages.
     pub diagnostics: Vec<Diagnostic>,
     /// The texts that they point into.
@@ -71,7 +71,7 @@ pub struct Loaded {
 ///
 /// # Errors
 /// Everything that is wrong with it, as far as one reading can find.
-pub fn load(path: &Path, options: &LoadOptions) -> Result<Loaded, Refusal> {
+pub fn load(path: &Path, options: &LoadOptions) -> Result<Loaded, LoadError> {
     let start = Instant::now();
     let read = mitsuba::read(
         path,
@@ -106,7 +106,7 @@ pub fn load(path: &Path, options: &LoadOptions) -> Result<Loaded, Refusal> {
             let film = &compiled.film;
             let mut sight = compiled.scene.sight(film.crop_offset, film.crop_size);
             sight.narrow_filter = !PixelFilter::new(film.filter).catches_splats();
-            for objection in integrator.objections(&sight) {
+            for objection in integrator.incompatibilities(&sight) {
                 complete = false;
                 let material = compiled.classic;
                 diagnostics.push(objections::diagnostic(objection, &document.root, material));
@@ -127,7 +127,7 @@ pub fn load(path: &Path, options: &LoadOptions) -> Result<Loaded, Refusal> {
         messages.sort_by_key(|d| (d.span.is_none(), d.span.map(|s| (s.file, s.start))));
     }
     let Some((compiled, (integrator, integrator_name), hash, inputs, film_place)) = loaded else {
-        return Err(Refusal {
+        return Err(LoadError {
             diagnostics: messages,
             sources,
         });
@@ -238,12 +238,12 @@ pub struct RenderOptions {
 pub(crate) const REPLICATES: u32 = 8;
 
 /// What will be rendered: replicates × samples, rounded up to what the sampler can stratify.
-pub fn plan(loaded: &Loaded, options: &RenderOptions) -> Plan {
+pub fn plan(loaded: &Loaded, options: &RenderOptions) -> RenderPlan {
     let settings = &loaded.compiled.sampler;
     let spp = options.spp.unwrap_or(settings.spp);
     let replicates = options.replicates.unwrap_or_else(|| REPLICATES.min(spp));
     let sampler = options.sampler.unwrap_or(settings.kind);
-    Plan {
+    RenderPlan {
         seed: options.seed.unwrap_or(settings.seed),
         replicates,
         replicate_kind: match options.independent_replicates {
@@ -259,11 +259,11 @@ pub fn plan(loaded: &Loaded, options: &RenderOptions) -> Plan {
 /// A finished (or interrupted) render.
 pub struct Rendered {
     /// The image with its statistics.
-    pub developed: Developed,
+    pub developed: RenderedImage,
     /// The same with exact sums, if it is a share of the image's replicates.
     pub part: Option<Part>,
     /// What was done, replicates of a checkpoint included.
-    pub outcome: Outcome,
+    pub outcome: RenderStatistics,
     /// How long it took.
     pub time: Duration,
     /// The replicates that were planned here; fewer are finished if the render was interrupted. If none is,
@@ -288,10 +288,10 @@ impl Rendered {
 /// If there is no memory for the film.
 pub fn render(
     loaded: &Loaded,
-    plan: &Plan,
+    plan: &RenderPlan,
     progress: &dyn Progress,
 ) -> Result<Rendered, Diagnostic> {
-    render_as(loaded, plan, Manner::default(), progress)
+    render_as(loaded, plan, RenderControls::default(), progress)
 }
 
 /// Renders into a film of one's own, and gives it back. Not generic, and through the type of film that
@@ -299,25 +299,25 @@ pub fn render(
 pub fn render_into(
     film: ExactFilm,
     (integrator, scene): (&AnyIntegrator, &Scene),
-    plan: &Plan,
+    plan: &RenderPlan,
     progress: &dyn Progress,
 ) -> ExactFilm {
-    let mut film = KeptFilm::passing(film);
+    let mut film = CheckpointingFilm::null_transmittance(film);
     integrator.render(scene, &mut film, plan, progress);
     film.finish()
 }
 
 /// What is not ordinary about a render.
 #[derive(Clone, Debug, Default)]
-pub struct Manner {
+pub struct RenderControls {
     /// The samples of each pixel in a replicate, if they are not dealt evenly.
     pub counts: Option<SampleCounts>,
     /// How to keep checkpoints, if there are to be any.
-    pub keeping: Option<Keeping>,
+    pub keeping: Option<Checkpointing>,
 }
 
 /// What a file says of a render, but for its time.
-pub(crate) fn facts(loaded: &Loaded, plan: &Plan) -> RenderFacts {
+pub(crate) fn facts(loaded: &Loaded, plan: &RenderPlan) -> RenderFacts {
     RenderFacts {
         version: VERSION.to_owned(),
         scene: loaded.path.display().to_string(),
@@ -336,8 +336,8 @@ pub(crate) fn facts(loaded: &Loaded, plan: &Plan) -> RenderFacts {
 /// If there is no memory for the film, or the checkpoint to go on from is of another.
 pub fn render_as(
     loaded: &Loaded,
-    plan: &Plan,
-    manner: Manner,
+    plan: &RenderPlan,
+    manner: RenderControls,
     progress: &dyn Progress,
 ) -> Result<Rendered, Diagnostic> {
     let start = Instant::now();
@@ -346,20 +346,23 @@ pub fn render_as(
     let format = compiled.film.pixel_format;
     let planes = format.colours().len() + usize::from(format.has_alpha()) + channels.len();
     let share = plan.share();
-    let Manner { counts, keeping } = manner;
+    let RenderControls { counts, keeping } = manner;
     let exact = plan.share.is_some() || keeping.is_some();
     memory::check(loaded, planes, exact)?;
     let film = ExactFilm::new(compiled.film.clone(), &channels)
         .map_err(|error| at(error, loaded.film_place))?
         .starting_at(share.first)
         .dealing(counts);
-    let (finished, before) = keeping.as_ref().map(Keeping::finished).unwrap_or_default();
+    let (finished, before) = keeping
+        .as_ref()
+        .map(Checkpointing::finished)
+        .unwrap_or_default();
     let facts = facts(loaded, plan);
     let of = (plan.replicates, plan.samples_per_replicate);
-    let mut film =
-        KeptFilm::new(film, keeping, &facts, share, of).map_err(Diagnostic::error_nowhere)?;
-    let remaining = Plan {
-        share: Some(Share {
+    let mut film = CheckpointingFilm::new(film, keeping, &facts, share, of)
+        .map_err(Diagnostic::error_nowhere)?;
+    let remaining = RenderPlan {
+        share: Some(ReplicateRange {
             first: share.first + finished,
             count: share.count - finished.min(share.count),
         }),

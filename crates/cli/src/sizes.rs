@@ -1,7 +1,7 @@
 //! Numbers of samples that samplers can stratify, near those that are wanted.
 
 use crate::pipeline;
-use etalon_integrators::Plan;
+use etalon_integrators::RenderPlan;
 use etalon_sampling::SamplerKind;
 
 /// The most samples per pixel that a target may ask for.
@@ -9,7 +9,12 @@ pub(crate) const MOST: f64 = (1_u64 << 28) as f64;
 
 /// A plan of `needed` samples per pixel: no fewer if `up`, no more otherwise, as nearly as
 /// replicates of equal, stratifiable size allow.
-pub(crate) fn sized(plan: &Plan, needed: f64, replicates: Option<u32>, up: bool) -> Plan {
+pub(crate) fn sized(
+    plan: &RenderPlan,
+    needed: f64,
+    replicates: Option<u32>,
+    up: bool,
+) -> RenderPlan {
     let count = replicates.unwrap_or(pipeline::REPLICATES);
     let needed = needed.clamp(1.0, MOST);
     let each = needed / f64::from(count);
@@ -24,7 +29,7 @@ pub(crate) fn sized(plan: &Plan, needed: f64, replicates: Option<u32>, up: bool)
         Some(count) if up => (plan.sampler.round_up(each.ceil() as u32), count),
         Some(count) => (least, count),
     };
-    Plan {
+    RenderPlan {
         replicates,
         samples_per_replicate: samples,
         ..*plan
@@ -60,8 +65,8 @@ mod tests {
     use super::*;
     use etalon_sampling::ReplicateKind;
 
-    fn plan(sampler: SamplerKind) -> Plan {
-        Plan {
+    fn plan(sampler: SamplerKind) -> RenderPlan {
+        RenderPlan {
             seed: 1,
             replicates: 8,
             replicate_kind: ReplicateKind::Independent,

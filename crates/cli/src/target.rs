@@ -18,10 +18,10 @@
 //! The price: whether the target was reached is only known at the end, and is said.
 
 use crate::adaptive::Distribution;
-use crate::pipeline::{self, Loaded, Manner};
+use crate::pipeline::{self, Loaded, RenderControls};
 use crate::sizes::{MOST, sized};
-use etalon_film::Developed;
-use etalon_integrators::{Plan, Progress};
+use etalon_film::RenderedImage;
+use etalon_integrators::{Progress, RenderPlan};
 use etalon_math::float64;
 use etalon_params::Diagnostic;
 use etalon_sampling::ReplicateKind;
@@ -64,7 +64,7 @@ pub struct Noise {
 
 impl Noise {
     /// The noise of a picture; `None` without standard errors.
-    pub fn of(developed: &Developed) -> Option<Self> {
+    pub fn of(developed: &RenderedImage) -> Option<Self> {
         let names = [["R", "G", "B"], ["X", "Y", "Z"], ["Y", "", ""]];
         let there = |names: &&[&str; 3]| developed.image.channel(names[0]).is_some();
         let names = names.iter().find(there)?;
@@ -99,7 +99,7 @@ impl Noise {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Fixed {
     /// What to render.
-    pub plan: Plan,
+    pub plan: RenderPlan,
     /// Samples per pixel that the pilot took.
     pub pilot: u32,
     /// Time that the pilot took (s).
@@ -128,7 +128,7 @@ impl From<Diagnostic> for Failure {
 /// If no number of samples can reach the target, or `progress` says to stop.
 pub fn fix(
     loaded: &Loaded,
-    plan: &Plan,
+    plan: &RenderPlan,
     target: Target,
     pilot: Pilot<'_>,
     replicates: Option<u32>,
@@ -164,7 +164,7 @@ pub struct Pilot<'a> {
 /// As [`fix`].
 pub fn affordable(
     loaded: &Loaded,
-    plan: &Plan,
+    plan: &RenderPlan,
     seconds: f64,
     progress: &dyn Progress,
 ) -> Result<u32, Failure> {
@@ -180,22 +180,22 @@ pub fn affordable(
 /// One picture of a pilot: two replicates, independent so that their spread is the noise of one.
 pub(crate) fn picture(
     loaded: &Loaded,
-    plan: &Plan,
+    plan: &RenderPlan,
     distribution: Option<&Distribution>,
     index: u32,
     samples: u32,
     progress: &dyn Progress,
-) -> Result<(Developed, f64), Failure> {
-    let small = Plan {
+) -> Result<(RenderedImage, f64), Failure> {
+    let small = RenderPlan {
         seed: derived_key(mix64(plan.seed ^ SEEDS), index),
         replicates: 2,
         replicate_kind: ReplicateKind::Independent,
         samples_per_replicate: samples,
         ..*plan
     };
-    let manner = Manner {
+    let manner = RenderControls {
         counts: distribution.map(|d| d.counts(plan.sampler, samples)),
-        ..Manner::default()
+        ..RenderControls::default()
     };
     let rendered = pipeline::render_as(loaded, &small, manner, progress)?;
     if progress.cancelled() {
@@ -207,7 +207,7 @@ pub(crate) fn picture(
 /// The samples per pixel that bring the relative standard error below `error`, and those of the pilot.
 fn error_pilot(
     loaded: &Loaded,
-    plan: &Plan,
+    plan: &RenderPlan,
     error: f64,
     pilot: Pilot<'_>,
     progress: &dyn Progress,
@@ -269,7 +269,7 @@ fn samples_for(found: &[Noise], samples: f64, error: f64) -> Result<f64, &'stati
 /// The samples per pixel that fit into a time, and those of the pilot.
 fn time_pilot(
     loaded: &Loaded,
-    plan: &Plan,
+    plan: &RenderPlan,
     seconds: f64,
     pilot: Pilot<'_>,
     progress: &dyn Progress,

@@ -1,6 +1,6 @@
 //! How far a tile may be off.
 
-use crate::judge::Rules;
+use crate::judge::Tolerances;
 
 /// What a tile's mean may differ by: a share of the tile's own mean, and one of the image's.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -13,7 +13,7 @@ pub struct Tolerance {
 
 impl Tolerance {
     /// What bias does not matter, where the channel's mean counts `image_scale`.
-    pub fn bounded(rules: Rules, image_scale: f64) -> Self {
+    pub fn bounded(rules: Tolerances, image_scale: f64) -> Self {
         Self {
             own: rules.tile_bound,
             fixed: rules.image_bound * image_scale,
@@ -21,7 +21,7 @@ impl Tolerance {
     }
 
     /// What rounding may do to equal numbers.
-    pub fn exact(rules: Rules, image_scale: f64) -> Self {
+    pub fn exact(rules: Tolerances, image_scale: f64) -> Self {
         Self {
             own: rules.rounding,
             fixed: rules.rounding * image_scale,

@@ -3,8 +3,8 @@
 //! A picture has 40 × 24 pixels (tiles of 16² at the edges are smaller) and eight replicates with
 //! independent, skewed noise in every pixel, as renders have.
 
-use etalon::judge::{Judgement, Known, Rules, judge, judge_known};
-use etalon_film::{Developed, ExactFilm, FilmSettings, Filter, RenderFacts};
+use etalon::judge::{ExactImage, ImageComparison, Tolerances, judge, judge_known};
+use etalon_film::{ExactFilm, FilmSettings, Filter, RenderFacts, RenderedImage};
 use etalon_images::Image;
 use etalon_math::float64;
 use etalon_statistics::Verdict;
@@ -40,7 +40,7 @@ fn no_bias(_: u32, _: u32) -> f64 {
 }
 
 /// An estimate of the truth times `bias`, with relative noise per pixel and replicate.
-fn estimate(seed: u64, deviation: f64, bias: impl Fn(u32, u32) -> f64) -> Developed {
+fn estimate(seed: u64, deviation: f64, bias: impl Fn(u32, u32) -> f64) -> RenderedImage {
     let mut noise = Noise(seed << 20);
     let settings = FilmSettings::new(SIZE[0], SIZE[1], Filter::default());
     let mut film = ExactFilm::new(settings, &[]).expect("a small film");
@@ -58,14 +58,14 @@ fn estimate(seed: u64, deviation: f64, bias: impl Fn(u32, u32) -> f64) -> Develo
     film.develop(RenderFacts::default())
 }
 
-fn judged(first: &Developed, second: &Developed, rules: Rules) -> Judgement {
+fn judged(first: &RenderedImage, second: &RenderedImage, rules: Tolerances) -> ImageComparison {
     judge(first, second, rules).expect("comparable")
 }
 
 #[test]
 fn equal_pictures_agree_once_the_noise_is_below_the_bound() {
     let quiet = [1, 2].map(|seed| estimate(seed, 0.02, no_bias));
-    let verdict = judged(&quiet[0], &quiet[1], Rules::default());
+    let verdict = judged(&quiet[0], &quiet[1], Tolerances::default());
     assert_eq!(verdict.verdict, Verdict::Agrees);
     assert_eq!((verdict.images.len(), verdict.tiles.len()), (3, 6));
     for row in &verdict.images {
@@ -73,7 +73,7 @@ fn equal_pictures_agree_once_the_noise_is_below_the_bound() {
         assert!(row.smallest_detectable > 0.0 && row.smallest_detectable < 0.005);
     }
     let loud = [1, 2].map(|seed| estimate(seed, 1.0, no_bias));
-    let verdict = judged(&loud[0], &loud[1], Rules::default());
+    let verdict = judged(&loud[0], &loud[1], Tolerances::default());
     assert_eq!(verdict.verdict, Verdict::Undecided);
     let widest = verdict.widest().expect("channels");
     assert!(widest.interval[1] - widest.interval[0] > 0.01);
@@ -83,14 +83,14 @@ fn equal_pictures_agree_once_the_noise_is_below_the_bound() {
 fn a_bias_beyond_the_bound_differs_and_is_measured() {
     let known = estimate(1, 0.02, no_bias);
     let biased = estimate(2, 0.02, |_, _| 1.02);
-    let verdict = judged(&biased, &known, Rules::default());
+    let verdict = judged(&biased, &known, Tolerances::default());
     assert_eq!(verdict.verdict, Verdict::Differs);
     for row in &verdict.images {
         assert_eq!(row.verdict, Verdict::Differs);
         assert!(row.interval[0] < 0.02 && 0.02 < row.interval[1], "{row:?}");
         assert!((row.mean / row.other_mean - 1.0 - row.bias).abs() < 1e-9);
     }
-    let swapped = judged(&known, &biased, Rules::default());
+    let swapped = judged(&known, &biased, Tolerances::default());
     assert!(swapped.images.iter().all(|row| row.bias < 0.0));
 }
 
@@ -106,7 +106,7 @@ fn a_bias_that_cancels_in_the_mean_is_found_in_its_tile() {
     };
     let loss = 1.0 - 0.1 * sum(true) / sum(false);
     let moved = estimate(2, 0.05, |x, y| if inside(x, y) { 1.1 } else { loss });
-    let verdict = judged(&moved, &known, Rules::default());
+    let verdict = judged(&moved, &known, Tolerances::default());
     assert_eq!(verdict.verdict, Verdict::Differs);
     for row in &verdict.images {
         assert_eq!(row.verdict, Verdict::Agrees, "{row:?}");
@@ -125,11 +125,11 @@ fn a_bias_that_cancels_in_the_mean_is_found_in_its_tile() {
 fn equal_pictures_are_called_different_as_rarely_as_promised() {
     let (comparisons, allowed) = (400, 45);
     // Bounds of nothing: every alarm is a false one.
-    let rules = Rules {
+    let rules = Tolerances {
         image_bound: 1e-12,
         tile_bound: 1e-12,
         alpha: 0.05,
-        ..Rules::default()
+        ..Tolerances::default()
     };
     let (mut verdicts, mut exact, mut mutant) = (0, 0, 0);
     for seed in 0..comparisons {
@@ -155,11 +155,11 @@ fn equal_pictures_are_called_different_as_rarely_as_promised() {
 #[test]
 fn a_bias_at_the_bound_passes_as_rarely_as_promised() {
     let (comparisons, allowed) = (200, 30);
-    let rules = Rules {
+    let rules = Tolerances {
         image_bound: 0.02,
         tile_bound: 1.0,
         alpha: 0.05,
-        ..Rules::default()
+        ..Tolerances::default()
     };
     let (mut passed, mut mutant) = (0, 0);
     for seed in 0..comparisons {
@@ -183,13 +183,13 @@ fn a_known_picture_is_an_oracle_without_noise() {
             let pixels = (0..SIZE[0] * SIZE[1]).map(|i| truth(i % SIZE[0], i / SIZE[0], channel));
             (name.to_owned(), pixels.collect())
         });
-    let known = Known {
+    let known = ExactImage {
         size: SIZE,
         channels: channels.collect(),
     };
     let verdict = |bias: f64| {
         let image = estimate(9, 0.02, |_, _| bias);
-        let found = judge_known(&image, &known, Rules::default()).expect("comparable");
+        let found = judge_known(&image, &known, Tolerances::default()).expect("comparable");
         (found.verdict, found.p_exact)
     };
     let (agrees, p) = verdict(1.0);
@@ -204,11 +204,11 @@ fn a_known_picture_is_an_oracle_without_noise() {
 #[test]
 fn what_cannot_be_judged_is_refused_with_a_reason() {
     let sound = estimate(1, 0.1, no_bias);
-    let refused = |image: &Developed| {
-        let other = judge(&sound, image, Rules::default());
+    let refused = |image: &RenderedImage| {
+        let other = judge(&sound, image, Tolerances::default());
         other.expect_err("not comparable")
     };
-    let foreign = Developed {
+    let foreign = RenderedImage {
         metadata: None,
         ..sound.clone()
     };

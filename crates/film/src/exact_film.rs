@@ -9,10 +9,10 @@
 //! another 16 for each colour of a pixel where samples splat.
 
 use crate::exact_sums::{EXACT, ExactSums};
-use crate::faults::{FaultLog, Offence};
+use crate::faults::{FaultLog, InvalidSample};
 use crate::filter_method::FilterMethod;
 use crate::footprint::Footprint;
-use crate::outliers::{OutlierLog, Standing};
+use crate::outliers::{DominantSample, OutlierLog};
 use crate::pixel_moments::PixelMoments;
 use crate::replicate_end::{self, Divisor};
 use crate::running::{Running, reserved};
@@ -21,7 +21,7 @@ use crate::tile_means::TileMeans;
 use crate::unfinished::{Unfinished, reached};
 use crate::{FilmSettings, Metadata, PixelFilter};
 use etalon_params::Diagnostic;
-use etalon_statistics::{Fault, Fixed128};
+use etalon_statistics::{Fixed128, InvalidValue};
 use etalon_transport::Channel;
 use glam::{IVec2, UVec2};
 
@@ -208,7 +208,7 @@ impl ExactFilm {
         };
         let whole = self.running.whole(of_splats, |pixel, channel, fault| {
             let place = UVec2::new(pixel as u32 % size.x, pixel as u32 / size.x);
-            lost.note(Offence {
+            lost.note(InvalidSample {
                 replicate,
                 pixel: (origin + place).as_ivec2().to_array(),
                 sample: None,
@@ -276,13 +276,13 @@ impl ExactFilm {
     }
 
     /// The samples that a pixel of the whole film has in this replicate, and what they bring.
-    pub(crate) fn progress(&self, pixel: UVec2) -> (u32, Standing) {
+    pub(crate) fn progress(&self, pixel: UVec2) -> (u32, DominantSample) {
         let index = self.index(pixel - self.settings.crop_offset);
         (self.running.samples(index), self.running.standing(index))
     }
 
     /// Notes how many samples a pixel of the whole film has, and what they bring.
-    pub(crate) fn advance(&self, pixel: UVec2, samples: u32, standing: &Standing) {
+    pub(crate) fn advance(&self, pixel: UVec2, samples: u32, standing: &DominantSample) {
         let index = self.index(pixel - self.settings.crop_offset);
         self.running.advance(index, samples, standing);
     }
@@ -311,7 +311,7 @@ impl ExactFilm {
     }
 
     /// Adds a splat's colours to a pixel counted within the crop; says whether all went well.
-    pub(crate) fn splat(&self, pixel: UVec2, colours: &[f32]) -> Result<(), Fault> {
+    pub(crate) fn splat(&self, pixel: UVec2, colours: &[f32]) -> Result<(), InvalidValue> {
         self.running.splat(self.index(pixel), colours)
     }
 
@@ -355,9 +355,9 @@ impl ExactFilm {
         pixel: IVec2,
         sample: Option<u32>,
         source: &str,
-        fault: Fault,
-    ) -> Offence {
-        Offence {
+        fault: InvalidValue,
+    ) -> InvalidSample {
+        InvalidSample {
             replicate: self.replicate(),
             pixel: pixel.to_array(),
             sample,

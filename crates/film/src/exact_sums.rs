@@ -7,7 +7,7 @@
 
 use crate::pixel_moments::{PixelMoments, WORDS};
 use etalon_images::exr::IntegerPlane;
-use etalon_statistics::Fault;
+use etalon_statistics::InvalidValue;
 use std::collections::HashMap;
 
 /// What the names of planes with exact sums begin with.
@@ -37,7 +37,7 @@ impl ExactSums {
     ///
     /// # Errors
     /// If a sum is out of range, which at most 2¹⁵ replicates never are; some are added then.
-    pub(crate) fn merge(&mut self, other: &Self) -> Result<(), Fault> {
+    pub(crate) fn merge(&mut self, other: &Self) -> Result<(), InvalidValue> {
         let pairs = self.moments.iter_mut().zip(&other.moments);
         for (sums, others) in pairs {
             sums.merge(others)?;

@@ -1,12 +1,12 @@
 //! Numbers a film refuses: how many there were, and where the first of them came from.
 
-use etalon_statistics::Fault;
+use etalon_statistics::InvalidValue;
 use serde::{Deserialize, Serialize};
 
 /// Why a number was refused.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
-pub enum FaultKind {
+pub enum InvalidKind {
     /// Not a number.
     Nan,
     /// Infinite.
@@ -15,19 +15,19 @@ pub enum FaultKind {
     Overflow,
 }
 
-impl From<Fault> for FaultKind {
-    fn from(fault: Fault) -> Self {
+impl From<InvalidValue> for InvalidKind {
+    fn from(fault: InvalidValue) -> Self {
         match fault {
-            Fault::NotANumber => Self::Nan,
-            Fault::Infinite => Self::Infinite,
-            Fault::OutOfRange => Self::Overflow,
+            InvalidValue::NotANumber => Self::Nan,
+            InvalidValue::Infinite => Self::Infinite,
+            InvalidValue::OutOfRange => Self::Overflow,
         }
     }
 }
 
 /// Where a refused number came from: enough to compute the very sample again.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
-pub struct Offence {
+pub struct InvalidSample {
     /// The replicate.
     pub replicate: u32,
     /// The pixel for which the sample was drawn; it may lie a little outside of the film.
@@ -39,10 +39,10 @@ pub struct Offence {
     /// `radiance`, `splat` or the name of a channel.
     pub source: String,
     /// What was wrong with it.
-    pub kind: FaultKind,
+    pub kind: InvalidKind,
 }
 
-impl Offence {
+impl InvalidSample {
     /// The order of a render on one thread, so that "the first" are the same on many.
     fn key(&self) -> impl Ord + '_ {
         let [x, y] = self.pixel;
@@ -68,7 +68,7 @@ pub struct FaultLog {
     pub overflow: u64,
     /// The first [`FaultLog::KEPT`] in the order replicate, row, column, sample.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
-    pub first: Vec<Offence>,
+    pub first: Vec<InvalidSample>,
 }
 
 impl FaultLog {
@@ -88,11 +88,11 @@ impl FaultLog {
     }
 
     /// Counts an offence and keeps it if it is among the first.
-    pub(crate) fn note(&mut self, offence: Offence) {
+    pub(crate) fn note(&mut self, offence: InvalidSample) {
         match offence.kind {
-            FaultKind::Nan => self.nan += 1,
-            FaultKind::Infinite => self.infinite += 1,
-            FaultKind::Overflow => self.overflow += 1,
+            InvalidKind::Nan => self.nan += 1,
+            InvalidKind::Infinite => self.infinite += 1,
+            InvalidKind::Overflow => self.overflow += 1,
         }
         self.keep(offence);
     }
@@ -108,7 +108,7 @@ impl FaultLog {
             .for_each(|offence| self.keep(offence));
     }
 
-    fn keep(&mut self, offence: Offence) {
+    fn keep(&mut self, offence: InvalidSample) {
         let place = self
             .first
             .partition_point(|kept| kept.key() <= offence.key());

@@ -1,16 +1,16 @@
 //! Films: reconstruction filters, exact accumulation per pixel, replicates and tile means.
 //!
 //! [`ExactFilm`] implements [`etalon_transport::Film`]. Rendering fills it replicate by
-//! replicate; [`ExactFilm::develop`] turns what it holds into a [`Developed`] picture, which
+//! replicate; [`ExactFilm::develop`] turns what it holds into a [`RenderedImage`] picture, which
 //! knows its own error and can be written to, and read from, an EXR file;
 //! [`ExactFilm::into_part`] gives a [`Part`], which can be merged with others.
 
 mod consistency;
 mod exact_film;
 mod exact_sums;
+mod filter_sampler;
 mod footprint;
 mod given_replicate;
-mod half_line;
 mod pixel_moments;
 mod placing;
 mod replicate_end;
@@ -20,7 +20,6 @@ mod spread;
 mod tile_sink;
 
 pub mod checkpoint;
-pub mod developed;
 pub mod faults;
 pub mod filter_method;
 pub mod filters;
@@ -32,6 +31,7 @@ pub mod part;
 pub mod part_facts;
 pub mod pixel_filter;
 pub mod pixel_format;
+pub mod rendered_image;
 pub mod replicate_set;
 pub mod sample_counts;
 pub mod settings;
@@ -39,10 +39,9 @@ pub mod tile_means;
 pub mod unfinished;
 
 pub use checkpoint::CheckpointFacts;
-pub use developed::{Developed, ReadError, read_developed};
 pub use exact_film::{ExactFilm, STANDARD_ERROR};
 pub use exact_sums::EXACT;
-pub use faults::{FaultKind, FaultLog, Offence};
+pub use faults::{FaultLog, InvalidKind, InvalidSample};
 pub use filter_method::FilterMethod;
 pub use filters::{BoxFilter, CatmullRom, Filter, Gaussian, Lanczos, Mitchell, Tent};
 pub use fingerprint::floating_point_fingerprint;
@@ -53,6 +52,7 @@ pub use part::Part;
 pub use part_facts::PartFacts;
 pub use pixel_filter::PixelFilter;
 pub use pixel_format::PixelFormat;
+pub use rendered_image::{ReadError, RenderedImage, read_developed};
 pub use replicate_set::ReplicateSet;
 pub use sample_counts::{DealtFacts, SAMPLES, SampleCounts};
 pub use settings::{FileFormat, FilmSettings};

@@ -113,13 +113,13 @@ fn exponent(x: f32) -> i32 {
 
 /// What the samples of one pixel bring, one after the other.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub(crate) struct Standing {
+pub(crate) struct DominantSample {
     total: f32,
     most: f32,
     sample: u32,
 }
 
-impl Standing {
+impl DominantSample {
     /// Sample `sample` brings `value`; not a number is nothing.
     #[inline]
     pub(crate) fn bring(&mut self, sample: u32, value: f32) {
@@ -169,7 +169,7 @@ mod tests {
     #[test]
     fn one_of_many_stands_out() {
         let standing = |values: &[f32]| {
-            let mut standing = Standing::default();
+            let mut standing = DominantSample::default();
             for (sample, &value) in values.iter().enumerate() {
                 standing.bring(sample as u32, value);
             }

@@ -6,13 +6,13 @@
 //! standard errors are of its own replicates) with planes of the sums beside ([`EXACT`]) and a
 //! checksum over the sums and all the file says of itself.
 
-use crate::developed::{self, ReadError, image_of, metadata_of};
 use crate::exact_sums::{EXACT, ExactSums};
 use crate::merge::{Conflict, disagreements};
 use crate::metadata::recorded_seconds;
+use crate::rendered_image::{self, ReadError, image_of, metadata_of};
 use crate::unfinished::Unfinished;
 use crate::{
-    CheckpointFacts, Developed, ExactFilm, Metadata, PartFacts, PixelFormat, RenderFacts,
+    CheckpointFacts, ExactFilm, Metadata, PartFacts, PixelFormat, RenderFacts, RenderedImage,
     ReplicateSet, SampleCounts,
 };
 use etalon_images::{Error, Frame, exr};
@@ -164,13 +164,13 @@ impl Part {
     /// The picture of these replicates, as that of a part; its time is the sum of all that
     /// went into it.
     #[must_use]
-    pub fn picture(&self) -> Developed {
+    pub fn picture(&self) -> RenderedImage {
         self.developed(self.described())
     }
 
     /// The picture that an unsplit render would have given, if no replicate is missing.
     #[must_use]
-    pub fn whole(&self) -> Option<Developed> {
+    pub fn whole(&self) -> Option<RenderedImage> {
         self.missing()
             .is_empty()
             .then(|| Metadata {
@@ -181,7 +181,7 @@ impl Part {
             .map(|metadata| self.developed(metadata))
     }
 
-    fn developed(&self, metadata: Metadata) -> Developed {
+    fn developed(&self, metadata: Metadata) -> RenderedImage {
         let size = metadata.film.crop_size.map(|n| n as usize);
         let moments = self.sums.moments();
         let seconds = metadata.seconds;
@@ -197,7 +197,7 @@ impl Part {
                 self.counts.as_ref(),
             ),
         };
-        Developed {
+        RenderedImage {
             image,
             frame: Frame {
                 offset: metadata.film.crop_offset.map(|n| n as i32),
@@ -270,7 +270,7 @@ impl Part {
     }
 
     /// The picture, and its metadata with the checksum.
-    fn signed(&self) -> (Developed, String) {
+    fn signed(&self) -> (RenderedImage, String) {
         let mut picture = self.picture();
         let metadata = picture.metadata.as_mut();
         if let Some(facts) = metadata.and_then(|metadata| metadata.part.as_mut()) {
@@ -320,7 +320,7 @@ impl Part {
         (document, planes): (exr::Document, Vec<exr::IntegerPlane>),
         path: &Path,
     ) -> Result<Self, ReadError> {
-        let picture = developed::of_document(document, path)?;
+        let picture = rendered_image::of_document(document, path)?;
         let refused = refusal(path);
         let pixels = picture.image.width() * picture.image.height();
         let mut metadata = match picture.metadata {

@@ -25,7 +25,7 @@
 //! single negative sample cancels the other. Filters with negative lobes want more samples per
 //! replicate rather than more replicates.
 
-use crate::half_line::{HalfLine, part};
+use crate::filter_sampler::{FilterSampler1d, part};
 use crate::{BoxFilter, Filter};
 use glam::Vec2;
 
@@ -45,10 +45,10 @@ enum Sampling {
         radius: f32,
     },
     /// No negative lobes.
-    Positive(HalfLine),
+    Positive(FilterSampler1d),
     Signed {
-        positive: HalfLine,
-        negative: HalfLine,
+        positive: FilterSampler1d,
+        negative: FilterSampler1d,
         /// The ends of the first three parts of the unit interval.
         ends: [f32; 3],
         /// (∫|f| / ∫f)².

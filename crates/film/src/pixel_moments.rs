@@ -3,7 +3,7 @@
 //! What [`Moments`] is, without its count, which is the same for all pixels of a film: 48 bytes
 //! instead of 64.
 
-use etalon_statistics::{Fault, Fixed128, Moments, U256};
+use etalon_statistics::{Fixed128, InvalidValue, Moments, U256};
 
 /// 32-bit words of both sums.
 pub(crate) const WORDS: usize = 12;
@@ -22,7 +22,7 @@ impl PixelMoments {
     };
 
     /// Adds the mean of a replicate; an error leaves everything as it was.
-    pub(crate) fn push(&mut self, mean: Fixed128) -> Result<(), Fault> {
+    pub(crate) fn push(&mut self, mean: Fixed128) -> Result<(), InvalidValue> {
         let mut one = Moments::ZERO;
         one.push(mean)?;
         let mut sum = self.sum;
@@ -30,7 +30,7 @@ impl PixelMoments {
         let squares = self
             .squares
             .checked_add(one.squares())
-            .ok_or(Fault::OutOfRange)?;
+            .ok_or(InvalidValue::OutOfRange)?;
         *self = Self { sum, squares };
         Ok(())
     }
@@ -42,13 +42,13 @@ impl PixelMoments {
     }
 
     /// Adds other replicates; an error leaves everything as it was.
-    pub(crate) fn merge(&mut self, other: &Self) -> Result<(), Fault> {
+    pub(crate) fn merge(&mut self, other: &Self) -> Result<(), InvalidValue> {
         let mut sum = self.sum;
         sum.merge(other.sum)?;
         let squares = self
             .squares
             .checked_add(other.squares)
-            .ok_or(Fault::OutOfRange)?;
+            .ok_or(InvalidValue::OutOfRange)?;
         *self = Self { sum, squares };
         Ok(())
     }

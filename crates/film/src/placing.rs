@@ -3,12 +3,12 @@
 use crate::footprint::Footprint;
 use crate::replicate_end::Divisor;
 use crate::{ExactFilm, ExactTile};
-use etalon_transport::{Film, Placement, Placing};
+use etalon_transport::{Film, FilmSample, Placing};
 use glam::{UVec2, Vec2};
 
 impl Placing for ExactFilm {
     #[inline]
-    fn place(&self, pixel: UVec2, u: Vec2) -> Placement {
+    fn place(&self, pixel: UVec2, u: Vec2) -> FilmSample {
         if self.footprint().is_some() {
             return ().place(pixel, u);
         }
@@ -16,10 +16,10 @@ impl Placing for ExactFilm {
     }
 
     #[inline]
-    fn place_alone(&self, pixel: UVec2, u: Vec2) -> Placement {
+    fn place_alone(&self, pixel: UVec2, u: Vec2) -> FilmSample {
         let (offset, weight) = self.filter().sample(u);
         let raster = pixel.as_ivec2().as_vec2() + 0.5 + offset;
-        Placement { raster, weight }
+        FilmSample { raster, weight }
     }
 
     fn shares_samples(&self) -> bool {

@@ -1,6 +1,6 @@
 //! What happens when a replicate ends: its means join the statistics, and its tiles are summed.
 
-use crate::faults::{FaultLog, Offence};
+use crate::faults::{FaultLog, InvalidSample};
 use crate::pixel_moments::PixelMoments;
 use crate::tile_means::{TileSums, add};
 use etalon_statistics::{AtomicFixed128, Fixed128};
@@ -107,7 +107,7 @@ impl Layout<'_> {
                 tile[channel] = add(tile[channel], Some(into_tile));
                 if let Err(fault) = moments[channel].push(mean) {
                     let pixel = self.origin + UVec2::new(x, row * SIDE + y);
-                    log.note(Offence {
+                    log.note(InvalidSample {
                         replicate: self.replicate,
                         pixel: pixel.as_ivec2().to_array(),
                         sample: None,

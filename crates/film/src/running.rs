@@ -6,9 +6,9 @@
 //! them. Splats have sums of their own: those of a pixel are of the samples of all pixels.
 
 use crate::faults::FaultLog;
-use crate::outliers::{Outlier, OutlierLog, Standing};
+use crate::outliers::{DominantSample, Outlier, OutlierLog};
 use crate::unfinished::Unfinished;
-use etalon_statistics::{AtomicFixed128, Fault, Fixed128};
+use etalon_statistics::{AtomicFixed128, Fixed128, InvalidValue};
 use glam::UVec2;
 use std::sync::atomic::{AtomicU32, Ordering};
 use std::sync::{Mutex, OnceLock};
@@ -34,7 +34,7 @@ pub(crate) struct Running {
 #[derive(Debug, Default)]
 struct PixelProgress {
     samples: AtomicU32,
-    /// Of [`Standing`]: the floats' bits, and the sample.
+    /// Of [`DominantSample`]: the floats' bits, and the sample.
     standing: [AtomicU32; 3],
 }
 
@@ -76,7 +76,7 @@ impl Running {
     }
 
     /// Adds the colours of a splat to a pixel; says whether all went well.
-    pub(crate) fn splat(&self, pixel: usize, colours: &[f32]) -> Result<(), Fault> {
+    pub(crate) fn splat(&self, pixel: usize, colours: &[f32]) -> Result<(), InvalidValue> {
         let sums = self.splats.get_or_init(|| self.no_splats());
         let sums = &sums[pixel * self.colours..];
         let mut pairs = colours.iter().zip(sums);
@@ -95,13 +95,13 @@ impl Running {
     }
 
     /// What a pixel's samples bring.
-    pub(crate) fn standing(&self, pixel: usize) -> Standing {
+    pub(crate) fn standing(&self, pixel: usize) -> DominantSample {
         let words = &self.pixels[pixel].standing;
-        Standing::from_words(words.each_ref().map(|word| word.load(Ordering::Relaxed)))
+        DominantSample::from_words(words.each_ref().map(|word| word.load(Ordering::Relaxed)))
     }
 
     /// Notes that a pixel has so many samples, which bring this.
-    pub(crate) fn advance(&self, pixel: usize, samples: u32, standing: &Standing) {
+    pub(crate) fn advance(&self, pixel: usize, samples: u32, standing: &DominantSample) {
         let progress = &self.pixels[pixel];
         progress.samples.store(samples, Ordering::Relaxed);
         for (word, value) in progress.standing.iter().zip(standing.words()) {
@@ -144,7 +144,7 @@ impl Running {
     pub(crate) fn whole(
         &mut self,
         samples: u64,
-        mut refuse: impl FnMut(usize, usize, Fault),
+        mut refuse: impl FnMut(usize, usize, InvalidValue),
     ) -> &mut [AtomicFixed128] {
         let weights = self.weights.iter_mut();
         let pixels = self.own.chunks_exact_mut(self.channels).zip(weights);

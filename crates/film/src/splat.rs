@@ -5,7 +5,7 @@
 //! integral that camera samples placed by the filter estimate.
 
 use crate::{ExactFilm, PixelFilter};
-use etalon_statistics::Fault;
+use etalon_statistics::InvalidValue;
 use glam::{UVec2, Vec2};
 
 /// The pixels that one splat reaches along each axis; kept to be used again.
@@ -22,12 +22,12 @@ impl Taps {
         film: &ExactFilm,
         raster: Vec2,
         colours: &[f32],
-    ) -> Result<(), Fault> {
+    ) -> Result<(), InvalidValue> {
         if !raster.is_finite() {
             return Err(if raster.is_nan() {
-                Fault::NotANumber
+                InvalidValue::NotANumber
             } else {
-                Fault::Infinite
+                InvalidValue::Infinite
             });
         }
         let settings = film.settings();

@@ -10,7 +10,7 @@
 //! rounded to the nearest unit.
 
 use crate::footprint::Footprint;
-use etalon_statistics::{Fault, Fixed128};
+use etalon_statistics::{Fixed128, InvalidValue};
 use glam::{IVec2, Vec2};
 
 /// Weights are multiples of one over this.
@@ -48,9 +48,9 @@ pub(crate) enum Term {
 
 impl Term {
     /// # Errors
-    /// [`Fault`] where [`Fixed128`] refuses `x`.
+    /// [`InvalidValue`] where [`Fixed128`] refuses `x`.
     #[inline]
-    pub(crate) fn new(x: f32) -> Result<Self, Fault> {
+    pub(crate) fn new(x: f32) -> Result<Self, InvalidValue> {
         let bits = x.to_bits();
         let magnitude = i64::from(bits & 0x7f_ffff | 0x80_0000);
         let mantissa = if x < 0.0 { -magnitude } else { magnitude };
@@ -237,8 +237,11 @@ mod tests {
             }
         }
         assert!(Term::new(0.0).expect("finite").is_zero());
-        assert_eq!(Term::new(f32::NAN).err(), Some(Fault::NotANumber));
-        assert_eq!(Term::new(f32::INFINITY).err(), Some(Fault::Infinite));
-        assert_eq!(Term::new(2.0f32.powi(48)).err(), Some(Fault::OutOfRange));
+        assert_eq!(Term::new(f32::NAN).err(), Some(InvalidValue::NotANumber));
+        assert_eq!(Term::new(f32::INFINITY).err(), Some(InvalidValue::Infinite));
+        assert_eq!(
+            Term::new(2.0f32.powi(48)).err(),
+            Some(InvalidValue::OutOfRange)
+        );
     }
 }

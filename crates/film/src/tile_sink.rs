@@ -1,11 +1,11 @@
 //! The sink of a tile: a pixel's samples are summed here and delivered once, and those that pixels share are
 //! summed for the whole tile ([`crate::spread`]).
 
-use crate::outliers::Standing;
+use crate::outliers::DominantSample;
 use crate::spread::{Spread, Term};
 use crate::{ExactFilm, faults::FaultLog, splat::Taps};
-use etalon_statistics::{Fault, Fixed128};
-use etalon_transport::{Film, Placement, Sink, TileSink};
+use etalon_statistics::{Fixed128, InvalidValue};
+use etalon_transport::{Film, FilmSample, Sink, TileSink};
 use glam::{IVec2, UVec2, Vec2};
 
 /// Takes the samples of one tile's pixels, one pixel after the other.
@@ -28,7 +28,7 @@ pub struct ExactTile<'f> {
     samples: u32,
     first: u32,
     /// What all of the pixel's samples so far bring.
-    standing: Standing,
+    standing: DominantSample,
     weight: f32,
     /// What samples of this pixel count besides.
     dealt: f32,
@@ -63,7 +63,7 @@ impl<'f> ExactTile<'f> {
             place: from.as_ivec2(),
             samples: 0,
             first: 0,
-            standing: Standing::default(),
+            standing: DominantSample::default(),
             weight: 1.0,
             dealt: 1.0,
             taps: Taps::default(),
@@ -72,7 +72,7 @@ impl<'f> ExactTile<'f> {
     }
 
     #[cold]
-    fn refuse(&mut self, source: &str, fault: Fault) {
+    fn refuse(&mut self, source: &str, fault: InvalidValue) {
         let sample = self.samples.checked_sub(1).map(|n| self.first + n);
         let offence = self.film.offence(self.place, sample, source, fault);
         self.faults.note(offence);
@@ -189,7 +189,7 @@ impl TileSink for ExactTile<'_> {
     }
 
     #[inline]
-    fn begin_placed(&mut self, pixel: UVec2, placement: &Placement) {
+    fn begin_placed(&mut self, pixel: UVec2, placement: &FilmSample) {
         if self.spread.is_none() {
             return self.begin_sample(pixel, placement.weight);
         }
@@ -204,7 +204,7 @@ impl TileSink for ExactTile<'_> {
 }
 
 impl ExactTile<'_> {
-    fn begin_spread(&mut self, pixel: UVec2, placement: &Placement) {
+    fn begin_spread(&mut self, pixel: UVec2, placement: &FilmSample) {
         let film = self.film;
         let (Some(spread), Some(footprint)) = (&mut self.spread, film.footprint()) else {
             return;
@@ -271,7 +271,7 @@ impl ExactTile<'_> {
                 .deliver(self.pixel, self.alone, &mut self.sums, &mut self.faults);
             let samples = self.first + self.samples;
             self.film.advance(self.pixel, samples, &self.standing);
-            self.standing = Standing::default();
+            self.standing = DominantSample::default();
             self.samples = 0;
         }
     }
@@ -288,7 +288,7 @@ impl Drop for ExactTile<'_> {
 /// The weighted colours in fixed point: all of them or none, so that one bad component does not
 /// leave a sample half counted.
 #[inline]
-fn fixed(colours: &[f32], weight: f32) -> Result<[Fixed128; 3], Fault> {
+fn fixed(colours: &[f32], weight: f32) -> Result<[Fixed128; 3], InvalidValue> {
     let mut terms = [Fixed128::ZERO; 3];
     for (term, colour) in terms.iter_mut().zip(colours) {
         *term = Fixed128::from_f32(colour * weight)?;
@@ -297,13 +297,13 @@ fn fixed(colours: &[f32], weight: f32) -> Result<[Fixed128; 3], Fault> {
 }
 
 /// What is wrong with a colour before it was converted, which may turn one fault into another.
-fn cause(rgb: [f32; 3]) -> Option<Fault> {
+fn cause(rgb: [f32; 3]) -> Option<InvalidValue> {
     let sum: f32 = rgb.iter().map(|x| x * 0.0).sum();
     if sum == 0.0 {
         None
     } else if rgb.iter().any(|x| x.is_nan()) {
-        Some(Fault::NotANumber)
+        Some(InvalidValue::NotANumber)
     } else {
-        Some(Fault::Infinite)
+        Some(InvalidValue::Infinite)
     }
 }

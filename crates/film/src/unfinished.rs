@@ -16,7 +16,7 @@
 use crate::exact_sums::EXACT;
 use crate::faults::FaultLog;
 use crate::footprint::Footprint;
-use crate::outliers::Standing;
+use crate::outliers::DominantSample;
 use crate::sample_counts::SAMPLES;
 use etalon_images::Image;
 use etalon_images::exr::IntegerPlane;
@@ -68,7 +68,7 @@ pub(crate) struct Unfinished {
     pub(crate) weights: Vec<Fixed128>,
     /// Samples of each pixel, and what stands out among them.
     pub(crate) samples: Vec<u32>,
-    pub(crate) standing: Vec<Standing>,
+    pub(crate) standing: Vec<DominantSample>,
     /// What was refused.
     pub(crate) faults: FaultLog,
 }
@@ -221,7 +221,7 @@ impl Unfinished {
             },
             samples: plane(COUNTS)?.to_vec(),
             standing: (0..pixels)
-                .map(|pixel| Standing::from_words([total[pixel], most[pixel], sample[pixel]]))
+                .map(|pixel| DominantSample::from_words([total[pixel], most[pixel], sample[pixel]]))
                 .collect(),
             faults: facts.faults.clone(),
         };
@@ -237,7 +237,7 @@ impl Unfinished {
         for sum in sums.chain(&self.weights) {
             hasher.update(&sum.to_bits().to_le_bytes());
         }
-        let standing = self.standing.iter().flat_map(Standing::words);
+        let standing = self.standing.iter().flat_map(DominantSample::words);
         for word in self.samples.iter().copied().chain(standing) {
             hasher.update(&word.to_le_bytes());
         }

@@ -2,7 +2,7 @@
 //!
 //! An accelerator knows triangles, which it intersects itself in `Block`s of eight, and
 //! *others*: anything with a box and a primitive number, for which it calls back. It returns the
-//! nearest hit by the total order of `Nearest`, so every accelerator gives the same bits.
+//! nearest hit by the total order of `ClosestHit`, so every accelerator gives the same bits.
 
 mod binary;
 pub(crate) mod block;
@@ -11,8 +11,8 @@ mod linear;
 mod node;
 mod wide;
 
-use crate::nearest::Nearest;
-use crate::probe::Probe;
+use crate::closest_hit::ClosestHit;
+use crate::traversal_ray::TraversalRay;
 use block::Block;
 use glam::Vec3;
 use linear::Linear;
@@ -100,11 +100,11 @@ pub(crate) trait Primitives: Sync {
 }
 
 /// How an accelerator intersects what is not a triangle.
-pub(crate) trait Others {
+pub(crate) trait CustomPrimitives {
     /// Notes the nearest hit of `primitive`, if it wins over what is known.
-    fn intersect(&self, primitive: u32, probe: &Probe, nearest: &mut Nearest);
+    fn intersect(&self, primitive: u32, probe: &TraversalRay, nearest: &mut ClosestHit);
     /// Whether the ray hits `primitive` before `t_max`.
-    fn occludes(&self, primitive: u32, probe: &Probe, t_max: f32) -> bool;
+    fn occludes(&self, primitive: u32, probe: &TraversalRay, t_max: f32) -> bool;
 }
 
 /// Whether a triangle has any area. One without is not part of any surface: rounding alone would
@@ -134,7 +134,12 @@ impl Accelerator {
 
     /// Notes the nearest hit, if it wins over what is known.
     #[inline(always)]
-    pub(crate) fn intersect(&self, probe: &Probe, others: &impl Others, nearest: &mut Nearest) {
+    pub(crate) fn intersect(
+        &self,
+        probe: &TraversalRay,
+        others: &impl CustomPrimitives,
+        nearest: &mut ClosestHit,
+    ) {
         match self {
             Self::Linear(linear) => linear.intersect(probe, others, nearest),
             Self::Wide(wide) => wide.intersect(probe, others, nearest),
@@ -143,7 +148,12 @@ impl Accelerator {
 
     /// Whether anything is hit before `t_max`.
     #[inline(always)]
-    pub(crate) fn occluded(&self, probe: &Probe, others: &impl Others, t_max: f32) -> bool {
+    pub(crate) fn occluded(
+        &self,
+        probe: &TraversalRay,
+        others: &impl CustomPrimitives,
+        t_max: f32,
+    ) -> bool {
         match self {
             Self::Linear(linear) => linear.occluded(probe, others, t_max),
             Self::Wide(wide) => wide.occluded(probe, others, t_max),

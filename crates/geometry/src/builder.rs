@@ -1,9 +1,9 @@
 //! Putting a geometry together.
 
 use crate::accelerator::{Accelerator, AcceleratorKind, Bounds};
-use crate::geometry::{Attachment, Geometry, Group, Instance};
+use crate::geometry::{Geometry, Group, Instance, ShapeBinding};
 use crate::placement::Placement;
-use crate::scope::{Contents, Scope, Thing};
+use crate::primitive_index::{Contents, PrimitiveIndex, PrimitiveOwner};
 use crate::shapes::Shape;
 use crate::touching::touching;
 use etalon_transport::{InstanceId, LightId, MaterialId, ShapeId};
@@ -21,7 +21,7 @@ pub struct GroupId(pub u32);
 #[derive(Debug, Default)]
 pub struct GeometryBuilder {
     shapes: Vec<Shape>,
-    attachments: Vec<Attachment>,
+    attachments: Vec<ShapeBinding>,
     world: Vec<ShapeId>,
     groups: Vec<Vec<ShapeId>>,
     instances: Vec<(GroupId, Placement)>,
@@ -36,7 +36,7 @@ impl GeometryBuilder {
     fn push(&mut self, shape: Shape, material: MaterialId, light: LightId) -> ShapeId {
         let id = ShapeId(self.shapes.len() as u32);
         self.shapes.push(shape);
-        self.attachments.push(Attachment {
+        self.attachments.push(ShapeBinding {
             material,
             light,
             refractive: false,
@@ -103,15 +103,15 @@ impl GeometryBuilder {
             shapes[index].set_touching();
         }
         let scope_of = |members: &[ShapeId]| {
-            let mut scope = Scope::default();
+            let mut scope = PrimitiveIndex::default();
             for &id in members {
                 let shape = &shapes[id.0 as usize];
                 let primitives = shape.triangles().map_or(1, |m| m.triangle_count() as u32);
-                scope.add(Thing::Shape(id), primitives, shape.bounds());
+                scope.add(PrimitiveOwner::Shape(id), primitives, shape.bounds());
             }
             scope
         };
-        let build = |scope: &Scope, instances: &[Bounds]| -> Accelerator {
+        let build = |scope: &PrimitiveIndex, instances: &[Bounds]| -> Accelerator {
             Contents {
                 scope,
                 shapes: &shapes,
@@ -136,7 +136,11 @@ impl GeometryBuilder {
         let mut scope = scope_of(&world);
         for (index, bounds) in boxes.iter().enumerate() {
             if !bounds.is_empty() {
-                scope.add(Thing::Instance(InstanceId(index as u32)), 1, *bounds);
+                scope.add(
+                    PrimitiveOwner::Instance(InstanceId(index as u32)),
+                    1,
+                    *bounds,
+                );
             }
         }
         let accelerator = build(&scope, &boxes);

@@ -2,23 +2,23 @@
 
 use crate::accelerator::{Accelerator, Bounds};
 use crate::builder::GroupId;
-use crate::nearest::Nearest;
+use crate::closest_hit::ClosestHit;
+use crate::local_interaction::Owner;
 use crate::placement::Placement;
-use crate::probe::Probe;
-use crate::scope::{Scope, Thing};
+use crate::primitive_index::{PrimitiveIndex, PrimitiveOwner};
 use crate::shapes::Shape;
-use crate::surface::Owner;
+use crate::traversal_ray::TraversalRay;
 use crate::world::WorldOthers;
 use etalon_math::DirectionCone;
 use etalon_transport::{
-    Hit, InstanceId, LightId, MaterialId, Ray, Receiver, SampledPoint, ShapeId, Shapes,
-    SurfacePoint, Vertex,
+    Hit, InstanceId, LightId, LightSampleContext, MaterialId, Ray, SampledPoint, ShapeId, Shapes,
+    SurfaceInteraction, SurfacePoint,
 };
 use glam::{Vec2, Vec3};
 
 /// What belongs to a shape but is not geometry.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Attachment {
+pub(crate) struct ShapeBinding {
     pub(crate) material: MaterialId,
     pub(crate) light: LightId,
     /// Whether light is refracted into it.
@@ -28,7 +28,7 @@ pub(crate) struct Attachment {
 /// Shapes with an accelerator of their own.
 #[derive(Debug)]
 pub(crate) struct Group {
-    pub(crate) scope: Scope,
+    pub(crate) scope: PrimitiveIndex,
     pub(crate) accelerator: Accelerator,
 }
 
@@ -43,7 +43,7 @@ pub(crate) struct Instance {
 #[derive(Debug)]
 pub struct Geometry {
     pub(crate) shapes: Vec<Shape>,
-    pub(crate) attachments: Vec<Attachment>,
+    pub(crate) attachments: Vec<ShapeBinding>,
     pub(crate) groups: Vec<Group>,
     pub(crate) instances: Vec<Instance>,
     pub(crate) world: Group,
@@ -68,8 +68,8 @@ pub struct GeometryStatistics {
 
 impl Geometry {
     #[inline(always)]
-    fn probe(&self, ray: &Ray) -> Probe {
-        Probe {
+    fn probe(&self, ray: &Ray) -> TraversalRay {
+        TraversalRay {
             departure: ray.departure,
             ..self.world.scope.probe(ray.origin, ray.direction)
         }
@@ -79,7 +79,7 @@ impl Geometry {
     #[inline]
     pub fn intersect(&self, ray: &Ray) -> Option<Hit> {
         let probe = self.probe(ray);
-        let mut nearest = Nearest::within(ray.t_max);
+        let mut nearest = ClosestHit::within(ray.t_max);
         self.world
             .accelerator
             .intersect(&probe, &WorldOthers(self), &mut nearest);
@@ -87,7 +87,7 @@ impl Geometry {
     }
 
     #[inline]
-    fn hit(&self, nearest: &Nearest) -> Hit {
+    fn hit(&self, nearest: &ClosestHit) -> Hit {
         let hit = |shape, primitive, instance| Hit {
             t: nearest.t,
             parameters: nearest.parameters,
@@ -97,13 +97,13 @@ impl Geometry {
             slot: nearest.slot,
         };
         match self.world.scope.locate(nearest.primitive) {
-            (Thing::Shape(shape), primitive) => hit(shape, primitive, InstanceId::NONE),
-            (Thing::Instance(instance), _) => {
+            (PrimitiveOwner::Shape(shape), primitive) => hit(shape, primitive, InstanceId::NONE),
+            (PrimitiveOwner::Instance(instance), _) => {
                 let group = self.instances[instance.0 as usize].group;
                 let scope = &self.groups[group.0 as usize].scope;
                 match scope.locate(nearest.inner) {
-                    (Thing::Shape(shape), primitive) => hit(shape, primitive, instance),
-                    (Thing::Instance(_), _) => unreachable!("groups hold shapes only"),
+                    (PrimitiveOwner::Shape(shape), primitive) => hit(shape, primitive, instance),
+                    (PrimitiveOwner::Instance(_), _) => unreachable!("groups hold shapes only"),
                 }
             }
         }
@@ -120,7 +120,7 @@ impl Geometry {
 
     #[inline]
     fn owner(&self, shape: ShapeId, instance: InstanceId) -> Owner {
-        let Attachment {
+        let ShapeBinding {
             material, light, ..
         } = self.attachments[shape.0 as usize];
         Owner {
@@ -149,7 +149,7 @@ impl Geometry {
 
     /// The differential geometry of a hit.
     #[inline]
-    pub fn vertex(&self, ray: &Ray, hit: &Hit) -> Vertex {
+    pub fn vertex(&self, ray: &Ray, hit: &Hit) -> SurfaceInteraction {
         let shape = &self.shapes[hit.shape.0 as usize];
         let placement = hit
             .instance
@@ -189,7 +189,7 @@ impl Geometry {
         let surface = surface.expect("a shape has triangles or is a solid");
         let surface = placement.map_or(surface, |placement| surface.placed(placement));
         let owner = self.owner(hit.shape, hit.instance);
-        Vertex {
+        SurfaceInteraction {
             t: hit.t,
             time: ray.time,
             ..surface.vertex(&owner, primitive, parameters)
@@ -225,7 +225,7 @@ impl Geometry {
             let groups = self.groups.iter().map(|g| &g.accelerator);
             groups.chain([&self.world.accelerator])
         };
-        let seen = |scope: &Scope| scope.count() as usize;
+        let seen = |scope: &PrimitiveIndex| scope.count() as usize;
         let instanced: usize = self
             .instances
             .iter()
@@ -269,13 +269,18 @@ impl Shapes for Geometry {
     }
 
     #[inline]
-    fn sample_toward(&self, shape: ShapeId, from: &Receiver, u: Vec2) -> Option<SampledPoint> {
+    fn sample_toward(
+        &self,
+        shape: ShapeId,
+        from: &LightSampleContext,
+        u: Vec2,
+    ) -> Option<SampledPoint> {
         let mut sampled = self.shape(shape).sample_toward(from, u)?;
         sampled.point.texture.shape = shape;
         Some(sampled)
     }
 
-    fn density_toward(&self, shape: ShapeId, from: &Receiver, at: &SurfacePoint) -> f32 {
+    fn density_toward(&self, shape: ShapeId, from: &LightSampleContext, at: &SurfacePoint) -> f32 {
         self.shape(shape).density_toward(from, at)
     }
 

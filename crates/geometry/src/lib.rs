@@ -11,14 +11,14 @@
 
 pub mod accelerator;
 pub mod builder;
+mod closest_hit;
 pub mod geometry;
-mod nearest;
+mod local_interaction;
 pub mod placement;
-mod probe;
-mod scope;
+mod primitive_index;
 pub mod shapes;
-mod surface;
 mod touching;
+mod traversal_ray;
 mod world;
 
 pub use accelerator::{AcceleratorKind, Bounds};

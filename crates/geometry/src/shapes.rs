@@ -16,12 +16,12 @@ pub mod sphere;
 mod vertex_normals;
 
 use crate::accelerator::Bounds;
-use crate::surface::Surface;
+use crate::local_interaction::LocalInteraction;
 use cylinder::Cylinder;
 use disk::Disk;
 use etalon_math::DirectionCone;
 use etalon_params::Params;
-use etalon_transport::{Build, Receiver, SampledPoint, SurfacePoint};
+use etalon_transport::{Build, LightSampleContext, SampledPoint, SurfacePoint};
 use glam::{DVec3, Vec2, Vec3};
 use mesh::Mesh;
 use model::ShapeModel;
@@ -128,7 +128,7 @@ impl Shape {
         primitive: u32,
         b: Vec2,
         corners: impl FnOnce() -> [Vec3; 3],
-    ) -> Option<Surface> {
+    ) -> Option<LocalInteraction> {
         ask!(self, shape => shape.triangle(primitive, b, corners))
     }
 
@@ -173,8 +173,14 @@ impl Shape {
                 density: (1.0 / self.area()) as f32,
             },
             None => SampledPoint {
-                point: Surface::exact(DVec3::ZERO, DVec3::Z, Vec2::ZERO, DVec3::X, DVec3::Y)
-                    .point(0, Vec2::ZERO),
+                point: LocalInteraction::exact(
+                    DVec3::ZERO,
+                    DVec3::Z,
+                    Vec2::ZERO,
+                    DVec3::X,
+                    DVec3::Y,
+                )
+                .point(0, Vec2::ZERO),
                 density: 0.0,
             },
         }
@@ -183,14 +189,14 @@ impl Shape {
     /// A point chosen for a receiver, with its density per unit solid angle there. `None` if the
     /// chosen point is seen edge-on or the shape has no area.
     #[inline]
-    pub(crate) fn sample_toward(&self, from: &Receiver, u: Vec2) -> Option<SampledPoint> {
+    pub(crate) fn sample_toward(&self, from: &LightSampleContext, u: Vec2) -> Option<SampledPoint> {
         let sampled = ask!(self, shape => ShapeModel::sample_toward(shape, from, u))?;
         (sampled.density > 0.0 && sampled.density < f32::INFINITY).then_some(sampled)
     }
 
     /// The density per unit solid angle with which [`Shape::sample_toward`] from `from` chooses
     /// `at`, a point of this shape.
-    pub(crate) fn density_toward(&self, from: &Receiver, at: &SurfacePoint) -> f32 {
+    pub(crate) fn density_toward(&self, from: &LightSampleContext, at: &SurfacePoint) -> f32 {
         let density = ask!(self, shape => ShapeModel::density_toward(shape, from, at));
         if density.is_finite() { density } else { 0.0 }
     }

@@ -1,12 +1,12 @@
 //! What is not a triangle of the world: smooth shapes, where two of them touch too, and instances.
 
-use crate::accelerator::Others;
+use crate::accelerator::CustomPrimitives;
+use crate::closest_hit::ClosestHit;
 use crate::geometry::{Geometry, Group, Instance};
-use crate::nearest::Nearest;
-use crate::probe::Probe;
-use crate::scope::{
-    GroupOthers, Order, Thing, intersect_solid, is_in_front, occludes_solid, tolerance,
+use crate::primitive_index::{
+    GroupOthers, Order, PrimitiveOwner, intersect_solid, is_in_front, occludes_solid, tolerance,
 };
+use crate::traversal_ray::TraversalRay;
 use etalon_transport::{InstanceId, ShapeId};
 
 /// Intersects what is not a triangle of the world: smooth shapes and instances.
@@ -15,7 +15,7 @@ pub(crate) struct WorldOthers<'a>(pub(crate) &'a Geometry);
 impl WorldOthers<'_> {
     /// The instance's group and the ray in its space.
     #[inline]
-    fn enter(&self, instance: InstanceId, probe: &Probe) -> (&Group, Probe) {
+    fn enter(&self, instance: InstanceId, probe: &TraversalRay) -> (&Group, TraversalRay) {
         let Instance { group, placement } = &self.0.instances[instance.0 as usize];
         let group = &self.0.groups[group.0 as usize];
         let (origin, direction) = placement.local_ray(probe.origin, probe.direction);
@@ -25,9 +25,9 @@ impl WorldOthers<'_> {
     /// Whether the crossing at `t` of a primitive, about where the ray starts, is after the surface
     /// that the ray leaves.
     #[cold]
-    fn is_after_start(&self, primitive: u32, probe: &Probe, t: f64) -> bool {
+    fn is_after_start(&self, primitive: u32, probe: &TraversalRay, t: f64) -> bool {
         let left = probe.departure.shape;
-        let (Thing::Shape(shape), Some(solid)) = (
+        let (PrimitiveOwner::Shape(shape), Some(solid)) = (
             self.0.world.scope.locate(primitive).0,
             self.0.shapes[left.0 as usize].solid(),
         ) else {
@@ -58,7 +58,7 @@ impl WorldOthers<'_> {
     /// Whether the ray crosses `a` before `b` at the distance `t` that both have. Media that touch do
     /// not overlap, so it leaves one before it enters the other. Of two that it enters the shape
     /// added first is the outer one, and so the last that it leaves.
-    fn is_outer(&self, a: ShapeId, b: ShapeId, probe: &Probe, t: f64) -> bool {
+    fn is_outer(&self, a: ShapeId, b: ShapeId, probe: &TraversalRay, t: f64) -> bool {
         let place = probe.origin.as_dvec3() + probe.direction.as_dvec3() * t;
         let leaves = |shape: ShapeId| {
             let solid = self.0.shapes[shape.0 as usize].solid();
@@ -75,18 +75,18 @@ impl WorldOthers<'_> {
     /// The shape, if light is refracted into it.
     fn refractive(&self, primitive: u32) -> Option<ShapeId> {
         match self.0.world.scope.locate(primitive).0 {
-            Thing::Shape(shape) => {
+            PrimitiveOwner::Shape(shape) => {
                 let refractive = self.0.attachments[shape.0 as usize].refractive;
                 refractive.then_some(shape)
             }
-            Thing::Instance(_) => None,
+            PrimitiveOwner::Instance(_) => None,
         }
     }
 }
 
 impl Order for WorldOthers<'_> {
     #[inline]
-    fn is_ahead(&self, primitive: u32, probe: &Probe, t: f64) -> bool {
+    fn is_ahead(&self, primitive: u32, probe: &TraversalRay, t: f64) -> bool {
         // First what holds for nearly all that comes here; false for NaN.
         let margin = tolerance(probe, t);
         if t > margin || !probe.departure.shape.is_some() {
@@ -95,7 +95,7 @@ impl Order for WorldOthers<'_> {
         t > 4.0 * f64::from(probe.departure.t) - margin && self.is_after_start(primitive, probe, t)
     }
 
-    fn precedes(&self, a: u32, b: u32, probe: &Probe, t: f64) -> bool {
+    fn precedes(&self, a: u32, b: u32, probe: &TraversalRay, t: f64) -> bool {
         match (self.refractive(a), self.refractive(b)) {
             (Some(first), Some(second)) => self.is_outer(first, second, probe, t),
             _ => a < b,
@@ -103,23 +103,23 @@ impl Order for WorldOthers<'_> {
     }
 }
 
-impl Others for WorldOthers<'_> {
+impl CustomPrimitives for WorldOthers<'_> {
     #[inline]
-    fn intersect(&self, primitive: u32, probe: &Probe, nearest: &mut Nearest) {
+    fn intersect(&self, primitive: u32, probe: &TraversalRay, nearest: &mut ClosestHit) {
         match self.0.world.scope.locate(primitive).0 {
-            Thing::Shape(shape) => {
+            PrimitiveOwner::Shape(shape) => {
                 if let Some(solid) = self.0.shapes[shape.0 as usize].solid() {
                     intersect_solid(solid, primitive, probe, nearest, self);
                 }
             }
-            Thing::Instance(instance) => {
+            PrimitiveOwner::Instance(instance) => {
                 let (group, local) = self.enter(instance, probe);
                 let mut inside = nearest.inside(primitive);
                 group
                     .accelerator
                     .intersect(&local, &self.inside(group), &mut inside);
                 if inside.found {
-                    *nearest = Nearest {
+                    *nearest = ClosestHit {
                         primitive,
                         inner: inside.primitive,
                         ..inside
@@ -130,12 +130,12 @@ impl Others for WorldOthers<'_> {
     }
 
     #[inline]
-    fn occludes(&self, primitive: u32, probe: &Probe, t_max: f32) -> bool {
+    fn occludes(&self, primitive: u32, probe: &TraversalRay, t_max: f32) -> bool {
         match self.0.world.scope.locate(primitive).0 {
-            Thing::Shape(shape) => self.0.shapes[shape.0 as usize]
+            PrimitiveOwner::Shape(shape) => self.0.shapes[shape.0 as usize]
                 .solid()
                 .is_some_and(|solid| occludes_solid(solid, primitive, probe, t_max, self)),
-            Thing::Instance(instance) => {
+            PrimitiveOwner::Instance(instance) => {
                 let (group, local) = self.enter(instance, probe);
                 group
                     .accelerator

@@ -12,14 +12,15 @@
 //! compared. The hemisphere is that about the shading normal; of its directions those below the
 //! surface itself see nothing.
 
-use crate::dimensions::Event;
+use crate::dimensions::BounceSamples;
 use crate::path::camera_ray;
 use etalon_params::Params;
 use etalon_sampling::warps::{square_to_cosine_hemisphere, square_to_uniform_hemisphere};
 use etalon_sampling::{ReplicateKind, Sampler};
 use etalon_spectrum::Wavelengths;
 use etalon_transport::{
-    Bsdf, Integrator, Objection, Pass, PixelSite, Placing, Ray, Sight, Sink, Vertex, World,
+    Bsdf, Incompatibility, Integrator, Pass, PixelSample, Placing, Ray, SceneCapabilities, Sink,
+    SurfaceInteraction, World,
 };
 use glam::Vec3;
 
@@ -74,14 +75,14 @@ impl AmbientOcclusion {
         mut ray: Ray,
         wavelengths: &Wavelengths,
         sampler: &mut S,
-    ) -> Option<(Vertex, Vec3, u32)> {
+    ) -> Option<(SurfaceInteraction, Vec3, u32)> {
         for depth in 0.. {
             let hit = world.intersect(&ray)?;
             let vertex = world.vertex(&ray, &hit);
             let wo = -ray.direction;
             let bsdf = world.bsdf(&vertex, wo, wavelengths);
-            let event = Event::draw(sampler, depth);
-            if !(event.lobe < 0.25 * bsdf.passing_probability().element_sum()) {
+            let event = BounceSamples::draw(sampler, depth);
+            if !(event.lobe < 0.25 * bsdf.null_probability().element_sum()) {
                 return Some((vertex, wo, depth));
             }
             ray = vertex.spawn(ray.direction);
@@ -93,14 +94,14 @@ impl AmbientOcclusion {
     fn openness<W: World, S: Sampler>(
         &self,
         world: &W,
-        (vertex, wo, depth): (&Vertex, Vec3, u32),
+        (vertex, wo, depth): (&SurfaceInteraction, Vec3, u32),
         wavelengths: &Wavelengths,
         sampler: &mut S,
     ) -> f32 {
         let side = 1.0_f32.copysign(vertex.shading.n.dot(wo));
         let mut sum = 0.0;
         for sample in 0..self.shading_samples {
-            let u = Event::draw(sampler, depth + 1 + sample).direction;
+            let u = BounceSamples::draw(sampler, depth + 1 + sample).direction;
             let (local, weight) = if self.cosine {
                 (square_to_cosine_hemisphere(u), 1.0)
             } else {
@@ -115,7 +116,7 @@ impl AmbientOcclusion {
                 t_max: self.distance,
                 ..vertex.spawn(direction)
             };
-            if let Some(passage) = world.passage(&ray, wavelengths, u32::MAX) {
+            if let Some(passage) = world.transmittance(&ray, wavelengths, u32::MAX) {
                 sum += weight * 0.25 * passage.transmittance.element_sum();
             }
         }
@@ -131,7 +132,7 @@ impl Integrator for AmbientOcclusion {
     }
 
     /// It asks for no light.
-    fn objections(&self, _: &Sight) -> Vec<Objection> {
+    fn incompatibilities(&self, _: &SceneCapabilities) -> Vec<Incompatibility> {
         Vec::new()
     }
 
@@ -141,7 +142,7 @@ impl Integrator for AmbientOcclusion {
         &self,
         world: &W,
         (): &(),
-        site: &PixelSite,
+        site: &PixelSample,
         sampler: &mut S,
         sink: &mut K,
     ) {

@@ -28,8 +28,8 @@ use etalon_params::{Diagnostic, Params};
 use etalon_sampling::{ReplicateKind, Sampler};
 use etalon_spectrum::{Wavelengths, sensor_response};
 use etalon_transport::{
-    Bsdf, Camera, Channel, Integrator, Objection, Pass, PixelSite, Placing, Ray, Sight, Sink,
-    Vertex, World,
+    Bsdf, Camera, Channel, Incompatibility, Integrator, Pass, PixelSample, Placing, Ray,
+    SceneCapabilities, Sink, SurfaceInteraction, World,
 };
 use glam::{Vec2, Vec3};
 
@@ -142,8 +142,8 @@ impl Integrator for Aov {
     }
 
     /// Those of the integrators inside.
-    fn objections(&self, sight: &Sight) -> Vec<Objection> {
-        Nested::objections(&self.nested, sight)
+    fn incompatibilities(&self, sight: &SceneCapabilities) -> Vec<Incompatibility> {
+        Nested::incompatibilities(&self.nested, sight)
     }
 
     fn channels(&self) -> Vec<Channel> {
@@ -174,7 +174,7 @@ impl Integrator for Aov {
         &self,
         world: &W,
         (): &(),
-        site: &PixelSite,
+        site: &PixelSample,
         sampler: &mut S,
         sink: &mut K,
     ) {
@@ -223,8 +223,8 @@ fn evaluate<W: World, S: Sampler>(
     world: &W,
     wavelengths: &Wavelengths,
     ray: &Ray,
-    vertex: &Vertex,
-    site: &PixelSite,
+    vertex: &SurfaceInteraction,
+    site: &PixelSample,
     sampler: &mut S,
 ) -> Vec3 {
     match variable {
@@ -252,8 +252,8 @@ fn evaluate<W: World, S: Sampler>(
 /// ∂p/∂v by least squares. Zero where those are degenerate.
 fn duv<W: World, S: Sampler>(
     world: &W,
-    vertex: &Vertex,
-    site: &PixelSite,
+    vertex: &SurfaceInteraction,
+    site: &PixelSample,
     sampler: &mut S,
     axis: Vec2,
 ) -> Vec3 {

@@ -12,12 +12,14 @@
 //! as far as M shadow rays, which they are not: where visibility decides, or which of two lights, that was measured to
 //! double the variance. For the same reason one sample is drawn of a lone light whose samples are all alike.
 
-use crate::dimensions::Event;
-use crate::prefix::Prefix;
+use crate::dimensions::BounceSamples;
+use crate::path_throughput::PathThroughput;
 use crate::settings::LightCandidates;
 use etalon_sampling::Sampler;
 use etalon_spectrum::Wavelengths;
-use etalon_transport::{Bsdf, Chance, LightSample, LightVariety, Mode, Receiver, World};
+use etalon_transport::{
+    Bsdf, LightSample, LightSampleContext, LightVariety, SamplePdf, TransportMode, World,
+};
 use glam::{Vec2, Vec3, Vec4};
 
 /// Multiples of this spread evenly over a square, modulo one: powers of the inverse of the plastic
@@ -42,7 +44,7 @@ pub(crate) struct Aim {
     /// Where on the light, if it is not at infinity.
     pub(crate) target: Option<Vec3>,
     /// Everything but what lies in between.
-    complete: Prefix,
+    complete: PathThroughput,
     /// pₜ,ₖ / p₀ of finding the same path by scattering, but for passing what lies in between.
     by_scattering: Vec4,
 }
@@ -53,24 +55,24 @@ impl Aim {
     #[inline]
     pub(crate) fn new(
         light: &LightSample,
-        before: &Prefix,
+        before: &PathThroughput,
         bsdf: &impl Bsdf,
         wo: Vec3,
         [lights, scattering]: [f32; 2],
     ) -> Option<Self> {
-        let (value, density) = bsdf.eval_and_density(wo, light.direction, Mode::Radiance);
+        let (value, density) = bsdf.eval_and_density(wo, light.direction, TransportMode::Radiance);
         let contribution = value * light.radiance;
         if contribution == Vec4::ZERO {
             return None;
         }
         let mut complete = *before;
-        complete.extend(contribution, light.chance.lanes());
-        complete.ratio *= lights;
+        complete.scatter(contribution, light.chance.lanes());
+        complete.r_u *= lights;
         let by_scattering = match light.chance {
             // Scattering never finds a discrete light.
-            Chance::Discrete(_) => Vec4::ZERO,
-            Chance::Continuous(chosen) => {
-                before.ratio * density.lanes() * (scattering / chosen.chooser())
+            SamplePdf::Discrete(_) => Vec4::ZERO,
+            SamplePdf::Continuous(chosen) => {
+                before.r_u * density.lanes() * (scattering / chosen.hero())
             }
         };
         Some(Self {
@@ -85,7 +87,7 @@ impl Aim {
     /// probability `passing`.
     #[inline]
     pub(crate) fn estimate(&self, transmittance: Vec4, passing: Vec4) -> Vec4 {
-        (self.complete).estimate(transmittance, self.by_scattering * passing)
+        (self.complete).contribution(transmittance, self.by_scattering * passing)
     }
 }
 
@@ -95,7 +97,11 @@ impl Candidates {
 
     /// As many as `wanted` says at a receiver with such lights.
     #[inline]
-    pub(crate) fn at<W: World>(wanted: LightCandidates, world: &W, from: &Receiver) -> Self {
+    pub(crate) fn at<W: World>(
+        wanted: LightCandidates,
+        world: &W,
+        from: &LightSampleContext,
+    ) -> Self {
         let count = match wanted {
             LightCandidates(Some(count)) if count.get() == 1 => return Self::ONE,
             LightCandidates(count) => match (count, world.light_variety(from)) {
@@ -113,9 +119,9 @@ impl Candidates {
     pub(crate) fn draw<W: World>(
         self,
         world: &W,
-        from: &Receiver,
+        from: &LightSampleContext,
         wavelengths: &Wavelengths,
-        event: &Event,
+        event: &BounceSamples,
         sampler: &mut impl Sampler,
         aim: impl Fn(&LightSample) -> Option<Aim>,
     ) -> Option<Aim> {
@@ -153,7 +159,7 @@ impl Candidates {
             }
         }
         let (mut aim, expected) = chosen?;
-        aim.complete.value *= sum / (expected * self.0 as f32);
+        aim.complete.beta *= sum / (expected * self.0 as f32);
         Some(aim)
     }
 }

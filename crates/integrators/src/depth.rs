@@ -16,7 +16,9 @@
 use crate::path::camera_ray;
 use etalon_sampling::{ReplicateKind, Sampler};
 use etalon_spectrum::sensor::response;
-use etalon_transport::{Integrator, Objection, Pass, PixelSite, Placing, Sight, Sink, World};
+use etalon_transport::{
+    Incompatibility, Integrator, Pass, PixelSample, Placing, SceneCapabilities, Sink, World,
+};
 use glam::Vec4;
 
 /// The distance integrator.
@@ -51,7 +53,7 @@ impl Integrator for Depth {
     }
 
     /// It asks for no light.
-    fn objections(&self, _: &Sight) -> Vec<Objection> {
+    fn incompatibilities(&self, _: &SceneCapabilities) -> Vec<Incompatibility> {
         Vec::new()
     }
 
@@ -61,7 +63,7 @@ impl Integrator for Depth {
         &self,
         world: &W,
         (): &(),
-        site: &PixelSite,
+        site: &PixelSample,
         sampler: &mut S,
         sink: &mut K,
     ) {

@@ -30,7 +30,7 @@ pub const PER_SCATTERING: u32 = 8;
 /// The random numbers of one scattering event, in the order of their dimensions. All of them
 /// are drawn, used or not: that is cheaper than skipping some.
 #[derive(Clone, Copy, Debug)]
-pub struct Event {
+pub struct BounceSamples {
     /// Direction toward a light, or for a light path the aperture position to connect with.
     pub light: Vec2,
     /// The scattered direction.
@@ -43,7 +43,7 @@ pub struct Event {
     pub roulette: f32,
 }
 
-impl Event {
+impl BounceSamples {
     /// The numbers of the event with index `index` (from 0).
     #[inline]
     pub fn draw<S: Sampler>(sampler: &mut S, index: u32) -> Self {

@@ -13,17 +13,17 @@
 //! surface, 0 before the background.
 
 use crate::candidates::{Aim, Candidates};
-use crate::dimensions::Event;
+use crate::dimensions::BounceSamples;
+use crate::light_mis::LightMis;
 use crate::path::camera_ray;
-use crate::prefix::Prefix;
-use crate::rival::Rival;
+use crate::path_throughput::PathThroughput;
 use crate::settings::{LightCandidates, read_max_depth};
 use etalon_params::Params;
 use etalon_sampling::{ReplicateKind, Sampler};
 use etalon_spectrum::{Wavelengths, sensor_response};
 use etalon_transport::{
-    Bsdf, Finding, Integrator, LightSample, Mode, Objection, Pass, PixelSite, Placing, Ray,
-    Receiver, Sight, Sink, Vertex, World,
+    Bsdf, Incompatibility, Integrator, LightSample, LightSampleContext, LightSearch, Pass,
+    PixelSample, Placing, Ray, SceneCapabilities, Sink, SurfaceInteraction, TransportMode, World,
 };
 use glam::{Vec3, Vec4};
 
@@ -94,7 +94,10 @@ impl Direct {
                 } else {
                     Vec4::ZERO
                 };
-                return (Prefix::START.estimate(radiance, Vec4::ZERO), 0.0);
+                return (
+                    PathThroughput::START.contribution(radiance, Vec4::ZERO),
+                    0.0,
+                );
             };
             if visible || !world.is_emitter(&hit) {
                 break hit;
@@ -106,13 +109,13 @@ impl Direct {
         let mut result = Vec4::ZERO;
         if world.is_emitter(&hit) && self.max_depth >= 1 {
             let radiance = world.emitted(&vertex, wo, wavelengths);
-            result += Prefix::START.estimate(radiance, Vec4::ZERO);
+            result += PathThroughput::START.contribution(radiance, Vec4::ZERO);
         }
         if self.max_depth < 2 {
             return (result, 1.0);
         }
         let bsdf = world.bsdf(&vertex, wo, wavelengths);
-        let mut from = Receiver::new(&vertex, wo, &bsdf);
+        let mut from = LightSampleContext::new(&vertex, wo, &bsdf);
         from.combined = self.bsdf_samples > 0;
         let mut event = 0;
         if bsdf.has_continuous() {
@@ -152,22 +155,22 @@ impl Direct {
         &self,
         world: &W,
         wavelengths: &Wavelengths,
-        vertex: &Vertex,
-        from: &Receiver,
+        vertex: &SurfaceInteraction,
+        from: &LightSampleContext,
         bsdf: &W::Bsdf<'_>,
         wo: Vec3,
         sampler: &mut S,
         event: u32,
     ) -> Vec4 {
-        let event = Event::draw(sampler, event);
+        let event = BounceSamples::draw(sampler, event);
         let candidates = Candidates::at(self.light_candidates, world, from);
         let balance = [self.emitter_samples as f32, self.bsdf_samples as f32];
-        let aim = |light: &LightSample| Aim::new(light, &Prefix::START, bsdf, wo, balance);
+        let aim = |light: &LightSample| Aim::new(light, &PathThroughput::START, bsdf, wo, balance);
         let passage = candidates
             .draw(world, from, wavelengths, &event, sampler, aim)
             .and_then(|aim| {
                 let ray = vertex.shadow_ray(aim.direction, aim.target)?;
-                Some((aim, world.passage(&ray, wavelengths, 0)?))
+                Some((aim, world.transmittance(&ray, wavelengths, 0)?))
             });
         passage.map_or(Vec4::ZERO, |(aim, passage)| {
             // Scattering counts what passes straight on as a sample of its own.
@@ -180,32 +183,36 @@ impl Direct {
         &self,
         world: &W,
         wavelengths: &Wavelengths,
-        vertex: &Vertex,
-        from: &Receiver,
+        vertex: &SurfaceInteraction,
+        from: &LightSampleContext,
         bsdf: &W::Bsdf<'_>,
         wo: Vec3,
         sampler: &mut S,
         event: u32,
     ) -> Vec4 {
-        let event = Event::draw(sampler, event);
-        let Some(sample) = bsdf.sample(wo, event.lobe, event.direction, Mode::Radiance) else {
+        let event = BounceSamples::draw(sampler, event);
+        let Some(sample) = bsdf.sample(wo, event.lobe, event.direction, TransportMode::Radiance)
+        else {
             return Vec4::ZERO;
         };
-        let mut path = Prefix::START;
-        let mut rival = Rival::NONE.after(&path, from, &sample);
-        path.extend(sample.value, sample.chance.lanes());
-        path.ratio *= self.bsdf_samples as f32;
-        rival.ratio *= self.emitter_samples as f32;
+        let mut path = PathThroughput::START;
+        let mut light_mis = LightMis::NONE.after(&path, from, &sample);
+        path.scatter(sample.value, sample.chance.lanes());
+        path.r_u *= self.bsdf_samples as f32;
+        light_mis.r_l *= self.emitter_samples as f32;
         let ray = vertex.spawn(sample.wi);
         match world.intersect(&ray) {
             None if world.has_background() => {
                 let radiance = world.background(ray.direction, wavelengths);
-                path.estimate(radiance, rival.at_background(world, ray.direction))
+                path.contribution(radiance, light_mis.pdf_at_background(world, ray.direction))
             }
             Some(hit) if world.is_emitter(&hit) => {
                 let end = world.vertex(&ray, &hit);
                 let radiance = world.emitted(&end, -ray.direction, wavelengths);
-                path.estimate(radiance, rival.at_surface(world, &end, ray.direction))
+                path.contribution(
+                    radiance,
+                    light_mis.pdf_at_surface(world, &end, ray.direction),
+                )
             }
             _ => Vec4::ZERO,
         }
@@ -219,11 +226,11 @@ impl Integrator for Direct {
         ReplicateKind::Blocks
     }
 
-    fn objections(&self, sight: &Sight) -> Vec<Objection> {
-        sight.objections(match (self.emitter_samples, self.bsdf_samples) {
-            (0, _) => Finding::Hitting,
-            (_, 0) => Finding::Choosing,
-            _ => Finding::Either,
+    fn incompatibilities(&self, sight: &SceneCapabilities) -> Vec<Incompatibility> {
+        sight.incompatibilities(match (self.emitter_samples, self.bsdf_samples) {
+            (0, _) => LightSearch::Hitting,
+            (_, 0) => LightSearch::Choosing,
+            _ => LightSearch::Either,
         })
     }
 
@@ -233,7 +240,7 @@ impl Integrator for Direct {
         &self,
         world: &W,
         (): &(),
-        site: &PixelSite,
+        site: &PixelSample,
         sampler: &mut S,
         sink: &mut K,
     ) {

@@ -15,17 +15,17 @@
 //! sums. The N directions at a point are stratified in one coordinate. Rays of later bounces matter
 //! less, so that N is divided at each.
 
-use crate::dimensions::Event;
+use crate::dimensions::BounceSamples;
+use crate::light_mis::LightMis;
 use crate::path::camera_ray;
-use crate::prefix::Prefix;
-use crate::rival::Rival;
+use crate::path_throughput::PathThroughput;
 use crate::settings::PathSettings;
 use etalon_params::Params;
 use etalon_sampling::{ReplicateKind, Sampler};
 use etalon_spectrum::{Wavelengths, sensor_response};
 use etalon_transport::{
-    Bsdf, Chance, Hit, Integrator, Mode, Pass, PixelSite, Placing, Ray, Receiver, Sink, Vertex,
-    World,
+    Bsdf, Hit, Integrator, LightSampleContext, Pass, PixelSample, Placing, Ray, SamplePdf, Sink,
+    SurfaceInteraction, TransportMode, World,
 };
 use glam::{Vec2, Vec3, Vec4};
 
@@ -77,8 +77,8 @@ impl Distribution {
 #[derive(Clone, Copy)]
 struct Branch {
     ray: Ray,
-    prefix: Prefix,
-    rival: Rival,
+    prefix: PathThroughput,
+    light_mis: LightMis,
     /// The product of the indices of refraction passed.
     eta: f32,
     /// Number of segments, that of `ray` included.
@@ -92,7 +92,7 @@ struct Branch {
 /// What a branch found.
 #[derive(Clone, Copy, Default)]
 struct Found {
-    /// Per lane, over the sum of all densities' ratios (see [`Prefix::estimate`]).
+    /// Per lane, over the sum of all densities' ratios (see [`PathThroughput::contribution`]).
     radiance: Vec4,
     /// 1 if it met anything that it did not pass straight, the background included.
     alpha: f32,
@@ -110,7 +110,7 @@ struct Tree<'a, W, S> {
 
 impl<W: World, S: Sampler> Tree<'_, W, S> {
     /// The next surface of a branch; a camera ray looks through hidden lights.
-    fn meet(&self, branch: &mut Branch) -> Option<Hit> {
+    fn shade(&self, branch: &mut Branch) -> Option<Hit> {
         let hidden = self.integrator.settings.hide_emitters && branch.depth == 1;
         loop {
             let hit = self.world.intersect(&branch.ray)?;
@@ -138,13 +138,13 @@ impl<W: World, S: Sampler> Tree<'_, W, S> {
     fn visit(&mut self, mut branch: Branch, found: &mut Found) -> Option<Branch> {
         let (world, settings) = (self.world, self.integrator.settings);
         found.alpha = found.alpha.max(f32::from(!branch.straight));
-        let Some(hit) = self.meet(&mut branch) else {
+        let Some(hit) = self.shade(&mut branch) else {
             let visible = !settings.hide_emitters || !branch.straight;
             if visible && world.has_background() {
                 let direction = branch.ray.direction;
                 let radiance = world.background(direction, &self.wavelengths);
-                let other = branch.rival.at_background(world, direction);
-                found.radiance += branch.prefix.estimate(radiance, other);
+                let other = branch.light_mis.pdf_at_background(world, direction);
+                found.radiance += branch.prefix.contribution(radiance, other);
                 found.alpha = 1.0;
             }
             return None;
@@ -159,14 +159,14 @@ impl<W: World, S: Sampler> Tree<'_, W, S> {
         if emits {
             let radiance = world.emitted(&vertex, wo, &self.wavelengths);
             if radiance != Vec4::ZERO {
-                let other = (branch.rival).at_surface(world, &vertex, branch.ray.direction);
-                found.radiance += branch.prefix.estimate(radiance, other);
+                let other = (branch.light_mis).pdf_at_surface(world, &vertex, branch.ray.direction);
+                found.radiance += branch.prefix.contribution(radiance, other);
             }
         }
         let bsdf = world.bsdf(&vertex, wo, &self.wavelengths);
         if last {
             // Where the path would go on we do not ask; how likely straight on, we know.
-            let stopped = 1.0 - 0.25 * bsdf.passing_probability().element_sum();
+            let stopped = 1.0 - 0.25 * bsdf.null_probability().element_sum();
             found.alpha = found.alpha.max(stopped);
             return None;
         }
@@ -177,7 +177,7 @@ impl<W: World, S: Sampler> Tree<'_, W, S> {
             1
         };
         let share = 1.0 / count as f32;
-        let from = Receiver::new(&vertex, wo, &bsdf).combined();
+        let from = LightSampleContext::new(&vertex, wo, &bsdf).combined();
         let mut alpha = 0.0;
         for number in 0..count {
             let event = self.event(number, count);
@@ -202,8 +202,8 @@ impl<W: World, S: Sampler> Tree<'_, W, S> {
 
     /// The random numbers of sample `number` of `count` at a point. One coordinate of each
     /// direction is stratified; to stratify two in the same order would tie them to each other.
-    fn event(&mut self, number: u32, count: u32) -> Event {
-        let event = Event::draw(self.sampler, self.events);
+    fn event(&mut self, number: u32, count: u32) -> BounceSamples {
+        let event = BounceSamples::draw(self.sampler, self.events);
         self.events += 1;
         if count == 1 {
             return event;
@@ -212,7 +212,7 @@ impl<W: World, S: Sampler> Tree<'_, W, S> {
             let x = (number as f32 + u.x) / count as f32;
             Vec2::new(x.min(1.0 - 0.5 * f32::EPSILON), u.y)
         };
-        Event {
+        BounceSamples {
             light: stratum(event.light),
             direction: stratum(event.direction),
             ..event
@@ -223,18 +223,18 @@ impl<W: World, S: Sampler> Tree<'_, W, S> {
     fn connect(
         &self,
         branch: &Branch,
-        vertex: &Vertex,
-        from: &Receiver,
+        vertex: &SurfaceInteraction,
+        from: &LightSampleContext,
         bsdf: &W::Bsdf<'_>,
         wo: Vec3,
-        event: &Event,
+        event: &BounceSamples,
     ) -> Vec4 {
         let (world, settings) = (self.world, self.integrator.settings);
         let light = world.sample_light(from, &self.wavelengths, event.light_choice, event.light);
         let Some(light) = light else {
             return Vec4::ZERO;
         };
-        let (value, density) = bsdf.eval_and_density(wo, light.direction, Mode::Radiance);
+        let (value, density) = bsdf.eval_and_density(wo, light.direction, TransportMode::Radiance);
         let contribution = value * light.radiance;
         if contribution == Vec4::ZERO {
             return Vec4::ZERO;
@@ -242,52 +242,53 @@ impl<W: World, S: Sampler> Tree<'_, W, S> {
         let crossings = settings.max_depth - branch.depth - 1;
         let passage = vertex
             .shadow_ray(light.direction, light.target)
-            .and_then(|ray| world.passage(&ray, &self.wavelengths, crossings));
+            .and_then(|ray| world.transmittance(&ray, &self.wavelengths, crossings));
         let Some(passage) = passage else {
             return Vec4::ZERO;
         };
         let mut complete = branch.prefix;
-        complete.extend(contribution, light.chance.lanes());
+        complete.scatter(contribution, light.chance.lanes());
         let by_scattering = match light.chance {
             // Scattering never finds a discrete light.
-            Chance::Discrete(_) => Vec4::ZERO,
-            Chance::Continuous(chosen) => branch.prefix.ratio * density.lanes() / chosen.chooser(),
+            SamplePdf::Discrete(_) => Vec4::ZERO,
+            SamplePdf::Continuous(chosen) => branch.prefix.r_u * density.lanes() / chosen.hero(),
         };
-        complete.estimate(passage.transmittance, by_scattering * passage.probability)
+        complete.contribution(passage.transmittance, by_scattering * passage.probability)
     }
 
     /// The branch that leaves a surface.
     fn scatter(
         &self,
         branch: &Branch,
-        vertex: &Vertex,
-        from: &Receiver,
+        vertex: &SurfaceInteraction,
+        from: &LightSampleContext,
         bsdf: &W::Bsdf<'_>,
         wo: Vec3,
-        event: &Event,
+        event: &BounceSamples,
     ) -> Next {
-        let Some(sample) = bsdf.sample(wo, event.lobe, event.direction, Mode::Radiance) else {
+        let Some(sample) = bsdf.sample(wo, event.lobe, event.direction, TransportMode::Radiance)
+        else {
             return Next::Absorbed;
         };
         let mut next = Branch {
             ray: vertex.spawn(sample.wi),
-            rival: branch.rival.after(&branch.prefix, from, &sample),
+            light_mis: branch.light_mis.after(&branch.prefix, from, &sample),
             eta: branch.eta * sample.eta,
             depth: branch.depth + 1,
             bounces: branch.bounces + u32::from(bsdf.has_continuous()),
-            straight: branch.straight && sample.passes,
+            straight: branch.straight && sample.is_null,
             ..*branch
         };
-        next.prefix.extend(sample.value, sample.chance.lanes());
+        next.prefix.scatter(sample.value, sample.chance.lanes());
         let straight = next.straight;
         if branch.depth >= self.integrator.settings.rr_depth {
             let survival = (next.prefix.throughput() * next.eta * next.eta).min(0.95);
             if !(event.roulette < survival) {
                 return Next::Ended { straight };
             }
-            next.prefix.survive(survival);
+            next.prefix.roulette(survival);
         }
-        if next.prefix.value == Vec4::ZERO {
+        if next.prefix.beta == Vec4::ZERO {
             return Next::Ended { straight };
         }
         Next::Branch(next)
@@ -316,7 +317,7 @@ impl Integrator for Distribution {
         &self,
         world: &W,
         (): &(),
-        site: &PixelSite,
+        site: &PixelSample,
         sampler: &mut S,
         sink: &mut K,
     ) {
@@ -331,8 +332,8 @@ impl Integrator for Distribution {
         let found = if self.settings.max_depth > 0 {
             tree.grow(Branch {
                 ray,
-                prefix: Prefix::START,
-                rival: Rival::NONE,
+                prefix: PathThroughput::START,
+                light_mis: LightMis::NONE,
                 eta: 1.0,
                 depth: 1,
                 bounces: 0,

@@ -9,7 +9,7 @@
 //! ```
 //!
 //! with A the aperture's area, θ the angle of arrival, and dx/dω the film's area per solid angle
-//! through that point of the lens ([`etalon_transport::Reception`]). It is `ptracer` without the
+//! through that point of the lens ([`etalon_transport::ApertureHit`]). It is `ptracer` without the
 //! connections, and as slow as one would think: of the particles in a room of surface S a share of
 //! about A/S arrives per bounce. What it has over `ptracer` is that it sees through mirrors and
 //! glass. A pinhole is never hit; asked to render through one, it refuses.
@@ -19,16 +19,16 @@
 //! ray per sample, which also tells alpha. Lights without extent are not seen themselves, as by
 //! any other estimator. With `hide_emitters` the camera looks through lights, as that of `path`.
 
-use crate::particle::Particle;
+use crate::particle::LightPath;
 use crate::path::camera_ray;
-use crate::prefix::Prefix;
+use crate::path_throughput::PathThroughput;
 use crate::settings::PathSettings;
 use etalon_params::Params;
 use etalon_sampling::{ReplicateKind, Sampler};
 use etalon_spectrum::{SensorWeights, Wavelengths, sensor_response};
 use etalon_transport::{
-    Bsdf, Camera, Finding, Integrator, Objection, Pass, PixelSite, Placing, Ray, Sight, Sink,
-    Subject, World,
+    Bsdf, Camera, Incompatibility, Integrator, LightSearch, Pass, PixelSample, Placing, Ray,
+    SceneCapabilities, Sink, Subject, World,
 };
 use glam::Vec4;
 
@@ -67,12 +67,12 @@ impl Forward {
                     1 => world.background(ray.direction, wavelengths),
                     _ => Vec4::ZERO,
                 };
-                return (Prefix::START.estimate(sky, Vec4::ZERO), 1.0);
+                return (PathThroughput::START.contribution(sky, Vec4::ZERO), 1.0);
             };
             let vertex = world.vertex(&ray, &hit);
             if !(hide && depth == 1 && world.is_emitter(&hit)) {
                 let bsdf = world.bsdf(&vertex, -ray.direction, wavelengths);
-                through *= bsdf.passing_probability();
+                through *= bsdf.null_probability();
                 depth += 1;
             }
             if through == Vec4::ZERO {
@@ -105,7 +105,7 @@ impl Forward {
     fn trace<W: World, S: Sampler, K: Sink>(
         &self,
         world: &W,
-        site: &PixelSite,
+        site: &PixelSample,
         (wavelengths, sensor): (&Wavelengths, &SensorWeights),
         sampler: &mut S,
         sink: &mut K,
@@ -115,7 +115,7 @@ impl Forward {
             rr_depth,
             hide_emitters,
         } = self.settings;
-        let Some((start, mut particle)) = Particle::emit(world, wavelengths, sampler) else {
+        let Some((start, mut particle)) = LightPath::emit(world, wavelengths, sampler) else {
             return;
         };
         // Whether the particle has only passed surfaces straight since it left the light, and
@@ -123,13 +123,13 @@ impl Forward {
         let mut straight = true;
         let mut on_light = !start.origin.is_infinite();
         while particle.depth <= max_depth {
-            let Particle { ray, depth, .. } = particle;
+            let LightPath { ray, depth, .. } = particle;
             let extent = start.origin.can_be_hit();
             let sky = start.origin.is_infinite();
             let unseen = straight && (!extent || sky && (depth == 1 || hide_emitters));
             let hidden = hide_emitters && on_light;
             if !(unseen || hidden) {
-                let reception = world.camera().receive(&ray, site.margin);
+                let reception = world.camera().intersect_aperture(&ray, site.margin);
                 if let Some(found) = reception
                     && self.arrives(
                         world,
@@ -140,7 +140,7 @@ impl Forward {
                     )
                 {
                     let weight = Vec4::splat(found.weight);
-                    let value = particle.prefix.estimate(weight, Vec4::ZERO);
+                    let value = particle.prefix.contribution(weight, Vec4::ZERO);
                     let rgb = sensor.rgb(value) / site.pixels as f32;
                     sink.splat(found.raster, rgb.to_array());
                 }
@@ -148,13 +148,13 @@ impl Forward {
             if depth == max_depth {
                 return;
             }
-            let Some(met) = particle.meet(world, sampler) else {
+            let Some(met) = particle.shade(world, sampler) else {
                 return;
             };
             let Some(sample) = particle.scatter(&met, rr_depth) else {
                 return;
             };
-            straight &= sample.passes;
+            straight &= sample.is_null;
             on_light = world.is_emitter(&met.hit);
         }
     }
@@ -173,15 +173,15 @@ impl Integrator for Forward {
         true
     }
 
-    fn objections(&self, sight: &Sight) -> Vec<Objection> {
-        let mut objections = sight.objections(Finding::Choosing);
+    fn incompatibilities(&self, sight: &SceneCapabilities) -> Vec<Incompatibility> {
+        let mut objections = sight.incompatibilities(LightSearch::Choosing);
         objections.extend(sight.unsplattable());
         if !sight.aperture {
             let message = "`forward` waits for particles to hit the aperture of the camera, and \
                            this camera has none";
             let help = "use a `thinlens` with an `aperture_radius` above 0, or `ptracer`, which \
                         connects particles with any camera";
-            objections.push(Objection::fatal(Subject::Camera, message).help(help));
+            objections.push(Incompatibility::fatal(Subject::Camera, message).help(help));
         }
         objections
     }
@@ -192,7 +192,7 @@ impl Integrator for Forward {
         &self,
         world: &W,
         (): &(),
-        site: &PixelSite,
+        site: &PixelSample,
         sampler: &mut S,
         sink: &mut K,
     ) {

@@ -15,7 +15,7 @@ use crate::path::Path;
 use crate::photonmap::PhotonMapper;
 use crate::pssmlt::PrimarySpace;
 use crate::ptracer::ParticleTracer;
-use crate::render::{Outcome, Plan, Progress, render};
+use crate::render::{Progress, RenderPlan, RenderStatistics, render};
 use crate::replay::{Address, Replay, replay};
 use crate::signature::Signature;
 use crate::sppm::Progressive;
@@ -24,7 +24,9 @@ use crate::whitted::Whitted;
 use core::any::Any;
 use etalon_params::{Class, Diagnostics, Node, Params, plugins};
 use etalon_sampling::{ReplicateKind, Sampler};
-use etalon_transport::{Channel, Film, Integrator, Objection, PixelSite, Sight, Sink, World};
+use etalon_transport::{
+    Channel, Film, Incompatibility, Integrator, PixelSample, SceneCapabilities, Sink, World,
+};
 use glam::Vec2;
 
 macro_rules! integrators {
@@ -96,9 +98,9 @@ macro_rules! integrators {
             }
 
             /// What it objects to in a scene.
-            pub fn objections(&self, sight: &Sight) -> Vec<Objection> {
+            pub fn incompatibilities(&self, sight: &SceneCapabilities) -> Vec<Incompatibility> {
                 match self {
-                    $(Self::$variant(integrator) => integrator.objections(sight),)*
+                    $(Self::$variant(integrator) => integrator.incompatibilities(sight),)*
                 }
             }
 
@@ -107,9 +109,9 @@ macro_rules! integrators {
                 &self,
                 world: &W,
                 film: &mut F,
-                plan: &Plan,
+                plan: &RenderPlan,
                 progress: &dyn Progress,
-            ) -> Outcome {
+            ) -> RenderStatistics {
                 match self {
                     $(Self::$variant(integrator) => render(world, integrator, film, plan, progress),)*
                 }
@@ -120,7 +122,7 @@ macro_rules! integrators {
                 &self,
                 world: &W,
                 film: &F,
-                plan: &Plan,
+                plan: &RenderPlan,
                 address: &Address,
             ) -> Replay {
                 match self {
@@ -133,7 +135,7 @@ macro_rules! integrators {
             pub(crate) fn sample_nested<W: World, S: Sampler>(
                 &self,
                 world: &W,
-                site: &PixelSite,
+                site: &PixelSample,
                 sampler: &mut S,
                 sink: &mut dyn Sink,
             ) {
@@ -197,8 +199,11 @@ pub(crate) struct Nested {
 
 impl Nested {
     /// What nested integrators object to.
-    pub(crate) fn objections(nested: &[Self], sight: &Sight) -> Vec<Objection> {
-        let each = nested.iter().map(|n| n.integrator.objections(sight));
+    pub(crate) fn incompatibilities(
+        nested: &[Self],
+        sight: &SceneCapabilities,
+    ) -> Vec<Incompatibility> {
+        let each = nested.iter().map(|n| n.integrator.incompatibilities(sight));
         each.flatten().collect()
     }
 

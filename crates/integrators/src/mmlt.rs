@@ -23,12 +23,15 @@
 use crate::bdpt::Technique;
 use crate::bdpt::single::{Lists, sample};
 use crate::dimensions as dim;
-use crate::metropolis::{ChainSettings, Field, Found, Integrand, Kinds, State};
+use crate::metropolis::{
+    ChainSettings, Contributions, FilmRegion, Integrand, PathLengthPdf, State,
+};
 use crate::settings::PathSettings;
 use etalon_params::Params;
 use etalon_sampling::Sampler;
 use etalon_transport::{
-    Finding, Integrator, Objection, Pass, PixelSite, Placing, Remark, Sight, Sink, World,
+    Incompatibility, Integrator, LightSearch, Pass, PixelSample, Placing, SceneCapabilities, Sink,
+    TraceEvent, World,
 };
 
 /// The numbers that choose the technique and the length: those between the moment and the first
@@ -88,11 +91,11 @@ impl<'w, W: World> Integrand for Techniques<'w, W> {
 
     fn find<S: Sampler>(
         &self,
-        field: &Field,
-        kinds: &Kinds,
+        field: &FilmRegion,
+        kinds: &PathLengthPdf,
         sampler: &mut S,
         lists: &mut Self::Lists,
-        found: &mut Found,
+        found: &mut Contributions,
     ) {
         let Multiplexed { settings, chains } = self.integrator;
         sampler.skip_to(CHOICE);
@@ -107,7 +110,7 @@ impl<'w, W: World> Integrand for Techniques<'w, W> {
             camera: vertices - light,
             weighted: true,
         };
-        (self.world).remark(|| Remark::Technique {
+        (self.world).record(|| TraceEvent::Technique {
             light: technique.light,
             camera: technique.camera,
         });
@@ -119,8 +122,8 @@ impl<'w, W: World> Integrand for Techniques<'w, W> {
     }
 
     #[inline]
-    fn remark(&self, remark: impl FnOnce() -> Remark) -> bool {
-        self.world.remark(remark)
+    fn record(&self, remark: impl FnOnce() -> TraceEvent) -> bool {
+        self.world.record(remark)
     }
 }
 
@@ -133,8 +136,8 @@ impl Integrator for Multiplexed {
         true
     }
 
-    fn objections(&self, sight: &Sight) -> Vec<Objection> {
-        let mut objections = sight.objections(Finding::Either);
+    fn incompatibilities(&self, sight: &SceneCapabilities) -> Vec<Incompatibility> {
+        let mut objections = sight.incompatibilities(LightSearch::Either);
         objections.extend(sight.unsplattable());
         objections
     }
@@ -160,7 +163,7 @@ impl Integrator for Multiplexed {
         &self,
         world: &W,
         state: &State,
-        site: &PixelSite,
+        site: &PixelSample,
         sampler: &mut S,
         sink: &mut K,
     ) {

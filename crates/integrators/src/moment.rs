@@ -18,7 +18,8 @@ use etalon_params::Params;
 use etalon_sampling::{ReplicateKind, Sampler};
 use etalon_spectrum::colour_space::rgb_to_xyz;
 use etalon_transport::{
-    Channel, Integrator, Objection, Pass, PixelSite, Placing, Sight, Sink, World,
+    Channel, Incompatibility, Integrator, Pass, PixelSample, Placing, SceneCapabilities, Sink,
+    World,
 };
 use glam::Vec2;
 
@@ -53,8 +54,8 @@ impl Integrator for Moment {
     }
 
     /// Those of the integrators inside.
-    fn objections(&self, sight: &Sight) -> Vec<Objection> {
-        Nested::objections(&self.nested, sight)
+    fn incompatibilities(&self, sight: &SceneCapabilities) -> Vec<Incompatibility> {
+        Nested::incompatibilities(&self.nested, sight)
     }
 
     fn channels(&self) -> Vec<Channel> {
@@ -78,7 +79,7 @@ impl Integrator for Moment {
         &self,
         world: &W,
         (): &(),
-        site: &PixelSite,
+        site: &PixelSample,
         sampler: &mut S,
         sink: &mut K,
     ) {

@@ -24,9 +24,9 @@
 //! always. The density of a uniform or cosine direction is the same for every wavelength, that of
 //! a discrete one is not; the house's estimator ([`crate::prefix`]) takes one like the other.
 
-use crate::dimensions::Event;
+use crate::dimensions::BounceSamples;
 use crate::path::camera_ray;
-use crate::prefix::Prefix;
+use crate::path_throughput::PathThroughput;
 use crate::settings::PathSettings;
 use core::f32::consts::FRAC_1_PI;
 use etalon_math::Frame;
@@ -35,8 +35,8 @@ use etalon_sampling::warps::{square_to_cosine_hemisphere, square_to_uniform_hemi
 use etalon_sampling::{ReplicateKind, Sampler};
 use etalon_spectrum::{Wavelengths, sensor_response};
 use etalon_transport::{
-    Bsdf, Finding, Integrator, Mode, Objection, Pass, PixelSite, Placing, Ray, Sight, Sink, Vertex,
-    World,
+    Bsdf, Incompatibility, Integrator, LightSearch, Pass, PixelSample, Placing, Ray,
+    SceneCapabilities, Sink, SurfaceInteraction, TransportMode, World,
 };
 use glam::{Vec2, Vec3, Vec4};
 
@@ -64,11 +64,11 @@ pub struct Naive {
 /// A direction in which a path goes on.
 struct Step {
     wi: Vec3,
-    /// What [`Prefix::extend`] takes.
+    /// What [`PathThroughput::extend`] takes.
     value: Vec4,
     chance: Vec4,
     eta: f32,
-    passes: bool,
+    is_null: bool,
 }
 
 /// The largest float below 1: what remains of a uniform number after its use stays below 1.
@@ -89,29 +89,35 @@ impl Naive {
     }
 
     /// Draws the direction in which the path leaves a vertex; `None` if it ends there.
-    fn step(&self, vertex: &Vertex, bsdf: &impl Bsdf, wo: Vec3, event: &Event) -> Option<Step> {
+    fn step(
+        &self,
+        vertex: &SurfaceInteraction,
+        bsdf: &impl Bsdf,
+        wo: Vec3,
+        event: &BounceSamples,
+    ) -> Option<Step> {
         let sampled = |u_lobe: f32| {
-            let sample = bsdf.sample(wo, u_lobe, event.direction, Mode::Radiance)?;
+            let sample = bsdf.sample(wo, u_lobe, event.direction, TransportMode::Radiance)?;
             Some(Step {
                 wi: sample.wi,
                 value: sample.value,
                 chance: sample.chance.lanes(),
                 eta: sample.eta,
-                passes: sample.passes,
+                is_null: sample.is_null,
             })
-            .map(|step| (step, sample.chance.is_discrete()))
+            .map(|step| (step, sample.chance.is_delta()))
         };
         if self.directions == Directions::Bsdf || !bsdf.has_continuous() {
             return sampled(event.lobe).map(|(step, _)| step);
         }
-        let pass = bsdf.passing_probability();
+        let pass = bsdf.null_probability();
         if event.lobe < pass.x {
             return Some(Step {
                 wi: -wo,
-                value: bsdf.passing(),
+                value: bsdf.null_transmittance(),
                 chance: pass,
                 eta: 1.0,
-                passes: true,
+                is_null: true,
             });
         }
         // What remains of the random number is as good as new.
@@ -120,25 +126,31 @@ impl Naive {
         if rest < by_model {
             let (step, discrete) = sampled((rest / by_model).min(BELOW_ONE))?;
             // Passing and continuous directions are found elsewhere.
-            return (discrete && !step.passes).then(|| Step {
+            return (discrete && !step.is_null).then(|| Step {
                 chance: step.chance * by_model * (Vec4::ONE - pass),
                 ..step
             });
         }
         let (wi, density) = self.draw(vertex, bsdf.hemisphere(), wo, event.direction);
-        let value = bsdf.eval(wo, wi, Mode::Radiance);
+        let value = bsdf.eval(wo, wi, TransportMode::Radiance);
         (value != Vec4::ZERO).then(|| Step {
             wi,
             value,
             chance: (Vec4::ONE - pass) * ((1.0 - by_model) * density),
             eta: 1.0,
-            passes: false,
+            is_null: false,
         })
     }
 
     /// A direction on `wo`'s side of `hemisphere`, or else on either side of the surface, with its
     /// density (sr⁻¹).
-    fn draw(&self, vertex: &Vertex, hemisphere: Option<Frame>, wo: Vec3, u: Vec2) -> (Vec3, f32) {
+    fn draw(
+        &self,
+        vertex: &SurfaceInteraction,
+        hemisphere: Option<Frame>,
+        wo: Vec3,
+        u: Vec2,
+    ) -> (Vec3, f32) {
         let (side, u, share) = match hemisphere {
             Some(frame) => (wo.dot(frame.n), u, 1.0),
             None if u.x < 0.5 => (1.0, Vec2::new(2.0 * u.x, u.y), 0.5),
@@ -170,7 +182,7 @@ impl Naive {
             rr_depth,
             hide_emitters,
         } = self.settings;
-        let mut prefix = Prefix::START;
+        let mut prefix = PathThroughput::START;
         let mut radiance = Vec4::ZERO;
         let (mut alpha, mut eta): (f32, f32) = (0.0, 1.0);
         // Number of segments, that of `ray` included.
@@ -180,7 +192,7 @@ impl Naive {
                 // A hidden sky stays hidden to rays that only went straight.
                 if world.has_background() && !(hide_emitters && alpha == 0.0) {
                     let background = world.background(ray.direction, wavelengths);
-                    radiance += prefix.estimate(background, Vec4::ZERO);
+                    radiance += prefix.contribution(background, Vec4::ZERO);
                     alpha = 1.0;
                 }
                 break;
@@ -195,32 +207,32 @@ impl Naive {
             let wo = -ray.direction;
             if emits {
                 let emitted = world.emitted(&vertex, wo, wavelengths);
-                radiance += prefix.estimate(emitted, Vec4::ZERO);
+                radiance += prefix.contribution(emitted, Vec4::ZERO);
             }
             let bsdf = world.bsdf(&vertex, wo, wavelengths);
             if depth == max_depth {
                 // Where the path would go on we do not ask; how likely straight on, we know.
-                alpha = alpha.max(1.0 - 0.25 * bsdf.passing_probability().element_sum());
+                alpha = alpha.max(1.0 - 0.25 * bsdf.null_probability().element_sum());
                 break;
             }
-            let event = Event::draw(sampler, depth - 1);
+            let event = BounceSamples::draw(sampler, depth - 1);
             let step = self.step(&vertex, &bsdf, wo, &event);
-            if !step.as_ref().is_some_and(|step| step.passes) {
+            if !step.as_ref().is_some_and(|step| step.is_null) {
                 alpha = 1.0;
             }
             let Some(step) = step else {
                 break;
             };
-            prefix.extend(step.value, step.chance);
+            prefix.scatter(step.value, step.chance);
             eta *= step.eta;
             if depth >= rr_depth {
                 let survival = (prefix.throughput() * eta * eta).min(0.95);
                 if !(event.roulette < survival) {
                     break;
                 }
-                prefix.survive(survival);
+                prefix.roulette(survival);
             }
-            if prefix.value == Vec4::ZERO {
+            if prefix.beta == Vec4::ZERO {
                 break;
             }
             ray = vertex.spawn(step.wi);
@@ -239,8 +251,8 @@ impl Integrator for Naive {
         ReplicateKind::Blocks
     }
 
-    fn objections(&self, sight: &Sight) -> Vec<Objection> {
-        sight.objections(Finding::Hitting)
+    fn incompatibilities(&self, sight: &SceneCapabilities) -> Vec<Incompatibility> {
+        sight.incompatibilities(LightSearch::Hitting)
     }
 
     fn prepare<W: World>(&self, _: &W, _: &impl Placing, _: &Pass, _: Option<()>) {}
@@ -249,7 +261,7 @@ impl Integrator for Naive {
         &self,
         world: &W,
         (): &(),
-        site: &PixelSite,
+        site: &PixelSample,
         sampler: &mut S,
         sink: &mut K,
     ) {

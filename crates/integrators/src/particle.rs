@@ -3,11 +3,13 @@
 //! What `ptracer` connects with the camera, `forward` waits for, and photon maps keep: they differ
 //! in what they do with a particle, not in how it goes.
 
-use crate::dimensions::{self as dim, Event};
-use crate::prefix::Prefix;
+use crate::dimensions::{self as dim, BounceSamples};
+use crate::path_throughput::PathThroughput;
 use etalon_sampling::Sampler;
 use etalon_spectrum::Wavelengths;
-use etalon_transport::{Bsdf, BsdfSample, Emission, Hit, Mode, Ray, Vertex, World};
+use etalon_transport::{
+    Bsdf, BsdfSample, Emission, Hit, Ray, SurfaceInteraction, TransportMode, World,
+};
 use glam::{Vec3, Vec4};
 
 /// The light's choices come first; scattering events follow at the usual places.
@@ -16,10 +18,10 @@ const EMISSION_DIRECTION: u32 = dim::SCATTERING + 2;
 const EMISSION_LIGHT: u32 = dim::SCATTERING + 4;
 
 /// A particle on its way.
-pub(crate) struct Particle<'a> {
+pub(crate) struct LightPath<'a> {
     wavelengths: &'a Wavelengths,
     /// Its flux over its density, per lane, and how likely each lane's choices were.
-    pub(crate) prefix: Prefix,
+    pub(crate) prefix: PathThroughput,
     /// Where it goes.
     pub(crate) ray: Ray,
     /// Number of segments, that of `ray` included.
@@ -27,17 +29,17 @@ pub(crate) struct Particle<'a> {
 }
 
 /// A surface that a particle met.
-pub(crate) struct Met<B> {
+pub(crate) struct LightVertex<B> {
     pub(crate) hit: Hit,
-    pub(crate) vertex: Vertex,
+    pub(crate) vertex: SurfaceInteraction,
     /// Unit direction to where it came from.
     pub(crate) wo: Vec3,
     pub(crate) bsdf: B,
     /// The numbers that decide what becomes of it here.
-    pub(crate) event: Event,
+    pub(crate) event: BounceSamples,
 }
 
-impl<'a> Particle<'a> {
+impl<'a> LightPath<'a> {
     /// A particle that leaves a light; `None` if nothing is emitted.
     #[inline]
     pub(crate) fn emit<W: World>(
@@ -54,9 +56,9 @@ impl<'a> Particle<'a> {
         let start = world.emit(wavelengths, u_light, u_position, u_direction)?;
         let particle = Self {
             wavelengths,
-            prefix: Prefix {
-                value: start.weight,
-                ..Prefix::START
+            prefix: PathThroughput {
+                beta: start.weight,
+                ..PathThroughput::START
             },
             ray: start.ray,
             depth: 1,
@@ -66,44 +68,48 @@ impl<'a> Particle<'a> {
 
     /// The next surface on its way; `None` if it leaves the scene.
     #[inline]
-    pub(crate) fn meet<'w, W: World>(
+    pub(crate) fn shade<'w, W: World>(
         &self,
         world: &'w W,
         sampler: &mut impl Sampler,
-    ) -> Option<Met<W::Bsdf<'w>>> {
+    ) -> Option<LightVertex<W::Bsdf<'w>>> {
         let hit = world.intersect(&self.ray)?;
         let vertex = world.vertex(&self.ray, &hit);
         let wo = -self.ray.direction;
-        Some(Met {
+        Some(LightVertex {
             hit,
             vertex,
             wo,
             bsdf: world.bsdf(&vertex, wo, self.wavelengths),
-            event: Event::draw(sampler, self.depth),
+            event: BounceSamples::draw(sampler, self.depth),
         })
     }
 
     /// Takes it around the corner; `None` if it ends there. From `rr_depth` segments on it survives
     /// with a probability relative to its flux before: emitted flux has no natural scale.
     #[inline]
-    pub(crate) fn scatter<B: Bsdf>(&mut self, met: &Met<B>, rr_depth: u32) -> Option<BsdfSample> {
-        let Event {
+    pub(crate) fn scatter<B: Bsdf>(
+        &mut self,
+        met: &LightVertex<B>,
+        rr_depth: u32,
+    ) -> Option<BsdfSample> {
+        let BounceSamples {
             lobe,
             direction,
             roulette,
             ..
         } = met.event;
-        let sample = (met.bsdf).sample(met.wo, lobe, direction, Mode::Importance)?;
+        let sample = (met.bsdf).sample(met.wo, lobe, direction, TransportMode::Importance)?;
         let before = self.prefix.throughput();
-        self.prefix.extend(sample.value, sample.chance.lanes());
+        self.prefix.scatter(sample.value, sample.chance.lanes());
         if self.depth >= rr_depth {
             let survival = (self.prefix.throughput() / before).min(0.95);
             if !(roulette < survival) {
                 return None;
             }
-            self.prefix.survive(survival);
+            self.prefix.roulette(survival);
         }
-        if self.prefix.value == Vec4::ZERO {
+        if self.prefix.beta == Vec4::ZERO {
             return None;
         }
         self.ray = met.vertex.spawn(sample.wi);

@@ -18,16 +18,16 @@
 //! Several paths are followed in step: all of them look for their next surface, then all meet it,
 //! then all trace their shadow rays. What one path waits for, another has meanwhile.
 
-use crate::companion::Companion;
 use crate::dimensions as dim;
-use crate::render::TOGETHER;
+use crate::path_hooks::PathHooks;
+use crate::path_state::PathState;
+use crate::render::BATCH_SIZE;
 use crate::settings::{LightCandidates, PathSettings};
-use crate::walk::Walk;
 use etalon_params::Params;
 use etalon_sampling::{ReplicateKind, Sampler};
 use etalon_spectrum::Wavelengths;
 use etalon_transport::{
-    Camera, Draft, Integrator, Pass, PixelSite, Placing, Ray, Sink, TileSink, World,
+    Camera, Integrator, Pass, PixelSample, Placing, Ray, SampleJob, Sink, TileSink, World,
 };
 
 /// The path tracer.
@@ -51,42 +51,42 @@ impl Path {
 
 /// Follows paths to their ends.
 #[inline]
-pub(crate) fn follow<W: World, S: Sampler, C: Companion>(
+pub(crate) fn follow<W: World, S: Sampler, C: PathHooks>(
     world: &W,
     settings: &PathSettings,
-    walks: &mut [Option<Walk<'_, S, C>>],
+    walks: &mut [Option<PathState<'_, S, C>>],
 ) {
-    while walks.iter().flatten().any(Walk::goes_on) {
+    while walks.iter().flatten().any(PathState::goes_on) {
         for walk in walks.iter_mut().flatten().filter(|w| w.goes_on()) {
-            walk.advance(world);
+            walk.intersect(world);
         }
         for walk in walks.iter_mut().flatten().filter(|w| w.goes_on()) {
-            walk.meet(world, settings);
+            walk.shade(world, settings);
         }
         for walk in walks.iter_mut().flatten() {
-            walk.see_light(world);
+            walk.trace_shadow(world);
         }
     }
 }
 
-/// Draws samples by paths that are followed in step, each with a copy of `companion`.
+/// Draws samples by paths that are followed in step, each with a copy of `hooks`.
 #[inline]
-pub(crate) fn follow_drafts<W: World, S: Sampler, K: TileSink, C: Companion + Copy>(
+pub(crate) fn follow_drafts<W: World, S: Sampler, K: TileSink, C: PathHooks + Copy>(
     world: &W,
     settings: &PathSettings,
     candidates: LightCandidates,
-    companion: C,
-    drafts: &mut [Draft<S>],
+    hooks: C,
+    drafts: &mut [SampleJob<S>],
     sink: &mut K,
 ) {
-    for drafts in drafts.chunks_mut(TOGETHER) {
-        let mut places = [None; TOGETHER];
+    for drafts in drafts.chunks_mut(BATCH_SIZE) {
+        let mut places = [None; BATCH_SIZE];
         let mut each = drafts.iter_mut().zip(&mut places);
-        let mut walks: [Option<Walk<'_, S, C>>; TOGETHER] = core::array::from_fn(|_| {
+        let mut walks: [Option<PathState<'_, S, C>>; BATCH_SIZE] = core::array::from_fn(|_| {
             let (draft, place) = each.next()?;
             *place = Some((draft.site.pixel, draft.placement()));
             let sampler = &mut draft.sampler;
-            let walk = Walk::start(world, settings, &draft.site, sampler, companion);
+            let walk = PathState::start(world, settings, &draft.site, sampler, hooks);
             Some(walk.with_candidates(candidates))
         });
         follow(world, settings, &mut walks);
@@ -112,22 +112,22 @@ impl Integrator for Path {
         &self,
         world: &W,
         (): &(),
-        site: &PixelSite,
+        site: &PixelSample,
         sampler: &mut S,
         sink: &mut K,
     ) {
-        let walk = Walk::start(world, &self.settings, site, sampler, ())
+        let walk = PathState::start(world, &self.settings, site, sampler, ())
             .with_candidates(self.light_candidates);
         let mut walks = [Some(walk)];
         follow(world, &self.settings, &mut walks);
         walks.iter().flatten().for_each(|walk| walk.deliver(sink));
     }
 
-    fn sample_all<W: World, S: Sampler, K: TileSink>(
+    fn sample_batch<W: World, S: Sampler, K: TileSink>(
         &self,
         world: &W,
         (): &(),
-        drafts: &mut [Draft<S>],
+        drafts: &mut [SampleJob<S>],
         sink: &mut K,
     ) {
         let candidates = self.light_candidates;
@@ -139,7 +139,7 @@ impl Integrator for Path {
 #[inline]
 pub(crate) fn camera_ray<W: World, S: Sampler>(
     world: &W,
-    site: &PixelSite,
+    site: &PixelSample,
     sampler: &mut S,
 ) -> (Wavelengths, Ray, f32) {
     sampler.skip_to(dim::LENS);

@@ -45,7 +45,7 @@
 //! Every replicate has maps of its own. A given radius stays as it is, so its bias vanishes neither with
 //! samples and replicates nor with photons; that of the k nearest does with more photons.
 
-use crate::photons::gather::{Kernel, Layer, Lookup, Plan, follow_all, follow_one};
+use crate::photons::gather::{GatherConfig, Kernel, KernelLookup, Layer, follow_all, follow_one};
 use crate::photons::radius::{MOST_FOUND, from_pixels, held, read};
 use crate::photons::sets::WavelengthSets;
 use crate::photons::shoot::{Kind, PhotonMap, shoot};
@@ -54,7 +54,8 @@ use crate::settings::PathSettings;
 use etalon_params::Params;
 use etalon_sampling::Sampler;
 use etalon_transport::{
-    Draft, Finding, Integrator, Objection, Pass, PixelSite, Placing, Sight, Sink, TileSink, World,
+    Incompatibility, Integrator, LightSearch, Pass, PixelSample, Placing, SampleJob,
+    SceneCapabilities, Sink, TileSink, World,
 };
 
 /// The photon mapper.
@@ -153,14 +154,14 @@ impl PhotonMapper {
         }
     }
 
-    fn plan<R>(&self, state: &State, with: impl FnOnce(&Plan<'_>) -> R) -> R {
+    fn plan<R>(&self, state: &State, with: impl FnOnce(&GatherConfig<'_>) -> R) -> R {
         let kernel = self.cone.map_or(Kernel::Box, Kernel::Cone);
         let [global_radius, caustic_radius] = state.radii;
         let maps = [
             (self.global, &state.global, global_radius),
             (self.caustic, &state.caustic, caustic_radius),
         ];
-        let [global, caustic] = maps.map(|(estimate, map, radius)| Lookup {
+        let [global, caustic] = maps.map(|(estimate, map, radius)| KernelLookup {
             radius,
             nearest: match estimate.radius {
                 // With fewer photons than are looked for, the farthest of them tells the radius.
@@ -190,7 +191,7 @@ impl PhotonMapper {
                 second: |_| false,
             },
         ];
-        with(&Plan {
+        with(&GatherConfig {
             settings: &self.settings,
             sets: &state.sets,
             layers: &layers,
@@ -211,8 +212,8 @@ impl Integrator for PhotonMapper {
 
     /// Photons come from lights that were chosen; one that can only be hit is seen itself, and nothing that it
     /// shines on.
-    fn objections(&self, sight: &Sight) -> Vec<Objection> {
-        sight.objections(Finding::Choosing)
+    fn incompatibilities(&self, sight: &SceneCapabilities) -> Vec<Incompatibility> {
+        sight.incompatibilities(LightSearch::Choosing)
     }
 
     fn prepare<W: World>(
@@ -275,18 +276,18 @@ impl Integrator for PhotonMapper {
         &self,
         world: &W,
         state: &State,
-        site: &PixelSite,
+        site: &PixelSample,
         sampler: &mut S,
         sink: &mut K,
     ) {
         self.plan(state, |plan| follow_one(world, plan, site, sampler, sink));
     }
 
-    fn sample_all<W: World, S: Sampler, K: TileSink>(
+    fn sample_batch<W: World, S: Sampler, K: TileSink>(
         &self,
         world: &W,
         state: &State,
-        drafts: &mut [Draft<S>],
+        drafts: &mut [SampleJob<S>],
         sink: &mut K,
     ) {
         self.plan(state, |plan| follow_all(world, plan, drafts, sink));

@@ -1,8 +1,8 @@
 //! Where samples lie on a film, for whoever draws them: the film's answers, stratified positions, and the pixels around it.
 
 use crate::render::Progress;
-use etalon_sampling::{PixelSample, SamplerKind, stratified_pair};
-use etalon_transport::{Film, Pass, Placement, Placing};
+use etalon_sampling::{SampleId, SamplerKind, stratified_pair};
+use etalon_transport::{Film, FilmSample, Pass, Placing};
 use glam::{UVec2, Vec2};
 
 /// What is asked before a pass, with somebody who may say stop.
@@ -12,11 +12,11 @@ pub(crate) struct Asked<'a, F> {
 }
 
 impl<F: Film> Placing for Asked<'_, F> {
-    fn place(&self, pixel: UVec2, u: Vec2) -> Placement {
+    fn place(&self, pixel: UVec2, u: Vec2) -> FilmSample {
         self.film.place(pixel, u)
     }
 
-    fn place_alone(&self, pixel: UVec2, u: Vec2) -> Placement {
+    fn place_alone(&self, pixel: UVec2, u: Vec2) -> FilmSample {
         self.film.place_alone(pixel, u)
     }
 
@@ -39,7 +39,7 @@ impl<F: Film> Placing for Asked<'_, F> {
 pub(crate) fn position<P: Placing>(
     film: &P,
     kind: SamplerKind,
-    sample: &PixelSample,
+    sample: &SampleId,
     numbers: Vec2,
 ) -> Vec2 {
     match kind {

@@ -18,13 +18,16 @@
 //! samples.
 
 use crate::dimensions as dim;
-use crate::metropolis::{ChainSettings, Field, Found, Integrand, Kinds, State};
+use crate::metropolis::{
+    ChainSettings, Contributions, FilmRegion, Integrand, PathLengthPdf, State,
+};
+use crate::path_state::PathState;
 use crate::settings::PathSettings;
-use crate::walk::Walk;
 use etalon_params::Params;
 use etalon_sampling::Sampler;
 use etalon_transport::{
-    Finding, Integrator, Objection, Pass, PixelSite, Placing, Remark, Sight, Sink, World,
+    Incompatibility, Integrator, LightSearch, Pass, PixelSample, Placing, SceneCapabilities, Sink,
+    TraceEvent, World,
 };
 
 /// Primary sample space Metropolis light transport.
@@ -63,24 +66,24 @@ impl<W: World> Integrand for Paths<'_, W> {
 
     fn find<S: Sampler>(
         &self,
-        field: &Field,
-        _: &Kinds,
+        field: &FilmRegion,
+        _: &PathLengthPdf,
         sampler: &mut S,
         (): &mut (),
-        found: &mut Found,
+        found: &mut Contributions,
     ) {
         let PrimarySpace { settings, chains } = self.integrator;
         sampler.skip_to(dim::FILM);
         let site = field.site(sampler.next_2d());
-        let mut walk = Walk::start(self.world, settings, &site, sampler, ());
+        let mut walk = PathState::start(self.world, settings, &site, sampler, ());
         let wanted = chains.least_corners()..u32::MAX;
         walk.follow(self.world, settings, &wanted);
         found.add(site.raster, walk.colour() * field.area());
     }
 
     #[inline]
-    fn remark(&self, remark: impl FnOnce() -> Remark) -> bool {
-        self.world.remark(remark)
+    fn record(&self, remark: impl FnOnce() -> TraceEvent) -> bool {
+        self.world.record(remark)
     }
 }
 
@@ -93,8 +96,8 @@ impl Integrator for PrimarySpace {
         true
     }
 
-    fn objections(&self, sight: &Sight) -> Vec<Objection> {
-        let mut objections = sight.objections(Finding::FromCamera);
+    fn incompatibilities(&self, sight: &SceneCapabilities) -> Vec<Incompatibility> {
+        let mut objections = sight.incompatibilities(LightSearch::FromCamera);
         objections.extend(sight.unsplattable());
         objections
     }
@@ -115,7 +118,7 @@ impl Integrator for PrimarySpace {
         &self,
         world: &W,
         state: &State,
-        site: &PixelSite,
+        site: &PixelSample,
         sampler: &mut S,
         sink: &mut K,
     ) {

@@ -15,17 +15,17 @@
 //! stopped, the background included. With `hide_emitters` the camera looks through lights, as that of
 //! `path`. (Mitsuba's lights then still stand in the way of what is behind them.)
 
-use crate::hidden::way_to_camera;
-use crate::particle::{Met, Particle};
+use crate::particle::{LightPath, LightVertex};
 use crate::path::camera_ray;
-use crate::prefix::Prefix;
+use crate::path_throughput::PathThroughput;
 use crate::settings::PathSettings;
+use crate::visibility::camera_visibility;
 use etalon_params::Params;
 use etalon_sampling::{ReplicateKind, Sampler};
 use etalon_spectrum::{SensorWeights, Wavelengths, sensor_response};
 use etalon_transport::{
-    Bsdf, Camera, Finding, Integrator, Mode, Objection, Pass, PixelSite, Placing, Ray, Sight, Sink,
-    World,
+    Bsdf, Camera, Incompatibility, Integrator, LightSearch, Pass, PixelSample, Placing, Ray,
+    SceneCapabilities, Sink, TransportMode, World,
 };
 use glam::{Vec2, Vec4};
 
@@ -53,14 +53,14 @@ impl ParticleTracer {
         wavelengths: &Wavelengths,
     ) -> (Vec4, f32) {
         let visible = !self.settings.hide_emitters;
-        let mut prefix = Prefix::START;
+        let mut prefix = PathThroughput::START;
         let mut radiance = Vec4::ZERO;
         let mut depth = 1;
         while depth <= self.settings.max_depth {
             let Some(hit) = world.intersect(&ray) else {
                 if visible && world.has_background() {
                     let background = world.background(ray.direction, wavelengths);
-                    radiance += prefix.estimate(background, Vec4::ZERO);
+                    radiance += prefix.contribution(background, Vec4::ZERO);
                     return (radiance, 1.0);
                 }
                 break;
@@ -73,24 +73,24 @@ impl ParticleTracer {
                     continue;
                 }
                 let emitted = world.emitted(&vertex, wo, wavelengths);
-                radiance += prefix.estimate(emitted, Vec4::ZERO);
+                radiance += prefix.contribution(emitted, Vec4::ZERO);
             }
-            let passing = world.bsdf(&vertex, wo, wavelengths).passing();
+            let passing = world.bsdf(&vertex, wo, wavelengths).null_transmittance();
             if passing == Vec4::ZERO {
                 return (radiance, 1.0);
             }
-            prefix.value *= passing;
+            prefix.beta *= passing;
             ray = vertex.spawn(ray.direction);
             depth += 1;
         }
-        (radiance, 1.0 - 0.25 * prefix.value.element_sum())
+        (radiance, 1.0 - 0.25 * prefix.beta.element_sum())
     }
 
     /// One particle, splatted wherever the camera sees it scatter.
     fn trace<W: World, S: Sampler, K: Sink>(
         &self,
         world: &W,
-        site: &PixelSite,
+        site: &PixelSample,
         (wavelengths, sensor): (&Wavelengths, &SensorWeights),
         sampler: &mut S,
         sink: &mut K,
@@ -103,12 +103,12 @@ impl ParticleTracer {
         if max_depth < 2 {
             return;
         }
-        let Some((_, mut particle)) = Particle::emit(world, wavelengths, sampler) else {
+        let Some((_, mut particle)) = LightPath::emit(world, wavelengths, sampler) else {
             return;
         };
         // As many segments as its depth lie behind once it has arrived.
         while particle.depth < max_depth {
-            let Some(met) = particle.meet(world, sampler) else {
+            let Some(met) = particle.shade(world, sampler) else {
                 return;
             };
             if met.bsdf.has_continuous() {
@@ -131,14 +131,14 @@ impl ParticleTracer {
         &self,
         world: &W,
         wavelengths: &Wavelengths,
-        site: &PixelSite,
-        prefix: &Prefix,
-        met: &Met<W::Bsdf<'_>>,
+        site: &PixelSample,
+        prefix: &PathThroughput,
+        met: &LightVertex<W::Bsdf<'_>>,
         crossings: u32,
     ) -> Option<(Vec2, Vec4)> {
         let (vertex, lens) = (&met.vertex, met.event.light);
         let connection = (world.camera()).connect(vertex.position, lens, site.margin)?;
-        let value = (met.bsdf).eval(met.wo, connection.direction, Mode::Importance);
+        let value = (met.bsdf).eval(met.wo, connection.direction, TransportMode::Importance);
         if value == Vec4::ZERO {
             return None;
         }
@@ -146,12 +146,12 @@ impl ParticleTracer {
         let ray = Ray::between(origin, connection.target, vertex.time)?;
         let passage = if self.settings.hide_emitters {
             let on_light = world.is_emitter(&met.hit);
-            way_to_camera(world, wavelengths, ray, on_light, crossings)?.passage
+            camera_visibility(world, wavelengths, ray, on_light, crossings)?.passage
         } else {
-            world.passage(&ray, wavelengths, crossings)?
+            world.transmittance(&ray, wavelengths, crossings)?
         };
         let radiance = value * passage.transmittance * connection.weight;
-        Some((connection.raster, prefix.estimate(radiance, Vec4::ZERO)))
+        Some((connection.raster, prefix.contribution(radiance, Vec4::ZERO)))
     }
 }
 
@@ -168,8 +168,8 @@ impl Integrator for ParticleTracer {
         true
     }
 
-    fn objections(&self, sight: &Sight) -> Vec<Objection> {
-        let mut objections = sight.objections(Finding::Choosing);
+    fn incompatibilities(&self, sight: &SceneCapabilities) -> Vec<Incompatibility> {
+        let mut objections = sight.incompatibilities(LightSearch::Choosing);
         objections.extend(sight.unsplattable());
         objections.extend(sight.unconnected());
         objections
@@ -181,7 +181,7 @@ impl Integrator for ParticleTracer {
         &self,
         world: &W,
         (): &(),
-        site: &PixelSite,
+        site: &PixelSample,
         sampler: &mut S,
         sink: &mut K,
     ) {

@@ -8,11 +8,11 @@
 
 use crate::positions::{Asked, around, position};
 use crate::rounds::{Batches, Pace};
-use crate::share::Share;
+use crate::share::ReplicateRange;
 use etalon_sampling::{
-    Independent, PixelSample, ReplicateKind, Sampler, SamplerKind, Sobol, Stratified,
+    Independent, ReplicateKind, SampleId, Sampler, SamplerKind, Sobol, Stratified,
 };
-use etalon_transport::{Draft, Film, Integrator, Pass, PixelSite, World};
+use etalon_transport::{Film, Integrator, Pass, PixelSample, SampleJob, World};
 use glam::UVec2;
 use rayon::prelude::*;
 use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
@@ -24,11 +24,11 @@ pub const TILE: u32 = 16;
 const TILES_PER_THREAD: u32 = 8;
 
 /// How many samples are handed to the integrator at once.
-pub const TOGETHER: usize = 16;
+pub const BATCH_SIZE: usize = 16;
 
 /// How much to render.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Plan {
+pub struct RenderPlan {
     /// The seed of the image.
     pub seed: u64,
     /// Replicates of the image.
@@ -37,17 +37,17 @@ pub struct Plan {
     /// ([`Integrator::replicate_kind`]).
     pub replicate_kind: ReplicateKind,
     /// The replicates that are rendered here; `None` for all of them.
-    pub share: Option<Share>,
+    pub share: Option<ReplicateRange>,
     /// Samples per pixel in each replicate.
     pub samples_per_replicate: u32,
     /// The kind of sampler.
     pub sampler: SamplerKind,
 }
 
-impl Plan {
+impl RenderPlan {
     /// The replicates that are rendered.
-    pub fn share(&self) -> Share {
-        self.share.unwrap_or(Share {
+    pub fn share(&self) -> ReplicateRange {
+        self.share.unwrap_or(ReplicateRange {
             first: 0,
             count: self.replicates,
         })
@@ -62,8 +62,8 @@ impl Plan {
         pixel: UVec2,
         sample: u32,
         dealt: u32,
-    ) -> PixelSample {
-        let within = PixelSample {
+    ) -> SampleId {
+        let within = SampleId {
             seed: self.seed,
             replicate,
             pixel: pixel.into(),
@@ -77,7 +77,7 @@ impl Plan {
 
 /// What happened.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Outcome {
+pub struct RenderStatistics {
     /// Replicates finished; fewer than planned if the render was cancelled.
     pub replicates: u32,
     /// Camera samples (and light paths, for integrators that splat).
@@ -122,9 +122,9 @@ pub fn render<W: World, I: Integrator, F: Film>(
     world: &W,
     integrator: &I,
     film: &mut F,
-    plan: &Plan,
+    plan: &RenderPlan,
     progress: &dyn Progress,
-) -> Outcome {
+) -> RenderStatistics {
     let side = tile_side(film.size(), rayon::current_num_threads());
     let mut run = Run {
         world,
@@ -135,15 +135,15 @@ pub fn render<W: World, I: Integrator, F: Film>(
         rays: AtomicU64::new(0),
         samples: AtomicU64::new(0),
         pace: Pace::default(),
-        batches: Batches::new(TOGETHER),
+        batches: Batches::new(BATCH_SIZE),
         remarks: None,
     };
-    let Share { first, count } = plan.share();
+    let ReplicateRange { first, count } = plan.share();
     let mut before = None;
     let finished = (first..first + count)
         .take_while(|replicate| run.replicate(film, *replicate, &mut before))
         .count();
-    Outcome {
+    RenderStatistics {
         replicates: finished as u32,
         samples: run.samples.into_inner(),
         rays: run.rays.into_inner(),
@@ -156,7 +156,7 @@ struct Run<'a, W, I> {
     world: &'a W,
     integrator: &'a I,
     progress: &'a dyn Progress,
-    plan: &'a Plan,
+    plan: &'a RenderPlan,
     /// Side of a tile (pixels).
     side: u32,
     rays: AtomicU64,
@@ -306,7 +306,7 @@ impl<W: World, I: Integrator, F: Film> Round<'_, '_, W, I, F> {
         &self,
         from: UVec2,
         to: UVec2,
-        start: impl Fn(&PixelSample) -> S,
+        start: impl Fn(&SampleId) -> S,
     ) -> (u64, bool) {
         let Run {
             integrator,
@@ -322,11 +322,11 @@ impl<W: World, I: Integrator, F: Film> Round<'_, '_, W, I, F> {
         let (rim, pixels) = (self.film.rim(), self.film.light_paths());
         let alone = !integrator.splats();
         let mut sink = self.film.tile(from, to, alone);
-        let mut drafts = Vec::with_capacity(TOGETHER);
+        let mut drafts = Vec::with_capacity(BATCH_SIZE);
         let mut drawn = 0;
-        let mut deliver = |drafts: &mut Vec<Draft<S>>| {
+        let mut deliver = |drafts: &mut Vec<SampleJob<S>>| {
             batches.measure(|| {
-                (integrator).sample_all(self.run.world, self.state, drafts, &mut sink);
+                (integrator).sample_batch(self.run.world, self.state, drafts, &mut sink);
             });
             drafts.clear();
         };
@@ -345,7 +345,7 @@ impl<W: World, I: Integrator, F: Film> Round<'_, '_, W, I, F> {
                         let numbers = sampler.next_2d();
                         let numbers = position(self.film, plan.sampler, &address, numbers);
                         let placement = self.film.place(pixel, numbers);
-                        let site = PixelSite {
+                        let site = PixelSample {
                             pixel,
                             raster: placement.raster,
                             margin,
@@ -354,7 +354,7 @@ impl<W: World, I: Integrator, F: Film> Round<'_, '_, W, I, F> {
                             sample: sample - self.begin,
                         };
                         let weight = placement.weight;
-                        drafts.push(Draft {
+                        drafts.push(SampleJob {
                             site,
                             weight,
                             sampler,

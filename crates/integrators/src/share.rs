@@ -2,14 +2,14 @@
 
 /// Some of an image's replicates, each what it would be in a render of all of them.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Share {
+pub struct ReplicateRange {
     /// The first.
     pub first: u32,
     /// How many.
     pub count: u32,
 }
 
-impl Share {
+impl ReplicateRange {
     /// Share `index` of `count`, counted from 0, where `replicates` are dealt in order and as
     /// evenly as they can be; `None` if there is no such share or it would be empty.
     pub fn of(replicates: u32, index: u32, count: u32) -> Option<Self> {
@@ -36,7 +36,8 @@ mod tests {
             for count in (1..=replicates.min(50)).chain([replicates]).take(50) {
                 let mut next = 0;
                 for index in 0..count {
-                    let share = Share::of(replicates, index, count).expect("enough for all");
+                    let share =
+                        ReplicateRange::of(replicates, index, count).expect("enough for all");
                     assert_eq!(share.first, next);
                     assert!([0, 1].contains(&(share.count - replicates / count)));
                     next += share.count;
@@ -44,11 +45,11 @@ mod tests {
                 assert_eq!(next, replicates);
             }
             assert_eq!(
-                Share::of(replicates, 0, replicates.saturating_add(1)).is_none(),
+                ReplicateRange::of(replicates, 0, replicates.saturating_add(1)).is_none(),
                 replicates < u32::MAX
             );
         }
-        assert_eq!(Share::of(4, 2, 2), None);
-        assert_eq!(Share::of(4, 0, 0), None);
+        assert_eq!(ReplicateRange::of(4, 2, 2), None);
+        assert_eq!(ReplicateRange::of(4, 0, 0), None);
     }
 }

@@ -16,7 +16,9 @@
 
 use crate::path::camera_ray;
 use etalon_sampling::{ReplicateKind, Sampler};
-use etalon_transport::{Hit, Integrator, Objection, Pass, PixelSite, Placing, Sight, Sink, World};
+use etalon_transport::{
+    Hit, Incompatibility, Integrator, Pass, PixelSample, Placing, SceneCapabilities, Sink, World,
+};
 
 /// The signature integrator.
 #[derive(Clone, Copy, Debug, Default)]
@@ -58,7 +60,7 @@ impl Integrator for Signature {
     }
 
     /// It asks for no light.
-    fn objections(&self, _: &Sight) -> Vec<Objection> {
+    fn incompatibilities(&self, _: &SceneCapabilities) -> Vec<Incompatibility> {
         Vec::new()
     }
 
@@ -68,7 +70,7 @@ impl Integrator for Signature {
         &self,
         world: &W,
         (): &(),
-        site: &PixelSite,
+        site: &PixelSample,
         sampler: &mut S,
         sink: &mut K,
     ) {

@@ -14,7 +14,7 @@
 //! Direct light is sampled and not left to photons, unless that is asked for. What photons bring is
 //! biased, the more so where illumination bends within the radius or near edges.
 
-use crate::photons::gather::{Kernel, Layer, Lookup, Plan, follow_all, follow_one};
+use crate::photons::gather::{GatherConfig, Kernel, KernelLookup, Layer, follow_all, follow_one};
 use crate::photons::radius::Radius;
 use crate::photons::sets::WavelengthSets;
 use crate::photons::shoot::{Kind, PhotonMap, shoot};
@@ -23,7 +23,8 @@ use crate::settings::PathSettings;
 use etalon_params::Params;
 use etalon_sampling::Sampler;
 use etalon_transport::{
-    Draft, Finding, Integrator, Objection, Pass, PixelSite, Placing, Sight, Sink, TileSink, World,
+    Incompatibility, Integrator, LightSearch, Pass, PixelSample, Placing, SampleJob,
+    SceneCapabilities, Sink, TileSink, World,
 };
 
 /// Stochastic progressive photon mapping.
@@ -78,7 +79,7 @@ impl Progressive {
         }
     }
 
-    fn plan<R>(&self, state: &State, with: impl FnOnce(&Plan<'_>) -> R) -> R {
+    fn plan<R>(&self, state: &State, with: impl FnOnce(&GatherConfig<'_>) -> R) -> R {
         let first: fn(Kind) -> bool = if self.sample_lights {
             |kind| kind != Kind::Direct
         } else {
@@ -86,7 +87,7 @@ impl Progressive {
         };
         let layers = [Layer {
             map: &state.map,
-            lookup: Lookup {
+            lookup: KernelLookup {
                 radius: state.radius,
                 nearest: 0,
                 kernel: Kernel::Box,
@@ -95,7 +96,7 @@ impl Progressive {
             first,
             second: |_| false,
         }];
-        with(&Plan {
+        with(&GatherConfig {
             settings: &self.settings,
             sets: &state.sets,
             layers: &layers,
@@ -110,8 +111,8 @@ impl Integrator for Progressive {
 
     /// Photons come from lights that were chosen; one that can only be hit is seen itself, and nothing that it
     /// shines on.
-    fn objections(&self, sight: &Sight) -> Vec<Objection> {
-        sight.objections(Finding::Choosing)
+    fn incompatibilities(&self, sight: &SceneCapabilities) -> Vec<Incompatibility> {
+        sight.incompatibilities(LightSearch::Choosing)
     }
 
     fn samples_per_pass(&self) -> Option<u32> {
@@ -141,18 +142,18 @@ impl Integrator for Progressive {
         &self,
         world: &W,
         state: &State,
-        site: &PixelSite,
+        site: &PixelSample,
         sampler: &mut S,
         sink: &mut K,
     ) {
         self.plan(state, |plan| follow_one(world, plan, site, sampler, sink));
     }
 
-    fn sample_all<W: World, S: Sampler, K: TileSink>(
+    fn sample_batch<W: World, S: Sampler, K: TileSink>(
         &self,
         world: &W,
         state: &State,
-        drafts: &mut [Draft<S>],
+        drafts: &mut [SampleJob<S>],
         sink: &mut K,
     ) {
         self.plan(state, |plan| follow_all(world, plan, drafts, sink));

@@ -34,8 +34,8 @@ use etalon_params::Params;
 use etalon_sampling::Sampler;
 use etalon_spectrum::Wavelengths;
 use etalon_transport::{
-    Draft, Finding, Integrator, Objection, Pass, PixelSite, Placing, Remark, Sight, Sink, TileSink,
-    World,
+    Incompatibility, Integrator, LightSearch, Pass, PixelSample, Placing, SampleJob,
+    SceneCapabilities, Sink, TileSink, TraceEvent, World,
 };
 
 /// Vertex connection and merging.
@@ -86,11 +86,11 @@ impl ConnectionMerging {
         &'a self,
         world: &W,
         state: &'a State,
-        site: &PixelSite,
+        site: &PixelSample,
         sampler: &mut impl Sampler,
     ) -> Start<'a> {
         let (_, ray, weight) = camera_ray(world, site, sampler);
-        world.remark(|| Remark::Wavelengths(state.wavelengths));
+        world.record(|| TraceEvent::Wavelengths(state.wavelengths));
         Start {
             settings: &self.settings,
             only: None,
@@ -109,11 +109,11 @@ impl Integrator for ConnectionMerging {
         self.connections
     }
 
-    fn objections(&self, sight: &Sight) -> Vec<Objection> {
-        sight.objections(if self.connections {
-            Finding::Either
+    fn incompatibilities(&self, sight: &SceneCapabilities) -> Vec<Incompatibility> {
+        sight.incompatibilities(if self.connections {
+            LightSearch::Either
         } else {
-            Finding::Choosing
+            LightSearch::Choosing
         })
     }
 
@@ -158,7 +158,7 @@ impl Integrator for ConnectionMerging {
         &self,
         world: &W,
         state: &State,
-        site: &PixelSite,
+        site: &PixelSample,
         sampler: &mut S,
         sink: &mut K,
     ) {
@@ -167,11 +167,11 @@ impl Integrator for ConnectionMerging {
         estimate(world, &start, site, sampler, sink, lists);
     }
 
-    fn sample_all<W: World, S: Sampler, K: TileSink>(
+    fn sample_batch<W: World, S: Sampler, K: TileSink>(
         &self,
         world: &W,
         state: &State,
-        drafts: &mut [Draft<S>],
+        drafts: &mut [SampleJob<S>],
         sink: &mut K,
     ) {
         let (mut eye, mut light) = (Vec::new(), Vec::new());

@@ -15,8 +15,8 @@ use etalon_params::Params;
 use etalon_sampling::warps::square_to_cosine_hemisphere;
 use etalon_spectrum::Wavelengths;
 use etalon_transport::{
-    Build, Chance, Emission, EmissionDensity, LightId, LightSample, Origin, Ray, Receiver, Role,
-    SampledPoint, ShapeId, Shapes, SurfacePoint, TextureId, Textures,
+    Build, Emission, EmissionPdf, LightId, LightKind, LightSample, LightSampleContext, Ray,
+    SamplePdf, SampledPoint, ShapeId, Shapes, SpectrumKind, SurfacePoint, TextureId, Textures,
 };
 use glam::{Vec2, Vec3, Vec4};
 
@@ -34,7 +34,7 @@ impl AreaLight {
     pub fn from_params(params: &Params<'_>, shape: ShapeId, build: &mut dyn Build) -> Self {
         Self {
             shape,
-            radiance: build.texture(params, "radiance", Some(1.0), Role::Emission),
+            radiance: build.texture(params, "radiance", Some(1.0), SpectrumKind::Emission),
         }
     }
 
@@ -71,7 +71,7 @@ impl AreaLight {
     pub fn sample(
         &self,
         scene: &(impl Textures + Shapes),
-        from: &Receiver,
+        from: &LightSampleContext,
         wavelengths: &Wavelengths,
         u: Vec2,
     ) -> Option<LightSample> {
@@ -86,9 +86,9 @@ impl AreaLight {
             direction,
             target: Some(point.origin_toward(from.position)),
             radiance: self.emitted(scene, &point, -direction, wavelengths),
-            chance: Chance::Continuous(Density::uniform(density)),
+            chance: SamplePdf::Continuous(Density::uniform(density)),
             cos: -point.normal.dot(direction),
-            origin: Origin::Surface,
+            origin: LightKind::Surface,
             light: LightId::NONE,
         })
     }
@@ -110,12 +110,12 @@ impl AreaLight {
         (density > 0.0).then(|| Emission {
             ray: Ray::new(point.origin_along(direction), direction, 0.0),
             weight: radiance * (core::f32::consts::PI / density),
-            density: EmissionDensity {
+            density: EmissionPdf {
                 origin: density,
                 ray: point.normal.dot(direction).max(0.0) * FRAC_1_PI,
             },
             point,
-            origin: Origin::Surface,
+            origin: LightKind::Surface,
             light: LightId::NONE,
         })
     }
@@ -123,8 +123,8 @@ impl AreaLight {
     /// The densities with which [`AreaLight::emit`] makes a particle leave in a direction whose
     /// angle with the normal has the cosine `cos`.
     #[inline]
-    pub fn emission_density(&self, shapes: &impl Shapes, cos: f32) -> EmissionDensity {
-        EmissionDensity {
+    pub fn emission_density(&self, shapes: &impl Shapes, cos: f32) -> EmissionPdf {
+        EmissionPdf {
             origin: 1.0 / shapes.area(self.shape),
             ray: cos.max(0.0) * FRAC_1_PI,
         }

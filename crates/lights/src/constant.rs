@@ -12,7 +12,7 @@
 //! The first is in proportion to the irradiance. The second has a part without cosine: what receives light
 //! on both sides may scatter it by lobes with normals of their own, whose cosines do not vanish with n·ω.
 
-use crate::Bounds;
+use crate::BoundingSphere;
 use crate::light::anywhere;
 use crate::uniformity::refuse_varying;
 use etalon_math::{Density, Frame, SolidAngle};
@@ -23,8 +23,8 @@ use etalon_sampling::warps::{
 };
 use etalon_spectrum::Wavelengths;
 use etalon_transport::{
-    Build, Chance, Emission, EmissionDensity, LightId, LightSample, Origin, Receiver, Role,
-    TextureId, Textures,
+    Build, Emission, EmissionPdf, LightId, LightKind, LightSample, LightSampleContext, SamplePdf,
+    SpectrumKind, TextureId, Textures,
 };
 use glam::{Vec2, Vec3, Vec4};
 
@@ -40,7 +40,7 @@ impl ConstantLight {
     pub fn from_params(params: &Params<'_>, build: &mut dyn Build) -> Self {
         refuse_varying(params, "radiance");
         Self {
-            radiance: build.texture(params, "radiance", Some(1.0), Role::Emission),
+            radiance: build.texture(params, "radiance", Some(1.0), SpectrumKind::Emission),
         }
     }
 
@@ -52,7 +52,7 @@ impl ConstantLight {
 
     /// Density of the directions of [`ConstantLight::sample`]: see the head of this file.
     #[inline]
-    pub fn density(&self, from: &Receiver, direction: Vec3) -> Density<SolidAngle> {
+    pub fn density(&self, from: &LightSampleContext, direction: Vec3) -> Density<SolidAngle> {
         let cos = from.normal.dot(direction);
         Density::uniform(if from.normal == Vec3::ZERO {
             UNIFORM_SPHERE_DENSITY
@@ -68,7 +68,7 @@ impl ConstantLight {
     pub fn sample(
         &self,
         textures: &impl Textures,
-        from: &Receiver,
+        from: &LightSampleContext,
         wavelengths: &Wavelengths,
         u: Vec2,
     ) -> Option<LightSample> {
@@ -88,13 +88,13 @@ impl ConstantLight {
             }
         };
         let density = self.density(from, direction);
-        (density.chooser() > 0.0).then(|| LightSample {
+        (density.hero() > 0.0).then(|| LightSample {
             direction,
             target: None,
             radiance: self.background(textures, wavelengths),
-            chance: Chance::Continuous(density),
+            chance: SamplePdf::Continuous(density),
             cos: 1.0,
-            origin: Origin::Sky,
+            origin: LightKind::Sky,
             light: LightId::NONE,
         })
     }
@@ -104,7 +104,7 @@ impl ConstantLight {
     pub fn emit(
         &self,
         textures: &impl Textures,
-        bounds: &Bounds,
+        bounds: &BoundingSphere,
         wavelengths: &Wavelengths,
         u_position: Vec2,
         u_direction: Vec2,
@@ -116,17 +116,17 @@ impl ConstantLight {
             point: Emission::point_of(&ray),
             ray,
             weight: self.background(textures, wavelengths) * factor,
-            density: EmissionDensity {
+            density: EmissionPdf {
                 origin: UNIFORM_SPHERE_DENSITY,
                 ray: bounds.ray_density(),
             },
-            origin: Origin::Sky,
+            origin: LightKind::Sky,
             light: LightId::NONE,
         }
     }
 
     /// Power that enters the scene, averaged over the wavelengths (W·nm⁻¹).
-    pub fn power(&self, textures: &impl Textures, bounds: &Bounds) -> f64 {
+    pub fn power(&self, textures: &impl Textures, bounds: &BoundingSphere) -> f64 {
         4.0 * core::f64::consts::PI
             * bounds.cross_section()
             * f64::from(textures.mean(self.radiance))

@@ -1,16 +1,16 @@
 //! `directional`: parallel light from infinity with the irradiance E⊥(λ) on a surface that faces
 //! it. Its power is that on the scene's cross-section, Φ = E⊥ π r².
 
-use crate::Bounds;
+use crate::BoundingSphere;
 use crate::light::anywhere;
 use crate::pose::Pose;
 use crate::uniformity::refuse_varying;
-use etalon_math::Atom;
+use etalon_math::DeltaProbability;
 use etalon_params::Params;
 use etalon_spectrum::Wavelengths;
 use etalon_transport::{
-    Build, Chance, Emission, EmissionDensity, LightId, LightSample, Origin, Role, TextureId,
-    Textures,
+    Build, Emission, EmissionPdf, LightId, LightKind, LightSample, SamplePdf, SpectrumKind,
+    TextureId, Textures,
 };
 use glam::{Vec2, Vec3, Vec4};
 
@@ -27,7 +27,7 @@ impl DirectionalLight {
     /// Reads `irradiance`, and `direction` or `to_world` (whose +z is where the light goes).
     pub fn from_params(params: &Params<'_>, build: &mut dyn Build) -> Option<Self> {
         refuse_varying(params, "irradiance");
-        let irradiance = build.texture(params, "irradiance", Some(1.0), Role::Emission);
+        let irradiance = build.texture(params, "irradiance", Some(1.0), SpectrumKind::Emission);
         let direction = match params.vector("direction") {
             Some(direction) => {
                 if params.property("to_world").is_some() {
@@ -60,9 +60,9 @@ impl DirectionalLight {
             direction: -self.direction,
             target: None,
             radiance: self.spectrum(textures, wavelengths),
-            chance: Chance::Discrete(Atom::uniform(1.0)),
+            chance: SamplePdf::Discrete(DeltaProbability::uniform(1.0)),
             cos: 1.0,
-            origin: Origin::Parallel,
+            origin: LightKind::Parallel,
             light: LightId::NONE,
         }
     }
@@ -72,7 +72,7 @@ impl DirectionalLight {
     pub fn emit(
         &self,
         textures: &impl Textures,
-        bounds: &Bounds,
+        bounds: &BoundingSphere,
         wavelengths: &Wavelengths,
         u: Vec2,
     ) -> Emission {
@@ -81,17 +81,17 @@ impl DirectionalLight {
             point: Emission::point_of(&ray),
             ray,
             weight: self.spectrum(textures, wavelengths) * bounds.cross_section() as f32,
-            density: EmissionDensity {
+            density: EmissionPdf {
                 origin: 1.0,
                 ray: bounds.ray_density(),
             },
-            origin: Origin::Parallel,
+            origin: LightKind::Parallel,
             light: LightId::NONE,
         }
     }
 
     /// Power that enters the scene, averaged over the wavelengths (W·nm⁻¹).
-    pub fn power(&self, textures: &impl Textures, bounds: &Bounds) -> f64 {
+    pub fn power(&self, textures: &impl Textures, bounds: &BoundingSphere) -> f64 {
         bounds.cross_section() * f64::from(textures.mean(self.irradiance))
     }
 }

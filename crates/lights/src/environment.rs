@@ -18,14 +18,14 @@
 
 use crate::latitude_longitude as map;
 use crate::pose::Pose;
-use crate::{Bounds, latitude_longitude};
+use crate::{BoundingSphere, latitude_longitude};
 use etalon_images::raster;
 use etalon_math::{Density, SolidAngle, float64};
 use etalon_params::{Diagnostic, Params};
 use etalon_sampling::discrete::Bilinear;
 use etalon_spectrum::{Regular, RgbCoefficients, Spectrum, Wavelengths, illuminants};
 use etalon_transport::{
-    Build, Chance, Emission, EmissionDensity, LightId, LightSample, Origin, Receiver,
+    Build, Emission, EmissionPdf, LightId, LightKind, LightSample, LightSampleContext, SamplePdf,
 };
 use glam::{UVec2, Vec2, Vec3, Vec4};
 use std::path::Path;
@@ -249,7 +249,7 @@ impl EnvironmentMap {
 
     /// The distribution of directions from which `from` asks.
     #[inline]
-    fn toward(&self, from: &Receiver) -> Option<&Bilinear> {
+    fn toward(&self, from: &LightSampleContext) -> Option<&Bilinear> {
         let Tables { combined, alone } = &self.tables;
         if from.combined { combined } else { alone }.as_deref()
     }
@@ -257,7 +257,7 @@ impl EnvironmentMap {
     /// Density of the directions of [`EnvironmentMap::sample`]; zero at the very poles, which
     /// are never sampled.
     #[inline]
-    pub fn density(&self, from: &Receiver, direction: Vec3) -> Density<SolidAngle> {
+    pub fn density(&self, from: &LightSampleContext, direction: Vec3) -> Density<SolidAngle> {
         Density::uniform(self.density_of(self.toward(from), direction))
     }
 
@@ -294,7 +294,7 @@ impl EnvironmentMap {
     #[inline]
     pub fn sample(
         &self,
-        from: &Receiver,
+        from: &LightSampleContext,
         wavelengths: &Wavelengths,
         u: Vec2,
     ) -> Option<LightSample> {
@@ -303,9 +303,9 @@ impl EnvironmentMap {
             direction,
             target: None,
             radiance: self.radiance(place, wavelengths),
-            chance: Chance::Continuous(Density::uniform(density)),
+            chance: SamplePdf::Continuous(Density::uniform(density)),
             cos: 1.0,
-            origin: Origin::Sky,
+            origin: LightKind::Sky,
             light: LightId::NONE,
         })
     }
@@ -314,7 +314,7 @@ impl EnvironmentMap {
     #[inline]
     pub fn emit(
         &self,
-        bounds: &Bounds,
+        bounds: &BoundingSphere,
         wavelengths: &Wavelengths,
         u_position: Vec2,
         u_direction: Vec2,
@@ -326,17 +326,17 @@ impl EnvironmentMap {
             point: Emission::point_of(&ray),
             ray,
             weight: self.radiance(place, wavelengths) * factor,
-            density: EmissionDensity {
+            density: EmissionPdf {
                 origin: density,
                 ray: bounds.ray_density(),
             },
-            origin: Origin::Sky,
+            origin: LightKind::Sky,
             light: LightId::NONE,
         })
     }
 
     /// Power that enters the scene, averaged over the wavelengths (W·nm⁻¹).
-    pub fn power(&self, bounds: &Bounds) -> f64 {
+    pub fn power(&self, bounds: &BoundingSphere) -> f64 {
         4.0 * core::f64::consts::PI * bounds.cross_section() * self.mean
     }
 }

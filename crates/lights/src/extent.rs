@@ -16,7 +16,7 @@
 //! not folded to that side, and I = 0 where θᵢ′ is beyond a right angle.
 
 use etalon_math::DirectionCone;
-use etalon_transport::Receiver;
+use etalon_transport::LightSampleContext;
 use glam::{DVec3, Vec3};
 
 /// What encloses lights, in double precision, for building.
@@ -68,7 +68,7 @@ impl LightExtent {
 
 /// The same in single precision, for asking.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Promise {
+pub struct LightBounds {
     centre: Vec3,
     /// r².
     radius_squared: f32,
@@ -97,7 +97,7 @@ fn sine(cosine: f32) -> f32 {
     (1.0 - cosine * cosine).max(0.0).sqrt()
 }
 
-impl Promise {
+impl LightBounds {
     /// What lights within `extent`, taken `weight` times, promise.
     pub fn new(extent: &LightExtent) -> Self {
         let half = 0.5 * (extent.high - extent.low);
@@ -119,7 +119,7 @@ impl Promise {
 
     /// I(x, n): not below 0, and 0 only where nothing arrives.
     #[inline]
-    pub fn at(&self, from: &Receiver) -> f32 {
+    pub fn at(&self, from: &LightSampleContext) -> f32 {
         let to_centre = self.centre - from.position;
         let squared = to_centre.length_squared();
         if squared <= self.radius_squared {
@@ -147,7 +147,7 @@ impl Promise {
         if from.normal != Vec3::ZERO {
             let cos = from.normal.dot(direction).clamp(-1.0, 1.0);
             let cos = if from.one_sided { cos } else { cos.abs() };
-            promise *= Receiver::counted(less([cos, sine(cos)], sphere)[0]);
+            promise *= LightSampleContext::counted(less([cos, sine(cos)], sphere)[0]);
         }
         promise
     }

@@ -12,9 +12,9 @@
 //! second half is for what the estimate does not know: what is in the way, and where a sky is bright. No light
 //! that reaches the receiver is chosen much less often than among equals.
 
-use crate::extent::{LightExtent, Promise};
-use crate::selector::{Candidate, LightChoice, LightChooser};
-use etalon_transport::{LightId, Receiver};
+use crate::extent::{LightBounds, LightExtent};
+use crate::light_sampler::{Candidate, LightChoice, LightSamplerKind};
+use etalon_transport::{LightId, LightSampleContext};
 use glam::Vec3;
 
 /// The least share of the strongest light's power that a light is taken to have, so that its irradiance
@@ -37,7 +37,7 @@ struct One {
 /// What may be expected of a light.
 #[derive(Clone, Copy, Debug)]
 enum Expected {
-    Near(Promise),
+    Near(LightBounds),
     /// The same irradiance for all receivers.
     Sky(f32),
     /// Irradiance on a surface that faces the light, and where the light is.
@@ -46,7 +46,7 @@ enum Expected {
 
 impl Expected {
     #[inline]
-    fn at(&self, from: &Receiver) -> f32 {
+    fn at(&self, from: &LightSampleContext) -> f32 {
         match self {
             Self::Near(promise) => promise.at(from),
             Self::Sky(irradiance) => *irradiance,
@@ -57,14 +57,14 @@ impl Expected {
 
 impl FewLights {
     /// Those of `lights`, in the order of their ids, that have any power and weight; `None` if there is
-    /// nothing to choose, or if they are more than [`LightChooser::FEW`].
+    /// nothing to choose, or if they are more than [`LightSamplerKind::FEW`].
     pub fn new(lights: &[Candidate]) -> Option<Self> {
         let strongest = lights.iter().map(|l| l.power).fold(0.0, f64::max);
         let heaviest = lights.iter().map(|l| l.weight).fold(0.0, f64::max);
         let one = |(index, light): (usize, &Candidate)| {
             let power = (light.power / strongest).max(LEAST);
             let expected = match (light.extent, light.far) {
-                (Some(extent), _) => Expected::Near(Promise::new(&LightExtent {
+                (Some(extent), _) => Expected::Near(LightBounds::new(&LightExtent {
                     power: power / extent.orientation_measure().max(LEAST),
                     ..extent
                 })),
@@ -83,15 +83,15 @@ impl FewLights {
             })
         };
         let lights: Vec<One> = lights.iter().enumerate().filter_map(one).collect();
-        (2..=LightChooser::FEW)
+        (2..=LightSamplerKind::FEW)
             .contains(&lights.len())
             .then_some(Self { lights })
     }
 
     /// The probability of each light, in the order in which they are kept; zeros if none reaches `from`.
     #[inline]
-    fn shares(&self, from: &Receiver) -> [f32; LightChooser::FEW] {
-        let mut shares = [0.0; LightChooser::FEW];
+    fn shares(&self, from: &LightSampleContext) -> [f32; LightSamplerKind::FEW] {
+        let mut shares = [0.0; LightSamplerKind::FEW];
         let (mut expected, mut weights) = (0.0, 0.0);
         for (share, one) in shares.iter_mut().zip(&self.lights) {
             *share = one.weight * one.expected.at(from);
@@ -113,7 +113,7 @@ impl FewLights {
 
     /// Chooses a light for `from`; `None` if none reaches it.
     #[inline]
-    pub fn choose(&self, from: &Receiver, mut u: f32) -> Option<LightChoice> {
+    pub fn choose(&self, from: &LightSampleContext, mut u: f32) -> Option<LightChoice> {
         let mut choice = None;
         for (&probability, one) in self.shares(from).iter().zip(&self.lights) {
             if probability > 0.0 {
@@ -133,7 +133,7 @@ impl FewLights {
 
     /// The probability with which [`FewLights::choose`] chooses `light` for `from`.
     #[inline]
-    pub fn probability(&self, from: &Receiver, light: LightId) -> f32 {
+    pub fn probability(&self, from: &LightSampleContext, light: LightId) -> f32 {
         let at = self.lights.iter().position(|one| one.light == light);
         at.map_or(0.0, |at| self.shares(from)[at])
     }

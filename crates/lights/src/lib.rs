@@ -1,7 +1,7 @@
 //! Light sources: each can be hit, sampled and made to emit.
 //!
 //! A [`Light`] is one source as described. A [`LightSet`] is all of a scene's lights made ready:
-//! it knows how large the scene is, how much each light emits, and which light to choose ([`LightChooser`]). It is
+//! it knows how large the scene is, how much each light emits, and which light to choose ([`LightSamplerKind`]). It is
 //! what [`etalon_transport::World`]'s questions about light are forwarded to.
 //!
 //! | light | what its quantity is |
@@ -12,7 +12,7 @@
 //! | `constant`, `envmap` | radiance from infinity, W·m⁻²·sr⁻¹·nm⁻¹ |
 
 pub mod area;
-pub mod bounds;
+pub mod bounding_sphere;
 pub mod constant;
 pub mod directional;
 pub mod environment;
@@ -20,24 +20,24 @@ pub mod extent;
 pub mod few;
 pub mod latitude_longitude;
 pub mod light;
+pub mod light_sampler;
 pub mod point;
 pub mod pose;
-pub mod selector;
 pub mod set;
 pub mod spot;
 pub mod tree;
 mod uniformity;
 
 pub use area::AreaLight;
-pub use bounds::Bounds;
+pub use bounding_sphere::BoundingSphere;
 pub use constant::ConstantLight;
 pub use directional::DirectionalLight;
 pub use environment::EnvironmentMap;
-pub use extent::{LightExtent, Promise};
+pub use extent::{LightBounds, LightExtent};
 pub use few::FewLights;
 pub use light::{Light, LightDescription};
+pub use light_sampler::{Candidate, Far, LightChoice, LightSampler, LightSamplerKind};
 pub use point::PointLight;
-pub use selector::{Candidate, Far, LightChoice, LightChooser, LightSelector};
 pub use set::LightSet;
 pub use spot::SpotLight;
 pub use tree::LightTree;

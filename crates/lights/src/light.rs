@@ -1,16 +1,16 @@
 //! The list of lights, and how each is read.
 
 use crate::{
-    AreaLight, Bounds, ConstantLight, DirectionalLight, EnvironmentMap, LightExtent, PointLight,
-    SpotLight,
+    AreaLight, BoundingSphere, ConstantLight, DirectionalLight, EnvironmentMap, LightExtent,
+    PointLight, SpotLight,
 };
 use etalon_math::{Density, DirectionCone, SolidAngle};
 use etalon_params::{Class, Diagnostic, Params, plugins};
 use etalon_sampling::warps::UNIFORM_SPHERE_DENSITY;
 use etalon_spectrum::Wavelengths;
 use etalon_transport::{
-    Build, Emission, EmissionDensity, LightSample, Receiver, ShapeId, Shapes, SurfacePoint,
-    TexturePoint, Textures, Vertex,
+    Build, Emission, EmissionPdf, LightSample, LightSampleContext, ShapeId, Shapes,
+    SurfaceInteraction, SurfacePoint, TexturePoint, Textures,
 };
 use glam::{Vec2, Vec3, Vec4};
 
@@ -115,7 +115,7 @@ impl Light {
     pub fn emitted(
         &self,
         textures: &impl Textures,
-        vertex: &Vertex,
+        vertex: &SurfaceInteraction,
         wo: Vec3,
         wavelengths: &Wavelengths,
     ) -> Vec4 {
@@ -147,7 +147,7 @@ impl Light {
     pub fn sample(
         &self,
         scene: &(impl Textures + Shapes),
-        from: &Receiver,
+        from: &LightSampleContext,
         wavelengths: &Wavelengths,
         u: Vec2,
     ) -> Option<LightSample> {
@@ -163,7 +163,7 @@ impl Light {
 
     /// Whether all its samples bring `from` the same irradiance if nothing is in the way.
     #[inline]
-    pub fn is_even(&self, from: &Receiver) -> bool {
+    pub fn is_even(&self, from: &LightSampleContext) -> bool {
         match self {
             Self::Point(_) | Self::Spot(_) | Self::Directional(_) => true,
             // Of what receives on both sides it is a part, and the best there is.
@@ -177,7 +177,7 @@ impl Light {
     pub fn density(
         &self,
         shapes: &impl Shapes,
-        from: &Receiver,
+        from: &LightSampleContext,
         at: &SurfacePoint,
     ) -> Density<SolidAngle> {
         match self {
@@ -188,7 +188,11 @@ impl Light {
 
     /// The density with which [`Light::sample`] from `from` finds the background in `direction`.
     #[inline]
-    pub fn background_density(&self, from: &Receiver, direction: Vec3) -> Density<SolidAngle> {
+    pub fn background_density(
+        &self,
+        from: &LightSampleContext,
+        direction: Vec3,
+    ) -> Density<SolidAngle> {
         match self {
             Self::Constant(light) => light.density(from, direction),
             Self::Environment(light) => light.density(from, direction),
@@ -202,10 +206,10 @@ impl Light {
     pub fn emission_density(
         &self,
         shapes: &impl Shapes,
-        bounds: &Bounds,
+        bounds: &BoundingSphere,
         direction: Vec3,
         cos: f32,
-    ) -> EmissionDensity {
+    ) -> EmissionPdf {
         let (origin, ray) = match self {
             Self::Area(light) => return light.emission_density(shapes, cos),
             Self::Point(light) => (1.0, light.direction_density()),
@@ -214,7 +218,7 @@ impl Light {
             Self::Constant(_) => (UNIFORM_SPHERE_DENSITY, bounds.ray_density()),
             Self::Environment(light) => (light.emission_density(-direction), bounds.ray_density()),
         };
-        EmissionDensity { origin, ray }
+        EmissionPdf { origin, ray }
     }
 
     /// A particle, as if this were the only light.
@@ -222,7 +226,7 @@ impl Light {
     pub fn emit(
         &self,
         scene: &(impl Textures + Shapes),
-        bounds: &Bounds,
+        bounds: &BoundingSphere,
         wavelengths: &Wavelengths,
         u_position: Vec2,
         u_direction: Vec2,
@@ -259,7 +263,7 @@ impl Light {
 
     /// Emitted power (lights at infinity: what enters the scene), averaged over the wavelengths
     /// (W·nm⁻¹). Exact unless a texture's mean stands for the texture.
-    pub fn power(&self, scene: &(impl Textures + Shapes), bounds: &Bounds) -> f64 {
+    pub fn power(&self, scene: &(impl Textures + Shapes), bounds: &BoundingSphere) -> f64 {
         match self {
             Self::Area(light) => light.power(scene),
             Self::Point(light) => light.power(scene),

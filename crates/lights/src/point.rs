@@ -6,13 +6,13 @@
 
 use crate::light::anywhere;
 use crate::uniformity::refuse_varying;
-use etalon_math::Atom;
+use etalon_math::DeltaProbability;
 use etalon_params::Params;
 use etalon_sampling::warps::{UNIFORM_SPHERE_DENSITY, square_to_uniform_sphere};
 use etalon_spectrum::Wavelengths;
 use etalon_transport::{
-    Build, Chance, Emission, EmissionDensity, LightId, LightSample, Origin, Ray, Role, TextureId,
-    Textures,
+    Build, Emission, EmissionPdf, LightId, LightKind, LightSample, Ray, SamplePdf, SpectrumKind,
+    TextureId, Textures,
 };
 use glam::{Vec2, Vec3};
 
@@ -29,7 +29,7 @@ impl PointLight {
     /// Reads `position` or `to_world`, and `intensity`.
     pub fn from_params(params: &Params<'_>, build: &mut dyn Build) -> Option<Self> {
         refuse_varying(params, "intensity");
-        let intensity = build.texture(params, "intensity", Some(1.0), Role::Emission);
+        let intensity = build.texture(params, "intensity", Some(1.0), SpectrumKind::Emission);
         let translation = params.transform("to_world").w_axis.truncate();
         let position = params.vector("position");
         if position.is_some() && params.has("to_world") {
@@ -61,9 +61,9 @@ impl PointLight {
             direction: to_light.try_normalize()?,
             target: Some(self.position),
             radiance: intensity / distance_squared,
-            chance: Chance::Discrete(Atom::uniform(1.0)),
+            chance: SamplePdf::Discrete(DeltaProbability::uniform(1.0)),
             cos: 1.0,
-            origin: Origin::Point,
+            origin: LightKind::Point,
             light: LightId::NONE,
         })
     }
@@ -78,11 +78,11 @@ impl PointLight {
             point: Emission::point_of(&ray),
             ray,
             weight: intensity / UNIFORM_SPHERE_DENSITY,
-            density: EmissionDensity {
+            density: EmissionPdf {
                 origin: 1.0,
                 ray: self.direction_density(),
             },
-            origin: Origin::Point,
+            origin: LightKind::Point,
             light: LightId::NONE,
         }
     }

@@ -1,11 +1,13 @@
 //! All lights of a scene.
 
-use crate::{Bounds, Candidate, Far, Light, LightChooser, LightDescription, LightSelector};
-use etalon_math::{Atom, Density, SolidAngle};
+use crate::{
+    BoundingSphere, Candidate, Far, Light, LightDescription, LightSampler, LightSamplerKind,
+};
+use etalon_math::{DeltaProbability, Density, SolidAngle};
 use etalon_spectrum::Wavelengths;
 use etalon_transport::{
-    Chance, Emission, EmissionDensity, LightCount, LightId, LightSample, LightVariety, Origin,
-    Receiver, Shapes, SurfacePoint, Textures, Vertex,
+    Emission, EmissionPdf, LightCount, LightId, LightKind, LightSample, LightSampleContext,
+    LightVariety, SamplePdf, Shapes, SurfaceInteraction, SurfacePoint, Textures,
 };
 use glam::{Vec2, Vec3, Vec4};
 
@@ -17,20 +19,20 @@ pub struct LightSet {
     /// The lights that rays see at infinity.
     backgrounds: Vec<LightId>,
     powers: Vec<f64>,
-    selector: LightSelector,
+    selector: LightSampler,
     /// The only light that is ever chosen.
     lone: Option<LightId>,
-    bounds: Bounds,
+    bounds: BoundingSphere,
 }
 
 impl LightSet {
-    /// Lights in the order of their ids, for a scene within `bounds`; `chooser` says which one a point
+    /// Lights in the order of their ids, for a scene within `bounds`; `hero` says which one a point
     /// asks.
     pub fn new(
         descriptions: Vec<LightDescription>,
         scene: &(impl Textures + Shapes),
-        bounds: Bounds,
-        chooser: LightChooser,
+        bounds: BoundingSphere,
+        hero: LightSamplerKind,
     ) -> Self {
         let (lights, weights): (Vec<Light>, Vec<f64>) = descriptions
             .into_iter()
@@ -52,7 +54,7 @@ impl LightSet {
                 },
             })
             .collect();
-        let selector = LightSelector::new(&candidates, chooser);
+        let selector = LightSampler::new(&candidates, hero);
         let mut chosen = (0..lights.len() as u32)
             .map(LightId)
             .filter(|&light| selector.probability_to_emit(light) > 0.0);
@@ -89,7 +91,7 @@ impl LightSet {
     }
 
     /// Which light to ask.
-    pub fn selector(&self) -> &LightSelector {
+    pub fn selector(&self) -> &LightSampler {
         &self.selector
     }
 
@@ -117,7 +119,7 @@ impl LightSet {
     pub fn emitted(
         &self,
         textures: &impl Textures,
-        vertex: &Vertex,
+        vertex: &SurfaceInteraction,
         wo: Vec3,
         wavelengths: &Wavelengths,
     ) -> Vec4 {
@@ -152,7 +154,7 @@ impl LightSet {
     pub fn sample(
         &self,
         scene: &(impl Textures + Shapes),
-        from: &Receiver,
+        from: &LightSampleContext,
         wavelengths: &Wavelengths,
         u_light: f32,
         u: Vec2,
@@ -163,21 +165,21 @@ impl LightSet {
         match &mut sample.chance {
             // Several skies seen in one direction are one technique: whichever chose the
             // direction, a ray that goes there sees all of them.
-            Chance::Continuous(density)
+            SamplePdf::Continuous(density)
                 if self.backgrounds.len() > 1 && sample.target.is_none() =>
             {
                 sample.radiance = self.background(scene, sample.direction, wavelengths);
                 *density = self.background_density(from, sample.direction);
             }
-            Chance::Continuous(density) => *density = *density * choice.probability,
-            Chance::Discrete(Atom(p)) => *p *= choice.probability,
+            SamplePdf::Continuous(density) => *density = *density * choice.probability,
+            SamplePdf::Discrete(DeltaProbability(p)) => *p *= choice.probability,
         }
         Some(sample)
     }
 
     /// In what samples of [`LightSet::sample`] from `from` may differ.
     #[inline]
-    pub fn light_variety(&self, from: &Receiver) -> LightVariety {
+    pub fn light_variety(&self, from: &LightSampleContext) -> LightVariety {
         match self.lone.map(|light| self.get(light)) {
             None => LightVariety::Several,
             Some(light) if light.is_even(from) => LightVariety::Even,
@@ -191,7 +193,7 @@ impl LightSet {
         &self,
         scene: &(impl Textures + Shapes),
         light: LightId,
-        from: &Receiver,
+        from: &LightSampleContext,
         wavelengths: &Wavelengths,
         u: Vec2,
     ) -> Option<LightSample> {
@@ -206,8 +208,8 @@ impl LightSet {
     pub fn density(
         &self,
         shapes: &impl Shapes,
-        from: &Receiver,
-        at: &Vertex,
+        from: &LightSampleContext,
+        at: &SurfaceInteraction,
     ) -> Density<SolidAngle> {
         if !at.light.is_some() {
             return Density::ZERO;
@@ -221,7 +223,11 @@ impl LightSet {
     /// The density with which [`LightSet::sample`] from `from` chooses the background in
     /// `direction`.
     #[inline]
-    pub fn background_density(&self, from: &Receiver, direction: Vec3) -> Density<SolidAngle> {
+    pub fn background_density(
+        &self,
+        from: &LightSampleContext,
+        direction: Vec3,
+    ) -> Density<SolidAngle> {
         self.backgrounds.iter().fold(Density::ZERO, |sum, &light| {
             let probability = self.selector.probability(from, light);
             sum + self.get(light).background_density(from, direction) * probability
@@ -247,11 +253,11 @@ impl LightSet {
             u_direction,
         )?;
         emission.light = choice.light;
-        if emission.origin == Origin::Sky && self.backgrounds.len() > 1 {
+        if emission.origin == LightKind::Sky && self.backgrounds.len() > 1 {
             // One technique, as in `sample`.
             let toward = -emission.ray.direction;
             emission.density = self.emission_density(scene, choice.light, -toward, 1.0);
-            let EmissionDensity { origin, ray } = emission.density;
+            let EmissionPdf { origin, ray } = emission.density;
             emission.weight = self.background(scene, toward, wavelengths) / (origin * ray);
         } else {
             emission.weight /= choice.probability;
@@ -269,7 +275,7 @@ impl LightSet {
         light: LightId,
         direction: Vec3,
         cos: f32,
-    ) -> EmissionDensity {
+    ) -> EmissionPdf {
         if self.backgrounds.len() > 1 && self.get(light).is_background() {
             return self.background_emission_density(shapes, -direction);
         }
@@ -286,13 +292,13 @@ impl LightSet {
         &self,
         shapes: &impl Shapes,
         direction: Vec3,
-    ) -> EmissionDensity {
+    ) -> EmissionPdf {
         let origins = self.backgrounds.iter().map(|&light| {
             let sky = self.get(light);
             let density = sky.emission_density(shapes, &self.bounds, -direction, 1.0);
             density.origin * self.selector.probability_to_emit(light)
         });
-        EmissionDensity {
+        EmissionPdf {
             origin: origins.sum(),
             ray: self.bounds.ray_density(),
         }
@@ -301,18 +307,23 @@ impl LightSet {
     /// The density with which [`LightSet::sample`] from `from` chooses the point where a particle
     /// began; the probability of its light if that is a point or a direction.
     #[inline]
-    pub fn sampled_density(&self, shapes: &impl Shapes, from: &Receiver, start: &Emission) -> f32 {
+    pub fn light_sample_density(
+        &self,
+        shapes: &impl Shapes,
+        from: &LightSampleContext,
+        start: &Emission,
+    ) -> f32 {
         let probability = || self.selector.probability(from, start.light);
         match start.origin {
-            Origin::Surface => {
+            LightKind::Surface => {
                 let density = self.get(start.light).density(shapes, from, &start.point);
-                density.chooser() * probability()
+                density.hero() * probability()
             }
-            Origin::Sky => {
+            LightKind::Sky => {
                 let toward = -start.ray.direction;
-                self.background_density(from, toward).chooser()
+                self.background_density(from, toward).hero()
             }
-            Origin::Point | Origin::Parallel => probability(),
+            LightKind::Point | LightKind::Parallel => probability(),
         }
     }
 }

@@ -17,13 +17,13 @@ use crate::LightExtent;
 use crate::light::{anywhere, extent_of_point};
 use crate::pose::Pose;
 use crate::uniformity::refuse_varying;
-use etalon_math::{Atom, DirectionCone, float, float64};
+use etalon_math::{DeltaProbability, DirectionCone, float, float64};
 use etalon_params::Params;
 use etalon_sampling::warps::{square_to_uniform_cone, uniform_cone_density};
 use etalon_spectrum::Wavelengths;
 use etalon_transport::{
-    Build, Chance, Emission, EmissionDensity, LightId, LightSample, Origin, Ray, Role, TextureId,
-    TexturePoint, Textures,
+    Build, Emission, EmissionPdf, LightId, LightKind, LightSample, Ray, SamplePdf, SpectrumKind,
+    TextureId, TexturePoint, Textures,
 };
 use glam::{Vec2, Vec3, Vec4};
 
@@ -49,10 +49,10 @@ impl SpotLight {
     /// Reads `intensity`, `cutoff_angle`, `beam_width`, `texture` and `to_world`.
     pub fn from_params(params: &Params<'_>, build: &mut dyn Build) -> Option<Self> {
         refuse_varying(params, "intensity");
-        let intensity = build.texture(params, "intensity", Some(1.0), Role::Emission);
+        let intensity = build.texture(params, "intensity", Some(1.0), SpectrumKind::Emission);
         let texture = params
             .has("texture")
-            .then(|| build.texture(params, "texture", None, Role::Reflectance));
+            .then(|| build.texture(params, "texture", None, SpectrumKind::Reflectance));
         let what = if texture.is_some() {
             "degrees above 0 and below 90 (with `texture`)"
         } else {
@@ -148,9 +148,9 @@ impl SpotLight {
             direction,
             target: Some(self.pose.position),
             radiance: intensity / to_light.length_squared(),
-            chance: Chance::Discrete(Atom::uniform(1.0)),
+            chance: SamplePdf::Discrete(DeltaProbability::uniform(1.0)),
             cos: 1.0,
-            origin: Origin::Point,
+            origin: LightKind::Point,
             light: LightId::NONE,
         })
     }
@@ -167,11 +167,11 @@ impl SpotLight {
             point: Emission::point_of(&ray),
             ray,
             weight: intensity / density,
-            density: EmissionDensity {
+            density: EmissionPdf {
                 origin: 1.0,
                 ray: density,
             },
-            origin: Origin::Point,
+            origin: LightKind::Point,
             light: LightId::NONE,
         }
     }

@@ -1,13 +1,14 @@
 //! What the tests of lights share: a small world of textures and rectangles.
 
-use crate::{Bounds, Light, LightChooser, LightDescription};
+use crate::{BoundingSphere, Light, LightDescription, LightSamplerKind};
 use etalon_math::{DirectionCone, Frame};
 use etalon_params::{Class, Diagnostics, FileId, Node, Params, Property, Span, Spanned, Value};
 use etalon_sampling::{Independent, Sampler};
 use etalon_spectrum::{Spectrum, Wavelengths};
 use etalon_transport::{
-    AssetError, Assets, Build, InstanceId, LightId, MaterialId, MeshData, MeshFormat, Receiver,
-    Role, SampledPoint, ShapeId, Shapes, SurfacePoint, TextureId, TexturePoint, Textures, Vertex,
+    AssetError, Assets, Build, InstanceId, LightId, LightSampleContext, MaterialId, MeshData,
+    MeshFormat, SampledPoint, ShapeId, Shapes, SpectrumKind, SurfaceInteraction, SurfacePoint,
+    TextureId, TexturePoint, Textures,
 };
 use glam::{Vec2, Vec3, Vec4};
 use std::collections::HashMap;
@@ -85,7 +86,7 @@ impl Build for SmallWorld {
         params: &Params<'_>,
         name: &str,
         default: Option<f64>,
-        role: Role,
+        role: SpectrumKind,
     ) -> TextureId {
         let pattern = match params.property(name).map(|p| &p.value) {
             Some(Value::Object(node)) if node.plugin.value == "ramp" => Pattern::Ramp,
@@ -96,7 +97,7 @@ impl Build for SmallWorld {
                     _ => default.unwrap_or(0.0),
                 };
                 let spectrum = match role {
-                    Role::Emission => Spectrum::d65(number),
+                    SpectrumKind::Emission => Spectrum::d65(number),
                     _ => Spectrum::uniform(number),
                 };
                 Pattern::Plain(spectrum.expect("finite"))
@@ -106,7 +107,7 @@ impl Build for SmallWorld {
         TextureId(self.patterns.len() as u32 - 1)
     }
 
-    fn nested_texture(&mut self, _: &Arc<Node>, _: Role) -> TextureId {
+    fn nested_texture(&mut self, _: &Arc<Node>, _: SpectrumKind) -> TextureId {
         TextureId::NONE
     }
 
@@ -150,9 +151,9 @@ impl Textures for SmallWorld {
 }
 
 impl SmallWorld {
-    fn vertex(&self, shape: ShapeId, uv: Vec2) -> Vertex {
+    fn vertex(&self, shape: ShapeId, uv: Vec2) -> SurfaceInteraction {
         let (centre, normal) = self.rectangles[shape.0 as usize];
-        Vertex {
+        SurfaceInteraction {
             position: centre + (2.0 * uv - 1.0).extend(0.0),
             uv,
             shape,
@@ -184,13 +185,18 @@ impl Shapes for SmallWorld {
         }
     }
 
-    fn sample_toward(&self, shape: ShapeId, from: &Receiver, u: Vec2) -> Option<SampledPoint> {
+    fn sample_toward(
+        &self,
+        shape: ShapeId,
+        from: &LightSampleContext,
+        u: Vec2,
+    ) -> Option<SampledPoint> {
         let point = SurfacePoint::from(&self.vertex(shape, u));
         let density = self.density_toward(shape, from, &point);
         Some(SampledPoint { point, density })
     }
 
-    fn density_toward(&self, _: ShapeId, from: &Receiver, at: &SurfacePoint) -> f32 {
+    fn density_toward(&self, _: ShapeId, from: &LightSampleContext, at: &SurfacePoint) -> f32 {
         let d = at.position - from.position;
         let cosine = d.normalize().dot(at.normal).abs();
         0.25 * d.length_squared() / cosine
@@ -202,13 +208,13 @@ impl Shapes for SmallWorld {
 }
 
 /// A receiver with the given normal.
-fn receiver(position: Vec3, normal: Vec3) -> Receiver {
-    Receiver::on_surface(position, normal)
+fn receiver(position: Vec3, normal: Vec3) -> LightSampleContext {
+    LightSampleContext::on_surface(position, normal)
 }
 
 /// A point of a surface with the given normal.
-fn upward(position: Vec3, normal: Vec3) -> Vertex {
-    Vertex {
+fn upward(position: Vec3, normal: Vec3) -> SurfaceInteraction {
+    SurfaceInteraction {
         position,
         error: Vec3::splat(1e-6),
         depth: f32::NAN,

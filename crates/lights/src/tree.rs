@@ -1,14 +1,14 @@
 //! A tree over the lights that have a place, for choosing one by what a point may expect of it.
 //!
 //! From the root down, one of two children is taken with a probability proportional to what it promises
-//! the point ([`Promise`]), so a light of a thousand costs ten choices, and near lights that face the
+//! the point ([`LightBounds`]), so a light of a thousand costs ten choices, and near lights that face the
 //! point come first. Clusters are split where the sum of power × extent × spread of the two halves is
 //! least (A. Conty Estevez and C. Kulla, Importance sampling of many lights with adaptive tree
 //! splitting, 2018, section 4.3; the traversal that keeps one light is theirs without splitting).
 
-use crate::extent::{LightExtent, Promise};
-use crate::selector::LightChoice;
-use etalon_transport::{LightId, Receiver};
+use crate::extent::{LightBounds, LightExtent};
+use crate::light_sampler::LightChoice;
+use etalon_transport::{LightId, LightSampleContext};
 use glam::DVec3;
 
 /// What is below a node.
@@ -22,7 +22,7 @@ enum Below {
 
 #[derive(Clone, Copy, Debug)]
 struct Node {
-    promise: Promise,
+    promise: LightBounds,
     below: Below,
 }
 
@@ -70,7 +70,7 @@ impl LightTree {
         let whole = around(lights);
         let node = self.nodes.len();
         self.nodes.push(Node {
-            promise: Promise::new(&whole),
+            promise: LightBounds::new(&whole),
             below: Below::Light(lights[0].0),
         });
         if let [(light, _)] = lights {
@@ -93,7 +93,7 @@ impl LightTree {
     /// The probability of the first of a node's children, at `from`; `None` if neither child sends
     /// anything there.
     #[inline]
-    fn first(&self, node: usize, second: u32, from: &Receiver) -> Option<f32> {
+    fn first(&self, node: usize, second: u32, from: &LightSampleContext) -> Option<f32> {
         let a = self.nodes[node + 1].promise.at(from);
         let b = self.nodes[second as usize].promise.at(from);
         (a + b > 0.0).then(|| a / (a + b))
@@ -101,7 +101,7 @@ impl LightTree {
 
     /// Chooses a light for `from`. `None` if none reaches it.
     #[inline]
-    pub fn choose(&self, from: &Receiver, mut u: f32) -> Option<LightChoice> {
+    pub fn choose(&self, from: &LightSampleContext, mut u: f32) -> Option<LightChoice> {
         let (mut node, mut probability) = (0, 1.0);
         loop {
             match self.nodes[node].below {
@@ -132,7 +132,7 @@ impl LightTree {
 
     /// The probability with which [`LightTree::choose`] chooses `light` for `from`.
     #[inline]
-    pub fn probability(&self, from: &Receiver, light: LightId) -> f32 {
+    pub fn probability(&self, from: &LightSampleContext, light: LightId) -> f32 {
         let Some(Trail(mut trail)) = self.trails[light.0 as usize] else {
             return 0.0;
         };

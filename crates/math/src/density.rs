@@ -11,7 +11,7 @@
 //!
 //! Every density has one value per wavelength lane: the density that the sampling technique
 //! would have had, had that lane been the one that chose (see ARCHITECTURE.md, "Wavelengths").
-//! A discrete probability (a perfect mirror's only direction) is an [`Atom`], never "pdf = 1".
+//! A discrete probability (a perfect mirror's only direction) is an [`DeltaProbability`], never "pdf = 1".
 
 use core::marker::PhantomData;
 use core::ops::{Add, Mul};
@@ -71,7 +71,7 @@ impl<M: Measure> Density<M> {
 
     /// The density had lane 0 (the lane that chooses) been the only one.
     #[inline]
-    pub fn chooser(self) -> f32 {
+    pub fn hero(self) -> f32 {
         self.lanes.x
     }
 }
@@ -123,9 +123,9 @@ impl Density<Area> {
 
 /// The probability of a discrete event, per wavelength lane (dimensionless, at most 1).
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Atom(pub Vec4);
+pub struct DeltaProbability(pub Vec4);
 
-impl Atom {
+impl DeltaProbability {
     /// A probability that does not depend on wavelength.
     #[inline]
     pub fn uniform(probability: f32) -> Self {
@@ -148,6 +148,6 @@ mod tests {
     fn uniform_area_of_a_small_patch_matches_its_solid_angle() {
         // A patch of 1 cm² seen face-on from 10 m subtends A/r² = 1e-6 sr.
         let per_area = Density::<Area>::uniform(1.0 / 1e-4);
-        assert!((per_area.to_solid_angle(100.0, 1.0).chooser() * 1e-6 - 1.0).abs() < 1e-5);
+        assert!((per_area.to_solid_angle(100.0, 1.0).hero() * 1e-6 - 1.0).abs() < 1e-5);
     }
 }

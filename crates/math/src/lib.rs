@@ -15,7 +15,7 @@ pub mod transform;
 
 pub use cone::DirectionCone;
 pub use cross::{cross, difference_of_products};
-pub use density::{Area, Atom, Density, Length, Measure, SolidAngle};
+pub use density::{Area, DeltaProbability, Density, Length, Measure, SolidAngle};
 pub use frame::Frame;
 pub use glam::{DMat4, DVec2, DVec3, Vec2, Vec3, Vec4};
 pub use offset::{gamma, offset_origin};

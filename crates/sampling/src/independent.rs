@@ -6,7 +6,7 @@
 //! correlated; hashed ones are not.
 
 use crate::hash::{derived_key, mix64, random_float};
-use crate::sampler::{PixelSample, Sampler};
+use crate::sampler::{SampleId, Sampler};
 use glam::Vec2;
 use rand::Rng;
 use rand_pcg::Pcg32;
@@ -21,7 +21,7 @@ pub struct Independent {
 impl Independent {
     /// The coordinates of one sample.
     #[inline]
-    pub fn start(sample: &PixelSample) -> Self {
+    pub fn start(sample: &SampleId) -> Self {
         Self::from_key(derived_key(sample.pixel_key(), sample.sample))
     }
 

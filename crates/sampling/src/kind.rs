@@ -1,6 +1,6 @@
 //! What a scene asks for: the kind of sampler, chosen once per image.
 
-use crate::sampler::{PixelSample, Sampler};
+use crate::sampler::{SampleId, Sampler};
 use crate::stratified::ceil_sqrt;
 use crate::{Independent, Sobol, Stratified};
 use glam::Vec2;
@@ -36,7 +36,7 @@ impl SamplerKind {
 
     /// Begins one sample.
     #[inline]
-    pub fn start(self, sample: &PixelSample) -> AnySampler {
+    pub fn start(self, sample: &SampleId) -> AnySampler {
         match self {
             Self::Independent => AnySampler::Independent(Independent::start(sample)),
             Self::Stratified { jitter } => {

@@ -2,7 +2,7 @@
 //! distributions, and multiple importance sampling.
 //!
 //! Everything random in an image begins here, and everything here is a pure function of
-//! (seed, replicate, pixel, sample, dimension): see [`PixelSample`].
+//! (seed, replicate, pixel, sample, dimension): see [`SampleId`].
 
 pub mod discrete;
 pub mod hash;
@@ -18,7 +18,7 @@ pub mod warps;
 pub use independent::Independent;
 pub use kind::{AnySampler, SamplerKind};
 pub use replicate_kind::ReplicateKind;
-pub use sampler::{PixelSample, Sampler};
+pub use sampler::{SampleId, Sampler};
 pub use sobol::Sobol;
 pub use stratified::Stratified;
 pub use stratified_pair::stratified_pair;

@@ -1,6 +1,6 @@
 //! What the replicates of an image have to do with each other.
 
-use crate::sampler::PixelSample;
+use crate::sampler::SampleId;
 use serde::{Deserialize, Serialize};
 
 /// How the samples of an image's replicates are related.
@@ -41,13 +41,13 @@ impl ReplicateKind {
     /// no nets by themselves, though each is unbiased; if `replicates` is none, they are only together
     /// no net.
     #[inline]
-    pub fn address(self, of: PixelSample, replicates: u32) -> PixelSample {
+    pub fn address(self, of: SampleId, replicates: u32) -> SampleId {
         match self {
             Self::Independent => of,
             Self::Blocks => {
                 let before = u64::from(of.replicate) * u64::from(of.samples_per_replicate);
                 let index = before + u64::from(of.sample);
-                PixelSample {
+                SampleId {
                     // A sequence has 2³² points; whoever takes more begins another one.
                     replicate: (index >> 32) as u32,
                     sample: index as u32,

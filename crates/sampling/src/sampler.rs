@@ -2,7 +2,7 @@
 //!
 //! A sample is a point of [0, 1)^∞. Its coordinates are read one or two at a time, and the
 //! number of those read so far is its *dimension*. A sampler never remembers other samples:
-//! coordinate `d` is a pure function of the [`PixelSample`] and of `d`, so that any thread
+//! coordinate `d` is a pure function of the [`SampleId`] and of `d`, so that any thread
 //! may compute any sample at any time with the same bits.
 
 use crate::hash::{mix64, stream_key};
@@ -10,7 +10,7 @@ use glam::Vec2;
 
 /// Which sample of an image this is.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub struct PixelSample {
+pub struct SampleId {
     /// The seed of the whole image.
     pub seed: u64,
     /// Which independent replicate of the image.
@@ -30,7 +30,7 @@ pub struct PixelSample {
     pub blocks: u32,
 }
 
-impl PixelSample {
+impl SampleId {
     /// 64 well-mixed bits that all samples of this pixel and replicate share.
     #[inline]
     pub fn pixel_key(&self) -> u64 {

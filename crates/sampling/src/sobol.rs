@@ -20,7 +20,7 @@
 //! so all of the above holds for every prefix of 2ᵏ samples.
 
 use crate::hash::{derived_key, fold_multiply};
-use crate::sampler::{PixelSample, Sampler};
+use crate::sampler::{SampleId, Sampler};
 use glam::Vec2;
 use wide::{f32x8, u32x8};
 
@@ -42,7 +42,7 @@ pub struct Sobol {
 impl Sobol {
     /// The coordinates of one sample.
     #[inline]
-    pub fn start(sample: &PixelSample) -> Self {
+    pub fn start(sample: &SampleId) -> Self {
         let key = sample.pixel_key();
         let reversed_sample = sample.sample.reverse_bits();
         Self {

@@ -11,7 +11,7 @@
 //! each in its own part.
 
 use crate::hash::{ONE_MINUS, derived_key, mix64, permute, random_float};
-use crate::sampler::{PixelSample, Sampler};
+use crate::sampler::{SampleId, Sampler};
 use glam::Vec2;
 
 /// Stratified coordinates.
@@ -34,14 +34,14 @@ pub struct Stratified {
 impl Stratified {
     /// The jittered coordinates of one sample.
     #[inline]
-    pub fn start(sample: &PixelSample) -> Self {
+    pub fn start(sample: &SampleId) -> Self {
         Self::with_jitter(sample, true)
     }
 
     /// The coordinates of one sample, at a random place in each stratum (`jitter`) or at its
     /// centre.
     #[inline]
-    pub fn with_jitter(sample: &PixelSample, jitter: bool) -> Self {
+    pub fn with_jitter(sample: &SampleId, jitter: bool) -> Self {
         let count = sample.samples_per_replicate.max(1);
         let blocks = sample.blocks.max(1);
         let all = u64::from(count) * u64::from(blocks);

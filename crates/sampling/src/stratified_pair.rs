@@ -4,7 +4,7 @@
 //! aligned 2ᵏ successive samples each dyadic rectangle of area 2⁻ᵏ holds exactly one.
 
 use crate::hash::{derived_key, fold_multiply, random_float};
-use crate::sampler::PixelSample;
+use crate::sampler::SampleId;
 use glam::Vec2;
 
 /// What is different from the keys of any sampler.
@@ -12,7 +12,7 @@ const STREAM: u32 = 0x9d2c_5681;
 
 /// The numbers of a sample, each in [0, 1).
 #[inline]
-pub fn stratified_pair(sample: &PixelSample) -> Vec2 {
+pub fn stratified_pair(sample: &SampleId) -> Vec2 {
     let key = derived_key(sample.pixel_key(), STREAM);
     // The shuffled index, its first digit lowest.
     let shuffled = nested_uniform_scramble(sample.sample.reverse_bits(), key);
@@ -59,7 +59,7 @@ mod tests {
             for block in [0u32, 3] {
                 let points: Vec<Vec2> = (block * 64..(block + 1) * 64)
                     .map(|sample| {
-                        stratified_pair(&PixelSample {
+                        stratified_pair(&SampleId {
                             seed: 1,
                             replicate: 0,
                             pixel: (pixel, 7),

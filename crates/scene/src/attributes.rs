@@ -3,7 +3,7 @@
 
 use etalon_geometry::Shape;
 use etalon_params::{Class, Diagnostic, Diagnostics, Node, Span, Value, suggest};
-use etalon_textures::{Texture, TextureSet};
+use etalon_textures::{Texture, TextureTable};
 use etalon_transport::Attribute;
 use std::sync::Arc;
 
@@ -104,7 +104,7 @@ impl Asked {
 
     /// Tells of attributes whose values are held to what their use allows; to be called when all
     /// textures have been read.
-    pub(crate) fn note_ranges(&self, textures: &TextureSet, diagnostics: &Diagnostics) {
+    pub(crate) fn note_ranges(&self, textures: &TextureTable, diagnostics: &Diagnostics) {
         for asked in &self.attributes {
             for id in textures.read_as(&asked.texture) {
                 if let Texture::MeshAttribute(texture) = textures.get(id) {

@@ -2,8 +2,8 @@
 
 use etalon_params::{Diagnostics, Node, Params};
 use etalon_spectrum::Spectrum;
-use etalon_textures::{TextureReader, TextureSet};
-use etalon_transport::{Assets, Build, Role, TextureId};
+use etalon_textures::{TextureReader, TextureTable};
+use etalon_transport::{Assets, Build, SpectrumKind, TextureId};
 use std::sync::Arc;
 
 /// The scene under construction, as plugins see it.
@@ -13,7 +13,7 @@ pub struct Builder<'a> {
     /// Where mistakes go.
     pub diagnostics: &'a Diagnostics,
     /// The textures read so far.
-    pub textures: TextureSet,
+    pub textures: TextureTable,
 }
 
 impl<'a> Builder<'a> {
@@ -22,7 +22,7 @@ impl<'a> Builder<'a> {
         Self {
             assets,
             diagnostics,
-            textures: TextureSet::new(),
+            textures: TextureTable::new(),
         }
     }
 
@@ -45,12 +45,12 @@ impl Build for Builder<'_> {
         params: &Params<'_>,
         name: &str,
         default: Option<f64>,
-        role: Role,
+        role: SpectrumKind,
     ) -> TextureId {
         self.reader().parameter(params, name, default, role)
     }
 
-    fn nested_texture(&mut self, node: &Arc<Node>, role: Role) -> TextureId {
+    fn nested_texture(&mut self, node: &Arc<Node>, role: SpectrumKind) -> TextureId {
         self.reader().node(node, role)
     }
 

@@ -1,16 +1,16 @@
 //! From a description to a scene.
 
 use crate::builder::Builder;
-use crate::lookup::Lookup;
+use crate::lookup::SceneTables;
 use crate::sampler::SamplerSettings;
 use crate::scene::Scene;
 use crate::surfaces::{self, Emitting, Names, Surfaces};
 use etalon_cameras::{AnyCamera, FilmWindow};
 use etalon_film::{FilmSettings, Filter};
 use etalon_geometry::AcceleratorKind;
-use etalon_lights::{Bounds, LightChooser, LightDescription, LightSet};
+use etalon_lights::{BoundingSphere, LightDescription, LightSamplerKind, LightSet};
 use etalon_params::{Class, Diagnostic, Diagnostics, Node, Params, Property, Span, plugins};
-use etalon_transport::{Assets, Build, LightId, Role, ShapeId};
+use etalon_transport::{Assets, Build, LightId, ShapeId, SpectrumKind};
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 
@@ -45,7 +45,7 @@ pub struct CompileOptions {
     /// The kind of all accelerators.
     pub accelerator: AcceleratorKind,
     /// How points choose the light that they ask, if not as the scene says.
-    pub light_chooser: Option<LightChooser>,
+    pub light_chooser: Option<LightSamplerKind>,
 }
 
 /// As [`compile`], with options.
@@ -63,8 +63,8 @@ pub fn compile_with(
     let lights = lights(&params, &mut surfaces, &mut builder);
     let named = params.choice(
         "light_chooser",
-        LightChooser::default().name(),
-        &LightChooser::ALL.map(LightChooser::name),
+        LightSamplerKind::default().name(),
+        &LightSamplerKind::ALL.map(LightSamplerKind::name),
     );
     read_unused_textures(&params, &mut builder);
     read_definitions(&params, diagnostics);
@@ -80,15 +80,15 @@ pub fn compile_with(
     let geometry = surfaces.geometry.build_with(options.accelerator);
     let build_time = start.elapsed();
     let bounds = geometry.bounds();
-    let lookup = Lookup {
+    let lookup = SceneTables {
         geometry,
         textures: builder.textures,
     };
-    let bounds = Bounds::of_box(bounds.min, bounds.max);
-    let chooser = (options.light_chooser)
-        .or_else(|| LightChooser::named(named))
+    let bounds = BoundingSphere::of_box(bounds.min, bounds.max);
+    let hero = (options.light_chooser)
+        .or_else(|| LightSamplerKind::named(named))
         .unwrap_or_default();
-    let lights = LightSet::new(lights, &lookup, bounds, chooser);
+    let lights = LightSet::new(lights, &lookup, bounds, hero);
     let scene = Scene::new(camera, lookup, surfaces.materials, lights);
     Some(Compiled {
         scene,
@@ -227,7 +227,7 @@ fn read_definitions(params: &Params<'_>, diagnostics: &Diagnostics) {
 fn read_unused_textures(params: &Params<'_>, builder: &mut Builder<'_>) {
     for (_, node) in params.children(Class::Texture) {
         if !node.properties.iter().any(Property::is_used) {
-            builder.nested_texture(node, Role::Emission);
+            builder.nested_texture(node, SpectrumKind::Emission);
         }
     }
 }

@@ -15,7 +15,7 @@ mod view;
 
 pub use compile::{CompileOptions, Compiled, compile, compile_with};
 pub use etalon_geometry::AcceleratorKind;
-pub use etalon_lights::LightChooser;
+pub use etalon_lights::LightSamplerKind;
 pub use sampler::SamplerSettings;
 pub use scene::Scene;
 pub use surfaces::Names;

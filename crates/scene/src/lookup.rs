@@ -2,22 +2,23 @@
 
 use etalon_geometry::Geometry;
 use etalon_math::DirectionCone;
-use etalon_textures::TextureSet;
+use etalon_textures::TextureTable;
 use etalon_transport::{
-    Receiver, SampledPoint, ShapeId, Shapes, SurfacePoint, TextureId, TexturePoint, Textures,
+    LightSampleContext, SampledPoint, ShapeId, Shapes, SurfacePoint, TextureId, TexturePoint,
+    Textures,
 };
 use glam::{Vec2, Vec3, Vec4};
 
 /// Lookup by id of what materials and lights refer to.
 #[derive(Debug)]
-pub struct Lookup {
+pub struct SceneTables {
     /// All shapes and their accelerators.
     pub geometry: Geometry,
     /// All textures.
-    pub textures: TextureSet,
+    pub textures: TextureTable,
 }
 
-impl Textures for Lookup {
+impl Textures for SceneTables {
     #[inline]
     fn spectrum(&self, texture: TextureId, at: &TexturePoint, lambda: Vec4) -> Vec4 {
         self.textures.spectrum(texture, &self.geometry, at, lambda)
@@ -42,7 +43,7 @@ impl Textures for Lookup {
     }
 }
 
-impl Shapes for Lookup {
+impl Shapes for SceneTables {
     fn area(&self, shape: ShapeId) -> f32 {
         self.geometry.area(shape)
     }
@@ -61,12 +62,17 @@ impl Shapes for Lookup {
     }
 
     #[inline]
-    fn sample_toward(&self, shape: ShapeId, from: &Receiver, u: Vec2) -> Option<SampledPoint> {
+    fn sample_toward(
+        &self,
+        shape: ShapeId,
+        from: &LightSampleContext,
+        u: Vec2,
+    ) -> Option<SampledPoint> {
         self.geometry.sample_toward(shape, from, u)
     }
 
     #[inline]
-    fn density_toward(&self, shape: ShapeId, from: &Receiver, at: &SurfacePoint) -> f32 {
+    fn density_toward(&self, shape: ShapeId, from: &LightSampleContext, at: &SurfacePoint) -> f32 {
         self.geometry.density_toward(shape, from, at)
     }
 

@@ -1,45 +1,46 @@
 //! The compiled scene: everything an integrator may ask, answered.
 
-use crate::lookup::Lookup;
+use crate::lookup::SceneTables;
 use crate::{rays, view};
-use etalon_bsdf::{Material, Resolved};
+use etalon_bsdf::{BsdfAtPoint, Material};
 use etalon_cameras::AnyCamera;
 use etalon_lights::LightSet;
 use etalon_math::{Density, SolidAngle};
 use etalon_spectrum::{WavelengthDistribution, Wavelengths};
 use etalon_transport::{
-    Bsdf, Camera, ClassicPhong, Emission, EmissionDensity, Hit, LightId, LightSample, LightVariety,
-    Passage, Ray, Receiver, Sight, Vertex, World,
+    Bsdf, Camera, Emission, EmissionPdf, Hit, LegacyPhong, LightId, LightSample,
+    LightSampleContext, LightVariety, Ray, SceneCapabilities, SurfaceInteraction, Transmission,
+    World,
 };
 use glam::{UVec2, Vec2, Vec3, Vec4};
 
 /// A scene: immutable, shared by all threads.
 pub struct Scene {
     camera: AnyCamera,
-    lookup: Lookup,
+    lookup: SceneTables,
     materials: Vec<Material>,
     lights: LightSet,
     wavelengths: WavelengthDistribution,
     /// Whether any material lets light pass straight, so that shadow rays must ask.
-    has_passing: bool,
+    has_null: bool,
 }
 
 impl Scene {
     /// Puts a scene together.
     pub fn new(
         camera: AnyCamera,
-        lookup: Lookup,
+        lookup: SceneTables,
         materials: Vec<Material>,
         lights: LightSet,
     ) -> Self {
-        let has_passing = materials.iter().any(Material::has_passing);
+        let has_null = materials.iter().any(Material::has_null);
         Self {
             camera,
             lookup,
             materials,
             lights,
             wavelengths: WavelengthDistribution::default(),
-            has_passing,
+            has_null,
         }
     }
 
@@ -61,11 +62,11 @@ impl Scene {
     }
 
     /// What an estimator can see of it, through the film's window of `size` pixels from `origin`.
-    pub fn sight(&self, origin: UVec2, size: UVec2) -> Sight {
+    pub fn sight(&self, origin: UVec2, size: UVec2) -> SceneCapabilities {
         let view = view::look(self, origin, size);
         // Nobody asked for these rays.
         rays::take();
-        Sight {
+        SceneCapabilities {
             view,
             lights: self.lights.count(),
             aperture: self.camera.can_receive(),
@@ -76,13 +77,13 @@ impl Scene {
     }
 
     #[inline]
-    fn material(&self, vertex: &Vertex) -> &Material {
+    fn material(&self, vertex: &SurfaceInteraction) -> &Material {
         &self.materials[vertex.material.0 as usize]
     }
 }
 
 impl World for Scene {
-    type Bsdf<'w> = Resolved<'w>;
+    type Bsdf<'w> = BsdfAtPoint<'w>;
     type Camera = AnyCamera;
 
     fn camera(&self) -> &AnyCamera {
@@ -101,32 +102,46 @@ impl World for Scene {
     }
 
     #[inline]
-    fn vertex(&self, ray: &Ray, hit: &Hit) -> Vertex {
+    fn vertex(&self, ray: &Ray, hit: &Hit) -> SurfaceInteraction {
         self.lookup.geometry.vertex(ray, hit)
     }
 
     #[inline]
-    fn passage(&self, ray: &Ray, wavelengths: &Wavelengths, crossings: u32) -> Option<Passage> {
-        if !self.has_passing {
+    fn transmittance(
+        &self,
+        ray: &Ray,
+        wavelengths: &Wavelengths,
+        crossings: u32,
+    ) -> Option<Transmission> {
+        if !self.has_null {
             rays::count();
-            return (!self.lookup.geometry.occluded(ray)).then_some(Passage::FREE);
+            return (!self.lookup.geometry.occluded(ray)).then_some(Transmission::FREE);
         }
         self.passage_through(*ray, wavelengths, crossings)
     }
 
     #[inline]
-    fn bsdf(&self, vertex: &Vertex, wo: Vec3, wavelengths: &Wavelengths) -> Resolved<'_> {
+    fn bsdf(
+        &self,
+        vertex: &SurfaceInteraction,
+        wo: Vec3,
+        wavelengths: &Wavelengths,
+    ) -> BsdfAtPoint<'_> {
         self.material(vertex)
             .resolve(&self.lookup, vertex, wo, wavelengths)
     }
 
-    fn classic(&self, vertex: &Vertex, wavelengths: &Wavelengths) -> Option<ClassicPhong> {
+    fn legacy_phong(
+        &self,
+        vertex: &SurfaceInteraction,
+        wavelengths: &Wavelengths,
+    ) -> Option<LegacyPhong> {
         self.material(vertex)
-            .classic(&self.lookup, vertex, wavelengths)
+            .legacy_phong(&self.lookup, vertex, wavelengths)
     }
 
     #[inline]
-    fn emitted(&self, vertex: &Vertex, wo: Vec3, wavelengths: &Wavelengths) -> Vec4 {
+    fn emitted(&self, vertex: &SurfaceInteraction, wo: Vec3, wavelengths: &Wavelengths) -> Vec4 {
         self.lights.emitted(&self.lookup, vertex, wo, wavelengths)
     }
 
@@ -148,7 +163,7 @@ impl World for Scene {
     #[inline]
     fn sample_light(
         &self,
-        from: &Receiver,
+        from: &LightSampleContext,
         wavelengths: &Wavelengths,
         u_light: f32,
         u: Vec2,
@@ -158,7 +173,7 @@ impl World for Scene {
     }
 
     #[inline]
-    fn light_variety(&self, from: &Receiver) -> LightVariety {
+    fn light_variety(&self, from: &LightSampleContext) -> LightVariety {
         self.lights.light_variety(from)
     }
 
@@ -170,7 +185,7 @@ impl World for Scene {
     fn sample_one_light(
         &self,
         light: LightId,
-        from: &Receiver,
+        from: &LightSampleContext,
         wavelengths: &Wavelengths,
         u: Vec2,
     ) -> Option<LightSample> {
@@ -179,12 +194,21 @@ impl World for Scene {
     }
 
     #[inline]
-    fn light_density(&self, from: &Receiver, at: &Vertex, _: Vec3) -> Density<SolidAngle> {
+    fn light_density(
+        &self,
+        from: &LightSampleContext,
+        at: &SurfaceInteraction,
+        _: Vec3,
+    ) -> Density<SolidAngle> {
         self.lights.density(&self.lookup, from, at)
     }
 
     #[inline]
-    fn background_density(&self, from: &Receiver, direction: Vec3) -> Density<SolidAngle> {
+    fn background_density(
+        &self,
+        from: &LightSampleContext,
+        direction: Vec3,
+    ) -> Density<SolidAngle> {
         self.lights.background_density(from, direction)
     }
 
@@ -201,19 +225,19 @@ impl World for Scene {
     }
 
     #[inline]
-    fn emission_density(&self, light: LightId, direction: Vec3, cos: f32) -> EmissionDensity {
+    fn emission_density(&self, light: LightId, direction: Vec3, cos: f32) -> EmissionPdf {
         self.lights
             .emission_density(&self.lookup, light, direction, cos)
     }
 
     #[inline]
-    fn background_emission_density(&self, direction: Vec3) -> EmissionDensity {
+    fn background_emission_density(&self, direction: Vec3) -> EmissionPdf {
         (self.lights).background_emission_density(&self.lookup, direction)
     }
 
     #[inline]
-    fn sampled_density(&self, from: &Receiver, start: &Emission) -> f32 {
-        self.lights.sampled_density(&self.lookup, from, start)
+    fn light_sample_density(&self, from: &LightSampleContext, start: &Emission) -> f32 {
+        self.lights.light_sample_density(&self.lookup, from, start)
     }
 
     fn take_ray_count(&self) -> u64 {
@@ -228,10 +252,10 @@ impl Scene {
         mut ray: Ray,
         wavelengths: &Wavelengths,
         mut crossings: u32,
-    ) -> Option<Passage> {
+    ) -> Option<Transmission> {
         let end = ray.t_max;
         let origin = ray.origin;
-        let mut passage = Passage::FREE;
+        let mut passage = Transmission::FREE;
         while let Some(hit) = self.intersect(&ray) {
             if crossings == 0 {
                 return None;
@@ -239,12 +263,12 @@ impl Scene {
             crossings -= 1;
             let vertex = self.vertex(&ray, &hit);
             let material = self.material(&vertex);
-            if !material.has_passing() {
+            if !material.has_null() {
                 return None;
             }
             let bsdf = material.resolve(&self.lookup, &vertex, -ray.direction, wavelengths);
-            passage.transmittance *= bsdf.passing();
-            passage.probability *= bsdf.passing_probability();
+            passage.transmittance *= bsdf.null_transmittance();
+            passage.probability *= bsdf.null_probability();
             if passage.transmittance == Vec4::ZERO {
                 return None;
             }

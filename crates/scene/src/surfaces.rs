@@ -85,7 +85,7 @@ fn refracts(node: &Node) -> bool {
 }
 
 /// What a shape carries besides its form.
-struct Carried {
+struct ShapeExtras {
     material: MaterialId,
     emitter: Option<Arc<Node>>,
 }
@@ -117,7 +117,11 @@ impl Surfaces {
     }
 
     /// One shape with its material and emitter.
-    fn shape(&mut self, node: &Arc<Node>, builder: &mut Builder<'_>) -> Option<(Shape, Carried)> {
+    fn shape(
+        &mut self,
+        node: &Arc<Node>,
+        builder: &mut Builder<'_>,
+    ) -> Option<(Shape, ShapeExtras)> {
         let params = Params::new(node, builder.diagnostics);
         if !Shape::plugins().any(|name| name == node.plugin.value) {
             let built = Shape::plugins().chain(COMPOSED);
@@ -152,7 +156,7 @@ impl Surfaces {
             }
         }
         params.finish();
-        Some((shape?, Carried { material, emitter }))
+        Some((shape?, ShapeExtras { material, emitter }))
     }
 
     /// The shapes of a group, read once however often they are placed.

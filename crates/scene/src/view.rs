@@ -3,7 +3,9 @@
 //! A lattice of rays through the film, each with a lens position of its own, goes straight on
 //! through whatever lets light pass. Something small may slip through; what is found is there.
 
-use etalon_transport::{Bsdf, Camera, Mode, Ray, Receiver, Vertex, View, World};
+use etalon_transport::{
+    Bsdf, Camera, CameraProbe, LightSampleContext, Ray, SurfaceInteraction, TransportMode, World,
+};
 use glam::{UVec2, Vec2, Vec3, Vec4};
 
 /// Rays along each side of the film.
@@ -20,8 +22,8 @@ const SPREAD: Vec2 = Vec2::new(0.754_877_7, 0.569_840_3);
 const SPREAD_3: [f32; 3] = [0.819_172_5, 0.671_043_6, 0.549_700_5];
 
 /// Looks through the film's window of `size` pixels from `origin`.
-pub(crate) fn look<W: World>(world: &W, origin: UVec2, size: UVec2) -> View {
-    let mut view = View::default();
+pub(crate) fn look<W: World>(world: &W, origin: UVec2, size: UVec2) -> CameraProbe {
+    let mut view = CameraProbe::default();
     for index in 0..LATTICE * LATTICE {
         let cell = UVec2::new(index % LATTICE, index / LATTICE).as_vec2() + 0.5;
         let raster = origin.as_vec2() + size.as_vec2() * cell / LATTICE as f32;
@@ -45,7 +47,7 @@ enum Reached {
     /// At a light.
     Light,
     /// At a surface that scatters light in a continuum of directions, seen from this direction.
-    Surface(Vertex, Vec3),
+    Surface(SurfaceInteraction, Vec3),
 }
 
 /// Follows a ray that mirrors and glass send on to a light, or to something that scatters light.
@@ -66,7 +68,7 @@ fn reach<W: World>(world: &W, mut ray: Ray, number: u32) -> Option<Reached> {
             return Some(Reached::Light);
         }
         let onward: Vec<Vec3> = (0..)
-            .map_while(|index| bsdf.discrete(wo, index, Mode::Radiance))
+            .map_while(|index| bsdf.discrete(wo, index, TransportMode::Radiance))
             .filter(|sample| sample.value != Vec4::ZERO)
             .map(|sample| sample.wi)
             .collect();
@@ -79,20 +81,21 @@ fn reach<W: World>(world: &W, mut ray: Ray, number: u32) -> Option<Reached> {
 /// Whether a light that is but a point or a direction would light a surface, were it not for smooth glass
 /// in the way: the light bends there, so that no straight connection finds it. The ray's number chooses
 /// the light.
-fn veiled<W: World>(world: &W, vertex: &Vertex, wo: Vec3, number: u32) -> bool {
+fn veiled<W: World>(world: &W, vertex: &SurfaceInteraction, wo: Vec3, number: u32) -> bool {
     let wavelengths = world.wavelengths(0.5);
     let [u_light, u, v] = SPREAD_3.map(|s| (s * number as f32).fract());
     let Some(light) = world.sample_light(
-        &Receiver::on_surface(vertex.position, vertex.shading.n),
+        &LightSampleContext::on_surface(vertex.position, vertex.shading.n),
         &wavelengths,
         u_light,
         Vec2::new(u, v),
     ) else {
         return false;
     };
-    let shows = world
-        .bsdf(vertex, wo, &wavelengths)
-        .eval(wo, light.direction, Mode::Radiance);
+    let shows =
+        world
+            .bsdf(vertex, wo, &wavelengths)
+            .eval(wo, light.direction, TransportMode::Radiance);
     if light.origin.can_be_hit() || shows * light.radiance == Vec4::ZERO {
         return false;
     }
@@ -107,12 +110,12 @@ fn veiled<W: World>(world: &W, vertex: &Vertex, wo: Vec3, number: u32) -> bool {
         let wo = -ray.direction;
         let bsdf = world.bsdf(&at, wo, &wavelengths);
         let bends = (0..)
-            .map_while(|index| bsdf.discrete(wo, index, Mode::Radiance))
+            .map_while(|index| bsdf.discrete(wo, index, TransportMode::Radiance))
             .any(|sample| {
                 let through = sample.wi.dot(at.normal) * wo.dot(at.normal) < 0.0;
-                through && !sample.passes && sample.value != Vec4::ZERO
+                through && !sample.is_null && sample.value != Vec4::ZERO
             });
-        if !bends && bsdf.passing() == Vec4::ZERO {
+        if !bends && bsdf.null_transmittance() == Vec4::ZERO {
             return false;
         }
         bent |= bends;
@@ -122,7 +125,7 @@ fn veiled<W: World>(world: &W, vertex: &Vertex, wo: Vec3, number: u32) -> bool {
 }
 
 /// Adds what one ray sees.
-fn follow<W: World>(world: &W, mut ray: Ray, view: &mut View) {
+fn follow<W: World>(world: &W, mut ray: Ray, view: &mut CameraProbe) {
     let wavelengths = world.wavelengths(0.5);
     let [mut scatters, mut smooth, mut light] = [false; 3];
     for _ in 0..PASSED {
@@ -138,9 +141,9 @@ fn follow<W: World>(world: &W, mut ray: Ray, view: &mut View) {
         // A lamp without a material is a black surface.
         scatters |= bsdf.has_continuous() && !(emits && bsdf.albedo(wo) == Vec4::ZERO);
         smooth |= (0..)
-            .map_while(|index| bsdf.discrete(wo, index, Mode::Radiance))
-            .any(|sample| !sample.passes && sample.value != Vec4::ZERO);
-        if bsdf.passing() == Vec4::ZERO {
+            .map_while(|index| bsdf.discrete(wo, index, TransportMode::Radiance))
+            .any(|sample| !sample.is_null && sample.value != Vec4::ZERO);
+        if bsdf.null_transmittance() == Vec4::ZERO {
             break;
         }
         ray = vertex.spawn(ray.direction);

@@ -15,13 +15,13 @@
 //! left, and whatever joined the writers' threads makes their relaxed additions visible.
 
 use crate::exact::Fixed128;
-use crate::fault::Fault;
+use crate::fault::InvalidValue;
 use std::sync::atomic::{AtomicU64, Ordering};
 
 /// A sum to which any number of threads may add at once.
 ///
 /// Range and resolution are those of [`Fixed128`], but for the sum, which must stay within
-/// ±2⁶²: every addition that leaves it beyond is reported as [`Fault::OutOfRange`] (and kept,
+/// ±2⁶²: every addition that leaves it beyond is reported as [`InvalidValue::OutOfRange`] (and kept,
 /// since the other word is already written; 2¹⁴ further additions could still not wrap it).
 #[derive(Debug, Default)]
 pub struct AtomicFixed128 {
@@ -52,23 +52,23 @@ impl AtomicFixed128 {
     /// Adds one term.
     ///
     /// # Errors
-    /// [`Fault`] where the term is not finite or out of range (it is then not added), or where
+    /// [`InvalidValue`] where the term is not finite or out of range (it is then not added), or where
     /// the sum is beyond ±2⁶² (it is then added all the same).
     #[inline]
-    pub fn add(&self, x: f32) -> Result<(), Fault> {
+    pub fn add(&self, x: f32) -> Result<(), InvalidValue> {
         self.merge(Fixed128::from_f32(x)?)
     }
 
     /// Adds a sum of terms, which must be within ±2⁶² itself.
     ///
     /// # Errors
-    /// [`Fault::OutOfRange`] where `value` is beyond ±2⁶² (it is then not added), or the sum is
+    /// [`InvalidValue::OutOfRange`] where `value` is beyond ±2⁶² (it is then not added), or the sum is
     /// (it is then added all the same).
     #[inline]
-    pub fn merge(&self, value: Fixed128) -> Result<(), Fault> {
+    pub fn merge(&self, value: Fixed128) -> Result<(), InvalidValue> {
         let (low, high) = words(value);
         if beyond(high) {
-            return Err(Fault::OutOfRange);
+            return Err(InvalidValue::OutOfRange);
         }
         let carried = if low == 0 {
             false
@@ -82,7 +82,7 @@ impl AtomicFixed128 {
         }
         let before = self.high.fetch_add(change, Ordering::Relaxed);
         if beyond(before.wrapping_add(change)) {
-            Err(Fault::OutOfRange)
+            Err(InvalidValue::OutOfRange)
         } else {
             Ok(())
         }
@@ -95,10 +95,10 @@ impl AtomicFixed128 {
     /// # Errors
     /// As [`AtomicFixed128::merge`].
     #[inline]
-    pub fn merge_alone(&self, value: Fixed128) -> Result<(), Fault> {
+    pub fn merge_alone(&self, value: Fixed128) -> Result<(), InvalidValue> {
         let (low, high) = words(value);
         if beyond(high) {
-            return Err(Fault::OutOfRange);
+            return Err(InvalidValue::OutOfRange);
         }
         let (low, carried) = self.low.load(Ordering::Relaxed).overflowing_add(low);
         let before = self.high.load(Ordering::Relaxed);
@@ -106,7 +106,7 @@ impl AtomicFixed128 {
         self.low.store(low, Ordering::Relaxed);
         self.high.store(high, Ordering::Relaxed);
         if beyond(high) {
-            Err(Fault::OutOfRange)
+            Err(InvalidValue::OutOfRange)
         } else {
             Ok(())
         }

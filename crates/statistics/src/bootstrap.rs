@@ -19,7 +19,7 @@ pub const FEWEST_BLOCKS: usize = 8;
 
 /// How to resample.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Plan {
+pub struct Resampling {
     /// B, the number of resamples.
     pub resamples: u32,
     /// ℓ, the length of a block; 1 for independent numbers.
@@ -28,7 +28,7 @@ pub struct Plan {
     pub seed: u64,
 }
 
-impl Plan {
+impl Resampling {
     /// For independent numbers.
     #[must_use]
     pub fn independent(resamples: u32, seed: u64) -> Self {
@@ -62,7 +62,7 @@ pub fn block_length(n: usize) -> usize {
 /// alike: pairs, triples, whole images.
 pub fn resampled(
     n: usize,
-    plan: &Plan,
+    plan: &Resampling,
     mut statistic: impl FnMut(&[usize]) -> f64,
 ) -> Option<Vec<f64>> {
     if n == 0 || plan.resamples == 0 || !(1..=n).contains(&plan.block) {
@@ -109,7 +109,7 @@ pub(crate) fn quantile(ascending: &[f64], share: f64) -> f64 {
 /// finite, or where the acceleration is too great for the correction.
 pub fn bca(
     n: usize,
-    plan: &Plan,
+    plan: &Resampling,
     confidence: f64,
     mut statistic: impl FnMut(&[usize]) -> f64,
 ) -> Option<Interval> {
@@ -169,7 +169,7 @@ pub fn bca(
 /// [`bca`].
 pub fn percentile(
     n: usize,
-    plan: &Plan,
+    plan: &Resampling,
     confidence: f64,
     statistic: impl FnMut(&[usize]) -> f64,
 ) -> Option<Interval> {

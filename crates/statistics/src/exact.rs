@@ -8,12 +8,12 @@
 //! **Range.** A term must satisfy |x| < 2⁴⁸ ≈ 2.8 · 10¹⁴ ([`LIMIT`]); a sum may reach
 //! ±2⁶³ ≈ 9.2 · 10¹⁸. Hence 2¹⁵ terms of the greatest size, or any number of terms whose
 //! magnitudes add up to less than 2⁶³, are summed exactly in any order. Whatever does not fit is
-//! refused with a [`Fault`], which leaves the sum as it was; nothing wraps or saturates.
+//! refused with a [`InvalidValue`], which leaves the sum as it was; nothing wraps or saturates.
 //!
 //! **Resolution.** An `f32` of magnitude at least 2⁻⁴¹ ≈ 4.5 · 10⁻¹³ and an `f64` of at least
 //! 2⁻¹² are held without any rounding.
 
-use crate::fault::Fault;
+use crate::fault::InvalidValue;
 use crate::wide::U256;
 
 /// Terms must be smaller in magnitude than this: 2⁴⁸.
@@ -33,9 +33,9 @@ impl Fixed128 {
     /// The number nearest to `x`, ties to even.
     ///
     /// # Errors
-    /// [`Fault`] where `x` is not finite or not smaller than [`LIMIT`] in magnitude.
+    /// [`InvalidValue`] where `x` is not finite or not smaller than [`LIMIT`] in magnitude.
     #[inline]
-    pub fn from_f32(x: f32) -> Result<Self, Fault> {
+    pub fn from_f32(x: f32) -> Result<Self, InvalidValue> {
         let bits = x.to_bits();
         let exponent = (bits >> 23) & 0xff;
         let mantissa = (bits & 0x7f_ffff) | 0x80_0000;
@@ -53,7 +53,7 @@ impl Fixed128 {
     }
 
     /// Zero, small and unusable numbers.
-    fn from_f32_slowly(x: f32) -> Result<Self, Fault> {
+    fn from_f32_slowly(x: f32) -> Result<Self, InvalidValue> {
         if x == 0.0 {
             return Ok(Self::ZERO);
         }
@@ -64,11 +64,11 @@ impl Fixed128 {
     /// The number nearest to `x`, ties to even.
     ///
     /// # Errors
-    /// [`Fault`] where `x` is not finite or not smaller than [`LIMIT`] in magnitude.
+    /// [`InvalidValue`] where `x` is not finite or not smaller than [`LIMIT`] in magnitude.
     #[inline]
-    pub fn from_f64(x: f64) -> Result<Self, Fault> {
+    pub fn from_f64(x: f64) -> Result<Self, InvalidValue> {
         if !(x.abs() < LIMIT) {
-            return Err(Fault::of(x));
+            return Err(InvalidValue::of(x));
         }
         let bits = x.to_bits();
         let exponent = ((bits >> 52) & 0x7ff) as u32;
@@ -85,10 +85,10 @@ impl Fixed128 {
     /// Adds one term.
     ///
     /// # Errors
-    /// [`Fault`] where the term is not finite, is out of range, or would take the sum out of
+    /// [`InvalidValue`] where the term is not finite, is out of range, or would take the sum out of
     /// range. The sum is then unchanged.
     #[inline]
-    pub fn add(&mut self, x: f32) -> Result<(), Fault> {
+    pub fn add(&mut self, x: f32) -> Result<(), InvalidValue> {
         self.merge(Self::from_f32(x)?)
     }
 
@@ -97,17 +97,20 @@ impl Fixed128 {
     /// # Errors
     /// As [`Fixed128::add`].
     #[inline]
-    pub fn add_f64(&mut self, x: f64) -> Result<(), Fault> {
+    pub fn add_f64(&mut self, x: f64) -> Result<(), InvalidValue> {
         self.merge(Self::from_f64(x)?)
     }
 
     /// Adds another sum.
     ///
     /// # Errors
-    /// [`Fault::OutOfRange`] where the result would reach ±2⁶³. The sum is then unchanged.
+    /// [`InvalidValue::OutOfRange`] where the result would reach ±2⁶³. The sum is then unchanged.
     #[inline]
-    pub fn merge(&mut self, other: Self) -> Result<(), Fault> {
-        self.0 = self.0.checked_add(other.0).ok_or(Fault::OutOfRange)?;
+    pub fn merge(&mut self, other: Self) -> Result<(), InvalidValue> {
+        self.0 = self
+            .0
+            .checked_add(other.0)
+            .ok_or(InvalidValue::OutOfRange)?;
         Ok(())
     }
 

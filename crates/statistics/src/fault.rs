@@ -2,7 +2,7 @@
 
 /// Why a number was not accumulated.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub enum Fault {
+pub enum InvalidValue {
     /// It is not a number.
     NotANumber,
     /// It is infinite.
@@ -11,7 +11,7 @@ pub enum Fault {
     OutOfRange,
 }
 
-impl Fault {
+impl InvalidValue {
     /// The fault of a number that is known to be unusable.
     pub(crate) fn of(x: f64) -> Self {
         if x.is_nan() {
@@ -24,7 +24,7 @@ impl Fault {
     }
 }
 
-impl std::fmt::Display for Fault {
+impl std::fmt::Display for InvalidValue {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         f.write_str(match self {
             Self::NotANumber => "not a number",
@@ -34,7 +34,7 @@ impl std::fmt::Display for Fault {
     }
 }
 
-impl std::error::Error for Fault {}
+impl std::error::Error for InvalidValue {}
 
 /// How many numbers were refused, by kind. Counts add up in any order.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
@@ -56,18 +56,18 @@ impl Faults {
     };
 
     /// Counts one fault.
-    pub fn count(&mut self, fault: Fault) {
+    pub fn count(&mut self, fault: InvalidValue) {
         let counter = match fault {
-            Fault::NotANumber => &mut self.nan,
-            Fault::Infinite => &mut self.infinite,
-            Fault::OutOfRange => &mut self.overflow,
+            InvalidValue::NotANumber => &mut self.nan,
+            InvalidValue::Infinite => &mut self.infinite,
+            InvalidValue::OutOfRange => &mut self.overflow,
         };
         *counter += 1;
     }
 
     /// Counts the fault, if there was one; says whether all was well.
     #[inline]
-    pub fn note(&mut self, outcome: Result<(), Fault>) -> bool {
+    pub fn note(&mut self, outcome: Result<(), InvalidValue>) -> bool {
         match outcome {
             Ok(()) => true,
             Err(fault) => {

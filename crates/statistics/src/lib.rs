@@ -48,7 +48,7 @@ pub use atomic::AtomicFixed128;
 pub use estimate::Estimate;
 pub use exact::Fixed128;
 pub use family::{Decision, Family};
-pub use fault::{Fault, Faults};
+pub use fault::{Faults, InvalidValue};
 pub use group_sequential::{Boundaries, LookError};
 pub use interval::Interval;
 pub use moments::Moments;

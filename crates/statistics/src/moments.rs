@@ -8,7 +8,7 @@
 //! image do not depend on the order in which its replicates were finished or its parts merged.
 
 use crate::exact::{EPSILON, Fixed128, LIMIT};
-use crate::fault::Fault;
+use crate::fault::InvalidValue;
 use crate::summary::Summary;
 use crate::wide::U256;
 
@@ -34,11 +34,11 @@ impl Moments {
     /// Adds one replicate.
     ///
     /// # Errors
-    /// [`Fault::OutOfRange`] where it or the sum is too large; nothing is changed then.
-    pub fn push(&mut self, x: Fixed128) -> Result<(), Fault> {
+    /// [`InvalidValue::OutOfRange`] where it or the sum is too large; nothing is changed then.
+    pub fn push(&mut self, x: Fixed128) -> Result<(), InvalidValue> {
         let magnitude = x.to_bits().unsigned_abs();
         if magnitude >= (LIMIT as u128) << 64 {
-            return Err(Fault::OutOfRange);
+            return Err(InvalidValue::OutOfRange);
         }
         self.merge(&Self {
             count: 1,
@@ -50,24 +50,24 @@ impl Moments {
     /// Adds one replicate, rounded to the nearest multiple of 2⁻⁶⁴.
     ///
     /// # Errors
-    /// [`Fault`] where it is not finite or the sum is too large; nothing is changed then.
-    pub fn push_f64(&mut self, x: f64) -> Result<(), Fault> {
+    /// [`InvalidValue`] where it is not finite or the sum is too large; nothing is changed then.
+    pub fn push_f64(&mut self, x: f64) -> Result<(), InvalidValue> {
         self.push(Fixed128::from_f64(x)?)
     }
 
     /// Adds the replicates of another.
     ///
     /// # Errors
-    /// [`Fault::OutOfRange`] where the result does not fit; nothing is changed then.
-    pub fn merge(&mut self, other: &Self) -> Result<(), Fault> {
+    /// [`InvalidValue::OutOfRange`] where the result does not fit; nothing is changed then.
+    pub fn merge(&mut self, other: &Self) -> Result<(), InvalidValue> {
         let count = self.count.checked_add(other.count);
         let mut sum = self.sum;
         sum.merge(other.sum)?;
         let squares = self.squares.checked_add(other.squares);
         *self = Self {
-            count: count.ok_or(Fault::OutOfRange)?,
+            count: count.ok_or(InvalidValue::OutOfRange)?,
             sum,
-            squares: squares.ok_or(Fault::OutOfRange)?,
+            squares: squares.ok_or(InvalidValue::OutOfRange)?,
         };
         Ok(())
     }

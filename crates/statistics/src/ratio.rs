@@ -15,7 +15,7 @@
 //! Then only a lower bound is given: the lower end of the numerator over the upper end of the
 //! denominator, each at half of 1 − confidence (Bonferroni).
 
-use crate::bootstrap::{FEWEST_BLOCKS, Plan, draw, quantile, resampled};
+use crate::bootstrap::{FEWEST_BLOCKS, Resampling, draw, quantile, resampled};
 use crate::estimate::Estimate;
 use crate::interval::Interval;
 use crate::random::SplitMix64;
@@ -77,7 +77,7 @@ pub fn fieller(a: &Estimate, b: &Estimate, confidence: f64) -> Option<Interval> 
 pub fn of<T: Copy>(
     a: &[T],
     b: &[T],
-    plan: &Plan,
+    plan: &Resampling,
     confidence: f64,
     statistic: impl Fn(&[T]) -> f64,
 ) -> Option<Ratio> {
@@ -149,7 +149,7 @@ fn depends_on_one<T: Copy>(sample: &[T], whole: f64, statistic: impl Fn(&[T]) ->
 /// gives numerator and denominator.
 pub fn paired<T: Copy>(
     pairs: &[T],
-    plan: &Plan,
+    plan: &Resampling,
     confidence: f64,
     statistic: impl Fn(&[T]) -> (f64, f64),
 ) -> Option<Ratio> {

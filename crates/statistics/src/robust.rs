@@ -13,7 +13,7 @@
 //! there is none, or a single replicate makes most of the mean, the verdict is *undecided*. A tail whose
 //! variance may not exist is undecided whatever the test.
 
-use crate::bootstrap::Plan;
+use crate::bootstrap::Resampling;
 use crate::estimate::Estimate;
 use crate::interval::Interval;
 use crate::lowered;
@@ -99,7 +99,7 @@ pub fn judge(
     alpha: f64,
     symmetry: Symmetry,
     limits: &Limits,
-    plan: &Plan,
+    plan: &Resampling,
 ) -> Option<Judgement> {
     let tails = Tails::of(sample)?;
     let refusal = tails.refusal(0.5 * alpha, limits);
@@ -126,7 +126,7 @@ pub fn judge_difference(
     alpha: f64,
     symmetry: Symmetry,
     limits: &Limits,
-    plan: &Plan,
+    plan: &Resampling,
 ) -> Option<Judgement> {
     let (tails_a, tails_b) = (Tails::of(a)?, Tails::of(b)?);
     let (summary_a, summary_b) = (Summary::of(a)?, Summary::of(b)?);
@@ -158,7 +158,7 @@ pub fn judge_difference(
     Some(Judgement::new(refusal, student, standard, alpha, otherwise))
 }
 
-fn flipped(sample: &[f64], alpha: f64, plan: &Plan) -> Option<(Interval, Method)> {
+fn flipped(sample: &[f64], alpha: f64, plan: &Resampling) -> Option<(Interval, Method)> {
     sign_flip::interval(sample, 1.0 - alpha, plan.resamples, plan.seed)
         .map(|interval| (interval, Method::SignFlip))
 }

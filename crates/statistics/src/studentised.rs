@@ -10,7 +10,7 @@
 //! A bootstrap knows no tail that the sample does not show: below [`FEWEST`] numbers, or with fewer
 //! than ten resamples beyond each end, it is refused.
 
-use crate::bootstrap::Plan;
+use crate::bootstrap::Resampling;
 use crate::estimate::Estimate;
 use crate::interval::Interval;
 use crate::random::SplitMix64;
@@ -22,7 +22,7 @@ pub const FEWEST: usize = 20;
 /// The interval of the mean of independent numbers; `None` of fewer than [`FEWEST`], of non-finite ones, or
 /// where the plan cannot resolve the confidence.
 #[must_use]
-pub fn mean(sample: &[f64], plan: &Plan, confidence: f64) -> Option<Interval> {
+pub fn mean(sample: &[f64], plan: &Resampling, confidence: f64) -> Option<Interval> {
     let observed = Estimate::mean(&Summary::of(sample)?);
     let deviations = Deviations::of(sample)?;
     let mut random = SplitMix64::new(plan.seed);
@@ -35,7 +35,7 @@ pub fn mean(sample: &[f64], plan: &Plan, confidence: f64) -> Option<Interval> {
 /// The interval of the difference of two means, `a` − `b`, of independent samples whose distributions may
 /// differ; `None` as for [`mean`], of either.
 #[must_use]
-pub fn difference(a: &[f64], b: &[f64], plan: &Plan, confidence: f64) -> Option<Interval> {
+pub fn difference(a: &[f64], b: &[f64], plan: &Resampling, confidence: f64) -> Option<Interval> {
     let observed = Estimate::welch(&Summary::of(a)?, &Summary::of(b)?);
     let (a, b) = (Deviations::of(a)?, Deviations::of(b)?);
     let mut random = SplitMix64::new(plan.seed);
@@ -103,7 +103,7 @@ fn studentise(distance: f64, variance: f64) -> f64 {
 /// The observed estimate less the quantiles of its studentised resamples.
 fn interval(
     observed: &Estimate,
-    plan: &Plan,
+    plan: &Resampling,
     confidence: f64,
     mut resample: impl FnMut() -> f64,
 ) -> Option<Interval> {

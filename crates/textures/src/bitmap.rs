@@ -4,15 +4,15 @@
 //! point are evaluated and averaged with the bilinear weights, t(λ) = Σᵢ wᵢ S(cᵢ; λ). Averaging
 //! the coefficients cᵢ instead would give colours that are in none of the texels.
 
-use crate::footprint::Footprint;
+use crate::footprint::BilinearTap;
 use crate::pixels::{Image, Pixels, Texels, Values};
 use crate::reader::Use;
 use crate::recovered::{self, luminance};
 use crate::texture::TextureModel;
-use crate::{Filter, Texture, TextureReader, TextureSet, UvTransform, Wrap};
+use crate::{Filter, Texture, TextureReader, TextureTable, UvTransform, Wrap};
 use etalon_params::{Diagnostic, Params};
 use etalon_spectrum::RgbCoefficients;
-use etalon_transport::{Role, Shapes, TexturePoint};
+use etalon_transport::{Shapes, SpectrumKind, TexturePoint};
 use glam::{UVec2, Vec2, Vec3, Vec4};
 use std::ops::{Add, Mul};
 use std::sync::Arc;
@@ -40,13 +40,13 @@ impl Bitmap {
         let uv = self.to_uv.apply(uv);
         match self.filter {
             Filter::Bilinear => {
-                let Footprint {
+                let BilinearTap {
                     texels: [a, b, c, d],
                     weights: w,
-                } = Footprint::bilinear(uv, self.image.size, self.wrap);
+                } = BilinearTap::bilinear(uv, self.image.size, self.wrap);
                 value(a) * w[0] + value(b) * w[1] + (value(c) * w[2] + value(d) * w[3])
             }
-            Filter::Nearest => value(Footprint::nearest(uv, self.image.size, self.wrap)),
+            Filter::Nearest => value(BilinearTap::nearest(uv, self.image.size, self.wrap)),
         }
     }
 
@@ -92,25 +92,25 @@ impl Bitmap {
 
 impl TextureModel for Bitmap {
     #[inline]
-    fn spectrum(&self, _: &TextureSet, _: &impl Shapes, at: &TexturePoint, lambda: Vec4) -> Vec4 {
+    fn spectrum(&self, _: &TextureTable, _: &impl Shapes, at: &TexturePoint, lambda: Vec4) -> Vec4 {
         Self::spectrum(self, at.uv, lambda)
     }
 
     #[inline]
-    fn number(&self, _: &TextureSet, _: &impl Shapes, at: &TexturePoint) -> f32 {
+    fn number(&self, _: &TextureTable, _: &impl Shapes, at: &TexturePoint) -> f32 {
         Self::number(self, at.uv)
     }
 
     #[inline]
-    fn colour(&self, _: &TextureSet, _: &impl Shapes, at: &TexturePoint) -> Vec3 {
+    fn colour(&self, _: &TextureTable, _: &impl Shapes, at: &TexturePoint) -> Vec3 {
         Self::colour(self, at.uv)
     }
 
-    fn mean(&self, _: &TextureSet) -> f32 {
+    fn mean(&self, _: &TextureTable) -> f32 {
         self.image.mean
     }
 
-    fn is_constant(&self, _: &TextureSet) -> bool {
+    fn is_constant(&self, _: &TextureTable) -> bool {
         self.image.size == UVec2::ONE
     }
 }
@@ -145,9 +145,9 @@ fn image(
     params: &Params<'_>,
     filename: &str,
     raw: bool,
-    role: Role,
+    role: SpectrumKind,
 ) -> Option<Arc<Image>> {
-    let key = (filename.to_owned(), raw, role != Role::Reflectance);
+    let key = (filename.to_owned(), raw, role != SpectrumKind::Reflectance);
     if let Some(image) = reader.set.images.get(&key) {
         return Some(Arc::clone(image));
     }
@@ -177,7 +177,7 @@ fn image(
             .push(Diagnostic::note(property.span, note));
     }
     let negative = matches!(&pixels.values, Values::One(v) if v.iter().any(|&x| x < 0.0));
-    if negative && role == Role::Emission {
+    if negative && role == SpectrumKind::Emission {
         fail(
             format!("`{filename}` has negative values, which no light can emit"),
             None,

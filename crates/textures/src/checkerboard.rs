@@ -7,7 +7,7 @@
 use crate::UvTransform;
 use crate::reader::Use;
 use crate::texture::TextureModel;
-use crate::{Texture, TextureReader, TextureSet};
+use crate::{Texture, TextureReader, TextureTable};
 use etalon_params::Params;
 use etalon_transport::TextureId;
 use etalon_transport::{Shapes, TexturePoint};
@@ -49,7 +49,7 @@ impl TextureModel for Checkerboard {
     #[inline]
     fn spectrum(
         &self,
-        set: &TextureSet,
+        set: &TextureTable,
         shapes: &impl Shapes,
         at: &TexturePoint,
         lambda: Vec4,
@@ -58,21 +58,21 @@ impl TextureModel for Checkerboard {
     }
 
     #[inline]
-    fn number(&self, set: &TextureSet, shapes: &impl Shapes, at: &TexturePoint) -> f32 {
+    fn number(&self, set: &TextureTable, shapes: &impl Shapes, at: &TexturePoint) -> f32 {
         set.number(self.for_number(at.uv), shapes, at)
     }
 
     #[inline]
-    fn colour(&self, set: &TextureSet, shapes: &impl Shapes, at: &TexturePoint) -> Vec3 {
+    fn colour(&self, set: &TextureTable, shapes: &impl Shapes, at: &TexturePoint) -> Vec3 {
         set.colour(self.for_spectrum(at.uv), shapes, at)
     }
 
-    fn mean(&self, set: &TextureSet) -> f32 {
+    fn mean(&self, set: &TextureTable) -> f32 {
         let [a, b] = self.colours;
         0.5 * (set.mean(a) + set.mean(b))
     }
 
-    fn is_constant(&self, _: &TextureSet) -> bool {
+    fn is_constant(&self, _: &TextureTable) -> bool {
         self.colours[0] == self.colours[1]
     }
 

@@ -2,10 +2,10 @@
 
 use crate::reader::Use;
 use crate::texture::TextureModel;
-use crate::{Texture, TextureReader, TextureSet};
+use crate::{Texture, TextureReader, TextureTable};
 use etalon_params::{Params, Value};
 use etalon_spectrum::{RgbSpectrum, Spectrum, colour_space};
-use etalon_transport::{Role, Shapes, TexturePoint};
+use etalon_transport::{Shapes, SpectrumKind, TexturePoint};
 use glam::Vec3;
 use glam::{DVec3, Vec4};
 
@@ -70,25 +70,25 @@ impl Constant {
 
 impl TextureModel for Constant {
     #[inline]
-    fn spectrum(&self, _: &TextureSet, _: &impl Shapes, _: &TexturePoint, lambda: Vec4) -> Vec4 {
+    fn spectrum(&self, _: &TextureTable, _: &impl Shapes, _: &TexturePoint, lambda: Vec4) -> Vec4 {
         self.spectrum.eval(lambda)
     }
 
     #[inline]
-    fn number(&self, _: &TextureSet, _: &impl Shapes, _: &TexturePoint) -> f32 {
+    fn number(&self, _: &TextureTable, _: &impl Shapes, _: &TexturePoint) -> f32 {
         self.number
     }
 
     #[inline]
-    fn colour(&self, _: &TextureSet, _: &impl Shapes, _: &TexturePoint) -> Vec3 {
+    fn colour(&self, _: &TextureTable, _: &impl Shapes, _: &TexturePoint) -> Vec3 {
         self.colour
     }
 
-    fn mean(&self, _: &TextureSet) -> f32 {
+    fn mean(&self, _: &TextureTable) -> f32 {
         self.mean
     }
 
-    fn is_constant(&self, _: &TextureSet) -> bool {
+    fn is_constant(&self, _: &TextureTable) -> bool {
         true
     }
 }
@@ -116,7 +116,7 @@ pub(crate) fn read(
             return None;
         }
     };
-    let values = if purpose.role == Role::Reflectance && values.max_element() > 1.0 {
+    let values = if purpose.role == SpectrumKind::Reflectance && values.max_element() > 1.0 {
         reader.note_held(property.span);
         values.min(DVec3::ONE)
     } else {

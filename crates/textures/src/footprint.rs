@@ -41,14 +41,14 @@ impl Wrap {
 
 /// Four texels (as indices into rows of texels) and their weights, which sum to one.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Footprint {
+pub struct BilinearTap {
     /// Upper left, upper right, lower left, lower right.
     pub texels: [usize; 4],
     /// Their weights.
     pub weights: [f32; 4],
 }
 
-impl Footprint {
+impl BilinearTap {
     /// The four texels around `uv` in an image of `size` texels.
     #[inline]
     pub fn bilinear(uv: Vec2, size: UVec2, wrap: Wrap) -> Self {
@@ -97,12 +97,12 @@ mod tests {
             ] {
                 let size = UVec2::new(3, 2);
                 assert!(
-                    Footprint::bilinear(uv, size, wrap)
+                    BilinearTap::bilinear(uv, size, wrap)
                         .texels
                         .iter()
                         .all(|&t| t < 6)
                 );
-                assert!(Footprint::nearest(uv, size, wrap) < 6);
+                assert!(BilinearTap::nearest(uv, size, wrap) < 6);
             }
         }
     }

@@ -2,11 +2,11 @@
 
 use crate::reader::Use;
 use crate::texture::TextureModel;
-use crate::{Constant, Texture, TextureReader, TextureSet};
+use crate::{Constant, Texture, TextureReader, TextureTable};
 use etalon_params::{Class, Params, Value};
 use etalon_spectrum::Spectrum;
 use etalon_transport::TextureId;
-use etalon_transport::{Role, Shapes, TexturePoint};
+use etalon_transport::{Shapes, SpectrumKind, TexturePoint};
 use glam::Vec3;
 use glam::Vec4;
 use std::sync::LazyLock;
@@ -17,14 +17,14 @@ static WHITE: LazyLock<etalon_spectrum::Regular> =
 
 /// A texture times D65.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Illuminated {
+pub struct TimesD65 {
     /// What varies over the surface.
     pub inner: TextureId,
     /// A factor.
     pub scale: f32,
 }
 
-impl Illuminated {
+impl TimesD65 {
     /// The factor at four wavelengths (nm).
     #[inline]
     pub fn factor(&self, lambda: Vec4) -> Vec4 {
@@ -32,11 +32,11 @@ impl Illuminated {
     }
 }
 
-impl TextureModel for Illuminated {
+impl TextureModel for TimesD65 {
     #[inline]
     fn spectrum(
         &self,
-        set: &TextureSet,
+        set: &TextureTable,
         shapes: &impl Shapes,
         at: &TexturePoint,
         lambda: Vec4,
@@ -45,20 +45,20 @@ impl TextureModel for Illuminated {
     }
 
     #[inline]
-    fn number(&self, set: &TextureSet, shapes: &impl Shapes, at: &TexturePoint) -> f32 {
+    fn number(&self, set: &TextureTable, shapes: &impl Shapes, at: &TexturePoint) -> f32 {
         set.number(self.inner, shapes, at) * self.scale
     }
 
     #[inline]
-    fn colour(&self, set: &TextureSet, shapes: &impl Shapes, at: &TexturePoint) -> Vec3 {
+    fn colour(&self, set: &TextureTable, shapes: &impl Shapes, at: &TexturePoint) -> Vec3 {
         set.colour(self.inner, shapes, at) * self.scale
     }
 
-    fn mean(&self, set: &TextureSet) -> f32 {
+    fn mean(&self, set: &TextureTable) -> f32 {
         set.mean(self.inner) * self.scale
     }
 
-    fn is_constant(&self, set: &TextureSet) -> bool {
+    fn is_constant(&self, set: &TextureTable) -> bool {
         set.is_constant(self.inner)
     }
 
@@ -82,7 +82,7 @@ pub(crate) fn read(
         (None, []) => Spectrum::d65(1.0).ok(),
         (Some(property), []) => {
             let emission = Use {
-                role: Role::Emission,
+                role: SpectrumKind::Emission,
                 nested: false,
             };
             match &property.value {
@@ -99,11 +99,11 @@ pub(crate) fn read(
         }
         (None, [(property, _)]) => {
             let nested = Use {
-                role: Role::Emission,
+                role: SpectrumKind::Emission,
                 nested: true,
             };
             let inner = reader.value(property, nested);
-            return Some(Texture::Illuminated(Illuminated { inner, scale }));
+            return Some(Texture::TimesD65(TimesD65 { inner, scale }));
         }
         _ => {
             params.error("`d65` takes either `color` or one nested texture");

@@ -1,7 +1,7 @@
 //! Spectra and images that vary over surfaces.
 //!
 //! A [`Texture`] answers three questions at a point: which spectrum, which number, which raw
-//! colour. A scene keeps its textures in a [`TextureSet`] and refers to them by
+//! colour. A scene keeps its textures in a [`TextureTable`] and refers to them by
 //! [`etalon_transport::TextureId`]; [`TextureReader`] makes them from a scene description with
 //! Mitsuba's rules (which plugin a number, an `rgb` or a `spectrum` property stands for).
 //!
@@ -28,11 +28,11 @@ pub use bitmap::Bitmap;
 pub use checkerboard::Checkerboard;
 pub use constant::Constant;
 pub use footprint::{Filter, Wrap};
-pub use illuminated::Illuminated;
+pub use illuminated::TimesD65;
 pub use mesh_attribute::MeshAttribute;
 pub use pixels::{Pixels, Texels};
 pub use reader::TextureReader;
-pub use set::TextureSet;
+pub use set::TextureTable;
 pub use texture::Texture;
 pub use uv_transform::UvTransform;
 

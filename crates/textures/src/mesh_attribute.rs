@@ -11,10 +11,10 @@
 use crate::reader::Use;
 use crate::recovered::luminance;
 use crate::texture::TextureModel;
-use crate::{Texture, TextureReader, TextureSet};
+use crate::{Texture, TextureReader, TextureTable};
 use etalon_params::Params;
 use etalon_spectrum::{RgbCoefficients, RgbSpectrum};
-use etalon_transport::{Role, Shapes, TexturePoint};
+use etalon_transport::{Shapes, SpectrumKind, TexturePoint};
 use glam::{Vec3, Vec4};
 
 /// A named attribute, scaled.
@@ -25,7 +25,7 @@ pub struct MeshAttribute {
     /// A factor, not below 0.
     pub scale: f32,
     /// What the quantity is.
-    pub role: Role,
+    pub role: SpectrumKind,
 }
 
 impl MeshAttribute {
@@ -33,14 +33,14 @@ impl MeshAttribute {
     #[inline]
     pub fn range(&self) -> [f32; 2] {
         match self.role {
-            Role::Reflectance => [0.0, (1.0 / self.scale).min(f32::MAX)],
-            Role::Emission | Role::Unbounded => [0.0, f32::MAX],
+            SpectrumKind::Reflectance => [0.0, (1.0 / self.scale).min(f32::MAX)],
+            SpectrumKind::Emission | SpectrumKind::Unbounded => [0.0, f32::MAX],
         }
     }
 
     /// The interpolated channels; black away from shapes and where the shape has no such
     /// attribute, which the scene rules out when it is compiled (see
-    /// [`crate::TextureSet::attributes`]).
+    /// [`crate::TextureTable::attributes`]).
     #[inline]
     fn stored(&self, shapes: &impl Shapes, at: &TexturePoint) -> Vec3 {
         if !at.shape.is_some() {
@@ -60,7 +60,7 @@ impl MeshAttribute {
             return Vec4::splat(value.x * self.scale);
         }
         let bright = value.max_element() > 1.0;
-        if self.role == Role::Reflectance && (bright || self.scale > 1.0) {
+        if self.role == SpectrumKind::Reflectance && (bright || self.scale > 1.0) {
             // Scaled first: a spectrum that is multiplied may exceed 1 where its colour does not.
             let scaled = value * self.scale;
             return RgbCoefficients::from_rgb(scaled.to_array()).eval(lambda);
@@ -96,7 +96,7 @@ impl TextureModel for MeshAttribute {
     #[inline]
     fn spectrum(
         &self,
-        _: &TextureSet,
+        _: &TextureTable,
         shapes: &impl Shapes,
         at: &TexturePoint,
         lambda: Vec4,
@@ -105,16 +105,16 @@ impl TextureModel for MeshAttribute {
     }
 
     #[inline]
-    fn number(&self, _: &TextureSet, shapes: &impl Shapes, at: &TexturePoint) -> f32 {
+    fn number(&self, _: &TextureTable, shapes: &impl Shapes, at: &TexturePoint) -> f32 {
         Self::number(self, shapes, at)
     }
 
     #[inline]
-    fn colour(&self, _: &TextureSet, shapes: &impl Shapes, at: &TexturePoint) -> Vec3 {
+    fn colour(&self, _: &TextureTable, shapes: &impl Shapes, at: &TexturePoint) -> Vec3 {
         Self::colour(self, shapes, at)
     }
 
-    fn mean(&self, _: &TextureSet) -> f32 {
+    fn mean(&self, _: &TextureTable) -> f32 {
         0.5 * self.scale
     }
 }

@@ -2,7 +2,7 @@
 
 use crate::recovered::luminance;
 use etalon_spectrum::{RgbCoefficients, RgbSpectrum};
-use etalon_transport::Role;
+use etalon_transport::SpectrumKind;
 use glam::{DVec3, UVec2, Vec3};
 
 /// Linear (or raw) pixels without alpha, row after row from the top.
@@ -54,11 +54,11 @@ impl Image {
     /// Prepares pixels for lookup. With `raw`, three channels stay what they are. Numbers and
     /// colours beyond 1 are kept if `role` allows them, colours with a spectrum as for a bright
     /// `rgb` value; negative colours never.
-    pub fn new(pixels: Pixels, raw: bool, role: Role) -> Self {
+    pub fn new(pixels: Pixels, raw: bool, role: SpectrumKind) -> Self {
         let mut moved = 0;
         let (texels, mean) = match pixels.values {
             Values::One(mut values) => {
-                if role == Role::Reflectance {
+                if role == SpectrumKind::Reflectance {
                     for value in &mut values {
                         let held = value.clamp(0.0, 1.0);
                         moved += usize::from(held != *value);
@@ -73,7 +73,7 @@ impl Image {
                 let texels = if raw {
                     Texels::Raw(values)
                 } else {
-                    let bright = role != Role::Reflectance
+                    let bright = role != SpectrumKind::Reflectance
                         && values.iter().flatten().any(|&component| component > 1.0);
                     upsample(values, bright, &mut moved)
                 };
@@ -182,9 +182,9 @@ mod tests {
             (image.texels, image.moved)
         };
         let held = (Texels::Number(vec![0.0, 0.5, 1.0]), 2);
-        assert_eq!(numbers(Role::Reflectance), held);
+        assert_eq!(numbers(SpectrumKind::Reflectance), held);
         let free = (Texels::Number(vec![-1.0, 0.5, 50.0]), 0);
-        assert_eq!(numbers(Role::Unbounded), free);
+        assert_eq!(numbers(SpectrumKind::Unbounded), free);
     }
 
     /// Repetition and collisions do not change a texel: each is what its colour gives alone.
@@ -202,7 +202,7 @@ mod tests {
             size: UVec2::new(20_000, 1),
             values: Values::Three(colours.clone()),
         };
-        let image = Image::new(pixels, false, Role::Reflectance);
+        let image = Image::new(pixels, false, SpectrumKind::Reflectance);
         let Texels::Colour(texels) = &image.texels else {
             panic!("colours become coefficients");
         };

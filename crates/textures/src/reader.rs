@@ -11,17 +11,17 @@
 //! when it emits, unless it is wrapped in a `d65` object. Values inside of nested textures follow
 //! the first column, whatever the outermost property is for.
 
-use crate::{Constant, Texture, TextureSet};
+use crate::{Constant, Texture, TextureTable};
 use etalon_params::{Class, Diagnostic, Diagnostics, Node, Params, Property, Span, Value};
 use etalon_params::{DVec3, SpectrumText};
 use etalon_spectrum::{LAMBDA_MAX, LAMBDA_MIN, Spectrum, SpectrumError};
-use etalon_transport::{Assets, Role, TextureId};
+use etalon_transport::{Assets, SpectrumKind, TextureId};
 use std::sync::Arc;
 
 /// Reads textures into a set. Mistakes go to the diagnostics; a harmless texture stands in.
 pub struct TextureReader<'a> {
     /// Where the textures go.
-    pub set: &'a mut TextureSet,
+    pub set: &'a mut TextureTable,
     /// The scene's files.
     pub assets: &'a dyn Assets,
     /// Where mistakes go.
@@ -31,7 +31,7 @@ pub struct TextureReader<'a> {
 /// A role, and whether the value stands inside of another texture.
 #[derive(Clone, Copy)]
 pub(crate) struct Use {
-    pub(crate) role: Role,
+    pub(crate) role: SpectrumKind,
     pub(crate) nested: bool,
 }
 
@@ -43,7 +43,7 @@ impl TextureReader<'_> {
         params: &Params<'_>,
         name: &str,
         default: Option<f64>,
-        role: Role,
+        role: SpectrumKind,
     ) -> TextureId {
         let top = Use {
             role,
@@ -73,7 +73,7 @@ impl TextureReader<'_> {
     }
 
     /// The texture that a property's value stands for.
-    pub fn property(&mut self, property: &Property, role: Role) -> TextureId {
+    pub fn property(&mut self, property: &Property, role: SpectrumKind) -> TextureId {
         let top = Use {
             role,
             nested: false,
@@ -106,7 +106,7 @@ impl TextureReader<'_> {
     }
 
     /// The texture described by an object. The same object in the same role is read once.
-    pub fn node(&mut self, node: &Arc<Node>, role: Role) -> TextureId {
+    pub fn node(&mut self, node: &Arc<Node>, role: SpectrumKind) -> TextureId {
         let top = Use {
             role,
             nested: false,
@@ -133,12 +133,12 @@ impl TextureReader<'_> {
     }
 
     fn number(&self, x: f64, purpose: Use, span: Span) -> Option<Spectrum> {
-        let spectrum = if purpose.role == Role::Emission && !purpose.nested {
+        let spectrum = if purpose.role == SpectrumKind::Emission && !purpose.nested {
             Spectrum::d65(x)
         } else {
             Spectrum::uniform(x)
         };
-        if x < 0.0 && purpose.role != Role::Unbounded {
+        if x < 0.0 && purpose.role != SpectrumKind::Unbounded {
             self.refuse(span, format!("{x} is negative"), "numbers not below 0");
             return None;
         }
@@ -149,7 +149,7 @@ impl TextureReader<'_> {
     /// A spectrum in its role: what no more than all light can be reflected of is held to 1, with
     /// a note. (Mitsuba 3 takes such numbers and spectra as they are and makes light of nothing.)
     pub(crate) fn held(&self, spectrum: Spectrum, purpose: Use, span: Span) -> Spectrum {
-        if purpose.role != Role::Reflectance || !(spectrum.maximum() > 1.0) {
+        if purpose.role != SpectrumKind::Reflectance || !(spectrum.maximum() > 1.0) {
             return spectrum;
         }
         self.note_held(span);
@@ -167,10 +167,10 @@ impl TextureReader<'_> {
         let values = rgb.to_array();
         let bounded = values.iter().all(|x| (0.0..=1.0).contains(x));
         let spectrum = match purpose.role {
-            Role::Emission if !purpose.nested => Spectrum::emission(values),
+            SpectrumKind::Emission if !purpose.nested => Spectrum::emission(values),
             // An index of refraction is no colour, and Mitsuba's spectral modes hold each
             // component to [0, 1]. So do we, aloud.
-            Role::Unbounded => {
+            SpectrumKind::Unbounded => {
                 if !bounded {
                     self.diagnostics.push(
                         Diagnostic::note(
@@ -183,7 +183,7 @@ impl TextureReader<'_> {
                 }
                 Spectrum::reflectance(values.map(|x| x.clamp(0.0, 1.0)))
             }
-            Role::Emission if !bounded => Spectrum::unbounded(values),
+            SpectrumKind::Emission if !bounded => Spectrum::unbounded(values),
             _ => {
                 if values.iter().any(|&x| x > 1.0) {
                     self.note_held(span);
@@ -217,7 +217,7 @@ impl TextureReader<'_> {
         let lowest = (LAMBDA_MIN as i32..=LAMBDA_MAX as i32)
             .map(|nm| spectrum.eval_at(f64::from(nm)))
             .fold(f64::INFINITY, f64::min);
-        if lowest < 0.0 && purpose.role != Role::Unbounded {
+        if lowest < 0.0 && purpose.role != SpectrumKind::Unbounded {
             self.refuse(
                 span,
                 format!("this spectrum falls to {lowest}"),

@@ -4,7 +4,7 @@ use crate::pixels::Image;
 use crate::{Constant, Texture};
 use etalon_params::{Node, Span};
 use etalon_spectrum::Spectrum;
-use etalon_transport::{Role, Shapes, TextureId, TexturePoint};
+use etalon_transport::{Shapes, SpectrumKind, TextureId, TexturePoint};
 use glam::{Vec3, Vec4};
 use std::collections::HashMap;
 use std::sync::Arc;
@@ -14,17 +14,17 @@ use std::sync::Arc;
 /// A scene's implementation of [`etalon_transport::Textures`] forwards to the methods of the
 /// same names, which take the scene's shapes besides.
 #[derive(Debug, Default)]
-pub struct TextureSet {
+pub struct TextureTable {
     textures: Vec<Texture>,
     attributes: Vec<(TextureId, Span)>,
     /// By address of the node.
-    pub(crate) read: HashMap<(usize, Role), TextureId>,
+    pub(crate) read: HashMap<(usize, SpectrumKind), TextureId>,
     /// Keeps the nodes in `read` alive, so that no address is used twice.
     pub(crate) nodes: Vec<Arc<Node>>,
     pub(crate) images: HashMap<(String, bool, bool), Arc<Image>>,
 }
 
-impl TextureSet {
+impl TextureTable {
     /// An empty set.
     pub fn new() -> Self {
         Self::default()
@@ -60,7 +60,11 @@ impl TextureSet {
     /// The textures that an object was read as: one for each role in which it is used.
     pub fn read_as(&self, node: &Arc<Node>) -> impl Iterator<Item = TextureId> {
         let address = Arc::as_ptr(node) as usize;
-        let roles = [Role::Reflectance, Role::Emission, Role::Unbounded];
+        let roles = [
+            SpectrumKind::Reflectance,
+            SpectrumKind::Emission,
+            SpectrumKind::Unbounded,
+        ];
         roles
             .into_iter()
             .filter_map(move |role| self.read.get(&(address, role)).copied())

@@ -5,7 +5,7 @@ use crate::{Constant, Texture, TextureReader};
 use etalon_params::{Params, Value};
 use etalon_spectrum::spd::check_unit;
 use etalon_spectrum::{Blackbody, Spectrum};
-use etalon_transport::Role;
+use etalon_transport::SpectrumKind;
 use std::sync::Arc;
 
 /// Reads a spectrum, held to what its purpose admits.
@@ -67,7 +67,7 @@ fn spectrum(reader: &TextureReader<'_>, params: &Params<'_>) -> Option<Spectrum>
                 return reader.checked(Spectrum::reflectance(rgb.to_array()), property.span);
             }
             let purpose = Use {
-                role: Role::Unbounded,
+                role: SpectrumKind::Unbounded,
                 nested: false,
             };
             return reader.colour(*rgb, purpose, property.span);

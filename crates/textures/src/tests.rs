@@ -1,11 +1,11 @@
 //! What the tests of textures share: nodes, files, shapes.
 
-use crate::{TextureReader, TextureSet};
+use crate::{TextureReader, TextureTable};
 use etalon_images::{Frame, Image, exr};
 use etalon_params::{Class, Diagnostics, FileId, Node, Property, Span, Spanned, Value};
 use etalon_transport::{
-    AssetError, Assets, MeshData, MeshFormat, Receiver, Role, SampledPoint, ShapeId, Shapes,
-    SurfacePoint, TextureId, TexturePoint,
+    AssetError, Assets, LightSampleContext, MeshData, MeshFormat, SampledPoint, ShapeId, Shapes,
+    SpectrumKind, SurfacePoint, TextureId, TexturePoint,
 };
 use glam::{Vec2, Vec3, Vec4};
 use std::collections::HashMap;
@@ -101,10 +101,10 @@ impl Shapes for OneShape {
     fn sample_area(&self, _: ShapeId, _: Vec2) -> SampledPoint {
         panic!("textures do not sample shapes")
     }
-    fn sample_toward(&self, _: ShapeId, _: &Receiver, _: Vec2) -> Option<SampledPoint> {
+    fn sample_toward(&self, _: ShapeId, _: &LightSampleContext, _: Vec2) -> Option<SampledPoint> {
         None
     }
-    fn density_toward(&self, _: ShapeId, _: &Receiver, _: &SurfacePoint) -> f32 {
+    fn density_toward(&self, _: ShapeId, _: &LightSampleContext, _: &SurfacePoint) -> f32 {
         0.0
     }
     fn attribute(
@@ -126,8 +126,12 @@ impl Shapes for OneShape {
 }
 
 /// A set with one texture in it, and the messages that reading it gave.
-fn read(files: &Files, node: &Arc<Node>, role: Role) -> (TextureSet, TextureId, Vec<String>) {
-    let mut set = TextureSet::new();
+fn read(
+    files: &Files,
+    node: &Arc<Node>,
+    role: SpectrumKind,
+) -> (TextureTable, TextureId, Vec<String>) {
+    let mut set = TextureTable::new();
     let diagnostics = Diagnostics::new();
     let mut reader = TextureReader {
         set: &mut set,
@@ -141,12 +145,12 @@ fn read(files: &Files, node: &Arc<Node>, role: Role) -> (TextureSet, TextureId, 
 
 /// One texture without mistakes.
 struct One {
-    set: TextureSet,
+    set: TextureTable,
     id: TextureId,
 }
 
 impl One {
-    fn new(files: &Files, node: &Arc<Node>, role: Role) -> Self {
+    fn new(files: &Files, node: &Arc<Node>, role: SpectrumKind) -> Self {
         let (set, id, messages) = read(files, node, role);
         assert!(messages.is_empty(), "{messages:?}");
         Self { set, id }

@@ -3,9 +3,7 @@
 //! To add a texture, write its file and add one line to the list.
 
 use crate::reader::Use;
-use crate::{
-    Bitmap, Checkerboard, Constant, Illuminated, MeshAttribute, TextureReader, TextureSet,
-};
+use crate::{Bitmap, Checkerboard, Constant, MeshAttribute, TextureReader, TextureTable, TimesD65};
 use crate::{bitmap, checkerboard, constant, illuminated, mesh_attribute, spectra};
 use etalon_params::{Params, plugins};
 use etalon_transport::{Shapes, TextureId, TexturePoint};
@@ -16,25 +14,25 @@ pub(crate) trait TextureModel {
     /// The spectrum, for the wavelengths `lambda` (nm).
     fn spectrum(
         &self,
-        set: &TextureSet,
+        set: &TextureTable,
         shapes: &impl Shapes,
         at: &TexturePoint,
         lambda: Vec4,
     ) -> Vec4;
 
     /// The number.
-    fn number(&self, set: &TextureSet, shapes: &impl Shapes, at: &TexturePoint) -> f32;
+    fn number(&self, set: &TextureTable, shapes: &impl Shapes, at: &TexturePoint) -> f32;
 
     /// Three raw channels.
-    fn colour(&self, set: &TextureSet, shapes: &impl Shapes, at: &TexturePoint) -> Vec3;
+    fn colour(&self, set: &TextureTable, shapes: &impl Shapes, at: &TexturePoint) -> Vec3;
 
     /// The mean over the texture and the wavelengths, for choosing among lobes and lights only:
     /// images are averaged over their texels as if `to_uv` showed all of them alike, and a mesh
     /// attribute, whose values are not known here, counts as ½.
-    fn mean(&self, set: &TextureSet) -> f32;
+    fn mean(&self, set: &TextureTable) -> f32;
 
     /// Whether the texture is the same everywhere.
-    fn is_constant(&self, _: &TextureSet) -> bool {
+    fn is_constant(&self, _: &TextureTable) -> bool {
         false
     }
 
@@ -109,7 +107,7 @@ textures! {
     /// A quantity stored on a mesh.
     MeshAttribute { "mesh_attribute" => mesh_attribute::read, }
     /// Another texture times D65.
-    Illuminated { "d65" => illuminated::read, }
+    TimesD65 { "d65" => illuminated::read, }
 }
 
 impl Texture {
@@ -118,7 +116,7 @@ impl Texture {
     #[inline]
     pub fn spectrum(
         &self,
-        set: &TextureSet,
+        set: &TextureTable,
         shapes: &impl Shapes,
         at: &TexturePoint,
         lambda: Vec4,
@@ -128,25 +126,25 @@ impl Texture {
 
     /// The number at a point.
     #[inline]
-    pub fn number(&self, set: &TextureSet, shapes: &impl Shapes, at: &TexturePoint) -> f32 {
+    pub fn number(&self, set: &TextureTable, shapes: &impl Shapes, at: &TexturePoint) -> f32 {
         ask!(self, texture => TextureModel::number(texture, set, shapes, at))
     }
 
     /// Three raw channels at a point.
     #[inline]
-    pub fn colour(&self, set: &TextureSet, shapes: &impl Shapes, at: &TexturePoint) -> Vec3 {
+    pub fn colour(&self, set: &TextureTable, shapes: &impl Shapes, at: &TexturePoint) -> Vec3 {
         ask!(self, texture => TextureModel::colour(texture, set, shapes, at))
     }
 
     /// The mean over the texture and the wavelengths, for choosing among lobes and lights only:
     /// images are averaged over their texels as if `to_uv` showed all of them alike, and a mesh
     /// attribute, whose values are not known here, counts as ½.
-    pub fn mean(&self, set: &TextureSet) -> f32 {
+    pub fn mean(&self, set: &TextureTable) -> f32 {
         ask!(self, texture => texture.mean(set))
     }
 
     /// Whether the texture is the same everywhere.
-    pub fn is_constant(&self, set: &TextureSet) -> bool {
+    pub fn is_constant(&self, set: &TextureTable) -> bool {
         ask!(self, texture => texture.is_constant(set))
     }
 

@@ -1,6 +1,6 @@
 //! The contract of a scattering model at a point.
 
-use crate::{Chance, Mixture};
+use crate::{Mixture, SamplePdf};
 use etalon_math::{Density, Frame, SolidAngle};
 use glam::{Vec2, Vec3, Vec4};
 
@@ -8,7 +8,7 @@ use glam::{Vec2, Vec3, Vec4};
 /// lights). Only refraction tells them apart: radiance is compressed by η² (Veach 1997,
 /// section 5.2), and so does a shading normal (ibid. 5.3).
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Mode {
+pub enum TransportMode {
     /// `wi` points to where light comes from.
     Radiance,
     /// `wi` points to where light goes; `wo` to where it comes from.
@@ -25,11 +25,11 @@ pub struct BsdfSample {
     pub value: Vec4,
     /// Density of `wi` under all continuous lobes together, or probability of the discrete one,
     /// for each lane had it been the one that chose.
-    pub chance: Chance,
+    pub chance: SamplePdf,
     /// η of the medium entered over that of the medium left (1 for reflection).
     pub eta: f32,
     /// Whether the ray goes straight on as if the surface were not there (`null`, `mask`).
-    pub passes: bool,
+    pub is_null: bool,
 }
 
 /// A scattering model at a point: plain data that knows neither textures nor scene.
@@ -37,7 +37,7 @@ pub struct BsdfSample {
 /// Directions are in world space. Evaluation cannot fail.
 pub trait Bsdf {
     /// f(wo, wi)·|cos θi| of the continuous lobes (sr⁻¹), per lane.
-    fn eval(&self, wo: Vec3, wi: Vec3, mode: Mode) -> Vec4;
+    fn eval(&self, wo: Vec3, wi: Vec3, mode: TransportMode) -> Vec4;
 
     /// The density with which [`Bsdf::sample`] finds the continuous direction `wi`. Includes
     /// the probability of choosing a continuous lobe at all.
@@ -45,20 +45,25 @@ pub trait Bsdf {
 
     /// [`Bsdf::eval`] and [`Bsdf::density`] together.
     #[inline]
-    fn eval_and_density(&self, wo: Vec3, wi: Vec3, mode: Mode) -> (Vec4, Density<SolidAngle>) {
+    fn eval_and_density(
+        &self,
+        wo: Vec3,
+        wi: Vec3,
+        mode: TransportMode,
+    ) -> (Vec4, Density<SolidAngle>) {
         (self.eval(wo, wi, mode), self.density(wo, wi))
     }
 
     /// Samples a direction; `None` if the light is absorbed. Lane 0 of the wavelengths for
     /// which the model was made chooses; `u_lobe` and `u` are uniform in [0, 1). Light passes straight on
-    /// if `u_lobe` is below the chooser's [`Bsdf::passing_probability`], and only then.
-    fn sample(&self, wo: Vec3, u_lobe: f32, u: Vec2, mode: Mode) -> Option<BsdfSample>;
+    /// if `u_lobe` is below the chooser's [`Bsdf::null_probability`], and only then.
+    fn sample(&self, wo: Vec3, u_lobe: f32, u: Vec2, mode: TransportMode) -> Option<BsdfSample>;
 
     /// The discrete direction number `index`, as [`Bsdf::sample`] would sample it (what passes
     /// straight on counts too); `None` beyond the last. There are as many whichever lane chooses:
     /// one that lane 0 does not have has value and probability zero. For estimators that follow
     /// every direction instead of choosing. A model without any keeps this.
-    fn discrete(&self, _wo: Vec3, _index: u32, _mode: Mode) -> Option<BsdfSample> {
+    fn discrete(&self, _wo: Vec3, _index: u32, _mode: TransportMode) -> Option<BsdfSample> {
         None
     }
 
@@ -78,17 +83,17 @@ pub trait Bsdf {
     }
 
     /// The fraction of light that goes straight on as if the surface were not there.
-    fn passing(&self) -> Vec4;
+    fn null_transmittance(&self) -> Vec4;
 
     /// The probability with which [`Bsdf::sample`] passes straight on, per lane.
-    fn passing_probability(&self) -> Vec4;
+    fn null_probability(&self) -> Vec4;
 
     /// Directional albedo or an approximation of it: for the `albedo` channel, and for choices that no
     /// expectation depends on (Russian roulette).
     fn albedo(&self, wo: Vec3) -> Vec4;
 
     /// Tells whoever draws a sample again that what the model was asked last was for a mixture of its own
-    /// density with another; see [`crate::World::remark`].
+    /// density with another; see [`crate::World::record`].
     #[inline]
     fn mixed(&self, _mixture: impl FnOnce() -> Mixture) {}
 }

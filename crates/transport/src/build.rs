@@ -6,7 +6,7 @@ use std::sync::Arc;
 
 /// How a colour is to be understood (Mitsuba's property rules in spectral mode).
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub enum Role {
+pub enum SpectrumKind {
     /// A reflectance or other quantity in [0, 1]: RGB is upsampled as is.
     Reflectance,
     /// Emitted light: RGB and plain numbers scale D65.
@@ -28,11 +28,11 @@ pub trait Build {
         params: &Params<'_>,
         name: &str,
         default: Option<f64>,
-        role: Role,
+        role: SpectrumKind,
     ) -> TextureId;
 
     /// The texture described by a nested texture or spectrum object.
-    fn nested_texture(&mut self, node: &Arc<Node>, role: Role) -> TextureId;
+    fn nested_texture(&mut self, node: &Arc<Node>, role: SpectrumKind) -> TextureId;
 
     /// A texture for a spectrum computed by the plugin itself (a named metal's η).
     fn spectrum(&mut self, spectrum: etalon_spectrum::Spectrum) -> TextureId;

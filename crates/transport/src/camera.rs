@@ -14,7 +14,7 @@ pub struct CameraRay {
 
 /// A connection of a scene point with the camera.
 #[derive(Clone, Copy, Debug)]
-pub struct Connection {
+pub struct CameraSample {
     /// Where on the film (pixels; (0, 0) is the upper left corner of the whole, uncropped film).
     pub raster: Vec2,
     /// Unit direction from the point to the camera.
@@ -29,7 +29,7 @@ pub struct Connection {
 
 /// A ray's arrival on the camera's aperture.
 #[derive(Clone, Copy, Debug)]
-pub struct Reception {
+pub struct ApertureHit {
     /// Where on the film (pixels of the whole film).
     pub raster: Vec2,
     /// How far along the ray the camera begins (m): at the near clipping plane. Nothing may stand
@@ -51,17 +51,17 @@ pub trait Camera: Sync {
     /// Connects a scene point with the aperture point chosen by `lens`; `None` if the camera
     /// does not see the point (behind it, clipped, or more than `margin` pixels outside of the
     /// film).
-    fn connect(&self, point: Vec3, lens: Vec2, margin: f32) -> Option<Connection>;
+    fn connect(&self, point: Vec3, lens: Vec2, margin: f32) -> Option<CameraSample>;
 
     /// Where a ray that travels through space happens to hit the aperture; `None` if it misses it,
     /// starts where the camera does not see, or arrives more than `margin` pixels outside of the
     /// film. An aperture without extent, or one through which each point of
     /// the film looks in one direction only, is never hit.
-    fn receive(&self, _ray: &Ray, _margin: f32) -> Option<Reception> {
+    fn intersect_aperture(&self, _ray: &Ray, _margin: f32) -> Option<ApertureHit> {
         None
     }
 
-    /// Whether [`Camera::receive`] can ever receive anything.
+    /// Whether [`Camera::intersect_aperture`] can ever receive anything.
     fn can_receive(&self) -> bool {
         false
     }

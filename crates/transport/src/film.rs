@@ -8,7 +8,7 @@ pub struct Channel(pub String);
 
 /// A film position drawn for a sample.
 #[derive(Clone, Copy, Debug)]
-pub struct Placement {
+pub struct FilmSample {
     /// Pixels of the whole film.
     pub raster: Vec2,
     /// What the sample counts: 1, or ±(∫|f|) for filters with negative lobes.
@@ -35,7 +35,7 @@ pub trait Sink {
 /// A sink for the pixels of one tile.
 pub trait TileSink: Sink {
     /// What follows is found by a sample of `pixel` (of the whole film) that counts `weight` (see
-    /// [`Placement`]). The samples of a pixel come one after the other.
+    /// [`FilmSample`]). The samples of a pixel come one after the other.
     ///
     /// It counts for this pixel alone.
     fn begin_sample(&mut self, pixel: UVec2, weight: f32);
@@ -44,7 +44,7 @@ pub trait TileSink: Sink {
     /// pixels share samples (see [`Placing::shares_samples`]). The samples of pixels around the film come after one of
     /// the pixel next to them.
     #[inline]
-    fn begin_placed(&mut self, pixel: UVec2, placement: &Placement) {
+    fn begin_placed(&mut self, pixel: UVec2, placement: &FilmSample) {
         self.begin_sample(pixel, placement.weight);
     }
 
@@ -60,12 +60,12 @@ pub trait TileSink: Sink {
 pub trait Placing: Sync {
     /// Draws a position for a sample of `pixel`: from the reconstruction filter, or evenly in the pixel if pixels share
     /// samples. Pixels left of the film or above it have negative coordinates, modulo 2³².
-    fn place(&self, pixel: UVec2, u: Vec2) -> Placement;
+    fn place(&self, pixel: UVec2, u: Vec2) -> FilmSample;
 
     /// Draws a position for a sample of `pixel` from the reconstruction filter, whoever shares samples: one that
     /// counts for this pixel alone.
     #[inline]
-    fn place_alone(&self, pixel: UVec2, u: Vec2) -> Placement {
+    fn place_alone(&self, pixel: UVec2, u: Vec2) -> FilmSample {
         self.place(pixel, u)
     }
 
@@ -94,8 +94,8 @@ pub trait Placing: Sync {
 
 /// Evenly, in a box of the size of a pixel.
 impl Placing for () {
-    fn place(&self, pixel: UVec2, u: Vec2) -> Placement {
-        Placement {
+    fn place(&self, pixel: UVec2, u: Vec2) -> FilmSample {
+        FilmSample {
             raster: pixel.as_ivec2().as_vec2() + u,
             weight: 1.0,
         }

@@ -1,21 +1,23 @@
 //! The contract of an estimator of light transport.
 
-use crate::{Channel, Finding, Objection, Placement, Placing, Sight, Sink, TileSink, World};
+use crate::{
+    Channel, FilmSample, Incompatibility, LightSearch, Placing, SceneCapabilities, Sink, TileSink,
+    World,
+};
 use etalon_sampling::{ReplicateKind, Sampler};
 use glam::{UVec2, Vec2};
 
 /// The place for which a sample is drawn.
 #[derive(Clone, Copy, Debug)]
-pub struct PixelSite {
+pub struct PixelSample {
     /// The pixel of the whole film, or around it (see [`crate::Film::rim`]); coordinates are modulo 2³².
     pub pixel: UVec2,
     /// The film position drawn from the reconstruction filter (pixels).
     pub raster: Vec2,
     /// How far beyond the film a splat can still matter (pixels), see [`crate::Film::margin`].
     pub margin: f32,
-    /// Light paths per sample of a pixel, see [`crate::Film::light_paths`]: one is drawn per pixel and
-    /// sample, and the film divides by the samples per pixel only, so a light path's splats are divided by
-    /// this number, that of all pixels. 0 if splats are not to be made.
+    /// Number of light paths traced per sample index over the whole film: one for each pixel (see
+    /// [`crate::Film::light_paths`]). Each splat is divided by it. 0 disables splatting.
     pub pixels: u32,
     /// Mean distance between the samples of a pixel (pixels): 1/√spp.
     pub spacing: f32,
@@ -51,20 +53,20 @@ pub struct Pass {
 
 /// A sample about to be drawn.
 #[derive(Clone, Debug)]
-pub struct Draft<S> {
+pub struct SampleJob<S> {
     /// For which place.
-    pub site: PixelSite,
-    /// What it counts there, see [`crate::Placement::weight`].
+    pub site: PixelSample,
+    /// What it counts there, see [`crate::FilmSample::weight`].
     pub weight: f32,
     /// Its random numbers; those of the film position are used up.
     pub sampler: S,
 }
 
-impl<S> Draft<S> {
+impl<S> SampleJob<S> {
     /// Where it lies on the film.
     #[inline]
-    pub fn placement(&self) -> Placement {
-        Placement {
+    pub fn placement(&self) -> FilmSample {
+        FilmSample {
             raster: self.site.raster,
             weight: self.weight,
         }
@@ -85,7 +87,7 @@ pub trait Integrator: Sync {
     type State: Send + Sync + 'static;
 
     /// Whether it estimates the radiance of all light paths that it does not object to
-    /// ([`Integrator::objections`]) without bias, so that it must agree with any other that does.
+    /// ([`Integrator::incompatibilities`]) without bias, so that it must agree with any other that does.
     const UNBIASED: bool = false;
 
     /// The channels it writes beside the colour, in the order of [`Sink::channel`]'s index.
@@ -100,8 +102,8 @@ pub trait Integrator: Sync {
 
     /// What it objects to in a scene, asked before anything is rendered. By default that of an
     /// estimator whose paths from the camera can both run into lights and choose them.
-    fn objections(&self, sight: &Sight) -> Vec<Objection> {
-        sight.objections(Finding::FromCamera)
+    fn incompatibilities(&self, sight: &SceneCapabilities) -> Vec<Incompatibility> {
+        sight.incompatibilities(LightSearch::FromCamera)
     }
 
     /// What its replicates may have to do with each other: [`ReplicateKind::Blocks`] if every sample is an
@@ -116,10 +118,10 @@ pub trait Integrator: Sync {
         None
     }
 
-    /// Prepares a pass. `placing` places samples on the film, if it takes some already. `before` is what
-    /// the pass before it used, if the same process rendered one: to be kept (what is learned once for the whole image), changed, or only its memory used
-    /// again. The result may depend on the world, the film, the pass and the estimator alone, never on
-    /// whether there was a pass before, the number of threads, or time.
+    /// Prepares a pass. `placing` places samples on the film, if preparing takes some. `before` is the state of the
+    /// previous pass, if this process rendered it: it may be reused, updated, or only give its allocations. The
+    /// result depends on the world, the film, the pass and the estimator alone, never on whether there was a pass
+    /// before, the number of threads, or time.
     fn prepare<W: World>(
         &self,
         world: &W,
@@ -138,7 +140,7 @@ pub trait Integrator: Sync {
         &self,
         world: &W,
         state: &Self::State,
-        site: &PixelSite,
+        site: &PixelSample,
         sampler: &mut S,
         sink: &mut K,
     );
@@ -146,11 +148,11 @@ pub trait Integrator: Sync {
     /// Draws several samples, in any order or all at once, and delivers them in the order given.
     /// To follow several paths together keeps a processor busy that would wait for one.
     #[inline]
-    fn sample_all<W: World, S: Sampler, K: TileSink>(
+    fn sample_batch<W: World, S: Sampler, K: TileSink>(
         &self,
         world: &W,
         state: &Self::State,
-        drafts: &mut [Draft<S>],
+        drafts: &mut [SampleJob<S>],
         sink: &mut K,
     ) {
         for draft in drafts {

@@ -1,6 +1,6 @@
 //! What lights give to integrators.
 
-use crate::{Chance, LightId, Ray, SurfacePoint, TexturePoint};
+use crate::{LightId, Ray, SamplePdf, SurfacePoint, TexturePoint};
 use glam::{Vec2, Vec3, Vec4};
 
 /// A direction toward a light, as seen from some point.
@@ -16,12 +16,12 @@ pub struct LightSample {
     pub radiance: Vec4,
     /// Density of the direction (probability of the choice of light included), or its discrete
     /// probability.
-    pub chance: Chance,
+    pub chance: SamplePdf,
     /// Cosine of the angle between the light's surface normal and the way to the observer; 1
     /// where it has no surface.
     pub cos: f32,
     /// What it is a sample of.
-    pub origin: Origin,
+    pub origin: LightKind,
     /// The light; any of them for a sky that is the sum of several.
     pub light: LightId,
 }
@@ -39,7 +39,7 @@ pub enum LightVariety {
 
 /// How likely a particle's start is, by the two choices that make it.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct EmissionDensity {
+pub struct EmissionPdf {
     /// Of its origin, the choice of the light included: per unit area of an emitting surface
     /// (m⁻²); per unit solid angle of a direction to the sky (sr⁻¹); the probability of a light
     /// that is but a point or a direction.
@@ -49,7 +49,7 @@ pub struct EmissionDensity {
     pub ray: f32,
 }
 
-impl EmissionDensity {
+impl EmissionPdf {
     /// Of what is never emitted.
     pub const ZERO: Self = Self {
         origin: 0.0,
@@ -59,7 +59,7 @@ impl EmissionDensity {
 
 /// Where a particle comes from.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub enum Origin {
+pub enum LightKind {
     /// A point of an emitting surface.
     Surface,
     /// A light that is a point: no path finds it by chance.
@@ -70,7 +70,7 @@ pub enum Origin {
     Parallel,
 }
 
-impl Origin {
+impl LightKind {
     /// Whether it is at infinity.
     #[inline]
     pub fn is_infinite(self) -> bool {
@@ -95,9 +95,9 @@ pub struct Emission {
     /// for a surface, so that averaging `weight` over emissions gives the scene's power.
     pub weight: Vec4,
     /// The densities of those choices.
-    pub density: EmissionDensity,
+    pub density: EmissionPdf,
     /// What it comes from.
-    pub origin: Origin,
+    pub origin: LightKind,
     /// The light.
     pub light: LightId,
 }

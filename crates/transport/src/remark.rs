@@ -1,22 +1,22 @@
 //! What an estimator says of itself when one of its samples is drawn again.
 //!
 //! Most of a sample can be told from what its estimator asks of the world and is told. What it does by
-//! itself, and what it asks for the sake of something else, it remarks ([`crate::World::remark`],
+//! itself, and what it asks for the sake of something else, it remarks ([`crate::World::record`],
 //! [`crate::Bsdf::mixed`]). A world that renders does not listen: there a remark is a closure that nobody
 //! calls, and costs nothing.
 
-use crate::{BsdfSample, Chance};
+use crate::{BsdfSample, SamplePdf};
 use etalon_math::{Density, SolidAngle};
 use etalon_spectrum::Wavelengths;
 use glam::{Vec3, Vec4};
 
 /// A remark about what was done, or is done next.
 #[derive(Clone, Copy, Debug)]
-pub enum Remark {
+pub enum TraceEvent {
     /// The path has these wavelengths, whatever was drawn.
     Wavelengths(Wavelengths),
     /// Photons are looked up around the surface at hand. What is asked of scattering models before
-    /// [`Remark::Gathered`] is asked for their sake.
+    /// [`TraceEvent::Gathered`] is asked for their sake.
     Gathering {
         /// How far they may be (m).
         radius: f32,
@@ -110,7 +110,7 @@ pub struct Mixture {
     /// The direction.
     pub wi: Vec3,
     /// The model's own density of it, or probability.
-    pub own: Chance,
+    pub own: SamplePdf,
     /// The other density, times the probability that light does not pass straight on; zero of a discrete
     /// direction.
     pub other: Density<SolidAngle>,

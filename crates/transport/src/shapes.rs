@@ -1,10 +1,10 @@
 //! What others may ask of shapes.
 
-use crate::{Receiver, ShapeId, TexturePoint, Vertex};
+use crate::{LightSampleContext, ShapeId, SurfaceInteraction, TexturePoint};
 use etalon_math::{DirectionCone, offset_origin};
 use glam::{Vec2, Vec3};
 
-/// A point of a shape: as much of a [`Vertex`] as light that starts or ends there needs.
+/// A point of a shape: as much of a [`SurfaceInteraction`] as light that starts or ends there needs.
 #[derive(Clone, Copy, Debug)]
 pub struct SurfacePoint {
     /// Position (m, world).
@@ -31,9 +31,9 @@ impl SurfacePoint {
     }
 }
 
-impl From<&Vertex> for SurfacePoint {
+impl From<&SurfaceInteraction> for SurfacePoint {
     #[inline]
-    fn from(vertex: &Vertex) -> Self {
+    fn from(vertex: &SurfaceInteraction) -> Self {
         Self {
             position: vertex.position,
             error: vertex.error,
@@ -70,10 +70,15 @@ pub trait Shapes {
     /// A point of the shape chosen for the light that it sends to `from`, as well as the shape
     /// knows how (the density is per solid angle in any case). `None` if the method finds nothing
     /// to see. Both sides of a surface count as visible.
-    fn sample_toward(&self, shape: ShapeId, from: &Receiver, u: Vec2) -> Option<SampledPoint>;
+    fn sample_toward(
+        &self,
+        shape: ShapeId,
+        from: &LightSampleContext,
+        u: Vec2,
+    ) -> Option<SampledPoint>;
 
     /// The density (sr⁻¹) with which [`Shapes::sample_toward`] from `from` chooses `at`.
-    fn density_toward(&self, shape: ShapeId, from: &Receiver, at: &SurfacePoint) -> f32;
+    fn density_toward(&self, shape: ShapeId, from: &LightSampleContext, at: &SurfacePoint) -> f32;
 
     /// The value of a mesh attribute at a point of a primitive (three channels; one-channel
     /// attributes are repeated). Each stored number counts as the nearest in `range`, before

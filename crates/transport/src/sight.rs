@@ -19,7 +19,7 @@ pub struct LightCount {
 /// What the camera sees first, by a number of rays; one may see several of these, through surfaces
 /// that light passes straight.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct View {
+pub struct CameraProbe {
     /// All of them.
     pub rays: u32,
     /// Those that see a surface that scatters in a continuum of directions.
@@ -39,25 +39,25 @@ pub struct View {
 
 /// Plain facts of a scene that decide what an estimator can find in it.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct Sight {
+pub struct SceneCapabilities {
     /// The lights.
     pub lights: LightCount,
-    /// Whether the camera has an aperture that a ray can hit, see [`crate::Camera::receive`].
+    /// Whether the camera has an aperture that a ray can hit, see [`crate::Camera::intersect_aperture`].
     pub aperture: bool,
     /// Whether there is light at infinity that a ray can hit.
     pub sky: bool,
     /// Whether a surface has a classic Phong material, which says nothing of how it scatters light
-    /// ([`crate::World::classic`]).
+    /// ([`crate::World::legacy_phong`]).
     pub classic: bool,
     /// Whether the film's filter is so narrow that splats find no pixel ([`crate::Film::light_paths`]).
     pub narrow_filter: bool,
     /// What the camera sees first.
-    pub view: View,
+    pub view: CameraProbe,
 }
 
 /// How an estimator comes by light.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Finding {
+pub enum LightSearch {
     /// Rays run into lights by chance.
     Hitting,
     /// Lights are chosen: to be connected with, or to emit particles.
@@ -86,7 +86,7 @@ pub enum Subject {
 
 /// Why an estimator cannot do what is asked of it in a scene, or not all of it.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Objection {
+pub struct Incompatibility {
     /// Whether nothing can come of it, so that rendering is refused; otherwise it is a remark.
     pub fatal: bool,
     /// What it is about.
@@ -97,7 +97,7 @@ pub struct Objection {
     pub help: Option<String>,
 }
 
-impl Objection {
+impl Incompatibility {
     /// A reason not to render.
     pub fn fatal(subject: Subject, message: impl Into<String>) -> Self {
         Self {
@@ -109,7 +109,7 @@ impl Objection {
     }
 
     /// A remark.
-    pub fn remark(subject: Subject, message: impl Into<String>) -> Self {
+    pub fn record(subject: Subject, message: impl Into<String>) -> Self {
         Self {
             fatal: false,
             ..Self::fatal(subject, message)
@@ -126,20 +126,20 @@ impl Objection {
     }
 }
 
-impl Sight {
+impl SceneCapabilities {
     /// The objections of an estimator that follows light and finds it in one way: a remark if there
     /// is no light at all, or if some of it will be missing; a refusal if all of it would, or if a
     /// material says nothing of how it scatters light.
-    pub fn objections(&self, finding: Finding) -> Vec<Objection> {
+    pub fn incompatibilities(&self, finding: LightSearch) -> Vec<Incompatibility> {
         let mut objections = self.missing(finding);
         objections.extend(self.unreached());
-        if finding == Finding::FromCamera {
+        if finding == LightSearch::FromCamera {
             objections.extend(self.veiled());
         }
         if self.classic {
             let message = "this integrator follows light, and this material says nothing of how it \
                            scatters light";
-            objections.push(Objection::fatal(Subject::Classic, message).help(
+            objections.push(Incompatibility::fatal(Subject::Classic, message).help(
                 "the integrator `whitted` shows classic Phong materials; `phong` is a BSDF that \
                  every integrator shows",
             ));
@@ -149,8 +149,8 @@ impl Sight {
 
     /// The objection, if any, of an estimator that finds light by connecting surfaces with the
     /// camera, and lights in plain view: what reaches the camera off a smooth surface is missing.
-    pub fn unconnected(&self) -> Option<Objection> {
-        let View {
+    pub fn unconnected(&self) -> Option<Incompatibility> {
+        let CameraProbe {
             rays,
             scattering,
             smooth,
@@ -166,25 +166,25 @@ impl Sight {
         let objection = if scattering == 0 && lights == 0 {
             let message =
                 format!("this integrator cannot see anything that the camera sees: {why}");
-            Objection::fatal(Subject::Integrator, message)
+            Incompatibility::fatal(Subject::Integrator, message)
         } else {
             let share = (100.0 * f64::from(smooth) / f64::from(rays)).ceil();
             let message = format!(
                 "this integrator cannot see what is mirrored, or behind glass, in {share} % of \
                  the picture: {why}"
             );
-            Objection::remark(Subject::Integrator, message)
+            Incompatibility::record(Subject::Integrator, message)
         };
         Some(objection.help(help))
     }
 
     /// The objection, if any, of an estimator that makes the picture, or all that is lit in it, of light that
     /// lands anywhere on the film.
-    pub fn unsplattable(&self) -> Option<Objection> {
+    pub fn unsplattable(&self) -> Option<Incompatibility> {
         self.narrow_filter.then(|| {
             let message = "this integrator carries light to the film, wherever it lands, and the filter is so \
                            narrow that it practically never lands within";
-            Objection::fatal(Subject::Integrator, message).help(
+            Incompatibility::fatal(Subject::Integrator, message).help(
                 "use an estimator that asks for the light of a pixel (`path`, `bdpt`), or a filter whose \
                  radius is at least half a pixel",
             )
@@ -192,21 +192,21 @@ impl Sight {
     }
 
     /// A remark if there is no light at all.
-    pub fn unlit(&self) -> Option<Objection> {
+    pub fn unlit(&self) -> Option<Incompatibility> {
         (self.lights.all == 0).then(|| {
-            Objection::remark(Subject::Scene, "nothing in this scene emits light")
+            Incompatibility::record(Subject::Scene, "nothing in this scene emits light")
                 .help("the picture will be black: add a light")
         })
     }
 
     /// A remark where nothing that the camera sees, mirrored or not, can be lit or shines: a camera
     /// that looks past the scene, or a room of mirrors with lights that have no extent.
-    fn unreached(&self) -> Option<Objection> {
+    fn unreached(&self) -> Option<Incompatibility> {
         let nothing = self.view.rays > 0 && self.view.reached == 0 && self.lights.all > 0;
         nothing.then(|| {
             let message = "the camera sees no light, and no surface that light could be connected \
                            with: not straight, nor by way of mirrors and smooth glass";
-            Objection::remark(Subject::Scene, message).help(
+            Incompatibility::record(Subject::Scene, message).help(
                 "the picture will be black, or nearly: turn the camera to the scene, or give the \
                  lights an extent or a surface some roughness",
             )
@@ -215,15 +215,15 @@ impl Sight {
 
     /// A remark where light that smooth glass bends on its way is missing, for an estimator that connects
     /// surfaces with lights by straight lines.
-    fn veiled(&self) -> Option<Objection> {
-        let View { rays, veiled, .. } = self.view;
+    fn veiled(&self) -> Option<Incompatibility> {
+        let CameraProbe { rays, veiled, .. } = self.view;
         (veiled > 0).then(|| {
             let share = (100.0 * f64::from(veiled) / f64::from(rays)).ceil();
             let message = format!(
                 "this integrator cannot see light that comes through smooth glass to {share} % of the picture: \
                  it connects surfaces with lights by straight lines, and a point or a direction is never hit"
             );
-            Objection::remark(Subject::Integrator, message).help(
+            Incompatibility::record(Subject::Integrator, message).help(
                 "use an estimator that follows light from the lights, too (`bdpt`, `vcm`), or give the lights an \
                  extent",
             )
@@ -231,7 +231,7 @@ impl Sight {
     }
 
     /// What is missing of the light for an estimator that finds it in one way.
-    fn missing(&self, finding: Finding) -> Vec<Objection> {
+    fn missing(&self, finding: LightSearch) -> Vec<Incompatibility> {
         let LightCount {
             all,
             hittable,
@@ -239,17 +239,17 @@ impl Sight {
             either,
         } = self.lights;
         let (found, why, help) = match finding {
-            Finding::Hitting => (
+            LightSearch::Hitting => (
                 hittable,
                 "it finds lights only by running into them, and a point or a direction is never hit",
                 "use an estimator that samples lights (`path`), or give the lights an extent",
             ),
-            Finding::Choosing => (
+            LightSearch::Choosing => (
                 chosen,
                 "it finds lights only by choosing them, and their `sampling_weight` is 0",
                 "give them a `sampling_weight` above 0",
             ),
-            Finding::Either | Finding::FromCamera => (
+            LightSearch::Either | LightSearch::FromCamera => (
                 either,
                 "their `sampling_weight` is 0, and a point or a direction is never hit",
                 "give them a `sampling_weight` above 0",
@@ -261,14 +261,14 @@ impl Sight {
         let objection = match found {
             0 => {
                 let message = format!("this integrator cannot see any light of the scene: {why}");
-                Objection::fatal(Subject::Integrator, message).help(help)
+                Incompatibility::fatal(Subject::Integrator, message).help(help)
             }
             _ if found < all => {
                 let missing = all - found;
                 let message = format!(
                     "this integrator cannot see {missing} of the scene's {all} lights: {why}"
                 );
-                Objection::remark(Subject::Integrator, message).help(help)
+                Incompatibility::record(Subject::Integrator, message).help(help)
             }
             _ => return Vec::new(),
         };
@@ -280,50 +280,50 @@ impl Sight {
 mod tests {
     use super::*;
 
-    fn sight(all: u32, hittable: u32, chosen: u32, either: u32) -> Sight {
-        Sight {
+    fn sight(all: u32, hittable: u32, chosen: u32, either: u32) -> SceneCapabilities {
+        SceneCapabilities {
             lights: LightCount {
                 all,
                 hittable,
                 chosen,
                 either,
             },
-            ..Sight::default()
+            ..SceneCapabilities::default()
         }
     }
 
-    fn fatal(sight: Sight, finding: Finding) -> Option<bool> {
-        sight.objections(finding).first().map(|o| o.fatal)
+    fn fatal(sight: SceneCapabilities, finding: LightSearch) -> Option<bool> {
+        sight.incompatibilities(finding).first().map(|o| o.fatal)
     }
 
     #[test]
     fn all_light_missing_is_fatal_and_some_a_remark() {
         // Two point lights, a sky, and a lamp that is never chosen.
         let mixed = sight(4, 2, 3, 4);
-        assert_eq!(fatal(mixed, Finding::Hitting), Some(false));
-        assert_eq!(fatal(mixed, Finding::Choosing), Some(false));
-        assert_eq!(fatal(mixed, Finding::Either), None);
+        assert_eq!(fatal(mixed, LightSearch::Hitting), Some(false));
+        assert_eq!(fatal(mixed, LightSearch::Choosing), Some(false));
+        assert_eq!(fatal(mixed, LightSearch::Either), None);
         let points = sight(2, 0, 2, 2);
-        assert_eq!(fatal(points, Finding::Hitting), Some(true));
-        assert_eq!(fatal(points, Finding::Choosing), None);
+        assert_eq!(fatal(points, LightSearch::Hitting), Some(true));
+        assert_eq!(fatal(points, LightSearch::Choosing), None);
         let unchosen_points = sight(2, 0, 0, 0);
-        assert_eq!(fatal(unchosen_points, Finding::Either), Some(true));
+        assert_eq!(fatal(unchosen_points, LightSearch::Either), Some(true));
     }
 
     #[test]
     fn smooth_surfaces_alone_in_view_are_fatal_and_among_others_a_remark() {
         let seen = |scattering, smooth, lights| {
-            let view = View {
+            let view = CameraProbe {
                 rays: 10,
                 scattering,
                 smooth,
                 lights,
                 reached: scattering.max(lights),
-                ..View::default()
+                ..CameraProbe::default()
             };
-            let sight = Sight {
+            let sight = SceneCapabilities {
                 view,
-                ..Sight::default()
+                ..SceneCapabilities::default()
             };
             sight.unconnected().map(|objection| objection.fatal)
         };
@@ -340,16 +340,16 @@ mod tests {
     #[test]
     fn a_camera_that_sees_nothing_to_connect_with_is_remarked_upon() {
         let seen = |rays, reached| {
-            let view = View {
+            let view = CameraProbe {
                 rays,
                 reached,
-                ..View::default()
+                ..CameraProbe::default()
             };
-            let objections = Sight {
+            let objections = SceneCapabilities {
                 view,
                 ..sight(1, 0, 1, 1)
             }
-            .objections(Finding::Either);
+            .incompatibilities(LightSearch::Either);
             objections.iter().map(|o| o.fatal).collect::<Vec<_>>()
         };
         assert_eq!(seen(10, 0), [false]);
@@ -361,22 +361,22 @@ mod tests {
     #[test]
     fn light_behind_glass_is_missed_from_the_camera_alone() {
         let remarks = |veiled, finding| {
-            let view = View {
+            let view = CameraProbe {
                 rays: 10,
                 reached: 10,
                 veiled,
-                ..View::default()
+                ..CameraProbe::default()
             };
-            let sight = Sight {
+            let sight = SceneCapabilities {
                 view,
                 ..sight(1, 0, 1, 1)
             };
-            let objections = sight.objections(finding);
+            let objections = sight.incompatibilities(finding);
             objections.iter().map(|o| o.fatal).collect::<Vec<_>>()
         };
-        assert_eq!(remarks(1, Finding::FromCamera), [false]);
-        assert!(remarks(0, Finding::FromCamera).is_empty());
-        for finding in [Finding::Either, Finding::Choosing] {
+        assert_eq!(remarks(1, LightSearch::FromCamera), [false]);
+        assert!(remarks(0, LightSearch::FromCamera).is_empty());
+        for finding in [LightSearch::Either, LightSearch::Choosing] {
             assert!(remarks(10, finding).is_empty());
         }
     }
@@ -384,12 +384,12 @@ mod tests {
     #[test]
     fn darkness_is_remarked_upon() {
         for finding in [
-            Finding::Hitting,
-            Finding::Choosing,
-            Finding::Either,
-            Finding::FromCamera,
+            LightSearch::Hitting,
+            LightSearch::Choosing,
+            LightSearch::Either,
+            LightSearch::FromCamera,
         ] {
-            assert_eq!(fatal(Sight::default(), finding), Some(false));
+            assert_eq!(fatal(SceneCapabilities::default(), finding), Some(false));
         }
     }
 }

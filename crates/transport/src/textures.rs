@@ -1,6 +1,6 @@
 //! What others may ask of textures.
 
-use crate::{ShapeId, TextureId, Vertex};
+use crate::{ShapeId, SurfaceInteraction, TextureId};
 use glam::{Vec2, Vec3, Vec4};
 
 /// Where a texture is looked up.
@@ -28,9 +28,9 @@ impl TexturePoint {
     }
 }
 
-impl From<&Vertex> for TexturePoint {
+impl From<&SurfaceInteraction> for TexturePoint {
     #[inline]
-    fn from(vertex: &Vertex) -> Self {
+    fn from(vertex: &SurfaceInteraction) -> Self {
         Self {
             uv: vertex.uv,
             shape: vertex.shape,

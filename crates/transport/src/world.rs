@@ -1,8 +1,8 @@
 //! The contract of a scene: all that an integrator may ask.
 
 use crate::{
-    Bsdf, Camera, ClassicPhong, Emission, EmissionDensity, Hit, LightId, LightSample, LightVariety,
-    Ray, Receiver, Remark, Vertex,
+    Bsdf, Camera, Emission, EmissionPdf, Hit, LegacyPhong, LightId, LightSample,
+    LightSampleContext, LightVariety, Ray, SurfaceInteraction, TraceEvent,
 };
 use etalon_math::{Density, SolidAngle};
 use etalon_spectrum::Wavelengths;
@@ -10,7 +10,7 @@ use glam::{Vec2, Vec3, Vec4};
 
 /// Straight travel along a segment.
 #[derive(Clone, Copy, Debug)]
-pub struct Passage {
+pub struct Transmission {
     /// The fraction of light that arrives, per lane.
     pub transmittance: Vec4,
     /// The probability with which scattering would have chosen to pass every surface on the
@@ -18,7 +18,7 @@ pub struct Passage {
     pub probability: Vec4,
 }
 
-impl Passage {
+impl Transmission {
     /// Nothing in the way.
     pub const FREE: Self = Self {
         transmittance: Vec4::ONE,
@@ -45,23 +45,37 @@ pub trait World: Sync {
     fn intersect(&self, ray: &Ray) -> Option<Hit>;
 
     /// The differential geometry of a hit.
-    fn vertex(&self, ray: &Ray, hit: &Hit) -> Vertex;
+    fn vertex(&self, ray: &Ray, hit: &Hit) -> SurfaceInteraction;
 
     /// How light travels straight along a segment, through at most `crossings` surfaces that
     /// let it pass (`mask`, `null`); `None` if it does not arrive at all.
-    fn passage(&self, ray: &Ray, wavelengths: &Wavelengths, crossings: u32) -> Option<Passage>;
+    fn transmittance(
+        &self,
+        ray: &Ray,
+        wavelengths: &Wavelengths,
+        crossings: u32,
+    ) -> Option<Transmission>;
 
     /// The scattering model at a vertex.
-    fn bsdf(&self, vertex: &Vertex, wo: Vec3, wavelengths: &Wavelengths) -> Self::Bsdf<'_>;
+    fn bsdf(
+        &self,
+        vertex: &SurfaceInteraction,
+        wo: Vec3,
+        wavelengths: &Wavelengths,
+    ) -> Self::Bsdf<'_>;
 
     /// The classic Phong material at a vertex, if it has one in place of a scattering model (its
     /// [`World::bsdf`] is black). A world without such materials keeps this.
-    fn classic(&self, _vertex: &Vertex, _wavelengths: &Wavelengths) -> Option<ClassicPhong> {
+    fn legacy_phong(
+        &self,
+        _vertex: &SurfaceInteraction,
+        _wavelengths: &Wavelengths,
+    ) -> Option<LegacyPhong> {
         None
     }
 
     /// Radiance emitted by the surface at `vertex` toward `wo`.
-    fn emitted(&self, vertex: &Vertex, wo: Vec3, wavelengths: &Wavelengths) -> Vec4;
+    fn emitted(&self, vertex: &SurfaceInteraction, wo: Vec3, wavelengths: &Wavelengths) -> Vec4;
 
     /// Whether the surface that was hit emits light at all.
     fn is_emitter(&self, hit: &Hit) -> bool;
@@ -76,7 +90,7 @@ pub trait World: Sync {
     /// nothing can arrive.
     fn sample_light(
         &self,
-        from: &Receiver,
+        from: &LightSampleContext,
         wavelengths: &Wavelengths,
         u_light: f32,
         u: Vec2,
@@ -85,7 +99,7 @@ pub trait World: Sync {
     /// In what samples of [`World::sample_light`] from `from` may differ: whether anything can be gained by
     /// choosing among several of them. Any answer is right, as long as it is always the same.
     #[inline]
-    fn light_variety(&self, _from: &Receiver) -> LightVariety {
+    fn light_variety(&self, _from: &LightSampleContext) -> LightVariety {
         LightVariety::Several
     }
 
@@ -97,17 +111,23 @@ pub trait World: Sync {
     fn sample_one_light(
         &self,
         light: LightId,
-        from: &Receiver,
+        from: &LightSampleContext,
         wavelengths: &Wavelengths,
         u: Vec2,
     ) -> Option<LightSample>;
 
     /// The density with which [`World::sample_light`] from `from` would have chosen the emitting
     /// surface point `at`, seen along the unit vector `direction`.
-    fn light_density(&self, from: &Receiver, at: &Vertex, direction: Vec3) -> Density<SolidAngle>;
+    fn light_density(
+        &self,
+        from: &LightSampleContext,
+        at: &SurfaceInteraction,
+        direction: Vec3,
+    ) -> Density<SolidAngle>;
 
     /// The same for the lights at infinity.
-    fn background_density(&self, from: &Receiver, direction: Vec3) -> Density<SolidAngle>;
+    fn background_density(&self, from: &LightSampleContext, direction: Vec3)
+    -> Density<SolidAngle>;
 
     /// Emits a particle from a light chosen with `u_light`.
     fn emit(
@@ -121,14 +141,14 @@ pub trait World: Sync {
     /// The densities with which [`World::emit`] would have made a particle of `light` travel along
     /// the unit vector `direction`, which makes an angle with the cosine `cos` with the light's
     /// surface (1 where it has none). Lights at infinity that rays can hit count as one.
-    fn emission_density(&self, light: LightId, direction: Vec3, cos: f32) -> EmissionDensity;
+    fn emission_density(&self, light: LightId, direction: Vec3, cos: f32) -> EmissionPdf;
 
     /// The same for a particle from the lights at infinity seen along the unit vector `direction`.
-    fn background_emission_density(&self, direction: Vec3) -> EmissionDensity;
+    fn background_emission_density(&self, direction: Vec3) -> EmissionPdf;
 
     /// The density with which [`World::sample_light`] from `from` would have chosen the point
     /// where a particle began; the probability of its light if that is a point or a direction.
-    fn sampled_density(&self, from: &Receiver, start: &Emission) -> f32;
+    fn light_sample_density(&self, from: &LightSampleContext, start: &Emission) -> f32;
 
     /// How many rays the calling thread has traced since it last asked.
     fn take_ray_count(&self) -> u64;
@@ -137,7 +157,7 @@ pub trait World: Sync {
     /// anybody listens: if so, more may be asked only to be told. A world that renders keeps this, and
     /// the remark is never made.
     #[inline]
-    fn remark(&self, _remark: impl FnOnce() -> Remark) -> bool {
+    fn record(&self, _remark: impl FnOnce() -> TraceEvent) -> bool {
         false
     }
 }

@@ -6,7 +6,7 @@
 
 use super::pool::Pool;
 use super::question::Question;
-use crate::decision::{self, ALARM, Seen};
+use crate::decision::{self, FALSE_POSITIVE_LEVEL, Seen};
 use crate::outcome::Outcome;
 use crate::run::Task;
 use crate::tier::Tier;
@@ -16,7 +16,7 @@ use std::sync::atomic::{AtomicU32, Ordering};
 
 /// What all null runs came to.
 pub struct NullRuns {
-    /// Runs with a false alarm, against [`ALARM`].
+    /// Runs with a false alarm, against [`FALSE_POSITIVE_LEVEL`].
     pub alarms: Rate,
     /// Runs with any comparison undecided.
     pub undecided: u32,
@@ -88,7 +88,7 @@ pub fn run(
         (question, of.map(|(_, p)| *p).collect())
     });
     Ok(NullRuns {
-        alarms: Rate::new(ALARM, alarms, u64::from(runs), confidence)
+        alarms: Rate::new(FALSE_POSITIVE_LEVEL, alarms, u64::from(runs), confidence)
             .ok_or("there are no null runs")?,
         undecided,
         comparisons,

@@ -14,7 +14,7 @@ use crate::calibrate::CHANNEL;
 use crate::calibrate::question::Question;
 use crate::claim::{Budget, Oracle};
 use crate::convergence;
-use crate::decision::Turn;
+use crate::decision::Stage;
 use crate::judged::{self, Against, Asked};
 use crate::measure::Measure;
 use crate::noise::{self, Counted};
@@ -23,8 +23,8 @@ use crate::rendering;
 use crate::run::Task;
 use crate::state::State;
 use crate::tier::Tier;
-use etalon::judge::Known;
-use etalon_film::{Developed, Metadata, TileMeans};
+use etalon::judge::ExactImage;
+use etalon_film::{Metadata, RenderedImage, TileMeans};
 use etalon_images::{Frame, Image};
 use etalon_statistics::{Estimate, Summary, Verdict};
 use rand::seq::SliceRandom;
@@ -67,7 +67,7 @@ struct Pictures {
     /// The tile means of all replicates, for every size of tile.
     means: Vec<TileMeans>,
     /// The mean of all replicates, where a formula is the oracle.
-    known: Option<Known>,
+    known: Option<ExactImage>,
     /// Replicates of each side at the first look.
     own: u32,
     other: u32,
@@ -206,9 +206,9 @@ impl Pictures {
     }
 
     /// A picture of these replicates.
-    fn of(&self, hand: &[u32]) -> Developed {
+    fn of(&self, hand: &[u32]) -> RenderedImage {
         let image = Image::new(1, 1);
-        Developed {
+        RenderedImage {
             frame: Frame::whole(&image),
             image,
             metadata: Some(Metadata {
@@ -226,8 +226,8 @@ impl<'a> Table<'a> {
     ///
     /// # Errors
     /// If what was dealt cannot be judged.
-    pub fn look(&mut self, turn: Turn) -> Result<Dealt, String> {
-        let Turn {
+    pub fn look(&mut self, turn: Stage) -> Result<Dealt, String> {
+        let Stage {
             multiple, alpha, ..
         } = turn;
         match &self.pool.kind {
@@ -264,7 +264,7 @@ impl<'a> Table<'a> {
         &all[self.random.random_range(0..all.len())]
     }
 
-    fn pictures(&mut self, pictures: &Pictures, turn: Turn) -> Result<Dealt, String> {
+    fn pictures(&mut self, pictures: &Pictures, turn: Stage) -> Result<Dealt, String> {
         let multiple = turn.multiple;
         let rules = self.task.rules(turn.alpha, self.pool.tier);
         let asked = Asked {
@@ -277,7 +277,12 @@ impl<'a> Table<'a> {
                 let drawn = self.random.random_range(0..pictures.replicates());
                 self.own.push(drawn);
             }
-            judged::judge(&pictures.of(&self.own), Against::Known(known), rules, asked)?
+            judged::judge(
+                &pictures.of(&self.own),
+                Against::ExactImage(known),
+                rules,
+                asked,
+            )?
         } else {
             let mut own = std::mem::take(&mut self.own);
             let mut other = std::mem::take(&mut self.other);
@@ -360,7 +365,7 @@ impl<'a> Table<'a> {
 }
 
 /// The mean of all replicates as a picture: every pixel has the mean of its smallest tile.
-fn mean_of_all(facts: &Metadata, means: &[TileMeans]) -> Result<Known, String> {
+fn mean_of_all(facts: &Metadata, means: &[TileMeans]) -> Result<ExactImage, String> {
     let size = facts.film.crop_size;
     let smallest = means.iter().filter(|means| means.side().is_some());
     let smallest = smallest.min_by_key(|means| means.side());
@@ -383,5 +388,5 @@ fn mean_of_all(facts: &Metadata, means: &[TileMeans]) -> Result<Known, String> {
         });
         channels.push((name.clone(), pixels.collect()));
     }
-    Ok(Known { size, channels })
+    Ok(ExactImage { size, channels })
 }

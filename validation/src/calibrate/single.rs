@@ -132,7 +132,7 @@ pub fn repeat(
 }
 
 /// The replicates of the first tile of `side` pixels, or of the image.
-fn summary(picture: &etalon_film::Developed, side: Option<u32>) -> Result<Summary, String> {
+fn summary(picture: &etalon_film::RenderedImage, side: Option<u32>) -> Result<Summary, String> {
     let metadata = picture.metadata.as_ref().ok_or("there are no statistics")?;
     let (means, tiles) = judge::replicates(metadata, CHANNEL, side)?;
     let replicates = Replicates::new(&means, tiles).map_err(|e| e.to_string())?;

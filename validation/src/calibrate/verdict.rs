@@ -3,7 +3,7 @@
 use super::null::{Counts, NullRuns};
 use super::single::Single;
 use super::{ALARMS, CONFIDENCE, COVERAGES, MOST_UNDECIDED, REPETITIONS};
-use crate::decision::ALARM;
+use crate::decision::FALSE_POSITIVE_LEVEL;
 use crate::run::Task;
 use etalon_statistics::error_rates::{self, Rate};
 use serde_json::{Value, json};
@@ -43,7 +43,7 @@ pub fn of_null_runs(null: &NullRuns) -> Vec<Promise> {
         Promise {
             what: "no false alarm of the whole decision in any null run".to_owned(),
             seen: format!(
-                "{count} in {trials}: a rate of at most {:.1e} (promised {ALARM:.0e})",
+                "{count} in {trials}: a rate of at most {:.1e} (promised {FALSE_POSITIVE_LEVEL:.0e})",
                 null.alarms.interval.high
             ),
             holds: count == 0,

@@ -14,12 +14,12 @@
 
 use super::light::known;
 use crate::claim::Claim;
-use etalon::judge::Known;
+use etalon::judge::ExactImage;
 use etalon_math::float64::acos;
 use std::f64::consts::PI;
 
 /// The picture of the floor, the wall at its left edge.
-pub fn picture(claim: &Claim, size: [u32; 2]) -> Result<Known, String> {
+pub fn picture(claim: &Claim, size: [u32; 2]) -> Result<ExactImage, String> {
     let width = 2.0 * claim.number("half_width")?;
     let reach = claim.number("distance")?;
     let pixel = width / f64::from(size[0]);

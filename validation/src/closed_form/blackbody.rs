@@ -8,7 +8,7 @@
 
 use super::light::known;
 use crate::claim::Claim;
-use etalon::judge::Known;
+use etalon::judge::ExactImage;
 
 /// Temperature (K) and linear Rec. 709 in W·m⁻²·sr⁻¹·nm⁻¹.
 ///
@@ -24,7 +24,7 @@ const COLOURS: [(f64, [f64; 3]); 4] = [
 ];
 
 /// The picture of a sky of the temperature `temperature`, one of those tabulated.
-pub fn picture(claim: &Claim, size: [u32; 2]) -> Result<Known, String> {
+pub fn picture(claim: &Claim, size: [u32; 2]) -> Result<ExactImage, String> {
     let temperature = claim.number("temperature")?;
     let (_, colour) = COLOURS
         .into_iter()

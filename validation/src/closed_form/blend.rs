@@ -9,14 +9,14 @@
 
 use super::light::{decoded, known, rgb};
 use crate::claim::Claim;
-use etalon::judge::Known;
+use etalon::judge::ExactImage;
 
 /// The bytes of `scenes/blend/tint.png`.
 const TINT: [u8; 3] = [210, 70, 240];
 
 /// The picture: on the left a blend of bright and dark, in the middle one of dark and a blend, on the
 /// right one of bright and dark whose weight is a luminance.
-pub fn picture(claim: &Claim, size: [u32; 2]) -> Result<Known, String> {
+pub fn picture(claim: &Claim, size: [u32; 2]) -> Result<ExactImage, String> {
     if !size[0].is_multiple_of(3) {
         return Err("the thirds must be of whole pixels".to_owned());
     }

@@ -8,7 +8,7 @@ use super::light::{known, rgb};
 use super::spectra::{at, table};
 use crate::claim::Claim;
 use crate::folders;
-use etalon::judge::Known;
+use etalon::judge::ExactImage;
 
 /// Patches in a row.
 const COLUMNS: u32 = 6;
@@ -16,7 +16,7 @@ const COLUMNS: u32 = 6;
 const ROWS: u32 = 4;
 
 /// The picture of the patches. They must be of whole pixels.
-pub fn picture(claim: &Claim, size: [u32; 2]) -> Result<Known, String> {
+pub fn picture(claim: &Claim, size: [u32; 2]) -> Result<ExactImage, String> {
     if !size[0].is_multiple_of(COLUMNS) || !size[1].is_multiple_of(ROWS) {
         return Err("the patches of the colour checker must be of whole pixels".to_owned());
     }

@@ -11,7 +11,7 @@
 use super::light::{known, rgb};
 use super::pixels;
 use crate::claim::Claim;
-use etalon::judge::Known;
+use etalon::judge::ExactImage;
 use etalon_math::float64::acos;
 use std::f64::consts::PI;
 
@@ -21,14 +21,14 @@ const HALF_WIDTH: f64 = 2.0;
 const CELLS: u32 = 8;
 
 /// Under a point light.
-pub fn point(claim: &Claim, size: [u32; 2]) -> Result<Known, String> {
+pub fn point(claim: &Claim, size: [u32; 2]) -> Result<ExactImage, String> {
     let at = position(claim)?;
     let irradiance = |x: f64, y: f64| inverse_square(at, [x, y]);
     picture(claim, size, claim.number("intensity")?, irradiance)
 }
 
 /// Under a spot light.
-pub fn spot(claim: &Claim, size: [u32; 2]) -> Result<Known, String> {
+pub fn spot(claim: &Claim, size: [u32; 2]) -> Result<ExactImage, String> {
     let at = position(claim)?;
     let target = [claim.number("target_x")?, claim.number("target_y")?];
     let angles = [claim.number("beam")?, claim.number("cutoff")?];
@@ -38,7 +38,7 @@ pub fn spot(claim: &Claim, size: [u32; 2]) -> Result<Known, String> {
 }
 
 /// Under parallel light.
-pub fn directional(claim: &Claim, size: [u32; 2]) -> Result<Known, String> {
+pub fn directional(claim: &Claim, size: [u32; 2]) -> Result<ExactImage, String> {
     let to = [
         claim.number("to_x")?,
         claim.number("to_y")?,
@@ -54,7 +54,7 @@ fn picture(
     size: [u32; 2],
     strength: f64,
     irradiance: impl Fn(f64, f64) -> f64,
-) -> Result<Known, String> {
+) -> Result<ExactImage, String> {
     let reflectance = claim.number("reflectance")?;
     let unit = rgb(|_| reflectance * strength / PI);
     Ok(known(size, |column, row| {

@@ -17,7 +17,7 @@
 use super::light::{known, rgb};
 use super::pile_of_plates::reflectance;
 use crate::claim::Claim;
-use etalon::judge::Known;
+use etalon::judge::ExactImage;
 use etalon_math::float64::{exp, pow, tan};
 use std::f64::consts::{FRAC_1_PI, FRAC_1_SQRT_2, FRAC_PI_8, PI};
 
@@ -27,7 +27,7 @@ const COLUMNS: u32 = 3;
 const ROWS: u32 = 3;
 
 /// The picture of the patches. They must be of whole pixels.
-pub fn picture(claim: &Claim, size: [u32; 2]) -> Result<Known, String> {
+pub fn picture(claim: &Claim, size: [u32; 2]) -> Result<ExactImage, String> {
     if !size[0].is_multiple_of(COLUMNS) || !size[1].is_multiple_of(ROWS) {
         return Err("the patches must be of whole pixels".to_owned());
     }
@@ -54,7 +54,7 @@ pub fn picture(claim: &Claim, size: [u32; 2]) -> Result<Known, String> {
 }
 
 /// The picture of a plane under a hardly rough coat.
-pub fn coat(claim: &Claim, size: [u32; 2]) -> Result<Known, String> {
+pub fn coat(claim: &Claim, size: [u32; 2]) -> Result<ExactImage, String> {
     let irradiance = claim.number("irradiance")?;
     let (albedo, index) = (claim.number("reflectance")?, claim.number("index")?);
     let value = base(albedo, index, albedo * internal(index));

@@ -16,7 +16,7 @@
 
 use super::light::{known, rgb};
 use crate::claim::Claim;
-use etalon::judge::Known;
+use etalon::judge::ExactImage;
 use etalon_math::float64::tan;
 
 /// Ends of the rectangle along x and y: `scenes/fields-of-view/scene.xml`.
@@ -26,7 +26,7 @@ const ENDS: [[f64; 2]; 2] = [[-0.14, 0.30], [-0.21, 0.11]];
 ///
 /// # Errors
 /// If the claim lacks a number, or there is no such camera or axis.
-pub fn picture(claim: &Claim, size: [u32; 2]) -> Result<Known, String> {
+pub fn picture(claim: &Claim, size: [u32; 2]) -> Result<ExactImage, String> {
     let film = [claim.number("resx")?, claim.number("resy")?];
     let [w, h] = film;
     let numbers = |names: [&str; 2]| -> Result<[f64; 2], String> {

@@ -16,7 +16,7 @@
 
 use super::light::{known, rgb};
 use crate::claim::Claim;
-use etalon::judge::Known;
+use etalon::judge::ExactImage;
 use etalon_math::float64::{exp, sin};
 use std::f64::consts::PI;
 
@@ -30,7 +30,7 @@ const CELLS: f64 = 64.0;
 ///
 /// # Errors
 /// If the claim lacks a number or there is no such filter.
-pub fn picture(claim: &Claim, size: [u32; 2]) -> Result<Known, String> {
+pub fn picture(claim: &Claim, size: [u32; 2]) -> Result<ExactImage, String> {
     let filter = Shape::of(claim)?;
     let whole = filter.integral(-filter.radius, filter.radius);
     let share = |index: u32| {

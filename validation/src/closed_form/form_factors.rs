@@ -15,7 +15,7 @@
 
 use super::light::{known, rgb};
 use crate::claim::Claim;
-use etalon::judge::Known;
+use etalon::judge::ExactImage;
 use etalon_math::float64::{atan, ln};
 use std::f64::consts::PI;
 
@@ -23,7 +23,7 @@ use std::f64::consts::PI;
 type Ends = [f64; 2];
 
 /// A dark and a glowing rectangle, equal, parallel and face to face.
-pub fn parallel_picture(claim: &Claim, size: [u32; 2]) -> Result<Known, String> {
+pub fn parallel_picture(claim: &Claim, size: [u32; 2]) -> Result<ExactImage, String> {
     let (a, b) = (claim.number("half_width")?, claim.number("half_depth")?);
     let height = claim.number("height")?;
     picture(claim, size, [a, b], |x, y| {
@@ -32,7 +32,7 @@ pub fn parallel_picture(claim: &Claim, size: [u32; 2]) -> Result<Known, String> 
 }
 
 /// A dark floor and a glowing wall at its left edge.
-pub fn perpendicular_picture(claim: &Claim, size: [u32; 2]) -> Result<Known, String> {
+pub fn perpendicular_picture(claim: &Claim, size: [u32; 2]) -> Result<ExactImage, String> {
     let (a, b) = (claim.number("half_width")?, claim.number("half_depth")?);
     let height = 2.0 * claim.number("half_height")?;
     picture(claim, size, [a, b], |x, y| {
@@ -46,7 +46,7 @@ fn picture(
     size: [u32; 2],
     [half_width, half_depth]: [f64; 2],
     factor: impl Fn(Ends, Ends) -> f64,
-) -> Result<Known, String> {
+) -> Result<ExactImage, String> {
     let [width, height] = size.map(f64::from);
     if (width * half_depth - height * half_width).abs() > 1e-9 {
         return Err("the rectangle must have the film's proportions".to_owned());

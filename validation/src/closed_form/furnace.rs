@@ -5,10 +5,10 @@
 
 use super::light::{known, rgb};
 use crate::claim::Claim;
-use etalon::judge::Known;
+use etalon::judge::ExactImage;
 
 /// The picture of a furnace of `reflectance` that emits `radiance`.
-pub fn picture(claim: &Claim, size: [u32; 2]) -> Result<Known, String> {
+pub fn picture(claim: &Claim, size: [u32; 2]) -> Result<ExactImage, String> {
     let reflectance = claim.number("reflectance")?;
     let radiance = claim.number("radiance")?;
     let colour = rgb(|_| radiance / (1.0 - reflectance));
@@ -16,7 +16,7 @@ pub fn picture(claim: &Claim, size: [u32; 2]) -> Result<Known, String> {
 }
 
 /// The picture of things that absorb nothing under a sky of `radiance`: the sky alone.
-pub fn white(claim: &Claim, size: [u32; 2]) -> Result<Known, String> {
+pub fn white(claim: &Claim, size: [u32; 2]) -> Result<ExactImage, String> {
     let radiance = claim.number("radiance")?;
     let colour = rgb(|_| radiance);
     Ok(known(size, |_, _| colour))

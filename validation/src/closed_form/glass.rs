@@ -13,14 +13,14 @@ use super::light::{known, rgb};
 use super::pile_of_plates::reflectance;
 use super::pixels;
 use crate::claim::Claim;
-use etalon::judge::Known;
+use etalon::judge::ExactImage;
 use etalon_math::float64::tan;
 
 /// The camera's angle of view (degrees); it looks at the plane at right angles.
 const FIELD_OF_VIEW: f64 = 50.0;
 
 /// The picture of a wall in one medium from another.
-pub fn window(claim: &Claim, size: [u32; 2]) -> Result<Known, String> {
+pub fn window(claim: &Claim, size: [u32; 2]) -> Result<ExactImage, String> {
     if size[0] != size[1] {
         return Err("the angle of view is that of a square film".to_owned());
     }
@@ -42,7 +42,7 @@ pub fn window(claim: &Claim, size: [u32; 2]) -> Result<Known, String> {
 }
 
 /// The picture of a sky from within glass.
-pub fn furnace(claim: &Claim, size: [u32; 2]) -> Result<Known, String> {
+pub fn furnace(claim: &Claim, size: [u32; 2]) -> Result<ExactImage, String> {
     let (radiance, index) = (claim.number("radiance")?, claim.number("index")?);
     let colour = rgb(|_| radiance * index * index);
     Ok(known(size, |_, _| colour))

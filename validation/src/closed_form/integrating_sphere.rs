@@ -12,14 +12,14 @@
 use super::light::{known, rgb};
 use super::pixels;
 use crate::claim::Claim;
-use etalon::judge::Known;
+use etalon::judge::ExactImage;
 use std::f64::consts::PI;
 
 /// Where the camera stands; it looks along +z with an angle of view of 90°.
 const CAMERA: [f64; 3] = [0.0, 0.0, -0.6];
 
 /// The picture of the sphere's inside.
-pub fn picture(claim: &Claim, size: [u32; 2]) -> Result<Known, String> {
+pub fn picture(claim: &Claim, size: [u32; 2]) -> Result<ExactImage, String> {
     let radius = claim.number("radius")?;
     let intensity = claim.number("intensity")?;
     let lamp = [

@@ -16,7 +16,7 @@
 use super::light::{known, rgb};
 use super::pixels;
 use crate::claim::Claim;
-use etalon::judge::Known;
+use etalon::judge::ExactImage;
 use etalon_math::float64::{acos, atan, cos, sin};
 use std::f64::consts::PI;
 
@@ -31,7 +31,7 @@ pub fn picture(
     claim: &Claim,
     size: [u32; 2],
     light: impl Fn(&Claim) -> Result<Irradiance, String>,
-) -> Result<Known, String> {
+) -> Result<ExactImage, String> {
     plane(claim, size, [0.0, HALF_WIDTH], &light(claim)?)
 }
 
@@ -41,7 +41,7 @@ pub fn beside(
     claim: &Claim,
     size: [u32; 2],
     light: impl Fn(&Claim) -> Result<Irradiance, String>,
-) -> Result<Known, String> {
+) -> Result<ExactImage, String> {
     let view = [claim.number("view_x")?, claim.number("view_half_width")?];
     plane(claim, size, view, &light(claim)?)
 }
@@ -52,7 +52,7 @@ fn plane(
     size: [u32; 2],
     [centre, half_width]: [f64; 2],
     irradiance: &Irradiance,
-) -> Result<Known, String> {
+) -> Result<ExactImage, String> {
     let reflectance = claim.number("reflectance")?;
     let radiance = claim.number("radiance")?;
     let unit = rgb(|_| reflectance * radiance / PI);

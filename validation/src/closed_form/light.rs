@@ -3,7 +3,7 @@
 //! A colour is C = M ∫ (x̄, ȳ, z̄) L(λ) dλ / N, with the CIE 1931 observer, the normalisation N that
 //! Mitsuba uses, and the matrix M from XYZ to linear Rec. 709.
 
-use etalon::judge::Known;
+use etalon::judge::ExactImage;
 use etalon_math::float64::pow;
 use etalon_spectrum::{cie, colour_space};
 
@@ -24,13 +24,13 @@ pub fn decoded(byte: u8) -> f64 {
 }
 
 /// A picture from the colour of each pixel (column, row).
-pub fn known(size: [u32; 2], pixel: impl Fn(u32, u32) -> [f64; 3]) -> Known {
+pub fn known(size: [u32; 2], pixel: impl Fn(u32, u32) -> [f64; 3]) -> ExactImage {
     let colours: Vec<[f64; 3]> = (0..size[1])
         .flat_map(|y| (0..size[0]).map(move |x| (x, y)))
         .map(|(x, y)| pixel(x, y))
         .collect();
     let channels = ["R", "G", "B"].into_iter().enumerate();
-    Known {
+    ExactImage {
         size,
         channels: channels
             .map(|(c, name)| (name.to_owned(), colours.iter().map(|rgb| rgb[c]).collect()))

@@ -11,7 +11,7 @@ use super::light::{known, rgb};
 use super::spectra::{at, table};
 use crate::claim::Claim;
 use crate::folders;
-use etalon::judge::Known;
+use etalon::judge::ExactImage;
 
 /// The colours of the pair under the claim's illuminant.
 fn pair(claim: &Claim) -> Result<[[f64; 3]; 2], String> {
@@ -23,13 +23,13 @@ fn pair(claim: &Claim) -> Result<[[f64; 3]; 2], String> {
 }
 
 /// The picture under the illuminant that makes them alike: one colour everywhere.
-pub fn matching(claim: &Claim, size: [u32; 2]) -> Result<Known, String> {
+pub fn matching(claim: &Claim, size: [u32; 2]) -> Result<ExactImage, String> {
     let [grey, _] = pair(claim)?;
     Ok(known(size, |_, _| grey))
 }
 
 /// The picture under any illuminant, one half each.
-pub fn picture(claim: &Claim, size: [u32; 2]) -> Result<Known, String> {
+pub fn picture(claim: &Claim, size: [u32; 2]) -> Result<ExactImage, String> {
     if !size[0].is_multiple_of(2) {
         return Err("each half must be of whole pixels".to_owned());
     }

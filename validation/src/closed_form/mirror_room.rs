@@ -11,13 +11,13 @@
 
 use super::light::{known, rgb};
 use crate::claim::Claim;
-use etalon::judge::Known;
+use etalon::judge::ExactImage;
 
 /// The height at which the camera stands.
 const CAMERA: f64 = 0.1;
 
 /// The picture of the room, up or down.
-pub fn picture(claim: &Claim, size: [u32; 2]) -> Result<Known, String> {
+pub fn picture(claim: &Claim, size: [u32; 2]) -> Result<ExactImage, String> {
     let radiance = claim.number("radiance")?;
     let ceiling = claim.number("ceiling")?;
     let ends = [claim.number("floor_360")?, claim.number("floor_830")?];

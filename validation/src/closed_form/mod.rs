@@ -30,7 +30,7 @@ pub mod spectra;
 pub mod wrapped_bitmap;
 
 use crate::claim::{Claim, Estimator};
-use etalon::judge::Known;
+use etalon::judge::ExactImage;
 
 /// The picture that a formula gives for a claim's scene, as one of its estimators sees it, at `size` pixels.
 ///
@@ -41,7 +41,7 @@ pub fn picture(
     claim: &Claim,
     estimator: &Estimator,
     size: [u32; 2],
-) -> Result<Known, String> {
+) -> Result<ExactImage, String> {
     let claim = &Claim {
         defines: claim.defines_of(Some(estimator)),
         ..claim.clone()

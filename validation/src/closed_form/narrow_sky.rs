@@ -6,10 +6,10 @@
 use super::light::{known, rgb};
 use super::spectra;
 use crate::claim::Claim;
-use etalon::judge::Known;
+use etalon::judge::ExactImage;
 
 /// The picture of the sky.
-pub fn picture(claim: &Claim, size: [u32; 2]) -> Result<Known, String> {
+pub fn picture(claim: &Claim, size: [u32; 2]) -> Result<ExactImage, String> {
     let number = |key: &str| {
         let lambda = claim.number(key)?;
         let whole = lambda == lambda.round() && (361.0..830.0).contains(&lambda);

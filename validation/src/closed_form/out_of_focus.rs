@@ -17,7 +17,7 @@
 use super::light::{known, rgb};
 use super::pixels;
 use crate::claim::Claim;
-use etalon::judge::Known;
+use etalon::judge::ExactImage;
 use etalon_math::float64::{acos, tan};
 use std::f64::consts::PI;
 
@@ -29,7 +29,7 @@ const CELLS: u32 = 8;
 ///
 /// # Errors
 /// If the claim lacks a number.
-pub fn picture(claim: &Claim, size: [u32; 2]) -> Result<Known, String> {
+pub fn picture(claim: &Claim, size: [u32; 2]) -> Result<ExactImage, String> {
     let half_width = tan(0.5 * claim.number("fov")?.to_radians());
     let distance = claim.number("distance")?;
     let focus = claim.number("focus_distance")?;

@@ -12,7 +12,7 @@
 use super::light::{known, rgb};
 use super::pixels;
 use crate::claim::Claim;
-use etalon::judge::Known;
+use etalon::judge::ExactImage;
 use etalon_math::float64::tan;
 
 /// The camera's angle of view (degrees); it looks at the plates at right angles.
@@ -21,7 +21,7 @@ const FIELD_OF_VIEW: f64 = 80.0;
 const INTERFACES: u32 = 6;
 
 /// The picture of the wall.
-pub fn picture(claim: &Claim, size: [u32; 2]) -> Result<Known, String> {
+pub fn picture(claim: &Claim, size: [u32; 2]) -> Result<ExactImage, String> {
     if size[0] != size[1] {
         return Err("the angle of view is that of a square film".to_owned());
     }

@@ -7,7 +7,7 @@
 
 use super::light::known;
 use crate::claim::Claim;
-use etalon::judge::Known;
+use etalon::judge::ExactImage;
 use etalon_math::float64::{cos, sin};
 use etalon_spectrum::{cie, colour_space};
 
@@ -23,7 +23,7 @@ const LAMP: f64 = -5.0;
 const STEP: f64 = 0.05;
 
 /// The picture of the spectrum.
-pub fn picture(claim: &Claim, size: [u32; 2]) -> Result<Known, String> {
+pub fn picture(claim: &Claim, size: [u32; 2]) -> Result<ExactImage, String> {
     let index = match claim.text("glass") {
         Ok(glass) => index(glass)?,
         Err(_) => index(&samples(claim.text("wavelengths")?, claim.text("indices")?))?,

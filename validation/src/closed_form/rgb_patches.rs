@@ -6,7 +6,7 @@
 
 use super::light::known;
 use crate::claim::Claim;
-use etalon::judge::Known;
+use etalon::judge::ExactImage;
 
 /// Patches in a row.
 const COLUMNS: u32 = 3;
@@ -14,7 +14,7 @@ const COLUMNS: u32 = 3;
 const ROWS: u32 = 2;
 
 /// The picture of the patches. They must be of whole pixels.
-pub fn picture(claim: &Claim, size: [u32; 2]) -> Result<Known, String> {
+pub fn picture(claim: &Claim, size: [u32; 2]) -> Result<ExactImage, String> {
     if !size[0].is_multiple_of(COLUMNS) || !size[1].is_multiple_of(ROWS) {
         return Err("the patches must be of whole pixels".to_owned());
     }

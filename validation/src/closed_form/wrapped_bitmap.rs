@@ -10,7 +10,7 @@
 use super::light::{decoded, known, rgb};
 use super::pixels;
 use crate::claim::Claim;
-use etalon::judge::Known;
+use etalon::judge::ExactImage;
 
 /// The bytes of `scenes/wrapped-bitmap/texels.png`.
 const TEXELS: [[u8; 4]; 3] = [[40, 200, 120, 255], [90, 0, 230, 160], [180, 70, 20, 140]];
@@ -40,7 +40,7 @@ fn hold(i: i64, n: i64) -> i64 {
 
 /// The picture of the strips. Texels must be of an even number of pixels, so that no kink lies within
 /// a pixel.
-pub fn picture(claim: &Claim, size: [u32; 2]) -> Result<Known, String> {
+pub fn picture(claim: &Claim, size: [u32; 2]) -> Result<ExactImage, String> {
     let [width, height] = size;
     if width != height || !width.is_multiple_of(24) {
         return Err("the film must be square, of a multiple of 24 pixels".to_owned());

@@ -3,7 +3,7 @@
 use crate::measure::Measure;
 use crate::outcome::{Outcome, Row};
 use crate::table;
-use etalon::judge::{ImageRow, Judgement};
+use etalon::judge::{ImageComparison, ImageRow};
 use etalon::report::{self, interval, probability};
 use maud::{Markup, html};
 
@@ -41,7 +41,7 @@ fn speaks<'a>(row: &'a Row<'_>) -> Speaks<'a> {
     };
     if let Some(judgement) = compared.judgement() {
         let bound = judgement.rules.image_bound;
-        let widest = Judgement::widest(judgement);
+        let widest = ImageComparison::widest(judgement);
         let off = judgement.tiles.iter().map(|tiles| tiles.differing).sum();
         return widest.map_or(Speaks::Nothing, |image| Speaks::Bias(image, bound, off));
     }

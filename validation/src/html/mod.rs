@@ -9,7 +9,7 @@ mod efficiency;
 mod line;
 
 use crate::json::Provenance;
-use crate::outcome::{ALARM, ALPHA, Conclusion, Outcome, Row, counts};
+use crate::outcome::{ALPHA, Conclusion, FALSE_POSITIVE_LEVEL, Outcome, Row, counts};
 use crate::table;
 use etalon::report::{self, album::Album};
 use maud::{Markup, html};
@@ -83,7 +83,7 @@ fn about(provenance: &Provenance) -> Markup {
                 "is a fault planted on purpose: it passes if it is found, and is undecided if that takes "
                 "more samples. An interval that is too wide is "
                 em { "undecided" } ", never a pass. Intervals and p-values are corrected over the whole run: "
-                "the probability that a sound renderer shows any failure is " (ALARM) ", and that any interval "
+                "the probability that a sound renderer shows any failure is " (FALSE_POSITIVE_LEVEL) ", and that any interval "
                 "misses its truth " (ALPHA) ". What differs at the latter level only is " em { "in doubt" } ", and undecided. Only the bounds "
                 "that a full run asks for besides, and that the head of this page counts, are said of each "
                 "comparison by itself, with 99 % confidence." }

@@ -11,7 +11,7 @@ use std::time::{Duration, Instant};
 
 /// What a script found.
 #[derive(Debug, Deserialize)]
-pub(crate) struct Finding {
+pub(crate) struct LightSearch {
     pub(crate) name: String,
     pub(crate) fine: bool,
     pub(crate) detail: String,
@@ -78,7 +78,7 @@ pub(crate) fn exercise(
     html: &str,
     script: &str,
     [width, height]: [u32; 2],
-) -> Vec<Finding> {
+) -> Vec<LightSearch> {
     let page = folder.join("page.html");
     let html = html
         .replacen("<head>", &format!("<head>{ERRORS}"), 1)
@@ -122,7 +122,7 @@ pub(crate) fn exercise(
 }
 
 /// What the console was told.
-fn understood(log: &str) -> Vec<Finding> {
+fn understood(log: &str) -> Vec<LightSearch> {
     let (mut findings, mut announced, mut said) = (Vec::new(), None, Vec::new());
     for line in log.lines().filter(|line| line.contains(":CONSOLE:")) {
         let told = |what: &str| {
@@ -139,7 +139,7 @@ fn understood(log: &str) -> Vec<Finding> {
     }
     let complete = announced == Some(findings.len());
     assert!(complete, "the script did not end: {log}");
-    findings.push(Finding {
+    findings.push(LightSearch {
         name: "the console is silent".to_owned(),
         fine: said.is_empty(),
         detail: said.join("; "),
@@ -148,7 +148,7 @@ fn understood(log: &str) -> Vec<Finding> {
 }
 
 /// The names of what was not fine, with what was found instead.
-pub(crate) fn failures(findings: &[Finding]) -> Vec<String> {
+pub(crate) fn failures(findings: &[LightSearch]) -> Vec<String> {
     let bad = findings.iter().filter(|finding| !finding.fine);
     bad.map(|finding| format!("{}: {}", finding.name, finding.detail))
         .collect()

@@ -48,7 +48,12 @@ fn validation() -> String {
 fn compared() -> String {
     let (known, truth) = rows::truth();
     let picture = rows::picture(5, 0.2, 1.0);
-    let judged = judged::judge(&picture, Against::Known(&known), rows::RULES, rows::ASKED);
+    let judged = judged::judge(
+        &picture,
+        Against::ExactImage(&known),
+        rows::RULES,
+        rows::ASKED,
+    );
     let judgement = judged.expect("comparable").judgement;
     let names = [
         "a long name of a picture.exr".to_owned(),
@@ -158,7 +163,7 @@ fn a_running_bias_ends_with_the_decision() {
     let picture = rows::picture(6, 0.001, 1.0);
     let other = rows::picture(7, 0.0, 1.0);
     for (against, drawn) in [
-        (Against::Known(&known), &truth),
+        (Against::ExactImage(&known), &truth),
         (Against::Picture(&other), &other),
     ] {
         let judged = judged::judge(&picture, against, rows::RULES, rows::ASKED);

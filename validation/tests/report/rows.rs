@@ -1,13 +1,13 @@
 //! Rows of every kind and outcome, made of numbers instead of renders.
 
-use etalon::judge::{ImageRow, Known, Rules};
-use etalon_film::{BoxFilter, Developed, ExactFilm, FilmSettings, Filter, RenderFacts};
+use etalon::judge::{ExactImage, ImageRow, Tolerances};
+use etalon_film::{BoxFilter, ExactFilm, FilmSettings, Filter, RenderFacts, RenderedImage};
 use etalon_images::{Frame, Image};
 use etalon_statistics::Verdict;
 use etalon_validation::claim::Claim;
 use etalon_validation::convergence::Fall;
 use etalon_validation::decision::Decision;
-use etalon_validation::fault::Fault;
+use etalon_validation::fault::PlantedFault;
 use etalon_validation::folders;
 use etalon_validation::judged::{self, Against, Asked, Judged};
 use etalon_validation::look::Look;
@@ -22,7 +22,7 @@ const HEIGHT: usize = 32;
 const TRUTH: f64 = 0.25;
 
 /// How strict the synthetic comparisons are.
-pub(crate) const RULES: Rules = Rules {
+pub(crate) const RULES: Tolerances = Tolerances {
     image_bound: 0.005,
     tile_bound: 0.03,
     alpha: 1e-4,
@@ -36,7 +36,7 @@ pub(crate) const ASKED: Asked = Asked {
 };
 
 /// 32 replicates with noise of 5 % per pixel, off by ∓`bias` left and right of the middle.
-pub(crate) fn picture(seed: u64, bias: f64, seconds: f64) -> Developed {
+pub(crate) fn picture(seed: u64, bias: f64, seconds: f64) -> RenderedImage {
     let settings = FilmSettings::new(WIDTH as u32, HEIGHT as u32, Filter::Box(BoxFilter));
     let mut film = ExactFilm::new(settings, &[]).expect("a small film");
     let mut state = seed;
@@ -69,13 +69,13 @@ pub(crate) fn picture(seed: u64, bias: f64, seconds: f64) -> Developed {
 }
 
 /// The truth, as numbers and as a picture without statistics.
-pub(crate) fn truth() -> (Known, Developed) {
+pub(crate) fn truth() -> (ExactImage, RenderedImage) {
     let size = WIDTH * HEIGHT;
     let mut image = Image::new(WIDTH, HEIGHT);
     for name in ["R", "G", "B"] {
         image.push(name, vec![TRUTH as f32; size]);
     }
-    let known = Known {
+    let known = ExactImage {
         size: [WIDTH as u32, HEIGHT as u32],
         channels: ["R", "G", "B"]
             .map(|name| (name.to_owned(), vec![TRUTH; size]))
@@ -85,7 +85,7 @@ pub(crate) fn truth() -> (Known, Developed) {
     let metadata = None;
     (
         known,
-        Developed {
+        RenderedImage {
             image,
             frame,
             metadata,
@@ -114,8 +114,8 @@ pub(crate) fn rows(claims: &[Claim]) -> Vec<Row<'_>> {
         panic!("five claims");
     };
     let (known, drawn) = truth();
-    let against = |picture: Developed| {
-        let judged = judged::judge(&picture, Against::Known(&known), RULES, ASKED);
+    let against = |picture: RenderedImage| {
+        let judged = judged::judge(&picture, Against::ExactImage(&known), RULES, ASKED);
         of_pictures(picture, drawn.clone(), judged.expect("comparable"))
     };
     let own = picture(1, 0.0, 2.0);
@@ -175,7 +175,7 @@ pub(crate) fn broken(claim: &Claim) -> Row<'_> {
     row(task(claim, 0, None), reason, Outcome::Broken)
 }
 
-fn task(claim: &Claim, place: usize, fault: Option<Fault>) -> Task<'_> {
+fn task(claim: &Claim, place: usize, fault: Option<PlantedFault>) -> Task<'_> {
     let estimator = &claim.estimators[place];
     Task {
         elsewhere: false,
@@ -217,7 +217,7 @@ fn of_measures(measures: Vec<Measure>) -> Compared {
     }
 }
 
-fn of_pictures(picture: Developed, oracle: Developed, judged: Judged) -> Compared {
+fn of_pictures(picture: RenderedImage, oracle: RenderedImage, judged: Judged) -> Compared {
     let reach = |row: &ImageRow| row.interval[0].abs().max(row.interval[1].abs());
     Compared {
         bias_bound: judged.judgement.widest().map(reach),

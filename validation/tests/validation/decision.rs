@@ -2,12 +2,12 @@
 //! without faults.
 
 use crate::claims::claims;
-use etalon::judge::{Judgement, Known, Rules, judge, judge_known};
-use etalon_film::{BoxFilter, Developed, ExactFilm, FilmSettings, Filter, RenderFacts};
+use etalon::judge::{ExactImage, ImageComparison, Tolerances, judge, judge_known};
+use etalon_film::{BoxFilter, ExactFilm, FilmSettings, Filter, RenderFacts, RenderedImage};
 use etalon_images::Image;
 use etalon_statistics::Verdict;
 use etalon_validation::claim::{Budget, Claim};
-use etalon_validation::fault::Fault;
+use etalon_validation::fault::PlantedFault;
 use etalon_validation::folders;
 use etalon_validation::outcome::{self, Conclusion, Outcome};
 use etalon_validation::run::{self, Options};
@@ -22,7 +22,7 @@ fn truth(x: usize, y: usize) -> f64 {
 }
 
 /// Replicates with noise of 5 % per pixel, and a relative bias that depends on the place.
-fn picture(seed: u64, bias: impl Fn(usize, usize) -> f64) -> Developed {
+fn picture(seed: u64, bias: impl Fn(usize, usize) -> f64) -> RenderedImage {
     let settings = FilmSettings::new(WIDTH as u32, HEIGHT as u32, Filter::Box(BoxFilter));
     let mut film = ExactFilm::new(settings, &[]).expect("a small film");
     let mut state = seed;
@@ -53,11 +53,11 @@ fn picture(seed: u64, bias: impl Fn(usize, usize) -> f64) -> Developed {
     film.develop(RenderFacts::default())
 }
 
-fn known() -> Known {
+fn known() -> ExactImage {
     let pixels: Vec<f64> = (0..WIDTH * HEIGHT)
         .map(|i| truth(i % WIDTH, i / WIDTH))
         .collect();
-    Known {
+    ExactImage {
         size: [WIDTH as u32, HEIGHT as u32],
         channels: ["R", "G", "B"]
             .map(|name| (name.to_owned(), pixels.clone()))
@@ -66,8 +66,8 @@ fn known() -> Known {
 }
 
 /// Against the truth, and against another sound picture.
-fn both(image: &Developed) -> [Judgement; 2] {
-    let rules = Rules::default();
+fn both(image: &RenderedImage) -> [ImageComparison; 2] {
+    let rules = Tolerances::default();
     [
         judge_known(image, &known(), rules).expect("comparable"),
         judge(image, &picture(99, |_, _| 0.0), rules).expect("comparable"),
@@ -126,7 +126,7 @@ fn a_bias_in_a_tile_is_found_where_it_is() {
 fn pictures_of_different_size_are_refused() {
     let mut other = known();
     other.size = [HEIGHT as u32, WIDTH as u32];
-    let message = judge_known(&picture(4, |_, _| 0.0), &other, Rules::default());
+    let message = judge_known(&picture(4, |_, _| 0.0), &other, Tolerances::default());
     assert!(message.expect_err("refused").contains("differ in size"));
 }
 
@@ -161,8 +161,9 @@ fn the_stated_bound_is_exceeded_no_more_often_than_it_says() {
         (0..200_u64)
             .filter(|seed| {
                 let image = picture(1000 + seed, |_, _| 0.01);
-                let judgement = judge_known(&image, &known, Rules::default()).expect("comparable");
-                let stated = stated(&image, Against::Known(&known), &judgement, true, 0.2);
+                let judgement =
+                    judge_known(&image, &known, Tolerances::default()).expect("comparable");
+                let stated = stated(&image, Against::ExactImage(&known), &judgement, true, 0.2);
                 factor * stated.expect("comparable").bias < 0.01
             })
             .count()
@@ -229,14 +230,22 @@ fn a_fault_that_is_missed_for_lack_of_samples_is_undecided() {
     // or it passes.
     let claims = poor(0.05);
     for (verdict, fault, outcome) in [
-        (None, Some(Fault::Energy), Outcome::Broken),
+        (None, Some(PlantedFault::Energy), Outcome::Broken),
         (
             Some(Verdict::Undecided),
-            Some(Fault::Energy),
+            Some(PlantedFault::Energy),
             Outcome::Undecided,
         ),
-        (Some(Verdict::Agrees), Some(Fault::Energy), Outcome::Failed),
-        (Some(Verdict::Differs), Some(Fault::Energy), Outcome::Passed),
+        (
+            Some(Verdict::Agrees),
+            Some(PlantedFault::Energy),
+            Outcome::Failed,
+        ),
+        (
+            Some(Verdict::Differs),
+            Some(PlantedFault::Energy),
+            Outcome::Passed,
+        ),
         (Some(Verdict::Undecided), None, Outcome::Undecided),
         (Some(Verdict::Agrees), None, Outcome::Passed),
         (Some(Verdict::Differs), None, Outcome::Failed),
@@ -337,7 +346,7 @@ fn the_json_is_the_one_that_is_described() {
         part: None,
     };
     let tasks = run::tasks(&claims, &options);
-    let plan = run::Plan::of(&tasks, &options);
+    let plan = run::RunPlan::of(&tasks, &options);
     let rows = outcome::run(tasks, &options, None, |_| ()).expect("a plan");
     let value = json::of(&rows, &Provenance::of(&options, plan, 1.0));
     assert_eq!(value["exit_code"], 0);

@@ -2,7 +2,7 @@
 //! comparison finds and forgives.
 
 use crate::claims;
-use etalon_film::{BoxFilter, Developed, ExactFilm, FilmSettings, Filter, RenderFacts};
+use etalon_film::{BoxFilter, ExactFilm, FilmSettings, Filter, RenderFacts, RenderedImage};
 use etalon_images::{Frame, Image, exr};
 use etalon_integrators::signature;
 use etalon_statistics::Verdict;
@@ -10,7 +10,7 @@ use etalon_validation::claim::{Claim, Oracle};
 use etalon_validation::measure::Measure;
 use etalon_validation::outcome::{self, Conclusion, Outcome};
 use etalon_validation::pixelwise::{self, Limits};
-use etalon_validation::povray::{self, Twins};
+use etalon_validation::povray::{self, ScenePair};
 use etalon_validation::run::{self, Options};
 use etalon_validation::tier::Tier;
 use etalon_validation::{edges, folders, rendering};
@@ -107,7 +107,7 @@ fn the_quickest_twins_agree_and_their_mutants_are_found() {
 /// A reference of its own for a test, in a folder that is removed at its end.
 struct Copy {
     folder: PathBuf,
-    twins: Twins,
+    twins: ScenePair,
 }
 
 impl Copy {
@@ -126,7 +126,7 @@ impl Copy {
         self.folder.join(format!("{NAME}.{extension}"))
     }
 
-    fn read(&self) -> Result<Developed, String> {
+    fn read(&self) -> Result<RenderedImage, String> {
         povray::read_in(&self.folder, NAME, &self.twins)
     }
 
@@ -231,7 +231,7 @@ const LIMITS: Limits = Limits {
 };
 
 /// A picture whose left half is dark, or what `change` makes of it in two replicates.
-fn two_halves(change: impl Fn(usize, usize, usize) -> f32) -> Developed {
+fn two_halves(change: impl Fn(usize, usize, usize) -> f32) -> RenderedImage {
     let settings = FilmSettings::new(SIDE as u32, SIDE as u32, Filter::Box(BoxFilter));
     let mut film = ExactFilm::new(settings, &[]).expect("a small film");
     for replicate in 0..2 {

@@ -1,9 +1,10 @@
 //! References that cannot be used: each gives a clear error, never a pass.
 
 use crate::claims::claims;
-use etalon::judge::{Rules, judge};
+use etalon::judge::{Tolerances, judge};
 use etalon_film::{
-    BoxFilter, Developed, ExactFilm, FilmSettings, Filter, Metadata, RenderFacts, read_developed,
+    BoxFilter, ExactFilm, FilmSettings, Filter, Metadata, RenderFacts, RenderedImage,
+    read_developed,
 };
 use etalon_images::Image;
 use etalon_validation::claim::{Claim, Oracle};
@@ -41,7 +42,7 @@ impl Folder {
         (folder, expected)
     }
 
-    fn read(&self, expected: &Expected) -> Result<etalon_film::Developed, String> {
+    fn read(&self, expected: &Expected) -> Result<etalon_film::RenderedImage, String> {
         reference::read_in(&self.0, "cornell-box", expected)
     }
 }
@@ -118,7 +119,7 @@ fn a_reference_of_another_integrator_is_an_error() {
 }
 
 /// What is said of the cornell box's reference after a change of it.
-fn said_of(name: &str, change: impl FnOnce(&mut Developed)) -> String {
+fn said_of(name: &str, change: impl FnOnce(&mut RenderedImage)) -> String {
     let (folder, expected) = Folder::with_reference(name);
     let path = folder.0.join("cornell-box.exr");
     let mut picture = read_developed(&path).expect("a picture");
@@ -127,7 +128,7 @@ fn said_of(name: &str, change: impl FnOnce(&mut Developed)) -> String {
     folder.read(&expected).expect_err("not whole")
 }
 
-fn facts(picture: &mut Developed) -> &mut Metadata {
+fn facts(picture: &mut RenderedImage) -> &mut Metadata {
     picture.metadata.as_mut().expect("statistics")
 }
 
@@ -187,7 +188,7 @@ fn pictures_without_a_mean_of_the_whole_are_not_compared() {
     let whole = read_developed(&path).expect("a picture");
     let mut tiles = whole.clone();
     facts(&mut tiles).tile_means.retain(|m| m.side().is_some());
-    let judged = judge(&whole, &tiles, Rules::default());
+    let judged = judge(&whole, &tiles, Tolerances::default());
     let message = judged.expect_err("refused");
     assert!(message.contains("means of the whole image"), "{message}");
 }

@@ -1,14 +1,14 @@
 //! Means whose replicates are too far from normal for t: tiles that it calls off, and whole images.
 
-use etalon::judge::{Known, Rules};
-use etalon_film::{BoxFilter, Developed, ExactFilm, FilmSettings, Filter, RenderFacts};
+use etalon::judge::{ExactImage, Tolerances};
+use etalon_film::{BoxFilter, ExactFilm, FilmSettings, Filter, RenderFacts, RenderedImage};
 use etalon_images::Image;
 use etalon_statistics::Verdict;
 use etalon_validation::judged::{Against, Asked, judge, stated};
 
 /// A picture of two tiles of 16², of which `left` and `right` are the replicates, and what it ought
 /// to be: ½.
-fn picture(left: &[f64], right: &[f64]) -> (Developed, Known) {
+fn picture(left: &[f64], right: &[f64]) -> (RenderedImage, ExactImage) {
     let settings = FilmSettings::new(32, 16, Filter::Box(BoxFilter));
     let mut film = ExactFilm::new(settings, &[]).expect("a small film");
     for (left, right) in left.iter().zip(right) {
@@ -20,7 +20,7 @@ fn picture(left: &[f64], right: &[f64]) -> (Developed, Known) {
     }
     let picture = film.develop(RenderFacts::default());
     let channels = ["R", "G", "B"].map(|name| (name.to_owned(), vec![0.5; 32 * 16]));
-    let known = Known {
+    let known = ExactImage {
         size: [32, 16],
         channels: channels.into(),
     };
@@ -37,8 +37,8 @@ fn tiles(left: &[f64], right: &[f64]) -> Verdict {
     let (picture, known) = picture(left, right);
     let judged = judge(
         &picture,
-        Against::Known(&known),
-        Rules::default(),
+        Against::ExactImage(&known),
+        Tolerances::default(),
         asked(false, 1e-3),
     );
     let tiles = judged.expect("comparable").judgement.tiles;
@@ -81,15 +81,15 @@ fn equality_that_nobody_could_ask_is_asked_where_it_can_be() {
     // pictures it is not nothing. Mutant rejected: half a per cent is all that is asked, so that a bias
     // of 0.1 % agrees with a formula whose equality nobody has looked at. (By t it is not far enough for
     // this level, so that tiles, which are as large as the image in effect, are silent.)
-    let rules = Rules {
+    let rules = Tolerances {
         alpha: 1e-6,
         rounding: 2e-5,
-        ..Rules::default()
+        ..Tolerances::default()
     };
     let verdict = |mean: f64, last: f64, exact: bool| {
         let all = replicates(32, mean, last);
         let (picture, known) = picture(&all, &all);
-        let against = Against::Known(&known);
+        let against = Against::ExactImage(&known);
         let judged = judge(&picture, against, rules, asked(exact, 1e-8)).expect("comparable");
         let images = &judged.judgement.images;
         assert!(images.iter().all(|row| row.interval[1].is_infinite()));
@@ -118,12 +118,17 @@ fn a_failure_is_not_shown_by_an_interval_that_only_a_higher_level_has() {
     let p = |mean: f64, alarm: f64| {
         let all = skewed(mean);
         let (picture, known) = picture(&all, &all);
-        let rules = Rules {
+        let rules = Tolerances {
             alpha: 0.01,
             rounding: 2e-5,
-            ..Rules::default()
+            ..Tolerances::default()
         };
-        let judged = judge(&picture, Against::Known(&known), rules, asked(true, alarm));
+        let judged = judge(
+            &picture,
+            Against::ExactImage(&known),
+            rules,
+            asked(true, alarm),
+        );
         judged.expect("comparable").p
     };
     assert!(

@@ -193,11 +193,8 @@ mod tests {
         let root = folders::root();
         let there = mutant.applied(&root).expect("applies");
         mutant.file = "crates/integrators/src/gone.rs".into();
-        mutant.text = mutant.text.replace("value", "beta").replace("ratio", "r_u");
-        mutant.replacement = mutant
-            .replacement
-            .replace("value", "beta")
-            .replace("ratio", "r_u");
+        mutant.text = mutant.text.replace("r_u", "rescaled");
+        mutant.replacement = mutant.replacement.replace("r_u", "rescaled");
         let again = mutant.applied(&root).expect("applies under other names");
         assert_eq!((again.file, again.mutated), (there.file, there.mutated));
         assert!(!again.renamed.is_empty());

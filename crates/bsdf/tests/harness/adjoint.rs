@@ -8,7 +8,7 @@
 use crate::directions::Uniform;
 use crate::scene::{Sample, WAVELENGTHS};
 use etalon_math::Frame;
-use etalon_transport::{Bsdf, Mode};
+use etalon_transport::{Bsdf, TransportMode};
 use glam::{Vec3, Vec4};
 
 fn close(a: Vec4, b: Vec4, relative: f32) -> bool {
@@ -25,12 +25,17 @@ pub(crate) fn asymmetry<B: Bsdf>(resolve: impl Fn(Vec3) -> B, seed: u64) -> Opti
     for _ in 0..400 {
         let wo = uniform.direction();
         let forward = resolve(wo);
-        let sampled = forward.sample(wo, uniform.next(), uniform.pair(), Mode::Importance);
+        let sampled = forward.sample(
+            wo,
+            uniform.next(),
+            uniform.pair(),
+            TransportMode::Importance,
+        );
         let anywhere = uniform.direction();
-        let continuous = sampled.filter(|s| !s.chance.is_discrete()).map(|s| s.wi);
+        let continuous = sampled.filter(|s| !s.chance.is_delta()).map(|s| s.wi);
         for wi in [anywhere].into_iter().chain(continuous) {
-            let importance = forward.eval(wo, wi, Mode::Importance) / wi.z.abs();
-            let radiance = resolve(wi).eval(wi, wo, Mode::Radiance) / wo.z.abs();
+            let importance = forward.eval(wo, wi, TransportMode::Importance) / wi.z.abs();
+            let radiance = resolve(wi).eval(wi, wo, TransportMode::Radiance) / wo.z.abs();
             // Half-vectors of nearly opposite directions lose digits.
             if wo.z.abs() > 0.02 && wi.z.abs() > 0.02 && !close(importance, radiance, 2e-3) {
                 return Some(format!("{wo} {wi}: {importance} {radiance}"));
@@ -42,7 +47,7 @@ pub(crate) fn asymmetry<B: Bsdf>(resolve: impl Fn(Vec3) -> B, seed: u64) -> Opti
 
 #[test]
 fn importance_is_the_adjoint_of_radiance() {
-    for sample in Sample::exemplars() {
+    for sample in Sample::test_materials() {
         for normal in [
             Vec3::Z,
             Vec3::new(0.2, -0.1, 1.0),
@@ -59,14 +64,14 @@ fn importance_is_the_adjoint_of_radiance() {
 fn smooth_refraction_squeezes_radiance_by_the_index_squared() {
     let mut uniform = Uniform::new(2);
     let mut refracted = 0;
-    for sample in Sample::exemplars() {
+    for sample in Sample::test_materials() {
         for _ in 0..100 {
             let wo = uniform.direction();
             let u = uniform.pair();
             let Some(s) = sample
                 .at(wo)
-                .sample(wo, uniform.next(), u, Mode::Radiance)
-                .filter(|s| s.chance.is_discrete() && s.wi.z.abs() > 0.02)
+                .sample(wo, uniform.next(), u, TransportMode::Radiance)
+                .filter(|s| s.chance.is_delta() && s.wi.z.abs() > 0.02)
             else {
                 continue;
             };
@@ -74,9 +79,11 @@ fn smooth_refraction_squeezes_radiance_by_the_index_squared() {
             let back = (0..200)
                 .filter_map(|i| {
                     let u_lobe = (i as f32 + 0.5) / 200.0;
-                    sample.at(s.wi).sample(s.wi, u_lobe, u, Mode::Importance)
+                    sample
+                        .at(s.wi)
+                        .sample(s.wi, u_lobe, u, TransportMode::Importance)
                 })
-                .find(|b| b.chance.is_discrete() && (b.wi - wo).length() < 1e-3);
+                .find(|b| b.chance.is_delta() && (b.wi - wo).length() < 1e-3);
             let Some(back) = back else {
                 assert!(s.chance.lanes().x < 0.01, "{} {s:?}", sample.text);
                 continue;

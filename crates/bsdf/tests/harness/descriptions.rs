@@ -1,7 +1,7 @@
 //! What a scene may say of a material, and what it is told when it says something else.
 
 use crate::scene::{Sample, Scene};
-use etalon_transport::{Bsdf, Mode};
+use etalon_transport::{Bsdf, TransportMode};
 use glam::{Vec2, Vec3, Vec4};
 
 /// The messages for a material that must be refused, with their help.
@@ -117,7 +117,7 @@ fn mirror(text: &str, scene: Scene) -> Vec4 {
     let sample = Sample::in_scene(text, scene);
     let found = sample
         .at(Vec3::Z)
-        .sample(Vec3::Z, 0.0, Vec2::ZERO, Mode::Radiance);
+        .sample(Vec3::Z, 0.0, Vec2::ZERO, TransportMode::Radiance);
     found.expect("a reflection").value
 }
 
@@ -198,7 +198,9 @@ fn a_nested_index_counts_as_none_beyond_its_table() {
             for turn in 0..4 {
                 let bsdf = sample.rotated(wo, turn);
                 for u_lobe in [0.0, 0.02, 0.5, 0.99] {
-                    if let Some(s) = bsdf.sample(wo, u_lobe, Vec2::splat(0.3), Mode::Radiance) {
+                    if let Some(s) =
+                        bsdf.sample(wo, u_lobe, Vec2::splat(0.3), TransportMode::Radiance)
+                    {
                         assert!(s.value.is_finite() && s.chance.lanes().is_finite());
                     }
                 }
@@ -208,7 +210,7 @@ fn a_nested_index_counts_as_none_beyond_its_table() {
     let sample = Sample::new(&format!("dielectric {text}"));
     let s = sample
         .at(Vec3::Z)
-        .sample(Vec3::Z, 0.0, Vec2::ZERO, Mode::Radiance)
+        .sample(Vec3::Z, 0.0, Vec2::ZERO, TransportMode::Radiance)
         .expect("nothing is absorbed");
     assert_eq!((s.wi, s.eta), (Vec3::NEG_Z, 1.0));
 }
@@ -219,13 +221,13 @@ fn refraction_by_a_dispersive_interface_keeps_one_wavelength() {
     let wo = crate::directions::at(40.0, 0.0);
     let s = sample
         .at(wo)
-        .sample(wo, 0.99, Vec2::ZERO, Mode::Radiance)
+        .sample(wo, 0.99, Vec2::ZERO, TransportMode::Radiance)
         .expect("refraction");
     assert!(s.wi.z < 0.0);
     assert!(s.chance.lanes().x > 0.9 && s.chance.lanes().truncate_x() == Vec3::ZERO);
     let reflected = sample
         .at(wo)
-        .sample(wo, 0.0, Vec2::ZERO, Mode::Radiance)
+        .sample(wo, 0.0, Vec2::ZERO, TransportMode::Radiance)
         .expect("reflection");
     assert!(reflected.chance.lanes().min_element() > 0.0);
 }
@@ -246,6 +248,6 @@ fn the_least_roughness_acts_for_smaller_ones() {
         ["0", "0.0001"].map(|a| Sample::new(&format!("roughconductor alpha=f:{a}")));
     let wo = crate::directions::at(30.0, 0.0);
     let wi = Vec3::new(-wo.x, wo.y, wo.z);
-    let eval = |s: &Sample| s.at(wo).eval(wo, wi, Mode::Radiance);
+    let eval = |s: &Sample| s.at(wo).eval(wo, wi, TransportMode::Radiance);
     assert_eq!(eval(&zero), eval(&least));
 }

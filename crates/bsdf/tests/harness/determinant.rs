@@ -7,7 +7,7 @@
 
 use crate::directions::{self, Uniform};
 use crate::scene::Sample;
-use etalon_transport::{Bsdf, Mode};
+use etalon_transport::{Bsdf, TransportMode};
 use glam::{Vec2, Vec3};
 
 /// A continuous branch: a choice that is in force, its probability, and where it leads.
@@ -18,8 +18,8 @@ struct Branch {
 }
 
 fn continuous(bsdf: &impl Bsdf, wo: Vec3, u_lobe: f32, u: Vec2) -> Option<Vec3> {
-    bsdf.sample(wo, u_lobe, u, Mode::Radiance)
-        .filter(|s| !s.chance.is_discrete())
+    bsdf.sample(wo, u_lobe, u, TransportMode::Radiance)
+        .filter(|s| !s.chance.is_delta())
         .map(|s| s.wi)
 }
 
@@ -97,7 +97,7 @@ pub(crate) fn worst(bsdf: &impl Bsdf, wo: Vec3, seed: u64) -> (f32, usize) {
             let Some(jacobian) = jacobian(bsdf, wo, branch.u_lobe, *u) else {
                 continue;
             };
-            let density = bsdf.density(wo, branch.wi).chooser();
+            let density = bsdf.density(wo, branch.wi).hero();
             let ratio = branch.probability / jacobian / density - 1.0;
             worst = worst.max(if mixture { ratio } else { ratio.abs() });
             compared += 1;
@@ -109,7 +109,7 @@ pub(crate) fn worst(bsdf: &impl Bsdf, wo: Vec3, seed: u64) -> (f32, usize) {
 #[test]
 fn density_is_one_over_the_jacobian() {
     let mut failures = Vec::new();
-    for sample in Sample::exemplars() {
+    for sample in Sample::test_materials() {
         for wo in directions::known() {
             let bsdf = sample.at(wo);
             let (worst, compared) = worst(&bsdf, wo, 7);

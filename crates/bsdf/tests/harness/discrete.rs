@@ -6,12 +6,12 @@
 
 use crate::directions::Uniform;
 use crate::scene::Sample;
-use etalon_transport::{Bsdf, BsdfSample, Mode};
+use etalon_transport::{Bsdf, BsdfSample, TransportMode};
 use glam::Vec2;
 
 const DRAWS: u32 = 2000;
 
-fn listed(bsdf: &impl Bsdf, wo: glam::Vec3, mode: Mode) -> Vec<BsdfSample> {
+fn listed(bsdf: &impl Bsdf, wo: glam::Vec3, mode: TransportMode) -> Vec<BsdfSample> {
     (0..).map_while(|i| bsdf.discrete(wo, i, mode)).collect()
 }
 
@@ -19,15 +19,15 @@ fn same(a: &BsdfSample, b: &BsdfSample) -> bool {
     a.wi == b.wi
         && a.value == b.value
         && a.chance == b.chance
-        && (a.eta, a.passes) == (b.eta, b.passes)
+        && (a.eta, a.is_null) == (b.eta, b.is_null)
 }
 
 #[test]
 fn what_is_sampled_is_listed_and_what_is_listed_is_sampled() {
-    for sample in Sample::exemplars() {
+    for sample in Sample::test_materials() {
         let mut uniform = Uniform::new(11);
         for round in 0..24 {
-            let mode = [Mode::Radiance, Mode::Importance][round % 2];
+            let mode = [TransportMode::Radiance, TransportMode::Importance][round % 2];
             let wo = uniform.direction();
             let bsdf = sample.at(wo);
             let list = listed(&bsdf, wo, mode);
@@ -35,7 +35,7 @@ fn what_is_sampled_is_listed_and_what_is_listed_is_sampled() {
             for draw in 0..DRAWS {
                 let u_lobe = (draw as f32 + 0.5) / DRAWS as f32;
                 let found = bsdf.sample(wo, u_lobe, Vec2::new(0.3, 0.6), mode);
-                let Some(found) = found.filter(|s| s.chance.is_discrete()) else {
+                let Some(found) = found.filter(|s| s.chance.is_delta()) else {
                     continue;
                 };
                 let index = list.iter().position(|s| same(s, &found));
@@ -57,11 +57,11 @@ fn what_is_sampled_is_listed_and_what_is_listed_is_sampled() {
 
 #[test]
 fn there_are_as_many_whichever_lane_chooses() {
-    for sample in Sample::exemplars() {
+    for sample in Sample::test_materials() {
         let mut uniform = Uniform::new(12);
         for _ in 0..40 {
             let wo = uniform.direction();
-            let count = |turn| listed(&sample.rotated(wo, turn), wo, Mode::Radiance).len();
+            let count = |turn| listed(&sample.rotated(wo, turn), wo, TransportMode::Radiance).len();
             let first = count(0);
             assert!((1..4).all(|turn| count(turn) == first), "{}", sample.text);
         }

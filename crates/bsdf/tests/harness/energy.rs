@@ -7,7 +7,7 @@
 use crate::directions;
 use crate::scene::Sample;
 use crate::sphere;
-use etalon_transport::{Bsdf, Mode};
+use etalon_transport::{Bsdf, TransportMode};
 use glam::{Vec2, Vec3, Vec4};
 
 /// All energies that leave for a known direction, by lane; discrete ones as the lane that
@@ -15,7 +15,7 @@ use glam::{Vec2, Vec3, Vec4};
 fn outgoing(sample: &Sample, wo: Vec3) -> Vec4 {
     let bsdf = sample.at(wo);
     let [x, y, z, w] = sphere::total(&sphere::integrate(8, |wi| {
-        bsdf.eval(wo, wi, Mode::Importance).to_array()
+        bsdf.eval(wo, wi, TransportMode::Importance).to_array()
     }));
     let mut energy = Vec4::new(x as f32, y as f32, z as f32, w as f32);
     for turn in 0..4 {
@@ -23,8 +23,8 @@ fn outgoing(sample: &Sample, wo: Vec3) -> Vec4 {
         let turned = sample.rotated(wo, turn);
         for i in 0..2000 {
             let u_lobe = (i as f32 + 0.5) / 2000.0;
-            if let Some(s) = turned.sample(wo, u_lobe, Vec2::splat(0.5), Mode::Importance)
-                && s.chance.is_discrete()
+            if let Some(s) = turned.sample(wo, u_lobe, Vec2::splat(0.5), TransportMode::Importance)
+                && s.chance.is_delta()
                 && !met.iter().any(|m| (*m - s.wi).length() < 1e-6)
             {
                 met.push(s.wi);
@@ -37,7 +37,7 @@ fn outgoing(sample: &Sample, wo: Vec3) -> Vec4 {
 
 #[test]
 fn nothing_reflects_more_than_it_receives() {
-    for sample in Sample::exemplars() {
+    for sample in Sample::test_materials() {
         for wo in directions::known() {
             let energy = outgoing(&sample, wo);
             // A thousandth for the quadrature.

@@ -3,24 +3,28 @@
 use crate::directions::Uniform;
 use crate::scene::Sample;
 use etalon_bsdf::MAX_LOBES;
-use etalon_transport::{Bsdf, Mode};
+use etalon_transport::{Bsdf, TransportMode};
 use glam::{Vec3, Vec4};
 
 const ROUGH: &str = "roughconductor alpha=f:0.3";
 const DIFFUSE: &str = "diffuse reflectance=u:0.8";
 
 /// Checks that `text` has the values and densities of the parts with their weights, and lets
-/// `passing` light pass.
+/// `null_transmittance` light pass.
 fn is_mixture(text: &str, parts: &[(f32, &str)], passing: f32) {
     let whole = Sample::new(text);
     let parts: Vec<(f32, Sample)> = parts.iter().map(|(w, t)| (*w, Sample::new(t))).collect();
     let mut uniform = Uniform::new(4);
     for _ in 0..200 {
         let (wo, wi) = (uniform.direction(), uniform.direction());
-        let (value, density) = whole.at(wo).eval_and_density(wo, wi, Mode::Radiance);
+        let (value, density) = whole
+            .at(wo)
+            .eval_and_density(wo, wi, TransportMode::Radiance);
         let mut expected = (Vec4::ZERO, Vec4::ZERO);
         for (weight, part) in &parts {
-            let (v, d) = part.at(wo).eval_and_density(wo, wi, Mode::Radiance);
+            let (v, d) = part
+                .at(wo)
+                .eval_and_density(wo, wi, TransportMode::Radiance);
             expected.0 += v * *weight;
             expected.1 += d.lanes() * *weight;
         }
@@ -31,11 +35,11 @@ fn is_mixture(text: &str, parts: &[(f32, &str)], passing: f32) {
         );
         let bsdf = whole.at(wo);
         assert!(
-            near(bsdf.passing(), Vec4::splat(passing)),
+            near(bsdf.null_transmittance(), Vec4::splat(passing)),
             "{text} {}",
-            bsdf.passing()
+            bsdf.null_transmittance()
         );
-        assert!(near(bsdf.passing_probability(), Vec4::splat(passing)));
+        assert!(near(bsdf.null_probability(), Vec4::splat(passing)));
     }
 }
 
@@ -85,7 +89,9 @@ fn either_side_of_a_twosided_material_sees_its_front() {
             Vec3::new(a.x, a.y, a.z.abs()),
             Vec3::new(b.x, b.y, b.z.abs()),
         );
-        let eval = |sample: &Sample, wo: Vec3, wi: Vec3| sample.at(wo).eval(wo, wi, Mode::Radiance);
+        let eval = |sample: &Sample, wo: Vec3, wi: Vec3| {
+            sample.at(wo).eval(wo, wi, TransportMode::Radiance)
+        };
         let (back_o, back_i) = (turned(wo), turned(wi));
         assert_eq!(eval(&both, wo, wi), eval(&rough, wo, wi));
         assert_eq!(eval(&both, back_o, back_i), eval(&diffuse, wo, wi));
@@ -108,21 +114,17 @@ fn only_materials_that_pass_light_need_transmittance() {
         ),
         ("blendbsdf weight=f:0.5 ( diffuse ) ( null )", true),
     ] {
-        assert_eq!(
-            Sample::new(text).material().has_passing(),
-            passing,
-            "{text}"
-        );
+        assert_eq!(Sample::new(text).material().has_null(), passing, "{text}");
     }
 }
 
 #[test]
 fn what_says_that_nothing_passes_lets_nothing_pass() {
     let mut uniform = Uniform::new(12);
-    for sample in Sample::exemplars() {
+    for sample in Sample::test_materials() {
         for _ in 0..50 {
-            let passing = sample.at(uniform.direction()).passing();
-            let silent = sample.material().has_passing() || passing == Vec4::ZERO;
+            let passing = sample.at(uniform.direction()).null_transmittance();
+            let silent = sample.material().has_null() || passing == Vec4::ZERO;
             assert!(silent, "{}", sample.text);
         }
     }

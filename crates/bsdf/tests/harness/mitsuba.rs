@@ -1,7 +1,7 @@
 //! Against the numbers of Mitsuba 3.9.1 (`mitsuba_values.txt`, written by `mitsuba_values.py`).
 
 use crate::scene::Sample;
-use etalon_transport::{Bsdf, Chance, Mode};
+use etalon_transport::{Bsdf, SamplePdf, TransportMode};
 use glam::{Vec2, Vec3, Vec4};
 
 const VALUES: &str = include_str!("mitsuba_values.txt");
@@ -67,8 +67,8 @@ fn values_agree_with_mitsuba() {
         let fields: Vec<&str> = line.split(" ; ").collect();
         let head: Vec<&str> = fields[0].split_whitespace().collect();
         let mode = match head[1] {
-            "radiance" => Mode::Radiance,
-            _ => Mode::Importance,
+            "radiance" => TransportMode::Radiance,
+            _ => TransportMode::Importance,
         };
         let (wo, wi) = (vector(fields[1]), vector(fields[2]));
         let (value, pdf) = (lanes(fields[3]), lanes(fields[4]).x);
@@ -124,6 +124,6 @@ trait Discrete {
 
 impl Discrete for etalon_transport::BsdfSample {
     fn chance_is_discrete(&self) -> bool {
-        matches!(self.chance, Chance::Discrete(_))
+        matches!(self.chance, SamplePdf::Discrete(_))
     }
 }

@@ -6,9 +6,9 @@ use crate::directions;
 use crate::pointwise::{inconsistency, lane_dependence};
 use crate::scene::Sample;
 use crate::statistical::{Integrals, chi_squared_p, quadrature_p};
-use etalon_bsdf::Resolved;
+use etalon_bsdf::BsdfAtPoint;
 use etalon_math::{Density, SolidAngle};
-use etalon_transport::{Bsdf, BsdfSample, Chance, Mode};
+use etalon_transport::{Bsdf, BsdfSample, SamplePdf, TransportMode};
 use glam::{Vec2, Vec3, Vec4};
 
 /// A fault.
@@ -29,7 +29,7 @@ enum Fault {
 /// A right model with a fault.
 #[derive(Clone, Copy)]
 struct Wrong<'a> {
-    right: Resolved<'a>,
+    right: BsdfAtPoint<'a>,
     fault: Fault,
 }
 
@@ -43,38 +43,49 @@ impl Wrong<'_> {
         }
     }
 
-    fn mode(&self, mode: Mode) -> Mode {
+    fn mode(&self, mode: TransportMode) -> TransportMode {
         match self.fault {
-            Fault::NoSqueeze => Mode::Importance,
+            Fault::NoSqueeze => TransportMode::Importance,
             _ => mode,
         }
     }
 }
 
 impl Bsdf for Wrong<'_> {
-    fn eval(&self, wo: Vec3, wi: Vec3, mode: Mode) -> Vec4 {
+    fn eval(&self, wo: Vec3, wi: Vec3, mode: TransportMode) -> Vec4 {
         self.eval_and_density(wo, wi, mode).0
     }
 
     fn density(&self, wo: Vec3, wi: Vec3) -> Density<SolidAngle> {
-        self.eval_and_density(wo, wi, Mode::Radiance).1
+        self.eval_and_density(wo, wi, TransportMode::Radiance).1
     }
 
-    fn eval_and_density(&self, wo: Vec3, wi: Vec3, mode: Mode) -> (Vec4, Density<SolidAngle>) {
+    fn eval_and_density(
+        &self,
+        wo: Vec3,
+        wi: Vec3,
+        mode: TransportMode,
+    ) -> (Vec4, Density<SolidAngle>) {
         let (value, density) = self.right.eval_and_density(wo, wi, self.mode(mode));
         let (value, density) = self.spoil(wi, value, density.lanes());
         (value, Density::per_lane(density))
     }
 
-    fn sample(&self, wo: Vec3, u_lobe: f32, mut u: Vec2, mode: Mode) -> Option<BsdfSample> {
+    fn sample(
+        &self,
+        wo: Vec3,
+        u_lobe: f32,
+        mut u: Vec2,
+        mode: TransportMode,
+    ) -> Option<BsdfSample> {
         if self.fault == Fault::Narrower {
             u.x *= 0.97;
         }
         let mut s = self.right.sample(wo, u_lobe, u, self.mode(mode))?;
-        if let Chance::Continuous(density) = s.chance {
+        if let SamplePdf::Continuous(density) = s.chance {
             let (value, density) = self.spoil(s.wi, s.value, density.lanes());
             s.value = value;
-            s.chance = Chance::Continuous(Density::per_lane(density));
+            s.chance = SamplePdf::Continuous(Density::per_lane(density));
         }
         Some(s)
     }
@@ -83,12 +94,12 @@ impl Bsdf for Wrong<'_> {
         self.right.has_continuous()
     }
 
-    fn passing(&self) -> Vec4 {
-        self.right.passing()
+    fn null_transmittance(&self) -> Vec4 {
+        self.right.null_transmittance()
     }
 
-    fn passing_probability(&self) -> Vec4 {
-        self.right.passing_probability()
+    fn null_probability(&self) -> Vec4 {
+        self.right.null_probability()
     }
 
     fn albedo(&self, wo: Vec3) -> Vec4 {
@@ -178,7 +189,7 @@ fn energy_from_nowhere_is_rejected_where_mitsuba_has_the_value() {
     };
     assert_eq!(inconsistency(&wrong, wo, 1), None);
     let energy = crate::sphere::total(&crate::sphere::integrate(8, |wi| {
-        wrong.eval(wo, wi, Mode::Importance).to_array()
+        wrong.eval(wo, wi, TransportMode::Importance).to_array()
     }));
     assert!(energy[0] > 1.001);
 }

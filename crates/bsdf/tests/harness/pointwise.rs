@@ -4,7 +4,7 @@
 use crate::directions::Uniform;
 use crate::scene::Sample;
 use crate::statistical::unturn;
-use etalon_transport::{Bsdf, Chance, Mode};
+use etalon_transport::{Bsdf, SamplePdf, TransportMode};
 use glam::{Vec2, Vec3, Vec4};
 use proptest::prelude::*;
 use proptest::test_runner::RngSeed;
@@ -19,13 +19,13 @@ fn close(a: Vec4, b: Vec4) -> bool {
 /// What is wrong with samples from `wo`: their value and density must be those of their direction.
 pub(crate) fn inconsistency(bsdf: &impl Bsdf, wo: Vec3, seed: u64) -> Option<String> {
     let mut uniform = Uniform::new(seed);
-    for mode in [Mode::Radiance, Mode::Importance] {
+    for mode in [TransportMode::Radiance, TransportMode::Importance] {
         for _ in 0..100 {
             let Some(s) = bsdf.sample(wo, uniform.next(), uniform.pair(), mode) else {
                 continue;
             };
-            let Chance::Continuous(sampled) = s.chance else {
-                if !s.passes && !bsdf.has_discrete() {
+            let SamplePdf::Continuous(sampled) = s.chance else {
+                if !s.is_null && !bsdf.has_discrete() {
                     return Some(format!("{s:?} is discrete, and nothing should be"));
                 }
                 continue;
@@ -54,7 +54,7 @@ pub(crate) fn inconsistency(bsdf: &impl Bsdf, wo: Vec3, seed: u64) -> Option<Str
 
 #[test]
 fn samples_have_the_value_and_density_of_their_direction() {
-    for sample in Sample::exemplars() {
+    for sample in Sample::test_materials() {
         let mut uniform = Uniform::new(3);
         for seed in 0..40 {
             let wo = uniform.direction();
@@ -72,17 +72,17 @@ pub(crate) fn lane_dependence<B: Bsdf>(
     seed: u64,
 ) -> Option<String> {
     let mut uniform = Uniform::new(seed);
-    let chooser = turned(0);
+    let hero = turned(0);
     for _ in 0..10 {
         // Half of the directions where the light goes, half anywhere.
-        let sampled = chooser.sample(wo, uniform.next(), uniform.pair(), Mode::Radiance);
+        let sampled = hero.sample(wo, uniform.next(), uniform.pair(), TransportMode::Radiance);
         for wi in [uniform.direction()]
             .into_iter()
             .chain(sampled.map(|s| s.wi))
         {
-            let (value, density) = chooser.eval_and_density(wo, wi, Mode::Radiance);
+            let (value, density) = hero.eval_and_density(wo, wi, TransportMode::Radiance);
             for turn in 1..4 {
-                let (v, d) = turned(turn).eval_and_density(wo, wi, Mode::Radiance);
+                let (v, d) = turned(turn).eval_and_density(wo, wi, TransportMode::Radiance);
                 if !close(unturn(v, turn), value)
                     || !close(unturn(d.lanes(), turn), density.lanes())
                 {
@@ -96,7 +96,7 @@ pub(crate) fn lane_dependence<B: Bsdf>(
 
 #[test]
 fn lanes_do_not_depend_on_which_of_them_chooses() {
-    for sample in Sample::exemplars() {
+    for sample in Sample::test_materials() {
         let mut uniform = Uniform::new(5);
         for seed in 0..40 {
             let wo = uniform.direction();
@@ -108,7 +108,7 @@ fn lanes_do_not_depend_on_which_of_them_chooses() {
 
 #[test]
 fn discrete_directions_have_the_same_probability_whichever_lane_chooses() {
-    for sample in Sample::exemplars() {
+    for sample in Sample::test_materials() {
         let mut uniform = Uniform::new(6);
         for _ in 0..100 {
             let wo = uniform.direction();
@@ -119,9 +119,9 @@ fn discrete_directions_have_the_same_probability_whichever_lane_chooses() {
                         let u_lobe = (i as f32 + 0.5) / 64.0;
                         sample
                             .rotated(wo, turn)
-                            .sample(wo, u_lobe, u, Mode::Radiance)
+                            .sample(wo, u_lobe, u, TransportMode::Radiance)
                     })
-                    .filter(|s| s.chance.is_discrete())
+                    .filter(|s| s.chance.is_delta())
                     .collect::<Vec<_>>()
             };
             for s in discrete(0) {
@@ -185,15 +185,15 @@ proptest! {
         wo in direction(), wi in direction(), x in number(), y in number(), u_lobe in number(),
         importance in any::<bool>(),
     ) {
-        let mode = if importance { Mode::Importance } else { Mode::Radiance };
+        let mode = if importance { TransportMode::Importance } else { TransportMode::Radiance };
         let shading = etalon_math::Frame::from_normal(Vec3::new(0.1, -0.2, 1.0).normalize());
-        EXEMPLARS.with(|exemplars| {
-            for sample in exemplars {
+        EXEMPLARS.with(|test_materials| {
+            for sample in test_materials {
                 for frame in [etalon_math::Frame::IDENTITY, shading] {
                     let bsdf = sample.resolve(wo, &crate::scene::WAVELENGTHS, frame);
                     let (value, density) = bsdf.eval_and_density(wo, wi, mode);
                     prop_assert!(sound(value) && sound(density.lanes()), "{}", sample.text);
-                    prop_assert!(sound(bsdf.passing()) && sound(bsdf.albedo(wo)), "{}", sample.text);
+                    prop_assert!(sound(bsdf.null_transmittance()) && sound(bsdf.albedo(wo)), "{}", sample.text);
                     if let Some(s) = bsdf.sample(wo, u_lobe, Vec2::new(x, y), mode) {
                         let lanes = s.chance.lanes();
                         prop_assert!(
@@ -210,7 +210,7 @@ proptest! {
 }
 
 thread_local! {
-    static EXEMPLARS: Vec<Sample> = Sample::exemplars()
+    static EXEMPLARS: Vec<Sample> = Sample::test_materials()
         .into_iter()
         .chain(EXTREMES.iter().map(|text| Sample::new(text)))
         .collect();

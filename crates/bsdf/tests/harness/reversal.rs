@@ -3,7 +3,7 @@
 
 use crate::directions::Uniform;
 use crate::scene::Sample;
-use etalon_transport::{Bsdf, Chance, Mode};
+use etalon_transport::{Bsdf, SamplePdf, TransportMode};
 use glam::Vec4;
 
 fn close(a: Vec4, b: Vec4, relative: f32) -> bool {
@@ -15,13 +15,13 @@ fn close(a: Vec4, b: Vec4, relative: f32) -> bool {
 
 #[test]
 fn a_model_resolved_for_one_direction_knows_the_density_of_the_way_back() {
-    for sample in Sample::exemplars() {
+    for sample in Sample::test_materials() {
         let mut uniform = Uniform::new(8);
         for _ in 0..400 {
             let wo = uniform.direction();
             let forward = sample.at(wo);
-            let found = forward.sample(wo, uniform.next(), uniform.pair(), Mode::Radiance);
-            let Some(s) = found.filter(|s| !s.chance.is_discrete()) else {
+            let found = forward.sample(wo, uniform.next(), uniform.pair(), TransportMode::Radiance);
+            let Some(s) = found.filter(|s| !s.chance.is_delta()) else {
                 continue;
             };
             let [a, b] = [&forward, &sample.at(s.wi)].map(|m| m.density(s.wi, wo).lanes());
@@ -32,13 +32,15 @@ fn a_model_resolved_for_one_direction_knows_the_density_of_the_way_back() {
 
 #[test]
 fn discrete_directions_are_as_likely_one_way_as_the_other() {
-    for sample in Sample::exemplars() {
+    for sample in Sample::test_materials() {
         let mut uniform = Uniform::new(9);
         for _ in 0..100 {
             let wo = uniform.direction();
             let u = uniform.pair();
-            let found = sample.at(wo).sample(wo, uniform.next(), u, Mode::Radiance);
-            let Some((s, Chance::Discrete(there))) = found.map(|s| (s, s.chance)) else {
+            let found = sample
+                .at(wo)
+                .sample(wo, uniform.next(), u, TransportMode::Radiance);
+            let Some((s, SamplePdf::Discrete(there))) = found.map(|s| (s, s.chance)) else {
                 continue;
             };
             // Near the critical angle Fresnel's equations turn rounding into more.
@@ -48,9 +50,11 @@ fn discrete_directions_are_as_likely_one_way_as_the_other() {
             let back = (0..400)
                 .filter_map(|i| {
                     let u_lobe = (i as f32 + 0.5) / 400.0;
-                    sample.at(s.wi).sample(s.wi, u_lobe, u, Mode::Importance)
+                    sample
+                        .at(s.wi)
+                        .sample(s.wi, u_lobe, u, TransportMode::Importance)
                 })
-                .find(|b| b.chance.is_discrete() && (b.wi - wo).length() < 1e-3);
+                .find(|b| b.chance.is_delta() && (b.wi - wo).length() < 1e-3);
             let Some(back) = back else {
                 assert!(there.0.x < 0.01, "{} {s:?}", sample.text);
                 continue;

@@ -1,13 +1,13 @@
 //! The least scene that a material can be built and resolved in.
 
 use crate::notation;
-use etalon_bsdf::{Material, Resolved};
+use etalon_bsdf::{BsdfAtPoint, Material};
 use etalon_math::Frame;
 use etalon_params::{Diagnostic, Diagnostics, Node, Params, SpectrumText, Value};
 use etalon_spectrum::{Spectrum, Wavelengths};
 use etalon_transport::{
-    AssetError, Assets, Build, InstanceId, LightId, MaterialId, MeshData, MeshFormat, Role,
-    ShapeId, TextureId, TexturePoint, Textures, Vertex,
+    AssetError, Assets, Build, InstanceId, LightId, MaterialId, MeshData, MeshFormat, ShapeId,
+    SpectrumKind, SurfaceInteraction, TextureId, TexturePoint, Textures,
 };
 use glam::{Vec2, Vec3, Vec4};
 use std::sync::Arc;
@@ -79,7 +79,7 @@ impl Build for Scene {
         params: &Params<'_>,
         name: &str,
         default: Option<f64>,
-        _: Role,
+        _: SpectrumKind,
     ) -> TextureId {
         let spectrum = match (params.property(name).map(|p| &p.value), default) {
             (Some(Value::Float(value)), _) => Spectrum::uniform(*value),
@@ -97,7 +97,7 @@ impl Build for Scene {
         self.spectrum(spectrum.expect("a valid spectrum"))
     }
 
-    fn nested_texture(&mut self, node: &Arc<Node>, _: Role) -> TextureId {
+    fn nested_texture(&mut self, node: &Arc<Node>, _: SpectrumKind) -> TextureId {
         match node.properties.first().map(|p| &p.value) {
             Some(Value::Spectrum(SpectrumText::Samples(samples))) => {
                 let (wavelengths, values): (Vec<f64>, Vec<f64>) = samples.iter().copied().unzip();
@@ -155,17 +155,17 @@ impl Sample {
     }
 
     /// All exemplars of all models.
-    pub(crate) fn exemplars() -> Vec<Self> {
-        etalon_bsdf::exemplars().map(Self::new).collect()
+    pub(crate) fn test_materials() -> Vec<Self> {
+        etalon_bsdf::test_materials().map(Self::new).collect()
     }
 
     /// The material at a point whose shading and geometric normals are +z.
-    pub(crate) fn at(&self, wo: Vec3) -> Resolved<'_> {
+    pub(crate) fn at(&self, wo: Vec3) -> BsdfAtPoint<'_> {
         self.rotated(wo, 0)
     }
 
     /// The same when lane `turn` is the one that chooses.
-    pub(crate) fn rotated(&self, wo: Vec3, turn: usize) -> Resolved<'_> {
+    pub(crate) fn rotated(&self, wo: Vec3, turn: usize) -> BsdfAtPoint<'_> {
         self.resolve(wo, &WAVELENGTHS.rotated(turn), Frame::IDENTITY)
     }
 
@@ -175,7 +175,7 @@ impl Sample {
         wo: Vec3,
         wavelengths: &Wavelengths,
         shading: Frame,
-    ) -> Resolved<'_> {
+    ) -> BsdfAtPoint<'_> {
         self.material
             .resolve(&self.scene, &vertex(shading), wo, wavelengths)
     }
@@ -187,8 +187,8 @@ impl Sample {
 }
 
 /// A point with the geometric normal +z.
-fn vertex(shading: Frame) -> Vertex {
-    Vertex {
+fn vertex(shading: Frame) -> SurfaceInteraction {
+    SurfaceInteraction {
         position: Vec3::ZERO,
         error: Vec3::ZERO,
         depth: f32::NAN,

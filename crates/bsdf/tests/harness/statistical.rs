@@ -14,7 +14,7 @@ use crate::directions::{self, Uniform};
 use crate::scene::Sample;
 use crate::sphere;
 use etalon_statistics::{Family, chi_squared, normal};
-use etalon_transport::{Bsdf, Chance, Mode};
+use etalon_transport::{Bsdf, SamplePdf, TransportMode};
 use glam::{Vec3, Vec4};
 
 const SAMPLES: usize = 40_000;
@@ -28,8 +28,8 @@ pub(crate) struct Integrals {
 impl Integrals {
     pub(crate) fn new(bsdf: &impl Bsdf, wo: Vec3) -> Self {
         let f = |wi| {
-            let (value, density) = bsdf.eval_and_density(wo, wi, Mode::Radiance);
-            [density.chooser(), value.x, value.y, value.z, value.w]
+            let (value, density) = bsdf.eval_and_density(wo, wi, TransportMode::Radiance);
+            [density.hero(), value.x, value.y, value.z, value.w]
         };
         Self {
             cells: sphere::integrate(10, f),
@@ -51,11 +51,11 @@ pub(crate) fn chi_squared_p(bsdf: &impl Bsdf, wo: Vec3, integrals: &Integrals, s
     let mut observed = vec![0u64; sphere::CELLS];
     let (mut met, mut absorbed) = (Vec::<Met>::new(), 0);
     for _ in 0..SAMPLES {
-        match bsdf.sample(wo, uniform.next(), uniform.pair(), Mode::Radiance) {
+        match bsdf.sample(wo, uniform.next(), uniform.pair(), TransportMode::Radiance) {
             None => absorbed += 1,
             Some(s) => match s.chance {
-                Chance::Continuous(_) => observed[sphere::cell(s.wi)] += 1,
-                Chance::Discrete(atom) => {
+                SamplePdf::Continuous(_) => observed[sphere::cell(s.wi)] += 1,
+                SamplePdf::Discrete(atom) => {
                     match met.iter_mut().find(|m| (m.wi - s.wi).length() < 1e-5) {
                         Some(m) => m.count += 1,
                         None => met.push(Met {
@@ -109,11 +109,11 @@ pub(crate) fn quadrature_p<B: Bsdf>(
         let (u_lobe, u) = (uniform.next(), uniform.pair());
         let mut estimate = Vec4::ZERO;
         for turn in 0..4 {
-            if let Some(s) = turned(turn).sample(wo, u_lobe, u, Mode::Radiance) {
+            if let Some(s) = turned(turn).sample(wo, u_lobe, u, TransportMode::Radiance) {
                 let lanes = s.value / s.chance.lanes().element_sum();
                 let value = unturn(lanes, turn);
                 estimate += value;
-                if s.chance.is_discrete() && !atoms.iter().any(|a| (a.0 - s.wi).length() < 1e-5) {
+                if s.chance.is_delta() && !atoms.iter().any(|a| (a.0 - s.wi).length() < 1e-5) {
                     atoms.push((s.wi, unturn(s.value, turn)));
                 }
             }
@@ -148,7 +148,7 @@ pub(crate) fn unturn(lanes: Vec4, turn: usize) -> Vec4 {
 #[test]
 fn sampling_follows_density_and_finds_the_energy() {
     let mut family = Family::new(1e-3).expect("a level");
-    for (i, sample) in Sample::exemplars().iter().enumerate() {
+    for (i, sample) in Sample::test_materials().iter().enumerate() {
         for (j, wo) in directions::known().into_iter().enumerate() {
             let seed = (10 * i + j) as u64;
             let name = |what: &str| format!("{what} of {} from {wo}", sample.text);

@@ -30,7 +30,7 @@ fn a_reversed_ray_is_received_where_it_came_from() {
             let aperture = ray.at(-NEAR / cos);
             let back = Ray::new(ray.at(4.0), -ray.direction, 0.0);
             // Points on the very edge of the aperture may be off it by a rounding.
-            let Some(found) = camera.receive(&back, 1e-2) else {
+            let Some(found) = camera.intersect_aperture(&back, 1e-2) else {
                 let centre = look_at().w_axis.truncate().as_vec3();
                 assert!(aperture.distance(centre) > 0.999 * RADIUS);
                 continue;
@@ -55,7 +55,7 @@ fn what_the_camera_does_not_see_is_not_received() {
     let ray = |depth: f32, direction: Vec3| Ray::new(centre + forward() * depth, direction, 0.0);
     let receives = |depth, direction| {
         let ray = ray(depth, direction);
-        camera.receive(&ray, 0.0).is_some()
+        camera.intersect_aperture(&ray, 0.0).is_some()
     };
     let back = -forward();
     assert!(receives(0.6, back) && receives(19.0, back));
@@ -71,8 +71,8 @@ fn what_the_camera_does_not_see_is_not_received() {
         (back - side * 2.0).normalize(),
         0.0,
     );
-    assert!(camera.receive(&slanted, 1.0).is_none());
-    assert!(camera.receive(&slanted, 1e3).is_some());
+    assert!(camera.intersect_aperture(&slanted, 1.0).is_none());
+    assert!(camera.intersect_aperture(&slanted, 1e3).is_some());
 }
 
 #[test]
@@ -86,6 +86,6 @@ fn only_an_aperture_with_extent_can_receive() {
     for camera in pinholes {
         assert!(!camera.can_receive());
         let ray = Ray::new(Vec3::new(0.0, 0.0, 3.0), Vec3::NEG_Z, 0.0);
-        assert!(camera.receive(&ray, 1.0).is_none());
+        assert!(camera.intersect_aperture(&ray, 1.0).is_none());
     }
 }

@@ -1,13 +1,13 @@
 //! The command that draws a sample again.
 
 use crate::args::RenderArgs;
-use etalon_integrators::Plan;
+use etalon_integrators::RenderPlan;
 
 /// The command that replays sample `sample` of a pixel in a replicate of this render; `pilot` is
 /// the size of the pilot that dealt the samples, if they were not dealt evenly.
 pub(super) fn command(
     args: &RenderArgs,
-    plan: &Plan,
+    plan: &RenderPlan,
     pilot: Option<u32>,
     [x, y]: [i32; 2],
     replicate: u32,
@@ -27,8 +27,8 @@ pub(super) fn command(
     if let Some(integrator) = &args.integrator {
         words.push(format!("--integrator {}", quoted(integrator.clone())));
     }
-    if let Some(chooser) = args.light_chooser {
-        words.push(format!("--light-chooser {}", chooser.name()));
+    if let Some(hero) = args.light_chooser {
+        words.push(format!("--light-chooser {}", hero.name()));
     }
     for (key, value) in &args.define {
         words.push(format!("-D {}", quoted(format!("{key}={value}"))));
@@ -58,13 +58,13 @@ mod tests {
     /// Whoever copies the command draws the very sample, whatever defaults the scene has.
     #[test]
     fn the_command_says_all_that_decides_the_sample() {
-        let said = "etalon render scene.xml -o a.exr --integrator path --light-chooser tree \
+        let said = "etalon render scene.xml -o a.exr --integrator path --light-hero tree \
                     -D colour=1,2 -D name=a'b";
         let parsed = Cli::try_parse_from(said.split(' ')).expect("a valid command line");
         let Command::Render(args) = parsed.command else {
             panic!("it renders");
         };
-        let plan = Plan {
+        let plan = RenderPlan {
             seed: 7,
             replicates: 4,
             replicate_kind: ReplicateKind::Independent,
@@ -72,7 +72,7 @@ mod tests {
             samples_per_replicate: 8,
             sampler: SamplerKind::Sobol,
         };
-        let expected = "etalon render scene.xml --integrator path --light-chooser tree \
+        let expected = "etalon render scene.xml --integrator path --light-hero tree \
                         -D colour=1,2 -D 'name=a'\\''b' --spp 32 --replicates 4 --seed 7 \
                         --replay 12,5,2,3";
         assert_eq!(command(&args, &plan, None, [12, 5], 2, 3), expected);

@@ -10,16 +10,16 @@ use crate::target::{self, Failure, Pilot, Target};
 use etalon_film::{
     CheckpointFacts, Disagreement, ExactFilm, Metadata, Part, SampleCounts, disagreements,
 };
-use etalon_integrators::Plan;
+use etalon_integrators::RenderPlan;
 use etalon_params::Diagnostic;
 use std::path::{Path, PathBuf};
 use std::sync::atomic::AtomicBool;
 use std::time::Instant;
 
 /// What will be rendered.
-pub(super) struct Amount {
+pub(super) struct SampleBudget {
     /// Replicates, samples, seed.
-    pub(super) plan: Plan,
+    pub(super) plan: RenderPlan,
     /// The samples of each pixel in a replicate, if they are not dealt evenly.
     pub(super) counts: Option<SampleCounts>,
     /// Samples per pixel and time (s) of pilots, if there were any.
@@ -28,9 +28,9 @@ pub(super) struct Amount {
     pub(super) earlier: Option<Part>,
 }
 
-impl Amount {
+impl SampleBudget {
     /// A plan and nothing else.
-    pub(super) fn plain(plan: Plan) -> Self {
+    pub(super) fn plain(plan: RenderPlan) -> Self {
         Self {
             plan,
             counts: None,
@@ -41,7 +41,7 @@ impl Amount {
 }
 
 /// What the command line says of the amount of work.
-pub(super) fn plan(args: &RenderArgs, loaded: &Loaded) -> Plan {
+pub(super) fn plan(args: &RenderArgs, loaded: &Loaded) -> RenderPlan {
     let options = RenderOptions {
         spp: args.spp,
         seed: args.seed,
@@ -57,7 +57,7 @@ pub(super) fn decide(
     args: &RenderArgs,
     loaded: &Loaded,
     cancelled: &AtomicBool,
-) -> Result<Amount, Failure> {
+) -> Result<SampleBudget, Failure> {
     let plan = plan(args, loaded);
     if args.adaptive {
         adaptive::check(loaded)?;
@@ -111,7 +111,7 @@ pub(super) fn decide(
             tell_dealt(distribution, counts, dealt);
         }
         if let Some(fixed) = &fixed {
-            let Plan {
+            let RenderPlan {
                 replicates,
                 samples_per_replicate,
                 ..
@@ -133,7 +133,7 @@ pub(super) fn decide(
     ];
     let pilot = taken.into_iter().flatten().reduce(|a, b| a + b);
     let seconds = fixed.map_or(dealt, |fixed| fixed.seconds);
-    Ok(Amount {
+    Ok(SampleBudget {
         plan,
         counts,
         pilot: pilot.map(|pilot| (pilot, seconds)),
@@ -145,7 +145,7 @@ pub(super) fn decide(
 pub(super) fn counts(
     args: &RenderArgs,
     loaded: &Loaded,
-    plan: &Plan,
+    plan: &RenderPlan,
 ) -> Result<Option<SampleCounts>, Failure> {
     if !args.adaptive {
         return Ok(None);
@@ -172,7 +172,7 @@ fn tell_dealt(distribution: &Distribution, counts: &SampleCounts, seconds: f64) 
 }
 
 /// Says if there are more samples than were asked for.
-fn tell_rounding(args: &RenderArgs, loaded: &Loaded, plan: &Plan) {
+fn tell_rounding(args: &RenderArgs, loaded: &Loaded, plan: &RenderPlan) {
     let spp = u64::from(plan.replicates) * u64::from(plan.samples_per_replicate);
     let asked = u64::from(args.spp.unwrap_or(loaded.compiled.sampler.spp));
     if spp != asked {
@@ -217,9 +217,9 @@ pub(super) fn checkpoint_facts(args: &RenderArgs, pilot: Option<(u32, f64)>) -> 
 fn go_on(
     args: &RenderArgs,
     loaded: &Loaded,
-    plan: &Plan,
+    plan: &RenderPlan,
     path: &Path,
-) -> Result<Amount, Diagnostic> {
+) -> Result<SampleBudget, Diagnostic> {
     let refused = |reason: String| {
         Diagnostic::error_nowhere(reason).help(format!(
             "to begin anew, remove {} or render without `--resume`",
@@ -261,8 +261,8 @@ fn go_on(
     }
     let each = metadata.samples_per_replicate();
     let seconds = facts.pilot_seconds.unwrap_or(0.0);
-    Ok(Amount {
-        plan: Plan {
+    Ok(SampleBudget {
+        plan: RenderPlan {
             replicates: of,
             samples_per_replicate: u32::try_from(each).unwrap_or(u32::MAX),
             ..*plan
@@ -277,7 +277,7 @@ fn go_on(
 fn differences(
     args: &RenderArgs,
     loaded: &Loaded,
-    plan: &Plan,
+    plan: &RenderPlan,
     there: &Metadata,
     facts: &CheckpointFacts,
 ) -> Result<Vec<Disagreement>, Diagnostic> {

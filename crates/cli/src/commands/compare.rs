@@ -2,9 +2,9 @@
 
 use super::{answer, fail, note};
 use crate::args::CompareArgs;
-use crate::judge::{self, Judgement, Rules};
+use crate::judge::{self, ImageComparison, Tolerances};
 use crate::report::comparison;
-use etalon_film::{Developed, read_developed};
+use etalon_film::{RenderedImage, read_developed};
 use etalon_images::{Channel, Image, write_atomically};
 use etalon_statistics::Verdict;
 use std::io::Write;
@@ -26,7 +26,7 @@ pub fn run(args: &CompareArgs) -> ExitCode {
         Err(error) => return fail(error),
     };
     // Images of different sizes are bad input, whatever they carry.
-    let size = |image: &Developed| (image.image.width(), image.image.height());
+    let size = |image: &RenderedImage| (image.image.width(), image.image.height());
     let ((width, height), (other_width, other_height)) = (size(&first), size(&second));
     if (width, height) != (other_width, other_height) {
         return fail(format!(
@@ -61,7 +61,7 @@ pub fn run(args: &CompareArgs) -> ExitCode {
              makes the comparison less sharp; `--seed` gives another one"
         ));
     }
-    let rules = Rules {
+    let rules = Tolerances {
         image_bound: args.bound,
         tile_bound: args.tile_bound,
         alpha: args.alpha,
@@ -103,7 +103,7 @@ fn not_a_number(image: &Image) -> Option<String> {
 }
 
 /// Why an image does not carry what a judgement is made of, if it does not.
-fn unfit(image: &Developed) -> Option<String> {
+fn unfit(image: &RenderedImage) -> Option<String> {
     let Some(metadata) = &image.metadata else {
         return Some("was not written by Etalon: it has no replicates to judge by".to_owned());
     };
@@ -142,7 +142,7 @@ fn unfit(image: &Developed) -> Option<String> {
 /// Its replicates do not spread, but that is no knowledge: of n samples that all found nothing, the chance of one to
 /// find something is below ln(1/α)/n with confidence 1 − α, and what it would find has no bound. An estimator
 /// that misses what is rare leaves the same picture as a scene without light.
-fn black(image: &Developed) -> Option<String> {
+fn black(image: &RenderedImage) -> Option<String> {
     let metadata = image.metadata.as_ref()?;
     let colours = ["R", "G", "B", "X", "Y", "Z"];
     let mut planes = colours.iter().filter_map(|name| image.image.channel(name));
@@ -157,7 +157,7 @@ fn black(image: &Developed) -> Option<String> {
 }
 
 /// Says that these images cannot be judged, which is no pass.
-fn say_inconclusive(args: &CompareArgs, reason: &str, images: [&Developed; 2]) -> ExitCode {
+fn say_inconclusive(args: &CompareArgs, reason: &str, images: [&RenderedImage; 2]) -> ExitCode {
     if let Some(path) = &args.report {
         let names = [&args.a, &args.b].map(|path| path.display().to_string());
         let html = comparison::inconclusive(reason, images[0], images[1], &names);
@@ -206,13 +206,13 @@ fn say_identical(args: &CompareArgs) -> ExitCode {
 }
 
 /// The seed of both images, if it is the same and they are renders of the same scene.
-fn shared_seed(a: &Developed, b: &Developed) -> Option<u64> {
+fn shared_seed(a: &RenderedImage, b: &RenderedImage) -> Option<u64> {
     let (a, b) = (a.metadata.as_ref()?, b.metadata.as_ref()?);
     (a.seed == b.seed && a.sampler == b.sampler && a.scene == b.scene).then_some(a.seed)
 }
 
 /// The judgement as a table for a terminal.
-fn table(judgement: &Judgement) -> String {
+fn table(judgement: &ImageComparison) -> String {
     let mut text = String::from(
         "channel        mean       other      bias              interval   could see  verdict\n",
     );

@@ -7,9 +7,9 @@ use crate::args::RenderArgs;
 use crate::pipeline::{Loaded, Rendered};
 use crate::target::Noise;
 use crate::{resources, say};
-use etalon_film::{Developed, Metadata, UnfinishedFacts};
+use etalon_film::{Metadata, RenderedImage, UnfinishedFacts};
 use etalon_images::{Losses, hdr, pfm, png, write_atomically};
-use etalon_integrators::Plan;
+use etalon_integrators::RenderPlan;
 use std::io::Write;
 use std::path::Path;
 
@@ -18,7 +18,7 @@ pub(super) fn deliver(
     args: &RenderArgs,
     loaded: &Loaded,
     rendered: &Rendered,
-    plan: &Plan,
+    plan: &RenderPlan,
     pilot: Option<(u32, f64)>,
 ) -> Result<(), String> {
     let metadata = rendered.developed.metadata.as_ref();
@@ -36,7 +36,7 @@ pub(super) fn deliver(
         write_picture(args, picture, &rendered.developed)?;
     }
     if let Some(facts) = metadata.and_then(|m| m.unfinished.as_ref()) {
-        say::remark(&unfinished_in_words(args, facts));
+        say::record(&unfinished_in_words(args, facts));
     }
     let dealt = metadata.and_then(|m| m.adaptive.as_ref());
     let again = Again {
@@ -54,26 +54,26 @@ pub(super) fn deliver(
     }
     if let Some(aim) = args.error {
         match relative_error(rendered) {
-            Some(error) if error <= aim && !args.quiet => say::remark(&format!(
+            Some(error) if error <= aim && !args.quiet => say::record(&format!(
                 "relative standard error {:.3} %, of {} % aimed at\n",
                 100.0 * error,
                 100.0 * aim
             )),
             Some(error) if error <= aim => {}
-            Some(error) => say::remark(&format!(
+            Some(error) => say::record(&format!(
                 "warning: the target is missed: relative standard error {:.3} % instead of {} %\n",
                 100.0 * error,
                 100.0 * aim
             )),
-            None => say::remark("warning: whether the target is reached is unknown\n"),
+            None => say::record("warning: whether the target is reached is unknown\n"),
         }
     }
     for remark in &rendered.outcome.remarks {
-        say::remark(&format!("note: {remark}\n"));
+        say::record(&format!("note: {remark}\n"));
     }
     let black = is_black(&rendered.developed);
     if black {
-        say::remark("warning: the picture is black: not one sample found light\n");
+        say::record("warning: the picture is black: not one sample found light\n");
     }
     if !args.quiet {
         let seconds = rendered.time.as_secs_f64();
@@ -94,7 +94,7 @@ pub(super) fn deliver(
             }
             _ => String::new(),
         };
-        say::remark(&format!(
+        say::record(&format!(
             "{}: {stopped}{seconds:.2} s, {:.2} M samples/s, {:.2} M rays/s, {error}\n",
             args.output().display(),
             per_second(rendered.outcome.samples),
@@ -105,7 +105,7 @@ pub(super) fn deliver(
 }
 
 /// Writes the picture beside the image.
-fn write_picture(args: &RenderArgs, path: &Path, developed: &Developed) -> Result<(), String> {
+fn write_picture(args: &RenderArgs, path: &Path, developed: &RenderedImage) -> Result<(), String> {
     let losses = png::write(path, &developed.image, 0.0).map_err(|error| error.to_string())?;
     if !args.quiet && losses.not_finite > 0 {
         note(format!(
@@ -148,7 +148,7 @@ fn unfinished_in_words(args: &RenderArgs, facts: &UnfinishedFacts) -> String {
 }
 
 /// Whether nothing at all was found, in any channel but alpha.
-fn is_black(developed: &Developed) -> bool {
+fn is_black(developed: &RenderedImage) -> bool {
     let channels = developed.metadata.iter().flat_map(|m| &m.channels);
     let mut means = channels
         .filter(|name| *name != "A")
@@ -157,14 +157,19 @@ fn is_black(developed: &Developed) -> bool {
 }
 
 /// Says which samples went wrong, and how to look at the first or largest of them.
-fn tell_trouble(args: &RenderArgs, developed: &Developed, metadata: &Metadata, again: &Again<'_>) {
+fn tell_trouble(
+    args: &RenderArgs,
+    developed: &RenderedImage,
+    metadata: &Metadata,
+    again: &Again<'_>,
+) {
     let faults = metadata.faults.total();
     if faults > 0 {
-        say::remark(&format!(
+        say::record(&format!(
             "warning: {faults} contributions were not finite; see `etalon info`\n"
         ));
         if let Some(command) = again.of_faults(&metadata.faults) {
-            say::remark(&format!("look at the first of them with\n  {command}\n"));
+            say::record(&format!("look at the first of them with\n  {command}\n"));
         }
     }
     let fireflies = Fireflies::of(developed, metadata);
@@ -189,7 +194,7 @@ fn relative_error(rendered: &Rendered) -> Option<f64> {
 }
 
 /// Writes an EXR with everything, or the colours alone in a simpler format.
-fn write_image(path: &Path, developed: &Developed) -> Result<Losses, String> {
+fn write_image(path: &Path, developed: &RenderedImage) -> Result<Losses, String> {
     let extension = path.extension().map(|e| e.to_string_lossy().to_lowercase());
     match extension.as_deref() {
         Some("pfm") => pfm::write(path, &developed.image).map(|()| Losses::default()),

@@ -5,7 +5,7 @@ use super::{BAD_INPUT, answer, fail};
 use crate::args::InfoArgs;
 use crate::diagnose;
 use crate::pipeline::{self, LoadOptions};
-use etalon_film::{Developed, FaultKind, Offence, read_developed};
+use etalon_film::{InvalidKind, InvalidSample, RenderedImage, read_developed};
 use etalon_images::{Error, raster};
 use etalon_sampling::ReplicateKind;
 use std::path::Path;
@@ -47,7 +47,7 @@ fn picture(path: &Path) -> Result<String, Error> {
     Ok(text)
 }
 
-fn image(developed: &Developed) -> String {
+fn image(developed: &RenderedImage) -> String {
     let image = &developed.image;
     let mut text = format!("{} × {} pixels\n", image.width(), image.height());
     for channel in image.channels() {
@@ -134,17 +134,17 @@ fn image(developed: &Developed) -> String {
 }
 
 /// Where a number that was refused came from.
-fn offence(offence: &Offence) -> String {
-    let Offence {
+fn offence(offence: &InvalidSample) -> String {
+    let InvalidSample {
         replicate,
         pixel: [x, y],
         source,
         ..
     } = offence;
     let kind = match offence.kind {
-        FaultKind::Nan => "not a number",
-        FaultKind::Infinite => "infinite",
-        FaultKind::Overflow => "out of range",
+        InvalidKind::Nan => "not a number",
+        InvalidKind::Infinite => "infinite",
+        InvalidKind::Overflow => "out of range",
     };
     // With the options of the render, this draws the sample again.
     let (sample, replay) = offence.sample.map_or_else(Default::default, |sample| {

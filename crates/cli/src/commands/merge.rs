@@ -4,7 +4,7 @@ use super::{BAD_INPUT, fail};
 use crate::args::MergeArgs;
 use crate::outputs::check_place;
 use crate::say;
-use etalon_film::{Developed, Metadata, Part, ReplicateSet, disagreements};
+use etalon_film::{Metadata, Part, RenderedImage, ReplicateSet, disagreements};
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
@@ -17,7 +17,7 @@ pub fn run(args: &MergeArgs) -> ExitCode {
     let problems = problems(args);
     if !problems.is_empty() {
         for problem in problems {
-            say::remark(&format!("error: {problem}\n"));
+            say::record(&format!("error: {problem}\n"));
         }
         return ExitCode::from(BAD_INPUT);
     }
@@ -149,10 +149,10 @@ fn merge(args: &MergeArgs) -> Result<(), String> {
     Ok(())
 }
 
-fn report(args: &MergeArgs, part: &Part, picture: &Developed) {
+fn report(args: &MergeArgs, part: &Part, picture: &RenderedImage) {
     let faults = picture.metadata.as_ref().map_or(0, |m| m.faults.total());
     if faults > 0 {
-        say::remark(&format!(
+        say::record(&format!(
             "warning: {faults} contributions were not finite; see `etalon info`\n"
         ));
     }
@@ -170,7 +170,7 @@ fn report(args: &MergeArgs, part: &Part, picture: &Developed) {
         None => "no standard error (one replicate)".to_owned(),
     };
     let (files, replicates) = (args.parts.len(), part.replicates().count());
-    say::remark(&format!(
+    say::record(&format!(
         "{}: {replicates} replicates from {files} files{incomplete}, {error}\n",
         args.output.display()
     ));

@@ -1,15 +1,15 @@
 //! `etalon render`.
 
-use super::amount::{self, Amount};
+use super::amount::{self, SampleBudget};
 use super::{BAD_INPUT, delivery, fail, note, replay, strategies};
 use crate::args::RenderArgs;
-use crate::keeping::Keeping;
+use crate::checkpointing::Checkpointing;
 use crate::outputs::Outputs;
 use crate::part::PartOfMany;
-use crate::pipeline::{self, LoadOptions, Loaded, Manner, Rendered};
+use crate::pipeline::{self, LoadOptions, Loaded, RenderControls, Rendered};
 use crate::progress::Bar;
 use crate::{diagnose, interrupt, say, target};
-use etalon_integrators::Share;
+use etalon_integrators::ReplicateRange;
 use etalon_params::Diagnostic;
 use std::fs;
 use std::io::ErrorKind;
@@ -86,7 +86,7 @@ fn run_here(args: &RenderArgs) -> ExitCode {
         Err(diagnostic) => return give_up(diagnostic.into(), &loaded),
     };
     if !rendered.has_samples() {
-        say::remark("stopped before the first sample, without an image\n");
+        say::record("stopped before the first sample, without an image\n");
         return ExitCode::from(interrupt::STOPPED);
     }
     if let Err(message) = delivery::deliver(args, &loaded, &rendered, &plan, pilot) {
@@ -100,7 +100,7 @@ fn run_here(args: &RenderArgs) -> ExitCode {
             if interrupt::asked() {
                 return Ok(None);
             }
-            let amount = Amount::plain(amount::plan(args, loaded));
+            let amount = SampleBudget::plain(amount::plan(args, loaded));
             let rendered = render(args, loaded, amount)?;
             let whole = rendered.outcome.replicates == rendered.replicates;
             Ok(whole.then_some(rendered.developed))
@@ -124,7 +124,7 @@ fn run_here(args: &RenderArgs) -> ExitCode {
 fn give_up(failure: target::Failure, loaded: &Loaded) -> ExitCode {
     match failure {
         target::Failure::Cancelled => {
-            say::remark("stopped during the pilot, without an image\n");
+            say::record("stopped during the pilot, without an image\n");
             ExitCode::from(interrupt::STOPPED)
         }
         target::Failure::Refused(diagnostic) => {
@@ -137,7 +137,7 @@ fn give_up(failure: target::Failure, loaded: &Loaded) -> ExitCode {
 /// Removes the checkpoint of an image that is finished.
 fn remove(checkpoint: &Path) {
     match fs::remove_file(checkpoint) {
-        Err(error) if error.kind() != ErrorKind::NotFound => say::remark(&format!(
+        Err(error) if error.kind() != ErrorKind::NotFound => say::record(&format!(
             "warning: {} could not be removed: {error}\n",
             checkpoint.display()
         )),
@@ -171,12 +171,16 @@ fn with_outputs(args: &RenderArgs) -> Result<RenderArgs, String> {
 }
 
 /// Renders what was decided.
-fn render(args: &RenderArgs, loaded: &Loaded, amount: Amount) -> Result<Rendered, Diagnostic> {
+fn render(
+    args: &RenderArgs,
+    loaded: &Loaded,
+    amount: SampleBudget,
+) -> Result<Rendered, Diagnostic> {
     let mut plan = amount.plan;
     if let Some(part) = args.part {
         plan.share = Some(share(part, plan.replicates)?);
     }
-    let keeping = args.resume.then(|| Keeping {
+    let keeping = args.resume.then(|| Checkpointing {
         path: amount::checkpoint(args),
         facts: amount::checkpoint_facts(args, amount.pilot),
         earlier: amount.earlier,
@@ -185,10 +189,10 @@ fn render(args: &RenderArgs, loaded: &Loaded, amount: Amount) -> Result<Rendered
     let finished = keeping.as_ref().map_or(0, |keeping| keeping.finished().0);
     let here = plan.share().count.saturating_sub(finished);
     let samples = u64::from(here) * u64::from(plan.samples_per_replicate);
-    let begun = keeping.as_ref().map_or(0, Keeping::samples_begun);
+    let begun = keeping.as_ref().map_or(0, Checkpointing::samples_begun);
     let samples = (samples * u64::from(size.x) * u64::from(size.y)).saturating_sub(begun);
     let bar = Bar::new(samples, args.quiet, interrupt::flag());
-    let manner = Manner {
+    let manner = RenderControls {
         counts: amount.counts,
         keeping,
     };
@@ -198,9 +202,9 @@ fn render(args: &RenderArgs, loaded: &Loaded, amount: Amount) -> Result<Rendered
 }
 
 /// The replicates of one part of many.
-fn share(part: PartOfMany, replicates: u32) -> Result<Share, Diagnostic> {
+fn share(part: PartOfMany, replicates: u32) -> Result<ReplicateRange, Diagnostic> {
     let PartOfMany { number, count } = part;
-    Share::of(replicates, number - 1, count).ok_or_else(|| {
+    ReplicateRange::of(replicates, number - 1, count).ok_or_else(|| {
         let message = format!(
             "`--part {number}/{count}`: {replicates} replicates cannot be dealt to {count} parts"
         );

@@ -8,7 +8,7 @@
 use crate::args::RenderArgs;
 use crate::pipeline::Loaded;
 use crate::report;
-use etalon_film::Developed;
+use etalon_film::RenderedImage;
 use etalon_images::write_atomically;
 use etalon_integrators::AnyIntegrator;
 use etalon_integrators::bdpt::{Bidirectional, Technique};
@@ -48,7 +48,7 @@ pub fn integrator(loaded: &Loaded) -> Result<Bidirectional, String> {
 struct Shown {
     light: usize,
     camera: usize,
-    pictures: [Developed; 2],
+    pictures: [RenderedImage; 2],
 }
 
 /// Renders every technique with `render` and writes the pictures and the page, as far as that gives
@@ -61,7 +61,7 @@ pub fn write(
     args: &RenderArgs,
     loaded: &mut Loaded,
     integrator: &Bidirectional,
-    mut render: impl FnMut(&Loaded) -> Result<Option<Developed>, Diagnostic>,
+    mut render: impl FnMut(&Loaded) -> Result<Option<RenderedImage>, Diagnostic>,
 ) -> Result<Result<(), Diagnostic>, String> {
     let error = |e: &dyn std::fmt::Display| format!("cannot write {}: {e}", folder.display());
     std::fs::create_dir_all(folder).map_err(|e| error(&e))?;
@@ -92,7 +92,7 @@ pub fn write(
                 picture.write_exr(&path).map_err(|e| e.to_string())?;
                 pictures.push(picture);
             }
-            if let Ok(pictures) = <[Developed; 2]>::try_from(pictures) {
+            if let Ok(pictures) = <[RenderedImage; 2]>::try_from(pictures) {
                 shown.push(Shown {
                     light,
                     camera,

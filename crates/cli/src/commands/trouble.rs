@@ -6,8 +6,8 @@
 
 use super::again;
 use crate::args::RenderArgs;
-use etalon_film::{Developed, FaultLog, Metadata, Outlier, OutlierLog};
-use etalon_integrators::Plan;
+use etalon_film::{FaultLog, Metadata, Outlier, OutlierLog, RenderedImage};
+use etalon_integrators::RenderPlan;
 use serde_json::{Value, json};
 
 /// The fireflies of an image.
@@ -25,7 +25,7 @@ pub(super) struct Fireflies<'a> {
 
 impl<'a> Fireflies<'a> {
     /// Those of an image; `None` where there is no mean to compare with.
-    pub(super) fn of(developed: &Developed, metadata: &'a Metadata) -> Option<Self> {
+    pub(super) fn of(developed: &RenderedImage, metadata: &'a Metadata) -> Option<Self> {
         let colours = ["R", "G", "B", "X", "Y", "Z"];
         let means = colours.iter().filter_map(|name| {
             let pixels = developed.image.channel(name)?;
@@ -91,7 +91,7 @@ fn power_of_two(exponent: i32) -> f64 {
 #[derive(Clone, Copy)]
 pub(super) struct Again<'a> {
     pub(super) args: &'a RenderArgs,
-    pub(super) plan: &'a Plan,
+    pub(super) plan: &'a RenderPlan,
     /// The size of the pilot that dealt the samples, if they were not dealt evenly.
     pub(super) pilot: Option<u32>,
 }
@@ -138,7 +138,7 @@ pub(super) fn faults_to_json(faults: &FaultLog, again: &Again<'_>) -> Value {
 
 /// The fireflies for `--stats`.
 pub(super) fn fireflies_to_json(
-    developed: &Developed,
+    developed: &RenderedImage,
     metadata: &Metadata,
     again: &Again<'_>,
 ) -> Value {

@@ -12,10 +12,10 @@
 //!   that is not shown counts as none in the value, and as far as it may reach in the interval.
 
 use super::cell::{Cell, Measured as Picture, Pair};
-use super::entrant::Entrant;
+use super::entrant::EstimatorConfig;
 use super::findings::{
-    AtSize, Convergence, Difference, Findings, Gains, Outcome, Pictures, ReferenceFacts, Step,
-    Uncertain,
+    AtSize, Convergence, Difference, EntrantResult, Findings, Gains, Pictures, ReferenceFacts,
+    Step, Uncertain,
 };
 use super::reference::Reference;
 use super::trial::Options;
@@ -24,7 +24,7 @@ use crate::VERSION;
 use crate::pipeline::{Loaded, sampler_name};
 use etalon_math::float64;
 use etalon_spectrum::colour_space::luminance;
-use etalon_statistics::bootstrap::{self, Plan};
+use etalon_statistics::bootstrap::{self, Resampling};
 use etalon_statistics::metrics::EPSILON;
 use etalon_statistics::ratio::{self, Known};
 use etalon_statistics::robust::{Method, Symmetry, judge, judge_difference};
@@ -45,7 +45,7 @@ pub struct Measured<'a> {
     /// The scene.
     pub scene: &'a Loaded,
     /// The estimators.
-    pub entrants: &'a [Entrant],
+    pub entrants: &'a [EstimatorConfig],
     /// What was asked for.
     pub options: &'a Options,
     /// The step of the ladders where samples are equal.
@@ -60,9 +60,9 @@ pub struct Measured<'a> {
 
 /// Draws the conclusions.
 pub fn findings(measured: &Measured<'_>) -> Findings {
-    let plan = Plan::independent(RESAMPLES, measured.options.seed);
+    let plan = Resampling::independent(RESAMPLES, measured.options.seed);
     let rows = measured.entrants.iter().zip(measured.cells);
-    let estimators: Vec<Outcome> = rows
+    let estimators: Vec<EntrantResult> = rows
         .map(|(entrant, cells)| outcome(measured, entrant, cells, &plan))
         .collect();
     let first_pictures = measured.cells.iter().map(|cells| cells[0].first.clone());
@@ -100,7 +100,12 @@ pub fn findings(measured: &Measured<'_>) -> Findings {
     findings
 }
 
-fn outcome(measured: &Measured<'_>, entrant: &Entrant, cells: &[Cell], plan: &Plan) -> Outcome {
+fn outcome(
+    measured: &Measured<'_>,
+    entrant: &EstimatorConfig,
+    cells: &[Cell],
+    plan: &Resampling,
+) -> EntrantResult {
     let (timed, ladder) = (&cells[0], &cells[1..]);
     let first = &measured.cells[0];
     let is_first = std::ptr::eq(first.as_slice(), cells);
@@ -111,7 +116,7 @@ fn outcome(measured: &Measured<'_>, entrant: &Entrant, cells: &[Cell], plan: &Pl
     let seconds = mean(&timed.of(|p| p.seconds));
     let others = measured.cells.len() - 1;
     let reach = seconds_to(ONE_PERCENT, seconds, &equal_time);
-    Outcome {
+    EntrantResult {
         name: entrant.name.clone(),
         integrator: entrant.integrator_name.clone(),
         sampler: sampler_name(entrant.sampler).to_owned(),
@@ -166,7 +171,7 @@ fn cost(pictures: &[Picture]) -> f64 {
 
 impl Uncertain {
     /// A mean with the interval that its tails allow.
-    fn mean(numbers: &[f64], plan: &Plan) -> Self {
+    fn mean(numbers: &[f64], plan: &Resampling) -> Self {
         let limits = Limits::DECLARED;
         let judged = judge(numbers, 1.0 - CONFIDENCE, Symmetry::Unknown, &limits, plan);
         let interval = judged.and_then(|judged| judged.interval);
@@ -197,7 +202,7 @@ impl Uncertain {
     }
 }
 
-fn at_size(cell: &Cell, reference: &Reference, plan: &Plan) -> AtSize {
+fn at_size(cell: &Cell, reference: &Reference, plan: &Resampling) -> AtSize {
     let pairs = |number: fn(&Pair) -> f64| -> Vec<f64> { cell.pairs.iter().map(number).collect() };
     AtSize {
         samples_per_pixel: cell.size.samples,
@@ -210,7 +215,7 @@ fn at_size(cell: &Cell, reference: &Reference, plan: &Plan) -> AtSize {
     }
 }
 
-fn efficiency(cell: &Cell, plan: &Plan) -> Uncertain {
+fn efficiency(cell: &Cell, plan: &Resampling) -> Uncertain {
     let pictures = &cell.measured;
     let value = cost(pictures);
     if !(value > 0.0) {
@@ -234,7 +239,7 @@ fn efficiency(cell: &Cell, plan: &Plan) -> Uncertain {
 fn gain(
     first: &[Picture],
     this: &[Picture],
-    plan: &Plan,
+    plan: &Resampling,
     statistic: fn(&[Picture]) -> f64,
 ) -> Uncertain {
     let Some(ratio) = ratio::of(first, this, plan, CONFIDENCE, statistic) else {
@@ -280,7 +285,7 @@ fn seconds_to(goal: f64, seconds: f64, size: &AtSize) -> Uncertain {
 }
 
 /// The differences of the channels' means; all their intervals hold together.
-fn differences(this: &Cell, first: &Cell, others: usize, plan: &Plan) -> Vec<Difference> {
+fn differences(this: &Cell, first: &Cell, others: usize, plan: &Resampling) -> Vec<Difference> {
     let alpha = (1.0 - CONFIDENCE) / (CHANNELS.len() * others) as f64;
     let means = mean_colour(first);
     let floor = 0.05 * luminance(means).abs();

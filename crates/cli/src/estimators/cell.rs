@@ -5,12 +5,12 @@
 //! ½ (a − b)² the variance, both without a bias of their own ([`Reference::product`],
 //! [`Reference::half_difference`]); pairs do not overlap, so these numbers are independent, too.
 
-use super::entrant::Entrant;
+use super::entrant::EstimatorConfig;
 use super::reference::{Reference, interleaved};
 use super::schedule::Size;
 use crate::pipeline::render_into;
 use etalon_film::{ExactFilm, RenderFacts};
-use etalon_integrators::{Plan, Progress};
+use etalon_integrators::{Progress, RenderPlan};
 use etalon_sampling::ReplicateKind;
 use etalon_statistics::Picture;
 use etalon_statistics::metrics::{EPSILON, mse, rel_mse};
@@ -32,14 +32,14 @@ pub struct Rendered {
 /// # Errors
 /// One sentence, if there is no memory for it.
 pub fn render(
-    entrant: &Entrant,
+    entrant: &EstimatorConfig,
     samples: u32,
     seed: u64,
     progress: &dyn Progress,
 ) -> Result<Rendered, String> {
     let channels = entrant.integrator.channels();
     let film = ExactFilm::new(entrant.film.clone(), &channels).map_err(|error| error.message)?;
-    let plan = Plan {
+    let plan = RenderPlan {
         seed,
         replicates: 1,
         replicate_kind: ReplicateKind::Independent,

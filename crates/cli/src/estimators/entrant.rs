@@ -5,18 +5,18 @@
 //! the innermost one and keeps its depths. A sampler or filter that has the name of the scene's own
 //! is the scene's own, with its parameters; another has Mitsuba's defaults.
 
-use crate::pipeline::{self, LoadOptions, Loaded, Refusal};
+use crate::pipeline::{self, LoadError, LoadOptions, Loaded};
 use etalon_film::{FilmSettings, Filter, PixelFormat};
 use etalon_integrators::AnyIntegrator;
 use etalon_params::{Class, Diagnostic, Diagnostics, Node, Params, Sources, Span, Spanned};
 use etalon_sampling::SamplerKind;
-use etalon_scene::{Compiled, LightChooser};
+use etalon_scene::{Compiled, LightSamplerKind};
 use std::path::Path;
 use std::sync::Arc;
 
 /// An estimator.
 #[derive(Clone)]
-pub struct Entrant {
+pub struct EstimatorConfig {
     /// What tells it from the others: `ptracer`, `path, sobol`.
     pub name: String,
     /// The scene that it sees.
@@ -41,7 +41,7 @@ pub struct Lists<'a> {
     /// Names of reconstruction filters.
     pub filters: &'a [String],
     /// Rules by which points choose lights.
-    pub light_choosers: &'a [LightChooser],
+    pub light_choosers: &'a [LightSamplerKind],
 }
 
 /// Reads the scene, and makes every combination of what is listed.
@@ -52,8 +52,8 @@ pub fn gather(
     path: &Path,
     options: &LoadOptions,
     lists: &Lists<'_>,
-) -> Result<(Loaded, Vec<Entrant>), Refusal> {
-    let load = |name: Option<&String>, light_chooser: Option<&LightChooser>| {
+) -> Result<(Loaded, Vec<EstimatorConfig>), LoadError> {
+    let load = |name: Option<&String>, light_chooser: Option<&LightSamplerKind>| {
         let options = LoadOptions {
             integrator: name.cloned(),
             light_chooser: light_chooser.copied().or(options.light_chooser),
@@ -62,7 +62,7 @@ pub fn gather(
         pipeline::load(path, &options)
     };
     let choosers: Vec<String> = (lists.light_choosers.iter())
-        .map(|chooser| chooser.name().to_owned())
+        .map(|hero| hero.name().to_owned())
         .collect();
     for (option, names) in [
         ("--integrators", lists.integrators),
@@ -80,8 +80,8 @@ pub fn gather(
         integrators.push((loaded.integrator, loaded.integrator_name));
     }
     let mut scenes = vec![(scene.compiled.clone(), choosers.first())];
-    for (chooser, name) in (lists.light_choosers.iter().zip(&choosers)).skip(1) {
-        let loaded = load(lists.integrators.first(), Some(chooser))?;
+    for (hero, name) in (lists.light_choosers.iter().zip(&choosers)).skip(1) {
+        let loaded = load(lists.integrators.first(), Some(hero))?;
         scenes.push((loaded.compiled, Some(name)));
     }
     let samplers = samplers(lists.samplers, scene.compiled.sampler.kind)?;
@@ -90,15 +90,15 @@ pub fn gather(
     for (integrator, integrator_name) in &integrators {
         for &sampler in &samplers {
             for &filter in &filters {
-                for (compiled, chooser) in &scenes {
+                for (compiled, hero) in &scenes {
                     let parts = [
                         (integrators.len() > 1, integrator_name.as_str()),
                         (samplers.len() > 1, pipeline::sampler_name(sampler)),
                         (filters.len() > 1, filter.name()),
-                        (scenes.len() > 1, chooser.map_or("", |name| name)),
+                        (scenes.len() > 1, hero.map_or("", |name| name)),
                     ];
                     let told: Vec<&str> = parts.iter().filter(|p| p.0).map(|p| p.1).collect();
-                    entrants.push(Entrant {
+                    entrants.push(EstimatorConfig {
                         name: match told.is_empty() {
                             true => integrator_name.clone(),
                             false => told.join(", "),
@@ -142,15 +142,15 @@ impl Word {
         Self { sources, plugin }
     }
 
-    fn refuse(self, diagnostics: Vec<Diagnostic>) -> Refusal {
-        Refusal {
+    fn refuse(self, diagnostics: Vec<Diagnostic>) -> LoadError {
+        LoadError {
             diagnostics,
             sources: self.sources,
         }
     }
 }
 
-fn refuse_repeated(option: &str, names: &[String]) -> Result<(), Refusal> {
+fn refuse_repeated(option: &str, names: &[String]) -> Result<(), LoadError> {
     let repeated = (names.iter().enumerate()).find(|(i, name)| names[..*i].contains(name));
     let Some((_, name)) = repeated else {
         return Ok(());
@@ -161,7 +161,7 @@ fn refuse_repeated(option: &str, names: &[String]) -> Result<(), Refusal> {
     Err(word.refuse(vec![error]))
 }
 
-fn samplers(names: &[String], own: SamplerKind) -> Result<Vec<SamplerKind>, Refusal> {
+fn samplers(names: &[String], own: SamplerKind) -> Result<Vec<SamplerKind>, LoadError> {
     const KINDS: [SamplerKind; 3] = [
         SamplerKind::Independent,
         SamplerKind::Stratified { jitter: true },
@@ -183,7 +183,7 @@ fn samplers(names: &[String], own: SamplerKind) -> Result<Vec<SamplerKind>, Refu
     found.collect()
 }
 
-fn filters(names: &[String], own: Filter) -> Result<Vec<Filter>, Refusal> {
+fn filters(names: &[String], own: Filter) -> Result<Vec<Filter>, LoadError> {
     if names.is_empty() {
         return Ok(vec![own]);
     }

@@ -1,6 +1,6 @@
 //! What a comparison found: the schema of its JSON (`docs/estimators-json.md`).
 
-use super::reference::Origin;
+use super::reference::LightKind;
 use serde::Serialize;
 
 /// Everything that was found.
@@ -31,7 +31,7 @@ pub struct Findings {
     /// What errors are measured against.
     pub reference: ReferenceFacts,
     /// The estimators, in the order they were named; ratios are to the first.
-    pub estimators: Vec<Outcome>,
+    pub estimators: Vec<EntrantResult>,
     /// What a reader should know before believing the rest.
     pub remarks: Vec<String>,
     /// Pictures for the eye, by estimator.
@@ -40,7 +40,7 @@ pub struct Findings {
 }
 
 /// The findings about one estimator.
-pub type Row = Outcome;
+pub type Row = EntrantResult;
 
 impl Findings {
     /// The version of the description that is written.
@@ -51,7 +51,7 @@ impl Findings {
 #[derive(Clone, Debug, Serialize)]
 pub struct ReferenceFacts {
     /// Where it comes from.
-    pub origin: Origin,
+    pub origin: LightKind,
     /// Its own relMSE, which was subtracted; absent without standard errors.
     pub rel_mse: Option<f64>,
 }
@@ -154,7 +154,7 @@ pub struct Convergence {
 
 /// What was found about one estimator.
 #[derive(Clone, Debug, Serialize)]
-pub struct Outcome {
+pub struct EntrantResult {
     /// What tells it from the others.
     pub name: String,
     /// The integrator, nested ones after a slash.
@@ -188,7 +188,7 @@ pub struct Outcome {
     pub non_finite: u64,
 }
 
-impl Outcome {
+impl EntrantResult {
     /// The difference whose interval allows most.
     pub fn widest_difference(&self) -> Option<&Difference> {
         let differences = self.differences.iter();

@@ -1,7 +1,7 @@
 //! Which estimator is better on this scene, by how much, and how sure is that? The measurement
 //! behind `etalon estimators`.
 //!
-//! An *estimator* is an integrator with a sampler and a reconstruction filter ([`Entrant`]). With
+//! An *estimator* is an integrator with a sampler and a reconstruction filter ([`EstimatorConfig`]). With
 //! relMSE the squared error of one picture against a converged reference
 //! ([`etalon_statistics::metrics`]) and T the wall-clock time that picture took,
 //!
@@ -44,7 +44,7 @@ pub mod schedule;
 pub mod table;
 pub mod trial;
 
-pub use entrant::Entrant;
+pub use entrant::EstimatorConfig;
 pub use findings::{Findings, Row};
 pub use reference::Reference;
 pub use schedule::Schedule;

@@ -1,6 +1,6 @@
 //! The findings as a self-contained HTML page.
 
-use super::findings::{Findings, Outcome, Uncertain};
+use super::findings::{EntrantResult, Findings, Uncertain};
 use super::table::{difference, exponent, factor, number, reference, time};
 use crate::report;
 use crate::report::plot::{self, Curve};
@@ -65,7 +65,7 @@ fn with_interval(uncertain: &Uncertain) -> Markup {
     }
 }
 
-fn gain(row: &Outcome, of: impl Fn(&super::findings::Gains) -> Uncertain) -> String {
+fn gain(row: &EntrantResult, of: impl Fn(&super::findings::Gains) -> Uncertain) -> String {
     row.gains
         .as_ref()
         .map_or_else(|| "1".to_owned(), |gains| factor(&of(gains)))
@@ -156,7 +156,7 @@ fn efficiencies(findings: &Findings) -> Vec<(String, Uncertain)> {
 }
 
 fn convergence(findings: &Findings) -> Vec<Curve> {
-    let curve = |row: &Outcome| {
+    let curve = |row: &EntrantResult| {
         let law = &row.convergence;
         let samples = |step: &super::findings::Step| f64::from(step.samples_per_pixel);
         let end = |step: Option<&super::findings::Step>| {
@@ -177,7 +177,7 @@ fn convergence(findings: &Findings) -> Vec<Curve> {
 }
 
 fn over_time(findings: &Findings) -> Vec<Curve> {
-    let curve = |row: &Outcome| Curve {
+    let curve = |row: &EntrantResult| Curve {
         name: row.name.clone(),
         points: (row.convergence.steps.iter())
             .map(|step| [step.seconds, step.mse, step.standard_error])

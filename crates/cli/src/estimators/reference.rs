@@ -10,13 +10,13 @@
 //! to second order makes all of it greater by a share of 3s²/r², and a bias b look like b² + 4bs²/r:
 //! little where the reference is converged, and a remark says where it is not.
 
-use super::entrant::Entrant;
+use super::entrant::EstimatorConfig;
 use super::schedule::Size;
 use crate::VERSION;
 use crate::pipeline::{render_into, sampler_name};
-use etalon_film::{Developed, ExactFilm, RenderFacts, read_developed};
+use etalon_film::{ExactFilm, RenderFacts, RenderedImage, read_developed};
 use etalon_images::Image;
-use etalon_integrators::{Plan, Progress};
+use etalon_integrators::{Progress, RenderPlan};
 use etalon_sampling::ReplicateKind;
 use etalon_statistics::Picture;
 use etalon_statistics::metrics::EPSILON;
@@ -26,7 +26,7 @@ use std::path::Path;
 /// Where a reference comes from.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 #[serde(rename_all = "snake_case", tag = "kind")]
-pub enum Origin {
+pub enum LightKind {
     /// A file.
     File {
         /// As it was named.
@@ -57,7 +57,7 @@ pub enum Origin {
 #[derive(Clone, Debug)]
 pub struct Reference {
     /// Where it comes from.
-    pub origin: Origin,
+    pub origin: LightKind,
     /// Its own relMSE (the mean of s² / (r² + ε)), if it has standard errors.
     pub noise: Option<f64>,
     /// Its own mean squared error (the mean of s²).
@@ -90,7 +90,7 @@ impl Reference {
             ));
         }
         let metadata = developed.metadata.as_ref();
-        let origin = Origin::File {
+        let origin = LightKind::File {
             path: path.display().to_string(),
             integrator: metadata.map(|m| m.integrator.clone()),
             samples_per_pixel: metadata.map(|m| m.spp),
@@ -104,7 +104,7 @@ impl Reference {
     /// # Errors
     /// One sentence, if there is no memory for it or a pixel is not finite.
     pub fn render(
-        entrant: &Entrant,
+        entrant: &EstimatorConfig,
         size: Size,
         seed: u64,
         share_of_time: f64,
@@ -113,7 +113,7 @@ impl Reference {
         let channels = entrant.integrator.channels();
         let film =
             ExactFilm::new(entrant.film.clone(), &channels).map_err(|error| error.message)?;
-        let plan = Plan {
+        let plan = RenderPlan {
             seed,
             replicates: size.replicates,
             replicate_kind: ReplicateKind::Independent,
@@ -127,7 +127,7 @@ impl Reference {
             version: VERSION.to_owned(),
             ..RenderFacts::default()
         });
-        let origin = Origin::Rendered {
+        let origin = LightKind::Rendered {
             estimator: entrant.name.clone(),
             sampler: sampler_name(entrant.sampler).to_owned(),
             samples_per_replicate: size.samples,
@@ -138,7 +138,7 @@ impl Reference {
         Self::of(&developed, origin).map_err(|reason| format!("the rendered reference: {reason}"))
     }
 
-    fn of(developed: &Developed, origin: Origin) -> Result<Self, String> {
+    fn of(developed: &RenderedImage, origin: LightKind) -> Result<Self, String> {
         let image = &developed.image;
         let size = [image.width(), image.height()];
         let pixels = interleaved(image, "").ok_or("it has no channels R, G and B")?;

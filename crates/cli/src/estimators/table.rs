@@ -1,7 +1,7 @@
 //! The findings as text for a terminal.
 
-use super::findings::{Findings, Outcome, Uncertain};
-use super::reference::Origin;
+use super::findings::{EntrantResult, Findings, Uncertain};
+use super::reference::LightKind;
 
 /// The whole text.
 pub fn text(findings: &Findings) -> String {
@@ -77,7 +77,7 @@ pub fn text(findings: &Findings) -> String {
 /// Where the reference comes from, in a sentence.
 pub fn reference(findings: &Findings) -> String {
     let origin = match &findings.reference.origin {
-        Origin::File {
+        LightKind::File {
             path,
             integrator,
             samples_per_pixel,
@@ -87,7 +87,7 @@ pub fn reference(findings: &Findings) -> String {
             let (by, spp) = (by.unwrap_or_default(), spp.unwrap_or_default());
             format!("reference: {path}{by}{spp}")
         }
-        Origin::Rendered {
+        LightKind::Rendered {
             estimator,
             sampler,
             samples_per_replicate,
@@ -144,7 +144,7 @@ pub fn factor(gain: &Uncertain) -> String {
 }
 
 /// The mean's difference in the channel that allows most.
-pub fn difference(row: &Outcome) -> String {
+pub fn difference(row: &EntrantResult) -> String {
     let Some(worst) = row.widest_difference() else {
         return String::new();
     };

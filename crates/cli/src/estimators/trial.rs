@@ -2,16 +2,16 @@
 
 use super::analysis;
 use super::cell::{self, Cell};
-use super::entrant::{self, Entrant, Lists};
+use super::entrant::{self, EstimatorConfig, Lists};
 use super::findings::Findings;
 use super::reference::Reference;
 use super::schedule::{Pace, Schedule, Share, Size};
 use crate::memory;
-use crate::pipeline::{LoadOptions, Loaded, Refusal};
+use crate::pipeline::{LoadError, LoadOptions, Loaded};
 use etalon_integrators::Progress;
 use etalon_params::Diagnostic;
 use etalon_sampling::hash::{derived_key, stream_key};
-use etalon_scene::LightChooser;
+use etalon_scene::LightSamplerKind;
 use std::path::{Path, PathBuf};
 use std::time::Instant;
 
@@ -27,7 +27,7 @@ pub struct Options {
     /// The reconstruction filters; none stands for the scene's own.
     pub filters: Vec<String>,
     /// Rules by which points choose the light that they ask; none stands for the scene's own.
-    pub light_choosers: Vec<LightChooser>,
+    pub light_choosers: Vec<LightSamplerKind>,
     /// The time for all rendering together (s).
     pub seconds: f64,
     /// The reference; without one it is rendered.
@@ -58,7 +58,7 @@ impl Default for Options {
 #[derive(Debug)]
 pub enum Failure {
     /// The scene or the command line, with places.
-    Refused(Refusal),
+    Refused(LoadError),
     /// Anything else, in one sentence.
     Impossible(String),
     /// Somebody asked to stop.
@@ -81,8 +81,8 @@ impl std::fmt::Display for Failure {
 
 impl std::error::Error for Failure {}
 
-impl From<Refusal> for Failure {
-    fn from(refusal: Refusal) -> Self {
+impl From<LoadError> for Failure {
+    fn from(refusal: LoadError) -> Self {
         Self::Refused(refusal)
     }
 }
@@ -96,7 +96,7 @@ impl From<String> for Failure {
 /// A comparison that is ready to be measured: what will be rendered is fixed.
 pub struct Trial {
     scene: Loaded,
-    entrants: Vec<Entrant>,
+    entrants: Vec<EstimatorConfig>,
     /// A reference from a file.
     reference: Option<Reference>,
     schedule: Schedule,
@@ -189,7 +189,7 @@ impl Trial {
     }
 
     /// The estimators.
-    pub fn entrants(&self) -> &[Entrant] {
+    pub fn entrants(&self) -> &[EstimatorConfig] {
         &self.entrants
     }
 
@@ -301,10 +301,10 @@ fn order(cells: &[Vec<Cell>]) -> Vec<(usize, usize, u32)> {
     order.into_iter().map(|(_, picture)| picture).collect()
 }
 
-fn check_memory(scene: &Loaded, entrants: &[Entrant]) -> Result<(), Failure> {
+fn check_memory(scene: &Loaded, entrants: &[EstimatorConfig]) -> Result<(), Failure> {
     let planes = entrants.iter().map(|e| 3 + e.integrator.channels().len());
     let refuse = |diagnostic: Diagnostic| {
-        Failure::Refused(Refusal {
+        Failure::Refused(LoadError {
             diagnostics: vec![diagnostic],
             sources: scene.sources.clone(),
         })
@@ -319,9 +319,9 @@ const PILOT_SHARE: f64 = 0.05;
 const LONG_ENOUGH: f64 = 0.05;
 
 /// The pace of every estimator, from pictures of 1, 4, 16, … samples per pixel.
-fn pilot(entrants: &[Entrant], options: &Options) -> Result<Vec<Pace>, Failure> {
+fn pilot(entrants: &[EstimatorConfig], options: &Options) -> Result<Vec<Pace>, Failure> {
     let each = PILOT_SHARE * options.seconds / entrants.len() as f64;
-    let pace = |(entrant, estimator): (usize, &Entrant)| {
+    let pace = |(entrant, estimator): (usize, &EstimatorConfig)| {
         let sampler = estimator.sampler;
         let render = |step: u32, samples: u32| {
             let seed = seed(options, Purpose::Pilot, entrant, 0, step);

@@ -7,7 +7,7 @@
 use super::half;
 use base64::Engine;
 use base64::engine::general_purpose::STANDARD;
-use etalon_film::Developed;
+use etalon_film::RenderedImage;
 use etalon_images::Image;
 use maud::{Markup, PreEscaped, html};
 use std::borrow::Cow;
@@ -62,7 +62,11 @@ impl Album {
 
     /// Stores the difference of the green (or only) channel over its standard error; `None` unless
     /// one of the two pictures has standard errors.
-    pub fn add_deviation(&mut self, first: &Developed, second: &Developed) -> Option<String> {
+    pub fn add_deviation(
+        &mut self,
+        first: &RenderedImage,
+        second: &RenderedImage,
+    ) -> Option<String> {
         let (a, b) = (&first.image, &second.image);
         if (a.width(), a.height()) != (b.width(), b.height()) {
             return None;

@@ -2,8 +2,8 @@
 
 use super::album::Album;
 use super::{page, percent, running, tables, tiles, verdict, viewer};
-use crate::judge::Judgement;
-use etalon_film::Developed;
+use crate::judge::ImageComparison;
+use etalon_film::RenderedImage;
 use etalon_statistics::Verdict;
 use maud::{Markup, html};
 
@@ -11,9 +11,9 @@ const TITLE: &str = "Comparison of two images";
 
 /// Of images that were judged.
 pub fn judged(
-    judgement: &Judgement,
-    first: &Developed,
-    second: &Developed,
+    judgement: &ImageComparison,
+    first: &RenderedImage,
+    second: &RenderedImage,
     names: &[String; 2],
 ) -> String {
     let mut album = Album::new();
@@ -34,7 +34,7 @@ pub fn judged(
 }
 
 /// The bias as replicates are added, if there are enough.
-fn bias(judgement: &Judgement, first: &Developed, second: &Developed) -> Markup {
+fn bias(judgement: &ImageComparison, first: &RenderedImage, second: &RenderedImage) -> Markup {
     let curve = running::of(judgement, first, second);
     html! {
         @if let Some(curve) = curve {
@@ -56,8 +56,8 @@ pub fn identical([first, second]: [String; 2]) -> String {
 /// Of images that cannot be judged, for this reason.
 pub fn inconclusive(
     reason: &str,
-    first: &Developed,
-    second: &Developed,
+    first: &RenderedImage,
+    second: &RenderedImage,
     names: &[String; 2],
 ) -> String {
     let mut album = Album::new();

@@ -6,8 +6,8 @@
 //! nested and so depend on each other: it is for the eye, and only its last point is the decision's.
 
 use super::plot::Axis;
-use crate::judge::{self, Judgement};
-use etalon_film::Developed;
+use crate::judge::{self, ImageComparison};
+use etalon_film::RenderedImage;
 use etalon_statistics::{Estimate, Summary};
 use maud::{Markup, html};
 
@@ -35,7 +35,11 @@ pub struct Running {
 
 /// The running bias of the channel whose interval reaches farthest; `None` where there are fewer than
 /// four replicates.
-pub fn of(judgement: &Judgement, first: &Developed, second: &Developed) -> Option<Running> {
+pub fn of(
+    judgement: &ImageComparison,
+    first: &RenderedImage,
+    second: &RenderedImage,
+) -> Option<Running> {
     let row = judgement.widest()?;
     let metadata = first.metadata.as_ref()?;
     let (own, _) = judge::replicates(metadata, &row.channel, None).ok()?;

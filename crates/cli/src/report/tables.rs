@@ -1,11 +1,11 @@
 //! The statistics of a comparison as tables.
 
 use super::{interval, percent, probability, signed, verdict};
-use crate::judge::Judgement;
+use crate::judge::ImageComparison;
 use maud::{Markup, html};
 
 /// The means of the image, and the tiles.
-pub fn tables(judgement: &Judgement) -> Markup {
+pub fn tables(judgement: &ImageComparison) -> Markup {
     let bound = judgement.rules.image_bound;
     html! {
         div class="scroll" { table {

@@ -6,7 +6,7 @@
 //! the eye, and the decision is made elsewhere.
 
 use super::{encode, probability};
-use crate::judge::{Judgement, TileRow};
+use crate::judge::{ImageComparison, TileRow};
 use maud::{Markup, html};
 
 /// Bars of a histogram, at most.
@@ -16,7 +16,7 @@ const BARS: usize = 10;
 const WRITTEN: usize = 64;
 
 /// Maps and histograms of the tiles of 16² pixels, for each channel.
-pub fn maps(judgement: &Judgement) -> Markup {
+pub fn maps(judgement: &ImageComparison) -> Markup {
     let rows = judgement.tiles.iter().filter(|row| row.side == 16);
     html! {
         div class="tiles" { @for row in rows { (map(row)) } }

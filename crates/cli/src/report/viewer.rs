@@ -5,7 +5,7 @@
 //! comes into sight.
 
 use super::album::{Album, FLOOR, exposure};
-use etalon_film::Developed;
+use etalon_film::RenderedImage;
 use maud::{Markup, html};
 
 /// What the colours of the map mean.
@@ -14,8 +14,8 @@ const COLOURS: &str = "Blue: darker than it ought to be; orange: brighter.";
 /// Two pictures and their difference; nothing if either has no colour.
 pub fn viewer(
     album: &mut Album,
-    first: &Developed,
-    second: &Developed,
+    first: &RenderedImage,
+    second: &RenderedImage,
     names: &[String; 2],
 ) -> Markup {
     let (Some(a), Some(b)) = (album.add(&first.image), album.add(&second.image)) else {

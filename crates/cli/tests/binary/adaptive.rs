@@ -1,7 +1,7 @@
 //! `render --adaptive`: samples dealt by a pilot's error.
 
 use crate::workshop::{Workshop, cornell_box, small_scene};
-use etalon_film::Developed;
+use etalon_film::RenderedImage;
 use serde_json::Value;
 
 fn stats(workshop: &Workshop, name: &str) -> Value {
@@ -9,7 +9,7 @@ fn stats(workshop: &Workshop, name: &str) -> Value {
 }
 
 /// How many samples each pixel has.
-fn samples(image: &Developed) -> &[f32] {
+fn samples(image: &RenderedImage) -> &[f32] {
     image.image.channel("samples").expect("they are told")
 }
 

@@ -2,7 +2,7 @@
 //! all samples in one replicate give.
 
 use crate::workshop::{Workshop, small_scene};
-use etalon_film::Developed;
+use etalon_film::RenderedImage;
 use etalon_sampling::ReplicateKind;
 
 /// A scene in which samples are `sobol`'s, under a lamp.
@@ -15,15 +15,15 @@ fn scene(integrator: &str) -> String {
 }
 
 /// Renders `scene.xml` of the workshop.
-fn render(workshop: &Workshop, further: &[&str]) -> Developed {
+fn render(workshop: &Workshop, further: &[&str]) -> RenderedImage {
     let fixed = ["render", "scene.xml", "-o", "a.exr", "-q"];
     workshop.run(&[&fixed, further].concat()).fine();
     workshop.image("a.exr")
 }
 
 /// The greatest difference of two pictures' green, relative to the first's mean.
-fn apart(a: &Developed, b: &Developed) -> f64 {
-    let green = |of: &Developed| of.image.channel("G").expect("green").to_vec();
+fn apart(a: &RenderedImage, b: &RenderedImage) -> f64 {
+    let green = |of: &RenderedImage| of.image.channel("G").expect("green").to_vec();
     let (a, b) = (green(a), green(b));
     let mean = a.iter().map(|x| f64::from(*x)).sum::<f64>() / a.len() as f64;
     let differences = a.iter().zip(&b).map(|(a, b)| f64::from((a - b).abs()));
@@ -69,7 +69,7 @@ fn blocks_make_up_the_picture_of_one_replicate() {
 #[test]
 fn each_integrator_says_which_replicates_it_has() {
     let workshop = Workshop::new();
-    let said = |of: &Developed| of.metadata.as_ref().expect("ours").replicate_kind;
+    let said = |of: &RenderedImage| of.metadata.as_ref().expect("ours").replicate_kind;
     let kind = |integrator: &str, further: &[&str]| {
         workshop.write("scene.xml", scene(integrator));
         said(&render(

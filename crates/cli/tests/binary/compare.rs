@@ -1,7 +1,7 @@
 //! `etalon compare`: verdicts and exit codes.
 
 use crate::workshop::{Ran, Workshop};
-use etalon_film::Developed;
+use etalon_film::RenderedImage;
 use etalon_images::{Frame, Image};
 use serde_json::Value;
 
@@ -149,13 +149,13 @@ fn what_cannot_be_compared_is_refused() {
 fn what_is_no_number_never_passes() {
     let workshop = Workshop::new();
     workshop.render("a.exr", &["--spp", "16", "-q"]);
-    let with = |name: &str, change: &dyn Fn(&mut Developed)| {
+    let with = |name: &str, change: &dyn Fn(&mut RenderedImage)| {
         let mut picture = workshop.image("a.exr");
         change(&mut picture);
         let written = picture.write_exr(&workshop.path(name));
         written.expect("written");
     };
-    let repainted = |picture: &mut Developed, paint: &dyn Fn(usize, f32) -> f32| {
+    let repainted = |picture: &mut RenderedImage, paint: &dyn Fn(usize, f32) -> f32| {
         let channels = std::mem::replace(&mut picture.image, Image::new(24, 20));
         for channel in channels.into_channels() {
             let samples = channel.samples.iter().enumerate();
@@ -217,7 +217,7 @@ fn what_carries_no_replicates_is_inconclusive() {
     for name in ["R", "G", "B"] {
         image.push(name, vec![1.0; 480]);
     }
-    let foreign = Developed {
+    let foreign = RenderedImage {
         image,
         frame: Frame {
             offset: [0, 0],

@@ -119,7 +119,7 @@ fn within_the_first_replicate_there_is_a_picture_of_what_there_is() {
     let workshop = Workshop::new();
     whole(&workshop, "whole.exr", &["--spp", "256"]);
     let expected = workshop.image("whole.exr");
-    let mean = |image: &etalon_film::Developed| {
+    let mean = |image: &etalon_film::RenderedImage| {
         let green = image.image.channel("G").expect("G");
         green.iter().map(|v| f64::from(*v)).sum::<f64>() / green.len() as f64
     };

@@ -1,6 +1,6 @@
 //! A temporary folder in which the binary is run.
 
-use etalon_film::{Developed, read_developed};
+use etalon_film::{RenderedImage, read_developed};
 use std::path::{Path, PathBuf};
 use std::process::Command;
 use std::time::Duration;
@@ -87,7 +87,7 @@ impl Workshop {
     }
 
     /// Reads an image with its metadata.
-    pub(crate) fn image(&self, name: &str) -> Developed {
+    pub(crate) fn image(&self, name: &str) -> RenderedImage {
         read_developed(&self.path(name)).expect("a valid image")
     }
 

@@ -2,7 +2,9 @@
 
 use etalon_sampling::{Independent, Sampler};
 use etalon_spectrum::Wavelengths;
-use etalon_transport::{Bsdf, Camera, Emission, LightId, Mode, Origin, Ray, Vertex, World};
+use etalon_transport::{
+    Bsdf, Camera, Emission, LightId, LightKind, Ray, SurfaceInteraction, TransportMode, World,
+};
 use glam::{Vec2, Vec3, Vec4};
 
 /// A path x₀x₁…xₙ and the camera: the light, n surfaces, the camera.
@@ -15,13 +17,13 @@ pub(crate) struct Course {
     /// The camera's ray.
     pub(crate) ray: Ray,
     /// x₁ … xₙ.
-    pub(crate) surfaces: Vec<Vertex>,
+    pub(crate) surfaces: Vec<SurfaceInteraction>,
     /// Whether the path is bent there in a discrete direction.
     pub(crate) sharp: Vec<bool>,
     /// How the light emits it; its weight is that of `wavelengths`.
     pub(crate) start: Emission,
     /// The light's surface, if it has one.
-    pub(crate) lamp: Option<Vertex>,
+    pub(crate) lamp: Option<SurfaceInteraction>,
 }
 
 /// Vertices nearer than this (m) to each other make densities too rough for single precision.
@@ -115,10 +117,10 @@ fn walk<W: World>(
     wavelengths: &Wavelengths,
     mut ray: Ray,
     count: usize,
-    mode: Mode,
+    mode: TransportMode,
     dice: &mut Independent,
-) -> Option<Vec<(Vertex, bool)>> {
-    let mut found: Vec<(Vertex, bool)> = Vec::new();
+) -> Option<Vec<(SurfaceInteraction, bool)>> {
+    let mut found: Vec<(SurfaceInteraction, bool)> = Vec::new();
     while found.len() < count {
         let hit = world.intersect(&ray)?;
         if world.is_emitter(&hit) {
@@ -132,7 +134,7 @@ fn walk<W: World>(
         let wo = -ray.direction;
         let bsdf = world.bsdf(&vertex, wo, wavelengths);
         let sample = bsdf.sample(wo, dice.next_1d(), dice.next_2d(), mode)?;
-        found.last_mut()?.1 = sample.chance.is_discrete();
+        found.last_mut()?.1 = sample.chance.is_delta();
         ray = vertex.spawn(sample.wi);
     }
     Some(found)
@@ -154,35 +156,42 @@ pub(crate) fn draw<W: World>(world: &W, dice: &mut Independent) -> Option<Course
         &wavelengths,
         start.ray,
         from_light,
-        Mode::Importance,
+        TransportMode::Importance,
         dice,
     )?;
-    let seen = walk(world, &wavelengths, ray, from_camera, Mode::Radiance, dice)?;
+    let seen = walk(
+        world,
+        &wavelengths,
+        ray,
+        from_camera,
+        TransportMode::Radiance,
+        dice,
+    )?;
     let last = seen.last()?.0;
     // The connection.
     match (surfaces.last(), start.origin) {
         (Some((corner, _)), _) => {
             let to = corner.origin_toward(last.position);
             let ray = Ray::between(last.origin_toward(corner.position), to, 0.0)?;
-            world.passage(&ray, &wavelengths, 0)?;
+            world.transmittance(&ray, &wavelengths, 0)?;
         }
-        (None, Origin::Sky) => {
+        (None, LightKind::Sky) => {
             let direction = -start.ray.direction;
-            world.passage(&last.spawn(direction), &wavelengths, 0)?;
+            world.transmittance(&last.spawn(direction), &wavelengths, 0)?;
             start.ray.origin = last.position + direction * 20.0;
         }
-        (None, Origin::Surface) => {
+        (None, LightKind::Surface) => {
             let direction = (last.position - start.point.position).try_normalize()?;
             start.ray = Ray::new(start.point.origin_along(direction), direction, 0.0);
         }
         // What they send in other directions than the one drawn is not known.
-        (None, Origin::Point | Origin::Parallel) => return None,
+        (None, LightKind::Point | LightKind::Parallel) => return None,
     }
     surfaces.extend(seen.into_iter().rev());
     let (surfaces, sharp): (Vec<_>, Vec<_>) = surfaces.into_iter().unzip();
     let first = &surfaces[0];
     let mut lamp = None;
-    if start.origin == Origin::Surface {
+    if start.origin == LightKind::Surface {
         let ray = first.spawn((start.point.position - first.position).try_normalize()?);
         let hit = world.intersect(&ray).filter(|hit| world.is_emitter(hit))?;
         let vertex = world.vertex(&ray, &hit);
@@ -226,10 +235,10 @@ fn agrees(rebuilt: &Emission, emitted: &Emission) {
 
 impl Course {
     /// The weight and density of its emission, by what the world says of hitting the light.
-    fn emitted<W: World>(&self, world: &W) -> Option<(Vec4, etalon_transport::EmissionDensity)> {
+    fn emitted<W: World>(&self, world: &W) -> Option<(Vec4, etalon_transport::EmissionPdf)> {
         let away = self.start.ray.direction;
         let (radiance, density, cos) = match (self.start.origin, &self.lamp) {
-            (Origin::Surface, Some(lamp)) => {
+            (LightKind::Surface, Some(lamp)) => {
                 let cos = lamp.normal.dot(away).abs();
                 let radiance = world.emitted(lamp, away, &self.wavelengths);
                 (
@@ -238,7 +247,7 @@ impl Course {
                     cos,
                 )
             }
-            (Origin::Sky, _) => {
+            (LightKind::Sky, _) => {
                 let radiance = world.background(-away, &self.wavelengths);
                 (radiance, world.background_emission_density(-away), 1.0)
             }
@@ -258,7 +267,7 @@ impl Course {
                 self.direction(node, node + 1),
                 self.direction(node, node - 1),
             );
-            let shines = |wo: Vec3, wi: Vec3, mode: Mode| {
+            let shines = |wo: Vec3, wi: Vec3, mode: TransportMode| {
                 let bsdf = world.bsdf(vertex, wo, &self.wavelengths);
                 let at = |wi: Vec3| (bsdf.eval(wo, wi, mode), bsdf.density(wo, wi).lanes());
                 let (value, density) = at(wi);
@@ -270,7 +279,8 @@ impl Course {
                         .all(|(v, d)| steady(value, v) && steady(density, d))
             };
             self.sharp[node - 1]
-                || shines(one, other, Mode::Radiance) && shines(other, one, Mode::Importance)
+                || shines(one, other, TransportMode::Radiance)
+                    && shines(other, one, TransportMode::Importance)
         })
     }
 }

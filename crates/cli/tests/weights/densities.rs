@@ -7,7 +7,7 @@
 use crate::course::Course;
 use crate::script::discrete;
 use etalon_spectrum::Wavelengths;
-use etalon_transport::{Bsdf, Camera, Mode, Origin, Receiver, World};
+use etalon_transport::{Bsdf, Camera, LightKind, LightSampleContext, TransportMode, World};
 use glam::Vec4;
 
 /// Wavelengths of a path.
@@ -27,10 +27,10 @@ pub(crate) struct Densities {
 }
 
 /// The first surface from the light, as light sampling sees it on the way from the camera.
-fn receiver<W: World>(world: &W, course: &Course, wavelengths: &Wavelengths) -> Receiver {
+fn receiver<W: World>(world: &W, course: &Course, wavelengths: &Wavelengths) -> LightSampleContext {
     let wo = course.direction(1, 2);
     let vertex = &course.surfaces[0];
-    Receiver::new(vertex, wo, &world.bsdf(vertex, wo, wavelengths)).combined()
+    LightSampleContext::new(vertex, wo, &world.bsdf(vertex, wo, wavelengths)).combined()
 }
 
 /// A path as one lane sees it that chooses.
@@ -62,12 +62,12 @@ impl Lane {
             f64::from(cos) / f64::from(course.distance_squared(node, from))
         };
         // Density of leaving a surface, and value; per projected solid angle, with η, if discrete.
-        let scatter = |node: usize, from: usize, to: usize, mode: Mode| {
+        let scatter = |node: usize, from: usize, to: usize, mode: TransportMode| {
             let vertex = &course.surfaces[node - 1];
             let (wo, wi) = (course.direction(node, from), course.direction(node, to));
             let bsdf = world.bsdf(vertex, wo, &wavelengths);
             if !course.sharp[node - 1] {
-                let density = bsdf.density(wo, wi).chooser();
+                let density = bsdf.density(wo, wi).hero();
                 return (f64::from(density), f64::from(bsdf.eval(wo, wi, mode).x));
             }
             discrete(&bsdf, wo, wi, mode).map_or((0.0, 0.0), |sample| {
@@ -90,13 +90,13 @@ impl Lane {
         from_camera[last] = film;
         let mut value = film;
         for node in (1..=last).rev() {
-            let (density, factor) = scatter(node, node + 1, node - 1, Mode::Radiance);
+            let (density, factor) = scatter(node, node + 1, node - 1, TransportMode::Radiance);
             let area = per_area(node - 1, node);
             from_camera[node - 1] = density * area;
             value *= factor * area;
         }
         for node in 1..last {
-            let (density, _) = scatter(node, node - 1, node + 1, Mode::Importance);
+            let (density, _) = scatter(node, node - 1, node + 1, TransportMode::Importance);
             from_light.push(density * per_area(node + 1, node));
         }
         if !start.origin.can_be_hit() {
@@ -105,12 +105,11 @@ impl Lane {
         let direction = course.direction(1, 0);
         let receiver = receiver(world, course, &wavelengths);
         let sampled = match (start.origin, &course.lamp) {
-            (Origin::Surface, Some(lamp)) => {
-                f64::from(world.light_density(&receiver, lamp, direction).chooser())
-                    * per_area(0, 1)
+            (LightKind::Surface, Some(lamp)) => {
+                f64::from(world.light_density(&receiver, lamp, direction).hero()) * per_area(0, 1)
             }
-            (Origin::Sky, _) => f64::from(world.background_density(&receiver, direction).chooser()),
-            _ => f64::from(world.sampled_density(&receiver, start)),
+            (LightKind::Sky, _) => f64::from(world.background_density(&receiver, direction).hero()),
+            _ => f64::from(world.light_sample_density(&receiver, start)),
         };
         // Radiance, intensity or irradiance, from the weight of the emission.
         let power = f64::from(start.weight[lane])
@@ -208,14 +207,14 @@ pub(crate) fn of_lanes<W: World>(
             found.push((format!("density at {node}"), bsdf.density(wo, wi).lanes()));
             found.push((
                 format!("value at {node}"),
-                bsdf.eval(wo, wi, Mode::Radiance),
+                bsdf.eval(wo, wi, TransportMode::Radiance),
             ));
             found.push((
                 format!("flux at {node}"),
-                bsdf.eval(wo, wi, Mode::Importance),
+                bsdf.eval(wo, wi, TransportMode::Importance),
             ));
             if course.sharp[node - 1]
-                && let Some(sample) = discrete(&bsdf, wo, wi, Mode::Radiance)
+                && let Some(sample) = discrete(&bsdf, wo, wi, TransportMode::Radiance)
             {
                 found.push((format!("chance at {node}"), sample.chance.lanes()));
             }

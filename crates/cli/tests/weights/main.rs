@@ -18,7 +18,7 @@ use etalon_integrators::settings::PathSettings;
 use etalon_integrators::vcm::ConnectionMerging;
 use etalon_sampling::Independent;
 use etalon_spectrum::sensor_response;
-use etalon_transport::{Integrator, Pass, PixelSite, Sink, World};
+use etalon_transport::{Integrator, Pass, PixelSample, Sink, World};
 use glam::{UVec2, Vec2, Vec3, Vec4};
 use proptest::test_runner::{Config, RngSeed, TestCaseError, TestRunner};
 use script::Script;
@@ -56,7 +56,7 @@ fn found<I: Integrator, W: World>(
     script: &Script<'_, W>,
     lane: usize,
 ) -> f64 {
-    let site = PixelSite {
+    let site = PixelSample {
         pixel: UVec2::ZERO,
         raster: script.course.raster,
         margin: 0.0,
@@ -223,7 +223,7 @@ impl Seen {
 }
 
 /// Mutants it is known to reject: light sampling left out of the sum of a connection's weight (`weight.rs`), the
-/// η² of a refraction left out (`corner.rs`), merging left out of it (mutant
+/// η² of a refraction left out (`path_vertex.rs`), merging left out of it (mutant
 /// `merging-is-not-weighed`), one lane's density for all (`product * corner.prefix.ratio.x`).
 #[test]
 fn weights_over_techniques_and_lanes_sum_to_one() {

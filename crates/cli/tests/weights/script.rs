@@ -3,13 +3,13 @@
 //! All values and densities are those of the world that it is a script for.
 
 use crate::course::Course;
-use etalon_math::Atom;
+use etalon_math::DeltaProbability;
 use etalon_math::{Density, Frame, SolidAngle};
 use etalon_spectrum::Wavelengths;
 use etalon_transport::{
-    Bsdf, BsdfSample, Camera, CameraRay, Chance, Connection, Emission, EmissionDensity, Hit,
-    InstanceId, LightId, LightSample, LightVariety, Mode, Origin, Passage, Ray, Receiver, ShapeId,
-    Vertex, World,
+    Bsdf, BsdfSample, Camera, CameraRay, CameraSample, Emission, EmissionPdf, Hit, InstanceId,
+    LightId, LightKind, LightSample, LightSampleContext, LightVariety, Ray, SamplePdf, ShapeId,
+    SurfaceInteraction, Transmission, TransportMode, World,
 };
 use glam::{Vec2, Vec3, Vec4};
 use std::sync::atomic::{AtomicUsize, Ordering};
@@ -40,7 +40,7 @@ impl<W: World> Camera for Aperture<'_, W> {
             weight: 1.0,
         }
     }
-    fn connect(&self, point: Vec3, _: Vec2, margin: f32) -> Option<Connection> {
+    fn connect(&self, point: Vec3, _: Vec2, margin: f32) -> Option<CameraSample> {
         self.camera.connect(point, self.course.lens, margin)
     }
     fn has_lens(&self) -> bool {
@@ -60,34 +60,44 @@ pub(crate) struct Scripted<B> {
 pub(crate) const SAME: f32 = 1e-10;
 
 /// The discrete direction `wi`, if the first lane scatters that way.
-pub(crate) fn discrete(model: &impl Bsdf, wo: Vec3, wi: Vec3, mode: Mode) -> Option<BsdfSample> {
+pub(crate) fn discrete(
+    model: &impl Bsdf,
+    wo: Vec3,
+    wi: Vec3,
+    mode: TransportMode,
+) -> Option<BsdfSample> {
     (0..)
         .map_while(|index| model.discrete(wo, index, mode))
-        .find(|s| !s.passes && s.chance.lanes().x > 0.0 && s.wi.distance_squared(wi) < SAME)
+        .find(|s| !s.is_null && s.chance.lanes().x > 0.0 && s.wi.distance_squared(wi) < SAME)
 }
 
 impl<B: Bsdf> Bsdf for Scripted<B> {
-    fn eval(&self, wo: Vec3, wi: Vec3, mode: Mode) -> Vec4 {
+    fn eval(&self, wo: Vec3, wi: Vec3, mode: TransportMode) -> Vec4 {
         self.model.eval(wo, wi, mode)
     }
     fn density(&self, wo: Vec3, wi: Vec3) -> Density<SolidAngle> {
         self.model.density(wo, wi)
     }
-    fn eval_and_density(&self, wo: Vec3, wi: Vec3, mode: Mode) -> (Vec4, Density<SolidAngle>) {
+    fn eval_and_density(
+        &self,
+        wo: Vec3,
+        wi: Vec3,
+        mode: TransportMode,
+    ) -> (Vec4, Density<SolidAngle>) {
         self.model.eval_and_density(wo, wi, mode)
     }
-    fn sample(&self, wo: Vec3, _: f32, _: Vec2, mode: Mode) -> Option<BsdfSample> {
+    fn sample(&self, wo: Vec3, _: f32, _: Vec2, mode: TransportMode) -> Option<BsdfSample> {
         let wi = self.wi?;
         if self.sharp {
             return discrete(&self.model, wo, wi, mode);
         }
         let density = self.model.density(wo, wi);
-        (density.chooser() > 0.0).then(|| BsdfSample {
+        (density.hero() > 0.0).then(|| BsdfSample {
             wi,
             value: self.model.eval(wo, wi, mode),
-            chance: Chance::Continuous(density),
+            chance: SamplePdf::Continuous(density),
             eta: 1.0,
-            passes: false,
+            is_null: false,
         })
     }
     fn has_continuous(&self) -> bool {
@@ -96,11 +106,11 @@ impl<B: Bsdf> Bsdf for Scripted<B> {
     fn hemisphere(&self) -> Option<Frame> {
         self.model.hemisphere()
     }
-    fn passing(&self) -> Vec4 {
-        self.model.passing()
+    fn null_transmittance(&self) -> Vec4 {
+        self.model.null_transmittance()
     }
-    fn passing_probability(&self) -> Vec4 {
-        self.model.passing_probability()
+    fn null_probability(&self) -> Vec4 {
+        self.model.null_probability()
     }
     fn albedo(&self, wo: Vec3) -> Vec4 {
         self.model.albedo(wo)
@@ -166,8 +176,8 @@ impl<'s, W: World> Script<'s, W> {
     }
 
     /// Which surface of the path a vertex is, counted as nodes are.
-    fn node(&self, vertex: &Vertex) -> Option<usize> {
-        let same = |v: &Vertex| v.position == vertex.position;
+    fn node(&self, vertex: &SurfaceInteraction) -> Option<usize> {
+        let same = |v: &SurfaceInteraction| v.position == vertex.position;
         self.course.surfaces.iter().position(same).map(|at| at + 1)
     }
 }
@@ -200,13 +210,13 @@ impl<'s, W: World> World for Script<'s, W> {
             slot: to as u32,
         })
     }
-    fn vertex(&self, _: &Ray, hit: &Hit) -> Vertex {
+    fn vertex(&self, _: &Ray, hit: &Hit) -> SurfaceInteraction {
         match (hit.slot, self.course.lamp) {
             (0, Some(lamp)) => lamp,
             (node, _) => self.course.surfaces[node as usize - 1],
         }
     }
-    fn passage(&self, ray: &Ray, _: &Wavelengths, _: u32) -> Option<Passage> {
+    fn transmittance(&self, ray: &Ray, _: &Wavelengths, _: u32) -> Option<Transmission> {
         let [_, to] = self.between(ray)?;
         let arrives = match self.course.position(to) {
             None => ray.t_max.is_infinite(),
@@ -214,9 +224,14 @@ impl<'s, W: World> World for Script<'s, W> {
             Some(_) if to > self.course.surfaces.len() => true,
             Some(at) => ray.at(ray.t_max).distance_squared(at) < 1e-4,
         };
-        arrives.then_some(Passage::FREE)
+        arrives.then_some(Transmission::FREE)
     }
-    fn bsdf(&self, vertex: &Vertex, wo: Vec3, wavelengths: &Wavelengths) -> Self::Bsdf<'_> {
+    fn bsdf(
+        &self,
+        vertex: &SurfaceInteraction,
+        wo: Vec3,
+        wavelengths: &Wavelengths,
+    ) -> Self::Bsdf<'_> {
         let course = self.course;
         let node = self.node(vertex);
         let wi = node.map(|node| {
@@ -229,7 +244,7 @@ impl<'s, W: World> World for Script<'s, W> {
             sharp: node.is_some_and(|node| course.sharp[node - 1]),
         }
     }
-    fn emitted(&self, vertex: &Vertex, wo: Vec3, wavelengths: &Wavelengths) -> Vec4 {
+    fn emitted(&self, vertex: &SurfaceInteraction, wo: Vec3, wavelengths: &Wavelengths) -> Vec4 {
         match self.node(vertex) {
             Some(_) => Vec4::ZERO,
             None => self.shining(self.world.emitted(vertex, wo, wavelengths), wavelengths),
@@ -239,7 +254,7 @@ impl<'s, W: World> World for Script<'s, W> {
         hit.slot == 0
     }
     fn background(&self, direction: Vec3, wavelengths: &Wavelengths) -> Vec4 {
-        let sky = self.course.start.origin == Origin::Sky
+        let sky = self.course.start.origin == LightKind::Sky
             && direction.dot(-self.course.start.ray.direction) > 0.9999;
         if !sky {
             return Vec4::ZERO;
@@ -251,7 +266,7 @@ impl<'s, W: World> World for Script<'s, W> {
     }
     fn sample_light(
         &self,
-        from: &Receiver,
+        from: &LightSampleContext,
         wavelengths: &Wavelengths,
         _: f32,
         _: Vec2,
@@ -262,24 +277,28 @@ impl<'s, W: World> World for Script<'s, W> {
         }
         let start = &course.start;
         let direction = course.direction(1, 0);
-        let atom = || Chance::Discrete(Atom(Vec4::splat(world.sampled_density(from, start))));
+        let atom = || {
+            SamplePdf::Discrete(DeltaProbability(Vec4::splat(
+                world.light_sample_density(from, start),
+            )))
+        };
         // A light without extent: its intensity, or irradiance.
         let density = start.density;
         let power = self.in_order(start.weight, wavelengths) * density.origin * density.ray;
         let (target, radiance, chance, cos) = match (start.origin, &course.lamp) {
-            (Origin::Surface, Some(lamp)) => (
+            (LightKind::Surface, Some(lamp)) => (
                 Some(lamp.origin_toward(from.position)),
                 world.emitted(lamp, -direction, wavelengths),
-                Chance::Continuous(world.light_density(from, lamp, direction)),
+                SamplePdf::Continuous(world.light_density(from, lamp, direction)),
                 lamp.normal.dot(direction).abs(),
             ),
-            (Origin::Sky, _) => (
+            (LightKind::Sky, _) => (
                 None,
                 world.background(direction, wavelengths),
-                Chance::Continuous(world.background_density(from, direction)),
+                SamplePdf::Continuous(world.background_density(from, direction)),
                 1.0,
             ),
-            (Origin::Parallel, _) => (None, power, atom(), 1.0),
+            (LightKind::Parallel, _) => (None, power, atom(), 1.0),
             _ => {
                 let at = start.point.position;
                 let radiance = power / at.distance_squared(from.position);
@@ -297,7 +316,7 @@ impl<'s, W: World> World for Script<'s, W> {
             light: start.light,
         })
     }
-    fn light_variety(&self, from: &Receiver) -> LightVariety {
+    fn light_variety(&self, from: &LightSampleContext) -> LightVariety {
         self.world.light_variety(from)
     }
 
@@ -307,16 +326,25 @@ impl<'s, W: World> World for Script<'s, W> {
     fn sample_one_light(
         &self,
         _: LightId,
-        _: &Receiver,
+        _: &LightSampleContext,
         _: &Wavelengths,
         _: Vec2,
     ) -> Option<LightSample> {
         None
     }
-    fn light_density(&self, from: &Receiver, at: &Vertex, direction: Vec3) -> Density<SolidAngle> {
+    fn light_density(
+        &self,
+        from: &LightSampleContext,
+        at: &SurfaceInteraction,
+        direction: Vec3,
+    ) -> Density<SolidAngle> {
         self.world.light_density(from, at, direction)
     }
-    fn background_density(&self, from: &Receiver, direction: Vec3) -> Density<SolidAngle> {
+    fn background_density(
+        &self,
+        from: &LightSampleContext,
+        direction: Vec3,
+    ) -> Density<SolidAngle> {
         self.world.background_density(from, direction)
     }
     fn emit(&self, wavelengths: &Wavelengths, _: f32, _: Vec2, _: Vec2) -> Option<Emission> {
@@ -328,14 +356,14 @@ impl<'s, W: World> World for Script<'s, W> {
             ..self.course.start
         })
     }
-    fn emission_density(&self, light: LightId, direction: Vec3, cos: f32) -> EmissionDensity {
+    fn emission_density(&self, light: LightId, direction: Vec3, cos: f32) -> EmissionPdf {
         self.world.emission_density(light, direction, cos)
     }
-    fn background_emission_density(&self, direction: Vec3) -> EmissionDensity {
+    fn background_emission_density(&self, direction: Vec3) -> EmissionPdf {
         self.world.background_emission_density(direction)
     }
-    fn sampled_density(&self, from: &Receiver, start: &Emission) -> f32 {
-        self.world.sampled_density(from, start)
+    fn light_sample_density(&self, from: &LightSampleContext, start: &Emission) -> f32 {
+        self.world.light_sample_density(from, start)
     }
     fn take_ray_count(&self) -> u64 {
         0

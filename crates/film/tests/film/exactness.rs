@@ -3,7 +3,7 @@
 use etalon_film::{
     ExactFilm, FilmSettings, Filter, FilterMethod, Lanczos, PixelFormat, RenderFacts,
 };
-use etalon_sampling::{PixelSample, Sampler, Sobol};
+use etalon_sampling::{SampleId, Sampler, Sobol};
 use etalon_transport::{Channel, Film, Placing, Sink, TileSink};
 use glam::UVec2;
 use proptest::prelude::*;
@@ -30,7 +30,7 @@ fn film(filter_method: FilterMethod) -> ExactFilm {
 /// A synthetic estimator that uses everything a sink offers.
 fn sample(film: &ExactFilm, tile: &mut impl TileSink, replicate: u32, pixel: UVec2) {
     for sample in 0..SAMPLES {
-        let mut sampler = Sobol::start(&PixelSample {
+        let mut sampler = Sobol::start(&SampleId {
             seed: 7,
             replicate,
             pixel: (pixel.x, pixel.y),

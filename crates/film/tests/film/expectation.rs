@@ -5,7 +5,7 @@ use etalon_film::{
     Mitchell, PixelFilter, RenderFacts, Tent,
 };
 use etalon_math::float64;
-use etalon_sampling::{PixelSample, Sampler, SamplerKind};
+use etalon_sampling::{SampleId, Sampler, SamplerKind};
 use etalon_transport::{Film, Placing, Sink, TileSink};
 use glam::{DVec2, IVec2, UVec2, Vec2};
 
@@ -94,7 +94,7 @@ fn estimate(
                 continue;
             }
             for sample in 0..samples {
-                let mut sampler = kind.start(&PixelSample {
+                let mut sampler = kind.start(&SampleId {
                     seed: 3,
                     replicate,
                     pixel: pixel.into(),
@@ -205,7 +205,7 @@ fn a_constant_stays_constant() {
             let mut tile = film.tile(from, to, false);
             for pixel in (from.y..to.y).flat_map(|y| (from.x..to.x).map(move |x| (x, y))) {
                 for sample in 0..samples {
-                    let mut sampler = SamplerKind::Sobol.start(&PixelSample {
+                    let mut sampler = SamplerKind::Sobol.start(&SampleId {
                         seed: 5,
                         replicate: 0,
                         pixel,

@@ -1,7 +1,7 @@
 //! Pictures to EXR files and back, and files that lie.
 
 use etalon_film::{
-    Developed, ExactFilm, FilmSettings, Filter, Metadata, PixelFormat, ReadError, RenderFacts,
+    ExactFilm, FilmSettings, Filter, Metadata, PixelFormat, ReadError, RenderFacts, RenderedImage,
     read_developed,
 };
 use etalon_images::{Frame, Image, exr};
@@ -11,7 +11,7 @@ use glam::UVec2;
 use proptest::prelude::*;
 use proptest::test_runner::RngSeed;
 
-fn developed(replicates: u32, seconds: Option<f64>) -> Developed {
+fn developed(replicates: u32, seconds: Option<f64>) -> RenderedImage {
     let settings = FilmSettings {
         pixel_format: PixelFormat::Rgba,
         crop_offset: UVec2::new(4, 3),

@@ -2,8 +2,8 @@
 //! merged, the picture is the unsplit one to the bit. And files of parts that lie.
 
 use etalon_film::{
-    Conflict, Developed, EXACT, ExactFilm, FilmSettings, Filter, Metadata, Part, PixelFormat,
-    RenderFacts, disagreements, read_developed,
+    Conflict, EXACT, ExactFilm, FilmSettings, Filter, Metadata, Part, PixelFormat, RenderFacts,
+    RenderedImage, disagreements, read_developed,
 };
 use etalon_images::exr;
 use etalon_sampling::ReplicateKind;
@@ -79,8 +79,8 @@ fn decode(bytes: &[u8]) -> Result<Part, String> {
 }
 
 /// Whether two pictures are equal in every bit of every channel, and in what they say.
-fn same(a: &Developed, b: &Developed) -> bool {
-    let bits = |picture: &Developed| {
+fn same(a: &RenderedImage, b: &RenderedImage) -> bool {
+    let bits = |picture: &RenderedImage| {
         let channels = picture.image.channels().iter();
         let bits = channels.map(|channel| {
             let samples = channel
@@ -92,11 +92,11 @@ fn same(a: &Developed, b: &Developed) -> bool {
         });
         bits.collect::<Vec<_>>()
     };
-    let said = |picture: &Developed| picture.metadata.as_ref().map(Metadata::to_json);
+    let said = |picture: &RenderedImage| picture.metadata.as_ref().map(Metadata::to_json);
     bits(a) == bits(b) && said(a) == said(b) && a.frame == b.frame
 }
 
-fn unsplit() -> Developed {
+fn unsplit() -> RenderedImage {
     film(0, OF, 5).develop(facts(5))
 }
 

@@ -1,7 +1,8 @@
 //! Means, standard errors, tile means and faults against plain arithmetic on the same numbers.
 
 use etalon_film::{
-    BoxFilter, Developed, ExactFilm, FaultKind, FilmSettings, Filter, PixelFormat, RenderFacts,
+    BoxFilter, ExactFilm, FilmSettings, Filter, InvalidKind, PixelFormat, RenderFacts,
+    RenderedImage,
 };
 use etalon_math::float64;
 use etalon_sampling::hash::{mix64, random_float};
@@ -40,7 +41,7 @@ fn feed(
     }
 }
 
-fn develop(film: &ExactFilm) -> Developed {
+fn develop(film: &ExactFilm) -> RenderedImage {
     film.develop(RenderFacts::default())
 }
 
@@ -239,7 +240,7 @@ fn bad_numbers_are_counted_and_left_out() {
     let first = &faults.first[0];
     assert_eq!(
         (first.pixel, first.sample, first.kind),
-        ([2, 1], Some(1), FaultKind::Nan)
+        ([2, 1], Some(1), InvalidKind::Nan)
     );
     assert_eq!(first.source, "radiance");
     assert_eq!(faults.first[3].source, "depth.T");

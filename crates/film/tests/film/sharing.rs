@@ -4,7 +4,7 @@ use crate::expectation::sources;
 use etalon_film::{
     CheckpointFacts, ExactFilm, FilmSettings, Filter, FilterMethod, Part, RenderFacts, SampleCounts,
 };
-use etalon_sampling::{Independent, PixelSample, Sampler, stratified_pair};
+use etalon_sampling::{Independent, SampleId, Sampler, stratified_pair};
 use etalon_transport::{Film, Placing, Sink, TileSink};
 use glam::{IVec2, UVec2, Vec2};
 use std::io::Cursor;
@@ -45,7 +45,7 @@ fn draw(
     for (pixel, done) in own.into_iter().zip(done) {
         let dealt = film.dealt(pixel, 4);
         for sample in done..until(near(&pixel), dealt) {
-            let address = PixelSample {
+            let address = SampleId {
                 seed: 1,
                 replicate,
                 pixel: pixel.into(),
@@ -159,7 +159,7 @@ fn uneven_numbers_make_the_same_picture() {
             film.develop(facts())
         };
         let [even, uneven] = [false, true].map(made);
-        let of = |developed: &etalon_film::Developed| {
+        let of = |developed: &etalon_film::RenderedImage| {
             let image = &developed.image;
             let means = image.channel("R").expect("red").to_vec();
             let errors = developed.standard_error("R").expect("replicates").to_vec();

@@ -1,6 +1,6 @@
 //! Up to eight triangles, intersected at once.
 //!
-//! The watertight test of Woop, Benthin & Wald (2013), see [`Probe`]: with sheared corners A, B,
+//! The watertight test of Woop, Benthin & Wald (2013), see [`TraversalRay`]: with sheared corners A, B,
 //! C relative to the ray, the edge functions
 //!
 //! ```text
@@ -13,11 +13,11 @@
 //! neighbour gives exactly the opposite number; where one is zero all three are taken again in
 //! double precision, where the products are exact. Zero counts as inside for both neighbours.
 //!
-//! A hit nearer than [`Probe::near`] is checked against a bound on the error of t (Pharr, Jakob,
+//! A hit nearer than [`TraversalRay::near`] is checked against a bound on the error of t (Pharr, Jakob,
 //! Humphreys 2023, section 6.8.7), so that a ray never hits the triangle that it leaves.
 
-use crate::nearest::Nearest;
-use crate::probe::Probe;
+use crate::closest_hit::ClosestHit;
+use crate::traversal_ray::TraversalRay;
 use etalon_math::gamma;
 use glam::{Vec2, Vec3};
 use wide::f32x8;
@@ -80,7 +80,7 @@ impl Block {
 
     // Written out: `map` over arrays of vectors is not reliably inlined.
     #[inline(always)]
-    fn candidates(&self, probe: &Probe, t_max: f32) -> Option<Candidates> {
+    fn candidates(&self, probe: &TraversalRay, t_max: f32) -> Option<Candidates> {
         let [kx, ky, kz] = probe.k;
         let (kx, ky, kz) = (kx.min(2), ky.min(2), kz.min(2));
         let ox = f32x8::splat(probe.permuted[0]);
@@ -139,7 +139,7 @@ impl Block {
 
     /// Whether the hit of `lane` at `t` is ahead of the ray's origin beyond doubt.
     #[inline(always)]
-    fn is_ahead(&self, probe: &Probe, lane: usize, candidates: &Candidates) -> bool {
+    fn is_ahead(&self, probe: &TraversalRay, lane: usize, candidates: &Candidates) -> bool {
         let kz = probe.k[2].min(2);
         let scale = probe.shear[2];
         let depth =
@@ -151,7 +151,7 @@ impl Block {
 
     /// Whether t exceeds the bound on its error.
     #[inline(never)]
-    fn is_far_enough(&self, probe: &Probe, lane: usize, candidates: &Candidates) -> bool {
+    fn is_far_enough(&self, probe: &TraversalRay, lane: usize, candidates: &Candidates) -> bool {
         let [kx, ky, kz] = probe.k;
         let along = |corner: usize, axis: usize, origin: f32| {
             self.corners[corner][axis.min(2)].as_array()[lane] - origin
@@ -182,7 +182,7 @@ impl Block {
     /// Notes the nearest triangle that the ray hits, if it wins over what is known; this is block
     /// number `index`.
     #[inline(always)]
-    pub(crate) fn intersect(&self, index: usize, probe: &Probe, nearest: &mut Nearest) {
+    pub(crate) fn intersect(&self, index: usize, probe: &TraversalRay, nearest: &mut ClosestHit) {
         let Some(candidates) = self.candidates(probe, nearest.t) else {
             return;
         };
@@ -203,7 +203,7 @@ impl Block {
 
     /// Whether the ray hits any triangle before `t_max`.
     #[inline(always)]
-    pub(crate) fn occludes(&self, probe: &Probe, t_max: f32) -> bool {
+    pub(crate) fn occludes(&self, probe: &TraversalRay, t_max: f32) -> bool {
         let Some(candidates) = self.candidates(probe, t_max) else {
             return false;
         };

@@ -1,9 +1,9 @@
 //! No acceleration: every ray is tested against every primitive. The oracle of the others.
 
 use super::block::{Block, LANES};
-use super::{Others, Primitives, block_bytes, has_area};
-use crate::nearest::Nearest;
-use crate::probe::Probe;
+use super::{CustomPrimitives, Primitives, block_bytes, has_area};
+use crate::closest_hit::ClosestHit;
+use crate::traversal_ray::TraversalRay;
 
 /// All primitives in their order.
 #[derive(Debug)]
@@ -33,7 +33,12 @@ impl Linear {
     }
 
     #[inline]
-    pub(crate) fn intersect(&self, probe: &Probe, others: &impl Others, nearest: &mut Nearest) {
+    pub(crate) fn intersect(
+        &self,
+        probe: &TraversalRay,
+        others: &impl CustomPrimitives,
+        nearest: &mut ClosestHit,
+    ) {
         for (index, block) in self.blocks.iter().enumerate() {
             block.intersect(index, probe, nearest);
         }
@@ -43,7 +48,12 @@ impl Linear {
     }
 
     #[inline]
-    pub(crate) fn occluded(&self, probe: &Probe, others: &impl Others, t_max: f32) -> bool {
+    pub(crate) fn occluded(
+        &self,
+        probe: &TraversalRay,
+        others: &impl CustomPrimitives,
+        t_max: f32,
+    ) -> bool {
         self.blocks.iter().any(|block| block.occludes(probe, t_max))
             || self
                 .others

@@ -2,7 +2,7 @@
 
 use super::Bounds;
 use super::collapse::WIDTH;
-use crate::probe::Probe;
+use crate::traversal_ray::TraversalRay;
 use wide::f32x8;
 
 /// What a node points to, in 32 bits.
@@ -81,9 +81,9 @@ impl Node {
     }
 
     /// The lanes whose boxes the ray enters before `t_max`, and where. Conservative, see
-    /// [`Probe::new`]; the factor covers the relative rounding of 1/d and of t itself.
+    /// [`TraversalRay::new`]; the factor covers the relative rounding of 1/d and of t itself.
     #[inline(always)]
-    pub(super) fn entered(&self, probe: &Probe, t_max: f32) -> (u32, f32x8) {
+    pub(super) fn entered(&self, probe: &TraversalRay, t_max: f32) -> (u32, f32x8) {
         const OUTWARD: f32 = 1.0 + 4.0 * f32::EPSILON;
         let enter = |axis: usize| {
             self.planes[axis][probe.sign[axis] & 1].mul_sub(

@@ -7,9 +7,9 @@ use super::binary::{Binary, BinaryTree};
 use super::block::{Block, LANES};
 use super::collapse::{self, Choices, WIDTH};
 use super::node::{Link, MAX_INDEX, Node, Target};
-use super::{Bounds, Others, Primitives, block_bytes};
-use crate::nearest::Nearest;
-use crate::probe::Probe;
+use super::{Bounds, CustomPrimitives, Primitives, block_bytes};
+use crate::closest_hit::ClosestHit;
+use crate::traversal_ray::TraversalRay;
 use core::hint::black_box;
 use rayon::prelude::*;
 
@@ -189,7 +189,12 @@ impl Wide {
 
     /// Notes the nearest hit, if it wins over what is known.
     #[inline]
-    pub(crate) fn intersect(&self, probe: &Probe, others: &impl Others, nearest: &mut Nearest) {
+    pub(crate) fn intersect(
+        &self,
+        probe: &TraversalRay,
+        others: &impl CustomPrimitives,
+        nearest: &mut ClosestHit,
+    ) {
         match self.depth {
             depth if depth <= SMALL_DEPTH => {
                 self.find_nearest::<SMALL_STACK>(probe, others, nearest)
@@ -203,7 +208,12 @@ impl Wide {
 
     /// Whether anything is hit before `t_max`.
     #[inline]
-    pub(crate) fn occluded(&self, probe: &Probe, others: &impl Others, t_max: f32) -> bool {
+    pub(crate) fn occluded(
+        &self,
+        probe: &TraversalRay,
+        others: &impl CustomPrimitives,
+        t_max: f32,
+    ) -> bool {
         match self.depth {
             depth if depth <= SMALL_DEPTH => self.find_any::<SMALL_STACK>(probe, others, t_max),
             depth if depth <= MEDIUM_DEPTH => self.find_any::<MEDIUM_STACK>(probe, others, t_max),
@@ -214,9 +224,9 @@ impl Wide {
     #[inline]
     fn find_nearest<const STACK: usize>(
         &self,
-        probe: &Probe,
-        others: &impl Others,
-        nearest: &mut Nearest,
+        probe: &TraversalRay,
+        others: &impl CustomPrimitives,
+        nearest: &mut ClosestHit,
     ) {
         let Some(root) = self.root else { return };
         // The black boxes below keep the compiler from spreading every number of the probe over
@@ -301,8 +311,8 @@ impl Wide {
     #[inline]
     fn find_any<const STACK: usize>(
         &self,
-        probe: &Probe,
-        others: &impl Others,
+        probe: &TraversalRay,
+        others: &impl CustomPrimitives,
         t_max: f32,
     ) -> bool {
         let Some(root) = self.root else { return false };

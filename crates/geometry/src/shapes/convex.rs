@@ -5,9 +5,9 @@
 //! the same watertight test (Woop, Benthin & Wald 2013), in double precision. A line crosses a
 //! convex mesh twice at most.
 
+use crate::local_interaction::LocalInteraction;
 use crate::shapes::mesh::Mesh;
 use crate::shapes::solid::Solid;
-use crate::surface::Surface;
 use glam::{DVec3, Vec2};
 
 /// The most triangles for which this is worth while.
@@ -70,11 +70,11 @@ impl Mesh {
     }
 
     /// The point of a triangle, with the depth of its plane.
-    pub(crate) fn with_depth(&self, primitive: u32, surface: Surface) -> Surface {
+    pub(crate) fn with_depth(&self, primitive: u32, surface: LocalInteraction) -> LocalInteraction {
         let [a, b, c] = self.exact_corners(primitive);
         let normal = (b - a).cross(c - a).normalize();
         let outward = normal * normal.dot(surface.normal.as_dvec3()).signum();
-        Surface {
+        LocalInteraction {
             depth: outward.dot(a - surface.position.as_dvec3()) as f32,
             ..surface
         }
@@ -97,7 +97,7 @@ impl Solid for Mesh {
         }
     }
 
-    fn surface_near(&self, p: DVec3) -> Surface {
+    fn surface_near(&self, p: DVec3) -> LocalInteraction {
         let (primitive, b) = self.place_near(p);
         self.with_depth(primitive, self.surface(primitive, b))
     }

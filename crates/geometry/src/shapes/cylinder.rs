@@ -7,10 +7,10 @@
 //! x̂ and ŷ are the frame that [`Frame::from_normal`](etalon_math::Frame::from_normal) builds
 //! around the axis, carried along by `to_world`.
 
+use crate::local_interaction::LocalInteraction;
 use crate::placement::{Placement, perpendicular};
 use crate::shapes::model::ShapeModel;
 use crate::shapes::solid::{Solid, read_flip};
-use crate::surface::Surface;
 use core::f64::consts::TAU;
 use etalon_math::{Frame, float64};
 use etalon_params::Params;
@@ -84,7 +84,7 @@ impl Cylinder {
     }
 
     /// The point at the direction `across` (unit) from the axis, at the fraction `v` along it.
-    fn surface(&self, across: DVec2, v: f64) -> Surface {
+    fn surface(&self, across: DVec2, v: f64) -> LocalInteraction {
         let phi = float64::atan2(across.y, across.x);
         let u = if phi < 0.0 {
             phi / TAU + 1.0
@@ -93,7 +93,7 @@ impl Cylinder {
         };
         let normal = self.x * across.x + self.y * across.y;
         let along = self.z * self.length;
-        Surface::exact(
+        LocalInteraction::exact(
             self.start + normal * self.radius + along * v,
             normal,
             DVec2::new(u, v).as_vec2(),
@@ -157,7 +157,7 @@ impl Solid for Cylinder {
         }
     }
 
-    fn surface_near(&self, p: DVec3) -> Surface {
+    fn surface_near(&self, p: DVec3) -> LocalInteraction {
         let local = self.local(p - self.start);
         let across = local.truncate().try_normalize().unwrap_or(DVec2::X);
         self.surface(across, (local.z / self.length).clamp(0.0, 1.0))

@@ -6,10 +6,10 @@
 //!
 //! with c, a, b the images of the origin and of the x and y axes.
 
+use crate::local_interaction::LocalInteraction;
 use crate::placement::Placement;
 use crate::shapes::model::ShapeModel;
 use crate::shapes::solid::{Solid, read_flip};
-use crate::surface::Surface;
 use core::f64::consts::{PI, TAU};
 use etalon_math::{DirectionCone, float64};
 use etalon_params::Params;
@@ -70,7 +70,7 @@ impl Disk {
     }
 
     /// The point with coordinates `xy` in the shape's own plane.
-    fn surface(&self, xy: DVec2) -> Surface {
+    fn surface(&self, xy: DVec2) -> LocalInteraction {
         let r = xy.length();
         let (cos, sin) = if r > 0.0 {
             (xy.x / r, xy.y / r)
@@ -83,7 +83,7 @@ impl Disk {
         } else {
             phi / TAU
         };
-        Surface::exact(
+        LocalInteraction::exact(
             self.center + self.a * xy.x + self.b * xy.y,
             self.normal,
             DVec2::new(r, v).as_vec2(),
@@ -127,7 +127,7 @@ impl Solid for Disk {
         [if inside { t } else { f64::NAN }, f64::NAN]
     }
 
-    fn surface_near(&self, p: DVec3) -> Surface {
+    fn surface_near(&self, p: DVec3) -> LocalInteraction {
         self.surface(self.coordinates(p))
     }
 

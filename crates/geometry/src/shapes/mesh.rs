@@ -13,8 +13,8 @@
 //! Texture coordinates give ∂p/∂u and ∂p/∂v; without them (u, v) = (b₁, b₂).
 
 use crate::accelerator::Bounds;
+use crate::local_interaction::LocalInteraction;
 use crate::placement::Placement;
-use crate::surface::Surface;
 use etalon_math::{DirectionCone, Frame, cross, gamma};
 use etalon_sampling::discrete::AliasTable;
 use etalon_transport::{Attribute, MeshData};
@@ -182,7 +182,7 @@ impl Mesh {
     /// The surface point with barycentric coordinates `b` of a triangle's second and third
     /// corner.
     #[inline(always)] // Lights that are sampled need little of it.
-    pub(crate) fn surface(&self, primitive: u32, b: Vec2) -> Surface {
+    pub(crate) fn surface(&self, primitive: u32, b: Vec2) -> LocalInteraction {
         self.surface_between(self.corners(primitive), primitive, b)
     }
 
@@ -193,7 +193,7 @@ impl Mesh {
         [p0, p1, p2]: [Vec3; 3],
         primitive: u32,
         b: Vec2,
-    ) -> Surface {
+    ) -> LocalInteraction {
         let b0 = 1.0 - b.x - b.y;
         let position = p0 * b0 + p1 * b.x + p2 * b.y;
         // Seven roundings (Pharr, Jakob, Humphreys 2023, section 6.8.5); and the next ray's
@@ -228,7 +228,7 @@ impl Mesh {
                 (uv, frame.s, frame.t)
             }
         };
-        Surface {
+        LocalInteraction {
             position,
             error,
             depth: f32::NAN,

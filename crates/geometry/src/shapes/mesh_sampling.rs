@@ -5,7 +5,7 @@ use crate::shapes::mesh::Mesh;
 use crate::shapes::model::ShapeModel;
 use etalon_math::DirectionCone;
 use etalon_sampling::warps::{SphericalTriangle, square_to_triangle};
-use etalon_transport::{Receiver, SampledPoint, SurfacePoint};
+use etalon_transport::{LightSampleContext, SampledPoint, SurfacePoint};
 use glam::{Vec2, Vec3};
 
 impl Mesh {
@@ -51,7 +51,7 @@ impl ShapeModel for Mesh {
     }
 
     #[inline]
-    fn sample_toward(&self, from: &Receiver, u: Vec2) -> Option<SampledPoint> {
+    fn sample_toward(&self, from: &LightSampleContext, u: Vec2) -> Option<SampledPoint> {
         let choice = self.by_area()?.sample_fine(u);
         let primitive = choice.index as u32;
         let u = Vec2::new(choice.rest, u.y);
@@ -68,7 +68,7 @@ impl ShapeModel for Mesh {
         })
     }
 
-    fn density_toward(&self, from: &Receiver, at: &SurfacePoint) -> f32 {
+    fn density_toward(&self, from: &LightSampleContext, at: &SurfacePoint) -> f32 {
         let primitive = at.texture.primitive;
         match (self.by_area(), self.seen(primitive, from.position)) {
             (Some(by_area), Some(seen)) => by_area.probability(primitive as usize) * seen.density(),

@@ -1,10 +1,10 @@
 //! What a shape is asked, with the answers that most of them share.
 
+use crate::local_interaction::LocalInteraction;
 use crate::shapes::mesh::Mesh;
 use crate::shapes::solid::Solid;
-use crate::surface::Surface;
 use etalon_math::DirectionCone;
-use etalon_transport::{Receiver, SampledPoint, SurfacePoint};
+use etalon_transport::{LightSampleContext, SampledPoint, SurfacePoint};
 use glam::{Vec2, Vec3};
 
 /// A shape: triangles ([`ShapeModel::mesh`]) or one smooth piece ([`ShapeModel::solid`]).
@@ -36,7 +36,7 @@ pub(crate) trait ShapeModel {
         primitive: u32,
         b: Vec2,
         corners: impl FnOnce() -> [Vec3; 3],
-    ) -> Option<Surface> {
+    ) -> Option<LocalInteraction> {
         Some(self.mesh()?.surface_between(corners(), primitive, b))
     }
 
@@ -57,7 +57,7 @@ pub(crate) trait ShapeModel {
     /// A point chosen for a receiver, with its density per unit solid angle there, which is not finite
     /// or 0 where it is seen edge-on.
     #[inline]
-    fn sample_toward(&self, from: &Receiver, u: Vec2) -> Option<SampledPoint> {
+    fn sample_toward(&self, from: &LightSampleContext, u: Vec2) -> Option<SampledPoint> {
         let point = self.sample_area(u)?;
         let density = self.area_density_toward(from.position, &point);
         Some(SampledPoint { point, density })
@@ -65,7 +65,7 @@ pub(crate) trait ShapeModel {
 
     /// The density of [`ShapeModel::sample_toward`] at a point of this shape.
     #[inline]
-    fn density_toward(&self, from: &Receiver, at: &SurfacePoint) -> f32 {
+    fn density_toward(&self, from: &LightSampleContext, at: &SurfacePoint) -> f32 {
         self.area_density_toward(from.position, at)
     }
 

@@ -9,15 +9,17 @@
 //! over it than that follows sees it by solid angle (Ureña, Fajardo & King 2013), unless
 //! `to_world` shears it into a parallelogram.
 
+use crate::local_interaction::LocalInteraction;
 use crate::placement::{Placement, perpendicular};
 use crate::shapes::mesh::{Mesh, MeshOptions};
 use crate::shapes::model::ShapeModel;
 use crate::shapes::solid::{read_face_normals, read_flip};
-use crate::surface::Surface;
 use etalon_math::{DirectionCone, Frame, gamma};
 use etalon_params::Params;
 use etalon_sampling::warps::{RectangleSides, RectangleView, SphericalRectangle};
-use etalon_transport::{MeshData, Receiver, SampledPoint, ShapeId, SurfacePoint, TexturePoint};
+use etalon_transport::{
+    LightSampleContext, MeshData, SampledPoint, ShapeId, SurfacePoint, TexturePoint,
+};
 use glam::{BVec2, DVec3, Vec2, Vec3};
 
 /// A rectangle or parallelogram.
@@ -97,9 +99,9 @@ impl Rectangle {
     /// The surface point with barycentric coordinates `b` of a triangle's second and third
     /// corner. Nearly all of it is the same everywhere.
     #[inline]
-    pub(crate) fn surface(&self, primitive: u32, b: Vec2) -> Surface {
+    pub(crate) fn surface(&self, primitive: u32, b: Vec2) -> LocalInteraction {
         let uv = if primitive == 0 { b } else { 1.0 - b };
-        Surface {
+        LocalInteraction {
             position: self.corner + self.edges[0] * uv.x + self.edges[1] * uv.y,
             error: self.error,
             depth: f32::NAN,
@@ -130,7 +132,7 @@ impl Rectangle {
     }
 
     #[inline]
-    fn seen_from(&self, from: &Receiver) -> View {
+    fn seen_from(&self, from: &LightSampleContext) -> View {
         let corner = self.corner - from.position;
         if self.right_angled
             && self.sides.is_near(corner)
@@ -159,7 +161,12 @@ impl ShapeModel for Rectangle {
     }
 
     #[inline]
-    fn triangle(&self, primitive: u32, b: Vec2, _: impl FnOnce() -> [Vec3; 3]) -> Option<Surface> {
+    fn triangle(
+        &self,
+        primitive: u32,
+        b: Vec2,
+        _: impl FnOnce() -> [Vec3; 3],
+    ) -> Option<LocalInteraction> {
         Some(self.surface(primitive, b))
     }
 
@@ -176,7 +183,7 @@ impl ShapeModel for Rectangle {
     }
 
     #[inline]
-    fn sample_toward(&self, from: &Receiver, u: Vec2) -> Option<SampledPoint> {
+    fn sample_toward(&self, from: &LightSampleContext, u: Vec2) -> Option<SampledPoint> {
         Some(match self.seen_from(from) {
             View::Near(seen) => SampledPoint {
                 point: self.at(seen.sample_position(u)),
@@ -194,7 +201,7 @@ impl ShapeModel for Rectangle {
         })
     }
 
-    fn density_toward(&self, from: &Receiver, at: &SurfacePoint) -> f32 {
+    fn density_toward(&self, from: &LightSampleContext, at: &SurfacePoint) -> f32 {
         match self.seen_from(from) {
             View::Near(seen) => seen.density(),
             View::Far(view) => {

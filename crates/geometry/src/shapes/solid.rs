@@ -1,6 +1,6 @@
 //! What a shape in one smooth piece can do, as opposed to a mesh of triangles.
 
-use crate::surface::Surface;
+use crate::local_interaction::LocalInteraction;
 use etalon_params::Params;
 use glam::DVec3;
 
@@ -24,7 +24,7 @@ pub(crate) trait Solid {
     }
 
     /// The surface point at `p`, which is on the surface up to rounding; `p` is projected first.
-    fn surface_near(&self, p: DVec3) -> Surface;
+    fn surface_near(&self, p: DVec3) -> LocalInteraction;
 
     /// The smallest axis-parallel box that holds the shape.
     fn bounds(&self) -> [DVec3; 2];

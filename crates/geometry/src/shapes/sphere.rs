@@ -8,15 +8,15 @@
 //! ray's closest approach and the product of the roots from (|o − c| − R)(|o − c| + R), which
 //! loses nothing for far origins or for origins on the surface.
 
+use crate::local_interaction::LocalInteraction;
 use crate::placement::{Placement, perpendicular};
 use crate::shapes::model::ShapeModel;
 use crate::shapes::solid::{Solid, read_flip};
-use crate::surface::Surface;
 use core::f64::consts::{PI, TAU};
 use etalon_math::float64;
 use etalon_params::Params;
 use etalon_sampling::warps::{SphereCone, square_to_uniform_sphere};
-use etalon_transport::{Receiver, SampledPoint, SurfacePoint};
+use etalon_transport::{LightSampleContext, SampledPoint, SurfacePoint};
 use glam::{DMat3, DVec3, Vec2, Vec3};
 
 /// A sphere.
@@ -71,7 +71,7 @@ impl Sphere {
     }
 
     /// The point in the direction `normal` (unit) from the centre.
-    fn surface(&self, normal: DVec3) -> Surface {
+    fn surface(&self, normal: DVec3) -> LocalInteraction {
         let local = self.axes.transpose() * normal;
         let (x, y, z) = (local.x, local.y, local.z);
         let sin = float64::safe_sqrt(x * x + y * y);
@@ -91,7 +91,7 @@ impl Sphere {
         // by the formula and direction by its limit, so that a frame can still be built.
         let dp_du = DVec3::new(-sin_phi, cos_phi, 0.0) * (TAU * sin.max(1e-12));
         let dp_dv = DVec3::new(z * cos_phi, z * sin_phi, -sin) * PI;
-        Surface::exact(
+        LocalInteraction::exact(
             self.center + normal * self.radius,
             normal,
             glam::DVec2::new(u, v).as_vec2(),
@@ -127,7 +127,7 @@ impl ShapeModel for Sphere {
     }
 
     /// By solid angle from outside, by area from inside.
-    fn sample_toward(&self, from: &Receiver, u: Vec2) -> Option<SampledPoint> {
+    fn sample_toward(&self, from: &LightSampleContext, u: Vec2) -> Option<SampledPoint> {
         let Some(cone) = self.cone(from.position) else {
             let point = self.sample_area(u)?;
             let density = self.area_density_toward(from.position, &point);
@@ -139,7 +139,7 @@ impl ShapeModel for Sphere {
         })
     }
 
-    fn density_toward(&self, from: &Receiver, at: &SurfacePoint) -> f32 {
+    fn density_toward(&self, from: &LightSampleContext, at: &SurfacePoint) -> f32 {
         match self.cone(from.position) {
             // From outside, only the near side is ever chosen. The normal tells it even where the
             // position is rounded by more than the radius.
@@ -171,7 +171,7 @@ impl Solid for Sphere {
         if t0 <= t1 { [t0, t1] } else { [t1, t0] }
     }
 
-    fn surface_near(&self, p: DVec3) -> Surface {
+    fn surface_near(&self, p: DVec3) -> LocalInteraction {
         self.surface(
             (p - self.center)
                 .try_normalize()

@@ -6,8 +6,8 @@ use etalon_params::{
     Class, DMat4, DVec3, Diagnostics, FileId, Node, Params, Property, Span, Spanned, Value,
 };
 use etalon_transport::{
-    AssetError, Assets, Build, MeshData, MeshFormat, Ray, Receiver, Role, ShapeId, Shapes,
-    TextureId,
+    AssetError, Assets, Build, LightSampleContext, MeshData, MeshFormat, Ray, ShapeId, Shapes,
+    SpectrumKind, TextureId,
 };
 use glam::{Vec2, Vec3};
 use std::sync::Arc;
@@ -63,10 +63,10 @@ impl Build for Scene {
     fn assets(&self) -> &dyn Assets {
         &Files
     }
-    fn texture(&mut self, _: &Params<'_>, _: &str, _: Option<f64>, _: Role) -> TextureId {
+    fn texture(&mut self, _: &Params<'_>, _: &str, _: Option<f64>, _: SpectrumKind) -> TextureId {
         TextureId::NONE
     }
-    fn nested_texture(&mut self, _: &Arc<Node>, _: Role) -> TextureId {
+    fn nested_texture(&mut self, _: &Arc<Node>, _: SpectrumKind) -> TextureId {
         TextureId::NONE
     }
     fn spectrum(&mut self, _: etalon_spectrum::Spectrum) -> TextureId {
@@ -170,7 +170,7 @@ fn every_plugin_answers_alike() {
                 (on.density * geometry.area(id) - 1.0).abs() < 1e-5,
                 "{plugin}"
             );
-            let from = Receiver::in_space(random.direction() * 3.0);
+            let from = LightSampleContext::in_space(random.direction() * 3.0);
             let toward = geometry.sample_toward(id, &from, random.square());
             for point in toward
                 .iter()

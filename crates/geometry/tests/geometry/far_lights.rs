@@ -5,14 +5,14 @@ use core::f64::consts::PI;
 use etalon_geometry::shapes::{disk::Disk, rectangle::Rectangle, sphere::Sphere};
 use etalon_geometry::{Geometry, Shape};
 use etalon_params::{DMat4, DVec3};
-use etalon_transport::{Ray, Receiver, ShapeId, Shapes, SurfacePoint};
+use etalon_transport::{LightSampleContext, Ray, ShapeId, Shapes, SurfacePoint};
 use glam::{Vec2, Vec3};
 
 const ID: ShapeId = ShapeId(0);
 
 /// A receiver at `at` whose normal is +z.
-fn receiver(at: Vec3) -> Receiver {
-    Receiver::on_surface(at, Vec3::Z)
+fn receiver(at: Vec3) -> LightSampleContext {
+    LightSampleContext::on_surface(at, Vec3::Z)
 }
 
 /// Irradiance at `at` over the radiance of the shape, from sampled points that face it.

@@ -3,7 +3,9 @@
 
 use crate::things::{Random, convex_shapes, geometry_of, moved};
 use etalon_geometry::{GeometryBuilder, Shape};
-use etalon_transport::{MaterialId, Ray, Receiver, ShapeId, Shapes, SurfacePoint, Vertex};
+use etalon_transport::{
+    LightSampleContext, MaterialId, Ray, ShapeId, Shapes, SurfaceInteraction, SurfacePoint,
+};
 use glam::Vec3;
 
 /// Directions on the side of `normal`: anywhere, and close to the tangent plane.
@@ -93,7 +95,7 @@ fn first(
     shift: Vec3,
     scale: f32,
     random: &mut Random,
-) -> Option<Vertex> {
+) -> Option<SurfaceInteraction> {
     let from = shift + random.direction() * scale * 4.0;
     let to = shift + random.point() * scale;
     let ray = Ray::new(from, (to - from).normalize(), 0.0);
@@ -146,7 +148,7 @@ fn sampled_points_lie_on_the_shape_and_are_seen() {
             let id = ShapeId(0);
             for _ in 0..1000 {
                 let from = shift + random.direction() * scale * (1.8 + 3.0 * random.number());
-                let receiver = Receiver::on_surface(from, random.direction());
+                let receiver = LightSampleContext::on_surface(from, random.direction());
                 for point in [
                     Some(geometry.sample_area(id, random.square())),
                     geometry.sample_toward(id, &receiver, random.square()),

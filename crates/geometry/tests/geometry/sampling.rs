@@ -7,7 +7,7 @@ use etalon_geometry::shapes::{disk::Disk, rectangle::Rectangle};
 use etalon_geometry::{Geometry, Placement, Shape};
 use etalon_math::Frame;
 use etalon_sampling::warps::{square_to_uniform_cone, uniform_cone_to_square};
-use etalon_transport::{Ray, Receiver, ShapeId, Shapes, SurfacePoint};
+use etalon_transport::{LightSampleContext, Ray, ShapeId, Shapes, SurfacePoint};
 use glam::{DVec3, Vec2, Vec3};
 
 const ID: ShapeId = ShapeId(0);
@@ -30,7 +30,7 @@ fn bowl() -> Shape {
 /// Shapes and receivers that see all that can be chosen of them. Where the choice depends on the
 /// receiver's surface, the first is on none, the second faces some of the shape and turns away
 /// from the rest, the third faces all of it.
-fn views() -> Vec<(String, Geometry, Receiver)> {
+fn views() -> Vec<(String, Geometry, LightSampleContext)> {
     let mut views = Vec::new();
     let observers = [
         (Vec3::new(0.3, 0.2, 2.0), Vec3::ZERO),
@@ -38,7 +38,7 @@ fn views() -> Vec<(String, Geometry, Receiver)> {
         (Vec3::new(0.1, -0.2, 0.9), Vec3::new(0.3, -0.2, -0.9)),
     ];
     for (i, (position, normal)) in observers.into_iter().enumerate() {
-        let from = Receiver::on_surface(position, normal.normalize_or_zero());
+        let from = LightSampleContext::on_surface(position, normal.normalize_or_zero());
         let mut add = |name: &str, shape: Shape| {
             let name = format!("{name} from {position}");
             views.push((name, geometry_of([shape]), from));
@@ -106,7 +106,7 @@ impl Region {
     fn for_each(
         &self,
         geometry: &Geometry,
-        from: &Receiver,
+        from: &LightSampleContext,
         n: u32,
         mut each: impl FnMut(Vec2, f64),
     ) {

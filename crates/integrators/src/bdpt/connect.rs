@@ -1,20 +1,22 @@
 //! The techniques: what each adds, and what it is weighed against.
 
 use super::Technique;
-use super::corner::Corner;
 use super::merge::Merging;
+use super::path_vertex::PathVertex;
 use super::subpath::FromLight;
-use super::weight::{CameraEnd, Ends, LightEnd, fewer, more};
-use crate::dimensions::Event;
-use crate::prefix::Prefix;
+use super::weight::{CameraEnd, EndPdfs, LightEnd, fewer, more};
+use crate::dimensions::BounceSamples;
+use crate::path_throughput::PathThroughput;
 use crate::settings::PathSettings;
 use etalon_spectrum::Wavelengths;
-use etalon_transport::{Bsdf, Camera, Chance, Mode, Origin, PixelSite, Ray, Vertex, World};
+use etalon_transport::{
+    Bsdf, Camera, LightKind, PixelSample, Ray, SamplePdf, SurfaceInteraction, TransportMode, World,
+};
 use glam::{Vec2, Vec3, Vec4};
 
 /// The camera's walk at a light.
 pub(super) struct Arrival {
-    pub(super) prefix: Prefix,
+    pub(super) prefix: PathThroughput,
     /// Density of the arrival, of the lane that chose: per unit area, or per unit solid angle of
     /// the sky, times the probability of passing what lies in between.
     pub(super) density: f32,
@@ -23,7 +25,7 @@ pub(super) struct Arrival {
 }
 
 /// What would have made the last vertex of a path that ran into a light from the light's side.
-struct Rivals {
+struct AlternativePdfs {
     /// Density of light sampling, in the measure of the arrival.
     sampled: Vec4,
     /// The same of emission.
@@ -39,12 +41,12 @@ pub(super) struct Connector<'a, 'w, W: World> {
     pub(super) settings: &'a PathSettings,
     /// The only technique that is asked for, if not all are.
     pub(super) only: Option<Technique>,
-    pub(super) site: &'a PixelSite,
+    pub(super) site: &'a PixelSample,
     /// The aperture position of the camera's walk.
     pub(super) lens: Vec2,
     /// The light's walk, if anything was emitted.
     pub(super) start: Option<&'a FromLight>,
-    pub(super) light: &'a [Corner<W::Bsdf<'w>>],
+    pub(super) light: &'a [PathVertex<W::Bsdf<'w>>],
     /// Whether the camera walk's first corner can be connected to the camera.
     pub(super) camera_connects: bool,
     /// The photons to merge with, if any.
@@ -85,7 +87,7 @@ impl<'w, W: World> Connector<'_, 'w, W> {
         }
     }
 
-    fn light_end(&self, start: &FromLight, first: &Corner<W::Bsdf<'w>>) -> LightEnd {
+    fn light_end(&self, start: &FromLight, first: &PathVertex<W::Bsdf<'w>>) -> LightEnd {
         LightEnd {
             can_be_hit: start.emission.origin.can_be_hit(),
             emitted: start.emission.density.origin,
@@ -99,9 +101,9 @@ impl<'w, W: World> Connector<'_, 'w, W> {
     pub(super) fn meet_light(
         &mut self,
         arrival: &Arrival,
-        vertex: &Vertex,
+        vertex: &SurfaceInteraction,
         wo: Vec3,
-        eye: &[Corner<W::Bsdf<'w>>],
+        eye: &[PathVertex<W::Bsdf<'w>>],
     ) {
         let world = self.world;
         let radiance = world.emitted(vertex, wo, self.wavelengths);
@@ -111,7 +113,7 @@ impl<'w, W: World> Connector<'_, 'w, W> {
             let from = first.receiver();
             let sampled = world.light_density(&from, vertex, -wo).lanes();
             let emission = world.emission_density(vertex.light, wo, cos);
-            Rivals {
+            AlternativePdfs {
                 sampled: sampled * (cos / distance_squared),
                 emitted: emission.origin,
                 ray: emission.ray * first.per_area(wo, distance_squared),
@@ -124,14 +126,14 @@ impl<'w, W: World> Connector<'_, 'w, W> {
         &mut self,
         arrival: &Arrival,
         direction: Vec3,
-        eye: &[Corner<W::Bsdf<'w>>],
+        eye: &[PathVertex<W::Bsdf<'w>>],
     ) {
         let world = self.world;
         let radiance = world.background(direction, self.wavelengths);
         self.find(arrival, radiance, eye, |first| {
             let emission = world.background_emission_density(direction);
             let from = first.receiver();
-            Rivals {
+            AlternativePdfs {
                 sampled: world.background_density(&from, direction).lanes(),
                 emitted: emission.origin,
                 ray: emission.ray * first.per_area(direction, 1.0),
@@ -145,8 +147,8 @@ impl<'w, W: World> Connector<'_, 'w, W> {
         &mut self,
         arrival: &Arrival,
         radiance: Vec4,
-        eye: &[Corner<W::Bsdf<'w>>],
-        rivals: impl FnOnce(&Corner<W::Bsdf<'w>>) -> Rivals,
+        eye: &[PathVertex<W::Bsdf<'w>>],
+        rivals: impl FnOnce(&PathVertex<W::Bsdf<'w>>) -> AlternativePdfs,
     ) {
         if radiance == Vec4::ZERO {
             return;
@@ -154,36 +156,36 @@ impl<'w, W: World> Connector<'_, 'w, W> {
         let Some(mixed) = self.wanted(0, eye.len() + 2) else {
             return;
         };
-        if self.connections() == 0.0 && eye.iter().any(|corner| !corner.leaves_discretely) {
+        if self.connections() == 0.0 && eye.iter().any(|corner| !corner.is_delta) {
             // Left to merging there.
             return;
         }
-        let mut total = arrival.prefix.ratio.element_sum();
+        let mut total = arrival.prefix.r_u.element_sum();
         if let [before @ .., first] = eye
             && mixed
         {
             let rivals = rivals(first);
-            let connects = !first.leaves_discretely;
+            let connects = !first.is_delta;
             if connects {
-                total += (first.prefix.ratio * rivals.sampled).element_sum() / arrival.density;
+                total += (first.prefix.r_u * rivals.sampled).element_sum() / arrival.density;
             }
-            let ends = Ends {
+            let ends = EndPdfs {
                 here: arrival.passed * rivals.ray,
-                before: before.last().map_or(Vec4::ZERO, |corner| corner.opposite),
+                before: before.last().map_or(Vec4::ZERO, |corner| corner.pdf_rev),
             };
             let product = Vec4::splat(rivals.emitted / arrival.density);
             total += more(None, eye, product, ends, connects, self.camera_end());
         }
-        self.radiance += arrival.prefix.value * radiance / total;
+        self.radiance += arrival.prefix.beta * radiance / total;
     }
 
     /// All techniques that end at this corner of the camera's walk: light sampling, merging with photons, and
     /// connections with the corners of the light's walk.
     pub(super) fn connect(
         &mut self,
-        corner: &Corner<W::Bsdf<'w>>,
-        eye: &[Corner<W::Bsdf<'w>>],
-        event: &Event,
+        corner: &PathVertex<W::Bsdf<'w>>,
+        eye: &[PathVertex<W::Bsdf<'w>>],
+        event: &BounceSamples,
     ) {
         if (self.only).is_some_and(|only| only.camera != eye.len() + 2) {
             return;
@@ -207,8 +209,8 @@ impl<'w, W: World> Connector<'_, 'w, W> {
     /// to `corner` along `from`.
     pub(super) fn beyond(
         &self,
-        corner: &Corner<W::Bsdf<'w>>,
-        eye: &[Corner<W::Bsdf<'w>>],
+        corner: &PathVertex<W::Bsdf<'w>>,
+        eye: &[PathVertex<W::Bsdf<'w>>],
         from: Vec3,
     ) -> Vec4 {
         // The camera itself is never arrived at.
@@ -226,9 +228,9 @@ impl<'w, W: World> Connector<'_, 'w, W> {
     /// s = 1.
     fn sample_light(
         &mut self,
-        corner: &Corner<W::Bsdf<'w>>,
-        eye: &[Corner<W::Bsdf<'w>>],
-        event: &Event,
+        corner: &PathVertex<W::Bsdf<'w>>,
+        eye: &[PathVertex<W::Bsdf<'w>>],
+        event: &BounceSamples,
     ) {
         let Some(mixed) = self.wanted(1, eye.len() + 2) else {
             return;
@@ -241,9 +243,10 @@ impl<'w, W: World> Connector<'_, 'w, W> {
             return;
         };
         let direction = light.direction;
-        let (value, scattered) = corner
-            .bsdf
-            .eval_and_density(corner.wo, direction, Mode::Radiance);
+        let (value, scattered) =
+            corner
+                .bsdf
+                .eval_and_density(corner.wo, direction, TransportMode::Radiance);
         let contribution = value * light.radiance;
         if contribution == Vec4::ZERO {
             return;
@@ -252,19 +255,19 @@ impl<'w, W: World> Connector<'_, 'w, W> {
             return;
         };
         let crossings = self.settings.max_depth - corner.segments - 1;
-        let Some(passage) = world.passage(&ray, self.wavelengths, crossings) else {
+        let Some(passage) = world.transmittance(&ray, self.wavelengths, crossings) else {
             return;
         };
         let chance = light.chance.lanes();
         let inverse = 1.0 / chance.x;
-        let rest = corner.prefix.ratio;
+        let rest = corner.prefix.r_u;
         let mut total = (rest * chance).element_sum() * inverse;
-        let value = corner.prefix.value * contribution * passage.transmittance * inverse;
+        let value = corner.prefix.beta * contribution * passage.transmittance * inverse;
         if !mixed {
             self.radiance += value / total;
             return;
         }
-        if let Chance::Continuous(_) = light.chance {
+        if let SamplePdf::Continuous(_) = light.chance {
             total += (rest * scattered.lanes() * passage.probability).element_sum() * inverse;
         }
         // From the density of light sampling to that of emission, in the same measure.
@@ -274,7 +277,7 @@ impl<'w, W: World> Connector<'_, 'w, W> {
             .target
             .map_or(1.0, |target| target.distance_squared(vertex.position));
         let origin = match light.origin {
-            Origin::Surface => emission.origin * distance_squared / light.cos,
+            LightKind::Surface => emission.origin * distance_squared / light.cos,
             _ => emission.origin,
         };
         let arrival = if light.origin.is_infinite() {
@@ -282,7 +285,7 @@ impl<'w, W: World> Connector<'_, 'w, W> {
         } else {
             emission.ray * cos / distance_squared
         };
-        let ends = Ends {
+        let ends = EndPdfs {
             here: passage.probability * arrival,
             before: self.beyond(corner, eye, direction),
         };
@@ -296,8 +299,8 @@ impl<'w, W: World> Connector<'_, 'w, W> {
         &mut self,
         start: &FromLight,
         index: usize,
-        corner: &Corner<W::Bsdf<'w>>,
-        eye: &[Corner<W::Bsdf<'w>>],
+        corner: &PathVertex<W::Bsdf<'w>>,
+        eye: &[PathVertex<W::Bsdf<'w>>],
     ) {
         let light = &self.light[index];
         let Some(mixed) = self.wanted(self.vertices(index), eye.len() + 2) else {
@@ -309,16 +312,18 @@ impl<'w, W: World> Connector<'_, 'w, W> {
             return;
         }
         let direction = between / distance_squared.sqrt();
-        let (here, to_eye) = light
-            .bsdf
-            .eval_and_density(light.wo, direction, Mode::Importance);
+        let (here, to_eye) =
+            light
+                .bsdf
+                .eval_and_density(light.wo, direction, TransportMode::Importance);
         if here == Vec4::ZERO {
             return;
         }
-        let (there, to_light) = corner
-            .bsdf
-            .eval_and_density(corner.wo, -direction, Mode::Radiance);
-        let value = light.prefix.value * here * there * corner.prefix.value / distance_squared;
+        let (there, to_light) =
+            corner
+                .bsdf
+                .eval_and_density(corner.wo, -direction, TransportMode::Radiance);
+        let value = light.prefix.beta * here * there * corner.prefix.beta / distance_squared;
         if value == Vec4::ZERO {
             return;
         }
@@ -328,23 +333,23 @@ impl<'w, W: World> Connector<'_, 'w, W> {
             return;
         };
         let crossings = self.settings.max_depth - corner.segments - light.segments - 1;
-        let Some(passage) = self.world.passage(&ray, self.wavelengths, crossings) else {
+        let Some(passage) = self.world.transmittance(&ray, self.wavelengths, crossings) else {
             return;
         };
-        let ends = Ends {
+        let ends = EndPdfs {
             here: to_light.lanes()
                 * passage.probability
                 * light.per_area(direction, distance_squared),
             before: self.behind(start, light, direction),
         };
-        let [mine, theirs] = [light.prefix.ratio, corner.prefix.ratio];
+        let [mine, theirs] = [light.prefix.r_u, corner.prefix.r_u];
         let mut total = (mine * theirs).element_sum();
         if !mixed {
             self.radiance += value * passage.transmittance / total;
             return;
         }
         total += self.fewer(start, index, theirs, ends);
-        let ends = Ends {
+        let ends = EndPdfs {
             here: to_eye.lanes()
                 * passage.probability
                 * corner.per_area(direction, distance_squared),
@@ -359,7 +364,7 @@ impl<'w, W: World> Connector<'_, 'w, W> {
     pub(super) fn behind(
         &self,
         start: &FromLight,
-        light: &Corner<W::Bsdf<'w>>,
+        light: &PathVertex<W::Bsdf<'w>>,
         from: Vec3,
     ) -> Vec4 {
         let position = light.vertex.position;
@@ -374,12 +379,12 @@ impl<'w, W: World> Connector<'_, 'w, W> {
         light.bsdf.density(from, light.wo).lanes() * light.passed * per_area
     }
 
-    pub(super) fn fewer(&self, start: &FromLight, last: usize, rest: Vec4, ends: Ends) -> f32 {
+    pub(super) fn fewer(&self, start: &FromLight, last: usize, rest: Vec4, ends: EndPdfs) -> f32 {
         let mut first = last;
         while let Some(parent) = self.light[first].parent {
             first = parent;
         }
         let end = self.light_end(start, &self.light[first]);
-        fewer(self.light, last, rest, ends, end, start.opposite, true)
+        fewer(self.light, last, rest, ends, end, start.pdf_rev, true)
     }
 }

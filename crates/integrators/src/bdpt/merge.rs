@@ -9,14 +9,14 @@
 //! factor per lane for them.
 
 use super::connect::Connector;
-use super::corner::Corner;
+use super::path_vertex::PathVertex;
 use super::subpath::FromLight;
-use super::weight::{Ends, LightEnd, fewer, more};
+use super::weight::{EndPdfs, LightEnd, fewer, more};
 use crate::photons::kdtree::KdTree;
 use crate::settings::PathSettings;
 use etalon_sampling::Sampler;
 use etalon_spectrum::Wavelengths;
-use etalon_transport::{Bsdf, MergedPhoton, Mode, Remark, World};
+use etalon_transport::{Bsdf, MergedPhoton, TraceEvent, TransportMode, World};
 use glam::{Vec3, Vec4};
 
 /// The least cosine of the angle between the normals of surfaces that are merged.
@@ -34,7 +34,7 @@ pub(crate) struct Photon {
     /// f/p₀ of its walk, over the cosine of its arrival.
     value: Vec4,
     /// pₖ/p₀ of its walk.
-    ratio: Vec4,
+    r_u: Vec4,
     /// aᵢ of the lane that chose (m⁻²).
     arrival: f32,
     /// Density ratio of the technique that connects its parent with its place; for a photon
@@ -123,8 +123,8 @@ pub(crate) fn shoot<W: World>(
 /// The photon that a corner is.
 fn photon<B: Bsdf>(
     start: &FromLight,
-    corners: &[Corner<B>],
-    corner: &Corner<B>,
+    corners: &[PathVertex<B>],
+    corner: &PathVertex<B>,
     terms: &Terms,
 ) -> Option<Photon> {
     let vertex = &corner.vertex;
@@ -142,11 +142,11 @@ fn photon<B: Bsdf>(
         }
         Some(index) => {
             let parent = &corners[index];
-            let connects = !parent.leaves_discretely;
+            let connects = !parent.is_delta;
             let before = parent.parent;
-            let ends = Ends {
+            let ends = EndPdfs {
                 here: Vec4::ONE,
-                before: before.map_or(start.opposite, |before| corners[before].opposite),
+                before: before.map_or(start.pdf_rev, |before| corners[before].pdf_rev),
             };
             let first = core::iter::successors(Some(index), |i| corners[*i].parent).last()?;
             let light = LightEnd {
@@ -156,12 +156,12 @@ fn photon<B: Bsdf>(
                 merging: terms.area(),
                 connections: terms.connections(),
             };
-            let lane = |rest| fewer(corners, index, rest, ends, light, start.opposite, connects);
+            let lane = |rest| fewer(corners, index, rest, ends, light, start.pdf_rev, connects);
             let lanes = [Vec4::X, Vec4::Y, Vec4::Z, Vec4::W].map(lane);
             let distance_squared = parent.vertex.position.distance_squared(vertex.position);
             let per_area = parent.per_area(corner.wo, distance_squared);
             let connected = if connects {
-                parent.prefix.ratio
+                parent.prefix.r_u
             } else {
                 Vec4::ZERO
             };
@@ -172,8 +172,8 @@ fn photon<B: Bsdf>(
         position: vertex.position,
         normal: vertex.normal,
         from: corner.wo,
-        value: corner.prefix.value / cos,
-        ratio: corner.prefix.ratio,
+        value: corner.prefix.beta / cos,
+        r_u: corner.prefix.r_u,
         arrival: corner.arrival,
         connected: terms.connections() * connected,
         fewer: fewer * corner.passed,
@@ -193,15 +193,19 @@ impl<'w, W: World> Connector<'_, 'w, W> {
     }
 
     /// Merges the camera walk's corner with the photons around it.
-    pub(super) fn merge(&mut self, corner: &Corner<W::Bsdf<'w>>, eye: &[Corner<W::Bsdf<'w>>]) {
+    pub(super) fn merge(
+        &mut self,
+        corner: &PathVertex<W::Bsdf<'w>>,
+        eye: &[PathVertex<W::Bsdf<'w>>],
+    ) {
         let Some(merging) = self.merging else {
             return;
         };
         let (place, max_depth) = (corner.vertex.position, self.settings.max_depth);
-        let (camera_end, theirs) = (self.camera_end(), corner.prefix.ratio);
+        let (camera_end, theirs) = (self.camera_end(), corner.prefix.r_u);
         let mut radiance = Vec4::ZERO;
         let radius = merging.terms.radius;
-        self.world.remark(|| Remark::Gathering {
+        self.world.record(|| TraceEvent::Gathering {
             radius,
             among: merging.photons.len(),
         });
@@ -213,9 +217,9 @@ impl<'w, W: World> Connector<'_, 'w, W> {
                 return;
             }
             let (value, density) =
-                (corner.bsdf).eval_and_density(corner.wo, photon.from, Mode::Radiance);
+                (corner.bsdf).eval_and_density(corner.wo, photon.from, TransportMode::Radiance);
             let scattering = value;
-            let value = photon.value * value * corner.prefix.value;
+            let value = photon.value * value * corner.prefix.beta;
             if value == Vec4::ZERO {
                 return;
             }
@@ -223,14 +227,14 @@ impl<'w, W: World> Connector<'_, 'w, W> {
             // below, it leaves aᵢ.
             let mut total = (photon.connected * theirs).element_sum();
             total += (photon.fewer * density.lanes() * theirs).element_sum();
-            let ends = Ends {
-                here: photon.ratio * photon.arrival,
+            let ends = EndPdfs {
+                here: photon.r_u * photon.arrival,
                 before: self.beyond(corner, eye, photon.from),
             };
             total += more(Some(corner), eye, Vec4::ONE, ends, true, camera_end);
             radiance += value * (photon.arrival / total);
-            self.world.remark(|| {
-                Remark::Photon(MergedPhoton {
+            self.world.record(|| {
+                TraceEvent::Photon(MergedPhoton {
                     position: photon.position,
                     distance: photon.position.distance(place),
                     from: photon.from,
@@ -241,7 +245,7 @@ impl<'w, W: World> Connector<'_, 'w, W> {
                 })
             });
         });
-        self.world.remark(|| Remark::Gathered);
+        self.world.record(|| TraceEvent::Gathered);
         self.radiance += radiance;
     }
 }

@@ -36,10 +36,10 @@
 //! for one direction serves the way back, and a discrete direction is as likely one way as the
 //! other: the scattering models are tested for both. Russian roulette is not part of the weights.
 
+mod camera_connection;
 mod connect;
-mod corner;
 pub(crate) mod merge;
-mod see;
+mod path_vertex;
 pub(crate) mod single;
 mod subpath;
 mod weight;
@@ -48,16 +48,16 @@ use crate::dimensions as dim;
 use crate::path::camera_ray;
 use crate::settings::PathSettings;
 use connect::Connector;
-pub(crate) use corner::Corner;
 use etalon_params::Params;
 use etalon_sampling::{ReplicateKind, Sampler};
 use etalon_spectrum::{Wavelengths, sensor_response};
 use etalon_transport::{
-    Draft, Finding, Integrator, Objection, Pass, PixelSite, Placing, Ray, Sight, Sink, Subject,
-    TileSink, World,
+    Incompatibility, Integrator, LightSearch, Pass, PixelSample, Placing, Ray, SampleJob,
+    SceneCapabilities, Sink, Subject, TileSink, World,
 };
 use glam::Vec4;
 use merge::Merging;
+pub(crate) use path_vertex::PathVertex;
 use subpath::{FromCamera, FromLight};
 
 /// One technique.
@@ -95,7 +95,7 @@ impl Bidirectional {
     fn start<W: World>(
         &self,
         world: &W,
-        site: &PixelSite,
+        site: &PixelSample,
         sampler: &mut impl Sampler,
     ) -> Start<'_> {
         let (wavelengths, ray, weight) = camera_ray(world, site, sampler);
@@ -127,10 +127,10 @@ pub(crate) struct Start<'a> {
 pub(crate) fn estimate<'w, W: World, S: Sampler, K: Sink>(
     world: &'w W,
     begin: &Start<'_>,
-    site: &PixelSite,
+    site: &PixelSample,
     sampler: &mut S,
     sink: &mut K,
-    [eye, light]: [&mut Vec<Corner<W::Bsdf<'w>>>; 2],
+    [eye, light]: [&mut Vec<PathVertex<W::Bsdf<'w>>>; 2],
 ) {
     let Start {
         settings,
@@ -165,7 +165,7 @@ pub(crate) fn estimate<'w, W: World, S: Sampler, K: Sink>(
         radiance: Vec4::ZERO,
     };
     let mut walk = FromCamera::start(*ray, settings);
-    while walk.advance(world, wavelengths, settings, sampler, eye, &mut connector) {}
+    while walk.intersect(world, wavelengths, settings, sampler, eye, &mut connector) {}
     connector.see_all(|raster, value| {
         sink.splat(raster, sensor.rgb(value).to_array());
     });
@@ -216,13 +216,13 @@ impl Integrator for Bidirectional {
         true
     }
 
-    fn objections(&self, sight: &Sight) -> Vec<Objection> {
+    fn incompatibilities(&self, sight: &SceneCapabilities) -> Vec<Incompatibility> {
         let Some(only) = self.only else {
-            return sight.objections(Finding::Either);
+            return sight.incompatibilities(LightSearch::Either);
         };
-        let mut objections = sight.objections(match only.light {
-            0 => Finding::Hitting,
-            _ => Finding::Choosing,
+        let mut objections = sight.incompatibilities(match only.light {
+            0 => LightSearch::Hitting,
+            _ => LightSearch::Choosing,
         });
         if only.camera == 1 {
             objections.extend(sight.unconnected());
@@ -235,7 +235,7 @@ impl Integrator for Bidirectional {
                 "the technique s = {}, t = {} makes paths of {segments} segments, and `max_depth` is {max_depth}",
                 only.light, only.camera
             );
-            let objection = Objection::fatal(Subject::Parameter("s"), message).help(format!(
+            let objection = Incompatibility::fatal(Subject::Parameter("s"), message).help(format!(
                 "raise `max_depth` to {segments}, or ask for s + t of at most {}",
                 u64::from(max_depth) + 1
             ));
@@ -250,7 +250,7 @@ impl Integrator for Bidirectional {
         &self,
         world: &W,
         (): &(),
-        site: &PixelSite,
+        site: &PixelSample,
         sampler: &mut S,
         sink: &mut K,
     ) {
@@ -265,11 +265,11 @@ impl Integrator for Bidirectional {
         );
     }
 
-    fn sample_all<W: World, S: Sampler, K: TileSink>(
+    fn sample_batch<W: World, S: Sampler, K: TileSink>(
         &self,
         world: &W,
         (): &(),
-        drafts: &mut [Draft<S>],
+        drafts: &mut [SampleJob<S>],
         sink: &mut K,
     ) {
         let (mut eye, mut light) = (Vec::new(), Vec::new());

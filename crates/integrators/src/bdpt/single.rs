@@ -6,20 +6,20 @@
 
 use super::Technique;
 use super::connect::Connector;
-use super::corner::Corner;
+use super::path_vertex::PathVertex;
 use super::subpath::{FromCamera, FromLight};
 use crate::dimensions as dim;
 use crate::path::camera_ray;
 use crate::settings::PathSettings;
 use etalon_sampling::Sampler;
 use etalon_spectrum::sensor_response;
-use etalon_transport::{PixelSite, World};
+use etalon_transport::{PixelSample, World};
 use glam::{Vec2, Vec3, Vec4};
 
 /// The corners of both walks, lent from sample to sample.
 pub(crate) struct Lists<B> {
-    eye: Vec<Corner<B>>,
-    light: Vec<Corner<B>>,
+    eye: Vec<PathVertex<B>>,
+    light: Vec<PathVertex<B>>,
 }
 
 impl<B> Default for Lists<B> {
@@ -36,7 +36,7 @@ pub(crate) fn sample<'w, W: World, S: Sampler>(
     world: &'w W,
     settings: &PathSettings,
     technique: Technique,
-    site: &PixelSite,
+    site: &PixelSample,
     sampler: &mut S,
     lists: &mut Lists<W::Bsdf<'w>>,
     mut found: impl FnMut(Vec2, Vec3),
@@ -78,7 +78,7 @@ pub(crate) fn sample<'w, W: World, S: Sampler>(
     }
     let mut walk = FromCamera::start(ray, settings);
     while eye.len() + 2 <= technique.camera
-        && walk.advance(world, &wavelengths, settings, sampler, eye, &mut connector)
+        && walk.intersect(world, &wavelengths, settings, sampler, eye, &mut connector)
     {}
     found(site.raster, sensor.rgb(connector.radiance * weight));
 }

@@ -1,13 +1,13 @@
 //! Walks from the camera and from a light, and the corners they leave behind.
 
 use super::connect::{Arrival, Connector};
-use super::corner::Corner;
-use crate::dimensions::Event;
-use crate::prefix::Prefix;
+use super::path_vertex::PathVertex;
+use crate::dimensions::BounceSamples;
+use crate::path_throughput::PathThroughput;
 use crate::settings::PathSettings;
 use etalon_sampling::Sampler;
 use etalon_spectrum::Wavelengths;
-use etalon_transport::{Bsdf, Emission, Mode, Origin, Ray, Vertex, World};
+use etalon_transport::{Bsdf, Emission, LightKind, Ray, SurfaceInteraction, TransportMode, World};
 use glam::{Vec3, Vec4};
 
 /// The numbers of the camera walk's events, of the emission, and of the light walk's events lie
@@ -21,19 +21,19 @@ fn light_event(index: u32) -> u32 {
 }
 
 /// Whether a walk survives Russian roulette.
-fn survives(prefix: &mut Prefix, survival: f32, u: f32) -> bool {
+fn survives(prefix: &mut PathThroughput, survival: f32, u: f32) -> bool {
     let survival = survival.min(0.95);
     if !(u < survival) {
         return false;
     }
-    prefix.survive(survival);
+    prefix.roulette(survival);
     true
 }
 
 /// What a walk carries from surface to surface.
-struct Carried {
+struct SubpathState {
     ray: Ray,
-    prefix: Prefix,
+    prefix: PathThroughput,
     /// Density of `ray`'s direction at the last corner, of the lane that chose.
     density: f32,
     /// Probability of passing surfaces since the last corner, per lane.
@@ -42,10 +42,10 @@ struct Carried {
     segments: u32,
 }
 
-impl Carried {
+impl SubpathState {
     /// Goes straight on through a surface.
-    fn pass(&mut self, vertex: &Vertex, value: Vec4, chance: Vec4) {
-        self.prefix.extend(value, chance);
+    fn pass(&mut self, vertex: &SurfaceInteraction, value: Vec4, chance: Vec4) {
+        self.prefix.scatter(value, chance);
         self.passed *= chance;
         self.ray = vertex.spawn(self.ray.direction);
         self.segments += 1;
@@ -61,16 +61,16 @@ impl Carried {
     }
 
     /// The corner at `vertex`, arrived at with this density per solid angle at the last one.
-    fn corner<B>(&self, vertex: Vertex, bsdf: B, arrival: f32) -> Corner<B> {
-        Corner {
+    fn corner<B>(&self, vertex: SurfaceInteraction, bsdf: B, arrival: f32) -> PathVertex<B> {
+        PathVertex {
             vertex,
             bsdf,
             wo: -self.ray.direction,
             prefix: self.prefix,
             arrival: arrival * self.passed.x,
-            opposite: Vec4::ZERO,
+            pdf_rev: Vec4::ZERO,
             passed: self.passed,
-            leaves_discretely: false,
+            is_delta: false,
             segments: self.segments,
             parent: None,
             direct: 0.0,
@@ -84,7 +84,7 @@ pub(super) struct FromLight {
     pub(super) emission: Emission,
     /// Density with which a walk from the camera arrives at the light from the first corner, per lane; known
     /// once the particle has left that.
-    pub(super) opposite: Vec4,
+    pub(super) pdf_rev: Vec4,
 }
 
 impl FromLight {
@@ -98,12 +98,12 @@ impl FromLight {
         if settings.max_depth < 2 {
             return None;
         }
-        let event = Event::draw(sampler, light_event(0));
+        let event = BounceSamples::draw(sampler, light_event(0));
         let (choice, position, direction) = (event.light_choice, event.light, event.direction);
         let emission = world.emit(wavelengths, choice, position, direction)?;
         (emission.weight != Vec4::ZERO).then_some(Self {
             emission,
-            opposite: Vec4::ZERO,
+            pdf_rev: Vec4::ZERO,
         })
     }
 
@@ -112,9 +112,9 @@ impl FromLight {
     #[inline]
     pub(super) fn per_area(&self, distance_squared: f32) -> f32 {
         match self.emission.origin {
-            Origin::Surface => self.cos() / distance_squared,
-            Origin::Sky => 1.0,
-            Origin::Point | Origin::Parallel => 0.0,
+            LightKind::Surface => self.cos() / distance_squared,
+            LightKind::Sky => 1.0,
+            LightKind::Point | LightKind::Parallel => 0.0,
         }
     }
 
@@ -135,7 +135,7 @@ impl FromLight {
     pub(super) fn arrival<B>(
         emission_ray: f32,
         infinite: bool,
-        corner: &Corner<B>,
+        corner: &PathVertex<B>,
         from: Vec3,
     ) -> f32 {
         let cos = corner.vertex.normal.dot(corner.wo).abs();
@@ -149,10 +149,12 @@ impl FromLight {
     /// The density with which light sampling at the first corner would have chosen this start, in
     /// the measure of the emission's.
     #[inline]
-    pub(super) fn sampled<W: World>(&self, world: &W, at: &Corner<W::Bsdf<'_>>) -> f32 {
-        let density = world.sampled_density(&at.receiver(), &self.emission);
+    pub(super) fn sampled<W: World>(&self, world: &W, at: &PathVertex<W::Bsdf<'_>>) -> f32 {
+        let density = world.light_sample_density(&at.receiver(), &self.emission);
         match self.emission.origin {
-            Origin::Surface => density * self.per_area(self.distance_squared(at.vertex.position)),
+            LightKind::Surface => {
+                density * self.per_area(self.distance_squared(at.vertex.position))
+            }
             _ => density,
         }
     }
@@ -164,15 +166,15 @@ impl FromLight {
         wavelengths: &Wavelengths,
         settings: &PathSettings,
         sampler: &mut impl Sampler,
-        corners: &mut Vec<Corner<W::Bsdf<'w>>>,
+        corners: &mut Vec<PathVertex<W::Bsdf<'w>>>,
         limit: usize,
     ) {
         let emission = &self.emission;
-        let mut carried = Carried {
+        let mut carried = SubpathState {
             ray: emission.ray,
-            prefix: Prefix {
-                value: emission.weight,
-                ratio: Vec4::ONE,
+            prefix: PathThroughput {
+                beta: emission.weight,
+                r_u: Vec4::ONE,
             },
             density: emission.density.ray,
             passed: Vec4::ONE,
@@ -214,14 +216,14 @@ impl FromLight {
             if bsdf.has_continuous() {
                 corners.push(corner);
             }
-            let event = Event::draw(sampler, light_event(carried.segments));
-            let sampled = bsdf.sample(wo, event.lobe, event.direction, Mode::Importance);
+            let event = BounceSamples::draw(sampler, light_event(carried.segments));
+            let sampled = bsdf.sample(wo, event.lobe, event.direction, TransportMode::Importance);
             let Some(sample) = sampled else {
                 return;
             };
-            if sample.passes {
+            if sample.is_null {
                 carried.pass(&vertex, sample.value, sample.chance.lanes());
-                if carried.prefix.value == Vec4::ZERO {
+                if carried.prefix.beta == Vec4::ZERO {
                     return;
                 }
                 continue;
@@ -229,22 +231,22 @@ impl FromLight {
             if corners.len() == place {
                 corners.push(corner);
             }
-            corners[place].leaves_discretely = sample.chance.is_discrete();
+            corners[place].is_delta = sample.chance.is_delta();
             let [forward, back] = corner.both_densities(&sample);
             match parent {
                 None => {
                     let distance_squared = self.distance_squared(vertex.position);
-                    self.opposite = back * corner.passed * self.per_area(distance_squared);
+                    self.pdf_rev = back * corner.passed * self.per_area(distance_squared);
                 }
                 Some(parent) => {
                     let before = &mut corners[parent];
                     let distance_squared = vertex.position.distance_squared(before.vertex.position);
-                    before.opposite = back * corner.passed * before.per_area(wo, distance_squared);
+                    before.pdf_rev = back * corner.passed * before.per_area(wo, distance_squared);
                 }
             }
             let before = carried.prefix.throughput();
-            carried.prefix.extend(sample.value, sample.chance.lanes());
-            if carried.prefix.value == Vec4::ZERO {
+            carried.prefix.scatter(sample.value, sample.chance.lanes());
+            if carried.prefix.beta == Vec4::ZERO {
                 return;
             }
             if carried.segments >= settings.rr_depth {
@@ -266,7 +268,7 @@ impl FromLight {
 
 /// A walk from the camera.
 pub(super) struct FromCamera {
-    carried: Carried,
+    carried: SubpathState,
     /// The product of the indices of refraction passed.
     eta: f32,
     /// Whether it has looked through a hidden light.
@@ -281,9 +283,9 @@ impl FromCamera {
     /// A walk along the camera's ray.
     pub(super) fn start(ray: Ray, settings: &PathSettings) -> Self {
         Self {
-            carried: Carried {
+            carried: SubpathState {
                 ray,
-                prefix: Prefix::START,
+                prefix: PathThroughput::START,
                 density: 0.0,
                 passed: Vec4::ONE,
                 segments: 1,
@@ -299,8 +301,8 @@ impl FromCamera {
     fn arrival<W: World, B>(
         &self,
         connector: &mut Connector<'_, '_, W>,
-        vertex: &Vertex,
-        corners: &[Corner<B>],
+        vertex: &SurfaceInteraction,
+        corners: &[PathVertex<B>],
     ) -> f32 {
         let carried = &self.carried;
         let cos = vertex.normal.dot(carried.ray.direction).abs();
@@ -320,13 +322,13 @@ impl FromCamera {
     }
 
     /// Goes on to the next surface; whether there is more.
-    pub(super) fn advance<'w, W: World>(
+    pub(super) fn intersect<'w, W: World>(
         &mut self,
         world: &'w W,
         wavelengths: &Wavelengths,
         settings: &PathSettings,
         sampler: &mut impl Sampler,
-        corners: &mut Vec<Corner<W::Bsdf<'w>>>,
+        corners: &mut Vec<PathVertex<W::Bsdf<'w>>>,
         connector: &mut Connector<'_, 'w, W>,
     ) -> bool {
         if !self.goes_on {
@@ -362,35 +364,36 @@ impl FromCamera {
         }
         let bsdf = world.bsdf(&vertex, wo, wavelengths);
         if self.carried.segments == settings.max_depth {
-            let stopped = 1.0 - 0.25 * bsdf.passing_probability().element_sum();
+            let stopped = 1.0 - 0.25 * bsdf.null_probability().element_sum();
             self.alpha = self.alpha.max(stopped);
             return false;
         }
-        let event = Event::draw(sampler, camera_event(self.carried.segments - 1));
+        let event = BounceSamples::draw(sampler, camera_event(self.carried.segments - 1));
         let mut corner = self.carried.corner(vertex, bsdf, 1.0);
         corner.arrival = arrival;
         if bsdf.has_continuous() {
             connector.connect(&corner, corners, &event);
         }
-        let Some(sample) = bsdf.sample(wo, event.lobe, event.direction, Mode::Radiance) else {
+        let Some(sample) = bsdf.sample(wo, event.lobe, event.direction, TransportMode::Radiance)
+        else {
             self.alpha = 1.0;
             return false;
         };
-        if sample.passes {
+        if sample.is_null {
             self.carried
                 .pass(&vertex, sample.value, sample.chance.lanes());
-            self.goes_on = self.carried.prefix.value != Vec4::ZERO;
+            self.goes_on = self.carried.prefix.beta != Vec4::ZERO;
             return self.goes_on;
         }
         self.alpha = 1.0;
-        corner.leaves_discretely = sample.chance.is_discrete();
+        corner.is_delta = sample.chance.is_delta();
         let [forward, back] = corner.both_densities(&sample);
         if let Some(before) = corners.last_mut() {
             let distance_squared = vertex.position.distance_squared(before.vertex.position);
-            before.opposite = back * corner.passed * before.per_area(wo, distance_squared);
+            before.pdf_rev = back * corner.passed * before.per_area(wo, distance_squared);
         }
         let carried = &mut self.carried;
-        carried.prefix.extend(sample.value, sample.chance.lanes());
+        carried.prefix.scatter(sample.value, sample.chance.lanes());
         self.eta *= sample.eta;
         if carried.segments >= settings.rr_depth {
             let survival = carried.prefix.throughput() * self.eta * self.eta;
@@ -403,7 +406,7 @@ impl FromCamera {
         carried.ray = vertex.spawn(sample.wi);
         carried.segments += 1;
         corners.push(corner);
-        self.goes_on = carried.prefix.value != Vec4::ZERO;
+        self.goes_on = carried.prefix.beta != Vec4::ZERO;
         self.goes_on
     }
 }

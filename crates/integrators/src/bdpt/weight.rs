@@ -13,12 +13,12 @@
 //! Merging at xᵢ (see [`crate::vcm`]) arrives there from both sides: its density is that of technique i
 //! times aᵢ, or of technique i + 1 times bᵢ, and n π r².
 
-use super::corner::Corner;
+use super::path_vertex::PathVertex;
 use glam::Vec4;
 
 /// What the end of a walk from the light knows of the techniques.
 #[derive(Clone, Copy)]
-pub(super) struct Ends {
+pub(super) struct EndPdfs {
     /// Density of the other walk arriving at this end.
     pub(super) here: Vec4,
     /// Density of the other walk arriving at the vertex before it.
@@ -42,15 +42,15 @@ pub(super) struct LightEnd {
 
 /// Σ over techniques with fewer light vertices than a path whose last corner from the light is
 /// `corners[last]`. `rest` is the density ratio of the camera's part, `ends` the camera walk's densities at
-/// the last corner and the one before it, `opposite` that at the light once it is farther away; `connects` says
+/// the last corner and the one before it, `pdf_rev` that at the light once it is farther away; `connects` says
 /// whether the last corner may be an end of a connection.
 pub(super) fn fewer<B>(
-    corners: &[Corner<B>],
+    corners: &[PathVertex<B>],
     last: usize,
     rest: Vec4,
-    ends: Ends,
+    ends: EndPdfs,
     light: LightEnd,
-    opposite: Vec4,
+    pdf_rev: Vec4,
     mut connects: bool,
 ) -> f32 {
     let mut sum = 0.0;
@@ -64,20 +64,19 @@ pub(super) fn fewer<B>(
         let b = match step {
             0 => ends.here,
             1 => ends.before,
-            _ => corner.opposite,
+            _ => corner.pdf_rev,
         };
         if connects && light.merging > 0.0 {
-            sum += light.merging * (product * b * corner.prefix.ratio).element_sum();
+            sum += light.merging * (product * b * corner.prefix.r_u).element_sum();
         }
         product *= b / corner.arrival;
         at = corner.parent;
         let here = connects;
         match at {
             Some(parent) => {
-                connects = !corners[parent].leaves_discretely;
+                connects = !corners[parent].is_delta;
                 if here && connects {
-                    sum +=
-                        light.connections * (product * corners[parent].prefix.ratio).element_sum();
+                    sum += light.connections * (product * corners[parent].prefix.r_u).element_sum();
                 }
             }
             None => {
@@ -87,7 +86,7 @@ pub(super) fn fewer<B>(
                     sum += product.element_sum() * (light.sampled / light.emitted);
                 }
                 if light.can_be_hit {
-                    let b = if step == 0 { ends.before } else { opposite };
+                    let b = if step == 0 { ends.before } else { pdf_rev };
                     sum += (product * b).element_sum() / light.emitted;
                 }
             }
@@ -115,10 +114,10 @@ pub(super) struct CameraEnd {
 /// `corners`, or `end` where that is not among them. `product` is the density ratio of the light's part and
 /// all factors so far, `connects` whether the last corner may be an end of a connection.
 pub(super) fn more<'c, B: 'c>(
-    end: Option<&'c Corner<B>>,
-    corners: &'c [Corner<B>],
+    end: Option<&'c PathVertex<B>>,
+    corners: &'c [PathVertex<B>],
     mut product: Vec4,
-    ends: Ends,
+    ends: EndPdfs,
     mut connects: bool,
     camera: CameraEnd,
 ) -> f32 {
@@ -130,10 +129,10 @@ pub(super) fn more<'c, B: 'c>(
         let a = match step {
             0 => ends.here,
             1 => ends.before,
-            _ => corner.opposite,
+            _ => corner.pdf_rev,
         };
         if connects && camera.merging > 0.0 {
-            sum += camera.merging * (product * a * corner.prefix.ratio).element_sum();
+            sum += camera.merging * (product * a * corner.prefix.r_u).element_sum();
         }
         if next.is_none() && !camera.connects {
             break;
@@ -142,9 +141,9 @@ pub(super) fn more<'c, B: 'c>(
         let here = connects;
         match next {
             Some(next) => {
-                connects = !next.leaves_discretely;
+                connects = !next.is_delta;
                 if here && connects {
-                    sum += camera.connections * (product * next.prefix.ratio).element_sum();
+                    sum += camera.connections * (product * next.prefix.r_u).element_sum();
                 }
             }
             None if here => sum += camera.connections * camera.samples * product.element_sum(),

@@ -17,20 +17,20 @@ use std::sync::LazyLock;
 
 /// Directions from which light comes, region by region.
 #[derive(Clone, Debug)]
-pub(crate) struct Field {
+pub(crate) struct SdTree {
     /// The corner of the cube (m).
     corner: Vec3,
     /// One over the cube's side (m⁻¹).
     scale: f32,
     /// The two halves of every inner node; the first is the root.
     branches: Vec<[Child; 2]>,
-    regions: Vec<Region>,
+    regions: Vec<SpatialLeaf>,
 }
 
 #[derive(Clone, Copy, Debug)]
 enum Child {
     Branch(u32),
-    Region(u32),
+    SpatialLeaf(u32),
 }
 
 /// The faces of a region: which of ±x, ±y, ±z a surface's normal is nearest to.
@@ -48,7 +48,7 @@ pub(crate) type Lobes = [Option<Quadtree>; FACES];
 
 /// A leaf of the spatial tree.
 #[derive(Clone, Debug)]
-pub(crate) struct Region {
+pub(crate) struct SpatialLeaf {
     /// Its size (m).
     pub(crate) size: Vec3,
     /// The directions from which light comes.
@@ -59,7 +59,7 @@ pub(crate) struct Region {
     pub(crate) own: [f32; FACES],
 }
 
-impl Region {
+impl SpatialLeaf {
     /// The quadtree of a face whose leaves learn.
     pub(crate) fn tree(&self, face: usize) -> &Quadtree {
         static UNIFORM: LazyLock<Quadtree> = LazyLock::new(Quadtree::uniform);
@@ -71,7 +71,7 @@ impl Region {
 const DEEPEST: u32 = 48;
 
 /// What was learned of a region in one round.
-pub(crate) struct Lesson {
+pub(crate) struct RegionUpdate {
     /// The new densities of directions.
     pub(crate) lobes: Lobes,
     /// The new irradiances.
@@ -82,7 +82,7 @@ pub(crate) struct Lesson {
     pub(crate) records: u64,
 }
 
-impl Field {
+impl SdTree {
     /// One region, of which nothing is known, that holds the box between two points; `own` is the least α.
     pub(crate) fn new(from: Vec3, to: Vec3, own: f32) -> Self {
         // A little larger, and never empty.
@@ -91,7 +91,7 @@ impl Field {
             corner: 0.5 * (from + to) - 0.5 * side,
             scale: 1.0 / side,
             branches: Vec::new(),
-            regions: vec![Region {
+            regions: vec![SpatialLeaf {
                 size: Vec3::splat(side),
                 lobes: Lobes::default(),
                 irradiance: [0.0; FACES],
@@ -101,7 +101,7 @@ impl Field {
     }
 
     /// The regions.
-    pub(crate) fn regions(&self) -> &[Region] {
+    pub(crate) fn regions(&self) -> &[SpatialLeaf] {
         &self.regions
     }
 
@@ -119,7 +119,7 @@ impl Field {
             place = Vec3::new(place.y, place.z, 2.0 * place.x - f32::from(u8::from(above)));
             match branch[usize::from(above)] {
                 Child::Branch(index) => branch = &self.branches[index as usize],
-                Child::Region(index) => return index as usize,
+                Child::SpatialLeaf(index) => return index as usize,
             }
         }
     }
@@ -141,7 +141,7 @@ impl Field {
 
     /// The field with what was learned of each region, in their order. Regions with more than `most`
     /// records are halved until their parts, if all had as many, have fewer.
-    pub(crate) fn learned(self, lessons: Vec<Lesson>, most: u64) -> Self {
+    pub(crate) fn learned(self, lessons: Vec<RegionUpdate>, most: u64) -> Self {
         let mut field = Self {
             branches: Vec::new(),
             regions: Vec::with_capacity(self.regions.len()),
@@ -154,7 +154,7 @@ impl Field {
         };
         let root = match self.branches.first() {
             Some(_) => Child::Branch(0),
-            None => Child::Region(0),
+            None => Child::SpatialLeaf(0),
         };
         field.copy(root, 0, &old, most);
         field
@@ -170,7 +170,7 @@ impl Field {
                 self.branches[at] = [below, above];
                 Child::Branch(at as u32)
             }
-            Child::Region(index) => {
+            Child::SpatialLeaf(index) => {
                 let size = old.regions[index as usize].size;
                 let lesson = &old.lessons[index as usize];
                 self.halve(size, lesson, lesson.records, depth, most)
@@ -178,15 +178,22 @@ impl Field {
         }
     }
 
-    fn halve(&mut self, size: Vec3, lesson: &Lesson, records: u64, depth: u32, most: u64) -> Child {
+    fn halve(
+        &mut self,
+        size: Vec3,
+        lesson: &RegionUpdate,
+        records: u64,
+        depth: u32,
+        most: u64,
+    ) -> Child {
         if records <= most || depth >= DEEPEST {
-            self.regions.push(Region {
+            self.regions.push(SpatialLeaf {
                 size,
                 lobes: lesson.lobes.clone(),
                 irradiance: lesson.irradiance,
                 own: lesson.own,
             });
-            return Child::Region(self.regions.len() as u32 - 1);
+            return Child::SpatialLeaf(self.regions.len() as u32 - 1);
         }
         let mut half = size;
         half[(depth % 3) as usize] *= 0.5;
@@ -199,7 +206,7 @@ impl Field {
 
     /// A new branch, whose halves are not known yet.
     fn branch(&mut self) -> usize {
-        self.branches.push([Child::Region(0); 2]);
+        self.branches.push([Child::SpatialLeaf(0); 2]);
         self.branches.len() - 1
     }
 }
@@ -207,8 +214,8 @@ impl Field {
 /// A field that is being replaced.
 struct Old<'a> {
     branches: &'a [[Child; 2]],
-    regions: &'a [Region],
-    lessons: &'a [Lesson],
+    regions: &'a [SpatialLeaf],
+    lessons: &'a [RegionUpdate],
 }
 
 /// The density with which a lobe finds a direction: alike in all lanes.

@@ -31,14 +31,14 @@ const ENOUGH: u64 = 100;
 
 /// What is known of a direction that was taken.
 #[derive(Clone, Copy, Debug, Default)]
-pub(crate) struct Rivals {
+pub(crate) struct AlternativePdfs {
     /// p_f: how likely the scattering model takes it; 1 for a discrete direction.
     pub(crate) own: f32,
     /// p_g: how likely the learned lobe does; 0 for a discrete direction.
     pub(crate) learned: f32,
 }
 
-impl Rivals {
+impl AlternativePdfs {
     fn mix(self, own: f32) -> f32 {
         own * self.own + (1.0 - own) * self.learned
     }
@@ -46,16 +46,16 @@ impl Rivals {
 
 /// By how much each fraction is better than the least.
 #[derive(Debug, Default)]
-pub(crate) struct Scores([AtomicI64; STEPS]);
+pub(crate) struct FractionOptimizer([AtomicI64; STEPS]);
 
 /// The fraction of a step from 0, the least.
 fn fraction(least: f32, step: usize) -> f32 {
     least + (MOST - least).max(0.0) * step as f32 / STEPS as f32
 }
 
-impl Scores {
+impl FractionOptimizer {
     /// Adds a record of light, in some unit.
-    pub(crate) fn add(&self, least: f32, light: f64, rivals: Rivals) {
+    pub(crate) fn add(&self, least: f32, light: f64, rivals: AlternativePdfs) {
         let base = rivals.mix(least);
         if !(base > 0.0 && light > 0.0) {
             return;
@@ -86,12 +86,12 @@ mod tests {
 
     /// What comes of light on a line of density (k + 1)·xᵏ, where the model's own is 5x⁴ and the learned one even.
     fn best(k: i32) -> f32 {
-        let scores = Scores::default();
+        let scores = FractionOptimizer::default();
         let n: u16 = 1000;
         for i in 0..n {
             let x = (f32::from(i) + 0.5) / f32::from(n);
             let density = |k: i32| (k + 1) as f32 * x.powi(k);
-            let rivals = Rivals {
+            let rivals = AlternativePdfs {
                 own: density(4),
                 learned: 1.0,
             };
@@ -110,15 +110,15 @@ mod tests {
 
     #[test]
     fn few_records_and_darkness_decide_nothing() {
-        let scores = Scores::default();
-        let rivals = Rivals {
+        let scores = FractionOptimizer::default();
+        let rivals = AlternativePdfs {
             own: 9.0,
             learned: 1.0,
         };
         for light in [0.0, -1.0, f64::NAN] {
             scores.add(LEAST, light, rivals);
         }
-        scores.add(LEAST, 1.0, Rivals::default());
+        scores.add(LEAST, 1.0, AlternativePdfs::default());
         assert_eq!(scores.best(LEAST, 1000), Some(LEAST));
         scores.add(LEAST, f64::INFINITY, rivals);
         assert_eq!(scores.best(LEAST, 1000), Some(MOST));

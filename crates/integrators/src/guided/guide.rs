@@ -1,10 +1,10 @@
 //! What goes along with every path of `guided`: it steers, and decides how long paths live.
 
-use super::field::Field;
-use super::steering::Steered;
-use crate::companion::Companion;
-use crate::prefix::Prefix;
-use etalon_transport::{Bsdf, BsdfSample, Vertex};
+use super::field::SdTree;
+use super::steering::GuidedBsdf;
+use crate::path_hooks::PathHooks;
+use crate::path_throughput::PathThroughput;
+use etalon_transport::{Bsdf, BsdfSample, SurfaceInteraction};
 use glam::Vec3;
 
 /// Steers a path.
@@ -14,15 +14,15 @@ use glam::Vec3;
 /// surfaces reflect, whatever the direction, would let it: the product of their albedos. One of
 /// larger throughput, which went where little was expected, is not made heavier still.
 #[derive(Clone, Copy)]
-pub(crate) struct Guide<'f> {
-    pub(crate) field: &'f Field,
+pub(crate) struct GuidedHooks<'f> {
+    pub(crate) field: &'f SdTree,
     /// The product of the albedos along the path, over the probabilities with which it survived.
     pub(crate) reflected: f32,
 }
 
 /// The shading normal on the side of `wo`.
 #[inline]
-pub(super) fn toward(vertex: &Vertex, wo: Vec3) -> Vec3 {
+pub(super) fn toward(vertex: &SurfaceInteraction, wo: Vec3) -> Vec3 {
     let normal = vertex.shading.n;
     if normal.dot(wo) < 0.0 {
         -normal
@@ -34,29 +34,34 @@ pub(super) fn toward(vertex: &Vertex, wo: Vec3) -> Vec3 {
 /// The least probability of surviving roulette.
 const LEAST_SURVIVAL: f32 = 0.05;
 
-impl<'f> Companion for Guide<'f> {
-    type Steered<B: Bsdf + Copy> = Steered<'f, B>;
+impl<'f> PathHooks for GuidedHooks<'f> {
+    type GuidedBsdf<B: Bsdf + Copy> = GuidedBsdf<'f, B>;
 
     #[inline]
-    fn steer<B: Bsdf + Copy>(&self, vertex: &Vertex, wo: Vec3, bsdf: B) -> Steered<'f, B> {
+    fn wrap_bsdf<B: Bsdf + Copy>(
+        &self,
+        vertex: &SurfaceInteraction,
+        wo: Vec3,
+        bsdf: B,
+    ) -> GuidedBsdf<'f, B> {
         let lobe = if bsdf.has_continuous() {
             self.field.lobe(vertex.position, toward(vertex, wo))
         } else {
             None
         };
-        Steered { bsdf, lobe }
+        GuidedBsdf { bsdf, lobe }
     }
 
     #[inline]
-    fn scattered(
+    fn on_scatter(
         &mut self,
-        _: &Vertex,
+        _: &SurfaceInteraction,
         bsdf: &impl Bsdf,
         wo: Vec3,
         sample: &BsdfSample,
-        _: &Prefix,
+        _: &PathThroughput,
     ) {
-        self.reflected *= if sample.chance.is_discrete() {
+        self.reflected *= if sample.chance.is_delta() {
             let chance = sample.chance.lanes();
             4.0 * sample.value.max_element() / chance.element_sum()
         } else {
@@ -65,7 +70,7 @@ impl<'f> Companion for Guide<'f> {
     }
 
     #[inline]
-    fn survival(&mut self, prefix: &Prefix, eta: f32) -> f32 {
+    fn survival(&mut self, prefix: &PathThroughput, eta: f32) -> f32 {
         let most = self.reflected.max(prefix.throughput());
         let survival = (most * eta * eta).clamp(LEAST_SURVIVAL, 0.95);
         self.reflected /= survival;

@@ -17,24 +17,24 @@
 //! of the mean of the round before, and no more than 2²⁰ of that mean, so that one mad path cannot
 //! take a leaf for itself, and 2²⁴ such records fit.
 
-use super::field::{FACES, Field, Lesson, Region, face, place_of, refinement};
-use super::fraction::Scores;
-use super::guide::Guide;
-use super::pictures::Pictures;
-use super::pupil::{Pupil, Record};
+use super::field::{FACES, RegionUpdate, SdTree, SpatialLeaf, face, place_of, refinement};
+use super::fraction::FractionOptimizer;
+use super::guide::GuidedHooks;
+use super::pictures::TrainingImages;
+use super::training_path::{Record, TrainingPath};
 use crate::path::follow;
+use crate::path_state::PathState;
 use crate::settings::PathSettings;
-use crate::walk::Walk;
 use etalon_sampling::hash::{derived_key, mix64};
-use etalon_sampling::{Independent, PixelSample, Sampler, Sobol};
-use etalon_transport::{Pass, PixelSite, Placing, World};
+use etalon_sampling::{Independent, SampleId, Sampler, Sobol};
+use etalon_transport::{Pass, PixelSample, Placing, World};
 use glam::{UVec2, Vec3, Vec4};
 use rayon::prelude::*;
 use std::sync::atomic::{AtomicU64, Ordering};
 
 /// How a field is learned.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Lessons {
+pub(crate) struct Trainer {
     pub(crate) settings: PathSettings,
     /// The least probability of following the scattering model's own choice.
     pub(crate) own: f32,
@@ -57,7 +57,7 @@ const UNITS: f64 = (1 << 20) as f64;
 const LARGEST: f64 = (1_u64 << 40) as f64;
 
 /// Where there is something to learn.
-struct Class<'a, W, P> {
+struct TrainingContext<'a, W, P> {
     world: &'a W,
     placing: &'a P,
     pass: &'a Pass,
@@ -65,7 +65,7 @@ struct Class<'a, W, P> {
 
 /// How many paths of each pixel a round follows.
 #[derive(Clone, Copy)]
-struct Round {
+struct Iteration {
     number: u32,
     /// Independent streams of them: one for each replicate, or one alone.
     streams: u32,
@@ -73,7 +73,7 @@ struct Round {
     each: u32,
 }
 
-impl Round {
+impl Iteration {
     /// A round whose paths belong to no replicate.
     fn alone(number: u32, samples: u32) -> Self {
         Self {
@@ -101,8 +101,8 @@ impl Round {
     }
 
     /// Where the numbers of a sample come from.
-    fn address(self, seed: u64, pixel: UVec2, sample: u32) -> PixelSample {
-        PixelSample {
+    fn address(self, seed: u64, pixel: UVec2, sample: u32) -> SampleId {
+        SampleId {
             seed: mix64(mix64(seed ^ TRAINING).wrapping_add(self.number.into())),
             replicate: sample / self.each,
             pixel: (pixel.x, pixel.y),
@@ -115,14 +115,14 @@ impl Round {
 
 /// What is known of all records of a round, or of some.
 #[derive(Clone, Copy)]
-struct Tally {
+struct TrainingStatistics {
     from: Vec3,
     to: Vec3,
     weight: f64,
     records: u64,
 }
 
-impl Tally {
+impl TrainingStatistics {
     const NOTHING: Self = Self {
         from: Vec3::INFINITY,
         to: Vec3::NEG_INFINITY,
@@ -152,14 +152,14 @@ impl Tally {
 
 /// Sums of one round: a mass for every slot of every quadtree.
 struct Sums<'f> {
-    field: &'f Field,
+    field: &'f SdTree,
     /// Where the slots of each region's faces begin.
     first: Vec<[usize; FACES]>,
     masses: Vec<AtomicU64>,
     /// The records of each region's faces.
     records: Vec<[AtomicU64; FACES]>,
     /// How the scattering model's own choice did.
-    scores: Vec<[Scores; FACES]>,
+    scores: Vec<[FractionOptimizer; FACES]>,
     /// The least probability of following it.
     own: f32,
     /// Units per weight.
@@ -167,9 +167,9 @@ struct Sums<'f> {
 }
 
 impl<'f> Sums<'f> {
-    fn new(field: &'f Field, own: f32, scale: f64) -> Self {
+    fn new(field: &'f SdTree, own: f32, scale: f64) -> Self {
         let mut slots = 0;
-        let mut begin = |region: &Region| {
+        let mut begin = |region: &SpatialLeaf| {
             core::array::from_fn(|face| {
                 let first = slots;
                 slots += region.tree(face).slots();
@@ -185,7 +185,7 @@ impl<'f> Sums<'f> {
                 .map(|_| <[AtomicU64; FACES]>::default())
                 .collect(),
             scores: (field.regions().iter())
-                .map(|_| <[Scores; FACES]>::default())
+                .map(|_| <[FractionOptimizer; FACES]>::default())
                 .collect(),
             own,
             scale,
@@ -217,10 +217,10 @@ impl<'f> Sums<'f> {
     }
 
     /// What each region has learned. A region that found no light keeps what it knew.
-    fn lessons(&self, share: f64) -> Vec<Lesson> {
+    fn lessons(&self, share: f64) -> Vec<RegionUpdate> {
         let load = |sum: &AtomicU64| sum.load(Ordering::Relaxed);
         let regions = self.field.regions().par_iter().enumerate();
-        let lesson = |(index, region): (usize, &Region)| {
+        let lesson = |(index, region): (usize, &SpatialLeaf)| {
             let records = self.records[index].each_ref().map(load);
             let mut irradiance = region.irradiance;
             let own = core::array::from_fn(|face| {
@@ -238,7 +238,7 @@ impl<'f> Sums<'f> {
                 let learned = tree.learned(|slot| load(&masses[slot]) as f64, refinement(share));
                 learned.or_else(|| region.lobes[face].clone())
             });
-            Lesson {
+            RegionUpdate {
                 lobes,
                 irradiance,
                 own,
@@ -249,7 +249,7 @@ impl<'f> Sums<'f> {
     }
 }
 
-impl Lessons {
+impl Trainer {
     /// Learns the field of an image, and what is seen meanwhile. A pure function of the world, the image's
     /// seed, its film and its number of samples.
     pub(crate) fn learn<W: World>(
@@ -257,32 +257,32 @@ impl Lessons {
         world: &W,
         placing: &impl Placing,
         pass: &Pass,
-    ) -> (Field, Option<Pictures>) {
-        let class = Class {
+    ) -> (SdTree, Option<TrainingImages>) {
+        let class = TrainingContext {
             world,
             placing,
             pass,
         };
         // Where paths go, and how bright it is there, so far.
-        let nothing = Field::new(Vec3::ZERO, Vec3::ONE, self.own);
-        let first = self.round(&class, &nothing, Round::alone(0, 1), None, None);
+        let nothing = SdTree::new(Vec3::ZERO, Vec3::ONE, self.own);
+        let first = self.round(&class, &nothing, Iteration::alone(0, 1), None, None);
         if first.records == 0 {
             return (nothing, None);
         }
-        let mut field = Field::new(first.from, first.to, self.own);
+        let mut field = SdTree::new(first.from, first.to, self.own);
         let mut tally = first;
         let (mut number, mut samples, mut left) = (1, 1, self.samples.max(1));
         loop {
             // The last round takes what is left.
             let last = left / 3 < samples;
             let (round, mut pictures) = if last {
-                let pictures = Pictures::black(placing, pass, left / pass.replicates.max(1));
+                let pictures = TrainingImages::black(placing, pass, left / pass.replicates.max(1));
                 (
-                    Round::last(number, left, pass.replicates, pictures.is_some()),
+                    Iteration::last(number, left, pass.replicates, pictures.is_some()),
                     pictures,
                 )
             } else {
-                (Round::alone(number, samples), None)
+                (Iteration::alone(number, samples), None)
             };
             let mean = tally.weight / tally.records as f64;
             let scale = if mean > 0.0 { UNITS / mean } else { UNITS };
@@ -308,20 +308,20 @@ impl Lessons {
     /// Follows the paths of a round for every pixel, which `pictures` shows if there are any.
     fn round<W: World, P: Placing>(
         &self,
-        class: &Class<'_, W, P>,
-        field: &Field,
-        round: Round,
+        class: &TrainingContext<'_, W, P>,
+        field: &SdTree,
+        round: Iteration,
         sums: Option<&Sums<'_>>,
-        pictures: Option<&mut Pictures>,
-    ) -> Tally {
+        pictures: Option<&mut TrainingImages>,
+    ) -> TrainingStatistics {
         let pass = class.pass;
-        let guide = Guide {
+        let guide = GuidedHooks {
             field,
             reflected: 1.0,
         };
         let row = |(row, mut seen): (u32, Option<&mut [Vec4]>)| {
-            let mut tally = Tally::NOTHING;
-            let mut pupil = Pupil::new(guide);
+            let mut tally = TrainingStatistics::NOTHING;
+            let mut pupil = TrainingPath::new(guide);
             for column in 0..pass.size.x {
                 let pixel = pass.origin + UVec2::new(column, row);
                 for sample in 0..round.samples() {
@@ -355,23 +355,25 @@ impl Lessons {
             None => (0..pass.size.y).map(|_| None).collect(),
         };
         let rows: Vec<_> = (0..pass.size.y).zip(seen).collect();
-        let tallies: Vec<Tally> = rows.into_par_iter().map(row).collect();
-        tallies.into_iter().fold(Tally::NOTHING, Tally::join)
+        let tallies: Vec<TrainingStatistics> = rows.into_par_iter().map(row).collect();
+        tallies
+            .into_iter()
+            .fold(TrainingStatistics::NOTHING, TrainingStatistics::join)
     }
 
     /// Follows one path with a pupil, and gives what it brings to its pixel: colour and alpha, by what it
     /// counts on the film.
     fn path<'f, W: World, P: Placing>(
         &self,
-        class: &Class<'_, W, P>,
-        address: &PixelSample,
-        pupil: Pupil<'f>,
-    ) -> (Pupil<'f>, Vec4) {
-        let Class { world, pass, .. } = *class;
+        class: &TrainingContext<'_, W, P>,
+        address: &SampleId,
+        pupil: TrainingPath<'f>,
+    ) -> (TrainingPath<'f>, Vec4) {
+        let TrainingContext { world, pass, .. } = *class;
         let mut sampler = Sobol::start(address);
         let pixel = UVec2::from(address.pixel);
         let placement = class.placing.place_alone(pixel, sampler.next_2d());
-        let site = PixelSite {
+        let site = PixelSample {
             pixel,
             raster: placement.raster,
             margin: 0.0,
@@ -380,12 +382,12 @@ impl Lessons {
             spacing: 1.0 / (pass.image_samples as f32).sqrt(),
             sample: address.sample,
         };
-        let walk = Walk::start(world, &self.settings, &site, &mut sampler, pupil);
+        let walk = PathState::start(world, &self.settings, &site, &mut sampler, pupil);
         let mut walks = [Some(walk)];
         follow(world, &self.settings, &mut walks);
         let [walk] = walks;
         let walk = walk.expect("a path that was followed is still there");
         let found = walk.colour().extend(walk.alpha()) * placement.weight;
-        (walk.into_companion(), found)
+        (walk.into_hooks(), found)
     }
 }

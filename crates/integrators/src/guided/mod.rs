@@ -36,21 +36,21 @@ mod fraction;
 mod guide;
 mod learning;
 mod pictures;
-mod pupil;
 mod steering;
 #[cfg(test)]
 mod tests;
+mod training_path;
 
 use crate::path::{follow, follow_drafts};
+use crate::path_state::PathState;
 use crate::settings::{LightCandidates, PathSettings};
-use crate::walk::Walk;
 use etalon_params::Params;
 use etalon_sampling::Sampler;
-use etalon_transport::{Draft, Integrator, Pass, PixelSite, Placing, Sink, TileSink, World};
-use field::Field;
-use guide::Guide;
-use learning::Lessons;
-use pictures::{Joined, Pictures};
+use etalon_transport::{Integrator, Pass, PixelSample, Placing, SampleJob, Sink, TileSink, World};
+use field::SdTree;
+use guide::GuidedHooks;
+use learning::Trainer;
+use pictures::{Joined, TrainingImages};
 
 /// The guided path tracer.
 #[derive(Clone, Debug)]
@@ -112,8 +112,8 @@ impl Guided {
         }
     }
 
-    fn lessons(&self, pass: &Pass) -> Lessons {
-        Lessons {
+    fn lessons(&self, pass: &Pass) -> Trainer {
+        Trainer {
             settings: self.settings,
             own: self.bsdf_sampling_fraction as f32,
             samples: (self.training * f64::from(pass.image_samples)) as u32,
@@ -122,8 +122,8 @@ impl Guided {
         }
     }
 
-    fn guide(learned: &Learned) -> Guide<'_> {
-        Guide {
+    fn guide(learned: &Learned) -> GuidedHooks<'_> {
+        GuidedHooks {
             field: &learned.field,
             reflected: 1.0,
         }
@@ -133,9 +133,9 @@ impl Guided {
 /// What was learned for an image.
 #[derive(Clone, Debug)]
 pub struct Learned {
-    field: Field,
+    field: SdTree,
     /// What was seen meanwhile.
-    pictures: Option<Pictures>,
+    pictures: Option<TrainingImages>,
     /// The replicate that is being rendered.
     replicate: u32,
 }
@@ -172,12 +172,12 @@ impl Integrator for Guided {
         &self,
         world: &W,
         learned: &Learned,
-        site: &PixelSite,
+        site: &PixelSample,
         sampler: &mut S,
         sink: &mut K,
     ) {
         let guide = Self::guide(learned);
-        let mut walks = [Some(Walk::start(
+        let mut walks = [Some(PathState::start(
             world,
             &self.settings,
             site,
@@ -188,11 +188,11 @@ impl Integrator for Guided {
         walks.iter().flatten().for_each(|walk| walk.deliver(sink));
     }
 
-    fn sample_all<W: World, S: Sampler, K: TileSink>(
+    fn sample_batch<W: World, S: Sampler, K: TileSink>(
         &self,
         world: &W,
         learned: &Learned,
-        drafts: &mut [Draft<S>],
+        drafts: &mut [SampleJob<S>],
         sink: &mut K,
     ) {
         let guide = Self::guide(learned);

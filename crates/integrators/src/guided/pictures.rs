@@ -12,7 +12,7 @@
 //! Where a path in training found what is no finite number, neither is T_r: that pixel's samples go without it, but for
 //! the first in the replicate, which the film refuses, counts and tells the place of.
 
-use etalon_transport::{Pass, Placement, Placing, Sink, TileSink};
+use etalon_transport::{FilmSample, Pass, Placing, Sink, TileSink};
 use glam::{UVec2, Vec2, Vec4};
 
 /// Where pictures would take more memory than this (bytes), there are none.
@@ -20,7 +20,7 @@ const MOST: u64 = 1 << 30;
 
 /// Pictures by samples of training, one for each replicate.
 #[derive(Clone, Debug)]
-pub(crate) struct Pictures {
+pub(crate) struct TrainingImages {
     origin: UVec2,
     size: UVec2,
     width: usize,
@@ -36,7 +36,7 @@ pub(crate) struct Pictures {
     sums: Vec<Vec4>,
 }
 
-impl Pictures {
+impl TrainingImages {
     /// Black ones, to which `samples` of each pixel and replicate will be added; `None` if there are no such
     /// samples or too many pictures.
     pub(crate) fn black(placing: &impl Placing, pass: &Pass, samples: u32) -> Option<Self> {
@@ -87,7 +87,7 @@ impl Pictures {
 /// Passes a replicate's samples on, joined by what training has seen of their pixels.
 pub(crate) struct Joined<'a, K> {
     sink: &'a mut K,
-    pictures: &'a Pictures,
+    pictures: &'a TrainingImages,
     replicate: u32,
     /// 1 − w
     own: f32,
@@ -101,7 +101,7 @@ impl<'a, K> Joined<'a, K> {
     /// Of a replicate, for samples of which these are their pixels' first.
     pub(crate) fn new(
         sink: &'a mut K,
-        pictures: &'a Pictures,
+        pictures: &'a TrainingImages,
         replicate: u32,
         first: Vec<bool>,
     ) -> Self {
@@ -152,7 +152,7 @@ impl<K: TileSink> TileSink for Joined<'_, K> {
         self.join(pixel, weight);
     }
 
-    fn begin_placed(&mut self, pixel: UVec2, placement: &Placement) {
+    fn begin_placed(&mut self, pixel: UVec2, placement: &FilmSample) {
         self.sink.begin_placed(pixel, placement);
         self.join(pixel, placement.weight);
     }

@@ -9,26 +9,26 @@
 //! model alone, with probability α·P. p₀, p_f and P may differ from lane to lane, α and p_g do not.
 
 use super::field;
-use etalon_math::{Atom, Density, SolidAngle};
+use etalon_math::{DeltaProbability, Density, SolidAngle};
 use etalon_sampling::discrete::Quadtree;
 use etalon_sampling::hash::ONE_MINUS;
-use etalon_transport::{Bsdf, BsdfSample, Chance, Mixed, Mixture, Mode};
+use etalon_transport::{Bsdf, BsdfSample, Mixed, Mixture, SamplePdf, TransportMode};
 use glam::{Vec2, Vec3, Vec4};
 
 /// A scattering model, and where light comes from.
 #[derive(Clone, Copy)]
-pub(crate) struct Steered<'f, B> {
+pub(crate) struct GuidedBsdf<'f, B> {
     pub(crate) bsdf: B,
     /// Where light comes from, and α, the probability of following the model's own choice; `None` leaves
     /// the model as it is.
     pub(crate) lobe: Option<(&'f Quadtree, f32)>,
 }
 
-impl<B: Bsdf> Steered<'_, B> {
+impl<B: Bsdf> GuidedBsdf<'_, B> {
     /// The learned density where light does not pass straight on: (1 − p₀)·p_g.
     #[inline]
-    fn scattered(&self, learned: Density<SolidAngle>) -> Density<SolidAngle> {
-        let scattered = Vec4::ONE - self.bsdf.passing_probability();
+    fn on_scatter(&self, learned: Density<SolidAngle>) -> Density<SolidAngle> {
+        let scattered = Vec4::ONE - self.bsdf.null_probability();
         Density::per_lane(learned.lanes() * scattered)
     }
 
@@ -40,7 +40,7 @@ impl<B: Bsdf> Steered<'_, B> {
         own: Density<SolidAngle>,
         learned: Density<SolidAngle>,
     ) -> Density<SolidAngle> {
-        let scattered = self.scattered(learned).lanes();
+        let scattered = self.on_scatter(learned).lanes();
         Density::per_lane(own.lanes() * share + scattered * (1.0 - share))
     }
 
@@ -51,22 +51,22 @@ impl<B: Bsdf> Steered<'_, B> {
         (lobe, share): (&Quadtree, f32),
         wo: Vec3,
         u: Vec2,
-        mode: Mode,
+        mode: TransportMode,
     ) -> Option<BsdfSample> {
         let (wi, learned) = field::sample(lobe, u);
         let (value, own) = self.bsdf.eval_and_density(wo, wi, mode);
         let sample = (value != Vec4::ZERO).then(|| BsdfSample {
             wi,
             value,
-            chance: Chance::Continuous(self.mix(share, own, learned)),
+            chance: SamplePdf::Continuous(self.mix(share, own, learned)),
             // Whichever side it is on; this only sways Russian roulette.
             eta: 1.0,
-            passes: false,
+            is_null: false,
         });
         self.bsdf.mixed(|| Mixture {
             wi,
-            own: Chance::Continuous(own),
-            other: self.scattered(learned),
+            own: SamplePdf::Continuous(own),
+            other: self.on_scatter(learned),
             share,
             mixed: Mixed::Sampled {
                 by_model: false,
@@ -77,9 +77,9 @@ impl<B: Bsdf> Steered<'_, B> {
     }
 }
 
-impl<B: Bsdf> Bsdf for Steered<'_, B> {
+impl<B: Bsdf> Bsdf for GuidedBsdf<'_, B> {
     #[inline]
-    fn eval(&self, wo: Vec3, wi: Vec3, mode: Mode) -> Vec4 {
+    fn eval(&self, wo: Vec3, wi: Vec3, mode: TransportMode) -> Vec4 {
         self.bsdf.eval(wo, wi, mode)
     }
 
@@ -93,7 +93,12 @@ impl<B: Bsdf> Bsdf for Steered<'_, B> {
     }
 
     #[inline]
-    fn eval_and_density(&self, wo: Vec3, wi: Vec3, mode: Mode) -> (Vec4, Density<SolidAngle>) {
+    fn eval_and_density(
+        &self,
+        wo: Vec3,
+        wi: Vec3,
+        mode: TransportMode,
+    ) -> (Vec4, Density<SolidAngle>) {
         let (value, own) = self.bsdf.eval_and_density(wo, wi, mode);
         match self.lobe {
             // What does not scatter needs no density.
@@ -102,8 +107,8 @@ impl<B: Bsdf> Bsdf for Steered<'_, B> {
                 let density = self.mix(share, own, learned);
                 self.bsdf.mixed(|| Mixture {
                     wi,
-                    own: Chance::Continuous(own),
-                    other: self.scattered(learned),
+                    own: SamplePdf::Continuous(own),
+                    other: self.on_scatter(learned),
                     share,
                     mixed: Mixed::Weighed(density),
                 });
@@ -114,12 +119,12 @@ impl<B: Bsdf> Bsdf for Steered<'_, B> {
     }
 
     #[inline]
-    fn sample(&self, wo: Vec3, u_lobe: f32, u: Vec2, mode: Mode) -> Option<BsdfSample> {
+    fn sample(&self, wo: Vec3, u_lobe: f32, u: Vec2, mode: TransportMode) -> Option<BsdfSample> {
         let Some((lobe, share)) = self.lobe else {
             return self.bsdf.sample(wo, u_lobe, u, mode);
         };
         // The lowest numbers pass straight on; the rest are divided anew.
-        let passing = self.bsdf.passing_probability().x;
+        let passing = self.bsdf.null_probability().x;
         if u_lobe < passing {
             return self.bsdf.sample(wo, u_lobe, u, mode);
         }
@@ -131,12 +136,15 @@ impl<B: Bsdf> Bsdf for Steered<'_, B> {
         let mut sample = self.bsdf.sample(wo, u_lobe.min(ONE_MINUS), u, mode)?;
         let own = sample.chance;
         let (chance, other) = match own {
-            Chance::Continuous(own) => {
+            SamplePdf::Continuous(own) => {
                 let learned = field::density(lobe, sample.wi);
-                (Chance::Continuous(self.mix(share, own, learned)), learned)
+                (
+                    SamplePdf::Continuous(self.mix(share, own, learned)),
+                    learned,
+                )
             }
-            Chance::Discrete(Atom(probability)) => (
-                Chance::Discrete(Atom(probability * share)),
+            SamplePdf::Discrete(DeltaProbability(probability)) => (
+                SamplePdf::Discrete(DeltaProbability(probability * share)),
                 Density::uniform(0.0),
             ),
         };
@@ -144,7 +152,7 @@ impl<B: Bsdf> Bsdf for Steered<'_, B> {
         self.bsdf.mixed(|| Mixture {
             wi: sample.wi,
             own,
-            other: self.scattered(other),
+            other: self.on_scatter(other),
             share,
             mixed: Mixed::Sampled {
                 by_model: true,
@@ -160,13 +168,13 @@ impl<B: Bsdf> Bsdf for Steered<'_, B> {
     }
 
     #[inline]
-    fn passing(&self) -> Vec4 {
-        self.bsdf.passing()
+    fn null_transmittance(&self) -> Vec4 {
+        self.bsdf.null_transmittance()
     }
 
     #[inline]
-    fn passing_probability(&self) -> Vec4 {
-        self.bsdf.passing_probability()
+    fn null_probability(&self) -> Vec4 {
+        self.bsdf.null_probability()
     }
 
     #[inline]

@@ -1,16 +1,16 @@
 //! The parts of `guided`, one by one.
 
-use super::field::{self, FACES, Field, Lesson, Lobes};
-use super::steering::Steered;
-use etalon_math::{Atom, Density, SolidAngle};
+use super::field::{self, FACES, Lobes, RegionUpdate, SdTree};
+use super::steering::GuidedBsdf;
+use etalon_math::{DeltaProbability, Density, SolidAngle};
 use etalon_sampling::discrete::{Quadtree, Refinement};
 use etalon_sampling::{Independent, Sampler};
-use etalon_transport::{Bsdf, BsdfSample, Chance, Mode};
+use etalon_transport::{Bsdf, BsdfSample, SamplePdf, TransportMode};
 use glam::{Vec2, Vec3, Vec4};
 use std::f32::consts::PI;
 
-fn lessons(field: &Field, records: u64) -> Vec<Lesson> {
-    let lesson = |_: &field::Region| Lesson {
+fn lessons(field: &SdTree, records: u64) -> Vec<RegionUpdate> {
+    let lesson = |_: &field::SpatialLeaf| RegionUpdate {
         lobes: Lobes::default(),
         irradiance: [0.0; FACES],
         own: [0.5; FACES],
@@ -21,7 +21,7 @@ fn lessons(field: &Field, records: u64) -> Vec<Lesson> {
 
 #[test]
 fn regions_are_halved_until_their_share_is_small() {
-    let mut field = Field::new(Vec3::ZERO, Vec3::new(2.0, 1.0, 0.5), 0.5);
+    let mut field = SdTree::new(Vec3::ZERO, Vec3::new(2.0, 1.0, 0.5), 0.5);
     assert_eq!(field.find(Vec3::splat(0.3)), 0);
     // Of 1000 records at most 130 in each: eight parts; then four times as many.
     for (records, parts) in [(1000, 8), (400, 32)] {
@@ -99,7 +99,7 @@ fn directions_follow_the_density_of_their_lobe() {
     let total: f32 = (0..n * n)
         .map(|i| (Vec2::new((i % n) as f32, (i / n) as f32) + 0.5) / n as f32)
         .map(etalon_sampling::warps::square_to_uniform_sphere)
-        .map(|direction| field::density(&lobe, direction).chooser())
+        .map(|direction| field::density(&lobe, direction).hero())
         .sum();
     let integral = 4.0 * PI * total / (n * n) as f32;
     assert!((integral - 1.0).abs() < 1e-3, "{integral}");
@@ -112,19 +112,19 @@ struct Model;
 const PASSING: Vec4 = Vec4::new(0.2, 0.3, 0.35, 0.4);
 
 impl Bsdf for Model {
-    fn eval(&self, _: Vec3, wi: Vec3, _: Mode) -> Vec4 {
+    fn eval(&self, _: Vec3, wi: Vec3, _: TransportMode) -> Vec4 {
         (Vec4::ONE - PASSING) * (0.5 * wi.z.max(0.0) / PI)
     }
     fn density(&self, wo: Vec3, wi: Vec3) -> Density<SolidAngle> {
-        Density::per_lane(self.eval(wo, wi, Mode::Radiance))
+        Density::per_lane(self.eval(wo, wi, TransportMode::Radiance))
     }
-    fn sample(&self, wo: Vec3, u_lobe: f32, u: Vec2, mode: Mode) -> Option<BsdfSample> {
+    fn sample(&self, wo: Vec3, u_lobe: f32, u: Vec2, mode: TransportMode) -> Option<BsdfSample> {
         let discrete = |wi, energy: Vec4, passes| BsdfSample {
             wi,
             value: energy,
-            chance: Chance::Discrete(Atom(energy)),
+            chance: SamplePdf::Discrete(DeltaProbability(energy)),
             eta: 1.0,
-            passes,
+            is_null: passes,
         };
         let rest = (u_lobe - PASSING.x) / (1.0 - PASSING.x);
         if u_lobe < PASSING.x {
@@ -135,19 +135,19 @@ impl Bsdf for Model {
         }
         let wi = etalon_sampling::warps::square_to_cosine_hemisphere(u);
         let density = self.density(wo, wi);
-        (density.chooser() > 0.0).then(|| BsdfSample {
-            chance: Chance::Continuous(density),
-            passes: false,
+        (density.hero() > 0.0).then(|| BsdfSample {
+            chance: SamplePdf::Continuous(density),
+            is_null: false,
             ..discrete(wi, self.eval(wo, wi, mode), false)
         })
     }
     fn has_continuous(&self) -> bool {
         true
     }
-    fn passing(&self) -> Vec4 {
+    fn null_transmittance(&self) -> Vec4 {
         PASSING
     }
-    fn passing_probability(&self) -> Vec4 {
+    fn null_probability(&self) -> Vec4 {
         PASSING
     }
     fn albedo(&self, _: Vec3) -> Vec4 {
@@ -163,16 +163,16 @@ fn brings(model: &impl Bsdf) -> [f64; 3] {
     let mut sums = [0.0; 3];
     for _ in 0..n {
         let (u_lobe, u) = (numbers.next_1d(), numbers.next_2d());
-        let Some(sample) = model.sample(Vec3::Z, u_lobe, u, Mode::Radiance) else {
+        let Some(sample) = model.sample(Vec3::Z, u_lobe, u, TransportMode::Radiance) else {
             continue;
         };
         let weight = f64::from(sample.value.x / sample.chance.lanes().x);
-        match (sample.passes, sample.chance) {
+        match (sample.is_null, sample.chance) {
             (true, _) => sums[2] += weight,
-            (false, Chance::Discrete(_)) => sums[1] += weight,
-            (false, Chance::Continuous(density)) => {
+            (false, SamplePdf::Discrete(_)) => sums[1] += weight,
+            (false, SamplePdf::Continuous(density)) => {
                 // Only what the sample says of its density in the end is believed.
-                assert_eq!(sample.wi.is_normalized(), density.chooser() > 0.0);
+                assert_eq!(sample.wi.is_normalized(), density.hero() > 0.0);
                 sums[0] += weight * f64::from(1.0 + sample.wi.z);
             }
         }
@@ -186,7 +186,7 @@ fn a_steered_model_scatters_the_same_light() {
     // Diffuse light: 0.8/2·(1 + 2/3); the mirror's 0.4; passing 0.2.
     let exact = [0.4 * (1.0 + 2.0 / 3.0), 0.4, 0.2];
     for own in [0.1, 0.5, 1.0] {
-        let steered = Steered {
+        let steered = GuidedBsdf {
             bsdf: Model,
             lobe: Some((&lobe, own)),
         };
@@ -202,11 +202,12 @@ fn a_steered_model_scatters_the_same_light() {
         let mut numbers = Independent::from_key(6);
         for _ in 0..1000 {
             let (u_lobe, u) = (numbers.next_1d(), numbers.next_2d());
-            let Some(sample) = steered.sample(Vec3::Z, u_lobe, u, Mode::Radiance) else {
+            let Some(sample) = steered.sample(Vec3::Z, u_lobe, u, TransportMode::Radiance) else {
                 continue;
             };
-            if let Chance::Continuous(stated) = sample.chance {
-                let (value, density) = steered.eval_and_density(Vec3::Z, sample.wi, Mode::Radiance);
+            if let SamplePdf::Continuous(stated) = sample.chance {
+                let (value, density) =
+                    steered.eval_and_density(Vec3::Z, sample.wi, TransportMode::Radiance);
                 assert_eq!(value, sample.value);
                 assert_eq!(density, steered.density(Vec3::Z, sample.wi));
                 let off = (density.lanes() / stated.lanes() - 1.0).abs().max_element();
@@ -225,7 +226,7 @@ fn a_steered_model_scatters_the_same_light() {
 #[test]
 fn what_nothing_is_known_of_is_left_alone() {
     let plain = brings(&Model);
-    let steered = Steered {
+    let steered = GuidedBsdf {
         bsdf: Model,
         lobe: None,
     };

@@ -1,7 +1,7 @@
 //! What a replicate begins with: brightness, seeds, and what was learned of path kinds.
 
-use super::emphasis::Emphasis;
-use super::found::{Contribution, Field, Found};
+use super::found::{Contribution, Contributions, FilmRegion};
+use super::importance_map::ImportanceMap;
 use super::primary::PrimarySample;
 use super::{ChainSettings, Integrand};
 use etalon_sampling::hash::{derived_key, mix64, random_float, stream_key};
@@ -32,12 +32,12 @@ impl Stream {
 /// How often each kind of path is tried: in proportion to the light that it brings, but for a
 /// quarter of all that go to all alike.
 #[derive(Clone, Debug, PartialEq)]
-pub(crate) struct Kinds {
+pub(crate) struct PathLengthPdf {
     /// The sums of the probabilities up to and with each.
     sums: Vec<f32>,
 }
 
-impl Kinds {
+impl PathLengthPdf {
     /// Probabilities for kinds that bring so much light.
     fn new(brightness: &[f64]) -> Self {
         let count = brightness.len() as f64;
@@ -77,8 +77,8 @@ impl Kinds {
 #[derive(Clone, Debug)]
 pub(super) struct Pilot {
     seed: u64,
-    pub(super) kinds: Kinds,
-    pub(super) emphasis: Emphasis,
+    pub(super) kinds: PathLengthPdf,
+    pub(super) emphasis: ImportanceMap,
     /// c: the brightness that the balance heuristic assumes.
     pub(super) brightness: f64,
 }
@@ -89,7 +89,7 @@ pub struct State {
     pub(super) pilot: Pilot,
     pub(super) seed: u64,
     pub(super) replicate: u32,
-    pub(super) field: Field,
+    pub(super) field: FilmRegion,
     /// b̂
     pub(super) brightness: f64,
     /// c·ρ
@@ -135,7 +135,7 @@ impl State {
         pass: &Pass,
         before: Option<Self>,
     ) -> Self {
-        let field = Field::of(pass);
+        let field = FilmRegion::of(pass);
         let samples = u64::from(pass.size.x) * u64::from(pass.size.y) * u64::from(pass.samples);
         let kept = before.map(|state| state.pilot);
         let pilot = kept
@@ -231,7 +231,7 @@ impl Pilot {
         integrand: &T,
         settings: &ChainSettings,
         placing: &impl Placing,
-        field: Field,
+        field: FilmRegion,
         seed: u64,
         samples: u64,
     ) -> Self {
@@ -239,16 +239,16 @@ impl Pilot {
         if count == 0 {
             return Self {
                 seed,
-                kinds: Kinds::alike(0),
-                emphasis: Emphasis::none(),
+                kinds: PathLengthPdf::alike(0),
+                emphasis: ImportanceMap::none(),
                 brightness: 0.0,
             };
         }
         let [least, most] = PILOT;
         let pilot = (samples / 4).clamp(least, most) as u32;
-        let learned = (&Kinds::alike(count), &Emphasis::none());
+        let learned = (&PathLengthPdf::alike(count), &ImportanceMap::none());
         let key = mix64(!mix64(seed));
-        let note = |found: &Found, task: &mut Vec<(usize, Vec2, f64)>| {
+        let note = |found: &Contributions, task: &mut Vec<(usize, Vec2, f64)>| {
             if found.is_sound() {
                 let each = found.contributions().iter();
                 let each = each.map(|one| (found.kind, one.raster, f64::from(one.brightness())));
@@ -261,9 +261,9 @@ impl Pilot {
             .flatten()
             .collect();
         let emphasis = if settings.relative {
-            Emphasis::of(&field, drawn.iter().map(|(_, raster, own)| (*raster, *own)))
+            ImportanceMap::of(&field, drawn.iter().map(|(_, raster, own)| (*raster, *own)))
         } else {
-            Emphasis::none()
+            ImportanceMap::none()
         };
         let mut sums = vec![0.0; count];
         for (kind, raster, own) in drawn {
@@ -272,7 +272,7 @@ impl Pilot {
         Self {
             seed,
             brightness: sums.iter().sum::<f64>() / f64::from(pilot),
-            kinds: Kinds::new(&sums),
+            kinds: PathLengthPdf::new(&sums),
             emphasis,
         }
     }
@@ -288,18 +288,18 @@ pub(super) fn start_key(key: u64, index: u32) -> u64 {
 fn draw<T: Integrand, N: Default + Send>(
     (integrand, placing): (&T, &impl Placing),
     settings: &ChainSettings,
-    field: Field,
-    (kinds, emphasis): (&Kinds, &Emphasis),
+    field: FilmRegion,
+    (kinds, emphasis): (&PathLengthPdf, &ImportanceMap),
     key: u64,
     count: u32,
-    note: impl Fn(&Found, &mut N) + Sync,
+    note: impl Fn(&Contributions, &mut N) + Sync,
 ) -> Vec<N> {
     (0..count.div_ceil(TASK))
         .into_par_iter()
         .map(|task| {
             let mut noted = N::default();
             let mut lists = T::Lists::default();
-            let mut found = Found::default();
+            let mut found = Contributions::default();
             let mut sample = PrimarySample::new(settings.step(), settings.large_step, 0, 0);
             for index in task * TASK..count.min((task + 1) * TASK) {
                 if placing.stopped() {

@@ -1,12 +1,12 @@
 //! A Markov chain, and which pixel hosts it.
 
 use super::bootstrap::{State, Stream, start_key};
-use super::found::{Contribution, Found};
+use super::found::{Contribution, Contributions};
 use super::primary::{LogarithmicStep, PrimarySample};
 use super::{ChainSettings, Integrand};
 use core::ops::Range;
 use etalon_sampling::hash::derived_key;
-use etalon_transport::{ChainRemark, PixelSite, Remark, Sink};
+use etalon_transport::{ChainRemark, PixelSample, Sink, TraceEvent};
 
 impl State {
     /// Does the share of a sample: its chains, and what it delivers of the bootstrap samples. They
@@ -16,7 +16,7 @@ impl State {
         &self,
         integrand: &T,
         settings: &ChainSettings,
-        site: &PixelSite,
+        site: &PixelSample,
         sink: &mut K,
     ) {
         let share = |count: usize| self.share(site, count);
@@ -34,7 +34,7 @@ impl State {
             if tell(integrand, || ChainRemark::Uniform(*index)) {
                 // Whoever listens wants to know how it came about.
                 let mut sample = self.uniform_sample(settings, *index, 0);
-                let (lists, found) = (&mut T::Lists::default(), &mut Found::default());
+                let (lists, found) = (&mut T::Lists::default(), &mut Contributions::default());
                 integrand.find(&self.field, &self.pilot.kinds, &mut sample, lists, found);
             }
             deliver(*contribution, sink);
@@ -45,7 +45,7 @@ impl State {
     }
 
     /// Which of so many things a sample hosts: they are dealt evenly.
-    fn share(&self, site: &PixelSite, count: usize) -> Range<usize> {
+    fn share(&self, site: &PixelSample, count: usize) -> Range<usize> {
         // Pixels around the film host none.
         let place = site.pixel.wrapping_sub(self.field.origin());
         let size = self.field.pixels();
@@ -84,8 +84,8 @@ impl State {
         let start = self.starts[chain];
         let mut sample = self.uniform_sample(settings, start, course);
         let mut lists = T::Lists::default();
-        let (mut current, mut proposed) = (Found::default(), Found::default());
-        let mut find = |sample: &mut PrimarySample<_>, found: &mut Found| {
+        let (mut current, mut proposed) = (Contributions::default(), Contributions::default());
+        let mut find = |sample: &mut PrimarySample<_>, found: &mut Contributions| {
             found.clear();
             let kinds = &self.pilot.kinds;
             integrand.find(&self.field, kinds, sample, &mut lists, found);
@@ -147,5 +147,5 @@ fn deliver<K: Sink>(contribution: Contribution, sink: &mut K) {
 /// Remarks something about chains; whether anybody listens.
 #[inline]
 fn tell<T: Integrand>(integrand: &T, remark: impl FnOnce() -> ChainRemark) -> bool {
-    integrand.remark(|| Remark::Chain(remark()))
+    integrand.record(|| TraceEvent::Chain(remark()))
 }

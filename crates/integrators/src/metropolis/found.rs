@@ -1,7 +1,7 @@
 //! What a primary sample contributes, and where.
 
-use super::emphasis::Emphasis;
-use etalon_transport::{Pass, PixelSite};
+use super::importance_map::ImportanceMap;
+use etalon_transport::{Pass, PixelSample};
 use glam::{UVec2, Vec2, Vec3};
 
 /// A contribution to the film.
@@ -23,14 +23,14 @@ impl Contribution {
 
 /// All contributions of a primary sample.
 #[derive(Clone, Debug, Default)]
-pub(crate) struct Found {
+pub(crate) struct Contributions {
     contributions: Vec<Contribution>,
     brightness: f32,
     /// The kind of its path, counted from 0 among those that the integrand tells apart.
     pub(crate) kind: usize,
 }
 
-impl Found {
+impl Contributions {
     /// Forgets all.
     pub(crate) fn clear(&mut self) {
         self.contributions.clear();
@@ -46,7 +46,7 @@ impl Found {
     }
 
     /// Adds up I, where places count as `emphasis` says.
-    pub(super) fn measure(&mut self, field: &Field, emphasis: &Emphasis) {
+    pub(super) fn measure(&mut self, field: &FilmRegion, emphasis: &ImportanceMap) {
         let each = self.contributions.iter();
         self.brightness = each
             .map(|one| one.brightness() * emphasis.at(field, one.raster))
@@ -91,13 +91,13 @@ impl Found {
 /// The part of the film plane on which primary samples choose a place: the film and what lies
 /// beyond its border but still matters.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) struct Field {
+pub(crate) struct FilmRegion {
     origin: UVec2,
     size: UVec2,
     margin: u32,
 }
 
-impl Field {
+impl FilmRegion {
     pub(crate) fn of(pass: &Pass) -> Self {
         Self {
             origin: pass.origin,
@@ -133,8 +133,8 @@ impl Field {
 
     /// The site of a sample that goes through the place that `u` chooses. One sample stands for the
     /// whole field.
-    pub(crate) fn site(&self, u: Vec2) -> PixelSite {
-        PixelSite {
+    pub(crate) fn site(&self, u: Vec2) -> PixelSample {
+        PixelSample {
             pixel: UVec2::ZERO,
             raster: self.low() + u * self.size.as_vec2(),
             margin: self.margin as f32,

@@ -35,7 +35,7 @@
 //! given c, and the standard error over them is valid. A poor c only costs efficiency; with c =
 //! 0, when the pilot finds nothing, the chains are left alone with the image.
 //!
-//! F is the estimate of `prefix.rs` and the wavelength draw one of the numbers of u, so that a path
+//! F is the estimate of `path_throughput.rs` and the wavelength draw one of the numbers of u, so that a path
 //! keeps its four wavelengths, and dispersion needs no care of its own.
 //!
 //! As many steps are made as there are samples in the replicate, cut into chains of equal length;
@@ -45,22 +45,22 @@
 
 mod bootstrap;
 mod chain;
-mod emphasis;
 mod found;
+mod importance_map;
 pub(crate) mod primary;
 #[cfg(test)]
 mod tests;
 
-pub(crate) use bootstrap::Kinds;
+pub(crate) use bootstrap::PathLengthPdf;
 pub use bootstrap::State;
-pub(crate) use found::{Field, Found};
+pub(crate) use found::{Contributions, FilmRegion};
 
+use crate::path_state::PathState;
 use crate::settings::PathSettings;
-use crate::walk::Walk;
 use core::ops::Range;
 use etalon_params::Params;
 use etalon_sampling::Sampler;
-use etalon_transport::{PixelSite, Remark, Sink, World};
+use etalon_transport::{PixelSample, Sink, TraceEvent, World};
 use primary::LogarithmicStep;
 
 /// What a primary sample stands for.
@@ -68,21 +68,21 @@ pub(crate) trait Integrand: Sync {
     /// Memory that one evaluation lends to the next.
     type Lists: Default;
 
-    /// How many kinds of paths it tells apart, for [`Kinds`]; none if there is nothing to find.
+    /// How many kinds of paths it tells apart, for [`PathLengthPdf`]; none if there is nothing to find.
     fn kinds(&self) -> usize;
 
     /// Turns a primary sample into contributions to the film.
     fn find<S: Sampler>(
         &self,
-        field: &Field,
-        kinds: &Kinds,
+        field: &FilmRegion,
+        kinds: &PathLengthPdf,
         sampler: &mut S,
         lists: &mut Self::Lists,
-        found: &mut Found,
+        found: &mut Contributions,
     );
 
-    /// Remarks something in the world of the paths, see [`World::remark`].
-    fn remark(&self, remark: impl FnOnce() -> Remark) -> bool;
+    /// Remarks something in the world of the paths, see [`World::record`].
+    fn record(&self, remark: impl FnOnce() -> TraceEvent) -> bool;
 }
 
 /// How chains are run.
@@ -179,11 +179,11 @@ impl ChainSettings {
         &self,
         world: &W,
         settings: &PathSettings,
-        site: &PixelSite,
+        site: &PixelSample,
         sampler: &mut S,
         sink: &mut K,
     ) {
-        let mut walk = Walk::start(world, settings, site, sampler, ());
+        let mut walk = PathState::start(world, settings, site, sampler, ());
         walk.follow(world, settings, &(0..self.least_corners()));
         walk.deliver(sink);
     }

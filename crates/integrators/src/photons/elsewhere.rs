@@ -1,30 +1,29 @@
-//! A camera path at other wavelengths than its own.
+//! Evaluates a camera path anew at other wavelengths.
 //!
-//! Whatever scattered continuously is evaluated there. A discrete direction has a value only as a
-//! sample: the model is resolved at the other wavelengths and asked for the same direction, with
-//! the numbers that had found it, and, if a coloured choice of lobes then finds another, with
-//! others.
+//! Continuous lobes are evaluated. Delta lobes have no value but of a sample: the BSDF at the other wavelengths is
+//! sampled with the same random numbers, and, if the choice of a lobe depends on wavelength and takes another,
+//! with further ones.
 
-use super::sets::{Lanes, WavelengthSets};
-use crate::prefix::Prefix;
+use super::sets::{WavelengthChoice, WavelengthSets};
+use crate::path_throughput::PathThroughput;
 use etalon_spectrum::Wavelengths;
-use etalon_transport::{Bsdf, BsdfSample, Mode, Vertex, World};
+use etalon_transport::{Bsdf, BsdfSample, SurfaceInteraction, TransportMode, World};
 use glam::{Vec2, Vec3, Vec4};
 
-/// A surface that a camera path left.
+/// A vertex of a camera path, with the direction sampled there.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Left {
-    vertex: Vertex,
+pub(crate) struct CameraVertex {
+    vertex: SurfaceInteraction,
     wo: Vec3,
     wi: Vec3,
-    manner: Manner,
+    manner: ScatterKind,
     /// Density or probability of the lane that chose, times that of surviving.
     chance: f32,
 }
 
-/// How it was left.
+/// What kind of interaction that was.
 #[derive(Clone, Copy, Debug, PartialEq)]
-enum Manner {
+enum ScatterKind {
     Passing,
     Continuous,
     /// In a discrete direction, found with these numbers.
@@ -37,15 +36,21 @@ enum Manner {
 /// The squared distance at which unit vectors are the same direction.
 const SAME: f32 = 1e-8;
 
-impl Left {
+impl CameraVertex {
     /// The surface that was left as `sample` says, found with the numbers `lobe` and `u`.
-    pub(crate) fn new(vertex: Vertex, wo: Vec3, sample: &BsdfSample, lobe: f32, u: Vec2) -> Self {
-        let manner = if sample.passes {
-            Manner::Passing
-        } else if sample.chance.is_discrete() {
-            Manner::Discrete { lobe, u }
+    pub(crate) fn new(
+        vertex: SurfaceInteraction,
+        wo: Vec3,
+        sample: &BsdfSample,
+        lobe: f32,
+        u: Vec2,
+    ) -> Self {
+        let manner = if sample.is_null {
+            ScatterKind::Passing
+        } else if sample.chance.is_delta() {
+            ScatterKind::Discrete { lobe, u }
         } else {
-            Manner::Continuous
+            ScatterKind::Continuous
         };
         Self {
             vertex,
@@ -57,7 +62,7 @@ impl Left {
     }
 
     /// It survived roulette here with probability `q`.
-    pub(crate) fn survive(&mut self, q: f32) {
+    pub(crate) fn roulette(&mut self, q: f32) {
         self.chance *= q;
     }
 
@@ -65,9 +70,9 @@ impl Left {
     fn value<W: World>(&self, world: &W, wavelengths: &Wavelengths) -> Vec4 {
         let bsdf = world.bsdf(&self.vertex, self.wo, wavelengths);
         let value = match self.manner {
-            Manner::Passing => bsdf.passing(),
-            Manner::Continuous => bsdf.eval(self.wo, self.wi, Mode::Radiance),
-            Manner::Discrete { lobe, u } => discrete(&bsdf, self.wo, self.wi, lobe, u),
+            ScatterKind::Passing => bsdf.null_transmittance(),
+            ScatterKind::Continuous => bsdf.eval(self.wo, self.wi, TransportMode::Radiance),
+            ScatterKind::Discrete { lobe, u } => discrete(&bsdf, self.wo, self.wi, lobe, u),
         };
         value / self.chance
     }
@@ -75,22 +80,22 @@ impl Left {
 
 /// A camera path up to a surface where it gathers photons.
 #[derive(Clone, Copy)]
-pub(crate) struct Behind<'a> {
+pub(crate) struct CameraPath<'a> {
     pub(crate) sets: &'a WavelengthSets,
     /// Its own wavelengths, and its value and densities at them.
-    pub(crate) lanes: Lanes,
-    pub(crate) prefix: &'a Prefix,
+    pub(crate) lanes: WavelengthChoice,
+    pub(crate) prefix: &'a PathThroughput,
     /// Whether smooth dispersion has left one wavelength.
     pub(crate) alone: bool,
     /// The surfaces that it left.
-    pub(crate) path: &'a [Left],
+    pub(crate) path: &'a [CameraVertex],
 }
 
-impl Behind<'_> {
+impl CameraPath<'_> {
     /// f/p₀ at the wavelengths of a set.
     pub(crate) fn value<W: World>(&self, world: &W, set: usize) -> Vec4 {
         if set == self.lanes.set {
-            self.lanes.to_set(self.prefix.value)
+            self.lanes.to_set(self.prefix.beta)
         } else {
             value(world, self.path, self.sets.get(set))
         }
@@ -104,7 +109,7 @@ impl Behind<'_> {
         } else {
             1.0
         };
-        ways / self.prefix.ratio.element_sum()
+        ways / self.prefix.r_u.element_sum()
     }
 
     /// `rgb`, and what photons brought, a sum for each set, carried to the camera.
@@ -127,8 +132,8 @@ impl Behind<'_> {
 }
 
 /// f/p₀ of a path, f at other wavelengths.
-fn value<W: World>(world: &W, path: &[Left], wavelengths: &Wavelengths) -> Vec4 {
-    let mut value = Prefix::START.value;
+fn value<W: World>(world: &W, path: &[CameraVertex], wavelengths: &Wavelengths) -> Vec4 {
+    let mut value = PathThroughput::START.beta;
     for left in path {
         value *= left.value(world, wavelengths);
         if value == Vec4::ZERO {
@@ -146,9 +151,9 @@ fn discrete(bsdf: &impl Bsdf, wo: Vec3, wi: Vec3, lobe: f32, u: Vec2) -> Vec4 {
     [lobe, 0.0, 1.0 - 0.5 * f32::EPSILON]
         .into_iter()
         .chain(others)
-        .filter_map(|lobe| bsdf.sample(wo, lobe, u, Mode::Radiance))
+        .filter_map(|lobe| bsdf.sample(wo, lobe, u, TransportMode::Radiance))
         .find(|sample| {
-            sample.chance.is_discrete() && !sample.passes && sample.wi.distance_squared(wi) < SAME
+            sample.chance.is_delta() && !sample.is_null && sample.wi.distance_squared(wi) < SAME
         })
         .map_or(Vec4::ZERO, |sample| sample.value)
 }

@@ -4,20 +4,20 @@
 //! it leaves light that is not direct to photons, and ends. With a final gather it goes on once in
 //! such a direction, and leaves to photons what it meets there.
 
-use super::elsewhere::{Behind, Left};
+use super::elsewhere::{CameraPath, CameraVertex};
 use super::is_sharp;
-use super::sets::{Lanes, WavelengthSets};
+use super::sets::{WavelengthChoice, WavelengthSets};
 use super::shoot::{Kind, Photon, PhotonMap};
-use crate::dimensions::{self as dim, Event};
-use crate::prefix::Prefix;
-use crate::rival::Rival;
+use crate::dimensions::{self as dim, BounceSamples};
+use crate::light_mis::LightMis;
+use crate::path_throughput::PathThroughput;
 use crate::settings::PathSettings;
 use core::f32::consts::PI;
 use etalon_sampling::Sampler;
 use etalon_spectrum::Wavelengths;
 use etalon_transport::{
-    Bsdf, Camera, Chance, Draft, MergedPhoton, Mode, PixelSite, Ray, Receiver, Remark, Sink,
-    TileSink, Vertex, World,
+    Bsdf, Camera, LightSampleContext, MergedPhoton, PixelSample, Ray, SampleJob, SamplePdf, Sink,
+    SurfaceInteraction, TileSink, TraceEvent, TransportMode, World,
 };
 use glam::{Vec3, Vec4};
 
@@ -26,7 +26,7 @@ const FACING: f32 = 0.7;
 
 /// What is looked up in a photon map.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) struct Lookup {
+pub(crate) struct KernelLookup {
     /// Radius (m).
     pub(crate) radius: f32,
     /// At most so many of the nearest photons, whose distance then is the radius; all within it
@@ -64,7 +64,7 @@ impl Kernel {
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Layer<'a> {
     pub(crate) map: &'a PhotonMap,
-    pub(crate) lookup: Lookup,
+    pub(crate) lookup: KernelLookup,
     /// How many photons were shot.
     pub(crate) shot: u32,
     /// Whether these photons count where the walk has only followed sharp directions, …
@@ -75,7 +75,7 @@ pub(crate) struct Layer<'a> {
 
 /// What a walk needs to know.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Plan<'a> {
+pub(crate) struct GatherConfig<'a> {
     pub(crate) settings: &'a PathSettings,
     pub(crate) sets: &'a WavelengthSets,
     pub(crate) layers: &'a [Layer<'a>],
@@ -86,7 +86,7 @@ pub(crate) struct Plan<'a> {
 
 /// Memory for walks.
 struct Scratch<B> {
-    path: Vec<Left>,
+    path: Vec<CameraVertex>,
     /// The model of the surface at hand for each set, once needed, and what its photons add.
     at: Vec<(Option<B>, Vec4)>,
     nearest: Vec<super::kdtree::Found>,
@@ -103,18 +103,18 @@ impl<B> Default for Scratch<B> {
 }
 
 /// A walk.
-struct Gatherer<'a, 'w, W: World> {
+struct GatherPath<'a, 'w, W: World> {
     world: &'w W,
-    plan: &'a Plan<'a>,
-    lanes: Lanes,
+    plan: &'a GatherConfig<'a>,
+    lanes: WavelengthChoice,
     wavelengths: Wavelengths,
     scratch: &'a mut Scratch<W::Bsdf<'w>>,
-    prefix: Prefix,
+    prefix: PathThroughput,
     /// Whether smooth dispersion has left one wavelength.
     alone: bool,
     /// Whether it has left in a direction that is not sharp.
     second: bool,
-    rival: Rival,
+    light_mis: LightMis,
     depth: u32,
     /// What was found at the walk's own wavelengths, per lane, …
     radiance: Vec4,
@@ -125,8 +125,8 @@ struct Gatherer<'a, 'w, W: World> {
 /// Follows one sample by itself.
 pub(crate) fn follow_one<W: World>(
     world: &W,
-    plan: &Plan<'_>,
-    site: &PixelSite,
+    plan: &GatherConfig<'_>,
+    site: &PixelSample,
     sampler: &mut impl Sampler,
     sink: &mut impl Sink,
 ) {
@@ -136,8 +136,8 @@ pub(crate) fn follow_one<W: World>(
 /// Follows samples one after the other.
 pub(crate) fn follow_all<W: World, S: Sampler>(
     world: &W,
-    plan: &Plan<'_>,
-    drafts: &mut [Draft<S>],
+    plan: &GatherConfig<'_>,
+    drafts: &mut [SampleJob<S>],
     sink: &mut impl TileSink,
 ) {
     let mut scratch = Scratch::default();
@@ -151,8 +151,8 @@ pub(crate) fn follow_all<W: World, S: Sampler>(
 /// Follows one sample.
 fn follow<'w, W: World>(
     world: &'w W,
-    plan: &Plan<'_>,
-    site: &PixelSite,
+    plan: &GatherConfig<'_>,
+    site: &PixelSample,
     sampler: &mut impl Sampler,
     scratch: &mut Scratch<W::Bsdf<'w>>,
     sink: &mut impl Sink,
@@ -161,19 +161,19 @@ fn follow<'w, W: World>(
     let lens = sampler.next_2d();
     let lanes = plan.sets.choose(sampler.next_1d());
     let time = sampler.next_1d();
-    world.remark(|| Remark::Wavelengths(plan.sets.of(lanes)));
+    world.record(|| TraceEvent::Wavelengths(plan.sets.of(lanes)));
     let start = world.camera().ray(site.raster, lens, time);
     scratch.path.clear();
-    let mut gatherer = Gatherer {
+    let mut gatherer = GatherPath {
         world,
         plan,
         lanes,
         wavelengths: plan.sets.of(lanes),
         scratch,
-        prefix: Prefix::START,
+        prefix: PathThroughput::START,
         alone: false,
         second: false,
-        rival: Rival::NONE,
+        light_mis: LightMis::NONE,
         depth: 1,
         radiance: Vec4::ZERO,
         rgb: Vec3::ZERO,
@@ -184,13 +184,13 @@ fn follow<'w, W: World>(
     sink.radiance((rgb * start.weight).to_array(), alpha);
 }
 
-impl<'w, W: World> Gatherer<'_, 'w, W> {
+impl<'w, W: World> GatherPath<'_, 'w, W> {
     /// Follows the walk; its alpha, as in `path`.
     fn walk(&mut self, mut ray: Ray, sampler: &mut impl Sampler) -> f32 {
         let (world, settings) = (self.world, self.plan.settings);
         let mut alpha = 0.0_f32;
         let mut eta = 1.0;
-        while self.depth <= settings.max_depth && self.prefix.value != Vec4::ZERO {
+        while self.depth <= settings.max_depth && self.prefix.beta != Vec4::ZERO {
             let direction = ray.direction;
             let Some(hit) = world.intersect(&ray) else {
                 // A hidden sky stays hidden to rays that only went straight.
@@ -198,7 +198,9 @@ impl<'w, W: World> Gatherer<'_, 'w, W> {
                 if visible && world.has_background() {
                     alpha = 1.0;
                     let radiance = world.background(direction, &self.wavelengths);
-                    self.emission(radiance, |rival| rival.at_background(world, direction));
+                    self.emission(radiance, |light_mis| {
+                        light_mis.pdf_at_background(world, direction)
+                    });
                 }
                 break;
             };
@@ -212,48 +214,48 @@ impl<'w, W: World> Gatherer<'_, 'w, W> {
             let wo = -direction;
             if emits {
                 let radiance = world.emitted(&vertex, wo, &self.wavelengths);
-                self.emission(radiance, |rival| {
-                    rival.at_surface(world, &vertex, direction)
+                self.emission(radiance, |light_mis| {
+                    light_mis.pdf_at_surface(world, &vertex, direction)
                 });
             }
             let bsdf = world.bsdf(&vertex, wo, &self.wavelengths);
             if self.depth == settings.max_depth {
-                let stopped = 1.0 - 0.25 * bsdf.passing_probability().element_sum();
+                let stopped = 1.0 - 0.25 * bsdf.null_probability().element_sum();
                 alpha = alpha.max(stopped);
                 break;
             }
-            let event = Event::draw(sampler, self.depth - 1);
+            let event = BounceSamples::draw(sampler, self.depth - 1);
             // Scattering is weighed against light sampling in sharp directions only.
-            let from = Receiver::new(&vertex, wo, &bsdf);
+            let from = LightSampleContext::new(&vertex, wo, &bsdf);
             if bsdf.has_continuous() {
                 if !self.second {
-                    self.see_light(&vertex, &from, &bsdf, wo, &event);
+                    self.trace_shadow(&vertex, &from, &bsdf, wo, &event);
                 }
                 self.gather(&vertex, &bsdf, wo);
             }
-            let sampled = bsdf.sample(wo, event.lobe, event.direction, Mode::Radiance);
+            let sampled = bsdf.sample(wo, event.lobe, event.direction, TransportMode::Radiance);
             let Some(sample) = sampled else {
                 alpha = 1.0;
                 break;
             };
-            if !sample.passes {
+            if !sample.is_null {
                 alpha = 1.0;
             }
             match sample.chance {
-                Chance::Continuous(density) if !is_sharp(density) => {
+                SamplePdf::Continuous(density) if !is_sharp(density) => {
                     if self.second || !self.plan.final_gather {
                         break;
                     }
                     self.second = true;
                 }
-                Chance::Discrete(atom) if sample.eta != 1.0 => {
+                SamplePdf::Discrete(atom) if sample.eta != 1.0 => {
                     self.alone |= atom.0.min_element() == 0.0;
                 }
                 _ => {}
             }
-            let mut left = Left::new(vertex, wo, &sample, event.lobe, event.direction);
-            self.rival = self.rival.after(&self.prefix, &from, &sample);
-            self.prefix.extend(sample.value, sample.chance.lanes());
+            let mut left = CameraVertex::new(vertex, wo, &sample, event.lobe, event.direction);
+            self.light_mis = self.light_mis.after(&self.prefix, &from, &sample);
+            self.prefix.scatter(sample.value, sample.chance.lanes());
             eta *= sample.eta;
             ray = vertex.spawn(sample.wi);
             if self.depth >= settings.rr_depth {
@@ -261,8 +263,8 @@ impl<'w, W: World> Gatherer<'_, 'w, W> {
                 if !(event.roulette < survival) {
                     break;
                 }
-                self.prefix.survive(survival);
-                left.survive(survival);
+                self.prefix.roulette(survival);
+                left.roulette(survival);
             }
             self.scratch.path.push(left);
             self.depth += 1;
@@ -272,28 +274,28 @@ impl<'w, W: World> Gatherer<'_, 'w, W> {
 
     /// Adds light that the walk ran into.
     #[inline]
-    fn emission(&mut self, radiance: Vec4, other: impl FnOnce(&Rival) -> Vec4) {
+    fn emission(&mut self, radiance: Vec4, other: impl FnOnce(&LightMis) -> Vec4) {
         if !self.second && radiance != Vec4::ZERO {
-            let other = other(&self.rival);
-            self.radiance += self.prefix.estimate(radiance, other);
+            let other = other(&self.light_mis);
+            self.radiance += self.prefix.contribution(radiance, other);
         }
     }
 
     /// Adds direct light, weighed against following the same direction if that is sharp.
-    fn see_light(
+    fn trace_shadow(
         &mut self,
-        vertex: &Vertex,
-        from: &Receiver,
+        vertex: &SurfaceInteraction,
+        from: &LightSampleContext,
         bsdf: &W::Bsdf<'w>,
         wo: Vec3,
-        event: &Event,
+        event: &BounceSamples,
     ) {
         let world = self.world;
         let (choice, u) = (event.light_choice, event.light);
         let Some(light) = world.sample_light(from, &self.wavelengths, choice, u) else {
             return;
         };
-        let (value, density) = bsdf.eval_and_density(wo, light.direction, Mode::Radiance);
+        let (value, density) = bsdf.eval_and_density(wo, light.direction, TransportMode::Radiance);
         let contribution = value * light.radiance;
         let sharp = is_sharp(density);
         if contribution == Vec4::ZERO || !(sharp || self.plan.sample_lights) {
@@ -303,30 +305,30 @@ impl<'w, W: World> Gatherer<'_, 'w, W> {
             return;
         };
         let crossings = self.plan.settings.max_depth - self.depth - 1;
-        let Some(passage) = world.passage(&ray, &self.wavelengths, crossings) else {
+        let Some(passage) = world.transmittance(&ray, &self.wavelengths, crossings) else {
             return;
         };
         let mut complete = self.prefix;
-        complete.extend(contribution, light.chance.lanes());
+        complete.scatter(contribution, light.chance.lanes());
         let by_scattering = match light.chance {
-            Chance::Continuous(chosen) if sharp => {
-                self.prefix.ratio * density.lanes() * passage.probability / chosen.chooser()
+            SamplePdf::Continuous(chosen) if sharp => {
+                self.prefix.r_u * density.lanes() * passage.probability / chosen.hero()
             }
             _ => Vec4::ZERO,
         };
-        self.radiance += complete.estimate(passage.transmittance, by_scattering);
+        self.radiance += complete.contribution(passage.transmittance, by_scattering);
     }
 
     /// Adds the light that photons bring.
-    fn gather(&mut self, vertex: &Vertex, own: &W::Bsdf<'w>, wo: Vec3) {
-        let Plan { sets, layers, .. } = *self.plan;
+    fn gather(&mut self, vertex: &SurfaceInteraction, own: &W::Bsdf<'w>, wo: Vec3) {
+        let GatherConfig { sets, layers, .. } = *self.plan;
         let scratch = &mut *self.scratch;
         scratch.at.clear();
         scratch.at.resize_with(sets.len(), || (None, Vec4::ZERO));
         let at = &mut scratch.at;
         let (world, depth, alone) = (self.world, self.depth, self.alone);
         let (max_depth, lanes) = (self.plan.settings.max_depth, self.lanes);
-        let behind = Behind {
+        let behind = CameraPath {
             sets,
             lanes,
             alone,
@@ -355,12 +357,12 @@ impl<'w, W: World> Gatherer<'_, 'w, W> {
                 }
                 let (model, sum) = &mut at[set];
                 let model = model.get_or_insert_with(|| world.bsdf(vertex, wo, sets.get(set)));
-                let value = model.eval(wo, photon.from, Mode::Radiance);
+                let value = model.eval(wo, photon.from, TransportMode::Radiance);
                 *sum += value * photon.value * kernel;
                 any = true;
-                world.remark(|| {
+                world.record(|| {
                     let brought = value * photon.value * kernel;
-                    Remark::Photon(MergedPhoton {
+                    TraceEvent::Photon(MergedPhoton {
                         position: photon.position,
                         distance: photon.position.distance(vertex.position),
                         from: photon.from,
@@ -375,12 +377,12 @@ impl<'w, W: World> Gatherer<'_, 'w, W> {
             let scale = 1.0 / layer.shot as f32;
             let radius_squared = lookup.radius * lookup.radius;
             let (tree, photons) = (&layer.map.tree, &layer.map.photons);
-            let gathering = |radius_squared: f32| Remark::Gathering {
+            let gathering = |radius_squared: f32| TraceEvent::Gathering {
                 radius: radius_squared.sqrt(),
                 among: photons.len(),
             };
             if lookup.nearest == 0 {
-                world.remark(|| gathering(radius_squared));
+                world.record(|| gathering(radius_squared));
                 tree.within(vertex.position, radius_squared, |found| {
                     let kernel = lookup.kernel.value(found.distance_squared, radius_squared);
                     merge(&photons[found.place], kernel * scale);
@@ -398,7 +400,7 @@ impl<'w, W: World> Gatherer<'_, 'w, W> {
                 } else {
                     (radius_squared, &nearest[..])
                 };
-                world.remark(|| gathering(reach));
+                world.record(|| gathering(reach));
                 for found in inside {
                     let kernel = lookup.kernel.value(found.distance_squared, reach);
                     merge(&photons[found.place], kernel * scale);
@@ -408,6 +410,6 @@ impl<'w, W: World> Gatherer<'_, 'w, W> {
         if any {
             self.rgb = behind.carried(world, at.iter().map(|(_, sum)| *sum), self.rgb);
         }
-        world.remark(|| Remark::Gathered);
+        world.record(|| TraceEvent::Gathered);
     }
 }

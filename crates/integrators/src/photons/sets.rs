@@ -33,14 +33,14 @@ pub(crate) struct WavelengthSets {
 
 /// Wavelengths of a path: a set, and which of its lanes chooses.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) struct Lanes {
+pub(crate) struct WavelengthChoice {
     /// The set.
     pub(crate) set: usize,
     /// The lane that stands first.
     pub(crate) first: usize,
 }
 
-impl Lanes {
+impl WavelengthChoice {
     /// Brings values per lane of the path into the order of the set.
     #[inline]
     pub(crate) fn to_set(self, value: Vec4) -> Vec4 {
@@ -78,10 +78,10 @@ impl WavelengthSets {
 
     /// Wavelengths for a camera path, chosen with `u` in [0, 1).
     #[inline]
-    pub(crate) fn choose(&self, u: f32) -> Lanes {
+    pub(crate) fn choose(&self, u: f32) -> WavelengthChoice {
         let of = 4 * self.len();
         let index = ((u * of as f32) as usize).min(of - 1);
-        Lanes {
+        WavelengthChoice {
             set: index / 4,
             first: index % 4,
         }
@@ -103,7 +103,7 @@ impl WavelengthSets {
     pub(crate) fn of_pass(&self, pass: &Pass) -> Wavelengths {
         let key = derived_key(stream_key(pass.seed, pass.replicate), CHOOSER);
         let first = (key >> 62) as usize + pass.number as usize;
-        let lanes = Lanes {
+        let lanes = WavelengthChoice {
             set: 0,
             first: first % 4,
         };
@@ -112,7 +112,7 @@ impl WavelengthSets {
 
     /// The wavelengths of a path.
     #[inline]
-    pub(crate) fn of(&self, lanes: Lanes) -> Wavelengths {
+    pub(crate) fn of(&self, lanes: WavelengthChoice) -> Wavelengths {
         self.get(lanes.set).rotated(lanes.first)
     }
 }
@@ -129,7 +129,7 @@ mod tests {
                 lambda: set,
                 density: Vec4::ONE,
             };
-            let lanes = Lanes { set: 0, first };
+            let lanes = WavelengthChoice { set: 0, first };
             assert_eq!(lanes.to_set(wavelengths.rotated(first).lambda), set);
         }
     }

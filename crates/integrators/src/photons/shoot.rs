@@ -5,13 +5,13 @@
 //! chosen (see [`crate::prefix`]), over the cosine of its arrival: the sum of the values of photons
 //! per unit area of a surface estimates the integral of radiance over directions.
 
-use super::sets::{Lanes, WavelengthSets};
+use super::sets::{WavelengthChoice, WavelengthSets};
 use super::{is_sharp, kdtree::KdTree};
-use crate::particle::{Met, Particle};
+use crate::particle::{LightPath, LightVertex};
 use crate::settings::PathSettings;
 use etalon_sampling::hash::mix64;
-use etalon_sampling::{PixelSample, Sobol};
-use etalon_transport::{Bsdf, Chance, Pass, Placing, World};
+use etalon_sampling::{SampleId, Sobol};
+use etalon_transport::{Bsdf, Pass, Placing, SamplePdf, World};
 use glam::{Vec3, Vec4};
 use rayon::prelude::*;
 
@@ -69,7 +69,7 @@ const CHUNK: u32 = 256;
 
 /// The random numbers of photon `index` of `count`.
 pub(crate) fn numbers(pass: &Pass, index: u32, count: u32) -> Sobol {
-    Sobol::start(&PixelSample {
+    Sobol::start(&SampleId {
         seed: mix64(pass.seed),
         replicate: pass.replicate,
         pixel: (pass.number, ROW),
@@ -119,7 +119,7 @@ pub(crate) fn shoot<W: World>(
     let share = count / (4 * sets.len() as u32);
     in_order(count, placing, |index, found| {
         let lanes = (index / share) as usize;
-        let lanes = Lanes {
+        let lanes = WavelengthChoice {
             set: lanes / 4,
             first: lanes % 4,
         };
@@ -133,30 +133,30 @@ fn trace<W: World>(
     world: &W,
     settings: &PathSettings,
     sets: &WavelengthSets,
-    lanes: Lanes,
+    lanes: WavelengthChoice,
     sampler: &mut Sobol,
     found: &mut Vec<Photon>,
 ) {
     let wavelengths = sets.of(lanes);
-    let Some((_, mut particle)) = Particle::emit(world, &wavelengths, sampler) else {
+    let Some((_, mut particle)) = LightPath::emit(world, &wavelengths, sampler) else {
         return;
     };
-    if particle.prefix.value == Vec4::ZERO {
+    if particle.prefix.beta == Vec4::ZERO {
         return;
     }
     let mut kind = Kind::Direct;
     // As many segments as its depth lie behind once it has arrived; the camera adds one at least.
     while particle.depth < settings.max_depth {
-        let Some(met) = particle.meet(world, sampler) else {
+        let Some(met) = particle.shade(world, sampler) else {
             return;
         };
-        let Met {
+        let LightVertex {
             vertex, wo, bsdf, ..
         } = &met;
         let cos = vertex.normal.dot(*wo).abs();
         if bsdf.has_continuous() && cos > 0.0 {
             let prefix = &particle.prefix;
-            let value = prefix.value * (4.0 / (prefix.ratio.element_sum() * cos));
+            let value = prefix.beta * (4.0 / (prefix.r_u.element_sum() * cos));
             found.push(Photon {
                 position: vertex.position,
                 normal: vertex.normal,
@@ -170,11 +170,11 @@ fn trace<W: World>(
         let Some(sample) = particle.scatter(&met, settings.rr_depth) else {
             return;
         };
-        if !sample.passes {
+        if !sample.is_null {
             // As the camera's paths would call it, which come along the other way.
             let sharp = match sample.chance {
-                Chance::Discrete(_) => true,
-                Chance::Continuous(_) => is_sharp(bsdf.density(sample.wi, *wo)),
+                SamplePdf::Discrete(_) => true,
+                SamplePdf::Continuous(_) => is_sharp(bsdf.density(sample.wi, *wo)),
             };
             kind = match kind {
                 Kind::Direct | Kind::Caustic if sharp => Kind::Caustic,

@@ -1,6 +1,6 @@
 //! Any kind of sampler behind one type, where speed does not matter.
 
-use etalon_sampling::{Independent, PixelSample, Sampler, SamplerKind, Sobol, Stratified};
+use etalon_sampling::{Independent, SampleId, Sampler, SamplerKind, Sobol, Stratified};
 use glam::Vec2;
 
 /// A sampler of any kind.
@@ -22,7 +22,7 @@ macro_rules! each {
 
 impl AnySampler {
     /// The sampler of one sample.
-    pub(super) fn start(kind: SamplerKind, sample: &PixelSample) -> Self {
+    pub(super) fn start(kind: SamplerKind, sample: &SampleId) -> Self {
         match kind {
             SamplerKind::Independent => Self::Independent(Independent::start(sample)),
             SamplerKind::Sobol => Self::Sobol(Sobol::start(sample)),

@@ -1,11 +1,11 @@
 //! What happened while a sample was drawn again.
 
-use crate::prefix::Prefix;
+use crate::path_throughput::PathThroughput;
 use etalon_math::{Density, SolidAngle};
 use etalon_spectrum::Wavelengths;
 use etalon_transport::{
-    BsdfSample, ChainRemark, Connection, Emission, LightSample, MergedPhoton, Mixture, Passage,
-    Ray, Reception, Vertex,
+    ApertureHit, BsdfSample, CameraSample, ChainRemark, Emission, LightSample, MergedPhoton,
+    Mixture, Ray, SurfaceInteraction, Transmission,
 };
 use glam::{Vec2, Vec3, Vec4};
 
@@ -41,14 +41,14 @@ pub enum Event {
         hit: Option<f32>,
     },
     /// A surface was met.
-    Vertex {
+    SurfaceInteraction {
         /// The walk.
         walk: Option<usize>,
         /// Where.
-        vertex: Box<Vertex>,
+        vertex: Box<SurfaceInteraction>,
         /// Value and densities of the walk so far, Russian roulette apart; `None` if the estimator
         /// drew a direction by itself.
-        prefix: Option<Prefix>,
+        prefix: Option<PathThroughput>,
     },
     /// Radiance emitted by the surface.
     Emission(Vec4),
@@ -61,7 +61,7 @@ pub enum Event {
         /// The direction; `None` if light is absorbed.
         sample: Option<BsdfSample>,
         /// Value and densities of the walk with it.
-        prefix: Option<Prefix>,
+        prefix: Option<PathThroughput>,
         /// How it was chosen, if not by the model alone.
         mixture: Option<Mixture>,
     },
@@ -93,11 +93,11 @@ pub enum Event {
     /// A light was sampled.
     Light(Option<LightSample>),
     /// Straight travel to somewhere; `None` if light does not arrive.
-    Passage(Ray, Option<Passage>),
+    Transmission(Ray, Option<Transmission>),
     /// A point was connected with the camera; `None` if it does not see it.
-    Connection(Option<Connection>),
+    CameraSample(Option<CameraSample>),
     /// A particle hit the aperture.
-    Reception(Reception),
+    ApertureHit(ApertureHit),
     /// The pixel's radiance (linear Rec. 709) and alpha, as the estimator delivered them.
     Radiance([f32; 3], f32),
     /// A splat somewhere on the film (pixels).

@@ -3,13 +3,13 @@
 //! A sample is a pure function of its address, so that a number that was not finite, or a pixel far
 //! too bright, can be looked at: the estimator runs once in a world that answers as the scene does
 //! and writes down the answers. It need not know; every estimator can be replayed. What an estimator
-//! does by itself, such as gathering photons, it remarks ([`etalon_transport::Remark`]) in a way that
+//! does by itself, such as gathering photons, it remarks ([`etalon_transport::TraceEvent`]) in a way that
 //! costs nothing where nobody listens.
 
 mod any_sampler;
 mod event;
+mod event_log;
 mod model;
-mod notes;
 mod recorder;
 #[cfg(test)]
 mod tests;
@@ -17,12 +17,12 @@ mod tests;
 pub use event::{Event, Gathered};
 
 use crate::positions::position;
-use crate::render::Plan;
+use crate::render::RenderPlan;
 use any_sampler::AnySampler;
 use etalon_sampling::Sampler;
-use etalon_transport::{Film, Integrator, Pass, PixelSite, Sink, World};
+use etalon_transport::{Film, Integrator, Pass, PixelSample, Sink, World};
+use event_log::SharedEventLog;
 use glam::{UVec2, Vec2};
-use notes::Notebook;
 use recorder::Recorder;
 
 /// Which sample.
@@ -39,7 +39,7 @@ pub struct Address {
 /// A sample drawn again.
 #[derive(Clone, Debug)]
 pub struct Replay {
-    /// What its weight on the film is, see [`etalon_transport::Placement::weight`].
+    /// What its weight on the film is, see [`etalon_transport::FilmSample::weight`].
     pub weight: f32,
     /// What happened.
     pub events: Vec<Event>,
@@ -51,7 +51,7 @@ pub fn replay<W: World, I: Integrator, F: Film>(
     world: &W,
     integrator: &I,
     film: &F,
-    plan: &Plan,
+    plan: &RenderPlan,
     address: &Address,
 ) -> Replay {
     let size = film.size();
@@ -82,7 +82,7 @@ pub fn replay<W: World, I: Integrator, F: Film>(
     let numbers = position(film, plan.sampler, &sample, numbers);
     let placement = film.place(address.pixel, numbers);
     let spp = samples as f32 * plan.replicates as f32;
-    let site = PixelSite {
+    let site = PixelSample {
         pixel: address.pixel,
         raster: placement.raster,
         margin: film.margin(),
@@ -90,7 +90,7 @@ pub fn replay<W: World, I: Integrator, F: Film>(
         spacing: 1.0 / spp.sqrt(),
         sample: address.sample - number * length,
     };
-    let notebook = Notebook::default();
+    let notebook = SharedEventLog::default();
     let recorder = Recorder::new(world, &notebook);
     let mut delivery = Delivery(&notebook);
     integrator.sample(&recorder, &state, &site, &mut sampler, &mut delivery);
@@ -101,7 +101,7 @@ pub fn replay<W: World, I: Integrator, F: Film>(
 }
 
 /// Notes what is delivered.
-struct Delivery<'a>(&'a Notebook);
+struct Delivery<'a>(&'a SharedEventLog);
 
 impl Sink for Delivery<'_> {
     fn radiance(&mut self, rgb: [f32; 3], alpha: f32) {

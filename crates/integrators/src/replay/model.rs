@@ -1,9 +1,9 @@
 //! A scattering model that answers as another does, and writes down what it said.
 
 use super::Event;
-use super::notes::{Notebook, Place};
+use super::event_log::{Place, SharedEventLog};
 use etalon_math::{Density, Frame, SolidAngle};
-use etalon_transport::{Bsdf, BsdfSample, Mixture, Mode};
+use etalon_transport::{Bsdf, BsdfSample, Mixture, TransportMode};
 use glam::{Vec2, Vec3, Vec4};
 
 /// A scattering model that writes down what it says.
@@ -11,7 +11,7 @@ use glam::{Vec2, Vec3, Vec4};
 pub(super) struct RecordingBsdf<'a, B> {
     pub(super) model: B,
     pub(super) place: Option<Place>,
-    pub(super) notebook: &'a Notebook,
+    pub(super) notebook: &'a SharedEventLog,
 }
 
 impl<B> RecordingBsdf<'_, B> {
@@ -39,7 +39,7 @@ impl<B> RecordingBsdf<'_, B> {
 }
 
 impl<B: Bsdf> Bsdf for RecordingBsdf<'_, B> {
-    fn eval(&self, wo: Vec3, wi: Vec3, mode: Mode) -> Vec4 {
+    fn eval(&self, wo: Vec3, wi: Vec3, mode: TransportMode) -> Vec4 {
         let value = self.model.eval(wo, wi, mode);
         self.evaluated(wi, value, None);
         value
@@ -49,20 +49,25 @@ impl<B: Bsdf> Bsdf for RecordingBsdf<'_, B> {
         self.model.density(wo, wi)
     }
 
-    fn eval_and_density(&self, wo: Vec3, wi: Vec3, mode: Mode) -> (Vec4, Density<SolidAngle>) {
+    fn eval_and_density(
+        &self,
+        wo: Vec3,
+        wi: Vec3,
+        mode: TransportMode,
+    ) -> (Vec4, Density<SolidAngle>) {
         let (value, density) = self.model.eval_and_density(wo, wi, mode);
         self.evaluated(wi, value, Some(density));
         (value, density)
     }
 
-    fn sample(&self, wo: Vec3, u_lobe: f32, u: Vec2, mode: Mode) -> Option<BsdfSample> {
+    fn sample(&self, wo: Vec3, u_lobe: f32, u: Vec2, mode: TransportMode) -> Option<BsdfSample> {
         let sample = self.model.sample(wo, u_lobe, u, mode);
         let place = self.place.map(|place| place.extended(sample.as_ref()));
         self.scattered(place, sample);
         sample
     }
 
-    fn discrete(&self, wo: Vec3, index: u32, mode: Mode) -> Option<BsdfSample> {
+    fn discrete(&self, wo: Vec3, index: u32, mode: TransportMode) -> Option<BsdfSample> {
         let sample = self.model.discrete(wo, index, mode);
         if sample.is_some() {
             // All are followed: none has a probability by which to divide.
@@ -87,12 +92,12 @@ impl<B: Bsdf> Bsdf for RecordingBsdf<'_, B> {
         self.model.hemisphere()
     }
 
-    fn passing(&self) -> Vec4 {
-        self.model.passing()
+    fn null_transmittance(&self) -> Vec4 {
+        self.model.null_transmittance()
     }
 
-    fn passing_probability(&self) -> Vec4 {
-        self.model.passing_probability()
+    fn null_probability(&self) -> Vec4 {
+        self.model.null_probability()
     }
 
     fn albedo(&self, wo: Vec3) -> Vec4 {

@@ -1,13 +1,14 @@
 //! A world that answers as another does, and writes down what it said.
 
 use super::Event;
+use super::event_log::SharedEventLog;
 use super::model::RecordingBsdf;
-use super::notes::Notebook;
 use etalon_math::{Density, SolidAngle};
 use etalon_spectrum::Wavelengths;
 use etalon_transport::{
-    Camera, CameraRay, ClassicPhong, Connection, Emission, EmissionDensity, Hit, LightId,
-    LightSample, LightVariety, Passage, Ray, Receiver, Reception, Remark, Vertex, World,
+    ApertureHit, Camera, CameraRay, CameraSample, Emission, EmissionPdf, Hit, LegacyPhong, LightId,
+    LightSample, LightSampleContext, LightVariety, Ray, SurfaceInteraction, TraceEvent,
+    Transmission, World,
 };
 use glam::{Vec2, Vec3, Vec4};
 
@@ -15,12 +16,12 @@ use glam::{Vec2, Vec3, Vec4};
 pub(super) struct Recorder<'a, W: World> {
     world: &'a W,
     camera: RecordingCamera<'a, W::Camera>,
-    notebook: &'a Notebook,
+    notebook: &'a SharedEventLog,
 }
 
 impl<'a, W: World> Recorder<'a, W> {
     /// A world that writes into a notebook.
-    pub(super) fn new(world: &'a W, notebook: &'a Notebook) -> Self {
+    pub(super) fn new(world: &'a W, notebook: &'a SharedEventLog) -> Self {
         let camera = RecordingCamera {
             camera: world.camera(),
             notebook,
@@ -36,7 +37,7 @@ impl<'a, W: World> Recorder<'a, W> {
 /// A camera that writes down what it says.
 pub(super) struct RecordingCamera<'a, C> {
     camera: &'a C,
-    notebook: &'a Notebook,
+    notebook: &'a SharedEventLog,
 }
 
 impl<C: Camera> Camera for RecordingCamera<'_, C> {
@@ -50,15 +51,15 @@ impl<C: Camera> Camera for RecordingCamera<'_, C> {
         start
     }
 
-    fn connect(&self, point: Vec3, lens: Vec2, margin: f32) -> Option<Connection> {
+    fn connect(&self, point: Vec3, lens: Vec2, margin: f32) -> Option<CameraSample> {
         let connection = self.camera.connect(point, lens, margin);
-        self.notebook.note(Event::Connection(connection));
+        self.notebook.note(Event::CameraSample(connection));
         connection
     }
 
-    fn receive(&self, ray: &Ray, margin: f32) -> Option<Reception> {
-        let reception = self.camera.receive(ray, margin)?;
-        self.notebook.note(Event::Reception(reception));
+    fn intersect_aperture(&self, ray: &Ray, margin: f32) -> Option<ApertureHit> {
+        let reception = self.camera.intersect_aperture(ray, margin)?;
+        self.notebook.note(Event::ApertureHit(reception));
         Some(reception)
     }
 
@@ -102,20 +103,30 @@ impl<'a, W: World> World for Recorder<'a, W> {
         hit
     }
 
-    fn vertex(&self, ray: &Ray, hit: &Hit) -> Vertex {
+    fn vertex(&self, ray: &Ray, hit: &Hit) -> SurfaceInteraction {
         let vertex = self.world.vertex(ray, hit);
         self.notebook
-            .write(|notes| notes.meet(&vertex, ray.direction));
+            .write(|notes| notes.shade(&vertex, ray.direction));
         vertex
     }
 
-    fn passage(&self, ray: &Ray, wavelengths: &Wavelengths, crossings: u32) -> Option<Passage> {
-        let passage = self.world.passage(ray, wavelengths, crossings);
-        self.notebook.note(Event::Passage(*ray, passage));
+    fn transmittance(
+        &self,
+        ray: &Ray,
+        wavelengths: &Wavelengths,
+        crossings: u32,
+    ) -> Option<Transmission> {
+        let passage = self.world.transmittance(ray, wavelengths, crossings);
+        self.notebook.note(Event::Transmission(*ray, passage));
         passage
     }
 
-    fn bsdf(&self, vertex: &Vertex, wo: Vec3, wavelengths: &Wavelengths) -> Self::Bsdf<'_> {
+    fn bsdf(
+        &self,
+        vertex: &SurfaceInteraction,
+        wo: Vec3,
+        wavelengths: &Wavelengths,
+    ) -> Self::Bsdf<'_> {
         let place = self.notebook.write(|notes| notes.place(vertex));
         RecordingBsdf {
             model: self.world.bsdf(vertex, wo, wavelengths),
@@ -124,11 +135,15 @@ impl<'a, W: World> World for Recorder<'a, W> {
         }
     }
 
-    fn classic(&self, vertex: &Vertex, wavelengths: &Wavelengths) -> Option<ClassicPhong> {
-        self.world.classic(vertex, wavelengths)
+    fn legacy_phong(
+        &self,
+        vertex: &SurfaceInteraction,
+        wavelengths: &Wavelengths,
+    ) -> Option<LegacyPhong> {
+        self.world.legacy_phong(vertex, wavelengths)
     }
 
-    fn emitted(&self, vertex: &Vertex, wo: Vec3, wavelengths: &Wavelengths) -> Vec4 {
+    fn emitted(&self, vertex: &SurfaceInteraction, wo: Vec3, wavelengths: &Wavelengths) -> Vec4 {
         let radiance = self.world.emitted(vertex, wo, wavelengths);
         self.notebook.note(Event::Emission(radiance));
         radiance
@@ -150,7 +165,7 @@ impl<'a, W: World> World for Recorder<'a, W> {
 
     fn sample_light(
         &self,
-        from: &Receiver,
+        from: &LightSampleContext,
         wavelengths: &Wavelengths,
         u_light: f32,
         u: Vec2,
@@ -160,7 +175,7 @@ impl<'a, W: World> World for Recorder<'a, W> {
         sample
     }
 
-    fn light_variety(&self, from: &Receiver) -> LightVariety {
+    fn light_variety(&self, from: &LightSampleContext) -> LightVariety {
         self.world.light_variety(from)
     }
 
@@ -171,7 +186,7 @@ impl<'a, W: World> World for Recorder<'a, W> {
     fn sample_one_light(
         &self,
         light: LightId,
-        from: &Receiver,
+        from: &LightSampleContext,
         wavelengths: &Wavelengths,
         u: Vec2,
     ) -> Option<LightSample> {
@@ -180,11 +195,20 @@ impl<'a, W: World> World for Recorder<'a, W> {
         sample
     }
 
-    fn light_density(&self, from: &Receiver, at: &Vertex, direction: Vec3) -> Density<SolidAngle> {
+    fn light_density(
+        &self,
+        from: &LightSampleContext,
+        at: &SurfaceInteraction,
+        direction: Vec3,
+    ) -> Density<SolidAngle> {
         self.world.light_density(from, at, direction)
     }
 
-    fn background_density(&self, from: &Receiver, direction: Vec3) -> Density<SolidAngle> {
+    fn background_density(
+        &self,
+        from: &LightSampleContext,
+        direction: Vec3,
+    ) -> Density<SolidAngle> {
         self.world.background_density(from, direction)
     }
 
@@ -208,26 +232,26 @@ impl<'a, W: World> World for Recorder<'a, W> {
         emission
     }
 
-    fn emission_density(&self, light: LightId, direction: Vec3, cos: f32) -> EmissionDensity {
+    fn emission_density(&self, light: LightId, direction: Vec3, cos: f32) -> EmissionPdf {
         self.world.emission_density(light, direction, cos)
     }
 
-    fn background_emission_density(&self, direction: Vec3) -> EmissionDensity {
+    fn background_emission_density(&self, direction: Vec3) -> EmissionPdf {
         self.world.background_emission_density(direction)
     }
 
-    fn sampled_density(&self, from: &Receiver, start: &Emission) -> f32 {
-        self.world.sampled_density(from, start)
+    fn light_sample_density(&self, from: &LightSampleContext, start: &Emission) -> f32 {
+        self.world.light_sample_density(from, start)
     }
 
     fn take_ray_count(&self) -> u64 {
         self.world.take_ray_count()
     }
 
-    fn remark(&self, remark: impl FnOnce() -> Remark) -> bool {
+    fn record(&self, remark: impl FnOnce() -> TraceEvent) -> bool {
         // It may itself ask the world.
         let remark = remark();
-        self.notebook.write(|notes| notes.remark(remark));
+        self.notebook.write(|notes| notes.record(remark));
         true
     }
 }

@@ -1,11 +1,13 @@
 //! Do remarks change what is told, and that alone?
 
-use super::notes::{Notes, Place};
+use super::event_log::{EventLog, Place};
 use super::{Event, Gathered};
-use crate::prefix::Prefix;
+use crate::path_throughput::PathThroughput;
 use etalon_math::{Density, SolidAngle};
 use etalon_spectrum::{Wavelengths, sensor_response};
-use etalon_transport::{BsdfSample, ChainRemark, Chance, MergedPhoton, Mixed, Mixture, Remark};
+use etalon_transport::{
+    BsdfSample, ChainRemark, MergedPhoton, Mixed, Mixture, SamplePdf, TraceEvent,
+};
 use glam::{Vec3, Vec4};
 
 const WAVELENGTHS: Wavelengths = Wavelengths {
@@ -30,16 +32,16 @@ fn sample(wi: Vec3, value: f32, chance: f32) -> BsdfSample {
     BsdfSample {
         wi,
         value: Vec4::splat(value),
-        chance: Chance::Continuous(density(chance)),
+        chance: SamplePdf::Continuous(density(chance)),
         eta: 1.0,
-        passes: false,
+        is_null: false,
     }
 }
 
 fn mixture(wi: Vec3, mixed: Mixed) -> Mixture {
     Mixture {
         wi,
-        own: Chance::Continuous(density(0.25)),
+        own: SamplePdf::Continuous(density(0.25)),
         other: density(0.75),
         share: 0.5,
         mixed,
@@ -49,18 +51,18 @@ fn mixture(wi: Vec3, mixed: Mixed) -> Mixture {
 fn start() -> Option<Place> {
     Some(Place {
         walk: 0,
-        prefix: Some(Prefix::START),
+        prefix: Some(PathThroughput::START),
     })
 }
 
 /// Photons are told, and not what was asked for their sake; afterwards everything is.
 #[test]
 fn photons_stand_for_the_questions_that_they_raised() {
-    let mut notes = Notes::default();
+    let mut notes = EventLog::default();
     notes.begin_at_camera(2.0, Vec3::Z);
     notes.ask(start(), Vec3::X, evaluated(Vec3::X));
     let (radius, among) = (0.5, 7);
-    notes.remark(Remark::Gathering { radius, among });
+    notes.record(TraceEvent::Gathering { radius, among });
     notes.ask(start(), Vec3::Y, evaluated(Vec3::Y));
     let photon = MergedPhoton {
         position: Vec3::ONE,
@@ -71,10 +73,10 @@ fn photons_stand_for_the_questions_that_they_raised() {
         scattering: Vec4::ONE,
         estimate: Vec4::new(1.0, 2.0, 3.0, 4.0),
     };
-    notes.remark(Remark::Photon(photon));
+    notes.record(TraceEvent::Photon(photon));
     // One that brings nothing.
     let estimate = Vec4::ZERO;
-    notes.remark(Remark::Photon(MergedPhoton { estimate, ..photon }));
+    notes.record(TraceEvent::Photon(MergedPhoton { estimate, ..photon }));
     // A camera path at other wavelengths: it leads nowhere.
     let other = sample(Vec3::NEG_Y, 1.0, 1.0);
     notes.scatter(
@@ -86,7 +88,7 @@ fn photons_stand_for_the_questions_that_they_raised() {
             mixture: None,
         },
     );
-    notes.remark(Remark::Gathered);
+    notes.record(TraceEvent::Gathered);
     assert!(notes.along(Vec3::NEG_Y).is_none());
     assert!(notes.along(Vec3::Z).is_some());
     notes.ask(start(), Vec3::Z, evaluated(Vec3::Z));
@@ -114,7 +116,7 @@ fn photons_stand_for_the_questions_that_they_raised() {
 #[test]
 fn a_mixture_stands_for_what_the_model_says_of_it_alone() {
     for by_model in [false, true] {
-        let mut notes = Notes::default();
+        let mut notes = EventLog::default();
         notes.begin(Vec4::ONE, Vec3::Z);
         let alone = sample(Vec3::X, 1.0, 0.25);
         if by_model {
@@ -138,7 +140,7 @@ fn a_mixture_stands_for_what_the_model_says_of_it_alone() {
         };
         notes.mix(start(), mixture(Vec3::X, mixed));
         let place = notes.along(Vec3::X).expect("the walk goes there");
-        let value = place.prefix.expect("it is known").value;
+        let value = place.prefix.expect("it is known").beta;
         assert_eq!(value, Vec4::splat(2.0));
         let events = notes.take_events();
         let [
@@ -153,13 +155,13 @@ fn a_mixture_stands_for_what_the_model_says_of_it_alone() {
             panic!("{events:?}");
         };
         assert_eq!(sample.chance.lanes(), Vec4::splat(0.5));
-        assert_eq!(prefix.value, value);
+        assert_eq!(prefix.beta, value);
     }
 }
 
 #[test]
 fn a_direction_that_is_only_weighed_keeps_its_line() {
-    let mut notes = Notes::default();
+    let mut notes = EventLog::default();
     notes.begin(Vec4::ONE, Vec3::Z);
     notes.ask(start(), Vec3::X, evaluated(Vec3::X));
     let weighed = Mixed::Weighed(density(0.5));
@@ -183,7 +185,7 @@ fn a_direction_that_is_only_weighed_keeps_its_line() {
 /// Mutant: walks of other paths of the same sample are counted along.
 #[test]
 fn every_path_of_a_chain_has_walks_of_its_own() {
-    let mut notes = Notes::default();
+    let mut notes = EventLog::default();
     assert_eq!(notes.begin(Vec4::ONE, Vec3::X), 0);
     assert_eq!(notes.begin(Vec4::ONE, Vec3::Y), 1);
     for remark in [
@@ -197,11 +199,11 @@ fn every_path_of_a_chain_has_walks_of_its_own() {
             large: true,
         },
     ] {
-        notes.remark(Remark::Chain(remark));
+        notes.record(TraceEvent::Chain(remark));
         assert!(notes.along(Vec3::X).is_none());
         assert_eq!(notes.begin(Vec4::ONE, Vec3::X), 0);
     }
-    notes.remark(Remark::Chain(ChainRemark::Ends));
+    notes.record(TraceEvent::Chain(ChainRemark::Ends));
     assert!(notes.along(Vec3::X).is_some());
 }
 
@@ -212,9 +214,9 @@ fn wavelengths_are_those_that_count() {
         ..WAVELENGTHS
     };
     for first in [None, Some(Event::Wavelengths(drawn))] {
-        let mut notes = Notes::default();
+        let mut notes = EventLog::default();
         first.into_iter().for_each(|event| notes.note(event));
-        notes.remark(Remark::Wavelengths(WAVELENGTHS));
+        notes.record(TraceEvent::Wavelengths(WAVELENGTHS));
         let events = notes.take_events();
         let [Event::Wavelengths(told)] = events[..] else {
             panic!("{events:?}");

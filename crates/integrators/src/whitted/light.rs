@@ -4,22 +4,23 @@ use super::tree::{Packet, SETS};
 use super::{Falloff, Whitted, phong};
 use etalon_spectrum::Wavelengths;
 use etalon_transport::{
-    Bsdf, ClassicPhong, LightId, LightSample, Mode, Ray, Receiver, Vertex, World,
+    Bsdf, LegacyPhong, LightId, LightSample, LightSampleContext, Ray, SurfaceInteraction,
+    TransportMode, World,
 };
 use glam::{Vec2, Vec3, Vec4};
 
 /// What lies at a surface, for one packet.
 enum Surface<B> {
-    Classic(ClassicPhong),
+    Classic(LegacyPhong),
     Scattering(B),
 }
 
 impl<B: Bsdf> Surface<B> {
     /// What it shows of a lamp, per unit of irradiance.
-    fn shade(&self, vertex: &Vertex, wo: Vec3, wi: Vec3) -> Vec4 {
+    fn shade(&self, vertex: &SurfaceInteraction, wo: Vec3, wi: Vec3) -> Vec4 {
         match self {
             Self::Classic(material) => phong::shade(material, vertex, wo, wi),
-            Self::Scattering(bsdf) => bsdf.eval(wo, wi, Mode::Radiance),
+            Self::Scattering(bsdf) => bsdf.eval(wo, wi, TransportMode::Radiance),
         }
     }
 }
@@ -31,21 +32,21 @@ impl Whitted {
     pub(super) fn direct<W: World>(
         &self,
         world: &W,
-        vertex: &Vertex,
+        vertex: &SurfaceInteraction,
         wo: Vec3,
         packets: &[Packet],
         crossings: u32,
     ) -> Vec3 {
         let surfaces: [Option<Surface<W::Bsdf<'_>>>; SETS] = core::array::from_fn(|i| {
             let wavelengths = &packets.get(i)?.wavelengths;
-            Some(match world.classic(vertex, wavelengths) {
+            Some(match world.legacy_phong(vertex, wavelengths) {
                 Some(material) => Surface::Classic(material),
                 None => Surface::Scattering(world.bsdf(vertex, wo, wavelengths)),
             })
         });
         let from = match &surfaces[0] {
-            Some(Surface::Scattering(bsdf)) => Receiver::new(vertex, wo, bsdf),
-            _ => Receiver::on_surface(vertex.position, vertex.shading.n),
+            Some(Surface::Scattering(bsdf)) => LightSampleContext::new(vertex, wo, bsdf),
+            _ => LightSampleContext::on_surface(vertex.position, vertex.shading.n),
         };
         let side = self.light_samples;
         let mut sum = Vec3::ZERO;
@@ -58,7 +59,7 @@ impl Whitted {
                 let Some(first) = sample(&packets[0].wavelengths) else {
                     continue;
                 };
-                let share = if first.chance.is_discrete() {
+                let share = if first.chance.is_delta() {
                     1.0
                 } else {
                     1.0 / (side * side) as f32
@@ -83,7 +84,7 @@ impl Whitted {
                         sum += packet.response.rgb(shown * arrives);
                     }
                 }
-                if first.chance.is_discrete() {
+                if first.chance.is_delta() {
                     break;
                 }
             }
@@ -92,10 +93,10 @@ impl Whitted {
     }
 
     /// The irradiance on a surface that faces the lamp.
-    fn irradiance(&self, from: &Receiver, lamp: &LightSample) -> Vec4 {
+    fn irradiance(&self, from: &LightSampleContext, lamp: &LightSample) -> Vec4 {
         let irradiance = lamp.radiance / lamp.chance.lanes().x;
         match (self.falloff, lamp.target) {
-            (Falloff::None, Some(target)) if lamp.chance.is_discrete() => {
+            (Falloff::None, Some(target)) if lamp.chance.is_delta() => {
                 irradiance * target.distance_squared(from.position)
             }
             _ => irradiance,
@@ -117,11 +118,11 @@ fn reach<W: World>(
         let vertex = world.vertex(&ray, &hit);
         let mut any = false;
         for (fraction, packet) in fractions.iter_mut().zip(packets) {
-            *fraction *= match world.classic(&vertex, &packet.wavelengths) {
+            *fraction *= match world.legacy_phong(&vertex, &packet.wavelengths) {
                 Some(material) => Vec4::splat(material.transparency),
                 None => {
                     let bsdf = world.bsdf(&vertex, -ray.direction, &packet.wavelengths);
-                    bsdf.passing()
+                    bsdf.null_transmittance()
                 }
             };
             any |= *fraction != Vec4::ZERO;

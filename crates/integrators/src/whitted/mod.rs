@@ -10,7 +10,7 @@
 //! that reaches a surface in any other way is missing, which is what makes this no estimator of the
 //! rendering equation; but wherever there is no such light it is exact, with hard shadows.
 //!
-//! Classic Phong materials ([`ClassicPhong`]) fill the gap with an ambient term:
+//! Classic Phong materials ([`LegacyPhong`]) fill the gap with an ambient term:
 //!
 //! ```text
 //! L = (1 − α) (kₐ Lₐ + Σ V E (k_d cos θ + kₛ max(0, cos ρ)ⁿ) + k_g L_mirror) + α L_refracted
@@ -26,7 +26,7 @@
 //! every picture is without noise; smooth dispersion sends each its own way. Every pixel is the
 //! mean of a grid of points over its square, refined where neighbours differ.
 //!
-//! [`ClassicPhong`]: etalon_transport::ClassicPhong
+//! [`LegacyPhong`]: etalon_transport::ClassicPhong
 
 mod light;
 mod phong;
@@ -36,12 +36,13 @@ mod tree;
 use etalon_params::Params;
 use etalon_sampling::Sampler;
 use etalon_transport::{
-    Draft, Integrator, Objection, Pass, PixelSite, Placing, Sight, Sink, Subject, TileSink, World,
+    Incompatibility, Integrator, Pass, PixelSample, Placing, SampleJob, SceneCapabilities, Sink,
+    Subject, TileSink, World,
 };
 use glam::{UVec2, Vec4};
 pub use pixel::Grid;
 use std::sync::OnceLock;
-pub use tree::{Onward, onward};
+pub use tree::{Continuation, onward};
 
 /// How the light of lamps without extent fades with distance.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -175,12 +176,12 @@ impl Integrator for Whitted {
     type State = Picture;
 
     /// It asks all lights, and shows classic materials; a sky has no point to ask.
-    fn objections(&self, sight: &Sight) -> Vec<Objection> {
+    fn incompatibilities(&self, sight: &SceneCapabilities) -> Vec<Incompatibility> {
         let message = "`whitted` asks every light at fixed points, and this scene has a sky, which \
                        shines from everywhere";
         let sky = sight
             .sky
-            .then(|| Objection::fatal(Subject::Integrator, message));
+            .then(|| Incompatibility::fatal(Subject::Integrator, message));
         let ambient = sight.classic && self.ambient > 0.0;
         let unlit = sight.unlit().filter(|_| !ambient);
         sky.into_iter().chain(unlit).collect()
@@ -200,7 +201,7 @@ impl Integrator for Whitted {
         &self,
         world: &W,
         picture: &Picture,
-        site: &PixelSite,
+        site: &PixelSample,
         _: &mut S,
         sink: &mut K,
     ) {
@@ -209,14 +210,14 @@ impl Integrator for Whitted {
     }
 
     /// The film's filter places no sample, so that what it makes them count is left aside, too.
-    fn sample_all<W: World, S: Sampler, K: TileSink>(
+    fn sample_batch<W: World, S: Sampler, K: TileSink>(
         &self,
         world: &W,
         picture: &Picture,
-        drafts: &mut [Draft<S>],
+        drafts: &mut [SampleJob<S>],
         sink: &mut K,
     ) {
-        for Draft { site, sampler, .. } in drafts {
+        for SampleJob { site, sampler, .. } in drafts {
             // Pixels around the film are of no use to it.
             if !picture.has(site.pixel) {
                 continue;

@@ -1,18 +1,23 @@
 //! The classic Phong material: what it shows of a lamp, and where it sends rays.
 
-use super::tree::Onward;
+use super::tree::Continuation;
 use etalon_math::float;
-use etalon_transport::{ClassicPhong, Vertex};
+use etalon_transport::{LegacyPhong, SurfaceInteraction};
 use glam::{Vec3, Vec4};
 
 /// The shading normal on the side of `wo`.
-fn facing(vertex: &Vertex, wo: Vec3) -> Vec3 {
+fn facing(vertex: &SurfaceInteraction, wo: Vec3) -> Vec3 {
     let n = vertex.shading.n;
     if n.dot(wo) < 0.0 { -n } else { n }
 }
 
 /// What the surface itself shows of a lamp in direction `wi`, per unit of irradiance.
-pub(super) fn shade(material: &ClassicPhong, vertex: &Vertex, wo: Vec3, wi: Vec3) -> Vec4 {
+pub(super) fn shade(
+    material: &LegacyPhong,
+    vertex: &SurfaceInteraction,
+    wo: Vec3,
+    wi: Vec3,
+) -> Vec4 {
     let n = facing(vertex, wo);
     let cos = n.dot(wi);
     if !(cos > 0.0) {
@@ -31,11 +36,11 @@ fn mirror(n: Vec3, wo: Vec3) -> Vec3 {
 /// The ray number `index` that leaves the surface: the mirrored one, and the refracted one; `None`
 /// beyond the last.
 pub(super) fn onward(
-    material: &ClassicPhong,
-    vertex: &Vertex,
+    material: &LegacyPhong,
+    vertex: &SurfaceInteraction,
     wo: Vec3,
     index: u32,
-) -> Option<Onward> {
+) -> Option<Continuation> {
     let n = facing(vertex, wo);
     let cos = n.dot(wo);
     // Index of the medium entered over that of the medium left.
@@ -49,7 +54,7 @@ pub(super) fn onward(
     let refracts = Vec4::select(cos2.cmpgt(Vec4::ZERO), Vec4::ONE, Vec4::ZERO);
     let through = Vec4::splat(material.transparency);
     match index {
-        0 => Some(Onward {
+        0 => Some(Continuation {
             wi: mirror(n, wo),
             value: material.global * (1.0 - through) + through * (1.0 - refracts),
             together: Vec4::ONE,
@@ -59,7 +64,7 @@ pub(super) fn onward(
             let same = Vec4::select(eta.cmpeq(Vec4::splat(eta.x)), Vec4::ONE, Vec4::ZERO);
             let together = same * refracts.x;
             let refracted = n * (cos / eta.x - cos2.x.max(0.0).sqrt()) - wo / eta.x;
-            Some(Onward {
+            Some(Continuation {
                 wi: refracted.normalize(),
                 value: through * together,
                 // Under total reflection lanes of the same index have no ray, either.
@@ -77,7 +82,7 @@ mod tests {
     use etalon_transport::{InstanceId, LightId, MaterialId, ShapeId};
     use glam::Vec2;
 
-    const MATERIAL: ClassicPhong = ClassicPhong {
+    const MATERIAL: LegacyPhong = LegacyPhong {
         ambient: Vec4::ZERO,
         diffuse: Vec4::splat(0.5),
         specular: Vec4::splat(0.25),
@@ -87,8 +92,8 @@ mod tests {
         eta: Vec4::splat(1.5),
     };
 
-    fn vertex() -> Vertex {
-        Vertex {
+    fn vertex() -> SurfaceInteraction {
+        SurfaceInteraction {
             position: Vec3::ZERO,
             error: Vec3::ZERO,
             depth: f32::NAN,
@@ -150,7 +155,7 @@ mod tests {
 
     #[test]
     fn each_wavelength_is_refracted_by_its_own_index() {
-        let material = ClassicPhong {
+        let material = LegacyPhong {
             eta: Vec4::new(1.5, 1.5, 1.6, 1.7),
             ..MATERIAL
         };

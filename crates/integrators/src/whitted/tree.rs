@@ -5,7 +5,7 @@
 
 use super::{Whitted, phong};
 use etalon_spectrum::{SensorWeights, Wavelengths, sensor_response};
-use etalon_transport::{Bsdf, Camera, Mode, Ray, Vertex, World};
+use etalon_transport::{Bsdf, Camera, Ray, SurfaceInteraction, TransportMode, World};
 use glam::{Vec2, Vec3, Vec4};
 
 /// The most packets.
@@ -62,7 +62,7 @@ impl Packets {
 
 /// A ray that leaves a surface in a direction of its own.
 #[derive(Clone, Copy, Debug)]
-pub struct Onward {
+pub struct Continuation {
     /// Its direction.
     pub wi: Vec3,
     /// What the radiance along it counts, per lane; zero for lanes that go elsewhere than lane 0.
@@ -105,7 +105,7 @@ impl Whitted {
             if world.is_emitter(&hit) {
                 radiance += world.emitted(&vertex, wo, &packet.wavelengths);
             }
-            if let Some(material) = world.classic(&vertex, &packet.wavelengths) {
+            if let Some(material) = world.legacy_phong(&vertex, &packet.wavelengths) {
                 radiance += material.ambient * (self.ambient * (1.0 - material.transparency));
             }
             sum += packet.response.rgb(radiance * packet.weight);
@@ -121,7 +121,7 @@ impl Whitted {
     fn branch<W: World>(
         &self,
         world: &W,
-        vertex: &Vertex,
+        vertex: &SurfaceInteraction,
         wo: Vec3,
         packets: &[Packet],
         depth: u32,
@@ -181,7 +181,7 @@ impl Whitted {
             let hidden = self.hide_emitters && segment == 1 && world.is_emitter(&hit);
             if !hidden {
                 let bsdf = world.bsdf(&vertex, -ray.direction, wavelengths);
-                open *= 0.25 * bsdf.passing_probability().element_sum();
+                open *= 0.25 * bsdf.null_probability().element_sum();
                 segment += 1;
             }
             if open == 0.0 {
@@ -196,16 +196,17 @@ impl Whitted {
 /// The ray number `index` that leaves a surface, whatever it is made of; `None` beyond the last.
 pub fn onward<W: World>(
     world: &W,
-    vertex: &Vertex,
+    vertex: &SurfaceInteraction,
     wo: Vec3,
     wavelengths: &Wavelengths,
     index: u32,
-) -> Option<Onward> {
-    if let Some(material) = world.classic(vertex, wavelengths) {
+) -> Option<Continuation> {
+    if let Some(material) = world.legacy_phong(vertex, wavelengths) {
         return phong::onward(&material, vertex, wo, index);
     }
-    let sample = (world.bsdf(vertex, wo, wavelengths)).discrete(wo, index, Mode::Radiance)?;
-    Some(Onward {
+    let sample =
+        (world.bsdf(vertex, wo, wavelengths)).discrete(wo, index, TransportMode::Radiance)?;
+    Some(Continuation {
         wi: sample.wi,
         value: sample.value,
         together: sample.chance.lanes(),

@@ -5,8 +5,8 @@ use crate::{Meter, series, settings, white};
 use etalon_integrators::metropolis::ChainSettings;
 use etalon_integrators::mmlt::Multiplexed;
 use etalon_integrators::pssmlt::PrimarySpace;
-use etalon_sampling::{Independent, PixelSample, Sampler};
-use etalon_transport::{Integrator, Pass, PixelSite};
+use etalon_sampling::{Independent, SampleId, Sampler};
+use etalon_transport::{Integrator, Pass, PixelSample};
 use glam::UVec2;
 
 const REFLECTANCE: f32 = 0.6;
@@ -33,7 +33,7 @@ fn z_score<I: Integrator>(integrator: &I, world: &Sphere, expected: f64) -> f64 
         let state = integrator.prepare(world, &(), &pass, before.take());
         let mut meter = Meter::default();
         for sample in 0..SAMPLES {
-            let mut sampler = Independent::start(&PixelSample {
+            let mut sampler = Independent::start(&SampleId {
                 seed: 5,
                 replicate,
                 pixel: (0, 0),
@@ -41,7 +41,7 @@ fn z_score<I: Integrator>(integrator: &I, world: &Sphere, expected: f64) -> f64 
                 samples_per_replicate: SAMPLES,
                 blocks: 1,
             });
-            let site = PixelSite {
+            let site = PixelSample {
                 pixel: UVec2::ZERO,
                 raster: sampler.next_2d(),
                 margin: 0.0,

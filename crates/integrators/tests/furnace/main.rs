@@ -15,7 +15,7 @@ use etalon_integrators::direct::Direct;
 use etalon_integrators::path::Path;
 use etalon_integrators::ptracer::ParticleTracer;
 use etalon_integrators::settings::{LightCandidates, PathSettings};
-use etalon_sampling::{Independent, PixelSample, Sampler};
+use etalon_sampling::{Independent, SampleId, Sampler};
 use etalon_spectrum::sensor;
 use etalon_transport::*;
 use glam::{UVec2, Vec2, Vec4};
@@ -53,7 +53,7 @@ fn z_score<I: Integrator<State = ()>>(
 ) -> f64 {
     let (mut sum, mut squares) = (0.0, 0.0);
     for sample in 0..n {
-        let mut sampler = Independent::start(&PixelSample {
+        let mut sampler = Independent::start(&SampleId {
             seed: 7,
             replicate: 0,
             pixel: (0, 0),
@@ -61,7 +61,7 @@ fn z_score<I: Integrator<State = ()>>(
             samples_per_replicate: n,
             blocks: 1,
         });
-        let site = PixelSite {
+        let site = PixelSample {
             pixel: UVec2::ZERO,
             raster: sampler.next_2d(),
             margin: 0.0,

@@ -12,8 +12,8 @@ use etalon_integrators::photonmap::{Estimate, PhotonMapper};
 use etalon_integrators::photons::radius::Radius;
 use etalon_integrators::sppm::Progressive;
 use etalon_integrators::vcm::ConnectionMerging;
-use etalon_sampling::{Independent, PixelSample, Sampler};
-use etalon_transport::{Integrator, Pass, PixelSite};
+use etalon_sampling::{Independent, SampleId, Sampler};
+use etalon_transport::{Integrator, Pass, PixelSample};
 use glam::UVec2;
 
 const PHOTONS: u32 = 1024;
@@ -46,7 +46,7 @@ fn sample_once<I: Integrator>(
     (replicate, sample): (u32, u32),
     meter: &mut Meter,
 ) {
-    let mut sampler = Independent::start(&PixelSample {
+    let mut sampler = Independent::start(&SampleId {
         seed: 11,
         replicate,
         pixel: (0, 0),
@@ -54,7 +54,7 @@ fn sample_once<I: Integrator>(
         samples_per_replicate: SAMPLES,
         blocks: 1,
     });
-    let site = PixelSite {
+    let site = PixelSample {
         pixel: UVec2::ZERO,
         raster: sampler.next_2d(),
         margin: 0.0,

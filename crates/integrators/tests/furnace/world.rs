@@ -43,7 +43,7 @@ impl Camera for Pinhole {
         }
     }
 
-    fn connect(&self, point: Vec3, _: Vec2, _: f32) -> Option<Connection> {
+    fn connect(&self, point: Vec3, _: Vec2, _: f32) -> Option<CameraSample> {
         let raster = (point.truncate() / point.z + 1.0) * 0.5;
         let inside = point.z > 0.0 && raster.min_element() >= 0.0 && raster.max_element() <= 1.0;
         let cos = point.z / point.length();
@@ -52,7 +52,7 @@ impl Camera for Pinhole {
         } else {
             3
         };
-        inside.then(|| Connection {
+        inside.then(|| CameraSample {
             raster,
             direction: -point.normalize(),
             target: Vec3::ZERO,
@@ -62,7 +62,7 @@ impl Camera for Pinhole {
 
     /// A wide aperture about the pinhole. Its ray starts in the middle all the same: what it would
     /// see is the same from everywhere.
-    fn receive(&self, ray: &Ray, _: f32) -> Option<Reception> {
+    fn intersect_aperture(&self, ray: &Ray, _: f32) -> Option<ApertureHit> {
         let t = -ray.origin.z / ray.direction.z;
         let slope = ray.direction.truncate() / ray.direction.z;
         let raster = (slope + 1.0) * 0.5;
@@ -74,7 +74,7 @@ impl Camera for Pinhole {
         } else {
             4
         };
-        (inside && arrives).then(|| Reception {
+        (inside && arrives).then(|| ApertureHit {
             raster,
             t,
             weight: 0.25 / (cos.powi(power) * PI * APERTURE * APERTURE),
@@ -98,7 +98,7 @@ pub(crate) struct Lambert {
 }
 
 impl Bsdf for Lambert {
-    fn eval(&self, _: Vec3, wi: Vec3, _: Mode) -> Vec4 {
+    fn eval(&self, _: Vec3, wi: Vec3, _: TransportMode) -> Vec4 {
         Vec4::splat(self.reflectance / PI * self.normal.dot(wi).max(0.0))
     }
     fn density(&self, _: Vec3, wi: Vec3) -> Density<SolidAngle> {
@@ -109,27 +109,27 @@ impl Bsdf for Lambert {
             cos / PI
         })
     }
-    fn sample(&self, wo: Vec3, _: f32, u: Vec2, mode: Mode) -> Option<BsdfSample> {
+    fn sample(&self, wo: Vec3, _: f32, u: Vec2, mode: TransportMode) -> Option<BsdfSample> {
         let (r, phi) = (u.x.sqrt(), 2.0 * PI * u.y);
         let (sin, cos) = etalon_math::float::sin_cos(phi);
         let local = Vec3::new(r * cos, r * sin, (1.0 - u.x).sqrt());
         let wi = Frame::from_normal(self.normal).to_world(local);
         let density = self.density(wo, wi);
-        (density.chooser() > 0.0).then(|| BsdfSample {
+        (density.hero() > 0.0).then(|| BsdfSample {
             wi,
             value: self.eval(wo, wi, mode),
-            chance: Chance::Continuous(density),
+            chance: SamplePdf::Continuous(density),
             eta: 1.0,
-            passes: false,
+            is_null: false,
         })
     }
     fn has_continuous(&self) -> bool {
         true
     }
-    fn passing(&self) -> Vec4 {
+    fn null_transmittance(&self) -> Vec4 {
         Vec4::ZERO
     }
-    fn passing_probability(&self) -> Vec4 {
+    fn null_probability(&self) -> Vec4 {
         Vec4::ZERO
     }
     fn albedo(&self, _: Vec3) -> Vec4 {
@@ -194,9 +194,9 @@ impl World for Sphere {
             slot: 0,
         })
     }
-    fn vertex(&self, ray: &Ray, hit: &Hit) -> Vertex {
+    fn vertex(&self, ray: &Ray, hit: &Hit) -> SurfaceInteraction {
         let normal = -ray.at(hit.t).normalize();
-        Vertex {
+        SurfaceInteraction {
             position: -normal,
             error: Vec3::splat(1e-6),
             depth: f32::NAN,
@@ -215,17 +215,17 @@ impl World for Sphere {
             light: LightId(0),
         }
     }
-    fn passage(&self, _: &Ray, _: &Wavelengths, _: u32) -> Option<Passage> {
-        Some(Passage::FREE)
+    fn transmittance(&self, _: &Ray, _: &Wavelengths, _: u32) -> Option<Transmission> {
+        Some(Transmission::FREE)
     }
-    fn bsdf(&self, vertex: &Vertex, _: Vec3, _: &Wavelengths) -> Lambert {
+    fn bsdf(&self, vertex: &SurfaceInteraction, _: Vec3, _: &Wavelengths) -> Lambert {
         Lambert {
             reflectance: self.reflectance,
             normal: vertex.normal,
             fault: self.fault,
         }
     }
-    fn emitted(&self, _: &Vertex, _: Vec3, _: &Wavelengths) -> Vec4 {
+    fn emitted(&self, _: &SurfaceInteraction, _: Vec3, _: &Wavelengths) -> Vec4 {
         Vec4::splat(self.radiance())
     }
     fn is_emitter(&self, _: &Hit) -> bool {
@@ -239,7 +239,7 @@ impl World for Sphere {
     }
     fn sample_light(
         &self,
-        from: &Receiver,
+        from: &LightSampleContext,
         w: &Wavelengths,
         _: f32,
         u: Vec2,
@@ -258,9 +258,9 @@ impl World for Sphere {
             direction,
             target: Some(target),
             radiance: Vec4::splat(self.radiance()),
-            chance: Chance::Continuous(self.light_density(from, &at, direction)),
+            chance: SamplePdf::Continuous(self.light_density(from, &at, direction)),
             cos: -at.normal.dot(direction),
-            origin: Origin::Surface,
+            origin: LightKind::Surface,
             light: LightId(0),
         })
         .filter(|_| w.lambda.x > 0.0)
@@ -271,18 +271,23 @@ impl World for Sphere {
     fn sample_one_light(
         &self,
         _: LightId,
-        from: &Receiver,
+        from: &LightSampleContext,
         w: &Wavelengths,
         u: Vec2,
     ) -> Option<LightSample> {
         self.sample_light(from, w, 0.0, u)
     }
-    fn light_density(&self, from: &Receiver, at: &Vertex, direction: Vec3) -> Density<SolidAngle> {
+    fn light_density(
+        &self,
+        from: &LightSampleContext,
+        at: &SurfaceInteraction,
+        direction: Vec3,
+    ) -> Density<SolidAngle> {
         let distance_squared = (at.position - from.position).length_squared();
         Density::<Area>::uniform(self.area_density())
             .to_solid_angle(distance_squared, at.normal.dot(direction))
     }
-    fn background_density(&self, _: &Receiver, _: Vec3) -> Density<SolidAngle> {
+    fn background_density(&self, _: &LightSampleContext, _: Vec3) -> Density<SolidAngle> {
         Density::ZERO
     }
     fn emit(&self, _: &Wavelengths, _: f32, p: Vec2, d: Vec2) -> Option<Emission> {
@@ -292,7 +297,7 @@ impl World for Sphere {
             normal: -origin,
             fault: Fault::None,
         };
-        let sample = lambert.sample(-origin, 0.0, d, Mode::Importance)?;
+        let sample = lambert.sample(-origin, 0.0, d, TransportMode::Importance)?;
         Some(Emission {
             ray: Ray::new(origin * (1.0 - 1e-6), sample.wi, 0.0),
             point: SurfacePoint {
@@ -302,29 +307,29 @@ impl World for Sphere {
                 texture: TexturePoint::at_uv(Vec2::ZERO),
             },
             weight: Vec4::splat(self.radiance() * PI / self.area_density()),
-            density: EmissionDensity {
+            density: EmissionPdf {
                 origin: self.area_density(),
                 ray: sample.chance.lanes().x,
             },
-            origin: Origin::Surface,
+            origin: LightKind::Surface,
             light: LightId(0),
         })
     }
-    fn emission_density(&self, _: LightId, _: Vec3, cos: f32) -> EmissionDensity {
-        EmissionDensity {
+    fn emission_density(&self, _: LightId, _: Vec3, cos: f32) -> EmissionPdf {
+        EmissionPdf {
             origin: self.area_density(),
             ray: cos.max(0.0) / PI,
         }
     }
-    fn background_emission_density(&self, _: Vec3) -> EmissionDensity {
-        EmissionDensity::ZERO
+    fn background_emission_density(&self, _: Vec3) -> EmissionPdf {
+        EmissionPdf::ZERO
     }
-    fn sampled_density(&self, from: &Receiver, start: &Emission) -> f32 {
+    fn light_sample_density(&self, from: &LightSampleContext, start: &Emission) -> f32 {
         let to = start.point.position - from.position;
         let cos = start.point.normal.dot(to.normalize());
         Density::<Area>::uniform(self.area_density())
             .to_solid_angle(to.length_squared(), cos)
-            .chooser()
+            .hero()
     }
     fn take_ray_count(&self) -> u64 {
         0

@@ -6,8 +6,8 @@ use etalon_integrators::aov::Aov;
 use etalon_integrators::depth::Depth;
 use etalon_integrators::moment::Moment;
 use etalon_params::{Class, Diagnostics, FileId, Node, Params, Property, Span, Spanned, Value};
-use etalon_sampling::{Independent, PixelSample, Sampler};
-use etalon_transport::{Channel, Integrator, PixelSite, Sink};
+use etalon_sampling::{Independent, SampleId, Sampler};
+use etalon_transport::{Channel, Integrator, PixelSample, Sink};
 use glam::{UVec2, Vec2};
 use std::collections::HashMap;
 use std::sync::Arc;
@@ -69,7 +69,7 @@ impl Sink for Written {
 }
 
 fn sample<I: Integrator<State = ()>>(integrator: &I, world: &Stack, sample: u32) -> Written {
-    let mut sampler = Independent::start(&PixelSample {
+    let mut sampler = Independent::start(&SampleId {
         seed: 1,
         replicate: 0,
         pixel: (0, 0),
@@ -77,7 +77,7 @@ fn sample<I: Integrator<State = ()>>(integrator: &I, world: &Stack, sample: u32)
         samples_per_replicate: 8,
         blocks: 1,
     });
-    let site = PixelSite {
+    let site = PixelSample {
         pixel: UVec2::ZERO,
         raster: sampler.next_2d(),
         margin: 0.0,

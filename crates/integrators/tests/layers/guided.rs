@@ -7,10 +7,10 @@ use crate::together::Record;
 use crate::world::{Fault, Plane, Stack};
 use etalon_integrators::guided::{Guided, Learned};
 use etalon_integrators::settings::PathSettings;
-use etalon_sampling::{Independent, PixelSample, Sampler};
+use etalon_sampling::{Independent, SampleId, Sampler};
 use etalon_statistics::Summary;
 use etalon_transport::{
-    Draft, Integrator, Pass, PixelSite, Placement, Placing, Sink, TileSink, World,
+    FilmSample, Integrator, Pass, PixelSample, Placing, SampleJob, Sink, TileSink, World,
 };
 use glam::{UVec2, Vec2};
 
@@ -31,7 +31,7 @@ impl Integrator for Prepared {
         &self,
         world: &W,
         (): &(),
-        site: &PixelSite,
+        site: &PixelSample,
         sampler: &mut S,
         sink: &mut K,
     ) {
@@ -169,8 +169,8 @@ struct Lobed {
 const LOBED: f64 = 1.25;
 
 impl Placing for Lobed {
-    fn place(&self, pixel: UVec2, u: Vec2) -> Placement {
-        Placement {
+    fn place(&self, pixel: UVec2, u: Vec2) -> FilmSample {
+        FilmSample {
             raster: pixel.as_vec2() + u,
             weight: if u.x < 0.75 { 2.0 } else { -1.0 },
         }
@@ -211,10 +211,10 @@ impl TileSink for Scale {
 }
 
 /// A replicate's samples of a pixel.
-fn drafts(placing: &impl Placing, pass: &Pass, pixel: UVec2) -> Vec<Draft<Independent>> {
+fn drafts(placing: &impl Placing, pass: &Pass, pixel: UVec2) -> Vec<SampleJob<Independent>> {
     let dealt = placing.dealt(pixel, pass.samples);
     let draft = |sample| {
-        let mut sampler = Independent::start(&PixelSample {
+        let mut sampler = Independent::start(&SampleId {
             seed: pass.seed,
             replicate: pass.replicate,
             pixel: pixel.into(),
@@ -222,8 +222,8 @@ fn drafts(placing: &impl Placing, pass: &Pass, pixel: UVec2) -> Vec<Draft<Indepe
             samples_per_replicate: dealt,
             blocks: 1,
         });
-        let Placement { raster, weight } = placing.place(pixel, sampler.next_2d());
-        let site = PixelSite {
+        let FilmSample { raster, weight } = placing.place(pixel, sampler.next_2d());
+        let site = PixelSample {
             pixel,
             raster,
             margin: 0.0,
@@ -231,7 +231,7 @@ fn drafts(placing: &impl Placing, pass: &Pass, pixel: UVec2) -> Vec<Draft<Indepe
             spacing: 1.0,
             sample,
         };
-        Draft {
+        SampleJob {
             site,
             weight,
             sampler,
@@ -271,7 +271,7 @@ fn replicate_means(
             let pixel = origin + UVec2::new(pixel % size.x, pixel / size.x);
             let dealt = placing.dealt(pixel, samples);
             let mut drafts = drafts(placing, &pass, pixel);
-            integrator.sample_all(stack, &learned, &mut drafts, &mut scale);
+            integrator.sample_batch(stack, &learned, &mut drafts, &mut scale);
             for (mean, sum) in mean.iter_mut().zip(scale.sum) {
                 *mean += sum / f64::from(dealt * size.element_product());
             }
@@ -343,8 +343,8 @@ struct Spoiling;
 const SPOILT: UVec2 = UVec2::new(5, 9);
 
 impl Placing for Spoiling {
-    fn place(&self, pixel: UVec2, u: Vec2) -> Placement {
-        Placement {
+    fn place(&self, pixel: UVec2, u: Vec2) -> FilmSample {
+        FilmSample {
             raster: pixel.as_vec2() + u,
             weight: if pixel == SPOILT { f32::NAN } else { 1.0 },
         }
@@ -365,7 +365,7 @@ fn what_is_no_number_in_training_is_refused_once() {
     for pixel in [SPOILT, SPOILT + UVec2::X] {
         let mut record = Record::default();
         let mut drafts = drafts(&(), &pass, pixel);
-        integrator.sample_all(&stack, &learned, &mut drafts, &mut record);
+        integrator.sample_batch(&stack, &learned, &mut drafts, &mut record);
         let no_number = |bits: [u32; 4]| {
             !bits
                 .into_iter()

@@ -2,9 +2,9 @@
 
 use crate::tally::Tally;
 use crate::world::{Plane, Stack, ZERO};
-use etalon_integrators::{Outcome, Plan, Progress, Share, render};
+use etalon_integrators::{Progress, RenderPlan, RenderStatistics, ReplicateRange, render};
 use etalon_sampling::{ReplicateKind, Sampler, SamplerKind};
-use etalon_transport::{Channel, Integrator, Pass, PixelSite, Placing, Sink, World};
+use etalon_transport::{Channel, Integrator, Pass, PixelSample, Placing, Sink, World};
 use glam::UVec2;
 use std::sync::atomic::{AtomicU32, AtomicU64, Ordering};
 
@@ -50,7 +50,7 @@ impl Integrator for Marbles {
         &self,
         world: &W,
         _: &u32,
-        site: &PixelSite,
+        site: &PixelSample,
         sampler: &mut S,
         sink: &mut K,
     ) {
@@ -101,7 +101,7 @@ fn run(
     sampler: SamplerKind,
     window: (UVec2, UVec2),
     watch: &Watch,
-) -> (Tally, Outcome) {
+) -> (Tally, RenderStatistics) {
     run_passes(threads, sampler, window, watch, (None, None))
 }
 
@@ -111,8 +111,8 @@ fn run_passes(
     sampler: SamplerKind,
     window: (UVec2, UVec2),
     watch: &Watch,
-    passes: (Option<Share>, Option<u32>),
-) -> (Tally, Outcome) {
+    passes: (Option<ReplicateRange>, Option<u32>),
+) -> (Tally, RenderStatistics) {
     run_on(threads, sampler, window, watch, passes, None)
 }
 
@@ -122,9 +122,9 @@ fn run_on(
     sampler: SamplerKind,
     window: (UVec2, UVec2),
     watch: &Watch,
-    (share, samples_per_pass): (Option<Share>, Option<u32>),
+    (share, samples_per_pass): (Option<ReplicateRange>, Option<u32>),
     begun: Option<Tally>,
-) -> (Tally, Outcome) {
+) -> (Tally, RenderStatistics) {
     let (origin, size) = window;
     let world = Stack::new(vec![Plane::WHITE], ZERO, 1.0, true);
     let mut film = begun.unwrap_or_else(|| Tally::new(origin, size));
@@ -135,7 +135,7 @@ fn run_on(
         first_pass: film.first_pass(samples_per_pass),
         samples_per_pass,
     };
-    let plan = Plan {
+    let plan = RenderPlan {
         seed: 5,
         replicates: 3,
         replicate_kind: ReplicateKind::Independent,
@@ -247,7 +247,7 @@ fn shares_of_the_replicates_are_those_of_the_whole() {
         for count in 1..=3 {
             let mut dealt = Vec::new();
             for index in 0..count {
-                let share = Share::of(3, index, count);
+                let share = ReplicateRange::of(3, index, count);
                 let (film, outcome) =
                     run_passes(2, sampler, CROP, &Watch::default(), (share, None));
                 assert_eq!(Some(outcome.replicates), share.map(|share| share.count));

@@ -1,8 +1,8 @@
 //! Means of an estimator with their standard errors.
 
 use crate::world::Stack;
-use etalon_sampling::{Independent, PixelSample, Sampler};
-use etalon_transport::{Integrator, PixelSite, Sink};
+use etalon_sampling::{Independent, SampleId, Sampler};
+use etalon_transport::{Integrator, PixelSample, Sink};
 use glam::{UVec2, Vec2};
 
 /// One sample's findings.
@@ -37,7 +37,7 @@ pub(crate) fn measure<I: Integrator<State = ()>>(
 ) -> Measured {
     let (mut sum, mut squares) = ([0.0; 4], [0.0; 4]);
     for sample in 0..n {
-        let mut sampler = Independent::start(&PixelSample {
+        let mut sampler = Independent::start(&SampleId {
             seed: 2026,
             replicate: 0,
             pixel: (0, 0),
@@ -45,7 +45,7 @@ pub(crate) fn measure<I: Integrator<State = ()>>(
             samples_per_replicate: n,
             blocks: 1,
         });
-        let site = PixelSite {
+        let site = PixelSample {
             pixel: UVec2::ZERO,
             raster: sampler.next_2d(),
             margin: 0.0,

@@ -3,9 +3,9 @@
 use crate::exact::Exact;
 use crate::world::{Fault, Plane, Stack, ZERO};
 use etalon_integrators::whitted::{Falloff, Grid, Whitted};
-use etalon_sampling::{Independent, PixelSample};
+use etalon_sampling::{Independent, SampleId};
 use etalon_spectrum::sensor_response;
-use etalon_transport::{Integrator, Pass, PixelSite, Sink, World};
+use etalon_transport::{Integrator, Pass, PixelSample, Sink, World};
 use glam::{UVec2, Vec2, Vec4};
 
 const WAVELENGTHS: u32 = 24;
@@ -59,7 +59,7 @@ fn seen(integrator: &Whitted, world: &Stack) -> [f32; 3] {
 }
 
 fn look(integrator: &Whitted, world: &Stack) -> Seen {
-    let mut sampler = Independent::start(&PixelSample {
+    let mut sampler = Independent::start(&SampleId {
         seed: 1,
         replicate: 0,
         pixel: (0, 0),
@@ -67,7 +67,7 @@ fn look(integrator: &Whitted, world: &Stack) -> Seen {
         samples_per_replicate: 1,
         blocks: 1,
     });
-    let site = PixelSite {
+    let site = PixelSample {
         pixel: UVec2::ZERO,
         raster: Vec2::splat(0.5),
         margin: 0.0,

@@ -1,7 +1,7 @@
 //! A plane's scattering: lobes that differ from wavelength to wavelength.
 
 use crate::world::Fault;
-use etalon_math::{Atom, Density, Frame, SolidAngle, float};
+use etalon_math::{DeltaProbability, Density, Frame, SolidAngle, float};
 use etalon_transport::*;
 use glam::{Vec2, Vec3, Vec4};
 use std::f32::consts::PI;
@@ -42,7 +42,7 @@ impl Scatter {
 }
 
 impl Bsdf for Scatter {
-    fn eval(&self, _: Vec3, wi: Vec3, _: Mode) -> Vec4 {
+    fn eval(&self, _: Vec3, wi: Vec3, _: TransportMode) -> Vec4 {
         self.lobe * self.lobe_density(self.normal.dot(wi))
     }
     fn density(&self, _: Vec3, wi: Vec3) -> Density<SolidAngle> {
@@ -52,13 +52,13 @@ impl Bsdf for Scatter {
         }
         Density::per_lane(density * (1.0 - self.passing) * (1.0 - self.share))
     }
-    fn sample(&self, wo: Vec3, u_lobe: f32, u: Vec2, mode: Mode) -> Option<BsdfSample> {
+    fn sample(&self, wo: Vec3, u_lobe: f32, u: Vec2, mode: TransportMode) -> Option<BsdfSample> {
         let sample = |wi, value, chance, passes| BsdfSample {
             wi,
             value,
             chance,
             eta: 1.0,
-            passes,
+            is_null: passes,
         };
         let pass = self.passing.x;
         if u_lobe < pass {
@@ -70,16 +70,16 @@ impl Bsdf for Scatter {
         let cos = float::pow(1.0 - u.x, 1.0 / (self.exponent.x + 1.0));
         let wi = self.direction(cos, u.y);
         let density = self.density(wo, wi);
-        (density.chooser() > 0.0).then(|| {
+        (density.hero() > 0.0).then(|| {
             sample(
                 wi,
                 self.eval(wo, wi, mode),
-                Chance::Continuous(density),
+                SamplePdf::Continuous(density),
                 false,
             )
         })
     }
-    fn discrete(&self, wo: Vec3, index: u32, _: Mode) -> Option<BsdfSample> {
+    fn discrete(&self, wo: Vec3, index: u32, _: TransportMode) -> Option<BsdfSample> {
         // Another lane takes the atom's direction only if it is its own.
         let same = self.tilt.cmpeq(Vec4::splat(self.tilt.x));
         let same = Vec4::select(same, Vec4::ONE, Vec4::ZERO);
@@ -100,9 +100,9 @@ impl Bsdf for Scatter {
         Some(BsdfSample {
             wi,
             value,
-            chance: Chance::Discrete(Atom(atom)),
+            chance: SamplePdf::Discrete(DeltaProbability(atom)),
             eta: 1.0,
-            passes: index == 0,
+            is_null: index == 0,
         })
     }
     fn has_continuous(&self) -> bool {
@@ -114,10 +114,10 @@ impl Bsdf for Scatter {
     fn hemisphere(&self) -> Option<Frame> {
         self.one_sided.then(|| Frame::from_normal(self.normal))
     }
-    fn passing(&self) -> Vec4 {
+    fn null_transmittance(&self) -> Vec4 {
         self.passing
     }
-    fn passing_probability(&self) -> Vec4 {
+    fn null_probability(&self) -> Vec4 {
         self.passing
     }
     fn albedo(&self, _: Vec3) -> Vec4 {

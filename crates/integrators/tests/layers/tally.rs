@@ -1,6 +1,6 @@
 //! A film whose sums are exact, for tests of the render loop.
 
-use etalon_transport::{Film, Placement, Placing, Sink, TileSink};
+use etalon_transport::{Film, FilmSample, Placing, Sink, TileSink};
 use glam::{UVec2, Vec2};
 use std::sync::Mutex;
 
@@ -97,8 +97,8 @@ impl TileSink for TallyTile<'_> {
 }
 
 impl Placing for Tally {
-    fn place(&self, pixel: UVec2, u: Vec2) -> Placement {
-        Placement {
+    fn place(&self, pixel: UVec2, u: Vec2) -> FilmSample {
+        FilmSample {
             raster: pixel.as_vec2() + u,
             weight: 2.0,
         }

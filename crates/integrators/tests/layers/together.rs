@@ -3,8 +3,8 @@
 use crate::agreement::everything;
 use etalon_integrators::path::Path;
 use etalon_integrators::settings::PathSettings;
-use etalon_sampling::{PixelSample, Sampler, Sobol};
-use etalon_transport::{Draft, Integrator, PixelSite, Sink, TileSink};
+use etalon_sampling::{SampleId, Sampler, Sobol};
+use etalon_transport::{Integrator, PixelSample, SampleJob, Sink, TileSink};
 use glam::{UVec2, Vec2};
 
 /// What was delivered: pixel, weight, bits of colour and alpha.
@@ -33,9 +33,9 @@ impl TileSink for Record {
     }
 }
 
-fn drafts(count: u32) -> Vec<Draft<Sobol>> {
+fn drafts(count: u32) -> Vec<SampleJob<Sobol>> {
     let draft = |sample| {
-        let mut sampler = Sobol::start(&PixelSample {
+        let mut sampler = Sobol::start(&SampleId {
             seed: 7,
             replicate: 0,
             pixel: (sample / 4, 0),
@@ -43,7 +43,7 @@ fn drafts(count: u32) -> Vec<Draft<Sobol>> {
             samples_per_replicate: 4,
             blocks: 1,
         });
-        let site = PixelSite {
+        let site = PixelSample {
             pixel: UVec2::new(sample / 4, 0),
             raster: sampler.next_2d(),
             margin: 0.0,
@@ -51,7 +51,7 @@ fn drafts(count: u32) -> Vec<Draft<Sobol>> {
             spacing: 0.5,
             sample: 0,
         };
-        Draft {
+        SampleJob {
             site,
             weight: 1.0 + sample as f32,
             sampler,
@@ -83,7 +83,7 @@ fn the_path_tracer_gives_the_same_bits_for_one_and_for_many() {
                 path.sample(&world, &(), &draft.site, &mut draft.sampler, &mut alone);
             }
             let mut together = Record::default();
-            path.sample_all(&world, &(), &mut drafts(count), &mut together);
+            path.sample_batch(&world, &(), &mut drafts(count), &mut together);
             assert_eq!(alone.samples.len(), count as usize);
             assert_eq!(alone.samples, together.samples, "{count} to {max_depth}");
             let lit = |s: &&(UVec2, f32, [u32; 4])| s.2[0] != 0;

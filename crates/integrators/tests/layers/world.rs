@@ -99,7 +99,7 @@ impl Camera for Camera1D {
             weight: 1.0,
         }
     }
-    fn connect(&self, _: Vec3, _: Vec2, _: f32) -> Option<Connection> {
+    fn connect(&self, _: Vec3, _: Vec2, _: f32) -> Option<CameraSample> {
         None
     }
     fn has_lens(&self) -> bool {
@@ -178,11 +178,11 @@ impl World for Stack {
             slot: 0,
         })
     }
-    fn vertex(&self, ray: &Ray, hit: &Hit) -> Vertex {
+    fn vertex(&self, ray: &Ray, hit: &Hit) -> SurfaceInteraction {
         let plane = &self.planes[hit.shape.0 as usize];
         // Paths are confined to the axis, or they would lose precision far away from it; nothing
         // in this world depends on where on a plane they are.
-        Vertex {
+        SurfaceInteraction {
             position: Vec3::Z * plane.height,
             error: Vec3::ZERO,
             depth: f32::NAN,
@@ -205,8 +205,13 @@ impl World for Stack {
             },
         }
     }
-    fn passage(&self, ray: &Ray, wavelengths: &Wavelengths, crossings: u32) -> Option<Passage> {
-        let mut passage = Passage::FREE;
+    fn transmittance(
+        &self,
+        ray: &Ray,
+        wavelengths: &Wavelengths,
+        crossings: u32,
+    ) -> Option<Transmission> {
+        let mut passage = Transmission::FREE;
         let between = |plane: &&Plane| {
             let t = (plane.height - ray.origin.z) / ray.direction.z;
             t > 1e-3 && t < ray.t_max * 0.999
@@ -224,7 +229,7 @@ impl World for Stack {
         }
         Some(passage)
     }
-    fn bsdf(&self, vertex: &Vertex, wo: Vec3, wavelengths: &Wavelengths) -> Scatter {
+    fn bsdf(&self, vertex: &SurfaceInteraction, wo: Vec3, wavelengths: &Wavelengths) -> Scatter {
         let plane = &self.planes[vertex.shape.0 as usize];
         let lambda = wavelengths.lambda;
         let passing = curve(plane.passing, lambda);
@@ -241,7 +246,7 @@ impl World for Stack {
             one_sided: self.one_sided,
         }
     }
-    fn emitted(&self, vertex: &Vertex, wo: Vec3, wavelengths: &Wavelengths) -> Vec4 {
+    fn emitted(&self, vertex: &SurfaceInteraction, wo: Vec3, wavelengths: &Wavelengths) -> Vec4 {
         let plane = &self.planes[vertex.shape.0 as usize];
         curve(plane.emission[usize::from(wo.z > 0.0)], wavelengths.lambda)
     }
@@ -256,7 +261,7 @@ impl World for Stack {
     }
     fn sample_light(
         &self,
-        from: &Receiver,
+        from: &LightSampleContext,
         w: &Wavelengths,
         u: f32,
         v: Vec2,
@@ -264,7 +269,7 @@ impl World for Stack {
         let lights = self.lights();
         let choice = ((u * lights as f32) as usize).min(lights.checked_sub(1)?);
         let mut emitting = self.planes.iter().enumerate().filter(|(_, p)| p.emits());
-        let uniform = |density: f32| Chance::Continuous(Density::uniform(density));
+        let uniform = |density: f32| SamplePdf::Continuous(Density::uniform(density));
         let on_sphere = |z: f32| {
             let (y, x) = float::sin_cos(2.0 * PI * v.y);
             let r = (1.0 - z * z).max(0.0).sqrt();
@@ -278,7 +283,7 @@ impl World for Stack {
                 radiance: self.background(direction, w),
                 chance: uniform(self.hemisphere_density() * 0.5),
                 cos: 1.0,
-                origin: Origin::Sky,
+                origin: LightKind::Sky,
                 light: LightId(u32::MAX - 1),
             });
         };
@@ -293,7 +298,7 @@ impl World for Stack {
             radiance: curve(plane.emission[usize::from(direction.z < 0.0)], w.lambda),
             chance: uniform(self.hemisphere_density()),
             cos: direction.z.abs(),
-            origin: Origin::Surface,
+            origin: LightKind::Surface,
             light: LightId(index as u32),
         })
     }
@@ -303,7 +308,7 @@ impl World for Stack {
     fn sample_one_light(
         &self,
         light: LightId,
-        from: &Receiver,
+        from: &LightSampleContext,
         w: &Wavelengths,
         v: Vec2,
     ) -> Option<LightSample> {
@@ -311,11 +316,16 @@ impl World for Stack {
         let sample = self.sample_light(from, w, (light.0 as f32 + 0.5) / lights, v)?;
         let density = sample.chance.lanes() * lights;
         Some(LightSample {
-            chance: Chance::Continuous(Density::per_lane(density)),
+            chance: SamplePdf::Continuous(Density::per_lane(density)),
             ..sample
         })
     }
-    fn light_density(&self, from: &Receiver, at: &Vertex, _: Vec3) -> Density<SolidAngle> {
+    fn light_density(
+        &self,
+        from: &LightSampleContext,
+        at: &SurfaceInteraction,
+        _: Vec3,
+    ) -> Density<SolidAngle> {
         let there = from.position.z != at.position.z && at.light.is_some();
         Density::uniform(if there {
             self.hemisphere_density()
@@ -323,19 +333,19 @@ impl World for Stack {
             0.0
         })
     }
-    fn background_density(&self, _: &Receiver, _: Vec3) -> Density<SolidAngle> {
+    fn background_density(&self, _: &LightSampleContext, _: Vec3) -> Density<SolidAngle> {
         Density::uniform(self.hemisphere_density() * 0.5)
     }
     fn emit(&self, _: &Wavelengths, _: f32, _: Vec2, _: Vec2) -> Option<Emission> {
         None
     }
-    fn emission_density(&self, _: LightId, _: Vec3, _: f32) -> EmissionDensity {
-        EmissionDensity::ZERO
+    fn emission_density(&self, _: LightId, _: Vec3, _: f32) -> EmissionPdf {
+        EmissionPdf::ZERO
     }
-    fn background_emission_density(&self, _: Vec3) -> EmissionDensity {
-        EmissionDensity::ZERO
+    fn background_emission_density(&self, _: Vec3) -> EmissionPdf {
+        EmissionPdf::ZERO
     }
-    fn sampled_density(&self, _: &Receiver, _: &Emission) -> f32 {
+    fn light_sample_density(&self, _: &LightSampleContext, _: &Emission) -> f32 {
         0.0
     }
     fn take_ray_count(&self) -> u64 {

@@ -8,7 +8,7 @@ use super::*;
 use crate::LightSet;
 use etalon_params::{DMat4, DVec3};
 use etalon_sampling::warps::square_to_uniform_hemisphere;
-use etalon_transport::{Chance, EmissionDensity, Origin};
+use etalon_transport::{EmissionPdf, LightKind, SamplePdf};
 
 /// Mean and squared standard error of numbers that are mostly zero.
 #[derive(Default)]
@@ -106,8 +106,8 @@ fn lights() -> (SmallWorld, Vec<(&'static str, LightDescription)>) {
     (world, lights)
 }
 
-fn bounds() -> Bounds {
-    Bounds::of_box(Vec3::new(-1.0, -1.0, -0.1), Vec3::new(1.0, 1.0, 0.5))
+fn bounds() -> BoundingSphere {
+    BoundingSphere::of_box(Vec3::new(-1.0, -1.0, -0.1), Vec3::new(1.0, 1.0, 0.5))
 }
 
 /// Rejects, among others, a missing or doubled cosine, 4π for 2π, and r for r².
@@ -116,7 +116,7 @@ fn emitted_particles_carry_what_sampling_finds() {
     let (world, lights) = lights();
     for (index, (name, description)) in lights.into_iter().enumerate() {
         let compensated = index == 6;
-        let set = LightSet::new(vec![description], &world, bounds(), LightChooser::Power);
+        let set = LightSet::new(vec![description], &world, bounds(), LightSamplerKind::Power);
         let mut random = numbers(7 + index as u64);
         let (mut flux, mut irradiance) = (Mean::default(), Mean::default());
         for _ in 0..150_000 {
@@ -147,8 +147,8 @@ fn emitted_particles_carry_what_sampling_finds() {
                 let found = set.sample(&world, &from, &WAVELENGTHS, u_light, u);
                 found.map_or(0.0, |sample| {
                     let chance = match sample.chance {
-                        Chance::Continuous(density) => density.chooser(),
-                        Chance::Discrete(p) => p.0.x,
+                        SamplePdf::Continuous(density) => density.hero(),
+                        SamplePdf::Discrete(p) => p.0.x,
                     };
                     sample.radiance.y * sample.direction.z.max(0.0) / chance
                 })
@@ -178,7 +178,7 @@ fn emitted_particles_carry_the_power() {
             continue;
         }
         let ramp = index == 8;
-        let set = LightSet::new(vec![description], &world, bounds(), LightChooser::Power);
+        let set = LightSet::new(vec![description], &world, bounds(), LightSamplerKind::Power);
         let mut random = numbers(70 + index as u64);
         let mut weights = Mean::default();
         for _ in 0..50_000 {
@@ -254,7 +254,7 @@ fn densities_of_emission_are_those_that_are_reported() {
     // Two skies are one technique; the compensated one emits uncompensated.
     lights.truncate(6);
     let (names, descriptions): (Vec<_>, Vec<_>) = lights.into_iter().unzip();
-    let set = LightSet::new(descriptions, &world, bounds(), LightChooser::Power);
+    let set = LightSet::new(descriptions, &world, bounds(), LightSamplerKind::Power);
     let mut random = numbers(3);
     let mut seen = [false; 6];
     for _ in 0..2_000 {
@@ -263,11 +263,11 @@ fn densities_of_emission_are_those_that_are_reported() {
         let particle = emitted.expect("every light emits");
         let light = particle.light.0 as usize;
         seen[light] = true;
-        let EmissionDensity { origin, ray } = particle.density;
+        let EmissionPdf { origin, ray } = particle.density;
         let sent = particle.weight.y * origin * ray;
         let choice = set.selector().probability_to_emit(particle.light);
         match particle.origin {
-            Origin::Sky => {
+            LightKind::Sky => {
                 let toward = -particle.ray.direction;
                 let reported = set.emission_density(&world, particle.light, -toward, 1.0);
                 assert!((reported.origin / origin - 1.0).abs() < 1e-3, "{light}");
@@ -278,7 +278,7 @@ fn densities_of_emission_are_those_that_are_reported() {
                     "{light}: {sent} {radiance}"
                 );
             }
-            Origin::Point | Origin::Parallel => {
+            LightKind::Point | LightKind::Parallel => {
                 assert_eq!(origin, choice, "{}", names[light]);
                 let back = receiver(particle.ray.at(1.0), -particle.ray.direction);
                 let sampled = set
@@ -287,7 +287,7 @@ fn densities_of_emission_are_those_that_are_reported() {
                 let radiance = sampled.map_or(0.0, |sample| sample.radiance.y);
                 assert!((sent - radiance).abs() < 1e-4 * radiance, "{light}");
             }
-            Origin::Surface => unreachable!("no surface is among them"),
+            LightKind::Surface => unreachable!("no surface is among them"),
         }
     }
     assert_eq!(seen, [true; 6]);
@@ -304,7 +304,7 @@ fn a_surface_emits_with_the_density_that_it_reports() {
         let particle = light
             .emit(&world, &bounds(), &WAVELENGTHS, u, v)
             .expect("it emits");
-        assert_eq!(particle.origin, Origin::Surface);
+        assert_eq!(particle.origin, LightKind::Surface);
         let cos = particle.point.normal.dot(particle.ray.direction);
         let reported = light.emission_density(&world, &bounds(), particle.ray.direction, cos);
         assert!((reported.origin / particle.density.origin - 1.0).abs() < 1e-6);

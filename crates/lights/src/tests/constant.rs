@@ -5,16 +5,16 @@ use crate::Light;
 use etalon_math::float64;
 use etalon_sampling::Sampler;
 use etalon_statistics::chi_squared::goodness_of_fit;
-use etalon_transport::Receiver;
+use etalon_transport::LightSampleContext;
 use glam::{Vec2, Vec3};
 
 /// In space, lit on both sides, and on one.
-fn receivers() -> [Receiver; 3] {
+fn receivers() -> [LightSampleContext; 3] {
     let normal = Vec3::new(0.3, -0.5, 0.8).normalize();
-    let both = Receiver::on_surface(Vec3::ONE, normal);
+    let both = LightSampleContext::on_surface(Vec3::ONE, normal);
     let mut one = both;
     one.one_sided = true;
-    [Receiver::in_space(Vec3::ONE), both, one]
+    [LightSampleContext::in_space(Vec3::ONE), both, one]
 }
 
 fn sky() -> (SmallWorld, Light) {
@@ -24,7 +24,7 @@ fn sky() -> (SmallWorld, Light) {
 }
 
 /// A direction by its height over the normal (−1 to 1) and its azimuth in turns.
-fn direction(from: &Receiver, height: f64, turns: f64) -> Vec3 {
+fn direction(from: &LightSampleContext, height: f64, turns: f64) -> Vec3 {
     let n = if from.normal == Vec3::ZERO {
         Vec3::Z
     } else {
@@ -52,7 +52,7 @@ fn directions_follow_the_density() {
                 let height = 2.0 * (y as f64 + 0.5) / (16 * ROWS) as f64 - 1.0;
                 let toward = direction(from, height, (x as f64 + 0.5) / COLUMNS as f64);
                 let solid_angle = 4.0 * core::f64::consts::PI / (16 * ROWS * COLUMNS) as f64;
-                let density = f64::from(sky.background_density(from, toward).chooser());
+                let density = f64::from(sky.background_density(from, toward).hero());
                 expected[y / 16 * COLUMNS + x] += density * solid_angle;
             }
         }
@@ -99,8 +99,8 @@ fn one_side_is_sampled_without_variance() {
         );
         for side in [1.0, -1.0] {
             let toward = side * sample.direction;
-            assert!(sky.background_density(&both, toward).chooser() >= 1.0 / 26.0);
-            let seen = sky.background_density(&one, toward).chooser() > 0.0;
+            assert!(sky.background_density(&both, toward).hero() >= 1.0 / 26.0);
+            let seen = sky.background_density(&one, toward).hero() > 0.0;
             assert_eq!(seen, side > 0.0);
         }
     }

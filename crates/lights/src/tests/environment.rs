@@ -158,7 +158,7 @@ fn small_maps_match_mitsuba() {
 /// Rejects nodes that vanish at the poles, where the density would be zero and the radiance not.
 #[test]
 fn one_bright_texel_brings_its_energy() {
-    let bounds = Bounds::of_box(Vec3::splat(-1.0), Vec3::splat(1.0));
+    let bounds = BoundingSphere::of_box(Vec3::splat(-1.0), Vec3::splat(1.0));
     let from = receiver(Vec3::ZERO, Vec3::Z);
     for (width, height) in [(64, 32), (1, 1), (2, 1), (2, 2), (1, 16), (5, 3)] {
         for row in [0, height / 3, height - 1] {
@@ -186,7 +186,7 @@ fn one_bright_texel_brings_its_energy() {
                 let sample = light.sample(&world, &from, &WAVELENGTHS, u).expect("light");
                 let direct = (sample.radiance / white()).x;
                 toward += f64::from(direct / sample.chance.lanes().x);
-                let density = light.background_density(&from, sample.direction).chooser();
+                let density = light.background_density(&from, sample.direction).hero();
                 assert!((density / sample.chance.lanes().x - 1.0).abs() < 2e-2);
                 let particle = light
                     .emit(&world, &bounds, &WAVELENGTHS, Vec2::splat(0.5), u)
@@ -211,7 +211,7 @@ fn one_bright_texel_brings_its_energy() {
 }
 
 /// A receiver that does not combine light sampling with scattering.
-fn alone() -> Receiver {
+fn alone() -> LightSampleContext {
     receiver(Vec3::ZERO, Vec3::Z)
 }
 
@@ -257,7 +257,7 @@ fn variants() -> Vec<(SmallWorld, Light)> {
 fn densities_integrate_to_one() {
     for (_, light) in variants() {
         for from in [alone(), alone().combined()] {
-            let total = integrate(|d| f64::from(light.background_density(&from, d).chooser()));
+            let total = integrate(|d| f64::from(light.background_density(&from, d).hero()));
             assert!((total - 1.0).abs() < 2e-3, "{total}");
         }
     }
@@ -277,7 +277,7 @@ fn compensation_is_for_receivers_that_scatter() {
             let turns = (i % 20) as f32 / 20.0;
             let (sin, cos) = etalon_math::float::sin_cos_turns(turns);
             let d = Vec3::new(sin, 0.2 * (i / 20) as f32 - 0.9, cos).normalize();
-            let [all_of_it, rest] = densities(d).map(|density| density.chooser());
+            let [all_of_it, rest] = densities(d).map(|density| density.hero());
             if light.background(&SmallWorld::default(), d, &WAVELENGTHS) != Vec4::ZERO {
                 all += 1;
                 assert!(all_of_it > 0.0, "{d}");
@@ -316,7 +316,7 @@ fn directions_follow_the_density() {
                 let turns = (x as f32 + 0.5) / (COLUMNS * FINE) as f32;
                 let (sin, cos) = etalon_math::float::sin_cos_turns(turns);
                 let d = Vec3::new(sin * sin_theta, cos_theta, -cos * sin_theta);
-                let mass = f64::from(light.background_density(&from, d).chooser()) * solid_angle;
+                let mass = f64::from(light.background_density(&from, d).hero()) * solid_angle;
                 expected[y / FINE * COLUMNS + x / FINE] += mass * COUNT as f64;
             }
         }
@@ -340,7 +340,7 @@ fn directions_follow_the_density() {
 /// The power is 4π·πr² times the mean radiance, here by quadrature; a black image has none.
 #[test]
 fn power_is_the_mean_radiance() {
-    let bounds = Bounds::of_box(Vec3::splat(-1.0), Vec3::splat(1.0));
+    let bounds = BoundingSphere::of_box(Vec3::splat(-1.0), Vec3::splat(1.0));
     let (world, uniform) = sky(2, &[[0.7; 3]; 6], vec![]);
     let expected = 4.0
         * core::f64::consts::PI

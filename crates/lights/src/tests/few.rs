@@ -36,8 +36,8 @@ fn scene(places: &[(Vec3, Vec3, f64)]) -> (SmallWorld, LightSet) {
             _ => light(&mut world, "spot", vec![("intensity", Value::Float(power))]),
         });
     }
-    let bounds = Bounds::of_box(Vec3::splat(-4.0), Vec3::splat(4.0));
-    let set = LightSet::new(descriptions, &world, bounds, LightChooser::Automatic);
+    let bounds = BoundingSphere::of_box(Vec3::splat(-4.0), Vec3::splat(4.0));
+    let set = LightSet::new(descriptions, &world, bounds, LightSamplerKind::Automatic);
     (world, set)
 }
 
@@ -59,7 +59,7 @@ proptest! {
         number in 0.0_f32..1.0, u in 0.0_f32..1.0, v in 0.0_f32..1.0,
     ) {
         let (world, set) = scene(&places);
-        let mut from = Receiver::on_surface(at, normal);
+        let mut from = LightSampleContext::on_surface(at, normal);
         from.one_sided = one_sided;
         let probability = |i: usize| set.selector().probability(&from, LightId(i as u32));
         let sum: f32 = (0..set.len()).map(probability).sum();

@@ -3,7 +3,7 @@
 
 use super::*;
 use etalon_params::{DMat4, DVec3};
-use etalon_transport::Chance;
+use etalon_transport::SamplePdf;
 
 /// Mitsuba's `look_at` from (1, 2, 3) to (4, 1, −2) with +Y up.
 pub(super) fn look_at() -> Value {
@@ -33,7 +33,7 @@ fn toward(world: &SmallWorld, light: &Light, from: Vec3) -> (Vec3, f32, f32) {
     let sample = light
         .sample(world, &receiver, &WAVELENGTHS, Vec2::splat(0.5))
         .expect("the light is seen");
-    assert!(matches!(sample.chance, Chance::Discrete(p) if p.0 == Vec4::ONE));
+    assert!(matches!(sample.chance, SamplePdf::Discrete(p) if p.0 == Vec4::ONE));
     let ratio = sample.radiance / white();
     assert!((ratio - ratio.x).abs().max_element() < 1e-5 * ratio.x);
     let distance = sample

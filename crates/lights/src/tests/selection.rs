@@ -3,10 +3,10 @@
 use super::*;
 use crate::LightSet;
 use etalon_params::DVec3;
-use etalon_transport::Chance;
+use etalon_transport::SamplePdf;
 
-fn bounds() -> Bounds {
-    Bounds::of_box(Vec3::splat(-1.0), Vec3::splat(1.0))
+fn bounds() -> BoundingSphere {
+    BoundingSphere::of_box(Vec3::splat(-1.0), Vec3::splat(1.0))
 }
 
 fn point(world: &mut SmallWorld, intensity: f64, weight: f64) -> LightDescription {
@@ -31,7 +31,7 @@ fn probabilities(set: &LightSet) -> Vec<f32> {
     (0..set.len())
         .map(|i| {
             set.selector()
-                .probability(&Receiver::in_space(Vec3::ZERO), LightId(i as u32))
+                .probability(&LightSampleContext::in_space(Vec3::ZERO), LightId(i as u32))
         })
         .collect()
 }
@@ -41,7 +41,12 @@ fn lights_are_chosen_by_power_and_weight() {
     let mut world = SmallWorld::default();
     let descriptions = [(1.0, 1.0), (3.0, 1.0), (0.0, 1.0), (5.0, 0.0), (2.0, 2.0)]
         .map(|(intensity, weight)| point(&mut world, intensity, weight));
-    let set = LightSet::new(descriptions.to_vec(), &world, bounds(), LightChooser::Power);
+    let set = LightSet::new(
+        descriptions.to_vec(),
+        &world,
+        bounds(),
+        LightSamplerKind::Power,
+    );
     let expected = [0.125, 0.375, 0.0, 0.0, 0.5];
     for (found, expected) in probabilities(&set).into_iter().zip(expected) {
         assert!((found - expected).abs() < 1e-6);
@@ -65,7 +70,7 @@ fn near_and_infinite_lights_share_equally() {
         sky(&mut world, 1000.0),
         point(&mut world, 3.0, 1.0),
     ];
-    let set = LightSet::new(descriptions, &world, bounds(), LightChooser::Power);
+    let set = LightSet::new(descriptions, &world, bounds(), LightSamplerKind::Power);
     let found = probabilities(&set);
     for (found, expected) in found.into_iter().zip([0.125, 0.5, 0.375]) {
         assert!((found - expected).abs() < 1e-6, "{found}");
@@ -77,13 +82,13 @@ fn without_light_nothing_is_chosen() {
     let mut world = SmallWorld::default();
     let dark = vec![point(&mut world, 0.0, 1.0), sky(&mut world, 0.0)];
     for descriptions in [vec![], dark] {
-        let set = LightSet::new(descriptions, &world, bounds(), LightChooser::Power);
+        let set = LightSet::new(descriptions, &world, bounds(), LightSamplerKind::Power);
         let from = receiver(Vec3::ZERO, Vec3::Z);
         let u = Vec2::splat(0.5);
         assert!(set.sample(&world, &from, &WAVELENGTHS, 0.5, u).is_none());
         assert!(set.emit(&world, &WAVELENGTHS, 0.5, u, u).is_none());
-        let density = set.background_density(&Receiver::in_space(Vec3::ZERO), Vec3::Z);
-        assert_eq!(density.chooser(), 0.0);
+        let density = set.background_density(&LightSampleContext::in_space(Vec3::ZERO), Vec3::Z);
+        assert_eq!(density.hero(), 0.0);
     }
 }
 
@@ -109,7 +114,7 @@ fn sampled_density_equals_hit_density() {
         sky(&mut world, 0.3),
         light(&mut world, "envmap", image),
     ];
-    let set = LightSet::new(descriptions, &world, bounds(), LightChooser::Power);
+    let set = LightSet::new(descriptions, &world, bounds(), LightSamplerKind::Power);
     assert!(set.has_background());
     let mut random = numbers(1);
     let mut seen = [0; 4];
@@ -123,31 +128,31 @@ fn sampled_density_equals_hit_density() {
         assert!((sample.direction.length() - 1.0).abs() < 1e-5);
         assert!(sample.radiance.is_finite() && sample.radiance.min_element() >= 0.0);
         let (density, radiance) = match (sample.chance, sample.target) {
-            (Chance::Discrete(p), Some(_)) => {
+            (SamplePdf::Discrete(p), Some(_)) => {
                 assert_eq!(
                     p.0.x,
                     set.selector()
-                        .probability(&Receiver::in_space(Vec3::ZERO), sample.light)
+                        .probability(&LightSampleContext::in_space(Vec3::ZERO), sample.light)
                 );
                 continue;
             }
-            (Chance::Continuous(density), Some(target)) => {
+            (SamplePdf::Continuous(density), Some(target)) => {
                 // The offset of the target is far below the tolerances.
                 let uv = (target - Vec3::new(0.3, 0.2, 2.0)).truncate() * 0.5 + 0.5;
                 let vertex = world.vertex(ShapeId(0), uv);
                 let hit = set.density(&world, &from, &vertex);
-                assert!((density.chooser() / hit.chooser() - 1.0).abs() < 1e-4);
+                assert!((density.hero() / hit.hero() - 1.0).abs() < 1e-4);
                 let radiance = set.emitted(&world, &vertex, -sample.direction, &WAVELENGTHS);
                 (hit, radiance)
             }
-            (Chance::Continuous(density), None) => {
+            (SamplePdf::Continuous(density), None) => {
                 let hit = set.background_density(&from, sample.direction);
-                assert!((density.chooser() / hit.chooser() - 1.0).abs() < 1e-3);
+                assert!((density.hero() / hit.hero() - 1.0).abs() < 1e-3);
                 (hit, set.background(&world, sample.direction, &WAVELENGTHS))
             }
             other => panic!("{other:?}"),
         };
-        assert!(density.chooser() > 0.0);
+        assert!(density.hero() > 0.0);
         let difference = (radiance - sample.radiance).abs().max_element();
         assert!(difference <= 1e-3 * radiance.max_element(), "{difference}");
     }
@@ -161,7 +166,7 @@ fn surfaces_emit_on_their_outer_side_only() {
         .rectangles
         .push((Vec3::new(0.0, 0.0, 2.0), Vec3::NEG_Z));
     let area = light(&mut world, "area", vec![]);
-    let set = LightSet::new(vec![area], &world, bounds(), LightChooser::Power);
+    let set = LightSet::new(vec![area], &world, bounds(), LightSamplerKind::Power);
     let vertex = world.vertex(ShapeId(0), Vec2::splat(0.5));
     let emitted = |wo| set.emitted(&world, &vertex, wo, &WAVELENGTHS);
     assert_eq!(emitted(Vec3::NEG_Z), white());
@@ -175,8 +180,8 @@ fn surfaces_emit_on_their_outer_side_only() {
         Vec4::ZERO
     );
     assert_eq!(
-        set.density(&world, &Receiver::in_space(Vec3::ONE), &no_light)
-            .chooser(),
+        set.density(&world, &LightSampleContext::in_space(Vec3::ONE), &no_light)
+            .hero(),
         0.0
     );
 }

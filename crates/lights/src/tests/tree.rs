@@ -1,7 +1,7 @@
 //! That a tree's promises bound what arrives, and that it chooses as it says.
 
 use super::*;
-use crate::{LightExtent, LightSet, Promise};
+use crate::{LightBounds, LightExtent, LightSet};
 use etalon_math::DVec3;
 use etalon_math::float64::{cos, sin};
 use proptest::prelude::*;
@@ -44,8 +44,8 @@ fn scene(places: &[(Vec3, Vec3, f64)]) -> (SmallWorld, LightSet) {
             descriptions.push(description);
         }
     }
-    let bounds = Bounds::of_box(Vec3::splat(-4.0), Vec3::splat(4.0));
-    let set = LightSet::new(descriptions, &world, bounds, LightChooser::Tree);
+    let bounds = BoundingSphere::of_box(Vec3::splat(-4.0), Vec3::splat(4.0));
+    let set = LightSet::new(descriptions, &world, bounds, LightSamplerKind::Tree);
     (world, set)
 }
 
@@ -67,7 +67,7 @@ proptest! {
         places in lights(), from in place(), normal in unit(), number in 0.0_f32..1.0,
     ) {
         let (_, set) = scene(&places);
-        let from = Receiver::on_surface(from, normal);
+        let from = LightSampleContext::on_surface(from, normal);
         let each = |i: usize| set.selector().probability(&from, LightId(i as u32));
         let sum: f32 = (0..set.len()).map(each).sum();
         // What a cluster promises and neither half keeps is lost.
@@ -87,7 +87,7 @@ proptest! {
         places in lights(), from in place(), normal in unit(), u in 0.0_f32..1.0, v in 0.0_f32..1.0,
     ) {
         let (world, set) = scene(&places);
-        let from = Receiver::on_surface(from, normal);
+        let from = LightSampleContext::on_surface(from, normal);
         for index in 0..set.len() {
             let light = LightId(index as u32);
             if set.selector().probability(&from, light) > 0.0 {
@@ -110,9 +110,9 @@ proptest! {
             cos_edge: 0.0,
             power: 1.0,
         };
-        let from = Receiver::on_surface(from, normal);
-        let whole = Promise::new(&extent(a).union(extent(b))).at(&from);
-        let parts = [a, b].map(|p| Promise::new(&extent(p)).at(&from));
+        let from = LightSampleContext::on_surface(from, normal);
+        let whole = LightBounds::new(&extent(a).union(extent(b))).at(&from);
+        let parts = [a, b].map(|p| LightBounds::new(&extent(p)).at(&from));
         prop_assert!(whole > 0.0 || parts == [0.0; 2], "{whole} of {parts:?}");
     }
 }
@@ -152,8 +152,8 @@ fn lights_at_infinity_keep_their_half() {
     };
     let sky = light(&mut world, "constant", vec![]);
     let descriptions = vec![point(&mut world, 0.0), sky, point(&mut world, 1.0)];
-    let bounds = Bounds::of_box(Vec3::splat(-4.0), Vec3::splat(4.0));
-    let set = LightSet::new(descriptions, &world, bounds, LightChooser::Tree);
+    let bounds = BoundingSphere::of_box(Vec3::splat(-4.0), Vec3::splat(4.0));
+    let set = LightSet::new(descriptions, &world, bounds, LightSamplerKind::Tree);
     let from = receiver(Vec3::ZERO, Vec3::Z);
     let each = [0, 1, 2].map(|i| set.selector().probability(&from, LightId(i)));
     assert_eq!(each[1], 0.5);
@@ -163,8 +163,8 @@ fn lights_at_infinity_keep_their_half() {
 /// Mutant rejected: weights forgotten by one of the choosers.
 #[test]
 fn every_chooser_minds_the_sampling_weight() {
-    for chooser in LightChooser::ALL {
-        assert_eq!(LightChooser::named(chooser.name()), Some(chooser));
+    for hero in LightSamplerKind::ALL {
+        assert_eq!(LightSamplerKind::named(hero.name()), Some(hero));
         let mut world = SmallWorld::default();
         let mut point = |x: f64, weight: f64| {
             let position = ("position", Value::Vector(DVec3::new(x, 0.0, 1.0)));
@@ -172,12 +172,12 @@ fn every_chooser_minds_the_sampling_weight() {
             light(&mut world, "point", vec![position, weight])
         };
         let descriptions = vec![point(1.0, 3.0), point(-1.0, 1.0), point(0.0, 0.0)];
-        let bounds = Bounds::of_box(Vec3::splat(-4.0), Vec3::splat(4.0));
-        let set = LightSet::new(descriptions, &world, bounds, chooser);
+        let bounds = BoundingSphere::of_box(Vec3::splat(-4.0), Vec3::splat(4.0));
+        let set = LightSet::new(descriptions, &world, bounds, hero);
         let from = receiver(Vec3::ZERO, Vec3::Z);
         for (index, expected) in [0.75, 0.25, 0.0].into_iter().enumerate() {
             let found = set.selector().probability(&from, LightId(index as u32));
-            assert!((found - expected).abs() < 1e-6, "{chooser:?}: {found}");
+            assert!((found - expected).abs() < 1e-6, "{hero:?}: {found}");
         }
     }
 }

@@ -1,14 +1,14 @@
 //! Replicates as blocks of one sequence: each is what an independent replicate is, and together they
 //! are one replicate of as many samples.
 
-use etalon_sampling::{PixelSample, ReplicateKind, Sampler, SamplerKind};
+use etalon_sampling::{ReplicateKind, SampleId, Sampler, SamplerKind};
 use glam::Vec2;
 
 const BLOCKS: [u32; 6] = [1, 2, 3, 4, 7, 8];
 
 /// Where sample `sample` of `each` of block `block` of `blocks` is drawn from.
-fn address(block: u32, sample: u32, each: u32, blocks: u32) -> PixelSample {
-    let within = PixelSample {
+fn address(block: u32, sample: u32, each: u32, blocks: u32) -> SampleId {
+    let within = SampleId {
         seed: 9,
         replicate: block,
         pixel: (5, 8),
@@ -20,7 +20,7 @@ fn address(block: u32, sample: u32, each: u32, blocks: u32) -> PixelSample {
 }
 
 /// The pair at `dimension`, and the number after it.
-fn numbers(kind: SamplerKind, address: &PixelSample, dimension: u32) -> (Vec2, f32) {
+fn numbers(kind: SamplerKind, address: &SampleId, dimension: u32) -> (Vec2, f32) {
     let mut sampler = kind.start(address);
     sampler.skip_to(dimension);
     (sampler.next_2d(), sampler.next_1d())
@@ -104,7 +104,7 @@ fn every_sample_of_a_block_is_uniform() {
         for (block, sample) in [(0, 0), (2, 1), (7, 3)] {
             let mut cells = vec![0.0; 64];
             for seed in 0..20_000 {
-                let at = PixelSample {
+                let at = SampleId {
                     seed,
                     ..address(block, sample, 4, 8)
                 };
@@ -147,7 +147,7 @@ fn intervals(
         let mean = |replicate| {
             let value = |sample| {
                 let at = address(block(replicate), sample, 4, 8);
-                integrand(numbers(kind, &PixelSample { seed, ..at }, 8).0)
+                integrand(numbers(kind, &SampleId { seed, ..at }, 8).0)
             };
             (0..4).map(value).sum::<f64>() / 4.0
         };

@@ -2,7 +2,7 @@
 //! pixels, samples, replicates, seeds and dimensions.
 
 use crate::evidence::{chi_square, uniform};
-use etalon_sampling::{AnySampler, PixelSample, Sampler, SamplerKind};
+use etalon_sampling::{AnySampler, SampleId, Sampler, SamplerKind};
 use glam::Vec2;
 
 const KINDS: [SamplerKind; 4] = [
@@ -14,8 +14,8 @@ const KINDS: [SamplerKind; 4] = [
 
 const RANDOM_KINDS: [SamplerKind; 3] = [KINDS[0], KINDS[1], KINDS[3]];
 
-fn address(i: u32) -> PixelSample {
-    PixelSample {
+fn address(i: u32) -> SampleId {
+    SampleId {
         seed: 3,
         replicate: 1,
         pixel: (i % 100, i / 100),
@@ -63,7 +63,7 @@ fn pairs_begin_at_even_dimensions() {
 fn values_are_stable() {
     // Pinned: images are promised to keep their bits, and these are what they are made of.
     let first = |kind: SamplerKind| -> [f32; 5] {
-        let mut sampler = kind.start(&PixelSample {
+        let mut sampler = kind.start(&SampleId {
             seed: 42,
             replicate: 2,
             pixel: (17, 99),
@@ -149,7 +149,7 @@ fn stratified_samples_fill_every_stratum_once() {
                 let mut cells = vec![0; count as usize];
                 let mut strata = vec![0; count as usize];
                 for i in 0..count {
-                    let mut sampler = kind.start(&PixelSample {
+                    let mut sampler = kind.start(&SampleId {
                         seed: 1,
                         replicate: 0,
                         pixel: (3, 4),
@@ -183,13 +183,13 @@ fn correlation(pairs: impl Iterator<Item = (f32, f32)>) -> f64 {
     sum / n.sqrt()
 }
 
-fn at(kind: SamplerKind, address: PixelSample, dimension: u32) -> f32 {
+fn at(kind: SamplerKind, address: SampleId, dimension: u32) -> f32 {
     let mut sampler = kind.start(&address);
     sampler.skip_to(dimension);
     sampler.next_1d()
 }
 
-type Change = (&'static str, fn(PixelSample) -> PixelSample);
+type Change = (&'static str, fn(SampleId) -> SampleId);
 
 #[test]
 fn neighbouring_addresses_are_uncorrelated() {

@@ -1,10 +1,10 @@
 //! What the Sobol' sampler promises: exact nets in every pair and quadruple of dimensions, and
 //! the variance of nested uniform scrambling.
 
-use etalon_sampling::{PixelSample, Sampler, Sobol};
+use etalon_sampling::{SampleId, Sampler, Sobol};
 
-fn address(replicate: u32, sample: u32, count: u32) -> PixelSample {
-    PixelSample {
+fn address(replicate: u32, sample: u32, count: u32) -> SampleId {
+    SampleId {
         seed: 7,
         replicate,
         pixel: (12, 5),

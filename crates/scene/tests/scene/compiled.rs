@@ -3,10 +3,10 @@
 use crate::reading::{LANES, document, down, meet, read_with, scene};
 use etalon_sampling::SamplerKind;
 use etalon_scene::Scene;
-use etalon_transport::{Bsdf, LightId, Receiver, Vertex, World};
+use etalon_transport::{Bsdf, LightId, LightSampleContext, SurfaceInteraction, World};
 use glam::{Vec3, Vec4};
 
-fn vertex(scene: &Scene, x: f32) -> Vertex {
+fn vertex(scene: &Scene, x: f32) -> SurfaceInteraction {
     meet(scene, &down(x, 0.0)).expect("a surface").1
 }
 
@@ -90,8 +90,8 @@ fn every_light_is_its_shapes_own() {
         // From above the light is among what light sampling finds.
         assert!(
             world
-                .light_density(&Receiver::in_space(Vec3::Z * 5.0), &at, -Vec3::Z)
-                .chooser()
+                .light_density(&LightSampleContext::in_space(Vec3::Z * 5.0), &at, -Vec3::Z)
+                .hero()
                 > 0.0
         );
     }
@@ -134,7 +134,7 @@ fn the_calling_threads_rays_are_counted() {
     world.take_ray_count();
     for i in 0..5 {
         world.intersect(&down(i as f32, 0.0));
-        world.passage(&down(i as f32, 0.0), &LANES, 0);
+        world.transmittance(&down(i as f32, 0.0), &LANES, 0);
     }
     assert_eq!(world.take_ray_count(), 10);
     assert_eq!(world.take_ray_count(), 0);

@@ -35,7 +35,7 @@ fn transmittances_multiply_and_crossings_are_limited() {
         let to = Vec3::new(0.3, 0.2, to);
         Ray::between(Vec3::ZERO, to, 0.0).expect("two points")
     };
-    let passage = |to, crossings| world.passage(&segment(to), &LANES, crossings);
+    let passage = |to, crossings| world.transmittance(&segment(to), &LANES, crossings);
     for (to, crossed, transmittance) in [
         (0.5, 0, 1.0),
         (1.5, 1, 0.75),
@@ -51,17 +51,17 @@ fn transmittances_multiply_and_crossings_are_limited() {
     }
     assert!(passage(4.5, u32::MAX).is_none());
     let out = Ray::new(Vec3::ZERO, Vec3::Z, 0.0);
-    assert!(world.passage(&out, &LANES, u32::MAX).is_none());
+    assert!(world.transmittance(&out, &LANES, u32::MAX).is_none());
     let away = Ray::new(Vec3::ZERO, -Vec3::Z, 0.0);
-    assert!(world.passage(&away, &LANES, 0).is_some());
+    assert!(world.transmittance(&away, &LANES, 0).is_some());
 }
 
 #[test]
 fn a_scene_without_such_surfaces_only_asks_whether_anything_is_there() {
     let world = scene(&sheet(1.0, ""));
     let to = |z| Ray::between(Vec3::ZERO, Vec3::Z * z, 0.0).expect("two points");
-    assert!(world.passage(&to(0.9), &LANES, 0).is_some());
-    assert!(world.passage(&to(1.1), &LANES, 7).is_none());
+    assert!(world.transmittance(&to(0.9), &LANES, 0).is_some());
+    assert!(world.transmittance(&to(1.1), &LANES, 7).is_none());
 }
 
 proptest! {
@@ -107,10 +107,10 @@ proptest! {
         let to = Vec3::new(slant.0, slant.1, base + ends.1);
         for (a, b) in [(from, to), (to, from)] {
             let ray = Ray::between(a, b, 0.0).expect("two points");
-            let found = world.passage(&ray, &LANES, crossed).expect("light arrives");
+            let found = world.transmittance(&ray, &LANES, crossed).expect("light arrives");
             let error = f64::from(found.transmittance.x) - expected;
             prop_assert!(error.abs() < 1e-5, "{} for {expected}", found.transmittance);
-            prop_assert!(crossed == 0 || world.passage(&ray, &LANES, crossed - 1).is_none());
+            prop_assert!(crossed == 0 || world.transmittance(&ray, &LANES, crossed - 1).is_none());
         }
     }
 }

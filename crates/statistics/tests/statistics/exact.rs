@@ -1,6 +1,6 @@
 //! The exact accumulators against independent arithmetic, in any order and from many threads.
 
-use etalon_statistics::{AtomicFixed128, Fault, Faults, Fixed128};
+use etalon_statistics::{AtomicFixed128, Faults, Fixed128, InvalidValue};
 use proptest::prelude::*;
 use proptest::test_runner::RngSeed;
 
@@ -56,11 +56,11 @@ proptest! {
     fn single_precision_is_rounded_once(bits: u32) {
         let x = f32::from_bits(bits);
         let expected = if x.is_nan() {
-            Err(Fault::NotANumber)
+            Err(InvalidValue::NotANumber)
         } else if x.is_infinite() {
-            Err(Fault::Infinite)
+            Err(InvalidValue::Infinite)
         } else if f64::from(x.abs()) >= 2_f64.powi(48) {
-            Err(Fault::OutOfRange)
+            Err(InvalidValue::OutOfRange)
         } else {
             Ok(oracle(f64::from(x)))
         };
@@ -72,7 +72,7 @@ proptest! {
         let x = (mantissa >> 11) as f64 * 2_f64.powi(exponent - 52);
         let x = if negative { -x } else { x };
         let expected = if x.abs() >= 2_f64.powi(48) {
-            Err(Fault::OutOfRange)
+            Err(InvalidValue::OutOfRange)
         } else {
             Ok(oracle(x))
         };
@@ -182,10 +182,10 @@ fn what_does_not_fit_is_refused_and_counted() {
 
     // The greatest sum takes nothing more, and is not changed by the attempt.
     let mut full = Fixed128::from_bits(i128::MAX);
-    assert_eq!(full.add(2_f32.powi(-64)), Err(Fault::OutOfRange));
+    assert_eq!(full.add(2_f32.powi(-64)), Err(InvalidValue::OutOfRange));
     assert_eq!(full, Fixed128::from_bits(i128::MAX));
     let mut empty = Fixed128::from_bits(i128::MIN);
-    assert_eq!(empty.add(-1.0), Err(Fault::OutOfRange));
+    assert_eq!(empty.add(-1.0), Err(InvalidValue::OutOfRange));
     assert_eq!(empty.to_f64(), -(2_f64.powi(63)));
 }
 
@@ -235,14 +235,14 @@ fn threads_lose_no_carry() {
 #[test]
 fn the_atomic_sum_reports_before_it_could_wrap() {
     let mut sum = AtomicFixed128::from_fixed(Fixed128::from_bits((1 << 126) - 1));
-    assert_eq!(sum.add(f32::NAN), Err(Fault::NotANumber));
-    assert_eq!(sum.add(f32::INFINITY), Err(Fault::Infinite));
+    assert_eq!(sum.add(f32::NAN), Err(InvalidValue::NotANumber));
+    assert_eq!(sum.add(f32::INFINITY), Err(InvalidValue::Infinite));
     assert_eq!(sum.load().to_bits(), (1 << 126) - 1);
-    assert_eq!(sum.add(2_f32.powi(-64)), Err(Fault::OutOfRange));
+    assert_eq!(sum.add(2_f32.powi(-64)), Err(InvalidValue::OutOfRange));
     assert_eq!(sum.load().to_bits(), 1 << 126);
     assert_eq!(
         sum.merge(Fixed128::from_bits(i128::MAX)),
-        Err(Fault::OutOfRange)
+        Err(InvalidValue::OutOfRange)
     );
     assert_eq!(sum.take().to_bits(), 1 << 126);
     assert_eq!(sum.into_fixed(), Fixed128::ZERO);

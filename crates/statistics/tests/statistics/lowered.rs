@@ -1,7 +1,7 @@
 //! Levels of t-tests of skewed samples, far out in the tail, by importance sampling.
 
 use crate::checks::Random;
-use etalon_statistics::bootstrap::Plan;
+use etalon_statistics::bootstrap::Resampling;
 use etalon_statistics::robust::{Method, Symmetry, judge};
 use etalon_statistics::tails::{Limits, Refusal};
 use etalon_statistics::{Summary, lowered, student_t};
@@ -77,7 +77,7 @@ fn replicates_of_moderate_skewness_are_judged() {
             .collect()
     };
     let (few, sample) = (erlang(64, 1), erlang(256, 3));
-    let plan = Plan::independent(999, 6);
+    let plan = Resampling::independent(999, 6);
     let judged = |sample: &[f64]| {
         let limits = &Limits::DECLARED;
         judge(sample, 2.0 * ALPHA, Symmetry::Unknown, limits, &plan).expect("finite")

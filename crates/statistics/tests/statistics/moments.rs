@@ -1,6 +1,6 @@
 //! Exact moments: known values, merging, and a variance without cancellation.
 
-use etalon_statistics::{Fault, Fixed128, Moments, Summary, U256};
+use etalon_statistics::{Fixed128, InvalidValue, Moments, Summary, U256};
 use proptest::prelude::*;
 use proptest::test_runner::RngSeed;
 
@@ -46,11 +46,11 @@ fn a_great_mean_does_not_drown_the_variance() {
 fn what_does_not_fit_changes_nothing() {
     let mut of = moments(&[1.0, 2.0]);
     let before = of;
-    assert_eq!(of.push_f64(f64::NAN), Err(Fault::NotANumber));
-    assert_eq!(of.push_f64(1e15), Err(Fault::OutOfRange));
+    assert_eq!(of.push_f64(f64::NAN), Err(InvalidValue::NotANumber));
+    assert_eq!(of.push_f64(1e15), Err(InvalidValue::OutOfRange));
     assert_eq!(
         of.push(Fixed128::from_bits(i128::MIN)),
-        Err(Fault::OutOfRange)
+        Err(InvalidValue::OutOfRange)
     );
     assert_eq!(of, before);
 }

@@ -4,7 +4,7 @@
 #![allow(clippy::excessive_precision)]
 
 use crate::checks::{Random, near};
-use etalon_statistics::bootstrap::{self, Plan};
+use etalon_statistics::bootstrap::{self, Resampling};
 use etalon_statistics::ratio::{self, Known};
 use etalon_statistics::sign_flip::{self, Side};
 use etalon_statistics::{Estimate, Interval, Summary, proportion, student_t, studentised};
@@ -122,7 +122,7 @@ fn correlation(indices: &[usize]) -> f64 {
 /// here 20,000, whose ends have standard errors of 0.003 and 0.0006.
 #[test]
 fn intervals_of_a_correlation() {
-    let plan = Plan::independent(20_000, 1);
+    let plan = Resampling::independent(20_000, 1);
     let corrected = bootstrap::bca(15, &plan, 0.9, correlation).expect("resolved");
     assert!((corrected.low - 0.4266).abs() < 0.012, "{corrected:?}");
     assert!((corrected.high - 0.9267).abs() < 0.003, "{corrected:?}");
@@ -149,7 +149,7 @@ fn studentised_interval() {
     let sample: Vec<f64> = (0..24)
         .map(|i| -libm::log((f64::from(i) + 0.5) / 24.0))
         .collect();
-    let plan = Plan::independent(40_000, 2);
+    let plan = Resampling::independent(40_000, 2);
     let interval = studentised::mean(&sample, &plan, 0.95).expect("resolved");
     assert!((interval.low - 0.65258).abs() < 0.01, "{interval:?}");
     assert!((interval.high - 1.54672).abs() < 0.03, "{interval:?}");
@@ -169,7 +169,7 @@ fn skewed_means_are_covered() {
     let (mut covered, mut student) = (0, [0, 0]);
     for run in 0..600 {
         let sample: Vec<f64> = (0..30).map(|_| random.exponential()).collect();
-        let plan = Plan::independent(999, run);
+        let plan = Resampling::independent(999, run);
         let interval = studentised::mean(&sample, &plan, 0.95).expect("resolved");
         covered += u64::from(interval.contains(1.0));
         let plain = Estimate::mean(&Summary::of(&sample).expect("finite")).interval(0.95);
@@ -187,7 +187,7 @@ fn skewed_means_are_covered() {
 fn blocks_keep_dependence() {
     let series = [1.0, 2.0, 4.0, 3.0, 5.0, 7.0, 6.0, 8.0, 9.0, 7.0, 5.0, 3.0];
     let variance = |block| {
-        let plan = Plan {
+        let plan = Resampling {
             resamples: 40_000,
             block,
             seed: 8,
@@ -204,7 +204,7 @@ fn blocks_keep_dependence() {
     assert_eq!(bootstrap::block_length(1), 1);
     assert_eq!(bootstrap::block_length(27), 3);
     assert_eq!(bootstrap::block_length(28), 4);
-    let broken = Plan {
+    let broken = Resampling {
         resamples: 9,
         block: 13,
         seed: 0,
@@ -218,7 +218,7 @@ fn ratios() {
     let mut random = Random(12);
     let a: Vec<f64> = (0..40).map(|_| 6.0 + random.normal()).collect();
     let b: Vec<f64> = (0..40).map(|_| 2.0 + 0.2 * random.normal()).collect();
-    let plan = Plan::independent(4000, 5);
+    let plan = Resampling::independent(4000, 5);
     let ratio = ratio::of(&a, &b, &plan, 0.95, mean).expect("positive");
     let Known::Between(interval) = ratio.known else {
         panic!("a stable denominator");

@@ -5,7 +5,7 @@
 #![allow(clippy::excessive_precision)]
 
 use crate::checks::{Random, near};
-use etalon_statistics::bootstrap::Plan;
+use etalon_statistics::bootstrap::Resampling;
 use etalon_statistics::robust::{Method, Symmetry, judge, judge_difference};
 use etalon_statistics::tails::{self, Limits, Refusal, Tails};
 use etalon_statistics::{Estimate, Summary, Verdict, proportion};
@@ -115,7 +115,7 @@ fn refusals_are_rare_for_normal_samples() {
 #[test]
 fn verdicts_on_heavy_tails() {
     let mut random = Random(21);
-    let plan = Plan::independent(1999, 6);
+    let plan = Resampling::independent(1999, 6);
     let mut draw = |shift: f64, n: usize| -> Vec<f64> {
         let mut heavy = || {
             let x = random.exponential();
@@ -162,7 +162,7 @@ fn verdicts_on_heavy_tails() {
 #[test]
 fn verdicts_without_symmetry() {
     let mut random = Random(33);
-    let plan = Plan::independent(1999, 6);
+    let plan = Resampling::independent(1999, 6);
     let mut draw = || {
         let x = random.exponential();
         x * x - 2.0
@@ -199,7 +199,7 @@ fn verdicts_without_symmetry() {
 #[test]
 fn differences_of_two_samples() {
     let mut random = Random(51);
-    let plan = Plan::independent(799, 6);
+    let plan = Resampling::independent(799, 6);
     let judged = |a: &[f64], b: &[f64], symmetry| {
         judge_difference(a, b, 0.05, symmetry, &Limits::DECLARED, &plan).expect("finite")
     };
@@ -249,7 +249,7 @@ fn skewness_cancels_from_differences() {
         .map(|i| -libm::log((f64::from(i) + 0.5) / 60.0))
         .collect();
     let mirrored: Vec<f64> = skewed.iter().map(|x| -x).collect();
-    let plan = Plan::independent(799, 6);
+    let plan = Resampling::independent(799, 6);
     let refusal = |b: &[f64]| {
         let judged = judge_difference(
             &skewed,

@@ -35,7 +35,11 @@ fn files() -> Files {
 fn bitmap(file: &str, more: Vec<(&'static str, Value)>) -> One {
     let mut properties = vec![("filename", text(file))];
     properties.extend(more);
-    One::new(&files(), &node("bitmap", properties), Role::Reflectance)
+    One::new(
+        &files(),
+        &node("bitmap", properties),
+        SpectrumKind::Reflectance,
+    )
 }
 
 #[test]
@@ -173,7 +177,7 @@ fn numbers_of_colour_images_are_luminances() {
 #[test]
 fn colours_beyond_one_are_kept_for_light_and_moved_for_reflectance() {
     let description = node("bitmap", vec![("filename", text("bright.exr"))]);
-    let (set, id, messages) = read(&files(), &description, Role::Reflectance);
+    let (set, id, messages) = read(&files(), &description, SpectrumKind::Reflectance);
     assert!(
         matches!(&messages[..], [m] if m.contains("3 of the 4 texels")),
         "{messages:?}"
@@ -186,7 +190,7 @@ fn colours_beyond_one_are_kept_for_light_and_moved_for_reflectance() {
         "{found}"
     );
 
-    let light = One::new(&files(), &description, Role::Emission);
+    let light = One::new(&files(), &description, SpectrumKind::Emission);
     let rgb = [0, 1, 2].map(|c| 3.0 * f64::from([RED, GREEN, BLUE][c][0]));
     let expected = Spectrum::unbounded(rgb).expect("not negative").eval(LAMBDA);
     assert!(close(light.spectrum(0.25, 0.25), expected.to_array(), 1e-5));
@@ -200,7 +204,7 @@ fn light_is_interpolated_as_light() {
     let sun = [1e5, 0.0, 0.0, 0.0];
     files.add("sun.exr", 2, &[("R", &sun), ("G", &sun), ("B", &sun)]);
     let description = node("bitmap", vec![("filename", text("sun.exr"))]);
-    let light = One::new(&files, &description, Role::Emission);
+    let light = One::new(&files, &description, SpectrumKind::Emission);
     let whole = light.spectrum(0.25, 0.25);
     for (u, v, share) in [(0.5, 0.25, 0.5), (0.5, 0.5, 0.25), (0.375, 0.25, 0.75)] {
         let found = light.spectrum(u, v) / whole;
@@ -229,7 +233,11 @@ fn mistakes_are_refused() {
             "no parameter `flip`",
         ),
     ] {
-        let (_, _, messages) = read(&files(), &node("bitmap", properties), Role::Reflectance);
+        let (_, _, messages) = read(
+            &files(),
+            &node("bitmap", properties),
+            SpectrumKind::Reflectance,
+        );
         assert!(
             matches!(&messages[..], [message] if message.contains(expected)),
             "{expected}: {messages:?}"
@@ -246,7 +254,11 @@ fn integer_files_are_decoded_as_in_mitsuba() {
     files.0.insert("grey.png".into(), Arc::new(png));
     let read = |raw| {
         let properties = vec![("filename", text("grey.png")), ("raw", Value::Boolean(raw))];
-        One::new(&files, &node("bitmap", properties), Role::Reflectance)
+        One::new(
+            &files,
+            &node("bitmap", properties),
+            SpectrumKind::Reflectance,
+        )
     };
     assert!((read(true).number(0.75, 0.25) - 0.501_960_8).abs() < 1e-6);
     let linear = read(false);
@@ -262,7 +274,11 @@ fn colours_are_rec_709_whatever_the_file_holds() {
     files.add("xyz.exr", 1, &[("X", &[0.3]), ("Y", &[0.4]), ("Z", &[0.5])]);
     for raw in [false, true] {
         let properties = vec![("filename", text("xyz.exr")), ("raw", Value::Boolean(raw))];
-        let texture = One::new(&files, &node("bitmap", properties), Role::Reflectance);
+        let texture = One::new(
+            &files,
+            &node("bitmap", properties),
+            SpectrumKind::Reflectance,
+        );
         let colour = texture.colour(0.5, 0.5);
         let right = Vec3::new(0.108_016, 0.480_398, 0.463_733);
         assert!((colour - right).abs().max_element() < 3e-3, "{colour}");
@@ -279,7 +295,11 @@ fn colours_are_rec_709_whatever_the_file_holds() {
     let channels: Vec<(&str, &[f32])> = names.iter().map(|name| (*name, &one[..])).collect();
     files.add("two.exr", 1, &channels);
     let properties = vec![("filename", text("two.exr"))];
-    let (.., messages) = read(&files, &node("bitmap", properties), Role::Reflectance);
+    let (.., messages) = read(
+        &files,
+        &node("bitmap", properties),
+        SpectrumKind::Reflectance,
+    );
     assert!(
         matches!(&messages[..], [m] if m.contains("`two.exr`") && m.contains("`Combined`")),
         "{messages:?}"

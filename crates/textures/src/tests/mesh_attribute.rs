@@ -9,7 +9,7 @@ fn mesh_attributes_come_from_the_shape() {
         One::new(
             &Files::default(),
             &node("mesh_attribute", properties),
-            Role::Reflectance,
+            SpectrumKind::Reflectance,
         )
     };
     let at = TexturePoint {
@@ -47,7 +47,7 @@ fn mesh_attributes_are_held_to_their_role() {
         shape: ShapeId(0),
         ..TexturePoint::at_uv(Vec2::ZERO)
     };
-    let read = |name: &str, scale: f64, role: Role| {
+    let read = |name: &str, scale: f64, role: SpectrumKind| {
         let properties = vec![("name", text(name)), ("scale", Value::Float(scale))];
         let one = One::new(&Files::default(), &node("mesh_attribute", properties), role);
         let colour = one.set.colour(one.id, &OneShape, &at);
@@ -57,10 +57,10 @@ fn mesh_attributes_are_held_to_their_role() {
     let upsampled = |rgb: [f32; 3]| etalon_spectrum::RgbCoefficients::from_rgb(rgb).eval(LAMBDA);
 
     // (51, 102, −255) as a reflectance, as it stands and as bytes.
-    let (colour, spectrum) = read("vertex_bytes", 1.0, Role::Reflectance);
+    let (colour, spectrum) = read("vertex_bytes", 1.0, SpectrumKind::Reflectance);
     assert_eq!(colour, Vec3::new(1.0, 1.0, 0.0));
     assert_eq!(spectrum, upsampled([1.0, 1.0, 0.0]));
-    let (colour, spectrum) = read("vertex_bytes", 1.0 / 255.0, Role::Reflectance);
+    let (colour, spectrum) = read("vertex_bytes", 1.0 / 255.0, SpectrumKind::Reflectance);
     assert!(close_to(colour, Vec3::new(0.2, 0.4, 0.0)), "{colour}");
     assert!(close(
         spectrum,
@@ -68,11 +68,11 @@ fn mesh_attributes_are_held_to_their_role() {
         1e-5
     ));
     // Neither the colour nor any wavelength exceeds 1, whatever the scale.
-    let (colour, spectrum) = read("vertex_bytes", 4.0, Role::Reflectance);
+    let (colour, spectrum) = read("vertex_bytes", 4.0, SpectrumKind::Reflectance);
     assert!(close_to(colour, Vec3::new(1.0, 1.0, 0.0)) && spectrum.max_element() <= 1.0);
 
     // As light they keep their brightness, as a bright `rgb` colour does.
-    for role in [Role::Emission, Role::Unbounded] {
+    for role in [SpectrumKind::Emission, SpectrumKind::Unbounded] {
         let (colour, spectrum) = read("vertex_bytes", 2.0, role);
         assert_eq!(colour, Vec3::new(102.0, 204.0, 0.0));
         let bright = etalon_spectrum::RgbSpectrum::unbounded([51.0, 102.0, 0.0]);
@@ -86,6 +86,6 @@ fn mesh_attributes_are_held_to_their_role() {
         "mesh_attribute",
         vec![("name", text("vertex_a")), ("scale", Value::Float(-1.0))],
     );
-    let (_, _, messages) = crate::tests::read(&Files::default(), &negative, Role::Emission);
+    let (_, _, messages) = crate::tests::read(&Files::default(), &negative, SpectrumKind::Emission);
     assert_eq!(messages.len(), 1, "{messages:?}");
 }

@@ -13,10 +13,14 @@ fn object(plugin: &str, properties: Vec<(&str, Value)>) -> Value {
 }
 
 /// The texture in a parameter, or the messages why there is none.
-fn parameter(value: Option<Value>, default: Option<f64>, role: Role) -> Result<One, Vec<String>> {
+fn parameter(
+    value: Option<Value>,
+    default: Option<f64>,
+    role: SpectrumKind,
+) -> Result<One, Vec<String>> {
     let properties = value.map(|value| ("radiance", value));
     let owner = node("owner", properties.into_iter().collect());
-    let mut set = TextureSet::new();
+    let mut set = TextureTable::new();
     let diagnostics = Diagnostics::new();
     let mut reader = TextureReader {
         set: &mut set,
@@ -39,7 +43,7 @@ fn parameter(value: Option<Value>, default: Option<f64>, role: Role) -> Result<O
     }
 }
 
-fn eval(value: Value, role: Role) -> Vec4 {
+fn eval(value: Value, role: SpectrumKind) -> Vec4 {
     let texture = parameter(Some(value), None, role).unwrap_or_else(|m| panic!("{m:?}"));
     texture.spectrum(0.25, 0.25)
 }
@@ -54,15 +58,24 @@ const NEAR: f32 = 1.2e-4;
 fn numbers_are_constant_and_as_light_d65() {
     for value in [Value::Float(2.0), Value::Integer(2)] {
         // No more than all light can be reflected.
-        assert!(close(eval(value.clone(), Role::Reflectance), [1.0; 4], 0.0));
-        assert!(close(eval(value.clone(), Role::Unbounded), [2.0; 4], 0.0));
         assert!(close(
-            eval(value, Role::Emission),
+            eval(value.clone(), SpectrumKind::Reflectance),
+            [1.0; 4],
+            0.0
+        ));
+        assert!(close(
+            eval(value.clone(), SpectrumKind::Unbounded),
+            [2.0; 4],
+            0.0
+        ));
+        assert!(close(
+            eval(value, SpectrumKind::Emission),
             D65.map(|x| 2.0 * x),
             2.0 * NEAR
         ));
     }
-    let default = parameter(None, Some(1.0), Role::Emission).unwrap_or_else(|m| panic!("{m:?}"));
+    let default =
+        parameter(None, Some(1.0), SpectrumKind::Emission).unwrap_or_else(|m| panic!("{m:?}"));
     assert!(close(default.spectrum(0.0, 0.0), D65, NEAR));
 }
 
@@ -72,25 +85,29 @@ fn numbers_are_constant_and_as_light_d65() {
 fn colours_follow_their_role() {
     let colour = || rgb(0.2, 0.5, 0.8);
     let reflectance = [0.859_670_7, 0.700_576_7, 0.440_470_4, 0.213_276_3];
-    assert!(close(eval(colour(), Role::Reflectance), reflectance, 0.02));
+    assert!(close(
+        eval(colour(), SpectrumKind::Reflectance),
+        reflectance,
+        0.02
+    ));
     let bright = || rgb(0.2, 0.5, 2.0);
     let light = [2.540_741, 1.456_653, 0.455_284_8, 0.185_323_7];
-    assert!(close(eval(bright(), Role::Emission), light, 0.05));
+    assert!(close(eval(bright(), SpectrumKind::Emission), light, 0.05));
     assert!(close(
-        eval(bright(), Role::Reflectance),
-        eval(rgb(0.2, 0.5, 1.0), Role::Reflectance).to_array(),
+        eval(bright(), SpectrumKind::Reflectance),
+        eval(rgb(0.2, 0.5, 1.0), SpectrumKind::Reflectance).to_array(),
         0.0
     ));
     // Mitsuba 3.9.1's `srgb` with `unbounded` evaluates to the same: components above 1 count as 1.
-    let held = eval(rgb(0.2, 0.5, 1.0), Role::Reflectance).to_array();
-    assert!(close(eval(bright(), Role::Unbounded), held, 0.0));
+    let held = eval(rgb(0.2, 0.5, 1.0), SpectrumKind::Reflectance).to_array();
+    assert!(close(eval(bright(), SpectrumKind::Unbounded), held, 0.0));
     let d65 = object("d65", vec![("color", bright())]);
-    assert!(close(eval(d65, Role::Emission), light, 0.05));
+    assert!(close(eval(d65, SpectrumKind::Emission), light, 0.05));
 }
 
 #[test]
 fn spectra_are_what_is_written_where_they_are_unbounded() {
-    for role in [Role::Emission, Role::Unbounded] {
+    for role in [SpectrumKind::Emission, SpectrumKind::Unbounded] {
         let uniform = Value::Spectrum(SpectrumText::Uniform(2.0));
         assert!(close(eval(uniform, role), [2.0; 4], 0.0));
         let pairs = vec![(400.0, 1.0), (500.0, 2.0), (650.0, 4.0)];
@@ -144,13 +161,13 @@ fn spectra_are_what_is_written_where_they_are_unbounded() {
 #[test]
 fn nested_values_are_not_multiplied_by_d65() {
     let board = || object("checkerboard", vec![("color0", Value::Float(1.0))]);
-    assert!(close(eval(board(), Role::Emission), [1.0; 4], 0.0));
+    assert!(close(eval(board(), SpectrumKind::Emission), [1.0; 4], 0.0));
     let lit = object(
         "d65",
         vec![("anything", board()), ("scale", Value::Float(2.0))],
     );
     assert!(close(
-        eval(lit, Role::Emission),
+        eval(lit, SpectrumKind::Emission),
         D65.map(|x| 2.0 * x),
         2.0 * NEAR
     ));
@@ -161,7 +178,7 @@ fn checkerboard_matches_mitsuba() {
     let plain = One::new(
         &Files::default(),
         &node("checkerboard", vec![]),
-        Role::Reflectance,
+        SpectrumKind::Reflectance,
     );
     for (u, v, spectrum, number) in [
         (0.25, 0.25, 0.4, 0.2),
@@ -180,7 +197,7 @@ fn checkerboard_matches_mitsuba() {
     let scale = DMat4::from_scale(DVec3::new(2.0, 3.0, 1.0));
     let to_uv = Value::Transform(scale * DMat4::from_translation(DVec3::new(0.1, 0.2, 0.0)));
     let moved = node("checkerboard", vec![("to_uv", to_uv)]);
-    let moved = One::new(&Files::default(), &moved, Role::Reflectance);
+    let moved = One::new(&Files::default(), &moved, SpectrumKind::Reflectance);
     for (u, v, expected) in [(0.1, 0.1, 0.2), (0.2, 0.1, 0.4), (0.3, 0.2, 0.2)] {
         assert!(close(moved.spectrum(u, v), [expected; 4], 0.0), "{u} {v}");
     }
@@ -192,7 +209,7 @@ fn numbers_of_spectra() {
         One::new(
             &Files::default(),
             &node(plugin, properties),
-            Role::Reflectance,
+            SpectrumKind::Reflectance,
         )
         .number(0.1, 0.1)
     };
@@ -208,7 +225,7 @@ fn numbers_of_spectra() {
     let raw = One::new(
         &Files::default(),
         &node("rawconstant", vec![("value", three)]),
-        Role::Reflectance,
+        SpectrumKind::Reflectance,
     );
     assert_eq!(raw.colour(0.0, 0.0), Vec3::new(0.2, 0.5, 0.8));
 }
@@ -216,16 +233,16 @@ fn numbers_of_spectra() {
 #[test]
 fn an_object_is_read_once_per_role() {
     let board = node("checkerboard", vec![]);
-    let mut set = TextureSet::new();
+    let mut set = TextureTable::new();
     let diagnostics = Diagnostics::new();
     let mut reader = TextureReader {
         set: &mut set,
         assets: &Files::default(),
         diagnostics: &diagnostics,
     };
-    let first = reader.node(&board, Role::Reflectance);
-    assert_eq!(reader.node(&board, Role::Reflectance), first);
-    assert_ne!(reader.node(&board, Role::Emission), first);
+    let first = reader.node(&board, SpectrumKind::Reflectance);
+    assert_eq!(reader.node(&board, SpectrumKind::Reflectance), first);
+    assert_ne!(reader.node(&board, SpectrumKind::Emission), first);
 }
 
 /// Each number that a reflectance is made of is held to 1; what is not above stays to the bit.
@@ -233,7 +250,7 @@ fn an_object_is_read_once_per_role() {
 fn reflectances_are_held_to_one() {
     let samples = |pairs: Vec<(f64, f64)>| {
         let table = Value::Spectrum(SpectrumText::Samples(pairs));
-        eval(table, Role::Reflectance)
+        eval(table, SpectrumKind::Reflectance)
     };
     // At 450, 540, 600 and 650 nm: on a flat top, and on slopes that lead to it.
     let wide = vec![(400.0, 0.2), (500.0, 2.0), (600.0, 4.0), (700.0, 0.5)];
@@ -243,23 +260,23 @@ fn reflectances_are_held_to_one() {
     let held = vec![(400.0, 0.2), (500.0, 1.0), (550.0, 0.25), (700.0, 0.75)];
     assert_eq!(samples(uneven), samples(held));
     // D65 reaches 1.17 at 480 nm; what is below 1 stays.
-    let lamp = eval(object("d65", vec![]), Role::Reflectance);
+    let lamp = eval(object("d65", vec![]), SpectrumKind::Reflectance);
     assert!(close(lamp, D65.map(|x| x.min(1.0)), 1e-3), "{lamp}");
     let nested = object(
         "checkerboard",
         vec![("color0", Value::Float(5.0)), ("color1", Value::Float(5.0))],
     );
-    assert_eq!(eval(nested, Role::Reflectance), Vec4::ONE);
+    assert_eq!(eval(nested, SpectrumKind::Reflectance), Vec4::ONE);
     let nested = object(
         "checkerboard",
         vec![("color0", Value::Float(5.0)), ("color1", Value::Float(5.0))],
     );
-    assert_eq!(eval(nested, Role::Emission), Vec4::splat(5.0));
+    assert_eq!(eval(nested, SpectrumKind::Emission), Vec4::splat(5.0));
 }
 
 #[test]
 fn mistakes_are_refused() {
-    let role = Role::Reflectance;
+    let role = SpectrumKind::Reflectance;
     let number = Value::Float;
     for (value, role, expected) in [
         (rgb(-0.2, 0.5, 0.1), role, "-0.2"),
@@ -268,13 +285,13 @@ fn mistakes_are_refused() {
             role,
             "2",
         ),
-        (rgb(-0.2, 0.5, 0.1), Role::Emission, "-0.2"),
+        (rgb(-0.2, 0.5, 0.1), SpectrumKind::Emission, "-0.2"),
         (number(f64::NAN), role, "NaN"),
-        (number(-1.0), Role::Emission, "-1 is negative"),
+        (number(-1.0), SpectrumKind::Emission, "-1 is negative"),
         (text("red"), role, "must be a number, a colour"),
         (
             Value::Spectrum(SpectrumText::Samples(vec![(400.0, 1.0), (700.0, -1.0)])),
-            Role::Emission,
+            SpectrumKind::Emission,
             "falls to",
         ),
         (
@@ -331,7 +348,7 @@ fn mistakes_are_refused() {
                 "d65",
                 vec![("color", rgb(1.0, 1.0, 1.0)), ("t", object("d65", vec![]))],
             ),
-            Role::Emission,
+            SpectrumKind::Emission,
             "either `color` or one nested texture",
         ),
     ] {

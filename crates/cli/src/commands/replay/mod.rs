@@ -13,7 +13,7 @@ use super::{answer, fail};
 use crate::args::ReplayAddress;
 use crate::pipeline::{self, Loaded};
 use etalon_film::{ExactFilm, SampleCounts};
-use etalon_integrators::Plan;
+use etalon_integrators::RenderPlan;
 use etalon_integrators::replay::Address;
 use etalon_transport::{Film, Placing};
 use glam::IVec2;
@@ -24,7 +24,7 @@ use words::line;
 /// Draws the sample again and says what happened.
 pub fn run(
     loaded: &Loaded,
-    plan: &Plan,
+    plan: &RenderPlan,
     counts: Option<SampleCounts>,
     address: &ReplayAddress,
 ) -> ExitCode {
@@ -36,7 +36,7 @@ pub fn run(
 
 fn told(
     loaded: &Loaded,
-    plan: &Plan,
+    plan: &RenderPlan,
     counts: Option<SampleCounts>,
     asked: &ReplayAddress,
 ) -> Result<String, String> {

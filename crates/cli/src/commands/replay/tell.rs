@@ -69,7 +69,7 @@ pub(super) fn tell(text: &mut String, event: &Event, names: &Names, channels: &[
                 ),
             },
         ),
-        Event::Vertex {
+        Event::SurfaceInteraction {
             walk: number,
             vertex,
             prefix,
@@ -105,7 +105,7 @@ pub(super) fn tell(text: &mut String, event: &Event, names: &Names, channels: &[
             match sample {
                 None => line(text, format!("    {}scattering: absorbed", walk(*number))),
                 Some(s) => {
-                    let how = if s.passes {
+                    let how = if s.is_null {
                         "passes straight"
                     } else {
                         "scatters"
@@ -173,7 +173,7 @@ pub(super) fn tell(text: &mut String, event: &Event, names: &Names, channels: &[
                 chance(s.chance)
             ),
         ),
-        Event::Passage(ray, passage) => line(
+        Event::Transmission(ray, passage) => line(
             text,
             match passage {
                 None => format!("    blocked along {}", vector(ray.direction)),
@@ -185,15 +185,15 @@ pub(super) fn tell(text: &mut String, event: &Event, names: &Names, channels: &[
                 ),
             },
         ),
-        Event::Connection(None) => line(text, "    the camera does not see it"),
-        Event::Connection(Some(c)) => line(
+        Event::CameraSample(None) => line(text, "    the camera does not see it"),
+        Event::CameraSample(Some(c)) => line(
             text,
             format!(
                 "    the camera sees it at raster ({}, {}), weight {}",
                 c.raster.x, c.raster.y, c.weight
             ),
         ),
-        Event::Reception(r) => line(
+        Event::ApertureHit(r) => line(
             text,
             format!(
                 "    hits the aperture after {}, seen at raster ({}, {}), weight {}",

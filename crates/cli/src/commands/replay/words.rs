@@ -1,8 +1,8 @@
 //! The words in which a replay speaks of numbers and things.
 
-use etalon_integrators::prefix::Prefix;
+use etalon_integrators::path_throughput::PathThroughput;
 use etalon_scene::Names;
-use etalon_transport::{ChainRemark, Chance, Mixed, Mixture, Vertex};
+use etalon_transport::{ChainRemark, Mixed, Mixture, SamplePdf, SurfaceInteraction};
 use glam::{Vec3, Vec4};
 use std::fmt::Write;
 
@@ -23,8 +23,8 @@ pub(super) fn lanes(v: Vec4) -> String {
 }
 
 /// Density per steradian, or probability.
-pub(super) fn chance(chance: Chance) -> String {
-    let kind = if chance.is_discrete() {
+pub(super) fn chance(chance: SamplePdf) -> String {
+    let kind = if chance.is_delta() {
         "probability"
     } else {
         "density"
@@ -33,9 +33,12 @@ pub(super) fn chance(chance: Chance) -> String {
 }
 
 /// Value and densities of a walk.
-pub(super) fn carried(prefix: Option<Prefix>) -> String {
+pub(super) fn carried(prefix: Option<PathThroughput>) -> String {
     match prefix {
-        Some(Prefix { value, ratio }) => format!("f/p {}  p/p₀ {}", lanes(value), lanes(ratio)),
+        Some(PathThroughput {
+            beta: value,
+            r_u: ratio,
+        }) => format!("f/p {}  p/p₀ {}", lanes(value), lanes(ratio)),
         None => "f/p known to the estimator only".to_owned(),
     }
 }
@@ -56,7 +59,7 @@ fn named(names: &[String], index: u32) -> String {
 }
 
 /// What was met.
-pub(super) fn surface(vertex: &Vertex, names: &Names) -> String {
+pub(super) fn surface(vertex: &SurfaceInteraction, names: &Names) -> String {
     let mut text = format!(
         "shape {}, material {}",
         named(&names.shapes, vertex.shape.0),

@@ -5,9 +5,9 @@
 //! it.
 
 use super::super::bootstrap::State;
-use super::super::{ChainSettings, Field, Found, Integrand, Kinds};
+use super::super::{ChainSettings, Contributions, FilmRegion, Integrand, PathLengthPdf};
 use etalon_sampling::Sampler;
-use etalon_transport::{Pass, Remark, Sink};
+use etalon_transport::{Pass, Sink, TraceEvent};
 use glam::{UVec2, Vec2, Vec3};
 
 /// The problem.
@@ -22,11 +22,11 @@ impl Integrand for Peak {
 
     fn find<S: Sampler>(
         &self,
-        field: &Field,
-        kinds: &Kinds,
+        field: &FilmRegion,
+        kinds: &PathLengthPdf,
         sampler: &mut S,
         (): &mut (),
-        found: &mut Found,
+        found: &mut Contributions,
     ) {
         sampler.skip_to(0);
         let site = field.site(sampler.next_2d());
@@ -44,7 +44,7 @@ impl Integrand for Peak {
         found.add(site.raster, Vec3::splat(value * field.area() / probability));
     }
 
-    fn remark(&self, _: impl FnOnce() -> Remark) -> bool {
+    fn record(&self, _: impl FnOnce() -> TraceEvent) -> bool {
         false
     }
 }
@@ -120,7 +120,7 @@ fn replicate(number: u32, before: Option<State>, change: Change) -> ([f64; 2], S
     }
     let mut sink = Pixels::default();
     for x in 0..2 {
-        let mut site = Field::of(&pass).site(Vec2::ZERO);
+        let mut site = FilmRegion::of(&pass).site(Vec2::ZERO);
         site.pixel = UVec2::new(x, 0);
         site.pixels = 2;
         for sample in 0..SAMPLES {

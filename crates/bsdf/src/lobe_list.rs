@@ -1,14 +1,14 @@
 //! How a material with textures becomes lobes at a point.
 
-use crate::{Lobe, MAX_LOBES, Resolved, Scatter};
+use crate::{AnyBxdf, BsdfAtPoint, Lobe, MAX_LOBES};
 use etalon_math::Frame;
 use etalon_spectrum::Wavelengths;
-use etalon_transport::{TextureId, TexturePoint, Textures, Vertex};
+use etalon_transport::{SurfaceInteraction, TextureId, TexturePoint, Textures};
 use glam::{Vec3, Vec4};
 
 /// Where a material is resolved: its textures at that point, for the path's wavelengths.
 #[derive(Clone, Copy, Debug)]
-pub struct Site<'t, T> {
+pub struct ShadingContext<'t, T> {
     /// The textures of the scene.
     pub textures: &'t T,
     /// The point.
@@ -19,10 +19,15 @@ pub struct Site<'t, T> {
     pub wo: Vec3,
 }
 
-impl<'t, T: Textures> Site<'t, T> {
+impl<'t, T: Textures> ShadingContext<'t, T> {
     /// A point of a surface.
     #[inline]
-    pub fn new(textures: &'t T, vertex: &Vertex, wo: Vec3, wavelengths: &Wavelengths) -> Self {
+    pub fn new(
+        textures: &'t T,
+        vertex: &SurfaceInteraction,
+        wo: Vec3,
+        wavelengths: &Wavelengths,
+    ) -> Self {
         Self {
             textures,
             at: TexturePoint::from(vertex),
@@ -52,16 +57,16 @@ impl<'t, T: Textures> Site<'t, T> {
 
 /// Lobes being collected from a tree of materials.
 #[derive(Clone, Copy, Debug, Default)]
-pub struct Flattening<'a> {
+pub struct LobeList<'a> {
     lobes: [Option<Lobe<'a>>; MAX_LOBES],
     count: usize,
-    passing: Vec4,
-    passing_probability: f32,
+    null: Vec4,
+    null_probability: f32,
 }
 
-impl<'a> Flattening<'a> {
+impl<'a> LobeList<'a> {
     /// Adds a lobe that has the share `weight` of the light and is chosen with `probability`.
-    pub fn push(&mut self, scatter: Scatter<'a>, frame: Frame, weight: f32, probability: f32) {
+    pub fn push(&mut self, scatter: AnyBxdf<'a>, frame: Frame, weight: f32, probability: f32) {
         if weight > 0.0 && self.count < MAX_LOBES {
             self.lobes[self.count] = Some(Lobe {
                 scatter,
@@ -75,14 +80,14 @@ impl<'a> Flattening<'a> {
 
     /// Adds light that passes straight on.
     pub fn pass(&mut self, energy: Vec4, probability: f32) {
-        self.passing += energy;
-        self.passing_probability += probability;
+        self.null += energy;
+        self.null_probability += probability;
     }
 
     /// What was collected.
-    pub fn resolved(&self, normal: Vec3) -> Resolved<'a> {
+    pub fn resolved(&self, normal: Vec3) -> BsdfAtPoint<'a> {
         let several = |lobes: &[Lobe<'a>]| {
-            Resolved::several(normal, self.passing, self.passing_probability, lobes)
+            BsdfAtPoint::several(normal, self.null, self.null_probability, lobes)
         };
         match (self.lobes[0], self.count) {
             (None, _) => several(&[]),

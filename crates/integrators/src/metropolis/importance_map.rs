@@ -6,7 +6,7 @@
 //! *relative* error is about the same (the two stages of Veach 1997, section 11.5.2). Whatever
 //! the factors are, as long as they are positive, the estimate stays unbiased.
 
-use super::found::Field;
+use super::found::FilmRegion;
 use glam::{UVec2, Vec2};
 
 /// Most cells along a side of the film.
@@ -18,12 +18,12 @@ const FLOOR: f64 = 0.1;
 
 /// Factors over the film, constant in cells.
 #[derive(Clone, Debug)]
-pub(super) struct Emphasis {
+pub(super) struct ImportanceMap {
     cells: UVec2,
     factors: Vec<f32>,
 }
 
-impl Emphasis {
+impl ImportanceMap {
     /// No part of the film before another.
     pub(super) fn none() -> Self {
         Self {
@@ -33,7 +33,7 @@ impl Emphasis {
     }
 
     /// Factors for a picture of which these contributions are known: place and brightness.
-    pub(super) fn of(field: &Field, found: impl Iterator<Item = (Vec2, f64)>) -> Self {
+    pub(super) fn of(field: &FilmRegion, found: impl Iterator<Item = (Vec2, f64)>) -> Self {
         let cells = (field.size() / 4).clamp(UVec2::ONE, UVec2::splat(CELLS));
         let mut sums = vec![0.0; (cells.x * cells.y) as usize];
         for (raster, brightness) in found {
@@ -58,14 +58,14 @@ impl Emphasis {
 
     /// The factor at a place.
     #[inline]
-    pub(super) fn at(&self, field: &Field, raster: Vec2) -> f32 {
+    pub(super) fn at(&self, field: &FilmRegion, raster: Vec2) -> f32 {
         self.factors[cell(field, self.cells, raster)]
     }
 }
 
 /// The cell of a place. Places beyond the field count as at its border.
 #[inline]
-fn cell(field: &Field, cells: UVec2, raster: Vec2) -> usize {
+fn cell(field: &FilmRegion, cells: UVec2, raster: Vec2) -> usize {
     let place = (raster - field.low()) / field.size().as_vec2() * cells.as_vec2();
     let place = place.max(Vec2::ZERO).as_uvec2().min(cells - 1);
     (place.y * cells.x + place.x) as usize

@@ -1,23 +1,23 @@
 //! The things that one accelerator knows: the world's, or those of a group.
 
-use crate::accelerator::{Accelerator, AcceleratorKind, Bounds, Others, Primitives};
-use crate::nearest::Nearest;
-use crate::probe::Probe;
+use crate::accelerator::{Accelerator, AcceleratorKind, Bounds, CustomPrimitives, Primitives};
+use crate::closest_hit::ClosestHit;
 use crate::shapes::Shape;
 use crate::shapes::solid::Solid;
+use crate::traversal_ray::TraversalRay;
 use etalon_transport::{InstanceId, ShapeId};
 use glam::Vec3;
 
 /// A run of consecutive primitives that belong together.
 #[derive(Clone, Copy, Debug)]
-struct Member {
+struct PrimitiveRange {
     first: u32,
-    thing: Thing,
+    thing: PrimitiveOwner,
 }
 
 /// What primitives may be.
 #[derive(Clone, Copy, Debug)]
-pub(crate) enum Thing {
+pub(crate) enum PrimitiveOwner {
     /// A shape: its triangles, or one primitive if it is in one piece.
     Shape(ShapeId),
     /// An instance: one primitive.
@@ -26,8 +26,8 @@ pub(crate) enum Thing {
 
 /// Numbers the primitives of shapes and instances, in the order in which they were added.
 #[derive(Debug, Default)]
-pub(crate) struct Scope {
-    members: Vec<Member>,
+pub(crate) struct PrimitiveIndex {
+    members: Vec<PrimitiveRange>,
     count: u32,
     /// Box of everything.
     pub(crate) bounds: Bounds,
@@ -41,13 +41,13 @@ impl Default for Bounds {
     }
 }
 
-impl Scope {
+impl PrimitiveIndex {
     /// Adds a thing of so many primitives.
-    pub(crate) fn add(&mut self, thing: Thing, primitives: u32, bounds: Bounds) {
+    pub(crate) fn add(&mut self, thing: PrimitiveOwner, primitives: u32, bounds: Bounds) {
         if primitives == 0 {
             return;
         }
-        self.members.push(Member {
+        self.members.push(PrimitiveRange {
             first: self.count,
             thing,
         });
@@ -66,7 +66,7 @@ impl Scope {
 
     /// Whose primitive it is, and its number there.
     #[inline]
-    pub(crate) fn locate(&self, primitive: u32) -> (Thing, u32) {
+    pub(crate) fn locate(&self, primitive: u32) -> (PrimitiveOwner, u32) {
         let member = match self.members.as_slice() {
             [only] => *only,
             members => members[members.partition_point(|m| m.first <= primitive) - 1],
@@ -76,14 +76,14 @@ impl Scope {
 
     /// A ray ready for this scope's accelerator.
     #[inline(always)]
-    pub(crate) fn probe(&self, origin: Vec3, direction: Vec3) -> Probe {
-        Probe::new(origin, direction, self.extent)
+    pub(crate) fn probe(&self, origin: Vec3, direction: Vec3) -> TraversalRay {
+        TraversalRay::new(origin, direction, self.extent)
     }
 }
 
 /// A scope with the boxes of its instances, as an accelerator wants to see it.
 pub(crate) struct Contents<'a> {
-    pub(crate) scope: &'a Scope,
+    pub(crate) scope: &'a PrimitiveIndex,
     pub(crate) shapes: &'a [Shape],
     pub(crate) instances: &'a [Bounds],
 }
@@ -101,38 +101,38 @@ impl Primitives for Contents<'_> {
 
     fn triangle(&self, primitive: u32) -> Option<[Vec3; 3]> {
         match self.scope.locate(primitive) {
-            (Thing::Shape(shape), index) => {
+            (PrimitiveOwner::Shape(shape), index) => {
                 let mesh = self.shapes[shape.0 as usize].triangles()?;
                 Some(mesh.corners(index))
             }
-            (Thing::Instance(_), _) => None,
+            (PrimitiveOwner::Instance(_), _) => None,
         }
     }
 
     fn is_triangle(&self, primitive: u32) -> bool {
         match self.scope.locate(primitive).0 {
-            Thing::Shape(shape) => self.shapes[shape.0 as usize].triangles().is_some(),
-            Thing::Instance(_) => false,
+            PrimitiveOwner::Shape(shape) => self.shapes[shape.0 as usize].triangles().is_some(),
+            PrimitiveOwner::Instance(_) => false,
         }
     }
 
     fn bounds(&self, primitive: u32) -> Bounds {
         match self.scope.locate(primitive) {
-            (Thing::Shape(shape), index) => {
+            (PrimitiveOwner::Shape(shape), index) => {
                 let shape = &self.shapes[shape.0 as usize];
                 match shape.triangles() {
                     Some(mesh) => Bounds::around(&mesh.corners(index)),
                     None => shape.bounds(),
                 }
             }
-            (Thing::Instance(instance), _) => self.instances[instance.0 as usize],
+            (PrimitiveOwner::Instance(instance), _) => self.instances[instance.0 as usize],
         }
     }
 }
 
 /// Intersects a group's smooth shapes; a group has no instances.
 pub(crate) struct GroupOthers<'a> {
-    pub(crate) scope: &'a Scope,
+    pub(crate) scope: &'a PrimitiveIndex,
     pub(crate) shapes: &'a [Shape],
 }
 
@@ -140,8 +140,8 @@ impl GroupOthers<'_> {
     #[inline]
     fn solid(&self, primitive: u32) -> Option<&dyn Solid> {
         match self.scope.locate(primitive).0 {
-            Thing::Shape(shape) => self.shapes[shape.0 as usize].solid(),
-            Thing::Instance(_) => None,
+            PrimitiveOwner::Shape(shape) => self.shapes[shape.0 as usize].solid(),
+            PrimitiveOwner::Instance(_) => None,
         }
     }
 }
@@ -149,26 +149,26 @@ impl GroupOthers<'_> {
 /// Shapes of instances are known in single precision only.
 impl Order for GroupOthers<'_> {
     #[inline]
-    fn is_ahead(&self, _: u32, _: &Probe, t: f64) -> bool {
+    fn is_ahead(&self, _: u32, _: &TraversalRay, t: f64) -> bool {
         is_in_front(t)
     }
 
     #[inline]
-    fn precedes(&self, a: u32, b: u32, _: &Probe, _: f64) -> bool {
+    fn precedes(&self, a: u32, b: u32, _: &TraversalRay, _: f64) -> bool {
         a < b
     }
 }
 
-impl Others for GroupOthers<'_> {
+impl CustomPrimitives for GroupOthers<'_> {
     #[inline]
-    fn intersect(&self, primitive: u32, probe: &Probe, nearest: &mut Nearest) {
+    fn intersect(&self, primitive: u32, probe: &TraversalRay, nearest: &mut ClosestHit) {
         if let Some(solid) = self.solid(primitive) {
             intersect_solid(solid, primitive, probe, nearest, self);
         }
     }
 
     #[inline]
-    fn occludes(&self, primitive: u32, probe: &Probe, t_max: f32) -> bool {
+    fn occludes(&self, primitive: u32, probe: &TraversalRay, t_max: f32) -> bool {
         self.solid(primitive)
             .is_some_and(|solid| occludes_solid(solid, primitive, probe, t_max, self))
     }
@@ -176,7 +176,7 @@ impl Others for GroupOthers<'_> {
 
 /// Distances along a ray of two smooth shapes that differ by no more than this are the same.
 #[inline]
-pub(crate) fn tolerance(probe: &Probe, t: f64) -> f64 {
+pub(crate) fn tolerance(probe: &TraversalRay, t: f64) -> f64 {
     // 2⁻⁴³: some thousand roundings.
     const RELATIVE: f64 = 1.0 / (1_u64 << 43) as f64;
     (f64::from(probe.origin.abs().max_element()) + t.abs()) * RELATIVE
@@ -193,9 +193,9 @@ pub(crate) trait Order {
     /// Whether the crossing at `t` of a primitive is ahead of the ray: in front of its origin, or
     /// behind it but after the surface that the ray leaves, whose distance from the origin has
     /// jumped over it. False for NaN.
-    fn is_ahead(&self, primitive: u32, probe: &Probe, t: f64) -> bool;
+    fn is_ahead(&self, primitive: u32, probe: &TraversalRay, t: f64) -> bool;
     /// Whether primitive `a` comes before primitive `b` at the same place.
-    fn precedes(&self, a: u32, b: u32, probe: &Probe, t: f64) -> bool;
+    fn precedes(&self, a: u32, b: u32, probe: &TraversalRay, t: f64) -> bool;
 }
 
 /// Notes the nearest crossing of a smooth shape, if it wins.
@@ -203,8 +203,8 @@ pub(crate) trait Order {
 pub(crate) fn intersect_solid(
     solid: &dyn Solid,
     primitive: u32,
-    probe: &Probe,
-    nearest: &mut Nearest,
+    probe: &TraversalRay,
+    nearest: &mut ClosestHit,
     order: &impl Order,
 ) {
     for t in solid.crossings(probe.origin.as_dvec3(), probe.direction.as_dvec3()) {
@@ -223,7 +223,7 @@ pub(crate) fn intersect_solid(
 pub(crate) fn occludes_solid(
     solid: &dyn Solid,
     primitive: u32,
-    probe: &Probe,
+    probe: &TraversalRay,
     t_max: f32,
     order: &impl Order,
 ) -> bool {

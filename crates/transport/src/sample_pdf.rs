@@ -1,18 +1,18 @@
 //! How likely a sampled event was: a density or a discrete probability.
 
-use etalon_math::{Atom, Density, SolidAngle};
+use etalon_math::{DeltaProbability, Density, SolidAngle};
 use glam::Vec4;
 
 /// The density of a sampled direction, or the probability of a discrete one.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Chance {
+pub enum SamplePdf {
     /// One of a continuum of directions.
     Continuous(Density<SolidAngle>),
     /// A direction that has a probability of its own (a mirror's, a point light's).
-    Discrete(Atom),
+    Discrete(DeltaProbability),
 }
 
-impl Chance {
+impl SamplePdf {
     /// The per-lane values, whatever their measure. Ratios between lanes are meaningful for
     /// both kinds; comparisons between kinds are not.
     #[inline]
@@ -25,7 +25,7 @@ impl Chance {
 
     /// Whether the direction is discrete.
     #[inline]
-    pub fn is_discrete(self) -> bool {
+    pub fn is_delta(self) -> bool {
         matches!(self, Self::Discrete(_))
     }
 }

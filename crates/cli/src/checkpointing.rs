@@ -8,8 +8,8 @@
 
 use crate::say;
 use etalon_film::{CheckpointFacts, ExactFilm, ExactTile, Part, RenderFacts, recorded_seconds};
-use etalon_integrators::Share;
-use etalon_transport::{Film, Placement, Placing};
+use etalon_integrators::ReplicateRange;
+use etalon_transport::{Film, FilmSample, Placing};
 use glam::{UVec2, Vec2};
 use std::path::PathBuf;
 use std::time::{Duration, Instant};
@@ -22,7 +22,7 @@ const WITHIN: Duration = Duration::from_secs(10);
 
 /// How to keep a render, and what was kept of it.
 #[derive(Clone, Debug)]
-pub struct Keeping {
+pub struct Checkpointing {
     /// Where.
     pub path: PathBuf,
     /// What the checkpoint says beside what a part says.
@@ -31,7 +31,7 @@ pub struct Keeping {
     pub earlier: Option<Part>,
 }
 
-impl Keeping {
+impl Checkpointing {
     /// Samples of the replicate that was being rendered, all pixels together.
     pub(crate) fn samples_begun(&self) -> u64 {
         let metadata = self.earlier.as_ref().map(Part::metadata);
@@ -73,12 +73,12 @@ struct Keeper {
 
 /// A film that is kept, if somebody asked for it.
 #[derive(Debug)]
-pub(crate) struct KeptFilm {
+pub(crate) struct CheckpointingFilm {
     film: ExactFilm,
     keeper: Option<Keeper>,
 }
 
-impl KeptFilm {
+impl CheckpointingFilm {
     /// This film, kept as `keeping` says while the replicates of `share` are rendered, of `of`
     /// replicates and samples per pixel of each in all.
     ///
@@ -86,13 +86,13 @@ impl KeptFilm {
     /// If the checkpoint to go on from is of another film.
     pub(crate) fn new(
         film: ExactFilm,
-        keeping: Option<Keeping>,
+        keeping: Option<Checkpointing>,
         facts: &RenderFacts,
-        share: Share,
+        share: ReplicateRange,
         of: (u32, u32),
     ) -> Result<Self, String> {
         let Some(keeping) = keeping else {
-            return Ok(Self::passing(film));
+            return Ok(Self::null_transmittance(film));
         };
         let (_, before) = keeping.finished();
         let film = match keeping.earlier {
@@ -117,7 +117,7 @@ impl KeptFilm {
     }
 
     /// A film of which nothing is kept.
-    pub(crate) fn passing(film: ExactFilm) -> Self {
+    pub(crate) fn null_transmittance(film: ExactFilm) -> Self {
         Self { film, keeper: None }
     }
 
@@ -158,20 +158,20 @@ impl Keeper {
             && !self.failed
         {
             self.failed = true;
-            say::remark(&format!("warning: there is no checkpoint: {error}\n"));
+            say::record(&format!("warning: there is no checkpoint: {error}\n"));
         }
         self.written = Some((Instant::now(), begin.elapsed()));
     }
 }
 
-impl Placing for KeptFilm {
+impl Placing for CheckpointingFilm {
     #[inline]
-    fn place(&self, pixel: UVec2, u: Vec2) -> Placement {
+    fn place(&self, pixel: UVec2, u: Vec2) -> FilmSample {
         self.film.place(pixel, u)
     }
 
     #[inline]
-    fn place_alone(&self, pixel: UVec2, u: Vec2) -> Placement {
+    fn place_alone(&self, pixel: UVec2, u: Vec2) -> FilmSample {
         self.film.place_alone(pixel, u)
     }
 
@@ -186,7 +186,7 @@ impl Placing for KeptFilm {
     }
 }
 
-impl Film for KeptFilm {
+impl Film for CheckpointingFilm {
     type Tile<'f> = ExactTile<'f>;
 
     fn origin(&self) -> UVec2 {

@@ -1,7 +1,7 @@
 //! Which light to ask, and which to emit.
 //!
 //! A particle's light is chosen in proportion to its power times its `sampling_weight`. The light that a
-//! point asks is chosen so, too, or by another rule ([`LightChooser`]): all alike, or by what the point
+//! point asks is chosen so, too, or by another rule ([`LightSamplerKind`]): all alike, or by what the point
 //! may expect of it ([`FewLights`], [`LightTree`]).
 //!
 //! The power of a light at infinity is what enters the scene's bounding sphere, which says little of what
@@ -12,7 +12,7 @@ use crate::extent::LightExtent;
 use crate::few::FewLights;
 use crate::tree::LightTree;
 use etalon_sampling::discrete::AliasTable;
-use etalon_transport::{LightId, Receiver};
+use etalon_transport::{LightId, LightSampleContext};
 use glam::Vec3;
 
 /// A chosen light.
@@ -28,7 +28,7 @@ pub struct LightChoice {
 
 /// How the light is chosen that a point asks.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
-pub enum LightChooser {
+pub enum LightSamplerKind {
     /// All alike, but for their `sampling_weight`.
     Uniform,
     /// By power.
@@ -36,12 +36,12 @@ pub enum LightChooser {
     /// By what the point may expect of it: power, distance, and which way both face.
     Tree,
     /// By what the point may expect of each among few lights, with a tree among many
-    /// ([`LightChooser::FEW`]).
+    /// ([`LightSamplerKind::FEW`]).
     #[default]
     Automatic,
 }
 
-impl LightChooser {
+impl LightSamplerKind {
     /// All of them.
     pub const ALL: [Self; 4] = [Self::Automatic, Self::Uniform, Self::Power, Self::Tree];
 
@@ -60,7 +60,7 @@ impl LightChooser {
 
     /// The chooser of that name.
     pub fn named(name: &str) -> Option<Self> {
-        Self::ALL.into_iter().find(|chooser| chooser.name() == name)
+        Self::ALL.into_iter().find(|hero| hero.name() == name)
     }
 }
 
@@ -88,7 +88,7 @@ pub struct Far {
 
 /// A distribution over lights.
 #[derive(Clone, Debug)]
-pub struct LightSelector {
+pub struct LightSampler {
     /// By power; `None` if no light can be chosen.
     by_power: Option<AliasTable>,
     /// For points; `None` for the same.
@@ -112,10 +112,10 @@ enum ForPoints {
     },
 }
 
-impl LightSelector {
+impl LightSampler {
     /// The distribution over lights, in the order of their ids. Lights of no power or weight are
     /// never chosen.
-    pub fn new(lights: &[Candidate], chooser: LightChooser) -> Self {
+    pub fn new(lights: &[Candidate], hero: LightSamplerKind) -> Self {
         let weight = |light: &Candidate| light.power * light.weight;
         let total = |far: bool| -> (f64, f64) {
             let kind = || lights.iter().filter(|l| l.extent.is_none() == far);
@@ -130,27 +130,29 @@ impl LightSelector {
         let table = |of: &dyn Fn(&Candidate) -> f64| {
             AliasTable::new(&lights.iter().map(of).collect::<Vec<_>>()).ok()
         };
-        let few = lights.iter().filter(|l| weight(l) > 0.0).count() <= LightChooser::FEW;
-        let for_points = match chooser {
-            LightChooser::Power => None,
-            LightChooser::Automatic if few => FewLights::new(lights).map(ForPoints::Few),
-            LightChooser::Uniform => table(&|light| match light.power > 0.0 {
+        let few = lights.iter().filter(|l| weight(l) > 0.0).count() <= LightSamplerKind::FEW;
+        let for_points = match hero {
+            LightSamplerKind::Power => None,
+            LightSamplerKind::Automatic if few => FewLights::new(lights).map(ForPoints::Few),
+            LightSamplerKind::Uniform => table(&|light| match light.power > 0.0 {
                 true => light.weight,
                 false => 0.0,
             })
             .map(ForPoints::Table),
-            LightChooser::Tree | LightChooser::Automatic => Self::tree(lights).map(|tree| {
-                let far = table(&|light| match light.extent {
-                    Some(_) => 0.0,
-                    None => weight(light),
-                });
-                let far_share = if far.is_some() { 0.5 } else { 0.0 };
-                ForPoints::Tree {
-                    tree,
-                    far,
-                    far_share,
-                }
-            }),
+            LightSamplerKind::Tree | LightSamplerKind::Automatic => {
+                Self::tree(lights).map(|tree| {
+                    let far = table(&|light| match light.extent {
+                        Some(_) => 0.0,
+                        None => weight(light),
+                    });
+                    let far_share = if far.is_some() { 0.5 } else { 0.0 };
+                    ForPoints::Tree {
+                        tree,
+                        far,
+                        far_share,
+                    }
+                })
+            }
         };
         Self {
             by_power: table(&by_power),
@@ -172,7 +174,7 @@ impl LightSelector {
     /// Chooses a light to ask for what arrives at `from`. `None` if there is none that sends
     /// anything there.
     #[inline]
-    pub fn choose(&self, from: &Receiver, u: f32) -> Option<LightChoice> {
+    pub fn choose(&self, from: &LightSampleContext, u: f32) -> Option<LightChoice> {
         match &self.for_points {
             None => self.choose_to_emit(u),
             Some(ForPoints::Table(table)) => chosen(table, u),
@@ -200,10 +202,10 @@ impl LightSelector {
         }
     }
 
-    /// The probability with which [`LightSelector::choose`] chooses `light` for the point
+    /// The probability with which [`LightSampler::choose`] chooses `light` for the point
     /// `from`.
     #[inline]
-    pub fn probability(&self, from: &Receiver, light: LightId) -> f32 {
+    pub fn probability(&self, from: &LightSampleContext, light: LightId) -> f32 {
         match &self.for_points {
             None => self.probability_to_emit(light),
             Some(ForPoints::Table(table)) => table.probability(light.0 as usize),
@@ -222,7 +224,7 @@ impl LightSelector {
         }
     }
 
-    /// The probability with which [`LightSelector::choose_to_emit`] chooses `light`.
+    /// The probability with which [`LightSampler::choose_to_emit`] chooses `light`.
     #[inline]
     pub fn probability_to_emit(&self, light: LightId) -> f32 {
         (self.by_power.as_ref()).map_or(0.0, |table| table.probability(light.0 as usize))

@@ -1,12 +1,12 @@
 //! A point that receives light: what the choice of a light and of a direction toward it may know.
 
-use crate::{Bsdf, Vertex};
+use crate::{Bsdf, SurfaceInteraction};
 use glam::Vec3;
 
 /// A point at which light is to arrive. Densities of light sampling are those for a receiver: whoever
 /// weighs a direction found otherwise must ask with the same receiver.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Receiver {
+pub struct LightSampleContext {
     /// Where (m, world).
     pub position: Vec3,
     /// Unit shading normal of the surface there, so that light from grazing directions is chosen
@@ -20,7 +20,7 @@ pub struct Receiver {
     pub combined: bool,
 }
 
-impl Receiver {
+impl LightSampleContext {
     /// A point on no surface.
     pub const fn in_space(position: Vec3) -> Self {
         Self::on_surface(position, Vec3::ZERO)
@@ -38,7 +38,7 @@ impl Receiver {
 
     /// The point `vertex` as `bsdf`, the model there for `wo`, receives light.
     #[inline]
-    pub fn new(vertex: &Vertex, wo: Vec3, bsdf: &impl Bsdf) -> Self {
+    pub fn new(vertex: &SurfaceInteraction, wo: Vec3, bsdf: &impl Bsdf) -> Self {
         match bsdf.hemisphere() {
             Some(frame) => Self {
                 normal: if frame.n.dot(wo) < 0.0 {
@@ -66,7 +66,7 @@ impl Receiver {
         }
     }
 
-    /// [`Receiver::counted`] of light from the unit vector `direction`; 1 where there is no surface.
+    /// [`LightSampleContext::counted`] of light from the unit vector `direction`; 1 where there is no surface.
     #[inline]
     pub fn facing(&self, direction: Vec3) -> f32 {
         let cos = self.normal.dot(direction);

@@ -14,9 +14,9 @@ const FARTHEST: f32 = 1e30;
 /// that triangles which share an edge agree on which side of it the ray passes.
 ///
 /// **Boxes**: `t = plane · inverse − scaled_origin`, where both are conservative, see
-/// [`Probe::new`].
+/// [`TraversalRay::new`].
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Probe {
+pub(crate) struct TraversalRay {
     pub(crate) origin: Vec3,
     pub(crate) direction: Vec3,
     /// Axes: two small ones, then the direction's largest.
@@ -39,7 +39,7 @@ pub(crate) struct Probe {
     pub(crate) departure: Departure,
 }
 
-impl Probe {
+impl TraversalRay {
     /// Prepares a ray for geometry whose coordinates are all at most `extent` in magnitude.
     ///
     /// The triangle test errs by at most 2ε|p − o| in each coordinate of a corner. Every box is

@@ -5,38 +5,38 @@
 //! itself, unless it lies on a light that is hidden.
 
 use etalon_spectrum::Wavelengths;
-use etalon_transport::{Bsdf, Passage, Ray, World};
+use etalon_transport::{Bsdf, Ray, Transmission, World};
 use glam::Vec4;
 
 /// A way to the camera.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Way {
+pub(crate) struct CameraVisibility {
     /// Straight travel past all surfaces that are not looked through.
-    pub(crate) passage: Passage,
+    pub(crate) passage: Transmission,
     /// Whether a light is looked through.
-    pub(crate) past_light: bool,
+    pub(crate) through_emitter: bool,
 }
 
 /// The way of `ray` to the camera, from a surface that is a light (`on_light`) or not, past at most so many
 /// surfaces; `None` if nothing is seen.
-pub(crate) fn way_to_camera<W: World>(
+pub(crate) fn camera_visibility<W: World>(
     world: &W,
     wavelengths: &Wavelengths,
     mut ray: Ray,
     on_light: bool,
     mut crossings: u32,
-) -> Option<Way> {
+) -> Option<CameraVisibility> {
     let (origin, end) = (ray.origin, ray.t_max);
-    let mut passage = Passage::FREE;
+    let mut passage = Transmission::FREE;
     // Lights that nothing follows so far, and whether the way starts on one of them.
-    let (mut lights, mut past_lights) = (0, Passage::FREE);
+    let (mut lights, mut past_lights) = (0, Transmission::FREE);
     let mut hidden = on_light;
     while let Some(hit) = world.intersect(&ray) {
         let vertex = world.vertex(&ray, &hit);
         let bsdf = world.bsdf(&vertex, -ray.direction, wavelengths);
         lights += 1;
-        past_lights.transmittance *= bsdf.passing();
-        past_lights.probability *= bsdf.passing_probability();
+        past_lights.transmittance *= bsdf.null_transmittance();
+        past_lights.probability *= bsdf.null_probability();
         if !world.is_emitter(&hit) {
             // The lights before this surface are in the way like itself.
             crossings = crossings.checked_sub(lights)?;
@@ -45,7 +45,7 @@ pub(crate) fn way_to_camera<W: World>(
             if passage.transmittance == Vec4::ZERO {
                 return None;
             }
-            (lights, past_lights) = (0, Passage::FREE);
+            (lights, past_lights) = (0, Transmission::FREE);
             hidden = false;
         }
         ray = vertex.spawn(ray.direction);
@@ -54,8 +54,8 @@ pub(crate) fn way_to_camera<W: World>(
             break;
         }
     }
-    (!hidden).then_some(Way {
+    (!hidden).then_some(CameraVisibility {
         passage,
-        past_light: lights > 0,
+        through_emitter: lights > 0,
     })
 }

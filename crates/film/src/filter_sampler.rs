@@ -23,7 +23,7 @@ struct Cell {
 
 /// A distribution of |x|.
 #[derive(Clone, Debug)]
-pub(crate) struct HalfLine {
+pub(crate) struct FilterSampler1d {
     cells: Box<[Cell]>,
     /// Where to begin the search for u ∈ [i / n, (i + 1) / n).
     guide: Box<[u32]>,
@@ -32,9 +32,9 @@ pub(crate) struct HalfLine {
 /// The positive and the negative part of an even function on the half line.
 pub(crate) struct Parts {
     /// Where f > 0, and ∫₀ f over it.
-    pub(crate) positive: (HalfLine, f64),
+    pub(crate) positive: (FilterSampler1d, f64),
     /// Where f < 0, and ∫₀ |f| over it.
-    pub(crate) negative: (HalfLine, f64),
+    pub(crate) negative: (FilterSampler1d, f64),
 }
 
 /// A piece of the half line on which f has one sign.
@@ -74,7 +74,7 @@ pub(crate) fn part(f: impl Fn(f64) -> f64, radius: f64, count: u32) -> Parts {
     let select = |sign: f64| {
         let chosen: Vec<_> = pieces.iter().filter(|p| p.integral * sign > 0.0).collect();
         let total: f64 = chosen.iter().map(|p| p.integral.abs()).sum();
-        (HalfLine::new(&chosen, total), total)
+        (FilterSampler1d::new(&chosen, total), total)
     };
     Parts {
         positive: select(1.0),
@@ -82,7 +82,7 @@ pub(crate) fn part(f: impl Fn(f64) -> f64, radius: f64, count: u32) -> Parts {
     }
 }
 
-impl HalfLine {
+impl FilterSampler1d {
     fn new(pieces: &[&Piece], total: f64) -> Self {
         let mut before = 0.0;
         let cells: Box<[Cell]> = pieces

@@ -2,9 +2,9 @@
 
 use super::connect::Connector;
 use super::subpath::FromLight;
-use super::weight::Ends;
-use crate::hidden::way_to_camera;
-use etalon_transport::{Bsdf, Camera, Mode, Ray, World};
+use super::weight::EndPdfs;
+use crate::visibility::camera_visibility;
+use etalon_transport::{Bsdf, Camera, Ray, TransportMode, World};
 use glam::{Vec2, Vec4};
 
 impl<W: World> Connector<'_, '_, W> {
@@ -30,7 +30,9 @@ impl<W: World> Connector<'_, '_, W> {
         let vertex = &light.vertex;
         let connection = (self.world.camera()).connect(vertex.position, lens, self.site.margin)?;
         let direction = connection.direction;
-        let value = light.bsdf.eval(light.wo, direction, Mode::Importance);
+        let value = light
+            .bsdf
+            .eval(light.wo, direction, TransportMode::Importance);
         if value == Vec4::ZERO {
             return None;
         }
@@ -39,23 +41,24 @@ impl<W: World> Connector<'_, '_, W> {
         let crossings = self.settings.max_depth - light.segments - 1;
         let passage = if self.settings.hide_emitters {
             let on_light = light.vertex.light.is_some();
-            let way = way_to_camera(self.world, self.wavelengths, ray, on_light, crossings)?;
+            let way = camera_visibility(self.world, self.wavelengths, ray, on_light, crossings)?;
             // Past a light that it looks through, the camera's walk finds the corner alone.
-            Some(way.passage).filter(|_| !way.past_light)?
+            Some(way.passage).filter(|_| !way.through_emitter)?
         } else {
-            self.world.passage(&ray, self.wavelengths, crossings)?
+            self.world
+                .transmittance(&ray, self.wavelengths, crossings)?
         };
         let cos = vertex.normal.dot(direction).abs();
-        let ends = Ends {
+        let ends = EndPdfs {
             here: passage.probability * (connection.weight * cos),
             before: self.behind(start, light, direction),
         };
         let samples = self.site.pixels as f32;
-        let mut total = samples * light.prefix.ratio.element_sum();
+        let mut total = samples * light.prefix.r_u.element_sum();
         if mixed {
             total += self.fewer(start, index, Vec4::ONE, ends);
         }
-        let value = light.prefix.value * value * passage.transmittance * connection.weight;
+        let value = light.prefix.beta * value * passage.transmittance * connection.weight;
         Some((connection.raster, value / total))
     }
 }

@@ -12,7 +12,7 @@ use glam::Vec2;
 /// triangles. Within an instance the order of the group's shapes decides. This is a total order,
 /// so the winner does not depend on the order in which an accelerator visits primitives.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Nearest {
+pub(crate) struct ClosestHit {
     /// Distance in units of the direction's length, not below 0.
     pub(crate) t: f32,
     /// The same of a smooth shape to double precision; NaN of anything else.
@@ -36,7 +36,7 @@ fn single(t: f64) -> f32 {
     (t as f32).max(0.0)
 }
 
-impl Nearest {
+impl ClosestHit {
     /// Nothing yet, and nothing at or beyond `t_max` will count.
     #[inline]
     pub(crate) fn within(t_max: f32) -> Self {

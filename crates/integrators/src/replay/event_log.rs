@@ -1,17 +1,19 @@
 //! What has been said so far, and which walk it belongs to.
 
 use super::{Event, Gathered};
-use crate::prefix::Prefix;
+use crate::path_throughput::PathThroughput;
 use etalon_spectrum::sensor_response;
-use etalon_transport::{BsdfSample, ChainRemark, Mixed, Mixture, Remark, ShapeId, Vertex};
+use etalon_transport::{
+    BsdfSample, ChainRemark, Mixed, Mixture, ShapeId, SurfaceInteraction, TraceEvent,
+};
 use glam::{Vec3, Vec4};
 use std::sync::{Mutex, PoisonError};
 
 /// What has been said so far.
 #[derive(Default)]
-pub(super) struct Notes {
+pub(super) struct EventLog {
     events: Vec<Event>,
-    walks: Vec<Walk>,
+    walks: Vec<PathState>,
     met: Vec<Met>,
     /// The direction that a scattering model was asked for last, and where.
     asked: Option<(Vec3, Place)>,
@@ -22,9 +24,9 @@ pub(super) struct Notes {
 }
 
 /// A walk from surface to surface.
-struct Walk {
+struct PathState {
     /// Value and densities; `None` where the estimator drew a direction by itself.
-    prefix: Option<Prefix>,
+    prefix: Option<PathThroughput>,
     /// Where it goes next.
     direction: Vec3,
 }
@@ -33,7 +35,7 @@ struct Walk {
 #[derive(Clone, Copy)]
 pub(super) struct Place {
     pub(super) walk: usize,
-    pub(super) prefix: Option<Prefix>,
+    pub(super) prefix: Option<PathThroughput>,
 }
 
 /// A surface that was met.
@@ -43,7 +45,7 @@ struct Met {
     place: Option<Place>,
 }
 
-impl Notes {
+impl EventLog {
     /// Notes an event.
     pub(super) fn note(&mut self, event: Event) {
         if !self.gathering {
@@ -58,10 +60,10 @@ impl Notes {
 
     /// Begins a walk that counts so much and goes along a direction.
     pub(super) fn begin(&mut self, value: Vec4, direction: Vec3) -> usize {
-        let mut prefix = Prefix::START;
-        prefix.value = value;
+        let mut prefix = PathThroughput::START;
+        prefix.beta = value;
         let prefix = Some(prefix);
-        self.walks.push(Walk { prefix, direction });
+        self.walks.push(PathState { prefix, direction });
         self.walks.len() - 1
     }
 
@@ -76,7 +78,7 @@ impl Notes {
         let sampled = self.walks.iter().rposition(|w| w.direction == direction);
         let walk = sampled.or_else(|| {
             let (_, place) = self.asked.filter(|(wi, _)| *wi == direction)?;
-            self.walks[place.walk] = Walk {
+            self.walks[place.walk] = PathState {
                 prefix: None,
                 direction,
             };
@@ -87,14 +89,14 @@ impl Notes {
     }
 
     /// A surface was met along a direction.
-    pub(super) fn meet(&mut self, vertex: &Vertex, direction: Vec3) {
+    pub(super) fn shade(&mut self, vertex: &SurfaceInteraction, direction: Vec3) {
         let place = self.along(direction);
         self.met.push(Met {
             position: vertex.position,
             shape: vertex.shape,
             place,
         });
-        self.note(Event::Vertex {
+        self.note(Event::SurfaceInteraction {
             walk: place.map(|place| place.walk),
             vertex: Box::new(*vertex),
             prefix: place.and_then(|place| place.prefix),
@@ -102,7 +104,7 @@ impl Notes {
     }
 
     /// The arrival of a walk at a surface.
-    pub(super) fn place(&self, vertex: &Vertex) -> Option<Place> {
+    pub(super) fn place(&self, vertex: &SurfaceInteraction) -> Option<Place> {
         let mut met = self.met.iter().rev();
         met.find(|met| met.position == vertex.position && met.shape == vertex.shape)
             .and_then(|met| met.place)
@@ -125,7 +127,7 @@ impl Notes {
             && let Some(sample) = sample
         {
             let direction = sample.wi;
-            self.walks[walk] = Walk { prefix, direction };
+            self.walks[walk] = PathState { prefix, direction };
         }
         self.events.push(event);
     }
@@ -158,9 +160,9 @@ impl Notes {
     }
 
     /// The estimator remarks something.
-    pub(super) fn remark(&mut self, remark: Remark) {
+    pub(super) fn record(&mut self, remark: TraceEvent) {
         match remark {
-            Remark::Wavelengths(wavelengths) => {
+            TraceEvent::Wavelengths(wavelengths) => {
                 let event = Event::Wavelengths(wavelengths);
                 let drawn = |event: &Event| matches!(event, Event::Wavelengths(_));
                 match self.events.iter().rposition(drawn) {
@@ -168,7 +170,7 @@ impl Notes {
                     None => self.note(event),
                 }
             }
-            Remark::Gathering { radius, among } => {
+            TraceEvent::Gathering { radius, among } => {
                 self.gathering = true;
                 self.events.push(Event::Photons {
                     radius,
@@ -176,7 +178,7 @@ impl Notes {
                     photons: Vec::new(),
                 });
             }
-            Remark::Photon(photon) => {
+            TraceEvent::Photon(photon) => {
                 let sensor = sensor_response(&photon.wavelengths);
                 let rgb = sensor.rgb(photon.estimate * self.weight).to_array();
                 if photon.estimate != Vec4::ZERO
@@ -185,9 +187,9 @@ impl Notes {
                     photons.push(Gathered { photon, rgb });
                 }
             }
-            Remark::Gathered => self.gathering = false,
-            Remark::Technique { light, camera } => self.note(Event::Technique(light, camera)),
-            Remark::Chain(remark) => {
+            TraceEvent::Gathered => self.gathering = false,
+            TraceEvent::Technique { light, camera } => self.note(Event::Technique(light, camera)),
+            TraceEvent::Chain(remark) => {
                 if let ChainRemark::Uniform(_)
                 | ChainRemark::Begins { .. }
                 | ChainRemark::Proposal { .. } = remark
@@ -207,7 +209,7 @@ impl Place {
     /// Value and densities after a direction was sampled there.
     pub(super) fn extended(mut self, sample: Option<&BsdfSample>) -> Self {
         if let (Some(prefix), Some(sample)) = (&mut self.prefix, sample) {
-            prefix.extend(sample.value, sample.chance.lanes());
+            prefix.scatter(sample.value, sample.chance.lanes());
         }
         self
     }
@@ -215,11 +217,11 @@ impl Place {
 
 /// A notebook that many may write to.
 #[derive(Default)]
-pub(super) struct Notebook(Mutex<Notes>);
+pub(super) struct SharedEventLog(Mutex<EventLog>);
 
-impl Notebook {
+impl SharedEventLog {
     /// Changes the notes.
-    pub(super) fn write<T>(&self, change: impl FnOnce(&mut Notes) -> T) -> T {
+    pub(super) fn write<T>(&self, change: impl FnOnce(&mut EventLog) -> T) -> T {
         change(&mut self.0.lock().unwrap_or_else(PoisonError::into_inner))
     }
 
@@ -230,6 +232,6 @@ impl Notebook {
 
     /// Everything that happened.
     pub(super) fn take_events(&self) -> Vec<Event> {
-        self.write(Notes::take_events)
+        self.write(EventLog::take_events)
     }
 }

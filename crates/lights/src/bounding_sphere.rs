@@ -7,14 +7,14 @@ use glam::{Vec2, Vec3};
 
 /// A sphere that holds everything that light can fall on.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Bounds {
+pub struct BoundingSphere {
     /// Its centre (m).
     pub centre: Vec3,
     /// Its radius (m); zero if there is nothing.
     pub radius: f32,
 }
 
-impl Bounds {
+impl BoundingSphere {
     /// The sphere around the box from `low` to `high`, a little larger, so that rays that start
     /// on it start outside of everything. Nothing at all if the box is empty or not finite.
     pub fn of_box(low: Vec3, high: Vec3) -> Self {
@@ -35,7 +35,7 @@ impl Bounds {
         core::f64::consts::PI * f64::from(self.radius) * f64::from(self.radius)
     }
 
-    /// The density of the rays of [`Bounds::ray_into`] over a cross-section (m⁻²); zero where there
+    /// The density of the rays of [`BoundingSphere::ray_into`] over a cross-section (m⁻²); zero where there
     /// is nothing to enter.
     #[inline]
     pub fn ray_density(&self) -> f32 {

@@ -1,4 +1,4 @@
-//! What goes along with a path in training: it remembers, for every corner, what came from the direction taken.
+//! A training path of path guiding: remembers, for every vertex, what radiance came from the sampled direction.
 //!
 //! ```text
 //! L(x, ω) ≈ Le(y) + L_lights(y) + ρ(y)·E(y)/π,        y the surface seen from x along ω
@@ -8,25 +8,25 @@
 //! sample taken at y; ρ its albedo; E the irradiance that scattering found there in the
 //! round before: the mean record of y's region and face. Whatever the path finds behind y is a noisy
 //! estimate of the last term, and replaced by it (expected SARSA: Dahm & Keller 2017, "Learning Light Transport
-//! the Reinforced Way"). In a corridor lit from around a corner one path of hundreds finds the light, but
-//! every one finds a surface of which something is known.
+//! the Reinforced Way"). With indirect light only, few training paths reach a light; the irradiance cached at the
+//! next diffuse surface gives every path a useful estimate.
 //!
 //! That term is true of diffuse surfaces. Where a surface scatters otherwise, the path itself tells what comes
 //! from it, up to the next diffuse one.
 
 use super::field;
-use super::fraction::Rivals;
-use super::guide::{Guide, toward};
-use super::steering::Steered;
-use crate::companion::Companion;
-use crate::prefix::Prefix;
-use etalon_transport::{Bsdf, BsdfSample, Vertex};
+use super::fraction::AlternativePdfs;
+use super::guide::{GuidedHooks, toward};
+use super::steering::GuidedBsdf;
+use crate::path_hooks::PathHooks;
+use crate::path_throughput::PathThroughput;
+use etalon_transport::{Bsdf, BsdfSample, SurfaceInteraction};
 use glam::{Vec3, Vec4};
 use std::f32::consts::FRAC_1_PI;
 use std::ops::RangeInclusive;
 
 /// A corner of a path: the direction it took, and what it found that way.
-struct Corner {
+struct PathVertex {
     position: Vec3,
     /// The shading normal on the side from which the path came.
     normal: Vec3,
@@ -37,9 +37,9 @@ struct Corner {
     density: f32,
     discrete: bool,
     /// How it might have been found, where something is known of where light comes from.
-    rivals: Option<Rivals>,
+    rivals: Option<AlternativePdfs>,
     /// The path that leaves the corner.
-    prefix: Prefix,
+    prefix: PathThroughput,
     found: Vec4,
 }
 
@@ -55,15 +55,15 @@ pub(crate) struct Record {
     pub(crate) weight: Option<f32>,
     /// What the surface scatters of it, over the density of the direction, and how else that might have been
     /// found.
-    pub(crate) scattered: Option<(f32, Rivals)>,
+    pub(crate) scattered: Option<(f32, AlternativePdfs)>,
 }
 
 /// Steers a path in training and remembers what it finds at every corner.
-pub(crate) struct Pupil<'f> {
-    guide: Guide<'f>,
-    corners: Vec<Corner>,
+pub(crate) struct TrainingPath<'f> {
+    guide: GuidedHooks<'f>,
+    corners: Vec<PathVertex>,
     /// The path as it left the last surface.
-    path: Prefix,
+    path: PathThroughput,
     /// The first corner that still waits for what comes from its direction.
     open: usize,
     /// The corners that waited when the light sample was chosen.
@@ -73,12 +73,12 @@ pub(crate) struct Pupil<'f> {
 /// How much more light a surface may scatter into a direction than a diffuse one of its albedo, to pass for one.
 const DIFFUSE: RangeInclusive<f32> = 0.7..=1.4;
 
-impl<'f> Pupil<'f> {
-    pub(crate) fn new(guide: Guide<'f>) -> Self {
+impl<'f> TrainingPath<'f> {
+    pub(crate) fn new(guide: GuidedHooks<'f>) -> Self {
         Self {
             guide,
             corners: Vec::new(),
-            path: Prefix::START,
+            path: PathThroughput::START,
             open: 0,
             before_light: (0, 0),
         }
@@ -87,7 +87,7 @@ impl<'f> Pupil<'f> {
     /// Begins another path.
     pub(crate) fn begin(&mut self) {
         self.corners.clear();
-        self.path = Prefix::START;
+        self.path = PathThroughput::START;
         self.open = 0;
         self.before_light = (0, 0);
         self.guide.reflected = 1.0;
@@ -113,7 +113,7 @@ impl<'f> Pupil<'f> {
     fn reflect(&mut self, position: Vec3, normal: Vec3, albedo: Vec4) {
         let irradiance = self.guide.field.irradiance(position, normal);
         let radiance = albedo * (irradiance * FRAC_1_PI);
-        let estimate = self.path.estimate(radiance, Vec4::ZERO);
+        let estimate = self.path.contribution(radiance, Vec4::ZERO);
         for corner in &mut self.corners[self.open..] {
             corner.found += estimate;
         }
@@ -121,36 +121,41 @@ impl<'f> Pupil<'f> {
     }
 }
 
-impl Corner {
+impl PathVertex {
     /// An estimate of the radiance that comes from the corner's direction, times `factor`, the mean over the lanes,
     /// which are drawn as the eye sees. Exact in expectation where later densities are the same in all lanes; but
     /// for noise, nothing depends on it.
     fn incident(&self, factor: Vec4) -> f32 {
-        let value = self.prefix.value;
+        let value = self.prefix.beta;
         let seen = value.cmpgt(Vec4::ZERO);
-        let radiance = factor * self.found * self.prefix.ratio.element_sum() / value;
+        let radiance = factor * self.found * self.prefix.r_u.element_sum() / value;
         0.25 * Vec4::select(seen, radiance, Vec4::ZERO).element_sum()
     }
 }
 
-impl<'f> Companion for Pupil<'f> {
-    type Steered<B: Bsdf + Copy> = Steered<'f, B>;
+impl<'f> PathHooks for TrainingPath<'f> {
+    type GuidedBsdf<B: Bsdf + Copy> = GuidedBsdf<'f, B>;
 
-    fn steer<B: Bsdf + Copy>(&self, vertex: &Vertex, wo: Vec3, bsdf: B) -> Steered<'f, B> {
-        self.guide.steer(vertex, wo, bsdf)
+    fn wrap_bsdf<B: Bsdf + Copy>(
+        &self,
+        vertex: &SurfaceInteraction,
+        wo: Vec3,
+        bsdf: B,
+    ) -> GuidedBsdf<'f, B> {
+        self.guide.wrap_bsdf(vertex, wo, bsdf)
     }
 
-    fn scattered(
+    fn on_scatter(
         &mut self,
-        vertex: &Vertex,
+        vertex: &SurfaceInteraction,
         bsdf: &impl Bsdf,
         wo: Vec3,
         sample: &BsdfSample,
-        prefix: &Prefix,
+        prefix: &PathThroughput,
     ) {
-        self.guide.scattered(vertex, bsdf, wo, sample, prefix);
+        self.guide.on_scatter(vertex, bsdf, wo, sample, prefix);
         let normal = toward(vertex, wo);
-        let discrete = sample.chance.is_discrete();
+        let discrete = sample.chance.is_delta();
         if !discrete {
             let albedo = bsdf.albedo(wo);
             let diffuse = albedo.element_sum() * normal.dot(sample.wi).abs() * FRAC_1_PI;
@@ -159,27 +164,27 @@ impl<'f> Companion for Pupil<'f> {
             }
         }
         let density = 0.25 * sample.chance.lanes().element_sum();
-        let lobe = match bsdf.has_continuous() && !sample.passes {
+        let lobe = match bsdf.has_continuous() && !sample.is_null {
             true => self.guide.field.lobe(vertex.position, normal),
             false => None,
         };
         let rivals = lobe.map(|(lobe, share)| match discrete {
-            true => Rivals {
+            true => AlternativePdfs {
                 own: 1.0,
                 learned: 0.0,
             },
             false => {
-                let scattered = 1.0 - 0.25 * bsdf.passing_probability().element_sum();
-                let learned = scattered * field::density(lobe, sample.wi).chooser();
+                let scattered = 1.0 - 0.25 * bsdf.null_probability().element_sum();
+                let learned = scattered * field::density(lobe, sample.wi).hero();
                 let own = (density - (1.0 - share) * learned) / share;
-                Rivals {
+                AlternativePdfs {
                     own: own.max(0.0),
                     learned,
                 }
             }
         });
         if !discrete || rivals.is_some() {
-            self.corners.push(Corner {
+            self.corners.push(PathVertex {
                 position: vertex.position,
                 normal,
                 direction: sample.wi,
@@ -194,26 +199,26 @@ impl<'f> Companion for Pupil<'f> {
         self.path = *prefix;
     }
 
-    fn found(&mut self, estimate: Vec4) {
+    fn on_emission(&mut self, estimate: Vec4) {
         for corner in &mut self.corners[self.open..] {
             corner.found += estimate;
         }
     }
 
-    fn aimed(&mut self) {
+    fn on_light_sample(&mut self) {
         self.before_light = (self.open, self.corners.len());
     }
 
-    fn lit(&mut self, estimate: Vec4) {
+    fn on_light_contribution(&mut self, estimate: Vec4) {
         let (open, end) = self.before_light;
         for corner in &mut self.corners[open..end] {
             corner.found += estimate;
         }
     }
 
-    fn survival(&mut self, prefix: &Prefix, eta: f32) -> f32 {
+    fn survival(&mut self, prefix: &PathThroughput, eta: f32) -> f32 {
         let survival = self.guide.survival(prefix, eta);
-        self.path.survive(survival);
+        self.path.roulette(survival);
         survival
     }
 }
@@ -221,10 +226,10 @@ impl<'f> Companion for Pupil<'f> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::guided::field::{FACES, Field, Lesson, Lobes};
-    use etalon_math::{Atom, Density, Frame, SolidAngle};
+    use crate::guided::field::{FACES, Lobes, RegionUpdate, SdTree};
+    use etalon_math::{DeltaProbability, Density, Frame, SolidAngle};
     use etalon_sampling::discrete::{Quadtree, Refinement};
-    use etalon_transport::{Chance, InstanceId, LightId, MaterialId, Mode, ShapeId};
+    use etalon_transport::{InstanceId, LightId, MaterialId, SamplePdf, ShapeId, TransportMode};
     use glam::Vec2;
 
     const ALBEDO: f32 = 0.5;
@@ -237,22 +242,22 @@ mod tests {
     struct Grey;
 
     impl Bsdf for Grey {
-        fn eval(&self, _: Vec3, wi: Vec3, _: Mode) -> Vec4 {
+        fn eval(&self, _: Vec3, wi: Vec3, _: TransportMode) -> Vec4 {
             Vec4::splat(ALBEDO * wi.z.max(0.0) * FRAC_1_PI)
         }
         fn density(&self, _: Vec3, _: Vec3) -> Density<SolidAngle> {
             Density::uniform(DENSITY)
         }
-        fn sample(&self, _: Vec3, _: f32, _: Vec2, _: Mode) -> Option<BsdfSample> {
+        fn sample(&self, _: Vec3, _: f32, _: Vec2, _: TransportMode) -> Option<BsdfSample> {
             None
         }
         fn has_continuous(&self) -> bool {
             true
         }
-        fn passing(&self) -> Vec4 {
+        fn null_transmittance(&self) -> Vec4 {
             Vec4::ZERO
         }
-        fn passing_probability(&self) -> Vec4 {
+        fn null_probability(&self) -> Vec4 {
             Vec4::ZERO
         }
         fn albedo(&self, _: Vec3) -> Vec4 {
@@ -260,8 +265,8 @@ mod tests {
         }
     }
 
-    fn vertex() -> Vertex {
-        Vertex {
+    fn vertex() -> SurfaceInteraction {
+        SurfaceInteraction {
             position: Vec3::splat(0.5),
             error: Vec3::ZERO,
             depth: f32::NAN,
@@ -284,38 +289,38 @@ mod tests {
     /// The record of the first corner of a path of three surfaces that emit radiance 2, 4, 8 and by light samples
     /// send back 16, 32, 64. The second scatters `gain` times the light of a diffuse one.
     fn first_record(gain: f32) -> f32 {
-        let lesson = Lesson {
+        let lesson = RegionUpdate {
             lobes: Lobes::default(),
             irradiance: [IRRADIANCE; FACES],
             own: [0.5; FACES],
             records: 1,
         };
-        let field = Field::new(Vec3::ZERO, Vec3::ONE, 0.5).learned(vec![lesson], 10);
-        let mut pupil = Pupil::new(Guide {
+        let field = SdTree::new(Vec3::ZERO, Vec3::ONE, 0.5).learned(vec![lesson], 10);
+        let mut pupil = TrainingPath::new(GuidedHooks {
             field: &field,
             reflected: 1.0,
         });
         pupil.begin();
         let wi = Vec3::new(0.6, 0.0, COS);
-        let mut path = Prefix::START;
+        let mut path = PathThroughput::START;
         for (surface, gain) in [1.0, gain, 1.0].into_iter().enumerate() {
             let arriving = path;
-            let radiance = |r: f32| arriving.estimate(Vec4::splat(r), Vec4::ZERO);
-            pupil.found(radiance((2 << surface) as f32));
-            pupil.aimed();
+            let radiance = |r: f32| arriving.contribution(Vec4::splat(r), Vec4::ZERO);
+            pupil.on_emission(radiance((2 << surface) as f32));
+            pupil.on_light_sample();
             let sample = BsdfSample {
                 wi,
-                value: Grey.eval(Vec3::Z, wi, Mode::Radiance) * gain,
-                chance: Chance::Continuous(Density::uniform(DENSITY)),
+                value: Grey.eval(Vec3::Z, wi, TransportMode::Radiance) * gain,
+                chance: SamplePdf::Continuous(Density::uniform(DENSITY)),
                 eta: 1.0,
-                passes: false,
+                is_null: false,
             };
-            path.extend(sample.value, sample.chance.lanes());
-            pupil.scattered(&vertex(), &Grey, Vec3::Z, &sample, &path);
+            path.scatter(sample.value, sample.chance.lanes());
+            pupil.on_scatter(&vertex(), &Grey, Vec3::Z, &sample, &path);
             // Roulette is no light: what survives counts for more, and here all does.
             let survival = pupil.survival(&path, 1.0);
-            path.survive(survival);
-            pupil.lit(radiance((16 << surface) as f32));
+            path.roulette(survival);
+            pupil.on_light_contribution(radiance((16 << surface) as f32));
         }
         let first = pupil.records().next().expect("the first corner");
         first.weight.expect("not discrete") * DENSITY / COS
@@ -347,16 +352,16 @@ mod tests {
                 depth: 1,
             },
         );
-        let lesson = Lesson {
+        let lesson = RegionUpdate {
             lobes: core::array::from_fn(|_| even.clone()),
             irradiance: [0.0; FACES],
             own: [SHARE; FACES],
             records: 1,
         };
-        let field = Field::new(Vec3::ZERO, Vec3::ONE, 0.3).learned(vec![lesson], 10);
+        let field = SdTree::new(Vec3::ZERO, Vec3::ONE, 0.3).learned(vec![lesson], 10);
         let wi = Vec3::new(0.6, 0.0, COS);
-        let scattered = |chance: Chance| {
-            let mut pupil = Pupil::new(Guide {
+        let scattered = |chance: SamplePdf| {
+            let mut pupil = TrainingPath::new(GuidedHooks {
                 field: &field,
                 reflected: 1.0,
             });
@@ -366,19 +371,19 @@ mod tests {
                 value: Vec4::splat(ALBEDO),
                 chance,
                 eta: 1.0,
-                passes: false,
+                is_null: false,
             };
-            let mut path = Prefix::START;
-            path.extend(sample.value, sample.chance.lanes());
-            pupil.scattered(&vertex(), &Grey, Vec3::Z, &sample, &path);
-            pupil.found(path.estimate(Vec4::splat(2.0), Vec4::ZERO));
+            let mut path = PathThroughput::START;
+            path.scatter(sample.value, sample.chance.lanes());
+            pupil.on_scatter(&vertex(), &Grey, Vec3::Z, &sample, &path);
+            pupil.on_emission(path.contribution(Vec4::splat(2.0), Vec4::ZERO));
             let record = pupil.records().next().expect("a corner");
             let (light, rivals) = record.scattered.expect("rivals");
             (record.weight.is_some(), light, rivals)
         };
         let learned = 0.25 * FRAC_1_PI;
         let mixed = SHARE * DENSITY + (1.0 - SHARE) * learned;
-        let (continuous, light, rivals) = scattered(Chance::Continuous(Density::uniform(mixed)));
+        let (continuous, light, rivals) = scattered(SamplePdf::Continuous(Density::uniform(mixed)));
         assert!(
             continuous && (light / (2.0 * ALBEDO / mixed) - 1.0).abs() < 1e-5,
             "{light}"
@@ -386,7 +391,8 @@ mod tests {
         assert!((rivals.own / DENSITY - 1.0).abs() < 1e-4, "{rivals:?}");
         assert!((rivals.learned / learned - 1.0).abs() < 1e-5, "{rivals:?}");
         // Discrete directions are found by the model alone.
-        let (continuous, light, rivals) = scattered(Chance::Discrete(Atom(Vec4::splat(0.25))));
+        let (continuous, light, rivals) =
+            scattered(SamplePdf::Discrete(DeltaProbability(Vec4::splat(0.25))));
         assert!(
             !continuous && (light / (2.0 * ALBEDO / 0.25) - 1.0).abs() < 1e-5,
             "{light}"

@@ -1,68 +1,69 @@
 //! One path of the path tracer, from surface to surface.
 
 use crate::candidates::{Aim, Candidates};
-use crate::companion::Companion;
-use crate::dimensions::Event;
+use crate::dimensions::BounceSamples;
+use crate::light_mis::LightMis;
 use crate::path::camera_ray;
-use crate::prefix::Prefix;
-use crate::rival::Rival;
+use crate::path_hooks::PathHooks;
+use crate::path_throughput::PathThroughput;
 use crate::settings::{LightCandidates, PathSettings};
 use core::ops::Range;
 use etalon_sampling::Sampler;
 use etalon_spectrum::{Wavelengths, sensor_response};
 use etalon_transport::{
-    Bsdf, Hit, LightSample, Mode, PixelSite, Ray, Receiver, Sink, Vertex, World,
+    Bsdf, Hit, LightSample, LightSampleContext, PixelSample, Ray, Sink, SurfaceInteraction,
+    TransportMode, World,
 };
 use glam::{Vec3, Vec4};
 
 /// A path being followed.
-pub(crate) struct Walk<'a, S, C = ()> {
+pub(crate) struct PathState<'a, S, C = ()> {
     sampler: &'a mut S,
     wavelengths: Wavelengths,
     /// The factor by which what is found counts.
     weight: f32,
     ray: Ray,
-    /// What `ray` hits, once that was asked.
+    /// The closest hit of `ray`, after `intersect`.
     hit: Option<Hit>,
-    prefix: Prefix,
-    rival: Rival,
+    throughput: PathThroughput,
+    light_mis: LightMis,
     /// The product of the indices of refraction passed.
     eta: f32,
     /// Number of segments, that of `ray` included.
     depth: u32,
-    /// Surfaces behind at which it scattered, not counting those that it passed straight.
-    corners: u32,
+    /// Scattering events so far, null interactions not counted.
+    scatter_count: u32,
     /// Whether the path goes on with `ray`.
     goes_on: bool,
-    connection: Option<Connection>,
+    shadow_ray: Option<ShadowRay>,
     /// How many light samples compete for the shadow ray of the next surface. One, once the path was scattered at
     /// random: what is farther down the path adds less noise than the samples take time.
     candidates: LightCandidates,
     /// The radiance found, per lane, over the sum of all densities' ratios (see
-    /// [`Prefix::estimate`]).
+    /// [`PathThroughput::contribution`]).
     radiance: Vec4,
-    /// 1 if the path met anything that it did not pass straight, the background included; where
-    /// its length ends at a surface, the probability of that.
+    /// 1 if the path had an interaction that is not null, the background included; where the last segment
+    /// ends at a surface, the probability of that.
     alpha: f32,
-    companion: C,
+    hooks: C,
 }
 
 /// A light sample before its shadow ray is traced.
-struct Connection {
+struct ShadowRay {
     ray: Ray,
     crossings: u32,
     aim: Aim,
 }
 
-impl<'a, S: Sampler, C: Companion> Walk<'a, S, C> {
+impl<'a, S: Sampler, C: PathHooks> PathState<'a, S, C> {
     /// The path of a sample, before its first surface is known.
     #[inline]
     pub(crate) fn start<W: World>(
         world: &W,
         settings: &PathSettings,
-        site: &PixelSite,
+        site: &PixelSample,
         sampler: &'a mut S,
-        companion: C,
+        hooks: C,
     ) -> Self {
         let (wavelengths, ray, weight) = camera_ray(world, site, sampler);
         Self {
@@ -71,17 +72,17 @@ impl<'a, S: Sampler, C: Companion> Walk<'a, S, C> {
             weight,
             ray,
             hit: None,
-            prefix: Prefix::START,
-            rival: Rival::NONE,
+            throughput: PathThroughput::START,
+            light_mis: LightMis::NONE,
             eta: 1.0,
             depth: 1,
-            corners: 0,
+            scatter_count: 0,
             goes_on: settings.max_depth > 0,
-            connection: None,
+            shadow_ray: None,
             candidates: LightCandidates::ONE,
             radiance: Vec4::ZERO,
             alpha: 0.0,
-            companion,
+            hooks,
         }
     }
 
@@ -91,10 +92,10 @@ impl<'a, S: Sampler, C: Companion> Walk<'a, S, C> {
         Self { candidates, ..self }
     }
 
-    /// The companion, at the end.
+    /// The hooks, when the path has ended.
     #[inline]
-    pub(crate) fn into_companion(self) -> C {
-        self.companion
+    pub(crate) fn into_hooks(self) -> C {
+        self.hooks
     }
 
     /// Whether the path goes on.
@@ -103,13 +104,13 @@ impl<'a, S: Sampler, C: Companion> Walk<'a, S, C> {
         self.goes_on
     }
 
-    /// How opaque what it met is.
+    /// The opacity of what the path has hit.
     #[inline]
     pub(crate) fn alpha(&self) -> f32 {
         self.alpha
     }
 
-    /// Delivers what was found.
+    /// Writes the result to a sink.
     #[inline]
     pub(crate) fn deliver(&self, sink: &mut impl Sink) {
         sink.radiance(self.colour().to_array(), self.alpha);
@@ -121,38 +122,38 @@ impl<'a, S: Sampler, C: Companion> Walk<'a, S, C> {
         sensor_response(&self.wavelengths).rgb(self.radiance * self.weight)
     }
 
-    /// Follows the path alone and to its end, but keeps of what it finds only the paths with as
-    /// many corners as `wanted` says.
+    /// Traces the path to its end; of its contributions only those of paths whose number of scattering
+    /// events is in `wanted` count.
     pub(crate) fn follow<W: World>(
         &mut self,
         world: &W,
         settings: &PathSettings,
         wanted: &Range<u32>,
     ) {
-        while self.goes_on && self.corners < wanted.end {
-            self.advance(world);
-            let (radiance, corners) = (self.radiance, self.corners);
-            self.meet(world, settings);
-            if corners < wanted.start {
+        while self.goes_on && self.scatter_count < wanted.end {
+            self.intersect(world);
+            let (radiance, scatter_count) = (self.radiance, self.scatter_count);
+            self.shade(world, settings);
+            if scatter_count < wanted.start {
                 self.radiance = radiance;
             }
-            if wanted.contains(&(corners + 1)) {
-                self.see_light(world);
+            if wanted.contains(&(scatter_count + 1)) {
+                self.trace_shadow(world);
             } else {
-                self.connection = None;
+                self.shadow_ray = None;
             }
         }
     }
 
     /// Finds the next surface.
     #[inline]
-    pub(crate) fn advance<W: World>(&mut self, world: &W) {
+    pub(crate) fn intersect<W: World>(&mut self, world: &W) {
         self.hit = world.intersect(&self.ray);
     }
 
-    /// Meets the surface found: adds what it emits, prepares a light sample, and scatters.
+    /// Shades the hit: adds emission, prepares next-event estimation, and samples the BSDF.
     #[inline]
-    pub(crate) fn meet<W: World>(&mut self, world: &W, settings: &PathSettings) {
+    pub(crate) fn shade<W: World>(&mut self, world: &W, settings: &PathSettings) {
         self.goes_on = false;
         let direction = self.ray.direction;
         let Some(hit) = self.hit else {
@@ -161,10 +162,10 @@ impl<'a, S: Sampler, C: Companion> Walk<'a, S, C> {
             if visible && world.has_background() {
                 self.alpha = 1.0;
                 let radiance = world.background(direction, &self.wavelengths);
-                let other = self.rival.at_background(world, direction);
-                let estimate = self.prefix.estimate(radiance, other);
+                let other = self.light_mis.pdf_at_background(world, direction);
+                let estimate = self.throughput.contribution(radiance, other);
                 self.radiance += estimate;
-                self.companion.found(estimate);
+                self.hooks.on_emission(estimate);
             }
             return;
         };
@@ -184,89 +185,90 @@ impl<'a, S: Sampler, C: Companion> Walk<'a, S, C> {
         if emits {
             let radiance = world.emitted(&vertex, wo, &self.wavelengths);
             if radiance != Vec4::ZERO {
-                let other = self.rival.at_surface(world, &vertex, direction);
-                let estimate = self.prefix.estimate(radiance, other);
+                let other = self.light_mis.pdf_at_surface(world, &vertex, direction);
+                let estimate = self.throughput.contribution(radiance, other);
                 self.radiance += estimate;
-                self.companion.found(estimate);
+                self.hooks.on_emission(estimate);
             }
         }
         let bsdf = world.bsdf(&vertex, wo, &self.wavelengths);
-        let bsdf = self.companion.steer(&vertex, wo, bsdf);
+        let bsdf = self.hooks.wrap_bsdf(&vertex, wo, bsdf);
         if last {
-            // Where the path would go on we do not ask; how likely straight on, we know.
-            let stopped = 1.0 - 0.25 * bsdf.passing_probability().element_sum();
+            // No direction is sampled at the last vertex: its null probability alone estimates alpha.
+            let stopped = 1.0 - 0.25 * bsdf.null_probability().element_sum();
             self.alpha = self.alpha.max(stopped);
             return;
         }
-        let event = Event::draw(self.sampler, self.depth - 1);
-        let from = Receiver::new(&vertex, wo, &bsdf).combined();
+        let event = BounceSamples::draw(self.sampler, self.depth - 1);
+        let from = LightSampleContext::new(&vertex, wo, &bsdf).combined();
         if bsdf.has_continuous() {
-            let prefix = self.prefix;
+            let throughput = self.throughput;
             let candidates = Candidates::at(self.candidates, world, &from);
-            let aim = |light: &LightSample| Aim::new(light, &prefix, &bsdf, wo, [1.0; 2]);
+            let aim = |light: &LightSample| Aim::new(light, &throughput, &bsdf, wo, [1.0; 2]);
             let aim = candidates.draw(world, &from, &self.wavelengths, &event, self.sampler, aim);
-            self.connection = aim.and_then(|aim| {
-                Some(Connection {
+            self.shadow_ray = aim.and_then(|aim| {
+                Some(ShadowRay {
                     ray: vertex.shadow_ray(aim.direction, aim.target)?,
                     crossings: settings.max_depth - self.depth - 1,
                     aim,
                 })
             });
-            self.companion.aimed();
+            self.hooks.on_light_sample();
         }
         self.scatter(&vertex, &from, &bsdf, wo, settings, &event);
     }
 
-    /// Takes the path around the corner, or ends it.
+    /// Samples the BSDF and plays Russian roulette: extends the path, or ends it.
     #[inline]
     fn scatter(
         &mut self,
-        vertex: &Vertex,
-        from: &Receiver,
+        vertex: &SurfaceInteraction,
+        from: &LightSampleContext,
         bsdf: &impl Bsdf,
         wo: Vec3,
         settings: &PathSettings,
-        event: &Event,
+        event: &BounceSamples,
     ) {
-        let Some(sample) = bsdf.sample(wo, event.lobe, event.direction, Mode::Radiance) else {
+        let Some(sample) = bsdf.sample(wo, event.lobe, event.direction, TransportMode::Radiance)
+        else {
             self.alpha = 1.0;
             return;
         };
-        if !sample.passes {
+        if !sample.is_null {
             self.alpha = 1.0;
-            self.corners += 1;
+            self.scatter_count += 1;
         }
-        if !sample.chance.is_discrete() {
+        if !sample.chance.is_delta() {
             self.candidates = LightCandidates::ONE;
         }
-        self.rival = self.rival.after(&self.prefix, from, &sample);
-        self.prefix.extend(sample.value, sample.chance.lanes());
+        self.light_mis = self.light_mis.after(&self.throughput, from, &sample);
+        self.throughput.scatter(sample.value, sample.chance.lanes());
         self.eta *= sample.eta;
         self.ray = vertex.spawn(sample.wi);
-        (self.companion).scattered(vertex, bsdf, wo, &sample, &self.prefix);
+        (self.hooks).on_scatter(vertex, bsdf, wo, &sample, &self.throughput);
         if self.depth >= settings.rr_depth {
-            let survival = self.companion.survival(&self.prefix, self.eta);
+            let survival = self.hooks.survival(&self.throughput, self.eta);
             if !(event.roulette < survival) {
                 return;
             }
-            self.prefix.survive(survival);
+            self.throughput.roulette(survival);
         }
         self.depth += 1;
-        self.goes_on = self.prefix.value != Vec4::ZERO;
+        self.goes_on = self.throughput.beta != Vec4::ZERO;
     }
 
     /// Traces the shadow ray of the light sample that was prepared, if any.
     #[inline]
-    pub(crate) fn see_light<W: World>(&mut self, world: &W) {
-        let Some(light) = self.connection.take() else {
+    pub(crate) fn trace_shadow<W: World>(&mut self, world: &W) {
+        let Some(light) = self.shadow_ray.take() else {
             return;
         };
-        if let Some(passage) = world.passage(&light.ray, &self.wavelengths, light.crossings) {
+        if let Some(passage) = world.transmittance(&light.ray, &self.wavelengths, light.crossings) {
             let estimate = light
                 .aim
                 .estimate(passage.transmittance, passage.probability);
             self.radiance += estimate;
-            self.companion.lit(estimate);
+            self.hooks.on_light_contribution(estimate);
         }
     }
 }

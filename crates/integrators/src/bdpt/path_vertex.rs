@@ -1,30 +1,30 @@
 //! A corner of a subpath, and how densities change from solid angle to area.
 
-use crate::prefix::Prefix;
-use etalon_transport::{Bsdf, BsdfSample, Chance, Receiver, Vertex};
+use crate::path_throughput::PathThroughput;
+use etalon_transport::{Bsdf, BsdfSample, LightSampleContext, SamplePdf, SurfaceInteraction};
 use glam::{Vec3, Vec4};
 
 /// A surface that a subpath met. What it scatters next is known to the corner after it.
 #[derive(Clone, Copy)]
-pub(crate) struct Corner<B> {
+pub(crate) struct PathVertex<B> {
     /// The surface.
-    pub(super) vertex: Vertex,
+    pub(super) vertex: SurfaceInteraction,
     /// The scattering model there, for `wo`.
     pub(super) bsdf: B,
     /// Unit direction back along the subpath.
     pub(super) wo: Vec3,
     /// The subpath up to its arrival here, before it scatters.
-    pub(super) prefix: Prefix,
+    pub(super) prefix: PathThroughput,
     /// Density of the arrival given the corner before, of the lane that chose: per unit area (m⁻²),
     /// times the probability of passing what lies in between.
     pub(super) arrival: f32,
     /// The same, for each lane, of a walk from the other end that comes from the next corner: its density
     /// of arriving *here*. Known once the subpath has left the next corner.
-    pub(super) opposite: Vec4,
+    pub(super) pdf_rev: Vec4,
     /// Probability of passing what lies between the corner before and this one, per lane.
     pub(super) passed: Vec4,
     /// Whether the subpath left in a discrete direction.
-    pub(super) leaves_discretely: bool,
+    pub(super) is_delta: bool,
     /// Segments from the subpath's beginning, those through passed surfaces included.
     pub(super) segments: u32,
     /// The corner before this one on a walk from the light; `None` if that is the light.
@@ -34,7 +34,7 @@ pub(crate) struct Corner<B> {
     pub(super) direct: f32,
 }
 
-impl<B> Corner<B> {
+impl<B> PathVertex<B> {
     /// The densities of a sampled direction, per lane, and of its reverse: of having come along it and
     /// leaving along `wo`. Per solid angle if they are continuous, else see [`discrete`].
     #[inline]
@@ -43,22 +43,24 @@ impl<B> Corner<B> {
         B: Bsdf,
     {
         match sample.chance {
-            Chance::Continuous(density) => {
+            SamplePdf::Continuous(density) => {
                 let back = self.bsdf.density(sample.wi, self.wo);
                 [density.lanes(), back.lanes()]
             }
-            Chance::Discrete(atom) => discrete(self.wo, sample.wi, sample.eta).map(|d| atom.0 * d),
+            SamplePdf::Discrete(atom) => {
+                discrete(self.wo, sample.wi, sample.eta).map(|d| atom.0 * d)
+            }
         }
     }
 
     /// The corner as light arrives at it that some technique is to find; on a light's walk, where what
     /// scatters to one side only is lit from `wo`'s.
     #[inline]
-    pub(super) fn receiver(&self) -> Receiver
+    pub(super) fn receiver(&self) -> LightSampleContext
     where
         B: Bsdf,
     {
-        Receiver::new(&self.vertex, self.wo, &self.bsdf).combined()
+        LightSampleContext::new(&self.vertex, self.wo, &self.bsdf).combined()
     }
 
     /// Solid angle per area here, seen from `distance_squared` away along `direction`.

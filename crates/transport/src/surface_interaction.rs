@@ -25,7 +25,7 @@ pub struct Hit {
 
 /// A point of a surface with its differential geometry.
 #[derive(Clone, Copy, Debug)]
-pub struct Vertex {
+pub struct SurfaceInteraction {
     /// Position (m, world).
     pub position: Vec3,
     /// Bound on the absolute error of each coordinate of `position`.
@@ -61,7 +61,7 @@ pub struct Vertex {
     pub light: LightId,
 }
 
-impl Vertex {
+impl SurfaceInteraction {
     /// A half-line that leaves this surface.
     #[inline]
     pub fn spawn(&self, direction: Vec3) -> Ray {

@@ -1,4 +1,4 @@
-//! The beginning of a path, with its value and its densities for all four wavelengths.
+//! The throughput of a path and its densities, for all four wavelengths.
 //!
 //! The estimator of the whole renderer is
 //!
@@ -10,10 +10,11 @@
 //! technique t had lane k been the one that chose (Wilkie, Nawaz, Droske, Weidlich, Hanika 2014,
 //! "Hero Wavelength Spectral Sampling", eq. 7, with the balance heuristic over lanes *and*
 //! techniques at once). Neither f nor p is ever formed: both can leave the range of f32 on a
-//! long path. A prefix carries their quotients by the density p₀ of the lane that really chose:
+//! long path. What is carried are their quotients by the density p₀ of the hero wavelength; pbrt-v4 has the
+//! same two numbers under the same names:
 //!
 //! ```text
-//! value  = f / p₀          ratio = pₖ / p₀
+//! beta = f / p₀            r_u = pₖ / p₀
 //! ```
 //!
 //! The density p(λⱼ) with which wavelengths were drawn is divided out once, at the sensor
@@ -23,48 +24,48 @@ use glam::Vec4;
 
 /// A path up to some vertex.
 #[derive(Clone, Copy, Debug)]
-pub struct Prefix {
+pub struct PathThroughput {
     /// fⱼ / p₀.
-    pub value: Vec4,
+    pub beta: Vec4,
     /// pₖ / p₀.
-    pub ratio: Vec4,
+    pub r_u: Vec4,
 }
 
-impl Prefix {
+impl PathThroughput {
     /// The empty path of a camera, whose densities do not depend on wavelength.
     pub const START: Self = Self {
-        value: Vec4::ONE,
-        ratio: Vec4::ONE,
+        beta: Vec4::ONE,
+        r_u: Vec4::ONE,
     };
 
     /// Extends the path by an event with contribution `factor` and densities `chance` (lane 0
     /// is the one that chose).
     #[inline]
-    pub fn extend(&mut self, factor: Vec4, chance: Vec4) {
+    pub fn scatter(&mut self, factor: Vec4, chance: Vec4) {
         let inverse = 1.0 / chance.x;
-        self.value *= factor * inverse;
-        self.ratio *= chance * inverse;
+        self.beta *= factor * inverse;
+        self.r_u *= chance * inverse;
     }
 
     /// Survives Russian roulette of probability `q`, a rule symmetric in the lanes: it scales
     /// every lane's density alike.
     #[inline]
-    pub fn survive(&mut self, q: f32) {
-        self.value /= q;
+    pub fn roulette(&mut self, q: f32) {
+        self.beta /= q;
     }
 
     /// What decides Russian roulette: the largest fⱼ over the mean of pₖ, symmetric in the lanes
     /// and equal to the throughput of an ordinary path tracer where lanes agree.
     #[inline]
     pub fn throughput(&self) -> f32 {
-        4.0 * self.value.max_element() / self.ratio.element_sum()
+        4.0 * self.beta.max_element() / self.r_u.element_sum()
     }
 
     /// The estimate of a complete path that adds `radiance` at its end, when another technique
     /// could have found the same path with density ratio `other` (pₜ,ₖ / p₀; zero if none).
     #[inline]
-    pub fn estimate(&self, radiance: Vec4, other: Vec4) -> Vec4 {
-        self.value * radiance / (self.ratio + other).element_sum()
+    pub fn contribution(&self, radiance: Vec4, other: Vec4) -> Vec4 {
+        self.beta * radiance / (self.r_u + other).element_sum()
     }
 }
 
@@ -74,9 +75,9 @@ mod tests {
 
     #[test]
     fn one_technique_with_equal_lanes_is_plain_monte_carlo() {
-        let mut prefix = Prefix::START;
-        prefix.extend(Vec4::new(0.1, 0.2, 0.3, 0.4), Vec4::splat(0.5));
-        let estimate = prefix.estimate(Vec4::ONE, Vec4::ZERO);
+        let mut prefix = PathThroughput::START;
+        prefix.scatter(Vec4::new(0.1, 0.2, 0.3, 0.4), Vec4::splat(0.5));
+        let estimate = prefix.contribution(Vec4::ONE, Vec4::ZERO);
         // Each lane: f / p / 4.
         assert!(
             (estimate - Vec4::new(0.05, 0.1, 0.15, 0.2))
@@ -100,9 +101,9 @@ mod tests {
                 }
                 // Lane k chooses: rotate it to the front.
                 let rotate = |v: Vec4| Vec4::from_array([0, 1, 2, 3].map(|i| v[(i + k) % 4]));
-                let mut prefix = Prefix::START;
-                prefix.extend(Vec4::ONE, rotate(own));
-                let estimate = prefix.estimate(Vec4::ONE, rotate(other) / own[k]);
+                let mut prefix = PathThroughput::START;
+                prefix.scatter(Vec4::ONE, rotate(own));
+                let estimate = prefix.contribution(Vec4::ONE, rotate(other) / own[k]);
                 let back = Vec4::from_array([0, 1, 2, 3].map(|i| estimate[(i + 4 - k) % 4]));
                 total += own[k] * back;
             }
@@ -112,8 +113,8 @@ mod tests {
 
     #[test]
     fn a_lane_that_could_not_have_chosen_leaves_the_sum() {
-        let mut prefix = Prefix::START;
-        prefix.extend(Vec4::new(0.9, 0.0, 0.0, 0.0), Vec4::new(0.9, 0.0, 0.0, 0.0));
-        assert_eq!(prefix.estimate(Vec4::ONE, Vec4::ZERO), Vec4::X);
+        let mut prefix = PathThroughput::START;
+        prefix.scatter(Vec4::new(0.9, 0.0, 0.0, 0.0), Vec4::new(0.9, 0.0, 0.0, 0.0));
+        assert_eq!(prefix.contribution(Vec4::ONE, Vec4::ZERO), Vec4::X);
     }
 }

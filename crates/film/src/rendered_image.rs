@@ -18,7 +18,7 @@ use std::path::{Path, PathBuf};
 
 /// A picture with what is known of it.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Developed {
+pub struct RenderedImage {
     /// The channels, `standard_error.*` included.
     pub image: Image,
     /// Where the image lies in the whole film.
@@ -113,10 +113,10 @@ pub(crate) fn image_of(
 
 impl ExactFilm {
     /// The picture after the replicates finished so far; NaN in all pixels if there is none.
-    pub fn develop(&self, facts: RenderFacts) -> Developed {
+    pub fn develop(&self, facts: RenderFacts) -> RenderedImage {
         let settings = self.settings();
         let size = settings.crop_size.to_array().map(|n| n as usize);
-        Developed {
+        RenderedImage {
             image: image_of(
                 self.channels(),
                 self.moments(),
@@ -137,7 +137,11 @@ impl ExactFilm {
     /// The picture of a first replicate that was to have so many samples per pixel and was
     /// interrupted: every pixel is the mean of the samples that it has, without standard errors.
     /// `None` if a replicate is finished, or no sample is there.
-    pub fn develop_unfinished(&mut self, facts: RenderFacts, samples: u32) -> Option<Developed> {
+    pub fn develop_unfinished(
+        &mut self,
+        facts: RenderFacts,
+        samples: u32,
+    ) -> Option<RenderedImage> {
         let unfinished = self.unfinished().filter(|_| self.replicates() == 0)?;
         let mut developed = self.develop(facts);
         let size = [developed.image.width(), developed.image.height()];
@@ -153,7 +157,7 @@ impl ExactFilm {
     }
 }
 
-impl Developed {
+impl RenderedImage {
     /// The standard errors of a channel, if there are any.
     pub fn standard_error(&self, name: &str) -> Option<&[f32]> {
         self.image.channel(&format!("{STANDARD_ERROR}{name}"))
@@ -202,14 +206,17 @@ impl Developed {
 /// # Errors
 /// If it is not an EXR file that can be read, or if it has metadata of ours that contradict
 /// themselves or the image.
-pub fn read_developed(path: &Path) -> Result<Developed, ReadError> {
+pub fn read_developed(path: &Path) -> Result<RenderedImage, ReadError> {
     // The exact sums of a part are not for looking at.
     let (document, _) = exr::read_with_integers(path, EXACT).map_err(ReadError::Image)?;
     of_document(document, path)
 }
 
 /// The picture of a file that was read.
-pub(crate) fn of_document(document: exr::Document, path: &Path) -> Result<Developed, ReadError> {
+pub(crate) fn of_document(
+    document: exr::Document,
+    path: &Path,
+) -> Result<RenderedImage, ReadError> {
     let text = document.text.clone();
     let (image, frame) = document.flatten();
     let refused = |reason| ReadError::metadata(path, reason);
@@ -229,7 +236,7 @@ pub(crate) fn of_document(document: exr::Document, path: &Path) -> Result<Develo
     {
         return Err(refused(format!("they are of another picture: {what}")));
     }
-    Ok(Developed {
+    Ok(RenderedImage {
         image,
         frame,
         metadata,

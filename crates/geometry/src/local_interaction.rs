@@ -3,18 +3,18 @@
 use crate::Placement;
 use etalon_math::{Frame, gamma};
 use etalon_transport::{
-    InstanceId, LightId, MaterialId, ShapeId, SurfacePoint, TexturePoint, Vertex,
+    InstanceId, LightId, MaterialId, ShapeId, SurfaceInteraction, SurfacePoint, TexturePoint,
 };
 use glam::{DVec3, Vec2, Vec3};
 
 /// A point of a surface, in the space of its shape or of the world.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Surface {
+pub(crate) struct LocalInteraction {
     /// Position (m).
     pub(crate) position: Vec3,
     /// Bound on the absolute error of each coordinate of `position`.
     pub(crate) error: Vec3,
-    /// How far along `normal` from `position` the surface is; NaN if not known, see [`Vertex`].
+    /// How far along `normal` from `position` the surface is; NaN if not known, see [`SurfaceInteraction`].
     pub(crate) depth: f32,
     /// Unit geometric normal, outside.
     pub(crate) normal: Vec3,
@@ -28,7 +28,7 @@ pub(crate) struct Surface {
     pub(crate) dp_dv: Vec3,
 }
 
-impl Surface {
+impl LocalInteraction {
     /// The smooth point `p`, computed in double precision: all error is that of rounding it,
     /// doubled because the next ray's intersection rounds as well.
     pub(crate) fn exact(p: DVec3, normal: DVec3, uv: Vec2, dp_du: DVec3, dp_dv: DVec3) -> Self {
@@ -108,8 +108,13 @@ impl Surface {
 
     /// The vertex at this point.
     #[inline]
-    pub(crate) fn vertex(&self, owner: &Owner, primitive: u32, parameters: Vec2) -> Vertex {
-        Vertex {
+    pub(crate) fn vertex(
+        &self,
+        owner: &Owner,
+        primitive: u32,
+        parameters: Vec2,
+    ) -> SurfaceInteraction {
+        SurfaceInteraction {
             position: self.position,
             error: self.error,
             depth: self.depth,

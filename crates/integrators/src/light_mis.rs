@@ -1,0 +1,75 @@
+//! Multiple importance sampling of emission that a path hits: how likely light sampling would have been to
+//! find it. pbrt-v4 calls the ratio `r_l`.
+
+use crate::path_throughput::PathThroughput;
+use etalon_transport::{BsdfSample, LightSampleContext, SurfaceInteraction, World};
+use glam::{Vec3, Vec4};
+
+/// What light sampling at the last vertex that is no null interaction could have found.
+#[derive(Clone, Copy)]
+pub(crate) struct LightMis {
+    /// That vertex, as light sampling saw it.
+    pub(crate) from: LightSampleContext,
+    /// Per lane, the path's pdf before that vertex scattered over the pdf actually used up to here. Times the pdf
+    /// of the light it is pₜ,ₖ / p₀ of next-event estimation; zero after a delta interaction.
+    pub(crate) r_l: Vec4,
+}
+
+impl LightMis {
+    pub(crate) const NONE: Self = Self {
+        from: LightSampleContext::in_space(Vec3::ZERO),
+        r_l: Vec4::ZERO,
+    };
+
+    /// The ratio after sampling `sample` where light was sampled for `from`, reached by `before`.
+    #[inline]
+    pub(crate) fn after(
+        self,
+        before: &PathThroughput,
+        from: &LightSampleContext,
+        sample: &BsdfSample,
+    ) -> Self {
+        let chance = sample.chance.lanes().x;
+        if sample.is_null {
+            Self {
+                from: self.from,
+                r_l: self.r_l / chance,
+            }
+        } else if sample.chance.is_delta() {
+            Self::NONE
+        } else {
+            Self {
+                from: *from,
+                r_l: before.r_u / chance,
+            }
+        }
+    }
+
+    #[inline]
+    fn exists(&self) -> bool {
+        self.r_l != Vec4::ZERO
+    }
+
+    /// pₜ,ₖ / p₀ of light sampling for an emitting surface.
+    #[inline]
+    pub(crate) fn pdf_at_surface<W: World>(
+        &self,
+        world: &W,
+        at: &SurfaceInteraction,
+        direction: Vec3,
+    ) -> Vec4 {
+        if !self.exists() {
+            return Vec4::ZERO;
+        }
+        self.r_l * world.light_density(&self.from, at, direction).lanes()
+    }
+
+    /// pₜ,ₖ / p₀ of light sampling for the background.
+    #[inline]
+    pub(crate) fn pdf_at_background<W: World>(&self, world: &W, direction: Vec3) -> Vec4 {
+        if !self.exists() {
+            return Vec4::ZERO;
+        }
+        self.r_l * world.background_density(&self.from, direction).lanes()
+    }
+}

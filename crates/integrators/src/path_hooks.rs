@@ -1,0 +1,58 @@
+//! Hooks into the path loop, used by path guiding: wrap the BSDF at each vertex, and observe contributions.
+
+use crate::path_throughput::PathThroughput;
+use etalon_transport::{Bsdf, BsdfSample, SurfaceInteraction};
+use glam::{Vec3, Vec4};
+
+/// What is called along a path. `()` is the plain path tracer.
+pub(crate) trait PathHooks {
+    /// A scattering model that samples other directions than `B`, but scatters the same light.
+    type GuidedBsdf<B: Bsdf + Copy>: Bsdf;
+
+    /// The BSDF at a vertex, possibly with another sampling density.
+    fn wrap_bsdf<B: Bsdf + Copy>(
+        &self,
+        vertex: &SurfaceInteraction,
+        wo: Vec3,
+        bsdf: B,
+    ) -> Self::GuidedBsdf<B>;
+
+    /// After the BSDF was sampled; `prefix` is the throughput that now leaves the vertex.
+    #[inline]
+    fn on_scatter(
+        &mut self,
+        _vertex: &SurfaceInteraction,
+        _bsdf: &impl Bsdf,
+        _wo: Vec3,
+        _sample: &BsdfSample,
+        _prefix: &PathThroughput,
+    ) {
+    }
+
+    /// The path hit an emitter, which contributes `estimate` (see [`PathThroughput::contribution`]).
+    #[inline]
+    fn on_emission(&mut self, _estimate: Vec4) {}
+
+    /// A light sample was drawn at the current vertex, before its BSDF is sampled.
+    #[inline]
+    fn on_light_sample(&mut self) {}
+
+    /// The contribution of that light sample; the path may already have left the vertex.
+    #[inline]
+    fn on_light_contribution(&mut self, _estimate: Vec4) {}
+
+    /// The probability with which the path survives Russian roulette; any positive number is right.
+    #[inline]
+    fn survival(&mut self, prefix: &PathThroughput, eta: f32) -> f32 {
+        (prefix.throughput() * eta * eta).min(0.95)
+    }
+}
+
+impl PathHooks for () {
+    type GuidedBsdf<B: Bsdf + Copy> = B;
+
+    #[inline]
+    fn wrap_bsdf<B: Bsdf + Copy>(&self, _: &SurfaceInteraction, _: Vec3, bsdf: B) -> B {
+        bsdf
+    }
+}
