@@ -149,12 +149,12 @@ impl Estimator {
         let change = (self.change)
             .map(|change| format!(", {change:?}").to_lowercase())
             .unwrap_or_default();
-        let hero = (self.light_chooser.as_ref())
+        let chooser = (self.light_chooser.as_ref())
             .map(|name| format!(", {name} lights"))
             .unwrap_or_default();
         let adaptive = self.adaptive.map_or("", |_| ", adaptive");
         let blocks = if self.blocks { ", blocks" } else { "" };
-        format!("{integrator}, {sampler}{hero}{blocks}{adaptive}{defines}{change}")
+        format!("{integrator}, {sampler}{chooser}{blocks}{adaptive}{defines}{change}")
     }
 
     /// The work of the first run that makes its row.

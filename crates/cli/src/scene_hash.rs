@@ -30,8 +30,8 @@ pub(crate) fn scene_hash(
     if let Some(name) = &options.integrator {
         add(name.as_bytes());
     }
-    if let Some(hero) = options.light_chooser {
-        add(hero.name().as_bytes());
+    if let Some(kind) = options.light_chooser {
+        add(kind.name().as_bytes());
     }
     hasher.finalize().to_hex()[..16].to_owned()
 }

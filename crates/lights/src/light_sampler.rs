@@ -60,7 +60,7 @@ impl LightSamplerKind {
 
     /// The chooser of that name.
     pub fn named(name: &str) -> Option<Self> {
-        Self::ALL.into_iter().find(|hero| hero.name() == name)
+        Self::ALL.into_iter().find(|kind| kind.name() == name)
     }
 }
 
@@ -115,7 +115,7 @@ enum ForPoints {
 impl LightSampler {
     /// The distribution over lights, in the order of their ids. Lights of no power or weight are
     /// never chosen.
-    pub fn new(lights: &[Candidate], hero: LightSamplerKind) -> Self {
+    pub fn new(lights: &[Candidate], kind: LightSamplerKind) -> Self {
         let weight = |light: &Candidate| light.power * light.weight;
         let total = |far: bool| -> (f64, f64) {
             let kind = || lights.iter().filter(|l| l.extent.is_none() == far);
@@ -131,7 +131,7 @@ impl LightSampler {
             AliasTable::new(&lights.iter().map(of).collect::<Vec<_>>()).ok()
         };
         let few = lights.iter().filter(|l| weight(l) > 0.0).count() <= LightSamplerKind::FEW;
-        let for_points = match hero {
+        let for_points = match kind {
             LightSamplerKind::Power => None,
             LightSamplerKind::Automatic if few => FewLights::new(lights).map(ForPoints::Few),
             LightSamplerKind::Uniform => table(&|light| match light.power > 0.0 {

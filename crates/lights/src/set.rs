@@ -26,13 +26,13 @@ pub struct LightSet {
 }
 
 impl LightSet {
-    /// Lights in the order of their ids, for a scene within `bounds`; `hero` says which one a point
+    /// Lights in the order of their ids, for a scene within `bounds`; `kind` says which one a point
     /// asks.
     pub fn new(
         descriptions: Vec<LightDescription>,
         scene: &(impl Textures + Shapes),
         bounds: BoundingSphere,
-        hero: LightSamplerKind,
+        kind: LightSamplerKind,
     ) -> Self {
         let (lights, weights): (Vec<Light>, Vec<f64>) = descriptions
             .into_iter()
@@ -54,7 +54,7 @@ impl LightSet {
                 },
             })
             .collect();
-        let selector = LightSampler::new(&candidates, hero);
+        let selector = LightSampler::new(&candidates, kind);
         let mut chosen = (0..lights.len() as u32)
             .map(LightId)
             .filter(|&light| selector.probability_to_emit(light) > 0.0);
@@ -317,11 +317,11 @@ impl LightSet {
         match start.origin {
             LightKind::Surface => {
                 let density = self.get(start.light).density(shapes, from, &start.point);
-                density.hero() * probability()
+                density.kind() * probability()
             }
             LightKind::Sky => {
                 let toward = -start.ray.direction;
-                self.background_density(from, toward).hero()
+                self.background_density(from, toward).kind()
             }
             LightKind::Point | LightKind::Parallel => probability(),
         }

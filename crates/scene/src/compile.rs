@@ -85,10 +85,10 @@ pub fn compile_with(
         textures: builder.textures,
     };
     let bounds = BoundingSphere::of_box(bounds.min, bounds.max);
-    let hero = (options.light_chooser)
+    let kind = (options.light_chooser)
         .or_else(|| LightSamplerKind::named(named))
         .unwrap_or_default();
-    let lights = LightSet::new(lights, &lookup, bounds, hero);
+    let lights = LightSet::new(lights, &lookup, bounds, kind);
     let scene = Scene::new(camera, lookup, surfaces.materials, lights);
     Some(Compiled {
         scene,

@@ -27,8 +27,8 @@ pub(super) fn command(
     if let Some(integrator) = &args.integrator {
         words.push(format!("--integrator {}", quoted(integrator.clone())));
     }
-    if let Some(hero) = args.light_chooser {
-        words.push(format!("--light-chooser {}", hero.name()));
+    if let Some(chooser) = args.light_chooser {
+        words.push(format!("--light-chooser {}", chooser.name()));
     }
     for (key, value) in &args.define {
         words.push(format!("-D {}", quoted(format!("{key}={value}"))));
@@ -58,7 +58,7 @@ mod tests {
     /// Whoever copies the command draws the very sample, whatever defaults the scene has.
     #[test]
     fn the_command_says_all_that_decides_the_sample() {
-        let said = "etalon render scene.xml -o a.exr --integrator path --light-hero tree \
+        let said = "etalon render scene.xml -o a.exr --integrator path --light-chooser tree \
                     -D colour=1,2 -D name=a'b";
         let parsed = Cli::try_parse_from(said.split(' ')).expect("a valid command line");
         let Command::Render(args) = parsed.command else {
@@ -72,7 +72,7 @@ mod tests {
             samples_per_replicate: 8,
             sampler: SamplerKind::Sobol,
         };
-        let expected = "etalon render scene.xml --integrator path --light-hero tree \
+        let expected = "etalon render scene.xml --integrator path --light-chooser tree \
                         -D colour=1,2 -D 'name=a'\\''b' --spp 32 --replicates 4 --seed 7 \
                         --replay 12,5,2,3";
         assert_eq!(command(&args, &plan, None, [12, 5], 2, 3), expected);

@@ -98,7 +98,7 @@ fn command(args: &EstimatorsArgs) -> String {
         quoted(&args.scene.display().to_string()),
     ];
     let choosers: Vec<String> = (args.light_choosers.iter())
-        .map(|hero| hero.name().to_owned())
+        .map(|chooser| chooser.name().to_owned())
         .collect();
     let lists = [
         ("--integrators", &args.integrators),

@@ -62,7 +62,7 @@ pub fn gather(
         pipeline::load(path, &options)
     };
     let choosers: Vec<String> = (lists.light_choosers.iter())
-        .map(|hero| hero.name().to_owned())
+        .map(|chooser| chooser.name().to_owned())
         .collect();
     for (option, names) in [
         ("--integrators", lists.integrators),
@@ -80,8 +80,8 @@ pub fn gather(
         integrators.push((loaded.integrator, loaded.integrator_name));
     }
     let mut scenes = vec![(scene.compiled.clone(), choosers.first())];
-    for (hero, name) in (lists.light_choosers.iter().zip(&choosers)).skip(1) {
-        let loaded = load(lists.integrators.first(), Some(hero))?;
+    for (chooser, name) in (lists.light_choosers.iter().zip(&choosers)).skip(1) {
+        let loaded = load(lists.integrators.first(), Some(chooser))?;
         scenes.push((loaded.compiled, Some(name)));
     }
     let samplers = samplers(lists.samplers, scene.compiled.sampler.kind)?;
@@ -90,12 +90,12 @@ pub fn gather(
     for (integrator, integrator_name) in &integrators {
         for &sampler in &samplers {
             for &filter in &filters {
-                for (compiled, hero) in &scenes {
+                for (compiled, chooser) in &scenes {
                     let parts = [
                         (integrators.len() > 1, integrator_name.as_str()),
                         (samplers.len() > 1, pipeline::sampler_name(sampler)),
                         (filters.len() > 1, filter.name()),
-                        (scenes.len() > 1, hero.map_or("", |name| name)),
+                        (scenes.len() > 1, chooser.map_or("", |name| name)),
                     ];
                     let told: Vec<&str> = parts.iter().filter(|p| p.0).map(|p| p.1).collect();
                     entrants.push(EstimatorConfig {

@@ -163,8 +163,8 @@ fn lights_at_infinity_keep_their_half() {
 /// Mutant rejected: weights forgotten by one of the choosers.
 #[test]
 fn every_chooser_minds_the_sampling_weight() {
-    for hero in LightSamplerKind::ALL {
-        assert_eq!(LightSamplerKind::named(hero.name()), Some(hero));
+    for kind in LightSamplerKind::ALL {
+        assert_eq!(LightSamplerKind::named(kind.name()), Some(kind));
         let mut world = SmallWorld::default();
         let mut point = |x: f64, weight: f64| {
             let position = ("position", Value::Vector(DVec3::new(x, 0.0, 1.0)));
@@ -173,11 +173,11 @@ fn every_chooser_minds_the_sampling_weight() {
         };
         let descriptions = vec![point(1.0, 3.0), point(-1.0, 1.0), point(0.0, 0.0)];
         let bounds = BoundingSphere::of_box(Vec3::splat(-4.0), Vec3::splat(4.0));
-        let set = LightSet::new(descriptions, &world, bounds, hero);
+        let set = LightSet::new(descriptions, &world, bounds, kind);
         let from = receiver(Vec3::ZERO, Vec3::Z);
         for (index, expected) in [0.75, 0.25, 0.0].into_iter().enumerate() {
             let found = set.selector().probability(&from, LightId(index as u32));
-            assert!((found - expected).abs() < 1e-6, "{hero:?}: {found}");
+            assert!((found - expected).abs() < 1e-6, "{kind:?}: {found}");
         }
     }
 }
