@@ -317,11 +317,11 @@ impl LightSet {
         match start.origin {
             LightKind::Surface => {
                 let density = self.get(start.light).density(shapes, from, &start.point);
-                density.kind() * probability()
+                density.hero() * probability()
             }
             LightKind::Sky => {
                 let toward = -start.ray.direction;
-                self.background_density(from, toward).kind()
+                self.background_density(from, toward).hero()
             }
             LightKind::Point | LightKind::Parallel => probability(),
         }
