@@ -1,17 +1,18 @@
 //! Probability densities that know their measure.
 //!
-//! A density without its measure is half a number: dividing by a density per unit area where a
-//! density per unit solid angle was meant is the classic fault of a renderer. Here the two are
-//! different types, and [`Density::<SolidAngle>::to_area`] / [`Density::<Area>::to_solid_angle`]
-//! are the only ways across:
+//! Dividing by a density per unit area where a density per unit solid angle was meant is the classic fault
+//! of a renderer, so densities of different measures are different types wherever contracts pass them on:
 //!
 //! ```text
 //! p_A = p_ω · |cos θ| / r²
 //! ```
 //!
+//! ([`Density::<SolidAngle>::to_area`], [`Density::<Area>::to_solid_angle`]). Lights, and the weights of `bdpt`,
+//! which carry quotients of densities rather than densities, multiply by that factor in place.
+//!
 //! Every density has one value per wavelength lane: the density that the sampling technique
 //! would have had, had that lane been the one that chose (see ARCHITECTURE.md, "Wavelengths").
-//! A discrete probability (a perfect mirror's only direction) is an [`DeltaProbability`], never "pdf = 1".
+//! A discrete probability (a perfect mirror's only direction) is a [`DeltaProbability`], never "pdf = 1".
 
 use core::marker::PhantomData;
 use core::ops::{Add, Mul};
