@@ -267,8 +267,10 @@ impl ExactTile<'_> {
 
     fn end_pixel(&mut self) {
         if self.samples > 0 {
+            // Tiles around this one may add what their samples share with this pixel at any time.
+            let alone = self.alone && self.spread.is_none();
             self.film
-                .deliver(self.pixel, self.alone, &mut self.sums, &mut self.faults);
+                .deliver(self.pixel, alone, &mut self.sums, &mut self.faults);
             let samples = self.first + self.samples;
             self.film.advance(self.pixel, samples, &self.standing);
             self.standing = DominantSample::default();

@@ -15,6 +15,7 @@
 use crate::dimensions::BounceSamples;
 use crate::path_throughput::PathThroughput;
 use crate::settings::LightCandidates;
+use etalon_math::{Density, SolidAngle};
 use etalon_sampling::Sampler;
 use etalon_spectrum::Wavelengths;
 use etalon_transport::{
@@ -65,6 +66,24 @@ impl Aim {
         if contribution == Vec4::ZERO {
             return None;
         }
+        Some(Self::of(
+            light,
+            before,
+            contribution,
+            density,
+            [lights, scattering],
+        ))
+    }
+
+    /// The same where the BSDF's value times the light's radiance (`contribution`) and its density are known.
+    #[inline]
+    pub(crate) fn of(
+        light: &LightSample,
+        before: &PathThroughput,
+        contribution: Vec4,
+        density: Density<SolidAngle>,
+        [lights, scattering]: [f32; 2],
+    ) -> Self {
         let mut complete = *before;
         complete.scatter(contribution, light.chance.lanes());
         complete.r_u *= lights;
@@ -75,12 +94,12 @@ impl Aim {
                 before.r_u * density.lanes() * (scattering / chosen.hero())
             }
         };
-        Some(Self {
+        Self {
             direction: light.direction,
             target: light.target,
             complete,
             by_scattering,
-        })
+        }
     }
 
     /// What it brings through `transmittance`, where scattering would have passed what lies in between with the
@@ -93,7 +112,7 @@ impl Aim {
 
 impl Candidates {
     /// One light sample.
-    const ONE: Self = Self(1);
+    pub(crate) const ONE: Self = Self(1);
 
     /// As many as `wanted` says at a receiver with such lights.
     #[inline]

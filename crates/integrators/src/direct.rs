@@ -18,6 +18,7 @@ use crate::light_mis::LightMis;
 use crate::path::camera_ray;
 use crate::path_throughput::PathThroughput;
 use crate::settings::{LightCandidates, read_max_depth};
+use crate::steps;
 use etalon_params::Params;
 use etalon_sampling::{ReplicateKind, Sampler};
 use etalon_spectrum::{Wavelengths, sensor_response};
@@ -41,6 +42,9 @@ pub struct Direct {
     /// Whether lights are invisible to the camera.
     pub hide_emitters: bool,
 }
+
+const START: PathThroughput = PathThroughput::START;
+const NONE: LightMis = LightMis::NONE;
 
 impl Direct {
     /// Reads the integrator from its description: `shading_samples` for both kinds, or
@@ -86,30 +90,15 @@ impl Direct {
         sampler: &mut S,
     ) -> (Vec4, f32) {
         let visible = !self.hide_emitters;
-        let hit = loop {
-            let Some(hit) = world.intersect(&ray) else {
-                let seen = visible && self.max_depth >= 1 && world.has_background();
-                let radiance = if seen {
-                    world.background(ray.direction, wavelengths)
-                } else {
-                    Vec4::ZERO
-                };
-                return (
-                    PathThroughput::START.contribution(radiance, Vec4::ZERO),
-                    0.0,
-                );
-            };
-            if visible || !world.is_emitter(&hit) {
-                break hit;
-            }
-            ray = world.vertex(&ray, &hit).spawn(ray.direction);
+        let Some((hit, vertex)) = steps::next_surface(world, &mut ray, !visible) else {
+            let seen = visible && self.max_depth >= 1 && world.has_background();
+            let sky = || steps::background(world, ray.direction, wavelengths, &START, &NONE);
+            return (if seen { sky() } else { Vec4::ZERO }, 0.0);
         };
-        let vertex = world.vertex(&ray, &hit);
         let wo = -ray.direction;
         let mut result = Vec4::ZERO;
         if world.is_emitter(&hit) && self.max_depth >= 1 {
-            let radiance = world.emitted(&vertex, wo, wavelengths);
-            result += PathThroughput::START.contribution(radiance, Vec4::ZERO);
+            result += steps::emission(world, &vertex, ray.direction, wavelengths, &START, &NONE);
         }
         if self.max_depth < 2 {
             return (result, 1.0);
@@ -165,17 +154,9 @@ impl Direct {
         let event = BounceSamples::draw(sampler, event);
         let candidates = Candidates::at(self.light_candidates, world, from);
         let balance = [self.emitter_samples as f32, self.bsdf_samples as f32];
-        let aim = |light: &LightSample| Aim::new(light, &PathThroughput::START, bsdf, wo, balance);
-        let passage = candidates
-            .draw(world, from, wavelengths, &event, sampler, aim)
-            .and_then(|aim| {
-                let ray = vertex.shadow_ray(aim.direction, aim.target)?;
-                Some((aim, world.transmittance(&ray, wavelengths, 0)?))
-            });
-        passage.map_or(Vec4::ZERO, |(aim, passage)| {
-            // Scattering counts what passes straight on as a sample of its own.
-            aim.estimate(passage.transmittance, Vec4::ONE)
-        })
+        let aim = |light: &LightSample| Aim::new(light, &START, bsdf, wo, balance);
+        let aim = candidates.draw(world, from, wavelengths, &event, sampler, aim);
+        steps::shadowed(world, vertex, wavelengths, aim, 0).unwrap_or(Vec4::ZERO)
     }
 
     #[allow(clippy::too_many_arguments)]
@@ -195,24 +176,18 @@ impl Direct {
         else {
             return Vec4::ZERO;
         };
-        let mut path = PathThroughput::START;
-        let mut light_mis = LightMis::NONE.after(&path, from, &sample);
+        let mut path = START;
+        let mut light_mis = NONE.after(&path, from, &sample);
         path.scatter(sample.value, sample.chance.lanes());
         path.r_u *= self.bsdf_samples as f32;
         light_mis.r_l *= self.emitter_samples as f32;
-        let ray = vertex.spawn(sample.wi);
-        match world.intersect(&ray) {
+        let mut ray = vertex.spawn(sample.wi);
+        match steps::next_surface(world, &mut ray, false) {
             None if world.has_background() => {
-                let radiance = world.background(ray.direction, wavelengths);
-                path.contribution(radiance, light_mis.pdf_at_background(world, ray.direction))
+                steps::background(world, ray.direction, wavelengths, &path, &light_mis)
             }
-            Some(hit) if world.is_emitter(&hit) => {
-                let end = world.vertex(&ray, &hit);
-                let radiance = world.emitted(&end, -ray.direction, wavelengths);
-                path.contribution(
-                    radiance,
-                    light_mis.pdf_at_surface(world, &end, ray.direction),
-                )
+            Some((hit, end)) if world.is_emitter(&hit) => {
+                steps::emission(world, &end, ray.direction, wavelengths, &path, &light_mis)
             }
             _ => Vec4::ZERO,
         }

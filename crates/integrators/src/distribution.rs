@@ -15,16 +15,18 @@
 //! sums. The N directions at a point are stratified in one coordinate. Rays of later bounces matter
 //! less, so that N is divided at each.
 
+use crate::candidates::Aim;
 use crate::dimensions::BounceSamples;
 use crate::light_mis::LightMis;
 use crate::path::camera_ray;
 use crate::path_throughput::PathThroughput;
 use crate::settings::PathSettings;
+use crate::steps;
 use etalon_params::Params;
 use etalon_sampling::{ReplicateKind, Sampler};
 use etalon_spectrum::{Wavelengths, sensor_response};
 use etalon_transport::{
-    Bsdf, Hit, Integrator, LightSampleContext, Pass, PixelSample, Placing, Ray, SamplePdf, Sink,
+    Bsdf, Integrator, LightSampleContext, Pass, PixelSample, Placing, Ray, Sink,
     SurfaceInteraction, TransportMode, World,
 };
 use glam::{Vec2, Vec3, Vec4};
@@ -109,19 +111,6 @@ struct Tree<'a, W, S> {
 }
 
 impl<W: World, S: Sampler> Tree<'_, W, S> {
-    /// The next surface of a branch; a camera ray looks through hidden lights.
-    fn shade(&self, branch: &mut Branch) -> Option<Hit> {
-        let hidden = self.integrator.settings.hide_emitters && branch.depth == 1;
-        loop {
-            let hit = self.world.intersect(&branch.ray)?;
-            if !(hidden && self.world.is_emitter(&hit)) {
-                return Some(hit);
-            }
-            let vertex = self.world.vertex(&branch.ray, &hit);
-            branch.ray = vertex.spawn(branch.ray.direction);
-        }
-    }
-
     /// Everything that a branch finds. It is followed in a loop as long as one ray leaves each surface, so that a
     /// path may be as long as it likes.
     fn grow(&mut self, branch: Branch) -> Found {
@@ -138,13 +127,13 @@ impl<W: World, S: Sampler> Tree<'_, W, S> {
     fn visit(&mut self, mut branch: Branch, found: &mut Found) -> Option<Branch> {
         let (world, settings) = (self.world, self.integrator.settings);
         found.alpha = found.alpha.max(f32::from(!branch.straight));
-        let Some(hit) = self.shade(&mut branch) else {
+        let hidden = settings.hide_emitters && branch.depth == 1;
+        let Some(hit) = steps::next_hit(world, &mut branch.ray, hidden) else {
             let visible = !settings.hide_emitters || !branch.straight;
             if visible && world.has_background() {
-                let direction = branch.ray.direction;
-                let radiance = world.background(direction, &self.wavelengths);
-                let other = branch.light_mis.pdf_at_background(world, direction);
-                found.radiance += branch.prefix.contribution(radiance, other);
+                let (direction, waves) = (branch.ray.direction, &self.wavelengths);
+                found.radiance +=
+                    steps::background(world, direction, waves, &branch.prefix, &branch.light_mis);
                 found.alpha = 1.0;
             }
             return None;
@@ -157,17 +146,13 @@ impl<W: World, S: Sampler> Tree<'_, W, S> {
         let vertex = world.vertex(&branch.ray, &hit);
         let wo = -branch.ray.direction;
         if emits {
-            let radiance = world.emitted(&vertex, wo, &self.wavelengths);
-            if radiance != Vec4::ZERO {
-                let other = (branch.light_mis).pdf_at_surface(world, &vertex, branch.ray.direction);
-                found.radiance += branch.prefix.contribution(radiance, other);
-            }
+            let (direction, waves) = (branch.ray.direction, &self.wavelengths);
+            let (before, light_mis) = (&branch.prefix, &branch.light_mis);
+            found.radiance += steps::emission(world, &vertex, direction, waves, before, light_mis);
         }
         let bsdf = world.bsdf(&vertex, wo, &self.wavelengths);
         if last {
-            // Where the path would go on we do not ask; how likely straight on, we know.
-            let stopped = 1.0 - 0.25 * bsdf.null_probability().element_sum();
-            found.alpha = found.alpha.max(stopped);
+            found.alpha = found.alpha.max(steps::opacity(&bsdf));
             return None;
         }
         let continuous = bsdf.has_continuous();
@@ -231,29 +216,10 @@ impl<W: World, S: Sampler> Tree<'_, W, S> {
     ) -> Vec4 {
         let (world, settings) = (self.world, self.integrator.settings);
         let light = world.sample_light(from, &self.wavelengths, event.light_choice, event.light);
-        let Some(light) = light else {
-            return Vec4::ZERO;
-        };
-        let (value, density) = bsdf.eval_and_density(wo, light.direction, TransportMode::Radiance);
-        let contribution = value * light.radiance;
-        if contribution == Vec4::ZERO {
-            return Vec4::ZERO;
-        }
-        let crossings = settings.max_depth - branch.depth - 1;
-        let passage = vertex
-            .shadow_ray(light.direction, light.target)
-            .and_then(|ray| world.transmittance(&ray, &self.wavelengths, crossings));
-        let Some(passage) = passage else {
-            return Vec4::ZERO;
-        };
-        let mut complete = branch.prefix;
-        complete.scatter(contribution, light.chance.lanes());
-        let by_scattering = match light.chance {
-            // Scattering never finds a discrete light.
-            SamplePdf::Discrete(_) => Vec4::ZERO,
-            SamplePdf::Continuous(chosen) => branch.prefix.r_u * density.lanes() / chosen.hero(),
-        };
-        complete.contribution(passage.transmittance, by_scattering * passage.probability)
+        let aim = light.and_then(|light| Aim::new(&light, &branch.prefix, bsdf, wo, [1.0; 2]));
+        let max_null = settings.max_depth - branch.depth - 1;
+        let brings = steps::shadowed(world, vertex, &self.wavelengths, aim, max_null);
+        brings.unwrap_or(Vec4::ZERO)
     }
 
     /// The branch that leaves a surface.
@@ -282,11 +248,10 @@ impl<W: World, S: Sampler> Tree<'_, W, S> {
         next.prefix.scatter(sample.value, sample.chance.lanes());
         let straight = next.straight;
         if branch.depth >= self.integrator.settings.rr_depth {
-            let survival = (next.prefix.throughput() * next.eta * next.eta).min(0.95);
-            if !(event.roulette < survival) {
+            let survival = next.prefix.survival(next.eta);
+            if !next.prefix.survives(survival, event.roulette) {
                 return Next::Ended { straight };
             }
-            next.prefix.roulette(survival);
         }
         if next.prefix.beta == Vec4::ZERO {
             return Next::Ended { straight };

@@ -23,6 +23,7 @@ use crate::particle::LightPath;
 use crate::path::camera_ray;
 use crate::path_throughput::PathThroughput;
 use crate::settings::PathSettings;
+use crate::steps::next_surface;
 use etalon_params::Params;
 use etalon_sampling::{ReplicateKind, Sampler};
 use etalon_spectrum::{SensorWeights, Wavelengths, sensor_response};
@@ -59,7 +60,7 @@ impl Forward {
         let mut through = Vec4::ONE;
         let mut depth = 1;
         while depth <= self.settings.max_depth {
-            let Some(hit) = world.intersect(&ray) else {
+            let Some((_, vertex)) = next_surface(world, &mut ray, hide && depth == 1) else {
                 if hide || !world.has_background() {
                     break;
                 }
@@ -69,12 +70,9 @@ impl Forward {
                 };
                 return (PathThroughput::START.contribution(sky, Vec4::ZERO), 1.0);
             };
-            let vertex = world.vertex(&ray, &hit);
-            if !(hide && depth == 1 && world.is_emitter(&hit)) {
-                let bsdf = world.bsdf(&vertex, -ray.direction, wavelengths);
-                through *= bsdf.null_probability();
-                depth += 1;
-            }
+            let bsdf = world.bsdf(&vertex, -ray.direction, wavelengths);
+            through *= bsdf.null_probability();
+            depth += 1;
             if through == Vec4::ZERO {
                 break;
             }
@@ -148,7 +146,7 @@ impl Forward {
             if depth == max_depth {
                 return;
             }
-            let Some(met) = particle.shade(world, sampler) else {
+            let Some(met) = particle.next(world, sampler) else {
                 return;
             };
             let Some(sample) = particle.scatter(&met, rr_depth) else {

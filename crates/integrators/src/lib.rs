@@ -39,6 +39,7 @@ pub mod settings;
 mod share;
 pub mod signature;
 pub mod sppm;
+mod steps;
 pub mod vcm;
 mod visibility;
 pub mod whitted;

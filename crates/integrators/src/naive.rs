@@ -25,9 +25,11 @@
 //! a discrete one is not; the house's estimator ([`crate::prefix`]) takes one like the other.
 
 use crate::dimensions::BounceSamples;
+use crate::light_mis::LightMis;
 use crate::path::camera_ray;
 use crate::path_throughput::PathThroughput;
 use crate::settings::PathSettings;
+use crate::steps::{self, next_surface};
 use core::f32::consts::FRAC_1_PI;
 use etalon_math::Frame;
 use etalon_params::Params;
@@ -188,31 +190,24 @@ impl Naive {
         // Number of segments, that of `ray` included.
         let mut depth = 1;
         while depth <= max_depth {
-            let Some(hit) = world.intersect(&ray) else {
+            let Some((hit, vertex)) = next_surface(world, &mut ray, hide_emitters && depth == 1)
+            else {
                 // A hidden sky stays hidden to rays that only went straight.
                 if world.has_background() && !(hide_emitters && alpha == 0.0) {
-                    let background = world.background(ray.direction, wavelengths);
-                    radiance += prefix.contribution(background, Vec4::ZERO);
+                    let (direction, none) = (ray.direction, &LightMis::NONE);
+                    radiance += steps::background(world, direction, wavelengths, &prefix, none);
                     alpha = 1.0;
                 }
                 break;
             };
-            let emits = world.is_emitter(&hit);
-            let vertex = world.vertex(&ray, &hit);
-            if emits && hide_emitters && depth == 1 {
-                // The camera looks through hidden lights.
-                ray = vertex.spawn(ray.direction);
-                continue;
-            }
             let wo = -ray.direction;
-            if emits {
-                let emitted = world.emitted(&vertex, wo, wavelengths);
-                radiance += prefix.contribution(emitted, Vec4::ZERO);
+            if world.is_emitter(&hit) {
+                let (direction, none) = (ray.direction, &LightMis::NONE);
+                radiance += steps::emission(world, &vertex, direction, wavelengths, &prefix, none);
             }
             let bsdf = world.bsdf(&vertex, wo, wavelengths);
             if depth == max_depth {
-                // Where the path would go on we do not ask; how likely straight on, we know.
-                alpha = alpha.max(1.0 - 0.25 * bsdf.null_probability().element_sum());
+                alpha = alpha.max(steps::opacity(&bsdf));
                 break;
             }
             let event = BounceSamples::draw(sampler, depth - 1);
@@ -226,11 +221,10 @@ impl Naive {
             prefix.scatter(step.value, step.chance);
             eta *= step.eta;
             if depth >= rr_depth {
-                let survival = (prefix.throughput() * eta * eta).min(0.95);
-                if !(event.roulette < survival) {
+                let survival = prefix.survival(eta);
+                if !prefix.survives(survival, event.roulette) {
                     break;
                 }
-                prefix.roulette(survival);
             }
             if prefix.beta == Vec4::ZERO {
                 break;

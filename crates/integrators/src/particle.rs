@@ -4,7 +4,8 @@
 //! in what they do with a particle, not in how it goes.
 
 use crate::dimensions::{self as dim, BounceSamples};
-use crate::path_throughput::PathThroughput;
+use crate::path_throughput::{MOST, PathThroughput};
+use crate::steps::next_surface;
 use etalon_sampling::Sampler;
 use etalon_spectrum::Wavelengths;
 use etalon_transport::{
@@ -68,13 +69,12 @@ impl<'a> LightPath<'a> {
 
     /// The next surface on its way; `None` if it leaves the scene.
     #[inline]
-    pub(crate) fn shade<'w, W: World>(
-        &self,
+    pub(crate) fn next<'w, W: World>(
+        &mut self,
         world: &'w W,
         sampler: &mut impl Sampler,
     ) -> Option<LightVertex<W::Bsdf<'w>>> {
-        let hit = world.intersect(&self.ray)?;
-        let vertex = world.vertex(&self.ray, &hit);
+        let (hit, vertex) = next_surface(world, &mut self.ray, false)?;
         let wo = -self.ray.direction;
         Some(LightVertex {
             hit,
@@ -103,11 +103,10 @@ impl<'a> LightPath<'a> {
         let before = self.prefix.throughput();
         self.prefix.scatter(sample.value, sample.chance.lanes());
         if self.depth >= rr_depth {
-            let survival = (self.prefix.throughput() / before).min(0.95);
-            if !(roulette < survival) {
+            let survival = (self.prefix.throughput() / before).min(MOST);
+            if !self.prefix.survives(survival, roulette) {
                 return None;
             }
-            self.prefix.roulette(survival);
         }
         if self.prefix.beta == Vec4::ZERO {
             return None;

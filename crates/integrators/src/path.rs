@@ -58,7 +58,7 @@ pub(crate) fn follow<W: World, S: Sampler, C: PathHooks>(
 ) {
     while walks.iter().flatten().any(PathState::goes_on) {
         for walk in walks.iter_mut().flatten().filter(|w| w.goes_on()) {
-            walk.intersect(world);
+            walk.intersect(world, settings);
         }
         for walk in walks.iter_mut().flatten().filter(|w| w.goes_on()) {
             walk.shade(world, settings);

@@ -44,7 +44,7 @@ pub(crate) trait PathHooks {
     /// The probability with which the path survives Russian roulette; any positive number is right.
     #[inline]
     fn survival(&mut self, prefix: &PathThroughput, eta: f32) -> f32 {
-        (prefix.throughput() * eta * eta).min(0.95)
+        prefix.survival(eta)
     }
 }
 

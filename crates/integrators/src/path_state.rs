@@ -7,6 +7,7 @@ use crate::path::camera_ray;
 use crate::path_hooks::PathHooks;
 use crate::path_throughput::PathThroughput;
 use crate::settings::{LightCandidates, PathSettings};
+use crate::steps;
 use core::ops::Range;
 use etalon_sampling::Sampler;
 use etalon_spectrum::{Wavelengths, sensor_response};
@@ -131,7 +132,7 @@ impl<'a, S: Sampler, C: PathHooks> PathState<'a, S, C> {
         wanted: &Range<u32>,
     ) {
         while self.goes_on && self.scatter_count < wanted.end {
-            self.intersect(world);
+            self.intersect(world, settings);
             let (radiance, scatter_count) = (self.radiance, self.scatter_count);
             self.shade(world, settings);
             if scatter_count < wanted.start {
@@ -145,10 +146,11 @@ impl<'a, S: Sampler, C: PathHooks> PathState<'a, S, C> {
         }
     }
 
-    /// Finds the next surface.
+    /// Finds the next surface; the camera looks through hidden lights.
     #[inline]
-    pub(crate) fn intersect<W: World>(&mut self, world: &W) {
-        self.hit = world.intersect(&self.ray);
+    pub(crate) fn intersect<W: World>(&mut self, world: &W, settings: &PathSettings) {
+        let hidden = settings.hide_emitters && self.depth == 1;
+        self.hit = steps::next_hit(world, &mut self.ray, hidden);
     }
 
     /// Shades the hit: adds emission, prepares next-event estimation, and samples the BSDF.
@@ -161,21 +163,15 @@ impl<'a, S: Sampler, C: PathHooks> PathState<'a, S, C> {
             let visible = !settings.hide_emitters || self.alpha > 0.0;
             if visible && world.has_background() {
                 self.alpha = 1.0;
-                let radiance = world.background(direction, &self.wavelengths);
-                let other = self.light_mis.pdf_at_background(world, direction);
-                let estimate = self.throughput.contribution(radiance, other);
+                let (before, light_mis) = (&self.throughput, &self.light_mis);
+                let estimate =
+                    steps::background(world, direction, &self.wavelengths, before, light_mis);
                 self.radiance += estimate;
                 self.hooks.on_emission(estimate);
             }
             return;
         };
         let emits = world.is_emitter(&hit);
-        if emits && settings.hide_emitters && self.depth == 1 {
-            // The camera looks through hidden lights.
-            self.ray = world.vertex(&self.ray, &hit).spawn(direction);
-            self.goes_on = true;
-            return;
-        }
         let last = self.depth == settings.max_depth;
         if last && !emits && self.alpha > 0.0 {
             return;
@@ -183,20 +179,17 @@ impl<'a, S: Sampler, C: PathHooks> PathState<'a, S, C> {
         let vertex = world.vertex(&self.ray, &hit);
         let wo = -direction;
         if emits {
-            let radiance = world.emitted(&vertex, wo, &self.wavelengths);
-            if radiance != Vec4::ZERO {
-                let other = self.light_mis.pdf_at_surface(world, &vertex, direction);
-                let estimate = self.throughput.contribution(radiance, other);
-                self.radiance += estimate;
-                self.hooks.on_emission(estimate);
-            }
+            let (before, light_mis) = (&self.throughput, &self.light_mis);
+            let waves = &self.wavelengths;
+            let estimate = steps::emission(world, &vertex, direction, waves, before, light_mis);
+            self.radiance += estimate;
+            self.hooks.on_emission(estimate);
         }
         let bsdf = world.bsdf(&vertex, wo, &self.wavelengths);
         let bsdf = self.hooks.wrap_bsdf(&vertex, wo, bsdf);
         if last {
             // No direction is sampled at the last vertex: its null probability alone estimates alpha.
-            let stopped = 1.0 - 0.25 * bsdf.null_probability().element_sum();
-            self.alpha = self.alpha.max(stopped);
+            self.alpha = self.alpha.max(steps::opacity(&bsdf));
             return;
         }
         let event = BounceSamples::draw(self.sampler, self.depth - 1);
@@ -248,10 +241,9 @@ impl<'a, S: Sampler, C: PathHooks> PathState<'a, S, C> {
         (self.hooks).on_scatter(vertex, bsdf, wo, &sample, &self.throughput);
         if self.depth >= settings.rr_depth {
             let survival = self.hooks.survival(&self.throughput, self.eta);
-            if !(event.roulette < survival) {
+            if !self.throughput.survives(survival, event.roulette) {
                 return;
             }
-            self.throughput.roulette(survival);
         }
         self.depth += 1;
         self.goes_on = self.throughput.beta != Vec4::ZERO;

@@ -22,6 +22,9 @@
 
 use glam::Vec4;
 
+/// No path survives roulette more surely: an endless one would not end.
+pub const MOST: f32 = 0.95;
+
 /// A path up to some vertex.
 #[derive(Clone, Copy, Debug)]
 pub struct PathThroughput {
@@ -45,6 +48,24 @@ impl PathThroughput {
         let inverse = 1.0 / chance.x;
         self.beta *= factor * inverse;
         self.r_u *= chance * inverse;
+    }
+
+    /// Whether the path survives Russian roulette with the probability `survival`, for the random number `u`; if so, it is
+    /// scaled.
+    #[inline]
+    pub fn survives(&mut self, survival: f32, u: f32) -> bool {
+        if !(u < survival) {
+            return false;
+        }
+        self.roulette(survival);
+        true
+    }
+
+    /// The probability with which a path from the camera survives roulette, which has passed indices of refraction
+    /// with the product `eta`.
+    #[inline]
+    pub fn survival(&self, eta: f32) -> f32 {
+        (self.throughput() * eta * eta).min(MOST)
     }
 
     /// Survives Russian roulette of probability `q`, a rule symmetric in the lanes: it scales

@@ -19,6 +19,7 @@ use crate::particle::{LightPath, LightVertex};
 use crate::path::camera_ray;
 use crate::path_throughput::PathThroughput;
 use crate::settings::PathSettings;
+use crate::steps;
 use crate::visibility::camera_visibility;
 use etalon_params::Params;
 use etalon_sampling::{ReplicateKind, Sampler};
@@ -57,7 +58,8 @@ impl ParticleTracer {
         let mut radiance = Vec4::ZERO;
         let mut depth = 1;
         while depth <= self.settings.max_depth {
-            let Some(hit) = world.intersect(&ray) else {
+            let hidden = !visible && depth == 1;
+            let Some((hit, vertex)) = steps::next_surface(world, &mut ray, hidden) else {
                 if visible && world.has_background() {
                     let background = world.background(ray.direction, wavelengths);
                     radiance += prefix.contribution(background, Vec4::ZERO);
@@ -65,13 +67,8 @@ impl ParticleTracer {
                 }
                 break;
             };
-            let vertex = world.vertex(&ray, &hit);
             let wo = -ray.direction;
             if world.is_emitter(&hit) {
-                if !visible && depth == 1 {
-                    ray = vertex.spawn(ray.direction);
-                    continue;
-                }
                 let emitted = world.emitted(&vertex, wo, wavelengths);
                 radiance += prefix.contribution(emitted, Vec4::ZERO);
             }
@@ -108,7 +105,7 @@ impl ParticleTracer {
         };
         // As many segments as its depth lie behind once it has arrived.
         while particle.depth < max_depth {
-            let Some(met) = particle.shade(world, sampler) else {
+            let Some(met) = particle.next(world, sampler) else {
                 return;
             };
             if met.bsdf.has_continuous() {

@@ -165,7 +165,7 @@ pub(crate) fn estimate<'w, W: World, S: Sampler, K: Sink>(
         radiance: Vec4::ZERO,
     };
     let mut walk = FromCamera::start(*ray, settings);
-    while walk.intersect(world, wavelengths, settings, sampler, eye, &mut connector) {}
+    while walk.advance(world, wavelengths, settings, sampler, eye, &mut connector) {}
     connector.see_all(|raster, value| {
         sink.splat(raster, sensor.rgb(value).to_array());
     });

@@ -78,7 +78,7 @@ pub(crate) fn sample<'w, W: World, S: Sampler>(
     }
     let mut walk = FromCamera::start(ray, settings);
     while eye.len() + 2 <= technique.camera
-        && walk.intersect(world, &wavelengths, settings, sampler, eye, &mut connector)
+        && walk.advance(world, &wavelengths, settings, sampler, eye, &mut connector)
     {}
     found(site.raster, sensor.rgb(connector.radiance * weight));
 }

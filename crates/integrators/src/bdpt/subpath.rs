@@ -3,8 +3,9 @@
 use super::connect::{Arrival, Connector};
 use super::path_vertex::PathVertex;
 use crate::dimensions::BounceSamples;
-use crate::path_throughput::PathThroughput;
+use crate::path_throughput::{MOST, PathThroughput};
 use crate::settings::PathSettings;
+use crate::steps;
 use etalon_sampling::Sampler;
 use etalon_spectrum::Wavelengths;
 use etalon_transport::{Bsdf, Emission, LightKind, Ray, SurfaceInteraction, TransportMode, World};
@@ -18,16 +19,6 @@ fn camera_event(index: u32) -> u32 {
 
 fn light_event(index: u32) -> u32 {
     2 * index + 1
-}
-
-/// Whether a walk survives Russian roulette.
-fn survives(prefix: &mut PathThroughput, survival: f32, u: f32) -> bool {
-    let survival = survival.min(0.95);
-    if !(u < survival) {
-        return false;
-    }
-    prefix.roulette(survival);
-    true
 }
 
 /// What a walk carries from surface to surface.
@@ -184,10 +175,9 @@ impl FromLight {
         let mut rounded = 0;
         // One more segment, at least, leads from a corner to the camera.
         while carried.segments < settings.max_depth && rounded < limit {
-            let Some(hit) = world.intersect(&carried.ray) else {
+            let Some((_, vertex)) = steps::next_surface(world, &mut carried.ray, false) else {
                 return;
             };
-            let vertex = world.vertex(&carried.ray, &hit);
             let wo = -carried.ray.direction;
             let bsdf = world.bsdf(&vertex, wo, wavelengths);
             let mut corner = carried.corner(vertex, bsdf, 0.0);
@@ -251,8 +241,8 @@ impl FromLight {
             }
             if carried.segments >= settings.rr_depth {
                 // Relative to the flux before: emitted flux has no natural scale.
-                let survival = carried.prefix.throughput() / before;
-                if !survives(&mut carried.prefix, survival, event.roulette) {
+                let survival = (carried.prefix.throughput() / before).min(MOST);
+                if !carried.prefix.survives(survival, event.roulette) {
                     return;
                 }
             }
@@ -322,7 +312,7 @@ impl FromCamera {
     }
 
     /// Goes on to the next surface; whether there is more.
-    pub(super) fn intersect<'w, W: World>(
+    pub(super) fn advance<'w, W: World>(
         &mut self,
         world: &'w W,
         wavelengths: &Wavelengths,
@@ -336,7 +326,11 @@ impl FromCamera {
         }
         self.goes_on = false;
         let direction = self.carried.ray.direction;
-        let Some(hit) = world.intersect(&self.carried.ray) else {
+        let hidden = settings.hide_emitters && self.carried.segments == 1;
+        let origin = self.carried.ray.origin;
+        let next = steps::next_surface(world, &mut self.carried.ray, hidden);
+        self.through_hidden |= self.carried.ray.origin != origin;
+        let Some((hit, vertex)) = next else {
             // A hidden sky stays hidden to rays that only went straight.
             let visible = !settings.hide_emitters || self.alpha > 0.0;
             if visible && world.has_background() {
@@ -348,14 +342,6 @@ impl FromCamera {
             return false;
         };
         let emits = world.is_emitter(&hit);
-        let vertex = world.vertex(&self.carried.ray, &hit);
-        if emits && settings.hide_emitters && self.carried.segments == 1 {
-            // The camera looks through hidden lights.
-            self.carried.ray = vertex.spawn(direction);
-            self.through_hidden = true;
-            self.goes_on = true;
-            return true;
-        }
         let wo = -direction;
         let arrival = self.arrival(connector, &vertex, corners);
         if emits {
@@ -364,8 +350,7 @@ impl FromCamera {
         }
         let bsdf = world.bsdf(&vertex, wo, wavelengths);
         if self.carried.segments == settings.max_depth {
-            let stopped = 1.0 - 0.25 * bsdf.null_probability().element_sum();
-            self.alpha = self.alpha.max(stopped);
+            self.alpha = self.alpha.max(steps::opacity(&bsdf));
             return false;
         }
         let event = BounceSamples::draw(sampler, camera_event(self.carried.segments - 1));
@@ -396,8 +381,8 @@ impl FromCamera {
         carried.prefix.scatter(sample.value, sample.chance.lanes());
         self.eta *= sample.eta;
         if carried.segments >= settings.rr_depth {
-            let survival = carried.prefix.throughput() * self.eta * self.eta;
-            if !survives(&mut carried.prefix, survival, event.roulette) {
+            let survival = carried.prefix.survival(self.eta);
+            if !carried.prefix.survives(survival, event.roulette) {
                 return false;
             }
         }

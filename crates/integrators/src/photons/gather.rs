@@ -8,10 +8,12 @@ use super::elsewhere::{CameraPath, CameraVertex};
 use super::is_sharp;
 use super::sets::{WavelengthChoice, WavelengthSets};
 use super::shoot::{Kind, Photon, PhotonMap};
+use crate::candidates::Aim;
 use crate::dimensions::{self as dim, BounceSamples};
 use crate::light_mis::LightMis;
 use crate::path_throughput::PathThroughput;
 use crate::settings::PathSettings;
+use crate::steps;
 use core::f32::consts::PI;
 use etalon_sampling::Sampler;
 use etalon_spectrum::Wavelengths;
@@ -192,36 +194,29 @@ impl<'w, W: World> GatherPath<'_, 'w, W> {
         let mut eta = 1.0;
         while self.depth <= settings.max_depth && self.prefix.beta != Vec4::ZERO {
             let direction = ray.direction;
-            let Some(hit) = world.intersect(&ray) else {
+            let hidden = settings.hide_emitters && self.depth == 1;
+            let Some((hit, vertex)) = steps::next_surface(world, &mut ray, hidden) else {
                 // A hidden sky stays hidden to rays that only went straight.
                 let visible = !settings.hide_emitters || alpha > 0.0;
                 if visible && world.has_background() {
                     alpha = 1.0;
-                    let radiance = world.background(direction, &self.wavelengths);
-                    self.emission(radiance, |light_mis| {
-                        light_mis.pdf_at_background(world, direction)
-                    });
+                    if !self.second {
+                        let (waves, light_mis) = (&self.wavelengths, &self.light_mis);
+                        self.radiance +=
+                            steps::background(world, direction, waves, &self.prefix, light_mis);
+                    }
                 }
                 break;
             };
-            let emits = world.is_emitter(&hit);
-            let vertex = world.vertex(&ray, &hit);
-            if emits && settings.hide_emitters && self.depth == 1 {
-                // The camera looks through hidden lights.
-                ray = vertex.spawn(direction);
-                continue;
-            }
             let wo = -direction;
-            if emits {
-                let radiance = world.emitted(&vertex, wo, &self.wavelengths);
-                self.emission(radiance, |light_mis| {
-                    light_mis.pdf_at_surface(world, &vertex, direction)
-                });
+            if world.is_emitter(&hit) && !self.second {
+                let (waves, light_mis) = (&self.wavelengths, &self.light_mis);
+                self.radiance +=
+                    steps::emission(world, &vertex, direction, waves, &self.prefix, light_mis);
             }
             let bsdf = world.bsdf(&vertex, wo, &self.wavelengths);
             if self.depth == settings.max_depth {
-                let stopped = 1.0 - 0.25 * bsdf.null_probability().element_sum();
-                alpha = alpha.max(stopped);
+                alpha = alpha.max(steps::opacity(&bsdf));
                 break;
             }
             let event = BounceSamples::draw(sampler, self.depth - 1);
@@ -259,26 +254,16 @@ impl<'w, W: World> GatherPath<'_, 'w, W> {
             eta *= sample.eta;
             ray = vertex.spawn(sample.wi);
             if self.depth >= settings.rr_depth {
-                let survival = (self.prefix.throughput() * eta * eta).min(0.95);
-                if !(event.roulette < survival) {
+                let survival = self.prefix.survival(eta);
+                if !self.prefix.survives(survival, event.roulette) {
                     break;
                 }
-                self.prefix.roulette(survival);
                 left.roulette(survival);
             }
             self.scratch.path.push(left);
             self.depth += 1;
         }
         alpha
-    }
-
-    /// Adds light that the walk ran into.
-    #[inline]
-    fn emission(&mut self, radiance: Vec4, other: impl FnOnce(&LightMis) -> Vec4) {
-        if !self.second && radiance != Vec4::ZERO {
-            let other = other(&self.light_mis);
-            self.radiance += self.prefix.contribution(radiance, other);
-        }
     }
 
     /// Adds direct light, weighed against following the same direction if that is sharp.
@@ -301,22 +286,12 @@ impl<'w, W: World> GatherPath<'_, 'w, W> {
         if contribution == Vec4::ZERO || !(sharp || self.plan.sample_lights) {
             return;
         }
-        let Some(ray) = vertex.shadow_ray(light.direction, light.target) else {
-            return;
-        };
-        let crossings = self.plan.settings.max_depth - self.depth - 1;
-        let Some(passage) = world.transmittance(&ray, &self.wavelengths, crossings) else {
-            return;
-        };
-        let mut complete = self.prefix;
-        complete.scatter(contribution, light.chance.lanes());
-        let by_scattering = match light.chance {
-            SamplePdf::Continuous(chosen) if sharp => {
-                self.prefix.r_u * density.lanes() * passage.probability / chosen.hero()
-            }
-            _ => Vec4::ZERO,
-        };
-        self.radiance += complete.contribution(passage.transmittance, by_scattering);
+        let max_null = self.plan.settings.max_depth - self.depth - 1;
+        // Directions that are not sharp are left to light sampling and photons.
+        let counts = [1.0, f32::from(sharp)];
+        let aim = Aim::of(&light, &self.prefix, contribution, density, counts);
+        let brings = steps::shadowed(world, vertex, &self.wavelengths, Some(aim), max_null);
+        self.radiance += brings.unwrap_or(Vec4::ZERO);
     }
 
     /// Adds the light that photons bring.

@@ -147,7 +147,7 @@ fn trace<W: World>(
     let mut kind = Kind::Direct;
     // As many segments as its depth lie behind once it has arrived; the camera adds one at least.
     while particle.depth < settings.max_depth {
-        let Some(met) = particle.shade(world, sampler) else {
+        let Some(met) = particle.next(world, sampler) else {
             return;
         };
         let LightVertex {

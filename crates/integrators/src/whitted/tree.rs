@@ -4,6 +4,7 @@
 //! a dispersive interface parts them, every wavelength goes on alone.
 
 use super::{Whitted, phong};
+use crate::steps::next_surface;
 use etalon_spectrum::{SensorWeights, Wavelengths, sensor_response};
 use etalon_transport::{Bsdf, Camera, Ray, SurfaceInteraction, TransportMode, World};
 use glam::{Vec2, Vec3, Vec4};
@@ -88,16 +89,9 @@ impl Whitted {
     /// What arrives along a ray, the last of `depth` segments.
     fn follow<W: World>(&self, world: &W, mut ray: Ray, packets: &[Packet], depth: u32) -> Vec3 {
         let hidden = self.hide_emitters && depth == 1;
-        let hit = loop {
-            let Some(hit) = world.intersect(&ray) else {
-                return Vec3::ZERO;
-            };
-            if !(hidden && world.is_emitter(&hit)) {
-                break hit;
-            }
-            ray = world.vertex(&ray, &hit).spawn(ray.direction);
+        let Some((hit, vertex)) = next_surface(world, &mut ray, hidden) else {
+            return Vec3::ZERO;
         };
-        let vertex = world.vertex(&ray, &hit);
         let wo = -ray.direction;
         let mut sum = Vec3::ZERO;
         for packet in packets {
@@ -174,16 +168,13 @@ impl Whitted {
         let mut open = 1.0;
         let mut segment = 1;
         while segment <= self.max_depth {
-            let Some(hit) = world.intersect(&ray) else {
+            let hidden = self.hide_emitters && segment == 1;
+            let Some((_, vertex)) = next_surface(world, &mut ray, hidden) else {
                 return 1.0 - open;
             };
-            let vertex = world.vertex(&ray, &hit);
-            let hidden = self.hide_emitters && segment == 1 && world.is_emitter(&hit);
-            if !hidden {
-                let bsdf = world.bsdf(&vertex, -ray.direction, wavelengths);
-                open *= 0.25 * bsdf.null_probability().element_sum();
-                segment += 1;
-            }
+            let bsdf = world.bsdf(&vertex, -ray.direction, wavelengths);
+            open *= 0.25 * bsdf.null_probability().element_sum();
+            segment += 1;
             if open == 0.0 {
                 break;
             }
