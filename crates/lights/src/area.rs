@@ -8,9 +8,10 @@
 //! Points toward an observer are chosen by the shape; emitted particles start uniformly over the
 //! area, with directions in proportion to cos θ.
 
-use crate::LightExtent;
+use crate::light_model::LightModel;
+use crate::{BoundingSphere, LightExtent};
 use core::f32::consts::FRAC_1_PI;
-use etalon_math::Density;
+use etalon_math::{Density, SolidAngle};
 use etalon_params::Params;
 use etalon_sampling::warps::square_to_cosine_hemisphere;
 use etalon_spectrum::Wavelengths;
@@ -37,22 +38,23 @@ impl AreaLight {
             radiance: build.texture(params, "radiance", Some(1.0), SpectrumKind::Emission),
         }
     }
+}
 
-    /// Where it is: on its shape, whose outer side it shines from.
-    pub fn extent(&self, shapes: &impl Shapes) -> LightExtent {
-        let [low, high] = shapes.bounds(self.shape).map(|corner| corner.as_dvec3());
-        LightExtent {
-            low,
-            high,
-            normals: shapes.normals(self.shape),
-            cos_edge: 0.0,
-            power: 0.0,
-        }
+impl LightModel for AreaLight {
+    const OF_SHAPE: bool = true;
+
+    #[inline]
+    fn density(
+        &self,
+        shapes: &impl Shapes,
+        from: &LightSampleContext,
+        at: &SurfacePoint,
+    ) -> Density<SolidAngle> {
+        Density::uniform(shapes.density_toward(self.shape, from, at))
     }
 
-    /// Radiance that leaves the point `at` along `wo`.
     #[inline]
-    pub fn emitted(
+    fn emitted(
         &self,
         textures: &impl Textures,
         at: &SurfacePoint,
@@ -66,9 +68,8 @@ impl AreaLight {
         }
     }
 
-    /// A direction from `from` to a point of the shape.
     #[inline]
-    pub fn sample(
+    fn sample(
         &self,
         scene: &(impl Textures + Shapes),
         from: &LightSampleContext,
@@ -93,11 +94,11 @@ impl AreaLight {
         })
     }
 
-    /// A particle.
     #[inline]
-    pub fn emit(
+    fn emit(
         &self,
         scene: &(impl Textures + Shapes),
+        _: &BoundingSphere,
         wavelengths: &Wavelengths,
         u_position: Vec2,
         u_direction: Vec2,
@@ -120,18 +121,32 @@ impl AreaLight {
         })
     }
 
-    /// The densities with which [`AreaLight::emit`] makes a particle leave in a direction whose
-    /// angle with the normal has the cosine `cos`.
     #[inline]
-    pub fn emission_density(&self, shapes: &impl Shapes, cos: f32) -> EmissionPdf {
+    fn emission_density(
+        &self,
+        shapes: &impl Shapes,
+        _: &BoundingSphere,
+        _: Vec3,
+        cos: f32,
+    ) -> EmissionPdf {
         EmissionPdf {
             origin: 1.0 / shapes.area(self.shape),
             ray: cos.max(0.0) * FRAC_1_PI,
         }
     }
 
-    /// Emitted power, averaged over the wavelengths (W·nm⁻¹).
-    pub fn power(&self, scene: &(impl Textures + Shapes)) -> f64 {
+    fn extent(&self, shapes: &impl Shapes) -> Option<LightExtent> {
+        let [low, high] = shapes.bounds(self.shape).map(|corner| corner.as_dvec3());
+        Some(LightExtent {
+            low,
+            high,
+            normals: shapes.normals(self.shape),
+            cos_edge: 0.0,
+            power: 0.0,
+        })
+    }
+
+    fn power(&self, scene: &(impl Textures + Shapes), _: &BoundingSphere) -> f64 {
         let area = f64::from(scene.area(self.shape));
         core::f64::consts::PI * area * f64::from(scene.mean(self.radiance))
     }

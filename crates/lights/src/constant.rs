@@ -14,6 +14,7 @@
 
 use crate::BoundingSphere;
 use crate::light::anywhere;
+use crate::light_model::LightModel;
 use crate::uniformity::refuse_varying;
 use etalon_math::{Density, Frame, SolidAngle};
 use etalon_params::Params;
@@ -24,7 +25,7 @@ use etalon_sampling::warps::{
 use etalon_spectrum::Wavelengths;
 use etalon_transport::{
     Build, Emission, EmissionPdf, LightId, LightKind, LightSample, LightSampleContext, SamplePdf,
-    SpectrumKind, TextureId, Textures,
+    Shapes, SpectrumKind, TextureId, Textures,
 };
 use glam::{Vec2, Vec3, Vec4};
 
@@ -43,16 +44,48 @@ impl ConstantLight {
             radiance: build.texture(params, "radiance", Some(1.0), SpectrumKind::Emission),
         }
     }
+}
 
-    /// Radiance from any direction.
+impl LightModel for ConstantLight {
+    fn is_infinite(&self) -> bool {
+        true
+    }
+
+    fn is_background(&self) -> bool {
+        true
+    }
+
     #[inline]
-    pub fn background(&self, textures: &impl Textures, wavelengths: &Wavelengths) -> Vec4 {
+    fn is_even(&self, from: &LightSampleContext) -> bool {
+        // Of what receives on both sides it is a part, and the best there is.
+        from.normal != Vec3::ZERO
+    }
+
+    #[inline]
+    fn emission_density(
+        &self,
+        _: &impl Shapes,
+        bounds: &BoundingSphere,
+        _: Vec3,
+        _cos: f32,
+    ) -> EmissionPdf {
+        EmissionPdf {
+            origin: UNIFORM_SPHERE_DENSITY,
+            ray: bounds.ray_density(),
+        }
+    }
+
+    #[inline]
+    fn background(&self, textures: &impl Textures, _: Vec3, wavelengths: &Wavelengths) -> Vec4 {
         textures.spectrum(self.radiance, &anywhere(), wavelengths.lambda)
     }
 
-    /// Density of the directions of [`ConstantLight::sample`]: see the head of this file.
     #[inline]
-    pub fn density(&self, from: &LightSampleContext, direction: Vec3) -> Density<SolidAngle> {
+    fn background_density(
+        &self,
+        from: &LightSampleContext,
+        direction: Vec3,
+    ) -> Density<SolidAngle> {
         let cos = from.normal.dot(direction);
         Density::uniform(if from.normal == Vec3::ZERO {
             UNIFORM_SPHERE_DENSITY
@@ -63,11 +96,10 @@ impl ConstantLight {
         })
     }
 
-    /// A direction; `None` where rounding puts it on the horizon.
     #[inline]
-    pub fn sample(
+    fn sample(
         &self,
-        textures: &impl Textures,
+        textures: &(impl Textures + Shapes),
         from: &LightSampleContext,
         wavelengths: &Wavelengths,
         u: Vec2,
@@ -87,11 +119,11 @@ impl ConstantLight {
                 _ => square_to_uniform_sphere(Vec2::new(0.5 * quarter - 1.0, u.y)),
             }
         };
-        let density = self.density(from, direction);
+        let density = self.background_density(from, direction);
         (density.hero() > 0.0).then(|| LightSample {
             direction,
             target: None,
-            radiance: self.background(textures, wavelengths),
+            radiance: self.background(textures, direction, wavelengths),
             chance: SamplePdf::Continuous(density),
             cos: 1.0,
             origin: LightKind::Sky,
@@ -99,34 +131,32 @@ impl ConstantLight {
         })
     }
 
-    /// A particle.
     #[inline]
-    pub fn emit(
+    fn emit(
         &self,
-        textures: &impl Textures,
+        textures: &(impl Textures + Shapes),
         bounds: &BoundingSphere,
         wavelengths: &Wavelengths,
         u_position: Vec2,
         u_direction: Vec2,
-    ) -> Emission {
+    ) -> Option<Emission> {
         let direction = square_to_uniform_sphere(u_direction);
         let factor = bounds.cross_section() as f32 / UNIFORM_SPHERE_DENSITY;
         let ray = bounds.ray_into(direction, u_position);
-        Emission {
+        Some(Emission {
             point: Emission::point_of(&ray),
             ray,
-            weight: self.background(textures, wavelengths) * factor,
+            weight: self.background(textures, direction, wavelengths) * factor,
             density: EmissionPdf {
                 origin: UNIFORM_SPHERE_DENSITY,
                 ray: bounds.ray_density(),
             },
             origin: LightKind::Sky,
             light: LightId::NONE,
-        }
+        })
     }
 
-    /// Power that enters the scene, averaged over the wavelengths (W·nm⁻¹).
-    pub fn power(&self, textures: &impl Textures, bounds: &BoundingSphere) -> f64 {
+    fn power(&self, textures: &(impl Textures + Shapes), bounds: &BoundingSphere) -> f64 {
         4.0 * core::f64::consts::PI
             * bounds.cross_section()
             * f64::from(textures.mean(self.radiance))

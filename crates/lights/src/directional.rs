@@ -3,14 +3,15 @@
 
 use crate::BoundingSphere;
 use crate::light::anywhere;
+use crate::light_model::LightModel;
 use crate::pose::Pose;
 use crate::uniformity::refuse_varying;
 use etalon_math::DeltaProbability;
 use etalon_params::Params;
 use etalon_spectrum::Wavelengths;
 use etalon_transport::{
-    Build, Emission, EmissionPdf, LightId, LightKind, LightSample, SamplePdf, SpectrumKind,
-    TextureId, Textures,
+    Build, Emission, EmissionPdf, LightId, LightKind, LightSample, LightSampleContext, SamplePdf,
+    Shapes, SpectrumKind, TextureId, Textures,
 };
 use glam::{Vec2, Vec3, Vec4};
 
@@ -52,11 +53,45 @@ impl DirectionalLight {
     fn spectrum(&self, textures: &impl Textures, wavelengths: &Wavelengths) -> Vec4 {
         textures.spectrum(self.irradiance, &anywhere(), wavelengths.lambda)
     }
+}
 
-    /// The direction to the light.
+impl LightModel for DirectionalLight {
+    fn is_infinite(&self) -> bool {
+        true
+    }
+
     #[inline]
-    pub fn sample(&self, textures: &impl Textures, wavelengths: &Wavelengths) -> LightSample {
-        LightSample {
+    fn is_even(&self, _: &LightSampleContext) -> bool {
+        true
+    }
+
+    #[inline]
+    fn emission_density(
+        &self,
+        _: &impl Shapes,
+        bounds: &BoundingSphere,
+        _: Vec3,
+        _cos: f32,
+    ) -> EmissionPdf {
+        EmissionPdf {
+            origin: 1.0,
+            ray: bounds.ray_density(),
+        }
+    }
+
+    fn toward(&self) -> Option<Vec3> {
+        Some(-self.direction)
+    }
+
+    #[inline]
+    fn sample(
+        &self,
+        textures: &(impl Textures + Shapes),
+        _: &LightSampleContext,
+        wavelengths: &Wavelengths,
+        _: Vec2,
+    ) -> Option<LightSample> {
+        Some(LightSample {
             direction: -self.direction,
             target: None,
             radiance: self.spectrum(textures, wavelengths),
@@ -64,20 +99,20 @@ impl DirectionalLight {
             cos: 1.0,
             origin: LightKind::Parallel,
             light: LightId::NONE,
-        }
+        })
     }
 
-    /// A particle.
     #[inline]
-    pub fn emit(
+    fn emit(
         &self,
-        textures: &impl Textures,
+        textures: &(impl Textures + Shapes),
         bounds: &BoundingSphere,
         wavelengths: &Wavelengths,
         u: Vec2,
-    ) -> Emission {
+        _: Vec2,
+    ) -> Option<Emission> {
         let ray = bounds.ray_into(self.direction, u);
-        Emission {
+        Some(Emission {
             point: Emission::point_of(&ray),
             ray,
             weight: self.spectrum(textures, wavelengths) * bounds.cross_section() as f32,
@@ -87,11 +122,10 @@ impl DirectionalLight {
             },
             origin: LightKind::Parallel,
             light: LightId::NONE,
-        }
+        })
     }
 
-    /// Power that enters the scene, averaged over the wavelengths (W·nm⁻¹).
-    pub fn power(&self, textures: &impl Textures, bounds: &BoundingSphere) -> f64 {
+    fn power(&self, textures: &(impl Textures + Shapes), bounds: &BoundingSphere) -> f64 {
         bounds.cross_section() * f64::from(textures.mean(self.irradiance))
     }
 }

@@ -17,6 +17,7 @@
 //! others, such as `direct` with `bsdf_samples` zero, and particles have the whole brightness.
 
 use crate::latitude_longitude as map;
+use crate::light_model::LightModel;
 use crate::pose::Pose;
 use crate::{BoundingSphere, latitude_longitude};
 use etalon_images::raster;
@@ -26,6 +27,7 @@ use etalon_sampling::discrete::Bilinear;
 use etalon_spectrum::{Regular, RgbCoefficients, Spectrum, Wavelengths, illuminants};
 use etalon_transport::{
     Build, Emission, EmissionPdf, LightId, LightKind, LightSample, LightSampleContext, SamplePdf,
+    Shapes, Textures,
 };
 use glam::{UVec2, Vec2, Vec3, Vec4};
 use std::path::Path;
@@ -241,31 +243,11 @@ impl EnvironmentMap {
         WHITE.eval(wavelengths.lambda) * spectrum * self.scale
     }
 
-    /// Radiance seen along the unit vector `direction`.
-    #[inline]
-    pub fn background(&self, direction: Vec3, wavelengths: &Wavelengths) -> Vec4 {
-        self.radiance(self.place(self.pose.to_local(direction)), wavelengths)
-    }
-
     /// The distribution of directions from which `from` asks.
     #[inline]
     fn toward(&self, from: &LightSampleContext) -> Option<&Bilinear> {
         let Tables { combined, alone } = &self.tables;
         if from.combined { combined } else { alone }.as_deref()
-    }
-
-    /// Density of the directions of [`EnvironmentMap::sample`]; zero at the very poles, which
-    /// are never sampled.
-    #[inline]
-    pub fn density(&self, from: &LightSampleContext, direction: Vec3) -> Density<SolidAngle> {
-        Density::uniform(self.density_of(self.toward(from), direction))
-    }
-
-    /// Density (sr⁻¹) with which [`EnvironmentMap::emit`] chooses the point of the sky in
-    /// `direction`.
-    #[inline]
-    pub fn emission_density(&self, direction: Vec3) -> f32 {
-        self.density_of(self.tables.alone.as_deref(), direction)
     }
 
     #[inline]
@@ -289,11 +271,49 @@ impl EnvironmentMap {
         let density = directions.density(place) / map::stretch(sin_theta);
         (sin_theta > 0.0 && density > 0.0).then(|| (self.pose.to_world(local), place, density))
     }
+}
 
-    /// A direction to the sky.
+impl LightModel for EnvironmentMap {
+    fn is_infinite(&self) -> bool {
+        true
+    }
+
+    fn is_background(&self) -> bool {
+        true
+    }
+
     #[inline]
-    pub fn sample(
+    fn emission_density(
         &self,
+        _: &impl Shapes,
+        bounds: &BoundingSphere,
+        direction: Vec3,
+        _cos: f32,
+    ) -> EmissionPdf {
+        EmissionPdf {
+            origin: self.density_of(self.tables.alone.as_deref(), -direction),
+            ray: bounds.ray_density(),
+        }
+    }
+
+    #[inline]
+    fn background(&self, _: &impl Textures, direction: Vec3, wavelengths: &Wavelengths) -> Vec4 {
+        self.radiance(self.place(self.pose.to_local(direction)), wavelengths)
+    }
+
+    #[inline]
+    fn background_density(
+        &self,
+        from: &LightSampleContext,
+        direction: Vec3,
+    ) -> Density<SolidAngle> {
+        Density::uniform(self.density_of(self.toward(from), direction))
+    }
+
+    #[inline]
+    fn sample(
+        &self,
+        _: &(impl Textures + Shapes),
         from: &LightSampleContext,
         wavelengths: &Wavelengths,
         u: Vec2,
@@ -310,10 +330,10 @@ impl EnvironmentMap {
         })
     }
 
-    /// A particle.
     #[inline]
-    pub fn emit(
+    fn emit(
         &self,
+        _: &(impl Textures + Shapes),
         bounds: &BoundingSphere,
         wavelengths: &Wavelengths,
         u_position: Vec2,
@@ -335,8 +355,7 @@ impl EnvironmentMap {
         })
     }
 
-    /// Power that enters the scene, averaged over the wavelengths (W·nm⁻¹).
-    pub fn power(&self, bounds: &BoundingSphere) -> f64 {
+    fn power(&self, _: &(impl Textures + Shapes), bounds: &BoundingSphere) -> f64 {
         4.0 * core::f64::consts::PI * bounds.cross_section() * self.mean
     }
 }

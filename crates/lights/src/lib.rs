@@ -20,6 +20,7 @@ pub mod extent;
 pub mod few;
 pub mod latitude_longitude;
 pub mod light;
+mod light_model;
 pub mod light_sampler;
 pub mod point;
 pub mod pose;

@@ -1,12 +1,12 @@
 //! The list of lights, and how each is read.
 
+use crate::light_model::LightModel;
 use crate::{
     AreaLight, BoundingSphere, ConstantLight, DirectionalLight, EnvironmentMap, LightExtent,
     PointLight, SpotLight,
 };
 use etalon_math::{Density, DirectionCone, SolidAngle};
 use etalon_params::{Class, Diagnostic, Params, plugins};
-use etalon_sampling::warps::UNIFORM_SPHERE_DENSITY;
 use etalon_spectrum::Wavelengths;
 use etalon_transport::{
     Build, Emission, EmissionPdf, LightSample, LightSampleContext, ShapeId, Shapes,
@@ -14,24 +14,61 @@ use etalon_transport::{
 };
 use glam::{Vec2, Vec3, Vec4};
 
-/// Names of the lights that are built.
-pub const BUILT: &[&str] = &["area", "constant", "directional", "envmap", "point", "spot"];
+macro_rules! lights {
+    ($($(#[doc = $doc:literal])* $kind:ident($model:ty) { $plugin:literal => $read:expr })*) => {
+        /// Any light.
+        #[derive(Clone, Debug)]
+        pub enum Light {
+            $($(#[doc = $doc])* $kind($model),)*
+        }
 
-/// Any light.
-#[derive(Clone, Debug)]
-pub enum Light {
+        /// Names of the lights that are built.
+        pub const BUILT: &[&str] = &[$($plugin,)*];
+
+        /// Whether the light of this name is the child of a shape; `None` if it is none of the list.
+        fn is_of_shape(name: &str) -> Option<bool> {
+            match name {
+                $($plugin => Some(<$model as LightModel>::OF_SHAPE),)*
+                _ => None,
+            }
+        }
+
+        /// Reads the light of this name; `None` if it is none of the list, or after a mistake.
+        fn read(params: &Params<'_>, shape: ShapeId, build: &mut dyn Build) -> Option<Light> {
+            match params.node.plugin.value.as_str() {
+                $($plugin => {
+                    let read: fn(&Params<'_>, ShapeId, &mut dyn Build) -> Option<$model> = $read;
+                    read(params, shape, build).map(Light::$kind)
+                })*
+                _ => None,
+            }
+        }
+
+        /// Asks the light, whichever it is.
+        macro_rules! ask {
+            ($light:expr, $it:ident => $answer:expr) => {
+                match $light {
+                    $(Light::$kind($it) => $answer,)*
+                }
+            };
+        }
+    };
+}
+
+// The list: a line for each light.
+lights! {
     /// An emitting shape.
-    Area(AreaLight),
-    /// A light without extent.
-    Point(PointLight),
-    /// A light without extent, into a cone.
-    Spot(SpotLight),
-    /// Parallel light from infinity.
-    Directional(DirectionalLight),
+    Area(AreaLight) { "area" => |params, shape, build| Some(AreaLight::from_params(params, shape, build)) }
     /// The same from everywhere at infinity.
-    Constant(ConstantLight),
+    Constant(ConstantLight) { "constant" => |params, _, build| Some(ConstantLight::from_params(params, build)) }
+    /// Parallel light from infinity.
+    Directional(DirectionalLight) { "directional" => |params, _, build| DirectionalLight::from_params(params, build) }
     /// An image at infinity.
-    Environment(EnvironmentMap),
+    Environment(EnvironmentMap) { "envmap" => |params, _, build| EnvironmentMap::from_params(params, build) }
+    /// A light without extent.
+    Point(PointLight) { "point" => |params, _, build| PointLight::from_params(params, build) }
+    /// A light without extent, into a cone.
+    Spot(SpotLight) { "spot" => |params, _, build| SpotLight::from_params(params, build) }
 }
 
 /// A light as described, and how often it is to be chosen.
@@ -52,30 +89,20 @@ impl LightDescription {
         build: &mut dyn Build,
     ) -> Option<Self> {
         let name = params.node.plugin.value.as_str();
-        let light = match (name, shape) {
-            ("area", Some(shape)) => {
-                Some(Light::Area(AreaLight::from_params(params, shape, build)))
-            }
-            ("area", None) => {
-                params.error("an `area` light must be the child of a shape");
+        let light = match (is_of_shape(name), shape) {
+            (Some(true), None) => {
+                params.error(format!("an `{name}` light must be the child of a shape"));
                 return None;
             }
-            (name, Some(_)) if BUILT.contains(&name) => {
+            (Some(false), Some(_)) => {
                 params.error(format!("a `{name}` light cannot be the child of a shape"));
                 return None;
             }
-            ("point", None) => PointLight::from_params(params, build).map(Light::Point),
-            ("spot", None) => SpotLight::from_params(params, build).map(Light::Spot),
-            ("directional", None) => {
-                DirectionalLight::from_params(params, build).map(Light::Directional)
-            }
-            ("constant", None) => Some(Light::Constant(ConstantLight::from_params(params, build))),
-            ("envmap", None) => EnvironmentMap::from_params(params, build).map(Light::Environment),
-            _ => {
+            (Some(_), shape) => read(params, shape.unwrap_or(ShapeId::NONE), build),
+            (None, _) => {
                 let built = BUILT.iter().copied();
-                params
-                    .diagnostics
-                    .push(plugins::not_built(params.node, built));
+                let diagnostic = plugins::not_built(params.node, built);
+                params.diagnostics.push(diagnostic);
                 return None;
             }
         };
@@ -98,15 +125,20 @@ impl LightDescription {
 impl Light {
     /// Whether it is at infinity.
     pub fn is_infinite(&self) -> bool {
-        match self {
-            Self::Area(_) | Self::Point(_) | Self::Spot(_) => false,
-            Self::Directional(_) | Self::Constant(_) | Self::Environment(_) => true,
-        }
+        ask!(self, light => light.is_infinite())
     }
 
     /// Whether a ray that misses everything sees it.
     pub fn is_background(&self) -> bool {
-        matches!(self, Self::Constant(_) | Self::Environment(_))
+        ask!(self, light => light.is_background())
+    }
+
+    /// Whether a ray can find it: a surface, or a background.
+    pub fn can_be_hit(&self) -> bool {
+        fn of_shape<L: LightModel>(_: &L) -> bool {
+            L::OF_SHAPE
+        }
+        self.is_background() || ask!(self, light => of_shape(light))
     }
 
     /// Radiance that leaves the surface point `vertex` along `wo`; zero for lights without
@@ -119,12 +151,7 @@ impl Light {
         wo: Vec3,
         wavelengths: &Wavelengths,
     ) -> Vec4 {
-        match self {
-            Self::Area(light) => {
-                light.emitted(textures, &SurfacePoint::from(vertex), wo, wavelengths)
-            }
-            _ => Vec4::ZERO,
-        }
+        ask!(self, light => light.emitted(textures, &SurfacePoint::from(vertex), wo, wavelengths))
     }
 
     /// Radiance seen along the unit vector `direction` by a ray that misses everything.
@@ -135,11 +162,7 @@ impl Light {
         direction: Vec3,
         wavelengths: &Wavelengths,
     ) -> Vec4 {
-        match self {
-            Self::Constant(light) => light.background(textures, wavelengths),
-            Self::Environment(light) => light.background(direction, wavelengths),
-            _ => Vec4::ZERO,
-        }
+        ask!(self, light => light.background(textures, direction, wavelengths))
     }
 
     /// A direction from `from` to the light, as if it were the only one.
@@ -151,25 +174,13 @@ impl Light {
         wavelengths: &Wavelengths,
         u: Vec2,
     ) -> Option<LightSample> {
-        match self {
-            Self::Area(light) => light.sample(scene, from, wavelengths, u),
-            Self::Point(light) => light.sample(scene, from.position, wavelengths),
-            Self::Spot(light) => light.sample(scene, from.position, wavelengths),
-            Self::Directional(light) => Some(light.sample(scene, wavelengths)),
-            Self::Constant(light) => light.sample(scene, from, wavelengths, u),
-            Self::Environment(light) => light.sample(from, wavelengths, u),
-        }
+        ask!(self, light => light.sample(scene, from, wavelengths, u))
     }
 
     /// Whether all its samples bring `from` the same irradiance if nothing is in the way.
     #[inline]
     pub fn is_even(&self, from: &LightSampleContext) -> bool {
-        match self {
-            Self::Point(_) | Self::Spot(_) | Self::Directional(_) => true,
-            // Of what receives on both sides it is a part, and the best there is.
-            Self::Constant(_) => from.normal != Vec3::ZERO,
-            Self::Area(_) | Self::Environment(_) => false,
-        }
+        ask!(self, light => light.is_even(from))
     }
 
     /// The density with which [`Light::sample`] from `from` finds the surface point `at`.
@@ -180,10 +191,7 @@ impl Light {
         from: &LightSampleContext,
         at: &SurfacePoint,
     ) -> Density<SolidAngle> {
-        match self {
-            Self::Area(light) => Density::uniform(shapes.density_toward(light.shape, from, at)),
-            _ => Density::ZERO,
-        }
+        ask!(self, light => light.density(shapes, from, at))
     }
 
     /// The density with which [`Light::sample`] from `from` finds the background in `direction`.
@@ -193,11 +201,7 @@ impl Light {
         from: &LightSampleContext,
         direction: Vec3,
     ) -> Density<SolidAngle> {
-        match self {
-            Self::Constant(light) => light.density(from, direction),
-            Self::Environment(light) => light.density(from, direction),
-            _ => Density::ZERO,
-        }
+        ask!(self, light => light.background_density(from, direction))
     }
 
     /// The densities with which [`Light::emit`] makes a particle travel along `direction`, whose
@@ -210,15 +214,7 @@ impl Light {
         direction: Vec3,
         cos: f32,
     ) -> EmissionPdf {
-        let (origin, ray) = match self {
-            Self::Area(light) => return light.emission_density(shapes, cos),
-            Self::Point(light) => (1.0, light.direction_density()),
-            Self::Spot(light) => (1.0, light.direction_density(direction)),
-            Self::Directional(_) => (1.0, bounds.ray_density()),
-            Self::Constant(_) => (UNIFORM_SPHERE_DENSITY, bounds.ray_density()),
-            Self::Environment(light) => (light.emission_density(-direction), bounds.ray_density()),
-        };
-        EmissionPdf { origin, ray }
+        ask!(self, light => light.emission_density(shapes, bounds, direction, cos))
     }
 
     /// A particle, as if this were the only light.
@@ -231,47 +227,23 @@ impl Light {
         u_position: Vec2,
         u_direction: Vec2,
     ) -> Option<Emission> {
-        match self {
-            Self::Area(light) => light.emit(scene, wavelengths, u_position, u_direction),
-            Self::Point(light) => Some(light.emit(scene, wavelengths, u_direction)),
-            Self::Spot(light) => Some(light.emit(scene, wavelengths, u_direction)),
-            Self::Directional(light) => Some(light.emit(scene, bounds, wavelengths, u_position)),
-            Self::Constant(light) => {
-                Some(light.emit(scene, bounds, wavelengths, u_position, u_direction))
-            }
-            Self::Environment(light) => light.emit(bounds, wavelengths, u_position, u_direction),
-        }
+        ask!(self, light => light.emit(scene, bounds, wavelengths, u_position, u_direction))
     }
 
     /// Where it is and whither it shines, without its power; `None` for a light at infinity.
     pub fn extent(&self, shapes: &impl Shapes) -> Option<LightExtent> {
-        match self {
-            Self::Area(light) => Some(light.extent(shapes)),
-            Self::Point(light) => Some(extent_of_point(light.position, DirectionCone::ALL, 0.0)),
-            Self::Spot(light) => Some(light.extent()),
-            Self::Directional(_) | Self::Constant(_) | Self::Environment(_) => None,
-        }
+        ask!(self, light => light.extent(shapes))
     }
 
     /// The one direction in which a light at infinity is, if there is but one (unit).
     pub fn toward(&self) -> Option<Vec3> {
-        match self {
-            Self::Directional(light) => Some(-light.direction),
-            _ => None,
-        }
+        ask!(self, light => light.toward())
     }
 
     /// Emitted power (lights at infinity: what enters the scene), averaged over the wavelengths
     /// (W·nm⁻¹). Exact unless a texture's mean stands for the texture.
     pub fn power(&self, scene: &(impl Textures + Shapes), bounds: &BoundingSphere) -> f64 {
-        match self {
-            Self::Area(light) => light.power(scene),
-            Self::Point(light) => light.power(scene),
-            Self::Spot(light) => light.power(scene),
-            Self::Directional(light) => light.power(scene, bounds),
-            Self::Constant(light) => light.power(scene, bounds),
-            Self::Environment(light) => light.power(bounds),
-        }
+        ask!(self, light => light.power(scene, bounds))
     }
 }
 

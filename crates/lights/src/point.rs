@@ -4,15 +4,17 @@
 //! E⊥ = I / r²        Φ = 4π I
 //! ```
 
-use crate::light::anywhere;
+use crate::light::{anywhere, extent_of_point};
+use crate::light_model::LightModel;
 use crate::uniformity::refuse_varying;
-use etalon_math::DeltaProbability;
+use crate::{BoundingSphere, LightExtent};
+use etalon_math::{DeltaProbability, DirectionCone};
 use etalon_params::Params;
 use etalon_sampling::warps::{UNIFORM_SPHERE_DENSITY, square_to_uniform_sphere};
 use etalon_spectrum::Wavelengths;
 use etalon_transport::{
-    Build, Emission, EmissionPdf, LightId, LightKind, LightSample, Ray, SamplePdf, SpectrumKind,
-    TextureId, Textures,
+    Build, Emission, EmissionPdf, LightId, LightKind, LightSample, LightSampleContext, Ray,
+    SamplePdf, Shapes, SpectrumKind, TextureId, Textures,
 };
 use glam::{Vec2, Vec3};
 
@@ -45,16 +47,41 @@ impl PointLight {
             intensity,
         })
     }
+}
 
-    /// The direction from `from` to the light.
+impl LightModel for PointLight {
     #[inline]
-    pub fn sample(
+    fn is_even(&self, _: &LightSampleContext) -> bool {
+        true
+    }
+
+    #[inline]
+    fn emission_density(
         &self,
-        textures: &impl Textures,
-        from: Vec3,
+        _: &impl Shapes,
+        _: &BoundingSphere,
+        _: Vec3,
+        _cos: f32,
+    ) -> EmissionPdf {
+        EmissionPdf {
+            origin: 1.0,
+            ray: UNIFORM_SPHERE_DENSITY,
+        }
+    }
+
+    fn extent(&self, _: &impl Shapes) -> Option<LightExtent> {
+        Some(extent_of_point(self.position, DirectionCone::ALL, 0.0))
+    }
+
+    #[inline]
+    fn sample(
+        &self,
+        textures: &(impl Textures + Shapes),
+        from: &LightSampleContext,
         wavelengths: &Wavelengths,
+        _: Vec2,
     ) -> Option<LightSample> {
-        let to_light = self.position - from;
+        let to_light = self.position - from.position;
         let distance_squared = to_light.length_squared();
         let intensity = textures.spectrum(self.intensity, &anywhere(), wavelengths.lambda);
         Some(LightSample {
@@ -68,33 +95,32 @@ impl PointLight {
         })
     }
 
-    /// A particle.
     #[inline]
-    pub fn emit(&self, textures: &impl Textures, wavelengths: &Wavelengths, u: Vec2) -> Emission {
+    fn emit(
+        &self,
+        textures: &(impl Textures + Shapes),
+        _: &BoundingSphere,
+        wavelengths: &Wavelengths,
+        _: Vec2,
+        u: Vec2,
+    ) -> Option<Emission> {
         let direction = square_to_uniform_sphere(u);
         let intensity = textures.spectrum(self.intensity, &anywhere(), wavelengths.lambda);
         let ray = Ray::new(self.position, direction, 0.0);
-        Emission {
+        Some(Emission {
             point: Emission::point_of(&ray),
             ray,
             weight: intensity / UNIFORM_SPHERE_DENSITY,
             density: EmissionPdf {
                 origin: 1.0,
-                ray: self.direction_density(),
+                ray: UNIFORM_SPHERE_DENSITY,
             },
             origin: LightKind::Point,
             light: LightId::NONE,
-        }
+        })
     }
 
-    /// The density of the directions of [`PointLight::emit`] (sr⁻¹).
-    #[inline]
-    pub fn direction_density(&self) -> f32 {
-        UNIFORM_SPHERE_DENSITY
-    }
-
-    /// Emitted power, averaged over the wavelengths (W·nm⁻¹).
-    pub fn power(&self, textures: &impl Textures) -> f64 {
+    fn power(&self, textures: &(impl Textures + Shapes), _: &BoundingSphere) -> f64 {
         4.0 * core::f64::consts::PI * f64::from(textures.mean(self.intensity))
     }
 }

@@ -104,7 +104,7 @@ impl LightSet {
             if !(self.powers[index] > 0.0 || into_nothing) {
                 continue;
             }
-            let hittable = light.is_background() || matches!(light, Light::Area(_));
+            let hittable = light.can_be_hit();
             let chosen = self.selector.probability_to_emit(LightId(index as u32)) > 0.0;
             count.all += 1;
             count.hittable += u32::from(hittable);

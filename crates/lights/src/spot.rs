@@ -13,17 +13,18 @@
 //! Φ = 2π I₀ [1 − (sin c − sin b)/(c − b)]
 //! ```
 
-use crate::LightExtent;
 use crate::light::{anywhere, extent_of_point};
+use crate::light_model::LightModel;
 use crate::pose::Pose;
 use crate::uniformity::refuse_varying;
+use crate::{BoundingSphere, LightExtent};
 use etalon_math::{DeltaProbability, DirectionCone, float, float64};
 use etalon_params::Params;
 use etalon_sampling::warps::{square_to_uniform_cone, uniform_cone_density};
 use etalon_spectrum::Wavelengths;
 use etalon_transport::{
-    Build, Emission, EmissionPdf, LightId, LightKind, LightSample, Ray, SamplePdf, SpectrumKind,
-    TextureId, TexturePoint, Textures,
+    Build, Emission, EmissionPdf, LightId, LightKind, LightSample, LightSampleContext, Ray,
+    SamplePdf, Shapes, SpectrumKind, TextureId, TexturePoint, Textures,
 };
 use glam::{Vec2, Vec3, Vec4};
 
@@ -100,17 +101,6 @@ impl SpotLight {
         }
     }
 
-    /// Where it is, and its cone.
-    pub fn extent(&self) -> LightExtent {
-        let (shines, cos_edge) = if self.cos_cutoff > 0.0 {
-            let axis = self.pose.to_world(Vec3::Z).as_dvec3().normalize();
-            (DirectionCone::along(axis), f64::from(self.cos_cutoff))
-        } else {
-            (DirectionCone::ALL, 0.0)
-        };
-        extent_of_point(self.pose.position, shines, cos_edge)
-    }
-
     /// Intensity (W·sr⁻¹·nm⁻¹) along a unit direction of the light's space.
     #[inline]
     fn intensity(&self, textures: &impl Textures, local: Vec3, wavelengths: &Wavelengths) -> Vec4 {
@@ -132,15 +122,46 @@ impl SpotLight {
         intensity
     }
 
-    /// The direction from `from` to the light.
+    /// The density of `direction` among those of [`LightModel::emit`] (sr⁻¹).
     #[inline]
-    pub fn sample(
+    pub fn direction_density(&self, direction: Vec3) -> f32 {
+        if self.pose.to_local(direction).z > self.cos_cutoff {
+            uniform_cone_density(self.one_minus_cos_cutoff)
+        } else {
+            0.0
+        }
+    }
+}
+
+impl LightModel for SpotLight {
+    #[inline]
+    fn is_even(&self, _: &LightSampleContext) -> bool {
+        true
+    }
+
+    #[inline]
+    fn emission_density(
         &self,
-        textures: &impl Textures,
-        from: Vec3,
+        _: &impl Shapes,
+        _: &BoundingSphere,
+        direction: Vec3,
+        _cos: f32,
+    ) -> EmissionPdf {
+        EmissionPdf {
+            origin: 1.0,
+            ray: self.direction_density(direction),
+        }
+    }
+
+    #[inline]
+    fn sample(
+        &self,
+        textures: &(impl Textures + Shapes),
+        from: &LightSampleContext,
         wavelengths: &Wavelengths,
+        _: Vec2,
     ) -> Option<LightSample> {
-        let to_light = self.pose.position - from;
+        let to_light = self.pose.position - from.position;
         let direction = to_light.try_normalize()?;
         let local = self.pose.to_local(-direction);
         let intensity = self.intensity(textures, local, wavelengths);
@@ -155,15 +176,21 @@ impl SpotLight {
         })
     }
 
-    /// A particle, with a direction uniform in the cone.
     #[inline]
-    pub fn emit(&self, textures: &impl Textures, wavelengths: &Wavelengths, u: Vec2) -> Emission {
+    fn emit(
+        &self,
+        textures: &(impl Textures + Shapes),
+        _: &BoundingSphere,
+        wavelengths: &Wavelengths,
+        _: Vec2,
+        u: Vec2,
+    ) -> Option<Emission> {
         let local = square_to_uniform_cone(u, self.one_minus_cos_cutoff);
         let direction = self.pose.to_world(local);
         let intensity = self.intensity(textures, local, wavelengths);
         let density = uniform_cone_density(self.one_minus_cos_cutoff);
         let ray = Ray::new(self.pose.position, direction, 0.0);
-        Emission {
+        Some(Emission {
             point: Emission::point_of(&ray),
             ray,
             weight: intensity / density,
@@ -173,23 +200,21 @@ impl SpotLight {
             },
             origin: LightKind::Point,
             light: LightId::NONE,
-        }
+        })
     }
 
-    /// The density of `direction` among those of [`SpotLight::emit`] (sr⁻¹).
-    #[inline]
-    pub fn direction_density(&self, direction: Vec3) -> f32 {
-        if self.pose.to_local(direction).z > self.cos_cutoff {
-            uniform_cone_density(self.one_minus_cos_cutoff)
-        } else {
-            0.0
-        }
-    }
-
-    /// Emitted power, averaged over the wavelengths (W·nm⁻¹); with a texture, as if it were its
-    /// mean everywhere.
-    pub fn power(&self, textures: &impl Textures) -> f64 {
+    fn power(&self, textures: &(impl Textures + Shapes), _: &BoundingSphere) -> f64 {
         let texture = self.texture.map_or(1.0, |t| textures.mean(t));
         self.solid_angle * f64::from(textures.mean(self.intensity) * texture)
+    }
+
+    fn extent(&self, _: &impl Shapes) -> Option<LightExtent> {
+        let (shines, cos_edge) = if self.cos_cutoff > 0.0 {
+            let axis = self.pose.to_world(Vec3::Z).as_dvec3().normalize();
+            (DirectionCone::along(axis), f64::from(self.cos_cutoff))
+        } else {
+            (DirectionCone::ALL, 0.0)
+        };
+        Some(extent_of_point(self.pose.position, shines, cos_edge))
     }
 }

@@ -1,0 +1,107 @@
+//! What a light is asked, with the answers that most of them share.
+
+use crate::{BoundingSphere, LightExtent};
+use etalon_math::{Density, SolidAngle};
+use etalon_spectrum::Wavelengths;
+use etalon_transport::{
+    Emission, EmissionPdf, LightSample, LightSampleContext, Shapes, SurfacePoint, Textures,
+};
+use glam::{Vec2, Vec3, Vec4};
+
+/// A light, as if it were the only one.
+pub(crate) trait LightModel {
+    /// Whether it is read as the child of a shape, which then is a surface that emits.
+    const OF_SHAPE: bool = false;
+
+    /// Whether it is at infinity; it then has no [`LightModel::extent`].
+    fn is_infinite(&self) -> bool {
+        false
+    }
+
+    /// Whether a ray that misses everything sees it.
+    fn is_background(&self) -> bool {
+        false
+    }
+
+    /// Radiance that leaves the surface point `at` along `wo`.
+    #[inline]
+    fn emitted(&self, _: &impl Textures, _at: &SurfacePoint, _wo: Vec3, _: &Wavelengths) -> Vec4 {
+        Vec4::ZERO
+    }
+
+    /// Radiance seen along the unit vector `direction` by a ray that misses everything.
+    #[inline]
+    fn background(&self, _: &impl Textures, _direction: Vec3, _: &Wavelengths) -> Vec4 {
+        Vec4::ZERO
+    }
+
+    /// A direction from `from` to the light.
+    fn sample(
+        &self,
+        scene: &(impl Textures + Shapes),
+        from: &LightSampleContext,
+        wavelengths: &Wavelengths,
+        u: Vec2,
+    ) -> Option<LightSample>;
+
+    /// Whether all its samples bring `from` the same irradiance if nothing is in the way.
+    #[inline]
+    fn is_even(&self, _from: &LightSampleContext) -> bool {
+        false
+    }
+
+    /// The density with which [`LightModel::sample`] from `from` finds the surface point `at`.
+    #[inline]
+    fn density(
+        &self,
+        _: &impl Shapes,
+        _from: &LightSampleContext,
+        _at: &SurfacePoint,
+    ) -> Density<SolidAngle> {
+        Density::ZERO
+    }
+
+    /// The density with which [`LightModel::sample`] from `from` finds the background in `direction`.
+    #[inline]
+    fn background_density(
+        &self,
+        _from: &LightSampleContext,
+        _direction: Vec3,
+    ) -> Density<SolidAngle> {
+        Density::ZERO
+    }
+
+    /// A particle.
+    fn emit(
+        &self,
+        scene: &(impl Textures + Shapes),
+        bounds: &BoundingSphere,
+        wavelengths: &Wavelengths,
+        u_position: Vec2,
+        u_direction: Vec2,
+    ) -> Option<Emission>;
+
+    /// The densities with which [`LightModel::emit`] makes a particle travel along `direction`, whose
+    /// angle with the surface has the cosine `cos`.
+    fn emission_density(
+        &self,
+        shapes: &impl Shapes,
+        bounds: &BoundingSphere,
+        direction: Vec3,
+        cos: f32,
+    ) -> EmissionPdf;
+
+    /// Where it is and whither it shines, without its power; `None` at infinity.
+    fn extent(&self, _: &impl Shapes) -> Option<LightExtent> {
+        None
+    }
+
+    /// The one direction in which a light at infinity is, if there is but one (unit).
+    fn toward(&self) -> Option<Vec3> {
+        None
+    }
+
+    /// Emitted power (lights at infinity: what enters the scene), averaged over the wavelengths
+    /// (W·nm⁻¹). Exact unless a texture's mean stands for the texture.
+    fn power(&self, scene: &(impl Textures + Shapes), bounds: &BoundingSphere) -> f64;
+}
