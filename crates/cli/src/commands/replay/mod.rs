@@ -2,7 +2,7 @@
 //!
 //! Four numbers in brackets belong to the four wavelengths; lane 0, the first, chose. `f/p` is the
 //! contribution of the walk so far over the density p₀ of the lane that chose; `p/p₀` are the
-//! lanes' densities over the same (see [`etalon_integrators::prefix`]). Neither contains Russian
+//! lanes' densities over the same (see [`etalon_integrators::path_throughput`]). Neither contains Russian
 //! roulette, which only the estimator knows of.
 
 mod photons;
