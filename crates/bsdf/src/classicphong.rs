@@ -9,7 +9,7 @@
 //! and looks their textures up, and who can show them asks for them ([`Material::legacy_phong`]). To
 //! everybody else such a surface would be black, so the scene is refused before it comes to that.
 //!
-//! [`Material::legacy_phong`]: crate::Material::classic
+//! [`Material::legacy_phong`]: crate::Material::legacy_phong
 
 use crate::ior::RelativeIndex;
 use crate::{LobeList, MaterialFlags, ShadingContext};

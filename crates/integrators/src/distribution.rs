@@ -10,7 +10,7 @@
 //! at the price of a tree. Lens and shutter are sampled once for each tree. Smooth surfaces send
 //! one ray on, chosen at random.
 //!
-//! Weights are those of `path` ([`crate::prefix`]): they depend on a path alone and sum to one over
+//! Weights are those of `path` ([`crate::path_throughput`]): they depend on a path alone and sum to one over
 //! techniques and lanes, so that any N is unbiased; with N = 1 it *is* `path`, but for the order of
 //! sums. The N directions at a point are stratified in one coordinate. Rays of later bounces matter
 //! less, so that N is divided at each.

@@ -22,7 +22,7 @@
 //! any other lobe may be discrete, one half of the rest lets the model sample and keeps discrete
 //! directions only, and the other half draws from p; where nothing is continuous the model samples
 //! always. The density of a uniform or cosine direction is the same for every wavelength, that of
-//! a discrete one is not; the house's estimator ([`crate::prefix`]) takes one like the other.
+//! a discrete one is not; the house's estimator ([`crate::path_throughput`]) takes one like the other.
 
 use crate::dimensions::BounceSamples;
 use crate::light_mis::LightMis;

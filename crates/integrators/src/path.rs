@@ -9,7 +9,7 @@
 //! with ωᵢ the direction from xᵢ to xᵢ₊₁; the camera draws the one from x₀ (Kajiya 1986; Veach 1997,
 //! section 8.2). Directions are sampled from the scattering models;
 //! the last one also from the lights ("next-event estimation"); the two techniques and the four
-//! wavelengths are combined by one balance heuristic, see [`crate::prefix`].
+//! wavelengths are combined by one balance heuristic, see [`crate::path_throughput`].
 //!
 //! Surfaces that light passes straight (`mask`, `null`) count as segments, as in Mitsuba, but
 //! neither stop shadow rays nor end light sampling's claim on a path: the density with which the

@@ -122,7 +122,7 @@ impl SpotLight {
         intensity
     }
 
-    /// The density of `direction` among those of [`LightModel::emit`] (sr⁻¹).
+    /// The density of `direction` among those of particles (sr⁻¹).
     #[inline]
     pub fn direction_density(&self, direction: Vec3) -> f32 {
         if self.pose.to_local(direction).z > self.cos_cutoff {

@@ -4,7 +4,7 @@
 //! mass of a leaf = Σ L·|cos θ|/p     over the directions taken into it,     E[mass] = n ∫ L·|cos θ| dω
 //! ```
 //!
-//! L is what came from the direction that a path took ([`super::pupil`]), p the density of that direction, θ
+//! L is what came from the direction that a path took ([`super::training_path`]), p the density of that direction, θ
 //! its angle with the surface's normal: what is learned is what a diffuse surface would like to know. Light
 //! samples weigh in as everywhere: what they find well, L leaves to them, and the field learns the rest.
 //!

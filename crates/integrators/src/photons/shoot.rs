@@ -2,7 +2,7 @@
 //!
 //! A photon of flux Φ that arrives at y stands for the part Φ of the flux that arrives there. Its
 //! value per lane is f/p of its path, with p the mean density over the lanes that could have
-//! chosen (see [`crate::prefix`]), over the cosine of its arrival: the sum of the values of photons
+//! chosen (see [`crate::path_throughput`]), over the cosine of its arrival: the sum of the values of photons
 //! per unit area of a surface estimates the integral of radiance over directions.
 
 use super::sets::{WavelengthChoice, WavelengthSets};

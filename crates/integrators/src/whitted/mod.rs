@@ -26,7 +26,7 @@
 //! every picture is without noise; smooth dispersion sends each its own way. Every pixel is the
 //! mean of a grid of points over its square, refined where neighbours differ.
 //!
-//! [`LegacyPhong`]: etalon_transport::ClassicPhong
+//! [`LegacyPhong`]: etalon_transport::LegacyPhong
 
 mod light;
 mod phong;
