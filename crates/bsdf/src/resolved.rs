@@ -1,6 +1,7 @@
 //! A material at one point: at most [`MAX_LOBES`] lobes, and light that passes straight on.
 
 use crate::{Bxdf, Lobe};
+use etalon_math::float::ONE_MINUS_EPSILON;
 use etalon_math::{DeltaProbability, Density, Frame, SolidAngle};
 use etalon_transport::{Bsdf, BsdfSample, SamplePdf, TransportMode};
 use glam::{Vec2, Vec3, Vec4};
@@ -126,9 +127,6 @@ impl<'a> BsdfAtPoint<'a> {
         Some(sample)
     }
 }
-
-/// The largest float below 1: what remains of a uniform number after its use stays below 1.
-pub(crate) const ONE_MINUS_EPSILON: f32 = 1.0 - f32::EPSILON * 0.5;
 
 impl Bsdf for BsdfAtPoint<'_> {
     #[inline]

@@ -15,6 +15,7 @@
 use crate::dimensions::BounceSamples;
 use crate::path_throughput::PathThroughput;
 use crate::settings::LightCandidates;
+use etalon_math::float::ONE_MINUS_EPSILON;
 use etalon_math::{Density, SolidAngle};
 use etalon_sampling::Sampler;
 use etalon_spectrum::Wavelengths;
@@ -29,9 +30,6 @@ const TURN: Vec2 = Vec2::new(0.754_877_7, 0.569_840_3);
 
 /// How many there are of several lights unless a scene says so.
 const AUTOMATIC: u32 = 2;
-
-/// The largest number below one.
-const BELOW_ONE: f32 = 1.0 - f32::EPSILON / 2.0;
 
 /// How many light samples a vertex draws for its shadow ray; not zero.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -153,10 +151,10 @@ impl Candidates {
         let (mut number, shift) = (event.light_choice, sampler.next_1d());
         let (mut chosen, mut sum) = (None, 0.0);
         for i in 0..self.0 {
-            let choice = ((shift + i as f32) / self.0 as f32).min(BELOW_ONE);
+            let choice = ((shift + i as f32) / self.0 as f32).min(ONE_MINUS_EPSILON);
             let u = (event.light + TURN * i as f32)
                 .fract()
-                .min(Vec2::splat(BELOW_ONE));
+                .min(Vec2::splat(ONE_MINUS_EPSILON));
             let light = world.sample_light(from, wavelengths, choice, u);
             let Some(candidate) = light.as_ref().and_then(&aim) else {
                 continue;
@@ -170,10 +168,10 @@ impl Candidates {
                 sum += expected;
                 let p = expected / sum;
                 if number < p {
-                    number = (number / p).min(BELOW_ONE);
+                    number = (number / p).min(ONE_MINUS_EPSILON);
                     chosen = Some((candidate, expected));
                 } else {
-                    number = ((number - p) / (1.0 - p)).min(BELOW_ONE);
+                    number = ((number - p) / (1.0 - p)).min(ONE_MINUS_EPSILON);
                 }
             }
         }

@@ -22,6 +22,7 @@ use crate::path::camera_ray;
 use crate::path_throughput::PathThroughput;
 use crate::settings::PathSettings;
 use crate::steps;
+use etalon_math::float::ONE_MINUS_EPSILON;
 use etalon_params::Params;
 use etalon_sampling::{ReplicateKind, Sampler};
 use etalon_spectrum::{Wavelengths, sensor_response};
@@ -195,7 +196,7 @@ impl<W: World, S: Sampler> Tree<'_, W, S> {
         }
         let stratum = |u: Vec2| {
             let x = (number as f32 + u.x) / count as f32;
-            Vec2::new(x.min(1.0 - 0.5 * f32::EPSILON), u.y)
+            Vec2::new(x.min(ONE_MINUS_EPSILON), u.y)
         };
         BounceSamples {
             light: stratum(event.light),

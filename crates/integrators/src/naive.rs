@@ -32,6 +32,7 @@ use crate::settings::PathSettings;
 use crate::steps::{self, next_surface};
 use core::f32::consts::FRAC_1_PI;
 use etalon_math::Frame;
+use etalon_math::float::ONE_MINUS_EPSILON;
 use etalon_params::Params;
 use etalon_sampling::warps::{square_to_cosine_hemisphere, square_to_uniform_hemisphere};
 use etalon_sampling::{ReplicateKind, Sampler};
@@ -72,9 +73,6 @@ struct Step {
     eta: f32,
     is_null: bool,
 }
-
-/// The largest float below 1: what remains of a uniform number after its use stays below 1.
-const BELOW_ONE: f32 = 1.0 - f32::EPSILON * 0.5;
 
 impl Naive {
     /// Reads the integrator from its description: Mitsuba's parameters of paths, and `directions`.
@@ -126,7 +124,7 @@ impl Naive {
         let rest = (event.lobe - pass.x) / (1.0 - pass.x);
         let by_model = if bsdf.has_discrete() { 0.5 } else { 0.0 };
         if rest < by_model {
-            let (step, discrete) = sampled((rest / by_model).min(BELOW_ONE))?;
+            let (step, discrete) = sampled((rest / by_model).min(ONE_MINUS_EPSILON))?;
             // Passing and continuous directions are found elsewhere.
             return (discrete && !step.is_null).then(|| Step {
                 chance: step.chance * by_model * (Vec4::ONE - pass),

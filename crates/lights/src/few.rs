@@ -14,6 +14,7 @@
 
 use crate::extent::{LightBounds, LightExtent};
 use crate::light_sampler::{Candidate, LightChoice, LightSamplerKind};
+use etalon_math::float::ONE_MINUS_EPSILON;
 use etalon_transport::{LightId, LightSampleContext};
 use glam::Vec3;
 
@@ -120,7 +121,7 @@ impl FewLights {
                 choice = Some(LightChoice {
                     light: one.light,
                     probability,
-                    rest: (u / probability).min(ALMOST_ONE),
+                    rest: (u / probability).min(ONE_MINUS_EPSILON),
                 });
                 if u < probability {
                     break;
@@ -138,6 +139,3 @@ impl FewLights {
         at.map_or(0.0, |at| self.shares(from)[at])
     }
 }
-
-/// The largest number below one.
-const ALMOST_ONE: f32 = 1.0 - f32::EPSILON / 2.0;

@@ -8,6 +8,7 @@
 
 use crate::extent::{LightBounds, LightExtent};
 use crate::light_sampler::LightChoice;
+use etalon_math::float::ONE_MINUS_EPSILON;
 use etalon_transport::{LightId, LightSampleContext};
 use glam::DVec3;
 
@@ -124,7 +125,7 @@ impl LightTree {
                         probability *= q;
                         node = second as usize;
                     }
-                    u = u.min(ALMOST_ONE);
+                    u = u.min(ONE_MINUS_EPSILON);
                 }
             }
         }
@@ -153,9 +154,6 @@ impl LightTree {
         probability
     }
 }
-
-/// The largest number below one.
-const ALMOST_ONE: f32 = 1.0 - f32::EPSILON / 2.0;
 
 fn around(lights: &[(LightId, LightExtent)]) -> LightExtent {
     let (first, rest) = lights.split_first().expect("clusters are not empty");

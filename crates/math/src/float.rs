@@ -5,6 +5,9 @@
 //! portable implementations (errors below 1 ulp unless its documentation says otherwise).
 //! Everything an image depends on calls these; a lint forbids the standard library's.
 
+/// The largest number below one: what a random number in [0, 1) is clamped to after arithmetic.
+pub const ONE_MINUS_EPSILON: f32 = 1.0 - f32::EPSILON / 2.0;
+
 /// Sine of `x` radians.
 #[inline]
 pub fn sin(x: f32) -> f32 {

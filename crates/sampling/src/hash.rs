@@ -48,9 +48,6 @@ pub fn random_float(bits: u32) -> f32 {
     (bits >> 8) as f32 * STEP
 }
 
-/// The largest float below 1 that [`random_float`] can return, 1 − 2⁻²⁴.
-pub const ONE_MINUS: f32 = 1.0 - 1.0 / (1 << 24) as f32;
-
 /// Where `index` goes in the random permutation of 0..`count` that `key` selects.
 ///
 /// A bijection of the next power of two, walked until it lands inside (Kensler 2013,

@@ -10,8 +10,9 @@
 //! strata is divided into R, of which every block takes another one: together they are n·R samples,
 //! each in its own part.
 
-use crate::hash::{ONE_MINUS, derived_key, mix64, permute, random_float};
+use crate::hash::{derived_key, mix64, permute, random_float};
 use crate::sampler::{SampleId, Sampler};
+use etalon_math::float::ONE_MINUS_EPSILON;
 use glam::Vec2;
 
 /// Stratified coordinates.
@@ -112,7 +113,7 @@ impl Sampler for Stratified {
         let stratum = permute(self.place, self.count, self.shuffle(key));
         let part = self.part(stratum, key) as f32;
         let within = (part + self.offset(key).x) / self.blocks as f32;
-        ((stratum as f32 + within) / self.count as f32).min(ONE_MINUS)
+        ((stratum as f32 + within) / self.count as f32).min(ONE_MINUS_EPSILON)
     }
 
     #[inline]
@@ -127,7 +128,7 @@ impl Sampler for Stratified {
         let grid = Vec2::new(columns as f32, (self.blocks / columns) as f32);
         let part = Vec2::new((part % columns) as f32, (part / columns) as f32);
         let within = (part + self.offset(key)) / grid;
-        ((corner + within) / self.side as f32).min(Vec2::splat(ONE_MINUS))
+        ((corner + within) / self.side as f32).min(Vec2::splat(ONE_MINUS_EPSILON))
     }
 
     #[inline]

@@ -6,9 +6,9 @@
 //! sides to which surfaces may look: so the cosine can be learned with the radiance, and a floor does not
 //! look for light where the wall beside it finds some.
 
+use etalon_math::float::ONE_MINUS_EPSILON;
 use etalon_math::{Density, SolidAngle};
 use etalon_sampling::discrete::{Quadtree, Refinement};
-use etalon_sampling::hash::ONE_MINUS;
 use etalon_sampling::warps::{
     UNIFORM_SPHERE_DENSITY, square_to_uniform_sphere, uniform_sphere_to_square,
 };
@@ -109,7 +109,7 @@ impl SdTree {
     #[inline]
     pub(crate) fn find(&self, point: Vec3) -> usize {
         let place = (point - self.corner) * self.scale;
-        let mut place = place.clamp(Vec3::ZERO, Vec3::splat(ONE_MINUS));
+        let mut place = place.clamp(Vec3::ZERO, Vec3::splat(ONE_MINUS_EPSILON));
         let Some(mut branch) = self.branches.first() else {
             return 0;
         };
@@ -237,7 +237,7 @@ pub(crate) fn sample(lobe: &Quadtree, u: Vec2) -> (Vec3, Density<SolidAngle>) {
 /// Where in the square a direction lies.
 #[inline]
 pub(crate) fn place_of(direction: Vec3) -> Vec2 {
-    uniform_sphere_to_square(direction).clamp(Vec2::ZERO, Vec2::splat(ONE_MINUS))
+    uniform_sphere_to_square(direction).clamp(Vec2::ZERO, Vec2::splat(ONE_MINUS_EPSILON))
 }
 
 /// How finely directions are told apart, if squares with this share of the light are divided.

@@ -9,9 +9,9 @@
 //! model alone, with probability α·P. p₀, p_f and P may differ from lane to lane, α and p_g do not.
 
 use super::field;
+use etalon_math::float::ONE_MINUS_EPSILON;
 use etalon_math::{DeltaProbability, Density, SolidAngle};
 use etalon_sampling::discrete::Quadtree;
-use etalon_sampling::hash::ONE_MINUS;
 use etalon_transport::{Bsdf, BsdfSample, Mixed, Mixture, SamplePdf, TransportMode};
 use glam::{Vec2, Vec3, Vec4};
 
@@ -133,7 +133,9 @@ impl<B: Bsdf> Bsdf for GuidedBsdf<'_, B> {
             return self.sample_learned((lobe, share), wo, u, mode);
         }
         let u_lobe = passing + rest / share * (1.0 - passing);
-        let mut sample = self.bsdf.sample(wo, u_lobe.min(ONE_MINUS), u, mode)?;
+        let mut sample = self
+            .bsdf
+            .sample(wo, u_lobe.min(ONE_MINUS_EPSILON), u, mode)?;
         let own = sample.chance;
         let (chance, other) = match own {
             SamplePdf::Continuous(own) => {

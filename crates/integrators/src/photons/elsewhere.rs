@@ -6,6 +6,7 @@
 
 use super::sets::{WavelengthChoice, WavelengthSets};
 use crate::path_throughput::PathThroughput;
+use etalon_math::float::ONE_MINUS_EPSILON;
 use etalon_spectrum::Wavelengths;
 use etalon_transport::{Bsdf, BsdfSample, SurfaceInteraction, TransportMode, World};
 use glam::{Vec2, Vec3, Vec4};
@@ -148,7 +149,7 @@ fn discrete(bsdf: &impl Bsdf, wo: Vec3, wi: Vec3, lobe: f32, u: Vec2) -> Vec4 {
     const TRIES: u8 = 64;
     // The ends first: one of them finds either lobe of a pair, however unlikely it is.
     let others = (0..TRIES).map(|i| (f32::from(i) + 0.5) / f32::from(TRIES));
-    [lobe, 0.0, 1.0 - 0.5 * f32::EPSILON]
+    [lobe, 0.0, ONE_MINUS_EPSILON]
         .into_iter()
         .chain(others)
         .filter_map(|lobe| bsdf.sample(wo, lobe, u, TransportMode::Radiance))

@@ -131,7 +131,7 @@ impl AliasTable {
             return Choice {
                 index: 0,
                 probability: only.probability,
-                rest: (u as f32).min(crate::hash::ONE_MINUS),
+                rest: (u as f32).min(etalon_math::float::ONE_MINUS_EPSILON),
             };
         }
         let scaled = u * self.columns.len() as f64;
@@ -146,7 +146,7 @@ impl AliasTable {
         Choice {
             index,
             probability: self.columns[index].probability,
-            rest: (rest as f32).min(crate::hash::ONE_MINUS),
+            rest: (rest as f32).min(etalon_math::float::ONE_MINUS_EPSILON),
         }
     }
 }

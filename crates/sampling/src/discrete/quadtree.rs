@@ -9,7 +9,7 @@
 //! summed outside (by any number of threads, see [`Quadtree::spread`]); then
 //! [`Quadtree::learned`] divides the leaves that have much of it and merges those that have little.
 
-use crate::hash::ONE_MINUS;
+use etalon_math::float::ONE_MINUS_EPSILON;
 use glam::Vec2;
 
 /// A piecewise constant density on [0, 1)².
@@ -229,6 +229,6 @@ fn choose(u: &mut f32, first: f32, second: f32) -> bool {
     } else {
         *u / first
     }
-    .min(ONE_MINUS);
+    .min(ONE_MINUS_EPSILON);
     chosen
 }
