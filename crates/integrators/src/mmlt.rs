@@ -24,15 +24,12 @@ use crate::bdpt::Technique;
 use crate::bdpt::single::{Lists, sample};
 use crate::dimensions as dim;
 use crate::metropolis::{
-    ChainSettings, Contributions, FilmRegion, Integrand, PathLengthPdf, State,
+    ChainSettings, Contributions, FilmRegion, Metropolis, PathLengthPdf, PathSampler,
 };
 use crate::settings::PathSettings;
 use etalon_params::Params;
 use etalon_sampling::Sampler;
-use etalon_transport::{
-    Incompatibility, Integrator, LightSearch, Pass, PixelSample, Placing, SceneCapabilities, Sink,
-    TraceEvent, World,
-};
+use etalon_transport::{LightSearch, TraceEvent, World};
 
 /// The numbers that choose the technique and the length: those between the moment and the first
 /// scattering event, which nothing else needs.
@@ -41,14 +38,8 @@ const CHOICE: u32 = dim::TIME + 1;
 /// The longest path that may be asked for (segments).
 const LONGEST: u32 = 256;
 
-/// Multiplexed Metropolis light transport.
-#[derive(Clone, Debug)]
-pub struct Multiplexed {
-    /// Limits of the path; its length must have one.
-    pub settings: PathSettings,
-    /// How chains are run.
-    pub chains: ChainSettings,
-}
+/// Multiplexed Metropolis light transport; the length of its paths must have a limit.
+pub type Multiplexed = Metropolis<Techniques>;
 
 impl Multiplexed {
     /// Reads the integrator from its description.
@@ -69,35 +60,35 @@ impl Multiplexed {
         Self {
             settings,
             chains: ChainSettings::from_params(params),
+            paths: Techniques,
         }
     }
 }
 
-/// Techniques of bidirectional path tracing in a world.
-struct Techniques<'w, W> {
-    integrator: &'w Multiplexed,
-    world: &'w W,
-}
+/// One technique of bidirectional path tracing per primary sample.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Techniques;
 
-impl<'w, W: World> Integrand for Techniques<'w, W> {
-    type Lists = Lists<W::Bsdf<'w>>;
+impl PathSampler for Techniques {
+    const LIGHT_SEARCH: LightSearch = LightSearch::Either;
 
-    fn kinds(&self) -> usize {
-        let Multiplexed { settings, chains } = self.integrator;
+    type Lists<'w, W: World + 'w> = Lists<W::Bsdf<'w>>;
+
+    fn kinds(&self, settings: &PathSettings, chains: &ChainSettings) -> usize {
         // A path of n segments has at most n − 1 corners.
         let most = settings.max_depth.min(LONGEST);
         most.saturating_sub(chains.least_corners()) as usize
     }
 
-    fn find<S: Sampler>(
+    fn find<'w, W: World, S: Sampler>(
         &self,
+        (world, settings, chains): (&'w W, &PathSettings, &ChainSettings),
         field: &FilmRegion,
         kinds: &PathLengthPdf,
         sampler: &mut S,
-        lists: &mut Self::Lists,
+        lists: &mut Lists<W::Bsdf<'w>>,
         found: &mut Contributions,
     ) {
-        let Multiplexed { settings, chains } = self.integrator;
         sampler.skip_to(CHOICE);
         let choice = sampler.next_2d();
         let (kind, probability) = kinds.choose(choice.y);
@@ -110,7 +101,7 @@ impl<'w, W: World> Integrand for Techniques<'w, W> {
             camera: vertices - light,
             weighted: true,
         };
-        (self.world).record(|| TraceEvent::Technique {
+        world.record(|| TraceEvent::Technique {
             light: technique.light,
             camera: technique.camera,
         });
@@ -118,57 +109,6 @@ impl<'w, W: World> Integrand for Techniques<'w, W> {
         let site = field.site(sampler.next_2d());
         let factor = field.area() * vertices as f32 / probability;
         let add = |raster, rgb: glam::Vec3| found.add(raster, rgb * factor);
-        sample(self.world, settings, technique, &site, sampler, lists, add);
-    }
-
-    #[inline]
-    fn record(&self, remark: impl FnOnce() -> TraceEvent) -> bool {
-        self.world.record(remark)
-    }
-}
-
-impl Integrator for Multiplexed {
-    const UNBIASED: bool = true;
-
-    type State = State;
-
-    fn splats(&self) -> bool {
-        true
-    }
-
-    fn incompatibilities(&self, sight: &SceneCapabilities) -> Vec<Incompatibility> {
-        let mut objections = sight.incompatibilities(LightSearch::Either);
-        objections.extend(sight.unsplattable());
-        objections
-    }
-
-    fn prepare<W: World>(
-        &self,
-        world: &W,
-        placing: &impl Placing,
-        pass: &Pass,
-        before: Option<State>,
-    ) -> State {
-        let integrator = self;
-        State::prepare(
-            &Techniques { integrator, world },
-            &self.chains,
-            placing,
-            pass,
-            before,
-        )
-    }
-
-    fn sample<W: World, S: Sampler, K: Sink>(
-        &self,
-        world: &W,
-        state: &State,
-        site: &PixelSample,
-        sampler: &mut S,
-        sink: &mut K,
-    ) {
-        (self.chains).ordinary(world, &self.settings, site, sampler, sink);
-        let integrator = self;
-        state.host(&Techniques { integrator, world }, &self.chains, site, sink);
+        sample(world, settings, technique, &site, sampler, lists, add);
     }
 }

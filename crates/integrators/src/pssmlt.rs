@@ -19,25 +19,16 @@
 
 use crate::dimensions as dim;
 use crate::metropolis::{
-    ChainSettings, Contributions, FilmRegion, Integrand, PathLengthPdf, State,
+    ChainSettings, Contributions, FilmRegion, Metropolis, PathLengthPdf, PathSampler,
 };
 use crate::path_state::PathState;
 use crate::settings::PathSettings;
 use etalon_params::Params;
 use etalon_sampling::Sampler;
-use etalon_transport::{
-    Incompatibility, Integrator, LightSearch, Pass, PixelSample, Placing, SceneCapabilities, Sink,
-    TraceEvent, World,
-};
+use etalon_transport::{LightSearch, World};
 
 /// Primary sample space Metropolis light transport.
-#[derive(Clone, Debug, Default)]
-pub struct PrimarySpace {
-    /// Limits of the path.
-    pub settings: PathSettings,
-    /// How chains are run.
-    pub chains: ChainSettings,
-}
+pub type PrimarySpace = Metropolis<CameraPaths>;
 
 impl PrimarySpace {
     /// Reads the integrator from its description.
@@ -45,85 +36,39 @@ impl PrimarySpace {
         Self {
             settings: PathSettings::from_params(params),
             chains: ChainSettings::from_params(params),
+            paths: CameraPaths,
         }
     }
 }
 
-/// Paths of the path tracer in a world.
-struct Paths<'a, W> {
-    integrator: &'a PrimarySpace,
-    world: &'a W,
-}
+/// One path of the path tracer per primary sample.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct CameraPaths;
 
-impl<W: World> Integrand for Paths<'_, W> {
-    type Lists = ();
+impl PathSampler for CameraPaths {
+    const LIGHT_SEARCH: LightSearch = LightSearch::FromCamera;
 
-    fn kinds(&self) -> usize {
-        let PrimarySpace { settings, chains } = self.integrator;
+    type Lists<'w, W: World + 'w> = ();
+
+    fn kinds(&self, settings: &PathSettings, chains: &ChainSettings) -> usize {
         // All kinds together. A path has more segments than corners.
         usize::from(settings.max_depth > chains.least_corners())
     }
 
-    fn find<S: Sampler>(
+    fn find<W: World, S: Sampler>(
         &self,
+        (world, settings, chains): (&W, &PathSettings, &ChainSettings),
         field: &FilmRegion,
         _: &PathLengthPdf,
         sampler: &mut S,
         (): &mut (),
         found: &mut Contributions,
     ) {
-        let PrimarySpace { settings, chains } = self.integrator;
         sampler.skip_to(dim::FILM);
         let site = field.site(sampler.next_2d());
-        let mut walk = PathState::start(self.world, settings, &site, sampler, ());
+        let mut walk = PathState::start(world, settings, &site, sampler, ());
         let wanted = chains.least_corners()..u32::MAX;
-        walk.follow(self.world, settings, &wanted);
+        walk.follow(world, settings, &wanted);
         found.add(site.raster, walk.colour() * field.area());
-    }
-
-    #[inline]
-    fn record(&self, remark: impl FnOnce() -> TraceEvent) -> bool {
-        self.world.record(remark)
-    }
-}
-
-impl Integrator for PrimarySpace {
-    const UNBIASED: bool = true;
-
-    type State = State;
-
-    fn splats(&self) -> bool {
-        true
-    }
-
-    fn incompatibilities(&self, sight: &SceneCapabilities) -> Vec<Incompatibility> {
-        let mut objections = sight.incompatibilities(LightSearch::FromCamera);
-        objections.extend(sight.unsplattable());
-        objections
-    }
-
-    fn prepare<W: World>(
-        &self,
-        world: &W,
-        placing: &impl Placing,
-        pass: &Pass,
-        before: Option<State>,
-    ) -> State {
-        let integrator = self;
-        let paths = Paths { integrator, world };
-        State::prepare(&paths, &self.chains, placing, pass, before)
-    }
-
-    fn sample<W: World, S: Sampler, K: Sink>(
-        &self,
-        world: &W,
-        state: &State,
-        site: &PixelSample,
-        sampler: &mut S,
-        sink: &mut K,
-    ) {
-        (self.chains).ordinary(world, &self.settings, site, sampler, sink);
-        let integrator = self;
-        state.host(&Paths { integrator, world }, &self.chains, site, sink);
     }
 }

@@ -47,6 +47,7 @@ mod bootstrap;
 mod chain;
 mod found;
 mod importance_map;
+mod integrator;
 pub(crate) mod primary;
 #[cfg(test)]
 mod tests;
@@ -54,6 +55,8 @@ mod tests;
 pub(crate) use bootstrap::PathLengthPdf;
 pub use bootstrap::State;
 pub(crate) use found::{Contributions, FilmRegion};
+pub use integrator::Metropolis;
+pub(crate) use integrator::PathSampler;
 
 use crate::path_state::PathState;
 use crate::settings::PathSettings;

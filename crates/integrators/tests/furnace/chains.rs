@@ -3,8 +3,8 @@
 use crate::world::{Fault, Sphere};
 use crate::{Meter, series, settings, white};
 use etalon_integrators::metropolis::ChainSettings;
-use etalon_integrators::mmlt::Multiplexed;
-use etalon_integrators::pssmlt::PrimarySpace;
+use etalon_integrators::mmlt::{Multiplexed, Techniques};
+use etalon_integrators::pssmlt::{CameraPaths, PrimarySpace};
 use etalon_sampling::{Independent, SampleId, Sampler};
 use etalon_transport::{Integrator, Pass, PixelSample};
 use glam::UVec2;
@@ -76,6 +76,7 @@ fn multiplexed(max_depth: u32, separate_direct: bool) -> Multiplexed {
     Multiplexed {
         settings: settings(max_depth),
         chains: chains(separate_direct),
+        paths: Techniques,
     }
 }
 
@@ -83,6 +84,7 @@ fn primary(max_depth: u32, separate_direct: bool) -> PrimarySpace {
     PrimarySpace {
         settings: settings(max_depth),
         chains: chains(separate_direct),
+        paths: CameraPaths,
     }
 }
 

@@ -1,0 +1,126 @@
+//! The integrator that runs chains, whatever paths its primary samples stand for.
+
+use super::{ChainSettings, Contributions, FilmRegion, Integrand, PathLengthPdf, State};
+use crate::settings::PathSettings;
+use etalon_sampling::Sampler;
+use etalon_transport::{
+    Incompatibility, Integrator, LightSearch, Pass, PixelSample, Placing, SceneCapabilities, Sink,
+    TraceEvent, World,
+};
+
+/// Turns primary samples into paths.
+pub(crate) trait PathSampler: Sync {
+    /// Which lights its paths find.
+    const LIGHT_SEARCH: LightSearch;
+
+    /// Memory that one path lends to the next.
+    type Lists<'w, W: World + 'w>: Default;
+
+    /// How many kinds of paths it tells apart; none if there is nothing to find.
+    fn kinds(&self, settings: &PathSettings, chains: &ChainSettings) -> usize;
+
+    /// Turns a primary sample into contributions to the film.
+    fn find<'w, W: World, S: Sampler>(
+        &self,
+        place: (&'w W, &PathSettings, &ChainSettings),
+        field: &FilmRegion,
+        kinds: &PathLengthPdf,
+        sampler: &mut S,
+        lists: &mut Self::Lists<'w, W>,
+        found: &mut Contributions,
+    );
+}
+
+/// Metropolis light transport over the paths of `P`.
+#[derive(Clone, Debug, Default)]
+pub struct Metropolis<P> {
+    /// Limits of the path.
+    pub settings: PathSettings,
+    /// How chains are run.
+    pub chains: ChainSettings,
+    /// What primary samples stand for.
+    pub paths: P,
+}
+
+/// The paths in a world.
+struct InWorld<'w, W, P> {
+    integrator: &'w Metropolis<P>,
+    world: &'w W,
+}
+
+impl<'w, W: World, P: PathSampler> Integrand for InWorld<'w, W, P> {
+    type Lists = P::Lists<'w, W>;
+
+    fn kinds(&self) -> usize {
+        let Metropolis {
+            settings,
+            chains,
+            paths,
+        } = self.integrator;
+        paths.kinds(settings, chains)
+    }
+
+    #[inline]
+    fn find<S: Sampler>(
+        &self,
+        field: &FilmRegion,
+        kinds: &PathLengthPdf,
+        sampler: &mut S,
+        lists: &mut Self::Lists,
+        found: &mut Contributions,
+    ) {
+        let Metropolis {
+            settings,
+            chains,
+            paths,
+        } = self.integrator;
+        let place = (self.world, settings, chains);
+        paths.find(place, field, kinds, sampler, lists, found);
+    }
+
+    #[inline]
+    fn record(&self, remark: impl FnOnce() -> TraceEvent) -> bool {
+        self.world.record(remark)
+    }
+}
+
+impl<P: PathSampler> Integrator for Metropolis<P> {
+    const UNBIASED: bool = true;
+
+    type State = State;
+
+    fn splats(&self) -> bool {
+        true
+    }
+
+    fn incompatibilities(&self, sight: &SceneCapabilities) -> Vec<Incompatibility> {
+        let mut objections = sight.incompatibilities(P::LIGHT_SEARCH);
+        objections.extend(sight.unsplattable());
+        objections
+    }
+
+    fn prepare<W: World>(
+        &self,
+        world: &W,
+        placing: &impl Placing,
+        pass: &Pass,
+        before: Option<State>,
+    ) -> State {
+        let integrator = self;
+        let paths = InWorld { integrator, world };
+        State::prepare(&paths, &self.chains, placing, pass, before)
+    }
+
+    fn sample<W: World, S: Sampler, K: Sink>(
+        &self,
+        world: &W,
+        state: &State,
+        site: &PixelSample,
+        sampler: &mut S,
+        sink: &mut K,
+    ) {
+        (self.chains).ordinary(world, &self.settings, site, sampler, sink);
+        let integrator = self;
+        state.host(&InWorld { integrator, world }, &self.chains, site, sink);
+    }
+}
