@@ -13,10 +13,11 @@ pub(super) fn command(
     replicate: u32,
     sample: u32,
 ) -> String {
-    // What a shell cannot be told (a NUL) no command line held.
+    // `shlex` quotes more than a shell asks for; a NUL, which it refuses, no command line held.
+    let plain = |c: char| c.is_ascii_alphanumeric() || "-_./=,:+".contains(c);
     let quoted = |text: String| match shlex::try_quote(&text) {
-        Ok(quoted) => quoted.into_owned(),
-        Err(_) => text.clone(),
+        Ok(quoted) if !text.chars().all(plain) || text.is_empty() => quoted.into_owned(),
+        _ => text.clone(),
     };
     let mut words = vec![
         "etalon render".to_owned(),
@@ -71,7 +72,7 @@ mod tests {
             sampler: SamplerKind::Sobol,
         };
         let expected = "etalon render scene.xml --integrator path --light-chooser tree \
-                        -D 'colour=1,2' -D \"name=a'b\" --spp 32 --replicates 4 --seed 7 \
+                        -D colour=1,2 -D \"name=a'b\" --spp 32 --replicates 4 --seed 7 \
                         --replay 12,5,2,3";
         assert_eq!(command(&args, &plan, None, [12, 5], 2, 3), expected);
         let dealt = expected.replace("--replay", "--adaptive --pilot 64 --replay");
