@@ -288,16 +288,25 @@ impl<W: World> World for Faulty<'_, W> {
         u_light: f32,
         u_position: Vec2,
         u_direction: Vec2,
+        time: f32,
     ) -> Option<Emission> {
-        let emission = (self.world).emit(wavelengths, u_light, u_position, u_direction)?;
+        let emission = self
+            .world
+            .emit(wavelengths, u_light, u_position, u_direction, time)?;
         Some(Emission {
             weight: self.energy() * emission.weight,
             ..emission
         })
     }
 
-    fn emission_density(&self, light: LightId, direction: Vec3, cos: f32) -> EmissionPdf {
-        self.world.emission_density(light, direction, cos)
+    fn emission_density(
+        &self,
+        light: LightId,
+        direction: Vec3,
+        cos: f32,
+        time: f32,
+    ) -> EmissionPdf {
+        self.world.emission_density(light, direction, cos, time)
     }
 
     fn background_emission_density(&self, direction: Vec3) -> EmissionPdf {

@@ -1,14 +1,14 @@
 //! The list of cameras a scene can ask for.
 
-use crate::{FilmWindow, Orthographic, Perspective, Shutter, ThinLens};
+use crate::{FilmWindow, Orthographic, Perspective, ThinLens};
 use etalon_params::{Class, Diagnostic, Params, plugins};
-use etalon_transport::{ApertureHit, Camera, CameraRay, CameraSample, Ray};
+use etalon_transport::{ApertureHit, Camera, CameraRay, CameraSample, Ray, Shutter};
 use glam::{Vec2, Vec3};
 
 macro_rules! cameras {
     ($($(#[$doc:meta])* $plugin:literal => $variant:ident,)*) => {
         /// Any camera.
-        #[derive(Clone, Copy, Debug, PartialEq)]
+        #[derive(Clone, Debug, PartialEq)]
         pub enum AnyCamera {
             $($(#[$doc])* $variant($variant),)*
         }
@@ -17,10 +17,14 @@ macro_rules! cameras {
         pub const BUILT: &[&str] = &[$($plugin),*];
 
         impl AnyCamera {
-            fn by_plugin(params: &Params<'_>, window: FilmWindow) -> Option<Option<Self>> {
+            fn by_plugin(
+                params: &Params<'_>,
+                window: FilmWindow,
+                shutter: &Shutter,
+            ) -> Option<Option<Self>> {
                 match params.node.plugin.value.as_str() {
                     $($plugin => {
-                        Some($variant::from_params(params, window).map(Self::$variant))
+                        Some($variant::from_params(params, window, shutter).map(Self::$variant))
                     })*
                     _ => None,
                 }
@@ -34,8 +38,8 @@ macro_rules! cameras {
             }
 
             #[inline]
-            fn connect(&self, point: Vec3, lens: Vec2, margin: f32) -> Option<CameraSample> {
-                match self { $(Self::$variant(camera) => camera.connect(point, lens, margin),)* }
+            fn connect(&self, point: Vec3, lens: Vec2, time: f32, margin: f32) -> Option<CameraSample> {
+                match self { $(Self::$variant(camera) => camera.connect(point, lens, time, margin),)* }
             }
 
             #[inline]
@@ -68,14 +72,14 @@ impl AnyCamera {
     /// the scene, which reads them itself; they are marked as used here. Reports every mistake,
     /// unknown properties included; `None` if no camera can be made of it.
     pub fn from_params(params: &Params<'_>, window: FilmWindow) -> Option<(Self, Shutter)> {
-        let Some(camera) = Self::by_plugin(params, window) else {
+        let shutter = Shutter::from_params(params);
+        let Some(camera) = Self::by_plugin(params, window, &shutter) else {
             let built = BUILT.iter().copied();
             params
                 .diagnostics
                 .push(plugins::not_built(params.node, built));
             return None;
         };
-        let shutter = Shutter::from_params(params);
         if params.property("srf").is_some() {
             params.error_at(
                 "srf",

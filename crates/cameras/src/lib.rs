@@ -14,7 +14,6 @@ pub mod field_of_view;
 pub mod orthographic;
 pub mod perspective;
 pub mod pose;
-pub mod shutter;
 pub mod thin_lens;
 pub mod window;
 
@@ -24,7 +23,6 @@ pub use field_of_view::ImagePlane;
 pub use orthographic::Orthographic;
 pub use perspective::Perspective;
 pub use pose::Pose;
-pub use shutter::Shutter;
 pub use thin_lens::ThinLens;
 pub use window::FilmWindow;
 

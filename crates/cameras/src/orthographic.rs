@@ -9,14 +9,15 @@
 //! farther in *world* units, also if the pose scales z.
 
 use crate::{ClipRange, FilmWindow, Pose};
+use etalon_math::Animated;
 use etalon_params::Params;
-use etalon_transport::{Camera, CameraRay, CameraSample, Departure, Ray};
+use etalon_transport::{Camera, CameraRay, CameraSample, Departure, Ray, Shutter};
 use glam::{Vec2, Vec3};
 
 /// A camera without perspective.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct Orthographic {
-    pose: Pose,
+    pose: Animated<Pose>,
     window: FilmWindow,
     /// Camera-space point seen at raster (0, 0).
     corner: Vec2,
@@ -25,18 +26,12 @@ pub struct Orthographic {
     near: f32,
     /// Length of the rays (m).
     length: f32,
-    direction: Vec3,
-    /// |M·ẑ|.
-    stretch: f32,
-    weight: f32,
 }
 
 impl Orthographic {
     /// An orthographic camera.
-    pub fn new(pose: Pose, window: FilmWindow, clip: ClipRange) -> Self {
+    pub fn new(pose: Animated<Pose>, window: FilmWindow, clip: ClipRange) -> Self {
         let pixel = (2.0 / f64::from(window.size.x)) as f32;
-        let axis = pose.vector(Vec3::Z);
-        let stretch = axis.length();
         Self {
             pose,
             window,
@@ -44,49 +39,61 @@ impl Orthographic {
             pixel,
             near: clip.near as f32,
             length: (clip.far - clip.near) as f32,
-            direction: axis / stretch,
-            stretch,
-            weight: stretch / (pixel * pixel * pose.volume),
         }
     }
 
     /// Reads `near_clip`, `far_clip` and `to_world`.
-    pub fn from_params(params: &Params<'_>, window: FilmWindow) -> Option<Self> {
+    pub fn from_params(params: &Params<'_>, window: FilmWindow, shutter: &Shutter) -> Option<Self> {
         let clip = ClipRange::from_params(params);
-        let pose = Pose::from_params(params, false)?;
+        let pose = Pose::from_params(params, false, shutter)?;
         Some(Self::new(pose, window, clip))
+    }
+}
+
+impl Orthographic {
+    /// The direction of all rays, M·ẑ/|M·ẑ|, and |M·ẑ|.
+    #[inline]
+    fn axis(pose: &Pose) -> (Vec3, f32) {
+        let axis = pose.vector(Vec3::Z);
+        let stretch = axis.length();
+        (axis / stretch, stretch)
     }
 }
 
 impl Camera for Orthographic {
     #[inline]
     fn ray(&self, raster: Vec2, _lens: Vec2, time: f32) -> CameraRay {
-        let local = (self.corner - raster * self.pixel).extend(self.near);
-        CameraRay {
-            ray: Ray {
-                origin: self.pose.position + self.pose.vector(local),
-                direction: self.direction,
-                t_max: self.length,
-                time,
-                departure: Departure::NONE,
-            },
-            weight: 1.0,
-        }
+        self.pose.at(time, |pose| {
+            let local = (self.corner - raster * self.pixel).extend(self.near);
+            CameraRay {
+                ray: Ray {
+                    origin: pose.position + pose.vector(local),
+                    direction: Self::axis(pose).0,
+                    t_max: self.length,
+                    time,
+                    departure: Departure::NONE,
+                },
+                weight: 1.0,
+            }
+        })
     }
 
     #[inline]
-    fn connect(&self, point: Vec3, _lens: Vec2, margin: f32) -> Option<CameraSample> {
-        let local = self.pose.to_camera(point);
-        let t = (local.z - self.near) * self.stretch;
-        if !(t > 0.0 && t < self.length) {
-            return None;
-        }
-        let raster = (self.corner - local.truncate()) / self.pixel;
-        self.window.contains(raster, margin).then(|| CameraSample {
-            raster,
-            direction: -self.direction,
-            target: point - self.direction * t,
-            weight: self.weight,
+    fn connect(&self, point: Vec3, _lens: Vec2, time: f32, margin: f32) -> Option<CameraSample> {
+        self.pose.at(time, |pose| {
+            let local = pose.to_camera(point);
+            let (direction, stretch) = Self::axis(pose);
+            let t = (local.z - self.near) * stretch;
+            if !(t > 0.0 && t < self.length) {
+                return None;
+            }
+            let raster = (self.corner - local.truncate()) / self.pixel;
+            self.window.contains(raster, margin).then(|| CameraSample {
+                raster,
+                direction: -direction,
+                target: point - direction * t,
+                weight: stretch / (self.pixel * self.pixel * pose.volume),
+            })
         })
     }
 

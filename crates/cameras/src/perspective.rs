@@ -13,14 +13,15 @@
 
 use crate::field_of_view::half_width_from_params;
 use crate::{ClipRange, FilmWindow, ImagePlane, Pose};
+use etalon_math::Animated;
 use etalon_params::Params;
-use etalon_transport::{Camera, CameraRay, CameraSample, Departure, Ray};
+use etalon_transport::{Camera, CameraRay, CameraSample, Departure, Ray, Shutter};
 use glam::{DVec2, Vec2, Vec3};
 
 /// A pinhole camera.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct Perspective {
-    pose: Pose,
+    pose: Animated<Pose>,
     image: ImagePlane,
     near: f32,
     far: f32,
@@ -28,7 +29,7 @@ pub struct Perspective {
 
 impl Perspective {
     /// A pinhole camera with tan(φ/2) of the horizontal field of view on `image`.
-    pub fn new(pose: Pose, image: ImagePlane, clip: ClipRange) -> Self {
+    pub fn new(pose: Animated<Pose>, image: ImagePlane, clip: ClipRange) -> Self {
         Self {
             pose,
             image,
@@ -39,7 +40,7 @@ impl Perspective {
 
     /// Reads `fov`, `fov_axis`, `focal_length`, `near_clip`, `far_clip`,
     /// `principal_point_offset_x`, `principal_point_offset_y` and `to_world`.
-    pub fn from_params(params: &Params<'_>, window: FilmWindow) -> Option<Self> {
+    pub fn from_params(params: &Params<'_>, window: FilmWindow, shutter: &Shutter) -> Option<Self> {
         let finite = |name| params.float_where(name, 0.0, "a finite number", f64::is_finite);
         let offset = DVec2::new(
             finite("principal_point_offset_x"),
@@ -47,7 +48,7 @@ impl Perspective {
         );
         let half_width = half_width_from_params(params, window.aspect());
         let clip = ClipRange::from_params(params);
-        let pose = Pose::from_params(params, true)?;
+        let pose = Pose::from_params(params, true, shutter)?;
         Some(Self::new(
             pose,
             ImagePlane::new(window, half_width, offset),
@@ -59,39 +60,43 @@ impl Perspective {
 impl Camera for Perspective {
     #[inline]
     fn ray(&self, raster: Vec2, _lens: Vec2, time: f32) -> CameraRay {
-        let seen = self.pose.vector(self.image.point(raster).extend(1.0));
-        let length = seen.length();
-        CameraRay {
-            ray: Ray {
-                origin: self.pose.position + seen * self.near,
-                direction: seen / length,
-                t_max: (self.far - self.near) * length,
-                time,
-                departure: Departure::NONE,
-            },
-            weight: 1.0,
-        }
+        self.pose.at(time, |pose| {
+            let seen = pose.vector(self.image.point(raster).extend(1.0));
+            let length = seen.length();
+            CameraRay {
+                ray: Ray {
+                    origin: pose.position + seen * self.near,
+                    direction: seen / length,
+                    t_max: (self.far - self.near) * length,
+                    time,
+                    departure: Departure::NONE,
+                },
+                weight: 1.0,
+            }
+        })
     }
 
     #[inline]
-    fn connect(&self, point: Vec3, _lens: Vec2, margin: f32) -> Option<CameraSample> {
-        let local = self.pose.to_camera(point);
-        let depth = local.z;
-        if !(depth > self.near && depth < self.far) {
-            return None;
-        }
-        let raster = self.image.raster(local.truncate() / depth);
-        if !self.image.window.contains(raster, margin) {
-            return None;
-        }
-        let to_point = point - self.pose.position;
-        let distance = to_point.length();
-        let seen = to_point / depth;
-        Some(CameraSample {
-            raster,
-            direction: -to_point / distance,
-            target: self.pose.position + seen * self.near,
-            weight: distance / (depth * depth * depth * self.pose.volume * self.image.pixel_area()),
+    fn connect(&self, point: Vec3, _lens: Vec2, time: f32, margin: f32) -> Option<CameraSample> {
+        self.pose.at(time, |pose| {
+            let local = pose.to_camera(point);
+            let depth = local.z;
+            if !(depth > self.near && depth < self.far) {
+                return None;
+            }
+            let raster = self.image.raster(local.truncate() / depth);
+            if !self.image.window.contains(raster, margin) {
+                return None;
+            }
+            let to_point = point - pose.position;
+            let distance = to_point.length();
+            let seen = to_point / depth;
+            Some(CameraSample {
+                raster,
+                direction: -to_point / distance,
+                target: pose.position + seen * self.near,
+                weight: distance / (depth * depth * depth * pose.volume * self.image.pixel_area()),
+            })
         })
     }
 

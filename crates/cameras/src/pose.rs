@@ -1,8 +1,10 @@
 //! Where a camera stands: the map from camera space to the world, in the form that rays and
 //! connections need.
 
+use etalon_math::{Animated, FromAffine};
 use etalon_params::{DMat4, Params};
-use glam::{DMat3, Mat3, Vec3};
+use etalon_transport::Shutter;
+use glam::{DAffine3, DMat3, Mat3, Vec3};
 
 /// How far MᵀM may be from the identity for a camera that refuses scale (Mitsuba's bound, so
 /// that matrices written with few digits are accepted). What remains is honoured exactly.
@@ -27,21 +29,20 @@ impl Pose {
     /// The pose of an affine, invertible matrix; `None` for any other.
     pub fn new(to_world: &DMat4) -> Option<Self> {
         let linear = DMat3::from_mat4(*to_world);
-        let inverse = linear.inverse();
         let affine = to_world.row(3).to_array() == [0.0, 0.0, 0.0, 1.0];
-        let volume = linear.determinant().abs();
-        (affine && to_world.is_finite() && inverse.is_finite() && volume > 0.0).then(|| Self {
-            position: to_world.w_axis.truncate().as_vec3(),
-            axes: linear.as_mat3(),
-            inverse: inverse.as_mat3(),
-            volume: volume as f32,
-        })
+        let invertible = linear.inverse().is_finite() && linear.determinant() != 0.0;
+        (affine && to_world.is_finite() && invertible)
+            .then(|| Self::from_affine(&DAffine3::from_mat4(*to_world)))
     }
 
     /// Reads `to_world`. With `rigid`, scale and shear are refused (a reflection is not).
-    pub fn from_params(params: &Params<'_>, rigid: bool) -> Option<Self> {
-        let matrix = params.transform("to_world");
-        let Some(pose) = Self::new(&matrix) else {
+    pub fn from_params(
+        params: &Params<'_>,
+        rigid: bool,
+        shutter: &Shutter,
+    ) -> Option<Animated<Self>> {
+        let keys = params.keyframes("to_world");
+        if keys.iter().any(|(_, matrix)| Self::new(matrix).is_none()) {
             params.error_at(
                 "to_world",
                 format!(
@@ -50,13 +51,13 @@ impl Pose {
                 ),
             );
             return None;
-        };
-        let linear = DMat3::from_mat4(matrix);
-        let deviation = linear.transpose() * linear - DMat3::IDENTITY;
-        let scaled = deviation
-            .to_cols_array()
-            .iter()
-            .any(|x| x.abs() > RIGID_TOLERANCE);
+        }
+        let scaled = keys.iter().any(|(_, matrix)| {
+            let linear = DMat3::from_mat4(*matrix);
+            let deviation = linear.transpose() * linear - DMat3::IDENTITY;
+            let off = |x: &f64| x.abs() > RIGID_TOLERANCE;
+            deviation.to_cols_array().iter().any(off)
+        });
         if rigid && scaled {
             params.error_at(
                 "to_world",
@@ -67,7 +68,10 @@ impl Pose {
             );
             return None;
         }
-        Some(pose)
+        if let [(_, still)] = keys.as_slice() {
+            return Self::new(still).map(Animated::from);
+        }
+        Some(Animated::new(shutter.motion(params, "to_world")?))
     }
 
     /// The world image of a camera-space vector.
@@ -80,5 +84,16 @@ impl Pose {
     #[inline]
     pub fn to_camera(&self, point: Vec3) -> Vec3 {
         self.inverse * (point - self.position)
+    }
+}
+
+impl FromAffine for Pose {
+    fn from_affine(map: &DAffine3) -> Self {
+        Self {
+            position: map.translation.as_vec3(),
+            axes: map.matrix3.as_mat3(),
+            inverse: map.matrix3.inverse().as_mat3(),
+            volume: map.matrix3.determinant().abs() as f32,
+        }
     }
 }

@@ -17,15 +17,16 @@
 
 use crate::field_of_view::half_width_from_params;
 use crate::{ClipRange, FilmWindow, ImagePlane, Pose};
+use etalon_math::Animated;
 use etalon_params::Params;
 use etalon_sampling::warps::square_to_concentric_disk;
-use etalon_transport::{ApertureHit, Camera, CameraRay, CameraSample, Departure, Ray};
+use etalon_transport::{ApertureHit, Camera, CameraRay, CameraSample, Departure, Ray, Shutter};
 use glam::{DVec2, Vec2, Vec3};
 
 /// A camera with an ideal lens.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct ThinLens {
-    pose: Pose,
+    pose: Animated<Pose>,
     image: ImagePlane,
     near: f32,
     far: f32,
@@ -38,7 +39,7 @@ impl ThinLens {
     /// A lens of `aperture_radius` (m; zero makes a pinhole) focused on the plane at
     /// `focus_distance` (m, positive) along the camera's axis.
     pub fn new(
-        pose: Pose,
+        pose: Animated<Pose>,
         image: ImagePlane,
         clip: ClipRange,
         aperture_radius: f64,
@@ -57,7 +58,7 @@ impl ThinLens {
     /// Reads `aperture_radius`, `focus_distance` (default: the far clipping distance, as Mitsuba
     /// has it) and the parameters of `perspective`. The principal point's offset is an
     /// extension: Mitsuba's lens has none.
-    pub fn from_params(params: &Params<'_>, window: FilmWindow) -> Option<Self> {
+    pub fn from_params(params: &Params<'_>, window: FilmWindow, shutter: &Shutter) -> Option<Self> {
         const RADIUS: &str = "a finite number not below 0";
         let finite = |name| params.float_where(name, 0.0, "a finite number", f64::is_finite);
         let offset = DVec2::new(
@@ -76,7 +77,7 @@ impl ThinLens {
                 f > 0.0 && f.is_finite()
             });
         let half_width = half_width_from_params(params, window.aspect());
-        let pose = Pose::from_params(params, true)?;
+        let pose = Pose::from_params(params, true, shutter)?;
         let image = ImagePlane::new(window, half_width, offset);
         Some(Self::new(pose, image, clip, radius, focus))
     }
@@ -91,73 +92,79 @@ impl ThinLens {
 impl Camera for ThinLens {
     #[inline]
     fn ray(&self, raster: Vec2, lens: Vec2, time: f32) -> CameraRay {
-        let aperture = self.aperture(lens);
-        let slope = self.image.point(raster) - aperture * self.focus;
-        let seen = self.pose.vector(slope.extend(1.0));
-        let length = seen.length();
-        let start = self.pose.vector(aperture.extend(0.0)) + seen * self.near;
-        CameraRay {
-            ray: Ray {
-                origin: self.pose.position + start,
-                direction: seen / length,
-                t_max: (self.far - self.near) * length,
-                time,
-                departure: Departure::NONE,
-            },
-            weight: 1.0,
-        }
+        self.pose.at(time, |pose| {
+            let aperture = self.aperture(lens);
+            let slope = self.image.point(raster) - aperture * self.focus;
+            let seen = pose.vector(slope.extend(1.0));
+            let length = seen.length();
+            let start = pose.vector(aperture.extend(0.0)) + seen * self.near;
+            CameraRay {
+                ray: Ray {
+                    origin: pose.position + start,
+                    direction: seen / length,
+                    t_max: (self.far - self.near) * length,
+                    time,
+                    departure: Departure::NONE,
+                },
+                weight: 1.0,
+            }
+        })
     }
 
     #[inline]
-    fn connect(&self, point: Vec3, lens: Vec2, margin: f32) -> Option<CameraSample> {
-        let local = self.pose.to_camera(point);
-        let depth = local.z;
-        if !(depth > self.near && depth < self.far) {
-            return None;
-        }
-        let aperture = self.aperture(lens);
-        let slope = (local.truncate() - aperture) / depth;
-        let raster = self.image.raster(slope + aperture * self.focus);
-        if !self.image.window.contains(raster, margin) {
-            return None;
-        }
-        let origin = self.pose.position + self.pose.vector(aperture.extend(0.0));
-        let to_point = point - origin;
-        let distance = to_point.length();
-        Some(CameraSample {
-            raster,
-            direction: -to_point / distance,
-            target: origin + to_point * (self.near / depth),
-            weight: distance / (depth * depth * depth * self.pose.volume * self.image.pixel_area()),
+    fn connect(&self, point: Vec3, lens: Vec2, time: f32, margin: f32) -> Option<CameraSample> {
+        self.pose.at(time, |pose| {
+            let local = pose.to_camera(point);
+            let depth = local.z;
+            if !(depth > self.near && depth < self.far) {
+                return None;
+            }
+            let aperture = self.aperture(lens);
+            let slope = (local.truncate() - aperture) / depth;
+            let raster = self.image.raster(slope + aperture * self.focus);
+            if !self.image.window.contains(raster, margin) {
+                return None;
+            }
+            let origin = pose.position + pose.vector(aperture.extend(0.0));
+            let to_point = point - origin;
+            let distance = to_point.length();
+            Some(CameraSample {
+                raster,
+                direction: -to_point / distance,
+                target: origin + to_point * (self.near / depth),
+                weight: distance / (depth * depth * depth * pose.volume * self.image.pixel_area()),
+            })
         })
     }
 
     #[inline]
     fn intersect_aperture(&self, ray: &Ray, margin: f32) -> Option<ApertureHit> {
-        // In camera space the ray is o + t·d and the aperture lies in z = 0, looking toward +z.
-        let origin = self.pose.to_camera(ray.origin);
-        let direction = self.pose.to_camera(self.pose.position + ray.direction);
-        let seen = origin.z > self.near && origin.z < self.far;
-        if !(seen && direction.z < 0.0 && self.aperture_radius > 0.0) {
-            return None;
-        }
-        let slope = direction.truncate() / direction.z;
-        let aperture = origin.truncate() - slope * origin.z;
-        if !(aperture.length_squared() < self.aperture_radius * self.aperture_radius) {
-            return None;
-        }
-        let raster = self.image.raster(slope + aperture * self.focus);
-        if !self.image.window.contains(raster, margin) {
-            return None;
-        }
-        let depth_per_length = -direction.z;
-        let area = core::f32::consts::PI * self.aperture_radius * self.aperture_radius;
-        let volume = self.pose.volume;
-        let fourth_power = (depth_per_length * depth_per_length).powi(2);
-        Some(ApertureHit {
-            raster,
-            t: (origin.z - self.near) / depth_per_length,
-            weight: 1.0 / (fourth_power * volume * volume * self.image.pixel_area() * area),
+        self.pose.at(ray.time, |pose| {
+            // In camera space the ray is o + t·d and the aperture lies in z = 0, looking toward +z.
+            let origin = pose.to_camera(ray.origin);
+            let direction = pose.to_camera(pose.position + ray.direction);
+            let seen = origin.z > self.near && origin.z < self.far;
+            if !(seen && direction.z < 0.0 && self.aperture_radius > 0.0) {
+                return None;
+            }
+            let slope = direction.truncate() / direction.z;
+            let aperture = origin.truncate() - slope * origin.z;
+            if !(aperture.length_squared() < self.aperture_radius * self.aperture_radius) {
+                return None;
+            }
+            let raster = self.image.raster(slope + aperture * self.focus);
+            if !self.image.window.contains(raster, margin) {
+                return None;
+            }
+            let depth_per_length = -direction.z;
+            let area = core::f32::consts::PI * self.aperture_radius * self.aperture_radius;
+            let volume = pose.volume;
+            let fourth_power = (depth_per_length * depth_per_length).powi(2);
+            Some(ApertureHit {
+                raster,
+                t: (origin.z - self.near) / depth_per_length,
+                weight: 1.0 / (fourth_power * volume * volume * self.image.pixel_area() * area),
+            })
         })
     }
 

@@ -6,6 +6,7 @@ use crate::placement::Placement;
 use crate::primitive_index::{Contents, PrimitiveIndex, PrimitiveOwner};
 use crate::shapes::Shape;
 use crate::touching::touching;
+use etalon_math::Animated;
 use etalon_transport::{InstanceId, LightId, MaterialId, ShapeId};
 use glam::DVec3;
 use rayon::prelude::*;
@@ -24,7 +25,7 @@ pub struct GeometryBuilder {
     attachments: Vec<ShapeBinding>,
     world: Vec<ShapeId>,
     groups: Vec<Vec<ShapeId>>,
-    instances: Vec<(GroupId, Placement)>,
+    instances: Vec<(GroupId, Animated<Placement>)>,
 }
 
 impl GeometryBuilder {
@@ -78,8 +79,12 @@ impl GeometryBuilder {
     }
 
     /// Places a group in the world.
-    pub fn add_instance(&mut self, group: GroupId, placement: Placement) -> InstanceId {
-        self.instances.push((group, placement));
+    pub fn add_instance(
+        &mut self,
+        group: GroupId,
+        placement: impl Into<Animated<Placement>>,
+    ) -> InstanceId {
+        self.instances.push((group, placement.into()));
         InstanceId(self.instances.len() as u32 - 1)
     }
 
@@ -163,15 +168,22 @@ impl GeometryBuilder {
 }
 
 /// The box around the image of a box, widened for the rounding of rays taken into the instance.
-fn placed_bounds(bounds: Bounds, placement: &Placement) -> Bounds {
+fn placed_bounds(bounds: Bounds, placement: &Animated<Placement>) -> Bounds {
     if bounds.is_empty() {
         return Bounds::EMPTY;
     }
     let (min, max) = (bounds.min.as_dvec3(), bounds.max.as_dvec3());
     let half = (max - min) * 0.5 + 1e-6 * min.abs().max(max.abs());
-    let m = placement.linear();
-    let reach = m.x_axis.abs() * half.x + m.y_axis.abs() * half.y + m.z_axis.abs() * half.z;
-    let center = placement.point((min + max) * 0.5);
+    let middle = (min + max) * 0.5;
+    let [low, high] = match placement.motion() {
+        None => {
+            let m = placement.start().linear();
+            let reach = m.x_axis.abs() * half.x + m.y_axis.abs() * half.y + m.z_axis.abs() * half.z;
+            let center = placement.start().point(middle);
+            [center - reach, center + reach]
+        }
+        Some(motion) => motion.swept(middle - half, middle + half),
+    };
     let outward = |v: DVec3, up: bool| {
         let round = |x: f64| {
             let y = x as f32;
@@ -184,7 +196,7 @@ fn placed_bounds(bounds: Bounds, placement: &Placement) -> Bounds {
         glam::Vec3::new(round(v.x), round(v.y), round(v.z))
     };
     Bounds {
-        min: outward(center - reach, false),
-        max: outward(center + reach, true),
+        min: outward(low, false),
+        max: outward(high, true),
     }
 }

@@ -9,7 +9,7 @@ use crate::primitive_index::{PrimitiveIndex, PrimitiveOwner};
 use crate::shapes::Shape;
 use crate::traversal_ray::TraversalRay;
 use crate::world::WorldOthers;
-use etalon_math::DirectionCone;
+use etalon_math::{Animated, DirectionCone};
 use etalon_transport::{
     Hit, InstanceId, LightId, LightSampleContext, MaterialId, Ray, SampledPoint, ShapeId, Shapes,
     SurfaceInteraction, SurfacePoint,
@@ -36,7 +36,7 @@ pub(crate) struct Group {
 #[derive(Debug)]
 pub(crate) struct Instance {
     pub(crate) group: GroupId,
-    pub(crate) placement: Placement,
+    pub(crate) placement: Animated<Placement>,
 }
 
 /// All surfaces of a scene, immutable; made by a [`GeometryBuilder`](crate::GeometryBuilder).
@@ -71,6 +71,7 @@ impl Geometry {
     fn probe(&self, ray: &Ray) -> TraversalRay {
         TraversalRay {
             departure: ray.departure,
+            time: ray.time,
             ..self.world.scope.probe(ray.origin, ray.direction)
         }
     }
@@ -150,11 +151,18 @@ impl Geometry {
     /// The differential geometry of a hit.
     #[inline]
     pub fn vertex(&self, ray: &Ray, hit: &Hit) -> SurfaceInteraction {
+        if hit.instance.is_some() {
+            let instance = &self.instances[hit.instance.0 as usize];
+            (instance.placement).at(ray.time, |at| self.vertex_in(ray, hit, Some(at)))
+        } else {
+            self.vertex_in(ray, hit, None)
+        }
+    }
+
+    /// The same in the world, or in an instance placed like this.
+    #[inline(always)]
+    fn vertex_in(&self, ray: &Ray, hit: &Hit, placement: Option<&Placement>) -> SurfaceInteraction {
         let shape = &self.shapes[hit.shape.0 as usize];
-        let placement = hit
-            .instance
-            .is_some()
-            .then(|| &self.instances[hit.instance.0 as usize].placement);
         let (mut primitive, mut parameters) = (hit.primitive, hit.parameters);
         let surface = match shape.solid() {
             // Tracing the ray has brought the accelerator's copy of the corners close.

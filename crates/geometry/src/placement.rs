@@ -4,6 +4,7 @@
 //! rounded once, so that a ray taken into an instance and a point taken out of it agree to within
 //! one rounding of single precision.
 
+use etalon_math::FromAffine;
 use etalon_params::{DMat4, Diagnostic, Params};
 use glam::{DAffine3, DMat3, DVec3, Vec3};
 
@@ -28,15 +29,17 @@ impl Placement {
         if !affine || !matrix.is_finite() {
             return None;
         }
-        let forward = DAffine3::from_mat4(*matrix);
-        let inverse = forward.inverse();
-        (forward.matrix3.determinant() != 0.0 && inverse.is_finite())
-            .then_some(Self { forward, inverse })
+        let placement = Self::from_affine(&DAffine3::from_mat4(*matrix));
+        let invertible = placement.linear().determinant() != 0.0;
+        (invertible && placement.inverse.is_finite()).then_some(placement)
     }
 
-    /// Reads the parameter `to_world` (default: the identity). After a mistake, which has been
-    /// recorded, `None`.
+    /// Reads the parameter `to_world` (default: the identity). What is animated stays in its own space: an
+    /// instance moves it. After a mistake, which has been recorded, `None`.
     pub fn from_params(params: &Params<'_>) -> Option<Self> {
+        if params.is_animated("to_world") {
+            return Some(Self::IDENTITY);
+        }
         let placement = Self::from_matrix(&params.transform("to_world"));
         if placement.is_none() {
             let property = params.node.properties.iter().find(|p| p.name == "to_world");
@@ -109,6 +112,15 @@ impl Placement {
     #[inline]
     pub fn mirrors(&self) -> bool {
         self.forward.matrix3.determinant() < 0.0
+    }
+}
+
+impl FromAffine for Placement {
+    fn from_affine(map: &DAffine3) -> Self {
+        Self {
+            forward: *map,
+            inverse: map.inverse(),
+        }
     }
 }
 

@@ -37,6 +37,8 @@ pub(crate) struct TraversalRay {
     pub(crate) left: [f32; 3],
     /// The surface that the ray leaves.
     pub(crate) departure: Departure,
+    /// The moment within the shutter interval.
+    pub(crate) time: f32,
 }
 
 impl TraversalRay {
@@ -80,6 +82,7 @@ impl TraversalRay {
             entered: ((from + outward) * inverse).to_array(),
             left: ((from - outward) * inverse).to_array(),
             departure: Departure::NONE,
+            time: 0.0,
         };
         if !(reach < FARTHEST && direction.is_finite()) {
             // Enters every box at +∞ and leaves it at −∞: nothing is hit.

@@ -18,7 +18,9 @@ impl WorldOthers<'_> {
     fn enter(&self, instance: InstanceId, probe: &TraversalRay) -> (&Group, TraversalRay) {
         let Instance { group, placement } = &self.0.instances[instance.0 as usize];
         let group = &self.0.groups[group.0 as usize];
-        let (origin, direction) = placement.local_ray(probe.origin, probe.direction);
+        let (origin, direction) = placement.at(probe.time, |placement| {
+            placement.local_ray(probe.origin, probe.direction)
+        });
         (group, group.scope.probe(origin, direction))
     }
 

@@ -104,7 +104,7 @@ impl Forward {
         &self,
         world: &W,
         site: &PixelSample,
-        (wavelengths, sensor): (&Wavelengths, &SensorWeights),
+        (wavelengths, sensor, time): (&Wavelengths, &SensorWeights, f32),
         sampler: &mut S,
         sink: &mut K,
     ) {
@@ -113,7 +113,7 @@ impl Forward {
             rr_depth,
             hide_emitters,
         } = self.settings;
-        let Some((start, mut particle)) = LightPath::emit(world, wavelengths, sampler) else {
+        let Some((start, mut particle)) = LightPath::emit(world, wavelengths, sampler, time) else {
             return;
         };
         // Whether the particle has only passed surfaces straight since it left the light, and
@@ -198,6 +198,12 @@ impl Integrator for Forward {
         let sensor = sensor_response(&wavelengths);
         let (sky, alpha) = self.straight(world, ray, &wavelengths);
         sink.radiance(sensor.rgb(sky * weight).to_array(), alpha);
-        self.trace(world, site, (&wavelengths, &sensor), sampler, sink);
+        self.trace(
+            world,
+            site,
+            (&wavelengths, &sensor, ray.time),
+            sampler,
+            sink,
+        );
     }
 }

@@ -41,12 +41,13 @@ pub(crate) struct LightVertex<B> {
 }
 
 impl<'a> LightPath<'a> {
-    /// A particle that leaves a light; `None` if nothing is emitted.
+    /// A particle that leaves a light at the moment `time`; `None` if nothing is emitted.
     #[inline]
     pub(crate) fn emit<W: World>(
         world: &W,
         wavelengths: &'a Wavelengths,
         sampler: &mut impl Sampler,
+        time: f32,
     ) -> Option<(Emission, Self)> {
         sampler.skip_to(EMISSION_POSITION);
         let u_position = sampler.next_2d();
@@ -54,7 +55,7 @@ impl<'a> LightPath<'a> {
         let u_direction = sampler.next_2d();
         sampler.skip_to(EMISSION_LIGHT);
         let u_light = sampler.next_1d();
-        let start = world.emit(wavelengths, u_light, u_position, u_direction)?;
+        let start = world.emit(wavelengths, u_light, u_position, u_direction, time)?;
         let particle = Self {
             wavelengths,
             prefix: PathThroughput {

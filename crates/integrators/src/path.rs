@@ -29,6 +29,7 @@ use etalon_spectrum::Wavelengths;
 use etalon_transport::{
     Camera, Integrator, Pass, PixelSample, Placing, Ray, SampleJob, Sink, TileSink, World,
 };
+use glam::Vec2;
 
 /// The path tracer.
 #[derive(Clone, Debug, Default)]
@@ -135,6 +136,13 @@ impl Integrator for Path {
     }
 }
 
+/// What the lens, the wavelengths and the moment of a sample are chosen with.
+#[inline]
+pub(crate) fn draw_lens(sampler: &mut impl Sampler) -> (Vec2, f32, f32) {
+    sampler.skip_to(dim::LENS);
+    (sampler.next_2d(), sampler.next_1d(), sampler.next_1d())
+}
+
 /// Draws the wavelengths and the camera ray of a sample: everything before the first surface.
 #[inline]
 pub(crate) fn camera_ray<W: World, S: Sampler>(
@@ -142,10 +150,7 @@ pub(crate) fn camera_ray<W: World, S: Sampler>(
     site: &PixelSample,
     sampler: &mut S,
 ) -> (Wavelengths, Ray, f32) {
-    sampler.skip_to(dim::LENS);
-    let lens = sampler.next_2d();
-    let wavelengths = world.wavelengths(sampler.next_1d());
-    let time = sampler.next_1d();
+    let (lens, u, time) = draw_lens(sampler);
     let start = world.camera().ray(site.raster, lens, time);
-    (wavelengths, start.ray, start.weight)
+    (world.wavelengths(u), start.ray, start.weight)
 }

@@ -48,7 +48,7 @@
 use crate::photons::gather::{GatherConfig, Kernel, KernelLookup, Layer, follow_all, follow_one};
 use crate::photons::radius::{MOST_FOUND, from_pixels, held, read};
 use crate::photons::sets::WavelengthSets;
-use crate::photons::shoot::{Kind, PhotonMap, shoot};
+use crate::photons::shoot::{Kind, PhotonMap, moment, shoot};
 use crate::photons::{read_count, read_sets, rounded};
 use crate::settings::PathSettings;
 use etalon_params::Params;
@@ -111,6 +111,8 @@ impl Default for PhotonMapper {
 #[derive(Debug)]
 pub struct State {
     sets: WavelengthSets,
+    /// The moment of the pass.
+    time: f32,
     caustic: PhotonMap,
     global: PhotonMap,
     shot: u32,
@@ -195,6 +197,7 @@ impl PhotonMapper {
             settings: &self.settings,
             sets: &state.sets,
             layers: &layers,
+            time: state.time,
             final_gather: self.final_gather,
             sample_lights: true,
         })
@@ -249,6 +252,7 @@ impl Integrator for PhotonMapper {
             }
         });
         State {
+            time: moment(pass),
             sets,
             caustic,
             global,

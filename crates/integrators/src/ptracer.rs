@@ -88,7 +88,7 @@ impl ParticleTracer {
         &self,
         world: &W,
         site: &PixelSample,
-        (wavelengths, sensor): (&Wavelengths, &SensorWeights),
+        (wavelengths, sensor, time): (&Wavelengths, &SensorWeights, f32),
         sampler: &mut S,
         sink: &mut K,
     ) {
@@ -100,7 +100,7 @@ impl ParticleTracer {
         if max_depth < 2 {
             return;
         }
-        let Some((_, mut particle)) = LightPath::emit(world, wavelengths, sampler) else {
+        let Some((_, mut particle)) = LightPath::emit(world, wavelengths, sampler, time) else {
             return;
         };
         // As many segments as its depth lie behind once it has arrived.
@@ -134,7 +134,8 @@ impl ParticleTracer {
         crossings: u32,
     ) -> Option<(Vec2, Vec4)> {
         let (vertex, lens) = (&met.vertex, met.event.light);
-        let connection = (world.camera()).connect(vertex.position, lens, site.margin)?;
+        let connection =
+            (world.camera()).connect(vertex.position, lens, vertex.time, site.margin)?;
         let value = (met.bsdf).eval(met.wo, connection.direction, TransportMode::Importance);
         if value == Vec4::ZERO {
             return None;
@@ -186,6 +187,12 @@ impl Integrator for ParticleTracer {
         let sensor = sensor_response(&wavelengths);
         let (lights, alpha) = self.visible_lights(world, ray, &wavelengths);
         sink.radiance(sensor.rgb(lights * weight).to_array(), alpha);
-        self.trace(world, site, (&wavelengths, &sensor), sampler, sink);
+        self.trace(
+            world,
+            site,
+            (&wavelengths, &sensor, ray.time),
+            sampler,
+            sink,
+        );
     }
 }

@@ -17,7 +17,7 @@
 use crate::photons::gather::{GatherConfig, Kernel, KernelLookup, Layer, follow_all, follow_one};
 use crate::photons::radius::Radius;
 use crate::photons::sets::WavelengthSets;
-use crate::photons::shoot::{Kind, PhotonMap, shoot};
+use crate::photons::shoot::{Kind, PhotonMap, moment, shoot};
 use crate::photons::{read_count, read_sets, rounded};
 use crate::settings::PathSettings;
 use etalon_params::Params;
@@ -61,6 +61,8 @@ const SETS: u32 = 4;
 #[derive(Debug)]
 pub struct State {
     sets: WavelengthSets,
+    /// The moment of the pass.
+    time: f32,
     map: PhotonMap,
     shot: u32,
     radius: f32,
@@ -100,6 +102,7 @@ impl Progressive {
             settings: &self.settings,
             sets: &state.sets,
             layers: &layers,
+            time: state.time,
             final_gather: false,
             sample_lights: self.sample_lights,
         })
@@ -131,6 +134,7 @@ impl Integrator for Progressive {
         let shot = rounded(self.photons.unwrap_or(pixels), self.sets);
         let photons = shoot(world, placing, &self.settings, &sets, pass, shot);
         State {
+            time: moment(pass),
             sets,
             map: PhotonMap::new(photons),
             shot,

@@ -24,17 +24,17 @@
 
 use crate::bdpt::merge::{self, Merging, Terms};
 use crate::bdpt::{Start, estimate};
-use crate::path::camera_ray;
+use crate::path::draw_lens;
 use crate::photons::radius::Radius;
 use crate::photons::sets::WavelengthSets;
-use crate::photons::shoot::{in_order, numbers};
+use crate::photons::shoot::{in_order, moment, numbers};
 use crate::photons::{read_count, rounded};
 use crate::settings::PathSettings;
 use etalon_params::Params;
 use etalon_sampling::Sampler;
 use etalon_spectrum::Wavelengths;
 use etalon_transport::{
-    Incompatibility, Integrator, LightSearch, Pass, PixelSample, Placing, SampleJob,
+    Camera, Incompatibility, Integrator, LightSearch, Pass, PixelSample, Placing, SampleJob,
     SceneCapabilities, Sink, TileSink, TraceEvent, World,
 };
 
@@ -89,14 +89,15 @@ impl ConnectionMerging {
         site: &PixelSample,
         sampler: &mut impl Sampler,
     ) -> Start<'a> {
-        let (_, ray, weight) = camera_ray(world, site, sampler);
+        let (lens, ..) = draw_lens(sampler);
+        let start = world.camera().ray(site.raster, lens, state.merging.time());
         world.record(|| TraceEvent::Wavelengths(state.wavelengths));
         Start {
             settings: &self.settings,
             only: None,
             wavelengths: state.wavelengths,
-            ray,
-            weight,
+            ray: start.ray,
+            weight: start.weight,
             merging: Some(&state.merging),
         }
     }
@@ -136,6 +137,7 @@ impl Integrator for ConnectionMerging {
             radius,
             count,
             connections: self.connections,
+            time: moment(pass),
         };
         let photons = in_order(count, placing, |index, found| {
             let mut sampler = numbers(pass, index, count);

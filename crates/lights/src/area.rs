@@ -102,6 +102,7 @@ impl LightModel for AreaLight {
         wavelengths: &Wavelengths,
         u_position: Vec2,
         u_direction: Vec2,
+        _time: f32,
     ) -> Option<Emission> {
         let SampledPoint { point, density } = scene.sample_area(self.shape, u_position);
         let frame = etalon_math::Frame::from_normal(point.normal);
@@ -128,6 +129,7 @@ impl LightModel for AreaLight {
         _: &BoundingSphere,
         _: Vec3,
         cos: f32,
+        _time: f32,
     ) -> EmissionPdf {
         EmissionPdf {
             origin: 1.0 / shapes.area(self.shape),

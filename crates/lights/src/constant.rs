@@ -68,6 +68,7 @@ impl LightModel for ConstantLight {
         bounds: &BoundingSphere,
         _: Vec3,
         _cos: f32,
+        _time: f32,
     ) -> EmissionPdf {
         EmissionPdf {
             origin: UNIFORM_SPHERE_DENSITY,
@@ -139,6 +140,7 @@ impl LightModel for ConstantLight {
         wavelengths: &Wavelengths,
         u_position: Vec2,
         u_direction: Vec2,
+        _time: f32,
     ) -> Option<Emission> {
         let direction = square_to_uniform_sphere(u_direction);
         let factor = bounds.cross_section() as f32 / UNIFORM_SPHERE_DENSITY;

@@ -72,6 +72,7 @@ impl LightModel for DirectionalLight {
         bounds: &BoundingSphere,
         _: Vec3,
         _cos: f32,
+        _time: f32,
     ) -> EmissionPdf {
         EmissionPdf {
             origin: 1.0,
@@ -110,6 +111,7 @@ impl LightModel for DirectionalLight {
         wavelengths: &Wavelengths,
         u: Vec2,
         _: Vec2,
+        _time: f32,
     ) -> Option<Emission> {
         let ray = bounds.ray_into(self.direction, u);
         Some(Emission {

@@ -289,6 +289,7 @@ impl LightModel for EnvironmentMap {
         bounds: &BoundingSphere,
         direction: Vec3,
         _cos: f32,
+        _time: f32,
     ) -> EmissionPdf {
         EmissionPdf {
             origin: self.density_of(self.tables.alone.as_deref(), -direction),
@@ -338,6 +339,7 @@ impl LightModel for EnvironmentMap {
         wavelengths: &Wavelengths,
         u_position: Vec2,
         u_direction: Vec2,
+        _time: f32,
     ) -> Option<Emission> {
         let (toward, place, density) = self.choose(self.tables.alone.as_ref()?, u_direction)?;
         let factor = bounds.cross_section() as f32 / density;

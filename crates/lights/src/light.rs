@@ -213,8 +213,9 @@ impl Light {
         bounds: &BoundingSphere,
         direction: Vec3,
         cos: f32,
+        time: f32,
     ) -> EmissionPdf {
-        ask!(self, light => light.emission_density(shapes, bounds, direction, cos))
+        ask!(self, light => light.emission_density(shapes, bounds, direction, cos, time))
     }
 
     /// A particle, as if this were the only light.
@@ -226,8 +227,9 @@ impl Light {
         wavelengths: &Wavelengths,
         u_position: Vec2,
         u_direction: Vec2,
+        time: f32,
     ) -> Option<Emission> {
-        ask!(self, light => light.emit(scene, bounds, wavelengths, u_position, u_direction))
+        ask!(self, light => light.emit(scene, bounds, wavelengths, u_position, u_direction, time))
     }
 
     /// Where it is and whither it shines, without its power; `None` for a light at infinity.

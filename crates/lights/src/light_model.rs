@@ -71,7 +71,7 @@ pub(crate) trait LightModel {
         Density::ZERO
     }
 
-    /// A particle.
+    /// A particle at the moment `time`; the time of its ray is the caller's.
     fn emit(
         &self,
         scene: &(impl Textures + Shapes),
@@ -79,6 +79,7 @@ pub(crate) trait LightModel {
         wavelengths: &Wavelengths,
         u_position: Vec2,
         u_direction: Vec2,
+        time: f32,
     ) -> Option<Emission>;
 
     /// The densities with which [`LightModel::emit`] makes a particle travel along `direction`, whose
@@ -89,6 +90,7 @@ pub(crate) trait LightModel {
         bounds: &BoundingSphere,
         direction: Vec3,
         cos: f32,
+        time: f32,
     ) -> EmissionPdf;
 
     /// Where it is and whither it shines, without its power; `None` at infinity.

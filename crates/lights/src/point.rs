@@ -6,9 +6,10 @@
 
 use crate::light::{anywhere, extent_of_point};
 use crate::light_model::LightModel;
+use crate::pose::extent_of_way;
 use crate::uniformity::refuse_varying;
 use crate::{BoundingSphere, LightExtent};
-use etalon_math::{DeltaProbability, DirectionCone};
+use etalon_math::{Animated, DeltaProbability, DirectionCone, FromAffine};
 use etalon_params::Params;
 use etalon_sampling::warps::{UNIFORM_SPHERE_DENSITY, square_to_uniform_sphere};
 use etalon_spectrum::Wavelengths;
@@ -16,13 +17,23 @@ use etalon_transport::{
     Build, Emission, EmissionPdf, LightId, LightKind, LightSample, LightSampleContext, Ray,
     SamplePdf, Shapes, SpectrumKind, TextureId, Textures,
 };
-use glam::{Vec2, Vec3};
+use glam::{DAffine3, Vec2, Vec3};
+
+/// Where it is (m).
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Position(pub Vec3);
+
+impl FromAffine for Position {
+    fn from_affine(map: &DAffine3) -> Self {
+        Self(map.translation.as_vec3())
+    }
+}
 
 /// A light without extent.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct PointLight {
     /// Where it is (m).
-    pub position: Vec3,
+    pub position: Animated<Position>,
     /// Its intensity (W·sr⁻¹·nm⁻¹).
     pub intensity: TextureId,
 }
@@ -32,16 +43,22 @@ impl PointLight {
     pub fn from_params(params: &Params<'_>, build: &mut dyn Build) -> Option<Self> {
         refuse_varying(params, "intensity");
         let intensity = build.texture(params, "intensity", Some(1.0), SpectrumKind::Emission);
-        let translation = params.transform("to_world").w_axis.truncate();
+        let keys = params.keyframes("to_world");
         let position = params.vector("position");
         if position.is_some() && params.has("to_world") {
             params.error_at("position", "give either `position` or `to_world`, not both");
         }
-        let position = position.unwrap_or(translation).as_vec3();
-        if !position.is_finite() {
-            params.error("the position of a `point` light must be finite");
-            return None;
-        }
+        let position = match keys.as_slice() {
+            [(_, matrix)] => {
+                let position = position.unwrap_or(matrix.w_axis.truncate()).as_vec3();
+                if !position.is_finite() {
+                    params.error("the position of a `point` light must be finite");
+                    return None;
+                }
+                Position(position).into()
+            }
+            _ => Animated::new(build.shutter().motion(params, "to_world")?),
+        };
         Some(Self {
             position,
             intensity,
@@ -62,6 +79,7 @@ impl LightModel for PointLight {
         _: &BoundingSphere,
         _: Vec3,
         _cos: f32,
+        _time: f32,
     ) -> EmissionPdf {
         EmissionPdf {
             origin: 1.0,
@@ -70,7 +88,8 @@ impl LightModel for PointLight {
     }
 
     fn extent(&self, _: &impl Shapes) -> Option<LightExtent> {
-        Some(extent_of_point(self.position, DirectionCone::ALL, 0.0))
+        let still = extent_of_point(self.position.start().0, DirectionCone::ALL, 0.0);
+        Some(extent_of_way(&self.position, still))
     }
 
     #[inline]
@@ -81,12 +100,13 @@ impl LightModel for PointLight {
         wavelengths: &Wavelengths,
         _: Vec2,
     ) -> Option<LightSample> {
-        let to_light = self.position - from.position;
+        let position = self.position.at(from.time, |at| at.0);
+        let to_light = position - from.position;
         let distance_squared = to_light.length_squared();
         let intensity = textures.spectrum(self.intensity, &anywhere(), wavelengths.lambda);
         Some(LightSample {
             direction: to_light.try_normalize()?,
-            target: Some(self.position),
+            target: Some(position),
             radiance: intensity / distance_squared,
             chance: SamplePdf::Discrete(DeltaProbability::uniform(1.0)),
             cos: 1.0,
@@ -103,10 +123,12 @@ impl LightModel for PointLight {
         wavelengths: &Wavelengths,
         _: Vec2,
         u: Vec2,
+        time: f32,
     ) -> Option<Emission> {
         let direction = square_to_uniform_sphere(u);
         let intensity = textures.spectrum(self.intensity, &anywhere(), wavelengths.lambda);
-        let ray = Ray::new(self.position, direction, 0.0);
+        let position = self.position.at(time, |at| at.0);
+        let ray = Ray::new(position, direction, time);
         Some(Emission {
             point: Emission::point_of(&ray),
             ray,

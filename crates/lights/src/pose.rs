@@ -1,8 +1,10 @@
 //! `to_world` of lights that have a direction: a position and an orientation.
 
-use etalon_math::Transform;
+use crate::LightExtent;
+use etalon_math::{Animated, DirectionCone, FromAffine, Transform};
 use etalon_params::Params;
-use glam::Vec3;
+use etalon_transport::Build;
+use glam::{DAffine3, DVec3, Vec3};
 
 /// A rotation, perhaps with a reflection, and a position. Scale has no meaning for a light
 /// without extent, and is left out.
@@ -19,19 +21,41 @@ impl Pose {
         let matrix = params.transform("to_world");
         let transform = Transform::from_matrix(&matrix);
         let Some(transform) = transform.filter(|t| t.uniform_scale().is_some()) else {
-            params.error_at(
-                "to_world",
-                format!(
-                    "`to_world` of `{}` may rotate, mirror, move and scale uniformly, nothing else",
-                    params.node.plugin.value
-                ),
-            );
+            Self::refuse(params);
             return None;
         };
         Some(Self {
             position: transform.point(Vec3::ZERO),
             transform,
         })
+    }
+
+    fn refuse(params: &Params<'_>) {
+        params.error_at(
+            "to_world",
+            format!(
+                "`to_world` of `{}` may rotate, mirror, move and scale uniformly, nothing else",
+                params.node.plugin.value
+            ),
+        );
+    }
+
+    /// The same for a light that may move.
+    pub fn animated(params: &Params<'_>, build: &dyn Build) -> Option<Animated<Self>> {
+        let keys = params.keyframes("to_world");
+        if keys.len() == 1 {
+            return Self::from_params(params).map(Animated::from);
+        }
+        let motion = build.shutter().motion(params, "to_world")?;
+        let conforms = |matrix| {
+            let transform = Transform::from_matrix(matrix);
+            transform.is_some_and(|t| t.uniform_scale().is_some())
+        };
+        if !keys.iter().all(|(_, matrix)| conforms(matrix)) {
+            Self::refuse(params);
+            return None;
+        }
+        Some(Animated::new(motion))
     }
 
     /// The world direction (unit) of a direction in the light's space.
@@ -44,5 +68,30 @@ impl Pose {
     #[inline]
     pub fn to_local(&self, direction: Vec3) -> Vec3 {
         self.transform.inverse().vector(direction).normalize()
+    }
+}
+
+impl FromAffine for Pose {
+    fn from_affine(map: &DAffine3) -> Self {
+        Self {
+            position: map.translation.as_vec3(),
+            transform: Transform::from_affine(map),
+        }
+    }
+}
+
+/// Where a light without extent may be while the shutter is open, and whither it may shine: as `still` says if
+/// it does not move, else in all directions from its way.
+pub fn extent_of_way<T: FromAffine>(light: &Animated<T>, still: LightExtent) -> LightExtent {
+    let Some(motion) = light.motion() else {
+        return still;
+    };
+    let [low, high] = motion.swept(DVec3::ZERO, DVec3::ZERO);
+    LightExtent {
+        low,
+        high,
+        normals: DirectionCone::ALL,
+        cos_edge: 0.0,
+        ..still
     }
 }

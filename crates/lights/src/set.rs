@@ -243,6 +243,7 @@ impl LightSet {
         u_light: f32,
         u_position: Vec2,
         u_direction: Vec2,
+        time: f32,
     ) -> Option<Emission> {
         let choice = self.selector.choose_to_emit(u_light)?;
         let mut emission = self.get(choice.light).emit(
@@ -251,12 +252,14 @@ impl LightSet {
             wavelengths,
             u_position,
             u_direction,
+            time,
         )?;
         emission.light = choice.light;
+        emission.ray.time = time;
         if emission.origin == LightKind::Sky && self.backgrounds.len() > 1 {
             // One technique, as in `sample`.
             let toward = -emission.ray.direction;
-            emission.density = self.emission_density(scene, choice.light, -toward, 1.0);
+            emission.density = self.emission_density(scene, choice.light, -toward, 1.0, time);
             let EmissionPdf { origin, ray } = emission.density;
             emission.weight = self.background(scene, toward, wavelengths) / (origin * ray);
         } else {
@@ -275,12 +278,13 @@ impl LightSet {
         light: LightId,
         direction: Vec3,
         cos: f32,
+        time: f32,
     ) -> EmissionPdf {
         if self.backgrounds.len() > 1 && self.get(light).is_background() {
             return self.background_emission_density(shapes, -direction);
         }
         let chosen = self.get(light);
-        let mut density = chosen.emission_density(shapes, &self.bounds, direction, cos);
+        let mut density = chosen.emission_density(shapes, &self.bounds, direction, cos, time);
         density.origin *= self.selector.probability_to_emit(light);
         density
     }
@@ -295,7 +299,7 @@ impl LightSet {
     ) -> EmissionPdf {
         let origins = self.backgrounds.iter().map(|&light| {
             let sky = self.get(light);
-            let density = sky.emission_density(shapes, &self.bounds, -direction, 1.0);
+            let density = sky.emission_density(shapes, &self.bounds, -direction, 1.0, 0.0);
             density.origin * self.selector.probability_to_emit(light)
         });
         EmissionPdf {

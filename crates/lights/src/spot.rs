@@ -15,10 +15,10 @@
 
 use crate::light::{anywhere, extent_of_point};
 use crate::light_model::LightModel;
-use crate::pose::Pose;
+use crate::pose::{Pose, extent_of_way};
 use crate::uniformity::refuse_varying;
 use crate::{BoundingSphere, LightExtent};
-use etalon_math::{DeltaProbability, DirectionCone, float, float64};
+use etalon_math::{Animated, DeltaProbability, DirectionCone, float, float64};
 use etalon_params::Params;
 use etalon_sampling::warps::{square_to_uniform_cone, uniform_cone_density};
 use etalon_spectrum::Wavelengths;
@@ -29,9 +29,9 @@ use etalon_transport::{
 use glam::{Vec2, Vec3, Vec4};
 
 /// A spot light.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct SpotLight {
-    pose: Pose,
+    pose: Animated<Pose>,
     intensity: TextureId,
     texture: Option<TextureId>,
     beam: f32,
@@ -68,13 +68,13 @@ impl SpotLight {
             "a finite number of degrees not below 0",
             |b| b >= 0.0 && b.is_finite(),
         );
-        let pose = Pose::from_params(params)?;
+        let pose = Pose::animated(params, build)?;
         Some(Self::new(pose, intensity, texture, beam, cutoff))
     }
 
     /// A spot light with angles in degrees.
     fn new(
-        pose: Pose,
+        pose: Animated<Pose>,
         intensity: TextureId,
         texture: Option<TextureId>,
         beam: f64,
@@ -124,8 +124,8 @@ impl SpotLight {
 
     /// The density of `direction` among those of particles (sr⁻¹).
     #[inline]
-    pub fn direction_density(&self, direction: Vec3) -> f32 {
-        if self.pose.to_local(direction).z > self.cos_cutoff {
+    pub fn direction_density(&self, direction: Vec3, time: f32) -> f32 {
+        if self.pose.at(time, |pose| pose.to_local(direction)).z > self.cos_cutoff {
             uniform_cone_density(self.one_minus_cos_cutoff)
         } else {
             0.0
@@ -146,10 +146,11 @@ impl LightModel for SpotLight {
         _: &BoundingSphere,
         direction: Vec3,
         _cos: f32,
+        time: f32,
     ) -> EmissionPdf {
         EmissionPdf {
             origin: 1.0,
-            ray: self.direction_density(direction),
+            ray: self.direction_density(direction, time),
         }
     }
 
@@ -161,13 +162,16 @@ impl LightModel for SpotLight {
         wavelengths: &Wavelengths,
         _: Vec2,
     ) -> Option<LightSample> {
-        let to_light = self.pose.position - from.position;
-        let direction = to_light.try_normalize()?;
-        let local = self.pose.to_local(-direction);
+        let (position, local, to_light, direction) = self.pose.at(from.time, |pose| {
+            let to_light = pose.position - from.position;
+            let direction = to_light.try_normalize()?;
+            let local = pose.to_local(-direction);
+            Some((pose.position, local, to_light, direction))
+        })?;
         let intensity = self.intensity(textures, local, wavelengths);
         (intensity != Vec4::ZERO).then(|| LightSample {
             direction,
-            target: Some(self.pose.position),
+            target: Some(position),
             radiance: intensity / to_light.length_squared(),
             chance: SamplePdf::Discrete(DeltaProbability::uniform(1.0)),
             cos: 1.0,
@@ -184,12 +188,14 @@ impl LightModel for SpotLight {
         wavelengths: &Wavelengths,
         _: Vec2,
         u: Vec2,
+        time: f32,
     ) -> Option<Emission> {
         let local = square_to_uniform_cone(u, self.one_minus_cos_cutoff);
-        let direction = self.pose.to_world(local);
+        let (position, direction) =
+            (self.pose).at(time, |pose| (pose.position, pose.to_world(local)));
         let intensity = self.intensity(textures, local, wavelengths);
         let density = uniform_cone_density(self.one_minus_cos_cutoff);
-        let ray = Ray::new(self.pose.position, direction, 0.0);
+        let ray = Ray::new(position, direction, time);
         Some(Emission {
             point: Emission::point_of(&ray),
             ray,
@@ -210,11 +216,12 @@ impl LightModel for SpotLight {
 
     fn extent(&self, _: &impl Shapes) -> Option<LightExtent> {
         let (shines, cos_edge) = if self.cos_cutoff > 0.0 {
-            let axis = self.pose.to_world(Vec3::Z).as_dvec3().normalize();
+            let axis = self.pose.start().to_world(Vec3::Z).as_dvec3().normalize();
             (DirectionCone::along(axis), f64::from(self.cos_cutoff))
         } else {
             (DirectionCone::ALL, 0.0)
         };
-        Some(extent_of_point(self.pose.position, shines, cos_edge))
+        let still = extent_of_point(self.pose.start().position, shines, cos_edge);
+        Some(extent_of_way(&self.pose, still))
     }
 }

@@ -3,7 +3,8 @@
 //! Composed in double precision while a scene is read, applied in single precision while it is
 //! rendered.
 
-use glam::{Affine3A, DMat4, Mat3A, Vec3};
+use crate::FromAffine;
+use glam::{Affine3A, DAffine3, DMat4, Mat3A, Vec3};
 
 /// An invertible affine map of space, with its inverse.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -122,6 +123,15 @@ impl Transform {
     #[inline]
     pub fn forward(&self) -> &Affine3A {
         &self.forward
+    }
+}
+
+impl FromAffine for Transform {
+    fn from_affine(map: &DAffine3) -> Self {
+        Self {
+            forward: map.as_affine3a(),
+            inverse: map.inverse().as_affine3a(),
+        }
     }
 }
 

@@ -83,6 +83,8 @@ pub enum Value {
     Spectrum(SpectrumText),
     /// `<transform>`.
     Transform(DMat4),
+    /// `<animation>`: moments of scene time with the transforms then, in the order of the file.
+    Animation(Vec<(f64, DMat4)>),
     /// A nested object or a reference to one; a shared object is one `Arc`.
     Object(Arc<Node>),
 }
@@ -99,6 +101,7 @@ impl Value {
             Self::Rgb(_) => "an rgb colour",
             Self::Spectrum(_) => "a spectrum",
             Self::Transform(_) => "a transform",
+            Self::Animation(_) => "an animation",
             Self::Object(node) => match node.class {
                 Class::Texture => "a texture",
                 _ => "an object",

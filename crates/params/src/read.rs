@@ -217,6 +217,25 @@ impl<'a> Params<'a> {
         .unwrap_or(DMat4::IDENTITY)
     }
 
+    /// Transforms at moments of scene time: those of an animation, or one for all times; the identity if the
+    /// property is not given.
+    pub fn keyframes(&self, name: &str) -> Vec<(f64, DMat4)> {
+        self.get(name, "a transform or an animation", |v| match v {
+            Value::Transform(m) => Some(vec![(0.0, *m)]),
+            Value::Animation(keys) => Some(keys.clone()),
+            _ => None,
+        })
+        .unwrap_or_else(|| vec![(0.0, DMat4::IDENTITY)])
+    }
+
+    /// Whether the property is an animation; it then counts as used.
+    pub fn is_animated(&self, name: &str) -> bool {
+        let is_named = |p: &&Property| p.name == name;
+        let property = self.node.properties.iter().find(is_named);
+        let animated = property.filter(|p| matches!(p.value, Value::Animation(_)));
+        animated.is_some_and(|_| self.property(name).is_some())
+    }
+
     /// The nested objects of one class, named or not, in the order of the file; marked as used.
     pub fn children(&self, class: Class) -> Vec<(&'a Property, &'a Arc<Node>)> {
         let children: Vec<_> = self

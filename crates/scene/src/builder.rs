@@ -3,7 +3,7 @@
 use etalon_params::{Diagnostics, Node, Params};
 use etalon_spectrum::Spectrum;
 use etalon_textures::{TextureReader, TextureTable};
-use etalon_transport::{Assets, Build, SpectrumKind, TextureId};
+use etalon_transport::{Assets, Build, Shutter, SpectrumKind, TextureId};
 use std::sync::Arc;
 
 /// The scene under construction, as plugins see it.
@@ -14,6 +14,8 @@ pub struct Builder<'a> {
     pub diagnostics: &'a Diagnostics,
     /// The textures read so far.
     pub textures: TextureTable,
+    /// The interval during which things move.
+    pub shutter: Shutter,
 }
 
 impl<'a> Builder<'a> {
@@ -23,6 +25,7 @@ impl<'a> Builder<'a> {
             assets,
             diagnostics,
             textures: TextureTable::new(),
+            shutter: Shutter::default(),
         }
     }
 
@@ -38,6 +41,10 @@ impl<'a> Builder<'a> {
 impl Build for Builder<'_> {
     fn assets(&self) -> &dyn Assets {
         self.assets
+    }
+
+    fn shutter(&self) -> Shutter {
+        self.shutter
     }
 
     fn texture(

@@ -10,7 +10,7 @@ use etalon_film::{FilmSettings, Filter};
 use etalon_geometry::AcceleratorKind;
 use etalon_lights::{BoundingSphere, LightDescription, LightSamplerKind, LightSet};
 use etalon_params::{Class, Diagnostic, Diagnostics, Node, Params, Property, Span, plugins};
-use etalon_transport::{Assets, Build, LightId, ShapeId, SpectrumKind};
+use etalon_transport::{Assets, Build, LightId, ShapeId, Shutter, SpectrumKind};
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 
@@ -58,6 +58,9 @@ pub fn compile_with(
     let params = Params::new(root, diagnostics);
     let mut builder = Builder::new(assets, diagnostics);
     let sensor = sensor(&params, diagnostics);
+    if let Some((.., shutter)) = &sensor {
+        builder.shutter = *shutter;
+    }
     let integrator = params.child(Class::Integrator).cloned();
     let mut surfaces = surfaces::read(&params, &mut builder);
     let lights = lights(&params, &mut surfaces, &mut builder);
@@ -73,7 +76,7 @@ pub fn compile_with(
     if diagnostics.has_errors() {
         return None;
     }
-    let (camera, film, sampler) = sensor?;
+    let (camera, film, sampler, _) = sensor?;
     surfaces.asked.note_ranges(&builder.textures, diagnostics);
     builder.textures.finish_reading();
     let start = Instant::now();
@@ -140,7 +143,7 @@ fn lights(
 fn sensor(
     params: &Params<'_>,
     diagnostics: &Diagnostics,
-) -> Option<(AnyCamera, FilmSettings, SamplerSettings)> {
+) -> Option<(AnyCamera, FilmSettings, SamplerSettings, Shutter)> {
     let sensors = params.children(Class::Sensor);
     let Some((_, node)) = sensors.first() else {
         diagnostics.push(
@@ -169,8 +172,8 @@ fn sensor(
         origin: film.crop_offset,
         crop: film.crop_size,
     };
-    let (camera, _) = AnyCamera::from_params(&sensor, window)?;
-    Some((camera, film, sampler))
+    let (camera, shutter) = AnyCamera::from_params(&sensor, window)?;
+    Some((camera, film, sampler, shutter))
 }
 
 /// Films of Mitsuba 0.6 that store the same picture in other ways.

@@ -219,15 +219,28 @@ impl World for Scene {
         u_light: f32,
         u_position: Vec2,
         u_direction: Vec2,
+        time: f32,
     ) -> Option<Emission> {
-        self.lights
-            .emit(&self.lookup, wavelengths, u_light, u_position, u_direction)
+        self.lights.emit(
+            &self.lookup,
+            wavelengths,
+            u_light,
+            u_position,
+            u_direction,
+            time,
+        )
     }
 
     #[inline]
-    fn emission_density(&self, light: LightId, direction: Vec3, cos: f32) -> EmissionPdf {
+    fn emission_density(
+        &self,
+        light: LightId,
+        direction: Vec3,
+        cos: f32,
+        time: f32,
+    ) -> EmissionPdf {
         self.lights
-            .emission_density(&self.lookup, light, direction, cos)
+            .emission_density(&self.lookup, light, direction, cos, time)
     }
 
     #[inline]

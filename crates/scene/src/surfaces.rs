@@ -3,7 +3,8 @@
 use crate::attributes::Asked;
 use crate::builder::Builder;
 use etalon_bsdf::{Material, classicphong};
-use etalon_geometry::{GeometryBuilder, GroupId, Placement, Shape};
+use etalon_geometry::{GeometryBuilder, GroupId, Shape};
+use etalon_math::Animated;
 use etalon_params::{Class, Diagnostic, Node, Params, Span, Value, plugins};
 use etalon_textures::{Constant, Texture};
 use etalon_transport::{LightId, MaterialId, ShapeId};
@@ -102,6 +103,11 @@ impl Surfaces {
                 let Some((shape, carried)) = self.shape(node, builder) else {
                     return;
                 };
+                let params = Params::new(node, builder.diagnostics);
+                if params.is_animated("to_world") {
+                    self.moving(&params, shape, carried, builder);
+                    return;
+                }
                 let id = self
                     .geometry
                     .add_shape(shape, carried.material, LightId::NONE);
@@ -113,6 +119,26 @@ impl Surfaces {
                     self.emitting.push(Emitting { shape: id, emitter });
                 }
             }
+        }
+    }
+
+    /// Adds a shape that moves: the only member of a group, which an instance moves.
+    fn moving(
+        &mut self,
+        params: &Params<'_>,
+        shape: Shape,
+        carried: ShapeExtras,
+        builder: &Builder<'_>,
+    ) {
+        if let Some(emitter) = carried.emitter {
+            let message = "a shape that moves cannot emit light";
+            let diagnostic = Diagnostic::error(emitter.span, message);
+            builder.diagnostics.push(diagnostic);
+        }
+        let group = self.geometry.add_group([(shape, carried.material)]);
+        self.names.shapes.push(name(params.node));
+        if let Some(motion) = builder.shutter.motion(params, "to_world") {
+            self.geometry.add_instance(group, Animated::new(motion));
         }
     }
 
@@ -175,6 +201,12 @@ impl Surfaces {
                     .push(Diagnostic::error(property.name_span, message));
                 continue;
             }
+            if Params::new(child, builder.diagnostics).is_animated("to_world") {
+                let message = "a shape in a `shapegroup` cannot move: animate the `instance`";
+                builder
+                    .diagnostics
+                    .push(Diagnostic::error(child.plugin.span, message));
+            }
             let Some((shape, carried)) = self.shape(child, builder) else {
                 continue;
             };
@@ -197,12 +229,12 @@ impl Surfaces {
 
     fn instance(&mut self, node: &Arc<Node>, builder: &mut Builder<'_>) {
         let params = Params::new(node, builder.diagnostics);
-        let placement = Placement::from_params(&params);
+        let placement = builder.shutter.motion(&params, "to_world");
         match params.child(Class::Shape) {
             Some(group) if group.plugin.value == "shapegroup" => {
                 let group = self.group(group, builder);
-                if let Some(placement) = placement {
-                    self.geometry.add_instance(group, placement);
+                if let Some(motion) = placement {
+                    self.geometry.add_instance(group, Animated::new(motion));
                 }
             }
             Some(other) => params.error(format!(

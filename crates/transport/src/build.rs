@@ -1,6 +1,6 @@
 //! What a plugin may ask for while it is built from its description.
 
-use crate::{Assets, TextureId};
+use crate::{Assets, Shutter, TextureId};
 use etalon_params::{Node, Params};
 use std::sync::Arc;
 
@@ -19,6 +19,11 @@ pub enum SpectrumKind {
 pub trait Build {
     /// The files of the scene.
     fn assets(&self) -> &dyn Assets;
+
+    /// The interval during which things move. A scene in which nothing does keeps this.
+    fn shutter(&self) -> Shutter {
+        Shutter::default()
+    }
 
     /// The texture or spectrum in the property `name`; the constant `default` if the property is
     /// absent; a diagnostic if it is absent and there is no default. After a mistake, any valid

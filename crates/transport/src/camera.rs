@@ -48,10 +48,10 @@ pub trait Camera: Sync {
     /// point on the aperture and `time` the moment.
     fn ray(&self, raster: Vec2, lens: Vec2, time: f32) -> CameraRay;
 
-    /// Connects a scene point with the aperture point chosen by `lens`; `None` if the camera
+    /// Connects a scene point with the aperture point chosen by `lens` at the moment `time`; `None` if the camera
     /// does not see the point (behind it, clipped, or more than `margin` pixels outside of the
     /// film).
-    fn connect(&self, point: Vec3, lens: Vec2, margin: f32) -> Option<CameraSample>;
+    fn connect(&self, point: Vec3, lens: Vec2, time: f32, margin: f32) -> Option<CameraSample>;
 
     /// Where a ray that travels through space happens to hit the aperture; `None` if it misses it,
     /// starts where the camera does not see, or arrives more than `margin` pixels outside of the

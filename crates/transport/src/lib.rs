@@ -24,6 +24,7 @@ pub mod ray;
 pub mod remark;
 pub mod sample_pdf;
 pub mod shapes;
+pub mod shutter;
 pub mod sight;
 pub mod surface_interaction;
 pub mod textures;
@@ -45,6 +46,7 @@ pub use ray::{Departure, Ray};
 pub use remark::{ChainRemark, MergedPhoton, Mixed, Mixture, TraceEvent};
 pub use sample_pdf::SamplePdf;
 pub use shapes::{SampledPoint, Shapes, SurfacePoint};
+pub use shutter::Shutter;
 pub use sight::{
     CameraProbe, Incompatibility, LightCount, LightSearch, SceneCapabilities, Subject,
 };

@@ -14,6 +14,8 @@ pub struct LightSampleContext {
     pub normal: Vec3,
     /// Whether only light from the side to which `normal` points counts.
     pub one_sided: bool,
+    /// The moment within the shutter interval.
+    pub time: f32,
     /// Whether what light sampling leaves out is found by scattering, weighted by both densities
     /// (multiple importance sampling). If not, every direction from which light may come must be
     /// possible.
@@ -32,6 +34,7 @@ impl LightSampleContext {
             position,
             normal,
             one_sided: false,
+            time: 0.0,
             combined: false,
         }
     }
@@ -39,18 +42,23 @@ impl LightSampleContext {
     /// The point `vertex` as `bsdf`, the model there for `wo`, receives light.
     #[inline]
     pub fn new(vertex: &SurfaceInteraction, wo: Vec3, bsdf: &impl Bsdf) -> Self {
-        match bsdf.hemisphere() {
-            Some(frame) => Self {
-                normal: if frame.n.dot(wo) < 0.0 {
-                    -frame.n
-                } else {
-                    frame.n
-                },
-                one_sided: true,
-                ..Self::in_space(vertex.position)
-            },
-            None => Self::on_surface(vertex.position, vertex.shading.n),
+        let (normal, one_sided) = match bsdf.hemisphere() {
+            Some(frame) if frame.n.dot(wo) < 0.0 => (-frame.n, true),
+            Some(frame) => (frame.n, true),
+            None => (vertex.shading.n, false),
+        };
+        Self {
+            one_sided,
+            ..Self::on_surface(vertex.position, normal)
         }
+        .at(vertex.time)
+    }
+
+    /// The same at the moment `time`.
+    #[must_use]
+    #[inline]
+    pub const fn at(self, time: f32) -> Self {
+        Self { time, ..self }
     }
 
     /// What the cosine `cos` with the normal counts in a choice that must not leave out what may

@@ -129,19 +129,21 @@ pub trait World: Sync {
     fn background_density(&self, from: &LightSampleContext, direction: Vec3)
     -> Density<SolidAngle>;
 
-    /// Emits a particle from a light chosen with `u_light`.
+    /// Emits a particle at the moment `time` from a light chosen with `u_light`.
     fn emit(
         &self,
         wavelengths: &Wavelengths,
         u_light: f32,
         u_position: Vec2,
         u_direction: Vec2,
+        time: f32,
     ) -> Option<Emission>;
 
-    /// The densities with which [`World::emit`] would have made a particle of `light` travel along
+    /// The densities with which [`World::emit`] would have made a particle of `light` travel at `time` along
     /// the unit vector `direction`, which makes an angle with the cosine `cos` with the light's
     /// surface (1 where it has none). Lights at infinity that rays can hit count as one.
-    fn emission_density(&self, light: LightId, direction: Vec3, cos: f32) -> EmissionPdf;
+    fn emission_density(&self, light: LightId, direction: Vec3, cos: f32, time: f32)
+    -> EmissionPdf;
 
     /// The same for a particle from the lights at infinity seen along the unit vector `direction`.
     fn background_emission_density(&self, direction: Vec3) -> EmissionPdf;

@@ -44,7 +44,7 @@ proptest! {
         for (camera, window) in cameras() {
             let raster = window.origin.as_vec2() + Vec2::new(x, y) * window.crop.as_vec2();
             let ray = camera.ray(raster, lens, 0.0).ray;
-            let found = camera.connect(ray.at(t), lens, 1e-3).expect("the camera sees its own ray");
+            let found = camera.connect(ray.at(t), lens, 0.0, 1e-3).expect("the camera sees its own ray");
             // Coordinates up to 20 carry roundings of 10⁻⁶ each; a pixel is at least 0.02 wide
             // at the distance 0.5.
             prop_assert!((found.raster - raster).abs().max_element() < 2e-3);
@@ -84,7 +84,7 @@ fn connection_weights_are_the_jacobian() {
             let patch = f64::from(a.cross(b).length());
             let see = |p| {
                 camera
-                    .connect(p, lens, 1e6)
+                    .connect(p, lens, 0.0, 1e6)
                     .expect("in front of the camera")
             };
             let image = area([
@@ -125,13 +125,13 @@ fn clipped_and_unseen_points_are_not_connected() {
         let camera = camera(plugin, parameters, FILM);
         let connects = |z| {
             camera
-                .connect(Vec3::new(0.0, 0.0, z), Vec2::splat(0.5), 0.0)
+                .connect(Vec3::new(0.0, 0.0, z), Vec2::splat(0.5), 0.0, 0.0)
                 .is_some()
         };
         assert!(connects(0.6) && connects(19.9));
         assert!(!connects(0.4) && !connects(20.1) && !connects(-1.0) && !connects(f32::NAN));
         let beside = Vec3::new(-300.0, 0.0, 10.0);
-        assert!(camera.connect(beside, Vec2::splat(0.5), 1.0).is_none());
+        assert!(camera.connect(beside, Vec2::splat(0.5), 0.0, 1.0).is_none());
     }
     assert!(!camera("thinlens", &[number("aperture_radius", 0.0)], FILM).has_lens());
     assert!(camera("thinlens", &clip, FILM).has_lens());

@@ -37,7 +37,7 @@ fn a_reversed_ray_is_received_where_it_came_from() {
             };
             assert!((found.raster - raster).abs().max_element() < 5e-3);
             assert!(back.at(found.t).distance(ray.origin) < 2e-5);
-            let seen = camera.connect(back.origin, lens, 1e-2).expect("seen");
+            let seen = camera.connect(back.origin, lens, 0.0, 1e-2).expect("seen");
             let per_direction = seen.weight * back.origin.distance_squared(aperture);
             let flux = found.weight * PI * RADIUS * RADIUS * cos;
             assert!(

@@ -149,7 +149,13 @@ pub(crate) fn draw<W: World>(world: &W, dice: &mut Independent) -> Option<Course
     let ray = world.camera().ray(raster, lens, 0.0).ray;
     let from_light = (dice.next_1d() * 4.0) as usize;
     let from_camera = 1 + (dice.next_1d() * 3.0) as usize;
-    let mut start = world.emit(&wavelengths, dice.next_1d(), dice.next_2d(), dice.next_2d())?;
+    let mut start = world.emit(
+        &wavelengths,
+        dice.next_1d(),
+        dice.next_2d(),
+        dice.next_2d(),
+        0.0,
+    )?;
     let emitted = start;
     let mut surfaces = walk(
         world,
@@ -243,7 +249,7 @@ impl Course {
                 let radiance = world.emitted(lamp, away, &self.wavelengths);
                 (
                     radiance,
-                    world.emission_density(self.start.light, away, cos),
+                    world.emission_density(self.start.light, away, cos, 0.0),
                     cos,
                 )
             }

@@ -77,7 +77,7 @@ impl Lane {
             })
         };
         let camera = world.camera();
-        let seen = camera.connect(course.surfaces[last - 1].position, course.lens, 0.0);
+        let seen = camera.connect(course.surfaces[last - 1].position, course.lens, 0.0, 0.0);
         let film = f64::from(seen.map_or(0.0, |seen| seen.weight)) * {
             let direction = course.direction(last, last + 1);
             f64::from(course.surfaces[last - 1].normal.dot(direction).abs())

@@ -40,8 +40,8 @@ impl<W: World> Camera for Aperture<'_, W> {
             weight: 1.0,
         }
     }
-    fn connect(&self, point: Vec3, _: Vec2, margin: f32) -> Option<CameraSample> {
-        self.camera.connect(point, self.course.lens, margin)
+    fn connect(&self, point: Vec3, _: Vec2, time: f32, margin: f32) -> Option<CameraSample> {
+        self.camera.connect(point, self.course.lens, time, margin)
     }
     fn has_lens(&self) -> bool {
         self.camera.has_lens()
@@ -347,7 +347,14 @@ impl<'s, W: World> World for Script<'s, W> {
     ) -> Density<SolidAngle> {
         self.world.background_density(from, direction)
     }
-    fn emit(&self, wavelengths: &Wavelengths, _: f32, _: Vec2, _: Vec2) -> Option<Emission> {
+    fn emit(
+        &self,
+        wavelengths: &Wavelengths,
+        _: f32,
+        _: Vec2,
+        _: Vec2,
+        _: f32,
+    ) -> Option<Emission> {
         self.first
             .store(self.lanes(wavelengths)[0], Ordering::Relaxed);
         let weight = self.in_order(self.course.start.weight, wavelengths);
@@ -356,8 +363,14 @@ impl<'s, W: World> World for Script<'s, W> {
             ..self.course.start
         })
     }
-    fn emission_density(&self, light: LightId, direction: Vec3, cos: f32) -> EmissionPdf {
-        self.world.emission_density(light, direction, cos)
+    fn emission_density(
+        &self,
+        light: LightId,
+        direction: Vec3,
+        cos: f32,
+        time: f32,
+    ) -> EmissionPdf {
+        self.world.emission_density(light, direction, cos, time)
     }
     fn background_emission_density(&self, direction: Vec3) -> EmissionPdf {
         self.world.background_emission_density(direction)

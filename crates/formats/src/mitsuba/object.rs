@@ -209,7 +209,6 @@ fn element(
         None => {
             let span = tag_span(file.id, node);
             reader.report(match name {
-                "animation" => Diagnostic::error(span, "things that move are not built yet"),
                 "subsurface" => Diagnostic::error(
                     span,
                     "`<subsurface>` belongs to Mitsuba 0.6 and is not built yet",

@@ -38,6 +38,11 @@ pub(crate) fn property(
     let (value, span) = if tag == Tag::Transform {
         let matrix = operations(reader, file, node).unwrap_or(DMat4::IDENTITY);
         (Value::Transform(matrix), attributes.tag_span)
+    } else if tag == Tag::Animation {
+        (
+            Value::Animation(keyframes(reader, file, node)),
+            attributes.tag_span,
+        )
     } else {
         no_children(reader, file, node);
         value(reader, file, tag, node, &attributes)
@@ -133,7 +138,7 @@ fn stand_in(file: &File, tag: Tag, node: Node<'_, '_>) -> Option<DraftProperty> 
         Tag::Vector => Value::Vector(DVec3::Z),
         Tag::Rgb | Tag::Srgb => Value::Rgb(DVec3::splat(0.5)),
         Tag::Spectrum | Tag::Blackbody => Value::Spectrum(SpectrumText::Uniform(0.5)),
-        Tag::Transform => Value::Transform(DMat4::IDENTITY),
+        Tag::Transform | Tag::Animation => Value::Transform(DMat4::IDENTITY),
         _ => Value::String(String::new()),
     };
     let place = |attribute: roxmltree::Attribute<'_, '_>| {
@@ -247,6 +252,30 @@ fn spectrum_text(reader: &mut Reader<'_>, attributes: &Attributes<'_>) -> Option
         return None;
     }
     Some(SpectrumText::Samples(samples))
+}
+
+/// The `<transform time="…">`s of an `<animation>`.
+fn keyframes(reader: &mut Reader<'_>, file: &File, node: Node<'_, '_>) -> Vec<(f64, DMat4)> {
+    let mut keys = Vec::new();
+    for child in node.children().filter(Node::is_element) {
+        let name = child.tag_name().name();
+        if Tag::of(name) != Some(Tag::Transform) {
+            reader.report(
+                Diagnostic::error(
+                    tag_span(file.id, child),
+                    format!("`<{name}>` cannot stand in an `<animation>`"),
+                )
+                .help("accepted: `<transform time=\"0.5\">`"),
+            );
+            continue;
+        }
+        let Some(attributes) = Attributes::read(reader, file.id, child, &["!time"]) else {
+            continue;
+        };
+        let time = attributes.float(reader, "time");
+        keys.extend(time.zip(operations(reader, file, child)));
+    }
+    keys
 }
 
 /// The product of the operations in a `<transform>`.

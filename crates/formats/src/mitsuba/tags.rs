@@ -27,6 +27,8 @@ pub(crate) enum Tag {
     Spectrum,
     /// `<transform>`.
     Transform,
+    /// `<animation>`, which Mitsuba 0.x had: `<transform>`s, each at a `time`.
+    Animation,
     /// An operation inside of a `<transform>`.
     Operation,
     /// `<ref>`.
@@ -42,7 +44,7 @@ pub(crate) enum Tag {
 }
 
 /// Every tag that may stand in an object.
-pub(crate) const TAGS: [(&str, Tag); 29] = [
+pub(crate) const TAGS: [(&str, Tag); 30] = [
     ("scene", Tag::Object(Class::Scene)),
     ("bsdf", Tag::Object(Class::Bsdf)),
     ("emitter", Tag::Object(Class::Emitter)),
@@ -67,6 +69,7 @@ pub(crate) const TAGS: [(&str, Tag); 29] = [
     ("blackbody", Tag::Blackbody),
     ("spectrum", Tag::Spectrum),
     ("transform", Tag::Transform),
+    ("animation", Tag::Animation),
     ("ref", Tag::Reference),
     ("alias", Tag::Alias),
     ("include", Tag::Include),
@@ -108,7 +111,7 @@ impl Tag {
             Self::Blackbody => &["!name", "!temperature", "scale"],
             Self::Vector => &["!name", "x", "y", "z", "value"],
             Self::Spectrum => &["!name", "value", "filename", "intent"],
-            Self::Transform => &["!name"],
+            Self::Transform | Self::Animation => &["!name"],
             Self::Reference => &["!id", "name"],
             Self::Alias => &["!id", "!as"],
             Self::Include => &["!filename", "name"],

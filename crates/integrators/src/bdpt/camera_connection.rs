@@ -28,7 +28,8 @@ impl<W: World> Connector<'_, '_, W> {
         let light = &self.light[index];
         let mixed = self.wanted(self.vertices(index), 1)?;
         let vertex = &light.vertex;
-        let connection = (self.world.camera()).connect(vertex.position, lens, self.site.margin)?;
+        let (camera, margin) = (self.world.camera(), self.site.margin);
+        let connection = camera.connect(vertex.position, lens, vertex.time, margin)?;
         let direction = connection.direction;
         let value = light
             .bsdf

@@ -58,9 +58,9 @@ pub(super) struct Connector<'a, 'w, W: World> {
 impl<'w, W: World> Connector<'_, 'w, W> {
     /// Density per area, across the ray, of what the camera sees at `point`; zero if a light path
     /// that arrives there could not be connected to it.
-    pub(super) fn camera_density(&self, point: Vec3) -> f32 {
+    pub(super) fn camera_density(&self, point: &SurfaceInteraction) -> f32 {
         let camera = self.world.camera();
-        let seen = camera.connect(point, self.lens, self.site.margin);
+        let seen = camera.connect(point.position, self.lens, point.time, self.site.margin);
         seen.map_or(0.0, |connection| connection.weight)
     }
 
@@ -112,7 +112,7 @@ impl<'w, W: World> Connector<'_, 'w, W> {
             let distance_squared = vertex.position.distance_squared(first.vertex.position);
             let from = first.receiver();
             let sampled = world.light_density(&from, vertex, -wo).lanes();
-            let emission = world.emission_density(vertex.light, wo, cos);
+            let emission = world.emission_density(vertex.light, wo, cos, vertex.time);
             AlternativePdfs {
                 sampled: sampled * (cos / distance_squared),
                 emitted: emission.origin,
@@ -271,7 +271,7 @@ impl<'w, W: World> Connector<'_, 'w, W> {
             total += (rest * scattered.lanes() * passage.probability).element_sum() * inverse;
         }
         // From the density of light sampling to that of emission, in the same measure.
-        let emission = world.emission_density(light.light, -direction, light.cos);
+        let emission = world.emission_density(light.light, -direction, light.cos, vertex.time);
         let cos = vertex.normal.dot(direction).abs();
         let distance_squared = light
             .target

@@ -56,6 +56,8 @@ pub(crate) struct Terms {
     pub(crate) count: u32,
     /// Whether there are connections, too, and lights run into where merging could find them.
     pub(crate) connections: bool,
+    /// The moment of all walks.
+    pub(crate) time: f32,
 }
 
 impl Terms {
@@ -89,6 +91,11 @@ impl Merging {
         }
     }
 
+    /// The moment of all walks of the pass.
+    pub(crate) fn time(&self) -> f32 {
+        self.terms.time
+    }
+
     /// Whether there are techniques that connect.
     pub(crate) fn connects(&self) -> bool {
         self.terms.connections
@@ -104,7 +111,8 @@ pub(crate) fn shoot<W: World>(
     sampler: &mut impl Sampler,
     photons: &mut Vec<Photon>,
 ) {
-    let Some(mut start) = FromLight::start(world, wavelengths, settings, sampler) else {
+    let Some(mut start) = FromLight::start(world, wavelengths, settings, sampler, terms.time)
+    else {
         return;
     };
     let mut corners = Vec::new();

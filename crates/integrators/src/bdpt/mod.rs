@@ -145,7 +145,7 @@ pub(crate) fn estimate<'w, W: World, S: Sampler, K: Sink>(
     light.clear();
     let connects = merging.is_none_or(Merging::connects);
     let mut start = connects
-        .then(|| FromLight::start(world, wavelengths, settings, sampler))
+        .then(|| FromLight::start(world, wavelengths, settings, sampler, ray.time))
         .flatten();
     if let Some(start) = &mut start {
         start.walk(world, wavelengths, settings, sampler, light, usize::MAX);

@@ -52,7 +52,7 @@ pub(crate) fn sample<'w, W: World, S: Sampler>(
         .checked_sub(1)
         .filter(|corners| *corners > 0)
     {
-        start = FromLight::start(world, &wavelengths, settings, sampler);
+        start = FromLight::start(world, &wavelengths, settings, sampler, ray.time);
         let Some(start) = &mut start else {
             return;
         };

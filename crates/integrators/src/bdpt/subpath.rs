@@ -79,19 +79,20 @@ pub(super) struct FromLight {
 }
 
 impl FromLight {
-    /// Emits a particle.
+    /// Emits a particle at the moment `time`.
     pub(super) fn start<W: World>(
         world: &W,
         wavelengths: &Wavelengths,
         settings: &PathSettings,
         sampler: &mut impl Sampler,
+        time: f32,
     ) -> Option<Self> {
         if settings.max_depth < 2 {
             return None;
         }
         let event = BounceSamples::draw(sampler, light_event(0));
         let (choice, position, direction) = (event.light_choice, event.light, event.direction);
-        let emission = world.emit(wavelengths, choice, position, direction)?;
+        let emission = world.emit(wavelengths, choice, position, direction, time)?;
         (emission.weight != Vec4::ZERO).then_some(Self {
             emission,
             pdf_rev: Vec4::ZERO,
@@ -299,7 +300,7 @@ impl FromCamera {
         match corners.last() {
             None => {
                 // One sample per pixel makes one path per unit of the film.
-                let seen = connector.camera_density(vertex.position);
+                let seen = connector.camera_density(&vertex);
                 let weight = if self.through_hidden { 0.0 } else { seen };
                 connector.camera_connects = weight > 0.0;
                 weight * cos * carried.passed.x

@@ -9,8 +9,9 @@ use super::is_sharp;
 use super::sets::{WavelengthChoice, WavelengthSets};
 use super::shoot::{Kind, Photon, PhotonMap};
 use crate::candidates::Aim;
-use crate::dimensions::{self as dim, BounceSamples};
+use crate::dimensions::BounceSamples;
 use crate::light_mis::LightMis;
+use crate::path::draw_lens;
 use crate::path_throughput::PathThroughput;
 use crate::settings::PathSettings;
 use crate::steps;
@@ -81,6 +82,8 @@ pub(crate) struct GatherConfig<'a> {
     pub(crate) settings: &'a PathSettings,
     pub(crate) sets: &'a WavelengthSets,
     pub(crate) layers: &'a [Layer<'a>],
+    /// The moment of the pass, see [`moment`](super::shoot::moment).
+    pub(crate) time: f32,
     pub(crate) final_gather: bool,
     /// Whether direct light is sampled, not left to photons where a direction is not sharp.
     pub(crate) sample_lights: bool,
@@ -159,12 +162,10 @@ fn follow<'w, W: World>(
     scratch: &mut Scratch<W::Bsdf<'w>>,
     sink: &mut impl Sink,
 ) {
-    sampler.skip_to(dim::LENS);
-    let lens = sampler.next_2d();
-    let lanes = plan.sets.choose(sampler.next_1d());
-    let time = sampler.next_1d();
+    let (lens, u, _) = draw_lens(sampler);
+    let lanes = plan.sets.choose(u);
     world.record(|| TraceEvent::Wavelengths(plan.sets.of(lanes)));
-    let start = world.camera().ray(site.raster, lens, time);
+    let start = world.camera().ray(site.raster, lens, plan.time);
     scratch.path.clear();
     let mut gatherer = GatherPath {
         world,

@@ -64,6 +64,18 @@ impl PhotonMap {
 /// The row of pixels, beyond any film, whose random numbers photons take.
 const ROW: u32 = u32::MAX;
 
+/// The moment of all photons and camera rays of a pass: photons are merged with what a camera ray sees, so both
+/// must be of the same moment. The passes of an image are spread over the shutter interval by the radical inverse.
+pub(crate) fn moment(pass: &Pass) -> f32 {
+    let index = pass
+        .replicate
+        .wrapping_mul(pass.count)
+        .wrapping_add(pass.number);
+    let shift = mix64(pass.seed ^ 0x7469_6d65) as u32;
+    let bits = index.reverse_bits().wrapping_add(shift);
+    (bits >> 8) as f32 / (1 << 24) as f32
+}
+
 /// How many photons a thread traces at once.
 const CHUNK: u32 = 256;
 
@@ -124,7 +136,13 @@ pub(crate) fn shoot<W: World>(
             first: lanes % 4,
         };
         let mut sampler = numbers(pass, index, count);
-        trace(world, settings, sets, lanes, &mut sampler, found);
+        trace(
+            world,
+            settings,
+            (sets, lanes, moment(pass)),
+            &mut sampler,
+            found,
+        );
     })
 }
 
@@ -132,13 +150,12 @@ pub(crate) fn shoot<W: World>(
 fn trace<W: World>(
     world: &W,
     settings: &PathSettings,
-    sets: &WavelengthSets,
-    lanes: WavelengthChoice,
+    (sets, lanes, time): (&WavelengthSets, WavelengthChoice, f32),
     sampler: &mut Sobol,
     found: &mut Vec<Photon>,
 ) {
     let wavelengths = sets.of(lanes);
-    let Some((_, mut particle)) = LightPath::emit(world, &wavelengths, sampler) else {
+    let Some((_, mut particle)) = LightPath::emit(world, &wavelengths, sampler, time) else {
         return;
     };
     if particle.prefix.beta == Vec4::ZERO {

@@ -51,8 +51,8 @@ impl<C: Camera> Camera for RecordingCamera<'_, C> {
         start
     }
 
-    fn connect(&self, point: Vec3, lens: Vec2, margin: f32) -> Option<CameraSample> {
-        let connection = self.camera.connect(point, lens, margin);
+    fn connect(&self, point: Vec3, lens: Vec2, time: f32, margin: f32) -> Option<CameraSample> {
+        let connection = self.camera.connect(point, lens, time, margin);
         self.notebook.note(Event::CameraSample(connection));
         connection
     }
@@ -218,10 +218,11 @@ impl<'a, W: World> World for Recorder<'a, W> {
         u_light: f32,
         u_position: Vec2,
         u_direction: Vec2,
+        time: f32,
     ) -> Option<Emission> {
         let emission = self
             .world
-            .emit(wavelengths, u_light, u_position, u_direction);
+            .emit(wavelengths, u_light, u_position, u_direction, time);
         self.notebook.write(|notes| {
             let (value, direction) = emission
                 .as_ref()
@@ -232,8 +233,14 @@ impl<'a, W: World> World for Recorder<'a, W> {
         emission
     }
 
-    fn emission_density(&self, light: LightId, direction: Vec3, cos: f32) -> EmissionPdf {
-        self.world.emission_density(light, direction, cos)
+    fn emission_density(
+        &self,
+        light: LightId,
+        direction: Vec3,
+        cos: f32,
+        time: f32,
+    ) -> EmissionPdf {
+        self.world.emission_density(light, direction, cos, time)
     }
 
     fn background_emission_density(&self, direction: Vec3) -> EmissionPdf {

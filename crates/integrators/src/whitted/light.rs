@@ -46,7 +46,7 @@ impl Whitted {
         });
         let from = match &surfaces[0] {
             Some(Surface::Scattering(bsdf)) => LightSampleContext::new(vertex, wo, bsdf),
-            _ => LightSampleContext::on_surface(vertex.position, vertex.shading.n),
+            _ => LightSampleContext::on_surface(vertex.position, vertex.shading.n).at(vertex.time),
         };
         let side = self.light_samples;
         let mut sum = Vec3::ZERO;

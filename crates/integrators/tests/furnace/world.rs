@@ -43,7 +43,7 @@ impl Camera for Pinhole {
         }
     }
 
-    fn connect(&self, point: Vec3, _: Vec2, _: f32) -> Option<CameraSample> {
+    fn connect(&self, point: Vec3, _: Vec2, _: f32, _: f32) -> Option<CameraSample> {
         let raster = (point.truncate() / point.z + 1.0) * 0.5;
         let inside = point.z > 0.0 && raster.min_element() >= 0.0 && raster.max_element() <= 1.0;
         let cos = point.z / point.length();
@@ -290,7 +290,7 @@ impl World for Sphere {
     fn background_density(&self, _: &LightSampleContext, _: Vec3) -> Density<SolidAngle> {
         Density::ZERO
     }
-    fn emit(&self, _: &Wavelengths, _: f32, p: Vec2, d: Vec2) -> Option<Emission> {
+    fn emit(&self, _: &Wavelengths, _: f32, p: Vec2, d: Vec2, _: f32) -> Option<Emission> {
         let origin = on_sphere(p);
         let lambert = Lambert {
             reflectance: 1.0,
@@ -315,7 +315,7 @@ impl World for Sphere {
             light: LightId(0),
         })
     }
-    fn emission_density(&self, _: LightId, _: Vec3, cos: f32) -> EmissionPdf {
+    fn emission_density(&self, _: LightId, _: Vec3, cos: f32, _: f32) -> EmissionPdf {
         EmissionPdf {
             origin: self.area_density(),
             ray: cos.max(0.0) / PI,

@@ -99,7 +99,7 @@ impl Camera for Camera1D {
             weight: 1.0,
         }
     }
-    fn connect(&self, _: Vec3, _: Vec2, _: f32) -> Option<CameraSample> {
+    fn connect(&self, _: Vec3, _: Vec2, _: f32, _: f32) -> Option<CameraSample> {
         None
     }
     fn has_lens(&self) -> bool {
@@ -336,10 +336,10 @@ impl World for Stack {
     fn background_density(&self, _: &LightSampleContext, _: Vec3) -> Density<SolidAngle> {
         Density::uniform(self.hemisphere_density() * 0.5)
     }
-    fn emit(&self, _: &Wavelengths, _: f32, _: Vec2, _: Vec2) -> Option<Emission> {
+    fn emit(&self, _: &Wavelengths, _: f32, _: Vec2, _: Vec2, _: f32) -> Option<Emission> {
         None
     }
-    fn emission_density(&self, _: LightId, _: Vec3, _: f32) -> EmissionPdf {
+    fn emission_density(&self, _: LightId, _: Vec3, _: f32, _: f32) -> EmissionPdf {
         EmissionPdf::ZERO
     }
     fn background_emission_density(&self, _: Vec3) -> EmissionPdf {

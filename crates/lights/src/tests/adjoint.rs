@@ -122,7 +122,7 @@ fn emitted_particles_carry_what_sampling_finds() {
         for _ in 0..150_000 {
             let (u, v) = (random.next_2d(), random.next_2d());
             let hit = set
-                .emit(&world, &WAVELENGTHS, random.next_1d(), u, v)
+                .emit(&world, &WAVELENGTHS, random.next_1d(), u, v, 0.0)
                 .filter(|particle| particle.ray.direction.z < 0.0)
                 .and_then(|particle| {
                     assert!(particle.weight.is_finite() && particle.weight.min_element() >= 0.0);
@@ -184,7 +184,7 @@ fn emitted_particles_carry_the_power() {
         for _ in 0..50_000 {
             let (u, v) = (random.next_2d(), random.next_2d());
             let particle = set
-                .emit(&world, &WAVELENGTHS, random.next_1d(), u, v)
+                .emit(&world, &WAVELENGTHS, random.next_1d(), u, v, 0.0)
                 .expect("every light emits");
             weights.add(f64::from(particle.weight.y / white().y));
         }
@@ -259,7 +259,7 @@ fn densities_of_emission_are_those_that_are_reported() {
     let mut seen = [false; 6];
     for _ in 0..2_000 {
         let (u, v) = (random.next_2d(), random.next_2d());
-        let emitted = set.emit(&world, &WAVELENGTHS, random.next_1d(), u, v);
+        let emitted = set.emit(&world, &WAVELENGTHS, random.next_1d(), u, v, 0.0);
         let particle = emitted.expect("every light emits");
         let light = particle.light.0 as usize;
         seen[light] = true;
@@ -269,7 +269,7 @@ fn densities_of_emission_are_those_that_are_reported() {
         match particle.origin {
             LightKind::Sky => {
                 let toward = -particle.ray.direction;
-                let reported = set.emission_density(&world, particle.light, -toward, 1.0);
+                let reported = set.emission_density(&world, particle.light, -toward, 1.0, 0.0);
                 assert!((reported.origin / origin - 1.0).abs() < 1e-3, "{light}");
                 assert_eq!(reported.ray, ray);
                 let radiance = set.background(&world, toward, &WAVELENGTHS).y;
@@ -302,11 +302,11 @@ fn a_surface_emits_with_the_density_that_it_reports() {
     for _ in 0..100 {
         let (u, v) = (random.next_2d(), random.next_2d());
         let particle = light
-            .emit(&world, &bounds(), &WAVELENGTHS, u, v)
+            .emit(&world, &bounds(), &WAVELENGTHS, u, v, 0.0)
             .expect("it emits");
         assert_eq!(particle.origin, LightKind::Surface);
         let cos = particle.point.normal.dot(particle.ray.direction);
-        let reported = light.emission_density(&world, &bounds(), particle.ray.direction, cos);
+        let reported = light.emission_density(&world, &bounds(), particle.ray.direction, cos, 0.0);
         assert!((reported.origin / particle.density.origin - 1.0).abs() < 1e-6);
         assert_eq!(reported.ray, particle.density.ray);
         let sent = particle.weight.y * reported.origin * reported.ray;

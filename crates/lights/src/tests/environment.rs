@@ -189,7 +189,7 @@ fn one_bright_texel_brings_its_energy() {
                 let density = light.background_density(&from, sample.direction).hero();
                 assert!((density / sample.chance.lanes().x - 1.0).abs() < 2e-2);
                 let particle = light
-                    .emit(&world, &bounds, &WAVELENGTHS, Vec2::splat(0.5), u)
+                    .emit(&world, &bounds, &WAVELENGTHS, Vec2::splat(0.5), u, 0.0)
                     .expect("a particle");
                 emitted += f64::from((particle.weight / white()).x);
             }

@@ -86,7 +86,7 @@ fn without_light_nothing_is_chosen() {
         let from = receiver(Vec3::ZERO, Vec3::Z);
         let u = Vec2::splat(0.5);
         assert!(set.sample(&world, &from, &WAVELENGTHS, 0.5, u).is_none());
-        assert!(set.emit(&world, &WAVELENGTHS, 0.5, u, u).is_none());
+        assert!(set.emit(&world, &WAVELENGTHS, 0.5, u, u, 0.0).is_none());
         let density = set.background_density(&LightSampleContext::in_space(Vec3::ZERO), Vec3::Z);
         assert_eq!(density.hero(), 0.0);
     }
