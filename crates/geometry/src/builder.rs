@@ -111,8 +111,11 @@ impl GeometryBuilder {
             let mut scope = PrimitiveIndex::default();
             for &id in members {
                 let shape = &shapes[id.0 as usize];
-                let primitives = shape.triangles().map_or(1, |m| m.triangle_count() as u32);
-                scope.add(PrimitiveOwner::Shape(id), primitives, shape.bounds());
+                scope.add(
+                    PrimitiveOwner::Shape(id),
+                    shape.primitives(),
+                    shape.bounds(),
+                );
             }
             scope
         };

@@ -7,6 +7,7 @@ use crate::local_interaction::Owner;
 use crate::placement::Placement;
 use crate::primitive_index::{PrimitiveIndex, PrimitiveOwner};
 use crate::shapes::Shape;
+use crate::shapes::crossing::Line;
 use crate::traversal_ray::TraversalRay;
 use crate::world::WorldOthers;
 use etalon_math::{Animated, DirectionCone};
@@ -164,21 +165,24 @@ impl Geometry {
     fn vertex_in(&self, ray: &Ray, hit: &Hit, placement: Option<&Placement>) -> SurfaceInteraction {
         let shape = &self.shapes[hit.shape.0 as usize];
         let (mut primitive, mut parameters) = (hit.primitive, hit.parameters);
-        let surface = match shape.solid() {
+        let surface = match shape.triangles() {
             // Tracing the ray has brought the accelerator's copy of the corners close.
-            None => shape.triangle(primitive, parameters, || {
+            Some(_) => shape.triangle(primitive, parameters, || {
                 self.accelerator(hit.instance).corners(hit.slot)
             }),
-            Some(solid) => {
+            None => {
                 // Again, as it was found: rounding t would move the point of a small shape far
                 // away to anywhere on it.
                 let (origin, direction) = match placement {
                     Some(placement) => placement.local_ray(ray.origin, ray.direction),
                     None => (ray.origin, ray.direction),
                 };
-                let (origin, direction) = (origin.as_dvec3(), direction.as_dvec3());
-                let t = solid.crossing_near(origin, direction, hit.t.into());
-                let point = origin + direction * t;
+                let line = Line {
+                    origin: origin.as_dvec3(),
+                    direction: direction.as_dvec3(),
+                };
+                let crossing = shape.crossing_near(primitive, &line, hit.t.into());
+                let point = line.at(crossing.t);
                 Some(match shape.mesh() {
                     Some(mesh) => {
                         (primitive, parameters) = mesh.place_near(point);
@@ -187,7 +191,8 @@ impl Geometry {
                         mesh.with_depth(primitive, surface.expect("it has triangles"))
                     }
                     None => {
-                        let surface = solid.surface_near(point);
+                        let surface = shape.surface_at(primitive, point, &crossing);
+                        let surface = surface.expect("it has no triangles");
                         parameters = surface.uv;
                         surface
                     }

@@ -3,7 +3,7 @@
 use crate::accelerator::{Accelerator, AcceleratorKind, Bounds, CustomPrimitives, Primitives};
 use crate::closest_hit::ClosestHit;
 use crate::shapes::Shape;
-use crate::shapes::solid::Solid;
+use crate::shapes::crossing::Line;
 use crate::traversal_ray::TraversalRay;
 use etalon_transport::{InstanceId, ShapeId};
 use glam::Vec3;
@@ -122,7 +122,7 @@ impl Primitives for Contents<'_> {
                 let shape = &self.shapes[shape.0 as usize];
                 match shape.triangles() {
                     Some(mesh) => Bounds::around(&mesh.corners(index)),
-                    None => shape.bounds(),
+                    None => shape.piece_bounds(index),
                 }
             }
             (PrimitiveOwner::Instance(instance), _) => self.instances[instance.0 as usize],
@@ -138,16 +138,25 @@ pub(crate) struct GroupOthers<'a> {
 
 impl GroupOthers<'_> {
     #[inline]
-    fn solid(&self, primitive: u32) -> Option<&dyn Solid> {
-        match self.scope.locate(primitive).0 {
-            PrimitiveOwner::Shape(shape) => self.shapes[shape.0 as usize].solid(),
-            PrimitiveOwner::Instance(_) => None,
+    fn piece(&self, primitive: u32) -> Option<Piece<'_>> {
+        match self.scope.locate(primitive) {
+            (PrimitiveOwner::Shape(shape), piece) => Some(Piece {
+                shape: &self.shapes[shape.0 as usize],
+                piece,
+                primitive,
+            }),
+            (PrimitiveOwner::Instance(_), _) => None,
         }
     }
 }
 
 /// Shapes of instances are known in single precision only.
 impl Order for GroupOthers<'_> {
+    #[inline]
+    fn earliest(&self, _: &TraversalRay) -> f64 {
+        0.0
+    }
+
     #[inline]
     fn is_ahead(&self, _: u32, _: &TraversalRay, t: f64) -> bool {
         is_in_front(t)
@@ -162,15 +171,15 @@ impl Order for GroupOthers<'_> {
 impl CustomPrimitives for GroupOthers<'_> {
     #[inline]
     fn intersect(&self, primitive: u32, probe: &TraversalRay, nearest: &mut ClosestHit) {
-        if let Some(solid) = self.solid(primitive) {
-            intersect_solid(solid, primitive, probe, nearest, self);
+        if let Some(piece) = self.piece(primitive) {
+            piece.intersect(probe, nearest, self);
         }
     }
 
     #[inline]
     fn occludes(&self, primitive: u32, probe: &TraversalRay, t_max: f32) -> bool {
-        self.solid(primitive)
-            .is_some_and(|solid| occludes_solid(solid, primitive, probe, t_max, self))
+        self.piece(primitive)
+            .is_some_and(|piece| piece.occludes(probe, t_max, self))
     }
 }
 
@@ -190,6 +199,8 @@ pub(crate) fn is_in_front(t: f64) -> bool {
 
 /// Which of two smooth shapes a ray crosses first, where distances do not tell.
 pub(crate) trait Order {
+    /// A parameter below that of every crossing that is ahead of the ray.
+    fn earliest(&self, probe: &TraversalRay) -> f64;
     /// Whether the crossing at `t` of a primitive is ahead of the ray: in front of its origin, or
     /// behind it but after the surface that the ray leaves, whose distance from the origin has
     /// jumped over it. False for NaN.
@@ -198,37 +209,55 @@ pub(crate) trait Order {
     fn precedes(&self, a: u32, b: u32, probe: &TraversalRay, t: f64) -> bool;
 }
 
-/// Notes the nearest crossing of a smooth shape, if it wins.
-#[inline]
-pub(crate) fn intersect_solid(
-    solid: &dyn Solid,
-    primitive: u32,
-    probe: &TraversalRay,
-    nearest: &mut ClosestHit,
-    order: &impl Order,
-) {
-    for t in solid.crossings(probe.origin.as_dvec3(), probe.direction.as_dvec3()) {
-        if order.is_ahead(primitive, probe, t) {
-            let precedes = |other| order.precedes(primitive, other, probe, t);
-            if nearest.loses_to_smooth(t, primitive, tolerance(probe, t), precedes) {
-                nearest.set_smooth(t, primitive);
-            }
-            return;
-        }
-    }
+/// A piece of a shape that is intersected by a formula of its own, as an accelerator knows it.
+pub(crate) struct Piece<'a> {
+    pub(crate) shape: &'a Shape,
+    pub(crate) piece: u32,
+    /// Its number among all primitives.
+    pub(crate) primitive: u32,
 }
 
-/// Whether a smooth shape is crossed before `t_max`.
-#[inline]
-pub(crate) fn occludes_solid(
-    solid: &dyn Solid,
-    primitive: u32,
-    probe: &TraversalRay,
-    t_max: f32,
-    order: &impl Order,
-) -> bool {
-    solid
-        .crossings(probe.origin.as_dvec3(), probe.direction.as_dvec3())
-        .into_iter()
-        .any(|t| order.is_ahead(primitive, probe, t) && (t as f32) < t_max)
+impl Piece<'_> {
+    /// The parameter of the first crossing ahead of a ray and before `before`.
+    #[inline]
+    fn first(&self, probe: &TraversalRay, before: f64, order: &impl Order) -> Option<f64> {
+        let line = Line {
+            origin: probe.origin.as_dvec3(),
+            direction: probe.direction.as_dvec3(),
+        };
+        let mut after = order.earliest(probe);
+        loop {
+            let crossing = self.shape.next_crossing(self.piece, &line, after, before)?;
+            if order.is_ahead(self.primitive, probe, crossing.t) {
+                return Some(crossing.t);
+            }
+            after = crossing.t;
+        }
+    }
+
+    /// Notes the nearest crossing, if it wins.
+    #[inline]
+    pub(crate) fn intersect(
+        &self,
+        probe: &TraversalRay,
+        nearest: &mut ClosestHit,
+        order: &impl Order,
+    ) {
+        // A crossing that is not nearer may still win a tie.
+        let limit = f64::from(nearest.t);
+        let before = limit + limit.abs() * 1e-6;
+        if let Some(t) = self.first(probe, before, order) {
+            let precedes = |other| order.precedes(self.primitive, other, probe, t);
+            if nearest.loses_to_smooth(t, self.primitive, tolerance(probe, t), precedes) {
+                nearest.set_smooth(t, self.primitive);
+            }
+        }
+    }
+
+    /// Whether it is crossed before `t_max`.
+    #[inline]
+    pub(crate) fn occludes(&self, probe: &TraversalRay, t_max: f32, order: &impl Order) -> bool {
+        let first = self.first(probe, t_max.into(), order);
+        first.is_some_and(|t| (t as f32) < t_max)
+    }
 }

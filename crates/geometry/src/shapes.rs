@@ -3,6 +3,7 @@
 //! To add a shape, write its file and add one line to the list.
 
 mod convex;
+pub(crate) mod crossing;
 pub mod cube;
 pub mod cylinder;
 pub mod disk;
@@ -11,12 +12,12 @@ pub mod mesh;
 mod mesh_sampling;
 mod model;
 pub mod rectangle;
-pub(crate) mod solid;
 pub mod sphere;
 mod vertex_normals;
 
 use crate::accelerator::Bounds;
 use crate::local_interaction::LocalInteraction;
+use crossing::{Crossing, Line};
 use cylinder::Cylinder;
 use disk::Disk;
 use etalon_math::DirectionCone;
@@ -26,7 +27,6 @@ use glam::{DVec3, Vec2, Vec3};
 use mesh::Mesh;
 use model::ShapeModel;
 use rectangle::Rectangle;
-use solid::Solid;
 use sphere::Sphere;
 use vertex_normals::vertex_normals;
 
@@ -115,10 +115,73 @@ impl Shape {
         }
     }
 
-    /// See [`ShapeModel::solid`].
+    /// Whether it intersects rays by a formula of its own: a smooth shape, or a mesh that nearly touches another
+    /// shape.
     #[inline]
-    pub(crate) fn solid(&self) -> Option<&dyn Solid> {
-        ask!(self, shape => shape.solid())
+    pub(crate) fn is_analytic(&self) -> bool {
+        self.triangles().is_none()
+    }
+
+    /// How many primitives it is: triangles, or pieces.
+    pub(crate) fn primitives(&self) -> u32 {
+        match self.triangles() {
+            Some(mesh) => mesh.triangle_count() as u32,
+            None => ask!(self, shape => shape.pieces()),
+        }
+    }
+
+    /// See [`ShapeModel::next_crossing`].
+    #[inline]
+    pub(crate) fn next_crossing(
+        &self,
+        piece: u32,
+        line: &Line,
+        after: f64,
+        before: f64,
+    ) -> Option<Crossing> {
+        ask!(self, shape => shape.next_crossing(piece, line, after, before))
+    }
+
+    /// The crossing with a piece nearest to the parameter `t`, which is known to single precision; one at `t` if
+    /// there is none.
+    pub(crate) fn crossing_near(&self, piece: u32, line: &Line, t: f64) -> Crossing {
+        let scale = line.origin.abs().max_element() / line.direction.length() + t.abs();
+        // Some roundings of single precision, and as much more as it takes: a grazing ray starts far from where
+        // its line crosses the surface that it leaves.
+        let reaches = [1e-5, 1e-3, 1e-1, f64::INFINITY].map(|reach| reach * scale);
+        let found = reaches.into_iter().find_map(|reach| {
+            let mut nearest: Option<Crossing> = None;
+            let mut after = t - reach;
+            while let Some(next) = self.next_crossing(piece, line, after, t + reach)
+                && next.t <= t + reach
+            {
+                if nearest.is_some_and(|best| (best.t - t).abs() <= (next.t - t).abs()) {
+                    break;
+                }
+                after = next.t;
+                nearest = Some(next);
+            }
+            nearest
+        });
+        found.unwrap_or(Crossing::new(t, true))
+    }
+
+    /// The surface at a crossing with a piece, which is at `p` up to rounding.
+    pub(crate) fn surface_at(
+        &self,
+        piece: u32,
+        p: DVec3,
+        crossing: &Crossing,
+    ) -> Option<LocalInteraction> {
+        ask!(self, shape => shape.surface_at(piece, p, crossing))
+    }
+
+    /// See [`ShapeModel::is_convex`]; a mesh is asked itself.
+    pub(crate) fn is_convex(&self) -> bool {
+        match self.mesh() {
+            Some(mesh) => mesh.is_small_and_convex(),
+            None => ask!(self, shape => shape.is_convex()),
+        }
     }
 
     /// See [`ShapeModel::triangle`].
@@ -134,18 +197,22 @@ impl Shape {
 
     /// The smallest box around it.
     pub fn bounds(&self) -> Bounds {
-        match (self.mesh(), self.solid()) {
-            (Some(mesh), _) => mesh.bounds(),
-            (None, Some(solid)) => {
-                // A box of rounded corners must still hold the shape.
-                let [min, max] = solid.bounds();
-                let slack = 1e-6 * min.abs().max(max.abs());
-                Bounds {
-                    min: (min - slack).as_vec3(),
-                    max: (max + slack).as_vec3(),
-                }
-            }
-            (None, None) => Bounds::EMPTY,
+        match self.mesh() {
+            Some(mesh) => mesh.bounds(),
+            None => (0..self.primitives())
+                .map(|piece| self.piece_bounds(piece))
+                .fold(Bounds::EMPTY, Bounds::union),
+        }
+    }
+
+    /// The smallest box around a piece.
+    pub(crate) fn piece_bounds(&self, piece: u32) -> Bounds {
+        let [min, max] = ask!(self, shape => shape.piece_bounds(piece));
+        // A box of rounded corners must still hold the shape.
+        let slack = 1e-6 * min.abs().max(max.abs());
+        Bounds {
+            min: (min - slack).as_vec3(),
+            max: (max + slack).as_vec3(),
         }
     }
 
@@ -159,9 +226,14 @@ impl Shape {
         ask!(self, shape => shape.prepare_sampling());
     }
 
-    /// Surface area (m²).
+    /// Surface area (m²); 0 where points cannot be sampled.
     pub fn area(&self) -> f64 {
-        ask!(self, shape => ShapeModel::area(shape))
+        ask!(self, shape => ShapeModel::area(shape)).unwrap_or(0.0)
+    }
+
+    /// Whether it may be a light: whether points of it can be sampled.
+    pub fn can_emit(&self) -> bool {
+        ask!(self, shape => ShapeModel::area(shape)).is_some()
     }
 
     /// A point chosen uniformly by area, with its density per unit area. A mesh without area

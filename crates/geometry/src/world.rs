@@ -3,11 +3,19 @@
 use crate::accelerator::CustomPrimitives;
 use crate::closest_hit::ClosestHit;
 use crate::geometry::{Geometry, Group, Instance};
-use crate::primitive_index::{
-    GroupOthers, Order, PrimitiveOwner, intersect_solid, is_in_front, occludes_solid, tolerance,
-};
+use crate::primitive_index::{GroupOthers, Order, Piece, PrimitiveOwner, is_in_front, tolerance};
+use crate::shapes::crossing::{Crossing, Line};
 use crate::traversal_ray::TraversalRay;
 use etalon_transport::{InstanceId, ShapeId};
+
+/// A ray as a line in double precision.
+#[inline]
+fn line_of(probe: &TraversalRay) -> Line {
+    Line {
+        origin: probe.origin.as_dvec3(),
+        direction: probe.direction.as_dvec3(),
+    }
+}
 
 /// Intersects what is not a triangle of the world: smooth shapes and instances.
 pub(crate) struct WorldOthers<'a>(pub(crate) &'a Geometry);
@@ -24,22 +32,34 @@ impl WorldOthers<'_> {
         (group, group.scope.probe(origin, direction))
     }
 
+    #[inline]
+    fn piece(&self, shape: ShapeId, piece: u32, primitive: u32) -> Piece<'_> {
+        Piece {
+            shape: &self.0.shapes[shape.0 as usize],
+            piece,
+            primitive,
+        }
+    }
+
     /// Whether the crossing at `t` of a primitive, about where the ray starts, is after the surface
     /// that the ray leaves.
     #[cold]
     fn is_after_start(&self, primitive: u32, probe: &TraversalRay, t: f64) -> bool {
         let left = probe.departure.shape;
-        let (PrimitiveOwner::Shape(shape), Some(solid)) = (
-            self.0.world.scope.locate(primitive).0,
-            self.0.shapes[left.0 as usize].solid(),
-        ) else {
+        let PrimitiveOwner::Shape(shape) = self.0.world.scope.locate(primitive).0 else {
             return is_in_front(t);
         };
-        if shape == left {
+        let from = &self.0.shapes[left.0 as usize];
+        if shape == left || !from.is_analytic() {
             return is_in_front(t);
         }
-        let (origin, direction) = (probe.origin.as_dvec3(), probe.direction.as_dvec3());
-        let apart = t - solid.crossing_near(origin, direction, probe.departure.t.into());
+        let line = line_of(probe);
+        let departed = f64::from(probe.departure.t);
+        let crossings =
+            (0..from.primitives()).map(|piece| from.crossing_near(piece, &line, departed));
+        let off = |crossing: &Crossing| (crossing.t - departed).abs();
+        let nearest = crossings.min_by(|a, b| off(a).total_cmp(&off(b)));
+        let apart = t - nearest.map_or(departed, |crossing| crossing.t);
         if apart.abs() > tolerance(probe, t) {
             return apart > 0.0;
         }
@@ -63,9 +83,13 @@ impl WorldOthers<'_> {
     fn is_outer(&self, a: ShapeId, b: ShapeId, probe: &TraversalRay, t: f64) -> bool {
         let place = probe.origin.as_dvec3() + probe.direction.as_dvec3() * t;
         let leaves = |shape: ShapeId| {
-            let solid = self.0.shapes[shape.0 as usize].solid();
-            let surface = solid.map(|solid| solid.surface_near(place));
-            surface.is_some_and(|surface| surface.normal.dot(probe.direction) > 0.0)
+            let shape = &self.0.shapes[shape.0 as usize];
+            let line = line_of(probe);
+            (0..shape.primitives()).any(|piece| {
+                let crossing = shape.crossing_near(piece, &line, t);
+                let surface = shape.surface_at(piece, place, &crossing);
+                surface.is_some_and(|surface| surface.normal.dot(probe.direction) > 0.0)
+            })
         };
         match (leaves(a), leaves(b)) {
             (true, true) => a.0 > b.0,
@@ -88,6 +112,15 @@ impl WorldOthers<'_> {
 
 impl Order for WorldOthers<'_> {
     #[inline]
+    fn earliest(&self, probe: &TraversalRay) -> f64 {
+        if !probe.departure.shape.is_some() {
+            return 0.0;
+        }
+        let t = 4.0 * f64::from(probe.departure.t);
+        t - 2.0 * tolerance(probe, t)
+    }
+
+    #[inline]
     fn is_ahead(&self, primitive: u32, probe: &TraversalRay, t: f64) -> bool {
         // First what holds for nearly all that comes here; false for NaN.
         let margin = tolerance(probe, t);
@@ -108,13 +141,12 @@ impl Order for WorldOthers<'_> {
 impl CustomPrimitives for WorldOthers<'_> {
     #[inline]
     fn intersect(&self, primitive: u32, probe: &TraversalRay, nearest: &mut ClosestHit) {
-        match self.0.world.scope.locate(primitive).0 {
-            PrimitiveOwner::Shape(shape) => {
-                if let Some(solid) = self.0.shapes[shape.0 as usize].solid() {
-                    intersect_solid(solid, primitive, probe, nearest, self);
-                }
+        match self.0.world.scope.locate(primitive) {
+            (PrimitiveOwner::Shape(shape), piece) => {
+                self.piece(shape, piece, primitive)
+                    .intersect(probe, nearest, self);
             }
-            PrimitiveOwner::Instance(instance) => {
+            (PrimitiveOwner::Instance(instance), _) => {
                 let (group, local) = self.enter(instance, probe);
                 let mut inside = nearest.inside(primitive);
                 group
@@ -133,11 +165,11 @@ impl CustomPrimitives for WorldOthers<'_> {
 
     #[inline]
     fn occludes(&self, primitive: u32, probe: &TraversalRay, t_max: f32) -> bool {
-        match self.0.world.scope.locate(primitive).0 {
-            PrimitiveOwner::Shape(shape) => self.0.shapes[shape.0 as usize]
-                .solid()
-                .is_some_and(|solid| occludes_solid(solid, primitive, probe, t_max, self)),
-            PrimitiveOwner::Instance(instance) => {
+        match self.0.world.scope.locate(primitive) {
+            (PrimitiveOwner::Shape(shape), piece) => {
+                (self.piece(shape, piece, primitive)).occludes(probe, t_max, self)
+            }
+            (PrimitiveOwner::Instance(instance), _) => {
                 let (group, local) = self.enter(instance, probe);
                 group
                     .accelerator

@@ -6,8 +6,8 @@
 //! convex mesh twice at most.
 
 use crate::local_interaction::LocalInteraction;
+use crate::shapes::crossing::Line;
 use crate::shapes::mesh::Mesh;
-use crate::shapes::solid::Solid;
 use glam::{DVec3, Vec2};
 
 /// The most triangles for which this is worth while.
@@ -81,8 +81,11 @@ impl Mesh {
     }
 }
 
-impl Solid for Mesh {
-    fn crossings(&self, origin: DVec3, direction: DVec3) -> [f64; 2] {
+impl Mesh {
+    /// The parameters of up to two crossings of a convex mesh with a line, in ascending order; NaN where there is
+    /// none.
+    pub(crate) fn crossings(&self, line: &Line) -> [f64; 2] {
+        let Line { origin, direction } = *line;
         let met = (0..self.triangle_count() as u32)
             .filter_map(|i| meet(self.exact_corners(i), origin, direction));
         let (first, last) = met.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), t| {
@@ -97,12 +100,14 @@ impl Solid for Mesh {
         }
     }
 
-    fn surface_near(&self, p: DVec3) -> LocalInteraction {
+    /// The surface at `p`, which is on it up to rounding.
+    pub(crate) fn surface_near(&self, p: DVec3) -> LocalInteraction {
         let (primitive, b) = self.place_near(p);
         self.with_depth(primitive, self.surface(primitive, b))
     }
 
-    fn bounds(&self) -> [DVec3; 2] {
+    /// The smallest box around it (m).
+    pub(crate) fn exact_bounds(&self) -> [DVec3; 2] {
         let bounds = Mesh::bounds(self);
         [bounds.min.as_dvec3(), bounds.max.as_dvec3()]
     }

@@ -9,8 +9,9 @@
 
 use crate::local_interaction::LocalInteraction;
 use crate::placement::{Placement, perpendicular};
-use crate::shapes::model::ShapeModel;
-use crate::shapes::solid::{Solid, read_flip};
+use crate::shapes::crossing::{Crossing, Line};
+use crate::shapes::model::{ShapeModel, read_flip};
+
 use core::f64::consts::TAU;
 use etalon_math::{Frame, float64};
 use etalon_params::Params;
@@ -110,12 +111,29 @@ impl Cylinder {
 
 impl ShapeModel for Cylinder {
     #[inline]
-    fn solid(&self) -> Option<&dyn Solid> {
-        Some(self)
+    fn next_crossing(&self, _: u32, line: &Line, after: f64, _: f64) -> Option<Crossing> {
+        Crossing::of_convex(self.crossings(line), after)
     }
 
-    fn area(&self) -> f64 {
-        TAU * self.radius * self.length
+    fn surface_at(&self, _: u32, p: DVec3, _: &Crossing) -> Option<LocalInteraction> {
+        let local = self.local(p - self.start);
+        let across = local.truncate().try_normalize().unwrap_or(DVec2::X);
+        Some(self.surface(across, (local.z / self.length).clamp(0.0, 1.0)))
+    }
+
+    fn piece_bounds(&self, _: u32) -> [DVec3; 2] {
+        let end = self.start + self.z * self.length;
+        // Half-widths of a disk: R √(1 − ẑᵢ²), here from the other two axes.
+        let reach = DVec3::new(
+            DVec2::new(self.x.x, self.y.x).length(),
+            DVec2::new(self.x.y, self.y.y).length(),
+            DVec2::new(self.x.z, self.y.z).length(),
+        ) * self.radius;
+        [self.start.min(end) - reach, self.start.max(end) + reach]
+    }
+
+    fn area(&self) -> Option<f64> {
+        Some(TAU * self.radius * self.length)
     }
 
     fn sample_area(&self, u: Vec2) -> Option<SurfacePoint> {
@@ -125,8 +143,10 @@ impl ShapeModel for Cylinder {
     }
 }
 
-impl Solid for Cylinder {
-    fn crossings(&self, origin: DVec3, direction: DVec3) -> [f64; 2] {
+impl Cylinder {
+    /// The parameters of up to two crossings with a line, in ascending order; NaN where there is none.
+    fn crossings(&self, line: &Line) -> [f64; 2] {
+        let Line { origin, direction } = *line;
         let o = self.local(origin - self.start);
         let d = self.local(direction);
         let (across, slope) = (o.truncate(), d.truncate());
@@ -155,22 +175,5 @@ impl Solid for Cylinder {
         } else {
             [within(t1), within(t0)]
         }
-    }
-
-    fn surface_near(&self, p: DVec3) -> LocalInteraction {
-        let local = self.local(p - self.start);
-        let across = local.truncate().try_normalize().unwrap_or(DVec2::X);
-        self.surface(across, (local.z / self.length).clamp(0.0, 1.0))
-    }
-
-    fn bounds(&self) -> [DVec3; 2] {
-        let end = self.start + self.z * self.length;
-        // Half-widths of a disk: R √(1 − ẑᵢ²), here from the other two axes.
-        let reach = DVec3::new(
-            DVec2::new(self.x.x, self.y.x).length(),
-            DVec2::new(self.x.y, self.y.y).length(),
-            DVec2::new(self.x.z, self.y.z).length(),
-        ) * self.radius;
-        [self.start.min(end) - reach, self.start.max(end) + reach]
     }
 }

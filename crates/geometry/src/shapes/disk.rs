@@ -8,8 +8,9 @@
 
 use crate::local_interaction::LocalInteraction;
 use crate::placement::Placement;
-use crate::shapes::model::ShapeModel;
-use crate::shapes::solid::{Solid, read_flip};
+use crate::shapes::crossing::{Crossing, Line};
+use crate::shapes::model::{ShapeModel, read_flip};
+
 use core::f64::consts::{PI, TAU};
 use etalon_math::{DirectionCone, float64};
 use etalon_params::Params;
@@ -96,8 +97,19 @@ impl Disk {
 
 impl ShapeModel for Disk {
     #[inline]
-    fn solid(&self) -> Option<&dyn Solid> {
-        Some(self)
+    fn next_crossing(&self, _: u32, line: &Line, after: f64, _: f64) -> Option<Crossing> {
+        Crossing::of_convex(self.crossings(line), after)
+    }
+
+    fn surface_at(&self, _: u32, p: DVec3, _: &Crossing) -> Option<LocalInteraction> {
+        Some(self.surface(self.coordinates(p)))
+    }
+
+    fn piece_bounds(&self, _: u32) -> [DVec3; 2] {
+        let square = |v: DVec3| v * v;
+        let squared = square(self.a) + square(self.b);
+        let reach = DVec3::new(squared.x.sqrt(), squared.y.sqrt(), squared.z.sqrt());
+        [self.center - reach, self.center + reach]
     }
 
     fn normals(&self) -> DirectionCone {
@@ -108,8 +120,8 @@ impl ShapeModel for Disk {
         })
     }
 
-    fn area(&self) -> f64 {
-        self.area
+    fn area(&self) -> Option<f64> {
+        Some(self.area)
     }
 
     fn sample_area(&self, u: Vec2) -> Option<SurfacePoint> {
@@ -120,21 +132,12 @@ impl ShapeModel for Disk {
     }
 }
 
-impl Solid for Disk {
-    fn crossings(&self, origin: DVec3, direction: DVec3) -> [f64; 2] {
+impl Disk {
+    /// The parameters of up to two crossings with a line, in ascending order; NaN where there is none.
+    fn crossings(&self, line: &Line) -> [f64; 2] {
+        let Line { origin, direction } = *line;
         let t = self.normal.dot(self.center - origin) / self.normal.dot(direction);
         let inside = self.coordinates(origin + direction * t).length_squared() <= 1.0;
         [if inside { t } else { f64::NAN }, f64::NAN]
-    }
-
-    fn surface_near(&self, p: DVec3) -> LocalInteraction {
-        self.surface(self.coordinates(p))
-    }
-
-    fn bounds(&self) -> [DVec3; 2] {
-        let square = |v: DVec3| v * v;
-        let squared = square(self.a) + square(self.b);
-        let reach = DVec3::new(squared.x.sqrt(), squared.y.sqrt(), squared.z.sqrt());
-        [self.center - reach, self.center + reach]
     }
 }

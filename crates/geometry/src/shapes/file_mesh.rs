@@ -2,7 +2,7 @@
 
 use crate::placement::Placement;
 use crate::shapes::mesh::{Mesh, MeshOptions};
-use crate::shapes::solid::read_flip;
+use crate::shapes::model::read_flip;
 use etalon_params::{Diagnostic, Params};
 use etalon_transport::{Build, MeshData, MeshFormat};
 

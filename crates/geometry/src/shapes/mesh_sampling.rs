@@ -40,8 +40,8 @@ impl ShapeModel for Mesh {
         self.by_area();
     }
 
-    fn area(&self) -> f64 {
-        Self::area(self)
+    fn area(&self) -> Option<f64> {
+        Some(Self::area(self))
     }
 
     fn sample_area(&self, u: Vec2) -> Option<SurfacePoint> {

@@ -1,13 +1,15 @@
 //! What a shape is asked, with the answers that most of them share.
 
 use crate::local_interaction::LocalInteraction;
+use crate::shapes::crossing::{Crossing, Line};
 use crate::shapes::mesh::Mesh;
-use crate::shapes::solid::Solid;
 use etalon_math::DirectionCone;
+use etalon_params::Params;
 use etalon_transport::{LightSampleContext, SampledPoint, SurfacePoint};
-use glam::{Vec2, Vec3};
+use glam::{DVec3, Vec2, Vec3};
 
-/// A shape: triangles ([`ShapeModel::mesh`]) or one smooth piece ([`ShapeModel::solid`]).
+/// A shape: triangles ([`ShapeModel::mesh`]), or pieces that are intersected by a formula of their own
+/// ([`ShapeModel::next_crossing`]).
 pub(crate) trait ShapeModel {
     /// Its triangles, if it is made of triangles.
     #[inline]
@@ -20,12 +22,44 @@ pub(crate) trait ShapeModel {
         None
     }
 
-    /// What intersects rays by a formula of its own: a smooth shape, or a mesh that nearly touches
-    /// another shape.
+    /// The number of its pieces, each of which an accelerator keeps in a box of its own, if they are intersected by
+    /// a formula.
+    fn pieces(&self) -> u32 {
+        1
+    }
+
+    /// The smallest axis-parallel box that holds a piece (m).
+    fn piece_bounds(&self, _piece: u32) -> [DVec3; 2] {
+        self.mesh()
+            .map_or([DVec3::INFINITY, DVec3::NEG_INFINITY], Mesh::exact_bounds)
+    }
+
+    /// The first crossing of a line with a piece beyond the parameter `after`. One at or beyond `before` need not be
+    /// found. By default that of a small mesh that nearly touches another shape.
     #[inline]
-    fn solid(&self) -> Option<&dyn Solid> {
-        let mesh = self.mesh()?;
-        mesh.touches.then_some(mesh as &dyn Solid)
+    fn next_crossing(
+        &self,
+        _piece: u32,
+        line: &Line,
+        after: f64,
+        _before: f64,
+    ) -> Option<Crossing> {
+        Crossing::of_convex(self.mesh()?.crossings(line), after)
+    }
+
+    /// The surface at a crossing with a piece, which is at `p` up to rounding: `p` is projected first.
+    fn surface_at(&self, _piece: u32, p: DVec3, _crossing: &Crossing) -> Option<LocalInteraction> {
+        self.mesh().map(|mesh| mesh.surface_near(p))
+    }
+
+    /// Whether it bounds a volume, so that a line leaves it as often as it enters it.
+    fn is_closed(&self) -> bool {
+        false
+    }
+
+    /// Whether a line crosses it twice at most.
+    fn is_convex(&self) -> bool {
+        true
     }
 
     /// The surface at a point of a triangle, `b` being the barycentric coordinates of its second and
@@ -48,8 +82,8 @@ pub(crate) trait ShapeModel {
     /// Makes now what sampling would make when first asked.
     fn prepare_sampling(&self) {}
 
-    /// Surface area (m²).
-    fn area(&self) -> f64;
+    /// Surface area (m²); `None` if points of it cannot be sampled, so that it cannot be a light.
+    fn area(&self) -> Option<f64>;
 
     /// A point chosen uniformly by area; `None` if there is no area.
     fn sample_area(&self, u: Vec2) -> Option<SurfacePoint>;
@@ -72,7 +106,8 @@ pub(crate) trait ShapeModel {
     /// The density per unit solid angle, seen from a point, of points chosen uniformly by area.
     #[inline]
     fn area_density_toward(&self, from: Vec3, at: &SurfacePoint) -> f32 {
-        area_density_toward(self.area(), from, at.position, at.normal)
+        let area = self.area().unwrap_or(f64::INFINITY);
+        area_density_toward(area, from, at.position, at.normal)
     }
 }
 
@@ -82,4 +117,14 @@ pub(crate) fn area_density_toward(area: f64, from: Vec3, position: Vec3, normal:
     let distance_squared = to.length_squared();
     let cos_times_distance = normal.dot(to).abs();
     distance_squared * distance_squared.sqrt() / (area as f32 * cos_times_distance)
+}
+
+/// Reads `flip_normals`.
+pub(crate) fn read_flip(params: &Params<'_>) -> bool {
+    params.boolean_or("flip_normals", false)
+}
+
+/// Reads `face_normals` for a shape whose faces are flat anyway: it makes no difference there.
+pub(crate) fn read_face_normals(params: &Params<'_>) {
+    params.boolean_or("face_normals", false);
 }

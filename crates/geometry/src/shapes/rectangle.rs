@@ -12,8 +12,7 @@
 use crate::local_interaction::LocalInteraction;
 use crate::placement::{Placement, perpendicular};
 use crate::shapes::mesh::{Mesh, MeshOptions};
-use crate::shapes::model::ShapeModel;
-use crate::shapes::solid::{read_face_normals, read_flip};
+use crate::shapes::model::{ShapeModel, read_face_normals, read_flip};
 use etalon_math::{DirectionCone, Frame, gamma};
 use etalon_params::Params;
 use etalon_sampling::warps::{RectangleSides, RectangleView, SphericalRectangle};
@@ -174,8 +173,8 @@ impl ShapeModel for Rectangle {
         DirectionCone::along(self.normal.as_dvec3())
     }
 
-    fn area(&self) -> f64 {
-        self.area
+    fn area(&self) -> Option<f64> {
+        Some(self.area)
     }
 
     fn sample_area(&self, u: Vec2) -> Option<SurfacePoint> {

@@ -10,8 +10,9 @@
 
 use crate::local_interaction::LocalInteraction;
 use crate::placement::{Placement, perpendicular};
-use crate::shapes::model::ShapeModel;
-use crate::shapes::solid::{Solid, read_flip};
+use crate::shapes::crossing::{Crossing, Line};
+use crate::shapes::model::{ShapeModel, read_flip};
+
 use core::f64::consts::{PI, TAU};
 use etalon_math::float64;
 use etalon_params::Params;
@@ -113,12 +114,25 @@ impl Sphere {
 
 impl ShapeModel for Sphere {
     #[inline]
-    fn solid(&self) -> Option<&dyn Solid> {
-        Some(self)
+    fn next_crossing(&self, _: u32, line: &Line, after: f64, _: f64) -> Option<Crossing> {
+        Crossing::of_convex(self.crossings(line), after)
     }
 
-    fn area(&self) -> f64 {
-        2.0 * TAU * self.radius * self.radius
+    fn surface_at(&self, _: u32, p: DVec3, _: &Crossing) -> Option<LocalInteraction> {
+        let normal = (p - self.center).try_normalize();
+        Some(self.surface(normal.unwrap_or(self.axes.z_axis)))
+    }
+
+    fn piece_bounds(&self, _: u32) -> [DVec3; 2] {
+        [self.center - self.radius, self.center + self.radius]
+    }
+
+    fn is_closed(&self) -> bool {
+        true
+    }
+
+    fn area(&self) -> Option<f64> {
+        Some(2.0 * TAU * self.radius * self.radius)
     }
 
     fn sample_area(&self, u: Vec2) -> Option<SurfacePoint> {
@@ -153,8 +167,10 @@ impl ShapeModel for Sphere {
     }
 }
 
-impl Solid for Sphere {
-    fn crossings(&self, origin: DVec3, direction: DVec3) -> [f64; 2] {
+impl Sphere {
+    /// The parameters of up to two crossings with a line, in ascending order; NaN where there is none.
+    fn crossings(&self, line: &Line) -> [f64; 2] {
+        let Line { origin, direction } = *line;
         const MISS: [f64; 2] = [f64::NAN; 2];
         let o = origin - self.center;
         let a = direction.length_squared();
@@ -169,17 +185,5 @@ impl Solid for Sphere {
         let c = (distance - self.radius) * (distance + self.radius);
         let (t0, t1) = (c / q, q / a);
         if t0 <= t1 { [t0, t1] } else { [t1, t0] }
-    }
-
-    fn surface_near(&self, p: DVec3) -> LocalInteraction {
-        self.surface(
-            (p - self.center)
-                .try_normalize()
-                .unwrap_or(self.axes.z_axis),
-        )
-    }
-
-    fn bounds(&self) -> [DVec3; 2] {
-        [self.center - self.radius, self.center + self.radius]
     }
 }

@@ -1,0 +1,59 @@
+//! Where a line crosses the surface of a shape that intersects rays by a formula of its own.
+
+use glam::{DVec2, DVec3};
+
+/// The line o + t·d. The direction need not be a unit vector.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Line {
+    /// o (m).
+    pub(crate) origin: DVec3,
+    /// d.
+    pub(crate) direction: DVec3,
+}
+
+impl Line {
+    /// The point at parameter `t`.
+    #[inline]
+    pub(crate) fn at(&self, t: f64) -> DVec3 {
+        self.origin + self.direction * t
+    }
+}
+
+/// A crossing.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Crossing {
+    /// Where on the line.
+    pub(crate) t: f64,
+    /// Whether the line goes into the volume that the surface bounds; of a surface that bounds none, whether it
+    /// goes against the normal.
+    pub(crate) enters: bool,
+    /// Which of the faces that the shape tells apart.
+    pub(crate) face: u32,
+    /// Parameters of the point, if the shape found them on the way.
+    pub(crate) uv: DVec2,
+}
+
+impl Crossing {
+    /// One of a shape in one face, whose parameters are not known yet.
+    #[inline]
+    pub(crate) fn new(t: f64, enters: bool) -> Self {
+        Self {
+            t,
+            enters,
+            face: 0,
+            uv: DVec2::ZERO,
+        }
+    }
+
+    /// Of two crossings of a convex solid in ascending order, NaN where there is none, the first beyond `after`.
+    #[inline]
+    pub(crate) fn of_convex([a, b]: [f64; 2], after: f64) -> Option<Self> {
+        if a > after {
+            Some(Self::new(a, true))
+        } else if b > after {
+            Some(Self::new(b, false))
+        } else {
+            None
+        }
+    }
+}
