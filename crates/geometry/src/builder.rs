@@ -23,6 +23,7 @@ pub struct GroupId(pub u32);
 pub struct GeometryBuilder {
     shapes: Vec<Shape>,
     attachments: Vec<ShapeBinding>,
+    face_materials: Vec<MaterialId>,
     world: Vec<ShapeId>,
     groups: Vec<Vec<ShapeId>>,
     instances: Vec<(GroupId, Animated<Placement>)>,
@@ -41,6 +42,7 @@ impl GeometryBuilder {
             material,
             light,
             refractive: false,
+            faces: None,
         });
         id
     }
@@ -57,6 +59,12 @@ impl GeometryBuilder {
         self.attachments[shape.0 as usize].light = light;
     }
 
+    /// Gives each face of a shape, see [`Shape::faces`], a material of its own.
+    pub fn set_face_materials(&mut self, shape: ShapeId, materials: &[MaterialId]) {
+        self.attachments[shape.0 as usize].faces = Some(self.face_materials.len() as u32);
+        self.face_materials.extend_from_slice(materials);
+    }
+
     /// Says that light is refracted into a shape of the world, so that surfaces next to its own matter
     /// however near they are.
     pub fn set_refractive(&mut self, shape: ShapeId) {
@@ -70,10 +78,20 @@ impl GeometryBuilder {
 
     /// Adds a group of shapes, which is only seen through instances. Its shapes cannot be lights.
     pub fn add_group(&mut self, shapes: impl IntoIterator<Item = (Shape, MaterialId)>) -> GroupId {
-        let members = shapes
+        let members: Vec<_> = shapes
             .into_iter()
             .map(|(shape, material)| self.push(shape, material, LightId::NONE))
             .collect();
+        self.add_members(members)
+    }
+
+    /// Adds a shape that is only seen as a member of a group.
+    pub fn add_member(&mut self, shape: Shape, material: MaterialId) -> ShapeId {
+        self.push(shape, material, LightId::NONE)
+    }
+
+    /// Makes a group of members.
+    pub fn add_members(&mut self, members: Vec<ShapeId>) -> GroupId {
         self.groups.push(members);
         GroupId(self.groups.len() as u32 - 1)
     }
@@ -98,6 +116,7 @@ impl GeometryBuilder {
         let Self {
             mut shapes,
             attachments,
+            face_materials,
             world,
             groups,
             instances,
@@ -160,6 +179,7 @@ impl GeometryBuilder {
         Geometry {
             shapes,
             attachments,
+            face_materials,
             groups,
             instances: instances
                 .into_iter()
@@ -179,12 +199,7 @@ fn placed_bounds(bounds: Bounds, placement: &Animated<Placement>) -> Bounds {
     let half = (max - min) * 0.5 + 1e-6 * min.abs().max(max.abs());
     let middle = (min + max) * 0.5;
     let [low, high] = match placement.motion() {
-        None => {
-            let m = placement.start().linear();
-            let reach = m.x_axis.abs() * half.x + m.y_axis.abs() * half.y + m.z_axis.abs() * half.z;
-            let center = placement.start().point(middle);
-            [center - reach, center + reach]
-        }
+        None => placement.start().bounds([middle - half, middle + half]),
         Some(motion) => motion.swept(middle - half, middle + half),
     };
     let outward = |v: DVec3, up: bool| {

@@ -24,6 +24,8 @@ pub(crate) struct ShapeBinding {
     pub(crate) light: LightId,
     /// Whether light is refracted into it.
     pub(crate) refractive: bool,
+    /// Where the materials of its faces begin in [`Geometry::face_materials`], if they have their own.
+    pub(crate) faces: Option<u32>,
 }
 
 /// Shapes with an accelerator of their own.
@@ -45,6 +47,7 @@ pub(crate) struct Instance {
 pub struct Geometry {
     pub(crate) shapes: Vec<Shape>,
     pub(crate) attachments: Vec<ShapeBinding>,
+    pub(crate) face_materials: Vec<MaterialId>,
     pub(crate) groups: Vec<Group>,
     pub(crate) instances: Vec<Instance>,
     pub(crate) world: Group,
@@ -121,10 +124,16 @@ impl Geometry {
     }
 
     #[inline]
-    fn owner(&self, shape: ShapeId, instance: InstanceId) -> Owner {
+    fn owner(&self, shape: ShapeId, face: u32, instance: InstanceId) -> Owner {
         let ShapeBinding {
-            material, light, ..
+            mut material,
+            light,
+            faces,
+            ..
         } = self.attachments[shape.0 as usize];
+        if let Some(first) = faces {
+            material = self.face_materials[(first + face) as usize];
+        }
         Owner {
             shape,
             instance,
@@ -201,7 +210,7 @@ impl Geometry {
         };
         let surface = surface.expect("a shape has triangles or is a solid");
         let surface = placement.map_or(surface, |placement| surface.placed(placement));
-        let owner = self.owner(hit.shape, hit.instance);
+        let owner = self.owner(hit.shape, surface.face, hit.instance);
         SurfaceInteraction {
             t: hit.t,
             time: ray.time,

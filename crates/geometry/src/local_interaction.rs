@@ -26,6 +26,8 @@ pub(crate) struct LocalInteraction {
     pub(crate) dp_du: Vec3,
     /// ∂p/∂v.
     pub(crate) dp_dv: Vec3,
+    /// Which of the faces that the shape tells apart.
+    pub(crate) face: u32,
 }
 
 impl LocalInteraction {
@@ -45,6 +47,7 @@ impl LocalInteraction {
             uv,
             dp_du,
             dp_dv: dp_dv.as_vec3(),
+            face: 0,
         }
     }
 
@@ -71,6 +74,16 @@ impl LocalInteraction {
             uv: self.uv,
             dp_du,
             dp_dv: placement.vector(self.dp_dv.as_dvec3()).as_vec3(),
+            face: self.face,
+        }
+    }
+
+    /// [`LocalInteraction::placed`], but for a placement that changes nothing, and so loses nothing.
+    pub(crate) fn placed_if(self, placement: &Placement) -> Self {
+        if *placement == Placement::IDENTITY {
+            self
+        } else {
+            self.placed(placement)
         }
     }
 

@@ -102,6 +102,15 @@ impl Placement {
         self.inverse.transform_vector3(v)
     }
 
+    /// A box around the image of a box.
+    pub(crate) fn bounds(&self, [min, max]: [DVec3; 2]) -> [DVec3; 2] {
+        let half = (max - min) * 0.5;
+        let m = self.linear();
+        let reach = m.x_axis.abs() * half.x + m.y_axis.abs() * half.y + m.z_axis.abs() * half.z;
+        let center = self.point((min + max) * 0.5);
+        [center - reach, center + reach]
+    }
+
     /// The linear part.
     #[inline]
     pub fn linear(&self) -> &DMat3 {

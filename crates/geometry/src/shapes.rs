@@ -2,8 +2,10 @@
 //!
 //! To add a shape, write its file and add one line to the list.
 
+pub mod cone;
 mod convex;
 pub(crate) mod crossing;
+pub mod csg;
 pub mod cube;
 pub mod cylinder;
 pub mod disk;
@@ -11,13 +13,18 @@ mod file_mesh;
 pub mod mesh;
 mod mesh_sampling;
 mod model;
+pub(crate) mod placed;
+pub mod quadric;
 pub mod rectangle;
 pub mod sphere;
+pub mod torus;
 mod vertex_normals;
 
 use crate::accelerator::Bounds;
 use crate::local_interaction::LocalInteraction;
+use cone::Cone;
 use crossing::{Crossing, Line};
+use csg::Csg;
 use cylinder::Cylinder;
 use disk::Disk;
 use etalon_math::DirectionCone;
@@ -26,8 +33,11 @@ use etalon_transport::{Build, LightSampleContext, SampledPoint, SurfacePoint};
 use glam::{DVec3, Vec2, Vec3};
 use mesh::Mesh;
 use model::ShapeModel;
+use placed::Placed;
+use quadric::Quadric;
 use rectangle::Rectangle;
 use sphere::Sphere;
+use torus::Torus;
 use vertex_normals::vertex_normals;
 
 macro_rules! shapes {
@@ -81,6 +91,17 @@ shapes! {
     Sphere(Sphere) { "sphere" => |params, _| Sphere::from_params(params), }
     /// An open cylinder.
     Cylinder(Cylinder) { "cylinder" => |params, _| Cylinder::from_params(params), }
+    /// A solid cone, also a truncated one.
+    Cone(Placed<Cone>) { "cone" => |params, _| Cone::from_params(params), }
+    /// A surface of second degree in a box.
+    Quadric(Placed<Quadric>) {
+        "quadric" => |params, _| Quadric::from_params(params),
+        "ellipsoid" => |params, _| Quadric::ellipsoid(params),
+    }
+    /// A torus.
+    Torus(Placed<Torus>) { "torus" => |params, _| Torus::from_params(params), }
+    /// Solids made of solids; their operands are the scene's to read.
+    Csg(Csg) { }
 }
 
 impl Shape {
@@ -127,6 +148,25 @@ impl Shape {
         match self.triangles() {
             Some(mesh) => mesh.triangle_count() as u32,
             None => ask!(self, shape => shape.pieces()),
+        }
+    }
+
+    /// How many pieces it is where it is intersected by a formula, whatever an accelerator does with it.
+    pub(crate) fn primitives_analytic(&self) -> u32 {
+        ask!(self, shape => shape.pieces())
+    }
+
+    /// How many faces it tells apart, each of which may have a material of its own.
+    pub fn faces(&self) -> u32 {
+        ask!(self, shape => shape.faces())
+    }
+
+    /// Whether it may be an operand of constructive solid geometry: it bounds a volume, and is no mesh but a small,
+    /// convex one without holes.
+    pub fn is_solid(&self) -> bool {
+        match self.mesh() {
+            Some(mesh) => mesh.is_small_and_convex() && mesh.has_no_border(),
+            None => ask!(self, shape => shape.is_closed()),
         }
     }
 

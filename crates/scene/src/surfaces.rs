@@ -3,7 +3,8 @@
 use crate::attributes::Asked;
 use crate::builder::Builder;
 use etalon_bsdf::{Material, classicphong};
-use etalon_geometry::{GeometryBuilder, GroupId, Shape};
+use etalon_geometry::shapes::csg::{Csg, Operation};
+use etalon_geometry::{GeometryBuilder, GroupId, Placement, Shape};
 use etalon_math::Animated;
 use etalon_params::{Class, Diagnostic, Node, Params, Span, Value, plugins};
 use etalon_textures::{Constant, Texture};
@@ -80,7 +81,9 @@ fn refracts(node: &Node) -> bool {
     let dielectric = matches!(node.plugin.value.as_str(), "dielectric" | "roughdielectric");
     (node.class == Class::Bsdf && dielectric)
         || (node.properties.iter()).any(|property| match &property.value {
-            Value::Object(child) => child.class == Class::Bsdf && refracts(child),
+            Value::Object(child) => {
+                matches!(child.class, Class::Bsdf | Class::Shape) && refracts(child)
+            }
             _ => false,
         })
 }
@@ -89,6 +92,8 @@ fn refracts(node: &Node) -> bool {
 struct ShapeExtras {
     material: MaterialId,
     emitter: Option<Arc<Node>>,
+    /// The materials of its faces, if they have their own.
+    faces: Vec<MaterialId>,
 }
 
 impl Surfaces {
@@ -108,18 +113,40 @@ impl Surfaces {
                     self.moving(&params, shape, carried, builder);
                     return;
                 }
+                let can_emit = shape.can_emit();
                 let id = self
                     .geometry
                     .add_shape(shape, carried.material, LightId::NONE);
+                if !carried.faces.is_empty() {
+                    self.geometry.set_face_materials(id, &carried.faces);
+                }
                 if refracts(node) {
                     self.geometry.set_refractive(id);
                 }
                 self.names.shapes.push(name(node));
                 if let Some(emitter) = carried.emitter {
+                    if !can_emit {
+                        let message = format!(
+                            "a `{}` cannot emit light here: points of it cannot be sampled uniformly",
+                            node.plugin.value
+                        );
+                        let help = "a shape of known area under a `to_world` that keeps angles can";
+                        let diagnostic = Diagnostic::error(emitter.span, message).help(help);
+                        builder.diagnostics.push(diagnostic);
+                    }
                     self.emitting.push(Emitting { shape: id, emitter });
                 }
             }
         }
+    }
+
+    /// Adds a shape that is only seen through instances.
+    fn member(&mut self, shape: Shape, carried: &ShapeExtras) -> ShapeId {
+        let id = self.geometry.add_member(shape, carried.material);
+        if !carried.faces.is_empty() {
+            self.geometry.set_face_materials(id, &carried.faces);
+        }
+        id
     }
 
     /// Adds a shape that moves: the only member of a group, which an instance moves.
@@ -130,12 +157,13 @@ impl Surfaces {
         carried: ShapeExtras,
         builder: &Builder<'_>,
     ) {
-        if let Some(emitter) = carried.emitter {
+        if let Some(emitter) = &carried.emitter {
             let message = "a shape that moves cannot emit light";
             let diagnostic = Diagnostic::error(emitter.span, message);
             builder.diagnostics.push(diagnostic);
         }
-        let group = self.geometry.add_group([(shape, carried.material)]);
+        let member = self.member(shape, &carried);
+        let group = self.geometry.add_members(vec![member]);
         self.names.shapes.push(name(params.node));
         if let Some(motion) = builder.shutter.motion(params, "to_world") {
             self.geometry.add_instance(group, Animated::new(motion));
@@ -149,8 +177,11 @@ impl Surfaces {
         builder: &mut Builder<'_>,
     ) -> Option<(Shape, ShapeExtras)> {
         let params = Params::new(node, builder.diagnostics);
+        if let Some(operation) = Operation::named(&node.plugin.value) {
+            return self.solid(operation, node, builder);
+        }
         if !Shape::plugins().any(|name| name == node.plugin.value) {
-            let built = Shape::plugins().chain(COMPOSED);
+            let built = Shape::plugins().chain(COMPOSED).chain(Operation::NAMES);
             builder.diagnostics.push(plugins::not_built(node, built));
             return None;
         }
@@ -182,7 +213,86 @@ impl Surfaces {
             }
         }
         params.finish();
-        Some((shape?, ShapeExtras { material, emitter }))
+        let faces = Vec::new();
+        let carried = ShapeExtras {
+            material,
+            emitter,
+            faces,
+        };
+        Some((shape?, carried))
+    }
+
+    /// A solid made of its children, each with a material of its own, or else with that of the whole.
+    fn solid(
+        &mut self,
+        operation: Operation,
+        node: &Arc<Node>,
+        builder: &mut Builder<'_>,
+    ) -> Option<(Shape, ShapeExtras)> {
+        let diagnostics = builder.diagnostics;
+        let params = Params::new(node, diagnostics);
+        let placement = Placement::from_params(&params);
+        let flip = params.boolean_or("flip_normals", false);
+        // As in POV-Ray: what is carved looks like what it is carved from.
+        let cutaway =
+            operation == Operation::Difference && params.boolean_or("cutaway_textures", false);
+        let emitter = params.child(Class::Emitter).cloned();
+        let whole = params
+            .child(Class::Bsdf)
+            .map(|bsdf| self.material(bsdf, builder));
+        let (mut operands, mut faces) = (Vec::new(), Vec::new());
+        let children = params.children(Class::Shape);
+        for (_, child) in &children {
+            let operand = Params::new(child, diagnostics);
+            if COMPOSED.contains(&child.plugin.value.as_str()) || operand.is_animated("to_world") {
+                let message = format!(
+                    "a `{}` is made of solids that stand still",
+                    node.plugin.value
+                );
+                diagnostics.push(Diagnostic::error(child.plugin.span, message));
+                continue;
+            }
+            let has_own = !operand.children(Class::Bsdf).is_empty();
+            let Some((shape, carried)) = self.shape(child, builder) else {
+                continue;
+            };
+            if let Some(emitter) = &carried.emitter {
+                let message = "an operand cannot emit light: the whole can";
+                diagnostics.push(Diagnostic::error(emitter.span, message));
+            }
+            if !shape.is_solid() {
+                let message = format!("a `{}` bounds no volume here", child.plugin.value);
+                let help = "accepted: shapes without holes, and meshes only if they are convex, of at most 64 triangles";
+                diagnostics.push(Diagnostic::error(child.plugin.span, message).help(help));
+                continue;
+            }
+            let count = shape.faces() as usize;
+            match whole {
+                _ if cutaway && !faces.is_empty() => faces.extend(vec![faces[0]; count]),
+                Some(material) if !has_own && carried.faces.is_empty() => {
+                    faces.extend(vec![material; count]);
+                }
+                _ if carried.faces.is_empty() => faces.extend(vec![carried.material; count]),
+                _ => faces.extend(carried.faces),
+            }
+            operands.push(shape);
+        }
+        if children.is_empty() {
+            params.missing("shape", "solids to make it of");
+        }
+        params.finish();
+        if operands.len() < children.len() {
+            return None;
+        }
+        let csg = Csg::new(operation, operands, placement?, flip)?;
+        let shape = Shape::Csg(csg);
+        let material = whole.unwrap_or_else(|| self.grey(builder));
+        let carried = ShapeExtras {
+            material,
+            emitter,
+            faces,
+        };
+        Some((shape, carried))
     }
 
     /// The shapes of a group, read once however often they are placed.
@@ -217,11 +327,11 @@ impl Surfaces {
                     .push(Diagnostic::error(emitter.span, message));
                 continue;
             }
-            members.push((shape, carried.material));
+            members.push(self.member(shape, &carried));
             names.push(name(child));
         }
         params.finish();
-        let group = self.geometry.add_group(members);
+        let group = self.geometry.add_members(members);
         self.names.shapes.append(&mut names);
         self.groups.insert(key, group);
         group

@@ -8,7 +8,7 @@
 use crate::local_interaction::LocalInteraction;
 use crate::shapes::crossing::Line;
 use crate::shapes::mesh::Mesh;
-use glam::{DVec3, Vec2};
+use glam::{DVec3, Vec2, Vec3};
 
 /// The most triangles for which this is worth while.
 const MOST: usize = 64;
@@ -42,6 +42,20 @@ impl Mesh {
             low.abs().min(high) <= 1e-6 * extent
         };
         (1..=MOST).contains(&count) && triangles().all(convex)
+    }
+
+    /// Whether every edge of a triangle is another's the other way round, wherever its vertices are kept.
+    pub(crate) fn has_no_border(&self) -> bool {
+        let key = |p: Vec3| p.to_array().map(|x| (x + 0.0).to_bits());
+        let mut edges: Vec<_> = (0..self.triangle_count() as u32)
+            .flat_map(|i| {
+                let [a, b, c] = self.corners(i).map(key);
+                [(a, b), (b, c), (c, a)]
+            })
+            .collect();
+        edges.sort_unstable();
+        let turned = |(a, b): ([u32; 3], [u32; 3])| edges.binary_search(&(b, a)).is_ok();
+        edges.iter().all(|edge| turned(*edge))
     }
 
     fn exact_corners(&self, primitive: u32) -> [DVec3; 3] {

@@ -4,11 +4,11 @@ use glam::{DVec2, DVec3};
 
 /// The line o + t·d. The direction need not be a unit vector.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Line {
+pub struct Line {
     /// o (m).
-    pub(crate) origin: DVec3,
+    pub origin: DVec3,
     /// d.
-    pub(crate) direction: DVec3,
+    pub direction: DVec3,
 }
 
 impl Line {
@@ -21,16 +21,18 @@ impl Line {
 
 /// A crossing.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) struct Crossing {
+pub struct Crossing {
     /// Where on the line.
-    pub(crate) t: f64,
+    pub t: f64,
     /// Whether the line goes into the volume that the surface bounds; of a surface that bounds none, whether it
     /// goes against the normal.
-    pub(crate) enters: bool,
+    pub enters: bool,
     /// Which of the faces that the shape tells apart.
-    pub(crate) face: u32,
+    pub face: u32,
+    /// Whether the face's own surface is crossed the other way: it has been carved out of a solid.
+    pub carved: bool,
     /// Parameters of the point, if the shape found them on the way.
-    pub(crate) uv: DVec2,
+    pub uv: DVec2,
 }
 
 impl Crossing {
@@ -41,6 +43,7 @@ impl Crossing {
             t,
             enters,
             face: 0,
+            carved: false,
             uv: DVec2::ZERO,
         }
     }

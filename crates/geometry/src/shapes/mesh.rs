@@ -237,6 +237,7 @@ impl Mesh {
             uv,
             dp_du,
             dp_dv,
+            face: 0,
         }
     }
 

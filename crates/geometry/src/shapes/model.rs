@@ -57,6 +57,11 @@ pub(crate) trait ShapeModel {
         false
     }
 
+    /// How many faces it tells apart, see [`Crossing::face`].
+    fn faces(&self) -> u32 {
+        1
+    }
+
     /// Whether a line crosses it twice at most.
     fn is_convex(&self) -> bool {
         true

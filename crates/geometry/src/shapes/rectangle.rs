@@ -109,6 +109,7 @@ impl Rectangle {
             uv,
             dp_du: self.edges[0],
             dp_dv: self.edges[1],
+            face: 0,
         }
     }
 

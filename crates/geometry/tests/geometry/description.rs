@@ -75,7 +75,7 @@ impl Build for Scene {
 }
 
 /// The shape, and every message in one string.
-fn make(plugin: &str, properties: Vec<(&str, Value)>) -> (Option<Shape>, String) {
+pub(crate) fn make(plugin: &str, properties: Vec<(&str, Value)>) -> (Option<Shape>, String) {
     let property = |(name, value): (&str, Value)| Property::new(name, HERE, value, HERE);
     let node = Node {
         class: Class::Shape,

@@ -7,6 +7,7 @@ mod instances;
 mod normals;
 mod reintersection;
 mod sampling;
+mod solids;
 mod things;
 mod touching;
 mod watertight;

@@ -1,0 +1,150 @@
+//! Shapes that are described in a space of their own, and placed in the world by any invertible affine map.
+//!
+//! Lines are taken into the shape's space and surface points out of it in double precision; normals by the inverse
+//! transpose.
+
+use crate::local_interaction::LocalInteraction;
+use crate::placement::{Placement, perpendicular};
+use crate::shapes::crossing::{Crossing, Line};
+use crate::shapes::model::ShapeModel;
+use etalon_params::Params;
+use etalon_transport::SurfacePoint;
+use glam::{DVec2, DVec3, Vec2};
+
+/// A point of a surface in the shape's own space.
+#[derive(Clone, Copy, Debug)]
+pub struct OwnPoint {
+    /// Position.
+    pub position: DVec3,
+    /// A normal of any length, outside.
+    pub normal: DVec3,
+    /// Texture coordinates.
+    pub uv: DVec2,
+    /// ∂p/∂u.
+    pub dp_du: DVec3,
+    /// ∂p/∂v.
+    pub dp_dv: DVec3,
+}
+
+/// A shape in a space of its own.
+pub trait OwnShape {
+    /// See [`ShapeModel::next_crossing`].
+    fn next_crossing(&self, line: &Line, after: f64, before: f64) -> Option<Crossing>;
+
+    /// The surface at a crossing, which is at `p` up to rounding: `p` is projected first.
+    fn surface_at(&self, p: DVec3, crossing: &Crossing) -> OwnPoint;
+
+    /// A box that holds it.
+    fn bounds(&self) -> [DVec3; 2];
+
+    /// See [`ShapeModel::is_closed`].
+    fn is_closed(&self) -> bool {
+        true
+    }
+
+    /// See [`ShapeModel::faces`].
+    fn faces(&self) -> u32 {
+        1
+    }
+
+    /// See [`ShapeModel::is_convex`].
+    fn is_convex(&self) -> bool {
+        false
+    }
+
+    /// Surface area; `None` if points of it cannot be sampled.
+    fn area(&self) -> Option<f64> {
+        None
+    }
+
+    /// A point chosen uniformly by area.
+    fn sample_area(&self, _u: Vec2) -> Option<OwnPoint> {
+        None
+    }
+}
+
+/// A shape where it stands.
+#[derive(Clone, Debug)]
+pub struct Placed<S> {
+    placement: Placement,
+    shape: S,
+    inward: bool,
+    /// The factor by which the map scales all lengths, if there is one.
+    scale: Option<f64>,
+}
+
+impl<S: OwnShape> Placed<S> {
+    /// The image of a shape under `placement`, its normals turned with `flip`.
+    pub(crate) fn new(placement: Placement, shape: S, flip: bool) -> Self {
+        let [x, y, z] = [DVec3::X, DVec3::Y, DVec3::Z].map(|axis| placement.vector(axis));
+        let similar =
+            perpendicular(x, y, true) && perpendicular(y, z, true) && perpendicular(z, x, true);
+        let scale = (x.length() + y.length() + z.length()) / 3.0;
+        Self {
+            placement,
+            shape,
+            inward: flip,
+            scale: similar.then_some(scale),
+        }
+    }
+
+    /// Reads `to_world` and `flip_normals` of a shape that is read already.
+    pub(crate) fn from_params(params: &Params<'_>, shape: Option<S>) -> Option<Self> {
+        let placement = Placement::from_params(params);
+        let flip = super::model::read_flip(params);
+        Some(Self::new(placement?, shape?, flip))
+    }
+
+    fn surface(&self, own: &OwnPoint) -> LocalInteraction {
+        let placement = &self.placement;
+        LocalInteraction::exact(
+            placement.point(own.position),
+            placement.normal(own.normal).normalize(),
+            own.uv.as_vec2(),
+            placement.vector(own.dp_du),
+            placement.vector(own.dp_dv),
+        )
+        .flipped_if(self.inward)
+    }
+}
+
+impl<S: OwnShape> ShapeModel for Placed<S> {
+    #[inline]
+    fn next_crossing(&self, _: u32, line: &Line, after: f64, before: f64) -> Option<Crossing> {
+        let own = Line {
+            origin: self.placement.local_point(line.origin),
+            direction: self.placement.local_vector(line.direction),
+        };
+        self.shape.next_crossing(&own, after, before)
+    }
+
+    fn surface_at(&self, _: u32, p: DVec3, crossing: &Crossing) -> Option<LocalInteraction> {
+        let own = self.placement.local_point(p);
+        Some(self.surface(&self.shape.surface_at(own, crossing)))
+    }
+
+    fn piece_bounds(&self, _: u32) -> [DVec3; 2] {
+        self.placement.bounds(self.shape.bounds())
+    }
+
+    fn is_closed(&self) -> bool {
+        self.shape.is_closed()
+    }
+
+    fn faces(&self) -> u32 {
+        self.shape.faces()
+    }
+
+    fn is_convex(&self) -> bool {
+        self.shape.is_convex()
+    }
+
+    fn area(&self) -> Option<f64> {
+        let scale = self.scale?;
+        Some(self.shape.area()? * scale * scale)
+    }
+
+    fn sample_area(&self, u: Vec2) -> Option<SurfacePoint> {
+        Some(self.surface(&self.shape.sample_area(u)?).whole())
+    }
+}

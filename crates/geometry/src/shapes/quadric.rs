@@ -1,0 +1,225 @@
+//! `quadric`: the surface of second degree
+//!
+//! ```text
+//! A x² + B y² + C z² + D xy + E xz + F yz + G x + H y + I z + J = 0
+//! ```
+//!
+//! in a box: ellipsoids, paraboloids, hyperboloids, cones, cylinders. It is the boundary of where the left side is
+//! negative, cut by the box: the solid has the box's faces where it is cut. `ellipsoid` is the one with
+//! x² + y² + z² = 1, in its smallest box.
+
+use crate::shapes::crossing::{Crossing, Line};
+use crate::shapes::placed::{OwnPoint, OwnShape, Placed};
+use core::f64::consts::{PI, TAU};
+use etalon_math::float64::atan2;
+use etalon_math::polynomial::quadratic;
+use etalon_params::Params;
+use glam::{DMat3, DVec2, DVec3};
+
+/// A quadric in a box.
+#[derive(Clone, Copy, Debug)]
+pub struct Quadric {
+    /// Of second degree: the symmetric matrix.
+    matrix: DMat3,
+    linear: DVec3,
+    constant: f64,
+    low: DVec3,
+    high: DVec3,
+}
+
+/// The face of the quadric itself; those of the box follow: low x, high x, low y, ….
+const CURVED: u32 = 0;
+
+impl Quadric {
+    /// Reads `squares` (A, B, C), `products` (D, E, F), `linear` (G, H, I), `constant` (J), the corners `min` and
+    /// `max` of the box, `flip_normals` and `to_world`.
+    pub(crate) fn from_params(params: &Params<'_>) -> Option<Placed<Self>> {
+        let vector = |name, default| params.vector(name).unwrap_or(default);
+        let squares = vector("squares", DVec3::ONE);
+        let DVec3 { x: d, y: e, z: f } = vector("products", DVec3::ZERO) * 0.5;
+        let linear = vector("linear", DVec3::ZERO);
+        let constant = params.float_or("constant", -1.0);
+        let (low, high) = (vector("min", -DVec3::ONE), vector("max", DVec3::ONE));
+        let matrix = DMat3::from_cols(
+            DVec3::new(squares.x, d, e),
+            DVec3::new(d, squares.y, f),
+            DVec3::new(e, f, squares.z),
+        );
+        let quadric = Self {
+            matrix,
+            linear,
+            constant,
+            low,
+            high,
+        };
+        if !(low.cmplt(high).all() && low.is_finite() && high.is_finite()) {
+            params.error_at(
+                "max",
+                "`max` of a `quadric` must be above `min`, and both finite",
+            );
+            return None;
+        }
+        let finite = matrix.is_finite() && linear.is_finite() && constant.is_finite();
+        if !finite || (matrix == DMat3::ZERO && linear == DVec3::ZERO) {
+            params.error("the coefficients of a `quadric` must be finite, and not all of them 0");
+            return None;
+        }
+        Placed::from_params(params, Some(quadric))
+    }
+
+    /// Reads `center`, `radii` (a vector), `flip_normals` and `to_world`.
+    pub(crate) fn ellipsoid(params: &Params<'_>) -> Option<Placed<Self>> {
+        let center = params.vector("center").unwrap_or(DVec3::ZERO);
+        let radii = params.vector("radii").unwrap_or(DVec3::ONE);
+        if !(radii.cmpgt(DVec3::ZERO).all() && radii.is_finite() && center.is_finite()) {
+            params.error_at(
+                "radii",
+                "the `radii` of an `ellipsoid` must be positive and finite",
+            );
+            return None;
+        }
+        let squares = (radii * radii).recip();
+        let ellipsoid = Self {
+            matrix: DMat3::from_diagonal(squares),
+            linear: -2.0 * squares * center,
+            constant: (squares * center * center).element_sum() - 1.0,
+            low: center - radii * (1.0 + 1e-9),
+            high: center + radii * (1.0 + 1e-9),
+        };
+        Placed::from_params(params, Some(ellipsoid))
+    }
+
+    fn gradient(&self, p: DVec3) -> DVec3 {
+        self.matrix * p * 2.0 + self.linear
+    }
+
+    fn value(&self, p: DVec3) -> f64 {
+        p.dot(self.matrix * p) + self.linear.dot(p) + self.constant
+    }
+
+    /// Where a line is in the box, with the faces.
+    fn in_box(&self, line: &Line) -> Option<[(f64, u32); 2]> {
+        let (mut first, mut last) = ((f64::NEG_INFINITY, 0), (f64::INFINITY, 0));
+        for axis in 0..3 {
+            let (o, d) = (line.origin[axis], line.direction[axis]);
+            let face = 1 + 2 * axis as u32;
+            if d == 0.0 {
+                if !(o >= self.low[axis] && o <= self.high[axis]) {
+                    return None;
+                }
+                continue;
+            }
+            let mut planes = [
+                ((self.low[axis] - o) / d, face),
+                ((self.high[axis] - o) / d, face + 1),
+            ];
+            if d < 0.0 {
+                planes.swap(0, 1);
+            }
+            if planes[0].0 > first.0 {
+                first = planes[0];
+            }
+            if planes[1].0 < last.0 {
+                last = planes[1];
+            }
+        }
+        (first.0 < last.0).then_some([first, last])
+    }
+}
+
+impl OwnShape for Quadric {
+    fn next_crossing(&self, line: &Line, after: f64, _: f64) -> Option<Crossing> {
+        let [first, last] = self.in_box(line)?;
+        // From the middle of the box, so that far origins lose nothing.
+        let middle = 0.5 * (first.0 + last.0);
+        let (o, d) = (line.at(middle), line.direction);
+        let a = d.dot(self.matrix * d);
+        let b = 2.0 * o.dot(self.matrix * d) + self.linear.dot(d);
+        let roots = quadratic(a, b, self.value(o));
+        let inside_at = |t: f64| self.value(line.at(t)) <= 0.0;
+        let enters_at = |t: f64| self.gradient(line.at(t)).dot(d) < 0.0;
+        let mut crossings = [None; 4];
+        if inside_at(first.0) {
+            crossings[0] = Some((first.0, true, first.1));
+        }
+        let within = |t: f64| t > first.0 && t < last.0;
+        if let Some((t0, t1)) = roots {
+            let (t0, t1) = (t0 + middle, t1 + middle);
+            if within(t0) && t0 < t1 || (t0 == t1 && a == 0.0 && within(t0)) {
+                crossings[1] = Some((t0, enters_at(t0), CURVED));
+            }
+            if within(t1) && t0 < t1 {
+                crossings[2] = Some((t1, enters_at(t1), CURVED));
+            }
+        }
+        if inside_at(last.0) {
+            crossings[3] = Some((last.0, false, last.1));
+        }
+        let (t, enters, face) = crossings.into_iter().flatten().find(|c| c.0 > after)?;
+        Some(Crossing {
+            face,
+            ..Crossing::new(t, enters)
+        })
+    }
+
+    fn surface_at(&self, p: DVec3, crossing: &Crossing) -> OwnPoint {
+        if let Some(side) = crossing.face.checked_sub(1) {
+            let axis = side as usize / 2;
+            let mut normal = DVec3::ZERO;
+            let mut position = p;
+            (normal[axis], position[axis]) = if side % 2 == 0 {
+                (-1.0, self.low[axis])
+            } else {
+                (1.0, self.high[axis])
+            };
+            let (u, v) = ((axis + 1) % 3, (axis + 2) % 3);
+            let size = self.high - self.low;
+            let part = (p - self.low) / size;
+            let along = |axis: usize| {
+                DVec3::from_array(core::array::from_fn(|i| {
+                    if i == axis { size[axis] } else { 0.0 }
+                }))
+            };
+            return OwnPoint {
+                position,
+                normal,
+                uv: DVec2::new(part[u], part[v]),
+                dp_du: along(u),
+                dp_dv: along(v),
+            };
+        }
+        let mut position = p;
+        // One step of Newton's method brings it onto the surface.
+        let gradient = self.gradient(position);
+        let squared = gradient.length_squared();
+        if squared > 0.0 {
+            position -= gradient * (self.value(position) / squared);
+        }
+        let normal = self.gradient(position).try_normalize().unwrap_or(DVec3::Z);
+        let across = position - 0.5 * (self.low + self.high);
+        let radius = across.truncate().length();
+        let around = DVec3::new(-across.y, across.x, 0.0).try_normalize();
+        let tangent = around.unwrap_or(DVec3::X);
+        let tangent =
+            (tangent - normal * normal.dot(tangent)).normalize_or(normal.any_orthonormal_vector());
+        let height = (position.z - self.low.z) / (self.high.z - self.low.z);
+        OwnPoint {
+            position,
+            normal,
+            uv: DVec2::new(
+                (atan2(across.y, across.x) / TAU).rem_euclid(1.0),
+                height.clamp(0.0, 1.0),
+            ),
+            dp_du: tangent * (2.0 * PI * radius.max(1e-12)),
+            dp_dv: normal.cross(tangent) * (self.high.z - self.low.z),
+        }
+    }
+
+    fn faces(&self) -> u32 {
+        7
+    }
+
+    fn bounds(&self) -> [DVec3; 2] {
+        [self.low, self.high]
+    }
+}
