@@ -58,10 +58,30 @@ impl Operation {
 }
 
 #[derive(Debug)]
-enum Tree {
+enum Part {
     /// A closed shape, and the number of its first face.
     Leaf(Box<Shape>, u32),
-    Inner(Operation, Box<[Self; 2]>),
+    Inner(Operation, Box<[Tree; 2]>),
+}
+
+/// Solids combined, in a box.
+#[derive(Debug)]
+struct Tree {
+    part: Part,
+    bounds: [DVec3; 2],
+}
+
+/// Whether a line passes a box by, or has left it before `after`.
+fn misses([low, high]: [DVec3; 2], line: &Line, after: f64) -> bool {
+    let inverse = line.direction.recip();
+    let (a, b) = (
+        (low - line.origin) * inverse,
+        (high - line.origin) * inverse,
+    );
+    // A line in the plane of a face gives NaN, which `min` and `max` pass over.
+    let enters = a.min(b).max_element();
+    let leaves = a.max(b).min_element();
+    enters > leaves || leaves < after
 }
 
 /// Distances along a line that differ by no more than this are the same.
@@ -82,15 +102,40 @@ impl Tree {
                 let [Some(left), Some(right)] = halves else {
                     return None;
                 };
-                Some(Self::Inner(operation, Box::new([left, right])))
+                Some(Self::inner(operation, left, right))
             }
+        }
+    }
+
+    fn leaf_of(shape: Shape, first_face: u32) -> Self {
+        let bounds = shape.bounds();
+        let (low, high) = (bounds.min.as_dvec3(), bounds.max.as_dvec3());
+        let slack = (high - low) * 1e-6;
+        Self {
+            bounds: [low - slack, high + slack],
+            part: Part::Leaf(Box::new(shape), first_face),
+        }
+    }
+
+    fn inner(operation: Operation, a: Self, b: Self) -> Self {
+        let ([low_a, high_a], [low_b, high_b]) = (a.bounds, b.bounds);
+        Self {
+            bounds: match operation {
+                Operation::Union => [low_a.min(low_b), high_a.max(high_b)],
+                Operation::Intersection => [low_a.max(low_b), high_a.min(high_b)],
+                Operation::Difference => [low_a, high_a],
+            },
+            part: Part::Inner(operation, Box::new([a, b])),
         }
     }
 
     /// The first crossing beyond `after`.
     fn next(&self, line: &Line, after: f64) -> Option<Crossing> {
-        match self {
-            Self::Leaf(shape, first_face) => {
+        if misses(self.bounds, line, after) {
+            return None;
+        }
+        match &self.part {
+            Part::Leaf(shape, first_face) => {
                 let pieces = (0..shape.primitives_analytic())
                     .filter_map(|piece| shape.next_crossing(piece, line, after, f64::INFINITY));
                 let crossing = pieces.min_by(|a, b| a.t.total_cmp(&b.t))?;
@@ -99,7 +144,7 @@ impl Tree {
                     ..crossing
                 })
             }
-            Self::Inner(operation, operands) => {
+            Part::Inner(operation, operands) => {
                 let mut ahead = [0, 1].map(|i| operands[i].next(line, after));
                 let mut inside = ahead.map(|met| met.is_some_and(|met| !met.enters));
                 loop {
@@ -139,36 +184,19 @@ impl Tree {
 
     /// The leaf of a face, and the face's number there.
     fn leaf(&self, face: u32) -> Option<(&Shape, u32)> {
-        match self {
-            Self::Leaf(shape, first) => {
+        match &self.part {
+            Part::Leaf(shape, first) => {
                 let own = face.checked_sub(*first)?;
                 (own < shape.faces()).then_some((&**shape, own))
             }
-            Self::Inner(_, operands) => operands.iter().find_map(|operand| operand.leaf(face)),
+            Part::Inner(_, operands) => operands.iter().find_map(|operand| operand.leaf(face)),
         }
     }
 
     fn leaves(&self) -> Vec<(&Shape, u32)> {
-        match self {
-            Self::Leaf(shape, first) => vec![(shape, *first)],
-            Self::Inner(_, operands) => operands.iter().flat_map(Self::leaves).collect(),
-        }
-    }
-
-    fn bounds(&self) -> [DVec3; 2] {
-        match self {
-            Self::Leaf(shape, _) => {
-                let bounds = shape.bounds();
-                [bounds.min.as_dvec3(), bounds.max.as_dvec3()]
-            }
-            Self::Inner(operation, operands) => {
-                let [[low_a, high_a], [low_b, high_b]] = [0, 1].map(|i| operands[i].bounds());
-                match operation {
-                    Operation::Union => [low_a.min(low_b), high_a.max(high_b)],
-                    Operation::Intersection => [low_a.max(low_b), high_a.min(high_b)],
-                    Operation::Difference => [low_a, high_a],
-                }
-            }
+        match &self.part {
+            Part::Leaf(shape, first) => vec![(shape, *first)],
+            Part::Inner(_, operands) => operands.iter().flat_map(Self::leaves).collect(),
         }
     }
 }
@@ -199,14 +227,14 @@ impl Csg {
             .map(|shape| {
                 let first = faces;
                 faces += shape.faces();
-                Tree::Leaf(Box::new(shape), first)
+                Tree::leaf_of(shape, first)
             })
             .collect();
         let tree = match operation {
             Operation::Difference if leaves.len() > 1 => {
                 let others = leaves.split_off(1);
                 let others = Tree::balanced(Operation::Union, others)?;
-                Tree::Inner(operation, Box::new([leaves.pop()?, others]))
+                Tree::inner(operation, leaves.pop()?, others)
             }
             _ => Tree::balanced(operation, leaves)?,
         };
@@ -263,7 +291,7 @@ impl ShapeModel for Csg {
     }
 
     fn piece_bounds(&self, _: u32) -> [DVec3; 2] {
-        self.placement.bounds(self.tree.bounds())
+        self.placement.bounds(self.tree.bounds)
     }
 
     fn is_closed(&self) -> bool {
