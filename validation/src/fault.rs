@@ -8,7 +8,8 @@ use etalon_math::{Density, SolidAngle};
 use etalon_spectrum::Wavelengths;
 use etalon_transport::{
     Bsdf, BsdfSample, Emission, EmissionPdf, Hit, LegacyPhong, LightId, LightSample,
-    LightSampleContext, Ray, SamplePdf, SurfaceInteraction, Transmission, TransportMode, World,
+    LightSampleContext, MediumId, Ray, SamplePdf, SurfaceInteraction, Transmission, TransportMode,
+    World,
 };
 use glam::{Vec2, Vec3, Vec4};
 use serde::Deserialize;
@@ -176,10 +177,22 @@ impl<W: World> World for Faulty<'_, W> {
         = FaultyBsdf<W::Bsdf<'w>>
     where
         Self: 'w;
+    type Medium<'w>
+        = W::Medium<'w>
+    where
+        Self: 'w;
     type Camera = W::Camera;
 
     fn camera(&self) -> &Self::Camera {
         self.world.camera()
+    }
+
+    fn camera_medium(&self) -> MediumId {
+        self.world.camera_medium()
+    }
+
+    fn medium(&self, medium: MediumId, wavelengths: &Wavelengths) -> Option<Self::Medium<'_>> {
+        self.world.medium(medium, wavelengths)
     }
 
     fn wavelengths(&self, u: f32) -> Wavelengths {

@@ -1,7 +1,7 @@
 //! The list of cameras a scene can ask for.
 
 use crate::{FilmWindow, Orthographic, Perspective, ThinLens};
-use etalon_params::{Class, Diagnostic, Params, plugins};
+use etalon_params::{Class, Params, plugins};
 use etalon_transport::{ApertureHit, Camera, CameraRay, CameraSample, Ray, Shutter};
 use glam::{Vec2, Vec3};
 
@@ -68,7 +68,7 @@ cameras! {
 }
 
 impl AnyCamera {
-    /// Reads a sensor node for a film of `window`. The children `film` and `sampler` belong to
+    /// Reads a sensor node for a film of `window`. The children `film`, `sampler` and `medium` belong to
     /// the scene, which reads them itself; they are marked as used here. Reports every mistake,
     /// unknown properties included; `None` if no camera can be made of it.
     pub fn from_params(params: &Params<'_>, window: FilmWindow) -> Option<(Self, Shutter)> {
@@ -86,12 +86,7 @@ impl AnyCamera {
                 "a sensor response function (`srf`) is known but not built yet",
             );
         }
-        for (property, _) in params.children(Class::Medium) {
-            let message = "a camera inside of a medium is known but not built yet";
-            params
-                .diagnostics
-                .push(Diagnostic::error(property.name_span, message));
-        }
+        params.children(Class::Medium);
         params.children(Class::Film);
         params.children(Class::Sampler);
         params.finish();

@@ -11,7 +11,7 @@
 use crate::{ClipRange, FilmWindow, Pose};
 use etalon_math::Animated;
 use etalon_params::Params;
-use etalon_transport::{Camera, CameraRay, CameraSample, Departure, Ray, Shutter};
+use etalon_transport::{Camera, CameraRay, CameraSample, Departure, MediumId, Ray, Shutter};
 use glam::{Vec2, Vec3};
 
 /// A camera without perspective.
@@ -72,6 +72,7 @@ impl Camera for Orthographic {
                     t_max: self.length,
                     time,
                     departure: Departure::NONE,
+                    medium: MediumId::NONE,
                 },
                 weight: 1.0,
             }

@@ -15,7 +15,7 @@ use crate::field_of_view::half_width_from_params;
 use crate::{ClipRange, FilmWindow, ImagePlane, Pose};
 use etalon_math::Animated;
 use etalon_params::Params;
-use etalon_transport::{Camera, CameraRay, CameraSample, Departure, Ray, Shutter};
+use etalon_transport::{Camera, CameraRay, CameraSample, Departure, MediumId, Ray, Shutter};
 use glam::{DVec2, Vec2, Vec3};
 
 /// A pinhole camera.
@@ -70,6 +70,7 @@ impl Camera for Perspective {
                     t_max: (self.far - self.near) * length,
                     time,
                     departure: Departure::NONE,
+                    medium: MediumId::NONE,
                 },
                 weight: 1.0,
             }

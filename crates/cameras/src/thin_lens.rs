@@ -20,7 +20,9 @@ use crate::{ClipRange, FilmWindow, ImagePlane, Pose};
 use etalon_math::Animated;
 use etalon_params::Params;
 use etalon_sampling::warps::square_to_concentric_disk;
-use etalon_transport::{ApertureHit, Camera, CameraRay, CameraSample, Departure, Ray, Shutter};
+use etalon_transport::{
+    ApertureHit, Camera, CameraRay, CameraSample, Departure, MediumId, Ray, Shutter,
+};
 use glam::{DVec2, Vec2, Vec3};
 
 /// A camera with an ideal lens.
@@ -105,6 +107,7 @@ impl Camera for ThinLens {
                     t_max: (self.far - self.near) * length,
                     time,
                     departure: Departure::NONE,
+                    medium: MediumId::NONE,
                 },
                 weight: 1.0,
             }

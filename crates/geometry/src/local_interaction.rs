@@ -3,7 +3,8 @@
 use crate::Placement;
 use etalon_math::{Frame, gamma};
 use etalon_transport::{
-    InstanceId, LightId, MaterialId, ShapeId, SurfaceInteraction, SurfacePoint, TexturePoint,
+    InstanceId, LightId, MaterialId, MediumInterface, ShapeId, SurfaceInteraction, SurfacePoint,
+    TexturePoint,
 };
 use glam::{DVec3, Vec2, Vec3};
 
@@ -144,6 +145,7 @@ impl LocalInteraction {
             instance: owner.instance,
             material: owner.material,
             light: owner.light,
+            media: MediumInterface::NONE,
         }
     }
 }

@@ -135,6 +135,9 @@ impl Aov {
 }
 
 impl Integrator for Aov {
+    /// Its nested integrators are asked.
+    const MEDIA: bool = true;
+
     type State = ();
 
     fn replicate_kind(&self) -> ReplicateKind {

@@ -20,7 +20,8 @@ use etalon_math::{Density, SolidAngle};
 use etalon_sampling::Sampler;
 use etalon_spectrum::Wavelengths;
 use etalon_transport::{
-    Bsdf, LightSample, LightSampleContext, LightVariety, SamplePdf, TransportMode, World,
+    Bsdf, LightSample, LightSampleContext, LightVariety, SamplePdf, Transmission, TransportMode,
+    World,
 };
 use glam::{Vec2, Vec3, Vec4};
 
@@ -100,11 +101,10 @@ impl Aim {
         }
     }
 
-    /// What it brings through `transmittance`, where scattering would have passed what lies in between with the
-    /// probability `passing`.
+    /// What it brings through what lies in between.
     #[inline]
-    pub(crate) fn estimate(&self, transmittance: Vec4, passing: Vec4) -> Vec4 {
-        (self.complete).contribution(transmittance, self.by_scattering * passing)
+    pub(crate) fn estimate(&self, way: &Transmission) -> Vec4 {
+        (self.complete).contribution(way.transmittance, self.by_scattering * way.probability)
     }
 }
 
@@ -159,7 +159,7 @@ impl Candidates {
             let Some(candidate) = light.as_ref().and_then(&aim) else {
                 continue;
             };
-            let expected = candidate.estimate(Vec4::ONE, Vec4::ONE).element_sum();
+            let expected = candidate.estimate(&Transmission::FREE).element_sum();
             if !expected.is_finite() {
                 // Not for the choice to hide.
                 return Some(candidate);

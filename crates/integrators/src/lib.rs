@@ -25,6 +25,7 @@ pub mod naive;
 mod particle;
 pub mod path;
 mod path_hooks;
+mod path_media;
 mod path_state;
 pub mod path_throughput;
 pub mod photonmap;

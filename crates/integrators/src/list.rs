@@ -30,7 +30,7 @@ use etalon_transport::{
 use glam::Vec2;
 
 macro_rules! integrators {
-    ($($name:literal => $variant:ident: $read:expr;)*) => {
+    ($($name:literal $(| $alias:literal)* => $variant:ident: $read:expr;)*) => {
         /// Any integrator that a scene can ask for.
         #[derive(Clone, Debug)]
         #[allow(missing_docs)]
@@ -40,7 +40,7 @@ macro_rules! integrators {
 
         /// The names under which scenes ask for integrators.
         pub fn names() -> &'static [&'static str] {
-            &[$($name),*]
+            &[$($name, $($alias,)*)*]
         }
 
         /// The names of those that estimate all radiance without bias.
@@ -55,7 +55,7 @@ macro_rules! integrators {
             pub fn from_node(node: &Node, diagnostics: &Diagnostics) -> Option<Self> {
                 let params = Params::new(node, diagnostics);
                 let read = match node.plugin.value.as_str() {
-                    $($name => {
+                    $($name $(| $alias)* => {
                         let read: fn(&Params<'_>) -> Option<$variant> = $read;
                         read(&params).map(Self::$variant)
                     })*
@@ -99,8 +99,15 @@ macro_rules! integrators {
 
             /// What it objects to in a scene.
             pub fn incompatibilities(&self, sight: &SceneCapabilities) -> Vec<Incompatibility> {
+                fn all<I: Integrator>(
+                    integrator: &I,
+                    sight: &SceneCapabilities,
+                ) -> Vec<Incompatibility> {
+                    let unseen = sight.media_unseen().filter(|_| !I::MEDIA);
+                    unseen.into_iter().chain(integrator.incompatibilities(sight)).collect()
+                }
                 match self {
-                    $(Self::$variant(integrator) => integrator.incompatibilities(sight),)*
+                    $(Self::$variant(integrator) => all(integrator, sight),)*
                 }
             }
 
@@ -160,7 +167,7 @@ macro_rules! integrators {
 }
 
 integrators! {
-    "path" => Path: |p| Some(Path::from_params(p));
+    "path" | "volpath" | "volpathmis" => Path: |p| Some(Path::from_params(p));
     "naive" => Naive: |p| Some(Naive::from_params(p));
     "direct" => Direct: |p| Some(Direct::from_params(p));
     "guided" => Guided: |p| Some(Guided::from_params(p));

@@ -47,6 +47,9 @@ impl Moment {
 }
 
 impl Integrator for Moment {
+    /// Its nested integrators are asked.
+    const MEDIA: bool = true;
+
     type State = ();
 
     fn replicate_kind(&self) -> ReplicateKind {

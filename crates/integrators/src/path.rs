@@ -22,7 +22,7 @@ use crate::dimensions as dim;
 use crate::path_hooks::PathHooks;
 use crate::path_state::PathState;
 use crate::render::BATCH_SIZE;
-use crate::settings::{LightCandidates, PathSettings};
+use crate::settings::{LightCandidates, PathSettings, PathVariant};
 use etalon_params::Params;
 use etalon_sampling::{ReplicateKind, Sampler};
 use etalon_spectrum::Wavelengths;
@@ -38,14 +38,28 @@ pub struct Path {
     pub settings: PathSettings,
     /// How many light samples compete for a shadow ray where the path is not yet scattered at random.
     pub light_candidates: LightCandidates,
+    /// Whether passing straight through a surface does not count for the length of a path, as in Mitsuba's `volpath`.
+    pub skips_null: bool,
 }
 
 impl Path {
     /// Reads the integrator from its description.
     pub fn from_params(params: &Params<'_>) -> Self {
+        // Mitsuba's integrators for media, which are this one.
+        let volumetric = params.node.plugin.value.starts_with("vol");
         Self {
             settings: PathSettings::from_params(params),
+            skips_null: volumetric,
             light_candidates: LightCandidates::from_params(params),
+        }
+    }
+}
+
+impl Path {
+    fn variant(&self) -> PathVariant {
+        PathVariant {
+            candidates: self.light_candidates,
+            counts_null: !self.skips_null,
         }
     }
 }
@@ -75,7 +89,7 @@ pub(crate) fn follow<W: World, S: Sampler, C: PathHooks>(
 pub(crate) fn follow_drafts<W: World, S: Sampler, K: TileSink, C: PathHooks + Copy>(
     world: &W,
     settings: &PathSettings,
-    candidates: LightCandidates,
+    variant: PathVariant,
     hooks: C,
     drafts: &mut [SampleJob<S>],
     sink: &mut K,
@@ -88,7 +102,7 @@ pub(crate) fn follow_drafts<W: World, S: Sampler, K: TileSink, C: PathHooks + Co
             *place = Some((draft.site.pixel, draft.placement()));
             let sampler = &mut draft.sampler;
             let walk = PathState::start(world, settings, &draft.site, sampler, hooks);
-            Some(walk.with_candidates(candidates))
+            Some(walk.with_variant(variant))
         });
         follow(world, settings, &mut walks);
         for (walk, (pixel, placement)) in walks.iter().flatten().zip(places.iter().flatten()) {
@@ -100,6 +114,7 @@ pub(crate) fn follow_drafts<W: World, S: Sampler, K: TileSink, C: PathHooks + Co
 
 impl Integrator for Path {
     const UNBIASED: bool = true;
+    const MEDIA: bool = true;
 
     type State = ();
 
@@ -117,8 +132,8 @@ impl Integrator for Path {
         sampler: &mut S,
         sink: &mut K,
     ) {
-        let walk = PathState::start(world, &self.settings, site, sampler, ())
-            .with_candidates(self.light_candidates);
+        let walk =
+            PathState::start(world, &self.settings, site, sampler, ()).with_variant(self.variant());
         let mut walks = [Some(walk)];
         follow(world, &self.settings, &mut walks);
         walks.iter().flatten().for_each(|walk| walk.deliver(sink));
@@ -131,8 +146,7 @@ impl Integrator for Path {
         drafts: &mut [SampleJob<S>],
         sink: &mut K,
     ) {
-        let candidates = self.light_candidates;
-        follow_drafts(world, &self.settings, candidates, (), drafts, sink);
+        follow_drafts(world, &self.settings, self.variant(), (), drafts, sink);
     }
 }
 
@@ -152,5 +166,9 @@ pub(crate) fn camera_ray<W: World, S: Sampler>(
 ) -> (Wavelengths, Ray, f32) {
     let (lens, u, time) = draw_lens(sampler);
     let start = world.camera().ray(site.raster, lens, time);
-    (world.wavelengths(u), start.ray, start.weight)
+    let ray = Ray {
+        medium: world.camera_medium(),
+        ..start.ray
+    };
+    (world.wavelengths(u), ray, start.weight)
 }

@@ -6,7 +6,7 @@ use crate::light_mis::LightMis;
 use crate::path::camera_ray;
 use crate::path_hooks::PathHooks;
 use crate::path_throughput::PathThroughput;
-use crate::settings::{LightCandidates, PathSettings};
+use crate::settings::{LightCandidates, PathSettings, PathVariant};
 use crate::steps;
 use core::ops::Range;
 use etalon_sampling::Sampler;
@@ -19,41 +19,43 @@ use glam::{Vec3, Vec4};
 
 /// A path being followed.
 pub(crate) struct PathState<'a, S, C = ()> {
-    sampler: &'a mut S,
-    wavelengths: Wavelengths,
+    pub(crate) sampler: &'a mut S,
+    pub(crate) wavelengths: Wavelengths,
     /// The factor by which what is found counts.
     weight: f32,
-    ray: Ray,
+    pub(crate) ray: Ray,
     /// The closest hit of `ray`, after `intersect`.
-    hit: Option<Hit>,
-    throughput: PathThroughput,
-    light_mis: LightMis,
+    pub(crate) hit: Option<Hit>,
+    pub(crate) throughput: PathThroughput,
+    pub(crate) light_mis: LightMis,
     /// The product of the indices of refraction passed.
     eta: f32,
     /// Number of segments, that of `ray` included.
-    depth: u32,
+    pub(crate) depth: u32,
     /// Scattering events so far, null interactions not counted.
-    scatter_count: u32,
+    pub(crate) scatter_count: u32,
+    /// Events so far for which random numbers were drawn.
+    events: u32,
     /// Whether the path goes on with `ray`.
     goes_on: bool,
-    shadow_ray: Option<ShadowRay>,
+    pub(crate) shadow_ray: Option<ShadowRay>,
     /// How many light samples compete for the shadow ray of the next surface. One, once the path was scattered at
     /// random: what is farther down the path adds less noise than the samples take time.
-    candidates: LightCandidates,
+    pub(crate) variant: PathVariant,
     /// The radiance found, per lane, over the sum of all densities' ratios (see
     /// [`PathThroughput::contribution`]).
     radiance: Vec4,
     /// 1 if the path had an interaction that is not null, the background included; where the last segment
     /// ends at a surface, the probability of that.
-    alpha: f32,
+    pub(crate) alpha: f32,
     hooks: C,
 }
 
 /// A light sample before its shadow ray is traced.
-struct ShadowRay {
-    ray: Ray,
-    crossings: u32,
-    aim: Aim,
+pub(crate) struct ShadowRay {
+    pub(crate) ray: Ray,
+    pub(crate) crossings: u32,
+    pub(crate) aim: Aim,
 }
 
 impl<'a, S: Sampler, C: PathHooks> PathState<'a, S, C> {
@@ -78,19 +80,30 @@ impl<'a, S: Sampler, C: PathHooks> PathState<'a, S, C> {
             eta: 1.0,
             depth: 1,
             scatter_count: 0,
+            events: 0,
             goes_on: settings.max_depth > 0,
             shadow_ray: None,
-            candidates: LightCandidates::ONE,
+            variant: PathVariant::PLAIN,
             radiance: Vec4::ZERO,
             alpha: 0.0,
             hooks,
         }
     }
 
-    /// The same with several light samples for one shadow ray.
+    /// The same in a certain way.
     #[inline]
-    pub(crate) fn with_candidates(self, candidates: LightCandidates) -> Self {
-        Self { candidates, ..self }
+    pub(crate) fn with_variant(self, variant: PathVariant) -> Self {
+        Self { variant, ..self }
+    }
+
+    /// How many surfaces a shadow ray from the vertex at hand may pass straight.
+    #[inline]
+    pub(crate) fn null_crossings(&self, settings: &PathSettings) -> u32 {
+        if self.variant.counts_null {
+            settings.max_depth - self.depth - 1
+        } else {
+            u32::MAX
+        }
     }
 
     /// The hooks, when the path has ended.
@@ -157,6 +170,9 @@ impl<'a, S: Sampler, C: PathHooks> PathState<'a, S, C> {
     #[inline]
     pub(crate) fn shade<W: World>(&mut self, world: &W, settings: &PathSettings) {
         self.goes_on = false;
+        if self.ray.medium.is_some() && self.fly(world, settings) {
+            return;
+        }
         let direction = self.ray.direction;
         let Some(hit) = self.hit else {
             // A hidden sky stays hidden to rays that only went straight.
@@ -173,7 +189,7 @@ impl<'a, S: Sampler, C: PathHooks> PathState<'a, S, C> {
         };
         let emits = world.is_emitter(&hit);
         let last = self.depth == settings.max_depth;
-        if last && !emits && self.alpha > 0.0 {
+        if last && !emits && self.alpha > 0.0 && self.variant.counts_null {
             return;
         }
         let vertex = world.vertex(&self.ray, &hit);
@@ -187,22 +203,23 @@ impl<'a, S: Sampler, C: PathHooks> PathState<'a, S, C> {
         }
         let bsdf = world.bsdf(&vertex, wo, &self.wavelengths);
         let bsdf = self.hooks.wrap_bsdf(&vertex, wo, bsdf);
-        if last {
+        let passes = !self.variant.counts_null && bsdf.null_probability() != Vec4::ZERO;
+        if last && !passes {
             // No direction is sampled at the last vertex: its null probability alone estimates alpha.
             self.alpha = self.alpha.max(steps::opacity(&bsdf));
             return;
         }
-        let event = BounceSamples::draw(self.sampler, self.depth - 1);
+        let event = self.draw_event();
         let from = LightSampleContext::new(&vertex, wo, &bsdf).combined();
-        if bsdf.has_continuous() {
+        if bsdf.has_continuous() && !last {
             let throughput = self.throughput;
-            let candidates = Candidates::at(self.candidates, world, &from);
+            let candidates = Candidates::at(self.variant.candidates, world, &from);
             let aim = |light: &LightSample| Aim::new(light, &throughput, &bsdf, wo, [1.0; 2]);
             let aim = candidates.draw(world, &from, &self.wavelengths, &event, self.sampler, aim);
             self.shadow_ray = aim.and_then(|aim| {
                 Some(ShadowRay {
                     ray: vertex.shadow_ray(aim.direction, aim.target)?,
-                    crossings: settings.max_depth - self.depth - 1,
+                    crossings: self.null_crossings(settings),
                     aim,
                 })
             });
@@ -227,18 +244,33 @@ impl<'a, S: Sampler, C: PathHooks> PathState<'a, S, C> {
             self.alpha = 1.0;
             return;
         };
+        let counts = self.variant.counts_null || !sample.is_null;
+        if counts && self.depth == settings.max_depth {
+            self.alpha = 1.0;
+            return;
+        }
         if !sample.is_null {
             self.alpha = 1.0;
             self.scatter_count += 1;
         }
         if !sample.chance.is_delta() {
-            self.candidates = LightCandidates::ONE;
+            self.variant.candidates = LightCandidates::ONE;
         }
         self.light_mis = self.light_mis.after(&self.throughput, from, &sample);
         self.throughput.scatter(sample.value, sample.chance.lanes());
         self.eta *= sample.eta;
         self.ray = vertex.spawn(sample.wi);
         (self.hooks).on_scatter(vertex, bsdf, wo, &sample, &self.throughput);
+        if counts {
+            self.lengthen(settings, event);
+        } else {
+            self.goes_on = self.throughput.beta != Vec4::ZERO;
+        }
+    }
+
+    /// Plays Russian roulette, and goes on with one more segment if the path survives.
+    #[inline]
+    pub(crate) fn lengthen(&mut self, settings: &PathSettings, event: &BounceSamples) {
         if self.depth >= settings.rr_depth {
             let survival = self.hooks.survival(&self.throughput, self.eta);
             if !self.throughput.survives(survival, event.roulette) {
@@ -249,6 +281,14 @@ impl<'a, S: Sampler, C: PathHooks> PathState<'a, S, C> {
         self.goes_on = self.throughput.beta != Vec4::ZERO;
     }
 
+    /// The random numbers of the next event.
+    #[inline]
+    pub(crate) fn draw_event(&mut self) -> BounceSamples {
+        let event = BounceSamples::draw(self.sampler, self.events);
+        self.events += 1;
+        event
+    }
+
     /// Traces the shadow ray of the light sample that was prepared, if any.
     #[inline]
     pub(crate) fn trace_shadow<W: World>(&mut self, world: &W) {
@@ -256,9 +296,7 @@ impl<'a, S: Sampler, C: PathHooks> PathState<'a, S, C> {
             return;
         };
         if let Some(passage) = world.transmittance(&light.ray, &self.wavelengths, light.crossings) {
-            let estimate = light
-                .aim
-                .estimate(passage.transmittance, passage.probability);
+            let estimate = light.aim.estimate(&passage);
             self.radiance += estimate;
             self.hooks.on_light_contribution(estimate);
         }

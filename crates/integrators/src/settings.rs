@@ -40,6 +40,24 @@ impl PathSettings {
     }
 }
 
+/// What the path tracer may do in one way or another, beside the limits of its paths.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) struct PathVariant {
+    /// How many light samples compete for a shadow ray where the path is not yet scattered at random.
+    pub(crate) candidates: LightCandidates,
+    /// Whether passing straight through a surface makes a path longer: so count Mitsuba's `path`, and not its
+    /// `volpath`.
+    pub(crate) counts_null: bool,
+}
+
+impl PathVariant {
+    /// One light sample for a shadow ray, and every segment counts.
+    pub(crate) const PLAIN: Self = Self {
+        candidates: LightCandidates::ONE,
+        counts_null: true,
+    };
+}
+
 /// How many light samples compete for a shadow ray; `None` leaves it to the lights.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct LightCandidates(pub Option<NonZeroU32>);

@@ -78,7 +78,7 @@ pub(crate) fn shadowed<W: World>(
     let aim = aim?;
     let ray = vertex.shadow_ray(aim.direction, aim.target)?;
     let passage = world.transmittance(&ray, wavelengths, max_null)?;
-    Some(aim.estimate(passage.transmittance, passage.probability))
+    Some(aim.estimate(&passage))
 }
 
 /// The opacity of the surface at which a path ends because of its length: no direction is sampled there.

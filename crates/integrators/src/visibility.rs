@@ -40,8 +40,7 @@ pub(crate) fn camera_visibility<W: World>(
         if !world.is_emitter(&hit) {
             // The lights before this surface are in the way like itself.
             crossings = crossings.checked_sub(lights)?;
-            passage.transmittance *= past_lights.transmittance;
-            passage.probability *= past_lights.probability;
+            passage.then(&past_lights);
             if passage.transmittance == Vec4::ZERO {
                 return None;
             }

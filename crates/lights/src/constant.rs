@@ -15,7 +15,6 @@
 use crate::BoundingSphere;
 use crate::light::anywhere;
 use crate::light_model::LightModel;
-use crate::uniformity::refuse_varying;
 use etalon_math::{Density, Frame, SolidAngle};
 use etalon_params::Params;
 use etalon_sampling::warps::{
@@ -23,6 +22,7 @@ use etalon_sampling::warps::{
     square_to_uniform_sphere,
 };
 use etalon_spectrum::Wavelengths;
+use etalon_transport::refuse_varying;
 use etalon_transport::{
     Build, Emission, EmissionPdf, LightId, LightKind, LightSample, LightSampleContext, SamplePdf,
     Shapes, SpectrumKind, TextureId, Textures,

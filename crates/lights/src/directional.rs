@@ -5,10 +5,10 @@ use crate::BoundingSphere;
 use crate::light::anywhere;
 use crate::light_model::LightModel;
 use crate::pose::Pose;
-use crate::uniformity::refuse_varying;
 use etalon_math::DeltaProbability;
 use etalon_params::Params;
 use etalon_spectrum::Wavelengths;
+use etalon_transport::refuse_varying;
 use etalon_transport::{
     Build, Emission, EmissionPdf, LightId, LightKind, LightSample, LightSampleContext, SamplePdf,
     Shapes, SpectrumKind, TextureId, Textures,

@@ -27,7 +27,6 @@ pub mod pose;
 pub mod set;
 pub mod spot;
 pub mod tree;
-mod uniformity;
 
 pub use area::AreaLight;
 pub use bounding_sphere::BoundingSphere;

@@ -16,12 +16,12 @@
 use crate::light::{anywhere, extent_of_point};
 use crate::light_model::LightModel;
 use crate::pose::{Pose, extent_of_way};
-use crate::uniformity::refuse_varying;
 use crate::{BoundingSphere, LightExtent};
 use etalon_math::{Animated, DeltaProbability, DirectionCone, float, float64};
 use etalon_params::Params;
 use etalon_sampling::warps::{square_to_uniform_cone, uniform_cone_density};
 use etalon_spectrum::Wavelengths;
+use etalon_transport::refuse_varying;
 use etalon_transport::{
     Build, Emission, EmissionPdf, LightId, LightKind, LightSample, LightSampleContext, Ray,
     SamplePdf, Shapes, SpectrumKind, TextureId, TexturePoint, Textures,

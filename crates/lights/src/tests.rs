@@ -231,6 +231,7 @@ fn upward(position: Vec3, normal: Vec3) -> SurfaceInteraction {
         instance: InstanceId::NONE,
         material: MaterialId::NONE,
         light: LightId::NONE,
+        media: etalon_transport::MediumInterface::NONE,
     }
 }
 

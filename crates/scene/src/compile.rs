@@ -2,6 +2,7 @@
 
 use crate::builder::Builder;
 use crate::lookup::SceneTables;
+use crate::media::SceneMedia;
 use crate::sampler::SamplerSettings;
 use crate::scene::Scene;
 use crate::surfaces::{self, Emitting, Names, Surfaces};
@@ -10,7 +11,7 @@ use etalon_film::{FilmSettings, Filter};
 use etalon_geometry::AcceleratorKind;
 use etalon_lights::{BoundingSphere, LightDescription, LightSamplerKind, LightSet};
 use etalon_params::{Class, Diagnostic, Diagnostics, Node, Params, Property, Span, plugins};
-use etalon_transport::{Assets, Build, LightId, ShapeId, Shutter, SpectrumKind};
+use etalon_transport::{Assets, Build, LightId, MediumId, ShapeId, Shutter, SpectrumKind};
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 
@@ -64,6 +65,10 @@ pub fn compile_with(
     let integrator = params.child(Class::Integrator).cloned();
     let mut surfaces = surfaces::read(&params, &mut builder);
     let lights = lights(&params, &mut surfaces, &mut builder);
+    for (_, node) in params.children(Class::Medium) {
+        surfaces.medium(node, &mut builder);
+    }
+    let camera_medium = camera_medium(&params, &mut surfaces, &mut builder);
     let named = params.choice(
         "light_chooser",
         LightSamplerKind::default().name(),
@@ -92,7 +97,8 @@ pub fn compile_with(
         .or_else(|| LightSamplerKind::named(named))
         .unwrap_or_default();
     let lights = LightSet::new(lights, &lookup, bounds, kind);
-    let scene = Scene::new(camera, lookup, surfaces.materials, lights);
+    let media = SceneMedia::new(surfaces.media, &surfaces.interfaces, camera_medium);
+    let scene = Scene::new(camera, lookup, surfaces.materials, lights, media);
     Some(Compiled {
         scene,
         film,
@@ -102,6 +108,22 @@ pub fn compile_with(
         names: surfaces.names,
         build_time,
     })
+}
+
+/// The medium that the camera is in.
+fn camera_medium(
+    params: &Params<'_>,
+    surfaces: &mut Surfaces,
+    builder: &mut Builder<'_>,
+) -> MediumId {
+    let sensors = params.children(Class::Sensor);
+    let sensor = sensors
+        .first()
+        .map(|(_, node)| Params::new(node, builder.diagnostics));
+    let medium = sensor
+        .as_ref()
+        .and_then(|sensor| sensor.child(Class::Medium));
+    medium.map_or(MediumId::NONE, |node| surfaces.medium(node, builder))
 }
 
 /// The lights: emitting shapes first, then those without shape, in the order of the file.
@@ -235,9 +257,9 @@ fn read_unused_textures(params: &Params<'_>, builder: &mut Builder<'_>) {
     }
 }
 
-/// Media, volumes and phase functions at the top of a scene: known, not built yet.
+/// Volumes and phase functions at the top of a scene, for which nothing asks.
 fn refuse_unknown_children(params: &Params<'_>) {
-    for class in [Class::Medium, Class::Volume, Class::Phase] {
+    for class in [Class::Volume, Class::Phase] {
         for (_, node) in params.children(class) {
             params.diagnostics.push(plugins::not_built(node, []));
         }

@@ -7,6 +7,7 @@ mod attributes;
 pub mod builder;
 pub mod compile;
 pub mod lookup;
+mod media;
 mod rays;
 pub mod sampler;
 pub mod scene;

@@ -1,16 +1,20 @@
 //! The compiled scene: everything an integrator may ask, answered.
 
 use crate::lookup::SceneTables;
+use crate::media::SceneMedia;
 use crate::{rays, view};
 use etalon_bsdf::{BsdfAtPoint, Material};
 use etalon_cameras::AnyCamera;
 use etalon_lights::LightSet;
 use etalon_math::{Density, SolidAngle};
+use etalon_sampling::Independent;
+use etalon_sampling::hash::mix64;
 use etalon_spectrum::{WavelengthDistribution, Wavelengths};
+use etalon_subsurface::MediumAtWavelengths;
 use etalon_transport::{
     Bsdf, Camera, Emission, EmissionPdf, Hit, LegacyPhong, LightId, LightSample,
-    LightSampleContext, LightVariety, Ray, SceneCapabilities, SurfaceInteraction, Transmission,
-    World,
+    LightSampleContext, LightVariety, Medium, MediumId, Ray, SceneCapabilities, SurfaceInteraction,
+    Transmission, World,
 };
 use glam::{UVec2, Vec2, Vec3, Vec4};
 
@@ -23,6 +27,9 @@ pub struct Scene {
     wavelengths: WavelengthDistribution,
     /// Whether any material lets light pass straight, so that shadow rays must ask.
     has_null: bool,
+    media: SceneMedia,
+    /// Whether there are media, so that shadow rays must ask.
+    has_media: bool,
 }
 
 impl Scene {
@@ -32,6 +39,7 @@ impl Scene {
         lookup: SceneTables,
         materials: Vec<Material>,
         lights: LightSet,
+        media: SceneMedia,
     ) -> Self {
         let has_null = materials.iter().any(Material::has_null);
         Self {
@@ -41,6 +49,8 @@ impl Scene {
             lights,
             wavelengths: WavelengthDistribution::default(),
             has_null,
+            has_media: media.exist(),
+            media,
         }
     }
 
@@ -71,6 +81,7 @@ impl Scene {
             lights: self.lights.count(),
             aperture: self.camera.can_receive(),
             sky: self.has_background(),
+            media: self.has_media,
             narrow_filter: false,
             classic: self.materials.iter().any(Material::is_classic),
         }
@@ -84,6 +95,7 @@ impl Scene {
 
 impl World for Scene {
     type Bsdf<'w> = BsdfAtPoint<'w>;
+    type Medium<'w> = MediumAtWavelengths;
     type Camera = AnyCamera;
 
     fn camera(&self) -> &AnyCamera {
@@ -103,7 +115,21 @@ impl World for Scene {
 
     #[inline]
     fn vertex(&self, ray: &Ray, hit: &Hit) -> SurfaceInteraction {
-        self.lookup.geometry.vertex(ray, hit)
+        let mut vertex = self.lookup.geometry.vertex(ray, hit);
+        if self.has_media {
+            vertex.media = self.media.around(hit.shape, ray.medium);
+        }
+        vertex
+    }
+
+    #[inline]
+    fn camera_medium(&self) -> MediumId {
+        self.media.camera
+    }
+
+    #[inline]
+    fn medium(&self, medium: MediumId, wavelengths: &Wavelengths) -> Option<MediumAtWavelengths> {
+        self.media.at(medium, &self.lookup, wavelengths.lambda)
     }
 
     #[inline]
@@ -113,7 +139,7 @@ impl World for Scene {
         wavelengths: &Wavelengths,
         crossings: u32,
     ) -> Option<Transmission> {
-        if !self.has_null {
+        if !self.has_null && !self.has_media {
             rays::count();
             return (!self.lookup.geometry.occluded(ray)).then_some(Transmission::FREE);
         }
@@ -258,6 +284,15 @@ impl World for Scene {
     }
 }
 
+/// The random numbers of what a ray meets on its way, which is as random as the ray.
+fn stream_of(ray: &Ray) -> Independent {
+    let Ray {
+        origin, direction, ..
+    } = ray;
+    let bits = (origin.to_array().into_iter()).chain(direction.to_array());
+    Independent::from_key(bits.fold(0, |key, x| mix64(key ^ u64::from(x.to_bits()))))
+}
+
 impl Scene {
     /// A segment through surfaces that let light pass: each is met in turn and asked how much.
     fn passage_through(
@@ -269,7 +304,18 @@ impl Scene {
         let end = ray.t_max;
         let origin = ray.origin;
         let mut passage = Transmission::FREE;
-        while let Some(hit) = self.intersect(&ray) {
+        loop {
+            let hit = self.intersect(&ray);
+            if ray.medium.is_some()
+                && let Some(medium) = self.medium(ray.medium, wavelengths)
+            {
+                let t = hit.map_or(ray.t_max, |hit| hit.t);
+                passage.then(&medium.transmittance(&ray, t, &mut stream_of(&ray)));
+                if passage.transmittance == Vec4::ZERO {
+                    return None;
+                }
+            }
+            let Some(hit) = hit else { break };
             if crossings == 0 {
                 return None;
             }
@@ -280,8 +326,10 @@ impl Scene {
                 return None;
             }
             let bsdf = material.resolve(&self.lookup, &vertex, -ray.direction, wavelengths);
-            passage.transmittance *= bsdf.null_transmittance();
-            passage.probability *= bsdf.null_probability();
+            passage.then(&Transmission {
+                transmittance: bsdf.null_transmittance(),
+                probability: bsdf.null_probability(),
+            });
             if passage.transmittance == Vec4::ZERO {
                 return None;
             }

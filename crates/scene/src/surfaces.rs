@@ -7,8 +7,9 @@ use etalon_geometry::shapes::csg::{Csg, Operation};
 use etalon_geometry::{GeometryBuilder, GroupId, Placement, Shape};
 use etalon_math::Animated;
 use etalon_params::{Class, Diagnostic, Node, Params, Span, Value, plugins};
+use etalon_subsurface::MediumDescription;
 use etalon_textures::{Constant, Texture};
-use etalon_transport::{LightId, MaterialId, ShapeId};
+use etalon_transport::{LightId, MaterialId, MediumId, MediumInterface, ShapeId};
 use std::collections::HashMap;
 use std::sync::Arc;
 
@@ -57,6 +58,11 @@ pub struct Surfaces {
     pub classic: Option<Span>,
     /// What textures ask of the shapes.
     pub(crate) asked: Asked,
+    /// Media by id.
+    pub media: Vec<MediumDescription>,
+    /// The media on both sides of shapes that have any.
+    pub interfaces: Vec<(ShapeId, MediumInterface)>,
+    medium_by_node: HashMap<usize, MediumId>,
     by_node: HashMap<usize, MaterialId>,
     groups: HashMap<usize, GroupId>,
     black: Option<MaterialId>,
@@ -94,6 +100,7 @@ struct ShapeExtras {
     emitter: Option<Arc<Node>>,
     /// The materials of its faces, if they have their own.
     faces: Vec<MaterialId>,
+    media: Option<MediumInterface>,
 }
 
 impl Surfaces {
@@ -117,9 +124,7 @@ impl Surfaces {
                 let id = self
                     .geometry
                     .add_shape(shape, carried.material, LightId::NONE);
-                if !carried.faces.is_empty() {
-                    self.geometry.set_face_materials(id, &carried.faces);
-                }
+                self.carry(id, &carried);
                 if refracts(node) {
                     self.geometry.set_refractive(id);
                 }
@@ -140,12 +145,54 @@ impl Surfaces {
         }
     }
 
+    /// The media on both sides of a shape, if it has `interior` or `exterior`.
+    fn media(&mut self, params: &Params<'_>, builder: &mut Builder<'_>) -> Option<MediumInterface> {
+        let mut media = None;
+        for (property, node) in params.children(Class::Medium) {
+            let medium = self.medium(node, builder);
+            let media = media.get_or_insert(MediumInterface::within(MediumId::NONE));
+            match property.name.as_str() {
+                "interior" => media.inside = medium,
+                "exterior" => media.outside = medium,
+                _ => builder.diagnostics.push(
+                    Diagnostic::error(property.name_span, "a medium on which side of the shape?")
+                        .help("accepted: `name=\"interior\"` and `name=\"exterior\"`"),
+                ),
+            }
+        }
+        media
+    }
+
+    /// A medium, read once however often it is used.
+    pub fn medium(&mut self, node: &Arc<Node>, builder: &mut Builder<'_>) -> MediumId {
+        let key = Arc::as_ptr(node) as usize;
+        if let Some(id) = self.medium_by_node.get(&key) {
+            return *id;
+        }
+        let params = Params::new(node, builder.diagnostics);
+        let Some(medium) = MediumDescription::from_params(&params, builder) else {
+            return MediumId::NONE;
+        };
+        let id = MediumId(self.media.len() as u32);
+        self.media.push(medium);
+        self.medium_by_node.insert(key, id);
+        id
+    }
+
+    /// Notes what a shape carries that an accelerator need not know.
+    fn carry(&mut self, shape: ShapeId, carried: &ShapeExtras) {
+        if !carried.faces.is_empty() {
+            self.geometry.set_face_materials(shape, &carried.faces);
+        }
+        if let Some(media) = carried.media {
+            self.interfaces.push((shape, media));
+        }
+    }
+
     /// Adds a shape that is only seen through instances.
     fn member(&mut self, shape: Shape, carried: &ShapeExtras) -> ShapeId {
         let id = self.geometry.add_member(shape, carried.material);
-        if !carried.faces.is_empty() {
-            self.geometry.set_face_materials(id, &carried.faces);
-        }
+        self.carry(id, carried);
         id
     }
 
@@ -204,20 +251,20 @@ impl Surfaces {
             None if emitter.is_some() => self.black(builder),
             None => self.grey(builder),
         };
-        for class in [Class::Medium, Class::Sensor] {
-            for (property, _) in params.children(class) {
-                builder.diagnostics.push(Diagnostic::error(
-                    property.span,
-                    format!("a {} on a shape is not built yet", class.name()),
-                ));
-            }
+        for (property, _) in params.children(Class::Sensor) {
+            let message = "a sensor on a shape is not built yet";
+            builder
+                .diagnostics
+                .push(Diagnostic::error(property.span, message));
         }
+        let media = self.media(&params, builder);
         params.finish();
         let faces = Vec::new();
         let carried = ShapeExtras {
             material,
             emitter,
             faces,
+            media,
         };
         Some((shape?, carried))
     }
@@ -280,6 +327,7 @@ impl Surfaces {
         if children.is_empty() {
             params.missing("shape", "solids to make it of");
         }
+        let media = self.media(&params, builder);
         params.finish();
         if operands.len() < children.len() {
             return None;
@@ -291,6 +339,7 @@ impl Surfaces {
             material,
             emitter,
             faces,
+            media,
         };
         Some((shape, carried))
     }

@@ -9,6 +9,7 @@
 //! one is used (|g| < 10⁻³, an error of the order of g).
 
 use crate::rotational::Rotational;
+use etalon_params::Params;
 use std::f32::consts::PI;
 
 /// Henyey–Greenstein scattering.
@@ -23,6 +24,14 @@ impl HenyeyGreenstein {
         (g.abs() < 1.0).then_some(Self {
             g: if g.abs() < 1e-3 { 0.0 } else { g },
         })
+    }
+}
+
+impl HenyeyGreenstein {
+    /// Reads `g`.
+    pub(crate) fn from_params(params: &Params<'_>) -> Option<Self> {
+        let g = params.float_where("g", 0.8, "a number between -1 and 1", |g| g.abs() < 1.0);
+        Self::new(g as f32)
     }
 }
 

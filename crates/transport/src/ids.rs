@@ -32,6 +32,10 @@ id!(
     MaterialId
 );
 id!(
+    /// A participating medium; none is empty space.
+    MediumId
+);
+id!(
     /// A light source.
     LightId
 );

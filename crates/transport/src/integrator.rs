@@ -90,6 +90,9 @@ pub trait Integrator: Sync {
     /// ([`Integrator::incompatibilities`]) without bias, so that it must agree with any other that does.
     const UNBIASED: bool = false;
 
+    /// Whether it sees participating media; if not, it refuses scenes that have them.
+    const MEDIA: bool = false;
+
     /// The channels it writes beside the colour, in the order of [`Sink::channel`]'s index.
     fn channels(&self) -> Vec<Channel> {
         Vec::new()

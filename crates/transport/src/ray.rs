@@ -1,6 +1,6 @@
 //! Rays.
 
-use crate::ShapeId;
+use crate::{MediumId, ShapeId};
 use glam::Vec3;
 
 /// Where a ray crosses the surface that it leaves, behind its origin.
@@ -37,6 +37,8 @@ pub struct Ray {
     pub time: f32,
     /// The surface that it leaves.
     pub departure: Departure,
+    /// The medium that it travels in.
+    pub medium: MediumId,
 }
 
 impl Ray {
@@ -49,6 +51,7 @@ impl Ray {
             t_max: f32::INFINITY,
             time,
             departure: Departure::NONE,
+            medium: MediumId::NONE,
         }
     }
 
@@ -64,6 +67,7 @@ impl Ray {
             t_max: distance * (1.0 - 8.0 * f32::EPSILON),
             time,
             departure: Departure::NONE,
+            medium: MediumId::NONE,
         })
     }
 

@@ -46,6 +46,8 @@ pub struct SceneCapabilities {
     pub aperture: bool,
     /// Whether there is light at infinity that a ray can hit.
     pub sky: bool,
+    /// Whether there are participating media.
+    pub media: bool,
     /// Whether a surface has a classic Phong material, which says nothing of how it scatters light
     /// ([`crate::World::legacy_phong`]).
     pub classic: bool,
@@ -145,6 +147,16 @@ impl SceneCapabilities {
             ));
         }
         objections
+    }
+
+    /// The objection, if any, of an estimator that knows nothing of media.
+    pub fn media_unseen(&self) -> Option<Incompatibility> {
+        self.media.then(|| {
+            let message =
+                "this integrator sees surfaces only, and the scene has participating media";
+            Incompatibility::fatal(Subject::Integrator, message)
+                .help("integrators that see media: `volpath`, `path`")
+        })
     }
 
     /// The objection, if any, of an estimator that finds light by connecting surfaces with the

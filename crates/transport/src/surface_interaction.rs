@@ -1,6 +1,6 @@
 //! Where a ray met a surface.
 
-use crate::{Departure, InstanceId, LightId, MaterialId, Ray, ShapeId};
+use crate::{Departure, InstanceId, LightId, MaterialId, MediumInterface, Ray, ShapeId};
 use etalon_math::{Frame, offset_origin};
 use glam::{Vec2, Vec3};
 
@@ -59,6 +59,8 @@ pub struct SurfaceInteraction {
     pub material: MaterialId,
     /// The light this surface is, or [`LightId::NONE`].
     pub light: LightId,
+    /// The media on both sides.
+    pub media: MediumInterface,
 }
 
 impl SurfaceInteraction {
@@ -68,6 +70,7 @@ impl SurfaceInteraction {
         let origin = offset_origin(self.position, self.error, self.normal, direction);
         Ray {
             departure: self.departure(origin, direction),
+            medium: self.media.toward(direction.dot(self.normal)),
             ..Ray::new(origin, direction, self.time)
         }
     }
@@ -113,6 +116,7 @@ impl SurfaceInteraction {
                 let ray = Ray::between(self.origin_toward(target), target, self.time)?;
                 Some(Ray {
                     departure: self.departure(ray.origin, ray.direction),
+                    medium: self.media.toward(ray.direction.dot(self.normal)),
                     ..ray
                 })
             }

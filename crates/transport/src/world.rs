@@ -2,7 +2,7 @@
 
 use crate::{
     Bsdf, Camera, Emission, EmissionPdf, Hit, LegacyPhong, LightId, LightSample,
-    LightSampleContext, LightVariety, Ray, SurfaceInteraction, TraceEvent,
+    LightSampleContext, LightVariety, Medium, MediumId, Ray, SurfaceInteraction, TraceEvent,
 };
 use etalon_math::{Density, SolidAngle};
 use etalon_spectrum::Wavelengths;
@@ -24,6 +24,13 @@ impl Transmission {
         transmittance: Vec4::ONE,
         probability: Vec4::ONE,
     };
+
+    /// Goes on through what lets light pass in these shares, and would be passed with these probabilities.
+    #[inline]
+    pub fn then(&mut self, next: &Self) {
+        self.transmittance *= next.transmittance;
+        self.probability *= next.probability;
+    }
 }
 
 /// A compiled, immutable scene.
@@ -32,11 +39,27 @@ pub trait World: Sync {
     type Bsdf<'w>: Bsdf + Copy
     where
         Self: 'w;
+    /// A medium at a path's wavelengths.
+    type Medium<'w>: Medium
+    where
+        Self: 'w;
     /// The camera.
     type Camera: Camera;
 
     /// The camera.
     fn camera(&self) -> &Self::Camera;
+
+    /// The medium that the camera is in.
+    #[inline]
+    fn camera_medium(&self) -> MediumId {
+        MediumId::NONE
+    }
+
+    /// A medium; `None` in empty space. A world without media keeps this.
+    #[inline]
+    fn medium(&self, _medium: MediumId, _wavelengths: &Wavelengths) -> Option<Self::Medium<'_>> {
+        None
+    }
 
     /// Draws the wavelengths of a path.
     fn wavelengths(&self, u: f32) -> Wavelengths;
@@ -48,7 +71,7 @@ pub trait World: Sync {
     fn vertex(&self, ray: &Ray, hit: &Hit) -> SurfaceInteraction;
 
     /// How light travels straight along a segment, through at most `crossings` surfaces that
-    /// let it pass (`mask`, `null`); `None` if it does not arrive at all.
+    /// let it pass (`mask`, `null`) and what fills the space between; `None` if it does not arrive at all.
     fn transmittance(
         &self,
         ray: &Ray,

@@ -205,5 +205,6 @@ fn vertex(shading: Frame) -> SurfaceInteraction {
         instance: InstanceId::NONE,
         material: MaterialId(0),
         light: LightId::NONE,
+        media: etalon_transport::MediumInterface::NONE,
     }
 }

@@ -9,7 +9,7 @@ use etalon_spectrum::Wavelengths;
 use etalon_transport::{
     Bsdf, BsdfSample, Camera, CameraRay, CameraSample, Emission, EmissionPdf, Hit, InstanceId,
     LightId, LightKind, LightSample, LightSampleContext, LightVariety, Ray, SamplePdf, ShapeId,
-    SurfaceInteraction, Transmission, TransportMode, World,
+    SurfaceInteraction, Transmission, TransportMode, Vacuum, World,
 };
 use glam::{Vec2, Vec3, Vec4};
 use std::sync::atomic::{AtomicUsize, Ordering};
@@ -185,6 +185,10 @@ impl<'s, W: World> Script<'s, W> {
 impl<'s, W: World> World for Script<'s, W> {
     type Bsdf<'w>
         = Scripted<W::Bsdf<'w>>
+    where
+        Self: 'w;
+    type Medium<'w>
+        = Vacuum
     where
         Self: 'w;
     type Camera = Aperture<'s, W>;

@@ -43,7 +43,7 @@ mod training_path;
 
 use crate::path::{follow, follow_drafts};
 use crate::path_state::PathState;
-use crate::settings::{LightCandidates, PathSettings};
+use crate::settings::{PathSettings, PathVariant};
 use etalon_params::Params;
 use etalon_sampling::Sampler;
 use etalon_transport::{Integrator, Pass, PixelSample, Placing, SampleJob, Sink, TileSink, World};
@@ -203,7 +203,7 @@ impl Integrator for Guided {
                 follow_drafts(
                     world,
                     &self.settings,
-                    LightCandidates::ONE,
+                    PathVariant::PLAIN,
                     guide,
                     drafts,
                     &mut sink,
@@ -212,7 +212,7 @@ impl Integrator for Guided {
             None => follow_drafts(
                 world,
                 &self.settings,
-                LightCandidates::ONE,
+                PathVariant::PLAIN,
                 guide,
                 drafts,
                 sink,

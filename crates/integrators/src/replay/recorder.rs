@@ -7,7 +7,7 @@ use etalon_math::{Density, SolidAngle};
 use etalon_spectrum::Wavelengths;
 use etalon_transport::{
     ApertureHit, Camera, CameraRay, CameraSample, Emission, EmissionPdf, Hit, LegacyPhong, LightId,
-    LightSample, LightSampleContext, LightVariety, Ray, SurfaceInteraction, TraceEvent,
+    LightSample, LightSampleContext, LightVariety, MediumId, Ray, SurfaceInteraction, TraceEvent,
     Transmission, World,
 };
 use glam::{Vec2, Vec3, Vec4};
@@ -77,10 +77,22 @@ impl<'a, W: World> World for Recorder<'a, W> {
         = RecordingBsdf<'w, W::Bsdf<'w>>
     where
         Self: 'w;
+    type Medium<'w>
+        = W::Medium<'w>
+    where
+        Self: 'w;
     type Camera = RecordingCamera<'a, W::Camera>;
 
     fn camera(&self) -> &Self::Camera {
         &self.camera
+    }
+
+    fn camera_medium(&self) -> MediumId {
+        self.world.camera_medium()
+    }
+
+    fn medium(&self, medium: MediumId, wavelengths: &Wavelengths) -> Option<Self::Medium<'_>> {
+        self.world.medium(medium, wavelengths)
     }
 
     fn wavelengths(&self, u: f32) -> Wavelengths {

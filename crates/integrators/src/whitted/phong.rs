@@ -110,6 +110,7 @@ mod tests {
             instance: InstanceId::NONE,
             material: MaterialId(0),
             light: LightId::NONE,
+            media: etalon_transport::MediumInterface::NONE,
         }
     }
 

@@ -174,6 +174,7 @@ impl Sphere {
 
 impl World for Sphere {
     type Bsdf<'w> = Lambert;
+    type Medium<'w> = Vacuum;
     type Camera = Pinhole;
 
     fn camera(&self) -> &Pinhole {
@@ -213,6 +214,7 @@ impl World for Sphere {
             instance: InstanceId::NONE,
             material: MaterialId(0),
             light: LightId(0),
+            media: etalon_transport::MediumInterface::NONE,
         }
     }
     fn transmittance(&self, _: &Ray, _: &Wavelengths, _: u32) -> Option<Transmission> {

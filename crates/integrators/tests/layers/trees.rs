@@ -48,6 +48,7 @@ fn with_one_branch_it_is_path_number_for_number() {
     for (name, stack) in [("everything", everything()), ("rainbow", rainbow())] {
         for (max_depth, rr_depth) in [(0, 5), (1, 5), (2, 5), (4, 1), (u32::MAX, 2)] {
             let path = Path {
+                skips_null: false,
                 settings: settings(max_depth, rr_depth),
                 light_candidates: LightCandidates::ONE,
             };

@@ -150,6 +150,7 @@ impl Stack {
 
 impl World for Stack {
     type Bsdf<'w> = Scatter;
+    type Medium<'w> = Vacuum;
     type Camera = Camera1D;
 
     fn camera(&self) -> &Camera1D {
@@ -203,6 +204,7 @@ impl World for Stack {
             } else {
                 LightId::NONE
             },
+            media: etalon_transport::MediumInterface::NONE,
         }
     }
     fn transmittance(

@@ -1,9 +1,9 @@
-//! Lights without extent, and skies of one colour, have nothing over which a texture could vary.
+//! Lights without extent, skies of one colour and homogeneous media have nothing over which a texture could vary.
 
 use etalon_params::{Class, Node, Params, Value};
 
 /// Refuses a texture that varies in space as the value of `name`.
-pub(crate) fn refuse_varying(params: &Params<'_>, name: &str) {
+pub fn refuse_varying(params: &Params<'_>, name: &str) {
     let property = params.node.properties.iter().find(|p| p.name == name);
     if let Some(Value::Object(node)) = property.map(|p| &p.value)
         && varies(node)

@@ -1,0 +1,91 @@
+//! The list of media, and how each is read.
+
+use crate::{AnyPhase, Homogeneous, HomogeneousAt};
+use etalon_params::{Params, plugins};
+use etalon_transport::{Build, Coefficients, Medium, Ray, Textures};
+use glam::{Vec3, Vec4};
+
+macro_rules! media {
+    ($($(#[doc = $doc:literal])* $plugin:literal => $kind:ident($at:ident);)*) => {
+        /// Any medium, as the scene describes it.
+        #[derive(Clone, Debug, PartialEq)]
+        pub enum MediumDescription {
+            $($(#[doc = $doc])* $kind($kind),)*
+        }
+
+        /// Any medium at the wavelengths of a path.
+        #[derive(Clone, Copy, Debug, PartialEq)]
+        pub enum MediumAtWavelengths {
+            $($(#[doc = $doc])* $kind($at),)*
+        }
+
+        /// Names of the media that are built.
+        pub const BUILT: &[&str] = &[$($plugin,)*];
+
+        impl MediumDescription {
+            fn read(params: &Params<'_>, build: &mut dyn Build) -> Option<Option<Self>> {
+                match params.node.plugin.value.as_str() {
+                    $($plugin => Some($kind::from_params(params, build).map(Self::$kind)),)*
+                    _ => None,
+                }
+            }
+
+            /// The medium at four wavelengths (nm).
+            #[inline]
+            pub fn resolve(&self, textures: &impl Textures, lambda: Vec4) -> MediumAtWavelengths {
+                match self {
+                    $(Self::$kind(medium) => {
+                        MediumAtWavelengths::$kind(medium.resolve(textures, lambda))
+                    })*
+                }
+            }
+        }
+
+        impl Medium for MediumAtWavelengths {
+            type Phase = AnyPhase;
+
+            #[inline]
+            fn majorant(&self, ray: &Ray, t_max: f32) -> f32 {
+                match self { $(Self::$kind(medium) => medium.majorant(ray, t_max),)* }
+            }
+
+            #[inline]
+            fn coefficients(&self, at: Vec3) -> Coefficients {
+                match self { $(Self::$kind(medium) => medium.coefficients(at),)* }
+            }
+
+            #[inline]
+            fn phase(&self, at: Vec3) -> AnyPhase {
+                match self { $(Self::$kind(medium) => medium.phase(at),)* }
+            }
+
+            #[inline]
+            fn is_homogeneous(&self) -> bool {
+                match self { $(Self::$kind(medium) => medium.is_homogeneous(),)* }
+            }
+        }
+    };
+}
+
+// The list: a line for each medium.
+media! {
+    /// The same everywhere.
+    "homogeneous" => Homogeneous(HomogeneousAt);
+}
+
+impl MediumDescription {
+    /// Reads a medium. After a mistake, which has been recorded, `None`.
+    pub fn from_params(params: &Params<'_>, build: &mut dyn Build) -> Option<Self> {
+        let Some(medium) = Self::read(params, build) else {
+            let built = BUILT.iter().copied();
+            params
+                .diagnostics
+                .push(plugins::not_built(params.node, built));
+            return None;
+        };
+        // Whether light is sampled at scattering points, as it always is here.
+        params.ignore(&["sample_emitters", "has_spectral_extinction"]);
+        params.finish();
+        medium
+    }
+}
