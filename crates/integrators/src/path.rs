@@ -47,6 +47,10 @@ impl Path {
     pub fn from_params(params: &Params<'_>) -> Self {
         // Mitsuba's integrators for media, which are this one.
         let volumetric = params.node.plugin.value.starts_with("vol");
+        if volumetric {
+            // Lanes are always combined.
+            params.ignore(&["use_spectral_mis"]);
+        }
         Self {
             settings: PathSettings::from_params(params),
             skips_null: volumetric,

@@ -16,6 +16,10 @@ pub(crate) fn constant(
 ) -> TextureId {
     let property = params.node.properties.iter().find(|p| p.name == name);
     match property.map(|p| &p.value) {
+        // As in Mitsuba, whatever the colour is of; one beyond 1 has no such spectrum.
+        Some(Value::Rgb(rgb)) if rgb.max_element() <= 1.0 => {
+            build.texture(params, name, Some(default), SpectrumKind::Reflectance)
+        }
         Some(Value::Object(node)) if node.class == Class::Volume => {
             params.property(name);
             if !BUILT.contains(&node.plugin.value.as_str()) {

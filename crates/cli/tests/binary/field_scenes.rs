@@ -147,13 +147,13 @@ fn films_samplers_and_parameters_of_old_scenes_are_read() {
     let integrators = [
         "<integrator type=\"path\"><boolean name=\"strictNormals\" value=\"true\"/></integrator>",
         "<integrator type=\"direct\"><integer name=\"luminaireSamples\" value=\"1\"/></integrator>",
-        "<integrator type=\"volpath\"/>",
+        "<integrator type=\"volpath_simple\"/>",
         "<integrator type=\"bdpt\"><boolean name=\"lightImage\" value=\"false\"/></integrator>",
     ];
     let words = [
         "`strict_normals` has no effect",
         "`direct` has no parameter `luminaire_samples`: it is ignored",
-        "the integrator `volpath` is not built: `path` stands in",
+        "the integrator `volpath_simple` is not built: `volpath` stands in",
         "`bdpt` has no parameter `light_image`: it is ignored",
     ];
     for i in 0..4 {

@@ -16,11 +16,9 @@ use etalon_params::{Class, Diagnostic, Span, Spanned, Value};
 const KEPT: [&str; 3] = ["max_depth", "rr_depth", "hide_emitters"];
 
 /// What stands in for integrators that are not built, and in what they agree.
-const STAND_INS: [(&str, &str, &str); 18] = [
-    ("volpath", "path", SAME_WITHOUT_MEDIA),
-    ("volpath_simple", "path", SAME_WITHOUT_MEDIA),
-    ("volpathmis", "path", SAME_WITHOUT_MEDIA),
-    ("prbvolpath", "path", SAME_WITHOUT_MEDIA),
+const STAND_INS: [(&str, &str, &str); 16] = [
+    ("volpath_simple", "volpath", SAME_PICTURE),
+    ("prbvolpath", "volpath", SAME_WITHOUT_DERIVATIVES),
     ("prb", "path", SAME_WITHOUT_DERIVATIVES),
     ("prb_basic", "path", SAME_WITHOUT_DERIVATIVES),
     ("prb_projective", "path", SAME_WITHOUT_DERIVATIVES),
@@ -37,7 +35,6 @@ const STAND_INS: [(&str, &str, &str); 18] = [
     ("recursive_path", "path", SAME_PICTURE),
 ];
 
-const SAME_WITHOUT_MEDIA: &str = "they agree where there are no media";
 const SAME_WITHOUT_DERIVATIVES: &str = "they agree where no derivatives are asked for";
 const SAME_PICTURE: &str = "both converge to the same picture";
 const SAME_METHOD: &str = "it is the same method, with parameters of its own";

@@ -228,12 +228,12 @@ fn integrators_that_agree_stand_in_for_others() {
         children(&document(outcome).root)[0].clone()
     };
     let path = integrator(
-        "<integrator type='volpath'><integer name='max_depth' value='7'/>
+        "<integrator type='volpath_simple'><integer name='max_depth' value='7'/>
          <boolean name='use_spectral_mis' value='true'/></integrator>",
     );
     assert_eq!(
         (path.plugin.value.as_str(), path.properties.len()),
-        ("path", 1)
+        ("volpath", 1)
     );
     // Mitsuba's own default, which is not that of `path`.
     let prb = integrator("<integrator type='prb'/>");
