@@ -44,6 +44,7 @@ impl Description {
             lobes: a.lobes + b.lobes,
             null: a.null || b.null,
             transmission: a.transmission || b.transmission,
+            tilted: a.tilted || b.tilted,
         }
     }
 

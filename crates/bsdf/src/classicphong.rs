@@ -67,6 +67,7 @@ impl Description {
             lobes: 0,
             null: false,
             transmission: true,
+            tilted: false,
         }
     }
 

@@ -19,6 +19,7 @@ pub mod lobe_list;
 pub mod model;
 pub mod models;
 pub mod resolved;
+pub mod tilt;
 pub mod traits;
 
 pub mod coating;
@@ -32,6 +33,7 @@ pub mod rough_fresnel;
 pub mod roughness;
 
 pub mod blendbsdf;
+pub mod bumpmap;
 pub mod classicphong;
 pub mod conductor;
 pub mod dielectric;
@@ -39,6 +41,7 @@ pub mod diffuse;
 pub mod mask;
 pub mod mirror;
 pub mod mixturebsdf;
+pub mod normalmap;
 pub mod null;
 pub mod phong;
 pub mod plastic;

@@ -1,6 +1,7 @@
 //! How a material with textures becomes lobes at a point.
 
-use crate::{AnyBxdf, BsdfAtPoint, Lobe, MAX_LOBES};
+use crate::tilt::Tilt;
+use crate::{AnyBxdf, BsdfAtPoint, Bxdf, Lobe, MAX_LOBES};
 use etalon_math::Frame;
 use etalon_spectrum::Wavelengths;
 use etalon_transport::{SurfaceInteraction, TextureId, TexturePoint, Textures};
@@ -17,6 +18,14 @@ pub struct ShadingContext<'t, T> {
     pub lambda: Vec4,
     /// The known direction (world).
     pub wo: Vec3,
+    /// ∂p/∂u and ∂p/∂v (world).
+    pub dp_du: Vec3,
+    /// See `dp_du`.
+    pub dp_dv: Vec3,
+    /// Unit geometric normal, outside.
+    pub normal: Vec3,
+    /// Unit shading normal, outside.
+    pub shading_normal: Vec3,
 }
 
 impl<'t, T: Textures> ShadingContext<'t, T> {
@@ -33,6 +42,10 @@ impl<'t, T: Textures> ShadingContext<'t, T> {
             at: TexturePoint::from(vertex),
             lambda: wavelengths.lambda,
             wo,
+            dp_du: vertex.dp_du,
+            dp_dv: vertex.dp_dv,
+            normal: vertex.normal,
+            shading_normal: vertex.shading.n,
         }
     }
 
@@ -73,8 +86,21 @@ impl<'a> LobeList<'a> {
                 frame,
                 weight,
                 probability,
+                tilt: None,
             });
             self.count += 1;
+        }
+    }
+
+    /// Tilts the normals of the lobes that `add` adds.
+    pub(crate) fn tilted(&mut self, tilt: Tilt, add: impl FnOnce(&mut Self)) {
+        let first = self.count;
+        add(self);
+        for lobe in self.lobes[first..self.count].iter_mut().flatten() {
+            // Of a varnish, light paths could not tell which viewer will see the normal.
+            let mixed = lobe.scatter.has_discrete() && lobe.scatter.has_continuous();
+            let flips = tilt.flips && !mixed;
+            lobe.tilt = Some(Tilt { flips, ..tilt });
         }
     }
 

@@ -78,12 +78,14 @@ impl Description {
             lobes: 0,
             null: false,
             transmission: false,
+            tilted: false,
         };
         for (_, material) in &self.parts {
             let traits = material.traits();
             all.lobes += traits.lobes;
             all.null |= traits.null;
             all.transmission |= traits.transmission;
+            all.tilted |= traits.tilted;
         }
         all
     }

@@ -98,6 +98,7 @@ macro_rules! models {
                         frame: vertex.shading,
                         weight: 1.0,
                         probability: 1.0,
+                        tilt: None,
                     },
                 )
             }
@@ -318,6 +319,8 @@ models! {
         "twosided" TwoSided twosided,
         "blendbsdf" Blend blendbsdf,
         "mixturebsdf" Mixture mixturebsdf,
+        "normalmap" NormalMap normalmap,
+        "bumpmap" BumpMap bumpmap,
         "null" Null null,
         "classicphong" LegacyPhong classicphong,
     }

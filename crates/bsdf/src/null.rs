@@ -27,6 +27,7 @@ impl Description {
             lobes: 0,
             null: true,
             transmission: true,
+            tilted: false,
         }
     }
 

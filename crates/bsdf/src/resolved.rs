@@ -219,7 +219,7 @@ impl Bsdf for BsdfAtPoint<'_> {
         let first = continuous.next()?;
         let same = |lobe: &Lobe<'_>| {
             let turned = lobe.frame.n != first.frame.n && lobe.frame.n != -first.frame.n;
-            !(turned || lobe.scatter.transmits())
+            !(turned || lobe.scatter.transmits() || lobe.tilt.is_some())
         };
         (same(first) && continuous.all(same)).then_some(first.frame)
     }

@@ -9,6 +9,8 @@ pub struct MaterialFlags {
     pub null: bool,
     /// Whether light may reach the other side at all.
     pub transmission: bool,
+    /// Whether a texture tilts its normals.
+    pub tilted: bool,
 }
 
 impl MaterialFlags {
@@ -17,11 +19,13 @@ impl MaterialFlags {
         lobes: 1,
         null: false,
         transmission: false,
+        tilted: false,
     };
     /// One lobe that also transmits.
     pub const REFRACTING: Self = Self {
         lobes: 1,
         null: false,
         transmission: true,
+        tilted: false,
     };
 }

@@ -62,6 +62,7 @@ impl Description {
             lobes: a.lobes.max(b.lobes),
             null: a.null || b.null,
             transmission: a.transmission || b.transmission,
+            tilted: a.tilted || b.tilted,
         }
     }
 

@@ -29,6 +29,10 @@ impl Textures for SceneTables {
         self.textures.number(texture, &self.geometry, at)
     }
 
+    fn gradient(&self, texture: TextureId, at: &TexturePoint) -> Vec2 {
+        self.textures.gradient(texture, &self.geometry, at)
+    }
+
     #[inline]
     fn colour(&self, texture: TextureId, at: &TexturePoint) -> Vec3 {
         self.textures.colour(texture, &self.geometry, at)

@@ -77,6 +77,35 @@ impl Bitmap {
         }
     }
 
+    /// (∂/∂u, ∂/∂v) of the number at `uv`: exact where it is interpolated; an image of steps has none.
+    pub fn gradient(&self, uv: Vec2) -> Vec2 {
+        if self.filter == Filter::Nearest {
+            return Vec2::ZERO;
+        }
+        let at = self.to_uv.apply(uv);
+        let size = self.image.size.as_vec2();
+        let tap = BilinearTap::bilinear(at, self.image.size, self.wrap);
+        let number = |texel: usize| match &self.image.texels {
+            Texels::Number(texels) => texels[texel],
+            Texels::Raw(texels) => luminance(Vec3::from_array(texels[texel])),
+            Texels::Colour(texels) => luminance(recovered::colour(|lambda| {
+                RgbCoefficients(texels[texel]).eval(lambda)
+            })),
+            Texels::Bright(texels) => luminance(recovered::colour(|lambda| {
+                let [a, b, c, scale] = texels[texel];
+                RgbCoefficients([a, b, c]).eval(lambda) * scale
+            })),
+        };
+        let [a, b, c, d] = tap.texels.map(number);
+        let right = tap.weights[1] + tap.weights[3];
+        let low = tap.weights[2] + tap.weights[3];
+        let slope = Vec2::new(
+            (b - a) * (1.0 - low) + (d - c) * low,
+            (c - a) * (1.0 - right) + (d - b) * right,
+        );
+        self.to_uv.gradient(slope * size)
+    }
+
     /// The channels at `uv`: as stored, or those of the colour.
     #[inline]
     pub fn colour(&self, uv: Vec2) -> Vec3 {
@@ -99,6 +128,10 @@ impl TextureModel for Bitmap {
     #[inline]
     fn number(&self, _: &TextureTable, _: &impl Shapes, at: &TexturePoint) -> f32 {
         Self::number(self, at.uv)
+    }
+
+    fn gradient(&self, _: &TextureTable, _: &impl Shapes, at: &TexturePoint) -> Vec2 {
+        Self::gradient(self, at.uv)
     }
 
     #[inline]

@@ -5,7 +5,7 @@ use crate::{Constant, Texture};
 use etalon_params::{Node, Span};
 use etalon_spectrum::Spectrum;
 use etalon_transport::{Shapes, SpectrumKind, TextureId, TexturePoint};
-use glam::{Vec3, Vec4};
+use glam::{Vec2, Vec3, Vec4};
 use std::collections::HashMap;
 use std::sync::Arc;
 
@@ -105,6 +105,11 @@ impl TextureTable {
     #[inline]
     pub fn number(&self, id: TextureId, shapes: &impl Shapes, at: &TexturePoint) -> f32 {
         self.get(id).number(self, shapes, at)
+    }
+
+    /// (∂/∂u, ∂/∂v) of a number at a point.
+    pub fn gradient(&self, id: TextureId, shapes: &impl Shapes, at: &TexturePoint) -> Vec2 {
+        self.get(id).gradient(self, shapes, at)
     }
 
     /// Three raw channels at a point.

@@ -6,8 +6,8 @@ use crate::reader::Use;
 use crate::{Bitmap, Checkerboard, Constant, MeshAttribute, TextureReader, TextureTable, TimesD65};
 use crate::{bitmap, checkerboard, constant, illuminated, mesh_attribute, spectra};
 use etalon_params::{Params, plugins};
-use etalon_transport::{Shapes, TextureId, TexturePoint};
-use glam::{Vec3, Vec4};
+use etalon_transport::{Shapes, TextureId, TexturePoint, gradient_by_differences};
+use glam::{Vec2, Vec3, Vec4};
 
 /// What a texture is asked at a point. `set` holds the textures that it refers to.
 pub(crate) trait TextureModel {
@@ -22,6 +22,11 @@ pub(crate) trait TextureModel {
 
     /// The number.
     fn number(&self, set: &TextureTable, shapes: &impl Shapes, at: &TexturePoint) -> f32;
+
+    /// (∂/∂u, ∂/∂v) of the number; by default from differences.
+    fn gradient(&self, set: &TextureTable, shapes: &impl Shapes, at: &TexturePoint) -> Vec2 {
+        gradient_by_differences(at, |at| self.number(set, shapes, at))
+    }
 
     /// Three raw channels.
     fn colour(&self, set: &TextureTable, shapes: &impl Shapes, at: &TexturePoint) -> Vec3;
@@ -128,6 +133,11 @@ impl Texture {
     #[inline]
     pub fn number(&self, set: &TextureTable, shapes: &impl Shapes, at: &TexturePoint) -> f32 {
         ask!(self, texture => TextureModel::number(texture, set, shapes, at))
+    }
+
+    /// (∂/∂u, ∂/∂v) of the number at a point.
+    pub fn gradient(&self, set: &TextureTable, shapes: &impl Shapes, at: &TexturePoint) -> Vec2 {
+        ask!(self, texture => TextureModel::gradient(texture, set, shapes, at))
     }
 
     /// Three raw channels at a point.

@@ -30,6 +30,11 @@ impl UvTransform {
         })
     }
 
+    /// The gradient by texture coordinates of what has the gradient `image` by the image's.
+    pub fn gradient(&self, image: Vec2) -> Vec2 {
+        self.0.matrix2.transpose() * image
+    }
+
     /// The image of texture coordinates.
     #[inline]
     pub fn apply(&self, uv: Vec2) -> Vec2 {

@@ -54,6 +54,6 @@ pub use sight::{
     CameraProbe, Incompatibility, LightCount, LightSearch, SceneCapabilities, Subject,
 };
 pub use surface_interaction::{Hit, SurfaceInteraction};
-pub use textures::{TexturePoint, Textures};
+pub use textures::{TexturePoint, Textures, gradient_by_differences};
 pub use uniformity::refuse_varying;
 pub use world::{Transmission, World};

@@ -48,6 +48,11 @@ pub trait Textures {
     /// A number at a point (roughness, opacity, blend weight): the luminance of colours.
     fn number(&self, texture: TextureId, at: &TexturePoint) -> f32;
 
+    /// (∂/∂u, ∂/∂v) of [`Textures::number`]; by default from differences over a thousandth of the square.
+    fn gradient(&self, texture: TextureId, at: &TexturePoint) -> Vec2 {
+        gradient_by_differences(at, |at| self.number(texture, at))
+    }
+
     /// Three raw channels at a point (normal maps, emission tables).
     fn colour(&self, texture: TextureId, at: &TexturePoint) -> Vec3;
 
@@ -56,4 +61,17 @@ pub trait Textures {
 
     /// Whether the texture is the same everywhere.
     fn is_constant(&self, texture: TextureId) -> bool;
+}
+
+/// (∂/∂u, ∂/∂v) of a number at a point, from central differences.
+pub fn gradient_by_differences(at: &TexturePoint, number: impl Fn(&TexturePoint) -> f32) -> Vec2 {
+    const STEP: f32 = 1.0 / 2048.0;
+    let at_uv = |offset: Vec2| {
+        number(&TexturePoint {
+            uv: at.uv + offset,
+            ..*at
+        })
+    };
+    let along = |axis: Vec2| (at_uv(axis * STEP) - at_uv(-axis * STEP)) / (2.0 * STEP);
+    Vec2::new(along(Vec2::X), along(Vec2::Y))
 }

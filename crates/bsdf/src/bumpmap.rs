@@ -1,0 +1,87 @@
+//! `bumpmap`: a nested material whose shading normal is that of the surface displaced by a height h along its normal
+//! (J. Blinn, Simulation of wrinkled surfaces, 1978), the change of the normal itself neglected:
+//!
+//! ```text
+//! n ∝ p′ᵤ × p′ᵥ,   p′ᵤ = pᵤ + (s ∂h/∂u − nₛ·pᵤ) nₛ,   p′ᵥ likewise
+//! ```
+//!
+//! with the shading normal nₛ and the factor s (`scale`). Mitsuba's plugin of that name; see [`crate::tilt`].
+
+use crate::normalmap::read_tilted;
+use crate::tilt::Tilt;
+use crate::{LobeList, Material, MaterialFlags, ShadingContext};
+use etalon_math::Frame;
+use etalon_params::{Class, Params};
+use etalon_transport::{Build, SpectrumKind, TextureId, Textures};
+
+/// Parameters to test with (see [`crate::test_materials`]); how heights tilt is tested in scenes.
+pub const EXEMPLARS: &[&str] = &[];
+
+/// `bumpmap` in a scene file.
+#[derive(Clone, Debug)]
+pub struct Description {
+    heights: TextureId,
+    scale: f32,
+    flips: bool,
+    shadows: bool,
+    nested: Box<Material>,
+}
+
+impl Description {
+    /// Reads a nested texture of any name (required), `scale`, `flip_invalid_normals`, `use_shadowing_function` and a
+    /// nested material.
+    pub fn from_params(params: &Params<'_>, build: &mut dyn Build) -> Option<Self> {
+        let scale = params.float_where("scale", 1.0, "a finite number", f64::is_finite);
+        let Some(heights) = params.child(Class::Texture) else {
+            params.missing("texture", "a texture of heights");
+            return None;
+        };
+        let heights = build.nested_texture(heights, SpectrumKind::Reflectance);
+        let (flips, shadows, nested) = read_tilted(params, build)?;
+        Some(Self {
+            heights,
+            scale: scale as f32,
+            flips,
+            shadows,
+            nested,
+        })
+    }
+
+    /// What the nested material can do.
+    pub fn traits(&self) -> MaterialFlags {
+        MaterialFlags {
+            tilted: true,
+            ..self.nested.traits()
+        }
+    }
+
+    /// The nested material's lobes, tilted.
+    pub fn flatten<'a, T: Textures>(
+        &'a self,
+        site: &ShadingContext<'_, T>,
+        frame: Frame,
+        weight: f32,
+        into: &mut LobeList<'a>,
+    ) {
+        let slope = site.textures.gradient(self.heights, &site.at) * self.scale;
+        // The frame of the outer side, whichever side is seen.
+        let n = if frame.n.dot(site.shading_normal) < 0.0 {
+            -frame.n
+        } else {
+            frame.n
+        };
+        let u = site.dp_du + n * (slope.x - n.dot(site.dp_du));
+        let v = site.dp_dv + n * (slope.y - n.dot(site.dp_dv));
+        let bumped = u.cross(v);
+        let bumped = if bumped.dot(site.normal) < 0.0 {
+            -bumped
+        } else {
+            bumped
+        };
+        let outer = frame.to_local(bumped);
+        // Seen from behind, the surface's frame is turned, and so is the bump.
+        let local = if n == frame.n { outer } else { -outer };
+        let tilt = Tilt::new(local, self.flips, self.shadows);
+        into.tilted(tilt, |into| self.nested.flatten(site, frame, weight, into));
+    }
+}
