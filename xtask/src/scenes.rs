@@ -1,5 +1,5 @@
 //! `cargo xtask scenes`: writes the generated files of `scenes/` anew: a sky, leaves, trees and
-//! where they stand, a thousand lamps, water.
+//! where they stand, a thousand lamps, bumps, water.
 //!
 //! Nothing here is random: whatever should look irregular follows [`sequence`], so that the files
 //! are the same on every machine.
@@ -9,6 +9,7 @@ mod lamps;
 mod leaf;
 mod ply;
 mod pool;
+mod relief;
 mod sequence;
 mod sky;
 
@@ -27,6 +28,9 @@ pub(crate) fn run() -> Result<(), String> {
     }
     for (name, bytes) in forest::files() {
         put(&scenes.join("forest").join(name), &bytes)?;
+    }
+    for (name, bytes) in relief::pictures()? {
+        put(&scenes.join("relief").join(name), &bytes)?;
     }
     put(&scenes.join("pool/water.obj"), pool::water().as_bytes())?;
     put(
