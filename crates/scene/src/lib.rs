@@ -11,6 +11,7 @@ mod media;
 mod rays;
 pub mod sampler;
 pub mod scene;
+mod solids;
 pub mod surfaces;
 mod view;
 

@@ -3,8 +3,8 @@
 use crate::attributes::Asked;
 use crate::builder::Builder;
 use etalon_bsdf::{Material, classicphong};
-use etalon_geometry::shapes::csg::{Csg, Operation};
-use etalon_geometry::{GeometryBuilder, GroupId, Placement, Shape};
+use etalon_geometry::shapes::csg::Operation;
+use etalon_geometry::{GeometryBuilder, GroupId, Shape};
 use etalon_math::Animated;
 use etalon_params::{Class, Diagnostic, Node, Params, Span, Value, plugins};
 use etalon_subsurface::MediumDescription;
@@ -14,7 +14,7 @@ use std::collections::HashMap;
 use std::sync::Arc;
 
 /// Plugins that gather or place other shapes.
-const COMPOSED: [&str; 2] = ["shapegroup", "instance"];
+pub(crate) const COMPOSED: [&str; 2] = ["shapegroup", "instance"];
 
 /// A shape that emits light, with the description of the light.
 pub struct Emitting {
@@ -95,12 +95,12 @@ fn refracts(node: &Node) -> bool {
 }
 
 /// What a shape carries besides its form.
-struct ShapeExtras {
-    material: MaterialId,
-    emitter: Option<Arc<Node>>,
+pub(crate) struct ShapeExtras {
+    pub(crate) material: MaterialId,
+    pub(crate) emitter: Option<Arc<Node>>,
     /// The materials of its faces, if they have their own.
-    faces: Vec<MaterialId>,
-    media: Option<MediumInterface>,
+    pub(crate) faces: Vec<MaterialId>,
+    pub(crate) media: Option<MediumInterface>,
 }
 
 impl Surfaces {
@@ -146,7 +146,11 @@ impl Surfaces {
     }
 
     /// The media on both sides of a shape, if it has `interior` or `exterior`.
-    fn media(&mut self, params: &Params<'_>, builder: &mut Builder<'_>) -> Option<MediumInterface> {
+    pub(crate) fn media(
+        &mut self,
+        params: &Params<'_>,
+        builder: &mut Builder<'_>,
+    ) -> Option<MediumInterface> {
         let mut media = None;
         for (property, node) in params.children(Class::Medium) {
             let medium = self.medium(node, builder);
@@ -218,7 +222,7 @@ impl Surfaces {
     }
 
     /// One shape with its material and emitter.
-    fn shape(
+    pub(crate) fn shape(
         &mut self,
         node: &Arc<Node>,
         builder: &mut Builder<'_>,
@@ -267,81 +271,6 @@ impl Surfaces {
             media,
         };
         Some((shape?, carried))
-    }
-
-    /// A solid made of its children, each with a material of its own, or else with that of the whole.
-    fn solid(
-        &mut self,
-        operation: Operation,
-        node: &Arc<Node>,
-        builder: &mut Builder<'_>,
-    ) -> Option<(Shape, ShapeExtras)> {
-        let diagnostics = builder.diagnostics;
-        let params = Params::new(node, diagnostics);
-        let placement = Placement::from_params(&params);
-        let flip = params.boolean_or("flip_normals", false);
-        // As in POV-Ray: what is carved looks like what it is carved from.
-        let cutaway =
-            operation == Operation::Difference && params.boolean_or("cutaway_textures", false);
-        let emitter = params.child(Class::Emitter).cloned();
-        let whole = params
-            .child(Class::Bsdf)
-            .map(|bsdf| self.material(bsdf, builder));
-        let (mut operands, mut faces) = (Vec::new(), Vec::new());
-        let children = params.children(Class::Shape);
-        for (_, child) in &children {
-            let operand = Params::new(child, diagnostics);
-            if COMPOSED.contains(&child.plugin.value.as_str()) || operand.is_animated("to_world") {
-                let message = format!(
-                    "a `{}` is made of solids that stand still",
-                    node.plugin.value
-                );
-                diagnostics.push(Diagnostic::error(child.plugin.span, message));
-                continue;
-            }
-            let has_own = !operand.children(Class::Bsdf).is_empty();
-            let Some((shape, carried)) = self.shape(child, builder) else {
-                continue;
-            };
-            if let Some(emitter) = &carried.emitter {
-                let message = "an operand cannot emit light: the whole can";
-                diagnostics.push(Diagnostic::error(emitter.span, message));
-            }
-            if !shape.is_solid() {
-                let message = format!("a `{}` bounds no volume here", child.plugin.value);
-                let help = "accepted: shapes without holes, and meshes only if they are convex, of at most 64 triangles";
-                diagnostics.push(Diagnostic::error(child.plugin.span, message).help(help));
-                continue;
-            }
-            let count = shape.faces() as usize;
-            match whole {
-                _ if cutaway && !faces.is_empty() => faces.extend(vec![faces[0]; count]),
-                Some(material) if !has_own && carried.faces.is_empty() => {
-                    faces.extend(vec![material; count]);
-                }
-                _ if carried.faces.is_empty() => faces.extend(vec![carried.material; count]),
-                _ => faces.extend(carried.faces),
-            }
-            operands.push(shape);
-        }
-        if children.is_empty() {
-            params.missing("shape", "solids to make it of");
-        }
-        let media = self.media(&params, builder);
-        params.finish();
-        if operands.len() < children.len() {
-            return None;
-        }
-        let csg = Csg::new(operation, operands, placement?, flip)?;
-        let shape = Shape::Csg(csg);
-        let material = whole.unwrap_or_else(|| self.grey(builder));
-        let carried = ShapeExtras {
-            material,
-            emitter,
-            faces,
-            media,
-        };
-        Some((shape, carried))
     }
 
     /// The shapes of a group, read once however often they are placed.
@@ -406,7 +335,7 @@ impl Surfaces {
     }
 
     /// The material of a BSDF node, read once however often it is used.
-    fn material(&mut self, node: &Arc<Node>, builder: &mut Builder<'_>) -> MaterialId {
+    pub(crate) fn material(&mut self, node: &Arc<Node>, builder: &mut Builder<'_>) -> MaterialId {
         let key = Arc::as_ptr(node) as usize;
         if let Some(id) = self.by_node.get(&key) {
             return *id;
@@ -428,7 +357,7 @@ impl Surfaces {
     }
 
     /// The material of shapes that name none: diffuse, reflectance one half.
-    fn grey(&mut self, builder: &mut Builder<'_>) -> MaterialId {
+    pub(crate) fn grey(&mut self, builder: &mut Builder<'_>) -> MaterialId {
         if self.grey.is_none() {
             let material = diffuse(builder, 0.5);
             self.grey = Some(self.push(material, "diffuse (by default)".to_owned()));

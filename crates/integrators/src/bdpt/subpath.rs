@@ -300,7 +300,7 @@ impl FromCamera {
         match corners.last() {
             None => {
                 // One sample per pixel makes one path per unit of the film.
-                let seen = connector.camera_density(&vertex);
+                let seen = connector.camera_density(vertex);
                 let weight = if self.through_hidden { 0.0 } else { seen };
                 connector.camera_connects = weight > 0.0;
                 weight * cos * carried.passed.x
