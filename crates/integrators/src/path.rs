@@ -73,18 +73,21 @@ impl Path {
 pub(crate) fn follow<W: World, S: Sampler, C: PathHooks>(
     world: &W,
     settings: &PathSettings,
-    walks: &mut [Option<PathState<'_, S, C>>],
+    walks: &mut [Option<PathState<S, C>>],
 ) {
     while walks.iter().flatten().any(PathState::goes_on) {
-        for walk in walks.iter_mut().flatten().filter(|w| w.goes_on()) {
-            walk.intersect(world, settings);
+        let going = || |walk: &&mut PathState<S, C>| walk.goes_on();
+        let queries = walks.iter_mut().flatten().filter(going());
+        world.intersect_batch(queries.map(PathState::ray_query));
+        for walk in walks.iter_mut().flatten().filter(going()) {
+            walk.look_through_hidden(world, settings);
         }
         for walk in walks.iter_mut().flatten().filter(|w| w.goes_on()) {
             walk.shade(world, settings);
         }
-        for walk in walks.iter_mut().flatten() {
-            walk.trace_shadow(world);
-        }
+        let queries = walks.iter_mut().flatten();
+        world.transmittance_batch(queries.filter_map(PathState::shadow_query));
+        walks.iter_mut().flatten().for_each(PathState::add_light);
     }
 }
 
@@ -101,7 +104,7 @@ pub(crate) fn follow_drafts<W: World, S: Sampler, K: TileSink, C: PathHooks + Co
     for drafts in drafts.chunks_mut(BATCH_SIZE) {
         let mut places = [None; BATCH_SIZE];
         let mut each = drafts.iter_mut().zip(&mut places);
-        let mut walks: [Option<PathState<'_, S, C>>; BATCH_SIZE] = core::array::from_fn(|_| {
+        let mut walks: [Option<PathState<&mut S, C>>; BATCH_SIZE] = core::array::from_fn(|_| {
             let (draft, place) = each.next()?;
             *place = Some((draft.site.pixel, draft.placement()));
             let sampler = &mut draft.sampler;

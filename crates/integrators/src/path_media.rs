@@ -10,7 +10,7 @@ use etalon_sampling::{Independent, Sampler};
 use etalon_transport::{LightSample, LightSampleContext, Medium, Phase, Ray, World};
 use glam::{Vec3, Vec4};
 
-impl<S: Sampler, C: PathHooks> PathState<'_, S, C> {
+impl<S: Sampler, C: PathHooks> PathState<S, C> {
     /// Flies through the medium to the hit, or to where light is scattered before it. Whether the path has left its
     /// ray: it goes on from a point of the medium, or has ended.
     #[cold]
@@ -57,7 +57,14 @@ impl<S: Sampler, C: PathHooks> PathState<'_, S, C> {
             (contribution != Vec4::ZERO)
                 .then(|| Aim::of(light, &throughput, contribution, density, [1.0; 2]))
         };
-        let aim = candidates.draw(world, &from, &self.wavelengths, &event, self.sampler, aim);
+        let aim = candidates.draw(
+            world,
+            &from,
+            &self.wavelengths,
+            &event,
+            &mut self.sampler,
+            aim,
+        );
         self.shadow_ray = aim.and_then(|aim| {
             let ray = match aim.target {
                 Some(target) => Ray::between(at, target, time)?,
@@ -67,6 +74,7 @@ impl<S: Sampler, C: PathHooks> PathState<'_, S, C> {
                 ray: Ray { medium, ..ray },
                 crossings: self.null_crossings(settings),
                 aim,
+                found: None,
             })
         });
         let sample = phase.sample(wo, event.direction);

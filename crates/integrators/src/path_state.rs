@@ -12,14 +12,14 @@ use core::ops::Range;
 use etalon_sampling::Sampler;
 use etalon_spectrum::{Wavelengths, sensor_response};
 use etalon_transport::{
-    Bsdf, Hit, LightSample, LightSampleContext, PixelSample, Ray, Sink, SurfaceInteraction,
-    TransportMode, World,
+    Bsdf, Hit, LightSample, LightSampleContext, PixelSample, Ray, ShadowQuery, Sink,
+    SurfaceInteraction, Transmission, TransportMode, World,
 };
 use glam::{Vec3, Vec4};
 
 /// A path being followed.
-pub(crate) struct PathState<'a, S, C = ()> {
-    pub(crate) sampler: &'a mut S,
+pub(crate) struct PathState<S, C = ()> {
+    pub(crate) sampler: S,
     pub(crate) wavelengths: Wavelengths,
     /// The factor by which what is found counts.
     weight: f32,
@@ -56,19 +56,21 @@ pub(crate) struct ShadowRay {
     pub(crate) ray: Ray,
     pub(crate) crossings: u32,
     pub(crate) aim: Aim,
+    /// What comes of it, once it has been traced.
+    pub(crate) found: Option<Transmission>,
 }
 
-impl<'a, S: Sampler, C: PathHooks> PathState<'a, S, C> {
+impl<S: Sampler, C: PathHooks> PathState<S, C> {
     /// The path of a sample, before its first surface is known.
     #[inline]
     pub(crate) fn start<W: World>(
         world: &W,
         settings: &PathSettings,
         site: &PixelSample,
-        sampler: &'a mut S,
+        mut sampler: S,
         hooks: C,
     ) -> Self {
-        let (wavelengths, ray, weight) = camera_ray(world, site, sampler);
+        let (wavelengths, ray, weight) = camera_ray(world, site, &mut sampler);
         Self {
             sampler,
             wavelengths,
@@ -161,9 +163,26 @@ impl<'a, S: Sampler, C: PathHooks> PathState<'a, S, C> {
 
     /// Finds the next surface; the camera looks through hidden lights.
     #[inline]
-    pub(crate) fn intersect<W: World>(&mut self, world: &W, settings: &PathSettings) {
+    fn intersect<W: World>(&mut self, world: &W, settings: &PathSettings) {
+        let (ray, hit) = self.ray_query();
+        *hit = world.intersect(ray);
+        self.look_through_hidden(world, settings);
+    }
+
+    /// The ray whose nearest surface is wanted, and the place for it.
+    #[inline]
+    pub(crate) fn ray_query(&mut self) -> (&Ray, &mut Option<Hit>) {
+        (&self.ray, &mut self.hit)
+    }
+
+    /// Goes on to what is behind lights that the camera does not see.
+    #[inline]
+    pub(crate) fn look_through_hidden<W: World>(&mut self, world: &W, settings: &PathSettings) {
         let hidden = settings.hide_emitters && self.depth == 1;
-        self.hit = steps::next_hit(world, &mut self.ray, hidden);
+        if let Some(hit) = self.hit.filter(|hit| hidden && world.is_emitter(hit)) {
+            self.ray = world.vertex(&self.ray, &hit).spawn(self.ray.direction);
+            self.hit = steps::next_hit(world, &mut self.ray, hidden);
+        }
     }
 
     /// Shades the hit: adds emission, prepares next-event estimation, and samples the BSDF.
@@ -215,12 +234,20 @@ impl<'a, S: Sampler, C: PathHooks> PathState<'a, S, C> {
             let throughput = self.throughput;
             let candidates = Candidates::at(self.variant.candidates, world, &from);
             let aim = |light: &LightSample| Aim::new(light, &throughput, &bsdf, wo, [1.0; 2]);
-            let aim = candidates.draw(world, &from, &self.wavelengths, &event, self.sampler, aim);
+            let aim = candidates.draw(
+                world,
+                &from,
+                &self.wavelengths,
+                &event,
+                &mut self.sampler,
+                aim,
+            );
             self.shadow_ray = aim.and_then(|aim| {
                 Some(ShadowRay {
                     ray: vertex.shadow_ray(aim.direction, aim.target)?,
                     crossings: self.null_crossings(settings),
                     aim,
+                    found: None,
                 })
             });
             self.hooks.on_light_sample();
@@ -284,18 +311,37 @@ impl<'a, S: Sampler, C: PathHooks> PathState<'a, S, C> {
     /// The random numbers of the next event.
     #[inline]
     pub(crate) fn draw_event(&mut self) -> BounceSamples {
-        let event = BounceSamples::draw(self.sampler, self.events);
+        let event = BounceSamples::draw(&mut self.sampler, self.events);
         self.events += 1;
         event
     }
 
     /// Traces the shadow ray of the light sample that was prepared, if any.
     #[inline]
-    pub(crate) fn trace_shadow<W: World>(&mut self, world: &W) {
+    fn trace_shadow<W: World>(&mut self, world: &W) {
+        world.transmittance_batch(self.shadow_query().into_iter());
+        self.add_light();
+    }
+
+    /// The shadow ray of the light sample that was prepared, if any, and the place for what comes of it.
+    #[inline]
+    pub(crate) fn shadow_query(&mut self) -> Option<ShadowQuery<'_>> {
+        let light = self.shadow_ray.as_mut()?;
+        Some(ShadowQuery {
+            ray: &light.ray,
+            wavelengths: &self.wavelengths,
+            crossings: light.crossings,
+            found: &mut light.found,
+        })
+    }
+
+    /// Adds the light sample whose shadow ray has been traced, if any.
+    #[inline]
+    pub(crate) fn add_light(&mut self) {
         let Some(light) = self.shadow_ray.take() else {
             return;
         };
-        if let Some(passage) = world.transmittance(&light.ray, &self.wavelengths, light.crossings) {
+        if let Some(passage) = light.found {
             let estimate = light.aim.estimate(&passage);
             self.radiance += estimate;
             self.hooks.on_light_contribution(estimate);

@@ -59,3 +59,26 @@ pub trait Sampler {
     /// dimension, so that what one bounce happened to use does not shift the next.
     fn skip_to(&mut self, dimension: u32);
 }
+
+/// A borrowed sampler is one, too: whoever owns a sampler may also be given one that others go on with.
+impl<S: Sampler + ?Sized> Sampler for &mut S {
+    #[inline]
+    fn next_1d(&mut self) -> f32 {
+        (**self).next_1d()
+    }
+
+    #[inline]
+    fn next_2d(&mut self) -> Vec2 {
+        (**self).next_2d()
+    }
+
+    #[inline]
+    fn dimension(&self) -> u32 {
+        (**self).dimension()
+    }
+
+    #[inline]
+    fn skip_to(&mut self, dimension: u32) {
+        (**self).skip_to(dimension);
+    }
+}

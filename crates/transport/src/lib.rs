@@ -56,4 +56,4 @@ pub use sight::{
 pub use surface_interaction::{Hit, SurfaceInteraction};
 pub use textures::{TexturePoint, Textures, gradient_by_differences};
 pub use uniformity::refuse_varying;
-pub use world::{Transmission, World};
+pub use world::{ShadowQuery, Transmission, World};

@@ -33,6 +33,19 @@ impl Transmission {
     }
 }
 
+/// A segment of which [`World::transmittance_batch`] is asked, and the place of the answer.
+#[derive(Debug)]
+pub struct ShadowQuery<'r> {
+    /// The segment.
+    pub ray: &'r Ray,
+    /// The wavelengths of its path.
+    pub wavelengths: &'r Wavelengths,
+    /// How many surfaces may let it pass.
+    pub crossings: u32,
+    /// The answer of [`World::transmittance`].
+    pub found: &'r mut Option<Transmission>,
+}
+
 /// A compiled, immutable scene.
 pub trait World: Sync {
     /// A scattering model at a point.
@@ -67,6 +80,15 @@ pub trait World: Sync {
     /// The nearest surface along a ray.
     fn intersect(&self, ray: &Ray) -> Option<Hit>;
 
+    /// The nearest surfaces along many rays, each with the place of its answer. A world that finds them no faster
+    /// together keeps this.
+    #[inline]
+    fn intersect_batch<'r>(&self, queries: impl Iterator<Item = (&'r Ray, &'r mut Option<Hit>)>) {
+        for (ray, hit) in queries {
+            *hit = self.intersect(ray);
+        }
+    }
+
     /// The differential geometry of a hit.
     fn vertex(&self, ray: &Ray, hit: &Hit) -> SurfaceInteraction;
 
@@ -78,6 +100,20 @@ pub trait World: Sync {
         wavelengths: &Wavelengths,
         crossings: u32,
     ) -> Option<Transmission>;
+
+    /// The same along many segments.
+    #[inline]
+    fn transmittance_batch<'r>(&self, queries: impl Iterator<Item = ShadowQuery<'r>>) {
+        for query in queries {
+            let ShadowQuery {
+                ray,
+                wavelengths,
+                crossings,
+                found,
+            } = query;
+            *found = self.transmittance(ray, wavelengths, crossings);
+        }
+    }
 
     /// The scattering model at a vertex.
     fn bsdf(

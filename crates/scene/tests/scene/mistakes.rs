@@ -74,7 +74,7 @@ fn every_mistake_is_found_in_one_run() {
          <shape type=\"sphere\">\n<bsdf type=\"mirror\"/></shape>\n\
          <shape type=\"disk\">\n<float name=\"radius\" value=\"1\"/></shape>\n\
          <emitter type=\"point\">\n<float name=\"sampling_weight\" value=\"-1\"/></emitter>\n\
-         <medium type=\"homogeneous\"/>\n\
+         <medium type=\"heterogeneous\"/>\n\
          <float name=\"gamma\" value=\"2.2\"/>\n\
          </scene>",
         &[],
@@ -165,4 +165,138 @@ fn mesh_attributes_must_exist() {
         shape(sphere, &diffuse("vertex_color"))
     );
     assert_eq!(found(group).len(), 1);
+}
+
+/// The only mistake of a scene with a sensor and `body`.
+fn only_mistake(body: &str) -> String {
+    let scene = format!(
+        "<scene version=\"3.0.0\"><sensor type=\"perspective\">\
+         <float name=\"shutter_close\" value=\"1\"/></sensor>{body}</scene>"
+    );
+    let read = read_with(&scene, &[]);
+    assert_eq!(read.errors.len(), 1, "{body}: {:?}", read.errors);
+    read.errors[0].clone()
+}
+
+#[test]
+fn solids_that_are_none() {
+    let shape = |plugin: &str, inside: &str| format!("<shape type=\"{plugin}\">{inside}</shape>");
+    let sphere = "<shape type=\"sphere\"/>";
+    for (body, words) in [
+        (shape("union", ""), "solids to make it of"),
+        (
+            shape("difference", &format!("{sphere}{}", shape("disk", ""))),
+            "a `disk` bounds no volume",
+        ),
+        (
+            shape("union", &shape("sphere", "<emitter type=\"area\"/>")),
+            "an operand cannot emit light",
+        ),
+        (
+            shape(
+                "intersection",
+                &format!("{sphere}{}", shape("shapegroup", "")),
+            ),
+            "solids that stand still",
+        ),
+        (
+            shape("quadric", "<emitter type=\"area\"/>"),
+            "a `quadric` cannot emit light here",
+        ),
+        (shape("unoin", sphere), "unknown shape plugin"),
+    ] {
+        let mistake = only_mistake(&body);
+        assert!(mistake.contains(words), "{mistake}");
+    }
+}
+
+#[test]
+fn motions_that_are_none() {
+    let sphere = |inside: &str| {
+        format!("<shape type=\"sphere\"><animation name=\"to_world\">{inside}</animation></shape>")
+    };
+    let key = |time: &str, inside: &str| format!("<transform time=\"{time}\">{inside}</transform>");
+    let still = "<translate x=\"1\"/>";
+    for (body, words) in [
+        (sphere(""), "`to_world` is no motion"),
+        (
+            sphere(&(key("1", still) + &key("0", still))),
+            "`to_world` is no motion",
+        ),
+        (
+            sphere(&(key("0", still) + &key("1", "<scale x=\"-1\"/>"))),
+            "`to_world` is no motion",
+        ),
+        (
+            sphere(&(key("0", still) + &key("1", "<scale x=\"0\"/>"))),
+            "`to_world` cannot be undone",
+        ),
+        (
+            sphere(still),
+            "`<translate>` cannot stand in an `<animation>`",
+        ),
+        (
+            sphere(&key("0", still)).replace("</shape>", "<emitter type=\"area\"/></shape>"),
+            "a shape that moves cannot emit light",
+        ),
+        (
+            "<emitter type=\"envmap\"><animation name=\"to_world\"/><string name=\"filename\" \
+             value=\"none.exr\"/></emitter>"
+                .to_owned(),
+            "`to_world`",
+        ),
+    ] {
+        let read = read_with(
+            &format!("<scene version=\"3.0.0\"><sensor type=\"perspective\"/>{body}</scene>"),
+            &[],
+        );
+        assert!(
+            read.errors.iter().any(|error| error.contains(words)),
+            "{body}: {:?}",
+            read.errors
+        );
+    }
+}
+
+#[test]
+fn media_and_bumps_that_are_none() {
+    let sphere = |inside: &str| format!("<shape type=\"sphere\">{inside}</shape>");
+    let bsdf = |inside: &str| sphere(&format!("<bsdf type=\"{inside}</bsdf>"));
+    for (body, words) in [
+        (
+            sphere("<medium type=\"homogeneous\"/>"),
+            "a medium on which side",
+        ),
+        (
+            sphere("<medium name=\"interior\" type=\"heterogeneous\"/>"),
+            "known to Mitsuba 3 but not built yet",
+        ),
+        (
+            sphere(
+                "<medium name=\"interior\" type=\"homogeneous\"><float name=\"scale\" value=\"-1\"/></medium>",
+            ),
+            "not below 0",
+        ),
+        (
+            sphere(
+                "<medium name=\"interior\" type=\"homogeneous\"><phase type=\"hg\"><float name=\"g\" \
+                 value=\"1\"/></phase></medium>",
+            ),
+            "between -1 and 1",
+        ),
+        (
+            bsdf("bumpmap\"><bsdf type=\"diffuse\"/>"),
+            "a texture of heights",
+        ),
+        (
+            bsdf(
+                "bumpmap\"><texture type=\"checkerboard\"/><bsdf type=\"bumpmap\"><texture \
+                 type=\"checkerboard\"/><bsdf type=\"diffuse\"/></bsdf>",
+            ),
+            "cannot hold another material that tilts normals",
+        ),
+    ] {
+        let mistake = only_mistake(&body);
+        assert!(mistake.contains(words), "{mistake}");
+    }
 }
