@@ -32,12 +32,13 @@ impl Description {
     /// nested material.
     pub fn from_params(params: &Params<'_>, build: &mut dyn Build) -> Option<Self> {
         let scale = params.float_where("scale", 1.0, "a finite number", f64::is_finite);
+        let tilted = read_tilted(params, build);
         let Some(heights) = params.child(Class::Texture) else {
             params.missing("texture", "a texture of heights");
             return None;
         };
         let heights = build.nested_texture(heights, SpectrumKind::Reflectance);
-        let (flips, shadows, nested) = read_tilted(params, build)?;
+        let (flips, shadows, nested) = tilted?;
         Some(Self {
             heights,
             scale: scale as f32,

@@ -275,14 +275,14 @@ fn media_and_bumps_that_are_none() {
             sphere(
                 "<medium name=\"interior\" type=\"homogeneous\"><float name=\"scale\" value=\"-1\"/></medium>",
             ),
-            "not below 0",
+            "`scale` of `homogeneous` cannot be -1",
         ),
         (
             sphere(
                 "<medium name=\"interior\" type=\"homogeneous\"><phase type=\"hg\"><float name=\"g\" \
                  value=\"1\"/></phase></medium>",
             ),
-            "between -1 and 1",
+            "`g` of `hg` cannot be 1",
         ),
         (
             bsdf("bumpmap\"><bsdf type=\"diffuse\"/>"),
