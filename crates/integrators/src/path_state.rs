@@ -338,13 +338,16 @@ impl<S: Sampler, C: PathHooks> PathState<S, C> {
     /// Adds the light sample whose shadow ray has been traced, if any.
     #[inline]
     pub(crate) fn add_light(&mut self) {
-        let Some(light) = self.shadow_ray.take() else {
-            return;
-        };
-        if let Some(passage) = light.found {
-            let estimate = light.aim.estimate(&passage);
+        if let Some(ShadowRay {
+            aim,
+            found: Some(passage),
+            ..
+        }) = &self.shadow_ray
+        {
+            let estimate = aim.estimate(passage);
             self.radiance += estimate;
             self.hooks.on_light_contribution(estimate);
         }
+        self.shadow_ray = None;
     }
 }
