@@ -7,9 +7,8 @@
 //!
 //! with the shading normal nₛ and the factor s (`scale`). Mitsuba's plugin of that name; see [`crate::tilt`].
 
-use crate::normalmap::read_tilted;
-use crate::tilt::Tilt;
-use crate::{LobeList, Material, MaterialFlags, ShadingContext};
+use crate::tilt::Tilted;
+use crate::{LobeList, MaterialFlags, ShadingContext};
 use etalon_math::Frame;
 use etalon_params::{Class, Params};
 use etalon_transport::{Build, SpectrumKind, TextureId, Textures};
@@ -22,9 +21,7 @@ pub const EXEMPLARS: &[&str] = &[];
 pub struct Description {
     heights: TextureId,
     scale: f32,
-    flips: bool,
-    shadows: bool,
-    nested: Box<Material>,
+    tilted: Tilted,
 }
 
 impl Description {
@@ -32,28 +29,22 @@ impl Description {
     /// nested material.
     pub fn from_params(params: &Params<'_>, build: &mut dyn Build) -> Option<Self> {
         let scale = params.float_where("scale", 1.0, "a finite number", f64::is_finite);
-        let tilted = read_tilted(params, build);
+        let tilted = Tilted::from_params(params, build);
         let Some(heights) = params.child(Class::Texture) else {
             params.missing("texture", "a texture of heights");
             return None;
         };
         let heights = build.nested_texture(heights, SpectrumKind::Reflectance);
-        let (flips, shadows, nested) = tilted?;
         Some(Self {
             heights,
             scale: scale as f32,
-            flips,
-            shadows,
-            nested,
+            tilted: tilted?,
         })
     }
 
     /// What the nested material can do.
     pub fn traits(&self) -> MaterialFlags {
-        MaterialFlags {
-            tilted: true,
-            ..self.nested.traits()
-        }
+        self.tilted.traits()
     }
 
     /// The nested material's lobes, tilted.
@@ -82,7 +73,6 @@ impl Description {
         let outer = frame.to_local(bumped);
         // Seen from behind, the surface's frame is turned, and so is the bump.
         let local = if n == frame.n { outer } else { -outer };
-        let tilt = Tilt::new(local, self.flips, self.shadows);
-        into.tilted(tilt, |into| self.nested.flatten(site, frame, weight, into));
+        self.tilted.flatten(site, frame, weight, local, into);
     }
 }

@@ -6,8 +6,8 @@
 //!
 //! Mitsuba's plugin of that name; see [`crate::tilt`].
 
-use crate::tilt::Tilt;
-use crate::{LobeList, Material, MaterialFlags, ShadingContext};
+use crate::tilt::Tilted;
+use crate::{LobeList, MaterialFlags, ShadingContext};
 use etalon_math::Frame;
 use etalon_params::{Class, Diagnostic, Params, Value};
 use etalon_transport::{Build, SpectrumKind, TextureId, Textures};
@@ -23,27 +23,7 @@ pub const EXEMPLARS: &[&str] = &[
 #[derive(Clone, Debug)]
 pub struct Description {
     normals: TextureId,
-    flips: bool,
-    shadows: bool,
-    nested: Box<Material>,
-}
-
-/// Reads `flip_invalid_normals`, `use_shadowing_function` and the nested material.
-pub(crate) fn read_tilted(
-    params: &Params<'_>,
-    build: &mut dyn Build,
-) -> Option<(bool, bool, Box<Material>)> {
-    let flips = params.boolean_or("flip_invalid_normals", true);
-    let shadows = params.boolean_or("use_shadowing_function", true);
-    let [nested] = Material::nested::<1>(params, build)?;
-    if nested.traits().tilted {
-        let name = &params.node.plugin.value;
-        params.error(format!(
-            "`{name}` cannot hold another material that tilts normals"
-        ));
-        return None;
-    }
-    Some((flips, shadows, Box::new(nested)))
+    tilted: Tilted,
 }
 
 impl Description {
@@ -65,21 +45,13 @@ impl Description {
             params.diagnostics.push(diagnostic);
         }
         let normals = build.texture(params, "normalmap", None, SpectrumKind::Reflectance);
-        let (flips, shadows, nested) = read_tilted(params, build)?;
-        Some(Self {
-            normals,
-            flips,
-            shadows,
-            nested,
-        })
+        let tilted = Tilted::from_params(params, build)?;
+        Some(Self { normals, tilted })
     }
 
     /// What the nested material can do.
     pub fn traits(&self) -> MaterialFlags {
-        MaterialFlags {
-            tilted: true,
-            ..self.nested.traits()
-        }
+        self.tilted.traits()
     }
 
     /// The nested material's lobes, tilted.
@@ -91,7 +63,6 @@ impl Description {
         into: &mut LobeList<'a>,
     ) {
         let normal = site.textures.colour(self.normals, &site.at) * 2.0 - 1.0;
-        let tilt = Tilt::new(normal, self.flips, self.shadows);
-        into.tilted(tilt, |into| self.nested.flatten(site, frame, weight, into));
+        self.tilted.flatten(site, frame, weight, normal, into);
     }
 }

@@ -12,7 +12,10 @@
 //! behind is turned about the surface's, n → (−x, −y, z) (V. Schüssler et al., Microfacet-based normal mapping, 2017, as
 //! Mitsuba has it; here not that of a `plastic`, which is smooth and not smooth at once). Both tell light and viewer apart, so that importance is scattered by the adjoint.
 
+use crate::{LobeList, Material, MaterialFlags, ShadingContext};
 use etalon_math::Frame;
+use etalon_params::Params;
+use etalon_transport::{Build, Textures};
 use glam::Vec3;
 
 /// A tilted normal.
@@ -72,5 +75,54 @@ impl Tilt {
         let tan_squared = |v: Vec3| (1.0 - v.z * v.z).max(0.0) / (v.z * v.z);
         let alpha_squared = (0.125 * tan_squared(seen.n)).min(1.0);
         2.0 / (1.0 + (1.0 + alpha_squared * tan_squared(light)).sqrt())
+    }
+}
+
+/// A nested material whose normals are tilted: what `normalmap` and `bumpmap` share.
+#[derive(Clone, Debug)]
+pub(crate) struct Tilted {
+    flips: bool,
+    shadows: bool,
+    nested: Box<Material>,
+}
+
+impl Tilted {
+    /// Reads `flip_invalid_normals`, `use_shadowing_function` and the nested material.
+    pub(crate) fn from_params(params: &Params<'_>, build: &mut dyn Build) -> Option<Self> {
+        let flips = params.boolean_or("flip_invalid_normals", true);
+        let shadows = params.boolean_or("use_shadowing_function", true);
+        let [nested] = Material::nested::<1>(params, build)?;
+        if nested.traits().tilted {
+            let name = &params.node.plugin.value;
+            let message = format!("`{name}` cannot hold another material that tilts normals");
+            params.error(message);
+            return None;
+        }
+        Some(Self {
+            flips,
+            shadows,
+            nested: Box::new(nested),
+        })
+    }
+
+    /// What the nested material can do.
+    pub(crate) fn traits(&self) -> MaterialFlags {
+        MaterialFlags {
+            tilted: true,
+            ..self.nested.traits()
+        }
+    }
+
+    /// The nested material's lobes with the normal `normal`, of any length, in `frame`.
+    pub(crate) fn flatten<'a, T: Textures>(
+        &'a self,
+        site: &ShadingContext<'_, T>,
+        frame: Frame,
+        weight: f32,
+        normal: Vec3,
+        into: &mut LobeList<'a>,
+    ) {
+        let tilt = Tilt::new(normal, self.flips, self.shadows);
+        into.tilted(tilt, |into| self.nested.flatten(site, frame, weight, into));
     }
 }

@@ -11,7 +11,7 @@
 use crate::{ClipRange, FilmWindow, Pose};
 use etalon_math::Animated;
 use etalon_params::Params;
-use etalon_transport::{Camera, CameraRay, CameraSample, Departure, MediumId, Ray, Shutter};
+use etalon_transport::{Camera, CameraRay, CameraSample, Ray, Shutter};
 use glam::{Vec2, Vec3};
 
 /// A camera without perspective.
@@ -67,12 +67,8 @@ impl Camera for Orthographic {
             let local = (self.corner - raster * self.pixel).extend(self.near);
             CameraRay {
                 ray: Ray {
-                    origin: pose.position + pose.vector(local),
-                    direction: Self::axis(pose).0,
                     t_max: self.length,
-                    time,
-                    departure: Departure::NONE,
-                    medium: MediumId::NONE,
+                    ..Ray::new(pose.position + pose.vector(local), Self::axis(pose).0, time)
                 },
                 weight: 1.0,
             }

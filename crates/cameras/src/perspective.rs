@@ -15,7 +15,7 @@ use crate::field_of_view::half_width_from_params;
 use crate::{ClipRange, FilmWindow, ImagePlane, Pose};
 use etalon_math::Animated;
 use etalon_params::Params;
-use etalon_transport::{Camera, CameraRay, CameraSample, Departure, MediumId, Ray, Shutter};
+use etalon_transport::{Camera, CameraRay, CameraSample, Ray, Shutter};
 use glam::{DVec2, Vec2, Vec3};
 
 /// A pinhole camera.
@@ -65,12 +65,8 @@ impl Camera for Perspective {
             let length = seen.length();
             CameraRay {
                 ray: Ray {
-                    origin: pose.position + seen * self.near,
-                    direction: seen / length,
                     t_max: (self.far - self.near) * length,
-                    time,
-                    departure: Departure::NONE,
-                    medium: MediumId::NONE,
+                    ..Ray::new(pose.position + seen * self.near, seen / length, time)
                 },
                 weight: 1.0,
             }

@@ -20,9 +20,7 @@ use crate::{ClipRange, FilmWindow, ImagePlane, Pose};
 use etalon_math::Animated;
 use etalon_params::Params;
 use etalon_sampling::warps::square_to_concentric_disk;
-use etalon_transport::{
-    ApertureHit, Camera, CameraRay, CameraSample, Departure, MediumId, Ray, Shutter,
-};
+use etalon_transport::{ApertureHit, Camera, CameraRay, CameraSample, Ray, Shutter};
 use glam::{DVec2, Vec2, Vec3};
 
 /// A camera with an ideal lens.
@@ -102,12 +100,8 @@ impl Camera for ThinLens {
             let start = pose.vector(aperture.extend(0.0)) + seen * self.near;
             CameraRay {
                 ray: Ray {
-                    origin: pose.position + start,
-                    direction: seen / length,
                     t_max: (self.far - self.near) * length,
-                    time,
-                    departure: Departure::NONE,
-                    medium: MediumId::NONE,
+                    ..Ray::new(pose.position + start, seen / length, time)
                 },
                 weight: 1.0,
             }
