@@ -162,6 +162,11 @@ fn every_plugin_answers_alike() {
         let (shape, messages) = make(plugin, properties);
         let geometry = geometry_of([shape.unwrap_or_else(|| panic!("{plugin}: {messages}"))]);
         let id = ShapeId(0);
+        if !geometry.shape(id).can_emit() {
+            // Whose points are not sampled: see `solids`.
+            assert!(matches!(plugin, "quadric" | "ellipsoid"), "{plugin}");
+            continue;
+        }
         let (mut random, [min, max]) = (Random(5), Shapes::bounds(&geometry, id));
         let cone = geometry.normals(id);
         for _ in 0..200 {
