@@ -23,7 +23,9 @@ pub mod tilt;
 pub mod traits;
 
 pub mod coating;
+pub mod disney;
 pub mod fresnel;
+mod inputs;
 pub mod ior;
 pub mod metal;
 pub mod microfacet;
@@ -45,6 +47,8 @@ pub mod normalmap;
 pub mod null;
 pub mod phong;
 pub mod plastic;
+pub mod principled;
+pub mod principledthin;
 pub mod roughconductor;
 pub mod roughdielectric;
 pub mod roughplastic;

@@ -16,7 +16,7 @@ use std::sync::Arc;
 macro_rules! models {
     (
         plain {
-            $($plain_name:literal $plain:ident $plain_module:ident $traits:ident
+            $($plain_name:literal $plain:ident $plain_module:ident $flags:tt
                 $(<$life:lifetime>)?,)*
         }
         composed { $($composed_name:literal $composed:ident $composed_module:ident,)* }
@@ -72,7 +72,7 @@ macro_rules! models {
             /// What the material can do.
             pub fn traits(&self) -> MaterialFlags {
                 match self {
-                    $(Self::$plain(_) => MaterialFlags::$traits,)*
+                    $(Self::$plain(description) => $flags(description),)*
                     $(Self::$composed(description) => description.traits(),)*
                 }
             }
@@ -304,14 +304,16 @@ impl Material {
 
 models! {
     plain {
-        "diffuse" Diffuse diffuse REFLECTING,
-        "dielectric" Dielectric dielectric REFRACTING,
-        "roughdielectric" RoughDielectric roughdielectric REFRACTING,
-        "conductor" Conductor conductor REFLECTING,
-        "roughconductor" RoughConductor roughconductor REFLECTING,
-        "plastic" Plastic plastic REFLECTING,
-        "roughplastic" RoughPlastic roughplastic REFLECTING <'a>,
-        "phong" Phong phong REFLECTING,
+        "diffuse" Diffuse diffuse (MaterialFlags::reflecting),
+        "dielectric" Dielectric dielectric (MaterialFlags::refracting),
+        "roughdielectric" RoughDielectric roughdielectric (MaterialFlags::refracting),
+        "conductor" Conductor conductor (MaterialFlags::reflecting),
+        "roughconductor" RoughConductor roughconductor (MaterialFlags::reflecting),
+        "plastic" Plastic plastic (MaterialFlags::reflecting),
+        "roughplastic" RoughPlastic roughplastic (MaterialFlags::reflecting) <'a>,
+        "principled" Principled principled (crate::principled::Description::flags),
+        "principledthin" PrincipledThin principledthin (crate::principledthin::Description::flags),
+        "phong" Phong phong (MaterialFlags::reflecting),
     }
     composed {
         "thindielectric" ThinDielectric thindielectric,

@@ -246,3 +246,23 @@ impl Bsdf for BsdfAtPoint<'_> {
         if weight > 0.0 { sum / weight } else { sum }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// What a path copies at every vertex. A model that outgrows it keeps its tables in its description.
+    #[test]
+    fn a_material_at_a_point_stays_within_its_budget() {
+        let sizes = [
+            size_of::<crate::AnyBxdf>(),
+            size_of::<Lobe>(),
+            size_of::<BsdfAtPoint>(),
+        ];
+        let budget = [160, 224, 944];
+        assert!(
+            sizes.iter().zip(budget).all(|(size, most)| *size <= most),
+            "{sizes:?}"
+        );
+    }
+}

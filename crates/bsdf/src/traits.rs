@@ -14,18 +14,21 @@ pub struct MaterialFlags {
 }
 
 impl MaterialFlags {
-    /// One lobe that reflects.
-    pub const REFLECTING: Self = Self {
-        lobes: 1,
-        null: false,
-        transmission: false,
-        tilted: false,
-    };
-    /// One lobe that also transmits.
-    pub const REFRACTING: Self = Self {
-        lobes: 1,
-        null: false,
-        transmission: true,
-        tilted: false,
-    };
+    /// One lobe that reflects, whatever its parameters.
+    pub(crate) fn reflecting<T>(_: &T) -> Self {
+        Self {
+            lobes: 1,
+            null: false,
+            transmission: false,
+            tilted: false,
+        }
+    }
+
+    /// One lobe that also transmits, whatever its parameters.
+    pub(crate) fn refracting<T>(model: &T) -> Self {
+        Self {
+            transmission: true,
+            ..Self::reflecting(model)
+        }
+    }
 }

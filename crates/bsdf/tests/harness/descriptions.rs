@@ -21,7 +21,12 @@ fn refused(text: &str) -> String {
 fn mistakes_are_named() {
     for (text, expected) in [
         ("difuse", "did you mean `diffuse`"),
-        ("principled", "not built yet"),
+        ("measured", "not built yet"),
+        (
+            "principled eta=f:1.5 specular=f:0.5",
+            "either `eta` or `specular`",
+        ),
+        ("principled specular=f:12.5", "below 12.5"),
         ("diffuse reflectence=u:0.5", "did you mean `reflectance`"),
         ("diffuse ( diffuse )", "does not take"),
         ("mask opacity=f:0.5", "needs 1 nested BSDF, not 0"),

@@ -75,6 +75,14 @@ CONTINUOUS = [
     "roughplastic alpha=f:0.3 distribution=s:ggx diffuse_reflectance=t:400:0.1,700:0.9 nonlinear=b:true",
     "roughplastic alpha=f:0.5 int_ior=f:1.9 specular_reflectance=u:0.3",
     "roughplastic alpha=f:0.05 distribution=s:ggx sample_visible=b:false",
+    "principled",
+    "principled base_color=u:0.8 metallic=f:0.7 specular=f:0.6 roughness=f:0.4 anisotropic=f:0.5 sheen=f:0.3 "
+    "clearcoat=f:0.6 clearcoat_gloss=f:0.3 spec_trans=f:0.4",
+    "principled base_color=t:400:0.1,700:0.9 spec_trans=f:0.8 eta=f:1.4 roughness=f:0.5 flatness=f:0.5",
+    "principled base_color=t:400:0.1,700:0.9 metallic=f:1 roughness=f:0.3",
+    "principledthin",
+    "principledthin base_color=t:400:0.1,700:0.8 roughness=f:0.5 spec_trans=f:0.6 diff_trans=f:0.8 anisotropic=f:0.5 "
+    "sheen=f:0.3 flatness=f:0.5 eta=f:1.4",
     "mask opacity=f:0.3 ( diffuse reflectance=u:0.8 )",
     "twosided ( diffuse reflectance=u:0.8 )",
     "twosided ( roughconductor alpha_u=f:0.1 alpha_v=f:0.4 ) ( diffuse reflectance=u:0.2 )",

@@ -1,0 +1,378 @@
+//! `principled`: Burley's material of artists' parameters (see [`crate::disney`]), as Mitsuba has it.
+//!
+//! With m = metallic, t = spec_trans, b = (1 − m) t and GGX of α = roughness²:
+//!
+//! ```text
+//! base          (1 − m)(1 − t) · f of [`crate::disney`], with the sheen's factor (1 − m)
+//! reflected     F_p D G / (4 cos θo cos θi)
+//!   front:      F_p = (1 − m)(1 − spec_tint) F + m S(colour) + (1 − m) spec_tint S(R0 · tint)
+//!   back:       F_p = b F
+//! transmitted   b √colour · (1 − F) …, see [`crate::roughdielectric`]
+//! clear coat    ¼ clearcoat · S(0.04) · D₁ · G₁(α = ¼)
+//! S(R)          = R + (1 − R)(1 − cos θd)⁵
+//! D₁(m)         = (α² − 1) / (π ln α² (1 + (α² − 1) cos² θm)),   α = lerp(0.1, 0.001, clearcoat_gloss)
+//! ```
+//!
+//! η is `eta`, or 2/(1 − √(0.08 specular)) − 1. A tint is the colour over its luminance
+//! (a tabulated one over its mean). From behind only the
+//! interface is seen. Directions are chosen by the base, the clear coat, or a visible normal, where reflection has the
+//! probability 1 − b (1 − F).
+
+use crate::disney::{self, Base, schlick_entering};
+use crate::inputs::inputs;
+use crate::microfacet::{Kind, Microfacet};
+use crate::refraction::{half_way, reflect, refract};
+use crate::roughdielectric::RoughDielectric;
+use crate::{Bxdf, MaterialFlags, ShadingContext, fresnel};
+use core::f32::consts::FRAC_1_PI;
+use etalon_math::{Density, float};
+use etalon_params::{Params, Value};
+use etalon_sampling::warps::square_to_cosine_hemisphere;
+use etalon_transport::{BsdfSample, Build, SamplePdf, Textures, TransportMode};
+use glam::{Vec2, Vec3, Vec4};
+
+/// Parameters to test with (see [`crate::test_materials`]).
+pub const EXEMPLARS: &[&str] = &[
+    "principled",
+    "principled base_color=t:400:0.1,700:0.8 metallic=f:0.7 specular=f:0.6 roughness=f:0.4 \
+     spec_tint=f:0.4 anisotropic=f:0.5 sheen=f:0.3 sheen_tint=f:0.2 clearcoat=f:0.6 \
+     clearcoat_gloss=f:0.1 spec_trans=f:0.4",
+    "principled base_color=u:0.9 spec_trans=f:0.9 roughness=f:0.6 eta=f:1.4",
+    "principled flatness=f:0.8 roughness=f:0.7 specular=f:0.2",
+    "principled metallic=f:1 roughness=f:0.5 base_color=t:400:0.9,700:0.4",
+];
+
+inputs! {
+    /// Parameters, each of which may be a texture.
+    Inputs;
+    /// What they are at a point.
+    Values {
+        /// The colour of the base, of metals, and squared of what is let through.
+        base_color: spectrum = 0.5,
+        /// Roughness; α is its square.
+        roughness: share = 0.5,
+        /// How much the roughness differs along x and y.
+        anisotropic: share = 0.0,
+        /// The share of metal.
+        metallic: share = 0.0,
+        /// The share of what is not metal that lets light through.
+        spec_trans: share = 0.0,
+        /// How much the base's colour tints the reflection.
+        spec_tint: share = 0.0,
+        /// Sheen.
+        sheen: amount = 0.0,
+        /// How much the base's colour tints the sheen.
+        sheen_tint: share = 0.0,
+        /// The share of a base that scatters below the surface.
+        flatness: share = 0.0,
+        /// The clear coat.
+        clearcoat: amount = 0.0,
+        /// How smooth the clear coat is.
+        clearcoat_gloss: share = 0.0,
+    }
+}
+
+/// `principled` in a scene file.
+#[derive(Clone, Debug)]
+pub struct Description {
+    inputs: Inputs,
+    eta: f32,
+    transmits: bool,
+    /// How eagerly the base, the main interface and the clear coat are sampled.
+    rates: Vec3,
+}
+
+impl Description {
+    /// Reads [`Inputs`], `eta` or `specular` (0.5), and the rates `diffuse_reflectance_sampling_rate`,
+    /// `main_specular_sampling_rate` and `clearcoat_sampling_rate` (1).
+    pub fn from_params(params: &Params<'_>, build: &mut dyn Build) -> Option<Self> {
+        let rate = |name: &str| sampling_rate(params, name);
+        let rates = Vec3::new(
+            rate("diffuse_reflectance_sampling_rate"),
+            rate("main_specular_sampling_rate"),
+            rate("clearcoat_sampling_rate"),
+        );
+        let transmits = is_used(params, "spec_trans");
+        let eta = if params.has("eta") {
+            if params.has("specular") {
+                params.error_at("specular", "give either `eta` or `specular`");
+                return None;
+            }
+            let positive = |eta: f64| eta > 0.0 && eta.is_finite();
+            params.float_where("eta", 1.5, "a positive finite number", positive)
+        } else {
+            let accepted = "a number from 0 to below 12.5";
+            let fits = |s: f64| (0.0..12.5).contains(&s);
+            let specular = params.float_where("specular", 0.5, accepted, fits);
+            // What lets light through must have an interface.
+            let least = if transmits { 1e-3 } else { 0.0 };
+            2.0 / (1.0 - (0.08 * specular.max(least)).sqrt()) - 1.0
+        };
+        Some(Self {
+            inputs: Inputs::from_params(params, build),
+            eta: if transmits && eta == 1.0 {
+                1.001
+            } else {
+                eta as f32
+            },
+            transmits,
+            rates,
+        })
+    }
+
+    /// What it can do.
+    pub fn flags(&self) -> MaterialFlags {
+        MaterialFlags {
+            transmission: self.transmits,
+            ..MaterialFlags::reflecting(self)
+        }
+    }
+
+    /// The model at a point.
+    pub fn resolve<T: Textures>(&self, site: &ShadingContext<'_, T>) -> Principled {
+        let at = self.inputs.at(site);
+        let tint = if at.spec_tint > 0.0 || at.sheen_tint > 0.0 {
+            disney::tint(at.base_color, site.number(self.inputs.base_color))
+        } else {
+            Vec4::ONE
+        };
+        let dielectric = 1.0 - at.metallic;
+        let through = if self.transmits {
+            dielectric * at.spec_trans
+        } else {
+            0.0
+        };
+        let diffuse = dielectric * (1.0 - if self.transmits { at.spec_trans } else { 0.0 });
+        let tinted = dielectric * at.spec_tint;
+        // Mitsuba has sheen only where there is a base.
+        let sheen = if diffuse > 0.0 {
+            dielectric * at.sheen
+        } else {
+            0.0
+        };
+        let rates = Vec3::new(diffuse, 1.0, 0.25 * at.clearcoat) * self.rates;
+        let total = rates.element_sum();
+        Principled {
+            albedo: at.base_color,
+            base: Base {
+                colour: at.base_color * diffuse,
+                sheen: Base::sheen_colour(sheen, at.sheen_tint, tint),
+                roughness: at.roughness,
+                flatness: at.flatness,
+            },
+            schlick: at.metallic * at.base_color
+                + tinted * disney::normal_reflectance(self.eta) * tint,
+            schlick_weight: at.metallic + tinted,
+            fresnel_weight: dielectric - tinted,
+            interface: disney::microfacet(at.roughness, at.anisotropic).alpha,
+            eta: self.eta,
+            through,
+            transmittance: at.base_color.max(Vec4::ZERO).sqrt() * through,
+            clearcoat: at.clearcoat,
+            coat_alpha: 0.1 + at.clearcoat_gloss * (0.001 - 0.1),
+            base_probability: if total > 0.0 { rates.x / total } else { 0.0 },
+            coat_probability: if total > 0.0 { rates.z / total } else { 0.0 },
+        }
+    }
+}
+
+/// How eagerly a lobe is sampled.
+pub(crate) fn sampling_rate(params: &Params<'_>, name: &str) -> f32 {
+    let accepted = "a finite number, 0 or more";
+    params.float_where(name, 1.0, accepted, |rate| rate >= 0.0 && rate.is_finite()) as f32
+}
+
+/// Whether a share is given, and not the number 0.
+pub(crate) fn is_used(params: &Params<'_>, name: &str) -> bool {
+    params
+        .property(name)
+        .is_some_and(|property| match property.value {
+            Value::Float(number) => number != 0.0,
+            Value::Integer(number) => number != 0,
+            _ => true,
+        })
+}
+
+/// The material at a point.
+#[derive(Clone, Copy, Debug)]
+pub struct Principled {
+    albedo: Vec4,
+    base: Base,
+    /// Σ wR of the terms w S(R), per lane, …
+    schlick: Vec4,
+    /// … and Σ w.
+    schlick_weight: f32,
+    /// The factor of the dielectric's F.
+    fresnel_weight: f32,
+    /// α along x and y.
+    interface: Vec2,
+    eta: f32,
+    /// b.
+    through: f32,
+    /// b √colour, per lane.
+    transmittance: Vec4,
+    clearcoat: f32,
+    coat_alpha: f32,
+    base_probability: f32,
+    coat_probability: f32,
+}
+
+impl Principled {
+    #[inline]
+    fn microfacet(&self) -> Microfacet {
+        Microfacet::new(Kind::Ggx, self.interface, true)
+    }
+
+    /// The interface from the side of `wo`.
+    fn rough(&self) -> RoughDielectric {
+        RoughDielectric {
+            eta: Vec4::splat(self.eta),
+            reflectance: Vec4::ONE,
+            transmittance: self.transmittance,
+            microfacet: self.microfacet(),
+        }
+    }
+
+    /// The probability that the main interface is sampled, in front.
+    #[inline]
+    fn interface_probability(&self) -> f32 {
+        1.0 - self.base_probability - self.coat_probability
+    }
+
+    /// D₁.
+    #[inline]
+    fn coat_d(&self, m: Vec3) -> f32 {
+        let a2 = self.coat_alpha * self.coat_alpha;
+        let area = 1.0 + (a2 - 1.0) * m.z * m.z;
+        FRAC_1_PI * (a2 - 1.0) / (float::ln(a2) * area)
+    }
+
+    /// A normal of the clear coat, with the density D₁ cos θ.
+    #[inline]
+    fn coat_normal(&self, u: Vec2) -> Vec3 {
+        let a2 = self.coat_alpha * self.coat_alpha;
+        let cos2 = (1.0 - float::exp(float::ln(a2) * (1.0 - u.y))) / (1.0 - a2);
+        let (sin, cos) = float::sin_cos_turns(u.x);
+        let radius = float::safe_sqrt(1.0 - cos2);
+        Vec3::new(cos * radius, sin * radius, float::safe_sqrt(cos2))
+    }
+
+    /// A sample of a direction that was found.
+    fn sampled(&self, wo: Vec3, wi: Vec3, eta: f32, mode: TransportMode) -> Option<BsdfSample> {
+        let (value, density) = self.eval_and_density(wo, wi, mode);
+        (density.x > 0.0).then_some(BsdfSample {
+            wi,
+            value,
+            chance: SamplePdf::Continuous(Density::per_lane(density)),
+            eta,
+            is_null: false,
+        })
+    }
+
+    /// Two directions in front.
+    fn front(&self, wo: Vec3, wi: Vec3) -> (Vec4, Vec4) {
+        let mut value = self.base.eval(wo, wi);
+        let mut density = self.base_probability * wi.z * FRAC_1_PI;
+        if let Some((m, cos)) = half_way(wo, wi) {
+            let fresnel = fresnel::dielectric(cos, self.eta).0;
+            let microfacet = self.microfacet();
+            let d = microfacet.d(m);
+            // As Mitsuba: where a dielectric would reflect nothing at all, a metal does not either.
+            if fresnel > 0.0 {
+                let weight = schlick_entering(cos, self.eta);
+                let reflected = Vec4::splat(self.fresnel_weight * fresnel)
+                    + self.schlick
+                    + (Vec4::splat(self.schlick_weight) - self.schlick) * weight;
+                let shadowing = microfacet.g1(wo, m) * microfacet.g1(wi, m);
+                value += reflected * (d * shadowing / (4.0 * wo.z));
+            }
+            let reflects = 1.0 - self.through * (1.0 - fresnel);
+            let normals = self.interface_probability() * reflects * microfacet.density(wo, m, d);
+            let mut normals = normals / (4.0 * cos);
+            if self.clearcoat > 0.0 {
+                let (d, coat) = (
+                    self.coat_d(m),
+                    Microfacet::new(Kind::Ggx, Vec2::splat(0.25), true),
+                );
+                let fresnel = 0.04 + 0.96 * schlick_entering(cos, self.eta);
+                let shadowing = coat.g1(wo, m) * coat.g1(wi, m);
+                value += Vec4::splat(0.25 * self.clearcoat * fresnel * d * shadowing * wi.z);
+                normals += self.coat_probability * d * m.z / (4.0 * cos);
+            }
+            density += normals;
+        }
+        (value, Vec4::splat(density))
+    }
+}
+
+impl Bxdf for Principled {
+    fn eval_and_density(&self, wo: Vec3, wi: Vec3, mode: TransportMode) -> (Vec4, Vec4) {
+        if wo.z > 0.0 && wi.z > 0.0 {
+            return self.front(wo, wi);
+        }
+        if wo.z == 0.0 || wi.z == 0.0 || !(self.through > 0.0) {
+            return (Vec4::ZERO, Vec4::ZERO);
+        }
+        let (value, density) = self.rough().eval_and_density(wo, wi, mode);
+        if wo.z < 0.0 {
+            let reflected = if wi.z < 0.0 { self.through } else { 1.0 };
+            (value * reflected, density)
+        } else {
+            (
+                value,
+                density * (self.interface_probability() * self.through),
+            )
+        }
+    }
+
+    fn sample(
+        &self,
+        wo: Vec3,
+        mut u_lobe: f32,
+        u: Vec2,
+        mode: TransportMode,
+    ) -> Option<BsdfSample> {
+        if !(wo.z > 0.0) {
+            return (self.through > 0.0)
+                .then(|| self.rough().sample(wo, u_lobe, u, mode))?
+                .and_then(|sample| self.sampled(wo, sample.wi, sample.eta, mode));
+        }
+        let wi = if u_lobe < self.base_probability {
+            square_to_cosine_hemisphere(u)
+        } else if u_lobe < self.base_probability + self.coat_probability {
+            reflect(wo, self.coat_normal(u))
+        } else {
+            let m = self.microfacet().sample(wo, u);
+            let cos = wo.dot(m);
+            if !(cos > 0.0) {
+                return None;
+            }
+            let before = self.base_probability + self.coat_probability;
+            u_lobe = (u_lobe - before) / (1.0 - before);
+            let (fresnel, cos_t) = fresnel::dielectric(cos, self.eta);
+            if u_lobe >= 1.0 - self.through * (1.0 - fresnel) {
+                let wi = refract(wo, m, self.eta, cos_t);
+                return (wi.z < 0.0).then(|| self.sampled(wo, wi, self.eta, mode))?;
+            }
+            reflect(wo, m)
+        };
+        // Light that would be reflected into the surface is lost.
+        (wi.z > 0.0).then(|| self.sampled(wo, wi, 1.0, mode))?
+    }
+
+    fn has_continuous(&self) -> bool {
+        true
+    }
+
+    fn has_discrete(&self) -> bool {
+        false
+    }
+
+    fn transmits(&self) -> bool {
+        self.through > 0.0
+    }
+
+    fn albedo(&self, _: Vec3) -> Vec4 {
+        self.albedo
+    }
+}
