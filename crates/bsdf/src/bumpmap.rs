@@ -55,7 +55,8 @@ impl Description {
         weight: f32,
         into: &mut LobeList<'a>,
     ) {
-        let slope = site.textures.gradient(self.heights, &site.at) * self.scale;
+        let moved = [site.dp_du, site.dp_dv];
+        let slope = site.textures.gradient(self.heights, &site.at, moved) * self.scale;
         // The frame of the outer side, whichever side is seen.
         let n = if frame.n.dot(site.shading_normal) < 0.0 {
             -frame.n

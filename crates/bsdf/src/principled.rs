@@ -137,37 +137,22 @@ impl Description {
             Vec4::ONE
         };
         let dielectric = 1.0 - at.metallic;
-        let through = if self.transmits {
-            dielectric * at.spec_trans
-        } else {
-            0.0
-        };
-        let diffuse = dielectric * (1.0 - if self.transmits { at.spec_trans } else { 0.0 });
-        let tinted = dielectric * at.spec_tint;
-        // Mitsuba has sheen only where there is a base.
-        let sheen = if diffuse > 0.0 {
-            dielectric * at.sheen
-        } else {
-            0.0
-        };
+        let spec_trans = if self.transmits { at.spec_trans } else { 0.0 };
+        let diffuse = dielectric * (1.0 - spec_trans);
         let rates = Vec3::new(diffuse, 1.0, 0.25 * at.clearcoat) * self.rates;
         let total = rates.element_sum();
         Principled {
-            albedo: at.base_color,
-            base: Base {
-                colour: at.base_color * diffuse,
-                sheen: Base::sheen_colour(sheen, at.sheen_tint, tint),
-                roughness: at.roughness,
-                flatness: at.flatness,
-            },
-            schlick: at.metallic * at.base_color
-                + tinted * disney::normal_reflectance(self.eta) * tint,
-            schlick_weight: at.metallic + tinted,
-            fresnel_weight: dielectric - tinted,
-            interface: disney::microfacet(at.roughness, at.anisotropic).alpha,
+            colour: at.base_color,
+            tint,
+            alpha: disney::microfacet(at.roughness, at.anisotropic).alpha,
             eta: self.eta,
-            through,
-            transmittance: at.base_color.max(Vec4::ZERO).sqrt() * through,
+            metallic: at.metallic,
+            through: dielectric * spec_trans,
+            tinted: dielectric * at.spec_tint,
+            roughness: at.roughness,
+            flatness: at.flatness,
+            sheen: dielectric * at.sheen,
+            sheen_tint: at.sheen_tint,
             clearcoat: at.clearcoat,
             coat_alpha: 0.1 + at.clearcoat_gloss * (0.001 - 0.1),
             base_probability: if total > 0.0 { rates.x / total } else { 0.0 },
@@ -196,21 +181,24 @@ pub(crate) fn is_used(params: &Params<'_>, name: &str) -> bool {
 /// The material at a point.
 #[derive(Clone, Copy, Debug)]
 pub struct Principled {
-    albedo: Vec4,
-    base: Base,
-    /// Σ wR of the terms w S(R), per lane, …
-    schlick: Vec4,
-    /// … and Σ w.
-    schlick_weight: f32,
-    /// The factor of the dielectric's F.
-    fresnel_weight: f32,
+    /// The base's colour, per lane.
+    colour: Vec4,
+    /// The same with luminance one.
+    tint: Vec4,
     /// α along x and y.
-    interface: Vec2,
+    alpha: Vec2,
     eta: f32,
+    /// m.
+    metallic: f32,
     /// b.
     through: f32,
-    /// b √colour, per lane.
-    transmittance: Vec4,
+    /// (1 − m) spec_tint.
+    tinted: f32,
+    roughness: f32,
+    flatness: f32,
+    /// (1 − m) sheen.
+    sheen: f32,
+    sheen_tint: f32,
     clearcoat: f32,
     coat_alpha: f32,
     base_probability: f32,
@@ -220,7 +208,31 @@ pub struct Principled {
 impl Principled {
     #[inline]
     fn microfacet(&self) -> Microfacet {
-        Microfacet::new(Kind::Ggx, self.interface, true)
+        Microfacet::new(Kind::Ggx, self.alpha, true)
+    }
+
+    /// The base; nothing where all is metal or lets light through, sheen neither, as Mitsuba has it.
+    #[inline]
+    fn base(&self) -> Base {
+        let share = 1.0 - self.metallic - self.through;
+        let sheen = if share > 0.0 { self.sheen } else { 0.0 };
+        Base {
+            colour: self.colour * share,
+            sheen: Base::sheen_colour(sheen, self.sheen_tint, self.tint),
+            roughness: self.roughness,
+            flatness: self.flatness,
+        }
+    }
+
+    /// F_p, for a cosine to the half-way normal and the dielectric's reflectance.
+    #[inline]
+    fn fresnel(&self, cos: f32, dielectric: f32) -> Vec4 {
+        // Σ w S(R) = Σ wR + (Σ w − Σ wR)(1 − cos θ)⁵.
+        let normal = self.metallic * self.colour
+            + (self.tinted * disney::normal_reflectance(self.eta)) * self.tint;
+        let weight = self.metallic + self.tinted;
+        let schlick = normal + (weight - normal) * schlick_entering(cos, self.eta);
+        schlick + (1.0 - weight) * dielectric
     }
 
     /// The interface from the side of `wo`.
@@ -228,7 +240,7 @@ impl Principled {
         RoughDielectric {
             eta: Vec4::splat(self.eta),
             reflectance: Vec4::ONE,
-            transmittance: self.transmittance,
+            transmittance: self.colour.max(Vec4::ZERO).sqrt() * self.through,
             microfacet: self.microfacet(),
         }
     }
@@ -271,7 +283,7 @@ impl Principled {
 
     /// Two directions in front.
     fn front(&self, wo: Vec3, wi: Vec3) -> (Vec4, Vec4) {
-        let mut value = self.base.eval(wo, wi);
+        let mut value = self.base().eval(wo, wi);
         let mut density = self.base_probability * wi.z * FRAC_1_PI;
         if let Some((m, cos)) = half_way(wo, wi) {
             let fresnel = fresnel::dielectric(cos, self.eta).0;
@@ -279,10 +291,7 @@ impl Principled {
             let d = microfacet.d(m);
             // As Mitsuba: where a dielectric would reflect nothing at all, a metal does not either.
             if fresnel > 0.0 {
-                let weight = schlick_entering(cos, self.eta);
-                let reflected = Vec4::splat(self.fresnel_weight * fresnel)
-                    + self.schlick
-                    + (Vec4::splat(self.schlick_weight) - self.schlick) * weight;
+                let reflected = self.fresnel(cos, fresnel);
                 let shadowing = microfacet.g1(wo, m) * microfacet.g1(wi, m);
                 value += reflected * (d * shadowing / (4.0 * wo.z));
             }
@@ -373,6 +382,6 @@ impl Bxdf for Principled {
     }
 
     fn albedo(&self, _: Vec3) -> Vec4 {
-        self.albedo
+        self.colour
     }
 }

@@ -110,18 +110,17 @@ impl Description {
         let rates = Vec4::new(base, glossy, glossy, diffuse) * self.rates;
         let total = rates.element_sum();
         PrincipledThin {
-            albedo: at.base_color,
-            base: Base {
-                colour: at.base_color * base,
-                sheen: Base::sheen_colour(base * at.sheen, at.sheen_tint, tint),
-                roughness: at.roughness,
-                flatness: at.flatness,
-            },
+            colour: at.base_color,
+            tint,
+            base,
             diffuse,
             glossy: at.spec_trans,
-            tinted: at.spec_tint,
-            normal_reflectance: disney::normal_reflectance(at.eta) * tint,
+            spec_tint: at.spec_tint,
+            sheen: at.sheen,
+            sheen_tint: at.sheen_tint,
+            flatness: at.flatness,
             eta: at.eta.max(1e-3),
+            roughness: at.roughness,
             anisotropic: at.anisotropic,
             probabilities: if total > 0.0 {
                 rates / total
@@ -135,33 +134,48 @@ impl Description {
 /// The material at a point.
 #[derive(Clone, Copy, Debug)]
 pub struct PrincipledThin {
-    albedo: Vec4,
-    base: Base,
+    /// The colour, per lane.
+    colour: Vec4,
+    /// The same with luminance one.
+    tint: Vec4,
+    /// (1 − t)(1 − d).
+    base: f32,
     /// (1 − t) d.
     diffuse: f32,
     /// t.
     glossy: f32,
-    tinted: f32,
-    /// R0 · tint, per lane.
-    normal_reflectance: Vec4,
+    spec_tint: f32,
+    sheen: f32,
+    sheen_tint: f32,
+    flatness: f32,
     eta: f32,
+    roughness: f32,
     anisotropic: f32,
     /// Of diffuse and glossy reflection, glossy and diffuse transmission.
     probabilities: Vec4,
 }
 
 impl PrincipledThin {
+    fn base(&self) -> Base {
+        Base {
+            colour: self.colour * self.base,
+            sheen: Base::sheen_colour(self.base * self.sheen, self.sheen_tint, self.tint),
+            roughness: self.roughness,
+            flatness: self.flatness,
+        }
+    }
+
     fn reflecting(&self) -> Microfacet {
-        disney::microfacet(self.base.roughness, self.anisotropic)
+        disney::microfacet(self.roughness, self.anisotropic)
     }
 
     fn passing(&self) -> Microfacet {
-        let roughness = (0.65 * self.eta - 0.35) * self.base.roughness;
+        let roughness = (0.65 * self.eta - 0.35) * self.roughness;
         disney::microfacet(roughness, self.anisotropic)
     }
 
     fn reflection(&self, wo: Vec3, wi: Vec3) -> (Vec4, f32) {
-        let mut value = self.base.eval(wo, wi);
+        let mut value = self.base().eval(wo, wi);
         let mut density = self.probabilities.x * wi.z * FRAC_1_PI;
         if let Some((m, cos)) = half_way(wo, wi)
             && self.glossy > 0.0
@@ -170,10 +184,9 @@ impl PrincipledThin {
             let d = microfacet.d(m);
             let shadowing = microfacet.g1(wo, m) * microfacet.g1(wi, m);
             let plain = Vec4::splat(fresnel::dielectric(cos, self.eta).0);
-            let tinted = self
-                .normal_reflectance
+            let tinted = (disney::normal_reflectance(self.eta) * self.tint)
                 .lerp(Vec4::ONE, schlick_entering(cos, self.eta));
-            let fresnel = plain.lerp(tinted, self.tinted);
+            let fresnel = plain.lerp(tinted, self.spec_tint);
             value += fresnel * (self.glossy * d * shadowing / (4.0 * wo.z));
             density += self.probabilities.y * microfacet.density(wo, m, d) / (4.0 * cos);
         }
@@ -181,7 +194,7 @@ impl PrincipledThin {
     }
 
     fn transmission(&self, wo: Vec3, wi: Vec3, mode: TransportMode) -> (Vec4, f32) {
-        let mut value = self.albedo * (self.diffuse * FRAC_1_PI * -wi.z);
+        let mut value = self.colour * (self.diffuse * FRAC_1_PI * -wi.z);
         let mut density = self.probabilities.w * -wi.z * FRAC_1_PI;
         let above = Vec3::new(wi.x, wi.y, -wi.z);
         if let Some((m, cos)) = half_way(wo, above)
@@ -200,7 +213,7 @@ impl PrincipledThin {
                 0.0
             };
             let through = self.glossy * (1.0 - fresnel::dielectric(cos, self.eta).0);
-            value += self.albedo * (through * d * shadowing / (4.0 * wo.z));
+            value += self.colour * (through * d * shadowing / (4.0 * wo.z));
             density += self.probabilities.z * microfacet.density(wo, m, d) / (4.0 * cos);
         }
         (value, density)
@@ -266,6 +279,6 @@ impl Bxdf for PrincipledThin {
     }
 
     fn albedo(&self, _: Vec3) -> Vec4 {
-        self.albedo
+        self.colour
     }
 }

@@ -259,7 +259,7 @@ mod tests {
             size_of::<Lobe>(),
             size_of::<BsdfAtPoint>(),
         ];
-        let budget = [160, 224, 944];
+        let budget = [112, 176, 752];
         assert!(
             sizes.iter().zip(budget).all(|(size, most)| *size <= most),
             "{sizes:?}"

@@ -106,6 +106,7 @@ impl LocalInteraction {
             error: self.error,
             normal: self.normal,
             texture: TexturePoint {
+                position: self.position,
                 uv: self.uv,
                 shape: ShapeId::NONE,
                 primitive,

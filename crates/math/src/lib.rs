@@ -10,6 +10,7 @@ pub mod float;
 pub mod float64;
 pub mod frame;
 pub mod motion;
+pub mod noise;
 pub mod offset;
 pub mod polynomial;
 pub mod transform;

@@ -29,8 +29,8 @@ impl Textures for SceneTables {
         self.textures.number(texture, &self.geometry, at)
     }
 
-    fn gradient(&self, texture: TextureId, at: &TexturePoint) -> Vec2 {
-        self.textures.gradient(texture, &self.geometry, at)
+    fn gradient(&self, texture: TextureId, at: &TexturePoint, moved: [Vec3; 2]) -> Vec2 {
+        self.textures.gradient(texture, &self.geometry, at, moved)
     }
 
     #[inline]

@@ -130,7 +130,7 @@ impl TextureModel for Bitmap {
         Self::number(self, at.uv)
     }
 
-    fn gradient(&self, _: &TextureTable, _: &impl Shapes, at: &TexturePoint) -> Vec2 {
+    fn gradient(&self, _: &TextureTable, _: &impl Shapes, at: &TexturePoint, _: [Vec3; 2]) -> Vec2 {
         Self::gradient(self, at.uv)
     }
 

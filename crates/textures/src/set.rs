@@ -107,9 +107,15 @@ impl TextureTable {
         self.get(id).number(self, shapes, at)
     }
 
-    /// (∂/∂u, ∂/∂v) of a number at a point.
-    pub fn gradient(&self, id: TextureId, shapes: &impl Shapes, at: &TexturePoint) -> Vec2 {
-        self.get(id).gradient(self, shapes, at)
+    /// (∂/∂u, ∂/∂v) of a number at a point, which moves by `moved` with u and v.
+    pub fn gradient(
+        &self,
+        id: TextureId,
+        shapes: &impl Shapes,
+        at: &TexturePoint,
+        moved: [Vec3; 2],
+    ) -> Vec2 {
+        self.get(id).gradient(self, shapes, at, moved)
     }
 
     /// Three raw channels at a point.

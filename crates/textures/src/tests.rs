@@ -14,6 +14,7 @@ use std::sync::Arc;
 
 mod bitmap;
 mod mesh_attribute;
+mod procedural;
 mod rules;
 
 const NOWHERE: Span = Span {

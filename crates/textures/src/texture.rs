@@ -3,8 +3,11 @@
 //! To add a texture, write its file and add one line to the list.
 
 use crate::reader::Use;
-use crate::{Bitmap, Checkerboard, Constant, MeshAttribute, TextureReader, TextureTable, TimesD65};
-use crate::{bitmap, checkerboard, constant, illuminated, mesh_attribute, spectra};
+use crate::{
+    Bitmap, Checkerboard, Constant, MeshAttribute, Procedural, TextureReader, TextureTable,
+    TimesD65,
+};
+use crate::{bitmap, checkerboard, constant, illuminated, mesh_attribute, procedural, spectra};
 use etalon_params::{Params, plugins};
 use etalon_transport::{Shapes, TextureId, TexturePoint, gradient_by_differences};
 use glam::{Vec2, Vec3, Vec4};
@@ -23,9 +26,15 @@ pub(crate) trait TextureModel {
     /// The number.
     fn number(&self, set: &TextureTable, shapes: &impl Shapes, at: &TexturePoint) -> f32;
 
-    /// (∂/∂u, ∂/∂v) of the number; by default from differences.
-    fn gradient(&self, set: &TextureTable, shapes: &impl Shapes, at: &TexturePoint) -> Vec2 {
-        gradient_by_differences(at, |at| self.number(set, shapes, at))
+    /// (∂/∂u, ∂/∂v) of the number, `moved` being ∂p/∂u and ∂p/∂v; by default from differences.
+    fn gradient(
+        &self,
+        set: &TextureTable,
+        shapes: &impl Shapes,
+        at: &TexturePoint,
+        moved: [Vec3; 2],
+    ) -> Vec2 {
+        gradient_by_differences(at, moved, |at| self.number(set, shapes, at))
     }
 
     /// Three raw channels.
@@ -111,6 +120,17 @@ textures! {
     Checkerboard { "checkerboard" => checkerboard::read, }
     /// A quantity stored on a mesh.
     MeshAttribute { "mesh_attribute" => mesh_attribute::read, }
+    /// Two textures in a computed pattern.
+    Procedural {
+        "bricks" => procedural::read,
+        "fbm" => procedural::read,
+        "gradient" => procedural::read,
+        "marble" => procedural::read,
+        "noise" => procedural::read,
+        "turbulence" => procedural::read,
+        "voronoi" => procedural::read,
+        "wood" => procedural::read,
+    }
     /// Another texture times D65.
     TimesD65 { "d65" => illuminated::read, }
 }
@@ -135,9 +155,15 @@ impl Texture {
         ask!(self, texture => TextureModel::number(texture, set, shapes, at))
     }
 
-    /// (∂/∂u, ∂/∂v) of the number at a point.
-    pub fn gradient(&self, set: &TextureTable, shapes: &impl Shapes, at: &TexturePoint) -> Vec2 {
-        ask!(self, texture => TextureModel::gradient(texture, set, shapes, at))
+    /// (∂/∂u, ∂/∂v) of the number at a point, which moves by `moved` with u and v.
+    pub fn gradient(
+        &self,
+        set: &TextureTable,
+        shapes: &impl Shapes,
+        at: &TexturePoint,
+        moved: [Vec3; 2],
+    ) -> Vec2 {
+        ask!(self, texture => TextureModel::gradient(texture, set, shapes, at, moved))
     }
 
     /// Three raw channels at a point.

@@ -6,6 +6,8 @@ use glam::{Vec2, Vec3, Vec4};
 /// Where a texture is looked up.
 #[derive(Clone, Copy, Debug)]
 pub struct TexturePoint {
+    /// Position in the world (m).
+    pub position: Vec3,
     /// Texture coordinates.
     pub uv: Vec2,
     /// Shape, for mesh attributes.
@@ -20,6 +22,7 @@ impl TexturePoint {
     /// A point that has texture coordinates only.
     pub fn at_uv(uv: Vec2) -> Self {
         Self {
+            position: Vec3::ZERO,
             uv,
             shape: ShapeId::NONE,
             primitive: 0,
@@ -32,6 +35,7 @@ impl From<&SurfaceInteraction> for TexturePoint {
     #[inline]
     fn from(vertex: &SurfaceInteraction) -> Self {
         Self {
+            position: vertex.position,
             uv: vertex.uv,
             shape: vertex.shape,
             primitive: vertex.primitive,
@@ -48,9 +52,10 @@ pub trait Textures {
     /// A number at a point (roughness, opacity, blend weight): the luminance of colours.
     fn number(&self, texture: TextureId, at: &TexturePoint) -> f32;
 
-    /// (∂/∂u, ∂/∂v) of [`Textures::number`]; by default from differences over a thousandth of the square.
-    fn gradient(&self, texture: TextureId, at: &TexturePoint) -> Vec2 {
-        gradient_by_differences(at, |at| self.number(texture, at))
+    /// (∂/∂u, ∂/∂v) of [`Textures::number`], where `moved` is ∂p/∂u and ∂p/∂v; by default from differences over a
+    /// thousandth of the square.
+    fn gradient(&self, texture: TextureId, at: &TexturePoint, moved: [Vec3; 2]) -> Vec2 {
+        gradient_by_differences(at, moved, |at| self.number(texture, at))
     }
 
     /// Three raw channels at a point (normal maps, emission tables).
@@ -64,10 +69,15 @@ pub trait Textures {
 }
 
 /// (∂/∂u, ∂/∂v) of a number at a point, from central differences.
-pub fn gradient_by_differences(at: &TexturePoint, number: impl Fn(&TexturePoint) -> f32) -> Vec2 {
+pub fn gradient_by_differences(
+    at: &TexturePoint,
+    [du, dv]: [Vec3; 2],
+    number: impl Fn(&TexturePoint) -> f32,
+) -> Vec2 {
     const STEP: f32 = 1.0 / 2048.0;
     let at_uv = |offset: Vec2| {
         number(&TexturePoint {
+            position: at.position + du * offset.x + dv * offset.y,
             uv: at.uv + offset,
             ..*at
         })

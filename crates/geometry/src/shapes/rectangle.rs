@@ -118,11 +118,13 @@ impl Rectangle {
     pub(crate) fn at(&self, uv: Vec2) -> SurfacePoint {
         // Where it falls cannot be foreseen, so a branch would cost more.
         let first = BVec2::splat(uv.x + uv.y <= 1.0);
+        let position = self.corner + self.edges[0] * uv.x + self.edges[1] * uv.y;
         SurfacePoint {
-            position: self.corner + self.edges[0] * uv.x + self.edges[1] * uv.y,
+            position,
             error: self.error,
             normal: self.normal,
             texture: TexturePoint {
+                position,
                 uv,
                 shape: ShapeId::NONE,
                 primitive: u32::from(!first.x),

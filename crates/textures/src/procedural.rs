@@ -1,0 +1,222 @@
+//! Patterns computed from a place: `noise`, `fbm`, `turbulence`, `marble`, `wood`, `voronoi`, `bricks`, `gradient`.
+//!
+//! A pattern is a share s(p) in [0, 1] of `color1`, the rest being `color0`; either may be any texture. With n the
+//! noise of [`etalon_math::noise`], r = `roughness`, N = `octaves`:
+//!
+//! ```text
+//! noise       ½ + ½ n(p)
+//! fbm         ½ + ½ Σ rⁱ n(2ⁱ p) / Σ rⁱ          (K. Perlin 1985; Ebert et al. 2003, Texturing and Modeling)
+//! turbulence  Σ rⁱ |n(2ⁱ p)| / Σ rⁱ
+//! marble      ½ + ½ sin(2π (x + `distortion` · Σ rⁱ |n(2ⁱ p)|))
+//! wood        the fraction of |(x, y)| + `distortion` · n(p): rings around the z axis
+//! voronoi     the distance to the nearest of random points, one in each cell (S. Worley 1996)
+//! bricks      0 in joints of the width `joint`, 1 in bricks of 1 × ½, each row shifted by ½
+//! gradient    the fraction of x
+//! ```
+//!
+//! p is the place in the world or, with `space` = `uv`, (u, v, 0), taken back by `to_world`, which places the pattern.
+
+use crate::reader::Use;
+use crate::texture::TextureModel;
+use crate::{Texture, TextureReader, TextureTable};
+use core::f64::consts::TAU;
+use etalon_math::float64::sin;
+use etalon_math::noise::{lattice_hash, noise};
+use etalon_params::Params;
+use etalon_transport::{Shapes, TextureId, TexturePoint};
+use glam::{DAffine3, DVec3, Vec3, Vec4};
+
+/// A kind of pattern.
+#[derive(Clone, Copy, Debug, PartialEq)]
+enum Pattern {
+    Noise,
+    Fbm,
+    Turbulence,
+    Marble,
+    Wood,
+    Voronoi,
+    Bricks,
+    Gradient,
+}
+
+/// A pattern of two textures.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Procedural {
+    pattern: Pattern,
+    colours: [TextureId; 2],
+    /// From the world, or from (u, v, 0), to where the pattern is defined.
+    place: DAffine3,
+    by_uv: bool,
+    octaves: u32,
+    roughness: f64,
+    distortion: f64,
+    joint: f64,
+}
+
+impl Procedural {
+    /// s at a point.
+    pub fn share(&self, at: &TexturePoint) -> f32 {
+        let p = if self.by_uv {
+            at.uv.extend(0.0)
+        } else {
+            at.position
+        };
+        self.share_at(self.place.transform_point3(p.as_dvec3())) as f32
+    }
+
+    /// Σ rⁱ f(n(2ⁱ p)).
+    fn sum(&self, p: DVec3, of: impl Fn(f64) -> f64) -> f64 {
+        let (mut sum, mut amplitude, mut p) = (0.0, 1.0, p);
+        for _ in 0..self.octaves {
+            sum += amplitude * of(noise(p));
+            amplitude *= self.roughness;
+            // Moved too, as all lattices have the origin in common, where noise vanishes.
+            p = p * 2.0 + DVec3::new(17.0, 31.0, 47.0);
+        }
+        sum
+    }
+
+    /// Σ rⁱ.
+    fn total(&self) -> f64 {
+        (0..self.octaves).fold(0.0, |sum, _| 1.0 + sum * self.roughness)
+    }
+
+    fn share_at(&self, p: DVec3) -> f64 {
+        let fraction = |x: f64| x - x.floor();
+        let share = match self.pattern {
+            Pattern::Noise => 0.5 + 0.5 * noise(p),
+            Pattern::Fbm => 0.5 + 0.5 * self.sum(p, |n| n) / self.total(),
+            Pattern::Turbulence => self.sum(p, f64::abs) / self.total(),
+            Pattern::Marble => {
+                0.5 + 0.5 * sin(TAU * (p.x + self.distortion * self.sum(p, f64::abs)))
+            }
+            Pattern::Wood => fraction(p.truncate().length() + self.distortion * noise(p)),
+            Pattern::Voronoi => nearest_point(p),
+            Pattern::Bricks => {
+                let row = (2.0 * p.y).floor();
+                let x = fraction(p.x + 0.5 * row.rem_euclid(2.0));
+                let y = 0.5 * fraction(2.0 * p.y);
+                let half = 0.5 * self.joint;
+                let inside = |x: f64, width: f64| x >= half && x < width - half;
+                f64::from(u8::from(inside(x, 1.0) && inside(y, 0.5)))
+            }
+            Pattern::Gradient => fraction(p.x),
+        };
+        share.clamp(0.0, 1.0)
+    }
+}
+
+/// The distance to the nearest of random points, one in each cell of side 1.
+fn nearest_point(p: DVec3) -> f64 {
+    let cell = p.floor();
+    let mut least = f64::INFINITY;
+    for index in 0..125 {
+        let [x, y, z] = [index % 5, index / 5 % 5, index / 25].map(|i| f64::from(i) - 2.0);
+        let q = cell + DVec3::new(x, y, z);
+        let part =
+            |key: f64| f64::from(lattice_hash(q + key * 0x1000_0000 as f64)) / 4_294_967_296.0;
+        let point = q + DVec3::new(part(1.0), part(2.0), part(3.0));
+        least = least.min(point.distance_squared(p));
+    }
+    least.sqrt()
+}
+
+impl TextureModel for Procedural {
+    fn spectrum(
+        &self,
+        set: &TextureTable,
+        shapes: &impl Shapes,
+        at: &TexturePoint,
+        lambda: Vec4,
+    ) -> Vec4 {
+        let [a, b] = self.colours.map(|id| set.spectrum(id, shapes, at, lambda));
+        a.lerp(b, self.share(at))
+    }
+
+    fn number(&self, set: &TextureTable, shapes: &impl Shapes, at: &TexturePoint) -> f32 {
+        let [a, b] = self.colours.map(|id| set.number(id, shapes, at));
+        a + self.share(at) * (b - a)
+    }
+
+    fn colour(&self, set: &TextureTable, shapes: &impl Shapes, at: &TexturePoint) -> Vec3 {
+        let [a, b] = self.colours.map(|id| set.colour(id, shapes, at));
+        a.lerp(b, self.share(at))
+    }
+
+    fn mean(&self, set: &TextureTable) -> f32 {
+        let [a, b] = self.colours;
+        0.5 * (set.mean(a) + set.mean(b))
+    }
+
+    fn is_constant(&self, _: &TextureTable) -> bool {
+        self.colours[0] == self.colours[1]
+    }
+
+    fn nested(&self) -> &[TextureId] {
+        &self.colours
+    }
+}
+
+/// Reads `color0` (0) and `color1` (1), `to_world`, `space` (`world` or `uv`; `uv` for `bricks` and `gradient`), and
+/// what the pattern has: `octaves` (6), `roughness` (0.5), `distortion` (1 for `marble`, 0.3 for `wood`), `joint`
+/// (0.05).
+pub(crate) fn read(
+    reader: &mut TextureReader<'_>,
+    params: &Params<'_>,
+    Use { role, .. }: Use,
+) -> Option<Texture> {
+    let pattern = match params.node.plugin.value.as_str() {
+        "fbm" => Pattern::Fbm,
+        "turbulence" => Pattern::Turbulence,
+        "marble" => Pattern::Marble,
+        "wood" => Pattern::Wood,
+        "voronoi" => Pattern::Voronoi,
+        "bricks" => Pattern::Bricks,
+        "gradient" => Pattern::Gradient,
+        _ => Pattern::Noise,
+    };
+    use Pattern::{Bricks, Fbm, Gradient, Marble, Turbulence, Wood};
+    let flat = matches!(pattern, Bricks | Gradient);
+    let space = if flat { "uv" } else { "world" };
+    let by_uv = params.choice("space", space, &["world", "uv"]) == "uv";
+    let (mut octaves, mut roughness, mut distortion, mut joint) = (6, 0.5, 0.0, 0.0);
+    if matches!(pattern, Fbm | Turbulence | Marble) {
+        octaves = params.integer_or("octaves", 6);
+        if !(1..=32).contains(&octaves) {
+            params.refuse("octaves", octaves, "1, 2, … 32");
+        }
+        let share = |r: f64| (0.0..=1.0).contains(&r);
+        roughness = params.float_where("roughness", 0.5, "a number from 0 to 1", share);
+    }
+    if matches!(pattern, Marble | Wood) {
+        let default = if pattern == Marble { 1.0 } else { 0.3 };
+        distortion = params.float_where("distortion", default, "a finite number", f64::is_finite);
+    }
+    if pattern == Bricks {
+        let width = |w: f64| (0.0..=0.5).contains(&w);
+        joint = params.float_where("joint", 0.05, "a number from 0 to 0.5", width);
+    }
+    let place = DAffine3::from_mat4(params.transform("to_world"));
+    let inverse = place.inverse();
+    if !(place.is_finite() && inverse.is_finite()) {
+        params.error_at(
+            "to_world",
+            "`to_world` of a texture must be finite and invertible",
+        );
+        return None;
+    }
+    let nested = Use { role, nested: true };
+    Some(Texture::from(Procedural {
+        pattern,
+        colours: [
+            reader.parameter_in(params, "color0", Some(0.0), nested),
+            reader.parameter_in(params, "color1", Some(1.0), nested),
+        ],
+        place: inverse,
+        by_uv,
+        octaves: octaves.clamp(1, 32) as u32,
+        roughness,
+        distortion,
+        joint,
+    }))
+}
