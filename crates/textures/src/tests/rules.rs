@@ -295,9 +295,9 @@ fn mistakes_are_refused() {
             "falls to",
         ),
         (
-            object("wood", vec![]),
+            object("plaid", vec![]),
             role,
-            "unknown texture plugin `wood`",
+            "unknown texture plugin `plaid`",
         ),
         (object("volume", vec![]), role, "not built yet"),
         (
