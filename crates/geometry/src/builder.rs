@@ -1,7 +1,8 @@
 //! Putting a geometry together.
 
-use crate::accelerator::{Accelerator, AcceleratorKind, Bounds};
-use crate::geometry::{Geometry, Group, Instance, ShapeBinding};
+use crate::accelerator::{AcceleratorKind, Bounds};
+use crate::geometry::{Geometry, ShapeBinding};
+use crate::instance::{Group, Instance};
 use crate::placement::Placement;
 use crate::primitive_index::{Contents, PrimitiveIndex, PrimitiveOwner};
 use crate::shapes::Shape;
@@ -25,9 +26,24 @@ pub struct GeometryBuilder {
     attachments: Vec<ShapeBinding>,
     face_materials: Vec<MaterialId>,
     world: Vec<ShapeId>,
-    groups: Vec<Vec<ShapeId>>,
-    instances: Vec<(GroupId, Animated<Placement>)>,
+    world_instances: Vec<InstanceId>,
+    groups: Vec<Members>,
+    instances: Vec<Instance>,
+    /// Placements of the world.
+    placements: u32,
 }
+
+/// What belongs to a group.
+#[derive(Debug, Default)]
+struct Members {
+    shapes: Vec<ShapeId>,
+    instances: Vec<InstanceId>,
+    /// All its placements, see [`Group`].
+    placements: u32,
+}
+
+/// The most placements of a group: what a hit can name.
+const MOST_PLACEMENTS: u32 = (1 << 31) - 1;
 
 impl GeometryBuilder {
     /// Nothing yet.
@@ -82,7 +98,7 @@ impl GeometryBuilder {
             .into_iter()
             .map(|(shape, material)| self.push(shape, material, LightId::NONE))
             .collect();
-        self.add_members(members)
+        self.add_members(members, Vec::new())
     }
 
     /// Adds a shape that is only seen as a member of a group.
@@ -90,20 +106,53 @@ impl GeometryBuilder {
         self.push(shape, material, LightId::NONE)
     }
 
-    /// Makes a group of members.
-    pub fn add_members(&mut self, members: Vec<ShapeId>) -> GroupId {
-        self.groups.push(members);
+    /// Makes a group of members and of instances of other groups.
+    pub fn add_members(&mut self, shapes: Vec<ShapeId>, instances: Vec<InstanceId>) -> GroupId {
+        let mut placements = 1_u32;
+        for id in &instances {
+            let instance = &mut self.instances[id.0 as usize];
+            instance.first = placements;
+            let more = self.groups[instance.group.0 as usize].placements;
+            placements = placements.saturating_add(more).min(MOST_PLACEMENTS + 1);
+        }
+        self.groups.push(Members {
+            shapes,
+            instances,
+            placements,
+        });
         GroupId(self.groups.len() as u32 - 1)
     }
 
-    /// Places a group in the world.
-    pub fn add_instance(
+    /// Places a group in the group that is to be made of this instance.
+    pub fn add_nested_instance(
         &mut self,
         group: GroupId,
         placement: impl Into<Animated<Placement>>,
     ) -> InstanceId {
-        self.instances.push((group, placement.into()));
+        self.instances.push(Instance {
+            group,
+            placement: placement.into(),
+            first: 0,
+        });
         InstanceId(self.instances.len() as u32 - 1)
+    }
+
+    /// Places a group in the world. `None` if with that the world holds more than 2³¹ placements of groups.
+    pub fn add_instance(
+        &mut self,
+        group: GroupId,
+        placement: impl Into<Animated<Placement>>,
+    ) -> Option<InstanceId> {
+        let more = self.groups[group.0 as usize].placements;
+        let placements = self.placements.saturating_add(more);
+        if placements > MOST_PLACEMENTS {
+            return None;
+        }
+        let id = self.add_nested_instance(group, placement);
+        self.instances[id.0 as usize].first = self.placements;
+        self.world_instances.push(id);
+        self.placements = placements;
+        Some(id)
     }
 
     /// Builds the accelerators.
@@ -118,59 +167,64 @@ impl GeometryBuilder {
             attachments,
             face_materials,
             world,
+            world_instances,
             groups,
             instances,
+            placements: _,
         } = self;
         let refractive = attachments.iter().enumerate().filter(|(_, a)| a.refractive);
         let refractive: Vec<usize> = refractive.map(|(index, _)| index).collect();
         for index in touching(&shapes, &refractive) {
             shapes[index].set_touching();
         }
-        let scope_of = |members: &[ShapeId]| {
+        let group_of = |members: Members, built: &[Group]| -> Group {
             let mut scope = PrimitiveIndex::default();
-            for &id in members {
+            for id in members.shapes {
                 let shape = &shapes[id.0 as usize];
-                scope.add(
-                    PrimitiveOwner::Shape(id),
-                    shape.primitives(),
-                    shape.bounds(),
-                );
+                let owner = PrimitiveOwner::Shape(id);
+                scope.add(owner, shape.primitives(), shape.bounds());
             }
-            scope
-        };
-        let build = |scope: &PrimitiveIndex, instances: &[Bounds]| -> Accelerator {
-            Contents {
-                scope,
+            let mut boxes = Vec::with_capacity(members.instances.len());
+            for &id in &members.instances {
+                let Instance {
+                    group, placement, ..
+                } = &instances[id.0 as usize];
+                let bounds = placed_bounds(built[group.0 as usize].scope.bounds, placement);
+                boxes.push(bounds);
+                if !bounds.is_empty() {
+                    scope.add(PrimitiveOwner::Instance(id), 1, bounds);
+                }
+            }
+            let contents = Contents {
+                scope: &scope,
                 shapes: &shapes,
-                instances,
+                instances: &members.instances,
+                boxes: &boxes,
+            };
+            Group {
+                accelerator: contents.build(kind),
+                scope,
+                instances: members.instances,
             }
-            .build(kind)
         };
-        let groups: Vec<Group> = groups
-            .par_iter()
-            .map(|members| {
-                let scope = scope_of(members);
-                let accelerator = build(&scope, &[]);
-                Group { scope, accelerator }
+        let is_nested = groups.iter().any(|group| !group.instances.is_empty());
+        let groups: Vec<Group> = if is_nested {
+            // A group places only groups that were added before it.
+            groups.into_iter().fold(Vec::new(), |mut built, members| {
+                built.push(group_of(members, &built));
+                built
             })
-            .collect();
-        let boxes: Vec<Bounds> = instances
-            .iter()
-            .map(|(group, placement)| {
-                placed_bounds(groups[group.0 as usize].scope.bounds, placement)
-            })
-            .collect();
-        let mut scope = scope_of(&world);
-        for (index, bounds) in boxes.iter().enumerate() {
-            if !bounds.is_empty() {
-                scope.add(
-                    PrimitiveOwner::Instance(InstanceId(index as u32)),
-                    1,
-                    *bounds,
-                );
-            }
-        }
-        let accelerator = build(&scope, &boxes);
+        } else {
+            (groups.into_par_iter())
+                .map(|members| group_of(members, &[]))
+                .collect()
+        };
+        let world = Members {
+            shapes: world,
+            instances: world_instances,
+            placements: 0,
+        };
+        let world = group_of(world, &groups);
         for (shape, attachment) in shapes.iter().zip(&attachments) {
             if attachment.light.is_some() {
                 shape.prepare_sampling();
@@ -181,11 +235,9 @@ impl GeometryBuilder {
             attachments,
             face_materials,
             groups,
-            instances: instances
-                .into_iter()
-                .map(|(group, placement)| Instance { group, placement })
-                .collect(),
-            world: Group { scope, accelerator },
+            instances,
+            world,
+            is_nested,
         }
     }
 }

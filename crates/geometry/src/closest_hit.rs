@@ -19,8 +19,11 @@ pub(crate) struct ClosestHit {
     pub(crate) exact: f64,
     /// Primitive of the accelerator.
     pub(crate) primitive: u32,
-    /// Primitive of the group's accelerator, if `primitive` is an instance.
+    /// Primitive of the innermost group's accelerator, if `primitive` is an instance.
     pub(crate) inner: u32,
+    /// Which of the accelerator's placements of groups it lies in, if `primitive` is an instance, see
+    /// [`Group`](crate::geometry::Group).
+    pub(crate) path: u32,
     /// Where the accelerator keeps the triangle: its block times their size, plus its lane.
     pub(crate) slot: u32,
     /// Barycentric coordinates on a triangle.
@@ -45,6 +48,7 @@ impl ClosestHit {
             exact: f64::NAN,
             primitive: 0,
             inner: 0,
+            path: 0,
             slot: 0,
             parameters: Vec2::ZERO,
             found: false,
@@ -59,6 +63,24 @@ impl ClosestHit {
             primitive: if ties_win { u32::MAX } else { 0 },
             found: false,
             ..*self
+        }
+    }
+
+    /// Notes what was found inside of the instance `instance`, whose group's placements are numbered from `first`;
+    /// `nested` if it lies in an instance of the group.
+    #[inline]
+    pub(crate) fn set_inside(&mut self, instance: u32, first: u32, inside: &Self, nested: bool) {
+        if inside.found {
+            *self = Self {
+                primitive: instance,
+                inner: if nested {
+                    inside.inner
+                } else {
+                    inside.primitive
+                },
+                path: first + inside.path,
+                ..*inside
+            };
         }
     }
 
@@ -105,6 +127,7 @@ impl ClosestHit {
             exact: f64::NAN,
             primitive,
             inner: 0,
+            path: 0,
             slot,
             parameters,
             found: true,

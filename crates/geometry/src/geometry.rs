@@ -1,16 +1,15 @@
 //! All surfaces of a scene: what a ray hits, and what is known of the point it hits.
 
 use crate::accelerator::{Accelerator, Bounds};
-use crate::builder::GroupId;
 use crate::closest_hit::ClosestHit;
-use crate::local_interaction::Owner;
-use crate::placement::Placement;
-use crate::primitive_index::{PrimitiveIndex, PrimitiveOwner};
+use crate::instance::{Group, Instance};
+use crate::local_interaction::{LocalInteraction, Owner};
+use crate::primitive_index::PrimitiveOwner;
 use crate::shapes::Shape;
 use crate::shapes::crossing::Line;
 use crate::traversal_ray::TraversalRay;
 use crate::world::WorldOthers;
-use etalon_math::{Animated, DirectionCone};
+use etalon_math::DirectionCone;
 use etalon_transport::{
     Hit, InstanceId, LightId, LightSampleContext, MaterialId, Ray, SampledPoint, ShapeId, Shapes,
     SurfaceInteraction, SurfacePoint,
@@ -28,20 +27,6 @@ pub(crate) struct ShapeBinding {
     pub(crate) faces: Option<u32>,
 }
 
-/// Shapes with an accelerator of their own.
-#[derive(Debug)]
-pub(crate) struct Group {
-    pub(crate) scope: PrimitiveIndex,
-    pub(crate) accelerator: Accelerator,
-}
-
-/// A placed group.
-#[derive(Debug)]
-pub(crate) struct Instance {
-    pub(crate) group: GroupId,
-    pub(crate) placement: Animated<Placement>,
-}
-
 /// All surfaces of a scene, immutable; made by a [`GeometryBuilder`](crate::GeometryBuilder).
 #[derive(Debug)]
 pub struct Geometry {
@@ -51,6 +36,15 @@ pub struct Geometry {
     pub(crate) groups: Vec<Group>,
     pub(crate) instances: Vec<Instance>,
     pub(crate) world: Group,
+    /// Whether groups place groups; if not, the world's placements are its instances.
+    pub(crate) is_nested: bool,
+}
+
+/// A surface that was hit, with the primitive and its parameters.
+struct Found {
+    surface: LocalInteraction,
+    primitive: u32,
+    parameters: Vec2,
 }
 
 /// How much geometry there is.
@@ -103,12 +97,13 @@ impl Geometry {
         };
         match self.world.scope.locate(nearest.primitive) {
             (PrimitiveOwner::Shape(shape), primitive) => hit(shape, primitive, InstanceId::NONE),
-            (PrimitiveOwner::Instance(instance), _) => {
-                let group = self.instances[instance.0 as usize].group;
-                let scope = &self.groups[group.0 as usize].scope;
-                match scope.locate(nearest.inner) {
-                    (PrimitiveOwner::Shape(shape), primitive) => hit(shape, primitive, instance),
-                    (PrimitiveOwner::Instance(_), _) => unreachable!("groups hold shapes only"),
+            (PrimitiveOwner::Instance(_), _) => {
+                let path = InstanceId(nearest.path);
+                match self.innermost(path).scope.locate(nearest.inner) {
+                    (PrimitiveOwner::Shape(shape), primitive) => hit(shape, primitive, path),
+                    (PrimitiveOwner::Instance(_), _) => {
+                        unreachable!("a placement ends with shapes")
+                    }
                 }
             }
         }
@@ -142,16 +137,6 @@ impl Geometry {
         }
     }
 
-    #[inline]
-    fn accelerator(&self, instance: InstanceId) -> &Accelerator {
-        if instance.is_some() {
-            let group = self.instances[instance.0 as usize].group;
-            &self.groups[group.0 as usize].accelerator
-        } else {
-            &self.world.accelerator
-        }
-    }
-
     /// The light that the hit shape is, or [`LightId::NONE`].
     #[inline]
     pub fn light(&self, hit: &Hit) -> LightId {
@@ -161,34 +146,57 @@ impl Geometry {
     /// The differential geometry of a hit.
     #[inline]
     pub fn vertex(&self, ray: &Ray, hit: &Hit) -> SurfaceInteraction {
-        if hit.instance.is_some() {
-            let instance = &self.instances[hit.instance.0 as usize];
-            (instance.placement).at(ray.time, |at| self.vertex_in(ray, hit, Some(at)))
+        let found = if hit.instance.is_some() {
+            self.surface_in(&self.world, hit.instance.0, ray, hit)
         } else {
-            self.vertex_in(ray, hit, None)
+            self.surface(&self.world, ray, hit)
+        };
+        let owner = self.owner(hit.shape, found.surface.face, hit.instance);
+        SurfaceInteraction {
+            t: hit.t,
+            time: ray.time,
+            ..(found.surface).vertex(&owner, found.primitive, found.parameters)
         }
     }
 
-    /// The same in the world, or in an instance placed like this.
+    /// The surface where a ray in a group's space hits something of its placement number `path`.
+    fn surface_in(&self, group: &Group, path: u32, ray: &Ray, hit: &Hit) -> Found {
+        let (instance, rest) = self.enter(group, path);
+        let inner = &self.groups[instance.group.0 as usize];
+        instance.placement.at(ray.time, |placement| {
+            // Of triangles no more than the time and the hit is asked.
+            let mut local = *ray;
+            if rest > 0 || self.shapes[hit.shape.0 as usize].is_analytic() {
+                (local.origin, local.direction) = placement.local_ray(ray.origin, ray.direction);
+            }
+            let found = if rest == 0 {
+                self.surface(inner, &local, hit)
+            } else {
+                self.surface_in(inner, rest, &local, hit)
+            };
+            Found {
+                surface: found.surface.placed(placement),
+                ..found
+            }
+        })
+    }
+
+    /// The surface where a ray in a group's space hits a shape of it.
     #[inline(always)]
-    fn vertex_in(&self, ray: &Ray, hit: &Hit, placement: Option<&Placement>) -> SurfaceInteraction {
+    fn surface(&self, group: &Group, ray: &Ray, hit: &Hit) -> Found {
         let shape = &self.shapes[hit.shape.0 as usize];
         let (mut primitive, mut parameters) = (hit.primitive, hit.parameters);
         let surface = match shape.triangles() {
             // Tracing the ray has brought the accelerator's copy of the corners close.
             Some(_) => shape.triangle(primitive, parameters, || {
-                self.accelerator(hit.instance).corners(hit.slot)
+                group.accelerator.corners(hit.slot)
             }),
             None => {
                 // Again, as it was found: rounding t would move the point of a small shape far
                 // away to anywhere on it.
-                let (origin, direction) = match placement {
-                    Some(placement) => placement.local_ray(ray.origin, ray.direction),
-                    None => (ray.origin, ray.direction),
-                };
                 let line = Line {
-                    origin: origin.as_dvec3(),
-                    direction: direction.as_dvec3(),
+                    origin: ray.origin.as_dvec3(),
+                    direction: ray.direction.as_dvec3(),
                 };
                 let crossing = shape.crossing_near(primitive, &line, hit.t.into());
                 let point = line.at(crossing.t);
@@ -208,13 +216,10 @@ impl Geometry {
                 })
             }
         };
-        let surface = surface.expect("a shape has triangles or is a solid");
-        let surface = placement.map_or(surface, |placement| surface.placed(placement));
-        let owner = self.owner(hit.shape, surface.face, hit.instance);
-        SurfaceInteraction {
-            t: hit.t,
-            time: ray.time,
-            ..surface.vertex(&owner, primitive, parameters)
+        Found {
+            surface: surface.expect("a shape has triangles or is a solid"),
+            primitive,
+            parameters,
         }
     }
 
@@ -247,12 +252,24 @@ impl Geometry {
             let groups = self.groups.iter().map(|g| &g.accelerator);
             groups.chain([&self.world.accelerator])
         };
-        let seen = |scope: &PrimitiveIndex| scope.count() as usize;
-        let instanced: usize = self
-            .instances
-            .iter()
-            .map(|i| seen(&self.groups[i.group.0 as usize].scope))
-            .sum();
+        let group_of = |id: &InstanceId| self.instances[id.0 as usize].group.0 as usize;
+        let own = |group: &Group| {
+            let placed = group.instances.iter();
+            let placed = placed.filter(|id| !self.groups[group_of(id)].scope.bounds.is_empty());
+            group.scope.count() as usize - placed.count()
+        };
+        // Groups place only groups that were added before them.
+        let mut seen: Vec<usize> = Vec::with_capacity(self.groups.len());
+        let placed = |group: &Group, seen: &[usize]| -> usize {
+            let instances = group.instances.iter();
+            instances
+                .map(|id| seen[group_of(id)])
+                .fold(0, usize::saturating_add)
+        };
+        for group in &self.groups {
+            seen.push(own(group).saturating_add(placed(group, &seen)));
+        }
+        let instanced = placed(&self.world, &seen);
         let meshes: usize = self
             .shapes
             .iter()

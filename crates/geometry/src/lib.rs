@@ -13,6 +13,7 @@ pub mod accelerator;
 pub mod builder;
 mod closest_hit;
 pub mod geometry;
+mod instance;
 mod local_interaction;
 pub mod placement;
 mod primitive_index;

@@ -2,6 +2,8 @@
 
 use crate::accelerator::{Accelerator, AcceleratorKind, Bounds, CustomPrimitives, Primitives};
 use crate::closest_hit::ClosestHit;
+use crate::geometry::Geometry;
+use crate::instance::Group;
 use crate::shapes::Shape;
 use crate::shapes::crossing::Line;
 use crate::traversal_ray::TraversalRay;
@@ -85,7 +87,10 @@ impl PrimitiveIndex {
 pub(crate) struct Contents<'a> {
     pub(crate) scope: &'a PrimitiveIndex,
     pub(crate) shapes: &'a [Shape],
-    pub(crate) instances: &'a [Bounds],
+    /// Its instances in ascending order, …
+    pub(crate) instances: &'a [InstanceId],
+    /// … and their boxes.
+    pub(crate) boxes: &'a [Bounds],
 }
 
 impl Contents<'_> {
@@ -125,27 +130,27 @@ impl Primitives for Contents<'_> {
                     None => shape.piece_bounds(index),
                 }
             }
-            (PrimitiveOwner::Instance(instance), _) => self.instances[instance.0 as usize],
+            (PrimitiveOwner::Instance(instance), _) => {
+                let found = self.instances.binary_search_by_key(&instance.0, |id| id.0);
+                found.map_or(Bounds::EMPTY, |index| self.boxes[index])
+            }
         }
     }
 }
 
-/// Intersects a group's smooth shapes; a group has no instances.
+/// Intersects what is not a triangle of a group: its smooth shapes and its instances.
 pub(crate) struct GroupOthers<'a> {
-    pub(crate) scope: &'a PrimitiveIndex,
-    pub(crate) shapes: &'a [Shape],
+    pub(crate) geometry: &'a Geometry,
+    pub(crate) group: &'a Group,
 }
 
 impl GroupOthers<'_> {
     #[inline]
-    fn piece(&self, primitive: u32) -> Option<Piece<'_>> {
-        match self.scope.locate(primitive) {
-            (PrimitiveOwner::Shape(shape), piece) => Some(Piece {
-                shape: &self.shapes[shape.0 as usize],
-                piece,
-                primitive,
-            }),
-            (PrimitiveOwner::Instance(_), _) => None,
+    fn piece(&self, shape: ShapeId, piece: u32, primitive: u32) -> Piece<'_> {
+        Piece {
+            shape: &self.geometry.shapes[shape.0 as usize],
+            piece,
+            primitive,
         }
     }
 }
@@ -171,15 +176,26 @@ impl Order for GroupOthers<'_> {
 impl CustomPrimitives for GroupOthers<'_> {
     #[inline]
     fn intersect(&self, primitive: u32, probe: &TraversalRay, nearest: &mut ClosestHit) {
-        if let Some(piece) = self.piece(primitive) {
-            piece.intersect(probe, nearest, self);
+        match self.group.scope.locate(primitive) {
+            (PrimitiveOwner::Shape(shape), piece) => {
+                (self.piece(shape, piece, primitive)).intersect(probe, nearest, self);
+            }
+            (PrimitiveOwner::Instance(instance), _) => {
+                (self.geometry).intersect_instance(instance, primitive, probe, nearest);
+            }
         }
     }
 
     #[inline]
     fn occludes(&self, primitive: u32, probe: &TraversalRay, t_max: f32) -> bool {
-        self.piece(primitive)
-            .is_some_and(|piece| piece.occludes(probe, t_max, self))
+        match self.group.scope.locate(primitive) {
+            (PrimitiveOwner::Shape(shape), piece) => {
+                (self.piece(shape, piece, primitive)).occludes(probe, t_max, self)
+            }
+            (PrimitiveOwner::Instance(instance), _) => {
+                self.geometry.occluded_instance(instance, probe, t_max)
+            }
+        }
     }
 }
 

@@ -2,11 +2,11 @@
 
 use crate::accelerator::CustomPrimitives;
 use crate::closest_hit::ClosestHit;
-use crate::geometry::{Geometry, Group, Instance};
-use crate::primitive_index::{GroupOthers, Order, Piece, PrimitiveOwner, is_in_front, tolerance};
+use crate::geometry::Geometry;
+use crate::primitive_index::{Order, Piece, PrimitiveOwner, is_in_front, tolerance};
 use crate::shapes::crossing::{Crossing, Line};
 use crate::traversal_ray::TraversalRay;
-use etalon_transport::{InstanceId, ShapeId};
+use etalon_transport::ShapeId;
 
 /// A ray as a line in double precision.
 #[inline]
@@ -21,17 +21,6 @@ fn line_of(probe: &TraversalRay) -> Line {
 pub(crate) struct WorldOthers<'a>(pub(crate) &'a Geometry);
 
 impl WorldOthers<'_> {
-    /// The instance's group and the ray in its space.
-    #[inline]
-    fn enter(&self, instance: InstanceId, probe: &TraversalRay) -> (&Group, TraversalRay) {
-        let Instance { group, placement } = &self.0.instances[instance.0 as usize];
-        let group = &self.0.groups[group.0 as usize];
-        let (origin, direction) = placement.at(probe.time, |placement| {
-            placement.local_ray(probe.origin, probe.direction)
-        });
-        (group, group.scope.probe(origin, direction))
-    }
-
     #[inline]
     fn piece(&self, shape: ShapeId, piece: u32, primitive: u32) -> Piece<'_> {
         Piece {
@@ -66,13 +55,6 @@ impl WorldOthers<'_> {
         let both =
             self.refractive(primitive).is_some() && self.0.attachments[left.0 as usize].refractive;
         both && self.is_outer(left, shape, probe, t)
-    }
-
-    fn inside<'a>(&'a self, group: &'a Group) -> GroupOthers<'a> {
-        GroupOthers {
-            scope: &group.scope,
-            shapes: &self.0.shapes,
-        }
     }
 }
 
@@ -147,18 +129,7 @@ impl CustomPrimitives for WorldOthers<'_> {
                     .intersect(probe, nearest, self);
             }
             (PrimitiveOwner::Instance(instance), _) => {
-                let (group, local) = self.enter(instance, probe);
-                let mut inside = nearest.inside(primitive);
-                group
-                    .accelerator
-                    .intersect(&local, &self.inside(group), &mut inside);
-                if inside.found {
-                    *nearest = ClosestHit {
-                        primitive,
-                        inner: inside.primitive,
-                        ..inside
-                    };
-                }
+                (self.0).intersect_instance(instance, primitive, probe, nearest);
             }
         }
     }
@@ -170,10 +141,7 @@ impl CustomPrimitives for WorldOthers<'_> {
                 (self.piece(shape, piece, primitive)).occludes(probe, t_max, self)
             }
             (PrimitiveOwner::Instance(instance), _) => {
-                let (group, local) = self.enter(instance, probe);
-                group
-                    .accelerator
-                    .occluded(&local, &self.inside(group), t_max)
+                self.0.occluded_instance(instance, probe, t_max)
             }
         }
     }

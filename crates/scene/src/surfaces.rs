@@ -4,7 +4,7 @@ use crate::attributes::Asked;
 use crate::builder::Builder;
 use etalon_bsdf::{Material, classicphong};
 use etalon_geometry::shapes::csg::Operation;
-use etalon_geometry::{GeometryBuilder, GroupId, Shape};
+use etalon_geometry::{GeometryBuilder, GroupId, Placement, Shape};
 use etalon_math::Animated;
 use etalon_params::{Class, Diagnostic, Node, Params, Span, Value, plugins};
 use etalon_subsurface::MediumDescription;
@@ -214,7 +214,7 @@ impl Surfaces {
             builder.diagnostics.push(diagnostic);
         }
         let member = self.member(shape, &carried);
-        let group = self.geometry.add_members(vec![member]);
+        let group = self.geometry.add_members(vec![member], Vec::new());
         self.names.shapes.push(name(params.node));
         if let Some(motion) = builder.shutter.motion(params, "to_world") {
             self.geometry.add_instance(group, Animated::new(motion));
@@ -280,20 +280,23 @@ impl Surfaces {
             return *group;
         }
         let params = Params::new(node, builder.diagnostics);
-        let (mut members, mut names) = (Vec::new(), Vec::new());
+        let (mut members, mut instances) = (Vec::new(), Vec::new());
         for (property, child) in params.children(Class::Shape) {
-            if COMPOSED.contains(&child.plugin.value.as_str()) {
-                let message = format!("a `shapegroup` cannot hold a `{}`", child.plugin.value);
-                builder
-                    .diagnostics
-                    .push(Diagnostic::error(property.name_span, message));
-                continue;
-            }
-            if Params::new(child, builder.diagnostics).is_animated("to_world") {
-                let message = "a shape in a `shapegroup` cannot move: animate the `instance`";
-                builder
-                    .diagnostics
-                    .push(Diagnostic::error(child.plugin.span, message));
+            match child.plugin.value.as_str() {
+                "instance" => {
+                    if let Some((group, motion)) = self.placed_group(child, builder) {
+                        instances.push(self.geometry.add_nested_instance(group, motion));
+                    }
+                    continue;
+                }
+                "shapegroup" => {
+                    let message = "a `shapegroup` cannot hold a `shapegroup`";
+                    let diagnostic = Diagnostic::error(property.name_span, message);
+                    let help = "place it: put it, or a `ref` to it, into an `instance`";
+                    builder.diagnostics.push(diagnostic.help(help));
+                    continue;
+                }
+                _ => {}
             }
             let Some((shape, carried)) = self.shape(child, builder) else {
                 continue;
@@ -305,33 +308,59 @@ impl Surfaces {
                     .push(Diagnostic::error(emitter.span, message));
                 continue;
             }
-            members.push(self.member(shape, &carried));
-            names.push(name(child));
+            let member = self.member(shape, &carried);
+            self.names.shapes.push(name(child));
+            let own = Params::new(child, builder.diagnostics);
+            if own.is_animated("to_world") {
+                if let Some(motion) = builder.shutter.motion(&own, "to_world") {
+                    let group = self.geometry.add_members(vec![member], Vec::new());
+                    let motion = Animated::new(motion);
+                    instances.push(self.geometry.add_nested_instance(group, motion));
+                }
+            } else {
+                members.push(member);
+            }
         }
         params.finish();
-        let group = self.geometry.add_members(members);
-        self.names.shapes.append(&mut names);
+        let group = self.geometry.add_members(members, instances);
         self.groups.insert(key, group);
         group
     }
 
-    fn instance(&mut self, node: &Arc<Node>, builder: &mut Builder<'_>) {
+    /// The group that an instance places, and where.
+    fn placed_group(
+        &mut self,
+        node: &Arc<Node>,
+        builder: &mut Builder<'_>,
+    ) -> Option<(GroupId, Animated<Placement>)> {
         let params = Params::new(node, builder.diagnostics);
-        let placement = builder.shutter.motion(&params, "to_world");
-        match params.child(Class::Shape) {
-            Some(group) if group.plugin.value == "shapegroup" => {
-                let group = self.group(group, builder);
-                if let Some(motion) = placement {
-                    self.geometry.add_instance(group, Animated::new(motion));
-                }
+        let motion = builder.shutter.motion(&params, "to_world");
+        let group = match params.child(Class::Shape) {
+            Some(group) if group.plugin.value == "shapegroup" => Some(self.group(group, builder)),
+            Some(other) => {
+                params.error(format!(
+                    "an `instance` places a `shapegroup`, not a `{}`",
+                    other.plugin.value
+                ));
+                None
             }
-            Some(other) => params.error(format!(
-                "an `instance` places a `shapegroup`, not a `{}`",
-                other.plugin.value
-            )),
-            None => params.missing("shapegroup", "a reference to a shape group"),
-        }
+            None => {
+                params.missing("shapegroup", "a reference to a shape group");
+                None
+            }
+        };
         params.finish();
+        Some((group?, Animated::new(motion?)))
+    }
+
+    fn instance(&mut self, node: &Arc<Node>, builder: &mut Builder<'_>) {
+        if let Some((group, motion)) = self.placed_group(node, builder)
+            && self.geometry.add_instance(group, motion).is_none()
+        {
+            let message = "too many placements of groups: with this `instance` more than 2³¹";
+            let diagnostic = Diagnostic::error(node.plugin.span, message);
+            builder.diagnostics.push(diagnostic);
+        }
     }
 
     /// The material of a BSDF node, read once however often it is used.
