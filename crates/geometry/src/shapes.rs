@@ -2,6 +2,7 @@
 //!
 //! To add a shape, write its file and add one line to the list.
 
+mod clip_box;
 pub mod cone;
 mod convex;
 pub(crate) mod crossing;
@@ -10,6 +11,7 @@ pub mod cube;
 pub mod cylinder;
 pub mod disk;
 mod file_mesh;
+pub mod implicit;
 pub mod mesh;
 mod mesh_sampling;
 mod model;
@@ -31,6 +33,7 @@ use etalon_math::DirectionCone;
 use etalon_params::Params;
 use etalon_transport::{Build, LightSampleContext, SampledPoint, SurfacePoint};
 use glam::{DVec3, Vec2, Vec3};
+use implicit::Implicit;
 use mesh::Mesh;
 use model::ShapeModel;
 use placed::Placed;
@@ -98,6 +101,8 @@ shapes! {
         "quadric" => |params, _| Quadric::from_params(params),
         "ellipsoid" => |params, _| Quadric::ellipsoid(params),
     }
+    /// Where a function vanishes, in a box.
+    Implicit(Placed<Implicit>) { "implicit" => |params, _| Implicit::from_params(params), }
     /// A torus.
     Torus(Placed<Torus>) { "torus" => |params, _| Torus::from_params(params), }
     /// Solids made of solids; their operands are the scene's to read.

@@ -39,7 +39,7 @@ impl WorldOthers<'_> {
             return is_in_front(t);
         };
         let from = &self.0.shapes[left.0 as usize];
-        if shape == left || !from.is_analytic() {
+        if !from.is_analytic() {
             return is_in_front(t);
         }
         let line = line_of(probe);
@@ -49,6 +49,10 @@ impl WorldOthers<'_> {
         let off = |crossing: &Crossing| (crossing.t - departed).abs();
         let nearest = crossings.min_by(|a, b| off(a).total_cmp(&off(b)));
         let apart = t - nearest.map_or(departed, |crossing| crossing.t);
+        if shape == left {
+            // Within rounding it is the crossing that the ray leaves.
+            return is_in_front(t) && apart > tolerance(probe, t);
+        }
         if apart.abs() > tolerance(probe, t) {
             return apart > 0.0;
         }

@@ -6,6 +6,7 @@
 pub mod cone;
 pub mod cross;
 pub mod density;
+pub mod expression;
 pub mod float;
 pub mod float64;
 pub mod frame;
@@ -18,6 +19,7 @@ pub mod transform;
 pub use cone::DirectionCone;
 pub use cross::{cross, difference_of_products};
 pub use density::{Area, DeltaProbability, Density, Length, Measure, SolidAngle};
+pub use expression::{Dual, Expression, Interval};
 pub use frame::Frame;
 pub use glam::{DMat4, DVec2, DVec3, Vec2, Vec3, Vec4};
 pub use motion::{Animated, FromAffine, Motion, MotionError};

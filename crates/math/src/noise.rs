@@ -10,9 +10,17 @@
 
 use glam::DVec3;
 
-/// No difference of [`noise`] is greater than this times the distance: along an axis a difference of two faces, at
-/// most 2, is faded with s' ≤ 15/8, and g adds 1; times √3.
-pub const LIPSCHITZ: f64 = (1.0 + 2.0 * 15.0 / 8.0) * 1.732_050_807_568_877_3;
+/// No partial derivative of [`noise`] is greater: along an axis a difference of two faces, at most 2, is faded with
+/// s' ≤ 15/8, and g adds 1.
+pub const LARGEST_SLOPE: f64 = 1.0 + 2.0 * 15.0 / 8.0;
+
+/// No second partial derivative is greater: along one axis s'' ≤ 10/√3 times 2 and 2 s' times a difference of slopes,
+/// at most 2, which is 19.1; along two 4 s' for the slopes of g and s' times a difference of derivatives, at most
+/// 2 [`LARGEST_SLOPE`], and as much as the slopes of g again, which is 29.1.
+pub const LARGEST_CURVATURE: f64 = 30.0;
+
+/// No difference is greater than this times the distance.
+pub const LIPSCHITZ: f64 = LARGEST_SLOPE * 1.732_050_807_568_877_3;
 
 /// n(p).
 pub fn noise(p: DVec3) -> f64 {
@@ -62,7 +70,7 @@ fn direction(q: DVec3) -> DVec3 {
     let h = lattice_hash(q);
     let sign = |bit: u32| if h >> bit & 1 == 0 { 1.0 } else { -1.0 };
     // Three planes, evenly: the product's high half.
-    match u64::from(h) * 3 >> 32 {
+    match (u64::from(h) * 3) >> 32 {
         0 => DVec3::new(sign(0), sign(1), 0.0),
         1 => DVec3::new(sign(0), 0.0, sign(1)),
         _ => DVec3::new(0.0, sign(0), sign(1)),

@@ -71,6 +71,8 @@ pub struct Placed<S> {
     inward: bool,
     /// The factor by which the map scales all lengths, if there is one.
     scale: Option<f64>,
+    /// What a crossing found in double precision errs by (m), where a coordinate is near 0.
+    rounding: f32,
 }
 
 impl<S: OwnShape> Placed<S> {
@@ -80,11 +82,15 @@ impl<S: OwnShape> Placed<S> {
         let similar =
             perpendicular(x, y, true) && perpendicular(y, z, true) && perpendicular(z, x, true);
         let scale = (x.length() + y.length() + z.length()) / 3.0;
+        let [low, high] = placement.bounds(shape.bounds());
+        let extent = low.abs().max(high.abs()).max_element();
         Self {
             placement,
             shape,
             inward: flip,
             scale: similar.then_some(scale),
+            // Eight roundings.
+            rounding: (8.0 * f64::EPSILON * extent) as f32,
         }
     }
 
@@ -97,14 +103,15 @@ impl<S: OwnShape> Placed<S> {
 
     fn surface(&self, own: &OwnPoint) -> LocalInteraction {
         let placement = &self.placement;
-        LocalInteraction::exact(
+        let mut surface = LocalInteraction::exact(
             placement.point(own.position),
             placement.normal(own.normal).normalize(),
             own.uv.as_vec2(),
             placement.vector(own.dp_du),
             placement.vector(own.dp_dv),
-        )
-        .flipped_if(self.inward)
+        );
+        surface.error += self.rounding;
+        surface.flipped_if(self.inward)
     }
 }
 

@@ -8,13 +8,12 @@
 //! negative, cut by the box: the solid has the box's faces where it is cut. `ellipsoid` is the one with
 //! x² + y² + z² = 1, in its smallest box.
 
+use crate::shapes::clip_box::{CURVED, ClipBox, FACES};
 use crate::shapes::crossing::{Crossing, Line};
 use crate::shapes::placed::{OwnPoint, OwnShape, Placed};
-use core::f64::consts::{PI, TAU};
-use etalon_math::float64::atan2;
 use etalon_math::polynomial::quadratic;
 use etalon_params::Params;
-use glam::{DMat3, DVec2, DVec3};
+use glam::{DMat3, DVec3};
 
 /// A quadric in a box.
 #[derive(Clone, Copy, Debug)]
@@ -23,12 +22,8 @@ pub struct Quadric {
     matrix: DMat3,
     linear: DVec3,
     constant: f64,
-    low: DVec3,
-    high: DVec3,
+    clip: ClipBox,
 }
-
-/// The face of the quadric itself; those of the box follow: low x, high x, low y, ….
-const CURVED: u32 = 0;
 
 impl Quadric {
     /// Reads `squares` (A, B, C), `products` (D, E, F), `linear` (G, H, I), `constant` (J), the corners `min` and
@@ -39,7 +34,6 @@ impl Quadric {
         let DVec3 { x: d, y: e, z: f } = vector("products", DVec3::ZERO) * 0.5;
         let linear = vector("linear", DVec3::ZERO);
         let constant = params.float_or("constant", -1.0);
-        let (low, high) = (vector("min", -DVec3::ONE), vector("max", DVec3::ONE));
         let matrix = DMat3::from_cols(
             DVec3::new(squares.x, d, e),
             DVec3::new(d, squares.y, f),
@@ -49,16 +43,8 @@ impl Quadric {
             matrix,
             linear,
             constant,
-            low,
-            high,
+            clip: ClipBox::from_params(params)?,
         };
-        if !(low.cmplt(high).all() && low.is_finite() && high.is_finite()) {
-            params.error_at(
-                "max",
-                "`max` of a `quadric` must be above `min`, and both finite",
-            );
-            return None;
-        }
         let finite = matrix.is_finite() && linear.is_finite() && constant.is_finite();
         if !finite || (matrix == DMat3::ZERO && linear == DVec3::ZERO) {
             params.error("the coefficients of a `quadric` must be finite, and not all of them 0");
@@ -83,8 +69,10 @@ impl Quadric {
             matrix: DMat3::from_diagonal(squares),
             linear: -2.0 * squares * center,
             constant: (squares * center * center).element_sum() - 1.0,
-            low: center - radii * (1.0 + 1e-9),
-            high: center + radii * (1.0 + 1e-9),
+            clip: ClipBox {
+                low: center - radii * (1.0 + 1e-9),
+                high: center + radii * (1.0 + 1e-9),
+            },
         };
         Placed::from_params(params, Some(ellipsoid))
     }
@@ -96,40 +84,11 @@ impl Quadric {
     fn value(&self, p: DVec3) -> f64 {
         p.dot(self.matrix * p) + self.linear.dot(p) + self.constant
     }
-
-    /// Where a line is in the box, with the faces.
-    fn in_box(&self, line: &Line) -> Option<[(f64, u32); 2]> {
-        let (mut first, mut last) = ((f64::NEG_INFINITY, 0), (f64::INFINITY, 0));
-        for axis in 0..3 {
-            let (o, d) = (line.origin[axis], line.direction[axis]);
-            let face = 1 + 2 * axis as u32;
-            if d == 0.0 {
-                if !(o >= self.low[axis] && o <= self.high[axis]) {
-                    return None;
-                }
-                continue;
-            }
-            let mut planes = [
-                ((self.low[axis] - o) / d, face),
-                ((self.high[axis] - o) / d, face + 1),
-            ];
-            if d < 0.0 {
-                planes.swap(0, 1);
-            }
-            if planes[0].0 > first.0 {
-                first = planes[0];
-            }
-            if planes[1].0 < last.0 {
-                last = planes[1];
-            }
-        }
-        (first.0 < last.0).then_some([first, last])
-    }
 }
 
 impl OwnShape for Quadric {
     fn next_crossing(&self, line: &Line, after: f64, _: f64) -> Option<Crossing> {
-        let [first, last] = self.in_box(line)?;
+        let [first, last] = self.clip.cut(line)?;
         // From the middle of the box, so that far origins lose nothing.
         let middle = 0.5 * (first.0 + last.0);
         let (o, d) = (line.at(middle), line.direction);
@@ -163,30 +122,8 @@ impl OwnShape for Quadric {
     }
 
     fn surface_at(&self, p: DVec3, crossing: &Crossing) -> OwnPoint {
-        if let Some(side) = crossing.face.checked_sub(1) {
-            let axis = side as usize / 2;
-            let mut normal = DVec3::ZERO;
-            let mut position = p;
-            (normal[axis], position[axis]) = if side % 2 == 0 {
-                (-1.0, self.low[axis])
-            } else {
-                (1.0, self.high[axis])
-            };
-            let (u, v) = ((axis + 1) % 3, (axis + 2) % 3);
-            let size = self.high - self.low;
-            let part = (p - self.low) / size;
-            let along = |axis: usize| {
-                DVec3::from_array(core::array::from_fn(|i| {
-                    if i == axis { size[axis] } else { 0.0 }
-                }))
-            };
-            return OwnPoint {
-                position,
-                normal,
-                uv: DVec2::new(part[u], part[v]),
-                dp_du: along(u),
-                dp_dv: along(v),
-            };
+        if let Some(point) = self.clip.face(crossing.face, p) {
+            return point;
         }
         let mut position = p;
         // One step of Newton's method brings it onto the surface.
@@ -196,30 +133,14 @@ impl OwnShape for Quadric {
             position -= gradient * (self.value(position) / squared);
         }
         let normal = self.gradient(position).try_normalize().unwrap_or(DVec3::Z);
-        let across = position - 0.5 * (self.low + self.high);
-        let radius = across.truncate().length();
-        let around = DVec3::new(-across.y, across.x, 0.0).try_normalize();
-        let tangent = around.unwrap_or(DVec3::X);
-        let tangent =
-            (tangent - normal * normal.dot(tangent)).normalize_or(normal.any_orthonormal_vector());
-        let height = (position.z - self.low.z) / (self.high.z - self.low.z);
-        OwnPoint {
-            position,
-            normal,
-            uv: DVec2::new(
-                (atan2(across.y, across.x) / TAU).rem_euclid(1.0),
-                height.clamp(0.0, 1.0),
-            ),
-            dp_du: tangent * (2.0 * PI * radius.max(1e-12)),
-            dp_dv: normal.cross(tangent) * (self.high.z - self.low.z),
-        }
+        self.clip.curved(position, normal)
     }
 
     fn faces(&self) -> u32 {
-        7
+        FACES
     }
 
     fn bounds(&self) -> [DVec3; 2] {
-        [self.low, self.high]
+        [self.clip.low, self.clip.high]
     }
 }

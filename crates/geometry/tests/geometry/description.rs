@@ -100,6 +100,10 @@ fn file(name: &str) -> (&str, Value) {
     ("filename", Value::String(name.into()))
 }
 
+fn function(text: &str) -> (&'static str, Value) {
+    ("function", Value::String(text.into()))
+}
+
 fn scale(x: f64, y: f64, z: f64) -> (&'static str, Value) {
     let matrix = DMat4::from_scale(DVec3::new(x, y, z));
     ("to_world", Value::Transform(matrix))
@@ -138,6 +142,7 @@ fn every_plugin_takes_its_parameters() {
                 ("radius", Value::Integer(3)),
             ]),
             "cube" | "rectangle" => properties.push(flag("face_normals", true)),
+            "implicit" => properties.extend([function("x^2 + y^2 - z"), flag("open", true)]),
             _ => {}
         }
         let (shape, messages) = make(plugin, properties);
@@ -157,6 +162,7 @@ fn every_plugin_answers_alike() {
     for plugin in Shape::plugins() {
         let properties = match plugin {
             "serialized" | "obj" | "ply" => vec![file("good")],
+            "implicit" => vec![function("x^2 + y^2 + z^2 - 1")],
             _ => Vec::new(),
         };
         let (shape, messages) = make(plugin, properties);
@@ -164,7 +170,10 @@ fn every_plugin_answers_alike() {
         let id = ShapeId(0);
         if !geometry.shape(id).can_emit() {
             // Whose points are not sampled: see `solids`.
-            assert!(matches!(plugin, "quadric" | "ellipsoid"), "{plugin}");
+            assert!(
+                matches!(plugin, "quadric" | "ellipsoid" | "implicit"),
+                "{plugin}"
+            );
             continue;
         }
         let (mut random, [min, max]) = (Random(5), Shapes::bounds(&geometry, id));

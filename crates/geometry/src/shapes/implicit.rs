@@ -1,0 +1,303 @@
+//! `implicit`: the surface f(x, y, z) = 0 of an expression, in a box; the solid is where f is negative.
+//!
+//! Two ways to find where a line o + t·d meets it. **`certified`** (the default; D. Mitchell 1990, *Robust ray
+//! intersection with interval arithmetic*): a piece [a, b] of the line is enclosed by interval arithmetic,
+//!
+//! ```text
+//! F = f(o + [a, b]·d) ∩ (f(m) + F′·([a, b] − m)),   F′ ∋ d/dt f on [a, b],   m the middle
+//! ```
+//!
+//! and passed over if F has no zero. If F′ has none, there is one crossing where the signs at a and b differ, and none
+//! where they agree; it is found to the last digits. Otherwise the piece is halved, until it is shorter than
+//! `feature`: then the signs decide. Nothing is missed but what a line is in for less than `feature`. Poles, and
+//! where f is not defined (outside), widen the interval to everything.
+//!
+//! **`march`**: f is looked at every `step`, and a crossing is where its sign has changed. What a line is in for less
+//! than a step may be missed: thin parts fray, and outlines shrink by about step²/8 times the curvature.
+//!
+//! Both cut the same line in the same way whatever else is asked, so that crossings alternate between in and out.
+
+use crate::shapes::clip_box::{CURVED, ClipBox, FACES};
+use crate::shapes::crossing::{Crossing, Line};
+use crate::shapes::placed::{OwnPoint, OwnShape, Placed};
+use etalon_math::expression::{ExpressionError, Number};
+use etalon_math::{Dual, Expression, Interval};
+use etalon_params::{Diagnostic, Params};
+use glam::DVec3;
+
+/// How crossings are found.
+#[derive(Clone, Copy, Debug, PartialEq)]
+enum Method {
+    /// By intervals, down to this length (m, in the shape's own space).
+    Certified(f64),
+    /// In steps of this length.
+    March(f64),
+}
+
+/// Where a function vanishes.
+#[derive(Clone, Debug)]
+pub struct Implicit {
+    function: Expression,
+    clip: ClipBox,
+    /// Whether the box's faces are no part of the surface.
+    open: bool,
+    method: Method,
+}
+
+/// More halvings than that change nothing in double precision.
+const DEEPEST: usize = 64;
+
+impl Implicit {
+    /// Reads `function`, `min` and `max`, `open` (false), `method` (`certified` or `march`), `feature` (10⁻⁴ of the
+    /// box's diagonal) or `step` (10⁻² of it), `flip_normals` and `to_world`.
+    pub(crate) fn from_params(params: &Params<'_>) -> Option<Placed<Self>> {
+        let clip = ClipBox::from_params(params);
+        let open = params.boolean_or("open", false);
+        let diagonal = clip.map_or(1.0, |clip| (clip.high - clip.low).length());
+        let what = "a positive length, 10⁻⁶ of the box's diagonal at least";
+        let length = |name: &str, default: f64| {
+            let fits = |x: f64| x >= 1e-6 * diagonal && x.is_finite();
+            params.float_where(name, default * diagonal, what, fits)
+        };
+        let method = match params.choice("method", "certified", &["certified", "march"]) {
+            "march" => Method::March(length("step", 1e-2)),
+            _ => Method::Certified(length("feature", 1e-4)),
+        };
+        let Some(text) = params.string("function") else {
+            if !params.has("function") {
+                params.missing("function", "an expression of x, y and z");
+            }
+            return None;
+        };
+        let function = match Expression::parse(text, &["x", "y", "z"]) {
+            Ok(function) => Some(function),
+            Err(error) => {
+                report(params, "function", &error);
+                None
+            }
+        };
+        let shape = Self {
+            function: function?,
+            clip: clip?,
+            open,
+            method,
+        };
+        Placed::from_params(params, Some(shape))
+    }
+
+    fn value(&self, p: DVec3) -> f64 {
+        self.function.eval(&p.to_array())
+    }
+
+    fn gradient(&self, p: DVec3) -> DVec3 {
+        let slope = |along: DVec3| {
+            let at: [Dual<f64>; 3] = core::array::from_fn(|i| Dual {
+                value: p[i],
+                slope: along[i],
+            });
+            self.function.eval(&at).slope
+        };
+        DVec3::new(slope(DVec3::X), slope(DVec3::Y), slope(DVec3::Z))
+    }
+
+    /// The unit normal at a point of the surface. At a pole the gradient points inside, and where f begins to be
+    /// defined there may be none: then it is that of a place near by.
+    fn normal(&self, p: DVec3) -> DVec3 {
+        let near = 1e-6 * (self.clip.high - self.clip.low).length();
+        let around = DVec3::AXES.into_iter().flat_map(|axis| [axis, -axis]);
+        let normal = self.gradient(p).try_normalize().or_else(|| {
+            around
+                .map(|axis| self.gradient(p + axis * near))
+                .find_map(DVec3::try_normalize)
+        });
+        let normal = normal.unwrap_or(DVec3::Z);
+        let [out, inside] = [near, -near].map(|off| self.value(p + normal * off) < 0.0);
+        if out && !inside { -normal } else { normal }
+    }
+
+    /// Whether the point is inside; where f is not defined it is not.
+    fn is_inside(&self, line: &Line, t: f64) -> bool {
+        self.value(line.at(t)) < 0.0
+    }
+
+    /// The crossing between `a` and `b`, on different sides, of which `a` is inside or not.
+    fn refine(&self, line: &Line, mut a: f64, mut b: f64, inside: bool) -> f64 {
+        let at = |t: f64| self.value(line.at(t));
+        let (mut fa, mut fb) = (at(a), at(b));
+        for step in 0..200 {
+            let middle = 0.5 * (a + b);
+            if !(middle > a && middle < b) {
+                break;
+            }
+            // The chord's zero, in turn with halving.
+            let chord = a - fa * (b - a) / (fb - fa);
+            let t = if step % 3 < 2 && chord > a && chord < b {
+                chord
+            } else {
+                middle
+            };
+            let ft = at(t);
+            if ft == 0.0 {
+                return t;
+            }
+            if (ft < 0.0) == inside {
+                (a, fa) = (t, ft);
+            } else {
+                (b, fb) = (t, ft);
+            }
+        }
+        0.5 * (a + b)
+    }
+
+    /// The piece [a, b] of a line: whether it may be passed over, and whether it has one crossing at most.
+    fn enclose(&self, line: &Line, a: f64, b: f64) -> (bool, bool) {
+        let piece = Interval { low: a, high: b };
+        let along: [Dual<Interval>; 3] = core::array::from_fn(|i| {
+            let slope = Interval::constant(line.direction[i]);
+            Dual {
+                value: Interval::constant(line.origin[i]).add(piece.mul(slope)),
+                slope,
+            }
+        });
+        // Most pieces are far from the surface, which takes no slopes to tell.
+        if !self.function.eval(&along.map(|x| x.value)).has_zero() {
+            return (true, true);
+        }
+        let Dual { value, slope } = self.function.eval(&along);
+        if !slope.has_zero() {
+            return (false, true);
+        }
+        let middle = 0.5 * (a + b);
+        let point: [Interval; 3] = core::array::from_fn(|i| {
+            let d = Interval::constant(line.direction[i]);
+            Interval::constant(line.origin[i]).add(Interval::constant(middle).mul(d))
+        });
+        let off = Interval::around(a - middle, b - middle);
+        let mean_value = self.function.eval(&point).add(slope.mul(off));
+        (!value.meet(mean_value).has_zero(), false)
+    }
+
+    /// The first crossing of the surface between `first` and `last` that is beyond `after`, if it is before `before`.
+    fn curved_crossing(
+        &self,
+        line: &Line,
+        (first, last): (f64, f64),
+        (after, before): (f64, f64),
+    ) -> Option<(f64, bool)> {
+        let crossing = |a: f64, b: f64, inside: bool| {
+            let t = self.refine(line, a, b, inside);
+            (t > after).then_some((t, !inside))
+        };
+        let length = line.direction.length();
+        match self.method {
+            Method::March(step) => {
+                let count = ((last - first) * length / step).ceil().clamp(1.0, 1e7);
+                let at = |k: f64| first + (last - first) * (k / count).min(1.0);
+                let skipped = ((after - first) / (last - first) * count).floor() - 1.0;
+                let mut k = skipped.clamp(0.0, count);
+                let mut inside = self.is_inside(line, at(k));
+                while k < count && at(k) < before {
+                    let next = self.is_inside(line, at(k + 1.0));
+                    if next != inside
+                        && let Some(found) = crossing(at(k), at(k + 1.0), inside)
+                    {
+                        return Some(found);
+                    }
+                    (k, inside) = (k + 1.0, next);
+                }
+                None
+            }
+            Method::Certified(feature) => {
+                let ends = [first, last].map(|t| self.is_inside(line, t));
+                let mut pieces = [(first, last, ends[0], ends[1]); DEEPEST];
+                let mut waiting = 1;
+                while waiting > 0 {
+                    waiting -= 1;
+                    let (a, b, inside, then) = pieces[waiting];
+                    if b <= after || a >= before {
+                        continue;
+                    }
+                    let (passed, single) = self.enclose(line, a, b);
+                    if passed {
+                        continue;
+                    }
+                    let middle = 0.5 * (a + b);
+                    let small = (b - a) * length < feature || !(middle > a && middle < b);
+                    if single || small || waiting + 2 > DEEPEST {
+                        if inside != then
+                            && let Some(found) = crossing(a, b, inside)
+                        {
+                            return Some(found);
+                        }
+                        continue;
+                    }
+                    let between = self.is_inside(line, middle);
+                    pieces[waiting] = (middle, b, between, then);
+                    pieces[waiting + 1] = (a, middle, inside, between);
+                    waiting += 2;
+                }
+                None
+            }
+        }
+    }
+}
+
+/// Records what is wrong with an expression.
+pub(crate) fn report(params: &Params<'_>, name: &str, error: &ExpressionError) {
+    let property = params.node.properties.iter().find(|p| p.name == name);
+    let span = property.map_or(params.node.plugin.span, |p| p.span);
+    let message = format!(
+        "{} at character {} of `{name}`",
+        error.message, error.character
+    );
+    let diagnostic = Diagnostic::error(span, message);
+    params.diagnostics.push(match &error.unknown {
+        Some(word) => {
+            diagnostic.suggest(word, ["x", "y", "z"].into_iter().chain(Expression::names()))
+        }
+        None => diagnostic,
+    });
+}
+
+impl OwnShape for Implicit {
+    fn next_crossing(&self, line: &Line, after: f64, before: f64) -> Option<Crossing> {
+        let [first, last] = self.clip.cut(line)?;
+        let at_face = |(t, face): (f64, u32), enters: bool| {
+            (!self.open && t > after && self.is_inside(line, t)).then(|| Crossing {
+                face,
+                ..Crossing::new(t, enters)
+            })
+        };
+        if let Some(entered) = at_face(first, true) {
+            return Some(entered);
+        }
+        let met = self.curved_crossing(line, (first.0, last.0), (after, before));
+        if let Some((t, enters)) = met {
+            return Some(Crossing {
+                face: CURVED,
+                ..Crossing::new(t, enters)
+            });
+        }
+        at_face(last, false)
+    }
+
+    fn surface_at(&self, p: DVec3, crossing: &Crossing) -> OwnPoint {
+        if let Some(point) = self.clip.face(crossing.face, p) {
+            return point;
+        }
+        // It is on the surface to the last digits already.
+        self.clip.curved(p, self.normal(p))
+    }
+
+    fn bounds(&self) -> [DVec3; 2] {
+        [self.clip.low, self.clip.high]
+    }
+
+    fn is_closed(&self) -> bool {
+        !self.open
+    }
+
+    fn faces(&self) -> u32 {
+        FACES
+    }
+}
