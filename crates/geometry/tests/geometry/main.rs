@@ -3,6 +3,7 @@
 mod accelerators;
 mod description;
 mod far_lights;
+mod functions;
 mod instances;
 mod normals;
 mod reintersection;

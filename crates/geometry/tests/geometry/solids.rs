@@ -2,6 +2,7 @@
 //! random, axis-parallel and nearly tangent, meet every surface, from the right side, and never the same one twice.
 
 use crate::description::make;
+use crate::functions::implicit_cases;
 use crate::things::{Random, geometry_of, moved};
 use core::f64::consts::PI;
 use etalon_geometry::shapes::csg::{Csg, Operation};
@@ -11,7 +12,7 @@ use etalon_transport::{Ray, ShapeId, Shapes};
 use glam::Vec3;
 
 /// How far a point is inside of a solid.
-type Depth = Box<dyn Fn(DVec3) -> f64>;
+pub(crate) type Depth = Box<dyn Fn(DVec3) -> f64>;
 
 /// A solid, and how far a point is inside of it, in a measure of its own: negative outside.
 struct Case {
@@ -20,32 +21,32 @@ struct Case {
     depth: Depth,
 }
 
-fn vector(name: &'static str, x: f64, y: f64, z: f64) -> (&'static str, Value) {
+pub(crate) fn vector(name: &'static str, x: f64, y: f64, z: f64) -> (&'static str, Value) {
     (name, Value::Vector(DVec3::new(x, y, z)))
 }
 
-fn number(name: &'static str, value: f64) -> (&'static str, Value) {
+pub(crate) fn number(name: &'static str, value: f64) -> (&'static str, Value) {
     (name, Value::Float(value))
 }
 
-fn built(plugin: &str, properties: Vec<(&str, Value)>) -> Shape {
+pub(crate) fn built(plugin: &str, properties: Vec<(&str, Value)>) -> Shape {
     let (shape, messages) = make(plugin, properties);
     shape.unwrap_or_else(|| panic!("{messages}"))
 }
 
-fn ball(x: f64, y: f64, z: f64, radius: f64) -> Shape {
+pub(crate) fn ball(x: f64, y: f64, z: f64, radius: f64) -> Shape {
     built(
         "sphere",
         vec![vector("center", x, y, z), number("radius", radius)],
     )
 }
 
-fn combine(operation: Operation, operands: Vec<Shape>) -> Shape {
+pub(crate) fn combine(operation: Operation, operands: Vec<Shape>) -> Shape {
     let csg = Csg::new(operation, operands, Placement::IDENTITY, false);
     Shape::Csg(csg.expect("operands"))
 }
 
-fn in_ball(p: DVec3, x: f64, y: f64, z: f64, radius: f64) -> f64 {
+pub(crate) fn in_ball(p: DVec3, x: f64, y: f64, z: f64, radius: f64) -> f64 {
     radius - (p - DVec3::new(x, y, z)).length()
 }
 
@@ -193,83 +194,6 @@ fn cases() -> Vec<Case> {
         }),
     );
     cases
-}
-
-/// Surfaces of functions, whole and cut by their boxes, by both methods, placed, and as operands.
-fn implicit_cases() -> Vec<(&'static str, Shape, Depth)> {
-    let implicit = |text: &str, mut more: Vec<(&'static str, Value)>| {
-        more.push(("function", Value::String(text.into())));
-        built("implicit", more)
-    };
-    let in_box = |p: DVec3, half: f64| half - p.abs().max_element();
-    let gyroid = |p: DVec3| {
-        let (s, c) = (
-            (p * 4.0).map(etalon_math::float64::sin),
-            (p * 4.0).map(etalon_math::float64::cos),
-        );
-        (s.x * c.y + s.y * c.z + s.z * c.x).abs() - 0.5
-    };
-    let gyroid_text = "abs(sin(4*x)*cos(4*y) + sin(4*y)*cos(4*z) + sin(4*z)*cos(4*x)) - 0.5";
-    let rough = |p: DVec3| p.length() - 0.8 + 0.2 * etalon_math::noise::noise(p * 3.0);
-    let corner = |x: f64| vec![vector("min", -x, -x, -x), vector("max", x, x, x)];
-    let marched = || {
-        let mut more = corner(1.5);
-        more.push(("method", Value::String("march".into())));
-        more.push(number("step", 0.0002));
-        more
-    };
-    let ring = "(sqrt(x*x + y*y) - 1)^2 + z^2 - 0.16";
-    let ring_depth = |p: DVec3| {
-        let r = p.truncate().length() - 1.0;
-        0.16 - r * r - p.z * p.z
-    };
-    vec![
-        (
-            "implicit torus",
-            implicit(ring, corner(1.5)),
-            Box::new(ring_depth),
-        ),
-        (
-            "marched torus",
-            implicit(ring, marched()),
-            Box::new(ring_depth),
-        ),
-        (
-            "gyroid",
-            implicit(gyroid_text, Vec::new()),
-            Box::new(move |p| (-gyroid(p)).min(in_box(p, 1.0))),
-        ),
-        (
-            "rough ball without a ball",
-            combine(
-                Operation::Difference,
-                vec![
-                    implicit(
-                        "sqrt(x^2+y^2+z^2) - 0.8 + 0.2*noise(3*x, 3*y, 3*z)",
-                        Vec::new(),
-                    ),
-                    ball(0.3, 0.2, 0.5, 0.5),
-                ],
-            ),
-            Box::new(move |p| (-rough(p)).min(-in_ball(p, 0.3, 0.2, 0.5, 0.5))),
-        ),
-        (
-            "a pole",
-            implicit("0.3 / z + x*x - y", Vec::new()),
-            Box::new(move |p| {
-                let f = 0.3 / p.z + p.x * p.x - p.y;
-                (-f * p.z.abs()).min(in_box(p, 1.0))
-            }),
-        ),
-        (
-            "not defined for negative x",
-            implicit("0.3 - sqrt(x) - y", Vec::new()),
-            Box::new(move |p| {
-                let f = 0.3 - p.x.max(0.0).sqrt() - p.y;
-                (-f).min(p.x).min(in_box(p, 1.0))
-            }),
-        ),
-    ]
 }
 
 /// Where a line through everything crosses the surface, as rays that go on and on find it.

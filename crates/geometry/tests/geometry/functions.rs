@@ -1,0 +1,83 @@
+//! Solids that functions bound, for the tests of [`crate::solids`].
+
+use crate::solids::{Depth, ball, built, combine, in_ball, number, vector};
+use etalon_geometry::Shape;
+use etalon_geometry::shapes::csg::Operation;
+use etalon_params::{DVec3, Value};
+
+/// Surfaces of functions, whole and cut by their boxes, by both methods, placed, and as operands.
+pub(crate) fn implicit_cases() -> Vec<(&'static str, Shape, Depth)> {
+    let implicit = |text: &str, mut more: Vec<(&'static str, Value)>| {
+        more.push(("function", Value::String(text.into())));
+        built("implicit", more)
+    };
+    let in_box = |p: DVec3, half: f64| half - p.abs().max_element();
+    let gyroid = |p: DVec3| {
+        let (s, c) = (
+            (p * 4.0).map(etalon_math::float64::sin),
+            (p * 4.0).map(etalon_math::float64::cos),
+        );
+        (s.x * c.y + s.y * c.z + s.z * c.x).abs() - 0.5
+    };
+    let gyroid_text = "abs(sin(4*x)*cos(4*y) + sin(4*y)*cos(4*z) + sin(4*z)*cos(4*x)) - 0.5";
+    let rough = |p: DVec3| p.length() - 0.8 + 0.2 * etalon_math::noise::noise(p * 3.0);
+    let corner = |x: f64| vec![vector("min", -x, -x, -x), vector("max", x, x, x)];
+    let marched = || {
+        let mut more = corner(1.5);
+        more.push(("method", Value::String("march".into())));
+        more.push(number("step", 0.0002));
+        more
+    };
+    let ring = "(sqrt(x*x + y*y) - 1)^2 + z^2 - 0.16";
+    let ring_depth = |p: DVec3| {
+        let r = p.truncate().length() - 1.0;
+        0.16 - r * r - p.z * p.z
+    };
+    vec![
+        (
+            "implicit torus",
+            implicit(ring, corner(1.5)),
+            Box::new(ring_depth),
+        ),
+        (
+            "marched torus",
+            implicit(ring, marched()),
+            Box::new(ring_depth),
+        ),
+        (
+            "gyroid",
+            implicit(gyroid_text, Vec::new()),
+            Box::new(move |p| (-gyroid(p)).min(in_box(p, 1.0))),
+        ),
+        (
+            "rough ball without a ball",
+            combine(
+                Operation::Difference,
+                vec![
+                    implicit(
+                        "sqrt(x^2+y^2+z^2) - 0.8 + 0.2*noise(3*x, 3*y, 3*z)",
+                        Vec::new(),
+                    ),
+                    ball(0.3, 0.2, 0.5, 0.5),
+                ],
+            ),
+            Box::new(move |p| (-rough(p)).min(-in_ball(p, 0.3, 0.2, 0.5, 0.5))),
+        ),
+        (
+            "a pole",
+            implicit("0.3 / z + x*x - y", Vec::new()),
+            Box::new(move |p| {
+                let f = 0.3 / p.z + p.x * p.x - p.y;
+                (-f * p.z.abs()).min(in_box(p, 1.0))
+            }),
+        ),
+        (
+            "not defined for negative x",
+            implicit("0.3 - sqrt(x) - y", Vec::new()),
+            Box::new(move |p| {
+                let f = 0.3 - p.x.max(0.0).sqrt() - p.y;
+                (-f).min(p.x).min(in_box(p, 1.0))
+            }),
+        ),
+    ]
+}
