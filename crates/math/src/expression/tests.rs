@@ -1,3 +1,5 @@
+//! Expressions against plain arithmetic, their errors, and that intervals enclose.
+
 use super::*;
 use proptest::prelude::*;
 
