@@ -2,6 +2,7 @@
 //!
 //! To add a shape, write its file and add one line to the list.
 
+pub mod bilinear;
 mod clip_box;
 pub mod cone;
 mod convex;
@@ -24,6 +25,7 @@ mod vertex_normals;
 
 use crate::accelerator::Bounds;
 use crate::local_interaction::LocalInteraction;
+use bilinear::Bilinear;
 use cone::Cone;
 use crossing::{Crossing, Line};
 use csg::Csg;
@@ -94,6 +96,8 @@ shapes! {
     Sphere(Sphere) { "sphere" => |params, _| Sphere::from_params(params), }
     /// An open cylinder.
     Cylinder(Cylinder) { "cylinder" => |params, _| Cylinder::from_params(params), }
+    /// A patch of four corners.
+    Bilinear(Placed<Bilinear>) { "bilinear" => |params, _| Bilinear::from_params(params), }
     /// A solid cone, also a truncated one.
     Cone(Placed<Cone>) { "cone" => |params, _| Cone::from_params(params), }
     /// A surface of second degree in a box.

@@ -1,6 +1,7 @@
 //! Intersection, spawning and sampling of whole geometries.
 
 mod accelerators;
+mod bilinear;
 mod description;
 mod far_lights;
 mod functions;
