@@ -13,12 +13,15 @@ pub mod cylinder;
 pub mod disk;
 mod file_mesh;
 pub mod implicit;
+mod isolate;
 pub mod mesh;
 mod mesh_sampling;
 mod model;
 pub(crate) mod placed;
+mod profile;
 pub mod quadric;
 pub mod rectangle;
+pub mod revolution;
 pub mod sphere;
 pub mod torus;
 mod vertex_normals;
@@ -41,6 +44,7 @@ use model::ShapeModel;
 use placed::Placed;
 use quadric::Quadric;
 use rectangle::Rectangle;
+use revolution::Revolution;
 use sphere::Sphere;
 use torus::Torus;
 use vertex_normals::vertex_normals;
@@ -107,6 +111,8 @@ shapes! {
     }
     /// Where a function vanishes, in a box.
     Implicit(Placed<Implicit>) { "implicit" => |params, _| Implicit::from_params(params), }
+    /// A curve turned about an axis.
+    Revolution(Placed<Revolution>) { "revolution" => |params, _| Revolution::from_params(params), }
     /// A torus.
     Torus(Placed<Torus>) { "torus" => |params, _| Torus::from_params(params), }
     /// Solids made of solids; their operands are the scene's to read.

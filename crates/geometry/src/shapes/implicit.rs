@@ -19,9 +19,11 @@
 
 use crate::shapes::clip_box::{CURVED, ClipBox, FACES};
 use crate::shapes::crossing::{Crossing, Line};
+use crate::shapes::isolate::{OneParameter, refine, sign_changes};
 use crate::shapes::placed::{OwnPoint, OwnShape, Placed};
+use core::ops::ControlFlow;
 use etalon_math::expression::{ExpressionError, Number};
-use etalon_math::{Dual, Expression, Interval};
+use etalon_math::{Dual, Expression};
 use etalon_params::{Diagnostic, Params};
 use glam::DVec3;
 
@@ -44,8 +46,19 @@ pub struct Implicit {
     method: Method,
 }
 
-/// More halvings than that change nothing in double precision.
-const DEEPEST: usize = 64;
+/// f along a line.
+struct Along<'a> {
+    function: &'a Expression,
+    line: &'a Line,
+}
+
+impl OneParameter for Along<'_> {
+    fn eval<N: Number>(&self, t: N) -> N {
+        let Line { origin, direction } = self.line;
+        let at = |i: usize| N::constant(origin[i]).add(t.mul(N::constant(direction[i])));
+        self.function.eval(&[at(0), at(1), at(2)])
+    }
+}
 
 impl Implicit {
     /// Reads `function`, `min` and `max`, `open` (false), `method` (`certified` or `march`), `feature` (10⁻⁴ of the
@@ -115,68 +128,6 @@ impl Implicit {
         if out && !inside { -normal } else { normal }
     }
 
-    /// Whether the point is inside; where f is not defined it is not.
-    fn is_inside(&self, line: &Line, t: f64) -> bool {
-        self.value(line.at(t)) < 0.0
-    }
-
-    /// The crossing between `a` and `b`, on different sides, of which `a` is inside or not.
-    fn refine(&self, line: &Line, mut a: f64, mut b: f64, inside: bool) -> f64 {
-        let at = |t: f64| self.value(line.at(t));
-        let (mut fa, mut fb) = (at(a), at(b));
-        for step in 0..200 {
-            let middle = 0.5 * (a + b);
-            if !(middle > a && middle < b) {
-                break;
-            }
-            // The chord's zero, in turn with halving.
-            let chord = a - fa * (b - a) / (fb - fa);
-            let t = if step % 3 < 2 && chord > a && chord < b {
-                chord
-            } else {
-                middle
-            };
-            let ft = at(t);
-            if ft == 0.0 {
-                return t;
-            }
-            if (ft < 0.0) == inside {
-                (a, fa) = (t, ft);
-            } else {
-                (b, fb) = (t, ft);
-            }
-        }
-        0.5 * (a + b)
-    }
-
-    /// The piece [a, b] of a line: whether it may be passed over, and whether it has one crossing at most.
-    fn enclose(&self, line: &Line, a: f64, b: f64) -> (bool, bool) {
-        let piece = Interval { low: a, high: b };
-        let along: [Dual<Interval>; 3] = core::array::from_fn(|i| {
-            let slope = Interval::constant(line.direction[i]);
-            Dual {
-                value: Interval::constant(line.origin[i]).add(piece.mul(slope)),
-                slope,
-            }
-        });
-        // Most pieces are far from the surface, which takes no slopes to tell.
-        if !self.function.eval(&along.map(|x| x.value)).has_zero() {
-            return (true, true);
-        }
-        let Dual { value, slope } = self.function.eval(&along);
-        if !slope.has_zero() {
-            return (false, true);
-        }
-        let middle = 0.5 * (a + b);
-        let point: [Interval; 3] = core::array::from_fn(|i| {
-            let d = Interval::constant(line.direction[i]);
-            Interval::constant(line.origin[i]).add(Interval::constant(middle).mul(d))
-        });
-        let off = Interval::around(a - middle, b - middle);
-        let mean_value = self.function.eval(&point).add(slope.mul(off));
-        (!value.meet(mean_value).has_zero(), false)
-    }
-
     /// The first crossing of the surface between `first` and `last` that is beyond `after`, if it is before `before`.
     fn curved_crossing(
         &self,
@@ -184,9 +135,9 @@ impl Implicit {
         (first, last): (f64, f64),
         (after, before): (f64, f64),
     ) -> Option<(f64, bool)> {
-        let crossing = |a: f64, b: f64, inside: bool| {
-            let t = self.refine(line, a, b, inside);
-            (t > after).then_some((t, !inside))
+        let along = Along {
+            function: &self.function,
+            line,
         };
         let length = line.direction.length();
         match self.method {
@@ -195,48 +146,29 @@ impl Implicit {
                 let at = |k: f64| first + (last - first) * (k / count).min(1.0);
                 let skipped = ((after - first) / (last - first) * count).floor() - 1.0;
                 let mut k = skipped.clamp(0.0, count);
-                let mut inside = self.is_inside(line, at(k));
+                let mut inside = along.is_inside(at(k));
                 while k < count && at(k) < before {
-                    let next = self.is_inside(line, at(k + 1.0));
-                    if next != inside
-                        && let Some(found) = crossing(at(k), at(k + 1.0), inside)
-                    {
-                        return Some(found);
+                    let next = along.is_inside(at(k + 1.0));
+                    if next != inside {
+                        let t = refine(&along, at(k), at(k + 1.0), inside);
+                        if t > after {
+                            return Some((t, next));
+                        }
                     }
                     (k, inside) = (k + 1.0, next);
                 }
                 None
             }
             Method::Certified(feature) => {
-                let ends = [first, last].map(|t| self.is_inside(line, t));
-                let mut pieces = [(first, last, ends[0], ends[1]); DEEPEST];
-                let mut waiting = 1;
-                while waiting > 0 {
-                    waiting -= 1;
-                    let (a, b, inside, then) = pieces[waiting];
-                    if b <= after || a >= before {
-                        continue;
+                let skip = |a: f64, b: f64| b <= after || a >= before;
+                let span = (first, last);
+                sign_changes(&along, span, feature / length, skip, |t, inside| {
+                    if t > after {
+                        ControlFlow::Break((t, !inside))
+                    } else {
+                        ControlFlow::Continue(())
                     }
-                    let (passed, single) = self.enclose(line, a, b);
-                    if passed {
-                        continue;
-                    }
-                    let middle = 0.5 * (a + b);
-                    let small = (b - a) * length < feature || !(middle > a && middle < b);
-                    if single || small || waiting + 2 > DEEPEST {
-                        if inside != then
-                            && let Some(found) = crossing(a, b, inside)
-                        {
-                            return Some(found);
-                        }
-                        continue;
-                    }
-                    let between = self.is_inside(line, middle);
-                    pieces[waiting] = (middle, b, between, then);
-                    pieces[waiting + 1] = (a, middle, inside, between);
-                    waiting += 2;
-                }
-                None
+                })
             }
         }
     }
@@ -262,8 +194,12 @@ pub(crate) fn report(params: &Params<'_>, name: &str, error: &ExpressionError) {
 impl OwnShape for Implicit {
     fn next_crossing(&self, line: &Line, after: f64, before: f64) -> Option<Crossing> {
         let [first, last] = self.clip.cut(line)?;
+        let along = Along {
+            function: &self.function,
+            line,
+        };
         let at_face = |(t, face): (f64, u32), enters: bool| {
-            (!self.open && t > after && self.is_inside(line, t)).then(|| Crossing {
+            (!self.open && t > after && along.is_inside(t)).then(|| Crossing {
                 face,
                 ..Crossing::new(t, enters)
             })

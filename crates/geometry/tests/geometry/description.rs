@@ -142,6 +142,7 @@ fn every_plugin_takes_its_parameters() {
                 ("radius", Value::Integer(3)),
             ]),
             "cube" | "rectangle" => properties.push(flag("face_normals", true)),
+            "revolution" => properties.push(("profile", Value::String("0.5 0, 0.7 1".into()))),
             "implicit" => properties.extend([function("x^2 + y^2 - z"), flag("open", true)]),
             _ => {}
         }
@@ -162,6 +163,7 @@ fn every_plugin_answers_alike() {
     for plugin in Shape::plugins() {
         let properties = match plugin {
             "serialized" | "obj" | "ply" => vec![file("good")],
+            "revolution" => vec![("profile", Value::String("0.5 0, 0.7 1".into()))],
             "implicit" => vec![function("x^2 + y^2 + z^2 - 1")],
             _ => Vec::new(),
         };
@@ -171,7 +173,10 @@ fn every_plugin_answers_alike() {
         if !geometry.shape(id).can_emit() {
             // Whose points are not sampled: see `solids`.
             assert!(
-                matches!(plugin, "bilinear" | "quadric" | "ellipsoid" | "implicit"),
+                matches!(
+                    plugin,
+                    "bilinear" | "quadric" | "ellipsoid" | "implicit" | "revolution"
+                ),
                 "{plugin}"
             );
             continue;

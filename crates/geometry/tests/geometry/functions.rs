@@ -4,6 +4,7 @@ use crate::solids::{Depth, ball, built, combine, in_ball, number, vector};
 use etalon_geometry::Shape;
 use etalon_geometry::shapes::csg::Operation;
 use etalon_params::{DVec3, Value};
+use glam::DVec2;
 
 /// Surfaces of functions, whole and cut by their boxes, by both methods, placed, and as operands.
 pub(crate) fn implicit_cases() -> Vec<(&'static str, Shape, Depth)> {
@@ -33,24 +34,56 @@ pub(crate) fn implicit_cases() -> Vec<(&'static str, Shape, Depth)> {
         let r = p.truncate().length() - 1.0;
         0.16 - r * r - p.z * p.z
     };
+    let revolution = |profile: &str, curve: &str, closed: bool| {
+        let text = |value: &str| Value::String(value.into());
+        let closed = ("closed", Value::Boolean(closed));
+        built(
+            "revolution",
+            vec![("profile", text(profile)), ("curve", text(curve)), closed],
+        )
+    };
+    let corners = [(0.4, -0.5), (1.2, 0.1), (0.5, 0.7)];
+    let in_triangle = move |p: DVec3| {
+        let c = DVec2::new(p.truncate().length(), p.z);
+        let corner = |i: usize| DVec2::from(corners[i % 3]);
+        (0..3)
+            .map(|i| {
+                let (a, b) = (corner(i), corner(i + 1));
+                (b - a).normalize().perp().dot(c - a)
+            })
+            .fold(f64::INFINITY, f64::min)
+    };
+    // r = s, z = 1 − s² down to the ground, and back along it.
+    let dome = "0 1, 0.33333333333333333 1, 0.66666666666666667 0.66666666666666667, 1 0, \
+                0.66666666666666667 0, 0.33333333333333333 0, 0 0";
     vec![
         (
-            "implicit torus",
+            "revolved triangle, of a function",
+            revolution("0.4 -0.5, 1.2 0.1, 0.5 0.7", "linear", true),
+            Box::new(in_triangle),
+        ),
+        (
+            "revolved parabola, of a function",
+            revolution(dome, "bezier", false),
+            Box::new(|p: DVec3| (1.0 - p.truncate().length_squared() - p.z).min(p.z)),
+        ),
+        (
+            "implicit torus, of a function",
             implicit(ring, corner(1.5)),
             Box::new(ring_depth),
         ),
         (
-            "marched torus",
+            "marched torus, of a function",
             implicit(ring, marched()),
             Box::new(ring_depth),
         ),
         (
-            "gyroid",
+            "gyroid, of a function",
             implicit(gyroid_text, Vec::new()),
             Box::new(move |p| (-gyroid(p)).min(in_box(p, 1.0))),
         ),
         (
-            "rough ball without a ball",
+            "rough ball without a ball, of a function",
             combine(
                 Operation::Difference,
                 vec![
@@ -64,7 +97,7 @@ pub(crate) fn implicit_cases() -> Vec<(&'static str, Shape, Depth)> {
             Box::new(move |p| (-rough(p)).min(-in_ball(p, 0.3, 0.2, 0.5, 0.5))),
         ),
         (
-            "a pole",
+            "a pole, of a function",
             implicit("0.3 / z + x*x - y", Vec::new()),
             Box::new(move |p| {
                 let f = 0.3 / p.z + p.x * p.x - p.y;
@@ -72,7 +105,7 @@ pub(crate) fn implicit_cases() -> Vec<(&'static str, Shape, Depth)> {
             }),
         ),
         (
-            "not defined for negative x",
+            "not defined for negative x, of a function",
             implicit("0.3 - sqrt(x) - y", Vec::new()),
             Box::new(move |p| {
                 let f = 0.3 - p.x.max(0.0).sqrt() - p.y;

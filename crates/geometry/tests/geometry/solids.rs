@@ -210,7 +210,7 @@ fn follow(case: &Case, mut ray: Ray) -> Vec<(f64, bool)> {
     crossings
 }
 
-/// 10⁴ rays for each solid, each looked at in 400 points. A point is judged if it is farther from the surface than
+/// 10⁴ rays for each solid, and 2500 for those of functions, each looked at in 400 points. A point is judged if it is farther from the surface than
 /// rounding moves it.
 #[test]
 fn rays_cross_what_is_there() {
@@ -218,7 +218,12 @@ fn rays_cross_what_is_there() {
     for case in cases() {
         let mut random = Random(3);
         let (mut judged, mut inside_count) = (0, 0);
-        for index in 0..10_000 {
+        let rays = if case.name.contains("of a function") {
+            2_500
+        } else {
+            10_000
+        };
+        for index in 0..rays {
             let origin = random.point() * 1.6;
             let direction = match index % 4 {
                 0 => [Vec3::X, Vec3::NEG_Y, Vec3::new(-0.0, -0.0, 1.0)][index / 4 % 3],
@@ -256,7 +261,7 @@ fn rays_cross_what_is_there() {
             }
         }
         assert!(
-            judged > 3_000_000 && inside_count > 50_000,
+            judged > 300 * rays && inside_count > 5 * rays,
             "{}: {judged} {inside_count}",
             case.name
         );
