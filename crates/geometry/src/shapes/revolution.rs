@@ -8,7 +8,7 @@
 //!
 //! Steep lines (dz² > A): t = (z(s) − oz)/dz is put into the second equation. Others: t = (−B ± √(B² − A (C − r²)))/A
 //! into the first, once for each sign, the root being 0 where the line passes the circle by. Either is a function of s
-//! whose changes of sign are isolated ([`crate::shapes::isolate`]), piece by piece; nothing is missed but what comes
+//! whose changes of sign are isolated (`shapes/isolate.rs`), piece by piece; nothing is missed but what comes
 //! and goes within 10⁻⁵ of a piece. A profile that is closed, or begins and ends on the axis, bounds a solid.
 
 use crate::shapes::crossing::{Crossing, Line};
