@@ -11,8 +11,10 @@
 //! f       = colour/π · lerp(f_d, f_ss, flatness)  +  sheen colour · F(θd)
 //! ```
 
+use crate::ShadingContext;
 use crate::microfacet::{Kind, Microfacet};
 use core::f32::consts::FRAC_1_PI;
+use etalon_transport::{TextureId, Textures};
 use glam::{Vec2, Vec3, Vec4};
 
 /// (1 − c)⁵, Schlick's weight (C. Schlick 1994, eq. 24).
@@ -43,9 +45,15 @@ pub fn microfacet(roughness: f32, anisotropic: f32) -> Microfacet {
     Microfacet::new(Kind::Ggx, alpha, true)
 }
 
-/// A colour brought to luminance one; white where it has none.
+/// A texture's colour here brought to luminance one; white where it has none, or where no tint is `wanted`.
 #[inline]
-pub fn tint(colour: Vec4, luminance: f32) -> Vec4 {
+pub fn tint<T: Textures>(
+    site: &ShadingContext<'_, T>,
+    texture: TextureId,
+    colour: Vec4,
+    wanted: bool,
+) -> Vec4 {
+    let luminance = if wanted { site.number(texture) } else { 0.0 };
     if luminance > 0.0 {
         colour / luminance
     } else {

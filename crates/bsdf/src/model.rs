@@ -1,6 +1,7 @@
 //! What every scattering model must do, in its local frame.
 
-use etalon_transport::{BsdfSample, TransportMode};
+use etalon_math::Density;
+use etalon_transport::{BsdfSample, SamplePdf, TransportMode};
 use glam::{Vec2, Vec3, Vec4};
 
 /// A scattering model with plain parameters, in the local frame whose z is the shading normal.
@@ -14,6 +15,19 @@ pub trait Bxdf: Copy {
 
     /// Samples a direction, as [`etalon_transport::Bsdf::sample`] but in the local frame.
     fn sample(&self, wo: Vec3, u_lobe: f32, u: Vec2, mode: TransportMode) -> Option<BsdfSample>;
+
+    /// The sample of a continuous direction that was found; `None` where its density is 0 in the lane that chose.
+    #[inline]
+    fn continuous(&self, wo: Vec3, wi: Vec3, eta: f32, mode: TransportMode) -> Option<BsdfSample> {
+        let (value, density) = self.eval_and_density(wo, wi, mode);
+        (density.x > 0.0).then_some(BsdfSample {
+            wi,
+            value,
+            chance: SamplePdf::Continuous(Density::per_lane(density)),
+            eta,
+            is_null: false,
+        })
+    }
 
     /// The discrete direction number `index`, as [`Bxdf::sample`] would sample it; `None` beyond
     /// the last. A model without any keeps this.

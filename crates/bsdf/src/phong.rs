@@ -13,12 +13,10 @@
 use crate::refraction::reflect;
 use crate::{Bxdf, ShadingContext};
 use core::f32::consts::{FRAC_1_PI, TAU};
-use etalon_math::{Density, Frame, float};
+use etalon_math::{Frame, float};
 use etalon_params::Params;
 use etalon_sampling::warps::square_to_cosine_hemisphere;
-use etalon_transport::{
-    BsdfSample, Build, SamplePdf, SpectrumKind, TextureId, Textures, TransportMode,
-};
+use etalon_transport::{BsdfSample, Build, SpectrumKind, TextureId, Textures, TransportMode};
 use glam::{Vec2, Vec3, Vec4};
 
 /// Parameters to test with (see [`crate::test_materials`]).
@@ -120,14 +118,7 @@ impl Bxdf for Phong {
         } else {
             square_to_cosine_hemisphere(u)
         };
-        let (value, density) = self.eval_and_density(wo, wi, mode);
-        (density.x > 0.0).then_some(BsdfSample {
-            wi,
-            value,
-            chance: SamplePdf::Continuous(Density::per_lane(density)),
-            eta: 1.0,
-            is_null: false,
-        })
+        self.continuous(wo, wi, 1.0, mode)
     }
 
     fn has_continuous(&self) -> bool {

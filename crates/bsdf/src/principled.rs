@@ -25,10 +25,10 @@ use crate::refraction::{half_way, reflect, refract};
 use crate::roughdielectric::RoughDielectric;
 use crate::{Bxdf, MaterialFlags, ShadingContext, fresnel};
 use core::f32::consts::FRAC_1_PI;
-use etalon_math::{Density, float};
+use etalon_math::float;
 use etalon_params::{Params, Value};
 use etalon_sampling::warps::square_to_cosine_hemisphere;
-use etalon_transport::{BsdfSample, Build, SamplePdf, Textures, TransportMode};
+use etalon_transport::{BsdfSample, Build, Textures, TransportMode};
 use glam::{Vec2, Vec3, Vec4};
 
 /// Parameters to test with (see [`crate::test_materials`]).
@@ -96,7 +96,7 @@ impl Description {
         let eta = if params.has("eta") {
             if params.has("specular") {
                 params.error_at("specular", "give either `eta` or `specular`");
-                return None;
+                params.ignore(&["specular"]);
             }
             let positive = |eta: f64| eta > 0.0 && eta.is_finite();
             params.float_where("eta", 1.5, "a positive finite number", positive)
@@ -131,11 +131,8 @@ impl Description {
     /// The model at a point.
     pub fn resolve<T: Textures>(&self, site: &ShadingContext<'_, T>) -> Principled {
         let at = self.inputs.at(site);
-        let tint = if at.spec_tint > 0.0 || at.sheen_tint > 0.0 {
-            disney::tint(at.base_color, site.number(self.inputs.base_color))
-        } else {
-            Vec4::ONE
-        };
+        let tinted = at.spec_tint > 0.0 || at.sheen_tint > 0.0;
+        let tint = disney::tint(site, self.inputs.base_color, at.base_color, tinted);
         let dielectric = 1.0 - at.metallic;
         let spec_trans = if self.transmits { at.spec_trans } else { 0.0 };
         let diffuse = dielectric * (1.0 - spec_trans);
@@ -248,7 +245,7 @@ impl Principled {
     /// The probability that the main interface is sampled, in front.
     #[inline]
     fn interface_probability(&self) -> f32 {
-        1.0 - self.base_probability - self.coat_probability
+        (1.0 - self.base_probability - self.coat_probability).max(0.0)
     }
 
     /// D₁.
@@ -267,18 +264,6 @@ impl Principled {
         let (sin, cos) = float::sin_cos_turns(u.x);
         let radius = float::safe_sqrt(1.0 - cos2);
         Vec3::new(cos * radius, sin * radius, float::safe_sqrt(cos2))
-    }
-
-    /// A sample of a direction that was found.
-    fn sampled(&self, wo: Vec3, wi: Vec3, eta: f32, mode: TransportMode) -> Option<BsdfSample> {
-        let (value, density) = self.eval_and_density(wo, wi, mode);
-        (density.x > 0.0).then_some(BsdfSample {
-            wi,
-            value,
-            chance: SamplePdf::Continuous(Density::per_lane(density)),
-            eta,
-            is_null: false,
-        })
     }
 
     /// Two directions in front.
@@ -344,7 +329,7 @@ impl Bxdf for Principled {
         if !(wo.z > 0.0) {
             return (self.through > 0.0)
                 .then(|| self.rough().sample(wo, u_lobe, u, mode))?
-                .and_then(|sample| self.sampled(wo, sample.wi, sample.eta, mode));
+                .and_then(|sample| self.continuous(wo, sample.wi, sample.eta, mode));
         }
         let wi = if u_lobe < self.base_probability {
             square_to_cosine_hemisphere(u)
@@ -361,12 +346,12 @@ impl Bxdf for Principled {
             let (fresnel, cos_t) = fresnel::dielectric(cos, self.eta);
             if u_lobe >= 1.0 - self.through * (1.0 - fresnel) {
                 let wi = refract(wo, m, self.eta, cos_t);
-                return (wi.z < 0.0).then(|| self.sampled(wo, wi, self.eta, mode))?;
+                return (wi.z < 0.0).then(|| self.continuous(wo, wi, self.eta, mode))?;
             }
             reflect(wo, m)
         };
         // Light that would be reflected into the surface is lost.
-        (wi.z > 0.0).then(|| self.sampled(wo, wi, 1.0, mode))?
+        (wi.z > 0.0).then(|| self.continuous(wo, wi, 1.0, mode))?
     }
 
     fn has_continuous(&self) -> bool {

@@ -19,10 +19,9 @@ use crate::principled::{is_used, sampling_rate};
 use crate::refraction::{half_way, reflect};
 use crate::{Bxdf, MaterialFlags, ShadingContext, fresnel};
 use core::f32::consts::FRAC_1_PI;
-use etalon_math::Density;
 use etalon_params::Params;
 use etalon_sampling::warps::square_to_cosine_hemisphere;
-use etalon_transport::{BsdfSample, Build, SamplePdf, Textures, TransportMode};
+use etalon_transport::{BsdfSample, Build, Textures, TransportMode};
 use glam::{Vec2, Vec3, Vec4};
 
 /// Parameters to test with (see [`crate::test_materials`]).
@@ -98,11 +97,8 @@ impl Description {
     /// The model at a point.
     pub fn resolve<T: Textures>(&self, site: &ShadingContext<'_, T>) -> PrincipledThin {
         let at = self.inputs.at(site);
-        let tint = if at.spec_tint > 0.0 || at.sheen_tint > 0.0 {
-            disney::tint(at.base_color, site.number(self.inputs.base_color))
-        } else {
-            Vec4::ONE
-        };
+        let tinted = at.spec_tint > 0.0 || at.sheen_tint > 0.0;
+        let tint = disney::tint(site, self.inputs.base_color, at.base_color, tinted);
         let passing = (0.5 * at.diff_trans).min(1.0);
         let base = (1.0 - at.spec_trans) * (1.0 - passing);
         let diffuse = (1.0 - at.spec_trans) * passing;
@@ -256,14 +252,7 @@ impl Bxdf for PrincipledThin {
             square_to_cosine_hemisphere(u) * beyond
         };
         let wi = if wo.z > 0.0 { wi } else { wi * beyond };
-        let (value, density) = self.eval_and_density(wo, wi, mode);
-        (density.x > 0.0).then_some(BsdfSample {
-            wi,
-            value,
-            chance: SamplePdf::Continuous(Density::per_lane(density)),
-            eta: 1.0,
-            is_null: false,
-        })
+        self.continuous(wo, wi, 1.0, mode)
     }
 
     fn has_continuous(&self) -> bool {

@@ -12,11 +12,8 @@ use crate::microfacet::Microfacet;
 use crate::refraction::{half_way, reflect};
 use crate::roughness::Roughness;
 use crate::{Bxdf, ShadingContext, fresnel};
-use etalon_math::Density;
 use etalon_params::Params;
-use etalon_transport::{
-    BsdfSample, Build, SamplePdf, SpectrumKind, TextureId, Textures, TransportMode,
-};
+use etalon_transport::{BsdfSample, Build, SpectrumKind, TextureId, Textures, TransportMode};
 use glam::{Vec2, Vec3, Vec4};
 
 /// Parameters to test with (see [`crate::test_materials`]).
@@ -102,14 +99,7 @@ impl Bxdf for RoughConductor {
             return None;
         }
         let wi = reflect(wo, self.microfacet.sample(wo, u));
-        let (value, density) = self.eval_and_density(wo, wi, mode);
-        (density.x > 0.0).then_some(BsdfSample {
-            wi,
-            value,
-            chance: SamplePdf::Continuous(Density::per_lane(density)),
-            eta: 1.0,
-            is_null: false,
-        })
+        self.continuous(wo, wi, 1.0, mode)
     }
 
     fn has_continuous(&self) -> bool {

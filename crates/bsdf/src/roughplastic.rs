@@ -13,10 +13,9 @@ use crate::refraction::{half_way, reflect};
 use crate::rough_fresnel::RoughFresnel;
 use crate::{Bxdf, ShadingContext, fresnel, roughness};
 use core::f32::consts::FRAC_1_PI;
-use etalon_math::Density;
 use etalon_params::Params;
 use etalon_sampling::warps::square_to_cosine_hemisphere;
-use etalon_transport::{BsdfSample, Build, SamplePdf, Textures, TransportMode};
+use etalon_transport::{BsdfSample, Build, Textures, TransportMode};
 use glam::{Vec2, Vec3, Vec4};
 
 /// Parameters to test with (see [`crate::test_materials`]).
@@ -101,14 +100,7 @@ impl Bxdf for RoughPlastic<'_> {
         } else {
             square_to_cosine_hemisphere(u)
         };
-        let (value, density) = self.eval_and_density(wo, wi, mode);
-        (density.x > 0.0).then_some(BsdfSample {
-            wi,
-            value,
-            chance: SamplePdf::Continuous(Density::per_lane(density)),
-            eta: 1.0,
-            is_null: false,
-        })
+        self.continuous(wo, wi, 1.0, mode)
     }
 
     fn has_continuous(&self) -> bool {

@@ -66,11 +66,12 @@ impl ClosestHit {
         }
     }
 
-    /// Notes what was found inside of the instance `instance`, whose group's placements are numbered from `first`;
-    /// `nested` if it lies in an instance of the group.
+    /// Notes what was found inside of the instance `instance`, whose group's placements are numbered from `first`.
     #[inline]
-    pub(crate) fn set_inside(&mut self, instance: u32, first: u32, inside: &Self, nested: bool) {
+    pub(crate) fn set_inside(&mut self, instance: u32, first: u32, inside: &Self) {
         if inside.found {
+            // The group's own placement is number 0.
+            let nested = inside.path > 0;
             *self = Self {
                 primitive: instance,
                 inner: if nested {

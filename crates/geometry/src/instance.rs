@@ -90,8 +90,7 @@ impl Geometry {
             group,
         };
         (group.accelerator).intersect(&local, &others, &mut inside);
-        let nested = inside.path > 0;
-        nearest.set_inside(primitive, instance.first, &inside, nested);
+        nearest.set_inside(primitive, instance.first, &inside);
     }
 
     /// Whether anything of an instance is hit before `t_max`.

@@ -46,11 +46,11 @@ impl Bilinear {
         let spans = |u: f64, v: f64| patch.point(DVec2::new(u, v)).normal != DVec3::ZERO;
         let corners = [p00, p10, p01, p11];
         let any = spans(0.5, 0.5) || spans(0.0, 0.0) || spans(1.0, 0.0) || spans(0.0, 1.0);
-        if !(corners.iter().all(|p| p.is_finite()) && any) {
+        let fits = corners.iter().all(|p| p.is_finite()) && any;
+        if !fits {
             params.error("the corners of a `bilinear` must be finite, and not all in a line");
-            return None;
         }
-        Placed::from_params(params, Some(patch))
+        Placed::from_params(params, fits.then_some(patch))
     }
 
     fn point(&self, uv: DVec2) -> OwnPoint {

@@ -17,6 +17,19 @@ impl Line {
     pub(crate) fn at(&self, t: f64) -> DVec3 {
         self.origin + self.direction * t
     }
+
+    /// Whether it passes a box by, or has left it before `after`.
+    pub(crate) fn misses(&self, [low, high]: [DVec3; 2], after: f64) -> bool {
+        let inverse = self.direction.recip();
+        let (a, b) = (
+            (low - self.origin) * inverse,
+            (high - self.origin) * inverse,
+        );
+        // A line in the plane of a face gives NaN, which `min` and `max` pass over.
+        let enters = a.min(b).max_element();
+        let leaves = a.max(b).min_element();
+        enters > leaves || leaves < after
+    }
 }
 
 /// A crossing.

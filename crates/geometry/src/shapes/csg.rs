@@ -71,19 +71,6 @@ struct Tree {
     bounds: [DVec3; 2],
 }
 
-/// Whether a line passes a box by, or has left it before `after`.
-fn misses([low, high]: [DVec3; 2], line: &Line, after: f64) -> bool {
-    let inverse = line.direction.recip();
-    let (a, b) = (
-        (low - line.origin) * inverse,
-        (high - line.origin) * inverse,
-    );
-    // A line in the plane of a face gives NaN, which `min` and `max` pass over.
-    let enters = a.min(b).max_element();
-    let leaves = a.max(b).min_element();
-    enters > leaves || leaves < after
-}
-
 /// Distances along a line that differ by no more than this are the same.
 fn tolerance(line: &Line, t: f64) -> f64 {
     // 2⁻⁴⁰: some ten thousand roundings.
@@ -131,7 +118,7 @@ impl Tree {
 
     /// The first crossing beyond `after`.
     fn next(&self, line: &Line, after: f64) -> Option<Crossing> {
-        if misses(self.bounds, line, after) {
+        if line.misses(self.bounds, after) {
             return None;
         }
         match &self.part {

@@ -27,6 +27,9 @@ use etalon_math::{Dual, Expression};
 use etalon_params::{Diagnostic, Params};
 use glam::DVec3;
 
+/// What an expression is of.
+const VARIABLES: [&str; 3] = ["x", "y", "z"];
+
 /// How crossings are found.
 #[derive(Clone, Copy, Debug, PartialEq)]
 enum Method {
@@ -76,26 +79,21 @@ impl Implicit {
             "march" => Method::March(length("step", 1e-2)),
             _ => Method::Certified(length("feature", 1e-4)),
         };
-        let Some(text) = params.string("function") else {
-            if !params.has("function") {
-                params.missing("function", "an expression of x, y and z");
-            }
-            return None;
-        };
-        let function = match Expression::parse(text, &["x", "y", "z"]) {
-            Ok(function) => Some(function),
-            Err(error) => {
-                report(params, "function", &error);
-                None
-            }
-        };
-        let shape = Self {
-            function: function?,
-            clip: clip?,
+        if !params.has("function") {
+            params.missing("function", "an expression of x, y and z");
+        }
+        let text = params.string("function");
+        let function = text.and_then(|text| {
+            let read = Expression::parse(text, &VARIABLES);
+            read.map_err(|error| report(params, &error)).ok()
+        });
+        let shape = function.zip(clip).map(|(function, clip)| Self {
+            function,
+            clip,
             open,
             method,
-        };
-        Placed::from_params(params, Some(shape))
+        });
+        Placed::from_params(params, shape)
     }
 
     fn value(&self, p: DVec3) -> f64 {
@@ -174,19 +172,15 @@ impl Implicit {
     }
 }
 
-/// Records what is wrong with an expression.
-pub(crate) fn report(params: &Params<'_>, name: &str, error: &ExpressionError) {
-    let property = params.node.properties.iter().find(|p| p.name == name);
+/// Records what is wrong with the expression.
+fn report(params: &Params<'_>, error: &ExpressionError) {
+    let property = (params.node.properties.iter()).find(|p| p.name == "function");
     let span = property.map_or(params.node.plugin.span, |p| p.span);
-    let message = format!(
-        "{} at character {} of `{name}`",
-        error.message, error.character
-    );
+    let (message, character) = (&error.message, error.character);
+    let message = format!("{message} at character {character} of `function`");
     let diagnostic = Diagnostic::error(span, message);
     params.diagnostics.push(match &error.unknown {
-        Some(word) => {
-            diagnostic.suggest(word, ["x", "y", "z"].into_iter().chain(Expression::names()))
-        }
+        Some(word) => diagnostic.suggest(word, VARIABLES.into_iter().chain(Expression::names())),
         None => diagnostic,
     });
 }

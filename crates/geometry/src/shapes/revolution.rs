@@ -154,9 +154,13 @@ impl Revolution {
         let signs: &[f64] = if d.z * d.z > a { &[0.0] } else { &[-1.0, 1.0] };
         for (index, piece) in self.pieces.iter().enumerate() {
             let [low, high] = piece.bounds();
-            if nearest > high.x * high.x * (1.0 + 1e-9) + f64::MIN_POSITIVE
-                || (d.z == 0.0 && !(o.z >= low.y && o.z <= high.y))
-            {
+            let slack = 1e-9 * (high.x + high.y - low.y);
+            let reach = high.x + slack;
+            let around = [
+                DVec3::new(-reach, -reach, low.y - slack),
+                DVec3::new(reach, reach, high.y + slack),
+            ];
+            if nearest > reach * reach || line.misses(around, f64::NEG_INFINITY) {
                 continue;
             }
             for &sign in signs {
@@ -168,8 +172,8 @@ impl Revolution {
                     c,
                     sign,
                 };
-                let all = |_: f64, _: f64| false;
-                sign_changes(&meeting, (0.0, 1.0), SMALLEST, all, |s, _| {
+                let nothing = |_: f64, _: f64| false;
+                sign_changes(&meeting, (0.0, 1.0), SMALLEST, nothing, |s, _| {
                     if meeting.reaches(s) {
                         visit(meeting.t(s), index, s);
                     }
