@@ -3,6 +3,7 @@
 //!
 //! Nothing here knows of light.
 
+pub mod bernstein;
 pub mod cone;
 pub mod cross;
 pub mod density;

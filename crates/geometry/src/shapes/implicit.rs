@@ -85,7 +85,8 @@ impl Implicit {
         let text = params.string("function");
         let function = text.and_then(|text| {
             let read = Expression::parse(text, &VARIABLES);
-            read.map_err(|error| report(params, &error)).ok()
+            read.map_err(|error| report(params, "function", &VARIABLES, &error))
+                .ok()
         });
         let shape = function.zip(clip).map(|(function, clip)| Self {
             function,
@@ -172,15 +173,22 @@ impl Implicit {
     }
 }
 
-/// Records what is wrong with the expression.
-fn report(params: &Params<'_>, error: &ExpressionError) {
-    let property = (params.node.properties.iter()).find(|p| p.name == "function");
+/// Records what is wrong with an expression of some variables.
+pub(crate) fn report(
+    params: &Params<'_>,
+    name: &str,
+    variables: &[&'static str],
+    error: &ExpressionError,
+) {
+    let property = (params.node.properties.iter()).find(|p| p.name == name);
     let span = property.map_or(params.node.plugin.span, |p| p.span);
     let (message, character) = (&error.message, error.character);
-    let message = format!("{message} at character {character} of `function`");
+    let message = format!("{message} at character {character} of `{name}`");
     let diagnostic = Diagnostic::error(span, message);
     params.diagnostics.push(match &error.unknown {
-        Some(word) => diagnostic.suggest(word, VARIABLES.into_iter().chain(Expression::names())),
+        Some(word) => {
+            diagnostic.suggest(word, variables.iter().copied().chain(Expression::names()))
+        }
         None => diagnostic,
     });
 }

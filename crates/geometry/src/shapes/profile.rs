@@ -1,78 +1,121 @@
-//! Plane curves in cubic pieces, as profiles of surfaces: polylines, Bézier curves, Catmull–Rom splines.
+//! Plane curves as profiles of surfaces: polylines, Bézier curves, Catmull–Rom splines, expressions of a parameter.
 //!
-//! ```text
-//! c(s) = (1−s)³ c₀ + 3 (1−s)² s c₁ + 3 (1−s) s² c₂ + s³ c₃,   0 ≤ s ≤ 1
-//! ```
-//!
-//! A Catmull–Rom piece from p₁ to p₂ has the inner points p₁ + (p₂ − p₀)/6 and p₂ − (p₃ − p₁)/6 (E. Catmull, R. Rom
-//! 1974, *A class of local interpolating splines*); at the ends of an open one the missing neighbour is the end.
+//! All are kept as cubic pieces. A Catmull–Rom piece from p₁ to p₂ has the inner points p₁ + (p₂ − p₀)/6 and
+//! p₂ − (p₃ − p₁)/6 (E. Catmull, R. Rom 1974, *A class of local interpolating splines*); at the ends of an open one
+//! the missing neighbour is the end. A curve (x(t), y(t)) of expressions is cut until the cubic with its ends and
+//! its derivatives there is within [`CLOSE`] of it.
 
-use etalon_math::expression::Number;
+use crate::shapes::cubic::{Cubic, Profile};
+use crate::shapes::implicit::report;
+use etalon_math::{Dual, Expression};
 use etalon_params::Params;
 use glam::DVec2;
 
-/// A piece.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) struct Cubic(pub(crate) [DVec2; 4]);
+/// How far the pieces are from a curve of expressions, in parts of its size.
+const CLOSE: f64 = 1e-7;
 
-impl Cubic {
-    /// A coordinate: 0 or 1. At the ends exactly that of the end.
-    #[inline]
-    pub(crate) fn coordinate<N: Number>(&self, axis: usize, s: N) -> N {
-        let rest = N::constant(1.0).add(s.neg());
-        let [c0, c1, c2, c3] = self.0.map(|c| N::constant(c[axis]));
-        let three = N::constant(3.0);
-        let (s2, rest2) = (s.powi(2), rest.powi(2));
-        let outer = rest2.mul(rest).mul(c0).add(s2.mul(s).mul(c3));
-        let inner = rest.mul(c1).add(s.mul(c2)).mul(three.mul(s.mul(rest)));
-        outer.add(inner)
+/// The most pieces of a curve of expressions: halvings of each of the first eight.
+const DEEPEST: u32 = 10;
+
+/// Reads `curve` (`linear`, `bezier`, `catmullrom` or `parametric`) and what it is made of.
+pub(crate) fn from_params(params: &Params<'_>) -> Option<Profile> {
+    let curves = ["linear", "bezier", "catmullrom", "parametric"];
+    match params.choice("curve", "linear", &curves) {
+        "parametric" => parametric(params),
+        curve => through_points(params, curve),
     }
+    .map(Profile::new)
+}
 
-    /// The point at `s`.
-    pub(crate) fn at(&self, s: f64) -> DVec2 {
-        DVec2::new(self.coordinate(0, s), self.coordinate(1, s))
+/// Reads `x` and `y`, expressions of t, and the least and greatest t, `from` (0) and `to` (1).
+fn parametric(params: &Params<'_>) -> Option<Vec<Cubic>> {
+    let read = |name: &str| {
+        if !params.has(name) {
+            params.missing(name, "an expression of t, such as `cos(2*pi*t)`");
+        }
+        let read = Expression::parse(params.string(name)?, &["t"]);
+        read.map_err(|error| report(params, name, &["t"], &error))
+            .ok()
+    };
+    let [x, y] = ["x", "y"].map(read);
+    let first = params.float_or("from", 0.0);
+    let what = "a finite number above `from`";
+    let last = params.float_where("to", 1.0, what, |to| to > first && to.is_finite());
+    let (x, y) = x.zip(y)?;
+    let at = |t: f64| {
+        let [x, y] = [&x, &y].map(|f| {
+            f.eval(&[Dual {
+                value: t,
+                slope: 1.0,
+            }])
+        });
+        (DVec2::new(x.value, y.value), DVec2::new(x.slope, y.slope))
+    };
+    let points = (0..=256).map(|k| at(first + (last - first) * f64::from(k) / 256.0).0);
+    let [low, high] = points.fold([DVec2::INFINITY, DVec2::NEG_INFINITY], |[l, h], p| {
+        [l.min(p), h.max(p)]
+    });
+    let size = (high - low).max_element();
+    let mut pieces = Vec::new();
+    let mut ends = (0..8).map(|k| [k, k + 1].map(|k| first + (last - first) * f64::from(k) / 8.0));
+    if let Err(t) = ends.try_for_each(|ends| fit(&at, ends, size, 0, &mut pieces)) {
+        let message = format!("the curve is not defined, or has no direction, at t = {t}");
+        params.error_at("x", message);
+        return None;
     }
+    snap(&mut pieces, 1e-9 * size);
+    Some(pieces)
+}
 
-    /// dc/ds.
-    pub(crate) fn tangent(&self, s: f64) -> DVec2 {
-        let [a, b, c] = [0, 1, 2].map(|i| self.0[i + 1] - self.0[i]);
-        let rest = 1.0 - s;
-        3.0 * (rest * rest * a + 2.0 * rest * s * b + s * s * c)
+/// Adds the pieces of a curve between two parameters, or says where it cannot be followed.
+fn fit(
+    at: &impl Fn(f64) -> (DVec2, DVec2),
+    [a, b]: [f64; 2],
+    size: f64,
+    depth: u32,
+    pieces: &mut Vec<Cubic>,
+) -> Result<(), f64> {
+    let [(start, from), (end, to)] = [a, b].map(at);
+    let cubic = Cubic::hermite([start, end], [from * (b - a), to * (b - a)]);
+    for (t, p) in [(a, start + from), (b, end + to)] {
+        if !p.is_finite() {
+            return Err(t);
+        }
     }
+    let mut off = [0.25, 0.5, 0.75]
+        .into_iter()
+        .map(|s| (cubic.at(s) - at(a + (b - a) * s).0).length());
+    if depth == DEEPEST || off.all(|off| off <= CLOSE * size) {
+        pieces.push(cubic);
+        return Ok(());
+    }
+    let middle = 0.5 * (a + b);
+    fit(at, [a, middle], size, depth + 1, pieces)?;
+    fit(at, [middle, b], size, depth + 1, pieces)
+}
 
-    /// A box that holds it: that of its points.
-    pub(crate) fn bounds(&self) -> [DVec2; 2] {
-        let [a, b, c, d] = self.0;
-        [a.min(b).min(c).min(d), a.max(b).max(c).max(d)]
+/// Closes what rounding left open, and puts ends on the axis that are next to it.
+fn snap(pieces: &mut [Cubic], near: f64) {
+    let last = pieces.len() - 1;
+    let (first, end) = (pieces[0].0[0], pieces[last].0[3]);
+    if first.distance(end) <= near {
+        pieces[last].0[3] = first;
+    }
+    for point in pieces.iter_mut().flat_map(|piece| &mut piece.0) {
+        if point.x.abs() <= near {
+            point.x = 0.0;
+        }
     }
 }
 
-/// Reads `profile`, pairs of numbers, `curve` (`linear`, `bezier` or `catmullrom`) and `closed` (false).
-pub(crate) fn from_params(params: &Params<'_>) -> Option<Vec<Cubic>> {
-    let curve = params.choice("curve", "linear", &["linear", "bezier", "catmullrom"]);
+/// Reads `profile`, pairs of numbers, and `closed` (false).
+fn through_points(params: &Params<'_>, curve: &str) -> Option<Vec<Cubic>> {
     let closed = params.boolean_or("closed", false);
-    let Some(text) = params.string("profile") else {
-        if !params.has("profile") {
-            params.missing("profile", "pairs of numbers, such as `0.5 0, 0.7 1`");
-        }
-        return None;
-    };
-    let mut numbers = Vec::new();
-    for word in text
-        .split([',', ' ', '\n', '\t', '\r'])
-        .filter(|word| !word.is_empty())
-    {
-        match word.parse::<f64>() {
-            Ok(number) if number.is_finite() => numbers.push(number),
-            _ => {
-                params.error_at(
-                    "profile",
-                    format!("`{word}` in `profile` is not a finite number"),
-                );
-                return None;
-            }
-        }
-    }
+    let numbers = numbers(
+        params,
+        "profile",
+        "pairs of numbers, such as `0.5 0, 0.7 1`",
+    )?;
     let mut points: Vec<DVec2> = (numbers.chunks_exact(2))
         .map(|pair| DVec2::new(pair[0], pair[1]))
         .collect();
@@ -103,12 +146,29 @@ pub(crate) fn from_params(params: &Params<'_>) -> Option<Vec<Cubic>> {
     Some(pieces_of(curve, closed, &points))
 }
 
+/// Reads finite numbers, separated by blanks and commas, from a string that is needed.
+pub(crate) fn numbers(params: &Params<'_>, name: &str, what: &str) -> Option<Vec<f64>> {
+    if !params.has(name) {
+        params.missing(name, what);
+    }
+    let text = params.string(name)?;
+    let words = text.split(|c: char| c == ',' || c.is_whitespace());
+    let mut numbers = Vec::new();
+    for word in words.filter(|word| !word.is_empty()) {
+        match word.parse::<f64>() {
+            Ok(number) if number.is_finite() => numbers.push(number),
+            _ => {
+                let message = format!("`{word}` in `{name}` is not a finite number");
+                params.error_at(name, message);
+                return None;
+            }
+        }
+    }
+    Some(numbers)
+}
+
 fn pieces_of(curve: &str, closed: bool, points: &[DVec2]) -> Vec<Cubic> {
     let last = points.len() - 1;
-    let straight = |pair: &[DVec2]| {
-        let (a, b) = (pair[0], pair[1]);
-        Cubic([a, a.lerp(b, 1.0 / 3.0), a.lerp(b, 2.0 / 3.0), b])
-    };
     match curve {
         "bezier" => (0..last / 3)
             .map(|i| Cubic(core::array::from_fn(|k| points[3 * i + k])))
@@ -126,9 +186,11 @@ fn pieces_of(curve: &str, closed: bool, points: &[DVec2]) -> Vec<Cubic> {
                     _ => points[last],
                 };
                 let (a, b) = (points[i], points[i + 1]);
-                Cubic([a, a + (b - before) / 6.0, b - (after - a) / 6.0, b])
+                Cubic::hermite([a, b], [0.5 * (b - before), 0.5 * (after - a)])
             })
             .collect(),
-        _ => points.windows(2).map(straight).collect(),
+        _ => (points.windows(2))
+            .map(|pair| Cubic::straight(pair[0], pair[1]))
+            .collect(),
     }
 }

@@ -6,181 +6,249 @@
 //! z(s) = oz + t dz   and   A t² + 2 B t + C = r(s)²
 //! ```
 //!
-//! Steep lines (dz² > A): t = (z(s) − oz)/dz is put into the second equation. Others: t = (−B ± √(B² − A (C − r²)))/A
-//! into the first, once for each sign, the root being 0 where the line passes the circle by. Either is a function of s
-//! whose changes of sign are isolated (`shapes/isolate.rs`), piece by piece; nothing is missed but what comes
-//! and goes within 10⁻⁵ of a piece. A profile that is closed, or begins and ends on the axis, bounds a solid.
+//! Without t these are one polynomial of degree 6 for each cubic piece,
+//!
+//! ```text
+//! A (z − oz)² + 2 B dz (z − oz) + dz² (C − r²) = 0,
+//! ```
+//!
+//! whose changes of sign are isolated in Bernstein form. Its zeros come in pairs that fall together where a line lies
+//! across the axis, dz = 0. There t = (−B ± √(B² − A (C − r²)))/A is put into the first equation, once for each sign,
+//! and zeros are isolated by intervals (`shapes/isolate.rs`). A profile that is closed, or begins and ends on the
+//! axis, bounds a solid.
 
 use crate::shapes::crossing::{Crossing, Line};
+use crate::shapes::cubic::{Cubic, Profile};
 use crate::shapes::isolate::{OneParameter, sign_changes};
+use crate::shapes::measure::Lengths;
 use crate::shapes::placed::{OwnPoint, OwnShape, Placed};
-use crate::shapes::profile::{self, Cubic};
+use crate::shapes::profile;
 use core::f64::consts::TAU;
 use core::ops::ControlFlow;
+use etalon_math::bernstein;
 use etalon_math::expression::Number;
 use etalon_math::float64::{atan2, sin_cos};
 use etalon_params::Params;
-use glam::{DVec2, DVec3};
+use glam::{DVec2, DVec3, Vec2};
 
 /// A surface of revolution.
 #[derive(Clone, Debug)]
 pub struct Revolution {
-    pieces: Vec<Cubic>,
+    profile: Profile,
+    /// r², z² and z of each piece, to degree 6.
+    powers: Vec<[[f64; 7]; 3]>,
     closed: bool,
     /// −1 if the profile's left side, seen along it, is outside.
     outward: f64,
+    /// Areas, for sampling points.
+    areas: Lengths,
 }
 
-/// The smallest piece of a cubic that is cut further.
-const SMALLEST: f64 = 1e-5;
+/// The shortest part of a piece in which zeros are told apart.
+const SMALLEST: f64 = 1e-9;
 
-/// What vanishes where a line meets the circle of s.
-struct Meeting<'a> {
-    piece: &'a Cubic,
-    line: &'a Line,
+/// Lines with dz² below this part of A lie across the axis.
+const ACROSS: f64 = 1e-10;
+
+/// A line, from a point near the shape.
+struct Turned {
+    o: DVec3,
+    d: DVec3,
     a: f64,
     b: f64,
     c: f64,
-    /// The root's sign; 0 for a steep line.
+}
+
+impl Turned {
+    /// B² − A (C − r²): at least 0 where the line reaches the circle of radius r.
+    fn beyond(&self, r: f64) -> f64 {
+        self.b * self.b - self.a * (self.c - r * r)
+    }
+
+    /// Where the line meets a circle that it does meet.
+    fn t(&self, circle: DVec2) -> f64 {
+        let steep = (circle.y - self.o.z) / self.d.z;
+        if self.d.z * self.d.z > self.a {
+            return steep;
+        }
+        let root = self.beyond(circle.x).max(0.0).sqrt();
+        let [near, far] = [-root, root].map(|root| (root - self.b) / self.a);
+        if (near - steep).abs() < (far - steep).abs() {
+            near
+        } else {
+            far
+        }
+    }
+}
+
+/// z(s) − oz − t dz of a line across the axis, t being the nearer or the farther place where it meets the circle's
+/// cylinder, or comes closest to it.
+struct Across<'a> {
+    line: &'a Turned,
+    piece: &'a Cubic,
     sign: f64,
 }
 
-impl Meeting<'_> {
-    /// t of the circle of s.
+impl Across<'_> {
+    fn coordinate<N: Number>(&self, axis: usize, s: N) -> N {
+        let [c0, c1, c2, c3] = self.piece.coordinate(axis).map(N::constant);
+        let rest = N::constant(1.0).add(s.neg());
+        let three = N::constant(3.0);
+        let outer = rest.powi(3).mul(c0).add(s.powi(3).mul(c3));
+        let inner = rest.mul(c1).add(s.mul(c2)).mul(three.mul(s.mul(rest)));
+        outer.add(inner)
+    }
+
     fn t<N: Number>(&self, s: N) -> N {
         let constant = N::constant;
-        if self.sign == 0.0 {
-            let z = self.piece.coordinate(1, s);
-            let up = z.add(constant(-self.line.origin.z));
-            return up.div(constant(self.line.direction.z));
-        }
-        let r2 = self.piece.coordinate(0, s).powi(2);
-        let beyond = constant(self.b * self.b - self.a * self.c).add(r2.mul(constant(self.a)));
+        let Turned { a, b, c, .. } = *self.line;
+        let r2 = self.coordinate(0, s).powi(2);
+        let beyond = constant(b * b - a * c).add(r2.mul(constant(a)));
         let none = constant(0.0);
         let root = N::max_with(beyond, none, none, none).0.sqrt();
         root.mul(constant(self.sign))
-            .add(constant(-self.b))
-            .div(constant(self.a))
-    }
-
-    /// Whether the line reaches the circle of s.
-    fn reaches(&self, s: f64) -> bool {
-        let r: f64 = self.piece.coordinate(0, s);
-        let beyond = self.b * self.b - self.a * (self.c - r * r);
-        self.sign == 0.0 || beyond >= -1e-12 * self.b * self.b
+            .add(constant(-b))
+            .div(constant(a))
     }
 }
 
-impl OneParameter for Meeting<'_> {
+impl OneParameter for Across<'_> {
     fn eval<N: Number>(&self, s: N) -> N {
-        let constant = N::constant;
-        let t = self.t(s);
-        if self.sign == 0.0 {
-            let r2 = self.piece.coordinate(0, s).powi(2);
-            let along = t.powi(2).mul(constant(self.a));
-            let across = t.mul(constant(2.0 * self.b)).add(constant(self.c));
-            along.add(across).add(r2.neg())
-        } else {
-            let z = self.piece.coordinate(1, s);
-            let up = t.mul(constant(self.line.direction.z));
-            z.add(constant(-self.line.origin.z)).add(up.neg())
-        }
+        let up = self.t(s).mul(N::constant(self.line.d.z));
+        let z = self.coordinate(1, s).add(N::constant(-self.line.o.z));
+        z.add(up.neg())
     }
 }
 
 impl Revolution {
-    /// Reads `profile`, pairs of r and z, `curve`, `closed`, `flip_normals` and `to_world`.
+    /// Reads the profile, of r and z, `flip_normals` and `to_world`.
     pub(crate) fn from_params(params: &Params<'_>) -> Option<Placed<Self>> {
-        let pieces = profile::from_params(params);
-        let pieces = pieces.filter(|pieces| {
-            let low = pieces.iter().map(|piece| piece.bounds()[0].x);
-            let fits = low.fold(f64::INFINITY, f64::min) >= 0.0;
+        let profile = profile::from_params(params);
+        let profile = profile.filter(|profile| {
+            let fits = profile.bounds()[0].x >= 0.0;
             if !fits {
-                let message = "the `profile` of a `revolution` must not cross the axis: all r, those of \
-                               inner points included, must be 0 or more";
-                params.error_at("profile", message);
+                let name = if params.has("profile") {
+                    "profile"
+                } else {
+                    "x"
+                };
+                let message = format!(
+                    "`{name}` of a `revolution` must not cross the axis: all r, those of \
+                     inner points included, must be 0 or more"
+                );
+                params.error_at(name, message);
             }
             fits
         });
-        Placed::from_params(params, pieces.map(Self::new))
+        Placed::from_params(params, profile.map(Self::new))
     }
 
-    fn new(pieces: Vec<Cubic>) -> Self {
-        let (first, last) = (pieces[0].0[0], pieces[pieces.len() - 1].0[3]);
-        let closed = first == last || (first.x == 0.0 && last.x == 0.0);
+    fn new(profile: Profile) -> Self {
+        let [first, last] = profile.ends();
+        let closed = profile.is_closed() || (first.x == 0.0 && last.x == 0.0);
         // ∮ r² dz, by the trapezoid rule: the solid's volume over π if the profile goes up outside.
-        let points = pieces
-            .iter()
-            .flat_map(|p| (0..32).map(|k| p.at(f64::from(k) / 32.0)));
-        let points: Vec<DVec2> = points.chain([last]).collect();
+        let points: Vec<DVec2> = profile.points(32).collect();
         let volume: f64 = (points.windows(2))
             .map(|pair| (pair[0].x.powi(2) + pair[1].x.powi(2)) * (pair[1].y - pair[0].y))
             .sum();
+        let powers = profile.pieces().iter().map(|piece| {
+            let [r, z] = [0, 1].map(|axis| piece.coordinate(axis));
+            [
+                bernstein::product(&r, &r),
+                bernstein::product(&z, &z),
+                bernstein::product(&z, &[1.0; 4]),
+            ]
+        });
         Self {
+            powers: powers.collect(),
+            areas: Lengths::new(profile.pieces(), |c| TAU * c.x),
             outward: if closed && volume < 0.0 { -1.0 } else { 1.0 },
-            pieces,
             closed,
+            profile,
         }
     }
 
     /// The surface at azimuth and place on a piece.
     fn point(&self, azimuth: f64, index: usize, s: f64) -> OwnPoint {
-        let piece = &self.pieces[index];
+        let piece = &self.profile.pieces()[index];
         let (sin, cos) = sin_cos(azimuth);
-        let c = piece.at(s);
-        // At a cusp, or where inner points lie on ends, the direction near by.
-        let tangent = match piece.tangent(s) {
-            DVec2::ZERO => piece.tangent(s + (0.5 - s) * 1e-6),
-            tangent => tangent,
-        };
+        let (c, tangent) = (piece.at(s), piece.tangent(s));
         let around = |v: DVec2| DVec3::new(v.x * cos, v.x * sin, v.y);
-        let count = self.pieces.len() as f64;
         OwnPoint {
             position: around(c),
             normal: around(DVec2::new(tangent.y, -tangent.x)) * self.outward,
-            uv: DVec2::new((azimuth / TAU).rem_euclid(1.0), (index as f64 + s) / count),
+            uv: DVec2::new((azimuth / TAU).rem_euclid(1.0), self.profile.part(index, s)),
             dp_du: DVec3::new(-sin, cos, 0.0) * (TAU * c.x.max(1e-12)),
-            dp_dv: around(tangent) * count,
+            dp_dv: around(tangent) * self.profile.pieces().len() as f64,
         }
     }
 
     /// Calls `visit` with t, the piece and s of every crossing.
     fn crossings(&self, line: &Line, mut visit: impl FnMut(f64, usize, f64)) {
-        let (o, d) = (line.origin, line.direction);
-        let a = d.truncate().length_squared();
-        let b = o.truncate().dot(d.truncate());
-        let c = o.truncate().length_squared();
-        let nearest = c - if a > 0.0 { b * b / a } else { 0.0 };
-        let signs: &[f64] = if d.z * d.z > a { &[0.0] } else { &[-1.0, 1.0] };
-        for (index, piece) in self.pieces.iter().enumerate() {
-            let [low, high] = piece.bounds();
-            let slack = 1e-9 * (high.x + high.y - low.y);
+        let [low, high] = self.profile.bounds();
+        // From the point nearest to the middle, so that a far origin costs no digits.
+        let middle = DVec3::new(0.0, 0.0, 0.5 * (low.y + high.y));
+        let d = line.direction;
+        let start = (middle - line.origin).dot(d) / d.length_squared();
+        let o = line.at(start);
+        let line = Turned {
+            o,
+            d,
+            a: d.truncate().length_squared(),
+            b: o.truncate().dot(d.truncate()),
+            c: o.truncate().length_squared(),
+        };
+        let nearest = line.c
+            - if line.a > 0.0 {
+                line.b * line.b / line.a
+            } else {
+                0.0
+            };
+        let slack = 1e-9 * (high.x + high.y - low.y);
+        let meets = |[low, high]: [DVec2; 2]| {
             let reach = high.x + slack;
             let around = [
                 DVec3::new(-reach, -reach, low.y - slack),
                 DVec3::new(reach, reach, high.y + slack),
             ];
-            if nearest > reach * reach || line.misses(around, f64::NEG_INFINITY) {
-                continue;
+            nearest <= reach * reach
+                && !Line {
+                    origin: o,
+                    direction: d,
+                }
+                .misses(around, f64::NEG_INFINITY)
+        };
+        self.profile.search(meets, |index| {
+            let piece = &self.profile.pieces()[index];
+            if d.z * d.z > ACROSS * line.a {
+                let [rr, zz, z] = &self.powers[index];
+                let linear = 2.0 * (line.b * d.z - line.a * o.z);
+                let constant = line.a * o.z * o.z + d.z * (line.c * d.z - 2.0 * line.b * o.z);
+                let polynomial: [f64; 7] = core::array::from_fn(|k| {
+                    line.a * zz[k] + linear * z[k] + constant - d.z * d.z * rr[k]
+                });
+                bernstein::sign_changes(&polynomial, SMALLEST, |s, _| {
+                    visit(start + line.t(piece.at(s)), index, s);
+                    ControlFlow::<()>::Continue(())
+                });
+                return;
             }
-            for &sign in signs {
-                let meeting = Meeting {
+            for sign in [-1.0, 1.0] {
+                let across = Across {
+                    line: &line,
                     piece,
-                    line,
-                    a,
-                    b,
-                    c,
                     sign,
                 };
                 let nothing = |_: f64, _: f64| false;
-                sign_changes(&meeting, (0.0, 1.0), SMALLEST, nothing, |s, _| {
-                    if meeting.reaches(s) {
-                        visit(meeting.t(s), index, s);
+                sign_changes(&across, (0.0, 1.0), 1e-5, nothing, |s, _| {
+                    let r = piece.at(s).x;
+                    if line.beyond(r) >= -1e-12 * line.b * line.b {
+                        visit(start + across.t(s), index, s);
                     }
                     ControlFlow::<()>::Continue(())
                 });
             }
-        }
+        });
     }
 }
 
@@ -210,15 +278,12 @@ impl OwnShape for Revolution {
     }
 
     fn surface_at(&self, p: DVec3, crossing: &Crossing) -> OwnPoint {
-        let index = (crossing.uv.x as usize).min(self.pieces.len() - 1);
+        let index = (crossing.uv.x as usize).min(self.profile.pieces().len() - 1);
         self.point(atan2(p.y, p.x), index, crossing.uv.y)
     }
 
     fn bounds(&self) -> [DVec3; 2] {
-        let boxes = self.pieces.iter().map(Cubic::bounds);
-        let [low, high] = boxes.fold([DVec2::INFINITY, DVec2::NEG_INFINITY], |[l, h], [a, b]| {
-            [l.min(a), h.max(b)]
-        });
+        let [low, high] = self.profile.bounds();
         [
             DVec3::new(-high.x, -high.x, low.y),
             DVec3::new(high.x, high.x, high.y),
@@ -227,5 +292,14 @@ impl OwnShape for Revolution {
 
     fn is_closed(&self) -> bool {
         self.closed
+    }
+
+    fn area(&self) -> Option<f64> {
+        Some(self.areas.total())
+    }
+
+    fn sample_area(&self, u: Vec2) -> Option<OwnPoint> {
+        let (index, s) = self.areas.sample(self.profile.pieces(), u.y.into());
+        Some(self.point(TAU * f64::from(u.x), index, s))
     }
 }

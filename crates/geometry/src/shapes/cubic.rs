@@ -1,0 +1,146 @@
+//! Cubic curves in a plane, in Bézier form, and sequences of them.
+//!
+//! ```text
+//! c(s) = (1−s)³ c₀ + 3 (1−s)² s c₁ + 3 (1−s) s² c₂ + s³ c₃,   0 ≤ s ≤ 1
+//! ```
+
+use etalon_math::bernstein;
+use glam::DVec2;
+
+/// A piece.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Cubic(pub(crate) [DVec2; 4]);
+
+impl Cubic {
+    /// The straight line from `a` to `b`.
+    pub(crate) fn straight(a: DVec2, b: DVec2) -> Self {
+        Self([a, a.lerp(b, 1.0 / 3.0), a.lerp(b, 2.0 / 3.0), b])
+    }
+
+    /// From `a` to `b` with the derivatives `da` and `db` there.
+    pub(crate) fn hermite([a, b]: [DVec2; 2], [da, db]: [DVec2; 2]) -> Self {
+        Self([a, a + da / 3.0, b - db / 3.0, b])
+    }
+
+    /// The coefficients of a coordinate: 0 or 1.
+    #[inline]
+    pub(crate) fn coordinate(&self, axis: usize) -> [f64; 4] {
+        self.0.map(|c| c[axis])
+    }
+
+    /// The point at `s`.
+    pub(crate) fn at(&self, s: f64) -> DVec2 {
+        let [x, y] = [0, 1].map(|axis| bernstein::value(&self.coordinate(axis), s));
+        DVec2::new(x, y)
+    }
+
+    /// dc/ds.
+    fn derivative(&self, s: f64) -> DVec2 {
+        let [a, b, c] = [0, 1, 2].map(|i| self.0[i + 1] - self.0[i]);
+        let rest = 1.0 - s;
+        3.0 * (rest * rest * a + 2.0 * rest * s * b + s * s * c)
+    }
+
+    /// dc/ds; at a cusp, or where inner points lie on ends, that of a place near by.
+    pub(crate) fn tangent(&self, s: f64) -> DVec2 {
+        match self.derivative(s) {
+            DVec2::ZERO => self.derivative(s + (0.5 - s) * 1e-6),
+            tangent => tangent,
+        }
+    }
+
+    /// A box that holds it: that of its points.
+    pub(crate) fn bounds(&self) -> [DVec2; 2] {
+        let [a, b, c, d] = self.0;
+        [a.min(b).min(c).min(d), a.max(b).max(c).max(d)]
+    }
+}
+
+/// Pieces, one after another.
+#[derive(Clone, Debug)]
+pub(crate) struct Profile {
+    pieces: Vec<Cubic>,
+    /// Boxes of the binary tree over the pieces: a node, then the nodes of its first half, then those of its second.
+    boxes: Vec<[DVec2; 2]>,
+}
+
+impl Profile {
+    /// A sequence of one piece or more.
+    pub(crate) fn new(pieces: Vec<Cubic>) -> Self {
+        let mut boxes = Vec::with_capacity(2 * pieces.len());
+        add_boxes(&pieces, &mut boxes);
+        Self { pieces, boxes }
+    }
+
+    /// The pieces.
+    pub(crate) fn pieces(&self) -> &[Cubic] {
+        &self.pieces
+    }
+
+    /// Where it begins and ends.
+    pub(crate) fn ends(&self) -> [DVec2; 2] {
+        [self.pieces[0].0[0], self.pieces[self.pieces.len() - 1].0[3]]
+    }
+
+    /// Whether it ends where it begins.
+    pub(crate) fn is_closed(&self) -> bool {
+        let [first, last] = self.ends();
+        first == last
+    }
+
+    /// A box that holds it.
+    pub(crate) fn bounds(&self) -> [DVec2; 2] {
+        self.boxes[0]
+    }
+
+    /// How far along the whole is the place `s` of a piece, from 0 to 1.
+    pub(crate) fn part(&self, index: usize, s: f64) -> f64 {
+        (index as f64 + s) / self.pieces.len() as f64
+    }
+
+    /// Points along it, `count` for each piece, and the last.
+    pub(crate) fn points(&self, count: u32) -> impl Iterator<Item = DVec2> + '_ {
+        let inner = move |piece: &'_ Cubic| {
+            let piece = *piece;
+            (0..count).map(move |k| piece.at(f64::from(k) / f64::from(count)))
+        };
+        self.pieces.iter().flat_map(inner).chain([self.ends()[1]])
+    }
+
+    /// Calls `visit` with the number of each piece in whose box, and in all above it, `meets` finds something.
+    #[inline]
+    pub(crate) fn search(&self, meets: impl Fn([DVec2; 2]) -> bool, mut visit: impl FnMut(usize)) {
+        // Halves still to be looked at: node, first piece, one past the last.
+        let mut waiting = [(0, 0, self.pieces.len()); 32];
+        let mut count = 1;
+        while count > 0 {
+            count -= 1;
+            let (node, first, end) = waiting[count];
+            if !meets(self.boxes[node]) {
+                continue;
+            }
+            if end - first == 1 {
+                visit(first);
+                continue;
+            }
+            let middle = first.midpoint(end);
+            waiting[count] = (node + 2 * (middle - first), middle, end);
+            waiting[count + 1] = (node + 1, first, middle);
+            count += 2;
+        }
+    }
+}
+
+fn add_boxes(pieces: &[Cubic], boxes: &mut Vec<[DVec2; 2]>) -> [DVec2; 2] {
+    let own = boxes.len();
+    boxes.push([DVec2::ZERO; 2]);
+    let bounds = if let [piece] = pieces {
+        piece.bounds()
+    } else {
+        let (first, second) = pieces.split_at(pieces.len() / 2);
+        let ([a, b], [c, d]) = (add_boxes(first, boxes), add_boxes(second, boxes));
+        [a.min(c), b.max(d)]
+    };
+    boxes[own] = bounds;
+    bounds
+}
