@@ -12,6 +12,7 @@ pub mod cube;
 mod cubic;
 pub mod cylinder;
 pub mod disk;
+pub mod extrusion;
 mod file_mesh;
 pub mod implicit;
 mod isolate;
@@ -39,6 +40,7 @@ use disk::Disk;
 use etalon_math::DirectionCone;
 use etalon_params::Params;
 use etalon_transport::{Build, LightSampleContext, SampledPoint, SurfacePoint};
+use extrusion::Extrusion;
 use glam::{DVec3, Vec2, Vec3};
 use implicit::Implicit;
 use mesh::Mesh;
@@ -115,6 +117,8 @@ shapes! {
     Implicit(Placed<Implicit>) { "implicit" => |params, _| Implicit::from_params(params), }
     /// A curve turned about an axis.
     Revolution(Placed<Revolution>) { "revolution" => |params, _| Revolution::from_params(params), }
+    /// A curve moved along an axis.
+    Extrusion(Placed<Extrusion>) { "extrusion" => |params, _| Extrusion::from_params(params), }
     /// A torus.
     Torus(Placed<Torus>) { "torus" => |params, _| Torus::from_params(params), }
     /// Solids made of solids; their operands are the scene's to read.

@@ -98,6 +98,18 @@ impl Profile {
         (index as f64 + s) / self.pieces.len() as f64
     }
 
+    /// A place on it as a crossing keeps it: the piece's number from 1, negative if the normal is to be turned, and s.
+    pub(crate) fn kept((index, s): (usize, f64), turned: bool) -> DVec2 {
+        let number = index as f64 + 1.0;
+        DVec2::new(if turned { -number } else { number }, s)
+    }
+
+    /// The same again: piece, s, and −1 if the normal is to be turned.
+    pub(crate) fn place(&self, kept: DVec2) -> (usize, f64, f64) {
+        let number = kept.x.abs().clamp(1.0, self.pieces.len() as f64);
+        (number as usize - 1, kept.y, 1.0_f64.copysign(kept.x))
+    }
+
     /// Points along it, `count` for each piece, and the last.
     pub(crate) fn points(&self, count: u32) -> impl Iterator<Item = DVec2> + '_ {
         let inner = move |piece: &'_ Cubic| {

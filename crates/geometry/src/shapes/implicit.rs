@@ -28,7 +28,38 @@ use etalon_params::{Diagnostic, Params};
 use glam::DVec3;
 
 /// What an expression is of.
-const VARIABLES: [&str; 3] = ["x", "y", "z"];
+#[derive(Clone, Copy, Debug, PartialEq)]
+enum Coordinates {
+    /// x, y and z.
+    Space,
+    /// x and y, whatever z.
+    Extrusion,
+    /// The distance from the z axis, x, and z, called y.
+    Revolution,
+}
+
+impl Coordinates {
+    /// The names of the expression's variables.
+    fn names(self) -> &'static [&'static str] {
+        match self {
+            Self::Space => &["x", "y", "z"],
+            Self::Extrusion | Self::Revolution => &["x", "y"],
+        }
+    }
+
+    /// The variables at a point.
+    fn of<N: Number>(self, p: [N; 3]) -> [N; 3] {
+        let [x, y, z] = p;
+        match self {
+            Self::Space | Self::Extrusion => p,
+            Self::Revolution => {
+                let none = N::constant(0.0);
+                let square = N::max_with(x.powi(2).add(y.powi(2)), none, none, none).0;
+                [square.sqrt(), z, none]
+            }
+        }
+    }
+}
 
 /// How crossings are found.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -43,6 +74,7 @@ enum Method {
 #[derive(Clone, Debug)]
 pub struct Implicit {
     function: Expression,
+    coordinates: Coordinates,
     clip: ClipBox,
     /// Whether the box's faces are no part of the surface.
     open: bool,
@@ -51,7 +83,7 @@ pub struct Implicit {
 
 /// f along a line.
 struct Along<'a> {
-    function: &'a Expression,
+    shape: &'a Implicit,
     line: &'a Line,
 }
 
@@ -59,12 +91,12 @@ impl OneParameter for Along<'_> {
     fn eval<N: Number>(&self, t: N) -> N {
         let Line { origin, direction } = self.line;
         let at = |i: usize| N::constant(origin[i]).add(t.mul(N::constant(direction[i])));
-        self.function.eval(&[at(0), at(1), at(2)])
+        self.shape.eval([at(0), at(1), at(2)])
     }
 }
 
 impl Implicit {
-    /// Reads `function`, `min` and `max`, `open` (false), `method` (`certified` or `march`), `feature` (10⁻⁴ of the
+    /// Reads `function`, `profile` (`none`, `revolution` or `extrusion`), `min` and `max`, `open` (false), `method` (`certified` or `march`), `feature` (10⁻⁴ of the
     /// box's diagonal) or `step` (10⁻² of it), `flip_normals` and `to_world`.
     pub(crate) fn from_params(params: &Params<'_>) -> Option<Placed<Self>> {
         let clip = ClipBox::from_params(params);
@@ -82,14 +114,16 @@ impl Implicit {
         if !params.has("function") {
             params.missing("function", "an expression of x, y and z");
         }
-        let text = params.string("function");
-        let function = text.and_then(|text| {
-            let read = Expression::parse(text, &VARIABLES);
-            read.map_err(|error| report(params, "function", &VARIABLES, &error))
-                .ok()
-        });
+        let kinds = ["none", "revolution", "extrusion"];
+        let coordinates = match params.choice("profile", "none", &kinds) {
+            "revolution" => Coordinates::Revolution,
+            "extrusion" => Coordinates::Extrusion,
+            _ => Coordinates::Space,
+        };
+        let function = expression(params, "function", coordinates.names());
         let shape = function.zip(clip).map(|(function, clip)| Self {
             function,
+            coordinates,
             clip,
             open,
             method,
@@ -97,8 +131,13 @@ impl Implicit {
         Placed::from_params(params, shape)
     }
 
+    #[inline]
+    fn eval<N: Number>(&self, p: [N; 3]) -> N {
+        self.function.eval(&self.coordinates.of(p))
+    }
+
     fn value(&self, p: DVec3) -> f64 {
-        self.function.eval(&p.to_array())
+        self.eval(p.to_array())
     }
 
     fn gradient(&self, p: DVec3) -> DVec3 {
@@ -107,7 +146,7 @@ impl Implicit {
                 value: p[i],
                 slope: along[i],
             });
-            self.function.eval(&at).slope
+            self.eval(at).slope
         };
         DVec3::new(slope(DVec3::X), slope(DVec3::Y), slope(DVec3::Z))
     }
@@ -134,10 +173,7 @@ impl Implicit {
         (first, last): (f64, f64),
         (after, before): (f64, f64),
     ) -> Option<(f64, bool)> {
-        let along = Along {
-            function: &self.function,
-            line,
-        };
+        let along = Along { shape: self, line };
         let length = line.direction.length();
         match self.method {
             Method::March(step) => {
@@ -173,11 +209,22 @@ impl Implicit {
     }
 }
 
-/// Records what is wrong with an expression of some variables.
-pub(crate) fn report(
+/// Reads an expression of some variables; `None` if there is none, or after a mistake.
+pub(crate) fn expression(
     params: &Params<'_>,
     name: &str,
-    variables: &[&'static str],
+    variables: &'static [&'static str],
+) -> Option<Expression> {
+    let read = Expression::parse(params.string(name)?, variables);
+    read.map_err(|error| report(params, name, variables, &error))
+        .ok()
+}
+
+/// Records what is wrong with an expression of some variables.
+fn report(
+    params: &Params<'_>,
+    name: &str,
+    variables: &'static [&'static str],
     error: &ExpressionError,
 ) {
     let property = (params.node.properties.iter()).find(|p| p.name == name);
@@ -196,10 +243,7 @@ pub(crate) fn report(
 impl OwnShape for Implicit {
     fn next_crossing(&self, line: &Line, after: f64, before: f64) -> Option<Crossing> {
         let [first, last] = self.clip.cut(line)?;
-        let along = Along {
-            function: &self.function,
-            line,
-        };
+        let along = Along { shape: self, line };
         let at_face = |(t, face): (f64, u32), enters: bool| {
             (!self.open && t > after && along.is_inside(t)).then(|| Crossing {
                 face,

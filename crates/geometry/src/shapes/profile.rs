@@ -6,8 +6,8 @@
 //! its derivatives there is within [`CLOSE`] of it.
 
 use crate::shapes::cubic::{Cubic, Profile};
-use crate::shapes::implicit::report;
-use etalon_math::{Dual, Expression};
+use crate::shapes::implicit::expression;
+use etalon_math::Dual;
 use etalon_params::Params;
 use glam::DVec2;
 
@@ -33,9 +33,7 @@ fn parametric(params: &Params<'_>) -> Option<Vec<Cubic>> {
         if !params.has(name) {
             params.missing(name, "an expression of t, such as `cos(2*pi*t)`");
         }
-        let read = Expression::parse(params.string(name)?, &["t"]);
-        read.map_err(|error| report(params, name, &["t"], &error))
-            .ok()
+        expression(params, name, &["t"])
     };
     let [x, y] = ["x", "y"].map(read);
     let first = params.float_or("from", 0.0);

@@ -264,22 +264,27 @@ impl OwnShape for Revolution {
             }
         });
         let (t, index, s) = nearest?;
+        let p = line.at(t);
+        let point = self.point(atan2(p.y, p.x), index, s);
+        let against = point.normal.dot(line.direction) < 0.0;
         let enters = if self.closed {
             passed.is_multiple_of(2)
         } else {
-            let p = line.at(t);
-            let point = self.point(atan2(p.y, p.x), index, s);
-            point.normal.dot(line.direction) < 0.0
+            against
         };
         Some(Crossing {
-            uv: DVec2::new(index as f64, s),
+            uv: Profile::kept((index, s), enters != against),
             ..Crossing::new(t, enters)
         })
     }
 
     fn surface_at(&self, p: DVec3, crossing: &Crossing) -> OwnPoint {
-        let index = (crossing.uv.x as usize).min(self.profile.pieces().len() - 1);
-        self.point(atan2(p.y, p.x), index, crossing.uv.y)
+        let (index, s, sign) = self.profile.place(crossing.uv);
+        let point = self.point(atan2(p.y, p.x), index, s);
+        OwnPoint {
+            normal: point.normal * sign,
+            ..point
+        }
     }
 
     fn bounds(&self) -> [DVec3; 2] {

@@ -142,7 +142,9 @@ fn every_plugin_takes_its_parameters() {
                 ("radius", Value::Integer(3)),
             ]),
             "cube" | "rectangle" => properties.push(flag("face_normals", true)),
-            "revolution" => properties.push(("profile", Value::String("0.5 0, 0.7 1".into()))),
+            "revolution" | "extrusion" => {
+                properties.push(("profile", Value::String("0.5 0, 0.7 1".into())))
+            }
             "implicit" => properties.extend([function("x^2 + y^2 - z"), flag("open", true)]),
             _ => {}
         }
@@ -163,7 +165,7 @@ fn every_plugin_answers_alike() {
     for plugin in Shape::plugins() {
         let properties = match plugin {
             "serialized" | "obj" | "ply" => vec![file("good")],
-            "revolution" => vec![("profile", Value::String("0.5 0, 0.7 1".into()))],
+            "revolution" | "extrusion" => vec![("profile", Value::String("0.5 0, 0.7 1".into()))],
             "implicit" => vec![function("x^2 + y^2 + z^2 - 1")],
             _ => Vec::new(),
         };

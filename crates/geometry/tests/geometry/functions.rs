@@ -1,6 +1,7 @@
 //! Solids that functions bound, for the tests of [`crate::solids`].
 
 use crate::solids::{Depth, ball, built, combine, in_ball, number, vector};
+use core::f64::consts::PI;
 use etalon_geometry::Shape;
 use etalon_geometry::shapes::csg::Operation;
 use etalon_params::{DVec3, Value};
@@ -56,7 +57,45 @@ pub(crate) fn implicit_cases() -> Vec<(&'static str, Shape, Depth)> {
     // r = s, z = 1 − s² down to the ground, and back along it.
     let dome = "0 1, 0.33333333333333333 1, 0.66666666666666667 0.66666666666666667, 1 0, \
                 0.66666666666666667 0, 0.33333333333333333 0, 0 0";
+    let parametric = |plugin: &str, x: &str, y: &str| {
+        let text = |value: &str| Value::String(value.into());
+        let (curve, x, y) = (
+            ("curve", text("parametric")),
+            ("x", text(x)),
+            ("y", text(y)),
+        );
+        built(plugin, vec![curve, x, y, number("to", 2.0 * PI)])
+    };
     vec![
+        (
+            "revolved circle of expressions, of a function",
+            parametric("revolution", "1 + 0.4*cos(t)", "0.4*sin(t)"),
+            Box::new(ring_depth),
+        ),
+        (
+            "extruded ellipse of expressions, of a function",
+            parametric("extrusion", "0.9*cos(t)", "-0.5*sin(t)"),
+            Box::new(|p: DVec3| {
+                let r = DVec2::new(p.x / 0.9, p.y / 0.5).length();
+                (1.0 - r).min(p.z).min(1.0 - p.z)
+            }),
+        ),
+        (
+            "extruded eight of expressions without a ball, of a function",
+            combine(
+                Operation::Difference,
+                vec![
+                    parametric("extrusion", "sin(t)", "0.5*sin(2*t)"),
+                    ball(0.0, 0.0, 1.0, 0.6),
+                ],
+            ),
+            // Which turns one of its lobes inside out.
+            Box::new(|p: DVec3| {
+                let inside = p.x * p.x * (1.0 - p.x * p.x) - p.y * p.y;
+                let end = p.z.min(1.0 - p.z);
+                inside.min(end).min(-in_ball(p, 0.0, 0.0, 1.0, 0.6))
+            }),
+        ),
         (
             "revolved triangle, of a function",
             revolution("0.4 -0.5, 1.2 0.1, 0.5 0.7", "linear", true),
@@ -66,6 +105,15 @@ pub(crate) fn implicit_cases() -> Vec<(&'static str, Shape, Depth)> {
             "revolved parabola, of a function",
             revolution(dome, "bezier", false),
             Box::new(|p: DVec3| (1.0 - p.truncate().length_squared() - p.z).min(p.z)),
+        ),
+        (
+            "profile of a torus, of a function",
+            implicit("(x - 1)^2 + y^2 - 0.16", {
+                let mut more = corner(1.5);
+                more.push(("profile", Value::String("revolution".into())));
+                more
+            }),
+            Box::new(ring_depth),
         ),
         (
             "implicit torus, of a function",
