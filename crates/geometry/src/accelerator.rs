@@ -44,6 +44,12 @@ impl Bounds {
         max: Vec3::NEG_INFINITY,
     };
 
+    /// All of space.
+    pub const ENDLESS: Self = Self {
+        min: Vec3::NEG_INFINITY,
+        max: Vec3::INFINITY,
+    };
+
     /// The smallest box around points.
     #[inline]
     pub fn around(points: &[Vec3]) -> Self {
@@ -66,6 +72,12 @@ impl Bounds {
     #[inline]
     pub fn is_empty(&self) -> bool {
         !(self.min.cmple(self.max).all())
+    }
+
+    /// Whether there is something in it, without end.
+    #[inline]
+    pub fn is_endless(&self) -> bool {
+        !self.is_empty() && !(self.max - self.min).is_finite()
     }
 
     /// The point in the middle; the origin for the empty box.
@@ -97,6 +109,10 @@ pub(crate) trait Primitives: Sync {
     fn is_triangle(&self, primitive: u32) -> bool;
     /// The box of a primitive that is not a triangle.
     fn bounds(&self, primitive: u32) -> Bounds;
+    /// Whether any box has no end.
+    fn any_endless(&self) -> bool {
+        false
+    }
 }
 
 /// How an accelerator intersects what is not a triangle.
@@ -118,7 +134,15 @@ pub(crate) fn has_area(corners: &[Vec3; 3]) -> bool {
 
 /// An accelerator.
 #[derive(Debug)]
-pub(crate) enum Accelerator {
+pub(crate) struct Accelerator {
+    index: Index,
+    /// What has no end, and so no place in a tree: every ray is tested against it.
+    endless: Vec<u32>,
+}
+
+/// Where primitives are looked up.
+#[derive(Debug)]
+enum Index {
     Linear(Linear),
     Wide(Wide),
 }
@@ -126,9 +150,18 @@ pub(crate) enum Accelerator {
 impl Accelerator {
     /// Builds an accelerator over all primitives but triangles without area.
     pub(crate) fn build(kind: AcceleratorKind, primitives: &impl Primitives) -> Self {
-        match kind {
-            AcceleratorKind::Linear => Self::Linear(Linear::build(primitives)),
-            AcceleratorKind::Wide => Self::Wide(Wide::build(primitives)),
+        let is_endless = |&primitive: &u32| {
+            !primitives.is_triangle(primitive) && primitives.bounds(primitive).is_endless()
+        };
+        Self {
+            index: match kind {
+                AcceleratorKind::Linear => Index::Linear(Linear::build(primitives)),
+                AcceleratorKind::Wide => Index::Wide(Wide::build(primitives)),
+            },
+            endless: match primitives.any_endless() {
+                true => (0..primitives.len() as u32).filter(is_endless).collect(),
+                false => Vec::new(),
+            },
         }
     }
 
@@ -140,9 +173,12 @@ impl Accelerator {
         others: &impl CustomPrimitives,
         nearest: &mut ClosestHit,
     ) {
-        match self {
-            Self::Linear(linear) => linear.intersect(probe, others, nearest),
-            Self::Wide(wide) => wide.intersect(probe, others, nearest),
+        for &primitive in &self.endless {
+            others.intersect(primitive, probe, nearest);
+        }
+        match &self.index {
+            Index::Linear(linear) => linear.intersect(probe, others, nearest),
+            Index::Wide(wide) => wide.intersect(probe, others, nearest),
         }
     }
 
@@ -154,34 +190,36 @@ impl Accelerator {
         others: &impl CustomPrimitives,
         t_max: f32,
     ) -> bool {
-        match self {
-            Self::Linear(linear) => linear.occluded(probe, others, t_max),
-            Self::Wide(wide) => wide.occluded(probe, others, t_max),
-        }
+        let mut endless = self.endless.iter();
+        endless.any(|&primitive| others.occludes(primitive, probe, t_max))
+            || match &self.index {
+                Index::Linear(linear) => linear.occluded(probe, others, t_max),
+                Index::Wide(wide) => wide.occluded(probe, others, t_max),
+            }
     }
 
     /// The corners of the triangle that [`Accelerator::intersect`] found in `slot`.
     #[inline]
     pub(crate) fn corners(&self, slot: u32) -> [Vec3; 3] {
-        match self {
-            Self::Linear(linear) => Block::corners(linear.blocks(), slot),
-            Self::Wide(wide) => Block::corners(wide.blocks(), slot),
+        match &self.index {
+            Index::Linear(linear) => Block::corners(linear.blocks(), slot),
+            Index::Wide(wide) => Block::corners(wide.blocks(), slot),
         }
     }
 
     /// Number of nodes.
     pub(crate) fn nodes(&self) -> usize {
-        match self {
-            Self::Linear(_) => 0,
-            Self::Wide(wide) => wide.nodes(),
+        match &self.index {
+            Index::Linear(_) => 0,
+            Index::Wide(wide) => wide.nodes(),
         }
     }
 
     /// Memory held (bytes).
     pub(crate) fn bytes(&self) -> usize {
-        match self {
-            Self::Linear(linear) => linear.bytes(),
-            Self::Wide(wide) => wide.bytes(),
+        match &self.index {
+            Index::Linear(linear) => linear.bytes(),
+            Index::Wide(wide) => wide.bytes(),
         }
     }
 }

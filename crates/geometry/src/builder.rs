@@ -189,7 +189,11 @@ impl GeometryBuilder {
                 let Instance {
                     group, placement, ..
                 } = &instances[id.0 as usize];
-                let bounds = placed_bounds(built[group.0 as usize].scope.bounds, placement);
+                let placed = &built[group.0 as usize].scope;
+                let bounds = match placed.is_endless {
+                    true => Bounds::ENDLESS,
+                    false => placed_bounds(placed.bounds, placement),
+                };
                 boxes.push(bounds);
                 if !bounds.is_empty() {
                     scope.add(PrimitiveOwner::Instance(id), 1, bounds);

@@ -223,7 +223,12 @@ impl Geometry {
         }
     }
 
-    /// The box around everything; empty if there is nothing.
+    /// Whether something has no end.
+    pub fn is_endless(&self) -> bool {
+        self.world.scope.is_endless
+    }
+
+    /// The box around everything that has an end; empty if there is nothing.
     pub fn bounds(&self) -> Bounds {
         self.world.scope.bounds
     }

@@ -102,8 +102,11 @@ impl Placement {
         self.inverse.transform_vector3(v)
     }
 
-    /// A box around the image of a box.
+    /// A box around the image of a box; everything, if the box has no end.
     pub(crate) fn bounds(&self, [min, max]: [DVec3; 2]) -> [DVec3; 2] {
+        if min.cmple(max).all() && !(max - min).is_finite() {
+            return [DVec3::NEG_INFINITY, DVec3::INFINITY];
+        }
         let half = (max - min) * 0.5;
         let m = self.linear();
         let reach = m.x_axis.abs() * half.x + m.y_axis.abs() * half.y + m.z_axis.abs() * half.z;

@@ -31,8 +31,10 @@ pub(crate) enum PrimitiveOwner {
 pub(crate) struct PrimitiveIndex {
     members: Vec<PrimitiveRange>,
     count: u32,
-    /// Box of everything.
+    /// Box of everything that has an end.
     pub(crate) bounds: Bounds,
+    /// Whether anything has none.
+    pub(crate) is_endless: bool,
     /// The largest magnitude of a coordinate.
     extent: f32,
 }
@@ -57,6 +59,10 @@ impl PrimitiveIndex {
             .count
             .checked_add(primitives)
             .expect("fewer than 2³² primitives");
+        if bounds.is_endless() {
+            self.is_endless = true;
+            return;
+        }
         self.bounds = self.bounds.union(bounds);
         self.extent = self.bounds.extent();
     }
@@ -100,6 +106,10 @@ impl Contents<'_> {
 }
 
 impl Primitives for Contents<'_> {
+    fn any_endless(&self) -> bool {
+        self.scope.is_endless
+    }
+
     fn len(&self) -> usize {
         self.scope.count as usize
     }

@@ -21,6 +21,7 @@ pub mod mesh;
 mod mesh_sampling;
 mod model;
 pub(crate) mod placed;
+pub mod plane;
 mod profile;
 pub mod quadric;
 pub mod rectangle;
@@ -46,6 +47,7 @@ use implicit::Implicit;
 use mesh::Mesh;
 use model::ShapeModel;
 use placed::Placed;
+use plane::Plane;
 use quadric::Quadric;
 use rectangle::Rectangle;
 use revolution::Revolution;
@@ -104,6 +106,8 @@ shapes! {
     Sphere(Sphere) { "sphere" => |params, _| Sphere::from_params(params), }
     /// An open cylinder.
     Cylinder(Cylinder) { "cylinder" => |params, _| Cylinder::from_params(params), }
+    /// A plane without end.
+    Plane(Placed<Plane>) { "plane" => |params, _| Plane::from_params(params), }
     /// A patch of four corners.
     Bilinear(Placed<Bilinear>) { "bilinear" => |params, _| Bilinear::from_params(params), }
     /// A solid cone, also a truncated one.

@@ -159,6 +159,7 @@ impl Forward {
 }
 
 impl Integrator for Forward {
+    const FOLLOWS_LIGHT: bool = true;
     const UNBIASED: bool = true;
 
     type State = ();

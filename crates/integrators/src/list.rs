@@ -104,7 +104,9 @@ macro_rules! integrators {
                     sight: &SceneCapabilities,
                 ) -> Vec<Incompatibility> {
                     let unseen = sight.media_unseen().filter(|_| !I::MEDIA);
-                    unseen.into_iter().chain(integrator.incompatibilities(sight)).collect()
+                    let endless = sight.endless_lit().filter(|_| I::FOLLOWS_LIGHT);
+                    let unseen = unseen.into_iter().chain(endless);
+                    unseen.chain(integrator.incompatibilities(sight)).collect()
                 }
                 match self {
                     $(Self::$variant(integrator) => all(integrator, sight),)*

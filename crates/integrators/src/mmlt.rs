@@ -70,6 +70,7 @@ impl Multiplexed {
 pub struct Techniques;
 
 impl PathSampler for Techniques {
+    const FOLLOWS_LIGHT: bool = true;
     const LIGHT_SEARCH: LightSearch = LightSearch::Either;
 
     type Lists<'w, W: World + 'w> = Lists<W::Bsdf<'w>>;

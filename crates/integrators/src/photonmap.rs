@@ -211,6 +211,7 @@ const ANYWHERE: f32 = 1e18;
 const MOST_NEAREST: i64 = 1 << 16;
 
 impl Integrator for PhotonMapper {
+    const FOLLOWS_LIGHT: bool = true;
     type State = State;
 
     /// Photons come from lights that were chosen; one that can only be hit is seen itself, and nothing that it

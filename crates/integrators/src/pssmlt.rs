@@ -46,6 +46,7 @@ impl PrimarySpace {
 pub struct CameraPaths;
 
 impl PathSampler for CameraPaths {
+    const FOLLOWS_LIGHT: bool = false;
     const LIGHT_SEARCH: LightSearch = LightSearch::FromCamera;
 
     type Lists<'w, W: World + 'w> = ();

@@ -154,6 +154,7 @@ impl ParticleTracer {
 }
 
 impl Integrator for ParticleTracer {
+    const FOLLOWS_LIGHT: bool = true;
     const UNBIASED: bool = true;
 
     type State = ();

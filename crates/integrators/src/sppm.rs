@@ -110,6 +110,7 @@ impl Progressive {
 }
 
 impl Integrator for Progressive {
+    const FOLLOWS_LIGHT: bool = true;
     type State = State;
 
     /// Photons come from lights that were chosen; one that can only be hit is seen itself, and nothing that it

@@ -104,6 +104,7 @@ impl ConnectionMerging {
 }
 
 impl Integrator for ConnectionMerging {
+    const FOLLOWS_LIGHT: bool = true;
     type State = State;
 
     fn splats(&self) -> bool {

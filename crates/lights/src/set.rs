@@ -130,6 +130,11 @@ impl LightSet {
             .emitted(textures, vertex, wo, wavelengths)
     }
 
+    /// Whether any light is at infinity.
+    pub fn has_infinite(&self) -> bool {
+        self.lights.iter().any(Light::is_infinite)
+    }
+
     /// Whether any light at infinity can be seen.
     #[inline]
     pub fn has_background(&self) -> bool {

@@ -82,6 +82,7 @@ impl Scene {
             aperture: self.camera.can_receive(),
             sky: self.has_background(),
             media: self.has_media,
+            endless: self.lookup.geometry.is_endless() && self.lights.has_infinite(),
             narrow_filter: false,
             classic: self.materials.iter().any(Material::is_classic),
         }

@@ -48,6 +48,8 @@ pub struct SceneCapabilities {
     pub sky: bool,
     /// Whether there are participating media.
     pub media: bool,
+    /// Whether light at infinity falls on surfaces without end, which particles cannot be sent to.
+    pub endless: bool,
     /// Whether a surface has a classic Phong material, which says nothing of how it scatters light
     /// ([`crate::World::legacy_phong`]).
     pub classic: bool,
@@ -147,6 +149,16 @@ impl SceneCapabilities {
             ));
         }
         objections
+    }
+
+    /// The objection, if any, of an estimator that follows light from where it comes from.
+    pub fn endless_lit(&self) -> Option<Incompatibility> {
+        self.endless.then(|| {
+            let message = "this integrator sends light into the scene, and light at infinity falls \
+                           on a `plane` that has no end";
+            Incompatibility::fatal(Subject::Integrator, message)
+                .help("use a `rectangle` or a `disk` for a `plane`, or the integrator `path`")
+        })
     }
 
     /// The objection, if any, of an estimator that knows nothing of media.

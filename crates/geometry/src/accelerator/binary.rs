@@ -65,14 +65,17 @@ fn key(node: &Bvh2Node) -> [u32; 6] {
 }
 
 impl BinaryTree {
-    /// The tree over all primitives but triangles without area.
+    /// The tree over all primitives but triangles without area, and what has no end.
     pub(super) fn build(primitives: &impl Primitives) -> Self {
         let mut leaves: Vec<Bvh2Node> = (0..primitives.len() as u32)
             .into_par_iter()
             .map(|primitive| {
                 let (bounds, counts) = match primitives.triangle(primitive) {
                     Some(corners) => (Bounds::around(&corners), has_area(&corners)),
-                    None => (primitives.bounds(primitive), true),
+                    None => {
+                        let bounds = primitives.bounds(primitive);
+                        (bounds, !bounds.is_endless())
+                    }
                 };
                 Bvh2Node::new(aabb(&bounds), u32::from(counts), primitive)
             })

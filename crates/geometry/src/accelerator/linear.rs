@@ -20,6 +20,7 @@ impl Linear {
             match primitives.triangle(primitive) {
                 Some(corners) if has_area(&corners) => triangles.push((corners, primitive)),
                 Some(_) => {}
+                None if primitives.bounds(primitive).is_endless() => {}
                 None => others.push(primitive),
             }
         }

@@ -84,6 +84,8 @@ impl<S: OwnShape> Placed<S> {
         let scale = (x.length() + y.length() + z.length()) / 3.0;
         let [low, high] = placement.bounds(shape.bounds());
         let extent = low.abs().max(high.abs()).max_element();
+        // A plane's error is relative to the coordinates alone.
+        let extent = if extent.is_finite() { extent } else { 0.0 };
         Self {
             placement,
             shape,

@@ -204,6 +204,7 @@ fn technique(params: &Params<'_>) -> Option<Technique> {
 }
 
 impl Integrator for Bidirectional {
+    const FOLLOWS_LIGHT: bool = true;
     const UNBIASED: bool = true;
 
     type State = ();

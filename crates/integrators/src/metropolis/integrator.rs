@@ -12,6 +12,8 @@ use etalon_transport::{
 pub(crate) trait PathSampler: Sync {
     /// Which lights its paths find.
     const LIGHT_SEARCH: LightSearch;
+    /// See [`Integrator::FOLLOWS_LIGHT`].
+    const FOLLOWS_LIGHT: bool;
 
     /// Memory that one path lends to the next.
     type Lists<'w, W: World + 'w>: Default;
@@ -85,6 +87,7 @@ impl<'w, W: World, P: PathSampler> Integrand for InWorld<'w, W, P> {
 }
 
 impl<P: PathSampler> Integrator for Metropolis<P> {
+    const FOLLOWS_LIGHT: bool = P::FOLLOWS_LIGHT;
     const UNBIASED: bool = true;
 
     type State = State;
