@@ -3,6 +3,7 @@
 //! To add a shape, write its file and add one line to the list.
 
 pub mod bilinear;
+pub mod bspline_curve;
 mod clip_box;
 pub mod cone;
 mod convex;
@@ -10,12 +11,14 @@ pub(crate) mod crossing;
 pub mod csg;
 pub mod cube;
 mod cubic;
+pub mod curves;
 pub mod cylinder;
 pub mod disk;
 pub mod extrusion;
 mod file_mesh;
 pub mod implicit;
 mod isolate;
+pub mod linear_curve;
 mod measure;
 pub mod mesh;
 mod mesh_sampling;
@@ -33,9 +36,11 @@ mod vertex_normals;
 use crate::accelerator::Bounds;
 use crate::local_interaction::LocalInteraction;
 use bilinear::Bilinear;
+use bspline_curve::RoundSpline;
 use cone::Cone;
 use crossing::{Crossing, Line};
 use csg::Csg;
+use curves::Curves;
 use cylinder::Cylinder;
 use disk::Disk;
 use etalon_math::DirectionCone;
@@ -44,6 +49,7 @@ use etalon_transport::{Build, LightSampleContext, SampledPoint, SurfacePoint};
 use extrusion::Extrusion;
 use glam::{DVec3, Vec2, Vec3};
 use implicit::Implicit;
+use linear_curve::RoundCone;
 use mesh::Mesh;
 use model::ShapeModel;
 use placed::Placed;
@@ -123,6 +129,10 @@ shapes! {
     Revolution(Placed<Revolution>) { "revolution" => |params, _| Revolution::from_params(params), }
     /// A curve moved along an axis.
     Extrusion(Placed<Extrusion>) { "extrusion" => |params, _| Extrusion::from_params(params), }
+    /// Polylines of balls.
+    LinearCurve(Curves<RoundCone>) { "linearcurve" => |params, build| Curves::from_params(params, build), }
+    /// Splines of circles.
+    SplineCurve(Curves<RoundSpline>) { "bsplinecurve" => |params, build| Curves::from_params(params, build), }
     /// A torus.
     Torus(Placed<Torus>) { "torus" => |params, _| Torus::from_params(params), }
     /// Solids made of solids; their operands are the scene's to read.

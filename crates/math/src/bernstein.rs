@@ -20,7 +20,27 @@ const fn binomial(n: usize, i: usize) -> f64 {
     result
 }
 
+/// What the products of coefficients count for in a product: C(m, i) C(n, j) / C(m + n, i + j).
+struct Weights<const M: usize, const N: usize>;
+
+impl<const M: usize, const N: usize> Weights<M, N> {
+    const TABLE: [[f64; N]; M] = {
+        let mut table = [[0.0; N]; M];
+        let mut i = 0;
+        while i < M {
+            let mut j = 0;
+            while j < N {
+                table[i][j] = binomial(M - 1, i) * binomial(N - 1, j) / binomial(M + N - 2, i + j);
+                j += 1;
+            }
+            i += 1;
+        }
+        table
+    };
+}
+
 /// The product of two polynomials; L = M + N − 1. At the ends exactly the product of the ends.
+#[inline]
 pub fn product<const M: usize, const N: usize, const L: usize>(
     a: &[f64; M],
     b: &[f64; N],
@@ -29,8 +49,7 @@ pub fn product<const M: usize, const N: usize, const L: usize>(
     let mut result = [0.0; L];
     for (i, x) in a.iter().enumerate() {
         for (j, y) in b.iter().enumerate() {
-            let weight = binomial(M - 1, i) * binomial(N - 1, j) / binomial(L - 1, i + j);
-            result[i + j] += weight * x * y;
+            result[i + j] += Weights::<M, N>::TABLE[i][j] * x * y;
         }
     }
     result
@@ -92,45 +111,59 @@ fn search<const N: usize, R>(
     search(&right, (middle, last), smallest, visit)
 }
 
-/// The zero between ends of different sign, to the last digits: by chords whose older end counts half (the Illinois
-/// method), in turn with halving where they do not help.
+/// C(n, i) of all i.
+struct Binomials<const N: usize>;
+
+impl<const N: usize> Binomials<N> {
+    const ROW: [f64; N] = {
+        let mut row = [0.0; N];
+        let mut i = 0;
+        while i < N {
+            row[i] = binomial(N - 1, i);
+            i += 1;
+        }
+        row
+    };
+}
+
+/// The zero between ends of different sign, to the last digits: by Newton's method between bounds, as a polynomial of
+/// x = s/(1−s) up to the middle and of (1−s)/s beyond.
 fn refine<const N: usize>(b: &[f64; N]) -> f64 {
-    let (mut low, mut high) = ((0.0, b[0]), (1.0, b[N - 1]));
-    let mut kept = 0;
-    for step in 0..100 {
-        let (middle, width) = (0.5 * (low.0 + high.0), high.0 - low.0);
-        if !(middle > low.0 && middle < high.0) || width < 1e-16 {
+    let scaled: [f64; N] = core::array::from_fn(|i| Binomials::<N>::ROW[i] * b[i]);
+    let before = b[0] < 0.0;
+    let first_half = (scaled.iter().sum::<f64>() < 0.0) != before;
+    let c: [f64; N] = core::array::from_fn(|i| scaled[if first_half { i } else { N - 1 - i }]);
+    let negative = c[0] < 0.0;
+    let (mut low, mut high) = (0.0, 1.0);
+    let mut x = 0.5;
+    for _ in 0..80 {
+        let (mut value, mut slope) = (0.0_f64, 0.0_f64);
+        for c in c.iter().rev() {
+            slope = slope.mul_add(x, value);
+            value = value.mul_add(x, *c);
+        }
+        if (value < 0.0) == negative {
+            low = x;
+        } else {
+            high = x;
+        }
+        let newton = x - value / slope;
+        let next = if newton > low && newton < high {
+            newton
+        } else {
+            0.5 * (low + high)
+        };
+        let step = (next - x).abs();
+        x = next;
+        if step <= 2e-16 {
             break;
         }
-        let chord = low.0 - low.1 * width / (high.1 - low.1);
-        let s = if step % 8 < 7 && chord > low.0 && chord < high.0 {
-            chord
-        } else {
-            middle
-        };
-        let fs = value(b, s);
-        if fs == 0.0 {
-            return s;
-        }
-        if (fs < 0.0) == (b[0] < 0.0) {
-            if kept == 1 {
-                high.1 *= 0.5;
-            }
-            if s - low.0 < 2e-16 && step > 2 {
-                return s;
-            }
-            (low, kept) = ((s, fs), 1);
-        } else {
-            if kept == 2 {
-                low.1 *= 0.5;
-            }
-            if high.0 - s < 2e-16 && step > 2 {
-                return s;
-            }
-            (high, kept) = ((s, fs), 2);
-        }
     }
-    0.5 * (low.0 + high.0)
+    if first_half {
+        x / (1.0 + x)
+    } else {
+        1.0 / (1.0 + x)
+    }
 }
 
 #[cfg(test)]

@@ -23,10 +23,19 @@ struct Files;
 
 impl Assets for Files {
     fn bytes(&self, path: &str) -> Result<Arc<Vec<u8>>, AssetError> {
-        Err(AssetError {
-            message: format!("no file `{path}`"),
-            help: None,
-        })
+        let text = match path {
+            "good" => good_curves(),
+            "short" => "0 0 0 1\n1 0 0 1\n\n2 0 0 1".into(),
+            "words" => "0 0 zero 1".into(),
+            "three" => "0 0 0 1\n1 0 0 1\n2 0 0 1\n".into(),
+            _ => {
+                return Err(AssetError {
+                    message: format!("no file `{path}`"),
+                    help: None,
+                });
+            }
+        };
+        Ok(Arc::new(text.into_bytes()))
     }
 
     fn mesh(&self, _: MeshFormat, path: &str) -> Result<MeshData, AssetError> {
@@ -55,6 +64,14 @@ impl Assets for Files {
         }
         Ok(data)
     }
+}
+
+/// Two curves of control points.
+pub(crate) fn good_curves() -> String {
+    let first =
+        "-0.5 -0.3 -0.4 0.1\n-0.2 0.3 0 0.15\n0.3 0 0.2 0.05\n0.4 -0.4 0.1 0.1\n0.1 -0.5 -0.3 0.12";
+    let second = "0.5 0.4 -0.5 0.05\n0.4 0.5 0 0.05\n0.4 0.5 0.3 0.2\n0.5 0.6 0.8 0.02";
+    format!("{first}\n\n{second}")
 }
 
 struct Scene;
@@ -141,6 +158,11 @@ fn every_plugin_takes_its_parameters() {
                 ("p1", Value::Vector(DVec3::X)),
                 ("radius", Value::Integer(3)),
             ]),
+            "linearcurve" | "bsplinecurve" => {
+                // Which are seen from outside only.
+                properties.remove(1);
+                properties.push(file("good"));
+            }
             "cube" | "rectangle" => properties.push(flag("face_normals", true)),
             "revolution" | "extrusion" => {
                 properties.push(("profile", Value::String("0.5 0, 0.7 1".into())))
@@ -164,7 +186,7 @@ fn every_plugin_takes_its_parameters() {
 fn every_plugin_answers_alike() {
     for plugin in Shape::plugins() {
         let properties = match plugin {
-            "serialized" | "obj" | "ply" => vec![file("good")],
+            "serialized" | "obj" | "ply" | "linearcurve" | "bsplinecurve" => vec![file("good")],
             "revolution" | "extrusion" => vec![("profile", Value::String("0.5 0, 0.7 1".into()))],
             "implicit" => vec![function("x^2 + y^2 + z^2 - 1")],
             _ => Vec::new(),
@@ -177,7 +199,13 @@ fn every_plugin_answers_alike() {
             assert!(
                 matches!(
                     plugin,
-                    "bilinear" | "plane" | "quadric" | "ellipsoid" | "implicit"
+                    "bilinear"
+                        | "bsplinecurve"
+                        | "linearcurve"
+                        | "plane"
+                        | "quadric"
+                        | "ellipsoid"
+                        | "implicit"
                 ),
                 "{plugin}"
             );
