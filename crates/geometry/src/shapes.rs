@@ -29,6 +29,7 @@ mod profile;
 pub mod quadric;
 pub mod rectangle;
 pub mod revolution;
+pub mod sdf_grid;
 pub mod sphere;
 pub mod torus;
 mod vertex_normals;
@@ -57,6 +58,7 @@ use plane::Plane;
 use quadric::Quadric;
 use rectangle::Rectangle;
 use revolution::Revolution;
+use sdf_grid::SdfGrid;
 use sphere::Sphere;
 use torus::Torus;
 use vertex_normals::vertex_normals;
@@ -133,6 +135,8 @@ shapes! {
     LinearCurve(Curves<RoundCone>) { "linearcurve" => |params, build| Curves::from_params(params, build), }
     /// Splines of circles.
     SplineCurve(Curves<RoundSpline>) { "bsplinecurve" => |params, build| Curves::from_params(params, build), }
+    /// A function on a grid.
+    SdfGrid(Placed<SdfGrid>) { "sdfgrid" => |params, build| SdfGrid::from_params(params, build), }
     /// A torus.
     Torus(Placed<Torus>) { "torus" => |params, _| Torus::from_params(params), }
     /// Solids made of solids; their operands are the scene's to read.

@@ -23,6 +23,7 @@ pub mod png;
 mod png_encoding;
 pub mod raster;
 pub mod srgb;
+pub mod volume;
 
 pub use atomic_file::write_atomically;
 pub use chromaticities::Chromaticities;
@@ -32,3 +33,4 @@ pub use format::Format;
 pub use losses::Losses;
 pub use plane::{Channel, Frame, Image};
 pub use raster::{Raster, RasterHeader, Samples};
+pub use volume::Volume;

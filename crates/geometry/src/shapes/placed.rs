@@ -7,6 +7,7 @@ use crate::local_interaction::LocalInteraction;
 use crate::placement::{Placement, perpendicular};
 use crate::shapes::crossing::{Crossing, Line};
 use crate::shapes::model::ShapeModel;
+use etalon_math::Frame;
 use etalon_params::Params;
 use etalon_transport::SurfacePoint;
 use glam::{DVec2, DVec3, Vec2};
@@ -33,6 +34,11 @@ pub trait OwnShape {
 
     /// The surface at a crossing, which is at `p` up to rounding: `p` is projected first.
     fn surface_at(&self, p: DVec3, crossing: &Crossing) -> OwnPoint;
+
+    /// The normal that shading pretends, of any length, at a point of the surface; `None` for the surface's own.
+    fn shading_normal(&self, _p: DVec3) -> Option<DVec3> {
+        None
+    }
 
     /// A box that holds it.
     fn bounds(&self) -> [DVec3; 2];
@@ -113,6 +119,12 @@ impl<S: OwnShape> Placed<S> {
             placement.vector(own.dp_dv),
         );
         surface.error += self.rounding;
+        if let Some(shading) = self.shape.shading_normal(own.position) {
+            let shading = placement.normal(shading).normalize().as_vec3();
+            if shading.is_finite() {
+                surface.shading = Frame::from_normal_and_tangent(shading, surface.dp_du);
+            }
+        }
         surface.flipped_if(self.inward)
     }
 }

@@ -27,6 +27,8 @@ impl Assets for Files {
             "good" => good_curves(),
             "short" => "0 0 0 1\n1 0 0 1\n\n2 0 0 1".into(),
             "words" => "0 0 zero 1".into(),
+            "volume" => return Ok(Arc::new(good_volume())),
+            "flat" => return Ok(Arc::new(volume([2; 3], |_| 1.0))),
             "three" => "0 0 0 1\n1 0 0 1\n2 0 0 1\n".into(),
             _ => {
                 return Err(AssetError {
@@ -72,6 +74,40 @@ pub(crate) fn good_curves() -> String {
         "-0.5 -0.3 -0.4 0.1\n-0.2 0.3 0 0.15\n0.3 0 0.2 0.05\n0.4 -0.4 0.1 0.1\n0.1 -0.5 -0.3 0.12";
     let second = "0.5 0.4 -0.5 0.05\n0.4 0.5 0 0.05\n0.4 0.5 0.3 0.2\n0.5 0.6 0.8 0.02";
     format!("{first}\n\n{second}")
+}
+
+/// A volume file of one channel in the unit cube.
+pub(crate) fn volume(size: [usize; 3], f: impl Fn(DVec3) -> f64) -> Vec<u8> {
+    let mut bytes = b"VOL\x03".to_vec();
+    let [x, y, z] = size.map(|n| n as i32);
+    for word in [1, x, y, z, 1] {
+        bytes.extend(word.to_le_bytes());
+    }
+    for corner in [0.0_f32, 0.0, 0.0, 1.0, 1.0, 1.0] {
+        bytes.extend(corner.to_le_bytes());
+    }
+    let most = DVec3::from(size.map(|n| n as f64 - 1.0));
+    for z in 0..size[2] {
+        for y in 0..size[1] {
+            for x in 0..size[0] {
+                let p = DVec3::new(x as f64, y as f64, z as f64) / most;
+                bytes.extend((f(p) as f32).to_le_bytes());
+            }
+        }
+    }
+    bytes
+}
+
+/// A coarse grid of two balls that have grown together and of a wave.
+pub(crate) fn good_volume() -> Vec<u8> {
+    volume([9, 8, 7], volume_function)
+}
+
+/// What the grid of [`good_volume`] samples.
+pub(crate) fn volume_function(p: DVec3) -> f64 {
+    let ball = |x: f64, y: f64, r: f64| (p - DVec3::new(x, y, 0.5)).length() - r;
+    let wave = 0.06 * (9.0 * p.x + 7.0 * p.z).sin();
+    ball(0.35, 0.4, 0.25).min(ball(0.65, 0.6, 0.25)) + wave
 }
 
 struct Scene;
@@ -163,6 +199,7 @@ fn every_plugin_takes_its_parameters() {
                 properties.remove(1);
                 properties.push(file("good"));
             }
+            "sdfgrid" => properties.push(file("volume")),
             "cube" | "rectangle" => properties.push(flag("face_normals", true)),
             "revolution" | "extrusion" => {
                 properties.push(("profile", Value::String("0.5 0, 0.7 1".into())))
@@ -187,6 +224,7 @@ fn every_plugin_answers_alike() {
     for plugin in Shape::plugins() {
         let properties = match plugin {
             "serialized" | "obj" | "ply" | "linearcurve" | "bsplinecurve" => vec![file("good")],
+            "sdfgrid" => vec![file("volume")],
             "revolution" | "extrusion" => vec![("profile", Value::String("0.5 0, 0.7 1".into()))],
             "implicit" => vec![function("x^2 + y^2 + z^2 - 1")],
             _ => Vec::new(),
@@ -203,6 +241,7 @@ fn every_plugin_answers_alike() {
                         | "bsplinecurve"
                         | "linearcurve"
                         | "plane"
+                        | "sdfgrid"
                         | "quadric"
                         | "ellipsoid"
                         | "implicit"

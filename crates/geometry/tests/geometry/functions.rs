@@ -1,5 +1,6 @@
 //! Solids that functions bound, for the tests of [`crate::solids`].
 
+use crate::description::good_volume;
 use crate::solids::{Depth, ball, built, combine, in_ball, number, vector};
 use core::f64::consts::PI;
 use etalon_geometry::Shape;
@@ -66,7 +67,51 @@ pub(crate) fn implicit_cases() -> Vec<(&'static str, Shape, Depth)> {
         );
         built(plugin, vec![curve, x, y, number("to", 2.0 * PI)])
     };
+    let centred = || {
+        let scaled = etalon_params::DMat4::from_scale(DVec3::new(2.4, 2.0, -2.2));
+        let moved = etalon_params::DMat4::from_translation(DVec3::new(-1.2, -1.0, 1.1));
+        moved * scaled
+    };
+    let to_grid = centred().inverse();
+    let corners: Vec<f64> = {
+        let bytes = good_volume();
+        let four = |word: &[u8]| f32::from_le_bytes([word[0], word[1], word[2], word[3]]);
+        bytes[48..]
+            .chunks_exact(4)
+            .map(|word| four(word).into())
+            .collect()
+    };
+    // The grid's own interpolation.
+    let in_grid = move |p: DVec3| {
+        let p = to_grid.transform_point3(p);
+        let border = (0.5 - (p - 0.5).abs().max_element()).max(-1.0);
+        let q = p.clamp(DVec3::ZERO, DVec3::ONE) * DVec3::new(8.0, 7.0, 6.0);
+        let cell = q.floor().min(DVec3::new(7.0, 6.0, 5.0));
+        let at = q - cell;
+        let mut sum = 0.0;
+        for corner in 0..8 {
+            let upper = [corner & 1, corner >> 1 & 1, corner >> 2];
+            let weight: f64 = (0..3)
+                .map(|i| if upper[i] == 1 { at[i] } else { 1.0 - at[i] })
+                .product();
+            let [x, y, z] = core::array::from_fn(|i| cell[i] as usize + upper[i]);
+            sum += weight * corners[(z * 8 + y) * 9 + x];
+        }
+        (-sum).min(border)
+    };
     vec![
+        (
+            "a grid, of a function",
+            built(
+                "sdfgrid",
+                vec![
+                    ("filename", Value::String("volume".into())),
+                    ("normals", Value::String("analytic".into())),
+                    ("to_world", Value::Transform(centred())),
+                ],
+            ),
+            Box::new(in_grid),
+        ),
         (
             "revolved circle of expressions, of a function",
             parametric("revolution", "1 + 0.4*cos(t)", "0.4*sin(t)"),

@@ -1,7 +1,7 @@
 //! Solids against what says of any point whether it is inside of them: rays through them, from outside and inside,
 //! random, axis-parallel and nearly tangent, meet every surface, from the right side, and never the same one twice.
 
-use crate::description::make;
+use crate::description::{make, volume_function};
 use crate::functions::implicit_cases;
 use crate::things::{Random, geometry_of, moved};
 use core::f64::consts::PI;
@@ -390,6 +390,39 @@ fn mistakes() {
     let open = built("disk", vec![]);
     assert!(!open.is_solid() && !built("cylinder", vec![]).is_solid());
     assert!(built("cube", vec![]).is_solid() && ball(0.0, 0.0, 0.0, 1.0).is_solid());
+}
+
+/// A grid's smooth normals are those of the function that it samples, nearly; for shading only.
+#[test]
+fn a_grid_is_smooth() {
+    let grid = |normals: &str| {
+        let file = ("filename", Value::String("volume".into()));
+        let normals = ("normals", Value::String(normals.into()));
+        geometry_of([built("sdfgrid", vec![file, normals])])
+    };
+    let (smooth, flat) = (grid("smooth"), grid("analytic"));
+    let mut random = Random(4);
+    let mut off = [0.0; 2];
+    for _ in 0..2000 {
+        let origin = random.point() * 2.0;
+        let target = Vec3::splat(0.5) + random.point() * 0.2;
+        let ray = Ray::new(origin, (target - origin).normalize(), 0.0);
+        let (Some(a), Some(b)) = (smooth.intersect(&ray), flat.intersect(&ray)) else {
+            continue;
+        };
+        assert_eq!(a.t, b.t);
+        let (a, b) = (smooth.vertex(&ray, &a), flat.vertex(&ray, &b));
+        assert_eq!(a.normal, b.normal);
+        assert!(b.shading.n.dot(b.normal) > 0.9999);
+        let p = a.position.as_dvec3();
+        let slope =
+            |axis: DVec3| volume_function(p + axis * 1e-4) - volume_function(p - axis * 1e-4);
+        let true_normal = DVec3::from(DVec3::AXES.map(slope)).normalize();
+        for (sum, normal) in off.iter_mut().zip([a.shading.n, b.shading.n]) {
+            *sum += true_normal.angle_between(normal.as_dvec3());
+        }
+    }
+    assert!(off[0] < 0.7 * off[1], "{off:?}");
 }
 
 /// A plane is a rectangle as large as it must be, also in a group, and takes nothing from the box of the rest.
