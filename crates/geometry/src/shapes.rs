@@ -15,6 +15,7 @@ pub mod curves;
 pub mod cylinder;
 pub mod disk;
 pub mod extrusion;
+mod field;
 mod file_mesh;
 pub mod implicit;
 mod isolate;
@@ -48,6 +49,7 @@ use etalon_math::DirectionCone;
 use etalon_params::Params;
 use etalon_transport::{Build, LightSampleContext, SampledPoint, SurfacePoint};
 use extrusion::Extrusion;
+use field::Field;
 use glam::{DVec3, Vec2, Vec3};
 use implicit::Implicit;
 use linear_curve::RoundCone;
@@ -126,7 +128,12 @@ shapes! {
         "ellipsoid" => |params, _| Quadric::ellipsoid(params),
     }
     /// Where a function vanishes, in a box.
-    Implicit(Placed<Implicit>) { "implicit" => |params, _| Implicit::from_params(params), }
+    Implicit(Placed<Implicit>) {
+        "implicit" => |params, _| Implicit::from_params(params),
+        "superellipsoid" => |params, _| Implicit::of(params, Field::superellipsoid(params)),
+        "blob" => |params, _| Implicit::of(params, Field::blob(params)),
+        "julia" => |params, _| Implicit::of(params, Field::julia(params)),
+    }
     /// A curve turned about an axis.
     Revolution(Placed<Revolution>) { "revolution" => |params, _| Revolution::from_params(params), }
     /// A curve moved along an axis.

@@ -23,8 +23,13 @@ pub(crate) struct ClipBox {
 impl ClipBox {
     /// Reads the corners `min` and `max` (from −1 to 1 along each axis); `None` after a mistake.
     pub(crate) fn from_params(params: &Params<'_>) -> Option<Self> {
-        let low = params.vector("min").unwrap_or(-DVec3::ONE);
-        let high = params.vector("max").unwrap_or(DVec3::ONE);
+        Self::from_params_or(params, 1.0)
+    }
+
+    /// The same, from −`half` to `half` if the scene does not say.
+    pub(crate) fn from_params_or(params: &Params<'_>, half: f64) -> Option<Self> {
+        let low = params.vector("min").unwrap_or(DVec3::splat(-half));
+        let high = params.vector("max").unwrap_or(DVec3::splat(half));
         if !(low.cmplt(high).all() && low.is_finite() && high.is_finite()) {
             let message = format!(
                 "`max` of `{}` must be above `min`, and both finite",

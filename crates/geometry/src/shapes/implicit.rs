@@ -1,4 +1,4 @@
-//! `implicit`: the surface f(x, y, z) = 0 of an expression, in a box; the solid is where f is negative.
+//! `implicit` and others: the surface f(x, y, z) = 0 of a function (`shapes/field.rs`), in a box; the solid is where f is negative.
 //!
 //! Two ways to find where a line o + t·d meets it. **`certified`** (the default; D. Mitchell 1990, *Robust ray
 //! intersection with interval arithmetic*): a piece [a, b] of the line is enclosed by interval arithmetic,
@@ -19,47 +19,14 @@
 
 use crate::shapes::clip_box::{CURVED, ClipBox, FACES};
 use crate::shapes::crossing::{Crossing, Line};
+use crate::shapes::field::Field;
 use crate::shapes::isolate::{OneParameter, refine, sign_changes};
 use crate::shapes::placed::{OwnPoint, OwnShape, Placed};
 use core::ops::ControlFlow;
-use etalon_math::expression::{ExpressionError, Number};
-use etalon_math::{Dual, Expression};
-use etalon_params::{Diagnostic, Params};
+use etalon_math::Dual;
+use etalon_math::expression::Number;
+use etalon_params::Params;
 use glam::DVec3;
-
-/// What an expression is of.
-#[derive(Clone, Copy, Debug, PartialEq)]
-enum Coordinates {
-    /// x, y and z.
-    Space,
-    /// x and y, whatever z.
-    Extrusion,
-    /// The distance from the z axis, x, and z, called y.
-    Revolution,
-}
-
-impl Coordinates {
-    /// The names of the expression's variables.
-    fn names(self) -> &'static [&'static str] {
-        match self {
-            Self::Space => &["x", "y", "z"],
-            Self::Extrusion | Self::Revolution => &["x", "y"],
-        }
-    }
-
-    /// The variables at a point.
-    fn of<N: Number>(self, p: [N; 3]) -> [N; 3] {
-        let [x, y, z] = p;
-        match self {
-            Self::Space | Self::Extrusion => p,
-            Self::Revolution => {
-                let none = N::constant(0.0);
-                let square = N::max_with(x.powi(2).add(y.powi(2)), none, none, none).0;
-                [square.sqrt(), z, none]
-            }
-        }
-    }
-}
 
 /// How crossings are found.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -73,8 +40,7 @@ enum Method {
 /// Where a function vanishes.
 #[derive(Clone, Debug)]
 pub struct Implicit {
-    function: Expression,
-    coordinates: Coordinates,
+    field: Field,
     clip: ClipBox,
     /// Whether the box's faces are no part of the surface.
     open: bool,
@@ -96,10 +62,18 @@ impl OneParameter for Along<'_> {
 }
 
 impl Implicit {
-    /// Reads `function`, `profile` (`none`, `revolution` or `extrusion`), `min` and `max`, `open` (false), `method` (`certified` or `march`), `feature` (10⁻⁴ of the
-    /// box's diagonal) or `step` (10⁻² of it), `flip_normals` and `to_world`.
+    /// Reads an expression, and the box from `min` to `max`.
     pub(crate) fn from_params(params: &Params<'_>) -> Option<Placed<Self>> {
         let clip = ClipBox::from_params(params);
+        Self::of(params, (Field::expression(params), clip))
+    }
+
+    /// Reads the rest of a function's shape: `open` (false), `method` (`certified` or `march`), `feature` (10⁻⁴ of the
+    /// box's diagonal) or `step` (10⁻² of it), `flip_normals` and `to_world`.
+    pub(crate) fn of(
+        params: &Params<'_>,
+        (field, clip): (Option<Field>, Option<ClipBox>),
+    ) -> Option<Placed<Self>> {
         let open = params.boolean_or("open", false);
         let diagonal = clip.map_or(1.0, |clip| (clip.high - clip.low).length());
         let what = "a positive length, 10⁻⁶ of the box's diagonal at least";
@@ -111,19 +85,8 @@ impl Implicit {
             "march" => Method::March(length("step", 1e-2)),
             _ => Method::Certified(length("feature", 1e-4)),
         };
-        if !params.has("function") {
-            params.missing("function", "an expression of x, y and z");
-        }
-        let kinds = ["none", "revolution", "extrusion"];
-        let coordinates = match params.choice("profile", "none", &kinds) {
-            "revolution" => Coordinates::Revolution,
-            "extrusion" => Coordinates::Extrusion,
-            _ => Coordinates::Space,
-        };
-        let function = expression(params, "function", coordinates.names());
-        let shape = function.zip(clip).map(|(function, clip)| Self {
-            function,
-            coordinates,
+        let shape = field.zip(clip).map(|(field, clip)| Self {
+            field,
             clip,
             open,
             method,
@@ -133,7 +96,7 @@ impl Implicit {
 
     #[inline]
     fn eval<N: Number>(&self, p: [N; 3]) -> N {
-        self.function.eval(&self.coordinates.of(p))
+        self.field.eval(p)
     }
 
     fn value(&self, p: DVec3) -> f64 {
@@ -207,37 +170,6 @@ impl Implicit {
             }
         }
     }
-}
-
-/// Reads an expression of some variables; `None` if there is none, or after a mistake.
-pub(crate) fn expression(
-    params: &Params<'_>,
-    name: &str,
-    variables: &'static [&'static str],
-) -> Option<Expression> {
-    let read = Expression::parse(params.string(name)?, variables);
-    read.map_err(|error| report(params, name, variables, &error))
-        .ok()
-}
-
-/// Records what is wrong with an expression of some variables.
-fn report(
-    params: &Params<'_>,
-    name: &str,
-    variables: &'static [&'static str],
-    error: &ExpressionError,
-) {
-    let property = (params.node.properties.iter()).find(|p| p.name == name);
-    let span = property.map_or(params.node.plugin.span, |p| p.span);
-    let (message, character) = (&error.message, error.character);
-    let message = format!("{message} at character {character} of `{name}`");
-    let diagnostic = Diagnostic::error(span, message);
-    params.diagnostics.push(match &error.unknown {
-        Some(word) => {
-            diagnostic.suggest(word, variables.iter().copied().chain(Expression::names()))
-        }
-        None => diagnostic,
-    });
 }
 
 impl OwnShape for Implicit {

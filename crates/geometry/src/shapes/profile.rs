@@ -6,7 +6,7 @@
 //! its derivatives there is within [`CLOSE`] of it.
 
 use crate::shapes::cubic::{Cubic, Profile};
-use crate::shapes::implicit::expression;
+use crate::shapes::field::expression;
 use etalon_math::Dual;
 use etalon_params::Params;
 use glam::DVec2;

@@ -200,6 +200,7 @@ fn every_plugin_takes_its_parameters() {
                 properties.push(file("good"));
             }
             "sdfgrid" => properties.push(file("volume")),
+            "blob" => properties.push(("balls", Value::String("0 0 0 1 1".into()))),
             "cube" | "rectangle" => properties.push(flag("face_normals", true)),
             "revolution" | "extrusion" => {
                 properties.push(("profile", Value::String("0.5 0, 0.7 1".into())))
@@ -225,6 +226,7 @@ fn every_plugin_answers_alike() {
         let properties = match plugin {
             "serialized" | "obj" | "ply" | "linearcurve" | "bsplinecurve" => vec![file("good")],
             "sdfgrid" => vec![file("volume")],
+            "blob" => vec![("balls", Value::String("0 0 0 1 1".into()))],
             "revolution" | "extrusion" => vec![("profile", Value::String("0.5 0, 0.7 1".into()))],
             "implicit" => vec![function("x^2 + y^2 + z^2 - 1")],
             _ => Vec::new(),
@@ -241,6 +243,9 @@ fn every_plugin_answers_alike() {
                         | "bsplinecurve"
                         | "linearcurve"
                         | "plane"
+                        | "blob"
+                        | "julia"
+                        | "superellipsoid"
                         | "sdfgrid"
                         | "quadric"
                         | "ellipsoid"

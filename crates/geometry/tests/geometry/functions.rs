@@ -8,6 +8,8 @@ use etalon_geometry::shapes::csg::Operation;
 use etalon_params::{DVec3, Value};
 use glam::DVec2;
 
+const BALLS: &str = "-0.4 0 0 0.9 1, 0.4 0.1 0 0.8 1.2, 0 0.1 0.4 0.5 -0.6";
+
 /// Surfaces of functions, whole and cut by their boxes, by both methods, placed, and as operands.
 pub(crate) fn implicit_cases() -> Vec<(&'static str, Shape, Depth)> {
     let implicit = |text: &str, mut more: Vec<(&'static str, Value)>| {
@@ -111,6 +113,52 @@ pub(crate) fn implicit_cases() -> Vec<(&'static str, Shape, Depth)> {
                 ],
             ),
             Box::new(in_grid),
+        ),
+        (
+            "rounded box, of a function",
+            built("superellipsoid", vec![number("e", 0.4), number("n", 0.3)]),
+            Box::new(|p: DVec3| {
+                let of = |x: f64, power: f64| x.abs().powf(power);
+                let around = of(p.x, 5.0) + of(p.y, 5.0);
+                1.0 - of(around, 0.4 / 0.3) - of(p.z, 2.0 / 0.3)
+            }),
+        ),
+        (
+            "star, of a function",
+            built("superellipsoid", vec![number("e", 2.5), number("n", 1.5)]),
+            Box::new(|p: DVec3| {
+                let of = |x: f64, power: f64| x.abs().powf(power);
+                let around = of(p.x, 0.8) + of(p.y, 0.8);
+                1.0 - of(around, 2.5 / 1.5) - of(p.z, 2.0 / 1.5)
+            }),
+        ),
+        (
+            "blob with a dent, of a function",
+            built("blob", vec![("balls", Value::String(BALLS.into()))]),
+            Box::new(|p: DVec3| {
+                let balls = BALLS.split(", ").map(|ball| {
+                    let n: Vec<f64> = ball.split(' ').flat_map(str::parse).collect();
+                    let off = p - DVec3::new(n[0], n[1], n[2]);
+                    n[4] * (1.0 - off.length_squared() / (n[3] * n[3]))
+                        .max(0.0)
+                        .powi(2)
+                });
+                balls.sum::<f64>() - 0.5
+            }),
+        ),
+        (
+            "quaternions, of a function",
+            built("julia", vec![("iterations", Value::Integer(3))]),
+            Box::new(|p: DVec3| {
+                let (mut a, mut v) = (p.x, DVec3::new(p.y, p.z, 0.0));
+                for _ in 0..3 {
+                    let real = a * a - v.length_squared() - 0.08;
+                    v = 2.0 * a * v + DVec3::new(0.0, -0.83, -0.025);
+                    a = real;
+                }
+                let box_depth = 1.5 - p.abs().max_element();
+                (4.0 - a * a - v.length_squared()).min(box_depth)
+            }),
         ),
         (
             "revolved circle of expressions, of a function",
