@@ -24,6 +24,7 @@ mod measure;
 pub mod mesh;
 mod mesh_sampling;
 mod model;
+mod net;
 pub(crate) mod placed;
 pub mod plane;
 mod profile;
@@ -107,6 +108,8 @@ shapes! {
         "ply" => file_mesh::ply,
         "serialized" => file_mesh::serialized,
         "cube" => |params, _| cube::from_params(params),
+        "bicubic" => |params, _| net::bicubic(params),
+        "heightfield" => net::heightfield,
     }
     /// A rectangle.
     Rectangle(Rectangle) { "rectangle" => |params, _| Rectangle::from_params(params), }

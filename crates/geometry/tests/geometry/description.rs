@@ -28,6 +28,8 @@ impl Assets for Files {
             "short" => "0 0 0 1\n1 0 0 1\n\n2 0 0 1".into(),
             "words" => "0 0 zero 1".into(),
             "volume" => return Ok(Arc::new(good_volume())),
+            "picture" => return Ok(Arc::new(b"P5 3 2 255\n\x00\x80\xff\x33\x66\x99".to_vec())),
+            "line" => return Ok(Arc::new(b"P5 3 1 255\n\x00\x80\xff".to_vec())),
             "flat" => return Ok(Arc::new(volume([2; 3], |_| 1.0))),
             "three" => "0 0 0 1\n1 0 0 1\n2 0 0 1\n".into(),
             _ => {
@@ -74,6 +76,13 @@ pub(crate) fn good_curves() -> String {
         "-0.5 -0.3 -0.4 0.1\n-0.2 0.3 0 0.15\n0.3 0 0.2 0.05\n0.4 -0.4 0.1 0.1\n0.1 -0.5 -0.3 0.12";
     let second = "0.5 0.4 -0.5 0.05\n0.4 0.5 0 0.05\n0.4 0.5 0.3 0.2\n0.5 0.6 0.8 0.02";
     format!("{first}\n\n{second}")
+}
+
+/// A bicubic patch over the square [0, 3]².
+pub(crate) fn good_patch() -> String {
+    let height = |i: i32, j: i32| i * j - 3 * i + j * j;
+    let points = (0..16).map(|k| format!("{} {} {}", k % 4, k / 4, height(k % 4, k / 4)));
+    points.collect::<Vec<_>>().join(", ")
 }
 
 /// A volume file of one channel in the unit cube.
@@ -199,6 +208,16 @@ fn every_plugin_takes_its_parameters() {
                 properties.remove(1);
                 properties.push(file("good"));
             }
+            "bicubic" => properties.extend([
+                ("points", Value::String(good_patch())),
+                flag("face_normals", true),
+                ("steps", Value::Integer(5)),
+            ]),
+            "heightfield" => properties.extend([
+                file("picture"),
+                flag("face_normals", true),
+                ("height", Value::Float(0.5)),
+            ]),
             "sdfgrid" => properties.push(file("volume")),
             "blob" => properties.push(("balls", Value::String("0 0 0 1 1".into()))),
             "cube" | "rectangle" => properties.push(flag("face_normals", true)),
@@ -225,6 +244,8 @@ fn every_plugin_answers_alike() {
     for plugin in Shape::plugins() {
         let properties = match plugin {
             "serialized" | "obj" | "ply" | "linearcurve" | "bsplinecurve" => vec![file("good")],
+            "bicubic" => vec![("points", Value::String(good_patch()))],
+            "heightfield" => vec![file("picture")],
             "sdfgrid" => vec![file("volume")],
             "blob" => vec![("balls", Value::String("0 0 0 1 1".into()))],
             "revolution" | "extrusion" => vec![("profile", Value::String("0.5 0, 0.7 1".into()))],

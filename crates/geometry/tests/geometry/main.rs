@@ -7,6 +7,7 @@ mod description;
 mod far_lights;
 mod functions;
 mod instances;
+mod nets;
 mod normals;
 mod reintersection;
 mod sampling;

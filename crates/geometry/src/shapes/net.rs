@@ -1,0 +1,172 @@
+//! Smooth surfaces as nets of triangles: `bicubic`, `heightfield`.
+//!
+//! A point (u, v) of the net lies on the surface and has its normal; between points it is flat. A net of n × n cells
+//! is off a surface of second derivatives up to M by M/(4n²) at most (the error of linear interpolation, twice).
+
+use crate::placement::Placement;
+use crate::shapes::mesh::{Mesh, MeshOptions};
+use crate::shapes::model::read_flip;
+use crate::shapes::profile::numbers;
+use etalon_images::raster;
+use etalon_math::bernstein;
+use etalon_params::{Diagnostic, Params};
+use etalon_transport::{Build, MeshData};
+use glam::{DVec3, Vec2};
+use std::path::Path;
+
+/// A net's points and normals at (column, row).
+type Points<'a> = &'a dyn Fn(usize, usize) -> (DVec3, DVec3);
+
+/// Reads `face_normals`, `flip_normals` and `to_world` of a net of so many columns and rows of points.
+fn net(params: &Params<'_>, surface: Option<([usize; 2], Points<'_>)>) -> Option<Mesh> {
+    let placement = Placement::from_params(params);
+    let face_normals = params.boolean_or("face_normals", false);
+    let flip_normals = read_flip(params);
+    let ([columns, rows], point) = surface?;
+    let mut data = MeshData::default();
+    for row in 0..rows {
+        for column in 0..columns {
+            let (position, normal) = point(column, row);
+            data.positions.push(position.as_vec3());
+            data.normals.push(normal.normalize_or_zero().as_vec3());
+            let [u, v] = [(column, columns), (row, rows)].map(|(k, n)| k as f32 / (n - 1) as f32);
+            data.uvs.push(Vec2::new(u, v));
+        }
+    }
+    for row in 0..rows - 1 {
+        for column in 0..columns - 1 {
+            let [a, b] = [row, row + 1].map(|row| (row * columns + column) as u32);
+            data.triangles.extend([[a, a + 1, b + 1], [a, b + 1, b]]);
+        }
+    }
+    let options = MeshOptions {
+        placement: placement?,
+        face_normals,
+        flip_normals,
+        ..MeshOptions::default()
+    };
+    Mesh::new(data, &options)
+        .map_err(|message| params.error_at("to_world", message))
+        .ok()
+}
+
+/// The bicubic Bézier patch p(u, v) = Σᵢⱼ Bᵢ(u) Bⱼ(v) pᵢⱼ: reads `points`, four rows of four, u first, and `steps` (32),
+/// cells along each side.
+pub(crate) fn bicubic(params: &Params<'_>) -> Option<Mesh> {
+    let what = "sixteen points, u first: 48 numbers";
+    let points = numbers(params, "points", what).and_then(|numbers| {
+        let points: Vec<DVec3> = numbers.chunks_exact(3).map(DVec3::from_slice).collect();
+        let points = <[DVec3; 16]>::try_from(points).ok();
+        let points = points.filter(|_| numbers.len() == 48);
+        if points.is_none() {
+            let count = numbers.len();
+            params.error_at(
+                "points",
+                format!("`points` has {count} numbers; it takes {what}"),
+            );
+        }
+        points
+    });
+    let asked = params.integer_or("steps", 32);
+    let steps = usize::try_from(asked)
+        .ok()
+        .filter(|n| (1..=1024).contains(n));
+    if steps.is_none() {
+        params.refuse("steps", asked, "a whole number from 1 to 1024");
+    }
+    let (points, steps) = points.zip(steps)?;
+    // The point and its derivatives; a normal from near by where a side has no length.
+    let at = |u: f64, v: f64| {
+        let curve = |points: [DVec3; 4], s: f64| {
+            let value = |axis: usize| bernstein::value(&points.map(|p| p[axis]), s);
+            let slope = |axis: usize| {
+                let slopes = [0, 1, 2].map(|i| 3.0 * (points[i + 1] - points[i])[axis]);
+                bernstein::value(&slopes, s)
+            };
+            let of = |f: &dyn Fn(usize) -> f64| DVec3::new(f(0), f(1), f(2));
+            (of(&value), of(&slope))
+        };
+        let along_u = [0, 1, 2, 3].map(|j| {
+            let row = core::array::from_fn(|i| points[4 * j + i]);
+            curve(row, u)
+        });
+        let (point, dv) = curve(along_u.map(|(p, _)| p), v);
+        let (du, _) = curve(along_u.map(|(_, d)| d), v);
+        (point, du.cross(dv))
+    };
+    let point = |column: usize, row: usize| {
+        let [u, v] = [column, row].map(|k| k as f64 / steps as f64);
+        let (point, normal) = at(u, v);
+        let inner = |x: f64| x + (0.5 - x) * 1e-4;
+        let normal = match normal.try_normalize() {
+            Some(normal) => normal,
+            None => at(inner(u), inner(v)).1,
+        };
+        (point, normal)
+    };
+    net(params, Some(([steps + 1; 2], &point)))
+}
+
+/// A picture as heights over the square [−1, 1]², its first row at y = 1: reads `filename`, and `height` (1) of white.
+pub(crate) fn heightfield(params: &Params<'_>, build: &mut dyn Build) -> Option<Mesh> {
+    let height = params.float_or("height", 1.0);
+    if !params.has("filename") {
+        params.missing(
+            "filename",
+            "a picture of two pixels or more along each side",
+        );
+    }
+    let picture = params.string("filename").and_then(|filename| {
+        let refuse = |message: String, help: Option<String>| {
+            let span = params
+                .property("filename")
+                .map_or(params.node.plugin.span, |p| p.span);
+            let mut diagnostic = Diagnostic::error(span, message);
+            diagnostic.help = help;
+            params.diagnostics.push(diagnostic);
+        };
+        let bytes = build.assets().bytes(filename);
+        let bytes = bytes
+            .map_err(|error| refuse(error.message, error.help))
+            .ok()?;
+        let picture = raster::decode(&bytes, Path::new(filename));
+        let picture = picture
+            .map_err(|error| refuse(error.to_string(), None))
+            .ok()?;
+        if picture.width() < 2 || picture.height() < 2 {
+            refuse(
+                format!("`{filename}` has less than two pixels along a side"),
+                None,
+            );
+            return None;
+        }
+        Some(picture)
+    });
+    let Some(picture) = picture else {
+        return net(params, None);
+    };
+    let (columns, rows, channels) = (picture.width(), picture.height(), picture.channels());
+    let floats = picture.to_floats();
+    let colours = if channels >= 3 { 3 } else { 1 };
+    let value = |column: usize, row: usize| {
+        let first = ((rows - 1 - row) * columns + column) * channels;
+        let sum: f32 = floats[first..first + colours].iter().sum();
+        height * f64::from(sum) / colours as f64
+    };
+    let step = [columns, rows].map(|n| 2.0 / (n as f64 - 1.0));
+    let point = |column: usize, row: usize| {
+        let [x, y] = [(column, 0), (row, 1)].map(|(k, axis)| k as f64 * step[axis] - 1.0);
+        // The slope between the neighbours.
+        let around = |k: usize, n: usize| (k.saturating_sub(1), (k + 1).min(n - 1));
+        let ((left, right), (below, above)) = (around(column, columns), around(row, rows));
+        let dx = value(right, row) - value(left, row);
+        let dy = value(column, above) - value(column, below);
+        let [wide, deep] = [((right - left) as f64, 0), ((above - below) as f64, 1)]
+            .map(|(count, axis)| count * step[axis]);
+        (
+            DVec3::new(x, y, value(column, row)),
+            DVec3::new(-dx / wide, -dy / deep, 1.0),
+        )
+    };
+    net(params, Some(([columns, rows], &point)))
+}
