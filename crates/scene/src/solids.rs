@@ -25,7 +25,9 @@ impl Surfaces {
         let emitter = params.child(Class::Emitter).cloned();
         let whole = params
             .child(Class::Bsdf)
-            .map(|bsdf| self.material(bsdf, builder));
+            .map(|bsdf| self.material(bsdf, builder))
+            .or(self.inherited);
+        let outer = core::mem::replace(&mut self.inherited, whole);
         let (mut operands, mut faces) = (Vec::new(), Vec::new());
         let children = params.children(Class::Shape);
         for (_, child) in &children {
@@ -63,6 +65,7 @@ impl Surfaces {
             }
             operands.push(shape);
         }
+        self.inherited = outer;
         if children.is_empty() {
             params.missing("shape", "solids to make it of");
         }

@@ -65,6 +65,8 @@ pub struct Surfaces {
     medium_by_node: HashMap<usize, MediumId>,
     by_node: HashMap<usize, MaterialId>,
     groups: HashMap<usize, GroupId>,
+    /// The material of operands that have none of their own.
+    pub(crate) inherited: Option<MaterialId>,
     black: Option<MaterialId>,
     grey: Option<MaterialId>,
 }

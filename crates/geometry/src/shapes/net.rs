@@ -36,7 +36,7 @@ fn net(params: &Params<'_>, surface: Option<([usize; 2], Points<'_>)>) -> Option
     for row in 0..rows - 1 {
         for column in 0..columns - 1 {
             let [a, b] = [row, row + 1].map(|row| (row * columns + column) as u32);
-            data.triangles.extend([[a, a + 1, b + 1], [a, b + 1, b]]);
+            data.triangles.extend([[a, a + 1, b], [a + 1, b + 1, b]]);
         }
     }
     let options = MeshOptions {
