@@ -47,7 +47,7 @@ fn positive<N: Number>(x: N) -> N {
 
 /// x^exponent of an x that is not negative.
 fn power<N: Number>(x: N, exponent: f64) -> N {
-    x.ln().mul(N::constant(exponent)).exp()
+    x.ln().scale(exponent).exp()
 }
 
 impl Field {
@@ -66,16 +66,16 @@ impl Field {
                 let of = |x: N| power(positive(x.powi(2)), 1.0 / e);
                 let around = power(positive(of(x).add(of(y))), e / n);
                 let up = power(positive(z.powi(2)), 1.0 / n);
-                around.add(up).add(constant(-1.0))
+                around.add(up).shift(-1.0)
             }
             Self::Blob(threshold, balls) => {
                 let mut sum = constant(*threshold);
                 for ball in balls {
-                    let off = |i: usize| p[i].add(constant(-ball.centre[i])).powi(2);
+                    let off = |i: usize| p[i].shift(-ball.centre[i]).powi(2);
                     let squares = off(0).add(off(1)).add(off(2));
-                    let scale = constant(-1.0 / (ball.radius * ball.radius));
-                    let near = positive(constant(1.0).add(squares.mul(scale)));
-                    sum = sum.add(near.powi(2).mul(constant(-ball.strength)));
+                    let scale = -1.0 / (ball.radius * ball.radius);
+                    let near = positive(squares.scale(scale).shift(1.0));
+                    sum = sum.add(near.powi(2).scale(-ball.strength));
                 }
                 sum
             }
@@ -83,12 +83,12 @@ impl Field {
                 let (mut a, mut v) = (x, [y, z, constant(*w)]);
                 for _ in 0..*count {
                     let squares = v[0].powi(2).add(v[1].powi(2)).add(v[2].powi(2));
-                    let double = a.mul(constant(2.0));
-                    v = [0, 1, 2].map(|i| v[i].mul(double).add(constant(c[i + 1])));
-                    a = a.powi(2).add(squares.neg()).add(constant(c[0]));
+                    let double = a.scale(2.0);
+                    v = [0, 1, 2].map(|i| v[i].mul(double).shift(c[i + 1]));
+                    a = a.powi(2).add(squares.neg()).shift(c[0]);
                 }
                 let squares = v[0].powi(2).add(v[1].powi(2)).add(v[2].powi(2));
-                a.powi(2).add(squares).add(constant(-4.0))
+                a.powi(2).add(squares).shift(-4.0)
             }
         }
     }

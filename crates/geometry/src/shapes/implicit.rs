@@ -56,7 +56,7 @@ struct Along<'a> {
 impl OneParameter for Along<'_> {
     fn eval<N: Number>(&self, t: N) -> N {
         let Line { origin, direction } = self.line;
-        let at = |i: usize| N::constant(origin[i]).add(t.mul(N::constant(direction[i])));
+        let at = |i: usize| t.scale(direction[i]).shift(origin[i]);
         self.shape.eval([at(0), at(1), at(2)])
     }
 }

@@ -66,14 +66,13 @@ pub(crate) fn sign_changes<F: OneParameter, R>(
 /// f(m) + F′·([a, b] − m) with the middle m and the slopes F′ there.
 fn enclose<F: OneParameter>(f: &F, a: f64, b: f64) -> (bool, bool) {
     let piece = Interval { low: a, high: b };
-    // Most pieces are far from a zero, which takes no slopes to tell.
-    if !f.eval(piece).has_zero() {
-        return (true, true);
-    }
     let Dual { value, slope } = f.eval(Dual {
         value: piece,
         slope: Interval::constant(1.0),
     });
+    if !value.has_zero() {
+        return (true, true);
+    }
     if !slope.has_zero() {
         return (false, true);
     }

@@ -88,6 +88,17 @@ impl Number for Interval {
     fn add(self, b: Self) -> Self {
         Self::around(self.low + b.low, self.high + b.high)
     }
+    fn shift(self, c: f64) -> Self {
+        Self::around(self.low + c, self.high + c)
+    }
+    fn scale(self, c: f64) -> Self {
+        let (a, b) = (self.low * c, self.high * c);
+        if c < 0.0 {
+            Self::around(b, a)
+        } else {
+            Self::around(a, b)
+        }
+    }
     fn mul(self, b: Self) -> Self {
         let ends = [
             self.low * b.low,

@@ -22,7 +22,11 @@ enum Operation {
     Constant(f64),
     Variable(u32),
     Add(u32, u32),
+    /// Of a constant.
+    Shift(u32, f64),
     Multiply(u32, u32),
+    /// By a constant.
+    Scale(u32, f64),
     Divide(u32, u32),
     Negate(u32),
     /// To a whole power.
@@ -82,7 +86,9 @@ impl Expression {
                 Operation::Constant(value) => N::constant(value),
                 Operation::Variable(i) => variables[i as usize],
                 Operation::Add(a, b) => of(a).add(of(b)),
+                Operation::Shift(a, c) => of(a).shift(c),
                 Operation::Multiply(a, b) => of(a).mul(of(b)),
+                Operation::Scale(a, c) => of(a).scale(c),
                 Operation::Divide(a, b) => of(a).div(of(b)),
                 Operation::Negate(a) => of(a).neg(),
                 Operation::Power(a, n) => of(a).powi(n),

@@ -10,6 +10,14 @@ pub trait Number: Copy {
     fn constant(value: f64) -> Self;
     /// a + b.
     fn add(self, b: Self) -> Self;
+    /// a + c.
+    fn shift(self, c: f64) -> Self {
+        self.add(Self::constant(c))
+    }
+    /// a · c.
+    fn scale(self, c: f64) -> Self {
+        self.mul(Self::constant(c))
+    }
     /// a · b.
     fn mul(self, b: Self) -> Self;
     /// a / b.
@@ -113,6 +121,18 @@ impl<N: Number> Number for Dual<N> {
         Self {
             value: self.value.add(b.value),
             slope: self.slope.add(b.slope),
+        }
+    }
+    fn shift(self, c: f64) -> Self {
+        Self {
+            value: self.value.shift(c),
+            slope: self.slope,
+        }
+    }
+    fn scale(self, c: f64) -> Self {
+        Self {
+            value: self.value.scale(c),
+            slope: self.slope.scale(c),
         }
     }
     fn mul(self, b: Self) -> Self {

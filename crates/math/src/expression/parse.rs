@@ -85,6 +85,7 @@ impl Parser<'_> {
 
     /// The result of an operation; of equal ones there is one.
     fn push(&mut self, operation: Operation) -> Result<u32, ExpressionError> {
+        let operation = self.with_constants(operation);
         if let Some(known) = self.operations.iter().position(|known| *known == operation) {
             return Ok(known as u32);
         }
@@ -93,6 +94,29 @@ impl Parser<'_> {
         }
         self.operations.push(operation);
         Ok(self.operations.len() as u32 - 1)
+    }
+
+    /// The same operation, quicker where an operand is constant.
+    fn with_constants(&self, operation: Operation) -> Operation {
+        let constant = |i: u32| match self.operations[i as usize] {
+            Operation::Constant(value) => Some(value),
+            _ => None,
+        };
+        match operation {
+            Operation::Negate(a) => constant(a).map(|c| Operation::Constant(-c)),
+            Operation::Add(a, b) => match (constant(a), constant(b)) {
+                (_, Some(c)) => Some(Operation::Shift(a, c)),
+                (Some(c), None) => Some(Operation::Shift(b, c)),
+                (None, None) => None,
+            },
+            Operation::Multiply(a, b) => match (constant(a), constant(b)) {
+                (_, Some(c)) => Some(Operation::Scale(a, c)),
+                (Some(c), None) => Some(Operation::Scale(b, c)),
+                (None, None) => None,
+            },
+            _ => None,
+        }
+        .unwrap_or(operation)
     }
 
     fn sum(&mut self) -> Result<u32, ExpressionError> {
@@ -154,10 +178,6 @@ impl Parser<'_> {
         let exponent = self.signed()?;
         let constant = match self.operations[exponent as usize] {
             Operation::Constant(value) => Some(value),
-            Operation::Negate(of) => match self.operations[of as usize] {
-                Operation::Constant(value) => Some(-value),
-                _ => None,
-            },
             _ => None,
         };
         if let Some(n) = constant.filter(|n| n.fract() == 0.0 && n.abs() <= 64.0) {
