@@ -49,7 +49,10 @@ impl PovRay {
         fs::create_dir_all(&folder).map_err(|e| format!("{}: {e}", folder.display()))?;
         let picture = folder.join(format!("{}.exr", claim.name));
         let scene = folders::scenes().join(povray::twin(&claim.scene));
+        // Where the files are that the scene names.
+        let home = scene.parent().unwrap_or(&folder).to_owned();
         let output = Command::new(&self.program)
+            .current_dir(home)
             .args(povray::options(twins.size))
             .arg(format!("+I{}", scene.display()))
             .arg(format!("+O{}", picture.display()))
