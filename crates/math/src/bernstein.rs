@@ -100,11 +100,11 @@ fn search<const N: usize, R>(
     }
     // Both halves, by repeated averages.
     let (mut left, mut right) = ([b[0]; N], *b);
-    for step in 1..N {
+    for (step, corner) in left.iter_mut().enumerate().skip(1) {
         for i in 0..N - step {
             right[i] = 0.5 * (right[i] + right[i + 1]);
         }
-        left[step] = right[0];
+        *corner = right[0];
     }
     let middle = 0.5 * (first + last);
     search(&left, (first, middle), smallest, visit)?;

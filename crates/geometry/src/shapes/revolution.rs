@@ -68,10 +68,11 @@ impl Turned {
     /// Where the line meets a circle that it does meet.
     fn t(&self, circle: DVec2) -> f64 {
         let steep = (circle.y - self.o.z) / self.d.z;
-        if self.d.z * self.d.z > self.a {
+        let root = self.beyond(circle.x).max(0.0).sqrt();
+        // Errors of the circle are divided by dz here, and there, where a line nearly touches it, by the root.
+        if self.d.z.abs() * circle.x >= root {
             return steep;
         }
-        let root = self.beyond(circle.x).max(0.0).sqrt();
         let [near, far] = [-root, root].map(|root| (root - self.b) / self.a);
         if (near - steep).abs() < (far - steep).abs() {
             near

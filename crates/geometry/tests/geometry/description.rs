@@ -115,7 +115,7 @@ pub(crate) fn good_volume() -> Vec<u8> {
 /// What the grid of [`good_volume`] samples.
 pub(crate) fn volume_function(p: DVec3) -> f64 {
     let ball = |x: f64, y: f64, r: f64| (p - DVec3::new(x, y, 0.5)).length() - r;
-    let wave = 0.06 * (9.0 * p.x + 7.0 * p.z).sin();
+    let wave = 0.06 * etalon_math::float64::sin(9.0 * p.x + 7.0 * p.z);
     ball(0.35, 0.4, 0.25).min(ball(0.65, 0.6, 0.25)) + wave
 }
 

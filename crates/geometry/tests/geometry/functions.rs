@@ -5,6 +5,7 @@ use crate::solids::{Depth, ball, built, combine, in_ball, number, vector};
 use core::f64::consts::PI;
 use etalon_geometry::Shape;
 use etalon_geometry::shapes::csg::Operation;
+use etalon_math::float64::{exp, ln};
 use etalon_params::{DVec3, Value};
 use glam::DVec2;
 
@@ -118,7 +119,7 @@ pub(crate) fn implicit_cases() -> Vec<(&'static str, Shape, Depth)> {
             "rounded box, of a function",
             built("superellipsoid", vec![number("e", 0.4), number("n", 0.3)]),
             Box::new(|p: DVec3| {
-                let of = |x: f64, power: f64| x.abs().powf(power);
+                let of = |x: f64, power: f64| exp(power * ln(x.abs()));
                 let around = of(p.x, 5.0) + of(p.y, 5.0);
                 1.0 - of(around, 0.4 / 0.3) - of(p.z, 2.0 / 0.3)
             }),
@@ -127,7 +128,7 @@ pub(crate) fn implicit_cases() -> Vec<(&'static str, Shape, Depth)> {
             "star, of a function",
             built("superellipsoid", vec![number("e", 2.5), number("n", 1.5)]),
             Box::new(|p: DVec3| {
-                let of = |x: f64, power: f64| x.abs().powf(power);
+                let of = |x: f64, power: f64| exp(power * ln(x.abs()));
                 let around = of(p.x, 0.8) + of(p.y, 0.8);
                 1.0 - of(around, 2.5 / 1.5) - of(p.z, 2.0 / 1.5)
             }),

@@ -111,7 +111,8 @@ fn cases() -> Vec<Case> {
         let turned = etalon_params::DMat4::from_rotation_x(0.6);
         built("plane", vec![("to_world", Value::Transform(turned))])
     };
-    let up = DVec3::new(0.0, -0.6_f64.sin(), 0.6_f64.cos());
+    let (sin, cos) = etalon_math::float64::sin_cos(0.6);
+    let up = DVec3::new(0.0, -sin, cos);
     add(
         "a ball above a plane",
         combine(
