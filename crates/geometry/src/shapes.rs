@@ -16,6 +16,7 @@ pub mod cylinder;
 pub mod disk;
 pub mod extrusion;
 mod field;
+mod file;
 mod file_mesh;
 pub mod implicit;
 mod isolate;

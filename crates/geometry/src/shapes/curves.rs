@@ -7,8 +7,9 @@
 use crate::local_interaction::LocalInteraction;
 use crate::placement::Placement;
 use crate::shapes::crossing::{Crossing, Line};
+use crate::shapes::file;
 use crate::shapes::model::ShapeModel;
-use etalon_params::{Diagnostic, Params};
+use etalon_params::Params;
 use etalon_transport::{Build, SurfacePoint};
 use glam::{DVec2, DVec3, Vec2};
 
@@ -64,30 +65,14 @@ impl<S: Segment> Curves<S> {
     /// Reads `filename` and `to_world`.
     pub(crate) fn from_params(params: &Params<'_>, build: &mut dyn Build) -> Option<Self> {
         let placement = Placement::from_params(params);
-        if !params.has("filename") {
-            params.missing("filename", "the file of control points");
-        }
-        let filename = params.string("filename")?;
-        let span = params
-            .property("filename")
-            .map_or(params.node.plugin.span, |p| p.span);
-        let refuse = |message: String| params.diagnostics.push(Diagnostic::error(span, message));
-        let bytes = match build.assets().bytes(filename) {
-            Ok(bytes) => bytes,
-            Err(error) => {
-                let mut diagnostic = Diagnostic::error(span, error.message);
-                diagnostic.help = error.help;
-                params.diagnostics.push(diagnostic);
-                return None;
-            }
+        let text = file::read(params, build, "the file of control points", |bytes| {
+            Ok(String::from_utf8_lossy(bytes).into_owned())
+        });
+        let curves = Self::parse(&text?, &placement?);
+        let refuse = |message: String| {
+            params.error_at("filename", format!("the control points, {message}"));
         };
-        match Self::parse(&String::from_utf8_lossy(&bytes), &placement?) {
-            Ok(curves) => Some(curves),
-            Err(message) => {
-                refuse(format!("`{filename}`, {message}"));
-                None
-            }
-        }
+        curves.map_err(refuse).ok()
     }
 
     /// Curves of a text, or what is wrong with it, and in which line.

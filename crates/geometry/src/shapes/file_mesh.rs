@@ -1,6 +1,7 @@
 //! Meshes from files: the plugins `obj`, `ply` and `serialized`.
 
 use crate::placement::Placement;
+use crate::shapes::file::{report, span_of_filename};
 use crate::shapes::mesh::{Mesh, MeshOptions};
 use crate::shapes::model::read_flip;
 use etalon_params::{Diagnostic, Params};
@@ -45,15 +46,11 @@ fn read(
         }
         return None;
     };
-    let span = params
-        .property("filename")
-        .map_or(params.node.plugin.span, |p| p.span);
+    let span = span_of_filename(params);
     let data = match build.assets().mesh(format?, filename) {
         Ok(data) => data,
         Err(error) => {
-            let mut diagnostic = Diagnostic::error(span, error.message);
-            diagnostic.help = error.help;
-            params.diagnostics.push(diagnostic);
+            report(params, error);
             return None;
         }
     };

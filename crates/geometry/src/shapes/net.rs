@@ -4,12 +4,13 @@
 //! is off a surface of second derivatives up to M by M/(4n²) at most (the error of linear interpolation, twice).
 
 use crate::placement::Placement;
+use crate::shapes::file;
 use crate::shapes::mesh::{Mesh, MeshOptions};
 use crate::shapes::model::read_flip;
 use crate::shapes::profile::numbers;
 use etalon_images::raster;
 use etalon_math::bernstein;
-use etalon_params::{Diagnostic, Params};
+use etalon_params::Params;
 use etalon_transport::{Build, MeshData};
 use glam::{DVec3, Vec2};
 use std::path::Path;
@@ -110,37 +111,14 @@ pub(crate) fn bicubic(params: &Params<'_>) -> Option<Mesh> {
 /// A picture as heights over the square [−1, 1]², its first row at y = 1: reads `filename`, and `height` (1) of white.
 pub(crate) fn heightfield(params: &Params<'_>, build: &mut dyn Build) -> Option<Mesh> {
     let height = params.float_or("height", 1.0);
-    if !params.has("filename") {
-        params.missing(
-            "filename",
-            "a picture of two pixels or more along each side",
-        );
-    }
-    let picture = params.string("filename").and_then(|filename| {
-        let refuse = |message: String, help: Option<String>| {
-            let span = params
-                .property("filename")
-                .map_or(params.node.plugin.span, |p| p.span);
-            let mut diagnostic = Diagnostic::error(span, message);
-            diagnostic.help = help;
-            params.diagnostics.push(diagnostic);
-        };
-        let bytes = build.assets().bytes(filename);
-        let bytes = bytes
-            .map_err(|error| refuse(error.message, error.help))
-            .ok()?;
-        let picture = raster::decode(&bytes, Path::new(filename));
-        let picture = picture
-            .map_err(|error| refuse(error.to_string(), None))
-            .ok()?;
+    let what = "a picture of two pixels or more along each side";
+    let picture = file::read(params, build, what, |bytes| {
+        let name = params.string("filename").unwrap_or_default();
+        let picture = raster::decode(bytes, Path::new(name)).map_err(|error| error.to_string())?;
         if picture.width() < 2 || picture.height() < 2 {
-            refuse(
-                format!("`{filename}` has less than two pixels along a side"),
-                None,
-            );
-            return None;
+            return Err("it has less than two pixels along a side".into());
         }
-        Some(picture)
+        Ok(picture)
     });
     let Some(picture) = picture else {
         return net(params, None);

@@ -39,18 +39,17 @@ impl Quadric {
             DVec3::new(d, squares.y, f),
             DVec3::new(e, f, squares.z),
         );
-        let quadric = Self {
+        let quadric = ClipBox::from_params(params).map(|clip| Self {
             matrix,
             linear,
             constant,
-            clip: ClipBox::from_params(params)?,
-        };
+            clip,
+        });
         let finite = matrix.is_finite() && linear.is_finite() && constant.is_finite();
         if !finite || (matrix == DMat3::ZERO && linear == DVec3::ZERO) {
             params.error("the coefficients of a `quadric` must be finite, and not all of them 0");
-            return None;
         }
-        Placed::from_params(params, Some(quadric))
+        Placed::from_params(params, quadric)
     }
 
     /// Reads `center`, `radii` (a vector), `flip_normals` and `to_world`.
@@ -62,7 +61,7 @@ impl Quadric {
                 "radii",
                 "the `radii` of an `ellipsoid` must be positive and finite",
             );
-            return None;
+            return Placed::from_params(params, None);
         }
         let squares = (radii * radii).recip();
         let ellipsoid = Self {

@@ -14,11 +14,12 @@
 //! distance function grids*), for shading only.
 
 use crate::shapes::crossing::{Crossing, Line};
+use crate::shapes::file;
 use crate::shapes::placed::{OwnPoint, OwnShape, Placed};
 use core::ops::ControlFlow;
 use etalon_images::Volume;
 use etalon_math::bernstein;
-use etalon_params::{Diagnostic, Params};
+use etalon_params::Params;
 use etalon_transport::Build;
 use glam::{DVec2, DVec3};
 
@@ -38,25 +39,9 @@ impl SdfGrid {
     /// Reads `filename`, `normals` (`smooth` or `analytic`), `flip_normals` and `to_world`.
     pub(crate) fn from_params(params: &Params<'_>, build: &mut dyn Build) -> Option<Placed<Self>> {
         let smooth = params.choice("normals", "smooth", &["smooth", "analytic"]) == "smooth";
-        if !params.has("filename") {
-            params.missing("filename", "a volume file of one channel");
-        }
-        let grid = params.string("filename").and_then(|filename| {
-            let read = build.assets().bytes(filename);
-            let read = read.map_err(|error| (error.message, error.help));
-            let grid = read.and_then(|bytes| {
-                let grid = Volume::decode(&bytes).and_then(|volume| Self::new(volume, smooth));
-                grid.map_err(|reason| (format!("`{filename}` cannot be used: {reason}"), None))
-            });
-            grid.map_err(|(message, help)| {
-                let span = params
-                    .property("filename")
-                    .map_or(params.node.plugin.span, |p| p.span);
-                let mut diagnostic = Diagnostic::error(span, message);
-                diagnostic.help = help;
-                params.diagnostics.push(diagnostic);
-            })
-            .ok()
+        let what = "a volume file of one channel";
+        let grid = file::read(params, build, what, |bytes| {
+            Volume::decode(bytes).and_then(|volume| Self::new(volume, smooth))
         });
         Placed::from_params(params, grid)
     }

@@ -11,6 +11,14 @@ use glam::DVec2;
 
 const BALLS: &str = "-0.4 0 0 0.9 1, 0.4 0.1 0 0.8 1.2, 0 0.1 0.4 0.5 -0.6";
 
+fn superellipsoid(e: f64, n: f64) -> Depth {
+    Box::new(move |p: DVec3| {
+        let of = |x: f64, power: f64| exp(power * ln(x.abs()));
+        let around = of(p.x, 2.0 / e) + of(p.y, 2.0 / e);
+        1.0 - of(around, e / n) - of(p.z, 2.0 / n)
+    })
+}
+
 /// Surfaces of functions, whole and cut by their boxes, by both methods, placed, and as operands.
 pub(crate) fn implicit_cases() -> Vec<(&'static str, Shape, Depth)> {
     let implicit = |text: &str, mut more: Vec<(&'static str, Value)>| {
@@ -118,20 +126,12 @@ pub(crate) fn implicit_cases() -> Vec<(&'static str, Shape, Depth)> {
         (
             "rounded box, of a function",
             built("superellipsoid", vec![number("e", 0.4), number("n", 0.3)]),
-            Box::new(|p: DVec3| {
-                let of = |x: f64, power: f64| exp(power * ln(x.abs()));
-                let around = of(p.x, 5.0) + of(p.y, 5.0);
-                1.0 - of(around, 0.4 / 0.3) - of(p.z, 2.0 / 0.3)
-            }),
+            superellipsoid(0.4, 0.3),
         ),
         (
             "star, of a function",
             built("superellipsoid", vec![number("e", 2.5), number("n", 1.5)]),
-            Box::new(|p: DVec3| {
-                let of = |x: f64, power: f64| exp(power * ln(x.abs()));
-                let around = of(p.x, 0.8) + of(p.y, 0.8);
-                1.0 - of(around, 2.5 / 1.5) - of(p.z, 2.0 / 1.5)
-            }),
+            superellipsoid(2.5, 1.5),
         ),
         (
             "blob with a dent, of a function",

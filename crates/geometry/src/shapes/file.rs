@@ -1,0 +1,38 @@
+//! Files that shapes are read from.
+
+use etalon_params::{Diagnostic, Params, Span};
+use etalon_transport::{AssetError, Build};
+
+/// Where a shape's file is named.
+pub(crate) fn span_of_filename(params: &Params<'_>) -> Span {
+    params
+        .property("filename")
+        .map_or(params.node.plugin.span, |p| p.span)
+}
+
+/// Records why a file cannot be had.
+pub(crate) fn report(params: &Params<'_>, error: AssetError) {
+    let mut diagnostic = Diagnostic::error(span_of_filename(params), error.message);
+    diagnostic.help = error.help;
+    params.diagnostics.push(diagnostic);
+}
+
+/// Reads `filename`, which is needed and holds `what`, and makes something of its bytes; `None` after a mistake.
+pub(crate) fn read<T>(
+    params: &Params<'_>,
+    build: &mut dyn Build,
+    what: &str,
+    decode: impl FnOnce(&[u8]) -> Result<T, String>,
+) -> Option<T> {
+    if !params.has("filename") {
+        params.missing("filename", what);
+    }
+    let filename = params.string("filename")?;
+    let read = build.assets().bytes(filename).and_then(|bytes| {
+        decode(&bytes).map_err(|reason| AssetError {
+            message: format!("`{filename}` cannot be used: {reason}"),
+            help: None,
+        })
+    });
+    read.map_err(|error| report(params, error)).ok()
+}
