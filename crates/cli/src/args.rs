@@ -3,7 +3,7 @@
 use crate::outputs::Outputs;
 use crate::part::PartOfMany;
 use clap::{Args, Parser, Subcommand};
-use etalon_scene::LightSamplerKind;
+use etalon_scene::{AcceleratorKind, LightSamplerKind};
 use std::path::{Path, PathBuf};
 
 /// A spectral renderer whose estimators are held to account by statistics.
@@ -130,6 +130,9 @@ pub struct RenderArgs {
     /// scene's].
     #[arg(long, value_name = "NAME", value_parser = parse_light_chooser)]
     pub light_chooser: Option<LightSamplerKind>,
+    /// How surfaces are looked up: linear, octree, bvh-mean, bvh, wide. The picture is the same [default: wide].
+    #[arg(long, value_name = "NAME", value_parser = parse_accelerator)]
+    pub accelerator: Option<AcceleratorKind>,
     /// Give a scene parameter ($key) a value.
     #[arg(short = 'D', value_name = "key=value", value_parser = parse_define)]
     pub define: Vec<(String, String)>,
@@ -364,6 +367,13 @@ fn parse_error(text: &str) -> Result<f64, String> {
 fn parse_light_chooser(text: &str) -> Result<LightSamplerKind, String> {
     LightSamplerKind::named(text).ok_or_else(|| {
         let names = LightSamplerKind::ALL.map(LightSamplerKind::name);
+        format!("expected one of {}", names.join(", "))
+    })
+}
+
+fn parse_accelerator(text: &str) -> Result<AcceleratorKind, String> {
+    AcceleratorKind::named(text).ok_or_else(|| {
+        let names = AcceleratorKind::ALL.map(AcceleratorKind::name);
         format!("expected one of {}", names.join(", "))
     })
 }

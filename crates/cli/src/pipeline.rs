@@ -12,7 +12,7 @@ use etalon_formats::mitsuba::{self, Document, ReadOptions, ReadOutcome};
 use etalon_integrators::{AnyIntegrator, Progress, RenderPlan, RenderStatistics, ReplicateRange};
 use etalon_params::{Class, Diagnostic, Diagnostics, Node, Params, Sources, Span, Value};
 use etalon_sampling::{ReplicateKind, SamplerKind};
-use etalon_scene::{CompileOptions, Compiled, LightSamplerKind, Scene};
+use etalon_scene::{AcceleratorKind, CompileOptions, Compiled, LightSamplerKind, Scene};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::time::{Duration, Instant};
@@ -28,6 +28,8 @@ pub struct LoadOptions {
     pub data: Vec<PathBuf>,
     /// How points choose the light that they ask, if not as the scene says.
     pub light_chooser: Option<LightSamplerKind>,
+    /// How surfaces are looked up.
+    pub accelerator: AcceleratorKind,
 }
 
 /// Why a scene cannot be used: what is wrong, and the texts in which it stands.
@@ -96,7 +98,7 @@ pub fn load(path: &Path, options: &LoadOptions) -> Result<Loaded, LoadError> {
         let assets = FileAssets::new(document.search.clone());
         let overruled = CompileOptions {
             light_chooser: options.light_chooser,
-            ..CompileOptions::default()
+            accelerator: options.accelerator,
         };
         let compiled = etalon_scene::compile_with(&document.root, &assets, &diagnostics, overruled);
         let integrator = integrator(&document.root, &diagnostics);

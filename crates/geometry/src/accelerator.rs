@@ -6,14 +6,18 @@
 
 mod binary;
 pub(crate) mod block;
+mod boxes;
+mod bvh;
 mod collapse;
 mod linear;
 mod node;
+mod octree;
 mod wide;
 
 use crate::closest_hit::ClosestHit;
 use crate::traversal_ray::TraversalRay;
 use block::Block;
+use boxes::BoxTree;
 use glam::Vec3;
 use linear::Linear;
 use wide::Wide;
@@ -23,9 +27,42 @@ use wide::Wide;
 pub enum AcceleratorKind {
     /// Every ray is tested against everything: slow, and obviously right.
     Linear,
+    /// A cube, divided into eight again and again.
+    Octree,
+    /// A binary tree of boxes, divided at the mean of the widest axis.
+    BvhMean,
+    /// A binary tree of boxes, divided by the surface area heuristic.
+    Bvh,
     /// A bounding volume hierarchy with eight children per node.
     #[default]
     Wide,
+}
+
+impl AcceleratorKind {
+    /// All of them.
+    pub const ALL: [Self; 5] = [
+        Self::Linear,
+        Self::Octree,
+        Self::BvhMean,
+        Self::Bvh,
+        Self::Wide,
+    ];
+
+    /// What it is called on the command line.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Linear => "linear",
+            Self::Octree => "octree",
+            Self::BvhMean => "bvh-mean",
+            Self::Bvh => "bvh",
+            Self::Wide => "wide",
+        }
+    }
+
+    /// The one of that name.
+    pub fn named(name: &str) -> Option<Self> {
+        Self::ALL.into_iter().find(|kind| kind.name() == name)
+    }
 }
 
 /// An axis-parallel box.
@@ -144,6 +181,7 @@ pub(crate) struct Accelerator {
 #[derive(Debug)]
 enum Index {
     Linear(Linear),
+    Boxes(BoxTree),
     Wide(Wide),
 }
 
@@ -156,6 +194,9 @@ impl Accelerator {
         Self {
             index: match kind {
                 AcceleratorKind::Linear => Index::Linear(Linear::build(primitives)),
+                AcceleratorKind::Octree => Index::Boxes(octree::build(primitives)),
+                AcceleratorKind::BvhMean => Index::Boxes(bvh::by_mean(primitives)),
+                AcceleratorKind::Bvh => Index::Boxes(bvh::by_area(primitives)),
                 AcceleratorKind::Wide => Index::Wide(Wide::build(primitives)),
             },
             endless: match primitives.any_endless() {
@@ -178,6 +219,7 @@ impl Accelerator {
         }
         match &self.index {
             Index::Linear(linear) => linear.intersect(probe, others, nearest),
+            Index::Boxes(boxes) => boxes.intersect(probe, others, nearest),
             Index::Wide(wide) => wide.intersect(probe, others, nearest),
         }
     }
@@ -194,6 +236,7 @@ impl Accelerator {
         endless.any(|&primitive| others.occludes(primitive, probe, t_max))
             || match &self.index {
                 Index::Linear(linear) => linear.occluded(probe, others, t_max),
+                Index::Boxes(boxes) => boxes.occluded(probe, others, t_max),
                 Index::Wide(wide) => wide.occluded(probe, others, t_max),
             }
     }
@@ -203,6 +246,7 @@ impl Accelerator {
     pub(crate) fn corners(&self, slot: u32) -> [Vec3; 3] {
         match &self.index {
             Index::Linear(linear) => Block::corners(linear.blocks(), slot),
+            Index::Boxes(boxes) => Block::corners(boxes.blocks(), slot),
             Index::Wide(wide) => Block::corners(wide.blocks(), slot),
         }
     }
@@ -211,6 +255,7 @@ impl Accelerator {
     pub(crate) fn nodes(&self) -> usize {
         match &self.index {
             Index::Linear(_) => 0,
+            Index::Boxes(boxes) => boxes.nodes(),
             Index::Wide(wide) => wide.nodes(),
         }
     }
@@ -219,6 +264,7 @@ impl Accelerator {
     pub(crate) fn bytes(&self) -> usize {
         match &self.index {
             Index::Linear(linear) => linear.bytes(),
+            Index::Boxes(boxes) => boxes.bytes(),
             Index::Wide(wide) => wide.bytes(),
         }
     }

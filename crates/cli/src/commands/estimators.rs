@@ -62,6 +62,7 @@ fn run_here(args: &EstimatorsArgs) -> ExitCode {
 fn measure(args: &EstimatorsArgs) -> Result<Findings, Failure> {
     let options = Options {
         load: LoadOptions {
+            accelerator: etalon_scene::AcceleratorKind::default(),
             defines: args.define.clone(),
             integrator: None,
             data: args.data.clone(),

@@ -40,6 +40,7 @@ fn run_here(args: &RenderArgs) -> ExitCode {
             integrator: args.integrator.clone(),
             data: args.data.clone(),
             light_chooser: args.light_chooser,
+            accelerator: args.accelerator.unwrap_or_default(),
         },
     ) {
         Ok(loaded) => loaded,

@@ -1,4 +1,4 @@
-//! The wide tree against the linear scan: the same hits, to the last bit.
+//! Every accelerator against the linear scan: the same hits, to the last bit.
 
 use crate::things::{Random, convex_shapes, icosphere, mesh_of, moved};
 use etalon_geometry::{AcceleratorKind, Geometry, GeometryBuilder, Shape};
@@ -7,17 +7,19 @@ use glam::Vec3;
 use proptest::prelude::*;
 use proptest::test_runner::RngSeed;
 
-/// The same geometry with either accelerator.
-fn both(make: impl Fn(&mut GeometryBuilder)) -> [Geometry; 2] {
-    [AcceleratorKind::Linear, AcceleratorKind::Wide].map(|kind| {
+/// The same geometry with every accelerator, the linear scan's first.
+fn every(make: impl Fn(&mut GeometryBuilder)) -> Vec<Geometry> {
+    let kinds = AcceleratorKind::ALL.into_iter();
+    let geometries = kinds.map(|kind| {
         let mut builder = GeometryBuilder::new();
         make(&mut builder);
         builder.build_with(kind)
-    })
+    });
+    geometries.collect()
 }
 
-fn both_of(shapes: impl Fn() -> Vec<Shape>) -> [Geometry; 2] {
-    both(|builder| {
+fn every_of(shapes: impl Fn() -> Vec<Shape>) -> Vec<Geometry> {
+    every(|builder| {
         for shape in shapes() {
             builder.add_shape(shape, MaterialId(0), LightId::NONE);
         }
@@ -31,28 +33,39 @@ fn placeless(hit: Option<Hit>) -> Option<Hit> {
 
 /// Hits of a ray and of the segment up to its hit agree, and the points hit. Returns whether there
 /// was one.
-fn agree([linear, wide]: &[Geometry; 2], ray: &Ray) -> bool {
+fn agree(all: &[Geometry], ray: &Ray) -> bool {
+    let linear = &all[0];
     let expected = linear.intersect(ray);
-    let found = wide.intersect(ray);
-    assert_eq!(placeless(expected), placeless(found), "{ray:?}");
-    if let (Some(expected), Some(found)) = (expected, found) {
-        let [a, b] = [linear.vertex(ray, &expected), wide.vertex(ray, &found)];
-        assert_eq!((a.position, a.normal), (b.position, b.normal), "{ray:?}");
-    }
-    assert_eq!(linear.occluded(ray), wide.occluded(ray), "{ray:?}");
     assert_eq!(linear.occluded(ray), expected.is_some(), "{ray:?}");
-    if let Some(hit) = expected {
-        // A segment that ends exactly at the hit does not reach it.
-        let short = Ray {
-            t_max: hit.t,
-            ..*ray
-        };
+    for (geometry, kind) in all.iter().zip(AcceleratorKind::ALL).skip(1) {
+        let found = geometry.intersect(ray);
+        assert_eq!(placeless(expected), placeless(found), "{kind:?} {ray:?}");
+        if let (Some(expected), Some(found)) = (expected, found) {
+            let [a, b] = [linear.vertex(ray, &expected), geometry.vertex(ray, &found)];
+            assert_eq!((a.position, a.normal), (b.position, b.normal), "{ray:?}");
+        }
         assert_eq!(
-            placeless(linear.intersect(&short)),
-            placeless(wide.intersect(&short)),
-            "{short:?}"
+            linear.occluded(ray),
+            geometry.occluded(ray),
+            "{kind:?} {ray:?}"
         );
-        assert_eq!(linear.occluded(&short), wide.occluded(&short), "{short:?}");
+        if let Some(hit) = expected {
+            // A segment that ends exactly at the hit does not reach it.
+            let short = Ray {
+                t_max: hit.t,
+                ..*ray
+            };
+            assert_eq!(
+                placeless(linear.intersect(&short)),
+                placeless(geometry.intersect(&short)),
+                "{kind:?} {short:?}"
+            );
+            assert_eq!(
+                linear.occluded(&short),
+                geometry.occluded(&short),
+                "{short:?}"
+            );
+        }
     }
     expected.is_some()
 }
@@ -102,7 +115,7 @@ proptest! {
         let scale = 10f32.powi(exponent);
         // Up to a thousand of its own sizes away from the origin of space.
         let center = Vec3::new(1.0, -0.5, 0.25) * scale * [0.0, 30.0, 1000.0][far];
-        let pair = both_of(|| vec![soup(seed, count, size, scale, center)]);
+        let pair = every_of(|| vec![soup(seed, count, size, scale, center)]);
         let mut random = Random(seed ^ 1);
         for i in 0..300 {
             // From inside, from near, from far.
@@ -143,7 +156,7 @@ fn lattice() -> Shape {
 
 #[test]
 fn rays_along_axes_and_in_planes() {
-    let pair = both_of(|| vec![lattice()]);
+    let pair = every_of(|| vec![lattice()]);
     let mut hits = 0;
     for axis in 0..3 {
         for sign in [1.0f32, -1.0] {
@@ -173,7 +186,7 @@ fn rays_along_axes_and_in_planes() {
 
 #[test]
 fn diagonals_through_vertices_and_edges() {
-    let pair = both_of(|| vec![lattice()]);
+    let pair = every_of(|| vec![lattice()]);
     for i in -8..16 {
         for j in -8..16 {
             for d in [
@@ -198,7 +211,7 @@ fn of_equal_hits_the_first_primitive_wins() {
             (0..count).map(|i| [3 * i, 3 * i + 1, 3 * i + 2]).collect(),
         )
     };
-    let pair = both_of(|| vec![copies(5), copies(7)]);
+    let pair = every_of(|| vec![copies(5), copies(7)]);
     let ray = Ray::new(Vec3::new(0.2, 0.2, 1.0), Vec3::NEG_Z, 0.0);
     assert!(agree(&pair, &ray));
     let hit = pair[1].intersect(&ray).expect("hit");
@@ -225,7 +238,7 @@ fn many_equal_boxes_do_not_take_long() {
         )
     };
     let (positions, triangles) = make(count, &mut random);
-    let pair = both_of(|| vec![mesh_of(positions.clone(), triangles.clone())]);
+    let pair = every_of(|| vec![mesh_of(positions.clone(), triangles.clone())]);
     for _ in 0..20 {
         let (from, to) = (random.point() * 8.0, random.point());
         agree(&pair, &Ray::new(from, (to - from).normalize(), 0.0));
@@ -242,7 +255,7 @@ fn lopsided_trees_are_no_deeper_than_the_stack() {
         positions.extend([Vec3::ZERO, Vec3::X * size, Vec3::Y * size].map(|p| p + shift));
     }
     let triangles: Vec<_> = (0..2000).map(|i| [3 * i, 3 * i + 1, 3 * i + 2]).collect();
-    let pair = both_of(|| vec![mesh_of(positions.clone(), triangles.clone())]);
+    let pair = every_of(|| vec![mesh_of(positions.clone(), triangles.clone())]);
     let mut random = Random(8);
     for i in 0..400 {
         let size = power_of_ten(i % 37);
@@ -291,7 +304,7 @@ fn mixture(builder: &mut GeometryBuilder) {
 
 #[test]
 fn mixtures_of_shapes_and_instances() {
-    let pair = both(mixture);
+    let pair = every(mixture);
     let mut random = Random(5);
     let mut hits = 0;
     for _ in 0..3000 {
@@ -309,17 +322,17 @@ fn mixtures_of_shapes_and_instances() {
 
 #[test]
 fn nothing_is_hit_where_nothing_is() {
-    let pair = both_of(Vec::new);
+    let pair = every_of(Vec::new);
     assert!(!agree(&pair, &Ray::new(Vec3::ZERO, Vec3::X, 0.0)));
     assert!(pair[1].bounds().is_empty());
     assert_eq!(pair[1].bounding_sphere(), (Vec3::ZERO, 0.0));
-    let pair = both_of(|| vec![mesh_of(Vec::new(), Vec::new())]);
+    let pair = every_of(|| vec![mesh_of(Vec::new(), Vec::new())]);
     assert!(!agree(&pair, &Ray::new(Vec3::ZERO, Vec3::X, 0.0)));
 }
 
 #[test]
 fn rays_that_make_no_sense_do_no_harm() {
-    let pair = both(mixture);
+    let pair = every(mixture);
     let odd = [
         0.0,
         -0.0,

@@ -185,8 +185,9 @@ fn check(case: &Case, kind: AcceleratorKind) {
 #[test]
 fn every_shape_agrees_with_mitsuba() {
     for case in cases::CASES {
-        check(case, AcceleratorKind::Linear);
-        check(case, AcceleratorKind::Wide);
+        for kind in AcceleratorKind::ALL {
+            check(case, kind);
+        }
     }
 }
 

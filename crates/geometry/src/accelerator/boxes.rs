@@ -1,0 +1,246 @@
+//! Trees of boxes that are tested one at a time: what the plain binary tree and the octree are made of.
+//!
+//! A builder says how a part of space with what is in it is divided; a leaf keeps its triangles in blocks. Nodes are
+//! visited from the nearest box to the farthest, and not at all beyond what has been hit.
+
+use super::block::{Block, LANES};
+use super::{Bounds, CustomPrimitives, Primitives, block_bytes, has_area};
+use crate::closest_hit::ClosestHit;
+use crate::traversal_ray::TraversalRay;
+
+/// A part of space, and the items in it.
+pub(super) type Part = (Bounds, Vec<u32>);
+
+/// Levels below the root at most, so that the stack below is enough.
+pub(super) const DEEPEST: usize = 60;
+
+/// Boxes that wait: seven for each of at most [`DEEPEST`]/2 levels of an octree, or one for each of a binary tree.
+const STACK: usize = 256;
+
+/// A box, and what is in it: other boxes, or triangles and whatever else.
+#[derive(Clone, Copy, Debug)]
+struct BoxNode {
+    bounds: Bounds,
+    /// First, and how many.
+    children: [u32; 2],
+    blocks: [u32; 2],
+    others: [u32; 2],
+}
+
+/// A tree of boxes.
+#[derive(Debug, Default)]
+pub(crate) struct BoxTree {
+    nodes: Vec<BoxNode>,
+    blocks: Vec<Block>,
+    others: Vec<u32>,
+}
+
+/// What is known of the primitives while a tree is built.
+struct Items<'a, P> {
+    primitives: &'a P,
+    /// Primitive and box of each item.
+    boxes: Vec<Bounds>,
+    of: Vec<u32>,
+}
+
+impl BoxTree {
+    /// The tree of all primitives but triangles without area, and what has no end. `divide` is asked, with all boxes, a
+    /// part and its level, for the parts that it is divided into: none for a leaf.
+    pub(super) fn build(
+        primitives: &impl Primitives,
+        divide: impl Fn(&[Bounds], &Part, usize) -> Vec<Part>,
+    ) -> Self {
+        let mut items = Items {
+            primitives,
+            boxes: Vec::new(),
+            of: Vec::new(),
+        };
+        for primitive in 0..primitives.len() as u32 {
+            let (bounds, counts) = match primitives.triangle(primitive) {
+                Some(corners) => (Bounds::around(&corners), has_area(&corners)),
+                None => {
+                    let bounds = primitives.bounds(primitive);
+                    (bounds, !bounds.is_endless())
+                }
+            };
+            if counts {
+                items.boxes.push(bounds);
+                items.of.push(primitive);
+            }
+        }
+        let mut tree = Self::default();
+        if items.boxes.is_empty() {
+            return tree;
+        }
+        let all = (items.boxes.iter()).fold(Bounds::EMPTY, |all, bounds| all.union(*bounds));
+        let whole = (all, (0..items.boxes.len() as u32).collect());
+        tree.nodes.push(BoxNode {
+            bounds: all,
+            children: [0; 2],
+            blocks: [0; 2],
+            others: [0; 2],
+        });
+        tree.fill(0, whole, 0, &items, &divide);
+        tree
+    }
+
+    fn fill(
+        &mut self,
+        index: usize,
+        part: Part,
+        depth: usize,
+        items: &Items<'_, impl Primitives>,
+        divide: &impl Fn(&[Bounds], &Part, usize) -> Vec<Part>,
+    ) {
+        let tight = (part.1.iter()).fold(Bounds::EMPTY, |all, &item| {
+            all.union(items.boxes[item as usize])
+        });
+        let mut node = BoxNode {
+            bounds: Bounds {
+                min: tight.min.max(part.0.min),
+                max: tight.max.min(part.0.max),
+            },
+            children: [0; 2],
+            blocks: [0; 2],
+            others: [0; 2],
+        };
+        let parts = match depth < DEEPEST {
+            true => divide(&items.boxes, &part, depth),
+            false => Vec::new(),
+        };
+        if parts.is_empty() {
+            self.fill_leaf(&mut node, &part.1, items);
+            self.nodes[index] = node;
+            return;
+        }
+        let first = self.nodes.len();
+        node.children = [first as u32, parts.len() as u32];
+        self.nodes[index] = node;
+        self.nodes.resize(first + parts.len(), node);
+        for (child, part) in parts.into_iter().enumerate() {
+            self.fill(first + child, part, depth + 1, items, divide);
+        }
+    }
+
+    fn fill_leaf(&mut self, node: &mut BoxNode, list: &[u32], items: &Items<'_, impl Primitives>) {
+        let (first_block, first_other) = (self.blocks.len(), self.others.len());
+        let mut triangles = Vec::new();
+        for &item in list {
+            let primitive = items.of[item as usize];
+            match items.primitives.triangle(primitive) {
+                Some(corners) => triangles.push((corners, primitive)),
+                None => self.others.push(primitive),
+            }
+        }
+        let blocks = triangles
+            .chunks(LANES)
+            .map(|chunk| Block::new(chunk.iter().copied()));
+        self.blocks.extend(blocks);
+        let span = |first: usize, end: usize| [first as u32, (end - first) as u32];
+        node.blocks = span(first_block, self.blocks.len());
+        node.others = span(first_other, self.others.len());
+    }
+
+    /// Notes the nearest hit, if it wins over what is known.
+    #[inline]
+    pub(crate) fn intersect(
+        &self,
+        probe: &TraversalRay,
+        others: &impl CustomPrimitives,
+        nearest: &mut ClosestHit,
+    ) {
+        let mut stack = [(0.0_f32, 0_u32); STACK];
+        let mut top = usize::from(!self.nodes.is_empty());
+        while top > 0 {
+            top -= 1;
+            let (near, index) = stack[top];
+            if near > nearest.t {
+                continue;
+            }
+            let node = &self.nodes[index as usize];
+            for block in span(node.blocks) {
+                self.blocks[block].intersect(block, probe, nearest);
+            }
+            for other in span(node.others) {
+                others.intersect(self.others[other], probe, nearest);
+            }
+            let base = top;
+            for child in span(node.children) {
+                let Some(near) = entered(&self.nodes[child].bounds, probe, nearest.t) else {
+                    continue;
+                };
+                // The nearest on top.
+                let mut slot = top;
+                while slot > base && stack[slot - 1].0 < near {
+                    stack[slot] = stack[slot - 1];
+                    slot -= 1;
+                }
+                stack[slot] = (near, child as u32);
+                top += 1;
+            }
+        }
+    }
+
+    /// Whether anything is hit before `t_max`.
+    #[inline]
+    pub(crate) fn occluded(
+        &self,
+        probe: &TraversalRay,
+        others: &impl CustomPrimitives,
+        t_max: f32,
+    ) -> bool {
+        let mut stack = [0_u32; STACK];
+        let mut top = usize::from(!self.nodes.is_empty());
+        while top > 0 {
+            top -= 1;
+            let node = &self.nodes[stack[top] as usize];
+            let hit = span(node.blocks).any(|block| self.blocks[block].occludes(probe, t_max))
+                || span(node.others).any(|other| others.occludes(self.others[other], probe, t_max));
+            if hit {
+                return true;
+            }
+            for child in span(node.children) {
+                if entered(&self.nodes[child].bounds, probe, t_max).is_some() {
+                    stack[top] = child as u32;
+                    top += 1;
+                }
+            }
+        }
+        false
+    }
+
+    pub(crate) fn blocks(&self) -> &[Block] {
+        &self.blocks
+    }
+
+    pub(crate) fn nodes(&self) -> usize {
+        self.nodes.len()
+    }
+
+    pub(crate) fn bytes(&self) -> usize {
+        block_bytes(&self.blocks)
+            + size_of_val(self.nodes.as_slice())
+            + size_of_val(self.others.as_slice())
+    }
+}
+
+#[inline]
+fn span([first, count]: [u32; 2]) -> core::ops::Range<usize> {
+    first as usize..(first + count) as usize
+}
+
+/// Where a ray enters a box, if it does before `t_max`; conservative, as the wide tree's nodes are.
+#[inline]
+fn entered(bounds: &Bounds, probe: &TraversalRay, t_max: f32) -> Option<f32> {
+    const OUTWARD: f32 = 1.0 + 4.0 * f32::EPSILON;
+    let planes = [bounds.min, bounds.max];
+    let (mut near, mut far) = (0.0_f32, t_max);
+    for axis in 0..3 {
+        let side = probe.sign[axis] & 1;
+        let enter = planes[side][axis].mul_add(probe.inverse[axis], -probe.entered[axis]);
+        let leave = planes[side ^ 1][axis].mul_add(probe.inverse[axis], -probe.left[axis]);
+        near = near.max(enter);
+        far = far.min(leave);
+    }
+    (near <= far * OUTWARD).then_some(near)
+}
