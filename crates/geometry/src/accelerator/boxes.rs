@@ -235,10 +235,10 @@ fn entered(bounds: &Bounds, probe: &TraversalRay, t_max: f32) -> Option<f32> {
     const OUTWARD: f32 = 1.0 + 4.0 * f32::EPSILON;
     let planes = [bounds.min, bounds.max];
     let (mut near, mut far) = (0.0_f32, t_max);
-    for axis in 0..3 {
+    for (axis, inverse) in probe.inverse.into_iter().enumerate() {
         let side = probe.sign[axis] & 1;
-        let enter = planes[side][axis].mul_add(probe.inverse[axis], -probe.entered[axis]);
-        let leave = planes[side ^ 1][axis].mul_add(probe.inverse[axis], -probe.left[axis]);
+        let enter = planes[side][axis].mul_add(inverse, -probe.entered[axis]);
+        let leave = planes[side ^ 1][axis].mul_add(inverse, -probe.left[axis]);
         near = near.max(enter);
         far = far.min(leave);
     }
