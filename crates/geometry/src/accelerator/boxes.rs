@@ -27,6 +27,18 @@ struct BoxNode {
     others: [u32; 2],
 }
 
+impl BoxNode {
+    /// A box with nothing in it yet.
+    fn around(bounds: Bounds) -> Self {
+        Self {
+            bounds,
+            children: [0; 2],
+            blocks: [0; 2],
+            others: [0; 2],
+        }
+    }
+}
+
 /// A tree of boxes.
 #[derive(Debug, Default)]
 pub(crate) struct BoxTree {
@@ -38,8 +50,9 @@ pub(crate) struct BoxTree {
 /// What is known of the primitives while a tree is built.
 struct Items<'a, P> {
     primitives: &'a P,
-    /// Primitive and box of each item.
+    /// The box of each item, …
     boxes: Vec<Bounds>,
+    /// … and which primitive it is.
     of: Vec<u32>,
 }
 
@@ -74,12 +87,7 @@ impl BoxTree {
         }
         let all = (items.boxes.iter()).fold(Bounds::EMPTY, |all, bounds| all.union(*bounds));
         let whole = (all, (0..items.boxes.len() as u32).collect());
-        tree.nodes.push(BoxNode {
-            bounds: all,
-            children: [0; 2],
-            blocks: [0; 2],
-            others: [0; 2],
-        });
+        tree.nodes.push(BoxNode::around(all));
         tree.fill(0, whole, 0, &items, &divide);
         tree
     }
@@ -95,15 +103,10 @@ impl BoxTree {
         let tight = (part.1.iter()).fold(Bounds::EMPTY, |all, &item| {
             all.union(items.boxes[item as usize])
         });
-        let mut node = BoxNode {
-            bounds: Bounds {
-                min: tight.min.max(part.0.min),
-                max: tight.max.min(part.0.max),
-            },
-            children: [0; 2],
-            blocks: [0; 2],
-            others: [0; 2],
-        };
+        let mut node = BoxNode::around(Bounds {
+            min: tight.min.max(part.0.min),
+            max: tight.max.min(part.0.max),
+        });
         let parts = match depth < DEEPEST {
             true => divide(&items.boxes, &part, depth),
             false => Vec::new(),
