@@ -42,7 +42,7 @@ impl Pose {
         shutter: &Shutter,
     ) -> Option<Animated<Self>> {
         let keys = params.keyframes("to_world");
-        if keys.iter().any(|(_, matrix)| Self::new(matrix).is_none()) {
+        if keys.iter().any(|matrix| Self::new(matrix).is_none()) {
             params.error_at(
                 "to_world",
                 format!(
@@ -52,7 +52,7 @@ impl Pose {
             );
             return None;
         }
-        let scaled = keys.iter().any(|(_, matrix)| {
+        let scaled = keys.iter().any(|matrix| {
             let linear = DMat3::from_mat4(*matrix);
             let deviation = linear.transpose() * linear - DMat3::IDENTITY;
             let off = |x: &f64| x.abs() > RIGID_TOLERANCE;
@@ -68,7 +68,7 @@ impl Pose {
             );
             return None;
         }
-        if let [(_, still)] = keys.as_slice() {
+        if let [still] = keys.as_slice() {
             return Self::new(still).map(Animated::from);
         }
         Some(Animated::new(shutter.motion(params, "to_world")?))

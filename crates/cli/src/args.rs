@@ -1,5 +1,6 @@
 //! The command line.
 
+use crate::frames::{Frame, FrameRange};
 use crate::outputs::Outputs;
 use crate::part::PartOfMany;
 use clap::{Args, Parser, Subcommand};
@@ -42,6 +43,7 @@ Examples:
   etalon render scene.xml -o out.exr --error 0.01 --adaptive
   etalon render scene.xml -o out.exr --spp 4096 --resume
   etalon render scene.xml -o a.exr --part 1/2
+  etalon render scene.xml -o walk.####.exr --frames 1..48 --fps 24 --resume
   etalon render scene.xml --replay 12,7,0,3")]
     Render(RenderArgs),
     /// Put the parts of a render together: to the bit what an unsplit render gives.
@@ -84,6 +86,17 @@ Examples:
   etalon convert out.exr bright.png --exposure 2
   etalon convert out.exr noise.png --channels standard_error")]
     Convert(ConvertArgs),
+    /// Make the frames of an animation a file that plays.
+    ///
+    /// An animated PNG is written here and plays in every browser; for other kinds `ffmpeg` is called, if it is
+    /// installed.
+    #[command(after_help = "\
+Exit codes: 0 done, 2 bad input or usage.
+
+Examples:
+  etalon movie walk.*.exr -o walk.png --fps 24
+  etalon movie walk.*.exr -o walk.mp4")]
+    Movie(MovieArgs),
     /// Say what is in a scene or an image.
     #[command(after_help = "\
 Exit codes: 0 done, 2 bad input or usage.
@@ -155,9 +168,22 @@ pub struct RenderArgs {
     #[arg(long, value_name = "N", requires = "piloted",
         value_parser = whole::<16, { 1 << 20 }>, allow_negative_numbers = true)]
     pub pilot: Option<u32>,
-    /// Keep a checkpoint beside the image (OUT.checkpoint), and go on from it if there is one.
+    /// Keep a checkpoint beside the image (OUT.checkpoint), and go on from it if there is one; of a
+    /// sequence, go on after the frames that are finished.
     #[arg(long, conflicts_with = "strategies")]
     pub resume: bool,
+    /// Render frames A to B of an animation, each with a number in its name (`####` in OUT says where): the
+    /// shutter counts from the frame's number divided by --fps.
+    #[arg(long, value_name = "A..B", value_parser = FrameRange::parse, allow_hyphen_values = true,
+        conflicts_with_all = ["part", "strategies"])]
+    pub frames: Option<FrameRange>,
+    /// Frames per unit of scene time.
+    #[arg(long, value_name = "N", default_value_t = 24.0, requires = "frames", value_parser = parse_rate,
+        allow_negative_numbers = true)]
+    pub fps: f64,
+    /// The frame that these arguments are about.
+    #[arg(skip)]
+    pub frame: Option<Frame>,
     /// Also write every technique of `bdpt` alone, weighted and unweighted, and a page with all.
     #[arg(long, value_name = "DIR", conflicts_with = "part")]
     pub strategies: Option<PathBuf>,
@@ -305,6 +331,28 @@ pub struct ConvertArgs {
     pub channels: Option<String>,
 }
 
+/// Arguments of `movie`.
+#[derive(Debug, Args, Clone)]
+pub struct MovieArgs {
+    /// The frames, in order (EXR, PNG or what `etalon convert` reads).
+    #[arg(required = true, value_name = "FRAME.exr")]
+    pub frames: Vec<PathBuf>,
+    /// The file to write: .png (animated), or what ffmpeg makes, such as .mp4, .webm, .mkv, .gif.
+    #[arg(short, long, value_name = "OUT.png")]
+    pub output: PathBuf,
+    /// Frames per second.
+    #[arg(long, value_name = "N", default_value_t = 24.0, value_parser = parse_rate, allow_negative_numbers = true)]
+    pub fps: f64,
+    /// Brighten by so many stops (a factor of 2 each).
+    #[arg(
+        long,
+        value_name = "EV",
+        default_value_t = 0.0,
+        allow_negative_numbers = true
+    )]
+    pub exposure: f32,
+}
+
 /// Arguments of `info`.
 #[derive(Debug, Args, Clone)]
 pub struct InfoArgs {
@@ -385,6 +433,12 @@ fn parse_seconds(text: &str) -> Result<f64, String> {
         .ok_or_else(|| {
             "expected a number of seconds from 0.001 to 100000000, such as 60".to_owned()
         })
+}
+
+fn parse_rate(text: &str) -> Result<f64, String> {
+    let rate = text.parse().ok();
+    rate.filter(|rate| (1e-6..=1e6).contains(rate))
+        .ok_or_else(|| "expected frames per unit of scene time, such as 24".to_owned())
 }
 
 fn parse_define(text: &str) -> Result<(String, String), String> {

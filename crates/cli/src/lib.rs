@@ -9,6 +9,7 @@ pub mod checkpointing;
 pub mod commands;
 pub mod diagnose;
 pub mod estimators;
+pub mod frames;
 pub mod interrupt;
 pub mod judge;
 mod memory;

@@ -30,6 +30,8 @@ pub struct LoadOptions {
     pub light_chooser: Option<LightSamplerKind>,
     /// How surfaces are looked up.
     pub accelerator: AcceleratorKind,
+    /// The moment that the shutter counts from (units of scene time).
+    pub time: f64,
 }
 
 /// Why a scene cannot be used: what is wrong, and the texts in which it stands.
@@ -81,6 +83,7 @@ pub fn load(path: &Path, options: &LoadOptions) -> Result<Loaded, LoadError> {
             defines: options.defines.clone(),
             integrator: options.integrator.clone(),
             search: options.data.clone(),
+            time: options.time,
         },
     );
     let sound = !read.has_errors();

@@ -22,7 +22,7 @@ impl<'a> Bar<'a> {
         };
         let bar = ProgressBar::with_draw_target(Some(samples), target);
         let style = ProgressStyle::with_template(
-            "{bar:32} {percent:>3} %  {rate}  {elapsed} elapsed, {eta} left {msg}",
+            "{prefix}{bar:32} {percent:>3} %  {rate}  {elapsed} elapsed, {eta} left {msg}",
         )
         .unwrap_or_else(|_| ProgressStyle::default_bar())
         .with_key(
@@ -34,6 +34,13 @@ impl<'a> Bar<'a> {
         bar.set_style(style);
         bar.enable_steady_tick(Duration::from_millis(250));
         Self { bar, cancelled }
+    }
+
+    /// The same bar with a word before it.
+    #[must_use]
+    pub fn named(self, prefix: String) -> Self {
+        self.bar.set_prefix(prefix);
+        self
     }
 
     /// Takes the bar away.

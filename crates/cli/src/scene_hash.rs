@@ -33,5 +33,8 @@ pub(crate) fn scene_hash(
     if let Some(kind) = options.light_chooser {
         add(kind.name().as_bytes());
     }
+    if options.time != 0.0 {
+        add(&options.time.to_le_bytes());
+    }
     hasher.finalize().to_hex()[..16].to_owned()
 }

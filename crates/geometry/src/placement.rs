@@ -5,7 +5,7 @@
 //! one rounding of single precision.
 
 use etalon_math::FromAffine;
-use etalon_params::{DMat4, Diagnostic, Params};
+use etalon_params::{DMat4, Params};
 use glam::{DAffine3, DMat3, DVec3, Vec3};
 
 /// An invertible affine map from a shape's own space to the world.
@@ -42,13 +42,7 @@ impl Placement {
         }
         let placement = Self::from_matrix(&params.transform("to_world"));
         if placement.is_none() {
-            let property = params.node.properties.iter().find(|p| p.name == "to_world");
-            let span = property.map_or(params.node.plugin.span, |p| p.span);
-            params.diagnostics.push(
-                Diagnostic::error(span, "`to_world` cannot be undone")
-                    .label("flattens space, is projective, or is not finite")
-                    .help("accepted: an invertible affine transform"),
-            );
+            params.cannot_be_undone("to_world");
         }
         placement
     }

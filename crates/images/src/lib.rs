@@ -7,6 +7,7 @@
 //! Everything is written to a temporary name first ([`write_atomically`]), so no reader ever
 //! sees half a file.
 
+pub mod animated_png;
 pub mod atomic_file;
 pub mod chromaticities;
 pub mod colour;

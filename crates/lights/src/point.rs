@@ -49,7 +49,7 @@ impl PointLight {
             params.error_at("position", "give either `position` or `to_world`, not both");
         }
         let position = match keys.as_slice() {
-            [(_, matrix)] => {
+            [matrix] => {
                 let position = position.unwrap_or(matrix.w_axis.truncate()).as_vec3();
                 if !position.is_finite() {
                     params.error("the position of a `point` light must be finite");

@@ -51,7 +51,7 @@ impl Pose {
             let transform = Transform::from_matrix(matrix);
             transform.is_some_and(|t| t.uniform_scale().is_some())
         };
-        if !keys.iter().all(|(_, matrix)| conforms(matrix)) {
+        if !keys.iter().all(conforms) {
             Self::refuse(params);
             return None;
         }

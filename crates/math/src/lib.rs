@@ -3,6 +3,7 @@
 //!
 //! Nothing here knows of light.
 
+pub mod animated;
 pub mod bernstein;
 pub mod cone;
 pub mod cross;
@@ -11,18 +12,22 @@ pub mod expression;
 pub mod float;
 pub mod float64;
 pub mod frame;
+pub mod keyframes;
 pub mod motion;
 pub mod noise;
 pub mod offset;
 pub mod polynomial;
+mod swept;
 pub mod transform;
 
+pub use animated::{Animated, FromAffine};
 pub use cone::DirectionCone;
 pub use cross::{cross, difference_of_products};
 pub use density::{Area, DeltaProbability, Density, Length, Measure, SolidAngle};
 pub use expression::{Dual, Expression, Interval};
 pub use frame::Frame;
 pub use glam::{DMat4, DVec2, DVec3, Vec2, Vec3, Vec4};
-pub use motion::{Animated, FromAffine, Motion, MotionError};
+pub use keyframes::{Interpolation, Key, Keyframes};
+pub use motion::{Motion, MotionError, MotionKey};
 pub use offset::{gamma, offset_origin};
 pub use transform::Transform;

@@ -1,6 +1,7 @@
 //! Nodes, properties and values.
 
 use crate::Span;
+use etalon_math::Motion;
 use glam::{DMat4, DVec3};
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -83,8 +84,13 @@ pub enum Value {
     Spectrum(SpectrumText),
     /// `<transform>`.
     Transform(DMat4),
-    /// `<animation>`: moments of scene time with the transforms then, in the order of the file.
-    Animation(Vec<(f64, DMat4)>),
+    /// An `<animation>` of transforms.
+    Animation {
+        /// How it moves, with time counted as the shutter does.
+        motion: Arc<Motion>,
+        /// What it is in the middle of the shutter's interval.
+        middle: DMat4,
+    },
     /// A nested object or a reference to one; a shared object is one `Arc`.
     Object(Arc<Node>),
 }
@@ -101,7 +107,7 @@ impl Value {
             Self::Rgb(_) => "an rgb colour",
             Self::Spectrum(_) => "a spectrum",
             Self::Transform(_) => "a transform",
-            Self::Animation(_) => "an animation",
+            Self::Animation { .. } => "an animation",
             Self::Object(node) => match node.class {
                 Class::Texture => "a texture",
                 _ => "an object",

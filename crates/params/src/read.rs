@@ -6,6 +6,7 @@
 //! nobody asked for.
 
 use crate::{Class, Diagnostic, Diagnostics, Node, Property, Value};
+use etalon_math::Motion;
 use glam::{DMat4, DVec3};
 use std::cell::RefCell;
 use std::fmt::Display;
@@ -208,31 +209,55 @@ impl<'a> Params<'a> {
         })
     }
 
-    /// A transform, or the identity.
+    /// A transform, or the identity. One that moves is held in the middle of the shutter's interval.
     pub fn transform(&self, name: &str) -> DMat4 {
         self.get(name, "a transform", |v| match v {
             Value::Transform(m) => Some(*m),
+            Value::Animation { middle, .. } => Some(*middle),
             _ => None,
         })
         .unwrap_or(DMat4::IDENTITY)
     }
 
-    /// Transforms at moments of scene time: those of an animation, or one for all times; the identity if the
-    /// property is not given.
-    pub fn keyframes(&self, name: &str) -> Vec<(f64, DMat4)> {
+    /// The transforms of an animation's keys, or the only one; the identity if the property is not given.
+    pub fn keyframes(&self, name: &str) -> Vec<DMat4> {
         self.get(name, "a transform or an animation", |v| match v {
-            Value::Transform(m) => Some(vec![(0.0, *m)]),
-            Value::Animation(keys) => Some(keys.clone()),
+            Value::Transform(m) => Some(vec![*m]),
+            Value::Animation { motion, .. } => Some(motion.keys().to_vec()),
             _ => None,
         })
-        .unwrap_or_else(|| vec![(0.0, DMat4::IDENTITY)])
+        .unwrap_or_else(|| vec![DMat4::IDENTITY])
+    }
+
+    /// How the property moves things, the identity if it is not given. `None` if it is one transform that is
+    /// projective, singular or not finite, which has been reported.
+    pub fn motion(&self, name: &str) -> Option<Motion> {
+        let property = self.property(name);
+        if let Some(Value::Animation { motion, .. }) = property.map(|p| &p.value) {
+            return Some((**motion).clone());
+        }
+        let still = Motion::still(self.transform(name)).ok();
+        if still.is_none() {
+            self.cannot_be_undone(name);
+        }
+        still
+    }
+
+    /// Records that a transform is projective, singular or not finite.
+    pub fn cannot_be_undone(&self, name: &str) {
+        let property = self.node.properties.iter().find(|p| p.name == name);
+        let span = property.map_or(self.node.plugin.span, |p| p.span);
+        let diagnostic = Diagnostic::error(span, format!("`{name}` cannot be undone"))
+            .label("flattens space, is projective, or is not finite")
+            .help("accepted: an invertible affine transform");
+        self.diagnostics.push(diagnostic);
     }
 
     /// Whether the property is an animation; it then counts as used.
     pub fn is_animated(&self, name: &str) -> bool {
         let is_named = |p: &&Property| p.name == name;
         let property = self.node.properties.iter().find(is_named);
-        let animated = property.filter(|p| matches!(p.value, Value::Animation(_)));
+        let animated = property.filter(|p| matches!(p.value, Value::Animation { .. }));
         animated.is_some_and(|_| self.property(name).is_some())
     }
 

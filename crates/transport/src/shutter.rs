@@ -1,7 +1,7 @@
 //! The shutter: the interval of scene time that a picture averages over, and what moves while it is open.
 
-use etalon_math::{Motion, MotionError};
-use etalon_params::{Diagnostic, Params};
+use etalon_math::Motion;
+use etalon_params::Params;
 
 /// The moments between which light is gathered. A ray's `time` in [0, 1] runs from `open` to
 /// `close`. As long as nothing in a scene moves, no pixel depends on it.
@@ -38,38 +38,6 @@ impl Shutter {
     /// Reads how the property `name` (a transform or an animation) moves things, in units of this interval;
     /// the identity if it is not given. After a mistake, which has been recorded, `None`.
     pub fn motion(&self, params: &Params<'_>, name: &str) -> Option<Motion> {
-        let mistake = match Motion::new(&params.keyframes(name)) {
-            Ok(motion) => return Some(motion.within(self.open, self.close)),
-            Err(mistake) => mistake,
-        };
-        let label = match mistake {
-            MotionError::Empty => "has no keys".to_owned(),
-            MotionError::Order(key) => format!("key {key} is not after the one before it"),
-            MotionError::Singular(key) if params.keyframes(name).len() > 1 => {
-                format!("key {key} flattens space")
-            }
-            MotionError::Singular(_) => {
-                "flattens space, is projective, or is not finite".to_owned()
-            }
-            MotionError::Mirrors(key) => {
-                format!("key {key} mirrors space, or the one before it does")
-            }
-        };
-        let property = params.node.properties.iter().find(|p| p.name == name);
-        let span = property.map_or(params.node.plugin.span, |p| p.span);
-        let (message, help) = match mistake {
-            MotionError::Singular(_) => (
-                format!("`{name}` cannot be undone"),
-                "accepted: an invertible affine transform",
-            ),
-            _ => (
-                format!("`{name}` is no motion"),
-                "accepted: invertible affine transforms in ascending order of `time`, all of which mirror or none",
-            ),
-        };
-        params
-            .diagnostics
-            .push(Diagnostic::error(span, message).label(label).help(help));
-        None
+        Some(params.motion(name)?.within(self.open, self.close))
     }
 }

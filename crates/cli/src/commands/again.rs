@@ -29,6 +29,9 @@ pub(super) fn command(
     if let Some(chooser) = args.light_chooser {
         words.push(format!("--light-chooser {}", chooser.name()));
     }
+    if let Some(frame) = args.frame {
+        words.push(format!("--frames {} --fps {}", frame.number, args.fps));
+    }
     for (key, value) in &args.define {
         words.push(format!("-D {}", quoted(format!("{key}={value}"))));
     }

@@ -9,6 +9,7 @@ use crate::progress::Bar;
 use crate::target::{self, Failure, Pilot, Target};
 use etalon_film::{
     CheckpointFacts, Disagreement, ExactFilm, Metadata, Part, SampleCounts, disagreements,
+    read_developed,
 };
 use etalon_integrators::RenderPlan;
 use etalon_params::Diagnostic;
@@ -49,7 +50,14 @@ pub(super) fn plan(args: &RenderArgs, loaded: &Loaded) -> RenderPlan {
         independent_replicates: args.independent_replicates,
         sampler: None,
     };
-    pipeline::plan(loaded, &options)
+    let plan = pipeline::plan(loaded, &options);
+    RenderPlan {
+        seed: match args.frame.filter(|_| args.seed.is_none()) {
+            Some(frame) => frame.seed(plan.seed),
+            None => plan.seed,
+        },
+        ..plan
+    }
 }
 
 /// Decides; with a pilot, if the command line asks for one.
@@ -232,14 +240,10 @@ fn go_on(
     };
     let differences = differences(args, loaded, plan, &metadata, &facts)?;
     if !differences.is_empty() {
-        let each: Vec<String> = differences
-            .iter()
-            .map(|d| format!("the {} is {} there, {} here", d.what, d.first, d.second))
-            .collect();
         let message = format!(
             "{} is a checkpoint of another render: {}",
             path.display(),
-            each.join("; ")
+            in_words(&differences)
         );
         return Err(refused(message));
     }
@@ -271,6 +275,57 @@ fn go_on(
         pilot: facts.pilot.map(|pilot| (pilot, seconds)),
         earlier: Some(earlier),
     })
+}
+
+/// Whether the image of this render is there already.
+///
+/// # Errors
+/// If it is there and of another render.
+pub(super) fn is_finished(
+    args: &RenderArgs,
+    loaded: &Loaded,
+    plan: &RenderPlan,
+) -> Result<bool, Diagnostic> {
+    let path = args.output();
+    if !path.exists() || checkpoint(args).exists() {
+        return Ok(false);
+    }
+    let refused = |reason: String| {
+        let help = "to render it anew, remove it or leave `--resume` out";
+        Diagnostic::error_nowhere(format!("{}: {reason}", path.display())).help(help)
+    };
+    let there = read_developed(path).map_err(|error| refused(error.to_string()))?;
+    let Some(there) = there.metadata else {
+        return Err(refused("is no image of Etalon's".to_owned()));
+    };
+    if there.unfinished.is_some() {
+        return Ok(false);
+    }
+    let film = ExactFilm::new(loaded.compiled.film.clone(), &loaded.integrator.channels())?;
+    let mut here = film.metadata(pipeline::facts(loaded, plan));
+    here.adaptive.clone_from(&there.adaptive);
+    (here.spp, here.replicates) = match args.error.is_some() || args.time.is_some() {
+        true => (there.spp, there.replicates),
+        false => {
+            let each = u64::from(plan.samples_per_replicate);
+            (each * u64::from(plan.replicates), plan.replicates)
+        }
+    };
+    let differences = disagreements(&there, &here);
+    if differences.is_empty() {
+        return Ok(true);
+    }
+    Err(refused(format!(
+        "is of another render: {}",
+        in_words(&differences)
+    )))
+}
+
+/// What differs there and here.
+fn in_words(differences: &[Disagreement]) -> String {
+    let each = (differences.iter())
+        .map(|d| format!("the {} is {} there, {} here", d.what, d.first, d.second));
+    each.collect::<Vec<_>>().join("; ")
 }
 
 /// Everything in which a checkpoint is not what this render would write.

@@ -73,7 +73,7 @@ fn extension(path: &Path) -> String {
 }
 
 /// The image in a file, what whoever gave it should know, and whether the file is our own.
-fn read(path: &Path) -> Result<(Image, Vec<String>, bool), String> {
+pub(super) fn read(path: &Path) -> Result<(Image, Vec<String>, bool), String> {
     let read = || {
         let bytes = std::fs::read(path).map_err(|source| Error::Read {
             path: path.to_owned(),
@@ -92,7 +92,7 @@ fn read(path: &Path) -> Result<(Image, Vec<String>, bool), String> {
 }
 
 /// The image of a colour alone, in linear Rec. 709.
-fn of_colour(image: &Image, colour: &Colour<'_>) -> Image {
+pub(super) fn of_colour(image: &Image, colour: &Colour<'_>) -> Image {
     let mut picture = Image::new(image.width(), image.height());
     for (name, plane) in ["R", "G", "B"].into_iter().zip(&colour.planes) {
         picture.push(name, plane.to_vec());

@@ -62,11 +62,9 @@ fn run_here(args: &EstimatorsArgs) -> ExitCode {
 fn measure(args: &EstimatorsArgs) -> Result<Findings, Failure> {
     let options = Options {
         load: LoadOptions {
-            accelerator: etalon_scene::AcceleratorKind::default(),
             defines: args.define.clone(),
-            integrator: None,
             data: args.data.clone(),
-            light_chooser: None,
+            ..LoadOptions::default()
         },
         integrators: args.integrators.clone(),
         samplers: args.samplers.clone(),

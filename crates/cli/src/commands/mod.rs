@@ -6,8 +6,10 @@ pub mod compare;
 pub mod convert;
 mod delivery;
 pub mod estimators;
+mod frames;
 pub mod info;
 pub mod merge;
+pub mod movie;
 pub mod render;
 pub mod replay;
 pub mod strategies;
@@ -28,6 +30,7 @@ pub fn run(command: &Command) -> ExitCode {
         Command::Compare(args) => compare::run(args),
         Command::Estimators(args) => estimators::run(args),
         Command::Convert(args) => convert::run(args),
+        Command::Movie(args) => movie::run(args),
         Command::Info(args) => info::run(args),
     }
 }

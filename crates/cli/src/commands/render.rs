@@ -1,7 +1,7 @@
 //! `etalon render`.
 
 use super::amount::{self, SampleBudget};
-use super::{BAD_INPUT, delivery, fail, note, replay, strategies};
+use super::{BAD_INPUT, delivery, fail, frames, note, replay, strategies};
 use crate::args::RenderArgs;
 use crate::checkpointing::Checkpointing;
 use crate::outputs::Outputs;
@@ -18,21 +18,27 @@ use std::process::ExitCode;
 
 /// Renders a scene to a file.
 pub fn run(args: &RenderArgs) -> ExitCode {
-    let args = match with_outputs(args) {
-        Ok(args) => args,
-        Err(message) => return fail(message),
-    };
+    if let Err(message) = check_folders(args) {
+        return fail(message);
+    }
     let threads = args.threads.unwrap_or(0) as usize;
     let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build();
     match pool {
         // Everything happens on these threads: reading meshes and pictures, too.
-        Ok(pool) => pool.install(|| run_here(&args)),
+        Ok(pool) => pool.install(|| match args.frames {
+            Some(range) => frames::run(args, range),
+            None => run_here(args),
+        }),
         Err(error) => fail(format!("cannot start threads: {error}")),
     }
 }
 
-/// Renders on the current thread pool.
-fn run_here(args: &RenderArgs) -> ExitCode {
+/// Renders one picture on the current thread pool.
+pub(super) fn run_here(args: &RenderArgs) -> ExitCode {
+    let args = &match with_outputs(args) {
+        Ok(args) => args,
+        Err(message) => return fail(message),
+    };
     let mut loaded = match pipeline::load(
         &args.scene,
         &LoadOptions {
@@ -41,6 +47,7 @@ fn run_here(args: &RenderArgs) -> ExitCode {
             data: args.data.clone(),
             light_chooser: args.light_chooser,
             accelerator: args.accelerator.unwrap_or_default(),
+            time: args.frame.map_or(0.0, |frame| frame.time),
         },
     ) {
         Ok(loaded) => loaded,
@@ -71,6 +78,17 @@ fn run_here(args: &RenderArgs) -> ExitCode {
         && let Err(message) = outputs.check_inputs(args, &loaded.inputs)
     {
         return fail(message);
+    }
+    if args.frame.is_some() && args.resume {
+        let plan = amount::plan(args, &loaded);
+        match amount::is_finished(args, &loaded, &plan) {
+            Ok(true) => {
+                note(format!("{} is there already", args.output().display()));
+                return ExitCode::SUCCESS;
+            }
+            Ok(false) => {}
+            Err(diagnostic) => return give_up(diagnostic.into(), &loaded),
+        }
     }
     if let Err(error) = interrupt::listen() {
         note(format!(
@@ -152,9 +170,6 @@ fn with_outputs(args: &RenderArgs) -> Result<RenderArgs, String> {
     if args.replay.is_some() {
         return Ok(args);
     }
-    if let Some(folder) = args.data.iter().find(|folder| !folder.is_dir()) {
-        return Err(format!("there is no folder {}", folder.display()));
-    }
     let outputs = Outputs::of(&args)?;
     outputs.check(&args)?;
     if !args.quiet && !outputs.named {
@@ -169,6 +184,14 @@ fn with_outputs(args: &RenderArgs) -> Result<RenderArgs, String> {
     }
     args.outputs = Some(outputs);
     Ok(args)
+}
+
+/// Refuses folders that are not there.
+fn check_folders(args: &RenderArgs) -> Result<(), String> {
+    match args.data.iter().find(|folder| !folder.is_dir()) {
+        Some(folder) => Err(format!("there is no folder {}", folder.display())),
+        None => Ok(()),
+    }
 }
 
 /// Renders what was decided.
@@ -192,7 +215,8 @@ fn render(
     let samples = u64::from(here) * u64::from(plan.samples_per_replicate);
     let begun = keeping.as_ref().map_or(0, Checkpointing::samples_begun);
     let samples = (samples * u64::from(size.x) * u64::from(size.y)).saturating_sub(begun);
-    let bar = Bar::new(samples, args.quiet, interrupt::flag());
+    let bar = Bar::new(samples, args.quiet, interrupt::flag())
+        .named(args.frame.map_or_else(String::new, frames::prefix));
     let manner = RenderControls {
         counts: amount.counts,
         keeping,

@@ -1,6 +1,7 @@
 //! The objects of a scene while its files are still being read: references are names, and
 //! objects are numbers in one list.
 
+use super::animation::Animation;
 use etalon_params::{Class, Span, Spanned, Value};
 use std::collections::HashMap;
 
@@ -12,6 +13,8 @@ pub(crate) type ObjectId = usize;
 pub(crate) enum DraftValue {
     /// A finished value.
     Plain(Value),
+    /// Values at moments.
+    Animation(Animation),
     /// A nested object.
     Object(ObjectId),
     /// A reference that is not resolved yet.

@@ -6,6 +6,7 @@
 //! is for the plugin to say. Every node, name and value keeps its place, and reading goes on
 //! after a mistake, so that one run reports all of them.
 
+mod animation;
 mod attribute;
 mod colour;
 mod draft;
@@ -38,6 +39,8 @@ pub struct ReadOptions {
     pub defines: Vec<(String, String)>,
     /// A type for the innermost integrator in place of its own (`--integrator NAME`).
     pub integrator: Option<String>,
+    /// The moment that the picture's shutter counts from (units of scene time).
+    pub time: f64,
     /// Further folders to look for files in, after the scene's own.
     pub search: Vec<PathBuf>,
 }

@@ -8,7 +8,7 @@ use super::draft::{DraftProperty, DraftValue, ObjectId};
 use super::number;
 use super::reader::{File, Reader};
 use super::tags::{OPERATIONS, Tag};
-use super::{colour, transform};
+use super::{animation, colour, transform};
 use etalon_params::{DMat4, DVec3, Diagnostic, Span, SpectrumText, Value};
 use etalon_spectrum::spd::check_unit;
 use roxmltree::Node;
@@ -37,15 +37,21 @@ pub(crate) fn property(
     let mistakes = reader.mistakes();
     let (value, span) = if tag == Tag::Transform {
         let matrix = operations(reader, file, node).unwrap_or(DMat4::IDENTITY);
-        (Value::Transform(matrix), attributes.tag_span)
-    } else if tag == Tag::Animation {
         (
-            Value::Animation(keyframes(reader, file, node)),
+            DraftValue::Plain(Value::Transform(matrix)),
             attributes.tag_span,
         )
+    } else if tag == Tag::Animation {
+        let animation = animation::read(reader, file, node, &attributes);
+        let value = animation.map_or(
+            DraftValue::Plain(Value::Transform(DMat4::IDENTITY)),
+            DraftValue::Animation,
+        );
+        (value, attributes.tag_span)
     } else {
         no_children(reader, file, node);
-        value(reader, file, tag, node, &attributes)
+        let (value, span) = value(reader, file, tag, node, &attributes);
+        (DraftValue::Plain(value), span)
     };
     if reader.mistakes() > mistakes {
         reader.stand_ins.push(span);
@@ -53,14 +59,15 @@ pub(crate) fn property(
     reader.draft.objects[parent].properties.push(DraftProperty {
         name: name.text.clone().into_owned(),
         name_span: name.span,
-        value: DraftValue::Plain(value),
+        value,
         span,
         excused: false,
         lenient: false,
     });
 }
 
-fn value(
+/// The value in a tag's attributes, with its place.
+pub(crate) fn value(
     reader: &mut Reader<'_>,
     file: &File,
     tag: Tag,
@@ -254,32 +261,12 @@ fn spectrum_text(reader: &mut Reader<'_>, attributes: &Attributes<'_>) -> Option
     Some(SpectrumText::Samples(samples))
 }
 
-/// The `<transform time="…">`s of an `<animation>`.
-fn keyframes(reader: &mut Reader<'_>, file: &File, node: Node<'_, '_>) -> Vec<(f64, DMat4)> {
-    let mut keys = Vec::new();
-    for child in node.children().filter(Node::is_element) {
-        let name = child.tag_name().name();
-        if Tag::of(name) != Some(Tag::Transform) {
-            reader.report(
-                Diagnostic::error(
-                    tag_span(file.id, child),
-                    format!("`<{name}>` cannot stand in an `<animation>`"),
-                )
-                .help("accepted: `<transform time=\"0.5\">`"),
-            );
-            continue;
-        }
-        let Some(attributes) = Attributes::read(reader, file.id, child, &["!time"]) else {
-            continue;
-        };
-        let time = attributes.float(reader, "time");
-        keys.extend(time.zip(operations(reader, file, child)));
-    }
-    keys
-}
-
 /// The product of the operations in a `<transform>`.
-fn operations(reader: &mut Reader<'_>, file: &File, node: Node<'_, '_>) -> Option<DMat4> {
+pub(crate) fn operations(
+    reader: &mut Reader<'_>,
+    file: &File,
+    node: Node<'_, '_>,
+) -> Option<DMat4> {
     let mut product = Some(DMat4::IDENTITY);
     for child in node.children().filter(Node::is_element) {
         no_children(reader, file, child);

@@ -1,5 +1,6 @@
 //! From names to objects: `<ref>` and `<alias>`, and the tree of shared nodes they make.
 
+use super::animation::Moments;
 use super::draft::{DraftProperty, DraftValue, ObjectId};
 use super::number::excerpt;
 use super::reader::{MOST_LEVELS, Reader};
@@ -198,6 +199,7 @@ fn check_size(reader: &mut Reader<'_>, order: &[ObjectId]) -> bool {
 
 /// Makes the shared nodes, in the order given; the last one is the root.
 pub(crate) fn build(reader: &mut Reader<'_>, order: &[ObjectId]) -> Option<Arc<Node>> {
+    let moments = Moments::of(&reader.draft, reader.options.time);
     let mut built: Vec<Option<Arc<Node>>> = vec![None; reader.draft.objects.len()];
     let mut root = None;
     for &id in order {
@@ -210,7 +212,7 @@ pub(crate) fn build(reader: &mut Reader<'_>, order: &[ObjectId]) -> Option<Arc<N
             span: object.span,
             properties: properties
                 .into_iter()
-                .filter_map(|property| finished(property, &built))
+                .filter_map(|property| finished(property, &built, moments))
                 .collect(),
         });
         built[id] = Some(node.clone());
@@ -219,9 +221,14 @@ pub(crate) fn build(reader: &mut Reader<'_>, order: &[ObjectId]) -> Option<Arc<N
     root
 }
 
-fn finished(property: DraftProperty, built: &[Option<Arc<Node>>]) -> Option<Property> {
+fn finished(
+    property: DraftProperty,
+    built: &[Option<Arc<Node>>],
+    moments: Moments,
+) -> Option<Property> {
     let value = match property.value {
         DraftValue::Plain(value) => value,
+        DraftValue::Animation(animation) => animation.at(moments),
         DraftValue::Object(child) => Value::Object(built[child].clone()?),
         DraftValue::Reference(_) => return None,
     };

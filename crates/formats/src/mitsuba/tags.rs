@@ -27,7 +27,7 @@ pub(crate) enum Tag {
     Spectrum,
     /// `<transform>`.
     Transform,
-    /// `<animation>`, which Mitsuba 0.x had: `<transform>`s, each at a `time`.
+    /// `<animation>`: values at moments. Mitsuba 0.x had it for transforms.
     Animation,
     /// An operation inside of a `<transform>`.
     Operation,
@@ -111,7 +111,8 @@ impl Tag {
             Self::Blackbody => &["!name", "!temperature", "scale"],
             Self::Vector => &["!name", "x", "y", "z", "value"],
             Self::Spectrum => &["!name", "value", "filename", "intent"],
-            Self::Transform | Self::Animation => &["!name"],
+            Self::Transform => &["!name"],
+            Self::Animation => &["!name", "interpolation"],
             Self::Reference => &["!id", "name"],
             Self::Alias => &["!id", "!as"],
             Self::Include => &["!filename", "name"],

@@ -10,8 +10,10 @@
 //! `<luminaire>`s, and some plugins and parameters had other names; they become what Mitsuba 0.6
 //! made of them (its `data/schema/upgrade_*.xsl`).
 
+use super::animation::Animation;
 use super::draft::{DraftObject, DraftProperty, DraftValue};
 use etalon_params::{Class, DMat4, DVec3, Value};
+use glam::DMat3;
 
 /// The version of a scene file.
 pub(crate) type Version = [u32; 3];
@@ -145,6 +147,14 @@ fn upgrade_ancient(object: &mut DraftObject, version: Version) {
             {
                 let mirror = DMat4::from_scale(DVec3::new(-1.0, 1.0, 1.0));
                 Some(("to_world", Value::Transform(*to_world * mirror)))
+            }
+            (DraftValue::Animation(Animation::Moving(motion)), "to_world")
+                if object.class == Class::Sensor =>
+            {
+                let mirror = DMat3::from_diagonal(DVec3::new(-1.0, 1.0, 1.0));
+                property.value =
+                    DraftValue::Animation(Animation::Moving(motion.after(mirror).into()));
+                None
             }
             _ => None,
         };

@@ -1,0 +1,142 @@
+//! The frames of an animation: which there are, what their files are called, and which seed each has.
+
+use crate::args::RenderArgs;
+use etalon_sampling::hash::derived_key;
+use std::path::{Path, PathBuf};
+
+/// Frames with consecutive numbers.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct FrameRange {
+    /// The first.
+    pub first: u32,
+    /// The last, not before `first`.
+    pub last: u32,
+}
+
+/// One of them.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Frame {
+    /// Its number.
+    pub number: u32,
+    /// The frames that it belongs to.
+    pub of: FrameRange,
+    /// The moment that its shutter counts from (units of scene time).
+    pub time: f64,
+}
+
+impl FrameRange {
+    /// `A..B`, both included, or `A` alone.
+    ///
+    /// # Errors
+    /// One sentence.
+    pub fn parse(text: &str) -> Result<Self, String> {
+        let (first, last) = text.split_once("..").unwrap_or((text, text));
+        let number = |text: &str| text.trim().parse().ok();
+        let (Some(first), Some(last)) = (number(first), number(last)) else {
+            return Err("expected the first and the last frame, such as 1..24".to_owned());
+        };
+        if first > last {
+            return Err(format!(
+                "there is no frame from {first} to {last}; expected the first and the last, such as 1..24"
+            ));
+        }
+        Ok(Self { first, last })
+    }
+
+    /// How many there are.
+    pub fn count(self) -> u64 {
+        u64::from(self.last - self.first) + 1
+    }
+}
+
+impl Frame {
+    /// The arguments that render this frame alone.
+    pub fn arguments(&self, args: &RenderArgs) -> RenderArgs {
+        let numbered = |path: &Path| numbered(path, self.number);
+        RenderArgs {
+            output: Some(match &args.output {
+                Some(output) => numbered(output),
+                None => {
+                    let stem = args.scene.file_stem().unwrap_or("image".as_ref());
+                    numbered(Path::new(stem).with_extension("exr").as_path())
+                }
+            }),
+            stats: args.stats.as_deref().map(numbered),
+            frame: Some(*self),
+            ..args.clone()
+        }
+    }
+
+    /// The seed of this frame, where `seed` is that of the scene: others for other frames.
+    pub fn seed(&self, seed: u64) -> u64 {
+        derived_key(seed, self.number)
+    }
+}
+
+/// The path with the number in place of the last run of `#`, or before the extension.
+fn numbered(path: &Path, number: u32) -> PathBuf {
+    let name = path.file_name().unwrap_or_default().to_string_lossy();
+    let numbered = match name.rfind('#') {
+        Some(end) => {
+            let before = name[..=end].trim_end_matches('#');
+            let width = end + 1 - before.len();
+            format!("{before}{number:0width$}{}", &name[end + 1..])
+        }
+        None => match name.rsplit_once('.') {
+            Some((stem, extension)) => format!("{stem}.{number:04}.{extension}"),
+            None => format!("{name}.{number:04}"),
+        },
+    };
+    path.with_file_name(numbered)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn ranges() {
+        let range = |first, last| Ok(FrameRange { first, last });
+        assert_eq!(FrameRange::parse("1..24"), range(1, 24));
+        assert_eq!(FrameRange::parse("7"), range(7, 7));
+        assert_eq!(FrameRange::parse("0..0").map(FrameRange::count), Ok(1));
+        for (text, words) in [
+            ("5..3", "there is no frame from 5 to 3"),
+            ("..3", "expected the first and the last frame"),
+            ("-1..3", "expected"),
+            ("a..b", "expected"),
+        ] {
+            let message = FrameRange::parse(text).expect_err("no range");
+            assert!(message.contains(words), "{message}");
+        }
+    }
+
+    #[test]
+    fn names() {
+        for (pattern, name) in [
+            ("a/out.exr", "a/out.0007.exr"),
+            ("a/out.######.exr", "a/out.000007.exr"),
+            ("#/f#.png", "#/f7.png"),
+            ("out", "out.0007"),
+        ] {
+            assert_eq!(numbered(Path::new(pattern), 7), Path::new(name));
+        }
+    }
+
+    #[test]
+    fn every_frame_has_its_seed() {
+        let of = FrameRange { first: 0, last: 99 };
+        let seeds = (0..100).map(|number| {
+            Frame {
+                number,
+                of,
+                time: 0.0,
+            }
+            .seed(3)
+        });
+        let mut seeds: Vec<u64> = seeds.collect();
+        seeds.sort_unstable();
+        seeds.dedup();
+        assert_eq!(seeds.len(), 100);
+    }
+}

@@ -1,0 +1,335 @@
+//! `<animation name="…" interpolation="…">`: a parameter's values at moments of scene time.
+//!
+//! Its children are properties with a `time` in place of a name, all with one tag. A transform stays in motion while
+//! the shutter is open; any other value is what it is in the middle of the interval, so that plugins never see it
+//! change.
+
+use super::attribute::{Attributes, tag_span};
+use super::draft::{Draft, DraftValue};
+use super::property;
+use super::reader::{File, Reader};
+use super::tags::Tag;
+use etalon_math::{Interpolation, Key, Keyframes, Motion, MotionError, MotionKey};
+use etalon_params::{Class, DMat4, DVec3, Diagnostic, Span, SpectrumText, Value};
+use roxmltree::Node;
+use std::sync::Arc;
+
+/// A value at a moment, as written.
+#[derive(Clone, Debug)]
+struct AnimationKey {
+    time: f64,
+    value: Value,
+    tangent: Option<DVec3>,
+    /// Its tag.
+    tag: Span,
+}
+
+/// Values at moments.
+#[derive(Clone, Debug)]
+pub(crate) enum Animation {
+    /// Of a transform.
+    Moving(Arc<Motion>),
+    /// Of anything else.
+    Changing(Interpolation, Vec<(f64, Value, Option<DVec3>)>),
+}
+
+/// The moments that matter to a picture (units of scene time).
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Moments {
+    /// That which the picture's shutter counts from.
+    frame: f64,
+    /// The middle of the shutter's interval.
+    middle: f64,
+}
+
+impl Moments {
+    /// Those of a frame that is seen by the first sensor.
+    pub(crate) fn of(draft: &Draft, frame: f64) -> Self {
+        let sensor = draft.objects.iter().find(|o| o.class == Class::Sensor);
+        let number = |name: &str| {
+            let property = sensor?.properties.iter().find(|p| p.name == name)?;
+            match property.value {
+                DraftValue::Plain(Value::Float(x)) => Some(x),
+                DraftValue::Plain(Value::Integer(i)) => Some(i as f64),
+                _ => None,
+            }
+        };
+        let open = number("shutter_open").unwrap_or(0.0);
+        let close = number("shutter_close").unwrap_or(0.0).max(open);
+        Self {
+            frame,
+            middle: frame + 0.5 * (open + close),
+        }
+    }
+}
+
+impl Animation {
+    /// The value for a picture.
+    pub(crate) fn at(self, moments: Moments) -> Value {
+        match self {
+            Self::Moving(motion) => Value::Animation {
+                middle: motion.at(moments.middle).into(),
+                motion: Arc::new(motion.earlier(moments.frame)),
+            },
+            Self::Changing(interpolation, keys) => between(interpolation, &keys, moments.middle),
+        }
+    }
+}
+
+/// Reads an `<animation>`. `None` after a mistake, which has been reported.
+pub(crate) fn read(
+    reader: &mut Reader<'_>,
+    file: &File,
+    node: Node<'_, '_>,
+    attributes: &Attributes<'_>,
+) -> Option<Animation> {
+    let before = reader.mistakes();
+    let children: Vec<_> = node.children().filter(Node::is_element).collect();
+    let Some(first) = children.first() else {
+        let message = "an `<animation>` needs a key at least";
+        let help = "such as `<float time=\"0\" value=\"1\"/>` or `<transform time=\"0\">`";
+        reader.report(Diagnostic::error(attributes.tag_span, message).help(help));
+        return None;
+    };
+    let kind = first.tag_name().name();
+    let mut keys: Vec<AnimationKey> = Vec::new();
+    for child in &children {
+        let name = child.tag_name().name();
+        if name != kind {
+            let message = format!("a `<{name}>` among keys that are `<{kind}>`");
+            let diagnostic = Diagnostic::error(tag_span(file.id, *child), message)
+                .label("of another kind")
+                .related(tag_span(file.id, *first), "the first key is here");
+            reader.report(diagnostic.help("all keys of an `<animation>` have one tag"));
+        } else if let Some(found) = key(reader, file, *child) {
+            if let Some(last) = keys.last()
+                && found.time <= last.time
+            {
+                let message = format!(
+                    "the time of a key must be after that before it, but {} follows {}",
+                    found.time, last.time
+                );
+                reader.report(
+                    Diagnostic::error(found.tag, message)
+                        .label("out of order")
+                        .related(last.tag, "the key before it is here"),
+                );
+            }
+            keys.push(found);
+        }
+    }
+    let interpolation = interpolation(reader, attributes, &keys, kind);
+    if reader.mistakes() > before {
+        return None;
+    }
+    if kind == "transform" {
+        return motion(reader, attributes, interpolation?, &keys);
+    }
+    let keys = keys
+        .into_iter()
+        .map(|key| (key.time, key.value, key.tangent));
+    Some(Animation::Changing(interpolation?, keys.collect()))
+}
+
+/// Reads one key.
+fn key(reader: &mut Reader<'_>, file: &File, node: Node<'_, '_>) -> Option<AnimationKey> {
+    let name = node.tag_name().name();
+    let tag = tag_span(file.id, node);
+    let accepted: &[&'static str] = match Tag::of(name) {
+        Some(Tag::Transform) => &["!time", "tangent"],
+        Some(Tag::Float) | Some(Tag::Rgb) => &["!time", "tangent", "!value"],
+        Some(Tag::Vector) => &["!time", "tangent", "value", "x", "y", "z"],
+        Some(Tag::Spectrum) => &["!time", "value", "filename"],
+        Some(Tag::Integer | Tag::Boolean | Tag::String) => &["!time", "!value"],
+        _ => {
+            let message = format!("`<{name}>` cannot stand in an `<animation>`");
+            reader.report(Diagnostic::error(tag, message).help(
+                "accepted: `<transform time=\"0.5\">`, `<float time=\"0.5\" value=\"1\"/>`, and so \
+                 `<rgb>`, `<spectrum>`, `<point>`, `<vector>`, `<integer>`, `<boolean>`, `<string>`",
+            ));
+            return None;
+        }
+    };
+    let attributes = Attributes::read(reader, file.id, node, accepted)?;
+    let time = attributes.float(reader, "time");
+    let tangent = match attributes.get("tangent") {
+        None => None,
+        Some(_) => {
+            let counts: &[usize] = if name == "float" { &[1] } else { &[3] };
+            let numbers = attributes.list(reader, "tangent", counts)?;
+            let number = |i: usize| numbers.get(i).copied().unwrap_or(0.0);
+            Some(DVec3::new(number(0), number(1), number(2)))
+        }
+    };
+    let value = match Tag::of(name) {
+        Some(Tag::Transform) => Value::Transform(property::operations(reader, file, node)?),
+        tag => property::value(reader, file, tag?, node, &attributes).0,
+    };
+    Some(AnimationKey {
+        time: time?,
+        value,
+        tangent,
+        tag,
+    })
+}
+
+/// The way between the keys: as written, or the simplest that their kind has.
+fn interpolation(
+    reader: &mut Reader<'_>,
+    attributes: &Attributes<'_>,
+    keys: &[AnimationKey],
+    kind: &str,
+) -> Option<Interpolation> {
+    let steps = matches!(kind, "integer" | "boolean" | "string");
+    let names = || Interpolation::ALL.map(Interpolation::name);
+    let Some(attribute) = attributes.get("interpolation") else {
+        let way = if steps {
+            Interpolation::Step
+        } else {
+            Interpolation::Linear
+        };
+        return Some(way);
+    };
+    let Some(way) = Interpolation::named(attribute.text.trim()) else {
+        let message = format!("`{}` is not an interpolation", attribute.text);
+        let diagnostic = attribute.error_whole(message);
+        reader.report(diagnostic.suggest(&attribute.text, names()));
+        return None;
+    };
+    if steps && way != Interpolation::Step {
+        let message = format!("keys that are `<{kind}>` have nothing between them");
+        let diagnostic = attribute.error_whole(message);
+        reader.report(diagnostic.help("accepted: interpolation=\"step\""));
+        return None;
+    }
+    if !way.takes(keys.len()) {
+        let message = format!("`cubic` goes through 4, 7, 10 … keys, not {}", keys.len());
+        reader.report(attribute.error_whole(message));
+        return None;
+    }
+    let mut sound = true;
+    for key in keys {
+        let wants = way == Interpolation::Hermite && kind != "spectrum";
+        if wants != key.tangent.is_some() {
+            let message = match wants {
+                true => "each key of `hermite` needs a `tangent`: the change per unit of time",
+                false => "only the keys of `hermite` have a `tangent`",
+            };
+            reader.report(Diagnostic::error(key.tag, message));
+            sound = false;
+        }
+    }
+    sound.then_some(way)
+}
+
+/// The motion through transforms.
+fn motion(
+    reader: &mut Reader<'_>,
+    attributes: &Attributes<'_>,
+    interpolation: Interpolation,
+    keys: &[AnimationKey],
+) -> Option<Animation> {
+    let matrix = |value: &Value| match value {
+        Value::Transform(matrix) => *matrix,
+        _ => DMat4::IDENTITY,
+    };
+    let moments: Vec<MotionKey> = (keys.iter())
+        .map(|key| MotionKey {
+            time: key.time,
+            matrix: matrix(&key.value),
+            velocity: key.tangent,
+        })
+        .collect();
+    let mistake = match Motion::new(interpolation, &moments) {
+        Ok(motion) => return Some(Animation::Moving(Arc::new(motion))),
+        Err(mistake) => mistake,
+    };
+    let tag = |key: usize| keys.get(key).map_or(attributes.tag_span, |key| key.tag);
+    let diagnostic = match mistake {
+        MotionError::Count => Diagnostic::error(attributes.tag_span, "an animation of no keys"),
+        MotionError::Order(key) => Diagnostic::error(tag(key), "a key out of order"),
+        MotionError::Singular(key) => {
+            Diagnostic::error(tag(key), "the transform of a key cannot be undone")
+                .label("flattens space, is projective, or is not finite")
+        }
+        MotionError::Mirrors(key) => Diagnostic::error(
+            tag(key),
+            "one of two keys mirrors space, the other does not",
+        )
+        .related(tag(key.saturating_sub(1)), "the key before it is here"),
+        MotionError::Flattens(key) => {
+            let message = "between this key and the next the scale swings through zero";
+            Diagnostic::error(tag(key), message).help("more keys, or `linear`")
+        }
+    };
+    reader.report(diagnostic);
+    None
+}
+
+/// The value of keys with one kind at a moment.
+fn between(interpolation: Interpolation, keys: &[(f64, Value, Option<DVec3>)], time: f64) -> Value {
+    /// What `pick` finds in every key, between them.
+    fn of<V: etalon_math::keyframes::Interpolated>(
+        way: Interpolation,
+        keys: &[(f64, Value, Option<DVec3>)],
+        time: f64,
+        pick: impl Fn(&Value) -> Option<V>,
+        tangent: impl Fn(DVec3) -> Option<V>,
+    ) -> Option<V> {
+        let keys: Option<Vec<_>> = (keys.iter())
+            .map(|(time, value, slope)| {
+                Some(Key {
+                    time: *time,
+                    value: pick(value)?,
+                    tangent: slope.and_then(&tangent),
+                })
+            })
+            .collect();
+        Some(Keyframes::new(way, &keys?)?.at(time))
+    }
+    let number = |pick: &dyn Fn(&Value) -> Option<f64>| {
+        of(interpolation, keys, time, pick, |slope| Some(slope.x))
+    };
+    let found = match &keys[0].1 {
+        Value::Float(_) => number(&|v| match v {
+            Value::Float(x) => Some(*x),
+            _ => None,
+        })
+        .map(Value::Float),
+        Value::Vector(_) | Value::Rgb(_) => {
+            let pick = |v: &Value| match v {
+                Value::Vector(x) | Value::Rgb(x) => Some(*x),
+                _ => None,
+            };
+            let found = of(interpolation, keys, time, pick, Some);
+            match keys[0].1 {
+                Value::Rgb(_) => found.map(Value::Rgb),
+                _ => found.map(Value::Vector),
+            }
+        }
+        Value::Spectrum(SpectrumText::Uniform(_)) => number(&|v| match v {
+            Value::Spectrum(SpectrumText::Uniform(x)) => Some(*x),
+            _ => None,
+        })
+        .map(|x| Value::Spectrum(SpectrumText::Uniform(x))),
+        Value::Spectrum(SpectrumText::Samples(first)) => {
+            let samples = first.iter().enumerate().map(|(i, (wavelength, _))| {
+                let value = number(&|v| match v {
+                    Value::Spectrum(SpectrumText::Samples(own)) if own.len() == first.len() => {
+                        let (at, value) = own[i];
+                        (at == *wavelength).then_some(value)
+                    }
+                    _ => None,
+                });
+                value.map(|value| (*wavelength, value))
+            });
+            let samples: Option<Vec<_>> = samples.collect();
+            samples.map(|samples| Value::Spectrum(SpectrumText::Samples(samples)))
+        }
+        _ => {
+            let last = keys.iter().rev().find(|(key, ..)| *key <= time);
+            last.map(|(_, value, _)| value.clone())
+        }
+    };
+    found.unwrap_or_else(|| keys[0].1.clone())
+}
