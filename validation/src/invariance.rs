@@ -204,7 +204,7 @@ fn linear(claim: &Claim, estimator: &Estimator, loaded: &Loaded) -> Result<Compi
         &ReadOptions {
             defines: rendering::defines(claim, Some(estimator)),
             integrator: estimator.integrator.clone(),
-            search: Vec::new(),
+            ..ReadOptions::default()
         },
     );
     let refused = "the scene could not be compiled with a linear scan";

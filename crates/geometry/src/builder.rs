@@ -57,6 +57,7 @@ impl GeometryBuilder {
         self.attachments.push(ShapeBinding {
             material,
             light,
+            carrier: InstanceId::NONE,
             refractive: false,
             faces: None,
         });
@@ -73,6 +74,12 @@ impl GeometryBuilder {
     /// Sets the light that a shape is, where lights are numbered after shapes.
     pub fn set_light(&mut self, shape: ShapeId, light: LightId) {
         self.attachments[shape.0 as usize].light = light;
+    }
+
+    /// Says that a member of a group may be a light, carried by the only instance of that group in the world,
+    /// which keeps angles.
+    pub fn set_carrier(&mut self, shape: ShapeId, carrier: InstanceId) {
+        self.attachments[shape.0 as usize].carrier = carrier;
     }
 
     /// Gives each face of a shape, see [`Shape::faces`], a material of its own.
@@ -92,7 +99,7 @@ impl GeometryBuilder {
         &self.shapes[shape.0 as usize]
     }
 
-    /// Adds a group of shapes, which is only seen through instances. Its shapes cannot be lights.
+    /// Adds a group of shapes, which is only seen through instances. Its shapes are no lights.
     pub fn add_group(&mut self, shapes: impl IntoIterator<Item = (Shape, MaterialId)>) -> GroupId {
         let members: Vec<_> = shapes
             .into_iter()
@@ -247,7 +254,7 @@ impl GeometryBuilder {
 }
 
 /// The box around the image of a box, widened for the rounding of rays taken into the instance.
-fn placed_bounds(bounds: Bounds, placement: &Animated<Placement>) -> Bounds {
+pub(crate) fn placed_bounds(bounds: Bounds, placement: &Animated<Placement>) -> Bounds {
     if bounds.is_empty() {
         return Bounds::EMPTY;
     }

@@ -9,11 +9,7 @@ use crate::shapes::Shape;
 use crate::shapes::crossing::Line;
 use crate::traversal_ray::TraversalRay;
 use crate::world::WorldOthers;
-use etalon_math::DirectionCone;
-use etalon_transport::{
-    Hit, InstanceId, LightId, LightSampleContext, MaterialId, Ray, SampledPoint, ShapeId, Shapes,
-    SurfaceInteraction, SurfacePoint,
-};
+use etalon_transport::{Hit, InstanceId, LightId, MaterialId, Ray, ShapeId, SurfaceInteraction};
 use glam::{Vec2, Vec3};
 
 /// What belongs to a shape but is not geometry.
@@ -21,6 +17,8 @@ use glam::{Vec2, Vec3};
 pub(crate) struct ShapeBinding {
     pub(crate) material: MaterialId,
     pub(crate) light: LightId,
+    /// The instance that carries it, if it moves and emits.
+    pub(crate) carrier: InstanceId,
     /// Whether light is refracted into it.
     pub(crate) refractive: bool,
     /// Where the materials of its faces begin in [`Geometry::face_materials`], if they have their own.
@@ -289,55 +287,5 @@ impl Geometry {
             nodes: accelerators().map(Accelerator::nodes).sum(),
             bytes: meshes + accelerators().map(Accelerator::bytes).sum::<usize>(),
         }
-    }
-}
-
-impl Shapes for Geometry {
-    fn area(&self, shape: ShapeId) -> f32 {
-        self.shape(shape).area() as f32
-    }
-
-    fn bounds(&self, shape: ShapeId) -> [Vec3; 2] {
-        let bounds = self.shape(shape).bounds();
-        [bounds.min, bounds.max]
-    }
-
-    fn normals(&self, shape: ShapeId) -> DirectionCone {
-        self.shape(shape).normals()
-    }
-
-    fn sample_area(&self, shape: ShapeId, u: Vec2) -> SampledPoint {
-        let mut sampled = self.shape(shape).sample_area(u);
-        sampled.point.texture.shape = shape;
-        sampled
-    }
-
-    #[inline]
-    fn sample_toward(
-        &self,
-        shape: ShapeId,
-        from: &LightSampleContext,
-        u: Vec2,
-    ) -> Option<SampledPoint> {
-        let mut sampled = self.shape(shape).sample_toward(from, u)?;
-        sampled.point.texture.shape = shape;
-        Some(sampled)
-    }
-
-    fn density_toward(&self, shape: ShapeId, from: &LightSampleContext, at: &SurfacePoint) -> f32 {
-        self.shape(shape).density_toward(from, at)
-    }
-
-    fn attribute(
-        &self,
-        shape: ShapeId,
-        name: &str,
-        primitive: u32,
-        parameters: Vec2,
-        range: [f32; 2],
-    ) -> Option<Vec3> {
-        self.shape(shape)
-            .mesh()?
-            .attribute(name, primitive, parameters, range)
     }
 }

@@ -15,6 +15,7 @@ mod closest_hit;
 pub mod geometry;
 mod instance;
 mod local_interaction;
+mod moving_light;
 pub mod placement;
 mod primitive_index;
 pub mod shapes;

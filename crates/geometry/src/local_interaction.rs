@@ -53,25 +53,16 @@ impl LocalInteraction {
     }
 
     /// The same point where `placement` puts it.
-    ///
-    /// Error: the point's own box, mapped; the rounding of the position in the world; and, since
-    /// the next ray is taken back into the shape's space, the rounding of its origin there.
     pub(crate) fn placed(&self, placement: &Placement) -> Self {
-        let m = placement.linear();
-        let position = placement.point(self.position.as_dvec3()).as_vec3();
-        let local = (self.error + self.position.abs() * gamma(1)).as_dvec3();
-        let spread = m.x_axis.abs() * local.x + m.y_axis.abs() * local.y + m.z_axis.abs() * local.z;
-        let unit = |n: Vec3| placement.normal(n.as_dvec3()).normalize().as_vec3();
+        let (position, error) = placement.rounded_point(self.position, self.error);
         let dp_du = placement.vector(self.dp_du.as_dvec3()).as_vec3();
         Self {
             position,
-            error: spread.as_vec3() * (1.0 + gamma(4))
-                + position.abs() * gamma(2)
-                + f32::MIN_POSITIVE,
+            error,
             // A ray is rounded on its way into the shape's space.
             depth: f32::NAN,
-            normal: unit(self.normal),
-            shading: Frame::from_normal_and_tangent(unit(self.shading.n), dp_du),
+            normal: placement.unit_normal(self.normal),
+            shading: Frame::from_normal_and_tangent(placement.unit_normal(self.shading.n), dp_du),
             uv: self.uv,
             dp_du,
             dp_dv: placement.vector(self.dp_dv.as_dvec3()).as_vec3(),

@@ -4,7 +4,7 @@
 //! rounded once, so that a ray taken into an instance and a point taken out of it agree to within
 //! one rounding of single precision.
 
-use etalon_math::FromAffine;
+use etalon_math::{FromAffine, gamma};
 use etalon_params::{DMat4, Params};
 use glam::{DAffine3, DMat3, DVec3, Vec3};
 
@@ -72,6 +72,25 @@ impl Placement {
     pub fn normal(&self, n: DVec3) -> DVec3 {
         let m = &self.inverse.matrix3;
         DVec3::new(n.dot(m.x_axis), n.dot(m.y_axis), n.dot(m.z_axis))
+    }
+
+    /// The unit normal in the world of one in the shape's space.
+    #[inline]
+    pub(crate) fn unit_normal(&self, n: Vec3) -> Vec3 {
+        self.normal(n.as_dvec3()).normalize().as_vec3()
+    }
+
+    /// A point of the shape in the world, and the bound on the error of each of its coordinates: the point's own
+    /// box, mapped; the rounding of the position in the world; and, since the next ray is taken back into the
+    /// shape's space, the rounding of its origin there.
+    #[inline]
+    pub(crate) fn rounded_point(&self, point: Vec3, error: Vec3) -> (Vec3, Vec3) {
+        let m = self.linear();
+        let position = self.point(point.as_dvec3()).as_vec3();
+        let local = (error + point.abs() * gamma(1)).as_dvec3();
+        let spread = m.x_axis.abs() * local.x + m.y_axis.abs() * local.y + m.z_axis.abs() * local.z;
+        let error = spread.as_vec3() * (1.0 + gamma(4)) + position.abs() * gamma(2);
+        (position, error + f32::MIN_POSITIVE)
     }
 
     /// The point of the shape's space whose image is the world's `p`.

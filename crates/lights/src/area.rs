@@ -5,6 +5,9 @@
 //! Φ = π ∫ L dA
 //! ```
 //!
+//! A light that moves shines as bright all along its way; its power is that at the start of the interval, which only
+//! the choice among lights asks for.
+//!
 //! Points toward an observer are chosen by the shape; emitted particles start uniformly over the
 //! area, with directions in proportion to cos θ.
 
@@ -102,9 +105,9 @@ impl LightModel for AreaLight {
         wavelengths: &Wavelengths,
         u_position: Vec2,
         u_direction: Vec2,
-        _time: f32,
+        time: f32,
     ) -> Option<Emission> {
-        let SampledPoint { point, density } = scene.sample_area(self.shape, u_position);
+        let SampledPoint { point, density } = scene.sample_area(self.shape, u_position, time);
         let frame = etalon_math::Frame::from_normal(point.normal);
         let direction = frame.to_world(square_to_cosine_hemisphere(u_direction));
         let radiance = self.emitted(scene, &point, direction, wavelengths);
@@ -129,10 +132,10 @@ impl LightModel for AreaLight {
         _: &BoundingSphere,
         _: Vec3,
         cos: f32,
-        _time: f32,
+        time: f32,
     ) -> EmissionPdf {
         EmissionPdf {
-            origin: 1.0 / shapes.area(self.shape),
+            origin: 1.0 / shapes.area(self.shape, time),
             ray: cos.max(0.0) * FRAC_1_PI,
         }
     }
@@ -149,7 +152,7 @@ impl LightModel for AreaLight {
     }
 
     fn power(&self, scene: &(impl Textures + Shapes), _: &BoundingSphere) -> f64 {
-        let area = f64::from(scene.area(self.shape));
+        let area = f64::from(scene.area(self.shape, 0.0));
         core::f64::consts::PI * area * f64::from(scene.mean(self.radiance))
     }
 }

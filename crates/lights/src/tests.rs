@@ -164,7 +164,7 @@ impl SmallWorld {
 }
 
 impl Shapes for SmallWorld {
-    fn area(&self, _: ShapeId) -> f32 {
+    fn area(&self, _: ShapeId, _: f32) -> f32 {
         4.0
     }
 
@@ -178,7 +178,7 @@ impl Shapes for SmallWorld {
         DirectionCone::along(normal.as_dvec3())
     }
 
-    fn sample_area(&self, shape: ShapeId, u: Vec2) -> SampledPoint {
+    fn sample_area(&self, shape: ShapeId, u: Vec2, _: f32) -> SampledPoint {
         SampledPoint {
             point: SurfacePoint::from(&self.vertex(shape, u)),
             density: 0.25,

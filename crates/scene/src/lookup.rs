@@ -48,8 +48,8 @@ impl Textures for SceneTables {
 }
 
 impl Shapes for SceneTables {
-    fn area(&self, shape: ShapeId) -> f32 {
-        self.geometry.area(shape)
+    fn area(&self, shape: ShapeId, time: f32) -> f32 {
+        self.geometry.area(shape, time)
     }
 
     fn bounds(&self, shape: ShapeId) -> [Vec3; 2] {
@@ -61,8 +61,8 @@ impl Shapes for SceneTables {
     }
 
     #[inline]
-    fn sample_area(&self, shape: ShapeId, u: Vec2) -> SampledPoint {
-        self.geometry.sample_area(shape, u)
+    fn sample_area(&self, shape: ShapeId, u: Vec2, time: f32) -> SampledPoint {
+        self.geometry.sample_area(shape, u, time)
     }
 
     #[inline]

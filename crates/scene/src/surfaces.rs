@@ -5,7 +5,7 @@ use crate::builder::Builder;
 use etalon_bsdf::{Material, classicphong};
 use etalon_geometry::shapes::csg::Operation;
 use etalon_geometry::{GeometryBuilder, GroupId, Placement, Shape};
-use etalon_math::Animated;
+use etalon_math::{Animated, DMat4, Transform};
 use etalon_params::{Class, Diagnostic, Node, Params, Span, Value, plugins};
 use etalon_subsurface::MediumDescription;
 use etalon_textures::{Constant, Texture};
@@ -118,19 +118,19 @@ impl Surfaces {
                     return;
                 };
                 let params = Params::new(node, builder.diagnostics);
-                if params.is_animated("to_world") {
-                    self.moving(&params, shape, carried, builder);
-                    return;
-                }
                 let can_emit = shape.can_emit();
-                let id = self
-                    .geometry
-                    .add_shape(shape, carried.material, LightId::NONE);
-                self.carry(id, &carried);
-                if refracts(node) {
-                    self.geometry.set_refractive(id);
-                }
                 self.names.shapes.push(name(node));
+                let id = if params.is_animated("to_world") {
+                    self.moving(&params, shape, &carried, builder)
+                } else {
+                    let material = carried.material;
+                    let id = self.geometry.add_shape(shape, material, LightId::NONE);
+                    if refracts(node) {
+                        self.geometry.set_refractive(id);
+                    }
+                    self.carry(id, &carried);
+                    id
+                };
                 if let Some(emitter) = carried.emitter {
                     if !can_emit {
                         let message = format!(
@@ -207,20 +207,31 @@ impl Surfaces {
         &mut self,
         params: &Params<'_>,
         shape: Shape,
-        carried: ShapeExtras,
+        carried: &ShapeExtras,
         builder: &Builder<'_>,
-    ) {
-        if let Some(emitter) = &carried.emitter {
-            let message = "a shape that moves cannot emit light";
-            let diagnostic = Diagnostic::error(emitter.span, message);
-            builder.diagnostics.push(diagnostic);
-        }
-        let member = self.member(shape, &carried);
+    ) -> ShapeId {
+        let member = self.member(shape, carried);
         let group = self.geometry.add_members(vec![member], Vec::new());
-        self.names.shapes.push(name(params.node));
-        if let Some(motion) = builder.shutter.motion(params, "to_world") {
-            self.geometry.add_instance(group, Animated::new(motion));
+        let Some(motion) = builder.shutter.motion(params, "to_world") else {
+            return member;
+        };
+        if let Some(emitter) = &carried.emitter {
+            let keeps_angles = |matrix: &DMat4| {
+                let transform = Transform::from_matrix(matrix);
+                transform.is_some_and(|t| t.uniform_scale().is_some())
+            };
+            if !motion.keys().iter().all(keeps_angles) {
+                let message = "a light that moves must keep its angles";
+                let diagnostic = Diagnostic::error(emitter.span, message)
+                    .help("its `to_world` may turn, mirror, shift and scale uniformly");
+                builder.diagnostics.push(diagnostic);
+            }
         }
+        let instance = self.geometry.add_instance(group, Animated::new(motion));
+        if let Some(instance) = instance.filter(|_| carried.emitter.is_some()) {
+            self.geometry.set_carrier(member, instance);
+        }
+        member
     }
 
     /// One shape with its material and emitter.

@@ -90,7 +90,7 @@ impl Assets for Files {
 struct OneShape;
 
 impl Shapes for OneShape {
-    fn area(&self, _: ShapeId) -> f32 {
+    fn area(&self, _: ShapeId, _: f32) -> f32 {
         1.0
     }
     fn bounds(&self, _: ShapeId) -> [Vec3; 2] {
@@ -99,7 +99,7 @@ impl Shapes for OneShape {
     fn normals(&self, _: ShapeId) -> etalon_math::DirectionCone {
         etalon_math::DirectionCone::ALL
     }
-    fn sample_area(&self, _: ShapeId, _: Vec2) -> SampledPoint {
+    fn sample_area(&self, _: ShapeId, _: Vec2, _: f32) -> SampledPoint {
         panic!("textures do not sample shapes")
     }
     fn sample_toward(&self, _: ShapeId, _: &LightSampleContext, _: Vec2) -> Option<SampledPoint> {

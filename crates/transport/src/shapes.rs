@@ -53,19 +53,19 @@ pub struct SampledPoint {
     pub density: f32,
 }
 
-/// Lookup of shapes that are not reached through instances.
+/// Lookup of shapes that are lights.
 pub trait Shapes {
-    /// Surface area (m²).
-    fn area(&self, shape: ShapeId) -> f32;
+    /// Surface area (m²) at the moment `time` of the shutter interval.
+    fn area(&self, shape: ShapeId, time: f32) -> f32;
 
-    /// The lower and upper corner of a box around it (m, world).
+    /// The lower and upper corner of a box around it and its way (m, world).
     fn bounds(&self, shape: ShapeId) -> [Vec3; 2];
 
     /// A cone that holds its normals, on the side that the shape calls outside.
     fn normals(&self, shape: ShapeId) -> DirectionCone;
 
-    /// A point chosen uniformly by area.
-    fn sample_area(&self, shape: ShapeId, u: Vec2) -> SampledPoint;
+    /// A point chosen uniformly by area, at the moment `time` of the shutter interval.
+    fn sample_area(&self, shape: ShapeId, u: Vec2, time: f32) -> SampledPoint;
 
     /// A point of the shape chosen for the light that it sends to `from`, as well as the shape
     /// knows how (the density is per solid angle in any case). `None` if the method finds nothing

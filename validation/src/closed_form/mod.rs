@@ -50,6 +50,9 @@ pub fn picture(
         "furnace" => furnace::picture(claim, size),
         "white furnace" => furnace::white(claim, size),
         "integrating sphere" => integrating_sphere::picture(claim, size),
+        "exposure to a moving sphere" => {
+            irradiance::picture(claim, size, irradiance::moving_sphere)
+        }
         "irradiance of a sphere" => irradiance::picture(claim, size, irradiance::sphere),
         "irradiance of a disk" => irradiance::picture(claim, size, irradiance::disk),
         "irradiance of a rectangle" => irradiance::picture(claim, size, irradiance::rectangle),

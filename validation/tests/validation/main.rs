@@ -11,4 +11,5 @@ mod pairs;
 mod povray;
 mod references;
 mod state;
+mod stills;
 mod tails;

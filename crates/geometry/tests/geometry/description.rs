@@ -279,9 +279,9 @@ fn every_plugin_answers_alike() {
         let (mut random, [min, max]) = (Random(5), Shapes::bounds(&geometry, id));
         let cone = geometry.normals(id);
         for _ in 0..200 {
-            let on = geometry.sample_area(id, random.square());
+            let on = geometry.sample_area(id, random.square(), 0.0);
             assert!(
-                (on.density * geometry.area(id) - 1.0).abs() < 1e-5,
+                (on.density * geometry.area(id, 0.0) - 1.0).abs() < 1e-5,
                 "{plugin}"
             );
             let from = LightSampleContext::in_space(random.direction() * 3.0);

@@ -73,7 +73,7 @@ fn a_picture_is_heights() {
         );
         assert!(geometry.vertex(&ray, &hit).normal.z > 0.0);
     }
-    assert!(Shapes::area(&geometry, ShapeId(0)) > 4.0);
+    assert!(Shapes::area(&geometry, ShapeId(0), 0.0) > 4.0);
 }
 
 #[test]

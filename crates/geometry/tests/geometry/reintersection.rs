@@ -150,7 +150,7 @@ fn sampled_points_lie_on_the_shape_and_are_seen() {
                 let from = shift + random.direction() * scale * (1.8 + 3.0 * random.number());
                 let receiver = LightSampleContext::on_surface(from, random.direction());
                 for point in [
-                    Some(geometry.sample_area(id, random.square())),
+                    Some(geometry.sample_area(id, random.square(), 0.0)),
                     geometry.sample_toward(id, &receiver, random.square()),
                 ]
                 .into_iter()
@@ -208,7 +208,7 @@ fn a_box_of_every_shape_holds_it() {
             let bounds = Shape::bounds(&shape);
             let geometry = geometry_of([shape]);
             for _ in 0..500 {
-                let p = geometry.sample_area(ShapeId(0), random.square()).point;
+                let p = geometry.sample_area(ShapeId(0), random.square(), 0.0).point;
                 let slack = p.error * 2.0;
                 let inside = p.position.cmpge(bounds.min - slack).all()
                     && p.position.cmple(bounds.max + slack).all();

@@ -216,7 +216,7 @@ fn areas_are_right() {
     let sizes = Vec3::new(2.0, 0.5, 1.5);
     let p = moved(Vec3::new(5.0, 6.0, 7.0), 0.8, sizes);
     let close = |a: f32, b: f64| assert!((f64::from(a) / b - 1.0).abs() < 1e-6, "{a} {b}");
-    let area = |shape: Shape| geometry_of([shape]).area(ID);
+    let area = |shape: Shape| geometry_of([shape]).area(ID, 0.0);
     close(
         area(Shape::Rectangle(Rectangle::new(&p, false).expect("finite"))),
         4.0,
@@ -245,8 +245,8 @@ fn points_are_uniform_by_area() {
         let count = 100_000;
         let (mut sum, mut squares) = (DVec3::ZERO, DVec3::ZERO);
         for _ in 0..count {
-            let point = geometry.sample_area(ID, random.square());
-            let density = f64::from(point.density) * f64::from(geometry.area(ID));
+            let point = geometry.sample_area(ID, random.square(), 0.0);
+            let density = f64::from(point.density) * f64::from(geometry.area(ID, 0.0));
             assert!((density - 1.0).abs() < 1e-6, "{name}");
             let p = point.point.position.as_dvec3() - DVec3::new(1.0, 2.0, 3.0);
             sum += p;

@@ -313,7 +313,7 @@ fn points_are_spread_by_area() {
         let (mut found, mut outer, mut upper) = (0.0, 0.0, 0.0);
         const COUNT: u32 = 50_000;
         for _ in 0..COUNT {
-            let sampled = case.geometry.sample_area(ShapeId(0), random.square());
+            let sampled = case.geometry.sample_area(ShapeId(0), random.square(), 0.0);
             if sampled.density == 0.0 {
                 continue;
             }
