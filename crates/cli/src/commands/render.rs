@@ -83,7 +83,9 @@ pub(super) fn run_here(args: &RenderArgs) -> ExitCode {
         let plan = amount::plan(args, &loaded);
         match amount::is_finished(args, &loaded, &plan) {
             Ok(true) => {
-                note(format!("{} is there already", args.output().display()));
+                if !args.quiet {
+                    note(format!("{} is there already", args.output().display()));
+                }
                 return ExitCode::SUCCESS;
             }
             Ok(false) => {}

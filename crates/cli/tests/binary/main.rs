@@ -13,6 +13,7 @@ mod determinism;
 mod estimators;
 mod failure;
 mod field_scenes;
+mod frames;
 mod info;
 mod integrators;
 mod interrupt;

@@ -9,10 +9,15 @@ use tempfile::TempDir;
 /// Longer than any run here takes on a busy machine.
 const PATIENCE: Duration = Duration::from_secs(60);
 
-/// The Cornell box of the project, as seen from this crate.
-pub(crate) fn cornell_box() -> String {
+/// A scene of the project, as seen from this crate.
+pub(crate) fn scene(name: &str) -> String {
     let scenes = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../scenes");
-    scenes.join("cornell-box/scene.xml").display().to_string()
+    scenes.join(name).join("scene.xml").display().to_string()
+}
+
+/// The Cornell box.
+pub(crate) fn cornell_box() -> String {
+    scene("cornell-box")
 }
 
 /// A scene with an integrator of one's choice: a lit floor and a sphere, 20 × 12 pixels.

@@ -218,32 +218,33 @@ fn motions_that_are_none() {
     let key = |time: &str, inside: &str| format!("<transform time=\"{time}\">{inside}</transform>");
     let still = "<translate x=\"1\"/>";
     for (body, words) in [
-        (sphere(""), "`to_world` is no motion"),
+        (sphere(""), "needs a key at least"),
         (
             sphere(&(key("1", still) + &key("0", still))),
-            "`to_world` is no motion",
+            "must be after that before it",
         ),
         (
             sphere(&(key("0", still) + &key("1", "<scale x=\"-1\"/>"))),
-            "`to_world` is no motion",
+            "one of two keys mirrors space",
         ),
         (
             sphere(&(key("0", still) + &key("1", "<scale x=\"0\"/>"))),
-            "`to_world` cannot be undone",
+            "the transform of a key cannot be undone",
         ),
         (
             sphere(still),
             "`<translate>` cannot stand in an `<animation>`",
         ),
         (
-            sphere(&key("0", still)).replace("</shape>", "<emitter type=\"area\"/></shape>"),
-            "a shape that moves cannot emit light",
+            sphere(&key("0", "<scale x=\"2\"/>"))
+                .replace("</shape>", "<emitter type=\"area\"/></shape>"),
+            "a light that moves must keep its angles",
         ),
         (
             "<emitter type=\"envmap\"><animation name=\"to_world\"/><string name=\"filename\" \
              value=\"none.exr\"/></emitter>"
                 .to_owned(),
-            "`to_world`",
+            "needs a key at least",
         ),
     ] {
         let read = read_with(
