@@ -46,7 +46,7 @@ fn plots() -> String {
             let [x, y] = place(key.time, key.value);
             if let Some(tangent) = key.tangent {
                 let [dx, dy] = [18.0, -18.0 * tangent * 90.0 / 93.0];
-                let scale = 18.0 / f64::hypot(dx, dy);
+                let scale = 18.0 / (dx * dx + dy * dy).sqrt();
                 let [dx, dy] = [dx * scale, dy * scale];
                 let _ = writeln!(
                     svg,
@@ -57,7 +57,10 @@ fn plots() -> String {
                     y + dy
                 );
             }
-            let _ = writeln!(svg, "<circle cx=\"{x:.1}\" cy=\"{y:.1}\" r=\"3\" fill=\"#06c\"/>");
+            let _ = writeln!(
+                svg,
+                "<circle cx=\"{x:.1}\" cy=\"{y:.1}\" r=\"3\" fill=\"#06c\"/>"
+            );
         }
     }
     svg + "</svg>\n"
