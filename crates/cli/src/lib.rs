@@ -4,6 +4,7 @@
 //! image; the commands are thin around it.
 
 pub mod adaptive;
+pub mod arg_values;
 pub mod args;
 pub mod checkpointing;
 pub mod commands;

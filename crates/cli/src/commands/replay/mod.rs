@@ -10,7 +10,7 @@ mod tell;
 mod words;
 
 use super::{answer, fail};
-use crate::args::ReplayAddress;
+use crate::arg_values::ReplayAddress;
 use crate::pipeline::{self, Loaded};
 use etalon_film::{ExactFilm, SampleCounts};
 use etalon_integrators::RenderPlan;

@@ -1,0 +1,100 @@
+//! Values on the command line: numbers within bounds, names of a list, addresses of samples.
+
+use etalon_scene::{AcceleratorKind, LightSamplerKind};
+
+/// A sample to be drawn again.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct ReplayAddress {
+    /// Column and row of its pixel, which may lie around the film.
+    pub pixel: [i32; 2],
+    /// Its replicate.
+    pub replicate: u32,
+    /// Its number within pixel and replicate.
+    pub sample: u32,
+}
+
+/// The address of a sample.
+pub(crate) fn parse_replay(text: &str) -> Result<ReplayAddress, String> {
+    let address = || {
+        let mut words = text.split(',').map(str::trim);
+        let address = ReplayAddress {
+            pixel: [words.next()?.parse().ok()?, words.next()?.parse().ok()?],
+            replicate: words.next()?.parse().ok()?,
+            sample: words.next()?.parse().ok()?,
+        };
+        words.next().is_none().then_some(address)
+    };
+    address().ok_or_else(|| {
+        "expected four numbers, such as 12,7,0,3: column, row, replicate, sample".to_owned()
+    })
+}
+
+/// A whole number from `LOW` to `HIGH`.
+pub(crate) fn whole<const LOW: u32, const HIGH: u32>(text: &str) -> Result<u32, String> {
+    let number = text.parse().ok();
+    number
+        .filter(|number| (LOW..=HIGH).contains(number))
+        .ok_or_else(|| format!("expected a whole number from {LOW} to {HIGH}"))
+}
+
+/// A seed.
+pub(crate) fn parse_seed(text: &str) -> Result<u64, String> {
+    (text.parse()).map_err(|_| format!("expected a whole number from 0 to {}", u64::MAX))
+}
+
+/// A number strictly between 0 and 1.
+pub(crate) fn parse_probability(text: &str) -> Result<f64, String> {
+    let number = text.parse().ok();
+    number
+        .filter(|number| *number > 0.0 && *number < 1.0)
+        .ok_or_else(|| "expected a number between 0 and 1, such as 0.01".to_owned())
+}
+
+/// A relative error.
+pub(crate) fn parse_error(text: &str) -> Result<f64, String> {
+    let error = text.parse().ok();
+    error
+        .filter(|error| (1e-6..=1.0).contains(error))
+        .ok_or_else(|| "expected a number from 0.000001 to 1, such as 0.01 for 1 %".to_owned())
+}
+
+/// The name of a light chooser.
+pub(crate) fn parse_light_chooser(text: &str) -> Result<LightSamplerKind, String> {
+    LightSamplerKind::named(text).ok_or_else(|| {
+        let names = LightSamplerKind::ALL.map(LightSamplerKind::name);
+        format!("expected one of {}", names.join(", "))
+    })
+}
+
+/// The name of an accelerator.
+pub(crate) fn parse_accelerator(text: &str) -> Result<AcceleratorKind, String> {
+    AcceleratorKind::named(text).ok_or_else(|| {
+        let names = AcceleratorKind::ALL.map(AcceleratorKind::name);
+        format!("expected one of {}", names.join(", "))
+    })
+}
+
+/// A duration.
+pub(crate) fn parse_seconds(text: &str) -> Result<f64, String> {
+    let seconds = text.parse().ok();
+    seconds
+        .filter(|seconds| (1e-3..=1e8).contains(seconds))
+        .ok_or_else(|| {
+            "expected a number of seconds from 0.001 to 100000000, such as 60".to_owned()
+        })
+}
+
+/// Frames per unit of time.
+pub(crate) fn parse_rate(text: &str) -> Result<f64, String> {
+    let rate = text.parse().ok();
+    rate.filter(|rate| (1e-6..=1e6).contains(rate))
+        .ok_or_else(|| "expected frames per unit of scene time, such as 24".to_owned())
+}
+
+/// `key=value`.
+pub(crate) fn parse_define(text: &str) -> Result<(String, String), String> {
+    match text.split_once('=') {
+        Some((key, value)) if !key.is_empty() => Ok((key.to_owned(), value.to_owned())),
+        _ => Err("expected key=value".to_owned()),
+    }
+}
