@@ -47,11 +47,7 @@ impl Pose {
             return Self::from_params(params).map(Animated::from);
         }
         let motion = build.shutter().motion(params, "to_world")?;
-        let conforms = |matrix| {
-            let transform = Transform::from_matrix(matrix);
-            transform.is_some_and(|t| t.uniform_scale().is_some())
-        };
-        if !keys.iter().all(conforms) {
+        if !motion.keeps_angles() {
             Self::refuse(params);
             return None;
         }

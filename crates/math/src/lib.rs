@@ -16,6 +16,7 @@ pub mod keyframes;
 pub mod motion;
 pub mod noise;
 pub mod offset;
+mod parts;
 pub mod polynomial;
 mod swept;
 pub mod transform;

@@ -6,71 +6,12 @@
 //! K. Shoemake and T. Duff, Matrix animation and polar decomposition, 1992); along curves, the quaternion's components
 //! are interpolated and normalised. Before the first and after the last key nothing moves.
 
+use crate::Transform;
 use crate::bernstein;
 use crate::keyframes::{Interpolation, Key, Keyframes, Piece, catmull_rom};
-use core::ops::{Add, ControlFlow, Mul};
+use crate::parts::Parts;
+use core::ops::ControlFlow;
 use glam::{DAffine3, DMat3, DMat4, DQuat, DVec3};
-
-/// An affine map, taken apart.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) struct Parts {
-    pub(crate) translation: DVec3,
-    pub(crate) rotation: DQuat,
-    pub(crate) stretch: DMat3,
-}
-
-impl Add for Parts {
-    type Output = Self;
-
-    fn add(self, other: Self) -> Self {
-        Self {
-            translation: self.translation + other.translation,
-            rotation: self.rotation + other.rotation,
-            stretch: self.stretch + other.stretch,
-        }
-    }
-}
-
-impl Mul<f64> for Parts {
-    type Output = Self;
-
-    fn mul(self, factor: f64) -> Self {
-        Self {
-            translation: self.translation * factor,
-            rotation: self.rotation * factor,
-            stretch: self.stretch * factor,
-        }
-    }
-}
-
-impl Parts {
-    /// The parts of an invertible map with this linear part: M = R·S by Higham's iteration R ← (R + R⁻ᵀ)/2.
-    fn of(matrix: &DMat4) -> Self {
-        let linear = DMat3::from_mat4(*matrix);
-        let mut r = linear * linear.determinant().signum();
-        for _ in 0..64 {
-            let next = (r + r.inverse().transpose()) * 0.5;
-            let change = (next - r).to_cols_array().map(f64::abs);
-            r = next;
-            if change.into_iter().sum::<f64>() < 1e-14 {
-                break;
-            }
-        }
-        Self {
-            translation: matrix.w_axis.truncate(),
-            rotation: DQuat::from_mat3(&r).normalize(),
-            stretch: r.transpose() * linear,
-        }
-    }
-
-    /// The map that they make.
-    pub(crate) fn map(&self) -> DAffine3 {
-        DAffine3 {
-            matrix3: DMat3::from_quat(self.rotation) * self.stretch,
-            translation: self.translation,
-        }
-    }
-}
 
 /// A map at a moment.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -245,6 +186,14 @@ impl Motion {
     /// The maps of the keys.
     pub fn keys(&self) -> &[DMat4] {
         &self.keys
+    }
+
+    /// Whether every key turns, mirrors, shifts and scales uniformly at most.
+    pub fn keeps_angles(&self) -> bool {
+        let keeps = |key: &DMat4| {
+            Transform::from_matrix(key).is_some_and(|map| map.uniform_scale().is_some())
+        };
+        self.keys.iter().all(keeps)
     }
 
     /// Whether anything changes from time 0 to 1.

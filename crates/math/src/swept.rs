@@ -16,7 +16,8 @@
 use crate::bernstein::product;
 use crate::float64::acos;
 use crate::keyframes::Piece;
-use crate::motion::{Motion, Parts, parts_on};
+use crate::motion::{Motion, parts_on};
+use crate::parts::Parts;
 use glam::DVec3;
 
 /// A box that grows.

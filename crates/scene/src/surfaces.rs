@@ -5,7 +5,7 @@ use crate::builder::Builder;
 use etalon_bsdf::{Material, classicphong};
 use etalon_geometry::shapes::csg::Operation;
 use etalon_geometry::{GeometryBuilder, GroupId, Placement, Shape};
-use etalon_math::{Animated, DMat4, Transform};
+use etalon_math::Animated;
 use etalon_params::{Class, Diagnostic, Node, Params, Span, Value, plugins};
 use etalon_subsurface::MediumDescription;
 use etalon_textures::{Constant, Texture};
@@ -215,17 +215,12 @@ impl Surfaces {
         let Some(motion) = builder.shutter.motion(params, "to_world") else {
             return member;
         };
-        if let Some(emitter) = &carried.emitter {
-            let keeps_angles = |matrix: &DMat4| {
-                let transform = Transform::from_matrix(matrix);
-                transform.is_some_and(|t| t.uniform_scale().is_some())
-            };
-            if !motion.keys().iter().all(keeps_angles) {
-                let message = "a light that moves must keep its angles";
-                let diagnostic = Diagnostic::error(emitter.span, message)
-                    .help("its `to_world` may turn, mirror, shift and scale uniformly");
-                builder.diagnostics.push(diagnostic);
-            }
+        if let Some(emitter) = &carried.emitter
+            && !motion.keeps_angles()
+        {
+            let message = "a light that moves must keep its angles";
+            let help = "its `to_world` may turn, mirror, shift and scale uniformly";
+            (builder.diagnostics).push(Diagnostic::error(emitter.span, message).help(help));
         }
         let instance = self.geometry.add_instance(group, Animated::new(motion));
         if let Some(instance) = instance.filter(|_| carried.emitter.is_some()) {
