@@ -125,10 +125,27 @@ pub(crate) fn read(
     if kind == "transform" {
         return motion(reader, attributes, interpolation?, &keys);
     }
+    if let Some(other) = keys.iter().find(|key| !alike(&key.value, &keys[0].value)) {
+        let message = "the spectra of all keys have one number, or values at the same wavelengths";
+        let diagnostic = Diagnostic::error(other.tag, message);
+        reader.report(diagnostic.related(keys[0].tag, "the first key has others"));
+        return None;
+    }
     let keys = keys
         .into_iter()
         .map(|key| (key.time, key.value, key.tangent));
     Some(Animation::Changing(interpolation?, keys.collect()))
+}
+
+/// Whether there is something between two values: not between spectra of other wavelengths.
+fn alike(a: &Value, b: &Value) -> bool {
+    let wavelengths = |value: &Value| match value {
+        Value::Spectrum(SpectrumText::Samples(samples)) => {
+            samples.iter().map(|(wavelength, _)| *wavelength).collect()
+        }
+        _ => Vec::new(),
+    };
+    wavelengths(a) == wavelengths(b)
 }
 
 /// Reads one key.
@@ -202,6 +219,11 @@ fn interpolation(
         reader.report(diagnostic.help("accepted: interpolation=\"step\""));
         return None;
     }
+    if kind == "spectrum" && way == Interpolation::Hermite {
+        let diagnostic = attribute.error_whole("spectra have no tangents");
+        reader.report(diagnostic.help("accepted: step, linear, catmull-rom, cubic"));
+        return None;
+    }
     if !way.takes(keys.len()) {
         let message = format!("`cubic` goes through 4, 7, 10 … keys, not {}", keys.len());
         reader.report(attribute.error_whole(message));
@@ -209,7 +231,7 @@ fn interpolation(
     }
     let mut sound = true;
     for key in keys {
-        let wants = way == Interpolation::Hermite && kind != "spectrum";
+        let wants = way == Interpolation::Hermite;
         if wants != key.tangent.is_some() {
             let message = match wants {
                 true => "each key of `hermite` needs a `tangent`: the change per unit of time",
