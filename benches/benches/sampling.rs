@@ -1,9 +1,9 @@
 //! How long random numbers, warps and table lookups take.
 
 use criterion::{Criterion, criterion_group, criterion_main};
+use etalon_math::{Vec2, Vec3};
 use etalon_sampling::discrete::{AliasTable, PiecewiseConstant2d};
 use etalon_sampling::{SampleId, Sampler, SamplerKind, warps};
-use glam::{Vec2, Vec3};
 use std::hint::black_box;
 
 /// One sample of a path of eight bounces: the start, and 36 pairs of dimensions.

@@ -1,5 +1,6 @@
-//! The tasks of the house: `cargo xtask validate`, `references`, `mutants`, `calibrate`, `efficiency`, `speed`, `bits`, `scenes`, `tables`.
+//! The tasks of the house: `cargo xtask validate`, `accelerators`, `references`, `mutants`, `calibrate`, `efficiency`, `speed`, `bits`, `scenes`, `tables`.
 
+mod accelerators;
 mod bits;
 mod calibrate;
 mod efficiency;
@@ -38,6 +39,8 @@ enum Task {
     Efficiency(efficiency::Arguments),
     /// Measure noise, time and efficiency on a list of scenes, beside Mitsuba 3's (`benches/speed.toml`)
     Speed(speed::Arguments),
+    /// Compare accelerators with each other, and with Embree if it is found
+    Accelerators(accelerators::Arguments),
     /// Check that threads and build profiles do not change a bit (builds `release`: minutes)
     Bits,
     /// Write the generated files of `scenes/` anew
@@ -54,6 +57,7 @@ fn main() -> ExitCode {
         Task::References(arguments) => references::run(&arguments),
         Task::Efficiency(arguments) => efficiency::run(&arguments),
         Task::Speed(arguments) => speed::run(&arguments),
+        Task::Accelerators(arguments) => accelerators::run(&arguments),
         Task::Bits => bits::run(),
         Task::Scenes => scenes::run(),
         Task::Tables(arguments) => tables::run(&arguments),

@@ -7,11 +7,14 @@
 mod binary;
 pub(crate) mod block;
 mod boxes;
+mod bunch;
 mod bvh;
 mod collapse;
 mod linear;
 mod node;
 mod octree;
+mod pack;
+pub(crate) mod visits;
 mod wide;
 
 use crate::closest_hit::ClosestHit;
@@ -20,6 +23,7 @@ use block::Block;
 use boxes::BoxTree;
 use glam::Vec3;
 use linear::Linear;
+use visits::Counter;
 use wide::Wide;
 
 /// Which accelerator to build.
@@ -117,6 +121,16 @@ impl Bounds {
         !self.is_empty() && !(self.max - self.min).is_finite()
     }
 
+    /// Half of its surface; 0 for the empty box.
+    #[inline]
+    pub(crate) fn half_area(&self) -> f32 {
+        if self.is_empty() {
+            return 0.0;
+        }
+        let d = self.max - self.min;
+        d.x * d.y + d.y * d.z + d.z * d.x
+    }
+
     /// The point in the middle; the origin for the empty box.
     pub fn center(&self) -> Vec3 {
         if self.is_empty() {
@@ -158,6 +172,8 @@ pub(crate) trait CustomPrimitives {
     fn intersect(&self, primitive: u32, probe: &TraversalRay, nearest: &mut ClosestHit);
     /// Whether the ray hits `primitive` before `t_max`.
     fn occludes(&self, primitive: u32, probe: &TraversalRay, t_max: f32) -> bool;
+    /// Who is told what a ray looks at.
+    fn counter(&self) -> &impl Counter;
 }
 
 /// Whether a triangle has any area. One without is not part of any surface: rounding alone would
@@ -215,6 +231,7 @@ impl Accelerator {
         nearest: &mut ClosestHit,
     ) {
         for &primitive in &self.endless {
+            others.counter().primitives(|| 1);
             others.intersect(primitive, probe, nearest);
         }
         match &self.index {
@@ -233,12 +250,14 @@ impl Accelerator {
         t_max: f32,
     ) -> bool {
         let mut endless = self.endless.iter();
-        endless.any(|&primitive| others.occludes(primitive, probe, t_max))
-            || match &self.index {
-                Index::Linear(linear) => linear.occluded(probe, others, t_max),
-                Index::Boxes(boxes) => boxes.occluded(probe, others, t_max),
-                Index::Wide(wide) => wide.occluded(probe, others, t_max),
-            }
+        endless.any(|&primitive| {
+            others.counter().primitives(|| 1);
+            others.occludes(primitive, probe, t_max)
+        }) || match &self.index {
+            Index::Linear(linear) => linear.occluded(probe, others, t_max),
+            Index::Boxes(boxes) => boxes.occluded(probe, others, t_max),
+            Index::Wide(wide) => wide.occluded(probe, others, t_max),
+        }
     }
 
     /// The corners of the triangle that [`Accelerator::intersect`] found in `slot`.

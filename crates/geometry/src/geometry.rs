@@ -1,5 +1,6 @@
 //! All surfaces of a scene: what a ray hits, and what is known of the point it hits.
 
+use crate::accelerator::visits::{Counter, Uncounted, Visits};
 use crate::accelerator::{Accelerator, Bounds};
 use crate::closest_hit::ClosestHit;
 use crate::instance::{Group, Instance};
@@ -9,6 +10,7 @@ use crate::shapes::Shape;
 use crate::shapes::crossing::Line;
 use crate::traversal_ray::TraversalRay;
 use crate::world::WorldOthers;
+use core::cell::Cell;
 use etalon_transport::{Hit, InstanceId, LightId, MaterialId, Ray, ShapeId, SurfaceInteraction};
 use glam::{Vec2, Vec3};
 
@@ -60,6 +62,8 @@ pub struct GeometryStatistics {
     pub nodes: usize,
     /// Memory of meshes and accelerators (bytes).
     pub bytes: usize,
+    /// Memory of accelerators, which hold copies of all triangles' corners (bytes).
+    pub accelerator_bytes: usize,
 }
 
 impl Geometry {
@@ -72,14 +76,32 @@ impl Geometry {
         }
     }
 
+    /// What accelerators ask of the world.
+    #[inline(always)]
+    fn others<'a, C>(&'a self, counter: &'a C) -> WorldOthers<'a, C> {
+        WorldOthers {
+            geometry: self,
+            counter,
+        }
+    }
+
     /// The nearest surface along a ray, strictly between its ends.
     #[inline]
     pub fn intersect(&self, ray: &Ray) -> Option<Hit> {
+        self.find(ray, &Uncounted)
+    }
+
+    /// The nearest surface along a ray, and what had to be looked at to find it.
+    pub fn intersect_counted(&self, ray: &Ray) -> (Option<Hit>, Visits) {
+        let visits = Cell::new(Visits::default());
+        (self.find(ray, &visits), visits.get())
+    }
+
+    #[inline(always)]
+    fn find(&self, ray: &Ray, counter: &impl Counter) -> Option<Hit> {
         let probe = self.probe(ray);
         let mut nearest = ClosestHit::within(ray.t_max);
-        self.world
-            .accelerator
-            .intersect(&probe, &WorldOthers(self), &mut nearest);
+        (self.world.accelerator).intersect(&probe, &self.others(counter), &mut nearest);
         nearest.found.then(|| self.hit(&nearest))
     }
 
@@ -110,10 +132,20 @@ impl Geometry {
     /// Whether anything lies strictly between the ends of a ray.
     #[inline]
     pub fn occluded(&self, ray: &Ray) -> bool {
+        self.is_blocked(ray, &Uncounted)
+    }
+
+    /// Whether anything lies strictly between the ends of a ray, and what had to be looked at to know.
+    pub fn occluded_counted(&self, ray: &Ray) -> (bool, Visits) {
+        let visits = Cell::new(Visits::default());
+        (self.is_blocked(ray, &visits), visits.get())
+    }
+
+    #[inline(always)]
+    fn is_blocked(&self, ray: &Ray, counter: &impl Counter) -> bool {
         let probe = self.probe(ray);
-        self.world
-            .accelerator
-            .occluded(&probe, &WorldOthers(self), ray.t_max)
+        let others = self.others(counter);
+        (self.world.accelerator).occluded(&probe, &others, ray.t_max)
     }
 
     #[inline]
@@ -279,13 +311,15 @@ impl Geometry {
             .filter_map(Shape::mesh)
             .map(|m| m.bytes())
             .sum();
+        let accelerator_bytes = accelerators().map(Accelerator::bytes).sum();
         GeometryStatistics {
             triangles: self.shapes.iter().map(triangles).sum(),
             instanced_triangles: instanced,
             shapes: self.shapes.len(),
             instances: self.instances.len(),
             nodes: accelerators().map(Accelerator::nodes).sum(),
-            bytes: meshes + accelerators().map(Accelerator::bytes).sum::<usize>(),
+            bytes: meshes + accelerator_bytes,
+            accelerator_bytes,
         }
     }
 }

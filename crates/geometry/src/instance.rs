@@ -1,6 +1,7 @@
 //! Groups of shapes, placed any number of times, also in one another.
 
 use crate::accelerator::Accelerator;
+use crate::accelerator::visits::Counter;
 use crate::builder::GroupId;
 use crate::closest_hit::ClosestHit;
 use crate::geometry::Geometry;
@@ -81,6 +82,7 @@ impl Geometry {
         primitive: u32,
         probe: &TraversalRay,
         nearest: &mut ClosestHit,
+        counter: &impl Counter,
     ) {
         let instance = &self.instances[instance.0 as usize];
         let (group, local) = self.inside(instance, probe);
@@ -88,6 +90,7 @@ impl Geometry {
         let others = GroupOthers {
             geometry: self,
             group,
+            counter,
         };
         (group.accelerator).intersect(&local, &others, &mut inside);
         nearest.set_inside(primitive, instance.first, &inside);
@@ -99,11 +102,13 @@ impl Geometry {
         instance: InstanceId,
         probe: &TraversalRay,
         t_max: f32,
+        counter: &impl Counter,
     ) -> bool {
         let (group, local) = self.inside(&self.instances[instance.0 as usize], probe);
         let others = GroupOthers {
             geometry: self,
             group,
+            counter,
         };
         group.accelerator.occluded(&local, &others, t_max)
     }

@@ -23,6 +23,7 @@ mod touching;
 mod traversal_ray;
 mod world;
 
+pub use accelerator::visits::Visits;
 pub use accelerator::{AcceleratorKind, Bounds};
 pub use builder::{GeometryBuilder, GroupId};
 pub use geometry::{Geometry, GeometryStatistics};

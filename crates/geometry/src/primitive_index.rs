@@ -1,5 +1,6 @@
 //! The things that one accelerator knows: the world's, or those of a group.
 
+use crate::accelerator::visits::Counter;
 use crate::accelerator::{Accelerator, AcceleratorKind, Bounds, CustomPrimitives, Primitives};
 use crate::closest_hit::ClosestHit;
 use crate::geometry::Geometry;
@@ -149,12 +150,13 @@ impl Primitives for Contents<'_> {
 }
 
 /// Intersects what is not a triangle of a group: its smooth shapes and its instances.
-pub(crate) struct GroupOthers<'a> {
+pub(crate) struct GroupOthers<'a, C> {
     pub(crate) geometry: &'a Geometry,
     pub(crate) group: &'a Group,
+    pub(crate) counter: &'a C,
 }
 
-impl GroupOthers<'_> {
+impl<C> GroupOthers<'_, C> {
     #[inline]
     fn piece(&self, shape: ShapeId, piece: u32, primitive: u32) -> Piece<'_> {
         Piece {
@@ -166,7 +168,7 @@ impl GroupOthers<'_> {
 }
 
 /// Shapes of instances are known in single precision only.
-impl Order for GroupOthers<'_> {
+impl<C> Order for GroupOthers<'_, C> {
     #[inline]
     fn earliest(&self, _: &TraversalRay) -> f64 {
         0.0
@@ -183,7 +185,12 @@ impl Order for GroupOthers<'_> {
     }
 }
 
-impl CustomPrimitives for GroupOthers<'_> {
+impl<C: Counter> CustomPrimitives for GroupOthers<'_, C> {
+    #[inline(always)]
+    fn counter(&self) -> &impl Counter {
+        self.counter
+    }
+
     #[inline]
     fn intersect(&self, primitive: u32, probe: &TraversalRay, nearest: &mut ClosestHit) {
         match self.group.scope.locate(primitive) {
@@ -191,7 +198,13 @@ impl CustomPrimitives for GroupOthers<'_> {
                 (self.piece(shape, piece, primitive)).intersect(probe, nearest, self);
             }
             (PrimitiveOwner::Instance(instance), _) => {
-                (self.geometry).intersect_instance(instance, primitive, probe, nearest);
+                (self.geometry).intersect_instance(
+                    instance,
+                    primitive,
+                    probe,
+                    nearest,
+                    self.counter,
+                );
             }
         }
     }
@@ -203,7 +216,8 @@ impl CustomPrimitives for GroupOthers<'_> {
                 (self.piece(shape, piece, primitive)).occludes(probe, t_max, self)
             }
             (PrimitiveOwner::Instance(instance), _) => {
-                self.geometry.occluded_instance(instance, probe, t_max)
+                self.geometry
+                    .occluded_instance(instance, probe, t_max, self.counter)
             }
         }
     }

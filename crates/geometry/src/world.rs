@@ -1,6 +1,7 @@
 //! What is not a triangle of the world: smooth shapes, where two of them touch too, and instances.
 
 use crate::accelerator::CustomPrimitives;
+use crate::accelerator::visits::Counter;
 use crate::closest_hit::ClosestHit;
 use crate::geometry::Geometry;
 use crate::primitive_index::{Order, Piece, PrimitiveOwner, is_in_front, tolerance};
@@ -18,13 +19,16 @@ fn line_of(probe: &TraversalRay) -> Line {
 }
 
 /// Intersects what is not a triangle of the world: smooth shapes and instances.
-pub(crate) struct WorldOthers<'a>(pub(crate) &'a Geometry);
+pub(crate) struct WorldOthers<'a, C> {
+    pub(crate) geometry: &'a Geometry,
+    pub(crate) counter: &'a C,
+}
 
-impl WorldOthers<'_> {
+impl<C> WorldOthers<'_, C> {
     #[inline]
     fn piece(&self, shape: ShapeId, piece: u32, primitive: u32) -> Piece<'_> {
         Piece {
-            shape: &self.0.shapes[shape.0 as usize],
+            shape: &self.geometry.shapes[shape.0 as usize],
             piece,
             primitive,
         }
@@ -35,10 +39,10 @@ impl WorldOthers<'_> {
     #[cold]
     fn is_after_start(&self, primitive: u32, probe: &TraversalRay, t: f64) -> bool {
         let left = probe.departure.shape;
-        let PrimitiveOwner::Shape(shape) = self.0.world.scope.locate(primitive).0 else {
+        let PrimitiveOwner::Shape(shape) = self.geometry.world.scope.locate(primitive).0 else {
             return is_in_front(t);
         };
-        let from = &self.0.shapes[left.0 as usize];
+        let from = &self.geometry.shapes[left.0 as usize];
         if !from.is_analytic() {
             return is_in_front(t);
         }
@@ -56,20 +60,20 @@ impl WorldOthers<'_> {
         if apart.abs() > tolerance(probe, t) {
             return apart > 0.0;
         }
-        let both =
-            self.refractive(primitive).is_some() && self.0.attachments[left.0 as usize].refractive;
+        let both = self.refractive(primitive).is_some()
+            && self.geometry.attachments[left.0 as usize].refractive;
         both && self.is_outer(left, shape, probe, t)
     }
 }
 
-impl WorldOthers<'_> {
+impl<C> WorldOthers<'_, C> {
     /// Whether the ray crosses `a` before `b` at the distance `t` that both have. Media that touch do
     /// not overlap, so it leaves one before it enters the other. Of two that it enters the shape
     /// added first is the outer one, and so the last that it leaves.
     fn is_outer(&self, a: ShapeId, b: ShapeId, probe: &TraversalRay, t: f64) -> bool {
         let place = probe.origin.as_dvec3() + probe.direction.as_dvec3() * t;
         let leaves = |shape: ShapeId| {
-            let shape = &self.0.shapes[shape.0 as usize];
+            let shape = &self.geometry.shapes[shape.0 as usize];
             let line = line_of(probe);
             (0..shape.primitives()).any(|piece| {
                 let crossing = shape.crossing_near(piece, &line, t);
@@ -86,9 +90,9 @@ impl WorldOthers<'_> {
 
     /// The shape, if light is refracted into it.
     fn refractive(&self, primitive: u32) -> Option<ShapeId> {
-        match self.0.world.scope.locate(primitive).0 {
+        match self.geometry.world.scope.locate(primitive).0 {
             PrimitiveOwner::Shape(shape) => {
-                let refractive = self.0.attachments[shape.0 as usize].refractive;
+                let refractive = self.geometry.attachments[shape.0 as usize].refractive;
                 refractive.then_some(shape)
             }
             PrimitiveOwner::Instance(_) => None,
@@ -96,7 +100,7 @@ impl WorldOthers<'_> {
     }
 }
 
-impl Order for WorldOthers<'_> {
+impl<C> Order for WorldOthers<'_, C> {
     #[inline]
     fn earliest(&self, probe: &TraversalRay) -> f64 {
         if !probe.departure.shape.is_some() {
@@ -124,28 +128,40 @@ impl Order for WorldOthers<'_> {
     }
 }
 
-impl CustomPrimitives for WorldOthers<'_> {
+impl<C: Counter> CustomPrimitives for WorldOthers<'_, C> {
+    #[inline(always)]
+    fn counter(&self) -> &impl Counter {
+        self.counter
+    }
+
     #[inline]
     fn intersect(&self, primitive: u32, probe: &TraversalRay, nearest: &mut ClosestHit) {
-        match self.0.world.scope.locate(primitive) {
+        match self.geometry.world.scope.locate(primitive) {
             (PrimitiveOwner::Shape(shape), piece) => {
                 self.piece(shape, piece, primitive)
                     .intersect(probe, nearest, self);
             }
             (PrimitiveOwner::Instance(instance), _) => {
-                (self.0).intersect_instance(instance, primitive, probe, nearest);
+                (self.geometry).intersect_instance(
+                    instance,
+                    primitive,
+                    probe,
+                    nearest,
+                    self.counter,
+                );
             }
         }
     }
 
     #[inline]
     fn occludes(&self, primitive: u32, probe: &TraversalRay, t_max: f32) -> bool {
-        match self.0.world.scope.locate(primitive) {
+        match self.geometry.world.scope.locate(primitive) {
             (PrimitiveOwner::Shape(shape), piece) => {
                 (self.piece(shape, piece, primitive)).occludes(probe, t_max, self)
             }
             (PrimitiveOwner::Instance(instance), _) => {
-                self.0.occluded_instance(instance, probe, t_max)
+                self.geometry
+                    .occluded_instance(instance, probe, t_max, self.counter)
             }
         }
     }

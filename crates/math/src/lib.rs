@@ -27,7 +27,7 @@ pub use cross::{cross, difference_of_products};
 pub use density::{Area, DeltaProbability, Density, Length, Measure, SolidAngle};
 pub use expression::{Dual, Expression, Interval};
 pub use frame::Frame;
-pub use glam::{DMat4, DVec2, DVec3, Vec2, Vec3, Vec4};
+pub use glam::{DMat4, DVec2, DVec3, Mat4, Vec2, Vec3, Vec4};
 pub use keyframes::{Interpolation, Key, Keyframes};
 pub use motion::{Motion, MotionError, MotionKey};
 pub use offset::{gamma, offset_origin};

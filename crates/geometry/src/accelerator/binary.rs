@@ -32,10 +32,11 @@ pub(super) enum Binary<'a> {
 }
 
 /// PLOC's search radius and the number of passes before which it is 1; the share of nodes that
-/// each reinsertion pass looks at.
-const SEARCH: usize = 14;
+/// each reinsertion pass looks at. Wider searches and more reinsertion take up to half as much time again and make no
+/// better trees, since the lowest levels are divided anew ([`Bunch`](super::bunch::Bunch)).
+const SEARCH: usize = 4;
 const NARROW_PASSES: usize = 3;
-const REINSERTED: f32 = 0.05;
+const REINSERTED: f32 = 0.02;
 /// Equal boxes of at least this many primitives become one leaf.
 const GATHER: usize = 32;
 /// Boxes looked at to see whether any are equal; and how many of them must be.

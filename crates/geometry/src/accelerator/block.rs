@@ -66,6 +66,12 @@ impl Block {
         }
     }
 
+    /// Number of triangles.
+    pub(crate) fn len(&self) -> usize {
+        let used = self.primitives.iter();
+        used.filter(|&&primitive| primitive != u32::MAX).count()
+    }
+
     /// The corners of the triangle in a slot of `blocks`.
     #[inline]
     pub(crate) fn corners(blocks: &[Self], slot: u32) -> [Vec3; 3] {

@@ -4,12 +4,19 @@
 //! visited from the nearest box to the farthest, and not at all beyond what has been hit.
 
 use super::block::{Block, LANES};
+use super::visits::Counter;
 use super::{Bounds, CustomPrimitives, Primitives, block_bytes, has_area};
 use crate::closest_hit::ClosestHit;
 use crate::traversal_ray::TraversalRay;
 
-/// A part of space, and the items in it.
-pub(super) type Part = (Bounds, Vec<u32>);
+/// A part of space.
+pub(super) struct Part {
+    pub(super) bounds: Bounds,
+    /// What is in it.
+    pub(super) items: Vec<u32>,
+    /// How often each of those may still be repeated by parts of this one, on the average; for builders that repeat.
+    pub(super) credit: f32,
+}
 
 /// Levels below the root at most, so that the stack below is enough.
 pub(super) const DEEPEST: usize = 60;
@@ -86,7 +93,11 @@ impl BoxTree {
             return tree;
         }
         let all = (items.boxes.iter()).fold(Bounds::EMPTY, |all, bounds| all.union(*bounds));
-        let whole = (all, (0..items.boxes.len() as u32).collect());
+        let whole = Part {
+            bounds: all,
+            items: (0..items.boxes.len() as u32).collect(),
+            credit: 0.0,
+        };
         tree.nodes.push(BoxNode::around(all));
         tree.fill(0, whole, 0, &items, &divide);
         tree
@@ -100,19 +111,19 @@ impl BoxTree {
         items: &Items<'_, impl Primitives>,
         divide: &impl Fn(&[Bounds], &Part, usize) -> Vec<Part>,
     ) {
-        let tight = (part.1.iter()).fold(Bounds::EMPTY, |all, &item| {
+        let tight = (part.items.iter()).fold(Bounds::EMPTY, |all, &item| {
             all.union(items.boxes[item as usize])
         });
         let mut node = BoxNode::around(Bounds {
-            min: tight.min.max(part.0.min),
-            max: tight.max.min(part.0.max),
+            min: tight.min.max(part.bounds.min),
+            max: tight.max.min(part.bounds.max),
         });
         let parts = match depth < DEEPEST {
             true => divide(&items.boxes, &part, depth),
             false => Vec::new(),
         };
         if parts.is_empty() {
-            self.fill_leaf(&mut node, &part.1, items);
+            self.fill_leaf(&mut node, &part.items, items);
             self.nodes[index] = node;
             return;
         }
@@ -152,6 +163,8 @@ impl BoxTree {
         others: &impl CustomPrimitives,
         nearest: &mut ClosestHit,
     ) {
+        let counter = others.counter();
+        let mut asked = Asked::default();
         let mut stack = [(0.0_f32, 0_u32); STACK];
         let mut top = usize::from(!self.nodes.is_empty());
         while top > 0 {
@@ -161,11 +174,16 @@ impl BoxTree {
                 continue;
             }
             let node = &self.nodes[index as usize];
+            counter.node();
             for block in span(node.blocks) {
+                counter.primitives(|| self.blocks[block].len());
                 self.blocks[block].intersect(block, probe, nearest);
             }
             for other in span(node.others) {
-                others.intersect(self.others[other], probe, nearest);
+                if asked.is_new(self.others[other]) {
+                    counter.primitives(|| 1);
+                    others.intersect(self.others[other], probe, nearest);
+                }
             }
             let base = top;
             for child in span(node.children) {
@@ -192,14 +210,25 @@ impl BoxTree {
         others: &impl CustomPrimitives,
         t_max: f32,
     ) -> bool {
+        let counter = others.counter();
+        let mut asked = Asked::default();
         let mut stack = [0_u32; STACK];
         let mut top = usize::from(!self.nodes.is_empty());
         while top > 0 {
             top -= 1;
             let node = &self.nodes[stack[top] as usize];
-            let hit = span(node.blocks).any(|block| self.blocks[block].occludes(probe, t_max))
-                || span(node.others).any(|other| others.occludes(self.others[other], probe, t_max));
-            if hit {
+            counter.node();
+            let hits_block = |block: usize| {
+                counter.primitives(|| self.blocks[block].len());
+                self.blocks[block].occludes(probe, t_max)
+            };
+            let mut hits_other = |other: usize| {
+                asked.is_new(self.others[other]) && {
+                    counter.primitives(|| 1);
+                    others.occludes(self.others[other], probe, t_max)
+                }
+            };
+            if span(node.blocks).any(hits_block) || span(node.others).any(&mut hits_other) {
                 return true;
             }
             for child in span(node.children) {
@@ -224,6 +253,37 @@ impl BoxTree {
         block_bytes(&self.blocks)
             + size_of_val(self.nodes.as_slice())
             + size_of_val(self.others.as_slice())
+    }
+}
+
+/// What a ray was tested against last, as an octree's neighbouring cells repeat it: a mailbox (Amanatides & Woo 1987, "A
+/// Fast Voxel Traversal Algorithm for Ray Tracing", section 3) that belongs to the ray.
+struct Asked {
+    last: [u32; Self::ROOM],
+    next: usize,
+}
+
+impl Asked {
+    const ROOM: usize = 16;
+
+    /// Whether it is not among the last, which it now is.
+    #[inline]
+    fn is_new(&mut self, primitive: u32) -> bool {
+        let new = !self.last.contains(&primitive);
+        if new {
+            self.last[self.next] = primitive;
+            self.next = (self.next + 1) % Self::ROOM;
+        }
+        new
+    }
+}
+
+impl Default for Asked {
+    fn default() -> Self {
+        Self {
+            last: [u32::MAX; Self::ROOM],
+            next: 0,
+        }
     }
 }
 

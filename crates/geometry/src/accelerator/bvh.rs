@@ -22,14 +22,14 @@ const BINS: usize = 16;
 /// Builds by the mean.
 pub(super) fn by_mean(primitives: &impl Primitives) -> BoxTree {
     BoxTree::build(primitives, |boxes, part, _| {
-        if part.1.len() <= LANES {
+        if part.items.len() <= LANES {
             return Vec::new();
         }
-        let size = part.0.max - part.0.min;
+        let size = part.bounds.max - part.bounds.min;
         let axis = size.max_position();
         let center = |item: u32| f64::from(boxes[item as usize].center()[axis]);
-        let sum: f64 = part.1.iter().map(|&item| center(item)).sum();
-        let mean = sum / part.1.len() as f64;
+        let sum: f64 = part.items.iter().map(|&item| center(item)).sum();
+        let mean = sum / part.items.len() as f64;
         parts(boxes, part, |item| center(item) < mean)
     })
 }
@@ -38,8 +38,8 @@ pub(super) fn by_mean(primitives: &impl Primitives) -> BoxTree {
 pub(super) fn by_area(primitives: &impl Primitives) -> BoxTree {
     BoxTree::build(primitives, |boxes, part, _| {
         let blocks = |count: usize| count.div_ceil(LANES) as f32;
-        let all = part.1.len();
-        let centers = (part.1.iter()).fold(Bounds::EMPTY, |b, &item| {
+        let all = part.items.len();
+        let centers = (part.items.iter()).fold(Bounds::EMPTY, |b, &item| {
             b.union(Bounds::around(&[boxes[item as usize].center()]))
         });
         let mut best: Option<(f32, usize, usize)> = None;
@@ -48,7 +48,7 @@ pub(super) fn by_area(primitives: &impl Primitives) -> BoxTree {
             if centers.max[axis] <= centers.min[axis] {
                 continue;
             }
-            for &item in &part.1 {
+            for &item in &part.items {
                 let bounds = boxes[item as usize];
                 let (count, all) = &mut bins[bin(&centers, axis, &bounds)];
                 (*count, *all) = (*count + 1, all.union(bounds));
@@ -63,8 +63,9 @@ pub(super) fn by_area(primitives: &impl Primitives) -> BoxTree {
                 if left.0 == 0 || right.0 == 0 {
                     continue;
                 }
-                let cost = [left, right].map(|(n, b)| half_area(&b) * blocks(n));
-                let cost = 1.0 + (cost[0] + cost[1]) / half_area(&part.0).max(f32::MIN_POSITIVE);
+                let cost = [left, right].map(|(n, b)| b.half_area() * blocks(n));
+                let cost =
+                    1.0 + (cost[0] + cost[1]) / part.bounds.half_area().max(f32::MIN_POSITIVE);
                 if best.is_none_or(|(least, ..)| cost < least) {
                     best = Some((cost, axis, plane));
                 }
@@ -88,23 +89,19 @@ fn bin(centers: &Bounds, axis: usize, bounds: &Bounds) -> usize {
     ((place * BINS as f32) as usize).min(BINS - 1)
 }
 
-fn half_area(bounds: &Bounds) -> f32 {
-    if bounds.is_empty() {
-        return 0.0;
-    }
-    let d = bounds.max - bounds.min;
-    d.x * d.y + d.y * d.z + d.z * d.x
-}
-
 /// The parts of what is left and what is not; none, and so a leaf, if they are one.
 fn parts(boxes: &[Bounds], part: &Part, left: impl Fn(u32) -> bool) -> Vec<Part> {
-    let (a, b): (Vec<u32>, Vec<u32>) = part.1.iter().partition(|&&item| left(item));
+    let (a, b): (Vec<u32>, Vec<u32>) = part.items.iter().partition(|&&item| left(item));
     if a.is_empty() || b.is_empty() {
         return Vec::new();
     }
     let around = |items: Vec<u32>| {
         let bounds = (items.iter()).fold(Bounds::EMPTY, |b, &i| b.union(boxes[i as usize]));
-        (bounds, items)
+        Part {
+            bounds,
+            items,
+            credit: 0.0,
+        }
     };
     vec![around(a), around(b)]
 }

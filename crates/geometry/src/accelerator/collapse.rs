@@ -11,11 +11,13 @@
 //! D(n, i) = min over 0 < k < i of C(left, k) + C(right, i − k)
 //! ```
 //!
-//! A leaf of up to eight triangles is one block and costs A(n)·c_block, however full it is.
+//! A leaf of up to eight triangles is one block and costs A(n)·c_block, however full it is. The largest subtrees of up to
+//! 64 triangles may also become a node over blocks that are divided anew, if that costs less: a [`Bunch`].
 
 use super::Primitives;
 use super::binary::{Binary, BinaryTree};
 use super::block::LANES;
+use super::bunch::{self, Bunch};
 use core::sync::atomic::{AtomicBool, AtomicU32, Ordering};
 
 /// Children of a wide node.
@@ -37,6 +39,9 @@ pub(super) struct Choices {
 }
 
 const LEAF: u32 = 1 << 31;
+/// All below is a [`Bunch`]; its number of blocks less one is where the share for eight trees would be.
+const BUNCH: u32 = 1 << 30;
+const BLOCKS: usize = 3 * (WIDTH - 2);
 
 /// No leaf of a binary tree may lie deeper: it is worked on recursively, and a wide tree of as
 /// many levels must not overflow a ray's stack.
@@ -67,7 +72,8 @@ impl Choices {
             too_deep: AtomicBool::new(false),
         };
         if !tree.is_empty() {
-            choices.visit(&visit, 0, 0);
+            let root = choices.visit(&visit, 0, 0);
+            choices.bunched(&visit, 0, root);
         }
         (!visit.too_deep.into_inner()).then_some(choices)
     }
@@ -76,6 +82,41 @@ impl Choices {
     #[inline]
     pub(super) fn is_leaf(&self, node: u32) -> bool {
         self.packed[node as usize].load(Ordering::Relaxed) & LEAF != 0
+    }
+
+    /// The number of blocks of a node that stands for itself and has only such, if it is one.
+    #[inline]
+    pub(super) fn bunch(&self, node: u32) -> Option<usize> {
+        let packed = self.packed[node as usize].load(Ordering::Relaxed);
+        (packed & BUNCH != 0).then_some((packed >> BLOCKS & 7) as usize + 1)
+    }
+
+    /// The cost of a subtree, with a [`Bunch`] in its place if that is cheaper; it is the largest that may be one.
+    fn bunched(&self, at: &Visit<'_, impl Primitives>, node: u32, mut cost: Cost) -> Cost {
+        if !(LANES + 1..=bunch::MOST).contains(&(cost.triangles as usize)) {
+            return cost;
+        }
+        let mut areas = 0.0;
+        let mut blocks = 0;
+        Bunch::below(at.tree, node).blocks(&mut |bounds, _| {
+            areas += bounds.half_area();
+            blocks += 1;
+        });
+        let bunch = at.tree.half_area(node) + BLOCK_COST * areas;
+        let mut packed = self.packed[node as usize].load(Ordering::Relaxed);
+        for (trees, least) in cost.forest.iter_mut().enumerate().skip(1) {
+            if bunch > *least {
+                continue;
+            }
+            *least = bunch;
+            packed = match trees {
+                1 => packed & !(7 << BLOCKS) | BUNCH | (blocks - 1) << BLOCKS,
+                // As for one tree less.
+                _ => packed & !(7 << (3 * (trees - 2))),
+            };
+        }
+        self.packed[node as usize].store(packed, Ordering::Relaxed);
+        cost
     }
 
     #[inline]
@@ -132,11 +173,17 @@ impl Choices {
             Binary::Inner(children) => children,
         };
         let visit = |child| self.visit(at, child, depth + 1);
-        let (left, right) = if depth < PARALLEL_DEPTH {
+        let ends = [left, right];
+        let (mut left, mut right) = if depth < PARALLEL_DEPTH {
             rayon::join(|| visit(left), || visit(right))
         } else {
             (visit(left), visit(right))
         };
+        let triangles = left.triangles.saturating_add(right.triangles);
+        if triangles as usize > bunch::MOST {
+            left = self.bunched(at, ends[0], left);
+            right = self.bunched(at, ends[1], right);
+        }
 
         // D(n, i): the best share of the left child.
         let distribute = |trees: usize| -> (f32, usize) {
@@ -147,7 +194,6 @@ impl Choices {
         };
         let (below, share) = distribute(WIDTH);
         let mut packed = (share as u32) << (3 * (WIDTH - 2));
-        let triangles = left.triangles.saturating_add(right.triangles);
         let fits = triangles as usize <= LANES;
         let as_leaf = if fits {
             BLOCK_COST * area
@@ -190,6 +236,18 @@ mod tests {
             }
             let triangles = count(tree, node);
             assert!(triangles as usize <= LANES);
+            return triangles;
+        }
+        if let Some(blocks) = choices.bunch(node) {
+            let (mut triangles, mut found) = (0, 0);
+            Bunch::below(tree, node).blocks(&mut |_, list| {
+                let count = list.count();
+                assert!((1..=LANES).contains(&count));
+                triangles += count as u32;
+                found += 1;
+            });
+            assert_eq!(found, blocks);
+            nodes.push(blocks);
             return triangles;
         }
         let mut children = Vec::new();

@@ -1,6 +1,7 @@
 //! No acceleration: every ray is tested against every primitive. The oracle of the others.
 
 use super::block::{Block, LANES};
+use super::visits::Counter;
 use super::{CustomPrimitives, Primitives, block_bytes, has_area};
 use crate::closest_hit::ClosestHit;
 use crate::traversal_ray::TraversalRay;
@@ -41,8 +42,10 @@ impl Linear {
         nearest: &mut ClosestHit,
     ) {
         for (index, block) in self.blocks.iter().enumerate() {
+            others.counter().primitives(|| block.len());
             block.intersect(index, probe, nearest);
         }
+        others.counter().primitives(|| self.others.len());
         for &primitive in &self.others {
             others.intersect(primitive, probe, nearest);
         }
@@ -55,11 +58,16 @@ impl Linear {
         others: &impl CustomPrimitives,
         t_max: f32,
     ) -> bool {
-        self.blocks.iter().any(|block| block.occludes(probe, t_max))
-            || self
-                .others
-                .iter()
-                .any(|&primitive| others.occludes(primitive, probe, t_max))
+        let counter = others.counter();
+        let hits_block = |block: &Block| {
+            counter.primitives(|| block.len());
+            block.occludes(probe, t_max)
+        };
+        let hits_other = |&primitive: &u32| {
+            counter.primitives(|| 1);
+            others.occludes(primitive, probe, t_max)
+        };
+        self.blocks.iter().any(hits_block) || self.others.iter().any(hits_other)
     }
 
     pub(crate) fn blocks(&self) -> &[Block] {

@@ -11,34 +11,46 @@ use glam::Vec3;
 /// Levels below the root at most.
 const LEVELS: usize = if DEEPEST / 2 < 16 { DEEPEST / 2 } else { 16 };
 
-/// Children may hold so many times what their parent holds, together.
-const REPEATED: usize = 3;
+/// How often an item may be repeated, on the average. Boxes that overlap everywhere would else be divided, and repeated,
+/// until nothing is left but the repetition.
+const REPEATED: f32 = 8.0;
 
 /// Builds an octree.
 pub(super) fn build(primitives: &impl Primitives) -> BoxTree {
     BoxTree::build(primitives, |boxes, part, depth| {
-        if part.1.len() <= LANES || depth >= LEVELS {
+        let count = part.items.len();
+        if count <= LANES || depth >= LEVELS {
             return Vec::new();
         }
-        let cell = if depth == 0 { cube(&part.0) } else { part.0 };
-        let parts: Vec<Part> = (0..8)
+        let (cell, credit) = match depth {
+            0 => (cube(&part.bounds), REPEATED),
+            _ => (part.bounds, part.credit),
+        };
+        let mut parts: Vec<Part> = (0..8)
             .map(|octant| {
-                let cell = octant_of(&cell, octant);
+                let bounds = octant_of(&cell, octant);
                 let inside = |item: &&u32| {
-                    let bounds = &boxes[**item as usize];
-                    bounds.min.cmple(cell.max).all() && bounds.max.cmpge(cell.min).all()
+                    let item = &boxes[**item as usize];
+                    item.min.cmple(bounds.max).all() && item.max.cmpge(bounds.min).all()
                 };
-                (cell, part.1.iter().filter(inside).copied().collect())
+                Part {
+                    bounds,
+                    items: part.items.iter().filter(inside).copied().collect(),
+                    credit: 0.0,
+                }
             })
-            .filter(|(_, items): &Part| !items.is_empty())
+            .filter(|part| !part.items.is_empty())
             .collect();
-        let repeated: usize = parts.iter().map(|(_, items)| items.len()).sum();
-        let smaller = parts.iter().all(|(_, items)| items.len() < part.1.len());
-        if smaller && repeated <= REPEATED * part.1.len() || parts.len() == 1 {
-            parts
-        } else {
-            Vec::new()
+        let repeated: usize = parts.iter().map(|part| part.items.len()).sum();
+        let left = credit * count as f32 - (repeated - count) as f32;
+        let smaller = parts.iter().all(|part| part.items.len() < count);
+        if parts.len() > 1 && !(smaller && left >= 0.0) {
+            return Vec::new();
         }
+        for part in &mut parts {
+            part.credit = left / repeated as f32;
+        }
+        parts
     })
 }
 

@@ -3,150 +3,42 @@
 //! A binary tree ([`BinaryTree`]) is collapsed by dynamic programming ([`Choices`]) and packed
 //! into [`Node`]s and [`Block`]s. Rays visit children near first.
 
-use super::binary::{Binary, BinaryTree};
-use super::block::{Block, LANES};
+use super::binary::BinaryTree;
+use super::block::Block;
 use super::collapse::{self, Choices, WIDTH};
-use super::node::{Link, MAX_INDEX, Node, Target};
-use super::{Bounds, CustomPrimitives, Primitives, block_bytes};
+use super::node::{Link, Target};
+use super::pack::{Packed, pack};
+use super::visits::Counter;
+use super::{CustomPrimitives, Primitives, block_bytes};
 use crate::closest_hit::ClosestHit;
 use crate::traversal_ray::TraversalRay;
 use core::hint::black_box;
-use rayon::prelude::*;
 
 /// The tree.
 #[derive(Debug)]
-pub(crate) struct Wide {
-    nodes: Vec<Node>,
-    blocks: Vec<Block>,
-    root: Option<Link>,
-    /// Levels of nodes.
-    depth: usize,
-}
+pub(crate) struct Wide(Packed);
 
 /// Room on a ray's stack: a node takes one entry off and puts up to eight on it.
 const fn stack_for(depth: usize) -> usize {
     (WIDTH - 1) * depth + 1
 }
-/// A stack is cleared for every ray, so it should not be larger than it must.
-const SMALL_STACK: usize = stack_for(SMALL_DEPTH);
-const SMALL_DEPTH: usize = 2;
-const MEDIUM_STACK: usize = stack_for(MEDIUM_DEPTH);
-const MEDIUM_DEPTH: usize = 9;
-const LARGE_STACK: usize = stack_for(MAX_DEPTH);
+/// Runs a search with a stack for the depth of the tree. A stack is cleared for every ray, so it should not be larger
+/// than it must: that of the deepest trees costs as much as the search itself.
+macro_rules! with_stack {
+    ($self:ident.$search:ident($($argument:expr),*)) => {
+        match $self.0.depth {
+            0..=2 => $self.$search::<{ stack_for(2) }>($($argument),*),
+            3..=9 => $self.$search::<{ stack_for(9) }>($($argument),*),
+            10..=14 => $self.$search::<{ stack_for(14) }>($($argument),*),
+            15..=24 => $self.$search::<{ stack_for(24) }>($($argument),*),
+            _ => $self.$search::<{ stack_for(MAX_DEPTH) }>($($argument),*),
+        }
+    };
+}
+
 /// A wide tree is not deeper than the binary one, but for primitives with equal boxes, of which
 /// there are fewer than 8¹¹.
 const MAX_DEPTH: usize = collapse::MAX_DEPTH as usize + 12;
-
-/// Where a leaf's triangles come from.
-enum Leaf {
-    /// All below a node of the binary tree.
-    Below(u32),
-    /// These.
-    Listed(Vec<u32>),
-}
-
-struct Packer<'a, P> {
-    tree: &'a BinaryTree,
-    choices: &'a Choices,
-    primitives: &'a P,
-    nodes: Vec<Node>,
-    leaves: Vec<Leaf>,
-    depth: usize,
-}
-
-impl<P: Primitives> Packer<'_, P> {
-    fn pack(&mut self, node: u32, depth: usize) -> Link {
-        if self.choices.is_leaf(node) {
-            return match self.tree.node(node) {
-                Binary::Leaf(primitive) if !self.primitives.is_triangle(primitive) => {
-                    assert!(primitive <= MAX_INDEX, "fewer than 2³⁰ primitives");
-                    Link::other(primitive)
-                }
-                Binary::Gathered(all) => self.pack_list(self.tree.bounds(node), all, depth),
-                Binary::Leaf(_) | Binary::Inner(_) => self.leaf(Leaf::Below(node)),
-            };
-        }
-        let index = self.reserve(depth);
-        let mut children = Vec::with_capacity(WIDTH);
-        self.choices
-            .children(self.tree, node, &mut |child| children.push(child));
-        let area = |&child: &u32| self.tree.half_area(child);
-        // Large boxes first: they are the likeliest to be entered.
-        children.sort_by(|a, b| area(b).total_cmp(&area(a)));
-        let linked: Vec<_> = children
-            .into_iter()
-            .map(|child| (self.tree.bounds(child), self.pack(child, depth + 1)))
-            .collect();
-        self.nodes[index as usize] = Node::new(&linked);
-        Link::node(index)
-    }
-
-    /// Primitives with the same box, which no tree can tell apart: eighths of eighths.
-    fn pack_list(&mut self, bounds: Bounds, list: &[u32], depth: usize) -> Link {
-        if let [primitive] = list
-            && !self.primitives.is_triangle(*primitive)
-        {
-            return Link::other(*primitive);
-        }
-        let all_triangles = || list.iter().all(|&p| self.primitives.is_triangle(p));
-        if list.len() <= LANES && all_triangles() {
-            return self.leaf(Leaf::Listed(list.to_vec()));
-        }
-        let index = self.reserve(depth);
-        let linked: Vec<_> = list
-            .chunks(list.len().div_ceil(WIDTH))
-            .map(|part| (bounds, self.pack_list(bounds, part, depth + 1)))
-            .collect();
-        self.nodes[index as usize] = Node::new(&linked);
-        Link::node(index)
-    }
-
-    fn reserve(&mut self, depth: usize) -> u32 {
-        self.depth = self.depth.max(depth + 1);
-        self.nodes.push(Node::new(&[]));
-        self.nodes.len() as u32 - 1
-    }
-
-    fn leaf(&mut self, leaf: Leaf) -> Link {
-        self.leaves.push(leaf);
-        Link::block(self.leaves.len() as u32 - 1)
-    }
-}
-
-/// The triangles of a leaf as a block.
-fn block(tree: &BinaryTree, primitives: &impl Primitives, leaf: &Leaf) -> Block {
-    let mut list = [0; LANES];
-    let list = match leaf {
-        Leaf::Listed(list) => list,
-        Leaf::Below(node) => {
-            let mut count = 0;
-            let mut stack = [0; LANES];
-            stack[0] = *node;
-            let mut top = 1;
-            while top > 0 {
-                top -= 1;
-                match tree.node(stack[top]) {
-                    Binary::Inner(children) => {
-                        stack[top..top + 2].copy_from_slice(&children);
-                        top += 2;
-                    }
-                    Binary::Leaf(primitive) => {
-                        list[count] = primitive;
-                        count += 1;
-                    }
-                    Binary::Gathered(_) => {
-                        unreachable!("gathered primitives are a leaf of their own")
-                    }
-                }
-            }
-            &list[..count]
-        }
-    };
-    Block::new(
-        list.iter()
-            .filter_map(|&p| Some((primitives.triangle(p)?, p))),
-    )
-}
 
 impl Wide {
     pub(crate) fn build(primitives: &impl Primitives) -> Self {
@@ -155,36 +47,13 @@ impl Wide {
             tree = core::mem::take(&mut tree).balanced();
             Choices::make(&tree, primitives).expect("a balanced tree is shallow")
         });
-        let mut packer = Packer {
-            tree: &tree,
-            choices: &choices,
-            primitives,
-            nodes: Vec::new(),
-            leaves: Vec::new(),
-            depth: 0,
-        };
-        let root = (!tree.is_empty()).then(|| packer.pack(0, 0));
-        let Packer {
-            nodes,
-            leaves,
-            depth,
-            ..
-        } = packer;
+        let packed = pack(&tree, &choices, primitives);
         assert!(
-            depth <= MAX_DEPTH,
-            "a tree of {depth} levels overflows the stack"
+            packed.depth <= MAX_DEPTH,
+            "a tree of {} levels overflows the stack",
+            packed.depth
         );
-        assert!(leaves.len() <= MAX_INDEX as usize / 2 && nodes.len() <= MAX_INDEX as usize);
-        let blocks = leaves
-            .par_iter()
-            .map(|leaf| block(&tree, primitives, leaf))
-            .collect();
-        Self {
-            nodes,
-            blocks,
-            root,
-            depth,
-        }
+        Self(packed)
     }
 
     /// Notes the nearest hit, if it wins over what is known.
@@ -195,15 +64,7 @@ impl Wide {
         others: &impl CustomPrimitives,
         nearest: &mut ClosestHit,
     ) {
-        match self.depth {
-            depth if depth <= SMALL_DEPTH => {
-                self.find_nearest::<SMALL_STACK>(probe, others, nearest)
-            }
-            depth if depth <= MEDIUM_DEPTH => {
-                self.find_nearest::<MEDIUM_STACK>(probe, others, nearest)
-            }
-            _ => self.find_nearest::<LARGE_STACK>(probe, others, nearest),
-        }
+        with_stack!(self.find_nearest(probe, others, nearest))
     }
 
     /// Whether anything is hit before `t_max`.
@@ -214,11 +75,7 @@ impl Wide {
         others: &impl CustomPrimitives,
         t_max: f32,
     ) -> bool {
-        match self.depth {
-            depth if depth <= SMALL_DEPTH => self.find_any::<SMALL_STACK>(probe, others, t_max),
-            depth if depth <= MEDIUM_DEPTH => self.find_any::<MEDIUM_STACK>(probe, others, t_max),
-            _ => self.find_any::<LARGE_STACK>(probe, others, t_max),
-        }
+        with_stack!(self.find_any(probe, others, t_max))
     }
 
     #[inline]
@@ -228,7 +85,8 @@ impl Wide {
         others: &impl CustomPrimitives,
         nearest: &mut ClosestHit,
     ) {
-        let Some(root) = self.root else { return };
+        let Some(root) = self.0.root else { return };
+        let counter = others.counter();
         // The black boxes below keep the compiler from spreading every number of the probe over
         // a vector before the first node: there are more of them than registers, and what would
         // be saved and restored is as quickly spread where it is used (a tenth of a render).
@@ -240,7 +98,8 @@ impl Wide {
         loop {
             match link.target() {
                 Target::Node(index) => {
-                    let node = &self.nodes[index];
+                    counter.node();
+                    let node = &self.0.nodes[index];
                     let (mut lanes, near) = node.entered(black_box(probe), nearest.t);
                     if lanes != 0 {
                         let near = near.to_array();
@@ -290,9 +149,13 @@ impl Wide {
                     }
                 }
                 Target::Block(index) => {
-                    self.blocks[index].intersect(index, black_box(probe), nearest)
+                    counter.primitives(|| self.0.blocks[index].len());
+                    self.0.blocks[index].intersect(index, black_box(probe), nearest)
                 }
-                Target::Other(primitive) => others.intersect(primitive, probe, nearest),
+                Target::Other(primitive) => {
+                    counter.primitives(|| 1);
+                    others.intersect(primitive, probe, nearest)
+                }
             }
             loop {
                 if top == 0 {
@@ -315,14 +178,18 @@ impl Wide {
         others: &impl CustomPrimitives,
         t_max: f32,
     ) -> bool {
-        let Some(root) = self.root else { return false };
+        let Some(root) = self.0.root else {
+            return false;
+        };
+        let counter = others.counter();
         let mut stack = [0u32; STACK];
         let mut top = 0;
         let mut link = root;
         loop {
             match link.target() {
                 Target::Node(index) => {
-                    let node = &self.nodes[index];
+                    counter.node();
+                    let node = &self.0.nodes[index];
                     let (mut lanes, _) = node.entered(black_box(probe), t_max);
                     if lanes != 0 {
                         // The largest box (the first lane) is looked into first.
@@ -339,11 +206,13 @@ impl Wide {
                     }
                 }
                 Target::Block(index) => {
-                    if self.blocks[index].occludes(black_box(probe), t_max) {
+                    counter.primitives(|| self.0.blocks[index].len());
+                    if self.0.blocks[index].occludes(black_box(probe), t_max) {
                         return true;
                     }
                 }
                 Target::Other(primitive) => {
+                    counter.primitives(|| 1);
                     if others.occludes(primitive, probe, t_max) {
                         return true;
                     }
@@ -358,22 +227,23 @@ impl Wide {
     }
 
     pub(crate) fn blocks(&self) -> &[Block] {
-        &self.blocks
+        &self.0.blocks
     }
 
     /// Number of nodes.
     pub(crate) fn nodes(&self) -> usize {
-        self.nodes.len()
+        self.0.nodes.len()
     }
 
     /// Memory held (bytes).
     pub(crate) fn bytes(&self) -> usize {
-        size_of_val(self.nodes.as_slice()) + block_bytes(&self.blocks)
+        size_of_val(self.0.nodes.as_slice()) + block_bytes(&self.0.blocks)
     }
 }
 
 #[cfg(test)]
 mod tests {
+    use super::super::Bounds;
     use super::*;
     use glam::Vec3;
 
@@ -410,7 +280,7 @@ mod tests {
                 .expect("threads")
                 .install(|| Wide::build(&Scattered(510_000)));
             // Every plane and link of every node.
-            (format!("{:?}", wide.nodes), wide.blocks.len())
+            (format!("{:?}", wide.0.nodes), wide.0.blocks.len())
         };
         let one = build(1);
         assert!(one == build(2) && one == build(7));
