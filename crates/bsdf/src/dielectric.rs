@@ -56,6 +56,7 @@ impl Description {
             eta: self.eta.eval(site),
             reflectance: site.spectrum(self.reflectance),
             transmittance: site.spectrum(self.transmittance),
+            mirrored: 0.0,
         }
     }
 }
@@ -69,6 +70,8 @@ pub struct Dielectric {
     pub reflectance: Vec4,
     /// Factor of the refracted light, per lane.
     pub transmittance: Vec4,
+    /// The share of light that is mirrored whatever Fresnel's equations say of it; 0 but in [`crate::mixture`].
+    pub mirrored: f32,
 }
 
 impl Bxdf for Dielectric {
@@ -109,8 +112,8 @@ impl Bxdf for Dielectric {
 }
 
 impl Dielectric {
-    /// The relative index of the medium entered, whichever side `wo` is on, and Fresnel's
-    /// reflectance; `None` for a direction in the surface.
+    /// The relative index of the medium entered, whichever side `wo` is on, and the share that is
+    /// reflected; `None` for a direction in the surface.
     #[inline]
     fn interface(&self, wo: Vec3) -> Option<(Vec4, Vec4)> {
         let eta = if wo.z > 0.0 {
@@ -118,7 +121,10 @@ impl Dielectric {
         } else {
             self.eta.recip()
         };
-        (wo.z != 0.0).then(|| (eta, fresnel::dielectric_lanes(wo.z.abs(), eta)))
+        (wo.z != 0.0).then(|| {
+            let fresnel = fresnel::dielectric_lanes(wo.z.abs(), eta);
+            (eta, fresnel + self.mirrored * (1.0 - fresnel))
+        })
     }
 
     #[inline]

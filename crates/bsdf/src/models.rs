@@ -314,6 +314,9 @@ models! {
         "principled" Principled principled (crate::principled::Description::flags),
         "principledthin" PrincipledThin principledthin (crate::principledthin::Description::flags),
         "phong" Phong phong (MaterialFlags::reflecting),
+        "ward" Ward ward (MaterialFlags::reflecting),
+        "roughdiffuse" RoughDiffuse roughdiffuse (MaterialFlags::reflecting),
+        "difftrans" DiffuseTransmission difftrans (crate::difftrans::Description::flags),
     }
     composed {
         "thindielectric" ThinDielectric thindielectric,
@@ -321,6 +324,7 @@ models! {
         "twosided" TwoSided twosided,
         "blendbsdf" Blend blendbsdf,
         "mixturebsdf" Mixture mixturebsdf,
+        "mixture" Die mixture,
         "normalmap" NormalMap normalmap,
         "bumpmap" BumpMap bumpmap,
         "null" Null null,

@@ -14,6 +14,7 @@ mod cubic;
 pub mod curves;
 pub mod cylinder;
 pub mod disk;
+mod displaced;
 pub mod extrusion;
 mod field;
 mod file;
@@ -52,7 +53,7 @@ use etalon_params::Params;
 use etalon_transport::{Build, LightSampleContext, SampledPoint, SurfacePoint};
 use extrusion::Extrusion;
 use field::Field;
-use glam::{DVec3, Vec2, Vec3};
+use glam::{DVec2, DVec3, Vec2, Vec3};
 use implicit::Implicit;
 use linear_curve::RoundCone;
 use mesh::Mesh;
@@ -264,6 +265,16 @@ impl Shape {
         crossing: &Crossing,
     ) -> Option<LocalInteraction> {
         ask!(self, shape => shape.surface_at(piece, p, crossing))
+    }
+
+    /// See [`ShapeModel::parametric`].
+    pub(crate) fn parametric(&self, uv: DVec2) -> Option<LocalInteraction> {
+        ask!(self, shape => shape.parametric(uv))
+    }
+
+    /// Whether it can be moved by a texture, see [`Shape::displaced`].
+    pub fn can_be_displaced(&self) -> bool {
+        self.mesh().is_some() || self.parametric(DVec2::splat(0.5)).is_some()
     }
 
     /// See [`ShapeModel::is_convex`]; a mesh is asked itself.

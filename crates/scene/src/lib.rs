@@ -6,6 +6,7 @@
 mod attributes;
 pub mod builder;
 pub mod compile;
+mod displacement;
 pub mod lookup;
 mod media;
 mod rays;

@@ -2,11 +2,12 @@
 
 use crate::attributes::Asked;
 use crate::builder::Builder;
+use crate::displacement;
 use etalon_bsdf::{Material, classicphong};
 use etalon_geometry::shapes::csg::Operation;
 use etalon_geometry::{GeometryBuilder, GroupId, Placement, Shape};
 use etalon_math::Animated;
-use etalon_params::{Class, Diagnostic, Node, Params, Span, Value, plugins};
+use etalon_params::{Class, Diagnostic, Node, Params, Span, Value};
 use etalon_subsurface::MediumDescription;
 use etalon_textures::{Constant, Texture};
 use etalon_transport::{LightId, MaterialId, MediumId, MediumInterface, ShapeId};
@@ -86,7 +87,8 @@ pub fn read(scene: &Params<'_>, builder: &mut Builder<'_>) -> Surfaces {
 
 /// Whether what is described here contains a smooth or rough dielectric.
 fn refracts(node: &Node) -> bool {
-    let dielectric = matches!(node.plugin.value.as_str(), "dielectric" | "roughdielectric");
+    let dielectric =
+        ["dielectric", "roughdielectric", "mixture"].contains(&node.plugin.value.as_str());
     (node.class == Class::Bsdf && dielectric)
         || (node.properties.iter()).any(|property| match &property.value {
             Value::Object(child) => {
@@ -239,12 +241,7 @@ impl Surfaces {
         if let Some(operation) = Operation::named(&node.plugin.value) {
             return self.solid(operation, node, builder);
         }
-        if !Shape::plugins().any(|name| name == node.plugin.value) {
-            let built = Shape::plugins().chain(COMPOSED).chain(Operation::NAMES);
-            builder.diagnostics.push(plugins::not_built(node, built));
-            return None;
-        }
-        let shape = Shape::from_params(&params, builder);
+        let shape = displacement::shape(&params, builder)?;
         let emitter = params.child(Class::Emitter).cloned();
         let bsdf = params.child(Class::Bsdf);
         if let Some(shape) = &shape {

@@ -7,6 +7,7 @@ use etalon_benches::timing::Stopwatch;
 use etalon_geometry::{AcceleratorKind, Geometry};
 use etalon_transport::Ray;
 use serde::Serialize;
+use std::borrow::Cow;
 use std::time::Instant;
 
 /// Who takes part, and how often.
@@ -47,8 +48,10 @@ pub(super) struct Rays {
 /// The name of Embree's rows.
 pub(super) const EMBREE: &str = "Embree 4";
 
-/// The linear scan gets no more rays than make so many tests.
-const TESTS: usize = 50_000_000;
+/// Whoever needs longer (s) for all rays of a kind gets some of them only, from all over the picture.
+const PATIENCE: f64 = 1.0;
+/// Rays that tell how long it takes.
+const PILOT: usize = 64;
 
 /// An accelerator that takes part.
 enum Entrant<'a> {
@@ -72,22 +75,24 @@ impl Plan<'_> {
                 self.best_build(|| Prepared::new(device, scene), Prepared::build);
             entrants.push((Entrant::Embree(embree), seconds));
         }
+        let shares: Vec<[Cow<'_, [Ray]>; 4]> = (entrants.iter())
+            .map(|(entrant, _)| Kind::ALL.map(|kind| entrant.share(kind, &rays[kind as usize])))
+            .collect();
         let mut watches = vec![[Stopwatch::new(); 4]; entrants.len()];
         for _ in 0..self.repeats {
-            for (place, kind) in Kind::ALL.into_iter().enumerate() {
-                for ((entrant, _), watches) in entrants.iter().zip(&mut watches) {
-                    let watch = &mut watches[place];
-                    let rays = entrant.share(scene, &rays[place]);
-                    match entrant {
-                        Entrant::Ours(_, geometry) => watch.run(&**geometry, kind, rays),
-                        Entrant::Embree(embree) => watch.run(embree, kind, rays),
-                    }
+            for kind in Kind::ALL {
+                for (((entrant, _), shares), watches) in
+                    entrants.iter().zip(&shares).zip(&mut watches)
+                {
+                    entrant.run(&mut watches[kind as usize], kind, &shares[kind as usize]);
                 }
             }
         }
-        let rows = entrants.iter().zip(&watches);
-        rows.map(|((entrant, build), watches)| entrant.row(scene, *build, watches, &rays))
-            .collect()
+        let rows = entrants.iter().zip(&shares).zip(&watches);
+        rows.map(|(((entrant, build), shares), watches)| {
+            entrant.row(scene, *build, watches, shares)
+        })
+        .collect()
     }
 
     /// The best time of a few builds, and the last of them.
@@ -106,14 +111,22 @@ impl Plan<'_> {
 }
 
 impl Entrant<'_> {
-    /// The rays that it traces.
-    fn share<'r>(&self, scene: &Scene, rays: &'r [Ray]) -> &'r [Ray] {
+    fn run(&self, watch: &mut Stopwatch, kind: Kind, rays: &[Ray]) {
         match self {
-            Self::Ours(AcceleratorKind::Linear, _) => {
-                let most = (TESTS / scene.placed_primitives()).max(16);
-                &rays[..most.min(rays.len())]
-            }
-            _ => rays,
+            Self::Ours(_, geometry) => watch.run(&**geometry, kind, rays),
+            Self::Embree(embree) => watch.run(embree, kind, rays),
+        }
+    }
+
+    /// The rays that it traces: all, if that does not take too long.
+    fn share<'r>(&self, kind: Kind, rays: &'r [Ray]) -> Cow<'r, [Ray]> {
+        let every = |stride: usize| -> Vec<Ray> { rays.iter().step_by(stride).copied().collect() };
+        let mut pilot = Stopwatch::new();
+        self.run(&mut pilot, kind, &every(rays.len().div_ceil(PILOT)));
+        let seconds = rays.len() as f64 * 1e-6 / pilot.rate().one;
+        match (seconds / PATIENCE).ceil() as usize {
+            0 | 1 => Cow::Borrowed(rays),
+            stride => Cow::Owned(every(stride)),
         }
     }
 
@@ -122,21 +135,21 @@ impl Entrant<'_> {
         scene: &Scene,
         build: f64,
         watches: &[Stopwatch; 4],
-        rays: &[Vec<Ray>; 4],
+        rays: &[Cow<'_, [Ray]>; 4],
     ) -> Row {
         let (accelerator, bytes) = match self {
             Self::Ours(kind, geometry) => (kind.name(), geometry.statistics().accelerator_bytes),
             Self::Embree(embree) => (EMBREE, embree.bytes),
         };
         let mut measured = [Rays::default(); 4];
-        for (place, kind) in Kind::ALL.into_iter().enumerate() {
-            let rays = self.share(scene, &rays[place]);
-            let rate = watches[place].rate();
-            measured[place] = Rays {
+        for kind in Kind::ALL {
+            let (rays, watch) = (&rays[kind as usize], &watches[kind as usize]);
+            let rate = watch.rate();
+            measured[kind as usize] = Rays {
                 one: rate.one,
                 all: rate.all,
                 looked_at: self.looked_at(kind, rays),
-                hits: watches[place].hits as f64 / rays.len() as f64,
+                hits: watch.hits as f64 / rays.len() as f64,
             };
         }
         Row {

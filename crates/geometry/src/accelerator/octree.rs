@@ -43,8 +43,7 @@ pub(super) fn build(primitives: &impl Primitives) -> BoxTree {
             .collect();
         let repeated: usize = parts.iter().map(|part| part.items.len()).sum();
         let left = credit * count as f32 - (repeated - count) as f32;
-        let smaller = parts.iter().all(|part| part.items.len() < count);
-        if parts.len() > 1 && !(smaller && left >= 0.0) {
+        if left < 0.0 {
             return Vec::new();
         }
         for part in &mut parts {

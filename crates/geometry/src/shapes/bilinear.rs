@@ -112,6 +112,10 @@ impl OwnShape for Bilinear {
         OwnPoint { normal, ..point }
     }
 
+    fn parametric(&self, uv: DVec2) -> Option<OwnPoint> {
+        Some(self.point(uv))
+    }
+
     fn bounds(&self) -> [DVec3; 2] {
         let corners =
             [DVec2::ZERO, DVec2::X, DVec2::Y, DVec2::ONE].map(|uv| self.point(uv).position);

@@ -121,6 +121,11 @@ impl ShapeModel for Cylinder {
         Some(self.surface(across, (local.z / self.length).clamp(0.0, 1.0)))
     }
 
+    fn parametric(&self, uv: DVec2) -> Option<LocalInteraction> {
+        let (sin, cos) = float64::sin_cos(TAU * uv.x);
+        Some(self.surface(DVec2::new(cos, sin), uv.y))
+    }
+
     fn piece_bounds(&self, _: u32) -> [DVec3; 2] {
         let end = self.start + self.z * self.length;
         // Half-widths of a disk: R √(1 − ẑᵢ²), here from the other two axes.

@@ -105,6 +105,11 @@ impl ShapeModel for Disk {
         Some(self.surface(self.coordinates(p)))
     }
 
+    fn parametric(&self, uv: DVec2) -> Option<LocalInteraction> {
+        let (sin, cos) = float64::sin_cos(TAU * uv.y);
+        Some(self.surface(DVec2::new(cos, sin) * uv.x))
+    }
+
     fn piece_bounds(&self, _: u32) -> [DVec3; 2] {
         let square = |v: DVec3| v * v;
         let squared = square(self.a) + square(self.b);

@@ -110,6 +110,33 @@ impl Mesh {
         self
     }
 
+    /// The mesh as it stands in the world, wound so that corners turn counter-clockwise as seen from outside.
+    pub(crate) fn data(&self) -> MeshData {
+        let mut triangles = self.triangles.clone();
+        for (primitive, triangle) in (0..).zip(&mut triangles) {
+            let [a, b, c] = self.corners(primitive);
+            let wound = (b - a).cross(c - a);
+            let outside = match self.normals.is_empty() {
+                true => !self.reversed,
+                false => {
+                    let normals = self.at_corners(&self.normals, primitive);
+                    wound.dot(normals.iter().sum()) >= 0.0
+                }
+            };
+            if !outside {
+                triangle.swap(1, 2);
+            }
+        }
+        MeshData {
+            positions: self.positions.clone(),
+            normals: self.normals.clone(),
+            uvs: self.uvs.clone(),
+            triangles,
+            attributes: self.attributes.clone(),
+            ..MeshData::default()
+        }
+    }
+
     /// Number of triangles.
     #[inline]
     pub fn triangle_count(&self) -> usize {

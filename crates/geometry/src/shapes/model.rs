@@ -6,7 +6,7 @@ use crate::shapes::mesh::Mesh;
 use etalon_math::DirectionCone;
 use etalon_params::Params;
 use etalon_transport::{LightSampleContext, SampledPoint, SurfacePoint};
-use glam::{DVec3, Vec2, Vec3};
+use glam::{DVec2, DVec3, Vec2, Vec3};
 
 /// A shape: triangles ([`ShapeModel::mesh`]), or pieces that are intersected by a formula of their own
 /// ([`ShapeModel::next_crossing`]).
@@ -50,6 +50,11 @@ pub(crate) trait ShapeModel {
     /// The surface at a crossing with a piece, which is at `p` up to rounding: `p` is projected first.
     fn surface_at(&self, _piece: u32, p: DVec3, _crossing: &Crossing) -> Option<LocalInteraction> {
         self.mesh().map(|mesh| mesh.surface_near(p))
+    }
+
+    /// The point with the texture coordinates `uv`, if it knows its points by them.
+    fn parametric(&self, _uv: DVec2) -> Option<LocalInteraction> {
+        None
     }
 
     /// Whether it bounds a volume, so that a line leaves it as often as it enters it.

@@ -40,6 +40,11 @@ pub trait OwnShape {
         None
     }
 
+    /// See [`ShapeModel::parametric`].
+    fn parametric(&self, _uv: DVec2) -> Option<OwnPoint> {
+        None
+    }
+
     /// A box that holds it.
     fn bounds(&self) -> [DVec3; 2];
 
@@ -142,6 +147,10 @@ impl<S: OwnShape> ShapeModel for Placed<S> {
     fn surface_at(&self, _: u32, p: DVec3, crossing: &Crossing) -> Option<LocalInteraction> {
         let own = self.placement.local_point(p);
         Some(self.surface(&self.shape.surface_at(own, crossing)))
+    }
+
+    fn parametric(&self, uv: DVec2) -> Option<LocalInteraction> {
+        Some(self.surface(&self.shape.parametric(uv)?))
     }
 
     fn piece_bounds(&self, _: u32) -> [DVec3; 2] {

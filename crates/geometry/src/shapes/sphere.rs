@@ -18,7 +18,7 @@ use etalon_math::float64;
 use etalon_params::Params;
 use etalon_sampling::warps::{SphereCone, square_to_uniform_sphere};
 use etalon_transport::{LightSampleContext, SampledPoint, SurfacePoint};
-use glam::{DMat3, DVec3, Vec2, Vec3};
+use glam::{DMat3, DVec2, DVec3, Vec2, Vec3};
 
 /// A sphere.
 #[derive(Clone, Copy, Debug)]
@@ -121,6 +121,13 @@ impl ShapeModel for Sphere {
     fn surface_at(&self, _: u32, p: DVec3, _: &Crossing) -> Option<LocalInteraction> {
         let normal = (p - self.center).try_normalize();
         Some(self.surface(normal.unwrap_or(self.axes.z_axis)))
+    }
+
+    fn parametric(&self, uv: DVec2) -> Option<LocalInteraction> {
+        let (sin_phi, cos_phi) = float64::sin_cos(TAU * uv.x);
+        let (sin, cos) = float64::sin_cos(PI * uv.y);
+        let own = DVec3::new(cos_phi * sin, sin_phi * sin, cos);
+        Some(self.surface(self.axes * own))
     }
 
     fn piece_bounds(&self, _: u32) -> [DVec3; 2] {

@@ -94,6 +94,10 @@ impl OwnShape for Torus {
         self.point(atan2(p.y, p.x), atan2(p.z, radius - self.major))
     }
 
+    fn parametric(&self, uv: DVec2) -> Option<OwnPoint> {
+        Some(self.point(TAU * uv.x, TAU * uv.y))
+    }
+
     fn bounds(&self) -> [DVec3; 2] {
         let outer = self.major + self.minor;
         let corner = DVec3::new(outer, outer, self.minor);
