@@ -49,6 +49,7 @@ pub mod normalmap;
 pub mod null;
 pub mod phong;
 pub mod plastic;
+pub mod pplastic;
 pub mod principled;
 pub mod principledthin;
 pub mod roughconductor;

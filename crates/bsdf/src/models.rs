@@ -314,6 +314,7 @@ models! {
         "principled" Principled principled (crate::principled::Description::flags),
         "principledthin" PrincipledThin principledthin (crate::principledthin::Description::flags),
         "phong" Phong phong (MaterialFlags::reflecting),
+        "pplastic" PolarizedPlastic pplastic (MaterialFlags::reflecting),
         "ward" Ward ward (MaterialFlags::reflecting),
         "roughdiffuse" RoughDiffuse roughdiffuse (MaterialFlags::reflecting),
         "difftrans" DiffuseTransmission difftrans (crate::difftrans::Description::flags),

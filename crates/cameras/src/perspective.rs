@@ -11,10 +11,10 @@
 //! (dx/dω)/r² = r / (z³ · |det M| · pixel area). This is the importance of Veach (1997, section
 //! 8.2) in units of pixels.
 
-use crate::field_of_view::half_width_from_params;
 use crate::{ClipRange, FilmWindow, ImagePlane, Pose};
 use etalon_math::Animated;
 use etalon_params::Params;
+use etalon_transport::half_width_from_params;
 use etalon_transport::{Camera, CameraRay, CameraSample, Ray, Shutter};
 use glam::{DVec2, Vec2, Vec3};
 

@@ -15,11 +15,11 @@
 //! dx/dω / (A·cos θ) = |P|⁴ / (πR²·|det M|²·pixel area),   as cos θ = |det M| / (|P|·|M x̂ × M ŷ|)
 //! ```
 
-use crate::field_of_view::half_width_from_params;
 use crate::{ClipRange, FilmWindow, ImagePlane, Pose};
 use etalon_math::Animated;
 use etalon_params::Params;
 use etalon_sampling::warps::square_to_concentric_disk;
+use etalon_transport::half_width_from_params;
 use etalon_transport::{ApertureHit, Camera, CameraRay, CameraSample, Ray, Shutter};
 use glam::{DVec2, Vec2, Vec3};
 

@@ -1,10 +1,13 @@
 //! `to_world` of lights that have a direction: a position and an orientation.
 
 use crate::LightExtent;
-use etalon_math::{Animated, DirectionCone, FromAffine, Transform};
+use etalon_math::{Animated, DeltaProbability, DirectionCone, FromAffine, Transform};
 use etalon_params::Params;
-use etalon_transport::Build;
-use glam::{DAffine3, DVec3, Vec3};
+use etalon_transport::{
+    Build, Emission, EmissionPdf, LightId, LightKind, LightSample, LightSampleContext, Ray,
+    SamplePdf,
+};
+use glam::{DAffine3, DVec3, Vec3, Vec4};
 
 /// A rotation, perhaps with a reflection, and a position. Scale has no meaning for a light
 /// without extent, and is left out.
@@ -73,6 +76,55 @@ impl FromAffine for Pose {
             position: map.translation.as_vec3(),
             transform: Transform::from_affine(map),
         }
+    }
+}
+
+/// The light that a receiver gets from a point whose intensity (W·sr⁻¹·nm⁻¹) depends on the direction in its space.
+#[inline]
+pub fn sample_point(
+    pose: &Animated<Pose>,
+    from: &LightSampleContext,
+    intensity: impl Fn(Vec3) -> Vec4,
+) -> Option<LightSample> {
+    let (position, local, to_light, direction) = pose.at(from.time, |pose| {
+        let to_light = pose.position - from.position;
+        let direction = to_light.try_normalize()?;
+        let local = pose.to_local(-direction);
+        Some((pose.position, local, to_light, direction))
+    })?;
+    let intensity = intensity(local);
+    (intensity != Vec4::ZERO).then(|| LightSample {
+        direction,
+        target: Some(position),
+        radiance: intensity / to_light.length_squared(),
+        chance: SamplePdf::Discrete(DeltaProbability::uniform(1.0)),
+        cos: 1.0,
+        origin: LightKind::Point,
+        light: LightId::NONE,
+    })
+}
+
+/// A particle from that point into a direction of its space, chosen with `density` (sr⁻¹).
+#[inline]
+pub fn emit_from_point(
+    pose: &Animated<Pose>,
+    local: Vec3,
+    intensity: Vec4,
+    density: f32,
+    time: f32,
+) -> Emission {
+    let (position, direction) = pose.at(time, |pose| (pose.position, pose.to_world(local)));
+    let ray = Ray::new(position, direction, time);
+    Emission {
+        point: Emission::point_of(&ray),
+        ray,
+        weight: intensity / density,
+        density: EmissionPdf {
+            origin: 1.0,
+            ray: density,
+        },
+        origin: LightKind::Point,
+        light: LightId::NONE,
     }
 }
 

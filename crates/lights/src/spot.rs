@@ -15,16 +15,16 @@
 
 use crate::light::{anywhere, extent_of_point};
 use crate::light_model::LightModel;
-use crate::pose::{Pose, extent_of_way};
+use crate::pose::{Pose, emit_from_point, extent_of_way, sample_point};
 use crate::{BoundingSphere, LightExtent};
-use etalon_math::{Animated, DeltaProbability, DirectionCone, float, float64};
+use etalon_math::{Animated, DirectionCone, float, float64};
 use etalon_params::Params;
 use etalon_sampling::warps::{square_to_uniform_cone, uniform_cone_density};
 use etalon_spectrum::Wavelengths;
 use etalon_transport::refuse_varying;
 use etalon_transport::{
-    Build, Emission, EmissionPdf, LightId, LightKind, LightSample, LightSampleContext, Ray,
-    SamplePdf, Shapes, SpectrumKind, TextureId, TexturePoint, Textures,
+    Build, Emission, EmissionPdf, LightSample, LightSampleContext, Shapes, SpectrumKind, TextureId,
+    TexturePoint, Textures,
 };
 use glam::{Vec2, Vec3, Vec4};
 
@@ -162,21 +162,8 @@ impl LightModel for SpotLight {
         wavelengths: &Wavelengths,
         _: Vec2,
     ) -> Option<LightSample> {
-        let (position, local, to_light, direction) = self.pose.at(from.time, |pose| {
-            let to_light = pose.position - from.position;
-            let direction = to_light.try_normalize()?;
-            let local = pose.to_local(-direction);
-            Some((pose.position, local, to_light, direction))
-        })?;
-        let intensity = self.intensity(textures, local, wavelengths);
-        (intensity != Vec4::ZERO).then(|| LightSample {
-            direction,
-            target: Some(position),
-            radiance: intensity / to_light.length_squared(),
-            chance: SamplePdf::Discrete(DeltaProbability::uniform(1.0)),
-            cos: 1.0,
-            origin: LightKind::Point,
-            light: LightId::NONE,
+        sample_point(&self.pose, from, |local| {
+            self.intensity(textures, local, wavelengths)
         })
     }
 
@@ -191,22 +178,9 @@ impl LightModel for SpotLight {
         time: f32,
     ) -> Option<Emission> {
         let local = square_to_uniform_cone(u, self.one_minus_cos_cutoff);
-        let (position, direction) =
-            (self.pose).at(time, |pose| (pose.position, pose.to_world(local)));
         let intensity = self.intensity(textures, local, wavelengths);
         let density = uniform_cone_density(self.one_minus_cos_cutoff);
-        let ray = Ray::new(position, direction, time);
-        Some(Emission {
-            point: Emission::point_of(&ray),
-            ray,
-            weight: intensity / density,
-            density: EmissionPdf {
-                origin: 1.0,
-                ray: density,
-            },
-            origin: LightKind::Point,
-            light: LightId::NONE,
-        })
+        Some(emit_from_point(&self.pose, local, intensity, density, time))
     }
 
     fn power(&self, textures: &(impl Textures + Shapes), _: &BoundingSphere) -> f64 {

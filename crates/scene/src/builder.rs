@@ -61,6 +61,10 @@ impl Build for Builder<'_> {
         self.reader().node(node, role)
     }
 
+    fn resolution(&self, texture: TextureId) -> [u32; 2] {
+        self.textures.get(texture).resolution()
+    }
+
     fn spectrum(&mut self, spectrum: Spectrum) -> TextureId {
         self.textures.add_spectrum(spectrum)
     }

@@ -31,6 +31,11 @@ pub struct Bitmap {
 }
 
 impl Bitmap {
+    /// Width and height in pixels.
+    pub(crate) fn resolution(&self) -> [u32; 2] {
+        self.image.size.to_array()
+    }
+
     /// Σ wᵢ f(texel i).
     #[inline]
     fn average<T>(&self, uv: Vec2, value: impl Fn(usize) -> T) -> T

@@ -136,6 +136,14 @@ textures! {
 }
 
 impl Texture {
+    /// Pixels of an image, width and height; 1 × 1 of anything else.
+    pub fn resolution(&self) -> [u32; 2] {
+        match self {
+            Self::Bitmap(bitmap) => bitmap.resolution(),
+            _ => [1; 2],
+        }
+    }
+
     /// The spectrum at a point, for the wavelengths `lambda` (nm). `set` holds the textures that
     /// this one refers to.
     #[inline]

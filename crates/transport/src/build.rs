@@ -39,6 +39,11 @@ pub trait Build {
     /// The texture described by a nested texture or spectrum object.
     fn nested_texture(&mut self, node: &Arc<Node>, role: SpectrumKind) -> TextureId;
 
+    /// Pixels of a texture that is an image, width and height; 1 × 1 of anything else.
+    fn resolution(&self, _texture: TextureId) -> [u32; 2] {
+        [1; 2]
+    }
+
     /// A texture for a spectrum computed by the plugin itself (a named metal's η).
     fn spectrum(&mut self, spectrum: etalon_spectrum::Spectrum) -> TextureId;
 }

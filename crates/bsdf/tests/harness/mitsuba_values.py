@@ -89,6 +89,9 @@ CONTINUOUS = [
     "twosided allow_transmission=b:true ( roughdielectric alpha=f:0.4 )",
     "blendbsdf weight=f:0.2 ( diffuse reflectance=u:0.8 ) ( roughconductor alpha=f:0.4 eta=u:0.2 k=u:3.9 )",
     "mask opacity=f:0.6 ( blendbsdf weight=f:0.7 ( plastic ) ( twosided ( diffuse ) ) )",
+    "pplastic",
+    "pplastic alpha=f:0.3 distribution=s:ggx diffuse_reflectance=t:400:0.1,700:0.9 specular_reflectance=u:0.7",
+    "pplastic alpha_u=f:0.15 alpha_v=f:0.4 int_ior=f:1.9 sample_visible=b:false diffuse_reflectance=u:0.2",
 ]
 DISCRETE = [
     "dielectric",

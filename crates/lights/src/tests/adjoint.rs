@@ -54,6 +54,7 @@ fn lights() -> (SmallWorld, Vec<(&'static str, LightDescription)>) {
         DMat4::from_translation(DVec3::new(0.2, -0.1, 1.5))
             * DMat4::from_rotation_x(core::f64::consts::PI + 0.1),
     );
+    let down_again = down.clone();
     let wide = || Value::Float(50.0);
     let file = || ("filename", Value::String("sky.pfm".into()));
     let turned = Value::Transform(DMat4::from_rotation_x(1.2) * DMat4::from_rotation_z(0.4));
@@ -74,6 +75,14 @@ fn lights() -> (SmallWorld, Vec<(&'static str, LightDescription)>) {
                 ("to_world", down),
                 ("cutoff_angle", wide()),
                 ("texture", texture("squares")),
+            ],
+        ),
+        (
+            "projector",
+            vec![
+                ("to_world", down_again),
+                ("fov", Value::Float(70.0)),
+                ("irradiance", texture("squares")),
             ],
         ),
         (
@@ -222,6 +231,15 @@ fn analytic_powers() {
             vec![
                 ("cutoff_angle", Value::Float(180.0)),
                 ("beam_width", Value::Float(180.0)),
+            ],
+            4.0 * pi,
+        ),
+        // On the plane z = 1 the irradiance π on a square of side 2.
+        (
+            "projector",
+            vec![
+                ("fov", Value::Float(90.0)),
+                ("irradiance", Value::Float(1.0)),
             ],
             4.0 * pi,
         ),

@@ -108,6 +108,38 @@ fn point_and_directional_match_mitsuba() {
 }
 
 #[test]
+fn a_projector_throws_as_in_mitsuba() {
+    let mut world = SmallWorld::default();
+    let properties = vec![
+        ("to_world", look_at()),
+        ("irradiance", number(0.5)),
+        ("scale", number(3.0)),
+        ("fov", number(50.0)),
+    ];
+    let projector = light(&mut world, "projector", properties).light;
+    let axis = [-0.507_092_5, 0.169_030_8, 0.845_154_2];
+    for (from, direction, distance, value) in [
+        ([4.0, 1.0, -2.0], axis, 5.916_08, 0.134_639_7),
+        (
+            [3.0, 2.0, -1.0],
+            [-0.447_213_6, 0.0, 0.894_427_2],
+            4.472_136,
+            0.248_277,
+        ),
+        (
+            [4.0, 0.0, -1.5],
+            [-0.520_266, 0.346_844, 0.780_399],
+            5.766_281,
+            0.149_66,
+        ),
+    ] {
+        assert_toward(&world, &projector, from, direction, distance, value);
+    }
+    let beside = receiver(Vec3::splat(9.0), Vec3::Z);
+    assert!((projector.sample(&world, &beside, &WAVELENGTHS, Vec2::ZERO)).is_none());
+}
+
+#[test]
 fn spot_falls_off_as_in_mitsuba() {
     let mut world = SmallWorld::default();
     let properties = vec![
