@@ -78,14 +78,6 @@ fn lights() -> (SmallWorld, Vec<(&'static str, LightDescription)>) {
             ],
         ),
         (
-            "projector",
-            vec![
-                ("to_world", down_again),
-                ("fov", Value::Float(70.0)),
-                ("irradiance", texture("squares")),
-            ],
-        ),
-        (
             "directional",
             vec![("direction", Value::Vector(DVec3::new(0.3, 0.2, -1.0)))],
         ),
@@ -112,6 +104,12 @@ fn lights() -> (SmallWorld, Vec<(&'static str, LightDescription)>) {
         let area = light(&mut world, "area", vec![("radiance", radiance)]);
         lights.push(("area", area));
     }
+    let thrown = vec![
+        ("to_world", down_again),
+        ("fov", Value::Float(70.0)),
+        ("irradiance", Value::Float(2.0)),
+    ];
+    lights.push(("projector", light(&mut world, "projector", thrown)));
     (world, lights)
 }
 
@@ -270,11 +268,13 @@ fn analytic_powers() {
 fn densities_of_emission_are_those_that_are_reported() {
     let (world, mut lights) = lights();
     // Two skies are one technique; the compensated one emits uncompensated.
+    let projector = lights.pop().expect("the last of them");
     lights.truncate(6);
+    lights.push(projector);
     let (names, descriptions): (Vec<_>, Vec<_>) = lights.into_iter().unzip();
     let set = LightSet::new(descriptions, &world, bounds(), LightSamplerKind::Power);
     let mut random = numbers(3);
-    let mut seen = [false; 6];
+    let mut seen = [false; 7];
     for _ in 0..2_000 {
         let (u, v) = (random.next_2d(), random.next_2d());
         let emitted = set.emit(&world, &WAVELENGTHS, random.next_1d(), u, v, 0.0);
@@ -308,7 +308,7 @@ fn densities_of_emission_are_those_that_are_reported() {
             LightKind::Surface => unreachable!("no surface is among them"),
         }
     }
-    assert_eq!(seen, [true; 6]);
+    assert_eq!(seen, [true; 7]);
 }
 
 #[test]
