@@ -64,7 +64,7 @@ impl Description {
             constant = constant.zip(number).map(|(sum, number)| sum + number);
         }
         if let Some(sum) = constant.filter(|sum| (sum - 1.0).abs() > ROUNDING) {
-            let sum = (sum / ROUNDING).round() * ROUNDING;
+            let sum = sum as f32;
             params.error(format!(
                 "the shares `diffuse`, `reflective` and `refractive` add up to {sum}, not to 1"
             ));

@@ -33,12 +33,15 @@ fn displaced(params: &Params<'_>, builder: &mut Builder<'_>) -> Option<Shape> {
     let scale = params.float_where("scale", 1.0, "a finite number", f64::is_finite) as f32;
     let midlevel = params.float_where("midlevel", 0.0, "a finite number", f64::is_finite) as f32;
     let face_normals = params.boolean_or("face_normals", false);
-    let edge = params.float_where("edge_length", 0.0, "a positive length", |length| {
-        length.is_finite() && length > 0.0
-    });
-    if !params.has("edge_length") {
-        params.missing("edge_length", "the longest edge of a triangle (m)");
-    }
+    let edge = match params.has("edge_length") {
+        true => params.float_where("edge_length", 1.0, "a positive length", |length| {
+            length.is_finite() && length > 0.0
+        }),
+        false => {
+            params.missing("edge_length", "the longest edge of a triangle, in metres");
+            1.0
+        }
+    };
     let height = builder.texture(params, "height", None, SpectrumKind::Unbounded);
     let children = params.children(Class::Shape);
     let [(_, child)] = children.as_slice() else {

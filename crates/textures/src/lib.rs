@@ -9,7 +9,8 @@
 //! v grows with the rows, and the centre of texel (i, j) of a w × h image is at
 //! ((i + ½)/w, (j + ½)/h).
 
-pub mod bitmap;
+pub mod arithmetic;
+mod bitmap;
 pub mod checkerboard;
 pub mod constant;
 pub mod decode;
@@ -25,6 +26,7 @@ mod spectra;
 pub mod texture;
 pub mod uv_transform;
 
+pub use arithmetic::Arithmetic;
 pub use bitmap::Bitmap;
 pub use checkerboard::Checkerboard;
 pub use constant::Constant;

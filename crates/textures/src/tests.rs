@@ -12,6 +12,7 @@ use std::collections::HashMap;
 use std::path::Path;
 use std::sync::Arc;
 
+mod arithmetic;
 mod bitmap;
 mod mesh_attribute;
 mod procedural;

@@ -4,10 +4,12 @@
 
 use crate::reader::Use;
 use crate::{
-    Bitmap, Checkerboard, Constant, MeshAttribute, Procedural, TextureReader, TextureTable,
-    TimesD65,
+    Arithmetic, Bitmap, Checkerboard, Constant, MeshAttribute, Procedural, TextureReader,
+    TextureTable, TimesD65,
 };
-use crate::{bitmap, checkerboard, constant, illuminated, mesh_attribute, procedural, spectra};
+use crate::{
+    arithmetic, bitmap, checkerboard, constant, illuminated, mesh_attribute, procedural, spectra,
+};
 use etalon_params::{Params, plugins};
 use etalon_transport::{Shapes, TextureId, TexturePoint, gradient_by_differences};
 use glam::{Vec2, Vec3, Vec4};
@@ -130,6 +132,13 @@ textures! {
         "turbulence" => procedural::read,
         "voronoi" => procedural::read,
         "wood" => procedural::read,
+    }
+    /// Computed from others.
+    Arithmetic {
+        "add" => arithmetic::read,
+        "mix" => arithmetic::read,
+        "multiply" => arithmetic::read,
+        "scale" => arithmetic::read,
     }
     /// Another texture times D65.
     TimesD65 { "d65" => illuminated::read, }

@@ -1,0 +1,157 @@
+//! `scale`, `multiply`, `add`, `mix`: textures computed from others, point by point.
+//!
+//! ```text
+//! scale = s t        multiply = a b        add = a + b        mix = (1 − w) a + w b
+//! ```
+//!
+//! `scale` is Mitsuba 0.6's. Reflectances are held to 1.
+
+use crate::reader::Use;
+use crate::texture::TextureModel;
+use crate::{Texture, TextureReader, TextureTable};
+use core::ops::{Add, Mul, Sub};
+use etalon_params::{Class, Params};
+use etalon_transport::{Shapes, SpectrumKind, TextureId, TexturePoint};
+use glam::{Vec3, Vec4};
+
+/// What is computed.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Operation {
+    Multiply,
+    Add,
+    /// With the share of the second, the third texture.
+    Mix,
+}
+
+/// A texture computed from others.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Arithmetic {
+    operation: Operation,
+    /// The operands; `mix` has a third.
+    parts: [TextureId; 3],
+    /// Whether what comes out is at most 1.
+    is_share: bool,
+}
+
+impl Arithmetic {
+    #[inline]
+    fn of<T>(&self, a: T, b: T, weight: impl FnOnce() -> f32) -> T
+    where
+        T: Copy + Add<Output = T> + Sub<Output = T> + Mul<Output = T> + Mul<f32, Output = T>,
+    {
+        match self.operation {
+            Operation::Multiply => a * b,
+            Operation::Add => a + b,
+            Operation::Mix => a + (b - a) * weight(),
+        }
+    }
+
+    #[inline]
+    fn weight(&self, set: &TextureTable, shapes: &impl Shapes, at: &TexturePoint) -> f32 {
+        set.number(self.parts[2], shapes, at).clamp(0.0, 1.0)
+    }
+
+    /// The greatest value that may come out.
+    #[inline]
+    fn most(&self) -> f32 {
+        if self.is_share { 1.0 } else { f32::INFINITY }
+    }
+}
+
+impl TextureModel for Arithmetic {
+    #[inline]
+    fn spectrum(
+        &self,
+        set: &TextureTable,
+        shapes: &impl Shapes,
+        at: &TexturePoint,
+        lambda: Vec4,
+    ) -> Vec4 {
+        let [a, b] = [0, 1].map(|part| set.spectrum(self.parts[part], shapes, at, lambda));
+        let value = self.of(a, b, || self.weight(set, shapes, at));
+        value.min(Vec4::splat(self.most()))
+    }
+
+    #[inline]
+    fn number(&self, set: &TextureTable, shapes: &impl Shapes, at: &TexturePoint) -> f32 {
+        let [a, b] = [0, 1].map(|part| set.number(self.parts[part], shapes, at));
+        let value = self.of(a, b, || self.weight(set, shapes, at));
+        value.min(self.most())
+    }
+
+    #[inline]
+    fn colour(&self, set: &TextureTable, shapes: &impl Shapes, at: &TexturePoint) -> Vec3 {
+        let [a, b] = [0, 1].map(|part| set.colour(self.parts[part], shapes, at));
+        let value = self.of(a, b, || self.weight(set, shapes, at));
+        value.min(Vec3::splat(self.most()))
+    }
+
+    fn mean(&self, set: &TextureTable) -> f32 {
+        let [a, b] = [0, 1].map(|part| set.mean(self.parts[part]));
+        let value = self.of(a, b, || set.mean(self.parts[2]));
+        value.min(self.most())
+    }
+
+    fn is_constant(&self, set: &TextureTable) -> bool {
+        self.nested().iter().all(|&part| set.is_constant(part))
+    }
+
+    fn nested(&self) -> &[TextureId] {
+        &self.parts[..if self.operation == Operation::Mix {
+            3
+        } else {
+            2
+        }]
+    }
+}
+
+/// Reads `a` and `b`, and `weight` (0.5) of `mix`; of `scale`, the nested texture and the factor `scale` (1).
+pub(crate) fn read(
+    reader: &mut TextureReader<'_>,
+    params: &Params<'_>,
+    Use { role, .. }: Use,
+) -> Option<Texture> {
+    let nested = Use { role, nested: true };
+    // A factor may exceed 1 where what it scales may not.
+    let factor = Use {
+        role: match role {
+            SpectrumKind::Reflectance => SpectrumKind::Unbounded,
+            role => role,
+        },
+        nested: true,
+    };
+    let plugin = params.node.plugin.value.as_str();
+    let (operation, parts) = if plugin == "scale" {
+        let factor = reader.parameter_in(params, "scale", Some(1.0), factor);
+        let mut others = params.children(Class::Texture);
+        others.retain(|(property, _)| property.name != "scale");
+        let [(property, _)] = others.as_slice() else {
+            params.error(format!(
+                "`scale` has one nested texture, not {}",
+                others.len()
+            ));
+            return None;
+        };
+        (
+            Operation::Multiply,
+            [reader.value(property, nested), factor],
+        )
+    } else {
+        let operation = match plugin {
+            "multiply" => Operation::Multiply,
+            "add" => Operation::Add,
+            _ => Operation::Mix,
+        };
+        let parts = ["a", "b"].map(|name| reader.parameter_in(params, name, None, nested));
+        (operation, parts)
+    };
+    let third = match operation {
+        Operation::Mix => reader.parameter_in(params, "weight", Some(0.5), nested),
+        _ => parts[0],
+    };
+    Some(Texture::from(Arithmetic {
+        operation,
+        parts: [parts[0], parts[1], third],
+        is_share: role == SpectrumKind::Reflectance,
+    }))
+}

@@ -1,0 +1,52 @@
+//! Textures computed from others.
+
+use super::*;
+
+fn one(plugin: &str, properties: Vec<(&'static str, Value)>, role: SpectrumKind) -> One {
+    One::new(&Files::default(), &node(plugin, properties), role)
+}
+
+fn at(one: &One, uv: Vec2) -> [f32; 2] {
+    let at = TexturePoint::at_uv(uv);
+    let spectrum = one.set.spectrum(one.id, &OneShape, &at, LAMBDA);
+    [one.set.number(one.id, &OneShape, &at), spectrum.x]
+}
+
+/// Spectra 0.8 and 0.4, numbers the other way round, see `checkerboard`.
+fn squares() -> Value {
+    let colours = vec![("color0", Value::Float(0.8)), ("color1", Value::Float(0.4))];
+    Value::Object(node("checkerboard", colours))
+}
+
+#[test]
+fn values_are_those_of_the_formulas() {
+    let role = SpectrumKind::Reflectance;
+    let pair = |b: f64| vec![("a", squares()), ("b", Value::Float(b))];
+    let near = |found: [f32; 2], expected: [f32; 2]| {
+        let off = (found[0] - expected[0])
+            .abs()
+            .max((found[1] - expected[1]).abs());
+        assert!(off < 1e-6, "{found:?} {expected:?}");
+    };
+    let corner = Vec2::splat(0.1);
+    near(at(&one("multiply", pair(0.5), role), corner), [0.2, 0.4]);
+    near(at(&one("add", pair(0.1), role), corner), [0.5, 0.9]);
+    // Held to 1.
+    near(at(&one("add", pair(0.5), role), corner), [0.9, 1.0]);
+    near(
+        at(&one("add", pair(0.5), SpectrumKind::Unbounded), corner),
+        [0.9, 1.3],
+    );
+    near(at(&one("mix", pair(0.0), role), corner), [0.2, 0.4]);
+    let mut weighed = pair(0.0);
+    weighed.push(("weight", Value::Float(0.25)));
+    let mixed = one("mix", weighed, role);
+    near(at(&mixed, corner), [0.3, 0.6]);
+    near(at(&mixed, Vec2::new(0.6, 0.1)), [0.6, 0.3]);
+    assert!(
+        (mixed.set.mean(mixed.id) - 0.45).abs() < 1e-6
+            && !mixed.set.get(mixed.id).is_constant(&mixed.set)
+    );
+    let scaled = vec![("texture", squares()), ("scale", Value::Float(1.5))];
+    near(at(&one("scale", scaled, role), corner), [0.6, 1.0]);
+}
