@@ -1,4 +1,4 @@
-//! The page: bars of rays per second for every scene, curves of cost against the number of primitives, the table.
+//! The page: curves of cost against the number of primitives, and a table for every scene.
 
 use super::Report;
 use super::measure::Row;

@@ -60,7 +60,8 @@ pub(super) struct Node {
 
 impl Node {
     pub(super) fn new(children: &[(Bounds, Link)]) -> Self {
-        let mut planes = [[[f32::INFINITY; WIDTH], [f32::NEG_INFINITY; WIDTH]]; 3];
+        // Not infinite: a ray that must hit nothing has infinite numbers itself, and their difference would be entered.
+        let mut planes = [[[f32::MAX; WIDTH], [f32::MIN; WIDTH]]; 3];
         let mut links = [0; WIDTH];
         for (lane, (bounds, link)) in children.iter().enumerate() {
             let (min, max) = (bounds.min.to_array(), bounds.max.to_array());

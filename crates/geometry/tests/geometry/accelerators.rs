@@ -382,6 +382,19 @@ fn nothing_is_hit_where_nothing_is() {
 }
 
 #[test]
+fn what_is_beyond_all_numbers_does_no_harm() {
+    // Twenty triangles: nodes with empty places.
+    let pair = every_of(|| vec![soup(7, 20, 0.5, 1e37, Vec3::ZERO)]);
+    let mut random = Random(12);
+    for _ in 0..200 {
+        let ray = Ray::new(random.point(), random.direction(), 0.0);
+        for geometry in &pair[1..] {
+            assert!(geometry.intersect(&ray).is_none() && !geometry.occluded(&ray));
+        }
+    }
+}
+
+#[test]
 fn rays_that_make_no_sense_do_no_harm() {
     let pair = every(mixture);
     let odd = [
