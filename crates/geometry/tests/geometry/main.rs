@@ -2,6 +2,7 @@
 
 mod accelerators;
 mod bilinear;
+mod commotion;
 mod curves;
 mod description;
 mod far_lights;
