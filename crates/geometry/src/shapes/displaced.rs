@@ -10,8 +10,7 @@
 //! by the mean of what they are asked to.
 
 use crate::shapes::Shape;
-use crate::shapes::mesh::{Mesh, MeshOptions};
-use crate::shapes::vertex_normals;
+use crate::shapes::mesh::{Mesh, MeshOptions, computed_normals};
 use etalon_transport::{Attribute, MeshData};
 use glam::{DVec2, Vec2, Vec3};
 use std::collections::HashMap;
@@ -268,10 +267,7 @@ fn moved(data: &MeshData, height: impl Fn(Vec3, Vec2) -> f32) -> Vec<Vec3> {
     let computed;
     let normals = match data.normals.is_empty() {
         true => {
-            let joined: Vec<[u32; 3]> = (data.triangles.iter())
-                .map(|triangle| triangle.map(|i| original(i as usize) as u32))
-                .collect();
-            computed = vertex_normals(&data.positions, &joined);
+            computed = computed_normals(data);
             &computed
         }
         false => &data.normals,
@@ -280,12 +276,7 @@ fn moved(data: &MeshData, height: impl Fn(Vec3, Vec2) -> f32) -> Vec<Vec3> {
     for (vertex, &p) in data.positions.iter().enumerate() {
         let uv = data.uvs.get(vertex).copied().unwrap_or_default();
         let (sum, count) = &mut sums[original(vertex)];
-        // Of a copy whose normal nobody computed.
-        let normal = match normals[vertex] == Vec3::ZERO {
-            true => normals[original(vertex)],
-            false => normals[vertex],
-        };
-        *sum += normal * height(p, uv);
+        *sum += normals[vertex] * height(p, uv);
         *count += 1.0;
     }
     let to = |vertex: usize| {

@@ -306,7 +306,7 @@ impl Mesh {
 }
 
 /// Vertex normals of positions in the world; copies of a vertex get one normal together.
-fn computed_normals(data: &MeshData) -> Vec<Vec3> {
+pub(crate) fn computed_normals(data: &MeshData) -> Vec<Vec3> {
     if data.copies.is_empty() {
         return super::vertex_normals(&data.positions, &data.triangles);
     }
