@@ -1,4 +1,4 @@
-//! The tasks of the house: `cargo xtask validate`, `accelerators`, `references`, `mutants`, `calibrate`, `efficiency`, `speed`, `bits`, `scenes`, `tables`.
+//! The tasks of the house: `cargo xtask validate`, `accelerators`, `references`, `mutants`, `calibrate`, `efficiency`, `speed`, `bits`, `scenes`, `tables`, `tabulate`.
 
 mod accelerators;
 mod bits;
@@ -9,6 +9,7 @@ mod references;
 mod scenes;
 mod speed;
 mod tables;
+mod tabulate;
 mod validate;
 
 use clap::{Parser, Subcommand};
@@ -47,6 +48,8 @@ enum Task {
     Scenes,
     /// Write the generated tables of the spectrum crate anew
     Tables(tables::Arguments),
+    /// Tabulate the BRDF of any model, and draw models and tables
+    Tabulate(tabulate::Arguments),
 }
 
 fn main() -> ExitCode {
@@ -61,6 +64,7 @@ fn main() -> ExitCode {
         Task::Bits => bits::run(),
         Task::Scenes => scenes::run(),
         Task::Tables(arguments) => tables::run(&arguments),
+        Task::Tabulate(arguments) => tabulate::run(&arguments),
     };
     match done {
         Ok(()) => ExitCode::SUCCESS,

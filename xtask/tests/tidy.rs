@@ -8,7 +8,7 @@ use std::path::{Path, PathBuf};
 const FLOORS: [&[&str]; 7] = [
     &["math", "statistics"],
     &["params", "sampling", "spectrum", "images"],
-    &["transport"],
+    &["transport", "tables"],
     &[
         "geometry",
         "textures",

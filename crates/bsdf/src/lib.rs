@@ -42,6 +42,7 @@ pub mod dielectric;
 pub mod difftrans;
 pub mod diffuse;
 pub mod mask;
+pub mod measured;
 pub mod mirror;
 pub mod mixture;
 pub mod mixturebsdf;

@@ -317,6 +317,7 @@ models! {
         "pplastic" PolarizedPlastic pplastic (MaterialFlags::reflecting),
         "ward" Ward ward (MaterialFlags::reflecting),
         "roughdiffuse" RoughDiffuse roughdiffuse (MaterialFlags::reflecting),
+        "measured" Measured measured (MaterialFlags::reflecting) <'a>,
         "difftrans" DiffuseTransmission difftrans (crate::difftrans::Description::flags),
     }
     composed {

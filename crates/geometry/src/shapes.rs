@@ -17,7 +17,6 @@ pub mod disk;
 mod displaced;
 pub mod extrusion;
 mod field;
-mod file;
 mod file_mesh;
 pub mod implicit;
 mod isolate;

@@ -18,6 +18,7 @@ pub mod noise;
 pub mod offset;
 mod parts;
 pub mod polynomial;
+pub mod reflection;
 mod swept;
 pub mod transform;
 

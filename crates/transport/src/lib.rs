@@ -13,6 +13,7 @@ pub mod bsdf;
 pub mod build;
 pub mod camera;
 pub mod field_of_view;
+pub mod file;
 pub mod film;
 pub mod ids;
 pub mod integrator;

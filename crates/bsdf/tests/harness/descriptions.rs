@@ -21,7 +21,7 @@ fn refused(text: &str) -> String {
 fn mistakes_are_named() {
     for (text, expected) in [
         ("difuse", "did you mean `diffuse`"),
-        ("measured", "not built yet"),
+        ("polarizer", "not built yet"),
         (
             "principled eta=f:1.5 specular=f:0.5",
             "either `eta` or `specular`",

@@ -19,3 +19,4 @@ mod reversal;
 mod scene;
 mod sphere;
 mod statistical;
+mod tables;

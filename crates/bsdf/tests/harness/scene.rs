@@ -1,6 +1,6 @@
 //! The least scene that a material can be built and resolved in.
 
-use crate::notation;
+use crate::{notation, tables};
 use etalon_bsdf::{BsdfAtPoint, Material};
 use etalon_math::Frame;
 use etalon_params::{Diagnostic, Diagnostics, Node, Params, SpectrumText, Value};
@@ -33,6 +33,7 @@ impl Assets for Files {
         let found = self.0.iter().find(|(name, _)| name == path);
         found
             .map(|(_, text)| Arc::new(text.clone().into_bytes()))
+            .or_else(|| tables::file(path))
             .ok_or_else(|| AssetError {
                 message: format!("no file {path}"),
                 help: None,

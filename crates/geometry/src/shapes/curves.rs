@@ -7,9 +7,9 @@
 use crate::local_interaction::LocalInteraction;
 use crate::placement::Placement;
 use crate::shapes::crossing::{Crossing, Line};
-use crate::shapes::file;
 use crate::shapes::model::ShapeModel;
 use etalon_params::Params;
+use etalon_transport::file;
 use etalon_transport::{Build, SurfacePoint};
 use glam::{DVec2, DVec3, Vec2};
 

@@ -1,10 +1,10 @@
 //! Meshes from files: the plugins `obj`, `ply` and `serialized`.
 
 use crate::placement::Placement;
-use crate::shapes::file::{report, span_of_filename};
 use crate::shapes::mesh::{Mesh, MeshOptions};
 use crate::shapes::model::read_flip;
 use etalon_params::{Diagnostic, Params};
+use etalon_transport::file::{report, span_of_filename};
 use etalon_transport::{Build, MeshData, MeshFormat};
 
 /// Reads an `obj`; v is flipped unless the scene says otherwise, as in Mitsuba.

@@ -4,13 +4,13 @@
 //! is off a surface of second derivatives up to M by M/(4n²) at most (the error of linear interpolation, twice).
 
 use crate::placement::Placement;
-use crate::shapes::file;
 use crate::shapes::mesh::{Mesh, MeshOptions};
 use crate::shapes::model::read_flip;
 use crate::shapes::profile::numbers;
 use etalon_images::raster;
 use etalon_math::bernstein;
 use etalon_params::Params;
+use etalon_transport::file;
 use etalon_transport::{Build, MeshData};
 use glam::{DVec3, Vec2};
 use std::path::Path;

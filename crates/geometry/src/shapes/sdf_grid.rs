@@ -14,13 +14,13 @@
 //! distance function grids*), for shading only.
 
 use crate::shapes::crossing::{Crossing, Line};
-use crate::shapes::file;
 use crate::shapes::placed::{OwnPoint, OwnShape, Placed};
 use core::ops::ControlFlow;
 use etalon_images::Volume;
 use etalon_math::bernstein;
 use etalon_params::Params;
 use etalon_transport::Build;
+use etalon_transport::file;
 use glam::{DVec2, DVec3};
 
 /// A function on a grid, in the unit cube.

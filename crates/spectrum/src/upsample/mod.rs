@@ -7,6 +7,7 @@
 //! nanometres; centring it costs nothing and keeps single precision exact). The spectrum lit by D65
 //! has the colour: ∫ s D65 (r̄, ḡ, b̄) dλ / N = (R, G, B).
 
+pub mod basis;
 pub mod fit;
 pub mod table;
 

@@ -1,24 +1,24 @@
-//! Files that shapes are read from.
+//! The file that a plugin is read from.
 
+use crate::{AssetError, Build};
 use etalon_params::{Diagnostic, Params, Span};
-use etalon_transport::{AssetError, Build};
 
-/// Where a shape's file is named.
-pub(crate) fn span_of_filename(params: &Params<'_>) -> Span {
+/// Where a plugin's file is named.
+pub fn span_of_filename(params: &Params<'_>) -> Span {
     params
         .property("filename")
         .map_or(params.node.plugin.span, |p| p.span)
 }
 
 /// Records why a file cannot be had.
-pub(crate) fn report(params: &Params<'_>, error: AssetError) {
+pub fn report(params: &Params<'_>, error: AssetError) {
     let mut diagnostic = Diagnostic::error(span_of_filename(params), error.message);
     diagnostic.help = error.help;
     params.diagnostics.push(diagnostic);
 }
 
 /// Reads `filename`, which is needed and holds `what`, and makes something of its bytes; `None` after a mistake.
-pub(crate) fn read<T>(
+pub fn read<T>(
     params: &Params<'_>,
     build: &mut dyn Build,
     what: &str,
