@@ -127,8 +127,9 @@ impl SpectralTable {
 }
 
 impl Grid {
-    /// Equal steps: `theta` elevations each, `phi` angles and `wavelengths` within 360–830 nm.
-    pub fn uniform(theta: usize, phi: usize, wavelengths: usize) -> Self {
+    /// So many elevations, each, and `wavelengths` within 360–830 nm, in equal steps; angles between azimuths denser
+    /// toward π, where mirrors reflect.
+    pub fn new(theta: usize, phi: usize, wavelengths: usize) -> Self {
         let steps = |count: usize, from: f32, to: f32| -> Vec<f32> {
             let last = (count.max(2) - 1) as f32;
             (0..count.max(2))
@@ -138,7 +139,10 @@ impl Grid {
         Self {
             theta_o: steps(theta, 0.0, FRAC_PI_2),
             theta_i: steps(theta, 0.0, FRAC_PI_2),
-            phi: steps(phi, 0.0, PI),
+            phi: steps(phi, 1.0, 0.0)
+                .iter()
+                .map(|t| PI * (1.0 - t * t))
+                .collect(),
             wavelengths: steps(wavelengths, 360.0, 830.0),
         }
     }

@@ -20,7 +20,7 @@ pub enum BrdfTable {
     /// Of the MERL database.
     Merl(Merl),
     /// Of the RGL material database.
-    Rgl(Rgl),
+    Rgl(Box<Rgl>),
     /// In the spectral format of this crate.
     Spectral(SpectralTable),
 }
@@ -45,7 +45,7 @@ impl BrdfTable {
             if file.has(spectral::FIELD) {
                 SpectralTable::parse(&file).map(Self::Spectral)
             } else {
-                Rgl::parse(&file).map(Self::Rgl)
+                Rgl::parse(&file).map(|table| Self::Rgl(Box::new(table)))
             }
         } else if Merl::recognises(bytes) {
             Merl::parse(bytes).map(Self::Merl)

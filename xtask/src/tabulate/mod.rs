@@ -76,7 +76,7 @@ fn table(arguments: &Arguments, model: &Model, path: &Path) -> Result<Vec<u8>, S
     let azimuths = |default: u16| usize::from(arguments.azimuths.unwrap_or(default));
     match path.extension().and_then(|e| e.to_str()) {
         Some("brdf") => {
-            let grid = Grid::uniform(elevations(46), azimuths(61), count);
+            let grid = Grid::new(elevations(46), azimuths(61), count);
             let brdf = |wo: Vec3, wi: Vec3| model.brdf(wo, wi, &grid.wavelengths);
             let first = spectral::write(&grid, brdf, &text, None);
             let read = BrdfTable::parse(&first).map_err(|e| e.to_string())?;
@@ -89,7 +89,7 @@ fn table(arguments: &Arguments, model: &Model, path: &Path) -> Result<Vec<u8>, S
                 theta: elevations(16),
                 normals: usize::from(arguments.nodes),
                 square: usize::from(arguments.nodes),
-                wavelengths: Grid::uniform(2, 2, count).wavelengths,
+                wavelengths: Grid::new(2, 2, count).wavelengths,
             };
             let value = |wo: Vec3, wi: Vec3| model.value(wo, wi, &resolution.wavelengths);
             rgl_writer::write(&resolution, value, &text).map_err(|e| e.to_string())
@@ -145,4 +145,46 @@ fn direction(theta: f32, phi: f32) -> Vec3 {
     let (s, c) = etalon_math::float::sin_cos(theta);
     let (y, x) = etalon_math::float::sin_cos(phi);
     Vec3::new(s * x, s * y, c)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use etalon_tables::tensor_file::{self, Array, TensorFile};
+    use etalon_validation::folders;
+
+    /// The greatest error is stated from other elevations: a table must keep to it between them too.
+    #[test]
+    fn a_tabulated_conductor_keeps_to_the_error_that_its_table_states() {
+        let words = ["roughconductor", "material=Au", "alpha=0.3"].map(str::to_owned);
+        let model = Model::read(&words).expect("the model is well-formed");
+        let bytes =
+            fs::read(folders::scenes().join("measured/gold.brdf")).expect("the scene has it");
+        let table = BrdfTable::parse(&bytes).expect("the scene can be rendered");
+        let BrdfTable::Spectral(read) = &table else {
+            panic!("the table is a spectral one");
+        };
+        let stated = read.resolution_error.expect("the program writes it");
+        assert!(stated < 0.02, "{stated}");
+        let error = resolution_error(&model, &table);
+        assert!(error <= stated * 1.001, "{error} where {stated} is stated");
+        // A table that is brighter by a twentieth is found out.
+        let file = TensorFile::parse(&bytes).expect("it was parsed before");
+        let mut brighter = file.tensor(spectral::FIELD, 4).expect("the field is there");
+        for value in &mut brighter.data {
+            *value *= 1.05;
+        }
+        let names = ["theta_o", "theta_i", "phi", "wavelengths"];
+        let axes = names.map(|name| file.abscissae(name).expect("the field is there"));
+        let lengths = axes.each_ref().map(|axis| [axis.len()]);
+        let mut fields: Vec<(&str, Array<'_>)> = (names.iter().zip(&axes).zip(&lengths))
+            .map(|((name, axis), length)| (*name, Array::Floats(axis, length)))
+            .collect();
+        fields.push((
+            spectral::FIELD,
+            Array::Floats(&brighter.data, &brighter.shape),
+        ));
+        let brighter = BrdfTable::parse(&tensor_file::write(&fields)).expect("it is well-formed");
+        assert!(resolution_error(&model, &brighter) > stated);
+    }
 }

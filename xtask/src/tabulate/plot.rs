@@ -19,7 +19,7 @@ const WAVELENGTH: f32 = 550.0;
 
 const WIDTH: f32 = 760.0;
 const RADIUS: f32 = 340.0;
-const CENTRE: [f32; 2] = [380.0, 400.0];
+const CENTRE: [f32; 2] = [380.0, 425.0];
 
 /// Values of f cos θi at 1024 elevations from one horizon to the other, in the plane of `wo`.
 fn section(model: &Model, theta_o: f32) -> Vec<(f32, f32)> {
@@ -54,7 +54,7 @@ pub(super) fn polar(model: &Model, title: &str) -> String {
             line
         })
         .collect();
-    let rings = [0.001, 0.01, 0.1, 1.0].map(|share: f32| (RADIUS * share.cbrt(), share * greatest));
+    let rings = [0.01, 0.1, 1.0].map(|share: f32| (RADIUS * share.cbrt(), share * greatest));
     let spokes = (-3..=3).map(|i| {
         (
             30 * i,
@@ -65,13 +65,13 @@ pub(super) fn polar(model: &Model, title: &str) -> String {
         "f cos θi in the plane of incidence at {WAVELENGTH} nm (sr⁻¹); seen from the left; radius by the cube root"
     );
     let drawn = html! {
-        svg xmlns="http://www.w3.org/2000/svg" viewBox={ "0 0 " (WIDTH) " 470" } font-family="sans-serif" font-size="13" {
-            rect width=(WIDTH) height="470" fill="white" {}
+        svg xmlns="http://www.w3.org/2000/svg" viewBox={ "0 0 " (WIDTH) " 500" } font-family="sans-serif" font-size="13" {
+            rect width=(WIDTH) height="500" fill="white" {}
             text x="20" y="26" font-size="16" { (title) }
             text x="20" y="46" fill="#555" { (subtitle) }
             @for (radius, value) in rings {
                 path fill="none" stroke="#ccc" d={ "M" (CENTRE[0] - radius) " " (CENTRE[1]) "A" (radius) " " (radius) " 0 0 1 " (CENTRE[0] + radius) " " (CENTRE[1]) } {}
-                text x=(CENTRE[0] + radius) y=(CENTRE[1] + 16.0) text-anchor="middle" fill="#777" font-size="11" { (format!("{value:.2e}")) }
+                text x=(CENTRE[0] + radius) y=(CENTRE[1] + 16.0) text-anchor="middle" fill="#777" font-size="11" { (format!("{value:.3}")) }
             }
             @for (degrees, [x, y]) in spokes {
                 line x1=(CENTRE[0]) y1=(CENTRE[1]) x2=(x) y2=(y) stroke="#ddd" {}
@@ -81,8 +81,8 @@ pub(super) fn polar(model: &Model, title: &str) -> String {
                 polyline fill="none" stroke=(colour) stroke-width="2" points=(line) {}
             }
             @for (i, (theta, colour)) in SEEN_FROM.iter().enumerate() {
-                line x1=(20 + 110 * i) x2=(44 + 110 * i) y1="448" y2="448" stroke=(colour) stroke-width="3" {}
-                text x=(50 + 110 * i) y="453" { "θo = " (theta) "°" }
+                line x1=(20 + 110 * i) x2=(44 + 110 * i) y1="474" y2="474" stroke=(colour) stroke-width="3" {}
+                text x=(50 + 110 * i) y="479" { "θo = " (theta) "°" }
             }
         }
     };

@@ -44,10 +44,11 @@ fn close(a: Vec4, b: Vec4, relative: f32) -> bool {
 }
 
 /// Whether our choice among lobes is Mitsuba's too, so that densities must agree: not for the
-/// coats (ours goes by albedo at the angle), nor for Beckmann's visible normals (ours is exact,
+/// coats (ours goes by albedo at the angle), nor for tables (ours has a diffuse share), nor for Beckmann's visible normals (ours is exact,
 /// Mitsuba's uses the rational G1).
 fn same_density(material: &str) -> bool {
     !material.contains("plastic")
+        && !material.contains("measured")
         && (!material.contains("rough")
             || material.contains("ggx")
             || material.contains("sample_visible=b:false"))

@@ -12,6 +12,7 @@ with one value, or four at 450, 500, 550 and 600 nm. Values include |cos|; a dis
 value is weight times pdf. `wo` is the known direction (Mitsuba's `wi`).
 """
 import math
+import pathlib
 import random
 
 import mitsuba as mi
@@ -20,6 +21,7 @@ mi.set_variant("scalar_spectral")
 import drjit as dr
 import numpy as np
 
+SCENES = pathlib.Path(__file__).resolve().parents[4] / "scenes"
 LAMBDA = [450.0, 500.0, 550.0, 600.0]
 MODES = {"radiance": mi.TransportMode.Radiance, "importance": mi.TransportMode.Importance}
 
@@ -39,6 +41,8 @@ def parse(tokens):
             out[key] = float(value)
         elif kind == "s":
             out[key] = value.replace("_", " ")
+            if key == "filename":
+                out[key] = str(SCENES / value)
         elif kind == "b":
             out[key] = value == "true"
         elif kind == "u":
@@ -91,6 +95,8 @@ CONTINUOUS = [
     "mask opacity=f:0.6 ( blendbsdf weight=f:0.7 ( plastic ) ( twosided ( diffuse ) ) )",
     "pplastic",
     "pplastic alpha=f:0.3 distribution=s:ggx diffuse_reflectance=t:400:0.1,700:0.9 specular_reflectance=u:0.7",
+    "measured filename=s:measured/gold.bsdf",
+    "measured filename=s:measured/brushed.bsdf",
     "pplastic alpha_u=f:0.15 alpha_v=f:0.4 int_ior=f:1.9 sample_visible=b:false diffuse_reflectance=u:0.2",
 ]
 DISCRETE = [

@@ -9,6 +9,8 @@ use etalon_tables::spectral::{self, Grid};
 use etalon_tables::{BrdfTable, merl};
 use etalon_transport::{Bsdf, TransportMode};
 use glam::{Vec3, Vec4};
+use std::fs;
+use std::path::Path;
 use std::sync::{Arc, LazyLock};
 
 /// The isotropic material of the tables.
@@ -53,7 +55,7 @@ fn rgl(material: &str, phi: usize) -> Vec<u8> {
 
 static FILES: LazyLock<[(&str, Arc<Vec<u8>>); 4]> = LazyLock::new(|| {
     let gloss = Sample::new(GLOSS);
-    let grid = Grid::uniform(31, 61, 8);
+    let grid = Grid::new(31, 61, 8);
     let brdf = |wo: Vec3, wi: Vec3| -> Vec<f32> {
         let values = spectrum(&gloss, wo, wi, &grid.wavelengths);
         values.iter().map(|value| value / wi.z).collect()
@@ -70,8 +72,12 @@ static FILES: LazyLock<[(&str, Arc<Vec<u8>>); 4]> = LazyLock::new(|| {
     ]
 });
 
-/// The file of this name.
+/// The file of this name: one of the above, or in the folder of scenes.
 pub(crate) fn file(name: &str) -> Option<Arc<Vec<u8>>> {
+    if name.contains('/') {
+        let scenes = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../scenes");
+        return fs::read(scenes.join(name)).ok().map(Arc::new);
+    }
     // Materials that are read while the files are made name none of them.
     let known = ["gloss.bsdf", "brushed.bsdf", "gloss.brdf", "gloss.binary"].contains(&name);
     let found = || FILES.iter().find(|(file, _)| *file == name);
