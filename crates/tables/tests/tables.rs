@@ -1,5 +1,6 @@
 //! Tables of BRDFs: what is written is read, what is damaged is refused, warps are inverted by their inverses.
 
+use etalon_math::float;
 use etalon_tables::half_vector::{angles, directions};
 use etalon_tables::rgl_writer::{self, Resolution};
 use etalon_tables::spectral::{self, Grid};
@@ -50,7 +51,7 @@ fn merl_file() -> Vec<u8> {
 }
 
 fn direction(theta: f32, phi: f32) -> Vec3 {
-    let ((s, c), (y, x)) = (theta.sin_cos(), phi.sin_cos());
+    let ((s, c), (y, x)) = (float::sin_cos(theta), float::sin_cos(phi));
     Vec3::new(s * x, s * y, c)
 }
 

@@ -2,6 +2,7 @@
 
 use super::direction;
 use super::model::Model;
+use etalon_math::float;
 use maud::html;
 use std::f32::consts::{FRAC_PI_2, PI};
 use std::fmt::Write as _;
@@ -35,8 +36,8 @@ fn section(model: &Model, theta_o: f32) -> Vec<(f32, f32)> {
 
 /// Where a value lies in the picture: the radius grows with its cube root, so that lobe and base can both be seen.
 fn place(angle: f32, value: f32, greatest: f32) -> [f32; 2] {
-    let radius = RADIUS * (value / greatest).cbrt();
-    let (s, c) = etalon_math::float::sin_cos(angle);
+    let radius = RADIUS * float::cbrt(value / greatest);
+    let (s, c) = float::sin_cos(angle);
     [CENTRE[0] + radius * s, CENTRE[1] - radius * c]
 }
 
@@ -54,7 +55,7 @@ pub(super) fn polar(model: &Model, title: &str) -> String {
             line
         })
         .collect();
-    let rings = [0.01, 0.1, 1.0].map(|share: f32| (RADIUS * share.cbrt(), share * greatest));
+    let rings = [0.01, 0.1, 1.0].map(|share: f32| (RADIUS * float::cbrt(share), share * greatest));
     let spokes = (-3..=3).map(|i| {
         (
             30 * i,

@@ -53,7 +53,10 @@ fn rgl(material: &str, phi: usize) -> Vec<u8> {
     rgl_writer::write(&resolution, f, material).expect("it reflects something")
 }
 
-static FILES: LazyLock<[(&str, Arc<Vec<u8>>); 4]> = LazyLock::new(|| {
+/// A file by its name.
+type Named = (&'static str, Arc<Vec<u8>>);
+
+static FILES: LazyLock<[Named; 4]> = LazyLock::new(|| {
     let gloss = Sample::new(GLOSS);
     let grid = Grid::new(31, 61, 8);
     let brdf = |wo: Vec3, wi: Vec3| -> Vec<f32> {
