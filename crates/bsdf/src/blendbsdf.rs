@@ -39,13 +39,7 @@ impl Description {
 
     /// What either can do, with the lobes of both.
     pub fn traits(&self) -> MaterialFlags {
-        let [a, b] = [self.nested[0].traits(), self.nested[1].traits()];
-        MaterialFlags {
-            lobes: a.lobes + b.lobes,
-            null: a.null || b.null,
-            transmission: a.transmission || b.transmission,
-            tilted: a.tilted || b.tilted,
-        }
+        self.nested[0].traits().with(self.nested[1].traits())
     }
 
     /// Both nested materials with their shares.

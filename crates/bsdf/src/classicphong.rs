@@ -64,10 +64,8 @@ impl Description {
     /// No lobes: it does not scatter.
     pub fn traits(&self) -> MaterialFlags {
         MaterialFlags {
-            lobes: 0,
-            null: false,
             transmission: true,
-            tilted: false,
+            ..MaterialFlags::default()
         }
     }
 

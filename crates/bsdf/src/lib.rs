@@ -41,6 +41,7 @@ pub mod conductor;
 pub mod dielectric;
 pub mod difftrans;
 pub mod diffuse;
+pub mod hair;
 pub mod mask;
 pub mod measured;
 pub mod mirror;

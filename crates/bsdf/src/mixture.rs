@@ -88,9 +88,8 @@ impl Description {
     pub fn traits(&self) -> MaterialFlags {
         MaterialFlags {
             lobes: usize::from(self.present[0]) + usize::from(self.present[1] || self.present[2]),
-            null: false,
             transmission: self.present[2],
-            tilted: false,
+            ..MaterialFlags::default()
         }
     }
 

@@ -74,20 +74,9 @@ impl Description {
 
     /// What any of them can do, with the lobes of all.
     pub fn traits(&self) -> MaterialFlags {
-        let mut all = MaterialFlags {
-            lobes: 0,
-            null: false,
-            transmission: false,
-            tilted: false,
-        };
-        for (_, material) in &self.parts {
-            let traits = material.traits();
-            all.lobes += traits.lobes;
-            all.null |= traits.null;
-            all.transmission |= traits.transmission;
-            all.tilted |= traits.tilted;
-        }
-        all
+        (self.parts.iter()).fold(MaterialFlags::default(), |all, (_, material)| {
+            all.with(material.traits())
+        })
     }
 
     /// All nested materials with their shares.

@@ -291,6 +291,11 @@ impl Material {
         self.traits().null
     }
 
+    /// Whether light leaves elsewhere than it came, so that only paths from the camera can have it.
+    pub fn is_one_way(&self) -> bool {
+        self.traits().one_way
+    }
+
     fn resolve_composed<T: Textures>(
         &self,
         site: &ShadingContext<'_, T>,
@@ -318,6 +323,7 @@ models! {
         "ward" Ward ward (MaterialFlags::reflecting),
         "roughdiffuse" RoughDiffuse roughdiffuse (MaterialFlags::reflecting),
         "measured" Measured measured (MaterialFlags::reflecting) <'a>,
+        "hair" Hair hair (crate::hair::Description::flags),
         "difftrans" DiffuseTransmission difftrans (crate::difftrans::Description::flags),
     }
     composed {

@@ -24,10 +24,9 @@ impl Description {
     /// Nothing but passing light.
     pub fn traits(&self) -> MaterialFlags {
         MaterialFlags {
-            lobes: 0,
             null: true,
             transmission: true,
-            tilted: false,
+            ..MaterialFlags::default()
         }
     }
 

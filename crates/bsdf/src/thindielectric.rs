@@ -49,7 +49,7 @@ impl Description {
             lobes: 1,
             null: true,
             transmission: true,
-            tilted: false,
+            ..MaterialFlags::default()
         }
     }
 

@@ -1,7 +1,7 @@
 //! What can be said of a material when it is loaded.
 
 /// What a material can do, known when it is loaded.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct MaterialFlags {
     /// The most lobes it resolves into.
     pub lobes: usize,
@@ -11,6 +11,9 @@ pub struct MaterialFlags {
     pub transmission: bool,
     /// Whether a texture tilts its normals.
     pub tilted: bool,
+    /// Whether light leaves elsewhere than it came, which the model puts where the viewer looks: paths from the lights
+    /// cannot have it.
+    pub one_way: bool,
 }
 
 impl MaterialFlags {
@@ -18,9 +21,18 @@ impl MaterialFlags {
     pub(crate) fn reflecting<T>(_: &T) -> Self {
         Self {
             lobes: 1,
-            null: false,
-            transmission: false,
-            tilted: false,
+            ..Self::default()
+        }
+    }
+
+    /// What a material can do that is this one or another from point to point, or both at once with all their lobes.
+    pub(crate) fn with(self, other: Self) -> Self {
+        Self {
+            lobes: self.lobes + other.lobes,
+            null: self.null || other.null,
+            transmission: self.transmission || other.transmission,
+            tilted: self.tilted || other.tilted,
+            one_way: self.one_way || other.one_way,
         }
     }
 

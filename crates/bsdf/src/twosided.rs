@@ -60,9 +60,7 @@ impl Description {
         let b = self.back.as_ref().map_or(a, |back| back.traits());
         MaterialFlags {
             lobes: a.lobes.max(b.lobes),
-            null: a.null || b.null,
-            transmission: a.transmission || b.transmission,
-            tilted: a.tilted || b.tilted,
+            ..a.with(b)
         }
     }
 

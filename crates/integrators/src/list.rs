@@ -105,7 +105,8 @@ macro_rules! integrators {
                 ) -> Vec<Incompatibility> {
                     let unseen = sight.media_unseen().filter(|_| !I::MEDIA);
                     let endless = sight.endless_lit().filter(|_| I::FOLLOWS_LIGHT);
-                    let unseen = unseen.into_iter().chain(endless);
+                    let one_way = sight.seen_one_way().filter(|_| I::FOLLOWS_LIGHT);
+                    let unseen = unseen.into_iter().chain(endless).chain(one_way);
                     unseen.chain(integrator.incompatibilities(sight)).collect()
                 }
                 match self {

@@ -84,6 +84,7 @@ impl Scene {
             media: self.has_media,
             endless: self.lookup.geometry.is_endless() && self.lights.has_infinite(),
             narrow_filter: false,
+            one_way: self.materials.iter().any(Material::is_one_way),
             classic: self.materials.iter().any(Material::is_classic),
         }
     }

@@ -50,6 +50,9 @@ pub struct SceneCapabilities {
     pub media: bool,
     /// Whether light at infinity falls on surfaces without end, which particles cannot be sent to.
     pub endless: bool,
+    /// Whether a surface scatters light that leaves elsewhere than it came (hair), which paths from the lights cannot
+    /// follow.
+    pub one_way: bool,
     /// Whether a surface has a classic Phong material, which says nothing of how it scatters light
     /// ([`crate::World::legacy_phong`]).
     pub classic: bool,
@@ -158,6 +161,16 @@ impl SceneCapabilities {
                            on a `plane` that has no end";
             Incompatibility::fatal(Subject::Integrator, message)
                 .help("use a `rectangle` or a `disk` for a `plane`, or the integrator `path`")
+        })
+    }
+
+    /// The objection, if any, of an estimator that follows light, to materials that are made for the viewer.
+    pub fn seen_one_way(&self) -> Option<Incompatibility> {
+        self.one_way.then(|| {
+            let message = "this integrator sends light into the scene, and light that enters a hair leaves it \
+                           elsewhere, which the model `hair` knows for paths from the camera only";
+            Incompatibility::fatal(Subject::Integrator, message)
+                .help("use `path`, or another integrator that starts at the camera")
         })
     }
 

@@ -27,10 +27,12 @@ fn lanes(text: &str) -> Vec4 {
 ///
 /// 2·10⁻⁴ is what single precision leaves of normals and half-vectors at grazing angles on either
 /// side. `roughplastic` differs by more, since Mitsuba integrates its tables with another
-/// quadrature of the same order.
+/// quadrature of the same order, and `hair`, since Mitsuba sums ten terms of I₀ where more count.
 fn tolerance(material: &str) -> f32 {
     if material.contains("roughplastic") {
         1e-3
+    } else if material.contains("hair") {
+        8e-3
     } else {
         2e-4
     }
@@ -44,11 +46,13 @@ fn close(a: Vec4, b: Vec4, relative: f32) -> bool {
 }
 
 /// Whether our choice among lobes is Mitsuba's too, so that densities must agree: not for the
-/// coats (ours goes by albedo at the angle), nor for tables (ours has a diffuse share), nor for Beckmann's visible normals (ours is exact,
+/// coats (ours goes by albedo at the angle), nor for tables (ours has a diffuse share)
+/// and hair (ours goes by wavelength), nor for Beckmann's visible normals (ours is exact,
 /// Mitsuba's uses the rational G1).
 fn same_density(material: &str) -> bool {
     !material.contains("plastic")
         && !material.contains("measured")
+        && !material.contains("hair")
         && (!material.contains("rough")
             || material.contains("ggx")
             || material.contains("sample_visible=b:false"))
@@ -73,6 +77,10 @@ fn values_agree_with_mitsuba() {
         };
         let (wo, wi) = (vector(fields[1]), vector(fields[2]));
         let (value, pdf) = (lanes(fields[3]), lanes(fields[4]).x);
+        if wo.z < 0.0 && sample.material().is_one_way() {
+            // No curve is seen from inside; Mitsuba then takes the way across the hair from the wrong side.
+            continue;
+        }
         let bsdf = sample.at(wo);
         let relative = tolerance(&sample.text);
         records += 1;

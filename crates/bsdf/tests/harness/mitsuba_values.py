@@ -97,6 +97,9 @@ CONTINUOUS = [
     "pplastic alpha=f:0.3 distribution=s:ggx diffuse_reflectance=t:400:0.1,700:0.9 specular_reflectance=u:0.7",
     "measured filename=s:measured/gold.bsdf",
     "measured filename=s:measured/brushed.bsdf",
+    "hair",
+    "hair eumelanin=f:0.3 pheomelanin=f:0.6 longitudinal_roughness=f:0.5 azimuthal_roughness=f:0.6 scale_tilt=f:0",
+    "hair sigma_a=t:400:0.1,700:2 longitudinal_roughness=f:0.2 azimuthal_roughness=f:0.9 scale_tilt=f:4",
     "pplastic alpha_u=f:0.15 alpha_v=f:0.4 int_ior=f:1.9 sample_visible=b:false diffuse_reflectance=u:0.2",
 ]
 DISCRETE = [
