@@ -5,7 +5,7 @@ use crate::accelerator::visits::Counter;
 use crate::closest_hit::ClosestHit;
 use crate::geometry::Geometry;
 use crate::primitive_index::{Order, Piece, PrimitiveOwner, is_in_front, tolerance};
-use crate::shapes::crossing::{Crossing, Line};
+use crate::shapes::crossing::Line;
 use crate::traversal_ray::TraversalRay;
 use etalon_transport::ShapeId;
 
@@ -48,11 +48,8 @@ impl<C> WorldOthers<'_, C> {
         }
         let line = line_of(probe);
         let departed = f64::from(probe.departure.t);
-        let crossings =
-            (0..from.primitives()).map(|piece| from.crossing_near(piece, &line, departed));
-        let off = |crossing: &Crossing| (crossing.t - departed).abs();
-        let nearest = crossings.min_by(|a, b| off(a).total_cmp(&off(b)));
-        let apart = t - nearest.map_or(departed, |crossing| crossing.t);
+        let crossing = from.crossing_near(probe.departure.primitive, &line, departed);
+        let apart = t - crossing.t;
         if shape == left {
             // Within rounding it is the crossing that the ray leaves.
             return is_in_front(t) && apart > tolerance(probe, t);

@@ -12,6 +12,8 @@ use glam::Vec3;
 pub struct Departure {
     /// The shape that is left.
     pub shape: ShapeId,
+    /// Which of its primitives.
+    pub primitive: u32,
     /// The parameter of the crossing, not above 0.
     pub t: f32,
 }
@@ -20,6 +22,7 @@ impl Departure {
     /// From no surface, or from one that is not known to more than single precision.
     pub const NONE: Self = Self {
         shape: ShapeId::NONE,
+        primitive: 0,
         t: 0.0,
     };
 }

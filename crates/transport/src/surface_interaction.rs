@@ -88,6 +88,7 @@ impl SurfaceInteraction {
         if t <= 0.0 && t > f32::NEG_INFINITY {
             Departure {
                 shape: self.shape,
+                primitive: self.primitive,
                 t,
             }
         } else {
