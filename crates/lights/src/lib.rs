@@ -9,7 +9,7 @@
 //! | `area` | radiance, W·m⁻²·sr⁻¹·nm⁻¹, on the outer side of a shape |
 //! | `point`, `spot` | radiant intensity, W·sr⁻¹·nm⁻¹ |
 //! | `directional` | irradiance on a surface perpendicular to the light, W·m⁻²·nm⁻¹ |
-//! | `constant`, `envmap` | radiance from infinity, W·m⁻²·sr⁻¹·nm⁻¹ |
+//! | `constant`, `envmap`, `sunsky` | radiance from infinity, W·m⁻²·sr⁻¹·nm⁻¹ |
 
 pub mod area;
 pub mod bounding_sphere;
@@ -26,7 +26,9 @@ pub mod point;
 pub mod pose;
 mod projector;
 pub mod set;
+mod sky;
 pub mod spot;
+pub mod sunsky;
 pub mod tree;
 
 pub use area::AreaLight;
@@ -42,6 +44,7 @@ pub use point::PointLight;
 pub use projector::Projector;
 pub use set::LightSet;
 pub use spot::SpotLight;
+pub use sunsky::SunSky;
 pub use tree::LightTree;
 
 #[cfg(test)]

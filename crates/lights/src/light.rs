@@ -3,7 +3,7 @@
 use crate::light_model::LightModel;
 use crate::{
     AreaLight, BoundingSphere, ConstantLight, DirectionalLight, EnvironmentMap, LightExtent,
-    PointLight, Projector, SpotLight,
+    PointLight, Projector, SpotLight, SunSky,
 };
 use etalon_math::{Density, DirectionCone, SolidAngle};
 use etalon_params::{Class, Diagnostic, Params, plugins};
@@ -69,6 +69,8 @@ lights! {
     Point(PointLight) { "point" => |params, _, build| PointLight::from_params(params, build) }
     /// A light without extent, into a cone.
     Spot(SpotLight) { "spot" => |params, _, build| SpotLight::from_params(params, build) }
+    /// The clear sky and its sun.
+    SunSky(SunSky) { "sunsky" => |params, _, build| SunSky::from_params(params, build) }
     /// A picture thrown from a point.
     Projector(Projector) { "projector" => |params, _, build| Projector::from_params(params, build) }
 }

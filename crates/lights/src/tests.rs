@@ -21,6 +21,7 @@ mod few;
 mod mistakes;
 mod mitsuba;
 mod selection;
+mod sunsky;
 mod tree;
 
 const NOWHERE: Span = Span {

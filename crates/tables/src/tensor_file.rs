@@ -6,7 +6,8 @@
 //! the arrays, each at its offset from the beginning of the file, row by row
 //! ```
 //!
-//! Everything is little-endian. Of the types, `u8` (1) and `f32` (10) occur in tables of BRDFs.
+//! Everything is little-endian. Of the types, `u8` (1) and `f32` (10) occur in tables of BRDFs, `f64` (11) in those of
+//! skies.
 
 use crate::BrdfTableError;
 
@@ -15,6 +16,7 @@ pub const MAGIC: &[u8; 12] = b"tensor_file\0";
 
 const UINT8: u8 = 1;
 const FLOAT32: u8 = 10;
+const FLOAT64: u8 = 11;
 
 /// Bytes of the types 1 to 11: unsigned and signed integers of 8, 16, 32, 64 bits, floats of 16, 32, 64.
 const SIZES: [usize; 11] = [1, 1, 2, 2, 4, 4, 8, 8, 2, 4, 8];
@@ -140,7 +142,7 @@ impl<'a> TensorFile<'a> {
         self.fields.iter().any(|field| field.name == name)
     }
 
-    fn find(&self, name: &str, kind: u8) -> Result<&Field<'a>, BrdfTableError> {
+    fn find(&self, name: &str, kinds: &[u8]) -> Result<&Field<'a>, BrdfTableError> {
         let Some(field) = self.fields.iter().find(|field| field.name == name) else {
             let names: Vec<&str> = self.fields.iter().map(|field| field.name).collect();
             return Err(BrdfTableError::new(format!(
@@ -148,10 +150,10 @@ impl<'a> TensorFile<'a> {
                 names.join(", ")
             )));
         };
-        if field.kind != kind {
+        if !kinds.contains(&field.kind) {
             return Err(BrdfTableError::new(format!(
-                "the field `{name}` has type {}, not {kind}",
-                field.kind
+                "the field `{name}` has type {}, not {}",
+                field.kind, kinds[0]
             )));
         }
         Ok(field)
@@ -162,25 +164,29 @@ impl<'a> TensorFile<'a> {
     /// # Errors
     /// If there is none of the name, or it has another type.
     pub fn bytes(&self, name: &str) -> Result<&'a [u8], BrdfTableError> {
-        Ok(self.find(name, UINT8)?.bytes)
+        Ok(self.find(name, &[UINT8])?.bytes)
     }
 
-    /// A field of type `f32` with `dimensions` dimensions, none of them empty.
+    /// A field of type `f32`, or `f64` narrowed to it, with `dimensions` dimensions, none of them empty.
     ///
     /// # Errors
     /// If there is none of the name, it has another type or number of dimensions, is empty, or
     /// has an entry that is not finite.
     pub fn tensor(&self, name: &str, dimensions: usize) -> Result<Tensor, BrdfTableError> {
-        let field = self.find(name, FLOAT32)?;
+        let field = self.find(name, &[FLOAT32, FLOAT64])?;
         if field.shape.len() != dimensions || field.shape.contains(&0) {
             return Err(BrdfTableError::new(format!(
                 "the field `{name}` has shape {:?}, not {dimensions} dimensions of at least one",
                 field.shape
             )));
         }
-        let data: Vec<f32> = (field.bytes.chunks_exact(4))
-            .map(|b| f32::from_le_bytes([b[0], b[1], b[2], b[3]]))
-            .collect();
+        let data: Vec<f32> = if field.kind == FLOAT64 {
+            let number = |b: &[u8]| f64::from_le_bytes(std::array::from_fn(|i| b[i])) as f32;
+            field.bytes.chunks_exact(8).map(number).collect()
+        } else {
+            let number = |b: &[u8]| f32::from_le_bytes(std::array::from_fn(|i| b[i]));
+            field.bytes.chunks_exact(4).map(number).collect()
+        };
         if let Some(index) = data.iter().position(|value| !value.is_finite()) {
             return Err(BrdfTableError::new(format!(
                 "entry {index} of the field `{name}` is {}",

@@ -52,7 +52,9 @@ fn mistakes_are_refused() {
         ("envmap", vec![], "needs the parameter `filename`"),
         ("envmap", file("none.exr"), "no file `none.exr`"),
         ("envmap", file("nan.pfm"), "column 0 of row 0"),
-        ("sunsky", vec![], "not built yet"),
+        ("timed_sunsky", vec![], "not built yet"),
+        ("sunsky", number("turbidity", 0.5), "cannot be 0.5"),
+        ("sunsky", number("hour", 25.0), "cannot be 25"),
         ("sun", vec![], "sun"),
     ] {
         let messages = read(&mut world, plugin, properties)
