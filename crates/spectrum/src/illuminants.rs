@@ -114,7 +114,7 @@ pub fn fluorescent(number: usize) -> Option<Regular> {
 }
 
 /// `values` over `range`, scaled to Y = 1.
-fn tabulated(range: [f64; 2], values: &[f64]) -> Result<Regular, SpectrumError> {
+pub(crate) fn tabulated(range: [f64; 2], values: &[f64]) -> Result<Regular, SpectrumError> {
     let relative = |lambda: f64| {
         let t = (lambda - range[0]) / STEP as f64;
         if !(t >= 0.0 && t <= (values.len() - 1) as f64) {

@@ -15,6 +15,7 @@ pub mod conductors;
 pub mod error;
 pub mod illuminants;
 pub mod ior;
+pub mod named_illuminants;
 pub mod sensor;
 pub mod spd;
 pub mod spectrum;

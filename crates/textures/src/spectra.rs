@@ -1,10 +1,10 @@
-//! `uniform`, `regular`, `irregular`, `blackbody` and `srgb`: spectra that are the same everywhere.
+//! `uniform`, `regular`, `irregular`, `blackbody`, `illuminant` and `srgb`: spectra that are the same everywhere.
 
 use crate::reader::Use;
 use crate::{Constant, Texture, TextureReader};
 use etalon_params::{Params, Value};
 use etalon_spectrum::spd::check_unit;
-use etalon_spectrum::{Blackbody, Spectrum};
+use etalon_spectrum::{Blackbody, Spectrum, named_illuminants};
 use etalon_transport::SpectrumKind;
 use std::sync::Arc;
 
@@ -41,6 +41,19 @@ fn spectrum(reader: &TextureReader<'_>, params: &Params<'_>) -> Option<Spectrum>
             let (wavelengths, values) = (numbers("wavelengths"), numbers("values"));
             in_nanometres(params, "wavelengths", wavelengths.as_deref().unwrap_or(&[]))?;
             Spectrum::irregular(&wavelengths?, &values?)
+        }
+        "illuminant" => {
+            let Some(name) = params.string("name") else {
+                params.missing("name", "the name of an illuminant");
+                return None;
+            };
+            let Some(lamp) = named_illuminants::named(name) else {
+                params.refuse("name", name, named_illuminants::NAMES);
+                return None;
+            };
+            let what = "a finite number not below 0";
+            let scale = params.float_where("scale", 1.0, what, |x| x >= 0.0 && x.is_finite());
+            Ok(Spectrum::Regular(Arc::new(lamp.scaled(scale as f32))))
         }
         "blackbody" => {
             let min = params.float_or("wavelength_min", etalon_spectrum::LAMBDA_MIN);

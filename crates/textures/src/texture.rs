@@ -110,6 +110,7 @@ textures! {
     /// The same everywhere.
     Constant {
         "blackbody" => spectra::read,
+        "illuminant" => spectra::read,
         "irregular" => spectra::read,
         "rawconstant" => constant::read,
         "regular" => spectra::read,

@@ -3,3 +3,4 @@
 pub(crate) mod cie1931;
 pub(crate) mod illuminants;
 pub(crate) mod importance;
+pub(crate) mod lamps;
