@@ -1,10 +1,11 @@
-//! The tasks of the house: `cargo xtask validate`, `accelerators`, `references`, `mutants`, `calibrate`, `efficiency`, `speed`, `bits`, `scenes`, `tables`, `tabulate`.
+//! The tasks of the house: `cargo xtask validate`, `accelerators`, `references`, `mutants`, `calibrate`, `efficiency`, `speed`, `bits`, `scenes`, `plugins`, `tables`, `tabulate`.
 
 mod accelerators;
 mod bits;
 mod calibrate;
 mod efficiency;
 mod mutants;
+mod plugins;
 mod references;
 mod scenes;
 mod speed;
@@ -46,6 +47,8 @@ enum Task {
     Bits,
     /// Write the generated files of `scenes/` anew
     Scenes,
+    /// Write `docs/scene-format.md` anew: every plugin and parameter, as the code asks for them
+    Plugins,
     /// Write the generated tables of the spectrum crate anew
     Tables(tables::Arguments),
     /// Tabulate the BRDF of any model, and draw models and tables
@@ -63,6 +66,7 @@ fn main() -> ExitCode {
         Task::Accelerators(arguments) => accelerators::run(&arguments),
         Task::Bits => bits::run(),
         Task::Scenes => scenes::run(),
+        Task::Plugins => plugins::run(),
         Task::Tables(arguments) => tables::run(&arguments),
         Task::Tabulate(arguments) => tabulate::run(&arguments),
     };

@@ -127,6 +127,7 @@ fn unknown_name(params: &Params<'_>, property: &Property, word: &str) {
 
 /// One index for all wavelengths: a number or a name; `default` is a name.
 pub fn number_from_params(params: &Params<'_>, name: &str, default: &str) -> Option<f64> {
+    params.note_default(name, "a number or a name", default);
     let Some(property) = params.property(name) else {
         return named(default);
     };
@@ -160,6 +161,7 @@ pub fn number_from_params(params: &Params<'_>, name: &str, default: &str) -> Opt
 
 /// A number, a name, a formula or a spectrum.
 fn read(params: &Params<'_>, build: &mut dyn Build, name: &str, default: &str) -> Option<Given> {
+    params.note_default(name, "a number, a name, a formula or a spectrum", default);
     let Some(property) = params.property(name) else {
         return named(default).map(Given::Number);
     };

@@ -23,6 +23,7 @@ impl Metal {
     pub fn from_params(params: &Params<'_>, build: &mut dyn Build) -> Option<Self> {
         let exterior = number_from_params(params, "ext_eta", "vacuum");
         let inverse_exterior = (1.0 / exterior?) as f32;
+        params.note_default("material", "a string", "none");
         let name = params.string("material").unwrap_or("none");
         if name == "none" {
             return Some(Self {

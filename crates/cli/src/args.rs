@@ -101,14 +101,23 @@ Examples:
   etalon movie walk.*.exr -o walk.png --fps 24
   etalon movie walk.*.exr -o walk.mp4")]
     Movie(MovieArgs),
-    /// Say what is in a scene or an image.
+    /// Say what is in a scene or an image, or which plugins there are.
     #[command(after_help = "\
 Exit codes: 0 done, 2 bad input or usage.
 
 Examples:
   etalon info out.exr
-  etalon info scene.xml")]
+  etalon info scene.xml
+  etalon info --plugins
+  etalon info --plugins roughconductor")]
     Info(InfoArgs),
+    /// Write the completions of this command line for a shell to standard output.
+    #[command(after_help = "\
+Examples:
+  etalon completions bash > ~/.local/share/bash-completion/completions/etalon
+  etalon completions zsh > ~/.zfunc/_etalon
+  etalon completions fish > ~/.config/fish/completions/etalon.fish")]
+    Completions(CompletionsArgs),
 }
 
 /// Arguments of `render`.
@@ -361,5 +370,16 @@ pub struct MovieArgs {
 #[derive(Debug, Args, Clone)]
 pub struct InfoArgs {
     /// An image or a scene.
-    pub file: PathBuf,
+    #[arg(required_unless_present = "plugins")]
+    pub file: Option<PathBuf>,
+    /// Say which plugins scenes may have, or what the parameters of one are.
+    #[arg(long, value_name = "NAME", num_args = 0..=1, default_missing_value = "", conflicts_with = "file")]
+    pub plugins: Option<String>,
+}
+
+/// Arguments of `completions`.
+#[derive(Debug, Args, Clone)]
+pub struct CompletionsArgs {
+    /// For which shell.
+    pub shell: clap_complete::Shell,
 }

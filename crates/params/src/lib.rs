@@ -10,6 +10,7 @@ pub mod diagnostic;
 pub mod ignored;
 pub mod node;
 pub mod plugins;
+pub mod questions;
 pub mod read;
 pub mod source;
 pub mod suggest;

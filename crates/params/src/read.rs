@@ -5,6 +5,7 @@
 //! The caller refuses the scene if [`Diagnostics::has_errors`]. [`Params::finish`] reports what
 //! nobody asked for.
 
+use crate::questions::{self, Question};
 use crate::{Class, Diagnostic, Diagnostics, Node, Property, Value};
 use etalon_math::Motion;
 use glam::{DMat4, DVec3};
@@ -31,8 +32,23 @@ impl<'a> Params<'a> {
         }
     }
 
+    /// Notes what is asked for, for the documentation of scenes.
+    pub fn note(&self, name: &str, question: impl FnOnce() -> Question) {
+        questions::note(self.node.class, &self.node.plugin.value, name, question);
+    }
+
+    /// The same of a parameter with this kind and default.
+    pub fn note_default(&self, name: &str, kind: &str, default: impl Display) {
+        self.note(name, || Question {
+            kind: kind.to_owned(),
+            default: default.to_string(),
+            ..Question::default()
+        });
+    }
+
     /// The property called `name`, marked as used. The name becomes one that this plugin knows.
     pub fn property(&self, name: &str) -> Option<&'a Property> {
+        self.note(name, Question::default);
         if !self.known.borrow().iter().any(|k| k == name) {
             self.known.borrow_mut().push(name.to_owned());
         }
@@ -76,6 +92,11 @@ impl<'a> Params<'a> {
 
     /// A missing required property.
     pub fn missing(&self, name: &str, wanted: &str) {
+        self.note(name, || Question {
+            accepted: wanted.to_owned(),
+            required: true,
+            ..Question::default()
+        });
         self.diagnostics.push(
             Diagnostic::error(
                 self.node.plugin.span,
@@ -94,6 +115,7 @@ impl<'a> Params<'a> {
         wanted: &str,
         convert: impl Fn(&'a Value) -> Option<T>,
     ) -> Option<T> {
+        self.note_default(name, wanted, "");
         let property = self.property(name)?;
         let value = convert(&property.value);
         if value.is_none() {
@@ -113,6 +135,7 @@ impl<'a> Params<'a> {
 
     /// A number, or its default.
     pub fn float_or(&self, name: &str, default: f64) -> f64 {
+        self.note_default(name, "a number", default);
         self.float(name).unwrap_or(default)
     }
 
@@ -124,6 +147,10 @@ impl<'a> Params<'a> {
         what: &str,
         accept: impl Fn(f64) -> bool,
     ) -> f64 {
+        self.note(name, || Question {
+            accepted: what.to_owned(),
+            ..Question::default()
+        });
         let value = self.float_or(name, default);
         if accept(value) {
             value
@@ -159,11 +186,13 @@ impl<'a> Params<'a> {
 
     /// An integer, or its default.
     pub fn integer_or(&self, name: &str, default: i64) -> i64 {
+        self.note_default(name, "an integer", default);
         self.integer(name).unwrap_or(default)
     }
 
     /// A truth value, or its default.
     pub fn boolean_or(&self, name: &str, default: bool) -> bool {
+        self.note_default(name, "", default);
         self.get(name, "a boolean (`true` or `false`)", |v| match v {
             Value::Boolean(b) => Some(*b),
             _ => None,
@@ -186,6 +215,11 @@ impl<'a> Params<'a> {
         default: &'static str,
         choices: &[&'static str],
     ) -> &'static str {
+        self.note(name, || Question {
+            default: default.to_owned(),
+            accepted: format!("`{}`", choices.join("`, `")),
+            ..Question::default()
+        });
         let Some(word) = self.string(name) else {
             return default;
         };
@@ -211,6 +245,7 @@ impl<'a> Params<'a> {
 
     /// A transform, or the identity. One that moves is held in the middle of the shutter's interval.
     pub fn transform(&self, name: &str) -> DMat4 {
+        self.note_default(name, "", "identity");
         self.get(name, "a transform", |v| match v {
             Value::Transform(m) => Some(*m),
             Value::Animation { middle, .. } => Some(*middle),
@@ -221,6 +256,7 @@ impl<'a> Params<'a> {
 
     /// The transforms of an animation's keys, or the only one; the identity if the property is not given.
     pub fn keyframes(&self, name: &str) -> Vec<DMat4> {
+        self.note_default(name, "", "identity");
         self.get(name, "a transform or an animation", |v| match v {
             Value::Transform(m) => Some(vec![*m]),
             Value::Animation { motion, .. } => Some(motion.keys().to_vec()),
@@ -232,6 +268,7 @@ impl<'a> Params<'a> {
     /// How the property moves things, the identity if it is not given. `None` if it is one transform that is
     /// projective, singular or not finite, which has been reported.
     pub fn motion(&self, name: &str) -> Option<Motion> {
+        self.note_default(name, "a transform or an animation", "identity");
         let property = self.property(name);
         if let Some(Value::Animation { motion, .. }) = property.map(|p| &p.value) {
             return Some((**motion).clone());
@@ -263,6 +300,7 @@ impl<'a> Params<'a> {
 
     /// The nested objects of one class, named or not, in the order of the file; marked as used.
     pub fn children(&self, class: Class) -> Vec<(&'a Property, &'a Arc<Node>)> {
+        self.note_default(&format!("<{}>", class.name()), "nested", "");
         let children: Vec<_> = self
             .node
             .properties

@@ -12,6 +12,7 @@
 //! the first column, whatever the outermost property is for.
 
 use crate::{Constant, Texture, TextureTable};
+use etalon_params::questions::Question;
 use etalon_params::{Class, Diagnostic, Diagnostics, Node, Params, Property, Span, Value};
 use etalon_params::{DVec3, SpectrumText};
 use etalon_spectrum::{LAMBDA_MAX, LAMBDA_MIN, Spectrum, SpectrumError};
@@ -59,6 +60,11 @@ impl TextureReader<'_> {
         default: Option<f64>,
         purpose: Use,
     ) -> TextureId {
+        params.note(name, || Question {
+            kind: "a spectrum or texture".to_owned(),
+            default: default.map_or(String::new(), |number| number.to_string()),
+            ..Question::default()
+        });
         match (params.property(name), default) {
             (Some(property), _) => self.value(property, purpose),
             (None, Some(number)) => {

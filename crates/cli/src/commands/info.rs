@@ -1,7 +1,7 @@
 //! `etalon info`.
 
 use super::trouble::Fireflies;
-use super::{BAD_INPUT, answer, fail};
+use super::{BAD_INPUT, answer, fail, plugins};
 use crate::args::InfoArgs;
 use crate::diagnose;
 use crate::pipeline::{self, LoadOptions};
@@ -13,17 +13,17 @@ use std::process::ExitCode;
 
 /// Says what is in a scene or an image.
 pub fn run(args: &InfoArgs) -> ExitCode {
-    let extension = args
-        .file
-        .extension()
-        .map(|e| e.to_string_lossy().to_lowercase());
+    let Some(file) = &args.file else {
+        return plugins::run(args.plugins.as_deref().unwrap_or_default());
+    };
+    let extension = file.extension().map(|e| e.to_string_lossy().to_lowercase());
     match extension.as_deref() {
-        Some("xml") => scene(&args.file),
-        Some("exr") => match read_developed(&args.file) {
+        Some("xml") => scene(file),
+        Some("exr") => match read_developed(file) {
             Ok(developed) => answer(&image(&developed), ExitCode::SUCCESS),
             Err(error) => fail(error),
         },
-        _ => match picture(&args.file) {
+        _ => match picture(file) {
             Ok(text) => answer(&text, ExitCode::SUCCESS),
             Err(error) => fail(format!("neither a scene (.xml) nor an image: {error}")),
         },

@@ -10,6 +10,7 @@ mod frames;
 pub mod info;
 pub mod merge;
 pub mod movie;
+mod plugins;
 pub mod render;
 pub mod replay;
 pub mod strategies;
@@ -32,6 +33,12 @@ pub fn run(command: &Command) -> ExitCode {
         Command::Convert(args) => convert::run(args),
         Command::Movie(args) => movie::run(args),
         Command::Info(args) => info::run(args),
+        Command::Completions(args) => {
+            let mut command = <crate::args::Cli as clap::CommandFactory>::command();
+            let mut script = Vec::new();
+            clap_complete::generate(args.shell, &mut command, "etalon", &mut script);
+            answer(&String::from_utf8_lossy(&script), ExitCode::SUCCESS)
+        }
     }
 }
 

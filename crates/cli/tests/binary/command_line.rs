@@ -32,6 +32,38 @@ fn help_has_examples_and_exit_codes() {
 }
 
 #[test]
+fn plugins_and_their_parameters_are_told() {
+    let workshop = Workshop::new();
+    let all = workshop.run(&["info", "--plugins"]).fine().stdout;
+    for name in [
+        "\n  diffuse ",
+        "\n  hair ",
+        "\nEmitters\n",
+        "\n  linearcurve, bsplinecurve ",
+    ] {
+        assert!(all.contains(name), "{name} in {all}");
+    }
+    let one = workshop.run(&["info", "--plugins", "scale"]).fine().stdout;
+    assert!(one.starts_with("Textures and spectra: `scale`"), "{one}");
+    let rough = workshop
+        .run(&["info", "--plugins", "roughconductor"])
+        .fine()
+        .stdout;
+    assert!(
+        rough.contains("| `alpha` | spectrum or texture | 0.1 |"),
+        "{rough}"
+    );
+    let ran = workshop.run(&["info", "--plugins", "dieletric"]).refused();
+    assert!(
+        ran.stderr.contains("did you mean `dielectric`?"),
+        "{}",
+        ran.stderr
+    );
+    let script = workshop.run(&["completions", "bash"]).fine().stdout;
+    assert!(script.contains("complete -F _etalon"), "{script}");
+}
+
+#[test]
 fn the_version_is_told() {
     let said = Workshop::new().run(&["--version"]).fine().stdout;
     assert_eq!(said, format!("etalon {}\n", env!("CARGO_PKG_VERSION")));
