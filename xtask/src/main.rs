@@ -3,6 +3,7 @@
 mod accelerators;
 mod bits;
 mod calibrate;
+mod compatibility;
 mod efficiency;
 mod mutants;
 mod plugins;
@@ -47,7 +48,7 @@ enum Task {
     Bits,
     /// Write the generated files of `scenes/` anew
     Scenes,
-    /// Write `docs/scene-format.md` anew: every plugin and parameter, as the code asks for them
+    /// Write `docs/scene-format.md` and `docs/mitsuba-compatibility.md` anew: what there is, asked of the code
     Plugins,
     /// Write the generated tables of the spectrum crate anew
     Tables(tables::Arguments),

@@ -4,9 +4,10 @@
 //! read, and what its plugin asks for meanwhile is noted ([`etalon_params::questions`]). The file adds words. A test
 //! keeps the two together: no plugin and no parameter may lack words, no words may lack a plugin or parameter.
 
+use crate::compatibility;
 use etalon::pipeline::{self, LoadOptions};
-use etalon_params::Class;
 use etalon_params::questions::{self, Question, Questions};
+use etalon_params::{Class, Severity};
 use etalon_validation::folders;
 use serde::Deserialize;
 use std::collections::{BTreeMap, BTreeSet};
@@ -51,7 +52,7 @@ fn yes() -> bool {
 }
 
 /// The classes that have plugins, in the order of the page, with their titles and the scene around an element.
-const CLASSES: [(Class, &str, &str); 12] = [
+pub(crate) const CLASSES: [(Class, &str, &str); 12] = [
     (
         Class::Integrator,
         "Integrators",
@@ -86,7 +87,7 @@ const CLASSES: [(Class, &str, &str); 12] = [
     (
         Class::Emitter,
         "Emitters",
-        "<sensor type='perspective'/>ELEMENT",
+        "<sensor type='perspective'/><shape type='sphere'><transform name='to_world'><translate z='5'/></transform></shape>ELEMENT",
     ),
     (
         Class::Texture,
@@ -120,11 +121,14 @@ pub(crate) fn run() -> Result<(), String> {
     let path = page();
     fs::write(&path, text()?).map_err(|e| format!("{}: {e}", path.display()))?;
     println!("{}", path.display());
+    let path = compatibility::page();
+    fs::write(&path, compatibility::text()?).map_err(|e| format!("{}: {e}", path.display()))?;
+    println!("{}", path.display());
     Ok(())
 }
 
 /// Loads a scene with an element in its place, and gives back what was wrong.
-fn load(surroundings: &str, element: &str) -> Vec<String> {
+pub(crate) fn load(surroundings: &str, element: &str) -> Vec<String> {
     let surroundings = match element.contains("type=\"area\"") {
         true => "<sensor type='perspective'/><shape type='sphere'>ELEMENT</shape>",
         false => surroundings,
@@ -147,6 +151,7 @@ fn load(surroundings: &str, element: &str) -> Vec<String> {
     match loaded {
         Ok(_) => Vec::new(),
         Err(refusal) => (refusal.diagnostics.into_iter())
+            .filter(|d| d.severity == Severity::Error)
             .map(|d| d.message + &d.help.map_or(String::new(), |help| format!(" ({help})")))
             .collect(),
     }

@@ -133,6 +133,11 @@ impl Incompatibility {
     }
 }
 
+/// What an integrator cannot do at all.
+fn impossible(message: &str, help: &str) -> Incompatibility {
+    Incompatibility::fatal(Subject::Integrator, message).help(help)
+}
+
 impl SceneCapabilities {
     /// The objections of an estimator that follows light and finds it in one way: a remark if there
     /// is no light at all, or if some of it will be missing; a refusal if all of it would, or if a
@@ -156,32 +161,24 @@ impl SceneCapabilities {
 
     /// The objection, if any, of an estimator that follows light from where it comes from.
     pub fn endless_lit(&self) -> Option<Incompatibility> {
-        self.endless.then(|| {
-            let message = "this integrator sends light into the scene, and light at infinity falls \
-                           on a `plane` that has no end";
-            Incompatibility::fatal(Subject::Integrator, message)
-                .help("use a `rectangle` or a `disk` for a `plane`, or the integrator `path`")
-        })
+        let message = "this integrator sends light into the scene, and light at infinity falls on a `plane` that has no end";
+        let help = "use a `rectangle` or a `disk` for a `plane`, or the integrator `path`";
+        self.endless.then(|| impossible(message, help))
     }
 
     /// The objection, if any, of an estimator that follows light, to materials that are made for the viewer.
     pub fn seen_one_way(&self) -> Option<Incompatibility> {
-        self.one_way.then(|| {
-            let message = "this integrator sends light into the scene, and light that enters a hair leaves it \
-                           elsewhere, which the model `hair` knows for paths from the camera only";
-            Incompatibility::fatal(Subject::Integrator, message)
-                .help("use `path`, or another integrator that starts at the camera")
-        })
+        let message = "this integrator sends light into the scene, and light that enters a hair leaves it elsewhere, which \
+                       the model `hair` knows for paths from the camera only";
+        let help = "use `path`, or another integrator that starts at the camera";
+        self.one_way.then(|| impossible(message, help))
     }
 
     /// The objection, if any, of an estimator that knows nothing of media.
     pub fn media_unseen(&self) -> Option<Incompatibility> {
-        self.media.then(|| {
-            let message =
-                "this integrator sees surfaces only, and the scene has participating media";
-            Incompatibility::fatal(Subject::Integrator, message)
-                .help("integrators that see media: `volpath`, `path`")
-        })
+        let message = "this integrator sees surfaces only, and the scene has participating media";
+        let help = "integrators that see media: `volpath`, `path`";
+        self.media.then(|| impossible(message, help))
     }
 
     /// The objection, if any, of an estimator that finds light by connecting surfaces with the
@@ -314,119 +311,4 @@ impl SceneCapabilities {
 }
 
 #[cfg(test)]
-mod tests {
-    use super::*;
-
-    fn sight(all: u32, hittable: u32, chosen: u32, either: u32) -> SceneCapabilities {
-        SceneCapabilities {
-            lights: LightCount {
-                all,
-                hittable,
-                chosen,
-                either,
-            },
-            ..SceneCapabilities::default()
-        }
-    }
-
-    fn fatal(sight: SceneCapabilities, finding: LightSearch) -> Option<bool> {
-        sight.incompatibilities(finding).first().map(|o| o.fatal)
-    }
-
-    #[test]
-    fn all_light_missing_is_fatal_and_some_a_remark() {
-        // Two point lights, a sky, and a lamp that is never chosen.
-        let mixed = sight(4, 2, 3, 4);
-        assert_eq!(fatal(mixed, LightSearch::Hitting), Some(false));
-        assert_eq!(fatal(mixed, LightSearch::Choosing), Some(false));
-        assert_eq!(fatal(mixed, LightSearch::Either), None);
-        let points = sight(2, 0, 2, 2);
-        assert_eq!(fatal(points, LightSearch::Hitting), Some(true));
-        assert_eq!(fatal(points, LightSearch::Choosing), None);
-        let unchosen_points = sight(2, 0, 0, 0);
-        assert_eq!(fatal(unchosen_points, LightSearch::Either), Some(true));
-    }
-
-    #[test]
-    fn smooth_surfaces_alone_in_view_are_fatal_and_among_others_a_remark() {
-        let seen = |scattering, smooth, lights| {
-            let view = CameraProbe {
-                rays: 10,
-                scattering,
-                smooth,
-                lights,
-                reached: scattering.max(lights),
-                ..CameraProbe::default()
-            };
-            let sight = SceneCapabilities {
-                view,
-                ..SceneCapabilities::default()
-            };
-            sight.unconnected().map(|objection| objection.fatal)
-        };
-        assert_eq!(seen(10, 0, 0), None);
-        assert_eq!(seen(0, 0, 10), None);
-        assert_eq!(seen(0, 10, 0), Some(true));
-        assert_eq!(seen(0, 1, 0), Some(true));
-        assert_eq!(seen(0, 9, 1), Some(false));
-        assert_eq!(seen(9, 1, 0), Some(false));
-        // A varnish, with what lies beneath.
-        assert_eq!(seen(10, 10, 0), Some(false));
-    }
-
-    #[test]
-    fn a_camera_that_sees_nothing_to_connect_with_is_remarked_upon() {
-        let seen = |rays, reached| {
-            let view = CameraProbe {
-                rays,
-                reached,
-                ..CameraProbe::default()
-            };
-            let objections = SceneCapabilities {
-                view,
-                ..sight(1, 0, 1, 1)
-            }
-            .incompatibilities(LightSearch::Either);
-            objections.iter().map(|o| o.fatal).collect::<Vec<_>>()
-        };
-        assert_eq!(seen(10, 0), [false]);
-        assert!(seen(10, 1).is_empty());
-        // Nobody has looked.
-        assert!(seen(0, 0).is_empty());
-    }
-
-    #[test]
-    fn light_behind_glass_is_missed_from_the_camera_alone() {
-        let remarks = |veiled, finding| {
-            let view = CameraProbe {
-                rays: 10,
-                reached: 10,
-                veiled,
-                ..CameraProbe::default()
-            };
-            let sight = SceneCapabilities {
-                view,
-                ..sight(1, 0, 1, 1)
-            };
-            let objections = sight.incompatibilities(finding);
-            objections.iter().map(|o| o.fatal).collect::<Vec<_>>()
-        };
-        assert_eq!(remarks(1, LightSearch::FromCamera), [false]);
-        assert!(remarks(0, LightSearch::FromCamera).is_empty());
-        for finding in [LightSearch::Either, LightSearch::Choosing] {
-            assert!(remarks(10, finding).is_empty());
-        }
-    }
-
-    #[test]
-    fn darkness_is_remarked_upon() {
-        for finding in [
-            LightSearch::Hitting,
-            LightSearch::Choosing,
-            LightSearch::Either,
-            LightSearch::FromCamera,
-        ] {
-            assert_eq!(fatal(SceneCapabilities::default(), finding), Some(false));
-        }
-    }
-}
+mod tests;
