@@ -44,6 +44,7 @@ pub(crate) static OLD_DAYLIGHT: [[f64; 81]; 2] = [
 
 /// Light-emitting diodes by name; entry i belongs to 380 + 5 i nm.
 #[rustfmt::skip]
+#[expect(clippy::approx_constant, reason = "a tabulated power that happens to lie near π")]
 pub(crate) static LEDS: [(&str, [f64; 81]); 9] = [
     ("LED-B1", [
         0.0, 0.01, 0.01, 0.02, 0.04, 0.07, 0.15, 0.28, 0.53, 0.92, 1.54, 2.52, 4.16, 6.39, 7.89, 7.57, 6.25, 5.16,
