@@ -1,4 +1,4 @@
-//! `sunsky`: the clear sky of Hošek and Wilkie with the sun in it (see [`crate::sky::hosek_wilkie`]).
+//! `sunsky`: the clear sky of Hošek and Wilkie with the sun in it (see `sky/hosek_wilkie.rs`).
 //!
 //! The zenith is the light's +z. Radiance is interpolated linearly between the model's wavelengths and zero beyond
 //! them, 320 to 720 nm, and below the horizon. The sun is a disk of mean radiance or, with `complex_sun`, darkens toward
@@ -72,7 +72,7 @@ pub struct SunSky {
 }
 
 impl SunSky {
-    /// Reads `turbidity` (3), `albedo` (0.3), `sun_direction` or a moment ([`Moment`]), `sun_scale`, `sky_scale` (1),
+    /// Reads `turbidity` (3), `albedo` (0.3), `sun_direction` or a moment (`latitude` to `second`), `sun_scale`, `sky_scale` (1),
     /// `sun_aperture` (0.5358°), `complex_sun` (false) and `to_world`.
     pub fn from_params(params: &Params<'_>, build: &mut dyn Build) -> Option<Self> {
         let scale = |name: &str| {
