@@ -12,9 +12,9 @@
 //! The first is in proportion to the irradiance. The second has a part without cosine: what receives light
 //! on both sides may scatter it by lobes with normals of their own, whose cosines do not vanish with n·ω.
 
-use crate::BoundingSphere;
 use crate::light::anywhere;
 use crate::light_model::LightModel;
+use crate::{BoundingSphere, sky};
 use etalon_math::{Density, Frame, SolidAngle};
 use etalon_params::Params;
 use etalon_sampling::warps::{
@@ -24,8 +24,8 @@ use etalon_sampling::warps::{
 use etalon_spectrum::Wavelengths;
 use etalon_transport::refuse_varying;
 use etalon_transport::{
-    Build, Emission, EmissionPdf, LightId, LightKind, LightSample, LightSampleContext, SamplePdf,
-    Shapes, SpectrumKind, TextureId, Textures,
+    Build, Emission, EmissionPdf, LightSample, LightSampleContext, Shapes, SpectrumKind, TextureId,
+    Textures,
 };
 use glam::{Vec2, Vec3, Vec4};
 
@@ -121,14 +121,9 @@ impl LightModel for ConstantLight {
             }
         };
         let density = self.background_density(from, direction);
-        (density.hero() > 0.0).then(|| LightSample {
-            direction,
-            target: None,
-            radiance: self.background(textures, direction, wavelengths),
-            chance: SamplePdf::Continuous(density),
-            cos: 1.0,
-            origin: LightKind::Sky,
-            light: LightId::NONE,
+        (density.hero() > 0.0).then(|| {
+            let radiance = self.background(textures, direction, wavelengths);
+            sky::sample(direction, radiance, density)
         })
     }
 
@@ -143,19 +138,9 @@ impl LightModel for ConstantLight {
         _time: f32,
     ) -> Option<Emission> {
         let direction = square_to_uniform_sphere(u_direction);
-        let factor = bounds.cross_section() as f32 / UNIFORM_SPHERE_DENSITY;
-        let ray = bounds.ray_into(direction, u_position);
-        Some(Emission {
-            point: Emission::point_of(&ray),
-            ray,
-            weight: self.background(textures, direction, wavelengths) * factor,
-            density: EmissionPdf {
-                origin: UNIFORM_SPHERE_DENSITY,
-                ray: bounds.ray_density(),
-            },
-            origin: LightKind::Sky,
-            light: LightId::NONE,
-        })
+        let radiance = self.background(textures, direction, wavelengths);
+        let density = UNIFORM_SPHERE_DENSITY;
+        Some(sky::emit(bounds, -direction, u_position, radiance, density))
     }
 
     fn power(&self, textures: &(impl Textures + Shapes), bounds: &BoundingSphere) -> f64 {

@@ -19,15 +19,14 @@
 use crate::latitude_longitude as map;
 use crate::light_model::LightModel;
 use crate::pose::Pose;
-use crate::{BoundingSphere, latitude_longitude};
+use crate::{BoundingSphere, latitude_longitude, sky};
 use etalon_images::raster;
 use etalon_math::{Density, SolidAngle, float64};
 use etalon_params::{Diagnostic, Params};
 use etalon_sampling::discrete::Bilinear;
 use etalon_spectrum::{Regular, RgbCoefficients, Spectrum, Wavelengths, illuminants};
 use etalon_transport::{
-    Build, Emission, EmissionPdf, LightId, LightKind, LightSample, LightSampleContext, SamplePdf,
-    Shapes, Textures,
+    Build, Emission, EmissionPdf, LightSample, LightSampleContext, Shapes, Textures,
 };
 use glam::{UVec2, Vec2, Vec3, Vec4};
 use std::path::Path;
@@ -320,15 +319,8 @@ impl LightModel for EnvironmentMap {
         u: Vec2,
     ) -> Option<LightSample> {
         let (direction, place, density) = self.choose(self.toward(from)?, u)?;
-        Some(LightSample {
-            direction,
-            target: None,
-            radiance: self.radiance(place, wavelengths),
-            chance: SamplePdf::Continuous(Density::uniform(density)),
-            cos: 1.0,
-            origin: LightKind::Sky,
-            light: LightId::NONE,
-        })
+        let radiance = self.radiance(place, wavelengths);
+        Some(sky::sample(direction, radiance, Density::uniform(density)))
     }
 
     #[inline]
@@ -342,19 +334,8 @@ impl LightModel for EnvironmentMap {
         _time: f32,
     ) -> Option<Emission> {
         let (toward, place, density) = self.choose(self.tables.alone.as_ref()?, u_direction)?;
-        let factor = bounds.cross_section() as f32 / density;
-        let ray = bounds.ray_into(-toward, u_position);
-        Some(Emission {
-            point: Emission::point_of(&ray),
-            ray,
-            weight: self.radiance(place, wavelengths) * factor,
-            density: EmissionPdf {
-                origin: density,
-                ray: bounds.ray_density(),
-            },
-            origin: LightKind::Sky,
-            light: LightId::NONE,
-        })
+        let radiance = self.radiance(place, wavelengths);
+        Some(sky::emit(bounds, toward, u_position, radiance, density))
     }
 
     fn power(&self, _: &(impl Textures + Shapes), bounds: &BoundingSphere) -> f64 {

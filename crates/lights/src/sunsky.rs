@@ -6,11 +6,11 @@
 //! cone of the sun, uniformly, or by a table of the sky's brightness over φ/2π and 2θ/π, bilinear, with
 //! dω = π² sin θ du dv.
 
-use crate::BoundingSphere;
 use crate::light_model::LightModel;
 use crate::pose::Pose;
 use crate::sky::hosek_wilkie::{self, BANDS, FIRST, HosekWilkie, STEP, SUN_RADIUS};
 use crate::sky::sun_position::Moment;
+use crate::{BoundingSphere, sky};
 use core::f32::consts::{FRAC_PI_2, PI, TAU};
 use etalon_math::{Density, Frame, SolidAngle, float};
 use etalon_params::{Diagnostic, Params};
@@ -18,8 +18,8 @@ use etalon_sampling::discrete::Bilinear;
 use etalon_sampling::warps::{square_to_uniform_cone, uniform_cone_density};
 use etalon_spectrum::Wavelengths;
 use etalon_transport::{
-    Build, Emission, EmissionPdf, LightId, LightKind, LightSample, LightSampleContext, SamplePdf,
-    Shapes, SpectrumKind, TextureId, TexturePoint, Textures, refuse_varying,
+    Build, Emission, EmissionPdf, LightSample, LightSampleContext, Shapes, SpectrumKind, TextureId,
+    TexturePoint, Textures, refuse_varying,
 };
 use glam::{Vec2, Vec3, Vec4};
 use std::sync::Arc;
@@ -328,14 +328,13 @@ impl LightModel for SunSky {
     ) -> Option<LightSample> {
         let local = self.choose(u)?;
         let density = self.density_of(local);
-        (density > 0.0).then(|| LightSample {
-            direction: self.pose.to_world(local),
-            target: None,
-            radiance: self.radiance(scene, local, wavelengths),
-            chance: SamplePdf::Continuous(Density::uniform(density)),
-            cos: 1.0,
-            origin: LightKind::Sky,
-            light: LightId::NONE,
+        (density > 0.0).then(|| {
+            let radiance = self.radiance(scene, local, wavelengths);
+            sky::sample(
+                self.pose.to_world(local),
+                radiance,
+                Density::uniform(density),
+            )
         })
     }
 
@@ -350,18 +349,15 @@ impl LightModel for SunSky {
     ) -> Option<Emission> {
         let local = self.choose(u_direction)?;
         let density = self.density_of(local);
-        let ray = bounds.ray_into(-self.pose.to_world(local), u_position);
-        (density > 0.0).then(|| Emission {
-            point: Emission::point_of(&ray),
-            ray,
-            weight: self.radiance(scene, local, wavelengths)
-                * (bounds.cross_section() as f32 / density),
-            density: EmissionPdf {
-                origin: density,
-                ray: bounds.ray_density(),
-            },
-            origin: LightKind::Sky,
-            light: LightId::NONE,
+        (density > 0.0).then(|| {
+            let radiance = self.radiance(scene, local, wavelengths);
+            sky::emit(
+                bounds,
+                self.pose.to_world(local),
+                u_position,
+                radiance,
+                density,
+            )
         })
     }
 
