@@ -5,6 +5,7 @@
 
 pub mod contender;
 pub mod embree;
+pub mod material;
 pub mod random;
 pub mod rays;
 pub mod scenes;

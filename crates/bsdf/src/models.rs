@@ -20,7 +20,7 @@ macro_rules! models {
                 $(<$life:lifetime>)?,)*
         }
         composed { $($composed_name:literal $composed:ident $composed_module:ident,)* }
-        lobes { $($lobe:ident $lobe_module:ident,)* }
+        lobes { $($lobe:ident $lobe_module:ident $(<$lobe_life:lifetime>)?,)* }
     ) => {
         /// A material as the scene describes it: a model's parameters with their textures.
         #[derive(Clone, Debug)]
@@ -37,7 +37,7 @@ macro_rules! models {
             $(#[doc = concat!("See [`crate::", stringify!($plain_module), "`].")]
             $plain(crate::$plain_module::$plain $(<$life>)?),)*
             $(#[doc = concat!("See [`crate::", stringify!($lobe_module), "`].")]
-            $lobe(crate::$lobe_module::$lobe),)*
+            $lobe(crate::$lobe_module::$lobe $(<$lobe_life>)?),)*
         }
 
         /// The names of all BSDF plugins.
@@ -333,6 +333,8 @@ models! {
         "blendbsdf" Blend blendbsdf,
         "mixturebsdf" Mixture mixturebsdf,
         "mixture" Die mixture,
+        "coating" Coating coating,
+        "roughcoating" RoughCoating roughcoating,
         "normalmap" NormalMap normalmap,
         "bumpmap" BumpMap bumpmap,
         "null" Null null,
@@ -340,5 +342,6 @@ models! {
     }
     lobes {
         Mirror mirror,
+        Coated coating <'a>,
     }
 }

@@ -4,11 +4,11 @@
 //! f(wo, wi) |cos θi| = ρs F(θo) δ(wi = mirror of wo) + f_base(wo, wi) cos θi
 //! ```
 //!
-//! from the front, with T = 1 − F in f_base (see [`crate::coating`]) and the internal
+//! from the front, with T = 1 − F in f_base (see [`crate::diffuse_base`]) and the internal
 //! reflectance of [`crate::fresnel::internal_diffuse_reflectance`]. Mitsuba's plugin of that
 //! name.
 
-use crate::coating::{Coat, Coating};
+use crate::diffuse_base::{Coat, Coating};
 use crate::refraction::reflect;
 use crate::{Bxdf, ShadingContext, fresnel};
 use core::f32::consts::FRAC_1_PI;

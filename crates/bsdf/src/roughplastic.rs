@@ -5,9 +5,9 @@
 //! ```
 //!
 //! from the front, with the rough interface's transmittance T and internal reflectance R in
-//! f_base (see [`crate::coating`] and [`crate::rough_fresnel`]). Mitsuba's plugin of that name.
+//! f_base (see [`crate::diffuse_base`] and [`crate::rough_fresnel`]). Mitsuba's plugin of that name.
 
-use crate::coating::{Coat, Coating};
+use crate::diffuse_base::{Coat, Coating};
 use crate::microfacet::Microfacet;
 use crate::refraction::{half_way, reflect};
 use crate::rough_fresnel::RoughFresnel;

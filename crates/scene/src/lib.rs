@@ -9,6 +9,7 @@ pub mod compile;
 mod displacement;
 pub mod lookup;
 mod media;
+mod merge;
 mod rays;
 pub mod sampler;
 pub mod scene;

@@ -2,7 +2,7 @@
 
 use crate::attributes::Asked;
 use crate::builder::Builder;
-use crate::displacement;
+use crate::{displacement, merge};
 use etalon_bsdf::{Material, classicphong};
 use etalon_geometry::shapes::csg::Operation;
 use etalon_geometry::{GeometryBuilder, GroupId, Placement, Shape};
@@ -15,7 +15,7 @@ use std::collections::HashMap;
 use std::sync::Arc;
 
 /// Plugins that gather or place other shapes.
-pub(crate) const COMPOSED: [&str; 2] = ["shapegroup", "instance"];
+pub(crate) const COMPOSED: [&str; 3] = ["shapegroup", "instance", "merge"];
 
 /// A shape that emits light, with the description of the light.
 pub struct Emitting {
@@ -79,7 +79,7 @@ pub fn read(scene: &Params<'_>, builder: &mut Builder<'_>) -> Surfaces {
     for (_, node) in scene.children(Class::Bsdf) {
         surfaces.material(node, builder);
     }
-    for (_, node) in scene.children(Class::Shape) {
+    for (_, node) in merge::shapes(scene) {
         surfaces.add(node, builder);
     }
     surfaces
@@ -286,7 +286,7 @@ impl Surfaces {
         }
         let params = Params::new(node, builder.diagnostics);
         let (mut members, mut instances) = (Vec::new(), Vec::new());
-        for (property, child) in params.children(Class::Shape) {
+        for (property, child) in merge::shapes(&params) {
             match child.plugin.value.as_str() {
                 "instance" => {
                     if let Some((group, motion)) = self.placed_group(child, builder) {

@@ -1,67 +1,26 @@
-//! A material by itself, evaluated at directions and wavelengths.
+//! What is tabulated, from words.
 
-use etalon::pipeline::{self, LoadOptions, Loaded};
+use etalon_benches::material::LoneMaterial;
 use etalon_spectrum::colour_space::XYZ_TO_RGB;
-use etalon_spectrum::{Spectrum, Wavelengths, cie};
-use etalon_transport::{Bsdf, Ray, SurfaceInteraction, TransportMode, World};
+use etalon_spectrum::{Spectrum, cie};
 use glam::{Vec3, Vec4};
 use std::fmt::Write as _;
 use std::fs;
 use std::path::Path;
 
-/// A material on a plane whose normal is z.
-pub(super) struct Model {
-    loaded: Loaded,
-    vertex: SurfaceInteraction,
-}
+/// A material, evaluated at directions and wavelengths.
+pub(super) struct Model(LoneMaterial);
 
 impl Model {
     /// The material that words describe: the name of a plugin and `key=value`s, a file whose only element is a
     /// `<bsdf>`, or a table.
     pub(super) fn read(words: &[String]) -> Result<Self, String> {
-        let material = material(words)?;
-        let scene = format!(
-            "<scene version=\"3.0.0\">\n<sensor type=\"perspective\"/>\n<shape type=\"rectangle\">\n{material}\n\
-             </shape>\n</scene>\n"
-        );
-        let name = format!("etalon-tabulate-{}.xml", std::process::id());
-        let path = std::env::temp_dir().join(name);
-        let failure = |e: std::io::Error| format!("{}: {e}", path.display());
-        fs::write(&path, &scene).map_err(failure)?;
-        let loaded = pipeline::load(&path, &LoadOptions::default());
-        fs::remove_file(&path).map_err(failure)?;
-        let loaded = loaded.map_err(|refusal| {
-            let lines: Vec<String> = (refusal.diagnostics.iter())
-                .map(|d| {
-                    d.message.clone()
-                        + &d.help.as_ref().map_or(String::new(), |h| format!(" ({h})"))
-                })
-                .collect();
-            lines.join("\n")
-        })?;
-        let ray = Ray::new(Vec3::new(0.0, 0.0, 1.0), Vec3::NEG_Z, 0.0);
-        let scene = &loaded.compiled.scene;
-        let hit = scene.intersect(&ray).ok_or("the plane cannot be seen")?;
-        let vertex = scene.vertex(&ray, &hit);
-        Ok(Self { loaded, vertex })
+        LoneMaterial::read(&material(words)?, Vec::new()).map(Self)
     }
 
     /// f cos θi for the known `wo` and the sampled `wi`, at wavelengths in nm.
     pub(super) fn value(&self, wo: Vec3, wi: Vec3, wavelengths: &[f32]) -> Vec<f32> {
-        let frame = self.vertex.shading;
-        let (wo, wi) = (frame.to_world(wo), frame.to_world(wi));
-        let mut out = Vec::with_capacity(wavelengths.len());
-        for four in wavelengths.chunks(4) {
-            let lanes = std::array::from_fn(|i| four[i.min(four.len() - 1)]);
-            let at = Wavelengths {
-                lambda: Vec4::from_array(lanes),
-                density: Vec4::ONE,
-            };
-            let bsdf = self.loaded.compiled.scene.bsdf(&self.vertex, wo, &at);
-            let value = bsdf.eval(wo, wi, TransportMode::Radiance).to_array();
-            out.extend_from_slice(&value[..four.len()]);
-        }
-        out
+        self.0.value(wo, wi, wavelengths)
     }
 
     /// The BRDF, without the cosine.

@@ -129,6 +129,26 @@ fn instances_place_a_group_and_keep_its_materials() {
 }
 
 #[test]
+fn merged_shapes_stand_in_their_own_right() {
+    let inner = "<shape type=\"merge\">".to_owned() + &sphere(2.0, &grey(0.75)) + "</shape>\n";
+    let merged = "<shape type=\"merge\">".to_owned()
+        + &sphere(0.0, &grey(0.125))
+        + &inner
+        + &sphere(4.0, &glow(2.0))
+        + "</shape>\n";
+    let group = "<shape type=\"shapegroup\" id=\"g\">".to_owned() + &inner + "</shape>\n";
+    let place = "<shape type=\"instance\"><ref id=\"g\"/><transform name=\"to_world\">\
+                 <translate x=\"6\"/></transform></shape>\n";
+    let world = scene(&(merged + &group + place));
+    assert_eq!(albedo(&world, 0.0), Vec4::splat(0.125));
+    assert_eq!(albedo(&world, 2.0), Vec4::splat(0.75));
+    assert_eq!(albedo(&world, 8.0), Vec4::splat(0.75));
+    let (hit, at) = meet(&world, &down(4.0, 0.0)).expect("a light");
+    assert!(world.is_emitter(&hit));
+    assert_eq!(world.emitted(&at, Vec3::Z, &LANES), Vec4::splat(2.0));
+}
+
+#[test]
 fn the_calling_threads_rays_are_counted() {
     let world = scene(&sphere(0.0, ""));
     world.take_ray_count();

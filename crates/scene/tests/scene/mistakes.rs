@@ -16,9 +16,10 @@ const OBJECTS: [(&str, &str); 10] = [
 ];
 
 /// For every kind of object, what it may hold without a name.
-const HOSTS: [(&str, &str, &[&str]); 9] = [
+const HOSTS: [(&str, &str, &[&str]); 10] = [
     ("<shape type=\"sphere\">", "</shape>", &["bsdf"]),
     ("<shape type=\"shapegroup\">", "</shape>", &["shape"]),
+    ("<shape type=\"merge\">", "</shape>", &["shape"]),
     ("<bsdf type=\"diffuse\">", "</bsdf>", &[]),
     ("<bsdf type=\"roughconductor\">", "</bsdf>", &[]),
     ("<emitter type=\"point\">", "</emitter>", &[]),
