@@ -3,7 +3,7 @@
 //! `docs/mitsuba.txt` lists them; every one is put into the smallest scene that can hold it. `cargo xtask plugins` writes
 //! the page, and a test keeps it true.
 
-use crate::plugins::{CLASSES, load};
+use crate::plugins::{CLASSES, load, turn};
 use etalon_params::{Class, ignored};
 use etalon_validation::folders;
 use std::fmt::Write as _;
@@ -89,6 +89,7 @@ fn parameter(token: &str) -> Option<(String, String)> {
 
 /// The page.
 pub(crate) fn text() -> Result<String, String> {
+    let _turn = turn();
     let path = folders::root().join("docs/mitsuba.txt");
     let list = fs::read_to_string(&path).map_err(|e| format!("{}: {e}", path.display()))?;
     let plugins = read(&list)?;

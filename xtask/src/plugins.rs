@@ -14,6 +14,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::fmt::Write as _;
 use std::fs;
 use std::path::PathBuf;
+use std::sync::{Mutex, MutexGuard};
 
 /// `docs/plugins.toml`.
 #[derive(Deserialize)]
@@ -127,6 +128,14 @@ pub(crate) fn run() -> Result<(), String> {
     Ok(())
 }
 
+/// What is asked is noted for the whole program, and scenes are loaded from one file: one page at a time.
+static TURN: Mutex<()> = Mutex::new(());
+
+/// Waits for the turn to make a page.
+pub(crate) fn turn() -> MutexGuard<'static, ()> {
+    TURN.lock().unwrap_or_else(|e| e.into_inner())
+}
+
 /// Loads a scene with an element in its place, and gives back what was wrong.
 pub(crate) fn load(surroundings: &str, element: &str) -> Vec<String> {
     let surroundings = match element.contains("type=\"area\"") {
@@ -179,6 +188,7 @@ fn built(class: Class, surroundings: &str) -> BTreeSet<String> {
 
 /// The page.
 pub(crate) fn text() -> Result<String, String> {
+    let _turn = turn();
     let path = folders::root().join("docs/plugins.toml");
     let words = fs::read_to_string(&path).map_err(|e| format!("{}: {e}", path.display()))?;
     let words: Words = toml::from_str(&words).map_err(|e| format!("{}: {e}", path.display()))?;
