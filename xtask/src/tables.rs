@@ -1,12 +1,15 @@
-//! `cargo xtask tables`: writes the generated data of `crates/spectrum/data` anew.
+//! `cargo xtask tables`: writes the generated data of `crates/spectrum/data` and `crates/lights/data` anew.
 //!
 //! - `rgb2spec.bin`, the coefficients of smooth spectra for RGB colours, is fitted from nothing but
 //!   the tables of the CIE; the bytes are the same on every machine.
+//! - `hosek_wilkie.bin` of `crates/lights/data`, the coefficients of the clear sky and the sun in single precision, from
+//!   Mitsuba's `sunsky_datasets.bin`, named by `--sky`.
 //! - `conductors.txt`, complex refractive indices, is distilled from a copy of the
 //!   refractiveindex.info database (CC0 1.0) named by `--refractiveindex`; without it the file
 //!   stays as it is.
 
 use etalon_spectrum::upsample::table;
+use etalon_tables::tensor_file::{self, Array, TensorFile};
 use std::fmt::Write as _;
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -17,6 +20,9 @@ pub(crate) struct Arguments {
     /// Root of a copy of the refractiveindex.info database (the folder that holds `database/`)
     #[arg(long, value_name = "DIR")]
     pub(crate) refractiveindex: Option<PathBuf>,
+    /// Mitsuba's `data/sunsky/sunsky_datasets.bin`, which has Hošek and Wilkie's numbers
+    #[arg(long, value_name = "FILE")]
+    pub(crate) sky: Option<PathBuf>,
 }
 
 /// Range that the table of every conductor covers, nm.
@@ -53,6 +59,10 @@ pub(crate) fn run(arguments: &Arguments) -> Result<(), String> {
         .flat_map(|value| value.to_le_bytes())
         .collect();
     write(&data.join("rgb2spec.bin"), &coefficients)?;
+    if let Some(datasets) = &arguments.sky {
+        let bytes = sky(datasets).map_err(|e| format!("{}: {e}", datasets.display()))?;
+        write(&data.join("../../lights/data/hosek_wilkie.bin"), &bytes)?;
+    }
     match &arguments.refractiveindex {
         Some(database) => write(
             &data.join("conductors.txt"),
@@ -75,6 +85,25 @@ fn write(path: &Path, bytes: &[u8]) -> Result<(), String> {
     };
     println!("{}: {} bytes, {change}", path.display(), bytes.len());
     Ok(())
+}
+
+/// The spectral fields of a file of skies, with their numbers of dimensions, in single precision.
+fn sky(datasets: &Path) -> Result<Vec<u8>, String> {
+    const FIELDS: [(&str, usize); 4] = [
+        ("sky_params_spec", 5),
+        ("sky_rad_spec", 4),
+        ("sun_rad_spec", 4),
+        ("sun_ld_spec", 2),
+    ];
+    let bytes = fs::read(datasets).map_err(|e| e.to_string())?;
+    let file = TensorFile::parse(&bytes).map_err(|e| e.to_string())?;
+    let tensors = FIELDS.map(|(name, dimensions)| file.tensor(name, dimensions));
+    let mut fields = Vec::new();
+    for ((name, _), tensor) in FIELDS.iter().zip(&tensors) {
+        let tensor = tensor.as_ref().map_err(ToString::to_string)?;
+        fields.push((*name, Array::Floats(&tensor.data, &tensor.shape)));
+    }
+    Ok(tensor_file::write(&fields))
 }
 
 /// The text of `conductors.txt`.

@@ -131,7 +131,7 @@ impl Description {
             Material::Conductor(base) => Base::Conductor(base.resolve(&below)),
             _ => return,
         };
-        let mut coated = Coated { layer, base };
+        let coated = Coated { layer, base };
         if let Some((facets, _)) = self.rough.as_deref() {
             let coat = RoughConductor {
                 eta: Vec4::splat(self.eta),
@@ -163,7 +163,6 @@ impl Description {
             into.push(AnyBxdf::Mirror(mirror), frame, weight, weight);
             return;
         }
-        coated.layer.rough = None;
         let mirror = Mirror { reflectance };
         into.push(AnyBxdf::Mirror(mirror), frame, weight, weight * COAT_SHARE);
         into.push(

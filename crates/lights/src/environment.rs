@@ -26,7 +26,7 @@ use etalon_params::{Diagnostic, Params};
 use etalon_sampling::discrete::Bilinear;
 use etalon_spectrum::{Regular, RgbCoefficients, Spectrum, Wavelengths, illuminants};
 use etalon_transport::{
-    Build, Emission, EmissionPdf, LightSample, LightSampleContext, Shapes, Textures,
+    Build, Emission, EmissionPdf, LightSample, LightSampleContext, Shapes, Textures, file,
 };
 use glam::{UVec2, Vec2, Vec3, Vec4};
 use std::path::Path;
@@ -124,29 +124,10 @@ impl EnvironmentMap {
         });
         let compensated = params.boolean_or("mis_compensation", true);
         let pose = Pose::from_params(params);
-        let Some(filename) = params.string("filename") else {
-            if !params.has("filename") {
-                params.missing("filename", "the name of an image file");
-            }
-            return None;
-        };
-        let span = params.property("filename")?.span;
-        let bytes = match build.assets().bytes(filename) {
-            Ok(bytes) => bytes,
-            Err(error) => {
-                let mut diagnostic = Diagnostic::error(span, error.message);
-                diagnostic.help = error.help;
-                params.diagnostics.push(diagnostic);
-                return None;
-            }
-        };
-        let pixels = match decode(&bytes, filename) {
-            Ok(pixels) => pixels,
-            Err(message) => {
-                params.diagnostics.push(Diagnostic::error(span, message));
-                return None;
-            }
-        };
+        let filename = params.string("filename").unwrap_or_default();
+        let what = "the name of an image file";
+        let pixels = file::read(params, build, what, |bytes| decode(bytes, filename))?;
+        let span = file::span_of_filename(params);
         for note in &pixels.notes {
             let message = format!("`{filename}`: {note}");
             params.diagnostics.push(Diagnostic::note(span, message));

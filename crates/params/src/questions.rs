@@ -36,9 +36,14 @@ pub fn record<T>(read: impl FnOnce() -> T) -> (T, Questions) {
     (result, std::mem::take(&mut *noted))
 }
 
+/// Whether questions are noted.
+pub(crate) fn is_recording() -> bool {
+    RECORDING.load(Ordering::Relaxed)
+}
+
 /// Notes a question; what is empty adds nothing to what is known of the parameter.
 pub(crate) fn note(class: Class, plugin: &str, name: &str, question: impl FnOnce() -> Question) {
-    if !RECORDING.load(Ordering::Relaxed) {
+    if !is_recording() {
         return;
     }
     let question = question();

@@ -300,7 +300,9 @@ impl<'a> Params<'a> {
 
     /// The nested objects of one class, named or not, in the order of the file; marked as used.
     pub fn children(&self, class: Class) -> Vec<(&'a Property, &'a Arc<Node>)> {
-        self.note_default(&format!("<{}>", class.name()), "nested", "");
+        if questions::is_recording() {
+            self.note_default(&format!("<{}>", class.name()), "nested", "");
+        }
         let children: Vec<_> = self
             .node
             .properties

@@ -119,11 +119,6 @@ impl SpectralTable {
     pub fn half_vectors(&self) -> &HalfVectors {
         &self.half_vectors
     }
-
-    /// Its angles and wavelengths.
-    pub fn grid(&self) -> &Grid {
-        &self.grid
-    }
 }
 
 impl Grid {
