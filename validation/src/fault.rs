@@ -5,7 +5,7 @@
 //! is no fault: another wavelength chooses then, and the picture must be the same.
 
 use etalon_math::{Density, SolidAngle};
-use etalon_spectrum::Wavelengths;
+use etalon_spectrum::{SensorWeights, Wavelengths};
 use etalon_transport::{
     Bsdf, BsdfSample, Emission, EmissionPdf, Hit, LegacyPhong, LightId, LightSample,
     LightSampleContext, MediumId, Ray, SamplePdf, SurfaceInteraction, Transmission, TransportMode,
@@ -197,6 +197,14 @@ impl<W: World> World for Faulty<'_, W> {
 
     fn wavelengths(&self, u: f32) -> Wavelengths {
         self.world.wavelengths(u).rotated(self.rotation)
+    }
+
+    fn sensor(&self, wavelengths: &Wavelengths) -> SensorWeights {
+        self.world.sensor(wavelengths)
+    }
+
+    fn sensor_unit(&self) -> Vec3 {
+        self.world.sensor_unit()
     }
 
     fn intersect(&self, ray: &Ray) -> Option<Hit> {

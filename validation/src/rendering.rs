@@ -142,8 +142,8 @@ pub fn finite(picture: RenderedImage) -> Result<RenderedImage, String> {
     if faults > 0 {
         return Err(format!("{faults} numbers were not finite or out of range"));
     }
-    let colours = ["R", "G", "B", "X", "Y", "Z"];
-    let planes = colours
+    let planes = picture
+        .colours()
         .into_iter()
         .filter_map(|name| picture.image.channel(name));
     let bad = planes.flatten().filter(|x| !x.is_finite()).count();
@@ -179,7 +179,9 @@ fn altered(
     let film = ExactFilm::new(compiled.film.clone(), &named).map_err(|e| e.message)?;
     let mut film = film.dealing(counts);
     let world = Faulty::new(&compiled.scene, fault, rotation);
-    loaded.integrator.render(&world, &mut film, plan, &());
+    loaded
+        .integrator
+        .render(std::slice::from_ref(&world), &mut film, plan, &());
     let of = &loaded.integrator_name;
     let name = match fault {
         Some(fault) => format!("{of} with the fault `{fault}`"),

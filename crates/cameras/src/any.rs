@@ -68,7 +68,7 @@ cameras! {
 }
 
 impl AnyCamera {
-    /// Reads a sensor node for a film of `window`. The children `film`, `sampler` and `medium` belong to
+    /// Reads a sensor node for a film of `window`. The children `film`, `sampler` and `medium`, and `srf`, belong to
     /// the scene, which reads them itself; they are marked as used here. Reports every mistake,
     /// unknown properties included; `None` if no camera can be made of it.
     pub fn from_params(params: &Params<'_>, window: FilmWindow) -> Option<(Self, Shutter)> {
@@ -80,12 +80,6 @@ impl AnyCamera {
                 .push(plugins::not_built(params.node, built));
             return None;
         };
-        if params.property("srf").is_some() {
-            params.error_at(
-                "srf",
-                "a sensor response function (`srf`) is known but not built yet",
-            );
-        }
         params.children(Class::Medium);
         params.children(Class::Film);
         params.children(Class::Sampler);

@@ -127,8 +127,7 @@ impl Noise {
 
     /// Adds a picture.
     fn add(&mut self, developed: &RenderedImage) -> Result<(), Diagnostic> {
-        let names = ["R", "G", "B", "X", "Y", "Z"];
-        let planes = names.iter().filter_map(|name| {
+        let planes = developed.colours().into_iter().filter_map(|name| {
             Some((
                 developed.image.channel(name)?,
                 developed.standard_error(name)?,

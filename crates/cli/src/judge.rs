@@ -388,11 +388,8 @@ fn metadata<'a>(image: &'a RenderedImage, which: &str) -> Result<&'a Metadata, S
 
 /// The colour channels of an image, whatever its pixel format.
 fn colours(metadata: &Metadata) -> Vec<String> {
-    ["R", "G", "B", "X", "Y", "Z"]
-        .into_iter()
-        .filter(|name| metadata.channel_index(name).is_some())
-        .map(str::to_owned)
-        .collect()
+    let names = metadata.colours().into_iter();
+    names.map(str::to_owned).collect()
 }
 
 /// The tile means of one channel, one replicate after the other, and the number of tiles.
@@ -410,11 +407,14 @@ pub fn replicates(
     Ok((values, (means.columns() * means.rows()) as usize))
 }
 
-/// The luminance of channels' means, or the mean of the green or only channel.
+/// The luminance of channels' means, the mean of the green or only channel, or that of all bands.
 fn luminance(means: &[(&str, f64)]) -> f64 {
     let of = |wanted: &str| means.iter().find(|(name, _)| *name == wanted).map(|m| m.1);
     match (of("R"), of("G"), of("B")) {
         (Some(r), Some(g), Some(b)) => etalon_spectrum::colour_space::luminance([r, g, b]),
-        _ => of("Y").or(of("G")).unwrap_or(0.0),
+        _ => of("Y").or(of("G")).unwrap_or_else(|| {
+            let sum: f64 = means.iter().map(|(_, mean)| mean).sum();
+            sum / means.len().max(1) as f64
+        }),
     }
 }

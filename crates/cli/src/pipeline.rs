@@ -176,11 +176,18 @@ fn check_channels(
     integrator: &AnyIntegrator,
     place: Span,
 ) -> Result<(), Diagnostic> {
+    let channels = integrator.channels();
+    if !film.bands.is_empty() && !channels.is_empty() {
+        let message =
+            "a spectral film has a channel for each band, and none for those of the integrator";
+        return Err(Diagnostic::error(place, message).help("render them with an `hdrfilm`"));
+    }
     let pixel = FilmSettings {
         pixel_format: film.pixel_format,
+        bands: film.bands.clone(),
         ..FilmSettings::new(1, 1, Filter::default())
     };
-    ExactFilm::new(pixel, &integrator.channels())
+    ExactFilm::new(pixel, &channels)
         .map(|_| ())
         .map_err(|error| at(error, place))
 }
@@ -308,7 +315,7 @@ pub fn render_into(
     progress: &dyn Progress,
 ) -> ExactFilm {
     let mut film = CheckpointingFilm::null_transmittance(film);
-    integrator.render(scene, &mut film, plan, progress);
+    integrator.render(std::slice::from_ref(scene), &mut film, plan, progress);
     film.finish()
 }
 
@@ -348,8 +355,8 @@ pub fn render_as(
     let start = Instant::now();
     let compiled = &loaded.compiled;
     let channels = loaded.integrator.channels();
-    let format = compiled.film.pixel_format;
-    let planes = format.colours().len() + usize::from(format.has_alpha()) + channels.len();
+    let alpha = usize::from(compiled.film.pixel_format.has_alpha());
+    let planes = compiled.film.colours().len() + alpha + channels.len();
     let share = plan.share();
     let RenderControls { counts, keeping } = manner;
     let exact = plan.share.is_some() || keeping.is_some();
@@ -375,7 +382,7 @@ pub fn render_as(
     };
     let mut outcome = loaded
         .integrator
-        .render(&compiled.scene, &mut film, &remaining, progress);
+        .render(&compiled.scenes, &mut film, &remaining, progress);
     outcome.replicates += finished;
     let mut film = film.finish();
     let time = start.elapsed();

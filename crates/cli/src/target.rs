@@ -54,30 +54,23 @@ const PILOT_SHARE: f64 = 0.05;
 const SEEDS: u64 = 0x7069_6c6f_7400_0001;
 
 /// The noise of a picture.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct Noise {
     /// Σ_c ⟨s²⟩_c: the mean over pixels of the squared standard error, summed over colours.
     pub variance: f64,
-    /// The mean of each colour over the pixels; zero for colours that there are none of.
-    pub mean: [f64; 3],
+    /// The mean of each colour over the pixels.
+    pub mean: Vec<f64>,
 }
 
 impl Noise {
     /// The noise of a picture; `None` without standard errors.
     pub fn of(developed: &RenderedImage) -> Option<Self> {
-        let names = [["R", "G", "B"], ["X", "Y", "Z"], ["Y", "", ""]];
-        let there = |names: &&[&str; 3]| developed.image.channel(names[0]).is_some();
-        let names = names.iter().find(there)?;
-        let (mut variance, mut mean) = (0.0, [0.0; 3]);
-        for (name, mean) in names
-            .iter()
-            .zip(&mut mean)
-            .filter(|(name, _)| !name.is_empty())
-        {
+        let (mut variance, mut mean) = (0.0, Vec::new());
+        for name in developed.colours() {
             let means = developed.image.channel(name)?;
             let errors = developed.standard_error(name)?;
             let count = means.len() as f64;
-            *mean = means.iter().map(|&m| f64::from(m)).sum::<f64>() / count;
+            mean.push(means.iter().map(|&m| f64::from(m)).sum::<f64>() / count);
             variance += errors.iter().map(|&s| f64::from(s).powi(2)).sum::<f64>() / count;
         }
         Some(Self { variance, mean })
@@ -241,9 +234,9 @@ fn error_pilot(
 /// N: the upper bound of V, over the squared error.
 fn samples_for(found: &[Noise], samples: f64, error: f64) -> Result<f64, &'static str> {
     let count = found.len() as f64;
-    let mut mean = [0.0; 3];
+    let mut mean = vec![0.0; found.first().map_or(0, |noise| noise.mean.len())];
     for noise in found {
-        for (mean, of_one) in mean.iter_mut().zip(noise.mean) {
+        for (mean, of_one) in mean.iter_mut().zip(&noise.mean) {
             *mean += of_one / count;
         }
     }
@@ -318,7 +311,7 @@ mod tests {
             };
             Noise {
                 variance: 3.0 / 8.0 * (0..300).map(|_| square()).sum::<f64>() / 300.0,
-                mean: [1.0, 0.0, 0.0],
+                mean: vec![1.0, 0.0, 0.0],
             }
         };
         let pilots = 2000;
@@ -337,13 +330,13 @@ mod tests {
     fn black_pictures_have_no_relative_error() {
         let black = Noise {
             variance: 0.0,
-            mean: [0.0; 3],
+            mean: vec![0.0; 3],
         };
         assert_eq!(black.relative(), None);
-        assert!(samples_for(&[black; 8], 4.0, 0.01).is_err());
+        assert!(samples_for(&vec![black; 8], 4.0, 0.01).is_err());
         let grey = Noise {
             variance: 0.02,
-            mean: [1.0, 1.0, 0.0],
+            mean: vec![1.0, 1.0, 0.0],
         };
         assert_eq!(grey.relative(), Some(0.1));
     }

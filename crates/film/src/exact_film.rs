@@ -65,7 +65,8 @@ impl ExactFilm {
             return Err(Diagnostic::error_nowhere(message));
         }
         let format = settings.pixel_format;
-        let mut channels: Vec<String> = format.colours().iter().map(|&c| c.to_owned()).collect();
+        let mut channels = settings.colours();
+        let colours = channels.len();
         if format.has_alpha() {
             channels.push("A".to_owned());
         }
@@ -84,7 +85,6 @@ impl ExactFilm {
         let size = settings.crop_size;
         let pixels = u64::from(size.x) * u64::from(size.y);
         let count = pixels * channels.len() as u64;
-        let colours = format.colours().len();
         let method = settings.filter_method.with(&settings.filter);
         let footprint =
             (method != FilterMethod::ImportanceSampling).then(|| Footprint::new(&settings.filter));
@@ -156,6 +156,12 @@ impl ExactFilm {
     /// The filter, ready to be sampled.
     pub fn filter(&self) -> &PixelFilter {
         &self.filter
+    }
+
+    /// How many colour channels there are; they come first.
+    #[inline]
+    pub(crate) fn colours(&self) -> usize {
+        self.running.colours()
     }
 
     /// The names of all channels: colours, alpha, then the integrator's.
@@ -310,9 +316,15 @@ impl ExactFilm {
         }
     }
 
-    /// Adds a splat's colours to a pixel counted within the crop; says whether all went well.
-    pub(crate) fn splat(&self, pixel: UVec2, colours: &[f32]) -> Result<(), InvalidValue> {
-        self.running.splat(self.index(pixel), colours)
+    /// Adds a splat's colours, from the film's colour `first` on, to a pixel counted within the crop; says whether all
+    /// went well.
+    pub(crate) fn splat(
+        &self,
+        pixel: UVec2,
+        colours: &[f32],
+        first: usize,
+    ) -> Result<(), InvalidValue> {
+        self.running.splat(self.index(pixel), colours, first)
     }
 
     /// What a sample counts around it, if its pixel is not the only one.

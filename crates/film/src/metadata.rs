@@ -1,8 +1,8 @@
 //! What a rendered file says of itself: JSON in the EXR attribute `etalon`.
 
 use crate::{
-    CheckpointFacts, DealtFacts, FaultLog, FilmSettings, OutlierLog, PartFacts, SampleCounts,
-    TileMeans, UnfinishedFacts, floating_point_fingerprint,
+    CheckpointFacts, DealtFacts, FaultLog, FilmSettings, OutlierLog, PartFacts, PixelFormat,
+    SampleCounts, TileMeans, UnfinishedFacts, floating_point_fingerprint,
 };
 use etalon_sampling::ReplicateKind;
 use serde::{Deserialize, Serialize};
@@ -159,6 +159,16 @@ impl Metadata {
         match &self.unfinished {
             Some(unfinished) => unfinished.samples_per_replicate.into(),
             None => self.spp / u64::from(self.replicates.max(1)),
+        }
+    }
+
+    /// The names of the colour channels.
+    pub fn colours(&self) -> Vec<&str> {
+        let named = |(name, _): &&(&str, PixelFormat)| *name == self.film.pixel_format;
+        match PixelFormat::ALL.iter().find(named) {
+            Some((_, format)) => format.colours().to_vec(),
+            // A spectral film has no other channels.
+            None => self.channels.iter().map(String::as_str).collect(),
         }
     }
 

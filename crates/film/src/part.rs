@@ -12,8 +12,8 @@ use crate::metadata::recorded_seconds;
 use crate::rendered_image::{self, ReadError, image_of, metadata_of};
 use crate::unfinished::Unfinished;
 use crate::{
-    CheckpointFacts, ExactFilm, Metadata, PartFacts, PixelFormat, RenderFacts, RenderedImage,
-    ReplicateSet, SampleCounts,
+    CheckpointFacts, ExactFilm, Metadata, PartFacts, RenderFacts, RenderedImage, ReplicateSet,
+    SampleCounts,
 };
 use etalon_images::{Error, Frame, exr};
 use std::io::{self, Seek, Write};
@@ -344,9 +344,7 @@ impl Part {
                 Some(counts)
             }
         };
-        let named = |(name, _): &&(&str, PixelFormat)| *name == metadata.film.pixel_format;
-        let format = PixelFormat::ALL.iter().find(named);
-        let colours = format.map_or(0, |(_, format)| format.colours().len());
+        let colours = metadata.colours().len();
         let unfinished = (metadata.unfinished.as_ref())
             .map(|facts| {
                 Unfinished::from_planes(&planes, facts, &metadata.channels, colours, pixels)

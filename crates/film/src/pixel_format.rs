@@ -1,4 +1,4 @@
-//! What a film stores of a colour: linear Rec. 709, CIE XYZ or luminance, with alpha or without.
+//! What a film stores of a colour: linear Rec. 709, CIE XYZ or luminance, with alpha or without, or bands of the spectrum.
 //!
 //! A colour is converted sample by sample, before anything is squared: the standard error of Y
 //! does not follow from those of R, G and B, which are correlated.
@@ -21,10 +21,12 @@ pub enum PixelFormat {
     Xyz,
     /// `X`, `Y`, `Z`, `A`.
     Xyza,
+    /// The bands of a spectral film, called as the film says.
+    Bands,
 }
 
 impl PixelFormat {
-    /// All of them, by the names that scenes use.
+    /// What a pixel can be stored as in an `hdrfilm`, by the names that scenes use.
     pub const ALL: [(&'static str, Self); 6] = [
         ("luminance", Self::Luminance),
         ("luminance_alpha", Self::LuminanceAlpha),
@@ -34,21 +36,22 @@ impl PixelFormat {
         ("xyza", Self::Xyza),
     ];
 
+    /// What files call [`PixelFormat::Bands`].
+    pub const BANDS: &str = "bands";
+
     /// Its name in scenes.
     pub fn name(self) -> &'static str {
-        Self::ALL
-            .iter()
-            .find(|(_, format)| *format == self)
-            .map(|(name, _)| *name)
-            .expect("all formats have a name")
+        let named = Self::ALL.iter().find(|(_, format)| *format == self);
+        named.map_or(Self::BANDS, |(name, _)| *name)
     }
 
-    /// The names of its colour channels.
+    /// The names of its colour channels, if they do not depend on the film.
     pub fn colours(self) -> &'static [&'static str] {
         match self {
             Self::Luminance | Self::LuminanceAlpha => &["Y"],
             Self::Rgb | Self::Rgba => &["R", "G", "B"],
             Self::Xyz | Self::Xyza => &["X", "Y", "Z"],
+            Self::Bands => &[],
         }
     }
 
@@ -57,12 +60,12 @@ impl PixelFormat {
         matches!(self, Self::LuminanceAlpha | Self::Rgba | Self::Xyza)
     }
 
-    /// A linear Rec. 709 colour in this format; the first `self.colours().len()` numbers count.
+    /// A linear Rec. 709 colour, or three bands, in this format; as many numbers count as it has colours.
     #[inline]
     pub fn convert(self, rgb: [f32; 3]) -> [f32; 3] {
         let xyz = || rgb_to_xyz(rgb.map(f64::from)).map(|x| x as f32);
         match self {
-            Self::Rgb | Self::Rgba => rgb,
+            Self::Rgb | Self::Rgba | Self::Bands => rgb,
             Self::Xyz | Self::Xyza => xyz(),
             Self::Luminance | Self::LuminanceAlpha => [xyz()[1], 0.0, 0.0],
         }

@@ -163,6 +163,20 @@ impl RenderedImage {
         self.image.channel(&format!("{STANDARD_ERROR}{name}"))
     }
 
+    /// The names of the colour channels; of a file that does not say, those of linear Rec. 709 and CIE XYZ that are there.
+    pub fn colours(&self) -> Vec<&str> {
+        match &self.metadata {
+            Some(metadata) => metadata.colours(),
+            None => {
+                let there = |name: &&str| self.image.channel(name).is_some();
+                ["R", "G", "B", "X", "Y", "Z"]
+                    .into_iter()
+                    .filter(there)
+                    .collect()
+            }
+        }
+    }
+
     /// One figure for the noise of the picture,
     ///
     /// √( mean over pixels and colour channels of  s² / (m² + 0.01) ),
@@ -172,7 +186,7 @@ impl RenderedImage {
     pub fn mean_relative_standard_error(&self) -> Option<f64> {
         let mut sum = 0.0;
         let mut count = 0u32;
-        for name in ["R", "G", "B", "X", "Y", "Z"] {
+        for name in self.colours() {
             let (Some(means), Some(errors)) = (self.image.channel(name), self.standard_error(name))
             else {
                 continue;

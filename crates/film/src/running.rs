@@ -70,15 +70,26 @@ impl Running {
         own.iter().chain(self.weights.get(pixel))
     }
 
+    /// How many of the channels are colours.
+    #[inline]
+    pub(crate) fn colours(&self) -> usize {
+        self.colours
+    }
+
     /// Whether sums are divided by what samples count.
     pub(crate) fn is_weighted(&self) -> bool {
         !self.weights.is_empty()
     }
 
-    /// Adds the colours of a splat to a pixel; says whether all went well.
-    pub(crate) fn splat(&self, pixel: usize, colours: &[f32]) -> Result<(), InvalidValue> {
+    /// Adds the colours of a splat to a pixel's, from `first` on; says whether all went well.
+    pub(crate) fn splat(
+        &self,
+        pixel: usize,
+        colours: &[f32],
+        first: usize,
+    ) -> Result<(), InvalidValue> {
         let sums = self.splats.get_or_init(|| self.no_splats());
-        let sums = &sums[pixel * self.colours..];
+        let sums = &sums[pixel * self.colours + first..];
         let mut pairs = colours.iter().zip(sums);
         pairs.try_for_each(|(term, sum)| sum.add(*term))
     }

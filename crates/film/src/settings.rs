@@ -38,6 +38,8 @@ pub struct FilmSettings {
     pub crop_size: UVec2,
     /// What is stored of a colour.
     pub pixel_format: PixelFormat,
+    /// The names of the bands of a spectral film ([`PixelFormat::Bands`]), one channel each.
+    pub bands: Vec<String>,
     /// What a file should be where nobody names one.
     pub file_format: FileFormat,
     /// The reconstruction filter.
@@ -59,9 +61,18 @@ impl FilmSettings {
             crop_offset: UVec2::ZERO,
             crop_size: size,
             pixel_format: PixelFormat::default(),
+            bands: Vec::new(),
             file_format: FileFormat::default(),
             filter,
             filter_method: FilterMethod::default(),
+        }
+    }
+
+    /// The names of the colour channels.
+    pub fn colours(&self) -> Vec<String> {
+        match self.pixel_format {
+            PixelFormat::Bands => self.bands.clone(),
+            format => format.colours().iter().map(|&c| c.to_owned()).collect(),
         }
     }
 
@@ -105,25 +116,10 @@ impl FilmSettings {
 
     /// All but the crop.
     fn uncropped(params: &Params<'_>, size: UVec2) -> Self {
-        let mut names: Vec<_> = PixelFormat::ALL.iter().map(|(name, _)| *name).collect();
-        // As Mitsuba 0.6 spells it.
-        names.push("luminanceAlpha");
-        let name = match params.choice("pixel_format", PixelFormat::default().name(), &names) {
-            "luminanceAlpha" => "luminance_alpha",
-            name => name,
-        };
-        let pixel_format = PixelFormat::ALL
-            .into_iter()
-            .find(|(known, _)| *known == name);
-        let files: &[_] = match params.node.plugin.value.as_str() {
-            "ldrfilm" => &["openexr", "png", "jpeg"],
-            "mfilm" => &["openexr", "matlab", "mathematica", "numpy"],
-            _ => &["openexr", "exr", "rgbe", "pfm"],
-        };
-        let file_format = match params.choice("file_format", "openexr", files) {
-            "rgbe" => FileFormat::Rgbe,
-            "pfm" => FileFormat::Pfm,
-            _ => FileFormat::OpenExr,
+        let (pixel_format, file_format) = match params.node.plugin.value.as_str() {
+            // It has bands, which its caller knows, and these are kept in OpenEXR files only.
+            "specfilm" => Default::default(),
+            _ => formats(params),
         };
         let components = ["float16", "float32", "uint32"];
         let component = params.choice("component_format", "float32", &components);
@@ -147,12 +143,39 @@ impl FilmSettings {
             size,
             crop_offset: UVec2::ZERO,
             crop_size: size,
-            pixel_format: pixel_format.map_or_else(PixelFormat::default, |(_, format)| format),
+            pixel_format,
+            bands: Vec::new(),
             file_format,
             filter,
             filter_method,
         }
     }
+}
+
+/// What is stored of a colour, and what a file should be.
+fn formats(params: &Params<'_>) -> (PixelFormat, FileFormat) {
+    let mut names: Vec<_> = PixelFormat::ALL.iter().map(|(name, _)| *name).collect();
+    // As Mitsuba 0.6 spells it.
+    names.push("luminanceAlpha");
+    let name = match params.choice("pixel_format", PixelFormat::default().name(), &names) {
+        "luminanceAlpha" => "luminance_alpha",
+        name => name,
+    };
+    let pixel_format = PixelFormat::ALL
+        .into_iter()
+        .find(|(known, _)| *known == name);
+    let files: &[_] = match params.node.plugin.value.as_str() {
+        "ldrfilm" => &["openexr", "png", "jpeg"],
+        "mfilm" => &["openexr", "matlab", "mathematica", "numpy"],
+        _ => &["openexr", "exr", "rgbe", "pfm"],
+    };
+    let file_format = match params.choice("file_format", "openexr", files) {
+        "rgbe" => FileFormat::Rgbe,
+        "pfm" => FileFormat::Pfm,
+        _ => FileFormat::OpenExr,
+    };
+    let pixel_format = pixel_format.map_or_else(PixelFormat::default, |(_, format)| format);
+    (pixel_format, file_format)
 }
 
 /// Reads `filter_method`; says so where the filter is too wide for what was asked.

@@ -16,12 +16,13 @@ pub(crate) struct Taps {
 }
 
 impl Taps {
-    /// Adds the splat to the film, but for what falls outside its crop.
+    /// Adds the splat to the film's colours from `first` on, but for what falls outside its crop.
     pub(crate) fn spread(
         &mut self,
         film: &ExactFilm,
         raster: Vec2,
         colours: &[f32],
+        first: usize,
     ) -> Result<(), InvalidValue> {
         if !raster.is_finite() {
             return Err(if raster.is_nan() {
@@ -43,7 +44,7 @@ impl Taps {
                 for (term, colour) in terms.iter_mut().zip(colours) {
                     *term = colour * weight;
                 }
-                let added = film.splat(pixel, &terms[..colours.len()]);
+                let added = film.splat(pixel, &terms[..colours.len()], first);
                 outcome = outcome.and(added);
             }
         }

@@ -18,6 +18,8 @@ pub struct ExactTile<'f> {
     /// Where samples count that pixels share, and whether the current one is one of them.
     spread: Option<Box<Spread>>,
     spreading: bool,
+    /// The film's first colour channel that samples bring now, and how many they bring.
+    first_colour: usize,
     colours: usize,
     from: UVec2,
     to: UVec2,
@@ -56,7 +58,8 @@ impl<'f> ExactTile<'f> {
             sums: vec![Fixed128::ZERO; sums],
             spread,
             spreading: false,
-            colours: film.settings().pixel_format.colours().len(),
+            first_colour: 0,
+            colours: film.colours().min(3),
             from,
             to,
             pixel: from,
@@ -110,9 +113,13 @@ impl<'f> ExactTile<'f> {
         };
         let [x, y, z] = colour.map(|value| Term::new(value * self.weight));
         let outcome = match self.colours {
-            1 => x.map(|x| spread.add(0, [x])),
+            1 => x.map(|x| spread.add(self.first_colour, [x])),
+            2 => (|| {
+                spread.add(self.first_colour, [x?, y?]);
+                Ok(())
+            })(),
             _ => (|| {
-                spread.add(0, [x?, y?, z?]);
+                spread.add(self.first_colour, [x?, y?, z?]);
                 Ok(())
             })(),
         };
@@ -134,7 +141,7 @@ impl Sink for ExactTile<'_> {
         if self.spreading {
             self.share(rgb, colour);
             if format.has_alpha() {
-                self.add(self.colours, alpha);
+                self.add(self.film.colours(), alpha);
             }
             return;
         }
@@ -142,7 +149,7 @@ impl Sink for ExactTile<'_> {
             Ok(terms) => {
                 self.bring(rgb, self.weight.abs());
                 for (channel, term) in terms.into_iter().enumerate().take(self.colours) {
-                    if let Err(fault) = self.sums[channel].merge(term) {
+                    if let Err(fault) = self.sums[self.first_colour + channel].merge(term) {
                         self.refuse("radiance", fault);
                     }
                 }
@@ -150,7 +157,7 @@ impl Sink for ExactTile<'_> {
             Err(fault) => self.refuse("radiance", cause(rgb).unwrap_or(fault)),
         }
         if format.has_alpha() {
-            self.add(self.colours, alpha);
+            self.add(self.film.colours(), alpha);
         }
     }
 
@@ -158,7 +165,12 @@ impl Sink for ExactTile<'_> {
         let colour = self.film.settings().pixel_format.convert(rgb);
         let outcome = match cause(rgb) {
             Some(fault) => Err(fault),
-            None => self.taps.spread(self.film, raster, &colour[..self.colours]),
+            None => (self.taps).spread(
+                self.film,
+                raster,
+                &colour[..self.colours],
+                self.first_colour,
+            ),
         };
         match outcome {
             Ok(()) => self.bring(rgb, 1.0),
@@ -169,7 +181,7 @@ impl Sink for ExactTile<'_> {
     #[inline]
     fn channel(&mut self, index: usize, value: f32) {
         let alpha = usize::from(self.film.settings().pixel_format.has_alpha());
-        self.add(self.colours + alpha + index, value);
+        self.add(self.film.colours() + alpha + index, value);
     }
 }
 
@@ -194,6 +206,11 @@ impl TileSink for ExactTile<'_> {
             return self.begin_sample(pixel, placement.weight);
         }
         self.begin_spread(pixel, placement);
+    }
+
+    fn select_group(&mut self, group: usize) {
+        self.first_colour = 3 * group;
+        self.colours = (self.film.colours() - self.first_colour).min(3);
     }
 
     fn radiance_alone(&mut self, rgb: [f32; 3], alpha: f32) {

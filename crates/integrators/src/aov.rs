@@ -26,7 +26,7 @@ use crate::list::Nested;
 use crate::path::camera_ray;
 use etalon_params::{Diagnostic, Params};
 use etalon_sampling::{ReplicateKind, Sampler};
-use etalon_spectrum::{Wavelengths, sensor_response};
+use etalon_spectrum::Wavelengths;
 use etalon_transport::{
     Bsdf, Camera, Channel, Incompatibility, Integrator, Pass, PixelSample, Placing, Ray,
     SceneCapabilities, Sink, SurfaceInteraction, World,
@@ -234,7 +234,7 @@ fn evaluate<W: World, S: Sampler>(
         Variable::Albedo => {
             let wo = -ray.direction;
             let albedo = world.bsdf(vertex, wo, wavelengths).albedo(wo);
-            sensor_response(wavelengths).rgb(albedo * 0.25)
+            world.sensor(wavelengths).rgb(albedo * 0.25)
         }
         Variable::Depth => Vec3::splat(vertex.t),
         Variable::Position => vertex.position,

@@ -15,35 +15,13 @@
 
 use crate::path::camera_ray;
 use etalon_sampling::{ReplicateKind, Sampler};
-use etalon_spectrum::sensor::response;
 use etalon_transport::{
     Incompatibility, Integrator, Pass, PixelSample, Placing, SceneCapabilities, Sink, World,
 };
-use glam::Vec4;
 
 /// The distance integrator.
-#[derive(Clone, Debug)]
-pub struct Depth {
-    /// Linear Rec.709 of the spectrum that is 1 everywhere.
-    unit: [f32; 3],
-}
-
-impl Default for Depth {
-    fn default() -> Self {
-        // The response is linear between whole nanometres and zero outside of the observer's
-        // range, so the sum over whole nanometres is its integral up to half of the (tiny) ends.
-        let mut unit = [0.0_f64; 3];
-        for nm in 300..900 {
-            let [r, g, b, _] = response(Vec4::splat(nm as f32));
-            for (sum, value) in unit.iter_mut().zip([r, g, b]) {
-                *sum += f64::from(value.x);
-            }
-        }
-        Self {
-            unit: unit.map(|c| c as f32),
-        }
-    }
-}
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Depth;
 
 impl Integrator for Depth {
     type State = ();
@@ -69,6 +47,6 @@ impl Integrator for Depth {
     ) {
         let (_, ray, _) = camera_ray(world, site, sampler);
         let (t, alpha) = world.intersect(&ray).map_or((0.0, 0.0), |hit| (hit.t, 1.0));
-        sink.radiance(self.unit.map(|c| c * t), alpha);
+        sink.radiance((world.sensor_unit() * t).to_array(), alpha);
     }
 }

@@ -21,7 +21,7 @@ use crate::settings::{LightCandidates, read_max_depth};
 use crate::steps;
 use etalon_params::Params;
 use etalon_sampling::{ReplicateKind, Sampler};
-use etalon_spectrum::{Wavelengths, sensor_response};
+use etalon_spectrum::Wavelengths;
 use etalon_transport::{
     Bsdf, Incompatibility, Integrator, LightSample, LightSampleContext, LightSearch, Pass,
     PixelSample, Placing, Ray, SceneCapabilities, Sink, SurfaceInteraction, TransportMode, World,
@@ -221,7 +221,7 @@ impl Integrator for Direct {
     ) {
         let (wavelengths, ray, weight) = camera_ray(world, site, sampler);
         let (radiance, alpha) = self.incident(world, ray, &wavelengths, sampler);
-        let rgb = sensor_response(&wavelengths).rgb(radiance * weight);
+        let rgb = world.sensor(&wavelengths).rgb(radiance * weight);
         sink.radiance(rgb.to_array(), alpha);
     }
 }

@@ -25,7 +25,7 @@ use crate::steps;
 use etalon_math::float::ONE_MINUS_EPSILON;
 use etalon_params::Params;
 use etalon_sampling::{ReplicateKind, Sampler};
-use etalon_spectrum::{Wavelengths, sensor_response};
+use etalon_spectrum::Wavelengths;
 use etalon_transport::{
     Bsdf, Integrator, LightSampleContext, Pass, PixelSample, Placing, Ray, Sink,
     SurfaceInteraction, TransportMode, World,
@@ -308,7 +308,7 @@ impl Integrator for Distribution {
         } else {
             Found::default()
         };
-        let rgb = sensor_response(&wavelengths).rgb(found.radiance * weight);
+        let rgb = world.sensor(&wavelengths).rgb(found.radiance * weight);
         sink.radiance(rgb.to_array(), found.alpha);
     }
 }

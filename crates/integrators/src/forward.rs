@@ -26,7 +26,7 @@ use crate::settings::PathSettings;
 use crate::steps::next_surface;
 use etalon_params::Params;
 use etalon_sampling::{ReplicateKind, Sampler};
-use etalon_spectrum::{SensorWeights, Wavelengths, sensor_response};
+use etalon_spectrum::{SensorWeights, Wavelengths};
 use etalon_transport::{
     Bsdf, Camera, Incompatibility, Integrator, LightSearch, Pass, PixelSample, Placing, Ray,
     SceneCapabilities, Sink, Subject, World,
@@ -196,7 +196,7 @@ impl Integrator for Forward {
         sink: &mut K,
     ) {
         let (wavelengths, ray, weight) = camera_ray(world, site, sampler);
-        let sensor = sensor_response(&wavelengths);
+        let sensor = world.sensor(&wavelengths);
         let (sky, alpha) = self.straight(world, ray, &wavelengths);
         sink.radiance(sensor.rgb(sky * weight).to_array(), alpha);
         self.trace(

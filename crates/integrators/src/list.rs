@@ -117,13 +117,13 @@ macro_rules! integrators {
             /// Renders with it: see [`render`].
             pub fn render<W: World, F: Film>(
                 &self,
-                world: &W,
+                worlds: &[W],
                 film: &mut F,
                 plan: &RenderPlan,
                 progress: &dyn Progress,
             ) -> RenderStatistics {
                 match self {
-                    $(Self::$variant(integrator) => render(world, integrator, film, plan, progress),)*
+                    $(Self::$variant(integrator) => render(worlds, integrator, film, plan, progress),)*
                 }
             }
 
@@ -174,7 +174,7 @@ integrators! {
     "naive" => Naive: |p| Some(Naive::from_params(p));
     "direct" => Direct: |p| Some(Direct::from_params(p));
     "guided" => Guided: |p| Some(Guided::from_params(p));
-    "depth" => Depth: |_| Some(Depth::default());
+    "depth" => Depth: |_| Some(Depth);
     "signature" => Signature: |_| Some(Signature);
     "bdpt" => Bidirectional: |p| Some(Bidirectional::from_params(p));
     "ptracer" => ParticleTracer: |p| Some(ParticleTracer::from_params(p));

@@ -36,7 +36,7 @@ use etalon_math::float::ONE_MINUS_EPSILON;
 use etalon_params::Params;
 use etalon_sampling::warps::{square_to_cosine_hemisphere, square_to_uniform_hemisphere};
 use etalon_sampling::{ReplicateKind, Sampler};
-use etalon_spectrum::{Wavelengths, sensor_response};
+use etalon_spectrum::Wavelengths;
 use etalon_transport::{
     Bsdf, Incompatibility, Integrator, LightSearch, Pass, PixelSample, Placing, Ray,
     SceneCapabilities, Sink, SurfaceInteraction, TransportMode, World,
@@ -259,7 +259,7 @@ impl Integrator for Naive {
     ) {
         let (wavelengths, ray, weight) = camera_ray(world, site, sampler);
         let (radiance, alpha) = self.incident(world, ray, &wavelengths, sampler);
-        let rgb = sensor_response(&wavelengths).rgb(radiance * weight);
+        let rgb = world.sensor(&wavelengths).rgb(radiance * weight);
         sink.radiance(rgb.to_array(), alpha);
     }
 }

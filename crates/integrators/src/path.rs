@@ -114,7 +114,7 @@ pub(crate) fn follow_drafts<W: World, S: Sampler, K: TileSink, C: PathHooks + Co
         follow(world, settings, &mut walks);
         for (walk, (pixel, placement)) in walks.iter().flatten().zip(places.iter().flatten()) {
             sink.begin_placed(*pixel, placement);
-            walk.deliver(sink);
+            walk.deliver(world, sink);
         }
     }
 }
@@ -143,7 +143,10 @@ impl Integrator for Path {
             PathState::start(world, &self.settings, site, sampler, ()).with_variant(self.variant());
         let mut walks = [Some(walk)];
         follow(world, &self.settings, &mut walks);
-        walks.iter().flatten().for_each(|walk| walk.deliver(sink));
+        walks
+            .iter()
+            .flatten()
+            .for_each(|walk| walk.deliver(world, sink));
     }
 
     fn sample_batch<W: World, S: Sampler, K: TileSink>(

@@ -10,7 +10,7 @@ use crate::settings::{LightCandidates, PathSettings, PathVariant};
 use crate::steps;
 use core::ops::Range;
 use etalon_sampling::Sampler;
-use etalon_spectrum::{Wavelengths, sensor_response};
+use etalon_spectrum::Wavelengths;
 use etalon_transport::{
     Bsdf, Hit, LightSample, LightSampleContext, PixelSample, Ray, ShadowQuery, Sink,
     SurfaceInteraction, Transmission, TransportMode, World,
@@ -128,14 +128,16 @@ impl<S: Sampler, C: PathHooks> PathState<S, C> {
 
     /// Writes the result to a sink.
     #[inline]
-    pub(crate) fn deliver(&self, sink: &mut impl Sink) {
-        sink.radiance(self.colour().to_array(), self.alpha);
+    pub(crate) fn deliver(&self, world: &impl World, sink: &mut impl Sink) {
+        sink.radiance(self.colour(world).to_array(), self.alpha);
     }
 
     /// The colour found.
     #[inline]
-    pub(crate) fn colour(&self) -> Vec3 {
-        sensor_response(&self.wavelengths).rgb(self.radiance * self.weight)
+    pub(crate) fn colour(&self, world: &impl World) -> Vec3 {
+        world
+            .sensor(&self.wavelengths)
+            .rgb(self.radiance * self.weight)
     }
 
     /// Traces the path to its end; of its contributions only those of paths whose number of scattering

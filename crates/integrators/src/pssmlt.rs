@@ -70,6 +70,6 @@ impl PathSampler for CameraPaths {
         let mut walk = PathState::start(world, settings, &site, sampler, ());
         let wanted = chains.least_corners()..u32::MAX;
         walk.follow(world, settings, &wanted);
-        found.add(site.raster, walk.colour() * field.area());
+        found.add(site.raster, walk.colour(world) * field.area());
     }
 }

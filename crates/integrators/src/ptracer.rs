@@ -23,7 +23,7 @@ use crate::steps;
 use crate::visibility::camera_visibility;
 use etalon_params::Params;
 use etalon_sampling::{ReplicateKind, Sampler};
-use etalon_spectrum::{SensorWeights, Wavelengths, sensor_response};
+use etalon_spectrum::{SensorWeights, Wavelengths};
 use etalon_transport::{
     Bsdf, Camera, Incompatibility, Integrator, LightSearch, Pass, PixelSample, Placing, Ray,
     SceneCapabilities, Sink, TransportMode, World,
@@ -185,7 +185,7 @@ impl Integrator for ParticleTracer {
         sink: &mut K,
     ) {
         let (wavelengths, ray, weight) = camera_ray(world, site, sampler);
-        let sensor = sensor_response(&wavelengths);
+        let sensor = world.sensor(&wavelengths);
         let (lights, alpha) = self.visible_lights(world, ray, &wavelengths);
         sink.radiance(sensor.rgb(lights * weight).to_array(), alpha);
         self.trace(

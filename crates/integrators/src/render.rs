@@ -12,7 +12,7 @@ use crate::share::ReplicateRange;
 use etalon_sampling::{
     Independent, ReplicateKind, SampleId, Sampler, SamplerKind, Sobol, Stratified,
 };
-use etalon_transport::{Film, Integrator, Pass, PixelSample, SampleJob, World};
+use etalon_transport::{Film, Integrator, Pass, PixelSample, SampleJob, TileSink, World};
 use glam::UVec2;
 use rayon::prelude::*;
 use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
@@ -118,8 +118,12 @@ fn tile_side(size: UVec2, threads: usize) -> u32 {
 /// Renders replicates into `film` on the current thread pool, and goes on where the film has some
 /// samples of the first of them already. If it is cancelled, the film keeps the replicate that was
 /// being rendered.
+///
+/// A world's sensor has three channels. A film of more has as many worlds, which are the same but for their sensors: every
+/// sample is drawn in each of them, with the same numbers, and goes to its group of the film's bands
+/// ([`TileSink::select_group`]).
 pub fn render<W: World, I: Integrator, F: Film>(
-    world: &W,
+    worlds: &[W],
     integrator: &I,
     film: &mut F,
     plan: &RenderPlan,
@@ -127,7 +131,7 @@ pub fn render<W: World, I: Integrator, F: Film>(
 ) -> RenderStatistics {
     let side = tile_side(film.size(), rayon::current_num_threads());
     let mut run = Run {
-        world,
+        worlds,
         integrator,
         progress,
         plan,
@@ -139,7 +143,7 @@ pub fn render<W: World, I: Integrator, F: Film>(
         remarks: None,
     };
     let ReplicateRange { first, count } = plan.share();
-    let mut before = None;
+    let mut before = Vec::new();
     let finished = (first..first + count)
         .take_while(|replicate| run.replicate(film, *replicate, &mut before))
         .count();
@@ -153,7 +157,7 @@ pub fn render<W: World, I: Integrator, F: Film>(
 
 /// What does not change while an image is rendered.
 struct Run<'a, W, I> {
-    world: &'a W,
+    worlds: &'a [W],
     integrator: &'a I,
     progress: &'a dyn Progress,
     plan: &'a RenderPlan,
@@ -173,7 +177,7 @@ impl<W: World, I: Integrator> Run<'_, W, I> {
         &mut self,
         film: &mut F,
         replicate: u32,
-        before: &mut Option<I::State>,
+        before: &mut Vec<I::State>,
     ) -> bool {
         let plan = self.plan;
         let (origin, size) = (film.origin(), film.size());
@@ -202,17 +206,19 @@ impl<W: World, I: Integrator> Run<'_, W, I> {
                 film: &*film,
                 progress: self.progress,
             };
-            let state = self
-                .integrator
-                .prepare(self.world, &asked, &pass, before.take());
-            self.remarks
-                .get_or_insert_with(|| self.integrator.remarks(&state));
+            let mut before_it = std::mem::take(before).into_iter();
+            let prepare = |world| (self.integrator).prepare(world, &asked, &pass, before_it.next());
+            let states: Vec<I::State> = self.worlds.iter().map(prepare).collect();
+            self.remarks.get_or_insert_with(|| {
+                let remarks = states.first().map(|state| self.integrator.remarks(state));
+                remarks.unwrap_or_default()
+            });
             // What was left half done is of no use.
             let until = done.saturating_sub(begin);
-            if self.progress.cancelled() || !self.pass(film, &pass, [begin, until], &state) {
+            if self.progress.cancelled() || !self.pass(film, &pass, [begin, until], &states) {
                 return false;
             }
-            *before = Some(state);
+            *before = states;
         }
         film.end_replicate(plan.samples_per_replicate);
         true
@@ -225,7 +231,7 @@ impl<W: World, I: Integrator> Run<'_, W, I> {
         film: &mut F,
         pass: &Pass,
         [begin, mut until]: [u32; 2],
-        state: &I::State,
+        states: &[I::State],
     ) -> bool {
         let size = film.size();
         let pixels = u64::from(size.x) * u64::from(size.y);
@@ -240,7 +246,7 @@ impl<W: World, I: Integrator> Run<'_, W, I> {
                 let to = pass.origin + (corner + self.side).min(size);
                 let round = Round {
                     run: self,
-                    state,
+                    states,
                     film: &*film,
                     pass,
                     begin,
@@ -253,7 +259,7 @@ impl<W: World, I: Integrator> Run<'_, W, I> {
                         round.tile(from, to, |sample| Stratified::with_jitter(sample, jitter))
                     }
                 };
-                let traced = self.world.take_ray_count();
+                let traced = self.worlds.first().map_or(0, World::take_ray_count);
                 self.rays.fetch_add(traced, Ordering::Relaxed);
                 self.progress.tile_done(here);
                 drawn.fetch_add(here, Ordering::Relaxed);
@@ -292,7 +298,7 @@ fn done<F: Film>(film: &F, samples: u32) -> u32 {
 /// One round over the film, of a pass that begins with sample `begin`: up to so many of its samples.
 struct Round<'a, 'r, W: World, I: Integrator, F: Film> {
     run: &'a Run<'r, W, I>,
-    state: &'a I::State,
+    states: &'a [I::State],
     film: &'a F,
     pass: &'a Pass,
     begin: u32,
@@ -302,7 +308,7 @@ struct Round<'a, 'r, W: World, I: Integrator, F: Film> {
 impl<W: World, I: Integrator, F: Film> Round<'_, '_, W, I, F> {
     /// Renders the pixels in [`from`, `to`); gives the number of samples drawn, and whether these
     /// are all.
-    fn tile<S: Sampler>(
+    fn tile<S: Sampler + Clone>(
         &self,
         from: UVec2,
         to: UVec2,
@@ -326,7 +332,7 @@ impl<W: World, I: Integrator, F: Film> Round<'_, '_, W, I, F> {
         let mut drawn = 0;
         let mut deliver = |drafts: &mut Vec<SampleJob<S>>| {
             batches.measure(|| {
-                (integrator).sample_batch(self.run.world, self.state, drafts, &mut sink);
+                self.draw(drafts, &mut sink);
             });
             drafts.clear();
         };
@@ -369,6 +375,25 @@ impl<W: World, I: Integrator, F: Film> Round<'_, '_, W, I, F> {
         }
         deliver(&mut drafts);
         (drawn, true)
+    }
+
+    /// Draws samples and delivers them.
+    #[inline]
+    fn draw<S: Sampler + Clone>(&self, drafts: &mut [SampleJob<S>], sink: &mut F::Tile<'_>) {
+        let Run {
+            worlds, integrator, ..
+        } = self.run;
+        if let ([world], [state]) = (worlds, self.states) {
+            return integrator.sample_batch(world, state, drafts, sink);
+        }
+        for draft in drafts {
+            sink.begin_placed(draft.site.pixel, &draft.placement());
+            for (group, (world, state)) in worlds.iter().zip(self.states).enumerate() {
+                sink.select_group(group);
+                let mut sampler = draft.sampler.clone();
+                integrator.sample(world, state, &draft.site, &mut sampler, sink);
+            }
+        }
     }
 
     /// How many samples of the replicate a pixel has after this round, of those that it is dealt.

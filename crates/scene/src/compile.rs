@@ -5,12 +5,14 @@ use crate::lookup::SceneTables;
 use crate::media::SceneMedia;
 use crate::sampler::SamplerSettings;
 use crate::scene::Scene;
+use crate::sensor::{Response, curve};
 use crate::surfaces::{self, Emitting, Names, Surfaces};
 use etalon_cameras::{AnyCamera, FilmWindow};
 use etalon_film::{FilmSettings, Filter};
 use etalon_geometry::AcceleratorKind;
 use etalon_lights::{BoundingSphere, LightDescription, LightSamplerKind, LightSet};
 use etalon_params::{Class, Diagnostic, Diagnostics, Node, Params, Property, Span, plugins};
+use etalon_spectrum::Sensor;
 use etalon_transport::{Assets, Build, LightId, MediumId, ShapeId, Shutter, SpectrumKind};
 use std::sync::Arc;
 use std::time::{Duration, Instant};
@@ -19,6 +21,8 @@ use std::time::{Duration, Instant};
 pub struct Compiled {
     /// The scene.
     pub scene: Scene,
+    /// The same for each group of three of the film's bands: one, unless it is a spectral film of more.
+    pub scenes: Vec<Scene>,
     /// The film of the sensor.
     pub film: FilmSettings,
     /// The sampler of the sensor.
@@ -58,9 +62,9 @@ pub fn compile_with(
 ) -> Option<Compiled> {
     let params = Params::new(root, diagnostics);
     let mut builder = Builder::new(assets, diagnostics);
-    let sensor = sensor(&params, diagnostics);
-    if let Some((.., shutter)) = &sensor {
-        builder.shutter = *shutter;
+    let sensor = sensor(&params, &mut builder);
+    if let Some(sensor) = &sensor {
+        builder.shutter = sensor.shutter;
     }
     let integrator = params.child(Class::Integrator).cloned();
     let mut surfaces = surfaces::read(&params, &mut builder);
@@ -75,13 +79,19 @@ pub fn compile_with(
         &LightSamplerKind::ALL.map(LightSamplerKind::name),
     );
     read_unused_textures(&params, &mut builder);
-    read_definitions(&params, diagnostics);
+    read_definitions(&params, &mut builder);
     refuse_unknown_children(&params);
     params.finish();
     if diagnostics.has_errors() {
         return None;
     }
-    let (camera, film, sampler, _) = sensor?;
+    let DescribedSensor {
+        camera,
+        film,
+        sampler,
+        responses,
+        ..
+    } = sensor?;
     surfaces.asked.note_ranges(&builder.textures, diagnostics);
     builder.textures.finish_reading();
     let start = Instant::now();
@@ -98,9 +108,11 @@ pub fn compile_with(
         .unwrap_or_default();
     let lights = LightSet::new(lights, &lookup, bounds, kind);
     let media = SceneMedia::new(surfaces.media, &surfaces.interfaces, camera_medium);
-    let scene = Scene::new(camera, lookup, surfaces.materials, lights, media);
+    let scenes =
+        Scene::new(camera, lookup, surfaces.materials, lights, media).with_sensors(responses);
     Some(Compiled {
-        scene,
+        scene: scenes.first()?.clone(),
+        scenes,
         film,
         sampler,
         classic: surfaces.classic,
@@ -161,11 +173,19 @@ fn lights(
     lights
 }
 
+/// A sensor and what it holds.
+struct DescribedSensor {
+    camera: AnyCamera,
+    film: FilmSettings,
+    sampler: SamplerSettings,
+    shutter: Shutter,
+    /// What the film's channels respond to, three to each.
+    responses: Vec<Sensor>,
+}
+
 /// The first sensor: camera, film and sampler. A scene may describe several; the first counts.
-fn sensor(
-    params: &Params<'_>,
-    diagnostics: &Diagnostics,
-) -> Option<(AnyCamera, FilmSettings, SamplerSettings, Shutter)> {
+fn sensor(params: &Params<'_>, builder: &mut Builder<'_>) -> Option<DescribedSensor> {
+    let diagnostics = builder.diagnostics;
     let sensors = params.children(Class::Sensor);
     let Some((_, node)) = sensors.first() else {
         diagnostics.push(
@@ -184,33 +204,49 @@ fn sensor(
         );
     }
     let sensor = Params::new(node, diagnostics);
-    let film = film(&sensor, diagnostics);
+    let film = film(&sensor, builder);
+    let filter = sensor.has("srf").then(|| curve(&sensor, "srf", builder));
     let sampler = SamplerSettings::from_sensor(&sensor);
     // After a mistake in the film, any film will do to find those of the camera.
-    let stand_in = || FilmSettings::new(768, 576, Filter::default());
-    let film = film.unwrap_or_else(stand_in);
+    let stand_in = || {
+        let film = FilmSettings::new(768, 576, Filter::default());
+        (film, Response::default())
+    };
+    let (film, response) = film.unwrap_or_else(stand_in);
     let window = FilmWindow {
         size: film.size,
         origin: film.crop_offset,
         crop: film.crop_size,
     };
     let (camera, shutter) = AnyCamera::from_params(&sensor, window)?;
-    Some((camera, film, sampler, shutter))
+    let filter = match filter {
+        Some(filter) => Some(filter?),
+        None => None,
+    };
+    Some(DescribedSensor {
+        camera,
+        film,
+        sampler,
+        shutter,
+        responses: response.sensors(filter.as_ref()),
+    })
 }
 
 /// Films of Mitsuba 0.6 that store the same picture in other ways.
 const OTHER_FILMS: [&str; 3] = ["ldrfilm", "mfilm", "tiledhdrfilm"];
 
 /// The film of a sensor, by default Mitsuba's `hdrfilm`.
-fn film(sensor: &Params<'_>, diagnostics: &Diagnostics) -> Option<FilmSettings> {
+fn film(sensor: &Params<'_>, builder: &mut Builder<'_>) -> Option<(FilmSettings, Response)> {
     let Some(node) = sensor.child(Class::Film) else {
-        return Some(FilmSettings::new(768, 576, Filter::default()));
+        let film = FilmSettings::new(768, 576, Filter::default());
+        return Some((film, Response::default()));
     };
-    read_film(node, diagnostics)
+    read_film(node, builder)
 }
 
-/// An `hdrfilm`, or one of Mitsuba 0.6's other films, which is read as one.
-fn read_film(node: &Node, diagnostics: &Diagnostics) -> Option<FilmSettings> {
+/// An `hdrfilm` or `specfilm`, or one of Mitsuba 0.6's other films, which is read as an `hdrfilm`.
+fn read_film(node: &Node, builder: &mut Builder<'_>) -> Option<(FilmSettings, Response)> {
+    let diagnostics = builder.diagnostics;
     let name = node.plugin.value.as_str();
     if OTHER_FILMS.contains(&name) {
         diagnostics.push(
@@ -220,21 +256,23 @@ fn read_film(node: &Node, diagnostics: &Diagnostics) -> Option<FilmSettings> {
             )
             .help("`etalon convert` makes a picture for the screen of it"),
         );
-    } else if name != "hdrfilm" {
-        diagnostics.push(plugins::not_built(node, ["hdrfilm"]));
+    } else if !["hdrfilm", "specfilm"].contains(&name) {
+        diagnostics.push(plugins::not_built(node, ["hdrfilm", "specfilm"]));
         return None;
     }
     let params = Params::new(node, diagnostics);
-    let film = FilmSettings::from_params(&params);
+    let mut film = FilmSettings::from_params(&params);
+    let response = Response::read(&params, &mut film, builder);
     params.finish();
-    Some(film)
+    Some((film, response?))
 }
 
 /// Films, filters and samplers at the top of a scene are definitions for others to refer to.
 /// All are read, so that mistakes in those that nobody refers to are found.
-fn read_definitions(params: &Params<'_>, diagnostics: &Diagnostics) {
+fn read_definitions(params: &Params<'_>, builder: &mut Builder<'_>) {
+    let diagnostics = builder.diagnostics;
     for (_, node) in params.children(Class::Film) {
-        read_film(node, diagnostics);
+        read_film(node, builder);
     }
     for (_, node) in params.children(Class::Sampler) {
         SamplerSettings::from_node(node, diagnostics);

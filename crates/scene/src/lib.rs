@@ -13,6 +13,7 @@ mod merge;
 mod rays;
 pub mod sampler;
 pub mod scene;
+mod sensor;
 mod solids;
 pub mod surfaces;
 mod view;

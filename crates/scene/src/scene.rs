@@ -9,7 +9,7 @@ use etalon_lights::LightSet;
 use etalon_math::{Density, SolidAngle};
 use etalon_sampling::Independent;
 use etalon_sampling::hash::mix64;
-use etalon_spectrum::{WavelengthDistribution, Wavelengths};
+use etalon_spectrum::{Sensor, SensorWeights, Wavelengths};
 use etalon_subsurface::MediumAtWavelengths;
 use etalon_transport::{
     Bsdf, Camera, Emission, EmissionPdf, Hit, LegacyPhong, LightId, LightSample,
@@ -17,14 +17,21 @@ use etalon_transport::{
     Transmission, World,
 };
 use glam::{UVec2, Vec2, Vec3, Vec4};
+use std::sync::Arc;
 
-/// A scene: immutable, shared by all threads.
+/// A scene: immutable, shared by all threads. Cloning is cheap: clones share all but their sensor.
+#[derive(Clone)]
 pub struct Scene {
+    parts: Arc<Parts>,
+    sensor: Sensor,
+}
+
+/// What scenes share that differ in their sensors.
+struct Parts {
     camera: AnyCamera,
     lookup: SceneTables,
     materials: Vec<Material>,
     lights: LightSet,
-    wavelengths: WavelengthDistribution,
     /// Whether any material lets light pass straight, so that shadow rays must ask.
     has_null: bool,
     media: SceneMedia,
@@ -33,7 +40,7 @@ pub struct Scene {
 }
 
 impl Scene {
-    /// Puts a scene together.
+    /// Puts a scene together, with the standard sensor.
     pub fn new(
         camera: AnyCamera,
         lookup: SceneTables,
@@ -42,21 +49,33 @@ impl Scene {
         media: SceneMedia,
     ) -> Self {
         let has_null = materials.iter().any(Material::has_null);
-        Self {
+        let parts = Parts {
             camera,
             lookup,
             materials,
             lights,
-            wavelengths: WavelengthDistribution::default(),
             has_null,
             has_media: media.exist(),
             media,
+        };
+        Self {
+            parts: Arc::new(parts),
+            sensor: Sensor::default(),
         }
+    }
+
+    /// The scene with each of these sensors.
+    pub fn with_sensors(self, sensors: Vec<Sensor>) -> Vec<Self> {
+        let with = |sensor| Self {
+            sensor,
+            parts: Arc::clone(&self.parts),
+        };
+        sensors.into_iter().map(with).collect()
     }
 
     /// How much there is, for people.
     pub fn summary(&self) -> String {
-        let s = self.lookup.geometry.statistics();
+        let s = self.parts.lookup.geometry.statistics();
         format!(
             "shapes       {} ({} triangles)\ninstances    {} ({} triangles)\n\
              accelerator  {} nodes; geometry takes {:.1} MiB\nmaterials    {}\nlights       {}\n",
@@ -66,8 +85,8 @@ impl Scene {
             s.instanced_triangles,
             s.nodes,
             s.bytes as f64 / f64::from(1 << 20),
-            self.materials.len(),
-            self.lights.len(),
+            self.parts.materials.len(),
+            self.parts.lights.len(),
         )
     }
 
@@ -78,20 +97,20 @@ impl Scene {
         rays::take();
         SceneCapabilities {
             view,
-            lights: self.lights.count(),
-            aperture: self.camera.can_receive(),
+            lights: self.parts.lights.count(),
+            aperture: self.parts.camera.can_receive(),
             sky: self.has_background(),
-            media: self.has_media,
-            endless: self.lookup.geometry.is_endless() && self.lights.has_infinite(),
+            media: self.parts.has_media,
+            endless: self.parts.lookup.geometry.is_endless() && self.parts.lights.has_infinite(),
             narrow_filter: false,
-            one_way: self.materials.iter().any(Material::is_one_way),
-            classic: self.materials.iter().any(Material::is_classic),
+            one_way: self.parts.materials.iter().any(Material::is_one_way),
+            classic: self.parts.materials.iter().any(Material::is_classic),
         }
     }
 
     #[inline]
     fn material(&self, vertex: &SurfaceInteraction) -> &Material {
-        &self.materials[vertex.material.0 as usize]
+        &self.parts.materials[vertex.material.0 as usize]
     }
 }
 
@@ -101,37 +120,48 @@ impl World for Scene {
     type Camera = AnyCamera;
 
     fn camera(&self) -> &AnyCamera {
-        &self.camera
+        &self.parts.camera
     }
 
     #[inline]
     fn wavelengths(&self, u: f32) -> Wavelengths {
-        Wavelengths::sample(&self.wavelengths, u)
+        self.sensor.sample(u)
+    }
+
+    #[inline]
+    fn sensor(&self, wavelengths: &Wavelengths) -> SensorWeights {
+        self.sensor.weights(wavelengths)
+    }
+
+    fn sensor_unit(&self) -> Vec3 {
+        self.sensor.unit()
     }
 
     #[inline]
     fn intersect(&self, ray: &Ray) -> Option<Hit> {
         rays::count();
-        self.lookup.geometry.intersect(ray)
+        self.parts.lookup.geometry.intersect(ray)
     }
 
     #[inline]
     fn vertex(&self, ray: &Ray, hit: &Hit) -> SurfaceInteraction {
-        let mut vertex = self.lookup.geometry.vertex(ray, hit);
-        if self.has_media {
-            vertex.media = self.media.around(hit.shape, ray.medium);
+        let mut vertex = self.parts.lookup.geometry.vertex(ray, hit);
+        if self.parts.has_media {
+            vertex.media = self.parts.media.around(hit.shape, ray.medium);
         }
         vertex
     }
 
     #[inline]
     fn camera_medium(&self) -> MediumId {
-        self.media.camera
+        self.parts.media.camera
     }
 
     #[inline]
     fn medium(&self, medium: MediumId, wavelengths: &Wavelengths) -> Option<MediumAtWavelengths> {
-        self.media.at(medium, &self.lookup, wavelengths.lambda)
+        self.parts
+            .media
+            .at(medium, &self.parts.lookup, wavelengths.lambda)
     }
 
     #[inline]
@@ -141,9 +171,9 @@ impl World for Scene {
         wavelengths: &Wavelengths,
         crossings: u32,
     ) -> Option<Transmission> {
-        if !self.has_null && !self.has_media {
+        if !self.parts.has_null && !self.parts.has_media {
             rays::count();
-            return (!self.lookup.geometry.occluded(ray)).then_some(Transmission::FREE);
+            return (!self.parts.lookup.geometry.occluded(ray)).then_some(Transmission::FREE);
         }
         self.passage_through(*ray, wavelengths, crossings)
     }
@@ -156,7 +186,7 @@ impl World for Scene {
         wavelengths: &Wavelengths,
     ) -> BsdfAtPoint<'_> {
         self.material(vertex)
-            .resolve(&self.lookup, vertex, wo, wavelengths)
+            .resolve(&self.parts.lookup, vertex, wo, wavelengths)
     }
 
     fn legacy_phong(
@@ -165,27 +195,31 @@ impl World for Scene {
         wavelengths: &Wavelengths,
     ) -> Option<LegacyPhong> {
         self.material(vertex)
-            .legacy_phong(&self.lookup, vertex, wavelengths)
+            .legacy_phong(&self.parts.lookup, vertex, wavelengths)
     }
 
     #[inline]
     fn emitted(&self, vertex: &SurfaceInteraction, wo: Vec3, wavelengths: &Wavelengths) -> Vec4 {
-        self.lights.emitted(&self.lookup, vertex, wo, wavelengths)
+        self.parts
+            .lights
+            .emitted(&self.parts.lookup, vertex, wo, wavelengths)
     }
 
     #[inline]
     fn is_emitter(&self, hit: &Hit) -> bool {
-        self.lookup.geometry.light(hit).is_some()
+        self.parts.lookup.geometry.light(hit).is_some()
     }
 
     #[inline]
     fn background(&self, direction: Vec3, wavelengths: &Wavelengths) -> Vec4 {
-        self.lights.background(&self.lookup, direction, wavelengths)
+        self.parts
+            .lights
+            .background(&self.parts.lookup, direction, wavelengths)
     }
 
     #[inline]
     fn has_background(&self) -> bool {
-        self.lights.has_background()
+        self.parts.lights.has_background()
     }
 
     #[inline]
@@ -196,17 +230,18 @@ impl World for Scene {
         u_light: f32,
         u: Vec2,
     ) -> Option<LightSample> {
-        self.lights
-            .sample(&self.lookup, from, wavelengths, u_light, u)
+        self.parts
+            .lights
+            .sample(&self.parts.lookup, from, wavelengths, u_light, u)
     }
 
     #[inline]
     fn light_variety(&self, from: &LightSampleContext) -> LightVariety {
-        self.lights.light_variety(from)
+        self.parts.lights.light_variety(from)
     }
 
     fn light_count(&self) -> u32 {
-        self.lights.len() as u32
+        self.parts.lights.len() as u32
     }
 
     #[inline]
@@ -217,8 +252,9 @@ impl World for Scene {
         wavelengths: &Wavelengths,
         u: Vec2,
     ) -> Option<LightSample> {
-        self.lights
-            .sample_one(&self.lookup, light, from, wavelengths, u)
+        self.parts
+            .lights
+            .sample_one(&self.parts.lookup, light, from, wavelengths, u)
     }
 
     #[inline]
@@ -228,7 +264,7 @@ impl World for Scene {
         at: &SurfaceInteraction,
         _: Vec3,
     ) -> Density<SolidAngle> {
-        self.lights.density(&self.lookup, from, at)
+        self.parts.lights.density(&self.parts.lookup, from, at)
     }
 
     #[inline]
@@ -237,7 +273,7 @@ impl World for Scene {
         from: &LightSampleContext,
         direction: Vec3,
     ) -> Density<SolidAngle> {
-        self.lights.background_density(from, direction)
+        self.parts.lights.background_density(from, direction)
     }
 
     #[inline]
@@ -249,8 +285,8 @@ impl World for Scene {
         u_direction: Vec2,
         time: f32,
     ) -> Option<Emission> {
-        self.lights.emit(
-            &self.lookup,
+        self.parts.lights.emit(
+            &self.parts.lookup,
             wavelengths,
             u_light,
             u_position,
@@ -267,18 +303,21 @@ impl World for Scene {
         cos: f32,
         time: f32,
     ) -> EmissionPdf {
-        self.lights
-            .emission_density(&self.lookup, light, direction, cos, time)
+        self.parts
+            .lights
+            .emission_density(&self.parts.lookup, light, direction, cos, time)
     }
 
     #[inline]
     fn background_emission_density(&self, direction: Vec3) -> EmissionPdf {
-        (self.lights).background_emission_density(&self.lookup, direction)
+        (self.parts.lights).background_emission_density(&self.parts.lookup, direction)
     }
 
     #[inline]
     fn light_sample_density(&self, from: &LightSampleContext, start: &Emission) -> f32 {
-        self.lights.light_sample_density(&self.lookup, from, start)
+        self.parts
+            .lights
+            .light_sample_density(&self.parts.lookup, from, start)
     }
 
     fn take_ray_count(&self) -> u64 {
@@ -327,7 +366,7 @@ impl Scene {
             if !material.has_null() {
                 return None;
             }
-            let bsdf = material.resolve(&self.lookup, &vertex, -ray.direction, wavelengths);
+            let bsdf = material.resolve(&self.parts.lookup, &vertex, -ray.direction, wavelengths);
             passage.then(&Transmission {
                 transmittance: bsdf.null_transmittance(),
                 probability: bsdf.null_probability(),

@@ -27,7 +27,7 @@ pub mod wavelengths;
 pub use blackbody::Blackbody;
 pub use error::SpectrumError;
 pub use ior::RefractiveIndex;
-pub use sensor::{SensorWeights, sensor_response};
+pub use sensor::{Sensor, SensorWeights, sensor_response};
 pub use spd::{parse_spb, parse_spd};
 pub use spectrum::Spectrum;
 pub use tabulated::{Irregular, Regular};

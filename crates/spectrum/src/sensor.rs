@@ -1,4 +1,4 @@
-//! The sensor's response: from four spectral lanes to linear Rec. 709.
+//! A sensor: what it makes of the light that arrives, in up to three channels.
 //!
 //! A path's result is one value per lane, already divided by the sum over the lanes of its
 //! rescaled path densities:
@@ -8,66 +8,186 @@
 //! with s the response and p the density of the wavelength (Wilkie et al. 2014, equation 5, in the
 //! notation of ARCHITECTURE.md, "Wavelengths"). For a path whose densities are equal in all lanes Lⱼ = fⱼ/(4 p(x)): the
 //! sum over k already holds the division by four, so none follows here.
+//!
+//! The standard sensor is the CIE 1931 observer, seen in linear Rec. 709. Any other has curves of its own
+//! ([`Sensor::new`]), of which p follows.
 
-use crate::Wavelengths;
 use crate::cie::{self, COUNT, FIRST};
 use crate::colour_space::{XYZ_TO_RGB, apply};
+use crate::{LAMBDA_MAX, LAMBDA_MIN, Spectrum, WavelengthDistribution, Wavelengths};
 use glam::{Mat4, Vec3, Vec4};
+use std::sync::{Arc, LazyLock};
 
-/// s(λⱼ)/p(λⱼ) for each channel of linear Rec. 709 and each lane, nm.
+/// s(λⱼ)/p(λⱼ) for each channel and each lane, nm.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SensorWeights {
-    /// Weights of the red channel.
+    /// Weights of the first channel: red.
     pub r: Vec4,
-    /// Weights of the green channel.
+    /// Weights of the second channel: green.
     pub g: Vec4,
-    /// Weights of the blue channel.
+    /// Weights of the third channel: blue.
     pub b: Vec4,
 }
 
 impl SensorWeights {
-    /// Linear Rec. 709 of the path result `l` (see the head of this file for its convention).
+    /// The sensor's channels, of the standard one linear Rec. 709, of the path result `l` (see the head of this file
+    /// for its convention).
     #[inline]
     pub fn rgb(&self, l: Vec4) -> Vec3 {
         Vec3::new(l.dot(self.r), l.dot(self.g), l.dot(self.b))
     }
+
+    /// The responses of three channels, over the density of the wavelengths.
+    #[inline]
+    fn new([r, g, b, _]: [Vec4; 4], wavelengths: &Wavelengths) -> Self {
+        let inverse = wavelengths.density.recip();
+        Self {
+            r: r * inverse,
+            g: g * inverse,
+            b: b * inverse,
+        }
+    }
 }
 
-/// The weights of a path's wavelengths: response over density.
+/// Responses at 360 + i nm, linear in between. The last row is repeated so that row i + 1 exists.
+type Rows = [[f32; 4]; COUNT + 1];
+
+/// Up to three response curves, and how wavelengths are drawn for them.
+#[derive(Clone, Debug)]
+pub struct Sensor {
+    rows: Arc<Rows>,
+    distribution: WavelengthDistribution,
+}
+
+impl Default for Sensor {
+    /// The standard observer in linear Rec. 709.
+    fn default() -> Self {
+        Self {
+            rows: Arc::new(RESPONSE),
+            distribution: WavelengthDistribution::default(),
+        }
+    }
+}
+
+/// Of the wavelengths' probability, the share that is spread evenly: a curve may be larger between two
+/// whole nanometres than at them.
+const EVEN: f64 = 0.005;
+
+/// In how many parts a nanometre is divided to find the mean of a curve over it.
+const PARTS: u32 = 16;
+
+impl Sensor {
+    /// A sensor whose channels are ∫ L(λ) cₖ(λ) dλ for three curves cₖ of the wavelength (nm), each kept as its means over
+    /// whole nanometres ± ½: what lies beyond 360–830 nm is not seen.
+    pub fn new(curves: [&dyn Fn(f64) -> f64; 3]) -> Self {
+        let mut rows: Rows = [[0.0; 4]; COUNT + 1];
+        for (i, row) in rows.iter_mut().take(COUNT).enumerate() {
+            for (value, curve) in row.iter_mut().zip(curves) {
+                let part = |k: u32| (f64::from(k) + 0.5) / f64::from(PARTS) - 0.5;
+                let at = (0..PARTS)
+                    .map(|k| (LAMBDA_MIN + i as f64 + part(k)).clamp(LAMBDA_MIN, LAMBDA_MAX));
+                *value = (at.map(curve).sum::<f64>() / f64::from(PARTS)) as f32;
+            }
+        }
+        rows[COUNT] = rows[COUNT - 1];
+        let total =
+            |channel: usize| -> f64 { rows.iter().map(|row| f64::from(row[channel].abs())).sum() };
+        let totals = [total(0), total(1), total(2)];
+        let seen = totals.iter().filter(|total| **total > 0.0).count().max(1);
+        let importance = |lambda: f64| {
+            let row = row(&rows, (lambda - LAMBDA_MIN) as f32).to_array();
+            let shares = row.iter().zip(totals).filter(|(_, total)| *total > 0.0);
+            let sum: f64 = shares
+                .map(|(value, total)| f64::from(value.abs()) / total)
+                .sum();
+            (1.0 - EVEN) * sum / seen as f64 + EVEN / (LAMBDA_MAX - LAMBDA_MIN)
+        };
+        Self {
+            distribution: WavelengthDistribution::of_importance(LAMBDA_MIN, LAMBDA_MAX, importance),
+            rows: Arc::new(rows),
+        }
+    }
+
+    /// The standard observer behind a filter of this transmittance.
+    pub fn behind(filter: &Spectrum) -> Self {
+        let seen = |channel: usize| {
+            move |lambda: f64| {
+                let row = row(&RESPONSE, (lambda - LAMBDA_MIN) as f32);
+                f64::from(row[channel]) * filter.eval_at(lambda)
+            }
+        };
+        Self::new([&seen(0), &seen(1), &seen(2)])
+    }
+
+    /// Four wavelengths from one number `u` in [0, 1).
+    #[inline]
+    pub fn sample(&self, u: f32) -> Wavelengths {
+        self.distribution.sample(u)
+    }
+
+    /// What the channels make of the light at a path's wavelengths.
+    #[inline]
+    pub fn weights(&self, wavelengths: &Wavelengths) -> SensorWeights {
+        SensorWeights::new(respond(&self.rows, wavelengths.lambda), wavelengths)
+    }
+
+    /// Its channels for a radiance of 1 at every wavelength.
+    pub fn unit(&self) -> Vec3 {
+        unit(&self.rows)
+    }
+}
+
+/// The standard sensor's linear Rec. 709 for a radiance of 1 at every wavelength.
+pub fn standard_unit() -> Vec3 {
+    static UNIT: LazyLock<Vec3> = LazyLock::new(|| unit(&RESPONSE));
+    *UNIT
+}
+
+/// The integrals of curves: linear between whole nanometres, and next to nothing at the ends.
+fn unit(rows: &Rows) -> Vec3 {
+    let sum = |channel: usize| -> f64 {
+        let seen = rows.iter().take(COUNT);
+        seen.map(|row| f64::from(row[channel])).sum()
+    };
+    Vec3::new(sum(0) as f32, sum(1) as f32, sum(2) as f32)
+}
+
+/// The weights of a path's wavelengths for the standard sensor: response over density.
 #[inline]
 pub fn sensor_response(wavelengths: &Wavelengths) -> SensorWeights {
-    let [r, g, b, _] = response(wavelengths.lambda);
-    let inverse = wavelengths.density.recip();
-    SensorWeights {
-        r: r * inverse,
-        g: g * inverse,
-        b: b * inverse,
-    }
+    SensorWeights::new(response(wavelengths.lambda), wavelengths)
 }
 
 /// The responses (r̄, ḡ, b̄, ȳ)/N at four wavelengths in nm: linear Rec. 709 and luminance of a
 /// unit of radiance per nanometre. Zero outside 360–830 nm.
 #[inline]
 pub fn response(lambda: Vec4) -> [Vec4; 4] {
+    respond(&RESPONSE, lambda)
+}
+
+/// What curves say at four wavelengths in nm.
+#[inline]
+fn respond(rows: &Rows, lambda: Vec4) -> [Vec4; 4] {
     let t = lambda - FIRST as f32;
     let inside = t.cmpge(Vec4::ZERO) & t.cmple(Vec4::splat((COUNT - 1) as f32));
     // A wavelength outside saturates to some row; `inside` discards what it finds.
-    let lanes = Mat4::from_cols(row(t.x), row(t.y), row(t.z), row(t.w)).transpose();
+    let at = |t| row(rows, t);
+    let lanes = Mat4::from_cols(at(t.x), at(t.y), at(t.z), at(t.w)).transpose();
     [lanes.x_axis, lanes.y_axis, lanes.z_axis, lanes.w_axis]
         .map(|channel| Vec4::select(inside, channel, Vec4::ZERO))
 }
 
-/// (r̄, ḡ, b̄, ȳ)/N at 360 + `t` nm.
+/// The responses at 360 + `t` nm.
 #[inline]
-fn row(t: f32) -> Vec4 {
+fn row(rows: &Rows, t: f32) -> Vec4 {
     let i = (t as usize).min(COUNT - 1);
-    let low = Vec4::from_array(RESPONSE[i]);
-    let high = Vec4::from_array(RESPONSE[i + 1]);
+    let low = Vec4::from_array(rows[i]);
+    let high = Vec4::from_array(rows[i + 1]);
     low + (high - low) * (t - i as f32)
 }
 
-/// The responses at 360 + i nm. The last row is repeated so that row i + 1 exists.
-static RESPONSE: [[f32; 4]; COUNT + 1] = {
+/// Those of the standard sensor, (r̄, ḡ, b̄, ȳ)/N.
+static RESPONSE: Rows = {
     let mut table = [[0.0; 4]; COUNT + 1];
     let mut i = 0;
     while i <= COUNT {

@@ -66,11 +66,11 @@ impl WavelengthDistribution {
                 accepted: "above the shortest wavelength",
             });
         }
-        Ok(Self::from_importance(min, max, importance))
+        Ok(Self::of_importance(min, max, importance))
     }
 
     /// The distribution whose density is proportional to `importance` (above zero in the range).
-    fn from_importance(min: f64, max: f64, importance: impl Fn(f64) -> f64) -> Self {
+    pub(crate) fn of_importance(min: f64, max: f64, importance: impl Fn(f64) -> f64) -> Self {
         let steps = 8 * CELLS;
         let width = (max - min) / steps as f64;
         let weights: Vec<f64> = (0..steps)
@@ -136,7 +136,7 @@ impl WavelengthDistribution {
 impl Default for WavelengthDistribution {
     /// The importance of wavelengths over 360–830 nm.
     fn default() -> Self {
-        Self::from_importance(LAMBDA_MIN, LAMBDA_MAX, importance)
+        Self::of_importance(LAMBDA_MIN, LAMBDA_MAX, importance)
     }
 }
 

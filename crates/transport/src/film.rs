@@ -48,6 +48,11 @@ pub trait TileSink: Sink {
         self.begin_sample(pixel, placement.weight);
     }
 
+    /// What follows belongs to these three of the film's bands: those from 3 × `group` on. Films of a colour have one
+    /// group.
+    #[inline]
+    fn select_group(&mut self, _group: usize) {}
+
     /// Adds radiance and alpha, as a part of what the current sample found, to its pixel alone: what counts for that
     /// pixel by the filter already. Not for samples of pixels around the film.
     #[inline]

@@ -5,7 +5,8 @@ use crate::{
     LightSampleContext, LightVariety, Medium, MediumId, Ray, SurfaceInteraction, TraceEvent,
 };
 use etalon_math::{Density, SolidAngle};
-use etalon_spectrum::Wavelengths;
+use etalon_spectrum::sensor::standard_unit;
+use etalon_spectrum::{SensorWeights, Wavelengths, sensor_response};
 use glam::{Vec2, Vec3, Vec4};
 
 /// Straight travel along a segment.
@@ -76,6 +77,17 @@ pub trait World: Sync {
 
     /// Draws the wavelengths of a path.
     fn wavelengths(&self, u: f32) -> Wavelengths;
+
+    /// What the sensor makes of the light at these wavelengths. A world with the standard sensor keeps this.
+    #[inline]
+    fn sensor(&self, wavelengths: &Wavelengths) -> SensorWeights {
+        sensor_response(wavelengths)
+    }
+
+    /// What the sensor makes of a radiance of 1 at all wavelengths. A world with the standard sensor keeps this.
+    fn sensor_unit(&self) -> Vec3 {
+        standard_unit()
+    }
 
     /// The nearest surface along a ray.
     fn intersect(&self, ray: &Ray) -> Option<Hit>;

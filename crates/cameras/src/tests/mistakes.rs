@@ -52,7 +52,6 @@ fn mistakes_are_refused() {
             vec![number("shutter_open", 1.0)],
             "shutter_close",
         ),
-        ("perspective", vec![number("srf", 1.0)], "not built yet"),
         (
             "perspective",
             vec![number("fow", 1.0)],

@@ -144,7 +144,7 @@ fn unfit(image: &RenderedImage) -> Option<String> {
 /// that misses what is rare leaves the same picture as a scene without light.
 fn black(image: &RenderedImage) -> Option<String> {
     let metadata = image.metadata.as_ref()?;
-    let colours = ["R", "G", "B", "X", "Y", "Z"];
+    let colours = image.colours();
     let mut planes = colours.iter().filter_map(|name| image.image.channel(name));
     let is_black = planes.all(|pixels| pixels.iter().all(|value| *value == 0.0));
     is_black.then(|| {

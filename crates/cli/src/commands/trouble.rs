@@ -26,7 +26,7 @@ pub(super) struct Fireflies<'a> {
 impl<'a> Fireflies<'a> {
     /// Those of an image; `None` where there is no mean to compare with.
     pub(super) fn of(developed: &RenderedImage, metadata: &'a Metadata) -> Option<Self> {
-        let colours = ["R", "G", "B", "X", "Y", "Z"];
+        let colours = developed.colours();
         let means = colours.iter().filter_map(|name| {
             let pixels = developed.image.channel(name)?;
             Some(pixels.iter().map(|&x| f64::from(x)).sum::<f64>() / pixels.len() as f64)

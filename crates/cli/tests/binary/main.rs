@@ -25,6 +25,7 @@ mod render;
 mod replay;
 mod replay_methods;
 mod resume;
+mod spectral;
 mod statistics;
 mod strategies;
 mod target;

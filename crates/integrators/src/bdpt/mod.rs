@@ -50,7 +50,7 @@ use crate::settings::PathSettings;
 use connect::Connector;
 use etalon_params::Params;
 use etalon_sampling::{ReplicateKind, Sampler};
-use etalon_spectrum::{Wavelengths, sensor_response};
+use etalon_spectrum::Wavelengths;
 use etalon_transport::{
     Incompatibility, Integrator, LightSearch, Pass, PixelSample, Placing, Ray, SampleJob,
     SceneCapabilities, Sink, Subject, TileSink, World,
@@ -140,7 +140,7 @@ pub(crate) fn estimate<'w, W: World, S: Sampler, K: Sink>(
         weight,
         merging,
     } = begin;
-    let sensor = sensor_response(wavelengths);
+    let sensor = world.sensor(wavelengths);
     eye.clear();
     light.clear();
     let connects = merging.is_none_or(Merging::connects);

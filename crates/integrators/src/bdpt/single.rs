@@ -12,7 +12,6 @@ use crate::dimensions as dim;
 use crate::path::camera_ray;
 use crate::settings::PathSettings;
 use etalon_sampling::Sampler;
-use etalon_spectrum::sensor_response;
 use etalon_transport::{PixelSample, World};
 use glam::{Vec2, Vec3, Vec4};
 
@@ -42,7 +41,7 @@ pub(crate) fn sample<'w, W: World, S: Sampler>(
     mut found: impl FnMut(Vec2, Vec3),
 ) {
     let (wavelengths, ray, weight) = camera_ray(world, site, sampler);
-    let sensor = sensor_response(&wavelengths);
+    let sensor = world.sensor(&wavelengths);
     let Lists { eye, light } = lists;
     eye.clear();
     light.clear();

@@ -387,7 +387,7 @@ impl Trainer {
         follow(world, &self.settings, &mut walks);
         let [walk] = walks;
         let walk = walk.expect("a path that was followed is still there");
-        let found = walk.colour().extend(walk.alpha()) * placement.weight;
+        let found = walk.colour(world).extend(walk.alpha()) * placement.weight;
         (walk.into_hooks(), found)
     }
 }

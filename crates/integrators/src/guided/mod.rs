@@ -185,7 +185,10 @@ impl Integrator for Guided {
             guide,
         ))];
         follow(world, &self.settings, &mut walks);
-        walks.iter().flatten().for_each(|walk| walk.deliver(sink));
+        walks
+            .iter()
+            .flatten()
+            .for_each(|walk| walk.deliver(world, sink));
     }
 
     fn sample_batch<W: World, S: Sampler, K: TileSink>(

@@ -188,6 +188,6 @@ impl ChainSettings {
     ) {
         let mut walk = PathState::start(world, settings, site, sampler, ());
         walk.follow(world, settings, &(0..self.least_corners()));
-        walk.deliver(sink);
+        walk.deliver(world, sink);
     }
 }

@@ -12,7 +12,7 @@
 //! lane of a set chooses is drawn for each photon and each camera path: all are equally likely.
 
 use etalon_sampling::hash::{derived_key, random_float, stream_key};
-use etalon_spectrum::{SensorWeights, Wavelengths, sensor_response};
+use etalon_spectrum::{SensorWeights, Wavelengths};
 use etalon_transport::{Pass, World};
 use glam::Vec4;
 
@@ -63,7 +63,7 @@ impl WavelengthSets {
         let set = |g: usize| {
             let u = ((g as f64 + shift) / (4.0 * count as f64)) as f32;
             let wavelengths = world.wavelengths(u);
-            (wavelengths, sensor_response(&wavelengths))
+            (wavelengths, world.sensor(&wavelengths))
         };
         Self {
             sets: (0..count).map(set).collect(),

@@ -2,7 +2,7 @@
 
 use super::{Event, Gathered};
 use crate::path_throughput::PathThroughput;
-use etalon_spectrum::sensor_response;
+use etalon_spectrum::{SensorWeights, Wavelengths};
 use etalon_transport::{
     BsdfSample, ChainRemark, Mixed, Mixture, ShapeId, SurfaceInteraction, TraceEvent,
 };
@@ -160,7 +160,11 @@ impl EventLog {
     }
 
     /// The estimator remarks something.
-    pub(super) fn record(&mut self, remark: TraceEvent) {
+    pub(super) fn record(
+        &mut self,
+        remark: TraceEvent,
+        sensor: impl Fn(&Wavelengths) -> SensorWeights,
+    ) {
         match remark {
             TraceEvent::Wavelengths(wavelengths) => {
                 let event = Event::Wavelengths(wavelengths);
@@ -179,8 +183,9 @@ impl EventLog {
                 });
             }
             TraceEvent::Photon(photon) => {
-                let sensor = sensor_response(&photon.wavelengths);
-                let rgb = sensor.rgb(photon.estimate * self.weight).to_array();
+                let rgb = sensor(&photon.wavelengths)
+                    .rgb(photon.estimate * self.weight)
+                    .to_array();
                 if photon.estimate != Vec4::ZERO
                     && let Some(Event::Photons { photons, .. }) = self.events.last_mut()
                 {

@@ -4,7 +4,7 @@ use super::Event;
 use super::event_log::SharedEventLog;
 use super::model::RecordingBsdf;
 use etalon_math::{Density, SolidAngle};
-use etalon_spectrum::Wavelengths;
+use etalon_spectrum::{SensorWeights, Wavelengths};
 use etalon_transport::{
     ApertureHit, Camera, CameraRay, CameraSample, Emission, EmissionPdf, Hit, LegacyPhong, LightId,
     LightSample, LightSampleContext, LightVariety, MediumId, Ray, SurfaceInteraction, TraceEvent,
@@ -99,6 +99,14 @@ impl<'a, W: World> World for Recorder<'a, W> {
         let wavelengths = self.world.wavelengths(u);
         self.notebook.note(Event::Wavelengths(wavelengths));
         wavelengths
+    }
+
+    fn sensor(&self, wavelengths: &Wavelengths) -> SensorWeights {
+        self.world.sensor(wavelengths)
+    }
+
+    fn sensor_unit(&self) -> Vec3 {
+        self.world.sensor_unit()
     }
 
     fn intersect(&self, ray: &Ray) -> Option<Hit> {
@@ -270,7 +278,8 @@ impl<'a, W: World> World for Recorder<'a, W> {
     fn record(&self, remark: impl FnOnce() -> TraceEvent) -> bool {
         // It may itself ask the world.
         let remark = remark();
-        self.notebook.write(|notes| notes.record(remark));
+        self.notebook
+            .write(|notes| notes.record(remark, |wavelengths| self.world.sensor(wavelengths)));
         true
     }
 }

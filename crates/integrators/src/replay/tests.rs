@@ -62,7 +62,7 @@ fn photons_stand_for_the_questions_that_they_raised() {
     notes.begin_at_camera(2.0, Vec3::Z);
     notes.ask(start(), Vec3::X, evaluated(Vec3::X));
     let (radius, among) = (0.5, 7);
-    notes.record(TraceEvent::Gathering { radius, among });
+    notes.record(TraceEvent::Gathering { radius, among }, sensor_response);
     notes.ask(start(), Vec3::Y, evaluated(Vec3::Y));
     let photon = MergedPhoton {
         position: Vec3::ONE,
@@ -73,10 +73,13 @@ fn photons_stand_for_the_questions_that_they_raised() {
         scattering: Vec4::ONE,
         estimate: Vec4::new(1.0, 2.0, 3.0, 4.0),
     };
-    notes.record(TraceEvent::Photon(photon));
+    notes.record(TraceEvent::Photon(photon), sensor_response);
     // One that brings nothing.
     let estimate = Vec4::ZERO;
-    notes.record(TraceEvent::Photon(MergedPhoton { estimate, ..photon }));
+    notes.record(
+        TraceEvent::Photon(MergedPhoton { estimate, ..photon }),
+        sensor_response,
+    );
     // A camera path at other wavelengths: it leads nowhere.
     let other = sample(Vec3::NEG_Y, 1.0, 1.0);
     notes.scatter(
@@ -88,7 +91,7 @@ fn photons_stand_for_the_questions_that_they_raised() {
             mixture: None,
         },
     );
-    notes.record(TraceEvent::Gathered);
+    notes.record(TraceEvent::Gathered, sensor_response);
     assert!(notes.along(Vec3::NEG_Y).is_none());
     assert!(notes.along(Vec3::Z).is_some());
     notes.ask(start(), Vec3::Z, evaluated(Vec3::Z));
@@ -199,11 +202,11 @@ fn every_path_of_a_chain_has_walks_of_its_own() {
             large: true,
         },
     ] {
-        notes.record(TraceEvent::Chain(remark));
+        notes.record(TraceEvent::Chain(remark), sensor_response);
         assert!(notes.along(Vec3::X).is_none());
         assert_eq!(notes.begin(Vec4::ONE, Vec3::X), 0);
     }
-    notes.record(TraceEvent::Chain(ChainRemark::Ends));
+    notes.record(TraceEvent::Chain(ChainRemark::Ends), sensor_response);
     assert!(notes.along(Vec3::X).is_some());
 }
 
@@ -216,7 +219,7 @@ fn wavelengths_are_those_that_count() {
     for first in [None, Some(Event::Wavelengths(drawn))] {
         let mut notes = EventLog::default();
         first.into_iter().for_each(|event| notes.note(event));
-        notes.record(TraceEvent::Wavelengths(WAVELENGTHS));
+        notes.record(TraceEvent::Wavelengths(WAVELENGTHS), sensor_response);
         let events = notes.take_events();
         let [Event::Wavelengths(told)] = events[..] else {
             panic!("{events:?}");

@@ -5,7 +5,7 @@
 
 use super::{Whitted, phong};
 use crate::steps::next_surface;
-use etalon_spectrum::{SensorWeights, Wavelengths, sensor_response};
+use etalon_spectrum::{SensorWeights, Wavelengths};
 use etalon_transport::{Bsdf, Camera, Ray, SurfaceInteraction, TransportMode, World};
 use glam::{Vec2, Vec3, Vec4};
 
@@ -23,10 +23,10 @@ pub(super) struct Packet {
 
 impl Packet {
     /// The packet in which lane `k` chooses, and is alone.
-    fn alone(&self, k: usize) -> Self {
+    fn alone(&self, world: &impl World, k: usize) -> Self {
         let wavelengths = self.wavelengths.rotated(k);
         Self {
-            response: sensor_response(&wavelengths),
+            response: world.sensor(&wavelengths),
             weight: Vec4::X * self.weight[k],
             wavelengths,
         }
@@ -45,7 +45,7 @@ impl Packets {
         let packet = |i: usize| {
             let wavelengths = world.wavelengths((i as f32 + 0.5) / (4 * count) as f32);
             Packet {
-                response: sensor_response(&wavelengths),
+                response: world.sensor(&wavelengths),
                 weight: Vec4::splat(1.0 / (4 * count) as f32),
                 wavelengths,
             }
@@ -144,7 +144,7 @@ impl Whitted {
                 // Lane 0 chose; others that go elsewhere are asked one by one.
                 for lane in (1..4).filter(|&k| packet.weight[k] != 0.0 && whole.together[k] == 0.0)
                 {
-                    let alone = packet.alone(lane);
+                    let alone = packet.alone(world, lane);
                     let Some(own) = at(&alone).filter(|own| own.value.x != 0.0) else {
                         continue;
                     };

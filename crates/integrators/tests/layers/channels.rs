@@ -210,13 +210,13 @@ fn depth_is_a_constant_spectrum() {
     let world = floor(vec![Plane::WHITE]);
     let white = crate::exact::integral(|_| 1.0);
     for i in 0..4 {
-        let seen = sample(&Depth::default(), &world, i);
+        let seen = sample(&Depth, &world, i);
         for (c, white) in ["R", "G", "B"].into_iter().zip(white) {
             let value = f64::from(seen.values[&format!("picture.{c}")]);
             assert!((value - 2.5 * white).abs() < 1e-4 * value, "{c}: {value}");
         }
     }
-    let missed = sample(&Depth::default(), &floor(Vec::new()), 0);
+    let missed = sample(&Depth, &floor(Vec::new()), 0);
     assert!(missed.values.values().all(|&v| v == 0.0));
 }
 

@@ -147,7 +147,15 @@ fn run_on(
         .num_threads(threads)
         .build()
         .expect("threads");
-    let outcome = pool.install(|| render(&world, &integrator, &mut film, &plan, watch));
+    let outcome = pool.install(|| {
+        render(
+            std::slice::from_ref(&world),
+            &integrator,
+            &mut film,
+            &plan,
+            watch,
+        )
+    });
     (film, outcome)
 }
 
