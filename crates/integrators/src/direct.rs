@@ -204,7 +204,8 @@ impl Integrator for Direct {
     fn incompatibilities(&self, sight: &SceneCapabilities) -> Vec<Incompatibility> {
         sight.incompatibilities(match (self.emitter_samples, self.bsdf_samples) {
             (0, _) => LightSearch::Hitting,
-            (_, 0) => LightSearch::Choosing,
+            (_, 0) => LightSearch::Connecting,
+            _ if sight.lights.beams > 0 => LightSearch::FromCamera,
             _ => LightSearch::Either,
         })
     }

@@ -2,8 +2,8 @@
 
 use crate::light_model::LightModel;
 use crate::{
-    AreaLight, BoundingSphere, ConstantLight, DirectionalLight, EnvironmentMap, LightExtent,
-    PointLight, Projector, SpotLight, SunSky,
+    AreaLight, BoundingSphere, ConstantLight, DirectionalArea, DirectionalLight, EnvironmentMap,
+    LightExtent, PointLight, Projector, SpotLight, SunSky,
 };
 use etalon_math::{Density, DirectionCone, SolidAngle};
 use etalon_params::{Class, Diagnostic, Params, plugins};
@@ -63,6 +63,8 @@ lights! {
     Constant(ConstantLight) { "constant" => |params, _, build| Some(ConstantLight::from_params(params, build)) }
     /// Parallel light from infinity.
     Directional(DirectionalLight) { "directional" => |params, _, build| DirectionalLight::from_params(params, build) }
+    /// A shape that shines along its normals.
+    DirectionalArea(DirectionalArea) { "directionalarea" => |params, shape, build| Some(DirectionalArea::from_params(params, shape, build)) }
     /// An image at infinity.
     Environment(EnvironmentMap) { "envmap" => |params, _, build| EnvironmentMap::from_params(params, build) }
     /// A light without extent.
@@ -140,9 +142,17 @@ impl Light {
     /// Whether a ray can find it: a surface, or a background.
     pub fn can_be_hit(&self) -> bool {
         fn of_shape<L: LightModel>(_: &L) -> bool {
-            L::OF_SHAPE
+            L::OF_SHAPE && !L::BEAM
         }
         self.is_background() || ask!(self, light => of_shape(light))
+    }
+
+    /// Whether only particles that start at it find it, see [`LightKind::Beam`](etalon_transport::LightKind::Beam).
+    pub fn is_beam(&self) -> bool {
+        fn beam<L: LightModel>(_: &L) -> bool {
+            L::BEAM
+        }
+        ask!(self, light => beam(light))
     }
 
     /// Radiance that leaves the surface point `vertex` along `wo`; zero for lights without

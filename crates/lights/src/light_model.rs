@@ -13,6 +13,9 @@ pub(crate) trait LightModel {
     /// Whether it is read as the child of a shape, which then is a surface that emits.
     const OF_SHAPE: bool = false;
 
+    /// Whether its particles are [`LightKind::Beam`](etalon_transport::LightKind::Beam)s.
+    const BEAM: bool = false;
+
     /// Whether it is at infinity; it then has no [`LightModel::extent`].
     fn is_infinite(&self) -> bool {
         false

@@ -110,6 +110,7 @@ impl LightSet {
             count.hittable += u32::from(hittable);
             count.chosen += u32::from(chosen);
             count.either += u32::from(hittable || chosen);
+            count.beams += u32::from(chosen && light.is_beam());
         }
         count
     }
@@ -333,6 +334,7 @@ impl LightSet {
                 self.background_density(from, toward).hero()
             }
             LightKind::Point | LightKind::Parallel => probability(),
+            LightKind::Beam => 0.0,
         }
     }
 }

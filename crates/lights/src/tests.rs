@@ -264,7 +264,8 @@ fn read(
     let diagnostics = Diagnostics::new();
     let node = node(Class::Emitter, plugin, properties);
     let params = Params::new(&node, &diagnostics);
-    let shape = (plugin == "area").then(|| ShapeId(world.rectangles.len() as u32 - 1));
+    let shape = matches!(plugin, "area" | "directionalarea")
+        .then(|| ShapeId(world.rectangles.len() as u32 - 1));
     let description = LightDescription::from_params(&params, shape, world);
     let messages: Vec<String> = diagnostics
         .into_sorted()

@@ -68,6 +68,8 @@ pub enum LightKind {
     Sky,
     /// The one direction of a light at infinity: no path finds it by chance.
     Parallel,
+    /// A surface that shines along its normals alone: no path finds it by chance, nor by a connection.
+    Beam,
 }
 
 impl LightKind {
@@ -75,6 +77,12 @@ impl LightKind {
     #[inline]
     pub fn is_infinite(self) -> bool {
         matches!(self, Self::Sky | Self::Parallel)
+    }
+
+    /// Whether its particles, once they have a direction, arrive as densely far away as near.
+    #[inline]
+    pub fn is_parallel(self) -> bool {
+        self.is_infinite() || self == Self::Beam
     }
 
     /// Whether a path can run into it.

@@ -14,6 +14,8 @@ pub struct LightCount {
     pub chosen: u32,
     /// Those that can be hit, or are chosen, or both.
     pub either: u32,
+    /// Of those that are chosen, the ones that only particles find ([`crate::LightKind::Beam`]).
+    pub beams: u32,
 }
 
 /// What the camera sees first, by a number of rays; one may see several of these, through surfaces
@@ -69,6 +71,8 @@ pub enum LightSearch {
     Hitting,
     /// Lights are chosen: to be connected with, or to emit particles.
     Choosing,
+    /// Lights are chosen to be connected with.
+    Connecting,
     /// Both; either is enough.
     Either,
     /// Both, and by paths from the camera alone: they come through smooth glass only to lights that they
@@ -271,6 +275,7 @@ impl SceneCapabilities {
             hittable,
             chosen,
             either,
+            beams,
         } = self.lights;
         let (found, why, help) = match finding {
             LightSearch::Hitting => (
@@ -278,7 +283,16 @@ impl SceneCapabilities {
                 "it finds lights only by running into them, and a point or a direction is never hit",
                 "use an estimator that samples lights (`path`), or give the lights an extent",
             ),
-            LightSearch::Choosing => (
+            LightSearch::Connecting | LightSearch::FromCamera if beams > 0 => (
+                if finding == LightSearch::Connecting {
+                    chosen - beams
+                } else {
+                    either - beams
+                },
+                "light along a surface's normals alone is found by following it from there",
+                "use an integrator that follows light from its sources (`ptracer`, `bdpt`)",
+            ),
+            LightSearch::Choosing | LightSearch::Connecting => (
                 chosen,
                 "it finds lights only by choosing them, and their `sampling_weight` is 0",
                 "give them a `sampling_weight` above 0",

@@ -106,7 +106,7 @@ impl FromLight {
         match self.emission.origin {
             LightKind::Surface => self.cos() / distance_squared,
             LightKind::Sky => 1.0,
-            LightKind::Point | LightKind::Parallel => 0.0,
+            LightKind::Point | LightKind::Parallel | LightKind::Beam => 0.0,
         }
     }
 
@@ -126,12 +126,12 @@ impl FromLight {
     #[inline]
     pub(super) fn arrival<B>(
         emission_ray: f32,
-        infinite: bool,
+        parallel: bool,
         corner: &PathVertex<B>,
         from: Vec3,
     ) -> f32 {
         let cos = corner.vertex.normal.dot(corner.wo).abs();
-        if infinite {
+        if parallel {
             emission_ray * cos
         } else {
             emission_ray * cos / corner.vertex.position.distance_squared(from)
@@ -187,7 +187,7 @@ impl FromLight {
                 * match parent {
                     None => Self::arrival(
                         carried.density,
-                        self.emission.origin.is_infinite(),
+                        self.emission.origin.is_parallel(),
                         &corner,
                         self.emission.point.position,
                     ),

@@ -11,7 +11,7 @@ use crate::particle::{LightPath, LightVertex};
 use crate::settings::PathSettings;
 use etalon_sampling::hash::mix64;
 use etalon_sampling::{SampleId, Sobol};
-use etalon_transport::{Bsdf, Pass, Placing, SamplePdf, World};
+use etalon_transport::{Bsdf, LightKind, Pass, Placing, SamplePdf, World};
 use glam::{Vec3, Vec4};
 use rayon::prelude::*;
 
@@ -155,13 +155,17 @@ fn trace<W: World>(
     found: &mut Vec<Photon>,
 ) {
     let wavelengths = sets.of(lanes);
-    let Some((_, mut particle)) = LightPath::emit(world, &wavelengths, sampler, time) else {
+    let Some((start, mut particle)) = LightPath::emit(world, &wavelengths, sampler, time) else {
         return;
     };
     if particle.prefix.beta == Vec4::ZERO {
         return;
     }
-    let mut kind = Kind::Direct;
+    let mut kind = match start.origin {
+        // No sampling of lights finds it: as if a mirror had sent it here.
+        LightKind::Beam => Kind::Caustic,
+        _ => Kind::Direct,
+    };
     // As many segments as its depth lie behind once it has arrived; the camera adds one at least.
     while particle.depth < settings.max_depth {
         let Some(met) = particle.next(world, sampler) else {

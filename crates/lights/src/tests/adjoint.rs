@@ -120,6 +120,34 @@ fn bounds() -> BoundingSphere {
     BoundingSphere::of_box(Vec3::new(-1.0, -1.0, -0.1), Vec3::new(1.0, 1.0, 0.5))
 }
 
+/// Upon a flat patch that it faces, a beam's irradiance is its `radiance` where it shines, whatever the distance; the mutant
+/// that emits with a cosine spreads it over the patch.
+#[test]
+fn a_beam_goes_along_the_normal() {
+    let mut world = SmallWorld::default();
+    (world.rectangles).push((Vec3::new(0.3, -0.1, 1.0), Vec3::NEG_Z));
+    let radiance = vec![("radiance", Value::Float(2.0))];
+    let description = light(&mut world, "directionalarea", radiance);
+    let set = LightSet::new(vec![description], &world, bounds(), LightSamplerKind::Power);
+    let count = set.count();
+    assert_eq!(
+        [count.all, count.hittable, count.chosen, count.beams],
+        [1, 0, 1, 1]
+    );
+    let from = receiver(Vec3::new(0.3, 0.0, 0.0), Vec3::Z);
+    let mut random = numbers(5);
+    for _ in 0..1000 {
+        let (u, v) = (random.next_2d(), random.next_2d());
+        let emitted = set.emit(&world, &WAVELENGTHS, 0.5, u, v, 0.0);
+        let particle = emitted.expect("it always emits");
+        assert_eq!(particle.ray.direction, Vec3::NEG_Z);
+        // Its rectangles have sides of 2.
+        assert!((particle.weight.y / white().y / (2.0 * 4.0) - 1.0).abs() < 1e-5);
+        assert!(set.sample(&world, &from, &WAVELENGTHS, 0.5, u).is_none());
+        assert_eq!(set.light_sample_density(&world, &from, &particle), 0.0);
+    }
+}
+
 /// Rejects, among others, a missing or doubled cosine, 4π for 2π, and r for r².
 #[test]
 fn emitted_particles_carry_what_sampling_finds() {
@@ -299,6 +327,7 @@ fn densities_of_emission_are_those_that_are_reported() {
                     "{light}: {sent} {radiance}"
                 );
             }
+            LightKind::Beam => unreachable!("none of these is one"),
             LightKind::Point | LightKind::Parallel => {
                 assert_eq!(origin, choice, "{}", names[light]);
                 let back = receiver(particle.ray.at(1.0), -particle.ray.direction);

@@ -9,6 +9,7 @@ fn sight(all: u32, hittable: u32, chosen: u32, either: u32) -> SceneCapabilities
             hittable,
             chosen,
             either,
+            beams: 0,
         },
         ..SceneCapabilities::default()
     }
@@ -28,6 +29,13 @@ fn all_light_missing_is_fatal_and_some_a_remark() {
     let points = sight(2, 0, 2, 2);
     assert_eq!(fatal(points, LightSearch::Hitting), Some(true));
     assert_eq!(fatal(points, LightSearch::Choosing), None);
+    // A lamp, and a laser.
+    let mut laser = sight(2, 1, 2, 2);
+    laser.lights.beams = 1;
+    for finding in [LightSearch::Connecting, LightSearch::FromCamera] {
+        assert_eq!(fatal(laser, finding), Some(false));
+    }
+    assert_eq!(fatal(laser, LightSearch::Choosing), None);
     let unchosen_points = sight(2, 0, 0, 0);
     assert_eq!(fatal(unchosen_points, LightSearch::Either), Some(true));
 }
