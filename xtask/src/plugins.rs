@@ -108,7 +108,7 @@ pub(crate) const CLASSES: [(Class, &str, &str); 12] = [
     (
         Class::Volume,
         "Volumes",
-        "<sensor type='perspective'/><integrator type='volpath'/><shape type='sphere'><bsdf type='null'/><medium type='homogeneous' name='interior'>ELEMENT</medium></shape>",
+        "<sensor type='perspective'/><integrator type='volpath'/><shape type='sphere'><bsdf type='null'/><medium type='heterogeneous' name='interior'>ELEMENT</medium></shape>",
     ),
 ];
 
@@ -138,9 +138,14 @@ pub(crate) fn turn() -> MutexGuard<'static, ()> {
 
 /// Loads a scene with an element in its place, and gives back what was wrong.
 pub(crate) fn load(surroundings: &str, element: &str) -> Vec<String> {
-    let surroundings = match element.contains("type=\"area\"") {
-        true => "<sensor type='perspective'/><shape type='sphere'>ELEMENT</shape>",
-        false => surroundings,
+    // Lights of shapes stand in one; a beam is seen by integrators that follow it.
+    let is = |name: &str| element.contains(&format!("type=\"{name}\""));
+    let surroundings = match surroundings {
+        _ if is("directionalarea") => {
+            "<integrator type='ptracer'/><sensor type='perspective'/><shape type='sphere'>ELEMENT</shape>"
+        }
+        _ if is("area") => "<sensor type='perspective'/><shape type='sphere'>ELEMENT</shape>",
+        surroundings => surroundings,
     };
     let scene = format!(
         "<scene version=\"3.0.0\">{}</scene>",

@@ -1,5 +1,5 @@
 //! `cargo xtask scenes`: writes the generated files of `scenes/` anew: a sky, leaves, trees and
-//! where they stand, a thousand lamps, bumps, water.
+//! where they stand, a thousand lamps, bumps, water, smoke.
 //!
 //! Nothing here is random: whatever should look irregular follows [`sequence`], so that the files
 //! are the same on every machine.
@@ -12,6 +12,7 @@ mod pool;
 mod relief;
 mod sequence;
 mod sky;
+mod smoke;
 
 use etalon_validation::folders;
 use std::fs;
@@ -31,6 +32,9 @@ pub(crate) fn run() -> Result<(), String> {
     }
     for (name, bytes) in relief::pictures()? {
         put(&scenes.join("relief").join(name), &bytes)?;
+    }
+    for (name, bytes) in smoke::files() {
+        put(&scenes.join("smoke").join(name), &bytes)?;
     }
     put(&scenes.join("pool/water.obj"), pool::water().as_bytes())?;
     put(

@@ -2,7 +2,7 @@
 
 use crate::builder::Builder;
 use crate::lookup::SceneTables;
-use crate::media::SceneMedia;
+use crate::media::{self, SceneMedia};
 use crate::sampler::SamplerSettings;
 use crate::scene::Scene;
 use crate::sensor::{Response, curve};
@@ -107,7 +107,9 @@ pub fn compile_with(
         .or_else(|| LightSamplerKind::named(named))
         .unwrap_or_default();
     let lights = LightSet::new(lights, &lookup, bounds, kind);
-    let media = SceneMedia::new(surfaces.media, &surfaces.interfaces, camera_medium);
+    let bounded = (!surfaces.placed_media).then_some(surfaces.interfaces.as_slice());
+    let media = media::prepared(surfaces.media, bounded, camera_medium, &lookup, diagnostics)?;
+    let media = SceneMedia::new(media, &surfaces.interfaces, camera_medium);
     let scenes =
         Scene::new(camera, lookup, surfaces.materials, lights, media).with_sensors(responses);
     Some(Compiled {

@@ -1,8 +1,73 @@
 //! The media of a scene, and which of them lie on the two sides of a surface.
 
+use etalon_params::{Diagnostic, Diagnostics, Span};
 use etalon_subsurface::{MediumAtWavelengths, MediumDescription};
-use etalon_transport::{MediumId, MediumInterface, ShapeId, Textures};
-use glam::Vec4;
+use etalon_transport::{MediumId, MediumInterface, ShapeId, Shapes, Textures};
+use glam::{Vec3, Vec4};
+
+use crate::lookup::SceneTables;
+
+/// The most cells along the longest side of a medium's box that are bounded apart.
+const MOST_CELLS: u32 = 128;
+
+/// How many of a grid's values are bounded together, along each axis.
+const VALUES_PER_CELL: u32 = 4;
+
+/// Makes media ready that vary in space: where they end, and how dense they are at most. `None` after a mistake.
+/// `bounded` are the shapes with their media; without them nothing is known of where media end.
+pub(crate) fn prepared(
+    media: Vec<(MediumDescription, Span)>,
+    bounded: Option<&[(ShapeId, MediumInterface)]>,
+    camera: MediumId,
+    lookup: &SceneTables,
+    diagnostics: &Diagnostics,
+) -> Option<Vec<MediumDescription>> {
+    let table = &lookup.textures;
+    let mut prepared = Vec::new();
+    for (index, (mut medium, span)) in media.into_iter().enumerate() {
+        if let MediumDescription::Heterogeneous(varying) = &mut medium {
+            let id = MediumId(index as u32);
+            let shapes = bounded.filter(|_| camera != id);
+            let shapes = shapes.and_then(|bounded| within(id, bounded, lookup));
+            let density = table.get(varying.density());
+            let bounds = match (density.extent(table), shapes) {
+                (Some([a, b]), Some([c, d])) => Some([a.max(c), b.min(d)]),
+                (extent, shapes) => extent.or(shapes),
+            };
+            let cells = density
+                .cells(table)
+                .div_ceil(VALUES_PER_CELL)
+                .min(MOST_CELLS);
+            if !varying.prepare(bounds, cells, |low, high| {
+                density.most_within(table, low, high)
+            }) {
+                let message = "nothing bounds the density of this medium: it must be made of grids, patterns, numbers \
+                               and spectra";
+                diagnostics.push(Diagnostic::error(span, message));
+                return None;
+            }
+        }
+        prepared.push(medium);
+    }
+    Some(prepared)
+}
+
+/// The box of the shapes that hold a medium inside; `None` if it is outside of any.
+fn within(
+    medium: MediumId,
+    bounded: &[(ShapeId, MediumInterface)],
+    lookup: &SceneTables,
+) -> Option<[Vec3; 2]> {
+    let outside = bounded
+        .iter()
+        .any(|(_, interface)| interface.outside == medium);
+    let inside = bounded
+        .iter()
+        .filter(|(_, interface)| interface.inside == medium);
+    let bounds = inside.map(|(shape, _)| Shapes::bounds(lookup, *shape));
+    let all = bounds.reduce(|[a, b], [c, d]| [a.min(c), b.max(d)]);
+    all.filter(|_| !outside)
+}
 
 /// Media by id.
 #[derive(Debug)]
@@ -50,12 +115,12 @@ impl SceneMedia {
 
     /// A medium at four wavelengths (nm).
     #[inline]
-    pub fn at(
-        &self,
+    pub fn at<'a, T: Textures>(
+        &'a self,
         medium: MediumId,
-        textures: &impl Textures,
+        textures: &'a T,
         lambda: Vec4,
-    ) -> Option<MediumAtWavelengths> {
+    ) -> Option<MediumAtWavelengths<'a, T>> {
         let medium = self.media.get(medium.0 as usize)?;
         Some(medium.resolve(textures, lambda))
     }

@@ -116,7 +116,7 @@ impl Scene {
 
 impl World for Scene {
     type Bsdf<'w> = BsdfAtPoint<'w>;
-    type Medium<'w> = MediumAtWavelengths;
+    type Medium<'w> = MediumAtWavelengths<'w, SceneTables>;
     type Camera = AnyCamera;
 
     fn camera(&self) -> &AnyCamera {
@@ -158,7 +158,7 @@ impl World for Scene {
     }
 
     #[inline]
-    fn medium(&self, medium: MediumId, wavelengths: &Wavelengths) -> Option<MediumAtWavelengths> {
+    fn medium(&self, medium: MediumId, wavelengths: &Wavelengths) -> Option<Self::Medium<'_>> {
         self.parts
             .media
             .at(medium, &self.parts.lookup, wavelengths.lambda)

@@ -60,9 +60,11 @@ pub struct Surfaces {
     /// What textures ask of the shapes.
     pub(crate) asked: Asked,
     /// Media by id.
-    pub media: Vec<MediumDescription>,
+    pub media: Vec<(MediumDescription, Span)>,
     /// The media on both sides of shapes that have any.
     pub interfaces: Vec<(ShapeId, MediumInterface)>,
+    /// Whether any of these shapes is seen through instances only, which have places of their own.
+    pub placed_media: bool,
     medium_by_node: HashMap<usize, MediumId>,
     by_node: HashMap<usize, MaterialId>,
     groups: HashMap<usize, GroupId>,
@@ -182,7 +184,7 @@ impl Surfaces {
             return MediumId::NONE;
         };
         let id = MediumId(self.media.len() as u32);
-        self.media.push(medium);
+        self.media.push((medium, node.plugin.span));
         self.medium_by_node.insert(key, id);
         id
     }
@@ -199,6 +201,7 @@ impl Surfaces {
 
     /// Adds a shape that is only seen through instances.
     fn member(&mut self, shape: Shape, carried: &ShapeExtras) -> ShapeId {
+        self.placed_media |= carried.media.is_some();
         let id = self.geometry.add_member(shape, carried.material);
         self.carry(id, carried);
         id

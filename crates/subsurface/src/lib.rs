@@ -3,18 +3,27 @@
 //! A medium is described by spectra and volumes ([`MediumDescription`]) and resolved at the wavelengths of a path into
 //! plain numbers ([`MediumAtWavelengths`]), which know how to fly ([`etalon_transport::Medium`]).
 
+pub mod blend;
+pub mod draine;
 pub mod henyey_greenstein;
+pub mod heterogeneous;
 pub mod homogeneous;
 pub mod isotropic;
+pub mod majorants;
 pub mod media;
 pub mod phases;
 pub mod rayleigh;
 mod rotational;
+pub mod tabulated;
 mod volume;
 
+pub use blend::Blend;
+pub use draine::Draine;
 pub use henyey_greenstein::HenyeyGreenstein;
+pub use heterogeneous::{Heterogeneous, HeterogeneousAt};
 pub use homogeneous::{Homogeneous, HomogeneousAt};
 pub use isotropic::Isotropic;
 pub use media::{MediumAtWavelengths, MediumDescription};
-pub use phases::AnyPhase;
+pub use phases::{PhaseAt, PhaseFunction};
 pub use rayleigh::Rayleigh;
+pub use tabulated::Tabulated;

@@ -1,8 +1,10 @@
 //! The list of media, and how each is read.
 
-use crate::{AnyPhase, Homogeneous, HomogeneousAt};
+use crate::majorants::Segments;
+use crate::phases::PhaseAt;
+use crate::{Heterogeneous, HeterogeneousAt, Homogeneous, HomogeneousAt};
 use etalon_params::{Params, plugins};
-use etalon_transport::{Build, Coefficients, Medium, Ray, Textures};
+use etalon_transport::{Build, Coefficients, MajorantSegment, Medium, Ray, Textures};
 use glam::{Vec3, Vec4};
 
 macro_rules! media {
@@ -14,9 +16,9 @@ macro_rules! media {
         }
 
         /// Any medium at the wavelengths of a path.
-        #[derive(Clone, Copy, Debug, PartialEq)]
-        pub enum MediumAtWavelengths {
-            $($(#[doc = $doc])* $kind($at),)*
+        #[derive(Debug)]
+        pub enum MediumAtWavelengths<'a, T> {
+            $($(#[doc = $doc])* $kind($at<'a, T>),)*
         }
 
         /// Names of the media that are built.
@@ -32,7 +34,11 @@ macro_rules! media {
 
             /// The medium at four wavelengths (nm).
             #[inline]
-            pub fn resolve(&self, textures: &impl Textures, lambda: Vec4) -> MediumAtWavelengths {
+            pub fn resolve<'a, T: Textures>(
+                &'a self,
+                textures: &'a T,
+                lambda: Vec4,
+            ) -> MediumAtWavelengths<'a, T> {
                 match self {
                     $(Self::$kind(medium) => {
                         MediumAtWavelengths::$kind(medium.resolve(textures, lambda))
@@ -41,12 +47,15 @@ macro_rules! media {
             }
         }
 
-        impl Medium for MediumAtWavelengths {
-            type Phase = AnyPhase;
+        impl<'a, T: Textures> Medium for MediumAtWavelengths<'a, T> {
+            type Phase = PhaseAt<'a, T>;
 
             #[inline]
-            fn majorant(&self, ray: &Ray, t_max: f32) -> f32 {
-                match self { $(Self::$kind(medium) => medium.majorant(ray, t_max),)* }
+            fn majorants(&self, ray: &Ray, t_max: f32) -> impl Iterator<Item = MajorantSegment> {
+                let segments: Segments<'_> = match self {
+                    $(Self::$kind(medium) => medium.segments(ray, t_max),)*
+                };
+                segments
             }
 
             #[inline]
@@ -55,7 +64,7 @@ macro_rules! media {
             }
 
             #[inline]
-            fn phase(&self, at: Vec3) -> AnyPhase {
+            fn phase(&self, at: Vec3) -> PhaseAt<'a, T> {
                 match self { $(Self::$kind(medium) => medium.phase(at),)* }
             }
 
@@ -71,6 +80,8 @@ macro_rules! media {
 media! {
     /// The same everywhere.
     "homogeneous" => Homogeneous(HomogeneousAt);
+    /// Varying in space.
+    "heterogeneous" => Heterogeneous(HeterogeneousAt);
 }
 
 impl MediumDescription {

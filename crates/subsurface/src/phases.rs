@@ -1,48 +1,88 @@
 //! The list of phase functions, and how each is read.
 
-use crate::{HenyeyGreenstein, Isotropic, Rayleigh};
+use crate::{Blend, Draine, HenyeyGreenstein, Isotropic, Rayleigh, Tabulated};
 use etalon_math::{Density, SolidAngle};
 use etalon_params::{Class, Params, plugins};
-use etalon_transport::{Phase, PhaseSample};
+use etalon_transport::{Build, Phase, PhaseSample, Textures};
 use glam::{Vec2, Vec3, Vec4};
+
+/// Where a phase function is asked.
+#[derive(Debug)]
+pub struct PhasePoint<'a, T> {
+    /// What varies in space.
+    pub textures: &'a T,
+    /// The point (m, world).
+    pub position: Vec3,
+}
+
+// By hand, as `T` need not be `Copy`.
+impl<T> Clone for PhasePoint<'_, T> {
+    fn clone(&self) -> Self {
+        *self
+    }
+}
+
+impl<T> Copy for PhasePoint<'_, T> {}
+
+/// What a phase function is asked, as [`Phase`] at a point.
+pub(crate) trait PhaseModel {
+    /// p(wo, wi) in sr⁻¹, per lane.
+    fn eval(&self, at: &PhasePoint<'_, impl Textures>, wo: Vec3, wi: Vec3) -> Vec4;
+
+    /// The density with which [`PhaseModel::sample`] finds `wi`.
+    fn density(
+        &self,
+        at: &PhasePoint<'_, impl Textures>,
+        wo: Vec3,
+        wi: Vec3,
+    ) -> Density<SolidAngle>;
+
+    /// Samples a direction with `u` uniform in [0, 1)².
+    fn sample(&self, at: &PhasePoint<'_, impl Textures>, wo: Vec3, u: Vec2) -> PhaseSample;
+}
 
 macro_rules! phases {
     ($($(#[doc = $doc:literal])* $plugin:literal => $kind:ident: $read:expr;)*) => {
         /// Any phase function.
-        #[derive(Clone, Copy, Debug, PartialEq)]
-        pub enum AnyPhase {
+        #[derive(Clone, Debug, PartialEq)]
+        pub enum PhaseFunction {
             $($(#[doc = $doc])* $kind($kind),)*
         }
 
         /// Names of the phase functions that are built.
         pub const BUILT: &[&str] = &[$($plugin,)*];
 
-        impl AnyPhase {
-            fn read(params: &Params<'_>) -> Option<Option<Self>> {
+        impl PhaseFunction {
+            fn read(params: &Params<'_>, build: &mut dyn Build) -> Option<Option<Self>> {
                 match params.node.plugin.value.as_str() {
                     $($plugin => {
-                        let read: fn(&Params<'_>) -> Option<$kind> = $read;
-                        Some(read(params).map(Self::$kind))
+                        let read: fn(&Params<'_>, &mut dyn Build) -> Option<$kind> = $read;
+                        Some(read(params, build).map(Self::$kind))
                     })*
                     _ => None,
                 }
             }
         }
 
-        impl Phase for AnyPhase {
+        impl PhaseModel for PhaseFunction {
             #[inline]
-            fn eval(&self, wo: Vec3, wi: Vec3) -> Vec4 {
-                match self { $(Self::$kind(phase) => phase.eval(wo, wi),)* }
+            fn eval(&self, at: &PhasePoint<'_, impl Textures>, wo: Vec3, wi: Vec3) -> Vec4 {
+                match self { $(Self::$kind(phase) => phase.eval(at, wo, wi),)* }
             }
 
             #[inline]
-            fn density(&self, wo: Vec3, wi: Vec3) -> Density<SolidAngle> {
-                match self { $(Self::$kind(phase) => phase.density(wo, wi),)* }
+            fn density(
+                &self,
+                at: &PhasePoint<'_, impl Textures>,
+                wo: Vec3,
+                wi: Vec3,
+            ) -> Density<SolidAngle> {
+                match self { $(Self::$kind(phase) => phase.density(at, wo, wi),)* }
             }
 
             #[inline]
-            fn sample(&self, wo: Vec3, u: Vec2) -> PhaseSample {
-                match self { $(Self::$kind(phase) => phase.sample(wo, u),)* }
+            fn sample(&self, at: &PhasePoint<'_, impl Textures>, wo: Vec3, u: Vec2) -> PhaseSample {
+                match self { $(Self::$kind(phase) => phase.sample(at, wo, u),)* }
             }
         }
     };
@@ -51,27 +91,78 @@ macro_rules! phases {
 // The list: a line for each phase function.
 phases! {
     /// The same in all directions.
-    "isotropic" => Isotropic: |_| Some(Isotropic);
+    "isotropic" => Isotropic: |_, _| Some(Isotropic);
     /// Henyey and Greenstein's.
-    "hg" => HenyeyGreenstein: HenyeyGreenstein::from_params;
+    "hg" => HenyeyGreenstein: |params, _| HenyeyGreenstein::from_params(params);
     /// Rayleigh's.
-    "rayleigh" => Rayleigh: |_| Some(Rayleigh);
+    "rayleigh" => Rayleigh: |_, _| Some(Rayleigh);
+    /// Draine's.
+    "draine" => Draine: |params, _| Some(Draine::from_params(params));
+    /// A table.
+    "tabphase" => Tabulated: |params, _| Tabulated::from_params(params);
+    /// Two others.
+    "blendphase" => Blend: Blend::from_params;
 }
 
-impl AnyPhase {
+impl PhaseFunction {
     /// The phase function of a medium: its only child of that class, isotropic without one. After a mistake, which
     /// has been recorded, `None`.
-    pub fn of_medium(medium: &Params<'_>) -> Option<Self> {
+    pub fn of_medium(medium: &Params<'_>, build: &mut dyn Build) -> Option<Self> {
         let Some(node) = medium.child(Class::Phase) else {
             return Some(Self::Isotropic(Isotropic));
         };
-        let params = Params::new(node, medium.diagnostics);
-        let Some(phase) = Self::read(&params) else {
+        Self::from_params(&Params::new(node, medium.diagnostics), build)
+    }
+
+    /// Reads a phase function. After a mistake, which has been recorded, `None`.
+    pub fn from_params(params: &Params<'_>, build: &mut dyn Build) -> Option<Self> {
+        let Some(phase) = Self::read(params, build) else {
             let built = BUILT.iter().copied();
-            medium.diagnostics.push(plugins::not_built(node, built));
+            (params.diagnostics).push(plugins::not_built(params.node, built));
             return None;
         };
         params.finish();
         phase
+    }
+
+    /// The phase function of a point.
+    #[inline]
+    pub fn at<'a, T>(&'a self, textures: &'a T, position: Vec3) -> PhaseAt<'a, T> {
+        PhaseAt {
+            phase: self,
+            point: PhasePoint { textures, position },
+        }
+    }
+}
+
+/// A phase function at a point.
+#[derive(Debug)]
+pub struct PhaseAt<'a, T> {
+    phase: &'a PhaseFunction,
+    point: PhasePoint<'a, T>,
+}
+
+impl<T> Clone for PhaseAt<'_, T> {
+    fn clone(&self) -> Self {
+        *self
+    }
+}
+
+impl<T> Copy for PhaseAt<'_, T> {}
+
+impl<T: Textures> Phase for PhaseAt<'_, T> {
+    #[inline]
+    fn eval(&self, wo: Vec3, wi: Vec3) -> Vec4 {
+        self.phase.eval(&self.point, wo, wi)
+    }
+
+    #[inline]
+    fn density(&self, wo: Vec3, wi: Vec3) -> Density<SolidAngle> {
+        self.phase.density(&self.point, wo, wi)
+    }
+
+    #[inline]
+    fn sample(&self, wo: Vec3, u: Vec2) -> PhaseSample {
+        self.phase.sample(&self.point, wo, u)
     }
 }

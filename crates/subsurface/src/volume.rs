@@ -1,10 +1,8 @@
 //! What varies in space, or does not: the volumes of a medium's parameters.
 
-use etalon_params::{Class, Params, Value, plugins};
+use etalon_params::{Params, Value};
+use etalon_spectrum::Spectrum;
 use etalon_transport::{Build, SpectrumKind, TextureId, refuse_varying};
-
-/// Names of the volumes that are built.
-const BUILT: [&str; 1] = ["constvolume"];
 
 /// The spectrum of the parameter `name`: a number, a colour, a spectrum, or a volume that is the same everywhere.
 pub(crate) fn constant(
@@ -20,18 +18,15 @@ pub(crate) fn constant(
         Some(Value::Rgb(rgb)) if rgb.max_element() <= 1.0 => {
             build.texture(params, name, Some(default), SpectrumKind::Reflectance)
         }
-        Some(Value::Object(node)) if node.class == Class::Volume => {
+        Some(Value::Rgb(rgb)) if name.starts_with("sigma_") && name != "sigma_t" => {
             params.property(name);
-            if !BUILT.contains(&node.plugin.value.as_str()) {
-                params.diagnostics.push(plugins::not_built(node, BUILT));
+            match Spectrum::unbounded(rgb.to_array()) {
+                Ok(spectrum) => build.spectrum(spectrum),
+                Err(error) => {
+                    params.error_at(name, error.to_string());
+                    build.texture(params, name, Some(default), kind)
+                }
             }
-            let volume = Params::new(node, params.diagnostics);
-            refuse_varying(&volume, "value");
-            let spectrum = build.texture(&volume, "value", Some(1.0), kind);
-            if BUILT.contains(&node.plugin.value.as_str()) {
-                volume.finish();
-            }
-            spectrum
         }
         _ => {
             refuse_varying(params, name);

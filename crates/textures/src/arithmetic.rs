@@ -92,6 +92,27 @@ impl TextureModel for Arithmetic {
         value.min(self.most())
     }
 
+    fn most_within(&self, set: &TextureTable, low: Vec3, high: Vec3) -> f32 {
+        let [a, b] = [0, 1].map(|part| set.get(self.parts[part]).most_within(set, low, high));
+        let most = match self.operation {
+            // What is nowhere is not, however much of it there might be.
+            Operation::Multiply if a == 0.0 || b == 0.0 => 0.0,
+            Operation::Multiply => a * b,
+            Operation::Add => a + b,
+            Operation::Mix => a.max(b),
+        };
+        most.min(self.most())
+    }
+
+    fn extent(&self, set: &TextureTable) -> Option<[Vec3; 2]> {
+        let [a, b] = [0, 1].map(|part| set.get(self.parts[part]).extent(set));
+        match (self.operation, a, b) {
+            (Operation::Multiply, Some([a, b]), Some([c, d])) => Some([a.max(c), b.min(d)]),
+            (Operation::Multiply, a, b) => a.or(b),
+            (_, a, b) => a.zip(b).map(|([a, b], [c, d])| [a.min(c), b.max(d)]),
+        }
+    }
+
     fn is_constant(&self, set: &TextureTable) -> bool {
         self.nested().iter().all(|&part| set.is_constant(part))
     }

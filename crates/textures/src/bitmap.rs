@@ -222,7 +222,7 @@ fn image(
         );
         return None;
     }
-    let image = Image::new(pixels, raw, role);
+    let image = Image::new(pixels, raw, role, false);
     if image.moved > 0 {
         let UVec2 { x, y } = image.size;
         let message = format!(

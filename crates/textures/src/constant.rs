@@ -91,6 +91,20 @@ impl TextureModel for Constant {
     fn is_constant(&self, _: &TextureTable) -> bool {
         true
     }
+
+    fn most_within(&self, _: &TextureTable, _: Vec3, _: Vec3) -> f32 {
+        self.spectrum.maximum() as f32
+    }
+}
+
+/// `constvolume`: the spectrum in `value` (1), everywhere in space.
+pub(crate) fn read_volume(
+    reader: &mut TextureReader<'_>,
+    params: &Params<'_>,
+    purpose: Use,
+) -> Option<Texture> {
+    let id = reader.parameter_in(params, "value", Some(1.0), purpose);
+    Some(reader.set.get(id).clone())
 }
 
 /// `rawconstant`: a number or three as they are; a reflectance is held to 1 all the same.

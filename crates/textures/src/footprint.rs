@@ -25,7 +25,7 @@ pub enum Filter {
 impl Wrap {
     /// The texel in 0..n that stands for texel `i` of the endless image.
     #[inline]
-    fn texel(self, i: i64, n: u32) -> usize {
+    pub(crate) fn texel(self, i: i64, n: u32) -> usize {
         let n = i64::from(n);
         let folded = match self {
             Self::Repeat => i.rem_euclid(n),

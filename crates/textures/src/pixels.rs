@@ -54,7 +54,9 @@ impl Image {
     /// Prepares pixels for lookup. With `raw`, three channels stay what they are. Numbers and
     /// colours beyond 1 are kept if `role` allows them, colours with a spectrum as for a bright
     /// `rgb` value; negative colours never.
-    pub fn new(pixels: Pixels, raw: bool, role: SpectrumKind) -> Self {
+    ///
+    /// With `bright`, all colours have a spectrum as for a bright `rgb` value, as those of Mitsuba's volumes do.
+    pub fn new(pixels: Pixels, raw: bool, role: SpectrumKind, bright: bool) -> Self {
         let mut moved = 0;
         let (texels, mean) = match pixels.values {
             Values::One(mut values) => {
@@ -73,9 +75,10 @@ impl Image {
                 let texels = if raw {
                     Texels::Raw(values)
                 } else {
-                    let bright = role != SpectrumKind::Reflectance
+                    let beyond = role != SpectrumKind::Reflectance
                         && values.iter().flatten().any(|&component| component > 1.0);
-                    upsample(values, bright, &mut moved)
+                    let from = if bright { 0.0 } else { 1.0 };
+                    upsample(values, (bright || beyond).then_some(from), &mut moved)
                 };
                 (texels, mean)
             }
@@ -135,8 +138,8 @@ impl Recent {
     }
 }
 
-/// Spectra of colours.
-fn upsample(values: Vec<[f32; 3]>, bright: bool, moved: &mut usize) -> Texels {
+/// Spectra of colours; those with a component above `bright` have one with a factor.
+fn upsample(values: Vec<[f32; 3]>, bright: Option<f32>, moved: &mut usize) -> Texels {
     let mut recent = Recent::new();
     let mut fit = |rgb: [f32; 3]| recent.coefficients(rgb);
     let mut inside = |rgb: [f32; 3], top: f32| {
@@ -144,13 +147,13 @@ fn upsample(values: Vec<[f32; 3]>, bright: bool, moved: &mut usize) -> Texels {
         *moved += usize::from(clamped != rgb);
         clamped
     };
-    if !bright {
+    let Some(bright) = bright else {
         let coefficients = values.into_iter().map(|rgb| fit(inside(rgb, 1.0)));
         return Texels::Colour(coefficients.collect());
-    }
+    };
     let texels = values.into_iter().map(|rgb| {
         let rgb = inside(rgb, f32::INFINITY);
-        if rgb.iter().all(|&component| component <= 1.0) {
+        if rgb.iter().all(|&component| component <= bright) {
             let [a, b, c] = fit(rgb);
             return [a, b, c, 1.0];
         }
@@ -178,7 +181,7 @@ mod tests {
                 size: UVec2::new(3, 1),
                 values: Values::One(vec![-1.0, 0.5, 50.0]),
             };
-            let image = Image::new(pixels, false, role);
+            let image = Image::new(pixels, false, role, false);
             (image.texels, image.moved)
         };
         let held = (Texels::Number(vec![0.0, 0.5, 1.0]), 2);
@@ -202,7 +205,7 @@ mod tests {
             size: UVec2::new(20_000, 1),
             values: Values::Three(colours.clone()),
         };
-        let image = Image::new(pixels, false, SpectrumKind::Reflectance);
+        let image = Image::new(pixels, false, SpectrumKind::Reflectance, false);
         let Texels::Colour(texels) = &image.texels else {
             panic!("colours become coefficients");
         };

@@ -148,6 +148,17 @@ impl TextureModel for Procedural {
         0.5 * (set.mean(a) + set.mean(b))
     }
 
+    fn most_within(&self, set: &TextureTable, low: Vec3, high: Vec3) -> f32 {
+        let [a, b] = self
+            .colours
+            .map(|id| set.get(id).most_within(set, low, high));
+        a.max(b)
+    }
+
+    fn cells(&self, _: &TextureTable) -> u32 {
+        1
+    }
+
     fn is_constant(&self, _: &TextureTable) -> bool {
         self.colours[0] == self.colours[1]
     }

@@ -95,7 +95,7 @@ impl TextureReader<'_> {
             Value::Integer(i) => self.number(*i as f64, purpose, span),
             Value::Rgb(rgb) => self.colour(*rgb, purpose, span),
             Value::Spectrum(text) => self.text(text, purpose, span),
-            Value::Object(node) if node.class == Class::Texture => {
+            Value::Object(node) if matches!(node.class, Class::Texture | Class::Volume) => {
                 return self.object(node, purpose);
             }
             other => {

@@ -4,13 +4,14 @@
 
 use crate::reader::Use;
 use crate::{
-    Arithmetic, Bitmap, Checkerboard, Constant, MeshAttribute, Procedural, TextureReader,
+    Arithmetic, Bitmap, Checkerboard, Constant, Grid, MeshAttribute, Procedural, TextureReader,
     TextureTable, TimesD65,
 };
 use crate::{
-    arithmetic, bitmap, checkerboard, constant, illuminated, mesh_attribute, procedural, spectra,
+    arithmetic, bitmap, checkerboard, constant, grid, illuminated, mesh_attribute, procedural,
+    spectra,
 };
-use etalon_params::{Params, plugins};
+use etalon_params::{Class, Params, plugins};
 use etalon_transport::{Shapes, TextureId, TexturePoint, gradient_by_differences};
 use glam::{Vec2, Vec3, Vec4};
 
@@ -56,7 +57,27 @@ pub(crate) trait TextureModel {
     fn nested(&self) -> &[TextureId] {
         &[]
     }
+
+    /// Not less than its value at any wavelength and anywhere in the world's box from `low` to `high`; infinite if nothing
+    /// is known.
+    fn most_within(&self, _: &TextureTable, _low: Vec3, _high: Vec3) -> f32 {
+        f32::INFINITY
+    }
+
+    /// The corners of the world's box beyond which a medium of this density ends; `None` if it has no end.
+    fn extent(&self, _: &TextureTable) -> Option<[Vec3; 2]> {
+        None
+    }
+
+    /// How many parts of its extent, along the longest side, may differ; 1 if nothing is known.
+    fn cells(&self, set: &TextureTable) -> u32 {
+        let nested = self.nested().iter().map(|&id| set.get(id).cells(set));
+        nested.max().unwrap_or(1)
+    }
 }
+
+/// Those that scenes call volumes.
+const VOLUMES: [&str; 2] = ["constvolume", "gridvolume"];
 
 macro_rules! textures {
     ($($(#[doc = $doc:literal])* $model:ident { $($plugin:literal => $read:expr,)* })*) => {
@@ -83,7 +104,8 @@ macro_rules! textures {
                 let read: Read = match params.node.plugin.value.as_str() {
                     $($($plugin => $read,)*)*
                     _ => {
-                        let built = BUILT.iter().copied();
+                        let of_class = |name: &&str| VOLUMES.contains(name) == (params.node.class == Class::Volume);
+                        let built = BUILT.iter().copied().filter(of_class);
                         self.diagnostics.push(plugins::not_built(params.node, built));
                         return None;
                     }
@@ -110,6 +132,7 @@ textures! {
     /// The same everywhere.
     Constant {
         "blackbody" => spectra::read,
+        "constvolume" => constant::read_volume,
         "illuminant" => spectra::read,
         "irregular" => spectra::read,
         "rawconstant" => constant::read,
@@ -140,6 +163,11 @@ textures! {
         "mix" => arithmetic::read,
         "multiply" => arithmetic::read,
         "scale" => arithmetic::read,
+    }
+    /// Values on a grid in space.
+    Grid {
+        "gridvolume" => grid::read,
+        "volume" => grid::read_on_surface,
     }
     /// Another texture times D65.
     TimesD65 { "d65" => illuminated::read, }
@@ -200,6 +228,22 @@ impl Texture {
     /// Whether the texture is the same everywhere.
     pub fn is_constant(&self, set: &TextureTable) -> bool {
         ask!(self, texture => texture.is_constant(set))
+    }
+
+    /// Not less than its value at any wavelength and anywhere in the world's box from `low` to `high`; infinite if nothing
+    /// is known.
+    pub fn most_within(&self, set: &TextureTable, low: Vec3, high: Vec3) -> f32 {
+        ask!(self, texture => texture.most_within(set, low, high))
+    }
+
+    /// The corners of the world's box beyond which a medium of this density ends; `None` if it has no end.
+    pub fn extent(&self, set: &TextureTable) -> Option<[Vec3; 2]> {
+        ask!(self, texture => texture.extent(set))
+    }
+
+    /// How many parts of its extent, along the longest side, may differ; 1 if nothing is known.
+    pub fn cells(&self, set: &TextureTable) -> u32 {
+        ask!(self, texture => texture.cells(set))
     }
 
     /// The textures that it refers to.

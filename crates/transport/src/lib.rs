@@ -45,7 +45,7 @@ pub use integrator::{Integrator, Pass, PixelSample, SampleJob};
 pub use legacy_phong::LegacyPhong;
 pub use light::{Emission, EmissionPdf, LightKind, LightSample, LightVariety};
 pub use light_sample_context::LightSampleContext;
-pub use medium::{Coefficients, FreeFlight, Medium, MediumInterface, Vacuum};
+pub use medium::{Coefficients, FreeFlight, MajorantSegment, Medium, MediumInterface, Vacuum};
 pub use mesh::{Attribute, MeshData};
 pub use phase::{Phase, PhaseSample};
 pub use ray::{Departure, Ray};

@@ -5,8 +5,8 @@
 //! ```
 //!
 //! A homogeneous medium is flown through in closed form: t from the density σt T(t). Any other by delta tracking
-//! (E. Woodcock et al. 1965): tentative collisions come with a constant majorant σ̄ ≥ σt; one is real with the
-//! probability σt/σ̄, and null otherwise. Lane 0 of the wavelengths chooses both. What has been chosen has a density for
+//! (E. Woodcock et al. 1965): tentative collisions come with a majorant σ̄ ≥ σt, constant along stretches of the ray; one is
+//! real with the probability σt/σ̄, and null otherwise. Lane 0 of the wavelengths chooses both. What has been chosen has a density for
 //! every lane, had it been the one that chose, so that chromatic media are combined by multiple importance sampling
 //! over the lanes (B. Miller, I. Georgiev, W. Jarosz, A null-scattering path integral formulation of light transport,
 //! 2019, section 5). Transmittance is estimated by ratio tracking (J. Novák, A. Selle, W. Jarosz 2014): the same
@@ -75,6 +75,15 @@ pub struct FreeFlight<P> {
     pub scattering: Option<(f32, P)>,
 }
 
+/// A stretch of a ray, from the end of the one before.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct MajorantSegment {
+    /// Where it ends (m along the ray).
+    pub end: f32,
+    /// σ̄ in it: not below the extinction of any lane (m⁻¹).
+    pub majorant: f32,
+}
+
 /// No flight makes more tentative collisions: one in a medium without end has to end.
 const MOST_COLLISIONS: u32 = 1 << 20;
 
@@ -83,8 +92,8 @@ pub trait Medium {
     /// How a point of it scatters light.
     type Phase: Phase + Copy;
 
-    /// σ̄: not below the extinction of any lane anywhere along `ray` up to `t_max` (m⁻¹).
-    fn majorant(&self, ray: &Ray, t_max: f32) -> f32;
+    /// The stretches that cover `ray` up to `t_max`.
+    fn majorants(&self, ray: &Ray, t_max: f32) -> impl Iterator<Item = MajorantSegment>;
 
     /// The coefficients at a point.
     fn coefficients(&self, at: Vec3) -> Coefficients;
@@ -109,19 +118,14 @@ pub trait Medium {
         if self.is_homogeneous() {
             return homogeneous_flight(self, ray, t_max, u);
         }
-        let majorant = self.majorant(ray, t_max);
         let mut flight = FreeFlight {
             factor: Vec4::ONE,
             density: Vec4::ONE,
             by_transmittance: Vec4::ONE,
             scattering: None,
         };
-        let (mut t, mut number) = (0.0, u);
-        for _ in 0..MOST_COLLISIONS {
-            t += -float::ln(1.0 - number) / majorant;
-            if !(t < t_max) {
-                return flight;
-            }
+        let mut collisions = Collisions::new(self.majorants(ray, t_max), t_max, u);
+        while let Some((t, majorant)) = collisions.next() {
             let at = ray.at(t);
             let coefficients = self.coefficients(at);
             let extinction = coefficients.extinction();
@@ -136,7 +140,7 @@ pub trait Medium {
                 return flight;
             }
             flight.by_transmittance *= majorant * inverse;
-            number = stream.next_1d();
+            collisions.go_on(stream.next_1d());
         }
         flight
     }
@@ -150,19 +154,76 @@ pub trait Medium {
                 probability: transmittance,
             };
         }
-        let majorant = self.majorant(ray, t_max);
-        let (mut t, mut ratio) = (0.0, Vec4::ONE);
-        for _ in 0..MOST_COLLISIONS {
-            t += -float::ln(1.0 - stream.next_1d()) / majorant;
-            if !(t < t_max) || ratio == Vec4::ZERO {
-                break;
-            }
+        let mut ratio = Vec4::ONE;
+        let mut collisions = Collisions::new(self.majorants(ray, t_max), t_max, stream.next_1d());
+        while let Some((t, majorant)) = collisions.next() {
             let extinction = self.coefficients(ray.at(t)).extinction();
             ratio *= (Vec4::ONE - extinction / majorant).max(Vec4::ZERO);
+            if ratio == Vec4::ZERO {
+                break;
+            }
+            collisions.go_on(stream.next_1d());
         }
         Transmission {
             transmittance: ratio,
             probability: ratio,
+        }
+    }
+}
+
+/// Tentative collisions along a ray, whose optical depth by the majorants is exponentially distributed.
+struct Collisions<I> {
+    segments: I,
+    segment: MajorantSegment,
+    t_max: f32,
+    /// Where the last one was (m).
+    t: f32,
+    /// The optical depth to the next one.
+    depth: f32,
+    /// How many more there may be.
+    left: u32,
+}
+
+impl<I: Iterator<Item = MajorantSegment>> Collisions<I> {
+    /// With the number `u` in [0, 1) for the first.
+    #[inline]
+    fn new(segments: I, t_max: f32, u: f32) -> Self {
+        Self {
+            segments,
+            segment: MajorantSegment {
+                end: 0.0,
+                majorant: 0.0,
+            },
+            t_max,
+            t: 0.0,
+            depth: -float::ln(1.0 - u),
+            left: MOST_COLLISIONS,
+        }
+    }
+
+    /// Chooses the optical depth to the next one with `u`.
+    #[inline]
+    fn go_on(&mut self, u: f32) {
+        self.depth = -float::ln(1.0 - u);
+    }
+
+    /// Where the next one is, and the majorant there; `None` if there is none before the ray's end.
+    #[inline]
+    fn next(&mut self) -> Option<(f32, f32)> {
+        self.left = self.left.checked_sub(1)?;
+        loop {
+            let MajorantSegment { end, majorant } = self.segment;
+            let end = end.min(self.t_max);
+            if majorant > 0.0 {
+                let t = self.t + self.depth / majorant;
+                if t < end {
+                    self.t = t;
+                    return Some((t, majorant));
+                }
+                self.depth = (self.depth - (end - self.t) * majorant).max(0.0);
+            }
+            self.t = self.t.max(end);
+            self.segment = self.segments.next()?;
         }
     }
 }
@@ -212,8 +273,8 @@ pub enum Vacuum {}
 impl Medium for Vacuum {
     type Phase = Self;
 
-    fn majorant(&self, _: &Ray, _: f32) -> f32 {
-        match *self {}
+    fn majorants(&self, _: &Ray, _: f32) -> impl Iterator<Item = MajorantSegment> {
+        core::iter::empty()
     }
 
     fn coefficients(&self, _: Vec3) -> Coefficients {

@@ -31,6 +31,17 @@ impl TexturePoint {
     }
 }
 
+impl TexturePoint {
+    /// A point of space, on no surface.
+    #[inline]
+    pub fn in_space(position: Vec3) -> Self {
+        Self {
+            position,
+            ..Self::at_uv(Vec2::ZERO)
+        }
+    }
+}
+
 impl From<&SurfaceInteraction> for TexturePoint {
     #[inline]
     fn from(vertex: &SurfaceInteraction) -> Self {

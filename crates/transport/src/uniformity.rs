@@ -18,12 +18,27 @@ pub fn refuse_varying(params: &Params<'_>, name: &str) {
     }
 }
 
+/// Textures that vary whatever is in them.
+const VARYING: [&str; 13] = [
+    "bitmap",
+    "bricks",
+    "checkerboard",
+    "fbm",
+    "gradient",
+    "gridvolume",
+    "marble",
+    "mesh_attribute",
+    "noise",
+    "turbulence",
+    "voronoi",
+    "volume",
+    "wood",
+];
+
 /// Whether a texture, or one inside of it, varies in space.
 fn varies(node: &Node) -> bool {
     let inside = |value: &Value| matches!(value, Value::Object(inner) if varies(inner));
-    node.class == Class::Texture
-        && (matches!(
-            node.plugin.value.as_str(),
-            "bitmap" | "checkerboard" | "mesh_attribute" | "volume"
-        ) || node.properties.iter().any(|p| inside(&p.value)))
+    let name = node.plugin.value.as_str();
+    matches!(node.class, Class::Texture | Class::Volume)
+        && (VARYING.contains(&name) || node.properties.iter().any(|p| inside(&p.value)))
 }

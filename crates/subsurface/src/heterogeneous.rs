@@ -1,0 +1,245 @@
+//! `heterogeneous`: a medium whose density and albedo vary in space,
+//!
+//! ```text
+//! σs(x) = α(x) σt(x),   σa(x) = (1 − α(x)) σt(x)        (m⁻¹, times `scale`)
+//! ```
+//!
+//! `sigma_t` and `albedo` may be anything that has a value at a point of space: a grid, a computed pattern, a product of
+//! such. A medium ends where the grid of its `sigma_t` does, whatever the shape that holds it.
+
+use crate::majorants::{MajorantGrid, Segments};
+use crate::phases::{PhaseAt, PhaseFunction};
+use etalon_params::Params;
+use etalon_transport::{
+    Build, Coefficients, MajorantSegment, Medium, Ray, SpectrumKind, TextureId, TexturePoint,
+    Textures,
+};
+use glam::{Vec3, Vec4};
+
+/// A medium that varies in space.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Heterogeneous {
+    albedo: TextureId,
+    sigma_t: TextureId,
+    scale: f32,
+    phase: PhaseFunction,
+    /// Where it is and how dense at most, once the scene is built.
+    majorants: Option<Box<MajorantGrid>>,
+    /// The largest extinction where there is no grid (m⁻¹).
+    most: f32,
+}
+
+/// The same at the wavelengths of a path.
+#[derive(Debug)]
+pub struct HeterogeneousAt<'a, T> {
+    medium: &'a Heterogeneous,
+    textures: &'a T,
+    lambda: Vec4,
+}
+
+impl Heterogeneous {
+    /// Reads `albedo`, `sigma_t`, `scale` and the phase function.
+    pub(crate) fn from_params(params: &Params<'_>, build: &mut dyn Build) -> Option<Self> {
+        let what = "a finite number not below 0";
+        let scale = params.float_where("scale", 1.0, what, |s| s >= 0.0 && s.is_finite());
+        Some(Self {
+            albedo: build.texture(params, "albedo", Some(0.75), SpectrumKind::Reflectance),
+            sigma_t: build.texture(params, "sigma_t", Some(1.0), SpectrumKind::Unbounded),
+            scale: scale as f32,
+            phase: PhaseFunction::of_medium(params, build)?,
+            majorants: None,
+            most: 0.0,
+        })
+    }
+
+    /// The texture of its density, in units of `scale`.
+    pub fn density(&self) -> TextureId {
+        self.sigma_t
+    }
+
+    /// Makes it ready: `bounds` are the corners of the box that holds all of it, if it has an end, `along` cells along its
+    /// longest side may differ, and `most` knows a bound of the density in a box. Whether there is a finite bound.
+    pub fn prepare(
+        &mut self,
+        bounds: Option<[Vec3; 2]>,
+        along: u32,
+        most: impl Fn(Vec3, Vec3) -> f32,
+    ) -> bool {
+        // A little more, so that rounding does not matter.
+        let most = |low: Vec3, high: Vec3| most(low, high) * self.scale * 1.0001;
+        self.majorants = match bounds {
+            // Nothing is where the box is empty.
+            Some([low, high]) if !low.cmplt(high).all() => {
+                let tiny = Vec3::splat(f32::MIN_POSITIVE);
+                Some(Box::new(MajorantGrid::new(low, low + tiny, 1, |_, _| 0.0)))
+            }
+            Some([low, high]) => Some(Box::new(MajorantGrid::new(low, high, along, most))),
+            None => {
+                self.most = most(Vec3::NEG_INFINITY, Vec3::INFINITY);
+                None
+            }
+        };
+        let largest = self
+            .majorants
+            .as_ref()
+            .map_or(self.most, |grid| grid.largest());
+        largest.is_finite()
+    }
+
+    /// The medium at four wavelengths (nm).
+    #[inline]
+    pub fn resolve<'a, T: Textures>(
+        &'a self,
+        textures: &'a T,
+        lambda: Vec4,
+    ) -> HeterogeneousAt<'a, T> {
+        HeterogeneousAt {
+            medium: self,
+            textures,
+            lambda,
+        }
+    }
+}
+
+impl<T> HeterogeneousAt<'_, T> {
+    /// The stretches of a ray.
+    #[inline]
+    pub(crate) fn segments(&self, ray: &Ray, t_max: f32) -> Segments<'_> {
+        match &self.medium.majorants {
+            Some(grid) => Segments::through(grid, ray, t_max),
+            None => Segments::constant(self.medium.most),
+        }
+    }
+}
+
+impl<'a, T: Textures> Medium for HeterogeneousAt<'a, T> {
+    type Phase = PhaseAt<'a, T>;
+
+    #[inline]
+    fn majorants(&self, ray: &Ray, t_max: f32) -> impl Iterator<Item = MajorantSegment> {
+        self.segments(ray, t_max)
+    }
+
+    #[inline]
+    fn coefficients(&self, at: Vec3) -> Coefficients {
+        let place = TexturePoint::in_space(at);
+        let density = self
+            .textures
+            .spectrum(self.medium.sigma_t, &place, self.lambda);
+        let extinction = density.max(Vec4::ZERO) * self.medium.scale;
+        let albedo = self
+            .textures
+            .spectrum(self.medium.albedo, &place, self.lambda);
+        let scattering = extinction * albedo;
+        Coefficients {
+            absorption: (extinction - scattering).max(Vec4::ZERO),
+            scattering,
+        }
+    }
+
+    #[inline]
+    fn phase(&self, at: Vec3) -> PhaseAt<'a, T> {
+        self.medium.phase.at(self.textures, at)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::Isotropic;
+    use etalon_sampling::{Independent, Sampler};
+
+    /// A density that grows along x, up to `top` of each lane at x = 1.
+    struct Ramp {
+        top: Vec4,
+    }
+
+    impl Textures for Ramp {
+        fn spectrum(&self, texture: TextureId, at: &TexturePoint, _: Vec4) -> Vec4 {
+            match texture {
+                TextureId(0) => self.top * at.position.x.clamp(0.0, 1.0),
+                _ => Vec4::splat(0.5),
+            }
+        }
+
+        fn number(&self, _: TextureId, _: &TexturePoint) -> f32 {
+            0.5
+        }
+
+        fn colour(&self, _: TextureId, _: &TexturePoint) -> Vec3 {
+            Vec3::splat(0.5)
+        }
+
+        fn mean(&self, _: TextureId) -> f32 {
+            0.5
+        }
+
+        fn is_constant(&self, _: TextureId) -> bool {
+            false
+        }
+    }
+
+    fn ramp(ramp: &Ramp, along: u32) -> Heterogeneous {
+        let mut medium = Heterogeneous {
+            albedo: TextureId(1),
+            sigma_t: TextureId(0),
+            scale: 2.0,
+            phase: PhaseFunction::Isotropic(Isotropic),
+            majorants: None,
+            most: 0.0,
+        };
+        let top = ramp.top.max_element();
+        let most = |_: Vec3, high: Vec3| top * high.x;
+        assert!(medium.prepare(Some([Vec3::ZERO, Vec3::ONE]), along, most));
+        medium
+    }
+
+    /// Flights and estimates of transmittance through the ramp have the means of Beer and Lambert's law in every lane,
+    /// whichever chooses and however finely the density is bounded (|z| < 4.5, α = 10⁻⁵ each). The mutant whose bound
+    /// is half of what it must be is off by 20 standard errors.
+    #[test]
+    fn light_is_attenuated_by_the_optical_depth() {
+        let world = Ramp {
+            top: Vec4::new(1.5, 0.5, 2.5, 0.0),
+        };
+        // From x = 0.2 to 1 and out of the box: ∫ 2 σ dx = σ (1 − 0.04), along a ray at an angle.
+        let direction = Vec3::new(0.8, 0.6, 0.0);
+        let depth = world.top * 0.96 / 0.8;
+        let expected = depth.to_array().map(|depth| (-depth).exp());
+        for along in [1, 40] {
+            let medium = ramp(&world, along);
+            let medium = medium.resolve(&world, Vec4::ZERO);
+            let ray = Ray::new(Vec3::new(0.2, 0.1, 0.5), direction, 0.0);
+            let mut stream = Independent::from_key(u64::from(along));
+            let count = 40_000;
+            let mut sums = [[0.0_f64; 2]; 8];
+            for _ in 0..count {
+                let u = stream.next_1d();
+                let flight = medium.free_flight(&ray, 5.0, u, &mut stream);
+                let passed = match flight.scattering {
+                    None => flight.factor / flight.density.x,
+                    Some((t, _)) => {
+                        assert!(t > 0.0 && t < 1.0 / 0.8 + 1e-4);
+                        Vec4::ZERO
+                    }
+                };
+                let estimate = medium.transmittance(&ray, 5.0, &mut stream).transmittance;
+                let both = passed.to_array().into_iter().chain(estimate.to_array());
+                for (sum, value) in sums.iter_mut().zip(both) {
+                    sum[0] += f64::from(value);
+                    sum[1] += f64::from(value).powi(2);
+                }
+            }
+            for (index, [sum, squares]) in sums.into_iter().enumerate() {
+                let mean = sum / f64::from(count);
+                let variance = squares / f64::from(count) - mean * mean;
+                let error = (variance / f64::from(count)).sqrt();
+                let off = (mean - f64::from(expected[index % 4])).abs();
+                assert!(
+                    off <= 4.5 * error + 1e-6,
+                    "{along}, {index}: {mean} ± {error}"
+                );
+            }
+        }
+    }
+}

@@ -1,0 +1,279 @@
+//! `gridvolume`: values on a grid of points of space, as Mitsuba's `.vol` files hold them.
+//!
+//! The grid fills the unit cube, which `to_world` places (with `use_grid_bbox`, first the file's box); the value i of n along
+//! an axis is at (i + ½)/n, and values between are interpolated (`trilinear`), or those of the `nearest`. Beyond the
+//! cube the grid goes on as `wrap_mode` says. Three channels are colours, interpolated as spectra; those of a
+//! share of light are held to 1.
+
+use crate::pixels::{Image, Pixels, Texels, Values};
+use crate::reader::Use;
+use crate::recovered;
+use crate::texture::TextureModel;
+use crate::vol_file::VolFile;
+use crate::{Filter, Texture, TextureReader, TextureTable, Wrap};
+use core::ops::{Add, Mul};
+use etalon_params::Params;
+use etalon_spectrum::RgbCoefficients;
+use etalon_transport::{Shapes, SpectrumKind, TexturePoint, file};
+use glam::{Affine3A, DAffine3, DMat4, DVec3, IVec3, UVec2, UVec3, Vec3, Vec4};
+use std::sync::Arc;
+
+/// Values on a grid in space.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Grid {
+    /// Values along x, y and z.
+    size: UVec3,
+    /// By z, y and x.
+    values: Arc<Image>,
+    /// From the world to the grid, in which values are 1 apart.
+    to_grid: Affine3A,
+    filter: Filter,
+    wrap: Wrap,
+    /// Whether values are at most 1.
+    is_share: bool,
+    /// The world's box around the unit cube (m).
+    bounds: [Vec3; 2],
+}
+
+impl Grid {
+    /// Eight values and their weights; one where nothing is interpolated.
+    #[inline]
+    fn interpolate<T>(&self, at: Vec3, value: impl Fn(usize) -> T) -> T
+    where
+        T: Add<Output = T> + Mul<f32, Output = T>,
+    {
+        let place = self.to_grid.transform_point3(at);
+        if self.filter == Filter::Nearest {
+            return value(self.index(floor(place)));
+        }
+        let low = (place - 0.5).floor();
+        let part = place - 0.5 - low;
+        let low = floor(low);
+        let row = |y: i32, z: i32| {
+            let [a, b] = [0, 1].map(|x| value(self.index(low + IVec3::new(x, y, z))));
+            a * (1.0 - part.x) + b * part.x
+        };
+        let plane = |z: i32| row(0, z) * (1.0 - part.y) + row(1, z) * part.y;
+        plane(0) * (1.0 - part.z) + plane(1) * part.z
+    }
+
+    /// Where the value of a cell is that may be beyond the grid.
+    #[inline]
+    fn index(&self, cell: IVec3) -> usize {
+        let size = self.size;
+        let [x, y, z] = [(cell.x, size.x), (cell.y, size.y), (cell.z, size.z)]
+            .map(|(i, n)| self.wrap.texel(i64::from(i), n));
+        (z * size.y as usize + y) * size.x as usize + x
+    }
+
+    /// Not less than any value at a cell.
+    fn most(&self, index: usize) -> f32 {
+        match &self.values.texels {
+            Texels::Number(values) => values[index],
+            Texels::Raw(values) => values[index].into_iter().fold(0.0, f32::max),
+            Texels::Colour(_) => 1.0,
+            Texels::Bright(values) => values[index][3],
+        }
+    }
+}
+
+/// The cell of a place.
+#[inline]
+fn floor(place: Vec3) -> IVec3 {
+    place.floor().as_ivec3()
+}
+
+impl TextureModel for Grid {
+    #[inline]
+    fn spectrum(&self, _: &TextureTable, _: &impl Shapes, at: &TexturePoint, lambda: Vec4) -> Vec4 {
+        let value = match &self.values.texels {
+            Texels::Number(values) => Vec4::splat(self.interpolate(at.position, |i| values[i])),
+            Texels::Colour(values) => {
+                self.interpolate(at.position, |i| RgbCoefficients(values[i]).eval(lambda))
+            }
+            Texels::Bright(values) => self.interpolate(at.position, |i| {
+                let [a, b, c, scale] = values[i];
+                RgbCoefficients([a, b, c]).eval(lambda) * scale
+            }),
+            Texels::Raw(values) => {
+                let rgb = self.interpolate(at.position, |i| Vec3::from_array(values[i]));
+                RgbCoefficients::from_rgb(rgb.to_array()).eval(lambda)
+            }
+        };
+        // The spectrum of a bright colour may exceed what the colour does.
+        if self.is_share {
+            value.min(Vec4::ONE)
+        } else {
+            value
+        }
+    }
+
+    #[inline]
+    fn number(&self, set: &TextureTable, shapes: &impl Shapes, at: &TexturePoint) -> f32 {
+        match &self.values.texels {
+            Texels::Number(values) => self.interpolate(at.position, |i| values[i]),
+            _ => recovered::luminance(self.colour(set, shapes, at)),
+        }
+    }
+
+    fn colour(&self, set: &TextureTable, shapes: &impl Shapes, at: &TexturePoint) -> Vec3 {
+        match &self.values.texels {
+            Texels::Number(values) => Vec3::splat(self.interpolate(at.position, |i| values[i])),
+            Texels::Raw(values) => self.interpolate(at.position, |i| Vec3::from_array(values[i])),
+            _ => recovered::colour(|lambda| self.spectrum(set, shapes, at, lambda)),
+        }
+    }
+
+    fn mean(&self, _: &TextureTable) -> f32 {
+        self.values.mean
+    }
+
+    fn is_constant(&self, _: &TextureTable) -> bool {
+        self.size == UVec3::ONE
+    }
+
+    fn most_within(&self, _: &TextureTable, low: Vec3, high: Vec3) -> f32 {
+        // The box's corners in the grid, with what interpolation reaches beyond.
+        let corner = |i: u32| {
+            let choose = |bit: u32, a: f32, b: f32| if i & bit == 0 { a } else { b };
+            let p = Vec3::new(
+                choose(1, low.x, high.x),
+                choose(2, low.y, high.y),
+                choose(4, low.z, high.z),
+            );
+            self.to_grid.transform_point3(p)
+        };
+        let (from, to) = (1..8)
+            .map(corner)
+            .fold((corner(0), corner(0)), |(from, to), p| {
+                (from.min(p), to.max(p))
+            });
+        // Whatever the wrap, values repeat after twice the size; a clamped grid ends.
+        let reach = self.size.as_ivec3() * 2;
+        let (from, to) = match from.is_finite() && to.is_finite() {
+            true => (floor(from - 0.51), floor(to + 0.51)),
+            false => (IVec3::ZERO, self.size.as_ivec3()),
+        };
+        let (from, to) = (from.max(-reach), to.min(reach * 2));
+        let mut most = 0.0_f32;
+        for z in from.z..=to.z {
+            for y in from.y..=to.y {
+                for x in from.x..=to.x {
+                    most = most.max(self.most(self.index(IVec3::new(x, y, z))));
+                }
+            }
+        }
+        most
+    }
+
+    fn extent(&self, _: &TextureTable) -> Option<[Vec3; 2]> {
+        Some(self.bounds)
+    }
+
+    fn cells(&self, _: &TextureTable) -> u32 {
+        self.size.max_element()
+    }
+}
+
+/// Reads `filename`, `to_world`, `use_grid_bbox`, `filter_type`, `wrap_mode`, `raw` and `max_value`.
+pub(crate) fn read(
+    reader: &mut TextureReader<'_>,
+    params: &Params<'_>,
+    Use { role, .. }: Use,
+) -> Option<Texture> {
+    let raw = params.boolean_or("raw", false);
+    let filter = match params.choice("filter_type", "trilinear", &["trilinear", "nearest"]) {
+        "nearest" => Filter::Nearest,
+        _ => Filter::Bilinear,
+    };
+    let wrap = match params.choice("wrap_mode", "clamp", &["repeat", "mirror", "clamp"]) {
+        "repeat" => Wrap::Repeat,
+        "mirror" => Wrap::Mirror,
+        _ => Wrap::Clamp,
+    };
+    let by_box = params.boolean_or("use_grid_bbox", false);
+    let to_world = DAffine3::from_mat4(params.transform("to_world"));
+    params.ignore(&["accel"]);
+    if !params.has("filename") {
+        params.missing("filename", "the name of a `.vol` file");
+    }
+    let name = params.string("filename")?;
+    let volume = reader
+        .assets
+        .bytes(name)
+        .map_err(|error| file::report(params, error))
+        .ok()?;
+    let volume = VolFile::read(&volume)
+        .map_err(|reason| params.error_at("filename", format!("`{name}` cannot be used: {reason}")))
+        .ok()?;
+    let place = match by_box {
+        true => {
+            let [low, high] = volume.bounds;
+            to_world * DAffine3::from_translation(low) * DAffine3::from_scale(high - low)
+        }
+        false => to_world,
+    };
+    let to_grid = DAffine3::from_scale(volume.size.as_dvec3()) * place.inverse();
+    if !(place.is_finite() && to_grid.is_finite()) {
+        params.error_at(
+            "to_world",
+            "`to_world` of a volume must be finite and invertible",
+        );
+        return None;
+    }
+    let mut values = volume.values;
+    if let Some(most) = params
+        .property("max_value")
+        .and_then(|_| params.float("max_value"))
+    {
+        scale_to(&mut values, most as f32);
+    }
+    let pixels = Pixels {
+        size: UVec2::new(volume.size.x * volume.size.y, volume.size.z),
+        values,
+    };
+    let corners = (0..8).map(|i| {
+        let bit = |b: u32| f64::from(i >> b & 1);
+        place
+            .transform_point3(DVec3::new(bit(0), bit(1), bit(2)))
+            .as_vec3()
+    });
+    let start = (Vec3::INFINITY, Vec3::NEG_INFINITY);
+    let (low, high) = corners.fold(start, |(low, high), p| (low.min(p), high.max(p)));
+    Some(Texture::from(Grid {
+        size: volume.size,
+        values: Arc::new(Image::new(pixels, raw, role, true)),
+        to_grid: Affine3A::from_mat4(DMat4::from(to_grid).as_mat4()),
+        filter,
+        wrap,
+        is_share: role == SpectrumKind::Reflectance,
+        bounds: [low, high],
+    }))
+}
+
+/// `volume`: the surface shows the `volume` that it cuts through.
+pub(crate) fn read_on_surface(
+    reader: &mut TextureReader<'_>,
+    params: &Params<'_>,
+    purpose: Use,
+) -> Option<Texture> {
+    let id = reader.parameter_in(params, "volume", None, purpose);
+    Some(reader.set.get(id).clone())
+}
+
+/// Scales values so that the largest is `most`.
+fn scale_to(values: &mut Values, most: f32) {
+    let all: &mut dyn Iterator<Item = &mut f32> = match values {
+        Values::One(values) => &mut values.iter_mut(),
+        Values::Three(values) => &mut values.iter_mut().flatten(),
+    };
+    let all: Vec<&mut f32> = all.collect();
+    let largest = all
+        .iter()
+        .fold(0.0_f32, |largest, value| largest.max(**value));
+    if largest > 0.0 {
+        for value in all {
+            *value *= most / largest;
+        }
+    }
+}

@@ -1,0 +1,163 @@
+//! Mitsuba's `.vol` files, version 3: a grid of 32-bit floats.
+//!
+//! Little-endian: `VOL`, 3; the encoding (1: 32-bit floats), the size along x, y and z and the number of channels, as 32-bit
+//! integers; the lower and the upper corner of the grid's box; then the values by z, y, x and channel.
+
+use crate::pixels::Values;
+use glam::{DVec3, UVec3, Vec3};
+
+/// What a file holds.
+#[derive(Debug)]
+pub(crate) struct VolFile {
+    /// Values along x, y and z.
+    pub(crate) size: UVec3,
+    /// The corners of its box.
+    pub(crate) bounds: [DVec3; 2],
+    /// By z, y and x.
+    pub(crate) values: Values,
+}
+
+/// Length of what stands before the values (bytes).
+const HEADER: usize = 48;
+
+impl VolFile {
+    /// Reads a file. Memory is taken for what is there, whatever the header says.
+    ///
+    /// # Errors
+    /// What is wrong with it.
+    pub(crate) fn read(bytes: &[u8]) -> Result<Self, String> {
+        let Some((header, data)) = bytes.split_at_checked(HEADER) else {
+            return Err(format!(
+                "it has {} bytes, fewer than the header of a .vol file",
+                bytes.len()
+            ));
+        };
+        if header[..3] != *b"VOL" {
+            return Err("it does not begin with `VOL`".to_owned());
+        }
+        if header[3] != 3 {
+            return Err(format!("it has version {}, and 3 is read", header[3]));
+        }
+        let word = |i: usize| [header[i], header[i + 1], header[i + 2], header[i + 3]];
+        let integer = |i: usize| i32::from_le_bytes(word(4 + 4 * i));
+        let corner = |i: usize| {
+            let number = |k: usize| f64::from(f32::from_le_bytes(word(24 + 4 * (i + k))));
+            DVec3::new(number(0), number(1), number(2))
+        };
+        if integer(0) != 1 {
+            return Err(format!(
+                "its encoding is {}, and 1 (32-bit floats) is read",
+                integer(0)
+            ));
+        }
+        let sides = [1, 2, 3].map(integer);
+        let channels = integer(4);
+        if sides.iter().any(|&side| side < 1) || ![1, 3].contains(&channels) {
+            let [x, y, z] = sides;
+            return Err(format!(
+                "it claims {x} × {y} × {z} values of {channels} channels; 1 or 3 are read"
+            ));
+        }
+        let expected =
+            sides.iter().map(|&side| side as u128).product::<u128>() * channels as u128 * 4;
+        if expected != data.len() as u128 {
+            return Err(format!(
+                "its header claims {expected} bytes of values, and there are {}",
+                data.len()
+            ));
+        }
+        let bounds = [corner(0), corner(3)];
+        if !(bounds[0].is_finite() && bounds[0].cmplt(bounds[1]).all() && bounds[1].is_finite()) {
+            return Err("its box is empty or not finite".to_owned());
+        }
+        let (floats, _) = data.as_chunks::<4>();
+        let floats = floats.iter().map(|bytes| f32::from_le_bytes(*bytes));
+        let values = match channels {
+            1 => Values::One(floats.collect()),
+            _ => {
+                let floats: Vec<f32> = floats.collect();
+                Values::Three(floats.as_chunks::<3>().0.to_vec())
+            }
+        };
+        refuse_bad(&values, sides)?;
+        Ok(Self {
+            size: UVec3::from_array(sides.map(|side| side as u32)),
+            bounds,
+            values,
+        })
+    }
+}
+
+/// Refuses values that no density, albedo or emission has.
+fn refuse_bad(values: &Values, [x, y, _]: [i32; 3]) -> Result<(), String> {
+    let bad = |value: &f32| !(value.is_finite() && *value >= 0.0);
+    let (found, channels) = match values {
+        Values::One(values) => (values.iter().position(bad), 1),
+        Values::Three(values) => (values.as_flattened().iter().position(bad), 3),
+    };
+    let Some(index) = found else { return Ok(()) };
+    let value = match values {
+        Values::One(values) => values[index],
+        Values::Three(values) => Vec3::from_array(values[index / 3])[index % 3],
+    };
+    let place = index / channels;
+    let (x, y) = (x as usize, y as usize);
+    Err(format!(
+        "the value at ({}, {}, {}) is {value}, and values are finite and not below 0",
+        place % x,
+        place / x % y,
+        place / x / y
+    ))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn file(integers: [i32; 5], corners: [f32; 6], values: &[f32]) -> Vec<u8> {
+        let mut bytes = b"VOL\x03".to_vec();
+        bytes.extend(integers.iter().flat_map(|n| n.to_le_bytes()));
+        bytes.extend(corners.iter().chain(values).flat_map(|x| x.to_le_bytes()));
+        bytes
+    }
+
+    const BOX: [f32; 6] = [0.0, 0.0, 0.0, 1.0, 2.0, 3.0];
+
+    #[test]
+    fn a_file_is_read_in_its_order() {
+        let read = VolFile::read(&file([1, 3, 1, 2, 1], BOX, &[1.0, 2.0, 3.0, 4.0, 5.0, 6.0]));
+        let read = read.expect("sound");
+        assert_eq!(read.size, UVec3::new(3, 1, 2));
+        assert_eq!(read.bounds[1], DVec3::new(1.0, 2.0, 3.0));
+        assert_eq!(read.values, Values::One(vec![1.0, 2.0, 3.0, 4.0, 5.0, 6.0]));
+    }
+
+    #[test]
+    fn whatever_is_wrong_is_said() {
+        let sound = file([1, 1, 1, 2, 3], BOX, &[0.5; 6]);
+        assert!(VolFile::read(&sound).is_ok());
+        for length in 0..sound.len() {
+            assert!(VolFile::read(&sound[..length]).is_err(), "{length}");
+        }
+        let says = |bytes: &[u8], words: &str| {
+            let reason = VolFile::read(bytes).expect_err("wrong");
+            assert!(reason.contains(words), "{reason}");
+        };
+        says(b"VOX\x03", "fewer than the header");
+        says(&[&b"VOL\x02"[..], &[0; 44]].concat(), "version 2");
+        says(&file([2, 1, 1, 1, 1], BOX, &[0.0]), "encoding is 2");
+        // A header that claims more than a machine has costs nothing.
+        says(
+            &file([1, i32::MAX, i32::MAX, i32::MAX, 3], BOX, &[0.0]),
+            "claims",
+        );
+        says(&file([1, 1, -1, 1, 1], BOX, &[0.0]), "1 × -1 × 1");
+        says(&file([1, 1, 1, 1, 2], BOX, &[0.0; 2]), "2 channels");
+        says(&file([1, 2, 1, 1, 1], BOX, &[0.0, -1.0]), "(1, 0, 0) is -1");
+        says(
+            &file([1, 1, 1, 2, 3], BOX, &[0.0, 0.0, 0.0, 0.0, f32::NAN, 0.0]),
+            "(0, 0, 1) is NaN",
+        );
+        says(&file([1, 1, 1, 1, 1], [0.0; 6], &[0.0]), "box is empty");
+    }
+}
