@@ -115,13 +115,11 @@ fn tile_side(size: UVec2, threads: usize) -> u32 {
     side
 }
 
-/// Renders replicates into `film` on the current thread pool, and goes on where the film has some
-/// samples of the first of them already. If it is cancelled, the film keeps the replicate that was
-/// being rendered.
+/// Renders replicates into `film` on the current thread pool, and goes on where the film has some samples of the first
+/// of them already. If it is cancelled, the film keeps the replicate that was being rendered.
 ///
-/// A world's sensor has three channels. A film of more has as many worlds, which are the same but for their sensors: every
-/// sample is drawn in each of them, with the same numbers, and goes to its group of the film's bands
-/// ([`TileSink::select_group`]).
+/// A world's sensor has three channels. A film of more has several worlds, which differ in their sensors: every sample is
+/// drawn in each, with the same numbers, and goes to its group of the film's bands ([`TileSink::select_group`]).
 pub fn render<W: World, I: Integrator, F: Film>(
     worlds: &[W],
     integrator: &I,
@@ -209,10 +207,9 @@ impl<W: World, I: Integrator> Run<'_, W, I> {
             let mut before_it = std::mem::take(before).into_iter();
             let prepare = |world| (self.integrator).prepare(world, &asked, &pass, before_it.next());
             let states: Vec<I::State> = self.worlds.iter().map(prepare).collect();
-            self.remarks.get_or_insert_with(|| {
-                let remarks = states.first().map(|state| self.integrator.remarks(state));
-                remarks.unwrap_or_default()
-            });
+            let first = states.iter().take(1);
+            self.remarks
+                .get_or_insert_with(|| first.flat_map(|s| self.integrator.remarks(s)).collect());
             // What was left half done is of no use.
             let until = done.saturating_sub(begin);
             if self.progress.cancelled() || !self.pass(film, &pass, [begin, until], &states) {

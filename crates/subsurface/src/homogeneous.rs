@@ -50,7 +50,7 @@ impl Homogeneous {
     pub(crate) fn from_params(params: &Params<'_>, build: &mut dyn Build) -> Option<Self> {
         let given = if params.has("sigma_a") || params.has("sigma_s") {
             for name in ["albedo", "sigma_t"] {
-                if params.has(name) {
+                if params.property(name).is_some() {
                     let message =
                         format!("`{name}` and `sigma_a` or `sigma_s` are two ways to say the same");
                     params.error_at(name, message);

@@ -75,7 +75,7 @@ fn every_mistake_is_found_in_one_run() {
          <shape type=\"sphere\">\n<bsdf type=\"mirror\"/></shape>\n\
          <shape type=\"disk\">\n<float name=\"radius\" value=\"1\"/></shape>\n\
          <emitter type=\"point\">\n<float name=\"sampling_weight\" value=\"-1\"/></emitter>\n\
-         <medium type=\"heterogeneous\"/>\n\
+         <medium type=\"plasma\"/>\n\
          <float name=\"gamma\" value=\"2.2\"/>\n\
          </scene>",
         &[],
@@ -270,8 +270,8 @@ fn media_and_bumps_that_are_none() {
             "a medium on which side",
         ),
         (
-            sphere("<medium name=\"interior\" type=\"heterogeneous\"/>"),
-            "known to Mitsuba 3 but not built yet",
+            sphere("<medium name=\"interior\" type=\"plasma\"/>"),
+            "unknown medium plugin `plasma`",
         ),
         (
             sphere(

@@ -299,7 +299,11 @@ fn mistakes_are_refused() {
             role,
             "unknown texture plugin `plaid`",
         ),
-        (object("volume", vec![]), role, "not built yet"),
+        (
+            object("volume", vec![]),
+            role,
+            "needs the parameter `volume`",
+        ),
         (
             object("srgb", vec![("color", number(0.5))]),
             role,
