@@ -53,7 +53,7 @@ fn yes() -> bool {
 }
 
 /// The classes that have plugins, in the order of the page, with their titles and the scene around an element.
-pub(crate) const CLASSES: [(Class, &str, &str); 12] = [
+pub(crate) const CLASSES: [(Class, &str, &str); 13] = [
     (
         Class::Integrator,
         "Integrators",
@@ -84,6 +84,11 @@ pub(crate) const CLASSES: [(Class, &str, &str); 12] = [
         Class::Bsdf,
         "BSDFs",
         "<sensor type='perspective'/><shape type='sphere'>ELEMENT</shape>",
+    ),
+    (
+        Class::Subsurface,
+        "Below surfaces",
+        "<sensor type='perspective'/><integrator type='volpath'/><shape type='sphere'>ELEMENT</shape>",
     ),
     (
         Class::Emitter,

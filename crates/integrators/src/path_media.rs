@@ -90,6 +90,7 @@ impl<S: Sampler, C: PathHooks> PathState<S, C> {
             medium,
             ..Ray::new(at, sample.wi, time)
         };
-        self.lengthen(settings, &event);
+        let survival = self.throughput.survival_in_medium(self.eta());
+        self.lengthen_with(settings, &event, |_| survival);
     }
 }

@@ -300,14 +300,33 @@ impl<S: Sampler, C: PathHooks> PathState<S, C> {
     /// Plays Russian roulette, and goes on with one more segment if the path survives.
     #[inline]
     pub(crate) fn lengthen(&mut self, settings: &PathSettings, event: &BounceSamples) {
+        self.lengthen_with(settings, event, |path| {
+            path.hooks.survival(&path.throughput, path.eta)
+        });
+    }
+
+    /// The same with another probability to survive.
+    #[inline]
+    pub(crate) fn lengthen_with(
+        &mut self,
+        settings: &PathSettings,
+        event: &BounceSamples,
+        survival: impl FnOnce(&mut Self) -> f32,
+    ) {
         if self.depth >= settings.rr_depth {
-            let survival = self.hooks.survival(&self.throughput, self.eta);
+            let survival = survival(self);
             if !self.throughput.survives(survival, event.roulette) {
                 return;
             }
         }
         self.depth += 1;
         self.goes_on = self.throughput.beta != Vec4::ZERO;
+    }
+
+    /// The product of the indices of refraction passed.
+    #[inline]
+    pub(crate) fn eta(&self) -> f32 {
+        self.eta
     }
 
     /// The random numbers of the next event.

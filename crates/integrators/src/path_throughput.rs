@@ -25,6 +25,9 @@ use glam::Vec4;
 /// No path survives roulette more surely: an endless one would not end.
 pub const MOST: f32 = 0.95;
 
+/// The most that a path survives with at a point of a medium: it makes ten thousand steps, in the mean, if nothing is lost.
+const MOST_IN_MEDIUM: f32 = 0.9999;
+
 /// A path up to some vertex.
 #[derive(Clone, Copy, Debug)]
 pub struct PathThroughput {
@@ -66,6 +69,13 @@ impl PathThroughput {
     #[inline]
     pub fn survival(&self, eta: f32) -> f32 {
         (self.throughput() * eta * eta).min(MOST)
+    }
+
+    /// The same between two points of a medium. A walk of many steps below a surface must not be ended by their number
+    /// alone, as each makes the rest count more; but one without loss or end must end.
+    #[inline]
+    pub fn survival_in_medium(&self, eta: f32) -> f32 {
+        (self.throughput() * eta * eta).min(MOST_IN_MEDIUM)
     }
 
     /// Survives Russian roulette of probability `q`, a rule symmetric in the lanes: it scales

@@ -21,6 +21,8 @@ pub enum Class {
     Sampler,
     Sensor,
     Shape,
+    /// What is below a surface.
+    Subsurface,
     /// A texture or a spectrum: one family, as in Mitsuba.
     Texture,
     Volume,
@@ -41,6 +43,7 @@ impl Class {
             Self::Sampler => "sampler",
             Self::Sensor => "sensor",
             Self::Shape => "shape",
+            Self::Subsurface => "subsurface",
             Self::Texture => "texture",
             Self::Volume => "volume",
         }

@@ -142,6 +142,8 @@ pub fn names(class: Class) -> &'static [&'static str] {
             "uniform",
             "volume",
         ],
+        // Mitsuba 3 has none.
+        Class::Subsurface => &[],
         Class::Volume => &["constvolume", "gridvolume"],
     }
 }
@@ -192,13 +194,14 @@ fn names_of_06(class: Class) -> &'static [&'static str] {
             "vertexcolors",
             "wireframe",
         ],
+        Class::Subsurface => &["dipole", "singlescatter"],
         Class::Volume => &["hgridvolume", "volcache"],
         Class::Scene | Class::Medium | Class::ReconstructionFilter => &[],
     }
 }
 
 /// Every class, for looking a name up in all of them.
-const CLASSES: [Class; 13] = [
+const CLASSES: [Class; 14] = [
     Class::Scene,
     Class::Bsdf,
     Class::Emitter,
@@ -210,6 +213,7 @@ const CLASSES: [Class; 13] = [
     Class::Sampler,
     Class::Sensor,
     Class::Shape,
+    Class::Subsurface,
     Class::Texture,
     Class::Volume,
 ];

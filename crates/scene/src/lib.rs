@@ -15,6 +15,7 @@ pub mod sampler;
 pub mod scene;
 mod sensor;
 mod solids;
+mod subsurface;
 pub mod surfaces;
 mod view;
 

@@ -1,11 +1,14 @@
 //! The media of a scene, and which of them lie on the two sides of a surface.
 
-use etalon_params::{Diagnostic, Diagnostics, Span};
+use etalon_params::{Class, Diagnostic, Diagnostics, Node, Params, Span};
 use etalon_subsurface::{MediumAtWavelengths, MediumDescription};
 use etalon_transport::{MediumId, MediumInterface, ShapeId, Shapes, Textures};
 use glam::{Vec3, Vec4};
 
+use crate::builder::Builder;
 use crate::lookup::SceneTables;
+use crate::surfaces::Surfaces;
+use std::sync::Arc;
 
 /// The most cells along the longest side of a medium's box that are bounded apart.
 const MOST_CELLS: u32 = 128;
@@ -67,6 +70,55 @@ fn within(
     let bounds = inside.map(|(shape, _)| Shapes::bounds(lookup, *shape));
     let all = bounds.reduce(|[a, b], [c, d]| [a.min(c), b.max(d)]);
     all.filter(|_| !outside)
+}
+
+impl Surfaces {
+    /// The media on both sides of a shape, if it has `interior` or `exterior`, or a medium below its surface.
+    pub(crate) fn media(
+        &mut self,
+        params: &Params<'_>,
+        below: Option<MediumId>,
+        builder: &mut Builder<'_>,
+    ) -> Option<MediumInterface> {
+        let mut media = below.map(|inside| MediumInterface {
+            inside,
+            outside: MediumId::NONE,
+        });
+        for (property, node) in params.children(Class::Medium) {
+            let medium = self.medium(node, builder);
+            let media = media.get_or_insert(MediumInterface::within(MediumId::NONE));
+            match property.name.as_str() {
+                "interior" if below.is_some() => {
+                    let message = "`subsurface` has its medium already";
+                    let diagnostic = Diagnostic::error(property.name_span, message);
+                    builder.diagnostics.push(diagnostic);
+                }
+                "interior" => media.inside = medium,
+                "exterior" => media.outside = medium,
+                _ => builder.diagnostics.push(
+                    Diagnostic::error(property.name_span, "a medium on which side of the shape?")
+                        .help("accepted: `name=\"interior\"` and `name=\"exterior\"`"),
+                ),
+            }
+        }
+        media
+    }
+
+    /// A medium, read once however often it is used.
+    pub fn medium(&mut self, node: &Arc<Node>, builder: &mut Builder<'_>) -> MediumId {
+        let key = Arc::as_ptr(node) as usize;
+        if let Some(id) = self.medium_by_node.get(&key) {
+            return *id;
+        }
+        let params = Params::new(node, builder.diagnostics);
+        let Some(medium) = MediumDescription::from_params(&params, builder) else {
+            return MediumId::NONE;
+        };
+        let id = MediumId(self.media.len() as u32);
+        self.media.push((medium, node.plugin.span));
+        self.medium_by_node.insert(key, id);
+        id
+    }
 }
 
 /// Media by id.

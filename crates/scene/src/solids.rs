@@ -69,7 +69,7 @@ impl Surfaces {
         if children.is_empty() {
             params.missing("shape", "solids to make it of");
         }
-        let media = self.media(&params, builder);
+        let media = self.media(&params, None, builder);
         params.finish();
         if operands.len() < children.len() {
             return None;

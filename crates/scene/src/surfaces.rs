@@ -65,7 +65,9 @@ pub struct Surfaces {
     pub interfaces: Vec<(ShapeId, MediumInterface)>,
     /// Whether any of these shapes is seen through instances only, which have places of their own.
     pub placed_media: bool,
-    medium_by_node: HashMap<usize, MediumId>,
+    /// Descriptions made of others.
+    pub(crate) boundaries: Vec<Arc<Node>>,
+    pub(crate) medium_by_node: HashMap<usize, MediumId>,
     by_node: HashMap<usize, MaterialId>,
     groups: HashMap<usize, GroupId>,
     /// The material of operands that have none of their own.
@@ -151,44 +153,6 @@ impl Surfaces {
         }
     }
 
-    /// The media on both sides of a shape, if it has `interior` or `exterior`.
-    pub(crate) fn media(
-        &mut self,
-        params: &Params<'_>,
-        builder: &mut Builder<'_>,
-    ) -> Option<MediumInterface> {
-        let mut media = None;
-        for (property, node) in params.children(Class::Medium) {
-            let medium = self.medium(node, builder);
-            let media = media.get_or_insert(MediumInterface::within(MediumId::NONE));
-            match property.name.as_str() {
-                "interior" => media.inside = medium,
-                "exterior" => media.outside = medium,
-                _ => builder.diagnostics.push(
-                    Diagnostic::error(property.name_span, "a medium on which side of the shape?")
-                        .help("accepted: `name=\"interior\"` and `name=\"exterior\"`"),
-                ),
-            }
-        }
-        media
-    }
-
-    /// A medium, read once however often it is used.
-    pub fn medium(&mut self, node: &Arc<Node>, builder: &mut Builder<'_>) -> MediumId {
-        let key = Arc::as_ptr(node) as usize;
-        if let Some(id) = self.medium_by_node.get(&key) {
-            return *id;
-        }
-        let params = Params::new(node, builder.diagnostics);
-        let Some(medium) = MediumDescription::from_params(&params, builder) else {
-            return MediumId::NONE;
-        };
-        let id = MediumId(self.media.len() as u32);
-        self.media.push((medium, node.plugin.span));
-        self.medium_by_node.insert(key, id);
-        id
-    }
-
     /// Notes what a shape carries that an accelerator need not know.
     fn carry(&mut self, shape: ShapeId, carried: &ShapeExtras) {
         if !carried.faces.is_empty() {
@@ -246,7 +210,9 @@ impl Surfaces {
         }
         let shape = displacement::shape(&params, builder)?;
         let emitter = params.child(Class::Emitter).cloned();
-        let bsdf = params.child(Class::Bsdf);
+        let below = self.below(&params, builder);
+        let boundary = below.as_ref().map(|(boundary, _)| boundary);
+        let bsdf = boundary.or_else(|| params.child(Class::Bsdf));
         if let Some(shape) = &shape {
             for user in emitter.iter().chain(bsdf) {
                 let place = node.plugin.span;
@@ -269,7 +235,8 @@ impl Surfaces {
                 .diagnostics
                 .push(Diagnostic::error(property.span, message));
         }
-        let media = self.media(&params, builder);
+        let inside = below.as_ref().map(|(_, medium)| *medium);
+        let media = self.media(&params, inside, builder);
         params.finish();
         let faces = Vec::new();
         let carried = ShapeExtras {

@@ -28,6 +28,11 @@ impl HenyeyGreenstein {
 }
 
 impl HenyeyGreenstein {
+    /// g.
+    pub fn mean_cosine(&self) -> f32 {
+        self.g
+    }
+
     /// Reads `g`.
     pub(crate) fn from_params(params: &Params<'_>) -> Option<Self> {
         let g = params.float_where("g", 0.8, "a number between -1 and 1", |g| g.abs() < 1.0);

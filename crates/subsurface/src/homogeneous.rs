@@ -4,12 +4,14 @@
 //! σs = α σt,   σa = (1 − α) σt        (m⁻¹, times `scale`)
 //! ```
 //!
-//! with the single-scattering albedo α and the extinction σt, or σa and σs themselves; all are spectra.
+//! with the single-scattering albedo α and the extinction σt, or σa and σs themselves, or those of a `material`; all are spectra.
 
 use crate::majorants::Segments;
 use crate::phases::{PhaseAt, PhaseFunction};
-use crate::volume;
-use etalon_params::Params;
+use crate::surface_albedo::{below, single_scattering};
+use crate::{materials, volume};
+use etalon_params::{Diagnostic, Params};
+use etalon_spectrum::Spectrum;
 use etalon_transport::{
     Build, Coefficients, MajorantSegment, Medium, Ray, SpectrumKind, TextureId, TexturePoint,
     Textures,
@@ -26,6 +28,15 @@ enum Given {
     Both {
         sigma_a: TextureId,
         sigma_s: TextureId,
+    },
+    /// By what is seen of a thick piece of it.
+    Surface {
+        albedo: TextureId,
+        mean_free_path: TextureId,
+        g: f32,
+        /// The relative index of a boundary and its reflectance for diffuse light from inside, if it is not one that lets
+        /// all light pass.
+        boundary: Option<[f32; 2]>,
     },
 }
 
@@ -46,9 +57,11 @@ pub struct HomogeneousAt<'a, T> {
 }
 
 impl Homogeneous {
-    /// Reads `albedo` and `sigma_t`, or `sigma_a` and `sigma_s`; `scale` and the phase function.
+    /// Reads `albedo` and `sigma_t`, or `sigma_a` and `sigma_s`, or `material`; `scale` and the phase function.
     pub(crate) fn from_params(params: &Params<'_>, build: &mut dyn Build) -> Option<Self> {
-        let given = if params.has("sigma_a") || params.has("sigma_s") {
+        let given = if params.has("material") {
+            by_name(params, build)?
+        } else if params.has("sigma_a") || params.has("sigma_s") {
             for name in ["albedo", "sigma_t"] {
                 if params.property(name).is_some() {
                     let message =
@@ -76,6 +89,49 @@ impl Homogeneous {
         })
     }
 
+    /// Reads what `homogeneous` has, or `albedo` of a surface and `mean_free_path`, for a closed shape whose `boundary` has this
+    /// relative index and reflectance for diffuse light from inside.
+    pub fn of_subsurface(
+        params: &Params<'_>,
+        boundary: Option<[f32; 2]>,
+        build: &mut dyn Build,
+    ) -> Option<Self> {
+        let by_coefficients = ["material", "sigma_a", "sigma_s", "sigma_t"];
+        if by_coefficients.iter().any(|name| params.has(name)) {
+            return Self::from_params(params, build);
+        }
+        let albedo = volume::constant(params, "albedo", 0.8, SpectrumKind::Reflectance, build);
+        let length = volume::constant(
+            params,
+            "mean_free_path",
+            1.0,
+            SpectrumKind::Unbounded,
+            build,
+        );
+        let what = "a finite number above 0";
+        let scale = params.float_where("scale", 1.0, what, |s| s > 0.0 && s.is_finite());
+        let phase = PhaseFunction::of_medium(params, build)?;
+        let g = match &phase {
+            PhaseFunction::HenyeyGreenstein(phase) => phase.mean_cosine(),
+            PhaseFunction::Isotropic(_) | PhaseFunction::Rayleigh(_) => 0.0,
+            _ => {
+                let message = "the albedo of a surface is known for the phase functions `isotropic`, `rayleigh` and `hg`";
+                params.error(message);
+                return None;
+            }
+        };
+        Some(Self {
+            given: Given::Surface {
+                albedo,
+                mean_free_path: length,
+                g,
+                boundary,
+            },
+            scale: scale as f32,
+            phase,
+        })
+    }
+
     /// The medium at four wavelengths (nm).
     #[inline]
     pub fn resolve<'a, T: Textures>(
@@ -98,6 +154,22 @@ impl Homogeneous {
                 absorption: spectrum(sigma_a) * self.scale,
                 scattering: spectrum(sigma_s) * self.scale,
             },
+            Given::Surface {
+                albedo,
+                mean_free_path,
+                g,
+                boundary,
+            } => {
+                let seen = spectrum(albedo);
+                let below = boundary.map_or(seen, |[eta, inside]| below(seen, eta, inside));
+                let length = spectrum(mean_free_path).max(Vec4::splat(f32::MIN_POSITIVE));
+                let extinction = self.scale / length;
+                let scattering = extinction * single_scattering(below, g);
+                Coefficients {
+                    absorption: (extinction - scattering).max(Vec4::ZERO),
+                    scattering,
+                }
+            }
         };
         HomogeneousAt {
             coefficients,
@@ -105,6 +177,25 @@ impl Homogeneous {
             textures,
         }
     }
+}
+
+/// The coefficients of a `material`, mm⁻¹ as the scene's unit is 1 mm or `scale` says otherwise.
+fn by_name(params: &Params<'_>, build: &mut dyn Build) -> Option<Given> {
+    let name = params.string("material")?;
+    let Some(coefficients) = materials::named(name) else {
+        let span = params
+            .property("material")
+            .map_or(params.node.span, |p| p.span);
+        let unknown = Diagnostic::error(span, format!("no coefficients are known of `{name}`"));
+        (params.diagnostics).push(unknown.suggest(name, materials::names()));
+        return None;
+    };
+    let mut spectrum = |rgb: [f64; 3]| Spectrum::unbounded(rgb).ok().map(|s| build.spectrum(s));
+    let [sigma_a, sigma_s] = coefficients;
+    Some(Given::Both {
+        sigma_a: spectrum(sigma_a)?,
+        sigma_s: spectrum(sigma_s)?,
+    })
 }
 
 impl<T> HomogeneousAt<'_, T> {

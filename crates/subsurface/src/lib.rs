@@ -10,10 +10,12 @@ pub mod heterogeneous;
 pub mod homogeneous;
 pub mod isotropic;
 pub mod majorants;
+pub mod materials;
 pub mod media;
 pub mod phases;
 pub mod rayleigh;
 mod rotational;
+pub mod surface_albedo;
 pub mod tabulated;
 mod volume;
 

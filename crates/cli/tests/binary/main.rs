@@ -28,6 +28,7 @@ mod resume;
 mod spectral;
 mod statistics;
 mod strategies;
+mod subsurface;
 mod target;
 mod trouble;
 mod workshop;

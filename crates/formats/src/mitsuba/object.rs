@@ -208,14 +208,8 @@ fn element(
         Some(tag) => tag,
         None => {
             let span = tag_span(file.id, node);
-            reader.report(match name {
-                "subsurface" => Diagnostic::error(
-                    span,
-                    "`<subsurface>` belongs to Mitsuba 0.6 and is not built yet",
-                ),
-                _ => Diagnostic::error(span, format!("unknown element `<{name}>`"))
-                    .suggest(name, TAGS.iter().map(|(known, _)| *known)),
-            });
+            let unknown = Diagnostic::error(span, format!("unknown element `<{name}>`"));
+            reader.report(unknown.suggest(name, TAGS.iter().map(|(known, _)| *known)));
             // What stands in it is read all the same: its ids may be referred to.
             let aside = reader.draft.objects.len();
             let span = tag_span(file.id, node);

@@ -44,7 +44,7 @@ pub(crate) enum Tag {
 }
 
 /// Every tag that may stand in an object.
-pub(crate) const TAGS: [(&str, Tag); 30] = [
+pub(crate) const TAGS: [(&str, Tag); 31] = [
     ("scene", Tag::Object(Class::Scene)),
     ("bsdf", Tag::Object(Class::Bsdf)),
     ("emitter", Tag::Object(Class::Emitter)),
@@ -56,6 +56,7 @@ pub(crate) const TAGS: [(&str, Tag); 30] = [
     ("sampler", Tag::Object(Class::Sampler)),
     ("sensor", Tag::Object(Class::Sensor)),
     ("shape", Tag::Object(Class::Shape)),
+    ("subsurface", Tag::Object(Class::Subsurface)),
     ("texture", Tag::Object(Class::Texture)),
     ("volume", Tag::Object(Class::Volume)),
     ("float", Tag::Float),

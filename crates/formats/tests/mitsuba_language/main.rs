@@ -72,6 +72,7 @@ fn every_object_tag_has_its_class() {
         ("sampler", Class::Sampler),
         ("sensor", Class::Sensor),
         ("shape", Class::Shape),
+        ("subsurface", Class::Subsurface),
         ("texture", Class::Texture),
         ("spectrum", Class::Texture),
         ("volume", Class::Volume),
