@@ -26,6 +26,11 @@ impl<S: Sampler, C: PathHooks> PathState<S, C> {
             [numbers.direction.x, numbers.direction.y].map(|u| u64::from(u.to_bits()));
         let mut stream = Independent::from_key(mix64(high << 32 | low));
         let flight = medium.free_flight(&self.ray, t_max, numbers.lobe, &mut stream);
+        if flight.emitted != Vec4::ZERO {
+            let mut emitted = self.throughput;
+            emitted.scatter(flight.emitted, flight.density);
+            self.add_emission(emitted.contribution(Vec4::ONE, Vec4::ZERO));
+        }
         self.throughput.scatter(flight.factor, flight.density);
         self.light_mis.r_l *= flight.by_transmittance / flight.density.x;
         let Some((t, phase)) = flight.scattering else {

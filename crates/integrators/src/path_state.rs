@@ -323,6 +323,11 @@ impl<S: Sampler, C: PathHooks> PathState<S, C> {
         self.goes_on = self.throughput.beta != Vec4::ZERO;
     }
 
+    /// Adds what the medium emits that the path flies through.
+    pub(crate) fn add_emission(&mut self, radiance: Vec4) {
+        self.radiance += radiance;
+    }
+
     /// The product of the indices of refraction passed.
     #[inline]
     pub(crate) fn eta(&self) -> f32 {

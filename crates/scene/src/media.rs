@@ -153,6 +153,11 @@ impl SceneMedia {
         }
     }
 
+    /// How many emit light.
+    pub fn emitting(&self) -> u32 {
+        self.media.iter().filter(|medium| medium.emits()).count() as u32
+    }
+
     /// Whether a ray may ever be in one.
     pub fn exist(&self) -> bool {
         !self.interfaces.is_empty() || self.camera.is_some()

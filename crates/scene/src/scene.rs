@@ -95,9 +95,15 @@ impl Scene {
         let view = view::look(self, origin, size);
         // Nobody asked for these rays.
         rays::take();
+        // Paths run into matter that shines.
+        let mut lights = self.parts.lights.count();
+        let shining = self.parts.media.emitting();
+        for count in [&mut lights.all, &mut lights.hittable, &mut lights.either] {
+            *count += shining;
+        }
         SceneCapabilities {
             view,
-            lights: self.parts.lights.count(),
+            lights,
             aperture: self.parts.camera.can_receive(),
             sky: self.has_background(),
             media: self.parts.has_media,

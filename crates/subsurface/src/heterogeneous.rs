@@ -4,11 +4,12 @@
 //! σs(x) = α(x) σt(x),   σa(x) = (1 − α(x)) σt(x)        (m⁻¹, times `scale`)
 //! ```
 //!
-//! `sigma_t` and `albedo` may be anything that has a value at a point of space: a grid, a computed pattern, a product of
+//! and emits σa Lₑ(x) per metre (`emission`). `sigma_t`, `albedo` and `emission` may be anything that has a value at a point of space: a grid, a computed pattern, a product of
 //! such. A medium ends where the grid of its `sigma_t` does, whatever the shape that holds it.
 
 use crate::majorants::{MajorantGrid, Segments};
 use crate::phases::{PhaseAt, PhaseFunction};
+use crate::volume;
 use etalon_params::Params;
 use etalon_transport::{
     Build, Coefficients, MajorantSegment, Medium, Ray, SpectrumKind, TextureId, TexturePoint,
@@ -23,6 +24,7 @@ pub struct Heterogeneous {
     sigma_t: TextureId,
     scale: f32,
     phase: PhaseFunction,
+    emission: Option<TextureId>,
     /// Where it is and how dense at most, once the scene is built.
     majorants: Option<Box<MajorantGrid>>,
     /// The largest extinction where there is no grid (m⁻¹).
@@ -47,9 +49,15 @@ impl Heterogeneous {
             sigma_t: build.texture(params, "sigma_t", Some(1.0), SpectrumKind::Unbounded),
             scale: scale as f32,
             phase: PhaseFunction::of_medium(params, build)?,
+            emission: volume::emission(params, build),
             majorants: None,
             most: 0.0,
         })
+    }
+
+    /// Whether it emits light.
+    pub fn emits(&self) -> bool {
+        self.emission.is_some()
     }
 
     /// The texture of its density, in units of `scale`.
@@ -138,6 +146,16 @@ impl<'a, T: Textures> Medium for HeterogeneousAt<'a, T> {
     }
 
     #[inline]
+    fn emission(&self, at: Vec3) -> Vec4 {
+        let Some(emission) = self.medium.emission else {
+            return Vec4::ZERO;
+        };
+        let place = TexturePoint::in_space(at);
+        let radiance = self.textures.spectrum(emission, &place, self.lambda);
+        self.coefficients(at).absorption * radiance
+    }
+
+    #[inline]
     fn phase(&self, at: Vec3) -> PhaseAt<'a, T> {
         self.medium.phase.at(self.textures, at)
     }
@@ -186,6 +204,7 @@ mod tests {
             sigma_t: TextureId(0),
             scale: 2.0,
             phase: PhaseFunction::Isotropic(Isotropic),
+            emission: None,
             majorants: None,
             most: 0.0,
         };

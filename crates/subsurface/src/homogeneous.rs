@@ -4,6 +4,7 @@
 //! σs = α σt,   σa = (1 − α) σt        (m⁻¹, times `scale`)
 //! ```
 //!
+//! and emits σa Lₑ per metre, with the radiance Lₑ (`emission`) that a thick piece would have if it scattered nothing;
 //! with the single-scattering albedo α and the extinction σt, or σa and σs themselves, or those of a `material`; all are spectra.
 
 use crate::majorants::Segments;
@@ -14,7 +15,7 @@ use etalon_params::{Diagnostic, Params};
 use etalon_spectrum::Spectrum;
 use etalon_transport::{
     Build, Coefficients, MajorantSegment, Medium, Ray, SpectrumKind, TextureId, TexturePoint,
-    Textures,
+    Textures, refuse_varying,
 };
 use glam::{Vec2, Vec3, Vec4};
 
@@ -46,12 +47,14 @@ pub struct Homogeneous {
     given: Given,
     scale: f32,
     phase: PhaseFunction,
+    emission: Option<TextureId>,
 }
 
 /// The same at the wavelengths of a path.
 #[derive(Debug)]
 pub struct HomogeneousAt<'a, T> {
     coefficients: Coefficients,
+    emission: Vec4,
     phase: &'a PhaseFunction,
     textures: &'a T,
 }
@@ -86,7 +89,16 @@ impl Homogeneous {
             given,
             scale: scale as f32,
             phase: PhaseFunction::of_medium(params, build)?,
+            emission: {
+                refuse_varying(params, "emission");
+                volume::emission(params, build)
+            },
         })
+    }
+
+    /// Whether it emits light.
+    pub fn emits(&self) -> bool {
+        self.emission.is_some()
     }
 
     /// Reads what `homogeneous` has, or `albedo` of a surface and `mean_free_path`, for a closed shape whose `boundary` has this
@@ -129,6 +141,7 @@ impl Homogeneous {
             },
             scale: scale as f32,
             phase,
+            emission: None,
         })
     }
 
@@ -172,6 +185,8 @@ impl Homogeneous {
             }
         };
         HomogeneousAt {
+            emission: (self.emission)
+                .map_or(Vec4::ZERO, |le| coefficients.absorption * spectrum(le)),
             coefficients,
             phase: &self.phase,
             textures,
@@ -222,6 +237,11 @@ impl<'a, T: Textures> Medium for HomogeneousAt<'a, T> {
     #[inline]
     fn phase(&self, at: Vec3) -> PhaseAt<'a, T> {
         self.phase.at(self.textures, at)
+    }
+
+    #[inline]
+    fn emission(&self, _: Vec3) -> Vec4 {
+        self.emission
     }
 
     #[inline]

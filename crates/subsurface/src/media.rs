@@ -32,6 +32,11 @@ macro_rules! media {
                 }
             }
 
+            /// Whether it emits light.
+            pub fn emits(&self) -> bool {
+                match self { $(Self::$kind(medium) => medium.emits(),)* }
+            }
+
             /// The medium at four wavelengths (nm).
             #[inline]
             pub fn resolve<'a, T: Textures>(
@@ -66,6 +71,11 @@ macro_rules! media {
             #[inline]
             fn phase(&self, at: Vec3) -> PhaseAt<'a, T> {
                 match self { $(Self::$kind(medium) => medium.phase(at),)* }
+            }
+
+            #[inline]
+            fn emission(&self, at: Vec3) -> Vec4 {
+                match self { $(Self::$kind(medium) => medium.emission(at),)* }
             }
 
             #[inline]

@@ -1,5 +1,6 @@
 //! What varies in space, or does not: the volumes of a medium's parameters.
 
+use etalon_params::questions::Question;
 use etalon_params::{Params, Value};
 use etalon_spectrum::Spectrum;
 use etalon_transport::{Build, SpectrumKind, TextureId, refuse_varying};
@@ -33,4 +34,14 @@ pub(crate) fn constant(
             build.texture(params, name, Some(default), kind)
         }
     }
+}
+
+/// The radiance of a medium that emits: `emission`, if it is given.
+pub(crate) fn emission(params: &Params<'_>, build: &mut dyn Build) -> Option<TextureId> {
+    params.note("emission", || Question {
+        kind: "a spectrum or texture".to_owned(),
+        ..Question::default()
+    });
+    let given = params.has("emission");
+    given.then(|| build.texture(params, "emission", None, SpectrumKind::Emission))
 }

@@ -67,6 +67,8 @@ impl Coefficients {
 pub struct FreeFlight<P> {
     /// What the flight does to the light, per lane: transmittance, and σs where it is scattered.
     pub factor: Vec4,
+    /// The same with what the medium emits where the flight ends in place of σs: zero where it emits nothing.
+    pub emitted: Vec4,
     /// The density of the flight, for each lane had it been the one that chose.
     pub density: Vec4,
     /// The density with which [`Medium::transmittance`] would have made the same choices on the way, per lane.
@@ -101,6 +103,12 @@ pub trait Medium {
     /// The phase function at a point.
     fn phase(&self, at: Vec3) -> Self::Phase;
 
+    /// σa Lₑ at a point: the radiance that a stretch of it emits, per metre (W·m⁻³·sr⁻¹·nm⁻¹). Most emit nothing.
+    #[inline]
+    fn emission(&self, _at: Vec3) -> Vec4 {
+        Vec4::ZERO
+    }
+
     /// Whether coefficients are the same everywhere, so that closed forms hold.
     fn is_homogeneous(&self) -> bool {
         false
@@ -120,6 +128,7 @@ pub trait Medium {
         }
         let mut flight = FreeFlight {
             factor: Vec4::ONE,
+            emitted: Vec4::ZERO,
             density: Vec4::ONE,
             by_transmittance: Vec4::ONE,
             scattering: None,
@@ -133,6 +142,9 @@ pub trait Medium {
             let real = stream.next_1d() * majorant < extinction.x;
             let chosen = if real { extinction } else { null };
             let inverse = 1.0 / chosen.x;
+            if real {
+                flight.emitted = flight.factor * self.emission(at) * inverse;
+            }
             flight.factor *= if real { coefficients.scattering } else { null } * inverse;
             flight.density *= chosen * inverse;
             if real {
@@ -252,6 +264,7 @@ fn homogeneous_flight<M: Medium + ?Sized>(
         let transmittance = passing(extinction, t);
         return FreeFlight {
             factor: transmittance * coefficients.scattering,
+            emitted: transmittance * medium.emission(ray.at(t)),
             density: transmittance * extinction,
             by_transmittance: Vec4::ONE,
             scattering: Some((t, medium.phase(ray.at(t)))),
@@ -260,6 +273,7 @@ fn homogeneous_flight<M: Medium + ?Sized>(
     let transmittance = passing(extinction, t_max);
     FreeFlight {
         factor: transmittance,
+        emitted: Vec4::ZERO,
         density: transmittance,
         by_transmittance: Vec4::ONE,
         scattering: None,

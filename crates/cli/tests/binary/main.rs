@@ -17,6 +17,7 @@ mod frames;
 mod info;
 mod integrators;
 mod interrupt;
+mod media;
 mod merge;
 mod mutations;
 mod objections;
