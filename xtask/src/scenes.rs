@@ -34,7 +34,7 @@ pub(crate) fn run() -> Result<(), String> {
         put(&scenes.join("relief").join(name), &bytes)?;
     }
     for (name, bytes) in smoke::files() {
-        put(&scenes.join("smoke").join(name), &bytes)?;
+        put(&scenes.join(name), &bytes)?;
     }
     put(&scenes.join("pool/water.obj"), pool::water().as_bytes())?;
     put(

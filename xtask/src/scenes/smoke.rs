@@ -1,4 +1,4 @@
-//! A plume of smoke on a grid of 32³, and its colour: for `scenes/smoke`.
+//! A plume of smoke on a grid of 32³, and its colour, for `scenes/smoke`; the outline of `scenes/cloud`.
 //!
 //! ```text
 //! σ(x, y, z) = max(0, 1 − (ρ/w)²) · (½ + ½ sin(…)),   w = 0.15 + 0.3 z
@@ -44,11 +44,17 @@ fn density(p: DVec3) -> f64 {
     fall.max(0.0) * ends * (0.5 + 0.5 * folds)
 }
 
+/// What falls off from the middle of the cube, in [0, 1].
+fn bump(p: DVec3) -> f64 {
+    (1.0 - p.distance(DVec3::splat(0.5)).powi(2) * 4.0).max(0.0)
+}
+
 /// The files with their names.
-pub(super) fn files() -> [(&'static str, Vec<u8>); 2] {
+pub(super) fn files() -> [(&'static str, Vec<u8>); 3] {
     let colour = |p: DVec3| vec![0.3 + 0.3 * p.z, 0.45 + 0.1 * p.x, 0.6 - 0.3 * p.z];
     [
-        ("density.vol", file(1, |p| vec![density(p)])),
-        ("albedo.vol", file(3, colour)),
+        ("smoke/density.vol", file(1, |p| vec![density(p)])),
+        ("smoke/albedo.vol", file(3, colour)),
+        ("cloud/bump.vol", file(1, |p| vec![bump(p)])),
     ]
 }
