@@ -1,6 +1,6 @@
 //! Films with bands, cameras with curves of their own, and filters in front of them.
 
-use crate::workshop::Workshop;
+use crate::workshop::{Workshop, mean_of};
 use etalon_film::RenderedImage;
 use etalon_spectrum::sensor::response;
 use glam::Vec4;
@@ -33,12 +33,7 @@ const BANDS: &str = "type=\"specfilm\">
 /// part in a thousand for what curves lose between nanometres.
 #[track_caller]
 fn shows(image: &RenderedImage, name: &str, expected: f64) {
-    let plane = image.image.channel(name).expect("a channel");
-    let errors = image.standard_error(name).expect("its error");
-    let count = plane.len() as f64;
-    let mean = plane.iter().map(|&x| f64::from(x)).sum::<f64>() / count;
-    let variance: f64 = errors.iter().map(|&s| f64::from(s).powi(2)).sum();
-    let error = variance.sqrt() / count;
+    let (mean, error) = mean_of(image, name);
     assert!(error < 0.02 * expected, "{name}: too noisy, {error}");
     let off = (mean - expected).abs();
     assert!(

@@ -1,26 +1,12 @@
 //! `subsurface` is a medium in a boundary, and gives back what it says it does.
 
-use crate::workshop::Workshop;
+use crate::workshop::{Workshop, ball_scene, luminance};
 
-/// A ball in a corner of light.
+/// A ball under an even sky.
 fn scene(ball: &str) -> String {
-    format!(
-        "<scene version=\"3.0.0\">
-    <default name=\"albedo\" value=\"0.5\"/>
-    <integrator type=\"volpath\"><integer name=\"max_depth\" value=\"-1\"/></integrator>
-    <sensor type=\"perspective\">
-        <float name=\"fov\" value=\"3\"/>
-        <transform name=\"to_world\"><lookat origin=\"0, -4, 0\" target=\"0, 0, 0\" up=\"0, 0, 1\"/></transform>
-        <film type=\"hdrfilm\">
-            <integer name=\"width\" value=\"8\"/><integer name=\"height\" value=\"8\"/><rfilter type=\"box\"/>
-            <string name=\"pixel_format\" value=\"luminance\"/>
-        </film>
-        <sampler type=\"independent\"><integer name=\"sample_count\" value=\"16\"/></sampler>
-    </sensor>
-    <emitter type=\"constant\"><spectrum name=\"radiance\" type=\"d65\"/></emitter>
-    <shape type=\"sphere\">{ball}</shape>
-</scene>"
-    )
+    let sky = "<emitter type=\"constant\"><spectrum name=\"radiance\" type=\"d65\"/></emitter>";
+    let albedo = "<default name=\"albedo\" value=\"0.5\"/>";
+    ball_scene(ball, &format!("{sky}{albedo}"))
 }
 
 const COEFFICIENTS: &str = "<spectrum name=\"sigma_a\" value=\"400:2, 700:1\"/>
@@ -73,12 +59,7 @@ fn a_thick_piece_shows_its_albedo() {
             .run(&[&["render", "s.xml"], &further[..]].concat())
             .fine();
         let image = workshop.image("a.exr");
-        let plane = image.image.channel("Y").expect("luminance");
-        let errors = image.standard_error("Y").expect("errors");
-        let count = plane.len() as f64;
-        let mean = plane.iter().map(|&x| f64::from(x)).sum::<f64>() / count;
-        let variance: f64 = errors.iter().map(|&s| f64::from(s).powi(2)).sum();
-        let error = variance.sqrt() / count;
+        let (mean, error) = luminance(&image);
         assert!(error < 0.01, "too noisy: {error}");
         let off = (mean - albedo).abs();
         assert!(

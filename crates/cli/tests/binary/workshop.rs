@@ -40,6 +40,42 @@ pub(crate) fn small_scene(integrator: &str) -> String {
     )
 }
 
+/// A ball with these children, seen through its middle by `volpath`, in luminance: 8 × 8 pixels of 256 samples.
+pub(crate) fn ball_scene(ball: &str, further: &str) -> String {
+    format!(
+        "<scene version=\"3.0.0\">
+    <integrator type=\"volpath\"><integer name=\"max_depth\" value=\"-1\"/></integrator>
+    <sensor type=\"perspective\">
+        <float name=\"fov\" value=\"0.5\"/>
+        <transform name=\"to_world\"><lookat origin=\"0, -4, 0\" target=\"0, 0, 0\" up=\"0, 0, 1\"/></transform>
+        <film type=\"hdrfilm\">
+            <integer name=\"width\" value=\"8\"/><integer name=\"height\" value=\"8\"/><rfilter type=\"box\"/>
+            <string name=\"pixel_format\" value=\"luminance\"/>
+        </film>
+        <sampler type=\"independent\"><integer name=\"sample_count\" value=\"256\"/></sampler>
+    </sensor>{further}
+    <shape type=\"sphere\">{ball}</shape>
+</scene>"
+    )
+}
+
+/// The mean of a channel over a picture whose pixels are independent, and its standard error.
+#[track_caller]
+pub(crate) fn mean_of(image: &RenderedImage, channel: &str) -> (f64, f64) {
+    let plane = image.image.channel(channel).expect("the channel");
+    let errors = image.standard_error(channel).expect("its standard errors");
+    let count = plane.len() as f64;
+    let mean = plane.iter().map(|&x| f64::from(x)).sum::<f64>() / count;
+    let variance: f64 = errors.iter().map(|&s| f64::from(s).powi(2)).sum();
+    (mean, variance.sqrt() / count)
+}
+
+/// The mean luminance of a picture, and its standard error.
+#[track_caller]
+pub(crate) fn luminance(image: &RenderedImage) -> (f64, f64) {
+    mean_of(image, "Y")
+}
+
 /// What a run said.
 #[derive(Debug)]
 pub(crate) struct Ran {
