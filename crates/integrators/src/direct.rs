@@ -205,8 +205,7 @@ impl Integrator for Direct {
         sight.incompatibilities(match (self.emitter_samples, self.bsdf_samples) {
             (0, _) => LightSearch::Hitting,
             (_, 0) => LightSearch::Connecting,
-            _ if sight.lights.beams > 0 => LightSearch::FromCamera,
-            _ => LightSearch::Either,
+            _ => LightSearch::FromCamera,
         })
     }
 

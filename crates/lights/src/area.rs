@@ -11,6 +11,7 @@
 //! Points toward an observer are chosen by the shape; emitted particles start uniformly over the
 //! area, with directions in proportion to cos θ.
 
+use crate::light::extent_of_shape;
 use crate::light_model::LightModel;
 use crate::{BoundingSphere, LightExtent};
 use core::f32::consts::FRAC_1_PI;
@@ -141,14 +142,7 @@ impl LightModel for AreaLight {
     }
 
     fn extent(&self, shapes: &impl Shapes) -> Option<LightExtent> {
-        let [low, high] = shapes.bounds(self.shape).map(|corner| corner.as_dvec3());
-        Some(LightExtent {
-            low,
-            high,
-            normals: shapes.normals(self.shape),
-            cos_edge: 0.0,
-            power: 0.0,
-        })
+        Some(extent_of_shape(shapes, self.shape, 0.0))
     }
 
     fn power(&self, scene: &(impl Textures + Shapes), _: &BoundingSphere) -> f64 {

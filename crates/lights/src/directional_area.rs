@@ -10,6 +10,7 @@
 //! Only particles that start there find its light: no ray sees it but from exactly ahead, and no point can be connected
 //! with it.
 
+use crate::light::extent_of_shape;
 use crate::light_model::LightModel;
 use crate::{BoundingSphere, LightExtent};
 use etalon_params::Params;
@@ -93,14 +94,7 @@ impl LightModel for DirectionalArea {
     }
 
     fn extent(&self, shapes: &impl Shapes) -> Option<LightExtent> {
-        let [low, high] = shapes.bounds(self.shape).map(|corner| corner.as_dvec3());
-        Some(LightExtent {
-            low,
-            high,
-            normals: shapes.normals(self.shape),
-            cos_edge: 1.0,
-            power: 0.0,
-        })
+        Some(extent_of_shape(shapes, self.shape, 1.0))
     }
 
     fn power(&self, scene: &(impl Textures + Shapes), _: &BoundingSphere) -> f64 {

@@ -274,6 +274,18 @@ pub(crate) fn extent_of_point(position: Vec3, shines: DirectionCone, cos_edge: f
     }
 }
 
+/// Where a shape is whose light leaves within an angle of this cosine around its normals.
+pub(crate) fn extent_of_shape(shapes: &impl Shapes, shape: ShapeId, cos_edge: f64) -> LightExtent {
+    let [low, high] = shapes.bounds(shape).map(|corner| corner.as_dvec3());
+    LightExtent {
+        low,
+        high,
+        normals: shapes.normals(shape),
+        cos_edge,
+        power: 0.0,
+    }
+}
+
 /// The place at which spectra that do not vary in space are looked up.
 pub(crate) fn anywhere() -> TexturePoint {
     TexturePoint::at_uv(Vec2::ZERO)

@@ -43,15 +43,11 @@ impl Response {
         if params.node.plugin.value == "specfilm" {
             return Self::bands(params, settings, builder);
         }
-        let given = CURVES.map(|name| params.has(name));
-        if given == [false; 3] {
-            // Asked for, so that the pages name them.
+        if !CURVES.iter().any(|name| params.has(name)) {
             return Some(Self::Observer);
         }
-        let mut curves = CURVES.map(|name| curve(params, name, builder));
-        let [Some(red), Some(green), Some(blue)] = curves.each_mut().map(Option::take) else {
-            return None;
-        };
+        let [red, green, blue] = CURVES.map(|name| curve(params, name, builder));
+        let (red, green, blue) = (red?, green?, blue?);
         let d65 = Spectrum::d65(1.0).ok()?;
         let white =
             |curve: &Spectrum| integral(|lambda| curve.eval_at(lambda) * d65.eval_at(lambda));

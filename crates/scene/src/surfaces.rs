@@ -96,7 +96,11 @@ fn refracts(node: &Node) -> bool {
     (node.class == Class::Bsdf && dielectric)
         || (node.properties.iter()).any(|property| match &property.value {
             Value::Object(child) => {
-                matches!(child.class, Class::Bsdf | Class::Shape) && refracts(child)
+                let holds = [Class::Bsdf, Class::Shape, Class::Subsurface];
+                holds.contains(&child.class) && refracts(child)
+            }
+            Value::String(word) if node.class == Class::Subsurface => {
+                property.name == "boundary" && word != "diffuse"
             }
             _ => false,
         })

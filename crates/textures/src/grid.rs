@@ -148,13 +148,16 @@ impl TextureModel for Grid {
             .fold((corner(0), corner(0)), |(from, to), p| {
                 (from.min(p), to.max(p))
             });
-        // Whatever the wrap, values repeat after twice the size; a clamped grid ends.
-        let reach = self.size.as_ivec3() * 2;
+        let last = self.size.as_ivec3() - 1;
         let (from, to) = match from.is_finite() && to.is_finite() {
             true => (floor(from - 0.51), floor(to + 0.51)),
-            false => (IVec3::ZERO, self.size.as_ivec3()),
+            false => (IVec3::ZERO, last * 2 + 1),
         };
-        let (from, to) = (from.max(-reach), to.min(reach * 2));
+        let (from, to) = match self.wrap {
+            Wrap::Clamp => (from.clamp(IVec3::ZERO, last), to.clamp(IVec3::ZERO, last)),
+            // Mirrored or not, values repeat after twice the size.
+            _ => (from, to.min(from.saturating_add(last * 2 + 1))),
+        };
         let mut most = 0.0_f32;
         for z in from.z..=to.z {
             for y in from.y..=to.y {
@@ -274,6 +277,53 @@ fn scale_to(values: &mut Values, most: f32) {
     if largest > 0.0 {
         for value in all {
             *value *= most / largest;
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use proptest::prelude::*;
+
+    fn grid(wrap: Wrap, filter: Filter) -> Grid {
+        let size = UVec3::new(3, 2, 2);
+        // One value stands out.
+        let values = (0..12).map(|i| if i == 7 { 9.0 } else { i as f32 / 12.0 });
+        let pixels = Pixels {
+            size: UVec2::new(6, 2),
+            values: Values::One(values.collect()),
+        };
+        let to_grid = Affine3A::from_scale(size.as_vec3()) * Affine3A::from_rotation_z(0.3);
+        Grid {
+            size,
+            values: Arc::new(Image::new(pixels, false, SpectrumKind::Unbounded, true)),
+            to_grid,
+            filter,
+            wrap,
+            is_share: false,
+            bounds: [Vec3::ZERO, Vec3::ONE],
+        }
+    }
+
+    proptest! {
+        /// Near and far, inside and beyond the cube.
+        #[test]
+        fn no_value_in_a_box_exceeds_its_bound(
+            low in prop::array::uniform3(-40.0_f32..40.0),
+            side in 0.01_f32..1.5,
+            part in prop::array::uniform3(0.0_f32..1.0),
+            wrap in prop::sample::select(vec![Wrap::Clamp, Wrap::Repeat, Wrap::Mirror]),
+            filter in prop::sample::select(vec![Filter::Bilinear, Filter::Nearest]),
+            near in prop::bool::ANY,
+        ) {
+            let low = Vec3::from_array(low) * if near { 0.05 } else { 1.0 };
+            let grid = grid(wrap, filter);
+            let bound = grid.most_within(&TextureTable::new(), low, low + side);
+            let at = low + side * Vec3::from_array(part);
+            let Texels::Number(values) = &grid.values.texels else { unreachable!() };
+            let value = grid.interpolate(at, |i| values[i]);
+            prop_assert!(value <= bound * 1.0001, "{value} {bound}");
         }
     }
 }
