@@ -57,3 +57,11 @@ impl BounceSamples {
         }
     }
 }
+
+/// How far a medium lets light fly on its way to the event with index `index`: the last of its dimensions.
+#[inline]
+pub fn draw_flight<S: Sampler>(sampler: &mut S, index: u32) -> f32 {
+    let next = index.wrapping_add(1).wrapping_mul(PER_SCATTERING);
+    sampler.skip_to(SCATTERING.wrapping_add(next).wrapping_sub(1));
+    sampler.next_1d()
+}

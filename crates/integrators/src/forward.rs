@@ -23,7 +23,7 @@ use crate::particle::LightPath;
 use crate::path::camera_ray;
 use crate::path_throughput::PathThroughput;
 use crate::settings::PathSettings;
-use crate::steps::next_surface;
+use crate::steps;
 use etalon_params::Params;
 use etalon_sampling::{ReplicateKind, Sampler};
 use etalon_spectrum::{SensorWeights, Wavelengths};
@@ -60,7 +60,11 @@ impl Forward {
         let mut through = Vec4::ONE;
         let mut depth = 1;
         while depth <= self.settings.max_depth {
-            let Some((_, vertex)) = next_surface(world, &mut ray, hide && depth == 1) else {
+            let hit = steps::next_hit(world, &mut ray, hide && depth == 1);
+            if let Some(passage) = steps::transmittance(world, &ray, hit.as_ref(), wavelengths) {
+                through *= passage.transmittance;
+            }
+            let Some(hit) = hit else {
                 if hide || !world.has_background() {
                     break;
                 }
@@ -68,8 +72,10 @@ impl Forward {
                     1 => world.background(ray.direction, wavelengths),
                     _ => Vec4::ZERO,
                 };
-                return (PathThroughput::START.contribution(sky, Vec4::ZERO), 1.0);
+                let radiance = PathThroughput::START.contribution(through * sky, Vec4::ZERO);
+                return (radiance, 1.0);
             };
+            let vertex = world.vertex(&ray, &hit);
             let bsdf = world.bsdf(&vertex, -ray.direction, wavelengths);
             through *= bsdf.null_probability();
             depth += 1;
@@ -81,13 +87,24 @@ impl Forward {
         (Vec4::ZERO, 1.0 - 0.25 * through.element_sum())
     }
 
-    /// Whether nothing stands in the way of a ray that the camera receives.
-    fn arrives<W: World>(&self, world: &W, mut ray: Ray) -> bool {
+    /// How much arrives of what travels along a ray that the camera receives; `None` if a surface stands in the way.
+    fn arrives<W: World>(
+        &self,
+        world: &W,
+        mut ray: Ray,
+        wavelengths: &Wavelengths,
+    ) -> Option<Vec4> {
         let end = ray.t_max;
         let origin = ray.origin;
-        while let Some(hit) = world.intersect(&ray) {
+        let mut arriving = Vec4::ONE;
+        loop {
+            let hit = world.intersect(&ray);
+            if let Some(passage) = steps::transmittance(world, &ray, hit.as_ref(), wavelengths) {
+                arriving *= passage.transmittance;
+            }
+            let Some(hit) = hit else { break };
             if !(self.settings.hide_emitters && world.is_emitter(&hit)) {
-                return false;
+                return None;
             }
             // The camera looks through hidden lights.
             ray = world.vertex(&ray, &hit).spawn(ray.direction);
@@ -96,7 +113,7 @@ impl Forward {
                 break;
             }
         }
-        true
+        Some(arriving)
     }
 
     /// One particle, splatted whenever it hits the aperture.
@@ -128,16 +145,11 @@ impl Forward {
             let hidden = hide_emitters && on_light;
             if !(unseen || hidden) {
                 let reception = world.camera().intersect_aperture(&ray, site.margin);
+                let arriving = |t_max| self.arrives(world, Ray { t_max, ..ray }, wavelengths);
                 if let Some(found) = reception
-                    && self.arrives(
-                        world,
-                        Ray {
-                            t_max: found.t,
-                            ..ray
-                        },
-                    )
+                    && let Some(arriving) = arriving(found.t)
                 {
-                    let weight = Vec4::splat(found.weight);
+                    let weight = arriving * found.weight;
                     let value = particle.prefix.contribution(weight, Vec4::ZERO);
                     let rgb = sensor.rgb(value) / site.pixels as f32;
                     sink.splat(found.raster, rgb.to_array());
@@ -153,7 +165,7 @@ impl Forward {
                 return;
             };
             straight &= sample.is_null;
-            on_light = world.is_emitter(&met.hit);
+            on_light = met.vertex.light.is_some();
         }
     }
 }
@@ -161,6 +173,7 @@ impl Forward {
 impl Integrator for Forward {
     const FOLLOWS_LIGHT: bool = true;
     const UNBIASED: bool = true;
+    const MEDIA: bool = true;
 
     type State = ();
 

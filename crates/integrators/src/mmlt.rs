@@ -29,7 +29,7 @@ use crate::metropolis::{
 use crate::settings::PathSettings;
 use etalon_params::Params;
 use etalon_sampling::Sampler;
-use etalon_transport::{LightSearch, TraceEvent, World};
+use etalon_transport::{LightSearch, ScattererOf, TraceEvent, World};
 
 /// The numbers that choose the technique and the length: those between the moment and the first
 /// scattering event, which nothing else needs.
@@ -73,7 +73,7 @@ impl PathSampler for Techniques {
     const FOLLOWS_LIGHT: bool = true;
     const LIGHT_SEARCH: LightSearch = LightSearch::Either;
 
-    type Lists<'w, W: World + 'w> = Lists<W::Bsdf<'w>>;
+    type Lists<'w, W: World + 'w> = Lists<ScattererOf<'w, W>>;
 
     fn kinds(&self, settings: &PathSettings, chains: &ChainSettings) -> usize {
         // A path of n segments has at most n − 1 corners.
@@ -87,7 +87,7 @@ impl PathSampler for Techniques {
         field: &FilmRegion,
         kinds: &PathLengthPdf,
         sampler: &mut S,
-        lists: &mut Lists<W::Bsdf<'w>>,
+        lists: &mut Lists<ScattererOf<'w, W>>,
         found: &mut Contributions,
     ) {
         sampler.skip_to(CHOICE);

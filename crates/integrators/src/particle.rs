@@ -1,15 +1,16 @@
-//! One particle from a light, from surface to surface.
+//! One particle from a light, from one point that scatters it to the next.
 //!
 //! What `ptracer` connects with the camera, `forward` waits for, and photon maps keep: they differ
 //! in what they do with a particle, not in how it goes.
 
-use crate::dimensions::{self as dim, BounceSamples};
-use crate::path_throughput::{MOST, PathThroughput};
-use crate::steps::next_surface;
+use crate::dimensions::{self as dim, BounceSamples, draw_flight};
+use crate::path_throughput::PathThroughput;
+use crate::steps::{free_flight, next_hit};
 use etalon_sampling::Sampler;
 use etalon_spectrum::Wavelengths;
 use etalon_transport::{
-    Bsdf, BsdfSample, Emission, Hit, Ray, SurfaceInteraction, TransportMode, World,
+    Bsdf, BsdfSample, Emission, Hit, Phase, Ray, Scatterer, ScattererOf, SurfaceInteraction,
+    TransportMode, World,
 };
 use glam::{Vec3, Vec4};
 
@@ -27,11 +28,12 @@ pub(crate) struct LightPath<'a> {
     pub(crate) ray: Ray,
     /// Number of segments, that of `ray` included.
     pub(crate) depth: u32,
+    /// Its throughput where `ray` begins.
+    departed: f32,
 }
 
-/// A surface that a particle met.
+/// A surface that a particle met, or a point of a medium that scatters it.
 pub(crate) struct LightVertex<B> {
-    pub(crate) hit: Hit,
     pub(crate) vertex: SurfaceInteraction,
     /// Unit direction to where it came from.
     pub(crate) wo: Vec3,
@@ -56,32 +58,60 @@ impl<'a> LightPath<'a> {
         sampler.skip_to(EMISSION_LIGHT);
         let u_light = sampler.next_1d();
         let start = world.emit(wavelengths, u_light, u_position, u_direction, time)?;
+        let prefix = PathThroughput {
+            beta: start.weight,
+            ..PathThroughput::START
+        };
         let particle = Self {
             wavelengths,
-            prefix: PathThroughput {
-                beta: start.weight,
-                ..PathThroughput::START
-            },
+            prefix,
             ray: start.ray,
             depth: 1,
+            departed: prefix.throughput(),
         };
         Some((start, particle))
     }
 
-    /// The next surface on its way; `None` if it leaves the scene.
+    /// Where it is scattered next; `None` if it leaves the scene.
     #[inline]
     pub(crate) fn next<'w, W: World>(
         &mut self,
         world: &'w W,
         sampler: &mut impl Sampler,
-    ) -> Option<LightVertex<W::Bsdf<'w>>> {
-        let (hit, vertex) = next_surface(world, &mut self.ray, false)?;
+    ) -> Option<LightVertex<ScattererOf<'w, W>>> {
+        let hit = next_hit(world, &mut self.ray, false);
         let wo = -self.ray.direction;
+        if self.ray.medium.is_some()
+            && let Some(vertex) = self.fly(world, hit.as_ref(), sampler)
+        {
+            return Some(vertex);
+        }
+        let vertex = world.vertex(&self.ray, &hit?);
         Some(LightVertex {
-            hit,
             vertex,
             wo,
-            bsdf: world.bsdf(&vertex, wo, self.wavelengths),
+            bsdf: Scatterer::Surface(world.bsdf(&vertex, wo, self.wavelengths)),
+            event: BounceSamples::draw(sampler, self.depth),
+        })
+    }
+
+    /// Flies through a medium; `None` if it is not scattered before its hit.
+    #[cold]
+    #[inline(never)]
+    fn fly<'w, W: World>(
+        &mut self,
+        world: &'w W,
+        hit: Option<&Hit>,
+        sampler: &mut impl Sampler,
+    ) -> Option<LightVertex<ScattererOf<'w, W>>> {
+        let u = draw_flight(sampler, self.depth);
+        let flight = free_flight(world, &self.ray, hit, self.wavelengths, u)?;
+        self.prefix.scatter(flight.factor, flight.density());
+        let collision = flight.scattering?;
+        Some(LightVertex {
+            vertex: SurfaceInteraction::in_space(&self.ray, collision.t),
+            wo: -self.ray.direction,
+            bsdf: Scatterer::Space(collision.phase),
             event: BounceSamples::draw(sampler, self.depth),
         })
     }
@@ -89,9 +119,9 @@ impl<'a> LightPath<'a> {
     /// Takes it around the corner; `None` if it ends there. From `rr_depth` segments on it survives
     /// with a probability relative to its flux before: emitted flux has no natural scale.
     #[inline]
-    pub(crate) fn scatter<B: Bsdf>(
+    pub(crate) fn scatter<B: Bsdf, P: Phase>(
         &mut self,
-        met: &LightVertex<B>,
+        met: &LightVertex<Scatterer<B, P>>,
         rr_depth: u32,
     ) -> Option<BsdfSample> {
         let BounceSamples {
@@ -101,10 +131,11 @@ impl<'a> LightPath<'a> {
             ..
         } = met.event;
         let sample = (met.bsdf).sample(met.wo, lobe, direction, TransportMode::Importance)?;
-        let before = self.prefix.throughput();
         self.prefix.scatter(sample.value, sample.chance.lanes());
         if self.depth >= rr_depth {
-            let survival = (self.prefix.throughput() / before).min(MOST);
+            let survival = self
+                .prefix
+                .survival_of_flux(self.departed, met.bsdf.is_in_space());
             if !self.prefix.survives(survival, roulette) {
                 return None;
             }
@@ -112,6 +143,7 @@ impl<'a> LightPath<'a> {
         if self.prefix.beta == Vec4::ZERO {
             return None;
         }
+        self.departed = self.prefix.throughput();
         self.ray = met.vertex.spawn(sample.wi);
         self.depth += 1;
         Some(sample)

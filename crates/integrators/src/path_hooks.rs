@@ -33,6 +33,14 @@ pub(crate) trait PathHooks {
     #[inline]
     fn on_emission(&mut self, _estimate: Vec4) {}
 
+    /// The path flew through a medium, or was scattered in one: `prefix` is its throughput from then on.
+    #[inline]
+    fn on_medium(&mut self, _prefix: &PathThroughput) {}
+
+    /// Russian roulette is played in a medium, with this probability to survive.
+    #[inline]
+    fn on_roulette(&mut self, _survival: f32) {}
+
     /// A light sample was drawn at the current vertex, before its BSDF is sampled.
     #[inline]
     fn on_light_sample(&mut self) {}

@@ -5,9 +5,9 @@ use crate::light_mis::LightMis;
 use crate::path_hooks::PathHooks;
 use crate::path_state::{PathState, ShadowRay};
 use crate::settings::{LightCandidates, PathSettings};
-use etalon_sampling::hash::mix64;
-use etalon_sampling::{Independent, Sampler};
-use etalon_transport::{LightSample, LightSampleContext, Medium, Phase, Ray, World};
+use crate::steps;
+use etalon_sampling::Sampler;
+use etalon_transport::{Collision, LightSample, LightSampleContext, Phase, Ray, World};
 use glam::{Vec3, Vec4};
 
 impl<S: Sampler, C: PathHooks> PathState<S, C> {
@@ -16,24 +16,21 @@ impl<S: Sampler, C: PathHooks> PathState<S, C> {
     #[cold]
     #[inline(never)]
     pub(crate) fn fly<W: World>(&mut self, world: &W, settings: &PathSettings) -> bool {
-        let Some(medium) = world.medium(self.ray.medium, &self.wavelengths) else {
+        let u = self.draw_event().lobe;
+        let hit = self.hit.as_ref();
+        let Some(flight) = steps::free_flight(world, &self.ray, hit, &self.wavelengths, u) else {
             return false;
         };
-        let t_max = self.hit.map_or(self.ray.t_max, |hit| hit.t);
-        let numbers = self.draw_event();
-        // The number of tentative collisions has no bound, so they have a stream of their own.
-        let [high, low] =
-            [numbers.direction.x, numbers.direction.y].map(|u| u64::from(u.to_bits()));
-        let mut stream = Independent::from_key(mix64(high << 32 | low));
-        let flight = medium.free_flight(&self.ray, t_max, numbers.lobe, &mut stream);
+        let density = flight.density();
         if flight.emitted != Vec4::ZERO {
             let mut emitted = self.throughput;
-            emitted.scatter(flight.emitted, flight.density);
+            emitted.scatter(flight.emitted, density);
             self.add_emission(emitted.contribution(Vec4::ONE, Vec4::ZERO));
         }
-        self.throughput.scatter(flight.factor, flight.density);
-        self.light_mis.r_l *= flight.by_transmittance / flight.density.x;
-        let Some((t, phase)) = flight.scattering else {
+        self.throughput.scatter(flight.factor, density);
+        self.light_mis.r_l /= density.x;
+        self.hooks.on_medium(&self.throughput);
+        let Some(Collision { t, phase, .. }) = flight.scattering else {
             return false;
         };
         self.alpha = 1.0;
@@ -82,6 +79,7 @@ impl<S: Sampler, C: PathHooks> PathState<S, C> {
                 found: None,
             })
         });
+        self.hooks.on_light_sample();
         let sample = phase.sample(wo, event.direction);
         self.scatter_count += 1;
         self.variant.candidates = LightCandidates::ONE;
@@ -95,7 +93,11 @@ impl<S: Sampler, C: PathHooks> PathState<S, C> {
             medium,
             ..Ray::new(at, sample.wi, time)
         };
+        self.hooks.on_medium(&self.throughput);
         let survival = self.throughput.survival_in_medium(self.eta());
-        self.lengthen_with(settings, &event, |_| survival);
+        self.lengthen_with(settings, &event, |path| {
+            path.hooks.on_roulette(survival);
+            survival
+        });
     }
 }

@@ -48,7 +48,7 @@ pub(crate) struct PathState<S, C = ()> {
     /// 1 if the path had an interaction that is not null, the background included; where the last segment
     /// ends at a surface, the probability of that.
     pub(crate) alpha: f32,
-    hooks: C,
+    pub(crate) hooks: C,
 }
 
 /// A light sample before its shadow ray is traced.
@@ -326,6 +326,7 @@ impl<S: Sampler, C: PathHooks> PathState<S, C> {
     /// Adds what the medium emits that the path flies through.
     pub(crate) fn add_emission(&mut self, radiance: Vec4) {
         self.radiance += radiance;
+        self.hooks.on_emission(radiance);
     }
 
     /// The product of the indices of refraction passed.

@@ -78,6 +78,14 @@ impl PathThroughput {
         (self.throughput() * eta * eta).min(MOST_IN_MEDIUM)
     }
 
+    /// The probability with which a path from a light survives, whose throughput was `before` when it left where it was
+    /// scattered before, at a point of a medium (`in_space`) or a surface: emitted flux has no natural scale.
+    #[inline]
+    pub fn survival_of_flux(&self, before: f32, in_space: bool) -> f32 {
+        let most = if in_space { MOST_IN_MEDIUM } else { MOST };
+        (self.throughput() / before).min(most)
+    }
+
     /// Survives Russian roulette of probability `q`, a rule symmetric in the lanes: it scales
     /// every lane's density alike.
     #[inline]

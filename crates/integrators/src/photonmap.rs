@@ -42,13 +42,18 @@
 //! Without a radius and a number of nearest photons, r is the width of two pixels, or less where the map
 //! is so dense that a look-up would find more than 32 photons on average ([`crate::photons::radius`]).
 //!
+//! In a medium photons are kept where they are scattered, and K is one over a ball: the box 1/(4/3 π r³), the cone with
+//! 3/(4c) in place of 2/(3c). Free flight brings the camera's path to a point, where the photons around are gathered
+//! (Jensen & Christensen 1998, "Efficient Simulation of Light Transport in Scenes with Participating Media using
+//! Photon Maps"). Without a radius and a number the 32 nearest are looked for.
+//!
 //! Every replicate has maps of its own. A given radius stays as it is, so its bias vanishes neither with
 //! samples and replicates nor with photons; that of the k nearest does with more photons.
 
 use crate::photons::gather::{GatherConfig, Kernel, KernelLookup, Layer, follow_all, follow_one};
 use crate::photons::radius::{MOST_FOUND, from_pixels, held, read};
 use crate::photons::sets::WavelengthSets;
-use crate::photons::shoot::{Kind, PhotonMap, moment, shoot};
+use crate::photons::shoot::{Kind, PhotonMap, PlacedPhotons, moment, shoot};
 use crate::photons::{read_count, read_sets, rounded};
 use crate::settings::PathSettings;
 use etalon_params::Params;
@@ -163,15 +168,24 @@ impl PhotonMapper {
             (self.global, &state.global, global_radius),
             (self.caustic, &state.caustic, caustic_radius),
         ];
-        let [global, caustic] = maps.map(|(estimate, map, radius)| KernelLookup {
-            radius,
-            nearest: match estimate.radius {
-                // With fewer photons than are looked for, the farthest of them tells the radius.
-                None if estimate.nearest > 0 => estimate.nearest.min(map.photons.len().max(1)),
-                _ => estimate.nearest,
-            },
-            kernel,
+        let lookups = maps.map(|(estimate, map, radius)| {
+            let among = |placed: &PlacedPhotons, nearest: usize, radius| KernelLookup {
+                radius,
+                nearest: match estimate.radius {
+                    // With fewer photons than are looked for, the farthest of them tells the radius.
+                    None if nearest > 0 => nearest.min(placed.photons.len().max(1)),
+                    _ => nearest,
+                },
+                kernel,
+            };
+            let in_space = match (estimate.radius, estimate.nearest) {
+                // Pixels say nothing of a ball.
+                (None, 0) => among(&map.space, MOST_FOUND, ANYWHERE),
+                (_, nearest) => among(&map.space, nearest, radius),
+            };
+            [among(&map.surfaces, estimate.nearest, radius), in_space]
         });
+        let [global, caustic] = lookups;
         let first: fn(Kind) -> bool = if self.final_gather {
             |_| false
         } else {
@@ -180,14 +194,16 @@ impl PhotonMapper {
         let layers = [
             Layer {
                 map: &state.global,
-                lookup: global,
+                lookup: global[0],
+                in_space: global[1],
                 shot: state.shot,
                 first,
                 second: |_| true,
             },
             Layer {
                 map: &state.caustic,
-                lookup: caustic,
+                lookup: caustic[0],
+                in_space: caustic[1],
                 shot: state.shot,
                 first: |_| true,
                 second: |_| false,
@@ -212,6 +228,7 @@ const MOST_NEAREST: i64 = 1 << 16;
 
 impl Integrator for PhotonMapper {
     const FOLLOWS_LIGHT: bool = true;
+    const MEDIA: bool = true;
     type State = State;
 
     /// Photons come from lights that were chosen; one that can only be hit is seen itself, and nothing that it
@@ -245,7 +262,7 @@ impl Integrator for PhotonMapper {
                 (Some(radius), _) => radius,
                 (None, 0) => {
                     let wide = from_pixels(world, pass);
-                    let radius = held(world, pass, &map.tree, wide);
+                    let radius = held(world, pass, &map.surfaces.tree, wide);
                     limits[i] = (radius < wide).then_some(wide);
                     radius
                 }

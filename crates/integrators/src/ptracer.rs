@@ -11,7 +11,7 @@
 //! which lands on whatever pixel the camera sees yₖ in. The lights themselves (paths of one
 //! segment) are found by a camera ray per sample, since a connection from a point on a light to
 //! the camera would only repeat it with more noise. Nothing is found that reaches the camera off
-//! a smooth surface. Splats have no alpha: what counts is how much of the camera ray's light is
+//! a smooth surface. Particles are scattered by media as well, and media dim connections. Splats have no alpha: what counts is how much of the camera ray's light is
 //! stopped, the background included. With `hide_emitters` the camera looks through lights, as that of
 //! `path`. (Mitsuba's lights then still stand in the way of what is behind them.)
 
@@ -26,7 +26,7 @@ use etalon_sampling::{ReplicateKind, Sampler};
 use etalon_spectrum::{SensorWeights, Wavelengths};
 use etalon_transport::{
     Bsdf, Camera, Incompatibility, Integrator, LightSearch, Pass, PixelSample, Placing, Ray,
-    SceneCapabilities, Sink, TransportMode, World,
+    ScattererOf, SceneCapabilities, Sink, TransportMode, World,
 };
 use glam::{Vec2, Vec4};
 
@@ -59,7 +59,11 @@ impl ParticleTracer {
         let mut depth = 1;
         while depth <= self.settings.max_depth {
             let hidden = !visible && depth == 1;
-            let Some((hit, vertex)) = steps::next_surface(world, &mut ray, hidden) else {
+            let hit = steps::next_hit(world, &mut ray, hidden);
+            if let Some(passage) = steps::transmittance(world, &ray, hit.as_ref(), wavelengths) {
+                prefix.beta *= passage.transmittance;
+            }
+            let Some(hit) = hit else {
                 if visible && world.has_background() {
                     let background = world.background(ray.direction, wavelengths);
                     radiance += prefix.contribution(background, Vec4::ZERO);
@@ -67,6 +71,7 @@ impl ParticleTracer {
                 }
                 break;
             };
+            let vertex = world.vertex(&ray, &hit);
             let wo = -ray.direction;
             if world.is_emitter(&hit) {
                 let emitted = world.emitted(&vertex, wo, wavelengths);
@@ -130,7 +135,7 @@ impl ParticleTracer {
         wavelengths: &Wavelengths,
         site: &PixelSample,
         prefix: &PathThroughput,
-        met: &LightVertex<W::Bsdf<'_>>,
+        met: &LightVertex<ScattererOf<'_, W>>,
         crossings: u32,
     ) -> Option<(Vec2, Vec4)> {
         let (vertex, lens) = (&met.vertex, met.event.light);
@@ -140,10 +145,9 @@ impl ParticleTracer {
         if value == Vec4::ZERO {
             return None;
         }
-        let origin = vertex.origin_toward(connection.target);
-        let ray = Ray::between(origin, connection.target, vertex.time)?;
+        let ray = vertex.shadow_ray(connection.direction, Some(connection.target))?;
         let passage = if self.settings.hide_emitters {
-            let on_light = world.is_emitter(&met.hit);
+            let on_light = vertex.light.is_some();
             camera_visibility(world, wavelengths, ray, on_light, crossings)?.passage
         } else {
             world.transmittance(&ray, wavelengths, crossings)?
@@ -156,6 +160,7 @@ impl ParticleTracer {
 impl Integrator for ParticleTracer {
     const FOLLOWS_LIGHT: bool = true;
     const UNBIASED: bool = true;
+    const MEDIA: bool = true;
 
     type State = ();
 

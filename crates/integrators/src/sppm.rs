@@ -65,7 +65,8 @@ pub struct State {
     time: f32,
     map: PhotonMap,
     shot: u32,
-    radius: f32,
+    /// The radii on surfaces and in media (m).
+    radii: [f32; 2],
 }
 
 impl Progressive {
@@ -87,13 +88,15 @@ impl Progressive {
         } else {
             |_| true
         };
+        let [lookup, in_space] = state.radii.map(|radius| KernelLookup {
+            radius,
+            nearest: 0,
+            kernel: Kernel::Box,
+        });
         let layers = [Layer {
             map: &state.map,
-            lookup: KernelLookup {
-                radius: state.radius,
-                nearest: 0,
-                kernel: Kernel::Box,
-            },
+            lookup,
+            in_space,
             shot: state.shot,
             first,
             second: |_| false,
@@ -111,6 +114,7 @@ impl Progressive {
 
 impl Integrator for Progressive {
     const FOLLOWS_LIGHT: bool = true;
+    const MEDIA: bool = true;
     type State = State;
 
     /// Photons come from lights that were chosen; one that can only be hit is seen itself, and nothing that it
@@ -139,7 +143,10 @@ impl Integrator for Progressive {
             sets,
             map: PhotonMap::new(photons),
             shot,
-            radius: self.radius.of(world, pass),
+            radii: [
+                self.radius.of(world, pass),
+                self.radius.in_space(world, pass),
+            ],
         }
     }
 

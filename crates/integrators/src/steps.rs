@@ -8,20 +8,34 @@ use crate::candidates::Aim;
 use crate::light_mis::LightMis;
 use crate::path_throughput::PathThroughput;
 use etalon_spectrum::Wavelengths;
-use etalon_transport::{Bsdf, Hit, Ray, SurfaceInteraction, World};
+use etalon_transport::{
+    Bsdf, FreeFlight, Hit, Medium, PhaseOf, Ray, SurfaceInteraction, Transmission, World,
+};
 use glam::{Vec3, Vec4};
 
 /// The closest hit of `ray`; emitters are looked through if they are `hidden`, and `ray` then starts on the last of
-/// them. `None` if it leaves the scene.
+/// them, or where it did if a medium is all around. `None` if it leaves the scene.
 #[inline]
 pub(crate) fn next_hit<W: World>(world: &W, ray: &mut Ray, hidden: bool) -> Option<Hit> {
-    loop {
-        let hit = world.intersect(ray)?;
-        if !(hidden && world.is_emitter(&hit)) {
-            return Some(hit);
-        }
-        *ray = world.vertex(ray, &hit).spawn(ray.direction);
+    let start = *ray;
+    let mut hit = world.intersect(ray);
+    while let Some(found) = hit
+        && hidden
+        && world.is_emitter(&found)
+    {
+        *ray = world.vertex(ray, &found).spawn(ray.direction);
+        hit = world.intersect(ray);
     }
+    if start.medium.is_some() && start.medium == ray.medium {
+        // The medium on this side of what is looked through is not.
+        let moved = (ray.origin - start.origin).dot(start.direction);
+        hit = hit.map(|hit| Hit {
+            t: hit.t + moved,
+            ..hit
+        });
+        *ray = start;
+    }
+    hit
 }
 
 /// The same with the surface there.
@@ -33,6 +47,41 @@ pub(crate) fn next_surface<W: World>(
 ) -> Option<(Hit, SurfaceInteraction)> {
     let hit = next_hit(world, ray, hidden)?;
     Some((hit, world.vertex(ray, &hit)))
+}
+
+/// A flight through the medium that `ray` is in, to its `hit`, or to where light is scattered before it; `u` in [0, 1)
+/// decides. `None` in empty space.
+#[inline]
+pub(crate) fn free_flight<'w, W: World>(
+    world: &'w W,
+    ray: &Ray,
+    hit: Option<&Hit>,
+    wavelengths: &Wavelengths,
+    u: f32,
+) -> Option<FreeFlight<PhaseOf<'w, W>>> {
+    if !ray.medium.is_some() {
+        return None;
+    }
+    let medium = world.medium(ray.medium, wavelengths)?;
+    let t_max = hit.map_or(ray.t_max, |hit| hit.t);
+    // The number of tentative collisions has no bound, so they have a stream of their own.
+    Some(medium.free_flight(ray, t_max, u, &mut ray.stream(u)))
+}
+
+/// What lets light pass on the way of `ray` to its `hit`, by an estimate; `None` in empty space.
+#[inline]
+pub(crate) fn transmittance<W: World>(
+    world: &W,
+    ray: &Ray,
+    hit: Option<&Hit>,
+    wavelengths: &Wavelengths,
+) -> Option<Transmission> {
+    if !ray.medium.is_some() {
+        return None;
+    }
+    let medium = world.medium(ray.medium, wavelengths)?;
+    let t_max = hit.map_or(ray.t_max, |hit| hit.t);
+    Some(medium.transmittance(ray, t_max, &mut ray.stream(0.0)))
 }
 
 /// The contribution of a path that leaves the scene along `direction`.

@@ -105,6 +105,7 @@ impl ConnectionMerging {
 
 impl Integrator for ConnectionMerging {
     const FOLLOWS_LIGHT: bool = true;
+    const MEDIA: bool = true;
     type State = State;
 
     fn splats(&self) -> bool {

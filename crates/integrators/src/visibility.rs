@@ -4,6 +4,7 @@
 //! surface that lets light pass is seen, and in the way, like any other surface; so is the point
 //! itself, unless it lies on a light that is hidden.
 
+use crate::steps;
 use etalon_spectrum::Wavelengths;
 use etalon_transport::{Bsdf, Ray, Transmission, World};
 use glam::Vec4;
@@ -31,7 +32,12 @@ pub(crate) fn camera_visibility<W: World>(
     // Lights that nothing follows so far, and whether the way starts on one of them.
     let (mut lights, mut past_lights) = (0, Transmission::FREE);
     let mut hidden = on_light;
-    while let Some(hit) = world.intersect(&ray) {
+    loop {
+        let hit = world.intersect(&ray);
+        if let Some(stretch) = steps::transmittance(world, &ray, hit.as_ref(), wavelengths) {
+            passage.then(&stretch);
+        }
+        let Some(hit) = hit else { break };
         let vertex = world.vertex(&ray, &hit);
         let bsdf = world.bsdf(&vertex, -ray.direction, wavelengths);
         lights += 1;

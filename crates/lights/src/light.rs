@@ -6,7 +6,7 @@ use crate::{
     LightExtent, PointLight, Projector, SpotLight, SunSky,
 };
 use etalon_math::{Density, DirectionCone, SolidAngle};
-use etalon_params::{Class, Diagnostic, Params, plugins};
+use etalon_params::{Params, plugins};
 use etalon_spectrum::Wavelengths;
 use etalon_transport::{
     Build, Emission, EmissionPdf, LightSample, LightSampleContext, ShapeId, Shapes,
@@ -115,11 +115,6 @@ impl LightDescription {
         let what = "a finite number not below 0";
         let sampling_weight =
             params.float_where("sampling_weight", 1.0, what, |w| w >= 0.0 && w.is_finite());
-        for (property, _) in params.children(Class::Medium) {
-            let message = "a light inside of a medium is known but not built yet";
-            let diagnostic = Diagnostic::error(property.name_span, message);
-            params.diagnostics.push(diagnostic);
-        }
         params.finish();
         Some(Self {
             light: light?,

@@ -2,7 +2,7 @@
 
 use crate::builder::Builder;
 use crate::lookup::SceneTables;
-use crate::media::{self, SceneMedia};
+use crate::media::{self, LightMedium, SceneMedia};
 use crate::sampler::SamplerSettings;
 use crate::scene::Scene;
 use crate::sensor::{Response, curve};
@@ -68,7 +68,7 @@ pub fn compile_with(
     }
     let integrator = params.child(Class::Integrator).cloned();
     let mut surfaces = surfaces::read(&params, &mut builder);
-    let lights = lights(&params, &mut surfaces, &mut builder);
+    let (lights, placed) = lights(&params, &mut surfaces, &mut builder);
     for (_, node) in params.children(Class::Medium) {
         surfaces.medium(node, &mut builder);
     }
@@ -102,14 +102,15 @@ pub fn compile_with(
         geometry,
         textures: builder.textures,
     };
-    let bounds = BoundingSphere::of_box(bounds.min, bounds.max);
+    let bounded = (!surfaces.placed_media).then_some(surfaces.interfaces.as_slice());
+    let media = media::prepared(surfaces.media, bounded, camera_medium, &lookup, diagnostics)?;
+    let media = SceneMedia::new(media, &surfaces.interfaces, &placed, camera_medium);
+    let [low, high] = media.extent([bounds.min, bounds.max]);
+    let bounds = BoundingSphere::of_box(low, high);
     let kind = (options.light_chooser)
         .or_else(|| LightSamplerKind::named(named))
         .unwrap_or_default();
     let lights = LightSet::new(lights, &lookup, bounds, kind);
-    let bounded = (!surfaces.placed_media).then_some(surfaces.interfaces.as_slice());
-    let media = media::prepared(surfaces.media, bounded, camera_medium, &lookup, diagnostics)?;
-    let media = SceneMedia::new(media, &surfaces.interfaces, camera_medium);
     let scenes =
         Scene::new(camera, lookup, surfaces.materials, lights, media).with_sensors(responses);
     Some(Compiled {
@@ -134,27 +135,31 @@ fn camera_medium(
     let sensor = sensors
         .first()
         .map(|(_, node)| Params::new(node, builder.diagnostics));
-    let medium = sensor
-        .as_ref()
-        .and_then(|sensor| sensor.child(Class::Medium));
-    medium.map_or(MediumId::NONE, |node| surfaces.medium(node, builder))
+    let medium = sensor.and_then(|sensor| medium_of(&sensor, surfaces, builder));
+    medium.unwrap_or(MediumId::NONE)
 }
 
-/// The lights: emitting shapes first, then those without shape, in the order of the file.
+/// The lights with the media around them: emitting shapes first, then those without shape, in the order of the file.
 fn lights(
     params: &Params<'_>,
     surfaces: &mut Surfaces,
     builder: &mut Builder<'_>,
-) -> Vec<LightDescription> {
+) -> (Vec<LightDescription>, Vec<LightMedium>) {
     let diagnostics = builder.diagnostics;
-    let mut lights = Vec::new();
-    for Emitting { shape, emitter } in &surfaces.emitting {
+    let (mut lights, mut placed) = (Vec::new(), Vec::new());
+    for Emitting { shape, emitter } in core::mem::take(&mut surfaces.emitting) {
+        let (shape, emitter) = (&shape, &emitter);
         let params = Params::new(emitter, diagnostics);
+        let declared = medium_of(&params, surfaces, builder);
         if let Some(light) = LightDescription::from_params(&params, Some(*shape), builder) {
             surfaces
                 .geometry
                 .set_light(*shape, LightId(lights.len() as u32));
             lights.push(light);
+            placed.push(LightMedium {
+                shape: Some(*shape),
+                declared,
+            });
         }
     }
     for (_, node) in params.children(Class::Emitter) {
@@ -164,15 +169,30 @@ fn lights(
         let params = Params::new(node, diagnostics);
         // One that shapes refer to has been read with them.
         let shape = is_definition.then_some(ShapeId(0));
+        let declared = medium_of(&params, surfaces, builder);
         let light = LightDescription::from_params(&params, shape, builder);
         if !is_definition {
+            placed.extend(light.iter().map(|_| LightMedium {
+                shape: None,
+                declared,
+            }));
             lights.extend(light);
         } else if is_unused {
             let message = "no shape refers to this `area` light: it shines nowhere";
             diagnostics.push(Diagnostic::note(node.plugin.span, message));
         }
     }
-    lights
+    (lights, placed)
+}
+
+/// The medium that a sensor or a light says it is in.
+fn medium_of(
+    params: &Params<'_>,
+    surfaces: &mut Surfaces,
+    builder: &mut Builder<'_>,
+) -> Option<MediumId> {
+    let medium = params.child(Class::Medium)?;
+    Some(surfaces.medium(medium, builder))
 }
 
 /// A sensor and what it holds.

@@ -7,6 +7,7 @@ mod attributes;
 pub mod builder;
 pub mod compile;
 mod displacement;
+mod emission_medium;
 pub mod lookup;
 mod media;
 mod merge;

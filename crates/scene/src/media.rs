@@ -2,7 +2,7 @@
 
 use etalon_params::{Class, Diagnostic, Diagnostics, Node, Params, Span};
 use etalon_subsurface::{MediumAtWavelengths, MediumDescription};
-use etalon_transport::{MediumId, MediumInterface, ShapeId, Shapes, Textures};
+use etalon_transport::{LightId, MediumId, MediumInterface, ShapeId, Shapes, Textures};
 use glam::{Vec3, Vec4};
 
 use crate::builder::Builder;
@@ -129,13 +129,25 @@ pub struct SceneMedia {
     interfaces: Vec<Option<MediumInterface>>,
     /// That of the camera.
     pub camera: MediumId,
+    /// Around each light, as far as the scene says.
+    lights: Vec<Option<MediumInterface>>,
+}
+
+/// What a scene says of the medium around a light.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct LightMedium {
+    /// The shape that the light is on.
+    pub(crate) shape: Option<ShapeId>,
+    /// The medium that the light names.
+    pub(crate) declared: Option<MediumId>,
 }
 
 impl SceneMedia {
     /// Media with the shapes that bound them.
-    pub fn new(
+    pub(crate) fn new(
         media: Vec<MediumDescription>,
         bounded: &[(ShapeId, MediumInterface)],
+        lights: &[LightMedium],
         camera: MediumId,
     ) -> Self {
         let mut interfaces = Vec::new();
@@ -146,11 +158,41 @@ impl SceneMedia {
             }
             interfaces[index] = Some(*interface);
         }
+        let around = |light: &LightMedium| {
+            let shape = light.shape.map(|shape| shape.0 as usize);
+            let own = shape.and_then(|shape| interfaces.get(shape).copied().flatten());
+            own.or(light.declared.map(MediumInterface::within))
+        };
         Self {
+            lights: lights.iter().map(around).collect(),
             media,
             interfaces,
             camera,
         }
+    }
+
+    /// The box from `low` to `high` with all media that end by themselves.
+    pub fn extent(&self, [low, high]: [Vec3; 2]) -> [Vec3; 2] {
+        let bounds = self.media.iter().filter_map(MediumDescription::bounds);
+        bounds.fold([low, high], |[a, b], [c, d]| [a.min(c), b.max(d)])
+    }
+
+    /// Whether a medium has no end.
+    pub fn is_endless(&self, medium: MediumId) -> bool {
+        let medium = self.media.get(medium.0 as usize);
+        medium.is_some_and(|medium| medium.bounds().is_none())
+    }
+
+    /// The media on both sides of a shape, if it bounds any.
+    #[inline]
+    pub fn of_shape(&self, shape: ShapeId) -> Option<MediumInterface> {
+        self.interfaces.get(shape.0 as usize).copied().flatten()
+    }
+
+    /// The media on both sides of a light, if the scene says.
+    #[inline]
+    pub fn of_light(&self, light: LightId) -> Option<MediumInterface> {
+        self.lights.get(light.0 as usize).copied().flatten()
     }
 
     /// How many emit light.
@@ -166,7 +208,7 @@ impl SceneMedia {
     /// The media on both sides of a shape; that of the ray that arrives there if the shape bounds none.
     #[inline]
     pub fn around(&self, shape: ShapeId, arriving: MediumId) -> MediumInterface {
-        let own = self.interfaces.get(shape.0 as usize).copied().flatten();
+        let own = self.of_shape(shape);
         own.unwrap_or(MediumInterface::within(arriving))
     }
 

@@ -7,8 +7,6 @@ use etalon_bsdf::{BsdfAtPoint, Material};
 use etalon_cameras::AnyCamera;
 use etalon_lights::LightSet;
 use etalon_math::{Density, SolidAngle};
-use etalon_sampling::Independent;
-use etalon_sampling::hash::mix64;
 use etalon_spectrum::{Sensor, SensorWeights, Wavelengths};
 use etalon_subsurface::MediumAtWavelengths;
 use etalon_transport::{
@@ -37,6 +35,8 @@ struct Parts {
     media: SceneMedia,
     /// Whether there are media, so that shadow rays must ask.
     has_media: bool,
+    /// The medium beyond everything.
+    outermost: MediumId,
 }
 
 impl Scene {
@@ -56,12 +56,23 @@ impl Scene {
             lights,
             has_null,
             has_media: media.exist(),
+            outermost: media.camera,
             media,
         };
-        Self {
+        let mut scene = Self {
             parts: Arc::new(parts),
             sensor: Sensor::default(),
+        };
+        // Without media there is nothing to look for, and nobody asked for these rays.
+        if !scene.parts.has_media {
+            return scene;
         }
+        let outermost = scene.find_outermost();
+        rays::take();
+        if let Some(parts) = Arc::get_mut(&mut scene.parts) {
+            parts.outermost = outermost;
+        }
+        scene
     }
 
     /// The scene with each of these sensors.
@@ -112,6 +123,16 @@ impl Scene {
             one_way: self.parts.materials.iter().any(Material::is_one_way),
             classic: self.parts.materials.iter().any(Material::is_classic),
         }
+    }
+
+    /// The media.
+    pub(crate) fn media(&self) -> &SceneMedia {
+        &self.parts.media
+    }
+
+    /// The medium beyond everything.
+    pub(crate) fn outermost(&self) -> MediumId {
+        self.parts.outermost
     }
 
     #[inline]
@@ -291,14 +312,18 @@ impl World for Scene {
         u_direction: Vec2,
         time: f32,
     ) -> Option<Emission> {
-        self.parts.lights.emit(
+        let mut emission = self.parts.lights.emit(
             &self.parts.lookup,
             wavelengths,
             u_light,
             u_position,
             u_direction,
             time,
-        )
+        )?;
+        if self.parts.has_media {
+            emission.ray.medium = self.medium_of_emission(&emission)?;
+        }
+        Some(emission)
     }
 
     #[inline]
@@ -331,15 +356,6 @@ impl World for Scene {
     }
 }
 
-/// The random numbers of what a ray meets on its way, which is as random as the ray.
-fn stream_of(ray: &Ray) -> Independent {
-    let Ray {
-        origin, direction, ..
-    } = ray;
-    let bits = (origin.to_array().into_iter()).chain(direction.to_array());
-    Independent::from_key(bits.fold(0, |key, x| mix64(key ^ u64::from(x.to_bits()))))
-}
-
 impl Scene {
     /// A segment through surfaces that let light pass: each is met in turn and asked how much.
     fn passage_through(
@@ -357,7 +373,7 @@ impl Scene {
                 && let Some(medium) = self.medium(ray.medium, wavelengths)
             {
                 let t = hit.map_or(ray.t_max, |hit| hit.t);
-                passage.then(&medium.transmittance(&ray, t, &mut stream_of(&ray)));
+                passage.then(&medium.transmittance(&ray, t, &mut ray.stream(0.0)));
                 if passage.transmittance == Vec4::ZERO {
                     return None;
                 }

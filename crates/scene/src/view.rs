@@ -28,24 +28,27 @@ pub(crate) fn look<W: World>(world: &W, origin: UVec2, size: UVec2) -> CameraPro
         let cell = UVec2::new(index % LATTICE, index / LATTICE).as_vec2() + 0.5;
         let raster = origin.as_vec2() + size.as_vec2() * cell / LATTICE as f32;
         let lens = (SPREAD * index as f32).fract();
-        let start = world.camera().ray(raster, lens, 0.5);
-        match reach(world, start.ray, index) {
-            Some(Reached::Light) => view.reached += 1,
+        let ray = Ray {
+            medium: world.camera_medium(),
+            ..world.camera().ray(raster, lens, 0.5).ray
+        };
+        match reach(world, ray, index) {
+            Some(Reached::LightOrMedium) => view.reached += 1,
             Some(Reached::Surface(vertex, wo)) => {
                 view.reached += 1;
                 view.veiled += u32::from(veiled(world, &vertex, wo, index));
             }
             None => {}
         }
-        follow(world, start.ray, &mut view);
+        follow(world, ray, &mut view);
     }
     view
 }
 
 /// Where a ray ends that mirrors and glass send on.
 enum Reached {
-    /// At a light.
-    Light,
+    /// At a light, or in a medium, which scatters light.
+    LightOrMedium,
     /// At a surface that scatters light in a continuum of directions, seen from this direction.
     Surface(SurfaceInteraction, Vec3),
 }
@@ -55,8 +58,11 @@ enum Reached {
 fn reach<W: World>(world: &W, mut ray: Ray, number: u32) -> Option<Reached> {
     let wavelengths = world.wavelengths(0.5);
     for bounce in 0..PASSED {
+        if ray.medium.is_some() {
+            return Some(Reached::LightOrMedium);
+        }
         let Some(hit) = world.intersect(&ray) else {
-            return world.has_background().then_some(Reached::Light);
+            return world.has_background().then_some(Reached::LightOrMedium);
         };
         let vertex = world.vertex(&ray, &hit);
         let wo = -ray.direction;
@@ -65,7 +71,7 @@ fn reach<W: World>(world: &W, mut ray: Ray, number: u32) -> Option<Reached> {
             return Some(Reached::Surface(vertex, wo));
         }
         if world.is_emitter(&hit) {
-            return Some(Reached::Light);
+            return Some(Reached::LightOrMedium);
         }
         let onward: Vec<Vec3> = (0..)
             .map_while(|index| bsdf.discrete(wo, index, TransportMode::Radiance))
@@ -129,6 +135,7 @@ fn follow<W: World>(world: &W, mut ray: Ray, view: &mut CameraProbe) {
     let wavelengths = world.wavelengths(0.5);
     let [mut scatters, mut smooth, mut light] = [false; 3];
     for _ in 0..PASSED {
+        scatters |= ray.medium.is_some();
         let Some(hit) = world.intersect(&ray) else {
             light |= world.has_background();
             break;

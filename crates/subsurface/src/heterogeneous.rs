@@ -60,6 +60,11 @@ impl Heterogeneous {
         self.emission.is_some()
     }
 
+    /// The corners of the box that holds all of it, once it is ready.
+    pub fn bounds(&self) -> Option<[Vec3; 2]> {
+        self.majorants.as_ref().map(|grid| grid.bounds())
+    }
+
     /// The texture of its density, in units of `scale`.
     pub fn density(&self) -> TextureId {
         self.sigma_t
@@ -237,9 +242,9 @@ mod tests {
                 let u = stream.next_1d();
                 let flight = medium.free_flight(&ray, 5.0, u, &mut stream);
                 let passed = match flight.scattering {
-                    None => flight.factor / flight.density.x,
-                    Some((t, _)) => {
-                        assert!(t > 0.0 && t < 1.0 / 0.8 + 1e-4);
+                    None => flight.factor / flight.passed.x,
+                    Some(collision) => {
+                        assert!(collision.t > 0.0 && collision.t < 1.0 / 0.8 + 1e-4);
                         Vec4::ZERO
                     }
                 };

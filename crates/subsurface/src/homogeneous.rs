@@ -59,6 +59,9 @@ pub struct HomogeneousAt<'a, T> {
     textures: &'a T,
 }
 
+/// Nothing absorbs or scatters more (m⁻¹), so that densities of paths stay numbers.
+const MOST: f32 = 1e12;
+
 impl Homogeneous {
     /// Reads `albedo` and `sigma_t`, or `sigma_a` and `sigma_s`, or `material`; `scale` and the phase function.
     pub(crate) fn from_params(params: &Params<'_>, build: &mut dyn Build) -> Option<Self> {
@@ -99,6 +102,11 @@ impl Homogeneous {
     /// Whether it emits light.
     pub fn emits(&self) -> bool {
         self.emission.is_some()
+    }
+
+    /// It fills whatever it is in.
+    pub fn bounds(&self) -> Option<[Vec3; 2]> {
+        None
     }
 
     /// Reads what `homogeneous` has, or `albedo` of a surface and `mean_free_path`, for a closed shape whose `boundary` has this
@@ -183,6 +191,10 @@ impl Homogeneous {
                     scattering,
                 }
             }
+        };
+        let coefficients = Coefficients {
+            absorption: coefficients.absorption.min(Vec4::splat(MOST)),
+            scattering: coefficients.scattering.min(Vec4::splat(MOST)),
         };
         HomogeneousAt {
             emission: (self.emission)

@@ -83,6 +83,11 @@ impl MajorantGrid {
         }
     }
 
+    /// The corners of its box.
+    pub fn bounds(&self) -> [Vec3; 2] {
+        [self.low, self.high]
+    }
+
     /// The largest of all.
     pub fn largest(&self) -> f32 {
         self.blocks

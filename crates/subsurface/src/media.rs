@@ -37,6 +37,11 @@ macro_rules! media {
                 match self { $(Self::$kind(medium) => medium.emits(),)* }
             }
 
+            /// The corners of the box that holds all of it; `None` if it fills whatever it is in.
+            pub fn bounds(&self) -> Option<[Vec3; 2]> {
+                match self { $(Self::$kind(medium) => medium.bounds(),)* }
+            }
+
             /// The medium at four wavelengths (nm).
             #[inline]
             pub fn resolve<'a, T: Textures>(

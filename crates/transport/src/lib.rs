@@ -26,6 +26,7 @@ pub mod phase;
 pub mod ray;
 pub mod remark;
 pub mod sample_pdf;
+pub mod scatterer;
 pub mod shapes;
 pub mod shutter;
 pub mod sight;
@@ -45,12 +46,15 @@ pub use integrator::{Integrator, Pass, PixelSample, SampleJob};
 pub use legacy_phong::LegacyPhong;
 pub use light::{Emission, EmissionPdf, LightKind, LightSample, LightVariety};
 pub use light_sample_context::LightSampleContext;
-pub use medium::{Coefficients, FreeFlight, MajorantSegment, Medium, MediumInterface, Vacuum};
+pub use medium::{
+    Coefficients, Collision, FreeFlight, MajorantSegment, Medium, MediumInterface, Vacuum,
+};
 pub use mesh::{Attribute, MeshData};
 pub use phase::{Phase, PhaseSample};
 pub use ray::{Departure, Ray};
 pub use remark::{ChainRemark, MergedPhoton, Mixed, Mixture, TraceEvent};
 pub use sample_pdf::SamplePdf;
+pub use scatterer::{PhaseOf, Scatterer, ScattererOf};
 pub use shapes::{SampledPoint, Shapes, SurfacePoint};
 pub use shutter::Shutter;
 pub use sight::{

@@ -63,18 +63,41 @@ impl Coefficients {
 }
 
 /// A flight along a ray, to where light is scattered or to the ray's end.
+///
+/// Values and densities are relative to the density with which [`Medium::transmittance`] makes the same tentative
+/// collisions on the way.
 #[derive(Clone, Copy, Debug)]
 pub struct FreeFlight<P> {
     /// What the flight does to the light, per lane: transmittance, and σs where it is scattered.
     pub factor: Vec4,
     /// The same with what the medium emits where the flight ends in place of σs: zero where it emits nothing.
     pub emitted: Vec4,
+    /// The density of passing what lies in between, for each lane had it been the one that chose.
+    pub passed: Vec4,
+    /// Where and by what light is scattered, if it is.
+    pub scattering: Option<Collision<P>>,
+}
+
+/// Where a flight ends in a medium.
+#[derive(Clone, Copy, Debug)]
+pub struct Collision<P> {
+    /// How far (m).
+    pub t: f32,
+    /// σt there (m⁻¹): the density of ending there, for each lane.
+    pub extinction: Vec4,
+    /// The phase function there.
+    pub phase: P,
+}
+
+impl<P> FreeFlight<P> {
     /// The density of the flight, for each lane had it been the one that chose.
-    pub density: Vec4,
-    /// The density with which [`Medium::transmittance`] would have made the same choices on the way, per lane.
-    pub by_transmittance: Vec4,
-    /// How far (m), and by what, if light is scattered.
-    pub scattering: Option<(f32, P)>,
+    #[inline]
+    pub fn density(&self) -> Vec4 {
+        match &self.scattering {
+            None => self.passed,
+            Some(collision) => self.passed * collision.extinction,
+        }
+    }
 }
 
 /// A stretch of a ray, from the end of the one before.
@@ -129,8 +152,7 @@ pub trait Medium {
         let mut flight = FreeFlight {
             factor: Vec4::ONE,
             emitted: Vec4::ZERO,
-            density: Vec4::ONE,
-            by_transmittance: Vec4::ONE,
+            passed: Vec4::ONE,
             scattering: None,
         };
         let mut collisions = Collisions::new(self.majorants(ray, t_max), t_max, u);
@@ -138,20 +160,19 @@ pub trait Medium {
             let at = ray.at(t);
             let coefficients = self.coefficients(at);
             let extinction = coefficients.extinction();
-            let null = (Vec4::splat(majorant) - extinction).max(Vec4::ZERO);
-            let real = stream.next_1d() * majorant < extinction.x;
-            let chosen = if real { extinction } else { null };
-            let inverse = 1.0 / chosen.x;
-            if real {
-                flight.emitted = flight.factor * self.emission(at) * inverse;
-            }
-            flight.factor *= if real { coefficients.scattering } else { null } * inverse;
-            flight.density *= chosen * inverse;
-            if real {
-                flight.scattering = Some((t, self.phase(at)));
+            if stream.next_1d() * majorant < extinction.x {
+                flight.emitted = flight.factor * self.emission(at);
+                flight.factor *= coefficients.scattering;
+                flight.scattering = Some(Collision {
+                    t,
+                    extinction,
+                    phase: self.phase(at),
+                });
                 return flight;
             }
-            flight.by_transmittance *= majorant * inverse;
+            let null = (Vec4::ONE - extinction / majorant).max(Vec4::ZERO);
+            flight.factor *= null;
+            flight.passed *= null;
             collisions.go_on(stream.next_1d());
         }
         flight
@@ -261,21 +282,23 @@ fn homogeneous_flight<M: Medium + ?Sized>(
     let t = -float::ln(1.0 - u) / extinction.x;
     // False where lane 0 is not attenuated, and for NaN.
     if t < t_max {
-        let transmittance = passing(extinction, t);
+        let passed = passing(extinction, t);
         return FreeFlight {
-            factor: transmittance * coefficients.scattering,
-            emitted: transmittance * medium.emission(ray.at(t)),
-            density: transmittance * extinction,
-            by_transmittance: Vec4::ONE,
-            scattering: Some((t, medium.phase(ray.at(t)))),
+            factor: passed * coefficients.scattering,
+            emitted: passed * medium.emission(ray.at(t)),
+            passed,
+            scattering: Some(Collision {
+                t,
+                extinction,
+                phase: medium.phase(ray.at(t)),
+            }),
         };
     }
-    let transmittance = passing(extinction, t_max);
+    let passed = passing(extinction, t_max);
     FreeFlight {
-        factor: transmittance,
+        factor: passed,
         emitted: Vec4::ZERO,
-        density: transmittance,
-        by_transmittance: Vec4::ONE,
+        passed,
         scattering: None,
     }
 }

@@ -1,6 +1,8 @@
 //! Rays.
 
 use crate::{MediumId, ShapeId};
+use etalon_sampling::Independent;
+use etalon_sampling::hash::mix64;
 use glam::Vec3;
 
 /// Where a ray crosses the surface that it leaves, behind its origin.
@@ -72,6 +74,13 @@ impl Ray {
             departure: Departure::NONE,
             medium: MediumId::NONE,
         })
+    }
+
+    /// Random numbers for what it meets on its way, as random as the ray itself and `u` are.
+    pub fn stream(&self, u: f32) -> Independent {
+        let numbers = (self.origin.to_array().into_iter()).chain(self.direction.to_array());
+        let key = |key, x: f32| mix64(key ^ u64::from(x.to_bits()));
+        Independent::from_key(numbers.fold(u64::from(u.to_bits()), key))
     }
 
     /// The point at parameter `t`.

@@ -1,4 +1,4 @@
-//! Where a ray met a surface.
+//! Where a ray met a surface, or was scattered before it did.
 
 use crate::{Departure, InstanceId, LightId, MaterialId, MediumInterface, Ray, ShapeId};
 use etalon_math::{Frame, offset_origin};
@@ -64,6 +64,47 @@ pub struct SurfaceInteraction {
 }
 
 impl SurfaceInteraction {
+    /// A point of a medium, where a path goes on as it does from a surface: it has no normal, no shape, and the same
+    /// medium around it.
+    #[inline]
+    pub fn in_space(ray: &Ray, t: f32) -> Self {
+        let none = Frame {
+            s: Vec3::ZERO,
+            t: Vec3::ZERO,
+            n: Vec3::ZERO,
+        };
+        Self {
+            position: ray.at(t),
+            error: Vec3::ZERO,
+            depth: f32::NAN,
+            normal: Vec3::ZERO,
+            shading: none,
+            uv: Vec2::ZERO,
+            dp_du: Vec3::ZERO,
+            dp_dv: Vec3::ZERO,
+            t,
+            time: ray.time,
+            parameters: Vec2::ZERO,
+            shape: ShapeId::NONE,
+            primitive: 0,
+            instance: InstanceId::NONE,
+            material: MaterialId::NONE,
+            light: LightId::NONE,
+            media: MediumInterface::within(ray.medium),
+        }
+    }
+
+    /// The cosine of the angle between the surface's normal and the unit vector `direction`, without its sign: what an
+    /// area counts seen from there. 1 at a point of space.
+    #[inline]
+    pub fn area_cos(&self, direction: Vec3) -> f32 {
+        if self.normal == Vec3::ZERO {
+            1.0
+        } else {
+            self.normal.dot(direction).abs()
+        }
+    }
+
     /// A half-line that leaves this surface.
     #[inline]
     pub fn spawn(&self, direction: Vec3) -> Ray {

@@ -4,7 +4,7 @@ use super::connect::Connector;
 use super::subpath::FromLight;
 use super::weight::EndPdfs;
 use crate::visibility::camera_visibility;
-use etalon_transport::{Bsdf, Camera, Ray, TransportMode, World};
+use etalon_transport::{Bsdf, Camera, TransportMode, World};
 use glam::{Vec2, Vec4};
 
 impl<W: World> Connector<'_, '_, W> {
@@ -37,8 +37,7 @@ impl<W: World> Connector<'_, '_, W> {
         if value == Vec4::ZERO {
             return None;
         }
-        let origin = vertex.origin_toward(connection.target);
-        let ray = Ray::between(origin, connection.target, vertex.time)?;
+        let ray = vertex.shadow_ray(direction, Some(connection.target))?;
         let crossings = self.settings.max_depth - light.segments - 1;
         let passage = if self.settings.hide_emitters {
             let on_light = light.vertex.light.is_some();
@@ -49,9 +48,9 @@ impl<W: World> Connector<'_, '_, W> {
             self.world
                 .transmittance(&ray, self.wavelengths, crossings)?
         };
-        let cos = vertex.normal.dot(direction).abs();
+        // The camera's weight is per area across the ray, whatever the distance.
         let ends = EndPdfs {
-            here: passage.probability * (connection.weight * cos),
+            here: passage.probability * connection.weight * light.per_area(direction, 1.0),
             before: self.behind(start, light, direction),
         };
         let samples = self.site.pixels as f32;

@@ -2,7 +2,7 @@
 
 use super::Technique;
 use super::merge::Merging;
-use super::path_vertex::PathVertex;
+use super::path_vertex::Corner;
 use super::subpath::FromLight;
 use super::weight::{CameraEnd, EndPdfs, LightEnd, fewer, more};
 use crate::dimensions::BounceSamples;
@@ -10,7 +10,7 @@ use crate::path_throughput::PathThroughput;
 use crate::settings::PathSettings;
 use etalon_spectrum::Wavelengths;
 use etalon_transport::{
-    Bsdf, Camera, LightKind, PixelSample, Ray, SamplePdf, SurfaceInteraction, TransportMode, World,
+    Bsdf, Camera, LightKind, PixelSample, SamplePdf, SurfaceInteraction, TransportMode, World,
 };
 use glam::{Vec2, Vec3, Vec4};
 
@@ -30,8 +30,8 @@ struct AlternativePdfs {
     sampled: Vec4,
     /// The same of emission.
     emitted: f32,
-    /// Density per unit area of the emitted ray arriving at the corner before.
-    ray: f32,
+    /// Density of the emitted ray arriving at the corner before, per lane.
+    ray: Vec4,
 }
 
 /// Connects the corners of one sample's walks.
@@ -46,7 +46,7 @@ pub(super) struct Connector<'a, 'w, W: World> {
     pub(super) lens: Vec2,
     /// The light's walk, if anything was emitted.
     pub(super) start: Option<&'a FromLight>,
-    pub(super) light: &'a [PathVertex<W::Bsdf<'w>>],
+    pub(super) light: &'a [Corner<'w, W>],
     /// Whether the camera walk's first corner can be connected to the camera.
     pub(super) camera_connects: bool,
     /// The photons to merge with, if any.
@@ -87,7 +87,7 @@ impl<'w, W: World> Connector<'_, 'w, W> {
         }
     }
 
-    fn light_end(&self, start: &FromLight, first: &PathVertex<W::Bsdf<'w>>) -> LightEnd {
+    fn light_end(&self, start: &FromLight, first: &Corner<'w, W>) -> LightEnd {
         LightEnd {
             can_be_hit: start.emission.origin.can_be_hit(),
             emitted: start.emission.density.origin,
@@ -103,7 +103,7 @@ impl<'w, W: World> Connector<'_, 'w, W> {
         arrival: &Arrival,
         vertex: &SurfaceInteraction,
         wo: Vec3,
-        eye: &[PathVertex<W::Bsdf<'w>>],
+        eye: &[Corner<'w, W>],
     ) {
         let world = self.world;
         let radiance = world.emitted(vertex, wo, self.wavelengths);
@@ -126,7 +126,7 @@ impl<'w, W: World> Connector<'_, 'w, W> {
         &mut self,
         arrival: &Arrival,
         direction: Vec3,
-        eye: &[PathVertex<W::Bsdf<'w>>],
+        eye: &[Corner<'w, W>],
     ) {
         let world = self.world;
         let radiance = world.background(direction, self.wavelengths);
@@ -147,8 +147,8 @@ impl<'w, W: World> Connector<'_, 'w, W> {
         &mut self,
         arrival: &Arrival,
         radiance: Vec4,
-        eye: &[PathVertex<W::Bsdf<'w>>],
-        rivals: impl FnOnce(&PathVertex<W::Bsdf<'w>>) -> AlternativePdfs,
+        eye: &[Corner<'w, W>],
+        rivals: impl FnOnce(&Corner<'w, W>) -> AlternativePdfs,
     ) {
         if radiance == Vec4::ZERO {
             return;
@@ -179,12 +179,19 @@ impl<'w, W: World> Connector<'_, 'w, W> {
         self.radiance += arrival.prefix.beta * radiance / total;
     }
 
+    /// Adds what a medium emits on the camera's walk, which no other technique finds.
+    pub(super) fn shines(&mut self, radiance: Vec4, corners: usize) {
+        if self.wanted(0, corners + 2).is_some() {
+            self.radiance += radiance;
+        }
+    }
+
     /// All techniques that end at this corner of the camera's walk: light sampling, merging with photons, and
     /// connections with the corners of the light's walk.
     pub(super) fn connect(
         &mut self,
-        corner: &PathVertex<W::Bsdf<'w>>,
-        eye: &[PathVertex<W::Bsdf<'w>>],
+        corner: &Corner<'w, W>,
+        eye: &[Corner<'w, W>],
         event: &BounceSamples,
     ) {
         if (self.only).is_some_and(|only| only.camera != eye.len() + 2) {
@@ -207,12 +214,7 @@ impl<'w, W: World> Connector<'_, 'w, W> {
 
     /// Density per area of a walk from the light arriving at the vertex before `corner` on the camera's, having come
     /// to `corner` along `from`.
-    pub(super) fn beyond(
-        &self,
-        corner: &PathVertex<W::Bsdf<'w>>,
-        eye: &[PathVertex<W::Bsdf<'w>>],
-        from: Vec3,
-    ) -> Vec4 {
+    pub(super) fn beyond(&self, corner: &Corner<'w, W>, eye: &[Corner<'w, W>], from: Vec3) -> Vec4 {
         // The camera itself is never arrived at.
         let Some(before) = eye.last() else {
             return Vec4::ZERO;
@@ -228,8 +230,8 @@ impl<'w, W: World> Connector<'_, 'w, W> {
     /// s = 1.
     fn sample_light(
         &mut self,
-        corner: &PathVertex<W::Bsdf<'w>>,
-        eye: &[PathVertex<W::Bsdf<'w>>],
+        corner: &Corner<'w, W>,
+        eye: &[Corner<'w, W>],
         event: &BounceSamples,
     ) {
         let Some(mixed) = self.wanted(1, eye.len() + 2) else {
@@ -272,7 +274,6 @@ impl<'w, W: World> Connector<'_, 'w, W> {
         }
         // From the density of light sampling to that of emission, in the same measure.
         let emission = world.emission_density(light.light, -direction, light.cos, vertex.time);
-        let cos = vertex.normal.dot(direction).abs();
         let distance_squared = light
             .target
             .map_or(1.0, |target| target.distance_squared(vertex.position));
@@ -280,11 +281,8 @@ impl<'w, W: World> Connector<'_, 'w, W> {
             LightKind::Surface => emission.origin * distance_squared / light.cos,
             _ => emission.origin,
         };
-        let arrival = if light.origin.is_infinite() {
-            emission.ray * cos
-        } else {
-            emission.ray * cos / distance_squared
-        };
+        // That of a light at infinity is 1, see above.
+        let arrival = emission.ray * corner.per_area(direction, distance_squared);
         let ends = EndPdfs {
             here: passage.probability * arrival,
             before: self.beyond(corner, eye, direction),
@@ -299,8 +297,8 @@ impl<'w, W: World> Connector<'_, 'w, W> {
         &mut self,
         start: &FromLight,
         index: usize,
-        corner: &PathVertex<W::Bsdf<'w>>,
-        eye: &[PathVertex<W::Bsdf<'w>>],
+        corner: &Corner<'w, W>,
+        eye: &[Corner<'w, W>],
     ) {
         let light = &self.light[index];
         let Some(mixed) = self.wanted(self.vertices(index), eye.len() + 2) else {
@@ -327,9 +325,8 @@ impl<'w, W: World> Connector<'_, 'w, W> {
         if value == Vec4::ZERO {
             return;
         }
-        let origin = light.vertex.origin_toward(corner.vertex.position);
         let target = corner.vertex.origin_toward(light.vertex.position);
-        let Some(ray) = Ray::between(origin, target, corner.vertex.time) else {
+        let Some(ray) = light.vertex.shadow_ray(direction, Some(target)) else {
             return;
         };
         let crossings = self.settings.max_depth - corner.segments - light.segments - 1;
@@ -361,15 +358,10 @@ impl<'w, W: World> Connector<'_, 'w, W> {
 
     /// Density of a walk from the camera, come to `light` along `from`, arriving at the vertex before it on the
     /// light's walk.
-    pub(super) fn behind(
-        &self,
-        start: &FromLight,
-        light: &PathVertex<W::Bsdf<'w>>,
-        from: Vec3,
-    ) -> Vec4 {
+    pub(super) fn behind(&self, start: &FromLight, light: &Corner<'w, W>, from: Vec3) -> Vec4 {
         let position = light.vertex.position;
         let per_area = match light.parent {
-            None => start.per_area(start.distance_squared(position)),
+            None => Vec4::splat(start.per_area(start.distance_squared(position))),
             Some(parent) => {
                 let before = &self.light[parent];
                 let distance_squared = before.vertex.position.distance_squared(position);

@@ -9,7 +9,7 @@
 //! factor per lane for them.
 
 use super::connect::Connector;
-use super::path_vertex::PathVertex;
+use super::path_vertex::{Corner, PathVertex};
 use super::subpath::FromLight;
 use super::weight::{EndPdfs, LightEnd, fewer, more};
 use crate::photons::kdtree::KdTree;
@@ -124,7 +124,7 @@ pub(crate) fn shoot<W: World>(
         &mut corners,
         usize::MAX,
     );
-    let scatter = corners.iter().filter(|c| c.bsdf.has_continuous());
+    let scatter = (corners.iter()).filter(|c| c.bsdf.has_continuous() && c.merges());
     photons.extend(scatter.filter_map(|corner| photon(&start, &corners, corner, terms)));
 }
 
@@ -201,12 +201,8 @@ impl<'w, W: World> Connector<'_, 'w, W> {
     }
 
     /// Merges the camera walk's corner with the photons around it.
-    pub(super) fn merge(
-        &mut self,
-        corner: &PathVertex<W::Bsdf<'w>>,
-        eye: &[PathVertex<W::Bsdf<'w>>],
-    ) {
-        let Some(merging) = self.merging else {
+    pub(super) fn merge(&mut self, corner: &Corner<'w, W>, eye: &[Corner<'w, W>]) {
+        let Some(merging) = self.merging.filter(|_| corner.merges()) else {
             return;
         };
         let (place, max_depth) = (corner.vertex.position, self.settings.max_depth);

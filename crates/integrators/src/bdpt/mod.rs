@@ -57,7 +57,7 @@ use etalon_transport::{
 };
 use glam::Vec4;
 use merge::Merging;
-pub(crate) use path_vertex::PathVertex;
+use path_vertex::Corner;
 use subpath::{FromCamera, FromLight};
 
 /// One technique.
@@ -130,7 +130,7 @@ pub(crate) fn estimate<'w, W: World, S: Sampler, K: Sink>(
     site: &PixelSample,
     sampler: &mut S,
     sink: &mut K,
-    [eye, light]: [&mut Vec<PathVertex<W::Bsdf<'w>>>; 2],
+    [eye, light]: [&mut Vec<Corner<'w, W>>; 2],
 ) {
     let Start {
         settings,
@@ -206,6 +206,7 @@ fn technique(params: &Params<'_>) -> Option<Technique> {
 impl Integrator for Bidirectional {
     const FOLLOWS_LIGHT: bool = true;
     const UNBIASED: bool = true;
+    const MEDIA: bool = true;
 
     type State = ();
 

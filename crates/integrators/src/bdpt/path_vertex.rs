@@ -1,16 +1,20 @@
 //! A corner of a subpath, and how densities change from solid angle to area.
 
 use crate::path_throughput::PathThroughput;
-use etalon_transport::{Bsdf, BsdfSample, LightSampleContext, SamplePdf, SurfaceInteraction};
+use etalon_transport::{
+    Bsdf, BsdfSample, LightSampleContext, SamplePdf, ScattererOf, SurfaceInteraction,
+};
 use glam::{Vec3, Vec4};
 
-/// A surface that a subpath met. What it scatters next is known to the corner after it.
+/// A surface that a subpath met, or a point of a medium where it was scattered. What it scatters next is known to the corner after it.
 #[derive(Clone, Copy)]
 pub(crate) struct PathVertex<B> {
-    /// The surface.
+    /// The surface, or the point.
     pub(super) vertex: SurfaceInteraction,
     /// The scattering model there, for `wo`.
     pub(super) bsdf: B,
+    /// σt at a point of a medium (m⁻¹), per lane: the density of stopping there; 1 at a surface.
+    pub(super) extinction: Vec4,
     /// Unit direction back along the subpath.
     pub(super) wo: Vec3,
     /// The subpath up to its arrival here, before it scatters.
@@ -33,6 +37,16 @@ pub(crate) struct PathVertex<B> {
     /// start, in the measure of the emission's.
     pub(super) direct: f32,
 }
+
+/// What a squared distance (m²) counts: flights through a dense medium may be shorter than positions can tell. It
+/// counts the same both ways, and so the weights of a path still add up to one.
+#[inline]
+pub(super) fn counted(distance_squared: f32) -> f32 {
+    distance_squared.max(1e-20)
+}
+
+/// A corner in a world.
+pub(crate) type Corner<'w, W> = PathVertex<ScattererOf<'w, W>>;
 
 impl<B> PathVertex<B> {
     /// The densities of a sampled direction, per lane, and of its reverse: of having come along it and
@@ -63,10 +77,17 @@ impl<B> PathVertex<B> {
         LightSampleContext::new(&self.vertex, self.wo, &self.bsdf).combined()
     }
 
-    /// Solid angle per area here, seen from `distance_squared` away along `direction`.
+    /// What makes of a density per solid angle, seen from `distance_squared` away along `direction`, the density of
+    /// arriving here if nothing is in between, per lane: per area of a surface, per volume of a medium.
     #[inline]
-    pub(super) fn per_area(&self, direction: Vec3, distance_squared: f32) -> f32 {
-        self.vertex.normal.dot(direction).abs() / distance_squared
+    pub(super) fn per_area(&self, direction: Vec3, distance_squared: f32) -> Vec4 {
+        self.extinction * (self.vertex.area_cos(direction) / counted(distance_squared))
+    }
+
+    /// Whether it can be merged with a photon: one on a surface.
+    #[inline]
+    pub(super) fn merges(&self) -> bool {
+        self.vertex.normal != Vec3::ZERO
     }
 }
 

@@ -12,7 +12,7 @@ use crate::dimensions as dim;
 use crate::path::camera_ray;
 use crate::settings::PathSettings;
 use etalon_sampling::Sampler;
-use etalon_transport::{PixelSample, World};
+use etalon_transport::{PixelSample, ScattererOf, World};
 use glam::{Vec2, Vec3, Vec4};
 
 /// The corners of both walks, lent from sample to sample.
@@ -37,7 +37,7 @@ pub(crate) fn sample<'w, W: World, S: Sampler>(
     technique: Technique,
     site: &PixelSample,
     sampler: &mut S,
-    lists: &mut Lists<W::Bsdf<'w>>,
+    lists: &mut Lists<ScattererOf<'w, W>>,
     mut found: impl FnMut(Vec2, Vec3),
 ) {
     let (wavelengths, ray, weight) = camera_ray(world, site, sampler);

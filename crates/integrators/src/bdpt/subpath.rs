@@ -1,14 +1,17 @@
 //! Walks from the camera and from a light, and the corners they leave behind.
 
 use super::connect::{Arrival, Connector};
-use super::path_vertex::PathVertex;
-use crate::dimensions::BounceSamples;
-use crate::path_throughput::{MOST, PathThroughput};
+use super::path_vertex::{Corner, PathVertex, counted};
+use crate::dimensions::{BounceSamples, draw_flight};
+use crate::path_throughput::PathThroughput;
 use crate::settings::PathSettings;
 use crate::steps;
 use etalon_sampling::Sampler;
 use etalon_spectrum::Wavelengths;
-use etalon_transport::{Bsdf, Emission, LightKind, Ray, SurfaceInteraction, TransportMode, World};
+use etalon_transport::{
+    Bsdf, Emission, Hit, LightKind, Ray, Scatterer, ScattererOf, SurfaceInteraction, TransportMode,
+    World,
+};
 use glam::{Vec3, Vec4};
 
 /// The numbers of the camera walk's events, of the emission, and of the light walk's events lie
@@ -33,6 +36,30 @@ struct SubpathState {
     segments: u32,
 }
 
+/// What a walk comes to.
+struct Met<'w, W: World + 'w> {
+    vertex: SurfaceInteraction,
+    bsdf: ScattererOf<'w, W>,
+    /// See [`PathVertex::extinction`].
+    extinction: Vec4,
+}
+
+impl<'w, W: World> Met<'w, W> {
+    /// A surface.
+    fn surface(
+        world: &'w W,
+        vertex: SurfaceInteraction,
+        wo: Vec3,
+        wavelengths: &Wavelengths,
+    ) -> Self {
+        Self {
+            vertex,
+            bsdf: Scatterer::Surface(world.bsdf(&vertex, wo, wavelengths)),
+            extinction: Vec4::ONE,
+        }
+    }
+}
+
 impl SubpathState {
     /// Goes straight on through a surface.
     fn pass(&mut self, vertex: &SurfaceInteraction, value: Vec4, chance: Vec4) {
@@ -51,11 +78,46 @@ impl SubpathState {
         }
     }
 
-    /// The corner at `vertex`, arrived at with this density per solid angle at the last one.
-    fn corner<B>(&self, vertex: SurfaceInteraction, bsdf: B, arrival: f32) -> PathVertex<B> {
+    /// Flies through the medium, to where light is scattered before its `hit`, if it is: the vertex there, its phase
+    /// function and σt. Tells what the medium emits, over the density of all that led there.
+    #[cold]
+    #[inline(never)]
+    fn fly<'w, W: World>(
+        &mut self,
+        world: &'w W,
+        hit: Option<&Hit>,
+        wavelengths: &Wavelengths,
+        u: f32,
+        mut shines: impl FnMut(Vec4),
+    ) -> Option<Met<'w, W>> {
+        let flight = steps::free_flight(world, &self.ray, hit, wavelengths, u)?;
+        let density = flight.density();
+        if flight.emitted != Vec4::ZERO {
+            let mut emitted = self.prefix;
+            emitted.scatter(flight.emitted, density);
+            shines(emitted.contribution(Vec4::ONE, Vec4::ZERO));
+        }
+        self.prefix.scatter(flight.factor, density);
+        self.passed *= flight.passed;
+        let collision = flight.scattering?;
+        Some(Met {
+            vertex: SurfaceInteraction::in_space(&self.ray, collision.t),
+            bsdf: Scatterer::Space(collision.phase),
+            extinction: collision.extinction,
+        })
+    }
+
+    /// The corner at what was met, arrived at with this density per solid angle at the last one.
+    fn corner<'w, W: World>(&self, met: Met<'w, W>, arrival: f32) -> Corner<'w, W> {
+        let Met {
+            vertex,
+            bsdf,
+            extinction,
+        } = met;
         PathVertex {
             vertex,
             bsdf,
+            extinction,
             wo: -self.ray.direction,
             prefix: self.prefix,
             arrival: arrival * self.passed.x,
@@ -130,18 +192,17 @@ impl FromLight {
         corner: &PathVertex<B>,
         from: Vec3,
     ) -> f32 {
-        let cos = corner.vertex.normal.dot(corner.wo).abs();
-        if parallel {
-            emission_ray * cos
-        } else {
-            emission_ray * cos / corner.vertex.position.distance_squared(from)
-        }
+        let distance_squared = match parallel {
+            true => 1.0,
+            false => corner.vertex.position.distance_squared(from),
+        };
+        emission_ray * corner.per_area(corner.wo, distance_squared).x
     }
 
     /// The density with which light sampling at the first corner would have chosen this start, in
     /// the measure of the emission's.
     #[inline]
-    pub(super) fn sampled<W: World>(&self, world: &W, at: &PathVertex<W::Bsdf<'_>>) -> f32 {
+    pub(super) fn sampled<W: World>(&self, world: &W, at: &Corner<'_, W>) -> f32 {
         let density = world.light_sample_density(&at.receiver(), &self.emission);
         match self.emission.origin {
             LightKind::Surface => {
@@ -158,7 +219,7 @@ impl FromLight {
         wavelengths: &Wavelengths,
         settings: &PathSettings,
         sampler: &mut impl Sampler,
-        corners: &mut Vec<PathVertex<W::Bsdf<'w>>>,
+        corners: &mut Vec<Corner<'w, W>>,
         limit: usize,
     ) {
         let emission = &self.emission;
@@ -174,14 +235,26 @@ impl FromLight {
         };
         let mut parent: Option<usize> = None;
         let mut rounded = 0;
+        // The throughput where the walk left the last corner.
+        let mut departed = carried.prefix.throughput();
         // One more segment, at least, leads from a corner to the camera.
         while carried.segments < settings.max_depth && rounded < limit {
-            let Some((_, vertex)) = steps::next_surface(world, &mut carried.ray, false) else {
+            let hit = steps::next_hit(world, &mut carried.ray, false);
+            let wo = -carried.ray.direction;
+            let mut met = None;
+            if carried.ray.medium.is_some() {
+                let u = draw_flight(sampler, light_event(carried.segments));
+                // What media emit is left to the camera's walk.
+                met = carried.fly(world, hit.as_ref(), wavelengths, u, |_| ());
+            }
+            let Some(met) = met.or_else(|| {
+                let vertex = world.vertex(&carried.ray, &hit?);
+                Some(Met::surface(world, vertex, wo, wavelengths))
+            }) else {
                 return;
             };
-            let wo = -carried.ray.direction;
-            let bsdf = world.bsdf(&vertex, wo, wavelengths);
-            let mut corner = carried.corner(vertex, bsdf, 0.0);
+            let mut corner = carried.corner(met, 0.0);
+            let PathVertex { vertex, bsdf, .. } = corner;
             corner.parent = parent;
             corner.arrival = carried.passed.x
                 * match parent {
@@ -194,7 +267,7 @@ impl FromLight {
                     Some(parent) => {
                         let from = corners[parent].vertex.position;
                         let distance_squared = vertex.position.distance_squared(from);
-                        carried.density * corner.per_area(wo, distance_squared)
+                        carried.density * corner.per_area(wo, distance_squared).x
                     }
                 };
             if !(corner.arrival > 0.0 && corner.arrival.is_finite()) {
@@ -235,18 +308,19 @@ impl FromLight {
                     before.pdf_rev = back * corner.passed * before.per_area(wo, distance_squared);
                 }
             }
-            let before = carried.prefix.throughput();
             carried.prefix.scatter(sample.value, sample.chance.lanes());
             if carried.prefix.beta == Vec4::ZERO {
                 return;
             }
             if carried.segments >= settings.rr_depth {
-                // Relative to the flux before: emitted flux has no natural scale.
-                let survival = (carried.prefix.throughput() / before).min(MOST);
+                let survival = carried
+                    .prefix
+                    .survival_of_flux(departed, bsdf.is_in_space());
                 if !carried.prefix.survives(survival, event.roulette) {
                     return;
                 }
             }
+            departed = carried.prefix.throughput();
             carried.density = forward.x;
             carried.passed = Vec4::ONE;
             carried.ray = vertex.spawn(sample.wi);
@@ -288,15 +362,16 @@ impl FromCamera {
         }
     }
 
-    /// Density per area of arriving at a point of a surface with this normal.
-    fn arrival<W: World, B>(
+    /// Density of arriving at what has the solid angle `per_area(direction, distance²)` per area or volume.
+    fn arrival<W: World>(
         &self,
         connector: &mut Connector<'_, '_, W>,
         vertex: &SurfaceInteraction,
-        corners: &[PathVertex<B>],
+        extinction: f32,
+        corners: &[Corner<'_, W>],
     ) -> f32 {
         let carried = &self.carried;
-        let cos = vertex.normal.dot(carried.ray.direction).abs();
+        let cos = vertex.area_cos(carried.ray.direction) * extinction;
         match corners.last() {
             None => {
                 // One sample per pixel makes one path per unit of the film.
@@ -307,7 +382,7 @@ impl FromCamera {
             }
             Some(last) => {
                 let distance_squared = vertex.position.distance_squared(last.vertex.position);
-                carried.density * cos / distance_squared * carried.passed.x
+                carried.density * cos / counted(distance_squared) * carried.passed.x
             }
         }
     }
@@ -319,7 +394,7 @@ impl FromCamera {
         wavelengths: &Wavelengths,
         settings: &PathSettings,
         sampler: &mut impl Sampler,
-        corners: &mut Vec<PathVertex<W::Bsdf<'w>>>,
+        corners: &mut Vec<Corner<'w, W>>,
         connector: &mut Connector<'_, 'w, W>,
     ) -> bool {
         if !self.goes_on {
@@ -329,9 +404,22 @@ impl FromCamera {
         let direction = self.carried.ray.direction;
         let hidden = settings.hide_emitters && self.carried.segments == 1;
         let origin = self.carried.ray.origin;
-        let next = steps::next_surface(world, &mut self.carried.ray, hidden);
+        let hit = steps::next_hit(world, &mut self.carried.ray, hidden);
         self.through_hidden |= self.carried.ray.origin != origin;
-        let Some((hit, vertex)) = next else {
+        if self.carried.ray.medium.is_some() {
+            let u = draw_flight(sampler, camera_event(self.carried.segments - 1));
+            let shines = |radiance| connector.shines(radiance, corners.len());
+            let met = (self.carried).fly(world, hit.as_ref(), wavelengths, u, shines);
+            if let Some(met) = met {
+                self.alpha = 1.0;
+                if self.carried.segments == settings.max_depth {
+                    return false;
+                }
+                let arrival = self.arrival(connector, &met.vertex, met.extinction.x, corners);
+                return self.turn(met, arrival, settings, sampler, corners, connector);
+            }
+        }
+        let Some(hit) = hit else {
             // A hidden sky stays hidden to rays that only went straight.
             let visible = !settings.hide_emitters || self.alpha > 0.0;
             if visible && world.has_background() {
@@ -342,20 +430,37 @@ impl FromCamera {
             }
             return false;
         };
+        let vertex = world.vertex(&self.carried.ray, &hit);
         let emits = world.is_emitter(&hit);
         let wo = -direction;
-        let arrival = self.arrival(connector, &vertex, corners);
+        let arrival = self.arrival(connector, &vertex, 1.0, corners);
         if emits {
             let arrival = self.carried.arrival(arrival);
             connector.meet_light(&arrival, &vertex, wo, corners);
         }
-        let bsdf = world.bsdf(&vertex, wo, wavelengths);
+        let met = Met::surface(world, vertex, wo, wavelengths);
         if self.carried.segments == settings.max_depth {
-            self.alpha = self.alpha.max(steps::opacity(&bsdf));
+            self.alpha = self.alpha.max(steps::opacity(&met.bsdf));
             return false;
         }
+        self.turn(met, arrival, settings, sampler, corners, connector)
+    }
+
+    /// All that ends at the corner `met`, and the way on from there; whether there is more.
+    fn turn<'w, W: World>(
+        &mut self,
+        met: Met<'w, W>,
+        arrival: f32,
+        settings: &PathSettings,
+        sampler: &mut impl Sampler,
+        corners: &mut Vec<Corner<'w, W>>,
+        connector: &mut Connector<'_, 'w, W>,
+    ) -> bool {
         let event = BounceSamples::draw(sampler, camera_event(self.carried.segments - 1));
-        let mut corner = self.carried.corner(vertex, bsdf, 1.0);
+        let mut corner = self.carried.corner(met, 1.0);
+        let PathVertex {
+            vertex, bsdf, wo, ..
+        } = corner;
         corner.arrival = arrival;
         if bsdf.has_continuous() {
             connector.connect(&corner, corners, &event);
@@ -382,7 +487,10 @@ impl FromCamera {
         carried.prefix.scatter(sample.value, sample.chance.lanes());
         self.eta *= sample.eta;
         if carried.segments >= settings.rr_depth {
-            let survival = carried.prefix.survival(self.eta);
+            let survival = match bsdf.is_in_space() {
+                true => carried.prefix.survival_in_medium(self.eta),
+                false => carried.prefix.survival(self.eta),
+            };
             if !carried.prefix.survives(survival, event.roulette) {
                 return false;
             }

@@ -1,6 +1,6 @@
 //! The sum over all techniques and wavelengths that weighs a path, relative to the one that made it.
 //!
-//! Written with the vertices x₀ (light), x₁ … x_{K−2} (surfaces) and x_{K−1} (camera), technique σ
+//! Written with the vertices x₀ (light), x₁ … x_{K−2} (surfaces, points of media) and x_{K−1} (camera), technique σ
 //! has σ vertices made from the light. Against the technique s that made the path,
 //!
 //! ```text
@@ -66,7 +66,7 @@ pub(super) fn fewer<B>(
             1 => ends.before,
             _ => corner.pdf_rev,
         };
-        if connects && light.merging > 0.0 {
+        if connects && corner.merges() && light.merging > 0.0 {
             sum += light.merging * (product * b * corner.prefix.r_u).element_sum();
         }
         product *= b / corner.arrival;
@@ -131,7 +131,7 @@ pub(super) fn more<'c, B: 'c>(
             1 => ends.before,
             _ => corner.pdf_rev,
         };
-        if connects && camera.merging > 0.0 {
+        if connects && corner.merges() && camera.merging > 0.0 {
             sum += camera.merging * (product * a * corner.prefix.r_u).element_sum();
         }
         if next.is_none() && !camera.connects {

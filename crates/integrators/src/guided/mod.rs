@@ -142,6 +142,7 @@ pub struct Learned {
 
 impl Integrator for Guided {
     const UNBIASED: bool = true;
+    const MEDIA: bool = true;
 
     type State = Learned;
 

@@ -199,6 +199,14 @@ impl<'f> PathHooks for TrainingPath<'f> {
         self.path = *prefix;
     }
 
+    fn on_medium(&mut self, prefix: &PathThroughput) {
+        self.path = *prefix;
+    }
+
+    fn on_roulette(&mut self, survival: f32) {
+        self.path.roulette(survival);
+    }
+
     fn on_emission(&mut self, estimate: Vec4) {
         for corner in &mut self.corners[self.open..] {
             corner.found += estimate;

@@ -89,6 +89,7 @@ impl<'w, W: World, P: PathSampler> Integrand for InWorld<'w, W, P> {
 impl<P: PathSampler> Integrator for Metropolis<P> {
     const FOLLOWS_LIGHT: bool = P::FOLLOWS_LIGHT;
     const UNBIASED: bool = true;
+    const MEDIA: bool = true;
 
     type State = State;
 

@@ -9,7 +9,7 @@ use super::is_sharp;
 use super::sets::{WavelengthChoice, WavelengthSets};
 use super::shoot::{Kind, Photon, PhotonMap};
 use crate::candidates::Aim;
-use crate::dimensions::BounceSamples;
+use crate::dimensions::{BounceSamples, draw_flight};
 use crate::light_mis::LightMis;
 use crate::path::draw_lens;
 use crate::path_throughput::PathThroughput;
@@ -19,8 +19,8 @@ use core::f32::consts::PI;
 use etalon_sampling::Sampler;
 use etalon_spectrum::Wavelengths;
 use etalon_transport::{
-    Bsdf, Camera, LightSampleContext, MergedPhoton, PixelSample, Ray, SampleJob, SamplePdf, Sink,
-    SurfaceInteraction, TileSink, TraceEvent, TransportMode, World,
+    Bsdf, Camera, LightSampleContext, MergedPhoton, PixelSample, Ray, SampleJob, SamplePdf,
+    Scatterer, ScattererOf, Sink, SurfaceInteraction, TileSink, TraceEvent, TransportMode, World,
 };
 use glam::{Vec3, Vec4};
 
@@ -39,24 +39,32 @@ pub(crate) struct KernelLookup {
     pub(crate) kernel: Kernel,
 }
 
-/// A kernel on a disc.
+/// A kernel on a disc, or in a ball.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum Kernel {
     /// The same everywhere: 1 / (π r²).
     Box,
-    /// Falling with distance d: (1 − d/(k r)) / ((1 − 2/(3k)) π r²), Jensen 1996.
+    /// Falling with distance d: (1 − d/(k r)) / ((1 − 2/(3k)) π r²), Jensen 1996; in a ball 3/(4k) and 4/3 π r³.
     Cone(f32),
 }
 
 impl Kernel {
-    /// Its value (m⁻²).
+    /// Its value on a disc (m⁻²), or in a ball (m⁻³), over which its integral is one.
     #[inline]
-    pub(crate) fn value(self, distance_squared: f32, radius_squared: f32) -> f32 {
+    pub(crate) fn value(self, distance_squared: f32, radius_squared: f32, in_space: bool) -> f32 {
+        // The disc or ball, and the integral of the cone's slope over it, k d/r, over that of one.
+        let (size, slope) = match in_space {
+            false => (PI * radius_squared, 2.0 / 3.0),
+            true => (
+                4.0 / 3.0 * PI * radius_squared * radius_squared.sqrt(),
+                0.75,
+            ),
+        };
         match self {
-            Self::Box => 1.0 / (PI * radius_squared),
+            Self::Box => 1.0 / size,
             Self::Cone(k) => {
                 let at = (distance_squared / radius_squared).sqrt();
-                let height = 1.0 / ((1.0 - 2.0 / (3.0 * k)) * PI * radius_squared);
+                let height = 1.0 / ((1.0 - slope / k) * size);
                 (1.0 - at / k).max(0.0) * height
             }
         }
@@ -67,7 +75,10 @@ impl Kernel {
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Layer<'a> {
     pub(crate) map: &'a PhotonMap,
+    /// How it is looked up on surfaces, …
     pub(crate) lookup: KernelLookup,
+    /// … and in media.
+    pub(crate) in_space: KernelLookup,
     /// How many photons were shot.
     pub(crate) shot: u32,
     /// Whether these photons count where the walk has only followed sharp directions, …
@@ -113,7 +124,7 @@ struct GatherPath<'a, 'w, W: World> {
     plan: &'a GatherConfig<'a>,
     lanes: WavelengthChoice,
     wavelengths: Wavelengths,
-    scratch: &'a mut Scratch<W::Bsdf<'w>>,
+    scratch: &'a mut Scratch<ScattererOf<'w, W>>,
     prefix: PathThroughput,
     /// Whether smooth dispersion has left one wavelength.
     alone: bool,
@@ -159,7 +170,7 @@ fn follow<'w, W: World>(
     plan: &GatherConfig<'_>,
     site: &PixelSample,
     sampler: &mut impl Sampler,
-    scratch: &mut Scratch<W::Bsdf<'w>>,
+    scratch: &mut Scratch<ScattererOf<'w, W>>,
     sink: &mut impl Sink,
 ) {
     let (lens, u, _) = draw_lens(sampler);
@@ -167,6 +178,10 @@ fn follow<'w, W: World>(
     world.record(|| TraceEvent::Wavelengths(plan.sets.of(lanes)));
     let start = world.camera().ray(site.raster, lens, plan.time);
     scratch.path.clear();
+    let ray = Ray {
+        medium: world.camera_medium(),
+        ..start.ray
+    };
     let mut gatherer = GatherPath {
         world,
         plan,
@@ -181,7 +196,7 @@ fn follow<'w, W: World>(
         radiance: Vec4::ZERO,
         rgb: Vec3::ZERO,
     };
-    let alpha = gatherer.walk(start.ray, sampler);
+    let alpha = gatherer.walk(ray, sampler);
     let own = lanes.to_set(gatherer.radiance);
     let rgb = plan.sets.sensor(lanes.set).rgb(own) + gatherer.rgb;
     sink.radiance((rgb * start.weight).to_array(), alpha);
@@ -196,7 +211,46 @@ impl<'w, W: World> GatherPath<'_, 'w, W> {
         while self.depth <= settings.max_depth && self.prefix.beta != Vec4::ZERO {
             let direction = ray.direction;
             let hidden = settings.hide_emitters && self.depth == 1;
-            let Some((hit, vertex)) = steps::next_surface(world, &mut ray, hidden) else {
+            let mut hit = steps::next_hit(world, &mut ray, hidden);
+            // What gathers photons in a medium counts without σs, which photons have.
+            let mut gathering = self.prefix;
+            let mut met = None;
+            if ray.medium.is_some() {
+                let u = draw_flight(sampler, self.depth - 1);
+                let waves = &self.wavelengths;
+                if let Some(flight) = steps::free_flight(world, &ray, hit.as_ref(), waves, u) {
+                    // It cannot be evaluated at other wavelengths.
+                    self.alone = true;
+                    let density = flight.density();
+                    if flight.emitted != Vec4::ZERO && !self.second {
+                        let mut emitted = self.prefix;
+                        emitted.scatter(flight.emitted, density);
+                        self.radiance += emitted.contribution(Vec4::ONE, Vec4::ZERO);
+                    }
+                    self.prefix.scatter(flight.factor, density);
+                    self.light_mis.r_l /= density.x;
+                    gathering.scatter(flight.passed, density);
+                    if let Some(collision) = flight.scattering {
+                        alpha = 1.0;
+                        hit = None;
+                        let vertex = SurfaceInteraction::in_space(&ray, collision.t);
+                        met = Some((vertex, Scatterer::Space(collision.phase)));
+                    }
+                }
+            }
+            let wo = -direction;
+            if let Some(hit) = hit {
+                let vertex = world.vertex(&ray, &hit);
+                if world.is_emitter(&hit) && !self.second {
+                    let (waves, light_mis) = (&self.wavelengths, &self.light_mis);
+                    self.radiance +=
+                        steps::emission(world, &vertex, direction, waves, &self.prefix, light_mis);
+                }
+                let bsdf = world.bsdf(&vertex, wo, &self.wavelengths);
+                met = Some((vertex, Scatterer::Surface(bsdf)));
+                gathering = self.prefix;
+            }
+            let Some((vertex, bsdf)) = met else {
                 // A hidden sky stays hidden to rays that only went straight.
                 let visible = !settings.hide_emitters || alpha > 0.0;
                 if visible && world.has_background() {
@@ -209,13 +263,6 @@ impl<'w, W: World> GatherPath<'_, 'w, W> {
                 }
                 break;
             };
-            let wo = -direction;
-            if world.is_emitter(&hit) && !self.second {
-                let (waves, light_mis) = (&self.wavelengths, &self.light_mis);
-                self.radiance +=
-                    steps::emission(world, &vertex, direction, waves, &self.prefix, light_mis);
-            }
-            let bsdf = world.bsdf(&vertex, wo, &self.wavelengths);
             if self.depth == settings.max_depth {
                 alpha = alpha.max(steps::opacity(&bsdf));
                 break;
@@ -227,7 +274,7 @@ impl<'w, W: World> GatherPath<'_, 'w, W> {
                 if !self.second {
                     self.trace_shadow(&vertex, &from, &bsdf, wo, &event);
                 }
-                self.gather(&vertex, &bsdf, wo);
+                self.gather(&vertex, &bsdf, wo, &gathering);
             }
             let sampled = bsdf.sample(wo, event.lobe, event.direction, TransportMode::Radiance);
             let Some(sample) = sampled else {
@@ -272,7 +319,7 @@ impl<'w, W: World> GatherPath<'_, 'w, W> {
         &mut self,
         vertex: &SurfaceInteraction,
         from: &LightSampleContext,
-        bsdf: &W::Bsdf<'w>,
+        bsdf: &ScattererOf<'w, W>,
         wo: Vec3,
         event: &BounceSamples,
     ) {
@@ -295,8 +342,14 @@ impl<'w, W: World> GatherPath<'_, 'w, W> {
         self.radiance += brings.unwrap_or(Vec4::ZERO);
     }
 
-    /// Adds the light that photons bring.
-    fn gather(&mut self, vertex: &SurfaceInteraction, own: &W::Bsdf<'w>, wo: Vec3) {
+    /// Adds the light that photons bring to a path of this throughput.
+    fn gather(
+        &mut self,
+        vertex: &SurfaceInteraction,
+        own: &ScattererOf<'w, W>,
+        wo: Vec3,
+        prefix: &PathThroughput,
+    ) {
         let GatherConfig { sets, layers, .. } = *self.plan;
         let scratch = &mut *self.scratch;
         scratch.at.clear();
@@ -308,9 +361,10 @@ impl<'w, W: World> GatherPath<'_, 'w, W> {
             sets,
             lanes,
             alone,
-            prefix: &self.prefix,
+            prefix,
             path: &scratch.path,
         };
+        let in_space = own.is_in_space();
         let mut any = false;
         for layer in layers {
             let counts = if self.second {
@@ -323,7 +377,7 @@ impl<'w, W: World> GatherPath<'_, 'w, W> {
                 if !counts(photon.kind)
                     || depth.saturating_add(photon.segments) > max_depth
                     || (alone && set != lanes.set)
-                    || photon.normal.dot(vertex.normal) < FACING
+                    || (!in_space && photon.normal.dot(vertex.normal) < FACING)
                 {
                     return;
                 }
@@ -332,7 +386,13 @@ impl<'w, W: World> GatherPath<'_, 'w, W> {
                     return;
                 }
                 let (model, sum) = &mut at[set];
-                let model = model.get_or_insert_with(|| world.bsdf(vertex, wo, sets.get(set)));
+                let model = model.get_or_insert_with(|| match own {
+                    // Only the walk's own set is looked for.
+                    Scatterer::Space(_) => *own,
+                    Scatterer::Surface(_) => {
+                        Scatterer::Surface(world.bsdf(vertex, wo, sets.get(set)))
+                    }
+                });
                 let value = model.eval(wo, photon.from, TransportMode::Radiance);
                 *sum += value * photon.value * kernel;
                 any = true;
@@ -349,10 +409,13 @@ impl<'w, W: World> GatherPath<'_, 'w, W> {
                     })
                 });
             };
-            let lookup = &layer.lookup;
+            let (lookup, placed) = match in_space {
+                false => (&layer.lookup, &layer.map.surfaces),
+                true => (&layer.in_space, &layer.map.space),
+            };
             let scale = 1.0 / layer.shot as f32;
             let radius_squared = lookup.radius * lookup.radius;
-            let (tree, photons) = (&layer.map.tree, &layer.map.photons);
+            let (tree, photons) = (&placed.tree, &placed.photons);
             let gathering = |radius_squared: f32| TraceEvent::Gathering {
                 radius: radius_squared.sqrt(),
                 among: photons.len(),
@@ -360,7 +423,8 @@ impl<'w, W: World> GatherPath<'_, 'w, W> {
             if lookup.nearest == 0 {
                 world.record(|| gathering(radius_squared));
                 tree.within(vertex.position, radius_squared, |found| {
-                    let kernel = lookup.kernel.value(found.distance_squared, radius_squared);
+                    let kernel =
+                        (lookup.kernel).value(found.distance_squared, radius_squared, in_space);
                     merge(&photons[found.place], kernel * scale);
                 });
             } else {
@@ -378,7 +442,7 @@ impl<'w, W: World> GatherPath<'_, 'w, W> {
                 };
                 world.record(|| gathering(reach));
                 for found in inside {
-                    let kernel = lookup.kernel.value(found.distance_squared, reach);
+                    let kernel = (lookup.kernel).value(found.distance_squared, reach, in_space);
                     merge(&photons[found.place], kernel * scale);
                 }
             }

@@ -6,7 +6,7 @@
 //! rᵢ₊₁² / rᵢ² = (i + α) / (i + 1),   i = 1, 2, …
 //! ```
 //!
-//! (Knaus & Zwicker 2011, "Progressive Photon Mapping: A Probabilistic Approach"). It
+//! (Knaus & Zwicker 2011, "Progressive Photon Mapping: A Probabilistic Approach"), in media rᵢ³. It
 //! depends on the number of the pass alone, and so passes are independent. The mean of N passes
 //! then has a variance of order N^−α and a bias of order N^(α−1) (ibid.); with α = 2/3
 //! the squared bias falls as the variance does, N^(−2/3), which is the best exponent of their sum
@@ -72,20 +72,26 @@ impl Radius {
         }
     }
 
-    /// The radius of a pass (m).
+    /// The radius of a pass on surfaces (m).
     pub(crate) fn of<W: World>(&self, world: &W, pass: &Pass) -> f32 {
         let first = self.first.unwrap_or_else(|| from_pixels(world, pass));
-        (f64::from(first) * shrunk(self.alpha, pass.number)) as f32
+        (f64::from(first) * shrunk(self.alpha, pass.number).sqrt()) as f32
+    }
+
+    /// The same in media.
+    pub(crate) fn in_space<W: World>(&self, world: &W, pass: &Pass) -> f32 {
+        // As many pixels as make of a picture's width of photons, spread in a cube, about as many in a ball as lie in
+        // a disc on a surface.
+        let wider = || (pass.size.max_element() as f32 / PIXELS).max(1.0).cbrt();
+        let first = (self.first).unwrap_or_else(|| wider() * from_pixels(world, pass));
+        (f64::from(first) * shrunk(self.alpha, pass.number).cbrt()) as f32
     }
 }
 
-/// The radius of a pass, counted from 0, over that of the first.
+/// The disc or ball of a pass, counted from 0, over that of the first.
 fn shrunk(alpha: f64, pass: u32) -> f64 {
     let ratio = |i: f64| (i + alpha) / (i + 1.0);
-    (1..=pass)
-        .map(|i| ratio(f64::from(i)))
-        .product::<f64>()
-        .sqrt()
+    (1..=pass).map(|i| ratio(f64::from(i))).product::<f64>()
 }
 
 /// What a grid of rays over the film meets: the point, and the distance to that of a ray one pixel
@@ -139,7 +145,7 @@ mod tests {
     #[test]
     fn the_radius_falls_as_published() {
         // rᵢ² → r₁² i^(α−1) / Γ(1 + α); Γ(5/3) = 0.902745…
-        let squared = shrunk(ALPHA, 99_999).powi(2);
+        let squared = shrunk(ALPHA, 99_999);
         let ratio = squared * 46.415_888_336 * 0.902_745_292_950_933;
         assert!((ratio - 1.0).abs() < 1e-4, "{ratio}");
         assert_eq!(shrunk(ALPHA, 0), 1.0);

@@ -1,9 +1,10 @@
-//! Photons: particles from the lights, noted wherever they meet a surface that scatters.
+//! Photons: particles from the lights, noted wherever they meet a surface that scatters, or are scattered by a medium.
 //!
 //! A photon of flux Φ that arrives at y stands for the part Φ of the flux that arrives there. Its
 //! value per lane is f/p of its path, with p the mean density over the lanes that could have
 //! chosen (see [`crate::path_throughput`]), over the cosine of its arrival: the sum of the values of photons
-//! per unit area of a surface estimates the integral of radiance over directions.
+//! per unit area of a surface estimates the integral of radiance over directions; that per unit volume of a medium σs
+//! times it.
 
 use super::sets::{WavelengthChoice, WavelengthSets};
 use super::{is_sharp, kdtree::KdTree};
@@ -26,12 +27,12 @@ pub(crate) enum Kind {
     Indirect,
 }
 
-/// A photon at a surface.
+/// A photon at a surface, or at a point of a medium.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Photon {
     /// Where (m).
     pub(crate) position: Vec3,
-    /// Unit geometric normal there.
+    /// Unit geometric normal there; zero in a medium.
     pub(crate) normal: Vec3,
     /// Unit direction to where it came from.
     pub(crate) from: Vec3,
@@ -45,19 +46,39 @@ pub(crate) struct Photon {
     pub(crate) kind: Kind,
 }
 
+/// Photons by their places.
+#[derive(Debug)]
+pub(crate) struct PlacedPhotons {
+    pub(crate) tree: KdTree,
+    pub(crate) photons: Vec<Photon>,
+}
+
+impl PlacedPhotons {
+    fn new(photons: &[Photon]) -> Self {
+        let (tree, order) = KdTree::new(photons.iter().map(|photon| photon.position));
+        let photons = order.iter().map(|i| photons[*i as usize]).collect();
+        Self { tree, photons }
+    }
+}
+
 /// The photons of a pass.
 #[derive(Debug)]
 pub(crate) struct PhotonMap {
-    pub(crate) tree: KdTree,
-    pub(crate) photons: Vec<Photon>,
+    /// Those on surfaces.
+    pub(crate) surfaces: PlacedPhotons,
+    /// Those in media.
+    pub(crate) space: PlacedPhotons,
 }
 
 impl PhotonMap {
     /// A map of some photons.
     pub(crate) fn new(photons: Vec<Photon>) -> Self {
-        let (tree, order) = KdTree::new(photons.iter().map(|photon| photon.position));
-        let photons = order.iter().map(|i| photons[*i as usize]).collect();
-        Self { tree, photons }
+        let in_space = |photon: &Photon| photon.normal == Vec3::ZERO;
+        let (space, surfaces): (Vec<_>, Vec<_>) = photons.into_iter().partition(in_space);
+        Self {
+            surfaces: PlacedPhotons::new(&surfaces),
+            space: PlacedPhotons::new(&space),
+        }
     }
 }
 
@@ -174,7 +195,7 @@ fn trace<W: World>(
         let LightVertex {
             vertex, wo, bsdf, ..
         } = &met;
-        let cos = vertex.normal.dot(*wo).abs();
+        let cos = vertex.area_cos(*wo);
         if bsdf.has_continuous() && cos > 0.0 {
             let prefix = &particle.prefix;
             let value = prefix.beta * (4.0 / (prefix.r_u.element_sum() * cos));

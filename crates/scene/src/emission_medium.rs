@@ -1,0 +1,54 @@
+//! The medium that a particle travels in when it leaves a light.
+//!
+//! A shape with media of its own says it, and so may a light. Otherwise it is that on this side of the first
+//! boundary on the particle's way: it is travelled in up to there.
+
+use crate::scene::Scene;
+use etalon_transport::{Camera, Emission, MediumId, Ray, World};
+use glam::Vec2;
+
+/// The most surfaces that are looked through.
+const PASSED: u32 = 1 << 10;
+
+impl Scene {
+    /// The medium of a particle; `None` if it comes from infinity through a medium without end.
+    pub(crate) fn medium_of_emission(&self, emission: &Emission) -> Option<MediumId> {
+        let media = self.media();
+        if emission.origin.is_infinite() {
+            let outermost = self.outermost();
+            return (!media.is_endless(outermost)).then_some(outermost);
+        }
+        let direction = emission.ray.direction;
+        if let Some(own) = media.of_light(emission.light) {
+            return Some(own.toward(direction.dot(emission.point.normal)));
+        }
+        let mut ray = emission.ray;
+        for _ in 0..PASSED {
+            let Some(hit) = self.intersect(&ray) else {
+                return Some(self.outermost());
+            };
+            let vertex = self.vertex(&ray, &hit);
+            if let Some(boundary) = media.of_shape(hit.shape) {
+                return Some(boundary.toward(-direction.dot(vertex.normal)));
+            }
+            ray = vertex.spawn(direction);
+        }
+        Some(MediumId::NONE)
+    }
+
+    /// The medium beyond everything: where a ray from the camera ends that goes straight on.
+    pub(crate) fn find_outermost(&self) -> MediumId {
+        let start = self.camera().ray(Vec2::splat(0.5), Vec2::splat(0.5), 0.0);
+        let mut ray = Ray {
+            medium: self.camera_medium(),
+            ..start.ray
+        };
+        for _ in 0..PASSED {
+            let Some(hit) = self.intersect(&ray) else {
+                break;
+            };
+            ray = self.vertex(&ray, &hit).spawn(ray.direction);
+        }
+        ray.medium
+    }
+}
