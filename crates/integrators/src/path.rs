@@ -175,10 +175,17 @@ pub(crate) fn camera_ray<W: World, S: Sampler>(
     sampler: &mut S,
 ) -> (Wavelengths, Ray, f32) {
     let (lens, u, time) = draw_lens(sampler);
+    let (ray, weight) = ray_at(world, site, lens, time);
+    (world.wavelengths(u), ray, weight)
+}
+
+/// The camera ray of a sample through a point of the lens, at the moment `time`.
+#[inline]
+pub(crate) fn ray_at<W: World>(world: &W, site: &PixelSample, lens: Vec2, time: f32) -> (Ray, f32) {
     let start = world.camera().ray(site.raster, lens, time);
     let ray = Ray {
         medium: world.camera_medium(),
         ..start.ray
     };
-    (world.wavelengths(u), ray, start.weight)
+    (ray, start.weight)
 }

@@ -24,7 +24,7 @@
 
 use crate::bdpt::merge::{self, Merging, Terms};
 use crate::bdpt::{Start, estimate};
-use crate::path::draw_lens;
+use crate::path::{draw_lens, ray_at};
 use crate::photons::radius::Radius;
 use crate::photons::sets::WavelengthSets;
 use crate::photons::shoot::{in_order, moment, numbers};
@@ -34,7 +34,7 @@ use etalon_params::Params;
 use etalon_sampling::Sampler;
 use etalon_spectrum::Wavelengths;
 use etalon_transport::{
-    Camera, Incompatibility, Integrator, LightSearch, Pass, PixelSample, Placing, SampleJob,
+    Incompatibility, Integrator, LightSearch, Pass, PixelSample, Placing, SampleJob,
     SceneCapabilities, Sink, TileSink, TraceEvent, World,
 };
 
@@ -90,14 +90,14 @@ impl ConnectionMerging {
         sampler: &mut impl Sampler,
     ) -> Start<'a> {
         let (lens, ..) = draw_lens(sampler);
-        let start = world.camera().ray(site.raster, lens, state.merging.time());
+        let (ray, weight) = ray_at(world, site, lens, state.merging.time());
         world.record(|| TraceEvent::Wavelengths(state.wavelengths));
         Start {
             settings: &self.settings,
             only: None,
             wavelengths: state.wavelengths,
-            ray: start.ray,
-            weight: start.weight,
+            ray,
+            weight,
             merging: Some(&state.merging),
         }
     }

@@ -11,7 +11,7 @@ use super::shoot::{Kind, Photon, PhotonMap};
 use crate::candidates::Aim;
 use crate::dimensions::{BounceSamples, draw_flight};
 use crate::light_mis::LightMis;
-use crate::path::draw_lens;
+use crate::path::{draw_lens, ray_at};
 use crate::path_throughput::PathThroughput;
 use crate::settings::PathSettings;
 use crate::steps;
@@ -19,8 +19,8 @@ use core::f32::consts::PI;
 use etalon_sampling::Sampler;
 use etalon_spectrum::Wavelengths;
 use etalon_transport::{
-    Bsdf, Camera, LightSampleContext, MergedPhoton, PixelSample, Ray, SampleJob, SamplePdf,
-    Scatterer, ScattererOf, Sink, SurfaceInteraction, TileSink, TraceEvent, TransportMode, World,
+    Bsdf, LightSampleContext, MergedPhoton, PixelSample, Ray, SampleJob, SamplePdf, Scatterer,
+    ScattererOf, Sink, SurfaceInteraction, TileSink, TraceEvent, TransportMode, World,
 };
 use glam::{Vec3, Vec4};
 
@@ -176,12 +176,8 @@ fn follow<'w, W: World>(
     let (lens, u, _) = draw_lens(sampler);
     let lanes = plan.sets.choose(u);
     world.record(|| TraceEvent::Wavelengths(plan.sets.of(lanes)));
-    let start = world.camera().ray(site.raster, lens, plan.time);
+    let (ray, weight) = ray_at(world, site, lens, plan.time);
     scratch.path.clear();
-    let ray = Ray {
-        medium: world.camera_medium(),
-        ..start.ray
-    };
     let mut gatherer = GatherPath {
         world,
         plan,
@@ -199,7 +195,7 @@ fn follow<'w, W: World>(
     let alpha = gatherer.walk(ray, sampler);
     let own = lanes.to_set(gatherer.radiance);
     let rgb = plan.sets.sensor(lanes.set).rgb(own) + gatherer.rgb;
-    sink.radiance((rgb * start.weight).to_array(), alpha);
+    sink.radiance((rgb * weight).to_array(), alpha);
 }
 
 impl<'w, W: World> GatherPath<'_, 'w, W> {
@@ -365,6 +361,10 @@ impl<'w, W: World> GatherPath<'_, 'w, W> {
             path: &scratch.path,
         };
         let in_space = own.is_in_space();
+        let shares = |photon: &Photon| match in_space {
+            true => photon.medium == vertex.media.outside,
+            false => photon.normal.dot(vertex.normal) >= FACING,
+        };
         let mut any = false;
         for layer in layers {
             let counts = if self.second {
@@ -377,7 +377,7 @@ impl<'w, W: World> GatherPath<'_, 'w, W> {
                 if !counts(photon.kind)
                     || depth.saturating_add(photon.segments) > max_depth
                     || (alone && set != lanes.set)
-                    || (!in_space && photon.normal.dot(vertex.normal) < FACING)
+                    || !shares(photon)
                 {
                     return;
                 }

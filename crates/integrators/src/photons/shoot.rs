@@ -12,7 +12,7 @@ use crate::particle::{LightPath, LightVertex};
 use crate::settings::PathSettings;
 use etalon_sampling::hash::mix64;
 use etalon_sampling::{SampleId, Sobol};
-use etalon_transport::{Bsdf, LightKind, Pass, Placing, SamplePdf, World};
+use etalon_transport::{Bsdf, LightKind, MediumId, Pass, Placing, SamplePdf, World};
 use glam::{Vec3, Vec4};
 use rayon::prelude::*;
 
@@ -44,6 +44,8 @@ pub(crate) struct Photon {
     pub(crate) segments: u32,
     /// What it went through.
     pub(crate) kind: Kind,
+    /// The medium that scatters it, if it is not on a surface.
+    pub(crate) medium: MediumId,
 }
 
 /// Photons by their places.
@@ -73,7 +75,7 @@ pub(crate) struct PhotonMap {
 impl PhotonMap {
     /// A map of some photons.
     pub(crate) fn new(photons: Vec<Photon>) -> Self {
-        let in_space = |photon: &Photon| photon.normal == Vec3::ZERO;
+        let in_space = |photon: &Photon| photon.medium.is_some();
         let (space, surfaces): (Vec<_>, Vec<_>) = photons.into_iter().partition(in_space);
         Self {
             surfaces: PlacedPhotons::new(&surfaces),
@@ -207,6 +209,10 @@ fn trace<W: World>(
                 set: lanes.set as u32,
                 segments: particle.depth,
                 kind,
+                medium: match bsdf.is_in_space() {
+                    true => vertex.media.outside,
+                    false => MediumId::NONE,
+                },
             });
         }
         let Some(sample) = particle.scatter(&met, settings.rr_depth) else {
