@@ -90,7 +90,7 @@ impl Aim {
             // Scattering never finds a discrete light.
             SamplePdf::Discrete(_) => Vec4::ZERO,
             SamplePdf::Continuous(chosen) => {
-                before.r_u * density.lanes() * (scattering / chosen.hero())
+                before.r_u * density.lanes() * light.extinction * (scattering / chosen.hero())
             }
         };
         Self {

@@ -28,8 +28,8 @@ use etalon_params::Params;
 use etalon_sampling::{ReplicateKind, Sampler};
 use etalon_spectrum::{SensorWeights, Wavelengths};
 use etalon_transport::{
-    Bsdf, Camera, Incompatibility, Integrator, LightSearch, Pass, PixelSample, Placing, Ray,
-    SceneCapabilities, Sink, Subject, World,
+    Bsdf, Camera, Incompatibility, Integrator, LightKind, LightSearch, Pass, PixelSample, Placing,
+    Ray, SceneCapabilities, Sink, Subject, World,
 };
 use glam::Vec4;
 
@@ -136,7 +136,7 @@ impl Forward {
         // Whether the particle has only passed surfaces straight since it left the light, and
         // whether its ray starts on a surface that emits.
         let mut straight = true;
-        let mut on_light = !start.origin.is_infinite();
+        let mut on_light = !start.origin.is_infinite() && start.origin != LightKind::Medium;
         while particle.depth <= max_depth {
             let LightPath { ray, depth, .. } = particle;
             let extent = start.origin.can_be_hit();

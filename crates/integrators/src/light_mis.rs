@@ -2,7 +2,7 @@
 //! find it. pbrt-v4 calls the ratio `r_l`.
 
 use crate::path_throughput::PathThroughput;
-use etalon_transport::{BsdfSample, LightSampleContext, SurfaceInteraction, World};
+use etalon_transport::{BsdfSample, LightSampleContext, MediumId, SurfaceInteraction, World};
 use glam::{Vec3, Vec4};
 
 /// What light sampling at the last vertex that is no null interaction could have found.
@@ -62,6 +62,16 @@ impl LightMis {
             return Vec4::ZERO;
         }
         self.r_l * world.light_density(&self.from, at, direction).lanes()
+    }
+
+    /// pₜ,ₖ / p₀ of light sampling for a point of a medium that emits.
+    #[inline]
+    pub(crate) fn pdf_in_medium<W: World>(&self, world: &W, medium: MediumId, at: Vec3) -> Vec4 {
+        if !self.exists() {
+            return Vec4::ZERO;
+        }
+        let distance_squared = self.from.position.distance_squared(at);
+        self.r_l * (world.medium_light_density(medium, at) * distance_squared)
     }
 
     /// pₜ,ₖ / p₀ of light sampling for the background.

@@ -22,13 +22,11 @@ impl<S: Sampler, C: PathHooks> PathState<S, C> {
             return false;
         };
         let density = flight.density();
-        if flight.emitted != Vec4::ZERO {
-            let mut emitted = self.throughput;
-            emitted.scatter(flight.emitted, density);
-            self.add_emission(emitted.contribution(Vec4::ONE, Vec4::ZERO));
-        }
-        self.throughput.scatter(flight.factor, density);
         self.light_mis.r_l /= density.x;
+        let (ray, light_mis) = (&self.ray, &self.light_mis);
+        let emitted = steps::emitted_on_the_way(world, &flight, ray, &self.throughput, light_mis);
+        self.add_emission(emitted);
+        self.throughput.scatter(flight.factor, density);
         self.hooks.on_medium(&self.throughput);
         let Some(Collision { t, phase, .. }) = flight.scattering else {
             return false;

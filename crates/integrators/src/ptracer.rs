@@ -15,6 +15,8 @@
 //! stopped, the background included. With `hide_emitters` the camera looks through lights, as that of
 //! `path`. (Mitsuba's lights then still stand in the way of what is behind them.)
 
+use crate::dimensions as dim;
+use crate::light_mis::LightMis;
 use crate::particle::{LightPath, LightVertex};
 use crate::path::camera_ray;
 use crate::path_throughput::PathThroughput;
@@ -52,6 +54,7 @@ impl ParticleTracer {
         world: &W,
         mut ray: Ray,
         wavelengths: &Wavelengths,
+        sampler: &mut impl Sampler,
     ) -> (Vec4, f32) {
         let visible = !self.settings.hide_emitters;
         let mut prefix = PathThroughput::START;
@@ -61,6 +64,12 @@ impl ParticleTracer {
             let hidden = !visible && depth == 1;
             let hit = steps::next_hit(world, &mut ray, hidden);
             if let Some(passage) = steps::transmittance(world, &ray, hit.as_ref(), wavelengths) {
+                // Matter that shines is seen where a flight ends.
+                let u = sampler.next_1d();
+                let flight = steps::free_flight(world, &ray, hit.as_ref(), wavelengths, u);
+                radiance += flight.map_or(Vec4::ZERO, |flight| {
+                    steps::emitted_on_the_way(world, &flight, &ray, &prefix, &LightMis::NONE)
+                });
                 prefix.beta *= passage.transmittance;
             }
             let Some(hit) = hit else {
@@ -191,7 +200,10 @@ impl Integrator for ParticleTracer {
     ) {
         let (wavelengths, ray, weight) = camera_ray(world, site, sampler);
         let sensor = world.sensor(&wavelengths);
-        let (lights, alpha) = self.visible_lights(world, ray, &wavelengths);
+        let (lights, alpha) = {
+            sampler.skip_to(dim::TIME + 1);
+            self.visible_lights(world, ray, &wavelengths, sampler)
+        };
         sink.radiance(sensor.rgb(lights * weight).to_array(), alpha);
         self.trace(
             world,

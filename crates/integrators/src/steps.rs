@@ -68,6 +68,26 @@ pub(crate) fn free_flight<'w, W: World>(
     Some(medium.free_flight(ray, t_max, u, &mut ray.stream(u)))
 }
 
+/// The contribution of a path that arrives where `flight` along `ray` ends, by what the medium emits there; `light_mis`
+/// has come there.
+#[inline]
+pub(crate) fn emitted_on_the_way<W: World, P>(
+    world: &W,
+    flight: &FreeFlight<P>,
+    ray: &Ray,
+    throughput: &PathThroughput,
+    light_mis: &LightMis,
+) -> Vec4 {
+    let Some(collision) = (flight.scattering.as_ref()).filter(|_| flight.emitted != Vec4::ZERO)
+    else {
+        return Vec4::ZERO;
+    };
+    let mut emitted = *throughput;
+    emitted.scatter(flight.emitted, flight.density());
+    let other = light_mis.pdf_in_medium(world, ray.medium, ray.at(collision.t));
+    emitted.contribution(Vec4::ONE, other)
+}
+
 /// What lets light pass on the way of `ray` to its `hit`, by an estimate; `None` in empty space.
 #[inline]
 pub(crate) fn transmittance<W: World>(

@@ -94,6 +94,7 @@ impl LightModel for AreaLight {
             chance: SamplePdf::Continuous(Density::uniform(density)),
             cos: -point.normal.dot(direction),
             origin: LightKind::Surface,
+            extinction: Vec4::ONE,
             light: LightId::NONE,
         })
     }
@@ -122,6 +123,7 @@ impl LightModel for AreaLight {
             },
             point,
             origin: LightKind::Surface,
+            extinction: Vec4::ONE,
             light: LightId::NONE,
         })
     }

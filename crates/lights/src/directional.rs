@@ -99,6 +99,7 @@ impl LightModel for DirectionalLight {
             chance: SamplePdf::Discrete(DeltaProbability::uniform(1.0)),
             cos: 1.0,
             origin: LightKind::Parallel,
+            extinction: Vec4::ONE,
             light: LightId::NONE,
         })
     }
@@ -123,6 +124,7 @@ impl LightModel for DirectionalLight {
                 ray: bounds.ray_density(),
             },
             origin: LightKind::Parallel,
+            extinction: Vec4::ONE,
             light: LightId::NONE,
         })
     }

@@ -19,7 +19,7 @@ use etalon_transport::{
     Build, Emission, EmissionPdf, LightId, LightKind, LightSample, LightSampleContext, Ray,
     SampledPoint, ShapeId, Shapes, SpectrumKind, TextureId, Textures,
 };
-use glam::{Vec2, Vec3};
+use glam::{Vec2, Vec3, Vec4};
 
 /// A shape that shines along its normals.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -74,6 +74,7 @@ impl LightModel for DirectionalArea {
             },
             point,
             origin: LightKind::Beam,
+            extinction: Vec4::ONE,
             light: LightId::NONE,
         })
     }

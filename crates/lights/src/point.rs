@@ -17,7 +17,7 @@ use etalon_transport::{
     Build, Emission, EmissionPdf, LightId, LightKind, LightSample, LightSampleContext, Ray,
     SamplePdf, Shapes, SpectrumKind, TextureId, Textures,
 };
-use glam::{DAffine3, Vec2, Vec3};
+use glam::{DAffine3, Vec2, Vec3, Vec4};
 
 /// Where it is (m).
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -111,6 +111,7 @@ impl LightModel for PointLight {
             chance: SamplePdf::Discrete(DeltaProbability::uniform(1.0)),
             cos: 1.0,
             origin: LightKind::Point,
+            extinction: Vec4::ONE,
             light: LightId::NONE,
         })
     }
@@ -138,6 +139,7 @@ impl LightModel for PointLight {
                 ray: UNIFORM_SPHERE_DENSITY,
             },
             origin: LightKind::Point,
+            extinction: Vec4::ONE,
             light: LightId::NONE,
         })
     }

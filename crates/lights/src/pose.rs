@@ -100,6 +100,7 @@ pub fn sample_point(
         chance: SamplePdf::Discrete(DeltaProbability::uniform(1.0)),
         cos: 1.0,
         origin: LightKind::Point,
+        extinction: Vec4::ONE,
         light: LightId::NONE,
     })
 }
@@ -124,6 +125,7 @@ pub fn emit_from_point(
             ray: density,
         },
         origin: LightKind::Point,
+        extinction: Vec4::ONE,
         light: LightId::NONE,
     }
 }

@@ -334,7 +334,7 @@ impl LightSet {
                 self.background_density(from, toward).hero()
             }
             LightKind::Point | LightKind::Parallel => probability(),
-            LightKind::Beam => 0.0,
+            LightKind::Beam | LightKind::Medium => 0.0,
         }
     }
 }

@@ -18,6 +18,7 @@ pub(crate) fn sample(direction: Vec3, radiance: Vec4, density: Density<SolidAngl
         chance: SamplePdf::Continuous(density),
         cos: 1.0,
         origin: LightKind::Sky,
+        extinction: Vec4::ONE,
         light: LightId::NONE,
     }
 }
@@ -41,6 +42,7 @@ pub(crate) fn emit(
             ray: bounds.ray_density(),
         },
         origin: LightKind::Sky,
+        extinction: Vec4::ONE,
         light: LightId::NONE,
     }
 }

@@ -104,7 +104,14 @@ pub fn compile_with(
     };
     let bounded = (!surfaces.placed_media).then_some(surfaces.interfaces.as_slice());
     let media = media::prepared(surfaces.media, bounded, camera_medium, &lookup, diagnostics)?;
-    let media = SceneMedia::new(media, &surfaces.interfaces, &placed, camera_medium);
+    let media = SceneMedia::new(
+        media,
+        &surfaces.interfaces,
+        surfaces.placed_media,
+        &placed,
+        camera_medium,
+        &lookup,
+    );
     let [low, high] = media.extent([bounds.min, bounds.max]);
     let bounds = BoundingSphere::of_box(low, high);
     let kind = (options.light_chooser)

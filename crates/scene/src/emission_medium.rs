@@ -22,18 +22,22 @@ impl Scene {
         if let Some(own) = media.of_light(emission.light) {
             return Some(own.toward(direction.dot(emission.point.normal)));
         }
-        let mut ray = emission.ray;
+        Some(self.medium_along(emission.ray))
+    }
+
+    /// The medium on this side of the first boundary on a ray's way.
+    pub(crate) fn medium_along(&self, mut ray: Ray) -> MediumId {
         for _ in 0..PASSED {
             let Some(hit) = self.intersect(&ray) else {
-                return Some(self.outermost());
+                return self.outermost();
             };
             let vertex = self.vertex(&ray, &hit);
-            if let Some(boundary) = media.of_shape(hit.shape) {
-                return Some(boundary.toward(-direction.dot(vertex.normal)));
+            if let Some(boundary) = self.media().of_shape(hit.shape) {
+                return boundary.toward(-ray.direction.dot(vertex.normal));
             }
-            ray = vertex.spawn(direction);
+            ray = vertex.spawn(ray.direction);
         }
-        Some(MediumId::NONE)
+        MediumId::NONE
     }
 
     /// The medium beyond everything: where a ray from the camera ends that goes straight on.

@@ -129,6 +129,8 @@ pub struct SceneMedia {
     interfaces: Vec<Option<MediumInterface>>,
     /// That of the camera.
     pub camera: MediumId,
+    /// The boxes of the shapes that hold each.
+    boxes: Vec<Option<[Vec3; 2]>>,
     /// Around each light, as far as the scene says.
     lights: Vec<Option<MediumInterface>>,
 }
@@ -143,12 +145,14 @@ pub(crate) struct LightMedium {
 }
 
 impl SceneMedia {
-    /// Media with the shapes that bound them.
+    /// Media with the shapes that bound them, some of which are `placed` as instances.
     pub(crate) fn new(
         media: Vec<MediumDescription>,
         bounded: &[(ShapeId, MediumInterface)],
+        placed: bool,
         lights: &[LightMedium],
         camera: MediumId,
+        lookup: &SceneTables,
     ) -> Self {
         let mut interfaces = Vec::new();
         for (shape, interface) in bounded {
@@ -163,8 +167,15 @@ impl SceneMedia {
             let own = shape.and_then(|shape| interfaces.get(shape).copied().flatten());
             own.or(light.declared.map(MediumInterface::within))
         };
+        let held = |index| {
+            let id = MediumId(index as u32);
+            (!placed && id != camera)
+                .then(|| within(id, bounded, lookup))
+                .flatten()
+        };
         Self {
             lights: lights.iter().map(around).collect(),
+            boxes: (0..media.len()).map(held).collect(),
             media,
             interfaces,
             camera,
@@ -193,6 +204,15 @@ impl SceneMedia {
     #[inline]
     pub fn of_light(&self, light: LightId) -> Option<MediumInterface> {
         self.lights.get(light.0 as usize).copied().flatten()
+    }
+
+    /// Those that emit light and end somewhere, with their boxes.
+    pub fn emitting_bounds(&self) -> impl Iterator<Item = (MediumId, [Vec3; 2])> {
+        let boxes = self.media.iter().zip(&self.boxes).zip(0..);
+        boxes.filter_map(|((medium, bounds), id)| {
+            let bounds = medium.bounds().or(*bounds).filter(|_| medium.emits())?;
+            Some((MediumId(id), bounds))
+        })
     }
 
     /// How many emit light.

@@ -2,16 +2,18 @@
 
 use crate::lookup::SceneTables;
 use crate::media::SceneMedia;
+use crate::medium_lights::MediumLights;
 use crate::{rays, view};
 use etalon_bsdf::{BsdfAtPoint, Material};
 use etalon_cameras::AnyCamera;
 use etalon_lights::LightSet;
+use etalon_math::float::ONE_MINUS_EPSILON;
 use etalon_math::{Density, SolidAngle};
 use etalon_spectrum::{Sensor, SensorWeights, Wavelengths};
 use etalon_subsurface::MediumAtWavelengths;
 use etalon_transport::{
-    Bsdf, Camera, Emission, EmissionPdf, Hit, LegacyPhong, LightId, LightSample,
-    LightSampleContext, LightVariety, Medium, MediumId, Ray, SceneCapabilities, SurfaceInteraction,
+    Camera, Emission, EmissionPdf, Hit, LegacyPhong, LightId, LightKind, LightSample,
+    LightSampleContext, LightVariety, MediumId, Ray, SceneCapabilities, SurfaceInteraction,
     Transmission, World,
 };
 use glam::{UVec2, Vec2, Vec3, Vec4};
@@ -37,6 +39,16 @@ struct Parts {
     has_media: bool,
     /// The medium beyond everything.
     outermost: MediumId,
+    /// Media that are lights.
+    shining: Option<MediumLights>,
+    /// How often any other light is chosen, and by what its densities are multiplied therefore.
+    of_others: f32,
+}
+
+/// What emits the light that is asked for.
+enum LightChoice<'a> {
+    Medium(&'a MediumLights, f32),
+    Other(f32),
 }
 
 impl Scene {
@@ -57,6 +69,8 @@ impl Scene {
             has_null,
             has_media: media.exist(),
             outermost: media.camera,
+            shining: None,
+            of_others: 1.0,
             media,
         };
         let mut scene = Self {
@@ -68,9 +82,16 @@ impl Scene {
             return scene;
         }
         let outermost = scene.find_outermost();
-        rays::take();
         if let Some(parts) = Arc::get_mut(&mut scene.parts) {
             parts.outermost = outermost;
+        }
+        let lights = &scene.parts.lights;
+        let others = (0..lights.len()).map(|i| lights.power(LightId(i as u32)));
+        let shining = MediumLights::find(&scene, others.sum());
+        rays::take();
+        if let Some(parts) = Arc::get_mut(&mut scene.parts) {
+            parts.of_others = 1.0 - shining.as_ref().map_or(0.0, |lights| lights.share);
+            parts.shining = shining;
         }
         scene
     }
@@ -112,6 +133,7 @@ impl Scene {
         for count in [&mut lights.all, &mut lights.hittable, &mut lights.either] {
             *count += shining;
         }
+        lights.chosen += self.parts.media.emitting_bounds().count() as u32;
         SceneCapabilities {
             view,
             lights,
@@ -130,13 +152,51 @@ impl Scene {
         &self.parts.media
     }
 
+    /// A medium at four wavelengths (nm).
+    #[inline]
+    pub(crate) fn medium_at(
+        &self,
+        medium: MediumId,
+        lambda: Vec4,
+    ) -> Option<MediumAtWavelengths<'_, SceneTables>> {
+        self.parts.media.at(medium, &self.parts.lookup, lambda)
+    }
+
     /// The medium beyond everything.
     pub(crate) fn outermost(&self) -> MediumId {
         self.parts.outermost
     }
 
+    /// Textures and shapes.
+    pub(crate) fn lookup(&self) -> &SceneTables {
+        &self.parts.lookup
+    }
+
+    /// Whether a light is a medium or another one, by `u` in [0, 1), with what is left of that.
     #[inline]
-    fn material(&self, vertex: &SurfaceInteraction) -> &Material {
+    fn choose_light(&self, u: f32) -> LightChoice<'_> {
+        let Some(lights) = &self.parts.shining else {
+            return LightChoice::Other(u);
+        };
+        let left = (u - lights.share) / self.parts.of_others;
+        if left < 0.0 || self.parts.of_others == 0.0 {
+            LightChoice::Medium(lights, (u / lights.share).min(ONE_MINUS_EPSILON))
+        } else {
+            LightChoice::Other(left.min(ONE_MINUS_EPSILON))
+        }
+    }
+
+    /// The densities of a particle from a light that is no medium, the choice included.
+    #[inline]
+    fn of_others(&self, density: EmissionPdf) -> EmissionPdf {
+        EmissionPdf {
+            origin: density.origin * self.parts.of_others,
+            ..density
+        }
+    }
+
+    #[inline]
+    pub(crate) fn material(&self, vertex: &SurfaceInteraction) -> &Material {
         &self.parts.materials[vertex.material.0 as usize]
     }
 }
@@ -186,9 +246,7 @@ impl World for Scene {
 
     #[inline]
     fn medium(&self, medium: MediumId, wavelengths: &Wavelengths) -> Option<Self::Medium<'_>> {
-        self.parts
-            .media
-            .at(medium, &self.parts.lookup, wavelengths.lambda)
+        self.medium_at(medium, wavelengths.lambda)
     }
 
     #[inline]
@@ -257,13 +315,23 @@ impl World for Scene {
         u_light: f32,
         u: Vec2,
     ) -> Option<LightSample> {
-        self.parts
-            .lights
-            .sample(&self.parts.lookup, from, wavelengths, u_light, u)
+        let u_light = match self.choose_light(u_light) {
+            LightChoice::Medium(lights, u_light) => {
+                return self.sample_medium(lights, from, wavelengths, u_light, u);
+            }
+            LightChoice::Other(u_light) => u_light,
+        };
+        let mut sample =
+            (self.parts.lights).sample(&self.parts.lookup, from, wavelengths, u_light, u)?;
+        sample.chance = sample.chance.scaled(self.parts.of_others);
+        Some(sample)
     }
 
     #[inline]
     fn light_variety(&self, from: &LightSampleContext) -> LightVariety {
+        if self.parts.shining.is_some() {
+            return LightVariety::Several;
+        }
         self.parts.lights.light_variety(from)
     }
 
@@ -291,7 +359,7 @@ impl World for Scene {
         at: &SurfaceInteraction,
         _: Vec3,
     ) -> Density<SolidAngle> {
-        self.parts.lights.density(&self.parts.lookup, from, at)
+        self.parts.lights.density(&self.parts.lookup, from, at) * self.parts.of_others
     }
 
     #[inline]
@@ -300,7 +368,7 @@ impl World for Scene {
         from: &LightSampleContext,
         direction: Vec3,
     ) -> Density<SolidAngle> {
-        self.parts.lights.background_density(from, direction)
+        self.parts.lights.background_density(from, direction) * self.parts.of_others
     }
 
     #[inline]
@@ -312,6 +380,13 @@ impl World for Scene {
         u_direction: Vec2,
         time: f32,
     ) -> Option<Emission> {
+        let u_light = match self.choose_light(u_light) {
+            LightChoice::Medium(lights, u_light) => {
+                let u = [u_position, u_direction];
+                return self.emit_from_medium(lights, wavelengths, u_light, u, time);
+            }
+            LightChoice::Other(u_light) => u_light,
+        };
         let mut emission = self.parts.lights.emit(
             &self.parts.lookup,
             wavelengths,
@@ -320,6 +395,8 @@ impl World for Scene {
             u_direction,
             time,
         )?;
+        emission.weight /= self.parts.of_others;
+        emission.density = self.of_others(emission.density);
         if self.parts.has_media {
             emission.ray.medium = self.medium_of_emission(&emission)?;
         }
@@ -334,80 +411,32 @@ impl World for Scene {
         cos: f32,
         time: f32,
     ) -> EmissionPdf {
-        self.parts
-            .lights
-            .emission_density(&self.parts.lookup, light, direction, cos, time)
+        let lights = &self.parts.lights;
+        self.of_others(lights.emission_density(&self.parts.lookup, light, direction, cos, time))
     }
 
     #[inline]
     fn background_emission_density(&self, direction: Vec3) -> EmissionPdf {
-        (self.parts.lights).background_emission_density(&self.parts.lookup, direction)
+        let lights = &self.parts.lights;
+        self.of_others(lights.background_emission_density(&self.parts.lookup, direction))
     }
 
     #[inline]
     fn light_sample_density(&self, from: &LightSampleContext, start: &Emission) -> f32 {
-        self.parts
-            .lights
-            .light_sample_density(&self.parts.lookup, from, start)
+        if start.origin == LightKind::Medium {
+            return start.density.origin;
+        }
+        let lights = &self.parts.lights;
+        lights.light_sample_density(&self.parts.lookup, from, start) * self.parts.of_others
+    }
+
+    #[inline]
+    fn medium_light_density(&self, medium: MediumId, at: Vec3) -> f32 {
+        let shining = self.parts.shining.as_ref();
+        shining.map_or(0.0, |lights| lights.density(medium, at))
     }
 
     fn take_ray_count(&self) -> u64 {
         rays::take()
-    }
-}
-
-impl Scene {
-    /// A segment through surfaces that let light pass: each is met in turn and asked how much.
-    fn passage_through(
-        &self,
-        mut ray: Ray,
-        wavelengths: &Wavelengths,
-        mut crossings: u32,
-    ) -> Option<Transmission> {
-        let end = ray.t_max;
-        let origin = ray.origin;
-        let mut passage = Transmission::FREE;
-        loop {
-            let hit = self.intersect(&ray);
-            if ray.medium.is_some()
-                && let Some(medium) = self.medium(ray.medium, wavelengths)
-            {
-                let t = hit.map_or(ray.t_max, |hit| hit.t);
-                passage.then(&medium.transmittance(&ray, t, &mut ray.stream(0.0)));
-                if passage.transmittance == Vec4::ZERO {
-                    return None;
-                }
-            }
-            let Some(hit) = hit else { break };
-            if crossings == 0 {
-                return None;
-            }
-            crossings -= 1;
-            let vertex = self.vertex(&ray, &hit);
-            let material = self.material(&vertex);
-            if !material.has_null() {
-                return None;
-            }
-            let bsdf = material.resolve(&self.parts.lookup, &vertex, -ray.direction, wavelengths);
-            passage.then(&Transmission {
-                transmittance: bsdf.null_transmittance(),
-                probability: bsdf.null_probability(),
-            });
-            if passage.transmittance == Vec4::ZERO {
-                return None;
-            }
-            ray = Ray {
-                t_max: f32::INFINITY,
-                ..vertex.spawn(ray.direction)
-            };
-            if end.is_finite() {
-                // What is left of the segment, measured from where the ray goes on.
-                ray.t_max = end - (ray.origin - origin).dot(ray.direction);
-                if !(ray.t_max > 0.0) {
-                    break;
-                }
-            }
-        }
-        Some(passage)
     }
 }

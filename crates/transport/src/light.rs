@@ -15,13 +15,16 @@ pub struct LightSample {
     /// perpendicular to `direction` (a point light's I/r²).
     pub radiance: Vec4,
     /// Density of the direction (probability of the choice of light included), or its discrete
-    /// probability.
+    /// probability; of a point of a medium per unit solid angle and length (sr⁻¹·m⁻¹).
     pub chance: SamplePdf,
     /// Cosine of the angle between the light's surface normal and the way to the observer; 1
     /// where it has no surface.
     pub cos: f32,
     /// What it is a sample of.
     pub origin: LightKind,
+    /// σt of a point of a medium (m⁻¹), per lane: with what density per length a flight through it ends there. 1 of all
+    /// other lights.
+    pub extinction: Vec4,
     /// The light; any of them for a sky that is the sum of several.
     pub light: LightId,
 }
@@ -42,7 +45,7 @@ pub enum LightVariety {
 pub struct EmissionPdf {
     /// Of its origin, the choice of the light included: per unit area of an emitting surface
     /// (m⁻²); per unit solid angle of a direction to the sky (sr⁻¹); the probability of a light
-    /// that is but a point or a direction.
+    /// that is but a point or a direction; per unit volume of a medium (m⁻³).
     pub origin: f32,
     /// Of its ray, given the origin: per unit solid angle (sr⁻¹), or per unit cross-section of
     /// the scene for a light at infinity (m⁻²).
@@ -70,6 +73,8 @@ pub enum LightKind {
     Parallel,
     /// A surface that shines along its normals alone: no path finds it by chance, nor by a connection.
     Beam,
+    /// A point of a medium that emits light.
+    Medium,
 }
 
 impl LightKind {
@@ -88,7 +93,7 @@ impl LightKind {
     /// Whether a path can run into it.
     #[inline]
     pub fn can_be_hit(self) -> bool {
-        matches!(self, Self::Surface | Self::Sky)
+        matches!(self, Self::Surface | Self::Sky | Self::Medium)
     }
 }
 
@@ -106,6 +111,8 @@ pub struct Emission {
     pub density: EmissionPdf,
     /// What it comes from.
     pub origin: LightKind,
+    /// See [`LightSample::extinction`].
+    pub extinction: Vec4,
     /// The light.
     pub light: LightId,
 }

@@ -23,6 +23,16 @@ impl SamplePdf {
         }
     }
 
+    /// The same of what is chosen with this probability beforehand.
+    #[inline]
+    #[must_use]
+    pub fn scaled(self, probability: f32) -> Self {
+        match self {
+            Self::Continuous(density) => Self::Continuous(density * probability),
+            Self::Discrete(atom) => Self::Discrete(DeltaProbability(atom.0 * probability)),
+        }
+    }
+
     /// Whether the direction is discrete.
     #[inline]
     pub fn is_delta(self) -> bool {

@@ -223,6 +223,13 @@ pub trait World: Sync {
     /// where a particle began; the probability of its light if that is a point or a direction.
     fn light_sample_density(&self, from: &LightSampleContext, start: &Emission) -> f32;
 
+    /// The density per volume (m⁻³) with which [`World::sample_light`], from wherever, and [`World::emit`] choose the point
+    /// `at` of a medium that emits light; zero if they never do. Particles leave it evenly in all directions.
+    #[inline]
+    fn medium_light_density(&self, _medium: MediumId, _at: Vec3) -> f32 {
+        0.0
+    }
+
     /// How many rays the calling thread has traced since it last asked.
     fn take_ray_count(&self) -> u64;
 

@@ -10,9 +10,13 @@ use crate::path_throughput::PathThroughput;
 use crate::settings::PathSettings;
 use etalon_spectrum::Wavelengths;
 use etalon_transport::{
-    Bsdf, Camera, LightKind, PixelSample, SamplePdf, SurfaceInteraction, TransportMode, World,
+    Bsdf, Camera, EmissionPdf, LightKind, MediumId, PixelSample, SamplePdf, SurfaceInteraction,
+    TransportMode, World,
 };
 use glam::{Vec2, Vec3, Vec4};
+
+/// The density of the directions in which particles leave a medium (sr⁻¹).
+const EVENLY: f32 = 0.25 * core::f32::consts::FRAC_1_PI;
 
 /// The camera's walk at a light.
 pub(super) struct Arrival {
@@ -121,6 +125,28 @@ impl<'w, W: World> Connector<'_, 'w, W> {
         });
     }
 
+    /// s = 0: the camera's walk ended in a medium that emits, which its prefix has.
+    pub(super) fn meet_medium(
+        &mut self,
+        arrival: &Arrival,
+        vertex: &SurfaceInteraction,
+        medium: MediumId,
+        eye: &[Corner<'w, W>],
+    ) {
+        let world = self.world;
+        self.find(arrival, Vec4::ONE, eye, |first| {
+            let way = vertex.position - first.vertex.position;
+            let distance_squared = way.length_squared();
+            let chosen = world.medium_light_density(medium, vertex.position);
+            let direction = way / distance_squared.sqrt();
+            AlternativePdfs {
+                sampled: Vec4::splat(chosen),
+                emitted: chosen,
+                ray: first.per_area(direction, distance_squared) * EVENLY,
+            }
+        });
+    }
+
     /// s = 0: the camera's walk left the scene.
     pub(super) fn meet_background(
         &mut self,
@@ -177,13 +203,6 @@ impl<'w, W: World> Connector<'_, 'w, W> {
             total += more(None, eye, product, ends, connects, self.camera_end());
         }
         self.radiance += arrival.prefix.beta * radiance / total;
-    }
-
-    /// Adds what a medium emits on the camera's walk, which no other technique finds.
-    pub(super) fn shines(&mut self, radiance: Vec4, corners: usize) {
-        if self.wanted(0, corners + 2).is_some() {
-            self.radiance += radiance;
-        }
     }
 
     /// All techniques that end at this corner of the camera's walk: light sampling, merging with photons, and
@@ -270,15 +289,24 @@ impl<'w, W: World> Connector<'_, 'w, W> {
             return;
         }
         if let SamplePdf::Continuous(_) = light.chance {
-            total += (rest * scattered.lanes() * passage.probability).element_sum() * inverse;
+            let hits = scattered.lanes() * light.extinction * passage.probability;
+            total += (rest * hits).element_sum() * inverse;
         }
         // From the density of light sampling to that of emission, in the same measure.
-        let emission = world.emission_density(light.light, -direction, light.cos, vertex.time);
         let distance_squared = light
             .target
             .map_or(1.0, |target| target.distance_squared(vertex.position));
+        let emission = match light.origin {
+            // Points are chosen alike for either.
+            LightKind::Medium => EmissionPdf {
+                origin: chance.x / distance_squared,
+                ray: EVENLY,
+            },
+            _ => world.emission_density(light.light, -direction, light.cos, vertex.time),
+        };
         let origin = match light.origin {
             LightKind::Surface => emission.origin * distance_squared / light.cos,
+            LightKind::Medium => emission.origin * distance_squared,
             _ => emission.origin,
         };
         // That of a light at infinity is 1, see above.
@@ -361,7 +389,7 @@ impl<'w, W: World> Connector<'_, 'w, W> {
     pub(super) fn behind(&self, start: &FromLight, light: &Corner<'w, W>, from: Vec3) -> Vec4 {
         let position = light.vertex.position;
         let per_area = match light.parent {
-            None => Vec4::splat(start.per_area(start.distance_squared(position))),
+            None => start.per_area(start.distance_squared(position)),
             Some(parent) => {
                 let before = &self.light[parent];
                 let distance_squared = before.vertex.position.distance_squared(position);

@@ -143,10 +143,10 @@ fn photon<B: Bsdf>(
             let found = if start.emission.origin.can_be_hit() {
                 start.per_area(start.distance_squared(vertex.position)) / origin
             } else {
-                0.0
+                Vec4::ZERO
             };
             let connected = Vec4::splat(corner.direct / origin);
-            (connected, Vec4::splat(terms.connections() * found))
+            (connected, terms.connections() * found)
         }
         Some(index) => {
             let parent = &corners[index];

@@ -42,6 +42,8 @@ struct Met<'w, W: World + 'w> {
     bsdf: ScattererOf<'w, W>,
     /// See [`PathVertex::extinction`].
     extinction: Vec4,
+    /// The walk up to what a medium emits there, if it does.
+    shining: Option<PathThroughput>,
 }
 
 impl<'w, W: World> Met<'w, W> {
@@ -56,6 +58,7 @@ impl<'w, W: World> Met<'w, W> {
             vertex,
             bsdf: Scatterer::Surface(world.bsdf(&vertex, wo, wavelengths)),
             extinction: Vec4::ONE,
+            shining: None,
         }
     }
 }
@@ -78,8 +81,7 @@ impl SubpathState {
         }
     }
 
-    /// Flies through the medium, to where light is scattered before its `hit`, if it is: the vertex there, its phase
-    /// function and σt. Tells what the medium emits, over the density of all that led there.
+    /// Flies through the medium, to where light is scattered before its `hit`, if it is.
     #[cold]
     #[inline(never)]
     fn fly<'w, W: World>(
@@ -88,22 +90,23 @@ impl SubpathState {
         hit: Option<&Hit>,
         wavelengths: &Wavelengths,
         u: f32,
-        mut shines: impl FnMut(Vec4),
     ) -> Option<Met<'w, W>> {
         let flight = steps::free_flight(world, &self.ray, hit, wavelengths, u)?;
         let density = flight.density();
-        if flight.emitted != Vec4::ZERO {
-            let mut emitted = self.prefix;
-            emitted.scatter(flight.emitted, density);
-            shines(emitted.contribution(Vec4::ONE, Vec4::ZERO));
-        }
+        let before = self.prefix;
         self.prefix.scatter(flight.factor, density);
         self.passed *= flight.passed;
         let collision = flight.scattering?;
+        let shining = (flight.emitted != Vec4::ZERO).then(|| {
+            let mut emitted = before;
+            emitted.scatter(flight.emitted, density);
+            emitted
+        });
         Some(Met {
             vertex: SurfaceInteraction::in_space(&self.ray, collision.t),
             bsdf: Scatterer::Space(collision.phase),
             extinction: collision.extinction,
+            shining,
         })
     }
 
@@ -113,6 +116,7 @@ impl SubpathState {
             vertex,
             bsdf,
             extinction,
+            ..
         } = met;
         PathVertex {
             vertex,
@@ -161,14 +165,15 @@ impl FromLight {
         })
     }
 
-    /// What makes a density per solid angle at the first corner one at the light: per area of a
-    /// surface; of the sky's directions it is one.
+    /// What makes a density per solid angle at the first corner one at the light, per lane: per area of a
+    /// surface, per volume of a medium; of the sky's directions it is one.
     #[inline]
-    pub(super) fn per_area(&self, distance_squared: f32) -> f32 {
+    pub(super) fn per_area(&self, distance_squared: f32) -> Vec4 {
         match self.emission.origin {
-            LightKind::Surface => self.cos() / distance_squared,
-            LightKind::Sky => 1.0,
-            LightKind::Point | LightKind::Parallel | LightKind::Beam => 0.0,
+            LightKind::Surface => Vec4::splat(self.cos() / distance_squared),
+            LightKind::Sky => Vec4::ONE,
+            LightKind::Medium => self.emission.extinction / counted(distance_squared),
+            LightKind::Point | LightKind::Parallel | LightKind::Beam => Vec4::ZERO,
         }
     }
 
@@ -206,7 +211,7 @@ impl FromLight {
         let density = world.light_sample_density(&at.receiver(), &self.emission);
         match self.emission.origin {
             LightKind::Surface => {
-                density * self.per_area(self.distance_squared(at.vertex.position))
+                density * self.per_area(self.distance_squared(at.vertex.position)).x
             }
             _ => density,
         }
@@ -244,8 +249,7 @@ impl FromLight {
             let mut met = None;
             if carried.ray.medium.is_some() {
                 let u = draw_flight(sampler, light_event(carried.segments));
-                // What media emit is left to the camera's walk.
-                met = carried.fly(world, hit.as_ref(), wavelengths, u, |_| ());
+                met = carried.fly(world, hit.as_ref(), wavelengths, u);
             }
             let Some(met) = met.or_else(|| {
                 let vertex = world.vertex(&carried.ray, &hit?);
@@ -408,10 +412,17 @@ impl FromCamera {
         self.through_hidden |= self.carried.ray.origin != origin;
         if self.carried.ray.medium.is_some() {
             let u = draw_flight(sampler, camera_event(self.carried.segments - 1));
-            let shines = |radiance| connector.shines(radiance, corners.len());
-            let met = (self.carried).fly(world, hit.as_ref(), wavelengths, u, shines);
-            if let Some(met) = met {
+            let medium = self.carried.ray.medium;
+            if let Some(met) = self.carried.fly(world, hit.as_ref(), wavelengths, u) {
                 self.alpha = 1.0;
+                if let Some(prefix) = met.shining {
+                    let arrival = Arrival {
+                        prefix,
+                        density: self.arrival(connector, &met.vertex, met.extinction.x, corners),
+                        passed: self.carried.passed,
+                    };
+                    connector.meet_medium(&arrival, &met.vertex, medium, corners);
+                }
                 if self.carried.segments == settings.max_depth {
                     return false;
                 }

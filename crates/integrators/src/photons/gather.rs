@@ -218,13 +218,13 @@ impl<'w, W: World> GatherPath<'_, 'w, W> {
                     // It cannot be evaluated at other wavelengths.
                     self.alone = true;
                     let density = flight.density();
-                    if flight.emitted != Vec4::ZERO && !self.second {
-                        let mut emitted = self.prefix;
-                        emitted.scatter(flight.emitted, density);
-                        self.radiance += emitted.contribution(Vec4::ONE, Vec4::ZERO);
+                    self.light_mis.r_l /= density.x;
+                    if !self.second {
+                        let (prefix, light_mis) = (&self.prefix, &self.light_mis);
+                        self.radiance +=
+                            steps::emitted_on_the_way(world, &flight, &ray, prefix, light_mis);
                     }
                     self.prefix.scatter(flight.factor, density);
-                    self.light_mis.r_l /= density.x;
                     gathering.scatter(flight.passed, density);
                     if let Some(collision) = flight.scattering {
                         alpha = 1.0;

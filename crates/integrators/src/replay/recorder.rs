@@ -263,6 +263,10 @@ impl<'a, W: World> World for Recorder<'a, W> {
         self.world.emission_density(light, direction, cos, time)
     }
 
+    fn medium_light_density(&self, medium: MediumId, at: Vec3) -> f32 {
+        self.world.medium_light_density(medium, at)
+    }
+
     fn background_emission_density(&self, direction: Vec3) -> EmissionPdf {
         self.world.background_emission_density(direction)
     }

@@ -263,6 +263,7 @@ impl World for Sphere {
             chance: SamplePdf::Continuous(self.light_density(from, &at, direction)),
             cos: -at.normal.dot(direction),
             origin: LightKind::Surface,
+            extinction: Vec4::ONE,
             light: LightId(0),
         })
         .filter(|_| w.lambda.x > 0.0)
@@ -314,6 +315,7 @@ impl World for Sphere {
                 ray: sample.chance.lanes().x,
             },
             origin: LightKind::Surface,
+            extinction: Vec4::ONE,
             light: LightId(0),
         })
     }

@@ -286,6 +286,7 @@ impl World for Stack {
                 chance: uniform(self.hemisphere_density() * 0.5),
                 cos: 1.0,
                 origin: LightKind::Sky,
+                extinction: Vec4::ONE,
                 light: LightId(u32::MAX - 1),
             });
         };
@@ -301,6 +302,7 @@ impl World for Stack {
             chance: uniform(self.hemisphere_density()),
             cos: direction.z.abs(),
             origin: LightKind::Surface,
+            extinction: Vec4::ONE,
             light: LightId(index as u32),
         })
     }
