@@ -191,7 +191,9 @@ pub(crate) fn draw<W: World>(world: &W, dice: &mut Independent) -> Option<Course
             start.ray = Ray::new(start.point.origin_along(direction), direction, 0.0);
         }
         // What they send in other directions than the one drawn is not known.
-        (None, LightKind::Point | LightKind::Parallel | LightKind::Beam) => return None,
+        (None, LightKind::Point | LightKind::Parallel | LightKind::Beam | LightKind::Medium) => {
+            return None;
+        }
     }
     surfaces.extend(seen.into_iter().rev());
     let (surfaces, sharp): (Vec<_>, Vec<_>) = surfaces.into_iter().unzip();

@@ -317,6 +317,7 @@ impl<'s, W: World> World for Script<'s, W> {
             chance,
             cos,
             origin: start.origin,
+            extinction: start.extinction,
             light: start.light,
         })
     }

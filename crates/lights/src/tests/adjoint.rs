@@ -327,7 +327,7 @@ fn densities_of_emission_are_those_that_are_reported() {
                     "{light}: {sent} {radiance}"
                 );
             }
-            LightKind::Beam => unreachable!("none of these is one"),
+            LightKind::Beam | LightKind::Medium => unreachable!("none of these is one"),
             LightKind::Point | LightKind::Parallel => {
                 assert_eq!(origin, choice, "{}", names[light]);
                 let back = receiver(particle.ray.at(1.0), -particle.ray.direction);
