@@ -181,7 +181,8 @@ impl SceneCapabilities {
     /// The objection, if any, of an estimator that knows nothing of media.
     pub fn media_unseen(&self) -> Option<Incompatibility> {
         let message = "this integrator sees surfaces only, and the scene has participating media";
-        let help = "integrators that see media: `volpath`, `path`";
+        let help = "integrators that see media: `volpath`, `path`, `guided`, `bdpt`, `ptracer`, `forward`, `photonmap`, \
+                    `sppm`, `vcm`, `pssmlt`, `mmlt`";
         self.media.then(|| impossible(message, help))
     }
 
