@@ -140,7 +140,7 @@ fn all_estimators_find_the_same_light_in_media() {
         for (band, ((mean, error), (other, uncertain))) in
             found.into_iter().zip(expected).enumerate()
         {
-            let sigma = error.hypot(uncertain);
+            let sigma = (error * error + uncertain * uncertain).sqrt();
             assert!(
                 sigma < 0.04 * other && (mean - other).abs() < 4.5 * sigma,
                 "{integrator}, band {band}: {mean} against {other}, ± {sigma}"

@@ -19,6 +19,7 @@
 //! first hits of those rays have `MOST_FOUND` photons on average.
 
 use crate::photons::kdtree::KdTree;
+use etalon_math::{float, float64};
 use etalon_params::Params;
 use etalon_transport::{Camera, Pass, World};
 use glam::{Vec2, Vec3};
@@ -82,9 +83,9 @@ impl Radius {
     pub(crate) fn in_space<W: World>(&self, world: &W, pass: &Pass) -> f32 {
         // As many pixels as make of a picture's width of photons, spread in a cube, about as many in a ball as lie in
         // a disc on a surface.
-        let wider = || (pass.size.max_element() as f32 / PIXELS).max(1.0).cbrt();
+        let wider = || float::cbrt((pass.size.max_element() as f32 / PIXELS).max(1.0));
         let first = (self.first).unwrap_or_else(|| wider() * from_pixels(world, pass));
-        (f64::from(first) * shrunk(self.alpha, pass.number).cbrt()) as f32
+        (f64::from(first) * float64::cbrt(shrunk(self.alpha, pass.number))) as f32
     }
 }
 
