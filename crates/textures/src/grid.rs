@@ -1,10 +1,12 @@
-//! `gridvolume`: values on a grid of points of space, as Mitsuba's `.vol` files hold them.
+//! `gridvolume`: values on a grid of points of space, as Mitsuba's `.vol` files and NanoVDB files hold them.
 //!
-//! The grid fills the unit cube, which `to_world` places (with `use_grid_bbox`, first the file's box); the value i of n along
+//! The grid fills the unit cube, which `to_world` places (with `use_grid_bbox`, first the file's box or, of a NanoVDB file,
+//! where that puts it); the value i of n along
 //! an axis is at (i + ½)/n, and values between are interpolated (`trilinear`), or those of the `nearest`. Beyond the
 //! cube the grid goes on as `wrap_mode` says. Three channels are colours, interpolated as spectra; those of a
 //! share of light are held to 1.
 
+use crate::nanovdb;
 use crate::pixels::{Image, Pixels, Texels, Values};
 use crate::reader::Use;
 use crate::recovered;
@@ -178,7 +180,7 @@ impl TextureModel for Grid {
     }
 }
 
-/// Reads `filename`, `to_world`, `use_grid_bbox`, `filter_type`, `wrap_mode`, `raw` and `max_value`.
+/// Reads `filename`, `grid_name`, `to_world`, `use_grid_bbox`, `filter_type`, `wrap_mode`, `raw` and `max_value`.
 pub(crate) fn read(
     reader: &mut TextureReader<'_>,
     params: &Params<'_>,
@@ -194,11 +196,10 @@ pub(crate) fn read(
         "mirror" => Wrap::Mirror,
         _ => Wrap::Clamp,
     };
-    let by_box = params.boolean_or("use_grid_bbox", false);
     let to_world = DAffine3::from_mat4(params.transform("to_world"));
     params.ignore(&["accel"]);
     if !params.has("filename") {
-        params.missing("filename", "the name of a `.vol` file");
+        params.missing("filename", "the name of a `.vol` or NanoVDB file");
     }
     let name = params.string("filename")?;
     let volume = reader
@@ -206,14 +207,26 @@ pub(crate) fn read(
         .bytes(name)
         .map_err(|error| file::report(params, error))
         .ok()?;
-    let volume = VolFile::read(&volume)
+    // A NanoVDB file says where it is in the world.
+    let by_place = nanovdb::is_nanovdb(&volume);
+    let given = params.property("grid_name");
+    let grid = given.and_then(|_| params.string("grid_name"));
+    if !by_place && grid.is_some() {
+        params.error_at(
+            "grid_name",
+            "a `.vol` file has one grid, and no name for it",
+        );
+    }
+    let by_place = params.boolean_or("use_grid_bbox", by_place);
+    let read = match nanovdb::is_nanovdb(&volume) {
+        true => nanovdb::read(&volume, grid),
+        false => VolFile::read(&volume),
+    };
+    let volume = read
         .map_err(|reason| params.error_at("filename", format!("`{name}` cannot be used: {reason}")))
         .ok()?;
-    let place = match by_box {
-        true => {
-            let [low, high] = volume.bounds;
-            to_world * DAffine3::from_translation(low) * DAffine3::from_scale(high - low)
-        }
+    let place = match by_place {
+        true => to_world * volume.place,
         false => to_world,
     };
     let to_grid = DAffine3::from_scale(volume.size.as_dvec3()) * place.inverse();

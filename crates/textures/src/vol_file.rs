@@ -4,15 +4,15 @@
 //! integers; the lower and the upper corner of the grid's box; then the values by z, y, x and channel.
 
 use crate::pixels::Values;
-use glam::{DVec3, UVec3, Vec3};
+use glam::{DAffine3, DVec3, UVec3, Vec3};
 
 /// What a file holds.
 #[derive(Debug)]
 pub(crate) struct VolFile {
     /// Values along x, y and z.
     pub(crate) size: UVec3,
-    /// The corners of its box.
-    pub(crate) bounds: [DVec3; 2],
+    /// Where its box is: what the unit cube becomes.
+    pub(crate) place: DAffine3,
     /// By z, y and x.
     pub(crate) values: Values,
 }
@@ -72,6 +72,7 @@ impl VolFile {
         }
         let (floats, _) = data.as_chunks::<4>();
         let floats = floats.iter().map(|bytes| f32::from_le_bytes(*bytes));
+        let size = UVec3::from_array(sides.map(|side| side as u32));
         let values = match channels {
             1 => Values::One(floats.collect()),
             _ => {
@@ -79,17 +80,18 @@ impl VolFile {
                 Values::Three(floats.as_chunks::<3>().0.to_vec())
             }
         };
-        refuse_bad(&values, sides)?;
+        refuse_bad(&values, size)?;
+        let [low, high] = bounds;
         Ok(Self {
-            size: UVec3::from_array(sides.map(|side| side as u32)),
-            bounds,
+            size,
+            place: DAffine3::from_translation(low) * DAffine3::from_scale(high - low),
             values,
         })
     }
 }
 
 /// Refuses values that no density, albedo or emission has.
-fn refuse_bad(values: &Values, [x, y, _]: [i32; 3]) -> Result<(), String> {
+pub(crate) fn refuse_bad(values: &Values, size: UVec3) -> Result<(), String> {
     let bad = |value: &f32| !(value.is_finite() && *value >= 0.0);
     let (found, channels) = match values {
         Values::One(values) => (values.iter().position(bad), 1),
@@ -101,7 +103,7 @@ fn refuse_bad(values: &Values, [x, y, _]: [i32; 3]) -> Result<(), String> {
         Values::Three(values) => Vec3::from_array(values[index / 3])[index % 3],
     };
     let place = index / channels;
-    let (x, y) = (x as usize, y as usize);
+    let (x, y) = (size.x as usize, size.y as usize);
     Err(format!(
         "the value at ({}, {}, {}) is {value}, and values are finite and not below 0",
         place % x,
@@ -128,7 +130,8 @@ mod tests {
         let read = VolFile::read(&file([1, 3, 1, 2, 1], BOX, &[1.0, 2.0, 3.0, 4.0, 5.0, 6.0]));
         let read = read.expect("sound");
         assert_eq!(read.size, UVec3::new(3, 1, 2));
-        assert_eq!(read.bounds[1], DVec3::new(1.0, 2.0, 3.0));
+        let corner = read.place.transform_point3(DVec3::ONE);
+        assert_eq!(corner, DVec3::new(1.0, 2.0, 3.0));
         assert_eq!(read.values, Values::One(vec![1.0, 2.0, 3.0, 4.0, 5.0, 6.0]));
     }
 

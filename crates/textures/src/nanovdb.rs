@@ -1,0 +1,441 @@
+//! NanoVDB files (version 32; K. Museth, NanoVDB: a GPU-friendly and portable VDB data structure for real-time rendering and
+//! simulation, 2021): a grid of 32-bit floats, stored plainly or with zlib.
+//!
+//! A file has one header or more, each followed by 176 bytes and a name for every grid, then the grids. A grid is an image
+//! of memory: 672 bytes about it, 64 about its tree, and nodes that refer to each other by offsets in bytes. The root has a table
+//! of tiles of 4096³ values, an upper node one of 32³ tiles of 128³, a lower node one of 16³ tiles of 8³, and a leaf 8³ values. A
+//! tile is a value for all of it, or a node. What is read is made dense: all values of the box of those in use.
+//!
+//! Every offset is checked, and memory is taken in proportion to what is there.
+
+use crate::pixels::Values;
+use crate::vol_file::{VolFile, refuse_bad};
+use flate2::read::ZlibDecoder;
+use glam::{DAffine3, DMat3, DVec3, IVec3, UVec3};
+use std::collections::HashMap;
+use std::io::Read;
+
+/// A table of nodes: the sides of its tiles (log₂), how many there are along each axis (log₂), and where masks and table lie.
+struct Level {
+    tile: u32,
+    along: u32,
+    children: usize,
+    table: usize,
+}
+
+const UPPER: Level = Level {
+    tile: 7,
+    along: 5,
+    children: 4128,
+    table: 8256,
+};
+const LOWER: Level = Level {
+    tile: 3,
+    along: 4,
+    children: 544,
+    table: 1088,
+};
+
+/// Where a leaf has its values.
+const LEAF_VALUES: usize = 96;
+
+/// Lengths of what precedes the tree and the root's table, and of an entry of that (bytes).
+const GRID: usize = 672;
+const ROOT: usize = 64;
+const ROOT_TILE: usize = 32;
+
+/// As many values may be made of any file, …
+const ALWAYS: u64 = 1 << 27;
+
+/// … and of a large one so many for each of its bytes.
+const PER_BYTE: u64 = 16;
+
+/// The type of grids of 32-bit floats.
+const FLOAT: u32 = 1;
+
+/// Bytes that may end anywhere.
+struct Bytes<'a>(&'a [u8]);
+
+impl<'a> Bytes<'a> {
+    fn array<const N: usize>(&self, at: usize) -> Result<[u8; N], String> {
+        let found = self.0.get(at..).and_then(|rest| rest.first_chunk::<N>());
+        let cut = || format!("it ends before byte {at}, of which it speaks");
+        found.copied().ok_or_else(cut)
+    }
+
+    fn u32(&self, at: usize) -> Result<u32, String> {
+        self.array(at).map(u32::from_le_bytes)
+    }
+
+    fn u64(&self, at: usize) -> Result<u64, String> {
+        self.array(at).map(u64::from_le_bytes)
+    }
+
+    fn f32(&self, at: usize) -> Result<f32, String> {
+        self.array(at).map(f32::from_le_bytes)
+    }
+
+    fn point(&self, at: usize) -> Result<DVec3, String> {
+        let number = |i: usize| self.array(at + 8 * i).map(f64::from_le_bytes);
+        Ok(DVec3::new(number(0)?, number(1)?, number(2)?))
+    }
+
+    fn corner(&self, at: usize) -> Result<IVec3, String> {
+        let number = |i: usize| self.array(at + 4 * i).map(i32::from_le_bytes);
+        Ok(IVec3::new(number(0)?, number(1)?, number(2)?))
+    }
+
+    /// The place of a node that lies `offset` bytes after another one.
+    fn node(&self, from: usize, offset: u64) -> Result<usize, String> {
+        let place = usize::try_from(offset)
+            .ok()
+            .and_then(|o| from.checked_add(o));
+        let inside = place.filter(|place| *place < self.0.len());
+        inside
+            .ok_or_else(|| format!("a node lies {offset} bytes after byte {from}, beyond its end"))
+    }
+
+    fn slice(&self, at: usize, length: u64) -> Result<&'a [u8], String> {
+        let end = usize::try_from(length).ok().and_then(|n| at.checked_add(n));
+        let found = end.and_then(|end| self.0.get(at..end));
+        found.ok_or_else(|| {
+            format!(
+                "it claims {length} bytes from byte {at}, and has {}",
+                self.0.len()
+            )
+        })
+    }
+}
+
+/// What a file says of a grid, and the grid as it is stored.
+struct Stored<'a> {
+    name: String,
+    kind: u32,
+    size: u64,
+    codec: u16,
+    bytes: &'a [u8],
+}
+
+/// Whether these bytes begin like such a file.
+pub(crate) fn is_nanovdb(bytes: &[u8]) -> bool {
+    bytes.starts_with(b"NanoVDB")
+}
+
+/// Reads the grid called `name`, or the first one.
+///
+/// # Errors
+/// What is wrong with it.
+pub(crate) fn read(bytes: &[u8], name: Option<&str>) -> Result<VolFile, String> {
+    let grids = stored(&Bytes(bytes))?;
+    let names = || {
+        let names: Vec<String> = grids.iter().map(|g| format!("`{}`", g.name)).collect();
+        names.join(", ")
+    };
+    let grid = match name {
+        Some(name) => (grids.iter().find(|grid| grid.name == name))
+            .ok_or_else(|| format!("it has no grid `{name}`, but {}", names()))?,
+        None => grids.first().ok_or("it has no grid")?,
+    };
+    if grid.kind != FLOAT {
+        return Err(format!(
+            "the values of its grid `{}` have type {}, and 1 (32-bit floats) is read; it has {}",
+            grid.name,
+            grid.kind,
+            names()
+        ));
+    }
+    match grid.codec {
+        0 => dense(&Bytes(grid.bytes)),
+        1 => dense(&Bytes(&inflated(grid)?)),
+        2 => Err(
+            "it is compressed with Blosc, and none or zip is read (`nanovdb_convert -z`)"
+                .to_owned(),
+        ),
+        other => Err(format!(
+            "it is compressed in a way that is not known ({other})"
+        )),
+    }
+}
+
+/// All grids of a file.
+fn stored<'a>(bytes: &Bytes<'a>) -> Result<Vec<Stored<'a>>, String> {
+    let mut grids = Vec::new();
+    let mut at = 0;
+    while at < bytes.0.len() {
+        if !is_nanovdb(&bytes.0[at..]) {
+            return Err(format!("there is no `NanoVDB` at byte {at}"));
+        }
+        let version = bytes.u32(at + 8)? >> 21;
+        if version != 32 {
+            return Err(format!("it has version {version}, and 32 is read"));
+        }
+        let count = u16::from_le_bytes(bytes.array(at + 12)?);
+        at += 16;
+        let first = grids.len();
+        let mut sizes = Vec::new();
+        for _ in 0..count {
+            let name = bytes.slice(at + 176, u64::from(bytes.u32(at + 136)?))?;
+            let ends = name.iter().position(|c| *c == 0).unwrap_or(name.len());
+            grids.push(Stored {
+                name: String::from_utf8_lossy(&name[..ends]).into_owned(),
+                kind: bytes.u32(at + 32)?,
+                size: bytes.u64(at)?,
+                codec: u16::from_le_bytes(bytes.array(at + 168)?),
+                bytes: &[],
+            });
+            sizes.push(bytes.u64(at + 8)?);
+            at += 176 + name.len();
+        }
+        for (grid, size) in grids[first..].iter_mut().zip(sizes) {
+            // Programs differ in whether the 8 bytes count that tell the length of what is compressed.
+            let size = match grid.codec {
+                1 => {
+                    at += 8;
+                    bytes.u64(at - 8)?
+                }
+                _ => size,
+            };
+            grid.bytes = bytes.slice(at, size)?;
+            at += grid.bytes.len();
+        }
+    }
+    Ok(grids)
+}
+
+/// A grid compressed with zlib.
+fn inflated(grid: &Stored<'_>) -> Result<Vec<u8>, String> {
+    let mut plain = Vec::new();
+    let read = ZlibDecoder::new(grid.bytes)
+        .take(grid.size)
+        .read_to_end(&mut plain);
+    read.map_err(|error| format!("its grid cannot be decompressed: {error}"))?;
+    if plain.len() as u64 != grid.size {
+        return Err(format!(
+            "its grid has {} bytes, and claims {}",
+            plain.len(),
+            grid.size
+        ));
+    }
+    Ok(plain)
+}
+
+/// All values in the box of a grid.
+fn dense(grid: &Bytes<'_>) -> Result<VolFile, String> {
+    let root = grid.node(GRID, grid.u64(GRID + 24)?)?;
+    let [low, high] = [grid.corner(root)?, grid.corner(root + 12)?];
+    let sides = [0, 1, 2].map(|i| i64::from(high[i]) - i64::from(low[i]) + 1);
+    if sides.iter().any(|side| *side < 1) {
+        return Err("its grid is empty".to_owned());
+    }
+    let count = sides
+        .iter()
+        .try_fold(1_u64, |n, side| n.checked_mul(*side as u64));
+    let most = ALWAYS.max(grid.0.len() as u64 * PER_BYTE);
+    if count.is_none_or(|count| count > most) {
+        let [x, y, z] = sides;
+        return Err(format!(
+            "its box has {x} × {y} × {z} values, and at most {most} are made of {} bytes",
+            grid.0.len()
+        ));
+    }
+    let tree = Tree::read(grid, root)?;
+    let size = UVec3::from_array(sides.map(|side| side as u32));
+    let mut values = vec![0.0; size.as_usizevec3().element_product()];
+    let [first, last]: [IVec3; 2] = [low >> 3, high >> 3];
+    for z in first.z..=last.z {
+        for y in first.y..=last.y {
+            for x in first.x..=last.x {
+                let block = IVec3::new(x, y, z) << 3;
+                let found = tree.block(block)?;
+                for i in 0..512 {
+                    let at = block + IVec3::new(i >> 6, i >> 3 & 7, i & 7);
+                    if at.cmpge(low).all() && at.cmple(high).all() {
+                        let [x, y, z] = (at - low).as_usizevec3().to_array();
+                        let place = (z * size.y as usize + y) * size.x as usize + x;
+                        values[place] = match found {
+                            Block::Even(value) => value,
+                            Block::Leaf(leaf) => grid.f32(leaf + LEAF_VALUES + 4 * i as usize)?,
+                        };
+                    }
+                }
+            }
+        }
+    }
+    let values = Values::One(values);
+    refuse_bad(&values, size)?;
+    // Rows of the matrix in double precision, and what is added.
+    let map = 296 + 88;
+    let rows = [
+        grid.point(map)?,
+        grid.point(map + 24)?,
+        grid.point(map + 48)?,
+    ];
+    let matrix = DMat3::from_cols_array_2d(&rows.map(|row| row.to_array())).transpose();
+    let to_world = DAffine3::from_mat3_translation(matrix, grid.point(map + 144)?);
+    if !to_world.is_finite() || to_world.matrix3.determinant() == 0.0 {
+        return Err("its grid has no place in space: the matrix is not finite, or flat".to_owned());
+    }
+    let box_of_values =
+        DAffine3::from_translation(low.as_dvec3() - 0.5) * DAffine3::from_scale(size.as_dvec3());
+    Ok(VolFile {
+        size,
+        place: to_world * box_of_values,
+        values,
+    })
+}
+
+/// The nodes of a grid.
+struct Tree<'a, 'b> {
+    grid: &'b Bytes<'a>,
+    root: usize,
+    background: f32,
+    /// The root's entries, by the corner of their tiles over 4096.
+    tiles: HashMap<IVec3, usize>,
+}
+
+/// 8³ values.
+enum Block {
+    /// All the same.
+    Even(f32),
+    /// Those of the leaf at this place.
+    Leaf(usize),
+}
+
+impl<'a, 'b> Tree<'a, 'b> {
+    fn read(grid: &'b Bytes<'a>, root: usize) -> Result<Self, String> {
+        let count = grid.u32(root + 24)? as usize;
+        let table = grid.slice(root + ROOT, count as u64 * ROOT_TILE as u64)?;
+        let entries = table.as_chunks::<ROOT_TILE>().0.iter().enumerate();
+        let corner = |entry: &[u8; ROOT_TILE]| {
+            let bytes = entry.first_chunk().copied().unwrap_or_default();
+            let key = u64::from_le_bytes(bytes);
+            // 20 bits with a sign.
+            let part = |shift: u32| ((key >> shift) as u32) << 12;
+            IVec3::from_array([42, 21, 0].map(|shift| part(shift) as i32 >> 12))
+        };
+        Ok(Self {
+            grid,
+            root,
+            background: grid.f32(root + 28)?,
+            tiles: entries
+                .map(|(i, entry)| (corner(entry), root + ROOT + i * ROOT_TILE))
+                .collect(),
+        })
+    }
+
+    /// The 8³ values from a corner that is a multiple of 8.
+    fn block(&self, corner: IVec3) -> Result<Block, String> {
+        let Some(entry) = self.tiles.get(&(corner >> 12_u32)) else {
+            return Ok(Block::Even(self.background));
+        };
+        let child = self.grid.u64(entry + 8)?;
+        if child == 0 {
+            return self.grid.f32(entry + 20).map(Block::Even);
+        }
+        let mut node = self.grid.node(self.root, child)?;
+        for level in [UPPER, LOWER] {
+            let along = (1 << level.along) - 1;
+            let [x, y, z] = ((corner >> level.tile) & along).as_usizevec3().to_array();
+            let index = (((x << level.along) | y) << level.along) | z;
+            let entry = node + level.table + 8 * index;
+            let mask = self.grid.u64(node + level.children + index / 64 * 8)?;
+            if mask >> (index % 64) & 1 == 0 {
+                return self.grid.f32(entry).map(Block::Even);
+            }
+            node = self.grid.node(node, self.grid.u64(entry)?)?;
+        }
+        Ok(Block::Leaf(node))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// 12 × 5 × 9 values 1 + i + j/16 + k/256 among zeros, 0.25 m apart, the first at (−1, 0.5, 2): written by NVIDIA Warp 1.19,
+    /// with zip.
+    const RAMP: &[u8] = include_bytes!("tests/ramp.nvdb");
+
+    /// The same without compression.
+    fn plain() -> Vec<u8> {
+        let grids = stored(&Bytes(RAMP)).expect("sound");
+        let grid = inflated(&grids[0]).expect("sound");
+        let mut bytes = RAMP[..RAMP.len() - grids[0].bytes.len() - 8].to_vec();
+        bytes[16 + 8..16 + 16].copy_from_slice(&(grid.len() as u64).to_le_bytes());
+        bytes[16 + 168] = 0;
+        bytes[14] = 0;
+        bytes.extend(grid);
+        bytes
+    }
+
+    #[test]
+    fn another_programs_file_has_its_values_in_their_places() {
+        for file in [RAMP.to_vec(), plain()] {
+            let read = read(&file, None).expect("sound");
+            assert_eq!(read.size, UVec3::new(16, 8, 16));
+            let Values::One(values) = &read.values else {
+                panic!("one channel")
+            };
+            for (index, value) in values.iter().enumerate() {
+                let [i, j, k] = [index % 16, index / 16 % 8, index / 128];
+                let inside = i < 12 && j < 5 && k < 9;
+                let ramp = 1.0 + i as f32 + j as f32 / 16.0 + k as f32 / 256.0;
+                assert_eq!(*value, if inside { ramp } else { 0.0 });
+            }
+            // Values are in the middle of their cells.
+            let first = DVec3::new(0.5 / 16.0, 0.5 / 8.0, 0.5 / 16.0);
+            let off = read.place.transform_point3(first) - DVec3::new(-1.0, 0.5, 2.0);
+            assert!(off.length() < 1e-6, "{off}");
+            let last = read.place.transform_point3(DVec3::ONE - first);
+            assert!(
+                (last - DVec3::new(2.75, 2.25, 5.75)).length() < 1e-6,
+                "{last}"
+            );
+        }
+    }
+
+    #[test]
+    fn whatever_is_wrong_is_said() {
+        let sound = plain();
+        // Nodes are large, and nearly all of them is not needed: prefixes near what is.
+        let data = sound.len() - stored(&Bytes(&sound)).expect("sound")[0].bytes.len();
+        for length in (0..data + 1000).chain((0..64).map(|i| i * sound.len() / 64)) {
+            assert!(read(&sound[..length], None).is_err(), "{length}");
+        }
+        let says = |change: &dyn Fn(&mut Vec<u8>), words: &str| {
+            let mut bytes = sound.clone();
+            change(&mut bytes);
+            let reason = read(&bytes, None).map(|_| ()).expect_err("wrong");
+            assert!(reason.contains(words), "{reason}");
+        };
+        let to_root = Bytes(&sound).u64(data + GRID + 24).expect("there");
+        let root = data + GRID + to_root as usize;
+        let put = |bytes: &mut Vec<u8>, at: usize, with: &[u8]| {
+            bytes[at..at + with.len()].copy_from_slice(with)
+        };
+        says(&|b| put(b, 8, &(33_u32 << 21).to_le_bytes()), "version 33");
+        says(&|b| put(b, 16 + 32, &[6]), "type 6");
+        says(&|b| put(b, 16 + 168, &[2]), "Blosc");
+        says(
+            &|b| put(b, 16 + 8, &u64::MAX.to_le_bytes()),
+            "claims 18446744073709551615 bytes",
+        );
+        // A box of terabytes, one that ends before it begins, and a node beyond the end.
+        says(
+            &|b| put(b, root + 12, &i32::MAX.to_le_bytes().repeat(3)),
+            "at most 134217728",
+        );
+        says(&|b| put(b, root + 12, &i32::MIN.to_le_bytes()), "empty");
+        says(
+            &|b| put(b, root + ROOT + 8, &i64::MAX.to_le_bytes()),
+            "beyond its end",
+        );
+        says(
+            &|b| put(b, data + 296 + 88, &f64::NAN.to_le_bytes()),
+            "no place",
+        );
+        assert!(
+            read(&sound, Some("smoke")).is_err_and(|reason| reason.contains("no grid `smoke`"))
+        );
+    }
+}
