@@ -50,7 +50,8 @@
 //! Every replicate has maps of its own. A given radius stays as it is, so its bias vanishes neither with
 //! samples and replicates nor with photons; that of the k nearest does with more photons.
 
-use crate::photons::gather::{GatherConfig, Kernel, KernelLookup, Layer, follow_all, follow_one};
+use crate::photons::gather::{GatherConfig, Layer, follow_all, follow_one};
+use crate::photons::kernel::{Kernel, KernelLookup};
 use crate::photons::radius::{MOST_FOUND, from_pixels, held, read};
 use crate::photons::sets::WavelengthSets;
 use crate::photons::shoot::{Kind, PhotonMap, PlacedPhotons, moment, shoot};

@@ -14,7 +14,8 @@
 //! Direct light is sampled and not left to photons, unless that is asked for. What photons bring is
 //! biased, the more so where illumination bends within the radius or near edges.
 
-use crate::photons::gather::{GatherConfig, Kernel, KernelLookup, Layer, follow_all, follow_one};
+use crate::photons::gather::{GatherConfig, Layer, follow_all, follow_one};
+use crate::photons::kernel::{Kernel, KernelLookup};
 use crate::photons::radius::Radius;
 use crate::photons::sets::WavelengthSets;
 use crate::photons::shoot::{Kind, PhotonMap, moment, shoot};

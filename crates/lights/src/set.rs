@@ -90,6 +90,11 @@ impl LightSet {
         self.powers[light.0 as usize]
     }
 
+    /// That of all lights together.
+    pub fn total_power(&self) -> f64 {
+        self.powers.iter().sum()
+    }
+
     /// Which light to ask.
     pub fn selector(&self) -> &LightSampler {
         &self.selector

@@ -12,6 +12,7 @@
 use crate::scene::Scene;
 use core::f32::consts::PI;
 use etalon_math::Density;
+use etalon_math::float::ONE_MINUS_EPSILON;
 use etalon_sampling::discrete::AliasTable;
 use etalon_sampling::hash::mix64;
 use etalon_sampling::warps::square_to_uniform_sphere;
@@ -95,6 +96,28 @@ impl Region {
 
     fn volume(&self) -> f32 {
         self.side.element_product()
+    }
+}
+
+/// What emits the light that is asked for, with what is left of the number that chose it.
+pub(crate) enum LightChoice<'a> {
+    Medium(&'a MediumLights, f32),
+    Other(f32),
+}
+
+impl<'a> LightChoice<'a> {
+    /// By `u` in [0, 1).
+    #[inline]
+    pub(crate) fn new(media: Option<&'a MediumLights>, u: f32) -> Self {
+        let Some(lights) = media else {
+            return Self::Other(u);
+        };
+        let others = 1.0 - lights.share;
+        if u < lights.share || others == 0.0 {
+            Self::Medium(lights, (u / lights.share).min(ONE_MINUS_EPSILON))
+        } else {
+            Self::Other(((u - lights.share) / others).min(ONE_MINUS_EPSILON))
+        }
     }
 }
 

@@ -2,12 +2,11 @@
 
 use crate::lookup::SceneTables;
 use crate::media::SceneMedia;
-use crate::medium_lights::MediumLights;
+use crate::medium_lights::{LightChoice, MediumLights};
 use crate::{rays, view};
 use etalon_bsdf::{BsdfAtPoint, Material};
 use etalon_cameras::AnyCamera;
 use etalon_lights::LightSet;
-use etalon_math::float::ONE_MINUS_EPSILON;
 use etalon_math::{Density, SolidAngle};
 use etalon_spectrum::{Sensor, SensorWeights, Wavelengths};
 use etalon_subsurface::MediumAtWavelengths;
@@ -45,12 +44,6 @@ struct Parts {
     of_others: f32,
 }
 
-/// What emits the light that is asked for.
-enum LightChoice<'a> {
-    Medium(&'a MediumLights, f32),
-    Other(f32),
-}
-
 impl Scene {
     /// Puts a scene together, with the standard sensor.
     pub fn new(
@@ -69,15 +62,15 @@ impl Scene {
             has_null,
             has_media: media.exist(),
             outermost: media.camera,
+            media,
             shining: None,
             of_others: 1.0,
-            media,
         };
         let mut scene = Self {
             parts: Arc::new(parts),
             sensor: Sensor::default(),
         };
-        // Without media there is nothing to look for, and nobody asked for these rays.
+        // Without media there is nothing to look for.
         if !scene.parts.has_media {
             return scene;
         }
@@ -85,9 +78,7 @@ impl Scene {
         if let Some(parts) = Arc::get_mut(&mut scene.parts) {
             parts.outermost = outermost;
         }
-        let lights = &scene.parts.lights;
-        let others = (0..lights.len()).map(|i| lights.power(LightId(i as u32)));
-        let shining = MediumLights::find(&scene, others.sum());
+        let shining = MediumLights::find(&scene, scene.parts.lights.total_power());
         rays::take();
         if let Some(parts) = Arc::get_mut(&mut scene.parts) {
             parts.of_others = 1.0 - shining.as_ref().map_or(0.0, |lights| lights.share);
@@ -170,20 +161,6 @@ impl Scene {
     /// Textures and shapes.
     pub(crate) fn lookup(&self) -> &SceneTables {
         &self.parts.lookup
-    }
-
-    /// Whether a light is a medium or another one, by `u` in [0, 1), with what is left of that.
-    #[inline]
-    fn choose_light(&self, u: f32) -> LightChoice<'_> {
-        let Some(lights) = &self.parts.shining else {
-            return LightChoice::Other(u);
-        };
-        let left = (u - lights.share) / self.parts.of_others;
-        if left < 0.0 || self.parts.of_others == 0.0 {
-            LightChoice::Medium(lights, (u / lights.share).min(ONE_MINUS_EPSILON))
-        } else {
-            LightChoice::Other(left.min(ONE_MINUS_EPSILON))
-        }
     }
 
     /// The densities of a particle from a light that is no medium, the choice included.
@@ -315,7 +292,7 @@ impl World for Scene {
         u_light: f32,
         u: Vec2,
     ) -> Option<LightSample> {
-        let u_light = match self.choose_light(u_light) {
+        let u_light = match LightChoice::new(self.parts.shining.as_ref(), u_light) {
             LightChoice::Medium(lights, u_light) => {
                 return self.sample_medium(lights, from, wavelengths, u_light, u);
             }
@@ -380,7 +357,7 @@ impl World for Scene {
         u_direction: Vec2,
         time: f32,
     ) -> Option<Emission> {
-        let u_light = match self.choose_light(u_light) {
+        let u_light = match LightChoice::new(self.parts.shining.as_ref(), u_light) {
             LightChoice::Medium(lights, u_light) => {
                 let u = [u_position, u_direction];
                 return self.emit_from_medium(lights, wavelengths, u_light, u, time);

@@ -1,7 +1,7 @@
 //! t = 1: the corners of a light's walk, as the camera sees them.
 
 use super::connect::Connector;
-use super::subpath::FromLight;
+use super::from_light::FromLight;
 use super::weight::EndPdfs;
 use crate::visibility::camera_visibility;
 use etalon_transport::{Bsdf, Camera, TransportMode, World};

@@ -1,9 +1,9 @@
 //! The techniques: what each adds, and what it is weighed against.
 
 use super::Technique;
+use super::from_light::FromLight;
 use super::merge::Merging;
 use super::path_vertex::Corner;
-use super::subpath::FromLight;
 use super::weight::{CameraEnd, EndPdfs, LightEnd, fewer, more};
 use crate::dimensions::BounceSamples;
 use crate::path_throughput::PathThroughput;

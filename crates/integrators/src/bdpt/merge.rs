@@ -9,8 +9,8 @@
 //! factor per lane for them.
 
 use super::connect::Connector;
+use super::from_light::FromLight;
 use super::path_vertex::{Corner, PathVertex};
-use super::subpath::FromLight;
 use super::weight::{EndPdfs, LightEnd, fewer, more};
 use crate::photons::kdtree::KdTree;
 use crate::settings::PathSettings;

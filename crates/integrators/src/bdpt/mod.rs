@@ -38,6 +38,8 @@
 
 mod camera_connection;
 mod connect;
+mod from_camera;
+mod from_light;
 pub(crate) mod merge;
 mod path_vertex;
 pub(crate) mod single;
@@ -55,10 +57,11 @@ use etalon_transport::{
     Incompatibility, Integrator, LightSearch, Pass, PixelSample, Placing, Ray, SampleJob,
     SceneCapabilities, Sink, Subject, TileSink, World,
 };
+use from_camera::FromCamera;
+use from_light::FromLight;
 use glam::Vec4;
 use merge::Merging;
 use path_vertex::Corner;
-use subpath::{FromCamera, FromLight};
 
 /// One technique.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -6,8 +6,9 @@
 
 use super::Technique;
 use super::connect::Connector;
+use super::from_camera::FromCamera;
+use super::from_light::FromLight;
 use super::path_vertex::PathVertex;
-use super::subpath::{FromCamera, FromLight};
 use crate::dimensions as dim;
 use crate::path::camera_ray;
 use crate::settings::PathSettings;

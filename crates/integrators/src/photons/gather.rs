@@ -6,6 +6,7 @@
 
 use super::elsewhere::{CameraPath, CameraVertex};
 use super::is_sharp;
+use super::kernel::KernelLookup;
 use super::sets::{WavelengthChoice, WavelengthSets};
 use super::shoot::{Kind, Photon, PhotonMap};
 use crate::candidates::Aim;
@@ -15,7 +16,6 @@ use crate::path::{draw_lens, ray_at};
 use crate::path_throughput::PathThroughput;
 use crate::settings::PathSettings;
 use crate::steps;
-use core::f32::consts::PI;
 use etalon_sampling::Sampler;
 use etalon_spectrum::Wavelengths;
 use etalon_transport::{
@@ -26,50 +26,6 @@ use glam::{Vec3, Vec4};
 
 /// The least cosine of the angle between the normals of surfaces that share photons.
 const FACING: f32 = 0.7;
-
-/// What is looked up in a photon map.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) struct KernelLookup {
-    /// Radius (m).
-    pub(crate) radius: f32,
-    /// At most so many of the nearest photons, whose distance then is the radius; all within it
-    /// if zero.
-    pub(crate) nearest: usize,
-    /// The shape of the kernel.
-    pub(crate) kernel: Kernel,
-}
-
-/// A kernel on a disc, or in a ball.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) enum Kernel {
-    /// The same everywhere: 1 / (π r²).
-    Box,
-    /// Falling with distance d: (1 − d/(k r)) / ((1 − 2/(3k)) π r²), Jensen 1996; in a ball 3/(4k) and 4/3 π r³.
-    Cone(f32),
-}
-
-impl Kernel {
-    /// Its value on a disc (m⁻²), or in a ball (m⁻³), over which its integral is one.
-    #[inline]
-    pub(crate) fn value(self, distance_squared: f32, radius_squared: f32, in_space: bool) -> f32 {
-        // The disc or ball, and the integral of the cone's slope over it, k d/r, over that of one.
-        let (size, slope) = match in_space {
-            false => (PI * radius_squared, 2.0 / 3.0),
-            true => (
-                4.0 / 3.0 * PI * radius_squared * radius_squared.sqrt(),
-                0.75,
-            ),
-        };
-        match self {
-            Self::Box => 1.0 / size,
-            Self::Cone(k) => {
-                let at = (distance_squared / radius_squared).sqrt();
-                let height = 1.0 / ((1.0 - slope / k) * size);
-                (1.0 - at / k).max(0.0) * height
-            }
-        }
-    }
-}
 
 /// A map, how to look it up, and what of it counts.
 #[derive(Clone, Copy, Debug)]

@@ -28,6 +28,7 @@
 pub(crate) mod elsewhere;
 pub(crate) mod gather;
 pub mod kdtree;
+pub(crate) mod kernel;
 pub mod radius;
 pub(crate) mod sets;
 pub(crate) mod shoot;
