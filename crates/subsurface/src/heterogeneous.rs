@@ -162,7 +162,7 @@ impl<'a, T: Textures> Medium for HeterogeneousAt<'a, T> {
 
     #[inline]
     fn phase(&self, at: Vec3) -> PhaseAt<'a, T> {
-        self.medium.phase.at(self.textures, at)
+        self.medium.phase.at(self.textures, at, self.lambda)
     }
 }
 

@@ -57,6 +57,7 @@ pub struct HomogeneousAt<'a, T> {
     emission: Vec4,
     phase: &'a PhaseFunction,
     textures: &'a T,
+    lambda: Vec4,
 }
 
 /// Nothing absorbs or scatters more (m⁻¹), so that densities of paths stay numbers.
@@ -202,6 +203,7 @@ impl Homogeneous {
             coefficients,
             phase: &self.phase,
             textures,
+            lambda,
         }
     }
 }
@@ -248,7 +250,7 @@ impl<'a, T: Textures> Medium for HomogeneousAt<'a, T> {
 
     #[inline]
     fn phase(&self, at: Vec3) -> PhaseAt<'a, T> {
-        self.phase.at(self.textures, at)
+        self.phase.at(self.textures, at, self.lambda)
     }
 
     #[inline]

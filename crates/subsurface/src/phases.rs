@@ -1,6 +1,6 @@
 //! The list of phase functions, and how each is read.
 
-use crate::{Blend, Draine, HenyeyGreenstein, Isotropic, Rayleigh, Tabulated};
+use crate::{Blend, Draine, HenyeyGreenstein, Isotropic, Mie, Rayleigh, Tabulated};
 use etalon_math::{Density, SolidAngle};
 use etalon_params::{Class, Params, plugins};
 use etalon_transport::{Build, Phase, PhaseSample, Textures};
@@ -13,6 +13,8 @@ pub struct PhasePoint<'a, T> {
     pub textures: &'a T,
     /// The point (m, world).
     pub position: Vec3,
+    /// The wavelengths (nm).
+    pub lambda: Vec4,
 }
 
 // By hand, as `T` need not be `Copy`.
@@ -98,6 +100,8 @@ phases! {
     "rayleigh" => Rayleigh: |_, _| Some(Rayleigh);
     /// Draine's.
     "draine" => Draine: |params, _| Some(Draine::from_params(params));
+    /// Of spheres.
+    "mie" => Mie: |params, _| Mie::from_params(params);
     /// A table.
     "tabphase" => Tabulated: |params, _| Tabulated::from_params(params);
     /// Two others.
@@ -125,12 +129,16 @@ impl PhaseFunction {
         phase
     }
 
-    /// The phase function of a point.
+    /// The phase function of a point at four wavelengths (nm).
     #[inline]
-    pub fn at<'a, T>(&'a self, textures: &'a T, position: Vec3) -> PhaseAt<'a, T> {
+    pub fn at<'a, T>(&'a self, textures: &'a T, position: Vec3, lambda: Vec4) -> PhaseAt<'a, T> {
         PhaseAt {
             phase: self,
-            point: PhasePoint { textures, position },
+            point: PhasePoint {
+                textures,
+                position,
+                lambda,
+            },
         }
     }
 }
