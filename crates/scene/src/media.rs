@@ -1,8 +1,12 @@
 //! The media of a scene, and which of them lie on the two sides of a surface.
 
 use etalon_params::{Class, Diagnostic, Diagnostics, Node, Params, Span};
+use etalon_sampling::{Independent, Sampler};
 use etalon_subsurface::{MediumAtWavelengths, MediumDescription};
-use etalon_transport::{LightId, MediumId, MediumInterface, ShapeId, Shapes, Textures};
+use etalon_transport::flight::march;
+use etalon_transport::{
+    LightId, Medium, MediumId, MediumInterface, Ray, ShapeId, Shapes, Textures, Tracking,
+};
 use glam::{Vec3, Vec4};
 
 use crate::builder::Builder;
@@ -41,18 +45,55 @@ pub(crate) fn prepared(
                 .cells(table)
                 .div_ceil(VALUES_PER_CELL)
                 .min(MOST_CELLS);
-            if !varying.prepare(bounds, cells, |low, high| {
-                density.most_within(table, low, high)
-            }) {
+            let most = |low: Vec3, high: Vec3| density.most_within(table, low, high);
+            let least = |low: Vec3, high: Vec3| density.least_within(table, low, high);
+            if !varying.prepare(bounds, cells, most, least) {
                 let message = "nothing bounds the density of this medium: it must be made of grids, patterns, numbers \
                                and spectra";
                 diagnostics.push(Diagnostic::error(span, message));
                 return None;
             }
         }
+        note_bias(&medium, lookup, span, diagnostics);
         prepared.push(medium);
     }
     Some(prepared)
+}
+
+/// Says by how much ray marching is wrong, on the way from side to side of a medium's box.
+fn note_bias(
+    medium: &MediumDescription,
+    lookup: &SceneTables,
+    span: Span,
+    diagnostics: &Diagnostics,
+) {
+    const WAYS: u32 = 256;
+    let at = medium.resolve(lookup, Vec4::new(450.0, 520.0, 590.0, 660.0));
+    let (Tracking::RayMarching(step), Some([low, high])) = (at.tracking(), medium.bounds()) else {
+        return;
+    };
+    let mut stream = Independent::from_key(0);
+    let mut place = || low + (high - low) * Vec3::from_array([(); 3].map(|()| stream.next_1d()));
+    let errors = (0..WAYS).filter_map(|_| {
+        let ray = Ray::between(place(), place(), 0.0)?;
+        let ray = Ray {
+            origin: ray.at(-2.0 * (high - low).length()),
+            ..ray
+        };
+        let [coarse, fine] =
+            [step, step / 32.0].map(|step| march(&at, &ray, f32::INFINITY, step).element_sum());
+        Some(0.25 * (coarse - fine).abs())
+    });
+    let errors: Vec<f32> = errors.collect();
+    let mean = 100.0 * errors.iter().sum::<f32>() / errors.len().max(1) as f32;
+    let most = 100.0 * errors.iter().fold(0.0_f32, |most, error| most.max(*error));
+    let message = format!(
+        "ray marching in steps of {step} m is biased: of the light through this medium it takes {mean:.2} % too much or too \
+         little, on average over {WAYS} ways, and {most:.2} % at most"
+    );
+    let help =
+        "the other ways of `tracking` are unbiased; half the step has about a quarter of the bias";
+    diagnostics.push(Diagnostic::note(span, message).help(help));
 }
 
 /// The box of the shapes that hold a medium inside; `None` if it is outside of any.

@@ -15,7 +15,7 @@ use etalon_params::{Diagnostic, Params};
 use etalon_spectrum::Spectrum;
 use etalon_transport::{
     Build, Coefficients, MajorantSegment, Medium, Ray, SpectrumKind, TextureId, TexturePoint,
-    Textures, refuse_varying,
+    Textures, Tracking, refuse_varying,
 };
 use glam::{Vec2, Vec3, Vec4};
 
@@ -48,6 +48,7 @@ pub struct Homogeneous {
     scale: f32,
     phase: PhaseFunction,
     emission: Option<TextureId>,
+    tracking: Tracking,
 }
 
 /// The same at the wavelengths of a path.
@@ -58,6 +59,7 @@ pub struct HomogeneousAt<'a, T> {
     phase: &'a PhaseFunction,
     textures: &'a T,
     lambda: Vec4,
+    tracking: Tracking,
 }
 
 /// Nothing absorbs or scatters more (m⁻¹), so that densities of paths stay numbers.
@@ -97,6 +99,7 @@ impl Homogeneous {
                 refuse_varying(params, "emission");
                 volume::emission(params, build)
             },
+            tracking: volume::tracking(params, Tracking::Closed),
         })
     }
 
@@ -151,6 +154,7 @@ impl Homogeneous {
             scale: scale as f32,
             phase,
             emission: None,
+            tracking: Tracking::Closed,
         })
     }
 
@@ -204,6 +208,7 @@ impl Homogeneous {
             phase: &self.phase,
             textures,
             lambda,
+            tracking: self.tracking,
         }
     }
 }
@@ -231,7 +236,12 @@ impl<T> HomogeneousAt<'_, T> {
     /// The stretches of a ray.
     #[inline]
     pub(crate) fn segments(&self, _: &Ray, _: f32) -> Segments<'_> {
-        Segments::constant(self.coefficients.extinction().max_element())
+        let extinction = self.coefficients.extinction();
+        let control = match self.tracking {
+            Tracking::Residual => 0.999 * extinction.min_element(),
+            _ => 0.0,
+        };
+        Segments::constant(extinction.max_element(), control)
     }
 }
 
@@ -259,7 +269,7 @@ impl<'a, T: Textures> Medium for HomogeneousAt<'a, T> {
     }
 
     #[inline]
-    fn is_homogeneous(&self) -> bool {
-        true
+    fn tracking(&self) -> Tracking {
+        self.tracking
     }
 }

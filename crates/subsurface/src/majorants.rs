@@ -17,6 +17,8 @@ pub struct MajorantGrid {
     high: Vec3,
     cells: Lattice,
     blocks: Lattice,
+    /// Lower bounds in the same cells, if they are of use.
+    controls: Option<Vec<f32>>,
 }
 
 /// Values in equal cells.
@@ -30,10 +32,14 @@ struct Lattice {
 }
 
 impl Lattice {
-    fn at(&self, cell: IVec3) -> f32 {
+    fn place(&self, cell: IVec3) -> usize {
         let [x, y, z] = cell.to_array().map(|i| i as usize);
         let [columns, rows] = [self.count.x as usize, self.count.y as usize];
-        self.values[(z * rows + y) * columns + x]
+        (z * rows + y) * columns + x
+    }
+
+    fn at(&self, cell: IVec3) -> f32 {
+        self.values[self.place(cell)]
     }
 }
 
@@ -80,6 +86,30 @@ impl MajorantGrid {
                 side: size / blocks.as_vec3(),
                 values: largest,
             },
+            controls: None,
+        }
+    }
+
+    /// The same with lower bounds, too, which `least` knows.
+    #[must_use]
+    pub fn with_controls(self, least: impl Fn(Vec3, Vec3) -> f32) -> Self {
+        let Lattice { count, side, .. } = self.cells;
+        let places = 0..self.cells.values.len() as u32;
+        let control = |place: u32| {
+            let cell = UVec3::new(
+                place % count.x,
+                place / count.x % count.y,
+                place / count.x / count.y,
+            );
+            let corner = self.low + side * cell.as_vec3();
+            // Below the upper bound, whatever rounding does.
+            let most = self.cells.at(cell.as_ivec3());
+            least(corner, corner + side).clamp(0.0, 0.999 * most)
+        };
+        let controls = places.map(control).collect();
+        Self {
+            controls: Some(controls),
+            ..self
         }
     }
 
@@ -121,10 +151,11 @@ pub enum Segments<'a> {
 
 impl<'a> Segments<'a> {
     /// The same all along.
-    pub fn constant(majorant: f32) -> Self {
+    pub fn constant(majorant: f32, control: f32) -> Self {
         Self::Constant(Some(MajorantSegment {
             end: f32::INFINITY,
             majorant,
+            control,
         }))
     }
 
@@ -132,7 +163,7 @@ impl<'a> Segments<'a> {
     #[inline]
     pub fn through(grid: &'a MajorantGrid, ray: &Ray, t_max: f32) -> Self {
         let Some([from, to]) = grid.crossing(ray, t_max) else {
-            return Self::constant(0.0);
+            return Self::constant(0.0, 0.0);
         };
         let blocks = Walk::new(grid, &grid.blocks, ray, from, to);
         Self::Grid(GridSegments {
@@ -168,25 +199,46 @@ pub struct GridSegments<'a> {
     cells: Option<Walk>,
 }
 
+/// A stretch without anything.
+fn empty(end: f32) -> MajorantSegment {
+    MajorantSegment {
+        end,
+        majorant: 0.0,
+        control: 0.0,
+    }
+}
+
 impl GridSegments<'_> {
+    /// A stretch through a cell.
+    #[inline]
+    fn cell(&self, cell: IVec3, end: f32) -> MajorantSegment {
+        let place = self.grid.cells.place(cell);
+        let controls = self.grid.controls.as_ref();
+        MajorantSegment {
+            end,
+            majorant: self.grid.cells.values[place],
+            control: controls.map_or(0.0, |controls| controls[place]),
+        }
+    }
+
     #[inline]
     fn next(&mut self) -> Option<MajorantSegment> {
         if let Some(end) = self.before.take() {
-            let majorant = 0.0;
-            return Some(MajorantSegment { end, majorant });
+            return Some(empty(end));
         }
         loop {
             if let Some(cells) = &mut self.cells {
                 if let Some((cell, _, end)) = cells.next() {
-                    let majorant = self.grid.cells.at(cell);
-                    return Some(MajorantSegment { end, majorant });
+                    return Some(self.cell(cell, end));
                 }
                 self.cells = None;
             }
             let (block, begin, end) = self.blocks.next()?;
-            let majorant = self.grid.blocks.at(block);
-            if majorant == 0.0 || self.grid.cells.count == UVec3::ONE {
-                return Some(MajorantSegment { end, majorant });
+            if self.grid.blocks.at(block) == 0.0 {
+                return Some(empty(end));
+            }
+            if self.grid.cells.count == UVec3::ONE {
+                return Some(self.cell(block, end));
             }
             self.cells = Some(Walk::new(
                 self.grid,

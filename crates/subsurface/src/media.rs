@@ -4,7 +4,7 @@ use crate::majorants::Segments;
 use crate::phases::PhaseAt;
 use crate::{Heterogeneous, HeterogeneousAt, Homogeneous, HomogeneousAt};
 use etalon_params::{Params, plugins};
-use etalon_transport::{Build, Coefficients, MajorantSegment, Medium, Ray, Textures};
+use etalon_transport::{Build, Coefficients, MajorantSegment, Medium, Ray, Textures, Tracking};
 use glam::{Vec3, Vec4};
 
 macro_rules! media {
@@ -84,8 +84,8 @@ macro_rules! media {
             }
 
             #[inline]
-            fn is_homogeneous(&self) -> bool {
-                match self { $(Self::$kind(medium) => medium.is_homogeneous(),)* }
+            fn tracking(&self) -> Tracking {
+                match self { $(Self::$kind(medium) => medium.tracking(),)* }
             }
         }
     };

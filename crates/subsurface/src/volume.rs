@@ -3,7 +3,7 @@
 use etalon_params::questions::Question;
 use etalon_params::{Params, Value};
 use etalon_spectrum::Spectrum;
-use etalon_transport::{Build, SpectrumKind, TextureId, refuse_varying};
+use etalon_transport::{Build, SpectrumKind, TextureId, Tracking, refuse_varying};
 
 /// The spectrum of the parameter `name`: a number, a colour, a spectrum, or a volume that is the same everywhere.
 pub(crate) fn constant(
@@ -32,6 +32,43 @@ pub(crate) fn constant(
         _ => {
             refuse_varying(params, name);
             build.texture(params, name, Some(default), kind)
+        }
+    }
+}
+
+/// How a medium is travelled through: `tracking`, and `step` of ray marching; `usual` unless it says.
+pub(crate) fn tracking(params: &Params<'_>, usual: Tracking) -> Tracking {
+    let [name, accepted]: [&str; 2] = match usual {
+        Tracking::Closed => ["closed", "closed"],
+        _ => ["ratio", "ratio"],
+    };
+    let chosen = params.choice(
+        "tracking",
+        name,
+        &[accepted, "ratio", "residual", "raymarch"],
+    );
+    let what = "a length in metres, above 0";
+    let step = |_| params.float_where("step", 0.1, what, |step| step > 0.0 && step.is_finite());
+    let given = params.property("step");
+    match chosen {
+        "raymarch" => {
+            if given.is_none() {
+                params.missing("step", what);
+            }
+            Tracking::RayMarching(given.map_or(0.1, step) as f32)
+        }
+        _ => {
+            if given.is_some() {
+                params.error_at(
+                    "step",
+                    "`step` has no effect unless `tracking` is `raymarch`",
+                );
+            }
+            match chosen {
+                "closed" => Tracking::Closed,
+                "residual" => Tracking::Residual,
+                _ => Tracking::Ratio,
+            }
         }
     }
 }

@@ -104,6 +104,16 @@ impl TextureModel for Arithmetic {
         most.min(self.most())
     }
 
+    fn least_within(&self, set: &TextureTable, low: Vec3, high: Vec3) -> f32 {
+        let [a, b] = [0, 1].map(|part| set.get(self.parts[part]).least_within(set, low, high));
+        let least = match self.operation {
+            Operation::Multiply => a * b,
+            Operation::Add => a + b,
+            Operation::Mix => a.min(b),
+        };
+        least.min(self.most())
+    }
+
     fn extent(&self, set: &TextureTable) -> Option<[Vec3; 2]> {
         let [a, b] = [0, 1].map(|part| set.get(self.parts[part]).extent(set));
         match (self.operation, a, b) {

@@ -135,6 +135,30 @@ impl TextureModel for Grid {
     }
 
     fn most_within(&self, _: &TextureTable, low: Vec3, high: Vec3) -> f32 {
+        self.within(low, high)
+            .fold(0.0, |most, index| most.max(self.most(index)))
+    }
+
+    fn least_within(&self, _: &TextureTable, low: Vec3, high: Vec3) -> f32 {
+        let Texels::Number(values) = &self.values.texels else {
+            return 0.0;
+        };
+        let least = (self.within(low, high)).fold(f32::INFINITY, |least, i| least.min(values[i]));
+        if least.is_finite() { least } else { 0.0 }
+    }
+
+    fn extent(&self, _: &TextureTable) -> Option<[Vec3; 2]> {
+        Some(self.bounds)
+    }
+
+    fn cells(&self, _: &TextureTable) -> u32 {
+        self.size.max_element()
+    }
+}
+
+impl Grid {
+    /// All values that have a part in those within the world's box from `low` to `high`.
+    fn within(&self, low: Vec3, high: Vec3) -> impl Iterator<Item = usize> {
         // The box's corners in the grid, with what interpolation reaches beyond.
         let corner = |i: u32| {
             let choose = |bit: u32, a: f32, b: f32| if i & bit == 0 { a } else { b };
@@ -160,23 +184,9 @@ impl TextureModel for Grid {
             // Mirrored or not, values repeat after twice the size.
             _ => (from, to.min(from.saturating_add(last * 2 + 1))),
         };
-        let mut most = 0.0_f32;
-        for z in from.z..=to.z {
-            for y in from.y..=to.y {
-                for x in from.x..=to.x {
-                    most = most.max(self.most(self.index(IVec3::new(x, y, z))));
-                }
-            }
-        }
-        most
-    }
-
-    fn extent(&self, _: &TextureTable) -> Option<[Vec3; 2]> {
-        Some(self.bounds)
-    }
-
-    fn cells(&self, _: &TextureTable) -> u32 {
-        self.size.max_element()
+        let row = move |y, z| (from.x..=to.x).map(move |x| self.index(IVec3::new(x, y, z)));
+        let plane = move |z| (from.y..=to.y).flat_map(move |y| row(y, z));
+        (from.z..=to.z).flat_map(plane)
     }
 }
 

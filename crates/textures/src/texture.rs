@@ -64,6 +64,11 @@ pub(crate) trait TextureModel {
         f32::INFINITY
     }
 
+    /// Not more than its value at any wavelength and anywhere in that box, as far as is known.
+    fn least_within(&self, _: &TextureTable, _low: Vec3, _high: Vec3) -> f32 {
+        0.0
+    }
+
     /// The corners of the world's box beyond which a medium of this density ends; `None` if it has no end.
     fn extent(&self, _: &TextureTable) -> Option<[Vec3; 2]> {
         None
@@ -234,6 +239,11 @@ impl Texture {
     /// is known.
     pub fn most_within(&self, set: &TextureTable, low: Vec3, high: Vec3) -> f32 {
         ask!(self, texture => texture.most_within(set, low, high))
+    }
+
+    /// Not more than its value at any wavelength and anywhere in the world's box from `low` to `high`, as far as is known.
+    pub fn least_within(&self, set: &TextureTable, low: Vec3, high: Vec3) -> f32 {
+        ask!(self, texture => texture.least_within(set, low, high))
     }
 
     /// The corners of the world's box beyond which a medium of this density ends; `None` if it has no end.

@@ -15,6 +15,7 @@ pub mod camera;
 pub mod field_of_view;
 pub mod file;
 pub mod film;
+pub mod flight;
 pub mod ids;
 pub mod integrator;
 pub mod legacy_phong;
@@ -47,7 +48,7 @@ pub use legacy_phong::LegacyPhong;
 pub use light::{Emission, EmissionPdf, LightKind, LightSample, LightVariety};
 pub use light_sample_context::LightSampleContext;
 pub use medium::{
-    Coefficients, Collision, FreeFlight, MajorantSegment, Medium, MediumInterface, Vacuum,
+    Coefficients, Collision, FreeFlight, MajorantSegment, Medium, MediumInterface, Tracking, Vacuum,
 };
 pub use mesh::{Attribute, MeshData};
 pub use phase::{Phase, PhaseSample};

@@ -10,10 +10,11 @@
 //! every lane, had it been the one that chose, so that chromatic media are combined by multiple importance sampling
 //! over the lanes (B. Miller, I. Georgiev, W. Jarosz, A null-scattering path integral formulation of light transport,
 //! 2019, section 5). Transmittance is estimated by ratio tracking (J. Novák, A. Selle, W. Jarosz 2014): the same
-//! tentative collisions, all of them null.
+//! tentative collisions, all of them null. Residual tracking leaves the density of a control μ̄ ≤ σt, or any other, to the closed
+//! form: collisions come with σ̄ − μ̄ in place of σ̄. See [`Tracking`].
 
+use crate::flight::{self, Collisions};
 use crate::{MediumId, Phase, Ray, Transmission};
-use etalon_math::float;
 use etalon_sampling::Sampler;
 use glam::{Vec3, Vec4};
 
@@ -107,10 +108,24 @@ pub struct MajorantSegment {
     pub end: f32,
     /// σ̄ in it: not below the extinction of any lane (m⁻¹).
     pub majorant: f32,
+    /// A part of that, below σ̄, which residual tracking treats in closed form; zero for all others (m⁻¹).
+    pub control: f32,
 }
 
-/// No flight makes more tentative collisions: one in a medium without end has to end.
-const MOST_COLLISIONS: u32 = 1 << 20;
+/// How a medium is travelled through.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub enum Tracking {
+    /// In closed form: it is the same everywhere.
+    Closed,
+    /// By tentative collisions with all of the majorant: delta tracking, and ratio tracking of transmittance.
+    #[default]
+    Ratio,
+    /// The same, where transmittance follows from tentative collisions with what exceeds a control density, and from that itself
+    /// in closed form (residual ratio tracking, Novák et al. 2014).
+    Residual,
+    /// In fixed steps (m), each as dense as its middle: biased.
+    RayMarching(f32),
+}
 
 /// A participating medium at a path's wavelengths: plain data that knows neither volumes nor scene.
 pub trait Medium {
@@ -132,9 +147,10 @@ pub trait Medium {
         Vec4::ZERO
     }
 
-    /// Whether coefficients are the same everywhere, so that closed forms hold.
-    fn is_homogeneous(&self) -> bool {
-        false
+    /// How it is travelled through.
+    #[inline]
+    fn tracking(&self) -> Tracking {
+        Tracking::Ratio
     }
 
     /// Flies along `ray` up to `t_max`, with `u` for the first choice and a stream of random numbers for any number
@@ -146,8 +162,10 @@ pub trait Medium {
         u: f32,
         stream: &mut impl Sampler,
     ) -> FreeFlight<Self::Phase> {
-        if self.is_homogeneous() {
-            return homogeneous_flight(self, ray, t_max, u);
+        match self.tracking() {
+            Tracking::Closed => return flight::closed(self, ray, t_max, u),
+            Tracking::RayMarching(step) => return flight::marched(self, ray, t_max, step, u),
+            Tracking::Ratio | Tracking::Residual => {}
         }
         let mut flight = FreeFlight {
             factor: Vec4::ONE,
@@ -155,12 +173,20 @@ pub trait Medium {
             passed: Vec4::ONE,
             scattering: None,
         };
-        let mut collisions = Collisions::new(self.majorants(ray, t_max), t_max, u);
-        while let Some((t, majorant)) = collisions.next() {
+        let mut collisions = Collisions::new(self.majorants(ray, t_max), t_max, u, false);
+        while let Some(MajorantSegment {
+            end: t,
+            majorant,
+            control,
+        }) = collisions.next()
+        {
             let at = ray.at(t);
             let coefficients = self.coefficients(at);
             let extinction = coefficients.extinction();
             if stream.next_1d() * majorant < extinction.x {
+                let passed = flight::passing_control(collisions.controlled);
+                flight.passed *= passed;
+                flight.factor *= passed;
                 flight.emitted = flight.factor * self.emission(at);
                 flight.factor *= coefficients.scattering;
                 flight.scattering = Some(Collision {
@@ -170,136 +196,54 @@ pub trait Medium {
                 });
                 return flight;
             }
-            let null = (Vec4::ONE - extinction / majorant).max(Vec4::ZERO);
+            let null = flight::ratio(extinction, majorant, control);
             flight.factor *= null;
             flight.passed *= null;
             collisions.go_on(stream.next_1d());
         }
+        let passed = flight::passing_control(collisions.controlled);
+        flight.passed *= passed;
+        flight.factor *= passed;
         flight
     }
 
     /// An estimate of the light that arrives at `t_max`.
     fn transmittance(&self, ray: &Ray, t_max: f32, stream: &mut impl Sampler) -> Transmission {
-        if self.is_homogeneous() {
-            let transmittance = passing(self.coefficients(ray.origin).extinction(), t_max);
+        let closed = match self.tracking() {
+            Tracking::Closed => {
+                let extinction = self.coefficients(ray.origin).extinction();
+                Some(flight::passing(extinction, t_max))
+            }
+            Tracking::RayMarching(step) => Some(flight::march(self, ray, t_max, step)),
+            Tracking::Ratio | Tracking::Residual => None,
+        };
+        if let Some(transmittance) = closed {
             return Transmission {
                 transmittance,
                 probability: transmittance,
             };
         }
         let mut ratio = Vec4::ONE;
-        let mut collisions = Collisions::new(self.majorants(ray, t_max), t_max, stream.next_1d());
-        while let Some((t, majorant)) = collisions.next() {
+        let majorants = self.majorants(ray, t_max);
+        let mut collisions = Collisions::new(majorants, t_max, stream.next_1d(), true);
+        while let Some(MajorantSegment {
+            end: t,
+            majorant,
+            control,
+        }) = collisions.next()
+        {
             let extinction = self.coefficients(ray.at(t)).extinction();
-            ratio *= (Vec4::ONE - extinction / majorant).max(Vec4::ZERO);
+            ratio *= flight::ratio(extinction, majorant, control);
             if ratio == Vec4::ZERO {
                 break;
             }
             collisions.go_on(stream.next_1d());
         }
+        ratio *= flight::passing_control(collisions.controlled);
         Transmission {
             transmittance: ratio,
             probability: ratio,
         }
-    }
-}
-
-/// Tentative collisions along a ray, whose optical depth by the majorants is exponentially distributed.
-struct Collisions<I> {
-    segments: I,
-    segment: MajorantSegment,
-    t_max: f32,
-    /// Where the last one was (m).
-    t: f32,
-    /// The optical depth to the next one.
-    depth: f32,
-    /// How many more there may be.
-    left: u32,
-}
-
-impl<I: Iterator<Item = MajorantSegment>> Collisions<I> {
-    /// With the number `u` in [0, 1) for the first.
-    #[inline]
-    fn new(segments: I, t_max: f32, u: f32) -> Self {
-        Self {
-            segments,
-            segment: MajorantSegment {
-                end: 0.0,
-                majorant: 0.0,
-            },
-            t_max,
-            t: 0.0,
-            depth: -float::ln(1.0 - u),
-            left: MOST_COLLISIONS,
-        }
-    }
-
-    /// Chooses the optical depth to the next one with `u`.
-    #[inline]
-    fn go_on(&mut self, u: f32) {
-        self.depth = -float::ln(1.0 - u);
-    }
-
-    /// Where the next one is, and the majorant there; `None` if there is none before the ray's end.
-    #[inline]
-    fn next(&mut self) -> Option<(f32, f32)> {
-        self.left = self.left.checked_sub(1)?;
-        loop {
-            let MajorantSegment { end, majorant } = self.segment;
-            let end = end.min(self.t_max);
-            if majorant > 0.0 {
-                let t = self.t + self.depth / majorant;
-                if t < end {
-                    self.t = t;
-                    return Some((t, majorant));
-                }
-                self.depth = (self.depth - (end - self.t) * majorant).max(0.0);
-            }
-            self.t = self.t.max(end);
-            self.segment = self.segments.next()?;
-        }
-    }
-}
-
-/// T over a distance, per lane.
-#[inline]
-fn passing(extinction: Vec4, t: f32) -> Vec4 {
-    // An endless way through nothing is free.
-    let depth = extinction * t.min(f32::MAX);
-    Vec4::from_array(depth.to_array().map(|depth| float::exp(-depth)))
-}
-
-/// In closed form.
-#[inline]
-fn homogeneous_flight<M: Medium + ?Sized>(
-    medium: &M,
-    ray: &Ray,
-    t_max: f32,
-    u: f32,
-) -> FreeFlight<M::Phase> {
-    let coefficients = medium.coefficients(ray.origin);
-    let extinction = coefficients.extinction();
-    let t = -float::ln(1.0 - u) / extinction.x;
-    // False where lane 0 is not attenuated, and for NaN.
-    if t < t_max {
-        let passed = passing(extinction, t);
-        return FreeFlight {
-            factor: passed * coefficients.scattering,
-            emitted: passed * medium.emission(ray.at(t)),
-            passed,
-            scattering: Some(Collision {
-                t,
-                extinction,
-                phase: medium.phase(ray.at(t)),
-            }),
-        };
-    }
-    let passed = passing(extinction, t_max);
-    FreeFlight {
-        factor: passed,
-        emitted: Vec4::ZERO,
-        passed,
-        scattering: None,
     }
 }
 
