@@ -26,6 +26,7 @@ pub mod pile_of_plates;
 pub mod pixels;
 pub mod prism;
 pub mod rgb_patches;
+pub mod slab;
 pub mod spectra;
 pub mod wrapped_bitmap;
 
@@ -85,6 +86,8 @@ pub fn picture(
         "ambient corner" => ambient_corner::picture(claim, size),
         "rectangle in a field of view" => field_of_view::picture(claim, size),
         "corner under a filter" => filter_shape::picture(claim, size),
+        "light from a half-space" => slab::half_space(claim, size),
+        "light scattered once by a slab" => slab::once(claim, size),
         "colour checker" => colour_checker::picture(claim, size),
         other => Err(format!("there is no closed form called `{other}`")),
     }
