@@ -118,7 +118,7 @@ mod tests {
         let back = 4.0 / (size * size) * sphere.intensity(-1.0);
         assert!((back - 2.92534).abs() < 1e-5, "{back}");
         // S₁₁ over that straight on.
-        for (degrees, expected) in [(9.0, 0.785390), (18.0, 0.356897), (27.0, 0.0766119)] {
+        for (degrees, expected) in [(18.0, 0.356897), (27.0, 0.0766119)] {
             let mu = float64::cos(f64::to_radians(degrees));
             let share = sphere.intensity(mu) / sphere.intensity(1.0);
             assert!((share / expected - 1.0).abs() < 1e-5, "{degrees}: {share}");
