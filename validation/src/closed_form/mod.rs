@@ -87,6 +87,7 @@ pub fn picture(
         "rectangle in a field of view" => field_of_view::picture(claim, size),
         "corner under a filter" => filter_shape::picture(claim, size),
         "light from a half-space" => slab::half_space(claim, size),
+        "light from a slab" => slab::layer(claim, size),
         "light scattered once by a slab" => slab::once(claim, size),
         "colour checker" => colour_checker::picture(claim, size),
         other => Err(format!("there is no closed form called `{other}`")),

@@ -7,7 +7,14 @@
 //! L = ϖ E/(4π) · μ₀/(μ + μ₀) · H(μ) H(μ₀),   H(μ) = 1 + ϖ/2 μ H(μ) ∫₀¹ H(μ')/(μ + μ') dμ'
 //! ```
 //!
-//! (S. Chandrasekhar, Radiative Transfer, 1950, chapter V), and one of the optical thickness τ by single scattering alone
+//! (S. Chandrasekhar, Radiative Transfer, 1950, chapter V), one of the optical thickness τ
+//!
+//! ```text
+//! L = ϖ E/(4π) · μ₀/(μ + μ₀) · (X(μ) X(μ₀) − Y(μ) Y(μ₀))
+//! ∂X/∂τ = g Y,   ∂Y/∂τ = g X − Y/μ,   g = ϖ/2 ∫₀¹ Y(μ')/μ' dμ',   X = Y = 1 at τ = 0
+//! ```
+//!
+//! (ibid., chapter VIII; tables in H. van de Hulst, Multiple Light Scattering, 1980), and by single scattering alone
 //!
 //! ```text
 //! L = ϖ E/(4π) · μ₀/(μ + μ₀) · (1 − exp(−τ (1/μ + 1/μ₀)))
@@ -55,6 +62,63 @@ impl Escape {
     }
 }
 
+/// Chandrasekhar's X and Y of a layer.
+struct Layer {
+    /// Cosines, and X and Y there.
+    nodes: Vec<[f64; 3]>,
+}
+
+impl Layer {
+    fn new(albedo: f64, thickness: f64) -> Self {
+        const NODES: usize = 400;
+        const STEPS: usize = 1500;
+        // μ = s², as Y/μ is large where μ is small.
+        let middle = |i: usize| (i as f64 + 0.5) / NODES as f64;
+        let mut nodes: Vec<[f64; 3]> = (0..NODES).map(|i| [middle(i).powi(2), 1.0, 1.0]).collect();
+        let source = |nodes: &[[f64; 3]]| {
+            // dμ/μ = 2 ds/s.
+            let sum: f64 = nodes.iter().map(|[mu, _, y]| 2.0 * y / mu.sqrt()).sum();
+            0.5 * albedo * sum / NODES as f64
+        };
+        // A step with Y/μ in closed form.
+        let step = |[mu, x, y]: [f64; 3], from: [f64; 3], g: f64, h: f64| {
+            let left = exp(-h / mu);
+            [
+                mu,
+                x + h * g * from[2],
+                y * left + g * from[1] * mu * (1.0 - left),
+            ]
+        };
+        // Steps that grow: g is large for a thin layer.
+        let depth = |i: usize| thickness * (i as f64 / STEPS as f64).powi(4);
+        for i in 0..STEPS {
+            let h = depth(i + 1) - depth(i);
+            let g = source(&nodes);
+            let half: Vec<[f64; 3]> = nodes.iter().map(|n| step(*n, *n, g, 0.5 * h)).collect();
+            let g = source(&half);
+            nodes = nodes
+                .iter()
+                .zip(&half)
+                .map(|(n, m)| step(*n, *m, g, h))
+                .collect();
+        }
+        Self { nodes }
+    }
+
+    /// X and Y at a cosine, linear in between.
+    fn at(&self, mu: f64) -> [f64; 2] {
+        let after = self.nodes.partition_point(|node| node[0] < mu);
+        let [a, b] =
+            [after.saturating_sub(1), after.min(self.nodes.len() - 1)].map(|i| self.nodes[i]);
+        let part = if b[0] > a[0] {
+            (mu - a[0]) / (b[0] - a[0])
+        } else {
+            0.0
+        };
+        [1, 2].map(|i| a[i] + part * (b[i] - a[i]))
+    }
+}
+
 /// The picture from above, at 90°, of what shines in proportion to `factor` of μ.
 fn seen(claim: &Claim, size: [u32; 2], factor: impl Fn(f64) -> f64) -> Result<ExactImage, String> {
     let scale = claim.number("albedo")? * IRRADIANCE / (4.0 * PI);
@@ -74,6 +138,16 @@ pub fn half_space(claim: &Claim, size: [u32; 2]) -> Result<ExactImage, String> {
     let escape = Escape::new(claim.number("albedo")?);
     let into = escape.at(-claim.number("down")?);
     seen(claim, size, |mu| escape.at(mu) * into)
+}
+
+/// Of a layer.
+pub fn layer(claim: &Claim, size: [u32; 2]) -> Result<ExactImage, String> {
+    let layer = Layer::new(claim.number("albedo")?, 2.0 * claim.number("half")?);
+    let into = layer.at(-claim.number("down")?);
+    seen(claim, size, |mu| {
+        let out = layer.at(mu);
+        out[0] * into[0] - out[1] * into[1]
+    })
 }
 
 /// Of a layer, by light that was scattered once.
@@ -103,5 +177,33 @@ mod tests {
         let mean = escape.nodes.iter().map(|[_, h]| h).sum::<f64>() / escape.nodes.len() as f64;
         let expected = 2.0 / 0.8 * (1.0 - 0.2_f64.sqrt());
         assert!((mean - expected).abs() < 1e-4, "{mean} {expected}");
+    }
+
+    /// Thick layers are without end, thin ones scatter once, and those that absorb nothing let out all that came in: of the
+    /// light along μ₀ the shares (X(μ₀) X(μ) − Y(μ₀) Y(μ))/(μ + μ₀) and (Y(μ₀) X(μ) − X(μ₀) Y(μ))/(μ₀ − μ) of μ/2 dμ, and what
+    /// passes straight.
+    #[test]
+    fn layers_are_between_thin_and_thick_ones() {
+        let (escape, thick) = (Escape::new(0.8), Layer::new(0.8, 40.0));
+        for mu in [0.3, 0.6, 1.0] {
+            let ratio = thick.at(mu)[0] / escape.at(mu);
+            assert!((ratio - 1.0).abs() < 1e-3, "{mu}: {ratio}");
+        }
+        let thin = Layer::new(0.01, 0.05);
+        let [a, b] = [0.6, 0.9].map(|mu| thin.at(mu));
+        let once = 1.0 - exp(-0.05 * (1.0 / 0.6 + 1.0 / 0.9));
+        let share = (a[0] * b[0] - a[1] * b[1]) / once;
+        assert!((share - 1.0).abs() < 0.01, "{share}");
+        let white = Layer::new(1.0, 1.0);
+        let into = 0.6;
+        let [x, y] = white.at(into);
+        let out = |[mu, other_x, other_y]: &[f64; 3]| {
+            let back = (x * other_x - y * other_y) / (mu + into);
+            let through = (y * other_x - x * other_y) / (into - mu);
+            // dμ = 2 s ds.
+            0.5 * mu * (back + through) * 2.0 * mu.sqrt() / white.nodes.len() as f64
+        };
+        let all = white.nodes.iter().map(out).sum::<f64>() + exp(-1.0 / into);
+        assert!((all - 1.0).abs() < 5e-3, "{all}");
     }
 }
