@@ -64,13 +64,8 @@ pub(crate) fn free_flight<'w, W: World>(
     }
     let medium = world.medium(ray.medium, wavelengths)?;
     let t_max = hit.map_or(ray.t_max, |hit| hit.t);
-    let (whole, lead) = ray.from_surface();
     // The number of tentative collisions has no bound, so they have a stream of their own.
-    let mut flight = medium.free_flight(&whole, t_max + lead, u, &mut ray.stream(u));
-    if let Some(collision) = &mut flight.scattering {
-        collision.t = (collision.t - lead).max(0.0);
-    }
-    Some(flight)
+    Some(medium.free_flight(ray, t_max, u, &mut ray.stream(u)))
 }
 
 /// The contribution of a path that arrives where `flight` along `ray` ends, by what the medium emits there; `light_mis`
@@ -106,8 +101,7 @@ pub(crate) fn transmittance<W: World>(
     }
     let medium = world.medium(ray.medium, wavelengths)?;
     let t_max = hit.map_or(ray.t_max, |hit| hit.t);
-    let (whole, lead) = ray.from_surface();
-    Some(medium.transmittance(&whole, t_max + lead, &mut ray.stream(0.0)))
+    Some(medium.transmittance(ray, t_max, &mut ray.stream(0.0)))
 }
 
 /// The contribution of a path that leaves the scene along `direction`.

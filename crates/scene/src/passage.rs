@@ -22,8 +22,7 @@ impl Scene {
                 && let Some(medium) = self.medium(ray.medium, wavelengths)
             {
                 let t = hit.map_or(ray.t_max, |hit| hit.t);
-                let (whole, lead) = ray.from_surface();
-                passage.then(&medium.transmittance(&whole, t + lead, &mut ray.stream(0.0)));
+                passage.then(&medium.transmittance(&ray, t, &mut ray.stream(0.0)));
                 if passage.transmittance == Vec4::ZERO {
                     return None;
                 }

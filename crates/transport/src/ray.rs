@@ -83,15 +83,6 @@ impl Ray {
         Independent::from_key(numbers.fold(u64::from(u.to_bits()), key))
     }
 
-    /// The ray from where it crosses the surface that it leaves, and how far before its origin that is (m): a medium fills this
-    /// gap, too.
-    #[inline]
-    pub fn from_surface(&self) -> (Self, f32) {
-        let lead = -self.departure.t;
-        let origin = self.at(-lead);
-        (Self { origin, ..*self }, lead)
-    }
-
     /// The point at parameter `t`.
     #[inline]
     pub fn at(&self, t: f32) -> Vec3 {
