@@ -246,7 +246,8 @@ impl Scene {
     ) -> Option<Emission> {
         let (medium, at, origin) = lights.point(u_light, u_position)?;
         let resolved = self.medium(medium, wavelengths)?;
-        if !self.is_within(medium, at) {
+        let radiance = resolved.emission(at);
+        if radiance == Vec4::ZERO || !self.is_within(medium, at) {
             return None;
         }
         let ray = Ray {
@@ -256,7 +257,7 @@ impl Scene {
         Some(Emission {
             point: Emission::point_of(&ray),
             ray,
-            weight: resolved.emission(at) * (4.0 * PI / origin),
+            weight: radiance * (4.0 * PI / origin),
             density: EmissionPdf {
                 origin,
                 ray: 0.25 / PI,

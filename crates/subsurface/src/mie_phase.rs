@@ -12,8 +12,9 @@
 
 use crate::mie::Sphere;
 use crate::phases::{PhaseModel, PhasePoint};
+use crate::rotational::turned;
 use core::f64::consts::{PI, TAU};
-use etalon_math::{Density, Frame, SolidAngle, float, float64};
+use etalon_math::{Density, SolidAngle, float64};
 use etalon_params::Params;
 use etalon_sampling::discrete::PiecewiseLinear;
 use etalon_spectrum::{LAMBDA_MAX, LAMBDA_MIN};
@@ -149,13 +150,8 @@ impl PhaseModel for Mie {
     }
 
     fn sample(&self, at: &PhasePoint<'_, impl Textures>, wo: Vec3, u: Vec2) -> PhaseSample {
-        let mu = self
-            .table(at.lambda.x)
-            .sample(f64::from(u.x))
-            .clamp(-1.0, 1.0);
-        let sine = (1.0 - mu * mu).max(0.0).sqrt() as f32;
-        let (sin, cos) = float::sin_cos(TAU as f32 * u.y);
-        let wi = Frame::from_normal(-wo).to_world(Vec3::new(sine * cos, sine * sin, mu as f32));
+        let mu = self.table(at.lambda.x).sample(f64::from(u.x));
+        let wi = turned(wo, mu.clamp(-1.0, 1.0) as f32, u.y);
         let value = self.eval(at, wo, wi);
         PhaseSample {
             wi,

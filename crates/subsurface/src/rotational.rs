@@ -15,15 +15,20 @@ pub(crate) trait Rotational {
     fn inverse(&self, u: f32) -> f32;
 }
 
+/// The direction into which light that travels along −`wo` turns, by an angle with the cosine `mu`, about its way by `u` in
+/// [0, 1).
+pub(crate) fn turned(wo: Vec3, mu: f32, u: f32) -> Vec3 {
+    let sine = float::safe_sqrt(1.0 - mu * mu);
+    let (sin, cos) = float::sin_cos(2.0 * PI * u);
+    Frame::from_normal(-wo).to_world(Vec3::new(sine * cos, sine * sin, mu))
+}
+
 /// Samples a rotational phase function.
 pub(crate) fn sample(phase: &impl Rotational, wo: Vec3, u: Vec2) -> PhaseSample {
     let mu = phase.inverse(u.x).clamp(-1.0, 1.0);
-    let sine = float::safe_sqrt(1.0 - mu * mu);
-    let (sin, cos) = float::sin_cos(2.0 * PI * u.y);
-    let wi = Frame::from_normal(-wo).to_world(Vec3::new(sine * cos, sine * sin, mu));
     let value = phase.value(mu);
     PhaseSample {
-        wi,
+        wi: turned(wo, mu, u.y),
         value: Vec4::splat(value),
         density: Density::uniform(value),
     }

@@ -38,15 +38,10 @@ pub(crate) fn constant(
 
 /// How a medium is travelled through: `tracking`, and `step` of ray marching; `usual` unless it says.
 pub(crate) fn tracking(params: &Params<'_>, usual: Tracking) -> Tracking {
-    let [name, accepted]: [&str; 2] = match usual {
-        Tracking::Closed => ["closed", "closed"],
-        _ => ["ratio", "ratio"],
-    };
-    let chosen = params.choice(
-        "tracking",
-        name,
-        &[accepted, "ratio", "residual", "raymarch"],
-    );
+    // Only what is the same everywhere has a closed form.
+    let all = ["closed", "ratio", "residual", "raymarch"];
+    let accepted = &all[usize::from(usual != Tracking::Closed)..];
+    let chosen = params.choice("tracking", accepted[0], accepted);
     let what = "a length in metres, above 0";
     let step = |_| params.float_where("step", 0.1, what, |step| step > 0.0 && step.is_finite());
     let given = params.property("step");

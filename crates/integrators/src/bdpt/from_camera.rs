@@ -92,10 +92,11 @@ impl FromCamera {
             let medium = self.carried.ray.medium;
             if let Some(met) = self.carried.fly(world, hit.as_ref(), wavelengths, u) {
                 self.alpha = 1.0;
+                let density = self.arrival(connector, &met.vertex, met.extinction.x, corners);
                 if let Some(prefix) = met.shining {
                     let arrival = Arrival {
                         prefix,
-                        density: self.arrival(connector, &met.vertex, met.extinction.x, corners),
+                        density,
                         passed: self.carried.passed,
                     };
                     connector.meet_medium(&arrival, &met.vertex, medium, corners);
@@ -103,8 +104,7 @@ impl FromCamera {
                 if self.carried.segments == settings.max_depth {
                     return false;
                 }
-                let arrival = self.arrival(connector, &met.vertex, met.extinction.x, corners);
-                return self.turn(met, arrival, settings, sampler, corners, connector);
+                return self.turn(met, density, settings, sampler, corners, connector);
             }
         }
         let Some(hit) = hit else {
