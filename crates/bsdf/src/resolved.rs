@@ -1,6 +1,6 @@
 //! A material at one point: at most [`MAX_LOBES`] lobes, and light that passes straight on.
 
-use crate::{Bxdf, Lobe};
+use crate::{AnyBxdf, Bxdf, Lobe};
 use etalon_math::float::ONE_MINUS_EPSILON;
 use etalon_math::{DeltaProbability, Density, Frame, SolidAngle};
 use etalon_transport::{Bsdf, BsdfSample, SamplePdf, TransportMode};
@@ -68,6 +68,39 @@ impl<'a> BsdfAtPoint<'a> {
             null_probability,
             lobes,
         }
+    }
+
+    /// Light passes as if nothing were there.
+    pub fn passing(normal: Vec3) -> Self {
+        Self::several(normal, Vec4::ONE, 1.0, &[])
+    }
+
+    /// The index inside over that outside, per lane, if this is nothing but an interface of dielectrics.
+    pub fn relative_index(&self) -> Option<Vec4> {
+        match &self.lobes {
+            Lobes::One(lobe) => match &lobe.scatter {
+                AnyBxdf::Dielectric(smooth) => Some(smooth.eta),
+                AnyBxdf::RoughDielectric(rough) => Some(rough.eta),
+                _ => None,
+            },
+            _ => None,
+        }
+    }
+
+    /// The same between other dielectrics, if it is such an interface.
+    pub fn with_relative_index(mut self, eta: Vec4) -> Self {
+        if let Lobes::One(lobe) = &mut self.lobes {
+            match &mut lobe.scatter {
+                // Nothing is mirrored, and light goes straight on.
+                AnyBxdf::Dielectric(smooth) if eta == Vec4::ONE && smooth.mirrored == 0.0 => {
+                    return Self::several(self.normal, smooth.transmittance, 1.0, &[]);
+                }
+                AnyBxdf::Dielectric(smooth) => smooth.eta = eta,
+                AnyBxdf::RoughDielectric(rough) => rough.eta = eta,
+                _ => {}
+            }
+        }
+        self
     }
 
     /// The lobes.

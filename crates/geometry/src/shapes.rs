@@ -220,6 +220,14 @@ impl Shape {
         }
     }
 
+    /// Whether it has a border, so that it bounds no volume.
+    pub fn is_open(&self) -> bool {
+        match self.mesh() {
+            Some(mesh) => !mesh.has_no_border(),
+            None => !ask!(self, shape => shape.is_closed()),
+        }
+    }
+
     /// See [`ShapeModel::next_crossing`].
     #[inline]
     pub(crate) fn next_crossing(

@@ -1,5 +1,6 @@
 //! From a description to a scene.
 
+use crate::bodies::Bodies;
 use crate::builder::Builder;
 use crate::lookup::SceneTables;
 use crate::media::{self, LightMedium, SceneMedia};
@@ -102,6 +103,16 @@ pub fn compile_with(
         geometry,
         textures: builder.textures,
     };
+    let bodies = Bodies::new(
+        &surfaces.bodies,
+        surfaces.media.len(),
+        &surfaces.interfaces,
+        camera_medium,
+        diagnostics,
+    );
+    if diagnostics.has_errors() {
+        return None;
+    }
     let bounded = (!surfaces.placed_media).then_some(surfaces.interfaces.as_slice());
     let media = media::prepared(surfaces.media, bounded, camera_medium, &lookup, diagnostics)?;
     let media = SceneMedia::new(
@@ -110,6 +121,7 @@ pub fn compile_with(
         surfaces.placed_media,
         &placed,
         camera_medium,
+        bodies,
         &lookup,
     );
     let [low, high] = media.extent([bounds.min, bounds.max]);

@@ -25,19 +25,43 @@ impl Scene {
         Some(self.medium_along(emission.ray))
     }
 
-    /// The medium on this side of the first boundary on a ray's way.
+    /// The medium on this side of the first boundary on a ray's way, with the bodies that the ray leaves without having entered
+    /// them.
     pub(crate) fn medium_along(&self, mut ray: Ray) -> MediumId {
+        let bodies = self.media().bodies();
+        let (mut around, mut entered, mut left) = (MediumId::NONE, Vec::new(), Vec::new());
         for _ in 0..PASSED {
             let Some(hit) = self.intersect(&ray) else {
-                return self.outermost();
+                around = self.outermost();
+                break;
             };
             let vertex = self.vertex(&ray, &hit);
+            let outward = ray.direction.dot(vertex.normal);
             if let Some(boundary) = self.media().of_shape(hit.shape) {
-                return boundary.toward(-ray.direction.dot(vertex.normal));
+                around = boundary.toward(-outward);
+                break;
+            }
+            if let Some(kind) = bodies.and_then(|bodies| bodies.of_shape(hit.shape)) {
+                let before = entered.iter().position(|other| *other == kind);
+                match before {
+                    _ if outward < 0.0 => entered.push(kind),
+                    Some(before) => drop(entered.swap_remove(before)),
+                    None => left.push(kind),
+                }
             }
             ray = vertex.spawn(ray.direction);
         }
-        MediumId::NONE
+        let into = |set, kind| bodies.map_or(set, |bodies| bodies.after(set, kind, true));
+        left.into_iter().fold(around, into)
+    }
+
+    /// The medium that the camera is in, with the bodies that it is in.
+    pub(crate) fn find_camera_medium(&self) -> MediumId {
+        if self.media().bodies().is_none() {
+            return self.camera_medium();
+        }
+        let start = (self.camera()).ray(Vec2::splat(0.5), Vec2::splat(0.5), 0.0);
+        self.medium_along(start.ray)
     }
 
     /// The medium beyond everything: where a ray from the camera ends that goes straight on.

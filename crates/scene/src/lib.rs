@@ -4,6 +4,7 @@
 //! [`etalon_transport::World`] for the integrators, and what the caller needs to render it.
 
 mod attributes;
+mod bodies;
 pub mod builder;
 pub mod compile;
 mod displacement;

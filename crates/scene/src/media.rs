@@ -1,5 +1,6 @@
 //! The media of a scene, and which of them lie on the two sides of a surface.
 
+use etalon_geometry::Shape;
 use etalon_params::{Class, Diagnostic, Diagnostics, Node, Params, Span};
 use etalon_sampling::{Independent, Sampler};
 use etalon_subsurface::{MediumAtWavelengths, MediumDescription};
@@ -9,6 +10,7 @@ use etalon_transport::{
 };
 use glam::{Vec3, Vec4};
 
+use crate::bodies::Bodies;
 use crate::builder::Builder;
 use crate::lookup::SceneTables;
 use crate::surfaces::Surfaces;
@@ -145,6 +147,21 @@ impl Surfaces {
         media
     }
 
+    /// Says so where something below a surface, or a body, needs a closed shape and this one is open.
+    pub(crate) fn expect_closed(params: &Params<'_>, shape: &Shape, below: bool, body: bool) {
+        let needs = match (below, body) {
+            (true, _) => "what is below its surface",
+            (_, true) => "its `priority`",
+            _ => return,
+        };
+        if shape.is_open() {
+            let message = format!("this shape is open, and {needs} needs a closed one");
+            let help = "light that enters it has no way out but through other shapes that close it";
+            let note = Diagnostic::note(params.node.plugin.span, message);
+            params.diagnostics.push(note.help(help));
+        }
+    }
+
     /// A medium, read once however often it is used.
     pub fn medium(&mut self, node: &Arc<Node>, builder: &mut Builder<'_>) -> MediumId {
         let key = Arc::as_ptr(node) as usize;
@@ -174,6 +191,8 @@ pub struct SceneMedia {
     boxes: Vec<Option<[Vec3; 2]>>,
     /// Around each light, as far as the scene says.
     lights: Vec<Option<MediumInterface>>,
+    /// Shapes that overlap, if any do.
+    bodies: Option<Bodies>,
 }
 
 /// What a scene says of the medium around a light.
@@ -193,10 +212,13 @@ impl SceneMedia {
         placed: bool,
         lights: &[LightMedium],
         camera: MediumId,
+        bodies: Option<Bodies>,
         lookup: &SceneTables,
     ) -> Self {
         let mut interfaces = Vec::new();
-        for (shape, interface) in bounded {
+        let is_body =
+            |shape| (bodies.as_ref()).is_some_and(|bodies| bodies.of_shape(shape).is_some());
+        for (shape, interface) in bounded.iter().filter(|(shape, _)| !is_body(*shape)) {
             let index = shape.0 as usize;
             if interfaces.len() <= index {
                 interfaces.resize(index + 1, None);
@@ -220,6 +242,22 @@ impl SceneMedia {
             media,
             interfaces,
             camera,
+            bodies,
+        }
+    }
+
+    /// Shapes that overlap, if any do.
+    #[inline]
+    pub(crate) fn bodies(&self) -> Option<&Bodies> {
+        self.bodies.as_ref()
+    }
+
+    /// The medium by its own number, of a ray in it that may be in some bodies.
+    #[inline]
+    pub(crate) fn filling(&self, medium: MediumId) -> MediumId {
+        match &self.bodies {
+            None => medium,
+            Some(bodies) => bodies.filling(medium).medium,
         }
     }
 
@@ -231,7 +269,7 @@ impl SceneMedia {
 
     /// Whether a medium has no end.
     pub fn is_endless(&self, medium: MediumId) -> bool {
-        let medium = self.media.get(medium.0 as usize);
+        let medium = self.media.get(self.filling(medium).0 as usize);
         medium.is_some_and(|medium| medium.bounds().is_none())
     }
 
@@ -261,14 +299,25 @@ impl SceneMedia {
         self.media.iter().filter(|medium| medium.emits()).count() as u32
     }
 
-    /// Whether a ray may ever be in one.
+    /// Whether rays must know what they are in.
     pub fn exist(&self) -> bool {
-        !self.interfaces.is_empty() || self.camera.is_some()
+        !self.interfaces.is_empty() || self.camera.is_some() || self.bodies.is_some()
     }
 
-    /// The media on both sides of a shape; that of the ray that arrives there if the shape bounds none.
+    /// Whether there are any.
+    pub fn any(&self) -> bool {
+        !self.media.is_empty()
+    }
+
+    /// The media on both sides of a shape for a ray that arrives in `arriving`, from `outside` or not: that one, if the shape
+    /// bounds none.
     #[inline]
-    pub fn around(&self, shape: ShapeId, arriving: MediumId) -> MediumInterface {
+    pub fn around(&self, shape: ShapeId, arriving: MediumId, outside: bool) -> MediumInterface {
+        if let Some(bodies) = &self.bodies
+            && let Some(kind) = bodies.of_shape(shape)
+        {
+            return bodies.around(kind, arriving, outside);
+        }
         let own = self.of_shape(shape);
         own.unwrap_or(MediumInterface::within(arriving))
     }
@@ -281,7 +330,7 @@ impl SceneMedia {
         textures: &'a T,
         lambda: Vec4,
     ) -> Option<MediumAtWavelengths<'a, T>> {
-        let medium = self.media.get(medium.0 as usize)?;
+        let medium = self.media.get(self.filling(medium).0 as usize)?;
         Some(medium.resolve(textures, lambda))
     }
 }

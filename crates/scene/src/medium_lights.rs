@@ -192,7 +192,7 @@ impl Scene {
         let corner = region.corner(cell);
         let emitted = |_| {
             let at = corner + three(&mut stream) * region.side;
-            let inside = self.is_within(region.medium, at);
+            let inside = self.within(region.medium, at).is_some();
             let emission = 0.25 * medium.emission(at).element_sum();
             if inside { emission } else { 0.0 }
         };
@@ -200,10 +200,11 @@ impl Scene {
         f64::from(4.0 * PI * region.volume() * mean)
     }
 
-    /// Whether a point is in a medium, not only in its box.
-    fn is_within(&self, medium: MediumId, at: Vec3) -> bool {
+    /// What a ray from a point must know that is in a medium, and not only in its box.
+    fn within(&self, medium: MediumId, at: Vec3) -> Option<MediumId> {
         let direction = Vec3::new(0.36, 0.48, 0.8);
-        self.medium_along(Ray::new(at, direction, 0.0)) == medium
+        let there = self.medium_along(Ray::new(at, direction, 0.0));
+        (self.media().filling(there) == medium).then_some(there)
     }
 
     /// A point of a medium that emits, as seen from `from`.
@@ -220,9 +221,10 @@ impl Scene {
         let distance_squared = way.length_squared();
         let resolved = self.medium(medium, wavelengths)?;
         let radiance = resolved.emission(at);
-        if radiance == Vec4::ZERO || !(distance_squared > 0.0) || !self.is_within(medium, at) {
+        if radiance == Vec4::ZERO || !(distance_squared > 0.0) {
             return None;
         }
+        self.within(medium, at)?;
         Some(LightSample {
             direction: way / distance_squared.sqrt(),
             target: Some(at),
@@ -247,11 +249,11 @@ impl Scene {
         let (medium, at, origin) = lights.point(u_light, u_position)?;
         let resolved = self.medium(medium, wavelengths)?;
         let radiance = resolved.emission(at);
-        if radiance == Vec4::ZERO || !self.is_within(medium, at) {
+        if radiance == Vec4::ZERO {
             return None;
         }
         let ray = Ray {
-            medium,
+            medium: self.within(medium, at)?,
             ..Ray::new(at, square_to_uniform_sphere(u_direction), time)
         };
         Some(Emission {

@@ -33,11 +33,10 @@ impl Scene {
             }
             crossings -= 1;
             let vertex = self.vertex(&ray, &hit);
-            let material = self.material(&vertex);
-            if !material.has_null() {
+            if !self.material(&vertex).has_null() && self.media().bodies().is_none() {
                 return None;
             }
-            let bsdf = material.resolve(self.lookup(), &vertex, -ray.direction, wavelengths);
+            let bsdf = self.bsdf(&vertex, -ray.direction, wavelengths);
             passage.then(&Transmission {
                 transmittance: bsdf.null_transmittance(),
                 probability: bsdf.null_probability(),

@@ -74,6 +74,10 @@ impl Scene {
         if !scene.parts.has_media {
             return scene;
         }
+        let camera = scene.find_camera_medium();
+        if let Some(parts) = Arc::get_mut(&mut scene.parts) {
+            parts.media.camera = camera;
+        }
         let outermost = scene.find_outermost();
         if let Some(parts) = Arc::get_mut(&mut scene.parts) {
             parts.outermost = outermost;
@@ -130,7 +134,7 @@ impl Scene {
             lights,
             aperture: self.parts.camera.can_receive(),
             sky: self.has_background(),
-            media: self.parts.has_media,
+            media: self.parts.media.any(),
             endless: self.parts.lookup.geometry.is_endless() && self.parts.lights.has_infinite(),
             narrow_filter: false,
             one_way: self.parts.materials.iter().any(Material::is_one_way),
@@ -156,6 +160,11 @@ impl Scene {
     /// The medium beyond everything.
     pub(crate) fn outermost(&self) -> MediumId {
         self.parts.outermost
+    }
+
+    /// The materials, by id.
+    pub(crate) fn materials(&self) -> &[Material] {
+        &self.parts.materials
     }
 
     /// Textures and shapes.
@@ -211,7 +220,8 @@ impl World for Scene {
     fn vertex(&self, ray: &Ray, hit: &Hit) -> SurfaceInteraction {
         let mut vertex = self.parts.lookup.geometry.vertex(ray, hit);
         if self.parts.has_media {
-            vertex.media = self.parts.media.around(hit.shape, ray.medium);
+            let outside = ray.direction.dot(vertex.normal) < 0.0;
+            vertex.media = (self.parts.media).around(hit.shape, ray.medium, outside);
         }
         vertex
     }
@@ -247,8 +257,13 @@ impl World for Scene {
         wo: Vec3,
         wavelengths: &Wavelengths,
     ) -> BsdfAtPoint<'_> {
-        self.material(vertex)
-            .resolve(&self.parts.lookup, vertex, wo, wavelengths)
+        let own = self
+            .material(vertex)
+            .resolve(&self.parts.lookup, vertex, wo, wavelengths);
+        match self.parts.media.bodies() {
+            None => own,
+            Some(bodies) => self.between_bodies(bodies, own, vertex, wo, wavelengths),
+        }
     }
 
     fn legacy_phong(
@@ -410,7 +425,9 @@ impl World for Scene {
     #[inline]
     fn medium_light_density(&self, medium: MediumId, at: Vec3) -> f32 {
         let shining = self.parts.shining.as_ref();
-        shining.map_or(0.0, |lights| lights.density(medium, at))
+        shining.map_or(0.0, |lights| {
+            lights.density(self.parts.media.filling(medium), at)
+        })
     }
 
     fn take_ray_count(&self) -> u64 {

@@ -1,5 +1,6 @@
 //! Solids made of solids: `union`, `intersection`, `difference` with the materials of their operands.
 
+use crate::bodies::Body;
 use crate::builder::Builder;
 use crate::surfaces::{COMPOSED, ShapeExtras, Surfaces};
 use etalon_geometry::shapes::csg::{Csg, Operation};
@@ -70,18 +71,20 @@ impl Surfaces {
             params.missing("shape", "solids to make it of");
         }
         let media = self.media(&params, None, builder);
+        let material = whole.unwrap_or_else(|| self.grey(builder));
+        let body = Body::from_params(&params, material, media);
         params.finish();
         if operands.len() < children.len() {
             return None;
         }
         let csg = Csg::new(operation, operands, placement?, flip)?;
         let shape = Shape::Csg(csg);
-        let material = whole.unwrap_or_else(|| self.grey(builder));
         let carried = ShapeExtras {
             material,
             emitter,
             faces,
             media,
+            body,
         };
         Some((shape, carried))
     }

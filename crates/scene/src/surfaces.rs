@@ -1,6 +1,7 @@
 //! Shapes, groups, instances and their materials.
 
 use crate::attributes::Asked;
+use crate::bodies::Body;
 use crate::builder::Builder;
 use crate::{displacement, merge};
 use etalon_bsdf::{Material, classicphong};
@@ -63,6 +64,8 @@ pub struct Surfaces {
     pub media: Vec<(MediumDescription, Span)>,
     /// The media on both sides of shapes that have any.
     pub interfaces: Vec<(ShapeId, MediumInterface)>,
+    /// Shapes that may overlap.
+    pub(crate) bodies: Vec<(ShapeId, Body, Span)>,
     /// Whether any of these shapes is seen through instances only, which have places of their own.
     pub placed_media: bool,
     /// Descriptions made of others.
@@ -113,6 +116,7 @@ pub(crate) struct ShapeExtras {
     /// The materials of its faces, if they have their own.
     pub(crate) faces: Vec<MaterialId>,
     pub(crate) media: Option<MediumInterface>,
+    pub(crate) body: Option<(Body, Span)>,
 }
 
 impl Surfaces {
@@ -164,6 +168,9 @@ impl Surfaces {
         }
         if let Some(media) = carried.media {
             self.interfaces.push((shape, media));
+        }
+        if let Some((body, place)) = carried.body {
+            self.bodies.push((shape, body, place));
         }
     }
 
@@ -241,15 +248,18 @@ impl Surfaces {
         }
         let inside = below.as_ref().map(|(_, medium)| *medium);
         let media = self.media(&params, inside, builder);
+        let body = Body::from_params(&params, material, media);
         params.finish();
-        let faces = Vec::new();
+        let shape = shape?;
+        Self::expect_closed(&params, &shape, below.is_some(), body.is_some());
         let carried = ShapeExtras {
             material,
             emitter,
-            faces,
+            faces: Vec::new(),
             media,
+            body,
         };
-        Some((shape?, carried))
+        Some((shape, carried))
     }
 
     /// The shapes of a group, read once however often they are placed.

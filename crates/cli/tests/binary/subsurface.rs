@@ -68,3 +68,19 @@ fn a_thick_piece_shows_its_albedo() {
         );
     }
 }
+
+/// What is open cannot hold what is below its surface: said, but not refused, as other shapes may close it.
+#[test]
+fn an_open_shape_with_something_below_its_surface_is_pointed_out() {
+    let workshop = Workshop::new();
+    let scene = |shape: &str| {
+        let ball = "<subsurface type=\"randomwalk\"/>";
+        ball_scene(ball, "<emitter type=\"constant\"/>").replace("\"sphere\"", shape)
+    };
+    for (shape, open) in [("\"rectangle\"", true), ("\"cube\"", false)] {
+        workshop.write("s.xml", &scene(shape));
+        let ran = workshop.run(&["info", "s.xml"]).fine();
+        let said = ran.stdout.contains("this shape is open") || ran.stderr.contains("this shape is open");
+        assert_eq!(said, open, "{shape}: {}", ran.stderr);
+    }
+}

@@ -1,0 +1,351 @@
+//! Overlapping bodies: which of those that a point is in fills it, by `priority`.
+//!
+//! Liquid in a glass is described by two closed shapes that overlap a little. Where they do, the one of higher `priority`
+//! counts (C. M. Schmidt, B. Budge, Simple nested dielectrics in ray traced images, 2002): a surface is there only if
+//! another body, or another medium, begins behind it, and between two dielectrics it has the index
+//!
+//! ```text
+//! η = η(inside) / η(outside)
+//! ```
+//!
+//! A ray carries which bodies it is in. All sets of at most [`DEPTH`] of them are listed beforehand and named by numbers after those
+//! of the media, so that to carry one is to carry a [`MediumId`].
+
+use crate::scene::Scene;
+use etalon_bsdf::BsdfAtPoint;
+use etalon_params::{Diagnostic, Diagnostics, Params, Span};
+use etalon_spectrum::Wavelengths;
+use etalon_transport::{MaterialId, MediumId, MediumInterface, ShapeId, SurfaceInteraction};
+use glam::{Vec3, Vec4};
+use std::collections::HashMap;
+
+/// The most bodies that a point may be in.
+const DEPTH: usize = 4;
+
+/// The most kinds of bodies.
+const MOST: usize = 16;
+
+/// A body, or several alike.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) struct Body {
+    /// The higher, the stronger.
+    pub(crate) priority: i64,
+    /// Of its surface.
+    pub(crate) material: MaterialId,
+    /// What fills it.
+    pub(crate) medium: MediumId,
+}
+
+impl Body {
+    /// Reads `priority`, which makes a body of a closed shape with this material and these media.
+    pub(crate) fn from_params(
+        params: &Params<'_>,
+        material: MaterialId,
+        media: Option<MediumInterface>,
+    ) -> Option<(Self, Span)> {
+        let priority = params.integer("priority")?;
+        if media.is_some_and(|media| media.outside.is_some()) {
+            let message =
+                "a shape with a `priority` has no `exterior`: that is what it is put into";
+            params.error_at("priority", message);
+        }
+        let medium = media.map_or(MediumId::NONE, |media| media.inside);
+        let body = Self {
+            priority,
+            material,
+            medium,
+        };
+        Some((body, params.node.plugin.span))
+    }
+}
+
+/// The bodies that a point is in, with the medium around them all.
+#[derive(Clone, Debug, PartialEq, Eq, Hash)]
+struct Set {
+    around: MediumId,
+    /// Kinds, in order of strength.
+    bodies: Vec<usize>,
+}
+
+/// What fills a point.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) struct Filling {
+    /// The body, unless none is there.
+    pub(crate) body: Option<Body>,
+    /// The medium.
+    pub(crate) medium: MediumId,
+}
+
+/// The bodies of a scene, and the sets of them.
+#[derive(Debug)]
+pub(crate) struct Bodies {
+    /// Kinds, the strongest first.
+    kinds: Vec<Body>,
+    /// The kind of each shape.
+    of_shape: Vec<Option<usize>>,
+    /// How many media there are: sets are numbered from here.
+    media: u32,
+    sets: HashMap<Set, usize>,
+    /// The places of the media with no body in them; empty space is the last.
+    plain: Vec<Option<usize>>,
+    /// What fills the points of each set.
+    fillings: Vec<Filling>,
+    /// By set and kind: with one more, with one less.
+    moves: Vec<[MediumId; 2]>,
+}
+
+impl Bodies {
+    /// Of shapes, in a scene with so many media, of which those at other shapes (`bounded`) and the camera's are what bodies
+    /// may be put into. `None` without any, or after a mistake, which has been recorded.
+    pub(crate) fn new(
+        shapes: &[(ShapeId, Body, Span)],
+        media: usize,
+        bounded: &[(ShapeId, MediumInterface)],
+        camera: MediumId,
+        diagnostics: &Diagnostics,
+    ) -> Option<Self> {
+        let mut kinds: Vec<Body> = Vec::new();
+        for (_, body, span) in shapes {
+            if !kinds.contains(body) {
+                kinds.push(*body);
+            }
+            if kinds.len() > MOST {
+                let message = format!("more than {MOST} kinds of bodies have a `priority`");
+                let help = "bodies of one priority, material and medium are of one kind";
+                diagnostics.push(Diagnostic::error(*span, message).help(help));
+                return None;
+            }
+        }
+        // Of equal ones the first counts.
+        kinds.sort_by_key(|body| core::cmp::Reverse(body.priority));
+        let most = shapes
+            .iter()
+            .map(|(shape, ..)| shape.0 as usize + 1)
+            .max()?;
+        let mut of_shape = vec![None; most];
+        for (shape, body, _) in shapes {
+            of_shape[shape.0 as usize] = kinds.iter().position(|kind| kind == body);
+        }
+        let mut bodies = Self {
+            kinds,
+            of_shape,
+            media: media as u32,
+            sets: HashMap::new(),
+            plain: vec![None; media + 1],
+            fillings: Vec::new(),
+            moves: Vec::new(),
+        };
+        let others = bounded
+            .iter()
+            .filter(|(shape, _)| bodies.of_shape(*shape).is_none());
+        let around: Vec<MediumId> = others
+            .flat_map(|(_, sides)| [sides.inside, sides.outside])
+            .chain([camera, MediumId::NONE])
+            .collect();
+        for medium in around {
+            bodies.list(Set {
+                around: medium,
+                bodies: Vec::new(),
+            });
+        }
+        Some(bodies)
+    }
+
+    /// Lists a set and all that are made by adding to it; its place, and its number.
+    fn list(&mut self, set: Set) -> (usize, MediumId) {
+        let kinds = self.kinds.len();
+        let known = self.sets.get(&set).copied();
+        let index = known.unwrap_or(self.fillings.len());
+        let number = match set.bodies[..] {
+            [] => set.around,
+            _ => MediumId(self.media + index as u32),
+        };
+        if known.is_some() {
+            return (index, number);
+        }
+        if set.bodies.is_empty() {
+            let place = set.around.0.min(self.media) as usize;
+            self.plain[place] = Some(index);
+        }
+        let strongest = set.bodies.first().map(|kind| self.kinds[*kind]);
+        self.fillings.push(Filling {
+            body: strongest,
+            medium: strongest.map_or(set.around, |body| body.medium),
+        });
+        self.moves.extend(vec![[number; 2]; kinds]);
+        self.sets.insert(set.clone(), index);
+        for kind in (0..kinds).filter(|_| set.bodies.len() < DEPTH) {
+            let mut more = set.clone();
+            let place = more.bodies.partition_point(|other| *other < kind);
+            more.bodies.insert(place, kind);
+            let (with, its_number) = self.list(more);
+            self.moves[index * kinds + kind][0] = its_number;
+            self.moves[with * kinds + kind][1] = number;
+        }
+        (index, number)
+    }
+
+    /// The place of a set among all.
+    #[inline]
+    fn index(&self, set: MediumId) -> Option<usize> {
+        if set.is_some() && set.0 >= self.media {
+            return Some((set.0 - self.media) as usize);
+        }
+        self.plain[set.0.min(self.media) as usize]
+    }
+
+    /// What fills the points of a set.
+    #[inline]
+    pub(crate) fn filling(&self, set: MediumId) -> Filling {
+        match self.index(set).and_then(|index| self.fillings.get(index)) {
+            Some(filling) => *filling,
+            None => Filling {
+                body: None,
+                medium: set,
+            },
+        }
+    }
+
+    /// The kind of a shape, if it is a body.
+    #[inline]
+    pub(crate) fn of_shape(&self, shape: ShapeId) -> Option<usize> {
+        self.of_shape.get(shape.0 as usize).copied().flatten()
+    }
+
+    /// The set after entering (`true`) or leaving a body of this kind.
+    #[inline]
+    pub(crate) fn after(&self, set: MediumId, kind: usize, entered: bool) -> MediumId {
+        let index = self.index(set);
+        index.map_or(set, |index| {
+            self.moves[index * self.kinds.len() + kind][usize::from(!entered)]
+        })
+    }
+
+    /// The sets on both sides of the surface of a body, for a ray in `arriving` that meets it from outside or not.
+    #[inline]
+    pub(crate) fn around(&self, kind: usize, arriving: MediumId, outside: bool) -> MediumInterface {
+        let beyond = self.after(arriving, kind, outside);
+        let (inside, outside) = if outside {
+            (beyond, arriving)
+        } else {
+            (arriving, beyond)
+        };
+        MediumInterface { inside, outside }
+    }
+}
+
+impl Scene {
+    /// What the surface of a body is between those on both of its sides: `own`, if it is the surface of none.
+    pub(crate) fn between_bodies<'w>(
+        &'w self,
+        bodies: &Bodies,
+        own: BsdfAtPoint<'w>,
+        vertex: &SurfaceInteraction,
+        wo: Vec3,
+        wavelengths: &Wavelengths,
+    ) -> BsdfAtPoint<'w> {
+        if bodies.of_shape(vertex.shape).is_none() {
+            return own;
+        }
+        let sides = [vertex.media.inside, vertex.media.outside];
+        let [inside, outside] = sides.map(|set| bodies.filling(set));
+        if inside == outside {
+            return BsdfAtPoint::passing(vertex.normal);
+        }
+        let index = |filling: Filling| {
+            let material = &self.materials()[filling.body?.material.0 as usize];
+            let there = material.resolve(self.lookup(), vertex, wo, wavelengths);
+            there.relative_index()
+        };
+        let [inside, outside] = [inside, outside].map(|side| index(side).unwrap_or(Vec4::ONE));
+        own.with_relative_index(inside / outside)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const AIR: MediumId = MediumId::NONE;
+
+    /// Glass (3), ice (2) and juice (1), which is medium 1; medium 0 is fog.
+    fn bodies() -> Bodies {
+        let mut sources = etalon_params::Sources::default();
+        let span = Span {
+            file: sources.add("", ""),
+            start: 0,
+            end: 0,
+        };
+        let shapes = [
+            (0, 1, 1),
+            (1, 3, u32::MAX),
+            (2, 2, u32::MAX),
+            (3, 2, u32::MAX),
+        ];
+        let shapes = shapes.map(|(shape, priority, medium)| {
+            let (material, medium) = (MaterialId(priority as u32), MediumId(medium));
+            let body = Body {
+                priority,
+                material,
+                medium,
+            };
+            (ShapeId(shape), body, span)
+        });
+        Bodies::new(&shapes, 2, &[], MediumId(0), &Diagnostics::new()).expect("sound")
+    }
+
+    /// The priority that counts after entering (+) and leaving (−) shapes, and the medium.
+    fn walk(bodies: &Bodies, mut set: MediumId, way: &[i32]) -> (MediumId, i64, MediumId) {
+        for step in way {
+            let shape = ShapeId(step.unsigned_abs() - 1);
+            let kind = bodies.of_shape(shape).expect("a body");
+            set = bodies.after(set, kind, *step > 0);
+        }
+        let filling = bodies.filling(set);
+        let priority = filling.body.map_or(0, |body| body.priority);
+        (set, priority, filling.medium)
+    }
+
+    #[test]
+    fn the_strongest_body_counts_in_whatever_order_they_are_entered() {
+        let bodies = bodies();
+        for start in [AIR, MediumId(0)] {
+            assert_eq!(walk(&bodies, start, &[]), (start, 0, start));
+            assert_eq!(walk(&bodies, start, &[1]).1, 1);
+            assert_eq!(walk(&bodies, start, &[1]).2, MediumId(1));
+            // Into the wall of the glass before the juice in it ends.
+            assert_eq!(walk(&bodies, start, &[1, 2]).1, 3);
+            assert_eq!(walk(&bodies, start, &[1, 2, -1]).1, 3);
+            assert_eq!(walk(&bodies, start, &[1, 2, -1, -2]), (start, 0, start));
+            assert_eq!(
+                walk(&bodies, start, &[2, 1]).0,
+                walk(&bodies, start, &[1, 2]).0
+            );
+            assert_eq!(walk(&bodies, start, &[2, 1, -2]).2, MediumId(1));
+            // Two pieces of ice, alike, that overlap: one is left, the other not.
+            assert_eq!(walk(&bodies, start, &[1, 3, 4, -3]).1, 2);
+            assert_eq!(walk(&bodies, start, &[1, 3, 4, -3, -4]).1, 1);
+        }
+    }
+
+    #[test]
+    fn what_was_never_entered_is_not_left_and_more_than_four_are_not_told_apart() {
+        let bodies = bodies();
+        assert_eq!(walk(&bodies, AIR, &[-2]).0, AIR);
+        assert_eq!(walk(&bodies, AIR, &[1, 1, 1, 1, 2]).1, 1);
+    }
+
+    #[test]
+    fn the_sides_of_a_surface_follow_from_where_a_ray_comes_from() {
+        let bodies = bodies();
+        let (juice, ..) = walk(&bodies, AIR, &[1]);
+        let (both, ..) = walk(&bodies, AIR, &[1, 3]);
+        let ice = bodies.of_shape(ShapeId(2)).expect("a body");
+        let expected = MediumInterface {
+            inside: both,
+            outside: juice,
+        };
+        assert_eq!(bodies.around(ice, juice, true), expected);
+        assert_eq!(bodies.around(ice, both, false), expected);
+    }
+}
