@@ -68,17 +68,20 @@ impl Aim {
         Some(Self::of(
             light,
             before,
+            before.r_u,
             contribution,
             density,
             [lights, scattering],
         ))
     }
 
-    /// The same where the BSDF's value times the light's radiance (`contribution`) and its density are known.
+    /// The same where the BSDF's value times the light's radiance (`contribution`) and its density are known; `scattered` is
+    /// pₖ / p₀ of having come here as paths do that are scattered here.
     #[inline]
     pub(crate) fn of(
         light: &LightSample,
         before: &PathThroughput,
+        scattered: Vec4,
         contribution: Vec4,
         density: Density<SolidAngle>,
         [lights, scattering]: [f32; 2],
@@ -90,7 +93,7 @@ impl Aim {
             // Scattering never finds a discrete light.
             SamplePdf::Discrete(_) => Vec4::ZERO,
             SamplePdf::Continuous(chosen) => {
-                before.r_u * density.lanes() * light.extinction * (scattering / chosen.hero())
+                scattered * density.lanes() * light.extinction * (scattering / chosen.hero())
             }
         };
         Self {

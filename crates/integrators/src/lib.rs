@@ -14,6 +14,7 @@ pub mod depth;
 pub mod dimensions;
 pub mod direct;
 pub mod distribution;
+mod equiangular;
 pub mod forward;
 pub mod guided;
 mod light_mis;

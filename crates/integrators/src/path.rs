@@ -40,6 +40,8 @@ pub struct Path {
     pub light_candidates: LightCandidates,
     /// Whether passing straight through a surface does not count for the length of a path, as in Mitsuba's `volpath`.
     pub skips_null: bool,
+    /// Whether light is looked for along flights through media.
+    pub equiangular: bool,
 }
 
 impl Path {
@@ -54,6 +56,7 @@ impl Path {
         Self {
             settings: PathSettings::from_params(params),
             skips_null: volumetric,
+            equiangular: params.boolean_or("equiangular", false),
             light_candidates: LightCandidates::from_params(params),
         }
     }
@@ -64,6 +67,7 @@ impl Path {
         PathVariant {
             candidates: self.light_candidates,
             counts_null: !self.skips_null,
+            equiangular: self.equiangular,
         }
     }
 }

@@ -1,14 +1,28 @@
 //! A path in a participating medium: free flight, next-event estimation and scattering at a point of space.
 
 use crate::candidates::{Aim, Candidates};
+use crate::dimensions::BounceSamples;
+use crate::equiangular::Equiangular;
 use crate::light_mis::LightMis;
 use crate::path_hooks::PathHooks;
 use crate::path_state::{PathState, ShadowRay};
+use crate::path_throughput::PathThroughput;
 use crate::settings::{LightCandidates, PathSettings};
 use crate::steps;
 use etalon_sampling::Sampler;
-use etalon_transport::{Collision, LightSample, LightSampleContext, Phase, Ray, World};
+use etalon_transport::{
+    Collision, LightSample, LightSampleContext, Medium, Phase, Ray, Transmission, World,
+};
 use glam::{Vec3, Vec4};
+
+/// Where a path is scattered in a medium.
+struct Arrival {
+    at: Vec3,
+    /// f / p₀ there, and pₖ / p₀ of all ways to sample a light there.
+    lit: PathThroughput,
+    /// pₖ / p₀ of free flight alone, after which the path goes on.
+    flown: Vec4,
+}
 
 impl<S: Sampler, C: PathHooks> PathState<S, C> {
     /// Flies through the medium to the hit, or to where light is scattered before it. Whether the path has left its
@@ -17,6 +31,10 @@ impl<S: Sampler, C: PathHooks> PathState<S, C> {
     #[inline(never)]
     pub(crate) fn fly<W: World>(&mut self, world: &W, settings: &PathSettings) -> bool {
         let u = self.draw_event().lobe;
+        let scatters = self.depth < settings.max_depth;
+        let along = (self.variant.equiangular && scatters)
+            .then(|| self.look_along(world, settings))
+            .flatten();
         let hit = self.hit.as_ref();
         let Some(flight) = steps::free_flight(world, &self.ray, hit, &self.wavelengths, u) else {
             return false;
@@ -26,16 +44,69 @@ impl<S: Sampler, C: PathHooks> PathState<S, C> {
         let (ray, light_mis) = (&self.ray, &self.light_mis);
         let emitted = steps::emitted_on_the_way(world, &flight, ray, &self.throughput, light_mis);
         self.add_emission(emitted);
+        let before = self.throughput.r_u;
         self.throughput.scatter(flight.factor, density);
         self.hooks.on_medium(&self.throughput);
         let Some(Collision { t, phase, .. }) = flight.scattering else {
             return false;
         };
         self.alpha = 1.0;
-        if self.throughput.beta != Vec4::ZERO && self.depth < settings.max_depth {
-            self.scatter_in_medium(world, settings, self.ray.at(t), &phase);
+        if self.throughput.beta != Vec4::ZERO && scatters {
+            let looked_for = along.map_or(0.0, |along| along.density(t) / density.x);
+            let PathThroughput { beta, r_u } = self.throughput;
+            let arrival = Arrival {
+                at: self.ray.at(t),
+                lit: PathThroughput {
+                    beta,
+                    r_u: r_u + before * looked_for,
+                },
+                flown: r_u,
+            };
+            self.scatter_in_medium(world, settings, &arrival, &phase);
         }
         true
+    }
+
+    /// Looks for light along the ray: chooses a point of a light, a point of the ray by the angle seen from there, and
+    /// a light sample at that; all but the first are combined with free flight by multiple importance sampling. Nothing, in a
+    /// vacuum, or if the light chosen is at infinity.
+    fn look_along<W: World>(&mut self, world: &W, settings: &PathSettings) -> Option<Equiangular> {
+        let medium = world.medium(self.ray.medium, &self.wavelengths)?;
+        let event = self.draw_event();
+        let t_max = self.hit.map_or(self.ray.t_max, |hit| hit.t);
+        let middle = if t_max.is_finite() { 0.5 * t_max } else { 0.0 };
+        let from = LightSampleContext::in_space(self.ray.at(middle)).at(self.ray.time);
+        let light =
+            world.sample_light(&from, &self.wavelengths, event.light_choice, event.light)?;
+        let along = Equiangular::new(&self.ray, t_max, light.target?)?;
+        let t = along.sample(event.lobe);
+        let at = self.ray.at(t);
+        let coefficients = medium.coefficients(at);
+        if !(t < t_max) || coefficients.scattering == Vec4::ZERO {
+            return Some(along);
+        }
+        let Transmission {
+            transmittance,
+            probability,
+        } = medium.transmittance(&self.ray, t, &mut self.ray.stream(event.roulette));
+        let density = along.density(t);
+        let flown = probability * coefficients.extinction() / density;
+        let PathThroughput { beta, r_u } = self.throughput;
+        let lit = PathThroughput {
+            beta: beta * transmittance * coefficients.scattering / density,
+            r_u: r_u * (Vec4::ONE + flown),
+        };
+        if lit.beta != Vec4::ZERO {
+            let event = self.draw_event();
+            let arrival = Arrival {
+                at,
+                lit,
+                flown: r_u * flown,
+            };
+            self.light_in_medium(world, settings, &arrival, &medium.phase(at), &event);
+            self.trace_shadow(world);
+        }
+        Some(along)
     }
 
     /// Light samples and the next direction at a point of a medium.
@@ -43,28 +114,55 @@ impl<S: Sampler, C: PathHooks> PathState<S, C> {
         &mut self,
         world: &W,
         settings: &PathSettings,
-        at: Vec3,
+        arrival: &Arrival,
         phase: &impl Phase,
     ) {
         let (wo, time, medium) = (-self.ray.direction, self.ray.time, self.ray.medium);
         let event = self.draw_event();
+        let from = self.light_in_medium(world, settings, arrival, phase, &event);
+        self.hooks.on_light_sample();
+        let sample = phase.sample(wo, event.direction);
+        self.scatter_count += 1;
+        self.variant.candidates = LightCandidates::ONE;
+        let density = sample.density.lanes();
+        self.light_mis = LightMis {
+            from,
+            r_l: arrival.lit.r_u / density.x,
+        };
+        self.throughput.scatter(sample.value, density);
+        self.ray = Ray {
+            medium,
+            ..Ray::new(arrival.at, sample.wi, time)
+        };
+        self.hooks.on_medium(&self.throughput);
+        let survival = self.throughput.survival_in_medium(self.eta());
+        self.lengthen_with(settings, &event, |path| {
+            path.hooks.on_roulette(survival);
+            survival
+        });
+    }
+
+    /// Prepares the shadow ray of a light sample at a point of the medium.
+    fn light_in_medium<W: World>(
+        &mut self,
+        world: &W,
+        settings: &PathSettings,
+        arrival: &Arrival,
+        phase: &impl Phase,
+        event: &BounceSamples,
+    ) -> LightSampleContext {
+        let Arrival { at, lit, flown } = *arrival;
+        let (wo, time, medium) = (-self.ray.direction, self.ray.time, self.ray.medium);
         let from = LightSampleContext::in_space(at).at(time).combined();
-        let throughput = self.throughput;
         let candidates = Candidates::at(self.variant.candidates, world, &from);
         let aim = |light: &LightSample| {
             let contribution = phase.eval(wo, light.direction) * light.radiance;
             let density = phase.density(wo, light.direction);
             (contribution != Vec4::ZERO)
-                .then(|| Aim::of(light, &throughput, contribution, density, [1.0; 2]))
+                .then(|| Aim::of(light, &lit, flown, contribution, density, [1.0; 2]))
         };
-        let aim = candidates.draw(
-            world,
-            &from,
-            &self.wavelengths,
-            &event,
-            &mut self.sampler,
-            aim,
-        );
+        let (waves, sampler) = (&self.wavelengths, &mut self.sampler);
+        let aim = candidates.draw(world, &from, waves, event, sampler, aim);
         self.shadow_ray = aim.and_then(|aim| {
             let ray = match aim.target {
                 Some(target) => Ray::between(at, target, time)?,
@@ -77,25 +175,6 @@ impl<S: Sampler, C: PathHooks> PathState<S, C> {
                 found: None,
             })
         });
-        self.hooks.on_light_sample();
-        let sample = phase.sample(wo, event.direction);
-        self.scatter_count += 1;
-        self.variant.candidates = LightCandidates::ONE;
-        let density = sample.density.lanes();
-        self.light_mis = LightMis {
-            from,
-            r_l: self.throughput.r_u / density.x,
-        };
-        self.throughput.scatter(sample.value, density);
-        self.ray = Ray {
-            medium,
-            ..Ray::new(at, sample.wi, time)
-        };
-        self.hooks.on_medium(&self.throughput);
-        let survival = self.throughput.survival_in_medium(self.eta());
-        self.lengthen_with(settings, &event, |path| {
-            path.hooks.on_roulette(survival);
-            survival
-        });
+        from
     }
 }

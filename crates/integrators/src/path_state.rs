@@ -345,7 +345,7 @@ impl<S: Sampler, C: PathHooks> PathState<S, C> {
 
     /// Traces the shadow ray of the light sample that was prepared, if any.
     #[inline]
-    fn trace_shadow<W: World>(&mut self, world: &W) {
+    pub(crate) fn trace_shadow<W: World>(&mut self, world: &W) {
         world.transmittance_batch(self.shadow_query().into_iter());
         self.add_light();
     }

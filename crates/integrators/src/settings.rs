@@ -48,6 +48,8 @@ pub(crate) struct PathVariant {
     /// Whether passing straight through a surface makes a path longer: so count Mitsuba's `path`, and not its
     /// `volpath`.
     pub(crate) counts_null: bool,
+    /// Whether light is looked for along flights through media, see [`crate::equiangular`].
+    pub(crate) equiangular: bool,
 }
 
 impl PathVariant {
@@ -55,6 +57,7 @@ impl PathVariant {
     pub(crate) const PLAIN: Self = Self {
         candidates: LightCandidates::ONE,
         counts_null: true,
+        equiangular: false,
     };
 }
 

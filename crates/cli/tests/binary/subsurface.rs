@@ -80,7 +80,8 @@ fn an_open_shape_with_something_below_its_surface_is_pointed_out() {
     for (shape, open) in [("\"rectangle\"", true), ("\"cube\"", false)] {
         workshop.write("s.xml", &scene(shape));
         let ran = workshop.run(&["info", "s.xml"]).fine();
-        let said = ran.stdout.contains("this shape is open") || ran.stderr.contains("this shape is open");
+        let said =
+            ran.stdout.contains("this shape is open") || ran.stderr.contains("this shape is open");
         assert_eq!(said, open, "{shape}: {}", ran.stderr);
     }
 }

@@ -289,7 +289,14 @@ impl<'w, W: World> GatherPath<'_, 'w, W> {
         let max_null = self.plan.settings.max_depth - self.depth - 1;
         // Directions that are not sharp are left to light sampling and photons.
         let counts = [1.0, f32::from(sharp)];
-        let aim = Aim::of(&light, &self.prefix, contribution, density, counts);
+        let aim = Aim::of(
+            &light,
+            &self.prefix,
+            self.prefix.r_u,
+            contribution,
+            density,
+            counts,
+        );
         let brings = steps::shadowed(world, vertex, &self.wavelengths, Some(aim), max_null);
         self.radiance += brings.unwrap_or(Vec4::ZERO);
     }
