@@ -5,25 +5,8 @@
 //! over that of the medium left.
 
 use crate::quadrature::gauss_legendre;
+pub use etalon_math::fresnel::dielectric;
 use glam::Vec4;
-
-/// Reflectance of a dielectric, and the cosine of the refracted direction with the inverted
-/// normal, for a direction with cosine `cos` (0 or more) and relative index `eta` (above 0).
-/// Under total reflection (1, 0).
-#[inline]
-pub fn dielectric(cos: f32, eta: f32) -> (f32, f32) {
-    if eta == 1.0 {
-        return (0.0, cos);
-    }
-    let cos_t2 = 1.0 - (1.0 - cos) * (1.0 + cos) / (eta * eta);
-    if !(cos_t2 > 0.0) {
-        return (1.0, 0.0);
-    }
-    let cos_t = cos_t2.sqrt();
-    let s = (cos - eta * cos_t) / (cos + eta * cos_t);
-    let p = (eta * cos - cos_t) / (eta * cos + cos_t);
-    (0.5 * (s * s + p * p), cos_t)
-}
 
 /// [`dielectric`] for an index per lane; only the reflectances.
 #[inline]

@@ -12,6 +12,7 @@ pub mod expression;
 pub mod float;
 pub mod float64;
 pub mod frame;
+pub mod fresnel;
 pub mod keyframes;
 pub mod motion;
 pub mod noise;

@@ -3,7 +3,11 @@
 //! A medium is described by spectra and volumes ([`MediumDescription`]) and resolved at the wavelengths of a path into
 //! plain numbers ([`MediumAtWavelengths`]), which know how to fly ([`etalon_transport::Medium`]).
 
+pub mod beam_diffusion;
 pub mod blend;
+pub mod burley;
+pub mod diffusion;
+pub mod dipole;
 pub mod draine;
 pub mod henyey_greenstein;
 pub mod heterogeneous;
@@ -22,6 +26,7 @@ pub mod tabulated;
 mod volume;
 
 pub use blend::Blend;
+pub use diffusion::{Boundary, Profile, ProfileAt};
 pub use draine::Draine;
 pub use henyey_greenstein::HenyeyGreenstein;
 pub use heterogeneous::{Heterogeneous, HeterogeneousAt};

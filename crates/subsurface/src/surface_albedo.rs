@@ -34,6 +34,20 @@ pub fn single_scattering(surface: Vec4, g: f32) -> Vec4 {
     (1.0 - s * s) / (1.0 - g * s * s)
 }
 
+/// A of a half-space with this single-scattering albedo and mean cosine: the inverse.
+#[inline]
+pub fn of_half_space(albedo: f32, g: f32) -> f32 {
+    let s = float::safe_sqrt((1.0 - albedo) / (1.0 - albedo * g));
+    (1.0 - s) * (1.0 - 0.139 * s) / (1.0 + 1.17 * s)
+}
+
+/// Of light that has entered matter of this surface albedo, what leaves through a boundary that reflects the part `inside` of
+/// diffuse light from inside.
+#[inline]
+pub fn inside_boundary(albedo: f32, inside: f32) -> f32 {
+    (1.0 - inside) * albedo / (1.0 - inside * albedo)
+}
+
 /// A of what is seen through a dielectric boundary of the relative index `eta`, which reflects the part `inside` of
 /// diffuse light from inside.
 #[inline]
@@ -50,8 +64,7 @@ mod tests {
     fn the_fits_are_inverses() {
         for alpha in [0.1_f32, 0.5, 0.8, 0.95, 0.99, 0.999] {
             for g in [-0.5, 0.0, 0.8] {
-                let s = ((1.0 - alpha) / (1.0 - alpha * g)).sqrt();
-                let surface = (1.0 - s) * (1.0 - 0.139 * s) / (1.0 + 1.17 * s);
+                let surface = of_half_space(alpha, g);
                 let found = single_scattering(Vec4::splat(surface), g).x;
                 assert!((found - alpha).abs() < 2e-3, "{alpha} {g}: {found}");
             }

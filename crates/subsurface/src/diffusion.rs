@@ -1,0 +1,260 @@
+//! Diffusion profiles: light that walks about below a surface, as a function of the distance at which it leaves.
+//!
+//! They take the surface to be flat and the matter to go on forever below it: fast, and biased. The contract is
+//! [`etalon_transport::DiffusionProfile`].
+
+use crate::beam_diffusion::{Beam, BeamDiffusion};
+use crate::burley::Burley;
+use crate::dipole::Dipole;
+use crate::surface_albedo::{inside_boundary, of_half_space};
+use core::f32::consts::FRAC_1_PI;
+use etalon_math::fresnel;
+use etalon_transport::{Coefficients, DiffusionProfile};
+use glam::Vec4;
+use std::sync::Arc;
+
+/// The share of the light beyond [`DiffusionProfile::reach`].
+const BEYOND: f32 = 1e-4;
+
+/// What scatters light below a surface, at one wavelength.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Matter {
+    /// σa (m⁻¹).
+    pub(crate) absorption: f32,
+    /// σs (m⁻¹).
+    pub(crate) scattering: f32,
+    /// The mean cosine of the angle of scattering.
+    pub(crate) g: f32,
+}
+
+impl Matter {
+    /// σ't = σa + (1 − g) σs.
+    pub(crate) fn reduced(&self) -> f32 {
+        self.absorption + (1.0 - self.g) * self.scattering
+    }
+
+    /// A of a half-space without a boundary.
+    fn surface_albedo(&self) -> f32 {
+        let albedo = self.scattering / (self.absorption + self.scattering);
+        of_half_space(albedo, self.g)
+    }
+}
+
+/// A profile at one wavelength; lengths in m.
+pub(crate) trait Radial {
+    /// R (m⁻²).
+    fn value(&self, r: f32) -> f32;
+    /// ∫ R 2πr dr.
+    fn total(&self) -> f32;
+    /// The distance within which the share `u` of the light leaves, or any other way to choose with that density.
+    fn sample(&self, u: f32) -> f32;
+}
+
+/// The boundary above.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Boundary {
+    /// The index inside over that outside, of a dielectric; `None` for one that lets all light pass, in all directions alike.
+    pub eta: Option<f32>,
+    /// The share of diffuse light from inside that it reflects.
+    pub inside: f32,
+}
+
+/// The list of profiles.
+#[derive(Clone, Debug)]
+pub enum Profile {
+    /// See [`crate::dipole`].
+    Dipole,
+    /// See [`crate::beam_diffusion`].
+    BeamDiffusion(Arc<BeamDiffusion>),
+    /// See [`crate::burley`].
+    Burley,
+}
+
+impl Profile {
+    /// Names of the profiles that are built.
+    pub const BUILT: [&'static str; 3] = ["dipole", "beamdiffusion", "burley"];
+
+    /// By name, for matter with this mean cosine below this boundary.
+    pub fn named(name: &str, g: f32, boundary: &Boundary) -> Option<Self> {
+        match name {
+            "dipole" => Some(Self::Dipole),
+            "burley" => Some(Self::Burley),
+            "beamdiffusion" => {
+                let table = BeamDiffusion::new(g, boundary.eta.unwrap_or(1.0));
+                Some(Self::BeamDiffusion(Arc::new(table)))
+            }
+            _ => None,
+        }
+    }
+
+    /// The profile of matter with these coefficients.
+    pub(crate) fn at(&self, coefficients: &Coefficients, g: f32, boundary: Boundary) -> ProfileAt<'_> {
+        let lane = |i: usize| {
+            let matter = Matter {
+                absorption: coefficients.absorption[i].max(1e-12),
+                scattering: coefficients.scattering[i],
+                g,
+            };
+            match self {
+                Self::Dipole => Lane::Dipole(Dipole::new(&matter, boundary.inside)),
+                Self::BeamDiffusion(table) => Lane::BeamDiffusion(table.of(&matter)),
+                Self::Burley => {
+                    let albedo = inside_boundary(matter.surface_albedo(), boundary.inside);
+                    let length = 1.0 / matter.reduced();
+                    Lane::Burley(Burley::new(albedo, length, boundary.eta.is_none()))
+                }
+            }
+        };
+        let lanes = [0, 1, 2, 3].map(lane);
+        ProfileAt {
+            totals: Vec4::from_array(lanes.map(|lane| lane.radial().total())),
+            lanes,
+            boundary,
+        }
+    }
+
+    /// By how much the light that leaves is wrong, of matter with these coefficients, per lane: that of this profile, and what
+    /// the albedo of a half-space lets leave.
+    pub fn bias(&self, coefficients: &Coefficients, g: f32, boundary: Boundary) -> [Vec4; 2] {
+        let exact = |i: usize| {
+            let matter = Matter {
+                absorption: coefficients.absorption[i],
+                scattering: coefficients.scattering[i],
+                g,
+            };
+            inside_boundary(matter.surface_albedo(), boundary.inside)
+        };
+        let exact = Vec4::from_array([0, 1, 2, 3].map(exact));
+        [self.at(coefficients, g, boundary).totals, exact]
+    }
+}
+
+/// Any profile at one wavelength.
+#[derive(Clone, Copy, Debug)]
+enum Lane<'a> {
+    Dipole(Dipole),
+    BeamDiffusion(Beam<'a>),
+    Burley(Burley),
+}
+
+impl Lane<'_> {
+    fn radial(&self) -> &dyn Radial {
+        match self {
+            Self::Dipole(profile) => profile,
+            Self::BeamDiffusion(profile) => profile,
+            Self::Burley(profile) => profile,
+        }
+    }
+}
+
+/// A profile at the wavelengths of a path.
+#[derive(Clone, Copy, Debug)]
+pub struct ProfileAt<'a> {
+    lanes: [Lane<'a>; 4],
+    /// ∫ R 2πr dr, per lane.
+    totals: Vec4,
+    boundary: Boundary,
+}
+
+impl DiffusionProfile for ProfileAt<'_> {
+    fn value(&self, distance: f32) -> Vec4 {
+        Vec4::from_array(self.lanes.map(|lane| lane.radial().value(distance)))
+    }
+
+    fn density(&self, distance: f32) -> Vec4 {
+        let some = self.totals.cmpgt(Vec4::ZERO);
+        Vec4::select(some, self.value(distance) / self.totals, Vec4::ZERO)
+    }
+
+    fn sample(&self, u: f32) -> Option<f32> {
+        (self.totals.x > 0.0).then(|| self.lanes[0].radial().sample(u))
+    }
+
+    fn reach(&self) -> f32 {
+        let far = |lane: Lane<'_>| lane.radial().sample(1.0 - BEYOND);
+        self.lanes.map(far).into_iter().fold(0.0, f32::max)
+    }
+
+    fn leaving(&self, cos: f32) -> f32 {
+        match self.boundary.eta {
+            None => FRAC_1_PI,
+            Some(eta) => {
+                // c = 1 − Fₑ, of diffuse light from outside.
+                let passing = (1.0 - self.boundary.inside) * eta * eta;
+                (1.0 - fresnel::dielectric(cos, eta).0) * FRAC_1_PI / passing
+            }
+        }
+    }
+
+    fn relative_index(&self) -> f32 {
+        self.boundary.eta.unwrap_or(1.0)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const GLASSY: Boundary = Boundary {
+        eta: Some(1.3),
+        inside: 0.4726,
+    };
+    const OPEN: Boundary = Boundary {
+        eta: None,
+        inside: 0.0,
+    };
+
+    /// 2πr R integrates to the total, and samples are distributed by it: of each twentieth of the light as much is found within as
+    /// without (midpoints in ln r, to 0.5 %). The mutant of the dipole that leaves out σtr d in ln d is off by 30 %.
+    #[test]
+    fn distances_are_chosen_as_light_leaves() {
+        let coefficients = Coefficients {
+            absorption: Vec4::new(0.001, 0.1, 0.5, 1.0),
+            scattering: Vec4::new(1.0, 1.0, 0.5, 0.1),
+        };
+        for (name, boundary) in Profile::BUILT.into_iter().flat_map(|n| [(n, GLASSY), (n, OPEN)]) {
+            let profile = Profile::named(name, 0.3, &boundary).expect("built");
+            let at = profile.at(&coefficients, 0.3, boundary);
+            for (index, lane) in at.lanes.iter().enumerate() {
+                let radial = lane.radial();
+                let count = 20_000;
+                let mut chosen: Vec<f32> = (0..count)
+                    .map(|i| radial.sample((i as f32 + 0.5) / count as f32))
+                    .collect();
+                chosen.sort_by(f32::total_cmp);
+                let (mut sum, steps) = (0.0_f64, 200_000);
+                let mut next = 1;
+                for i in 0..steps {
+                    let r = 1e-5 * (1e10_f64).powf((f64::from(i) + 0.5) / f64::from(steps));
+                    let width = r * 10.0 * std::f64::consts::LN_10 / f64::from(steps);
+                    sum += std::f64::consts::TAU * r * f64::from(radial.value(r as f32)) * width;
+                    if next < 20 && r >= f64::from(chosen[next * count / 20]) {
+                        let share = sum / f64::from(radial.total());
+                        let expected = next as f64 / 20.0;
+                        assert!((share - expected).abs() < 5e-3, "{name} {index}: {share} {expected}");
+                        next += 1;
+                    }
+                }
+                let off = sum / f64::from(radial.total()) - 1.0;
+                assert!(off.abs() < 5e-3, "{name} {boundary:?} {index}: {off}");
+            }
+        }
+    }
+
+    /// No profile gives back more than has entered, matter that absorbs nothing gives back nearly all, and each is near the albedo
+    /// of a half-space where scattering prevails.
+    #[test]
+    fn what_leaves_is_near_the_albedo_of_a_half_space() {
+        let coefficients = Coefficients {
+            absorption: Vec4::new(0.0, 0.001, 0.01, 0.1),
+            scattering: Vec4::ONE,
+        };
+        for (name, boundary) in Profile::BUILT.into_iter().flat_map(|n| [(n, GLASSY), (n, OPEN)]) {
+            let profile = Profile::named(name, 0.0, &boundary).expect("built");
+            let [found, exact] = profile.bias(&coefficients, 0.0, boundary);
+            let off = (found / exact - 1.0).abs();
+            assert!(found.max_element() <= 1.02, "{name}: {found}");
+            assert!(off.max_element() < 0.25 && off.x < 0.05, "{name} {boundary:?}: {found} {exact}");
+        }
+    }
+}

@@ -1,0 +1,82 @@
+//! `dipole`: light below a surface as if it came from a source in the matter and one, negative, mirrored above it,
+//!
+//! ```text
+//! R(r) = α'/4π Σ z (σtr + 1/d) e^(−σtr d) / d²       over z = zᵣ, zᵥ with d² = r² + z²
+//! zᵣ = 1/σ't,   zᵥ = zᵣ (1 + 4/3 A),   A = (1 + F)/(1 − F),   σtr = √(3 σa σ't)
+//! ```
+//!
+//! with σ's = (1 − g) σs, σ't = σa + σ's, α' = σ's/σ't and F the reflectance of the boundary for diffuse light from inside (H. W. Jensen,
+//! S. R. Marschner, M. Levoy, P. Hanrahan, A practical model for subsurface light transport, 2001, eqs. 3 and 4). What
+//! leaves beyond a distance is known in closed form, ½α' Σ z e^(−σtr d)/d, and inverted by Newton's method.
+
+use crate::diffusion::{Matter, Radial};
+use core::f32::consts::PI;
+use etalon_math::float;
+
+/// A profile at one wavelength.
+#[derive(Clone, Copy, Debug)]
+pub struct Dipole {
+    /// α'.
+    albedo: f32,
+    /// σtr (m⁻¹).
+    transport: f32,
+    /// zᵣ and zᵥ (m).
+    depths: [f32; 2],
+}
+
+impl Dipole {
+    /// Of matter below a boundary with the reflectance `inside` for diffuse light from inside.
+    pub(crate) fn new(matter: &Matter, inside: f32) -> Self {
+        let reduced = matter.reduced();
+        let depth = 1.0 / reduced;
+        let a = (1.0 + inside) / (1.0 - inside);
+        Self {
+            albedo: (1.0 - matter.g) * matter.scattering / reduced,
+            transport: float::safe_sqrt(3.0 * matter.absorption * reduced),
+            depths: [depth, depth * (1.0 + 4.0 / 3.0 * a)],
+        }
+    }
+
+    /// The light of each source that leaves anywhere, over ½α'.
+    fn shares(&self) -> [f32; 2] {
+        self.depths.map(|z| float::exp(-self.transport * z))
+    }
+
+    /// The d beyond which the share `u` of what the source at `z` sends out leaves: σtr d + ln d = σtr z + ln z − ln u.
+    fn beyond(&self, z: f32, u: f32) -> f32 {
+        let target = self.transport * z + float::ln(z) - float::ln(u);
+        // In ln d, where the left side is convex, so that Newton's method comes from above after one step.
+        let mut x = target.min(float::ln((target / self.transport.max(1e-20)).max(z)));
+        for _ in 0..12 {
+            let grown = self.transport * float::exp(x);
+            x -= (grown + x - target) / (grown + 1.0);
+        }
+        float::exp(x).max(z)
+    }
+}
+
+impl Radial for Dipole {
+    fn value(&self, r: f32) -> f32 {
+        let part = |z: f32| {
+            let d = (r * r + z * z).sqrt();
+            z * (self.transport + 1.0 / d) * float::exp(-self.transport * d) / (d * d)
+        };
+        self.albedo / (4.0 * PI) * self.depths.map(part).iter().sum::<f32>()
+    }
+
+    fn total(&self) -> f32 {
+        0.5 * self.albedo * self.shares().iter().sum::<f32>()
+    }
+
+    fn sample(&self, u: f32) -> f32 {
+        let [near, far] = self.shares();
+        let real = near / (near + far);
+        let (z, u) = if u < real {
+            (self.depths[0], u / real)
+        } else {
+            (self.depths[1], (u - real) / (1.0 - real))
+        };
+        let d = self.beyond(z, (1.0 - u).max(1e-7));
+        float::safe_sqrt(d * d - z * z)
+    }
+}
