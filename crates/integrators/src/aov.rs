@@ -137,6 +137,7 @@ impl Aov {
 impl Integrator for Aov {
     /// Its nested integrators are asked.
     const MEDIA: bool = true;
+    const DIFFUSION: bool = true;
 
     type State = ();
 

@@ -25,6 +25,7 @@ pub mod moment;
 pub mod naive;
 mod particle;
 pub mod path;
+mod path_diffusion;
 mod path_hooks;
 mod path_media;
 mod path_state;

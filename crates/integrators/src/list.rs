@@ -104,9 +104,10 @@ macro_rules! integrators {
                     sight: &SceneCapabilities,
                 ) -> Vec<Incompatibility> {
                     let unseen = sight.media_unseen().filter(|_| !I::MEDIA);
+                    let diffusion = sight.diffusion_unseen().filter(|_| I::MEDIA && !I::DIFFUSION);
                     let endless = sight.endless_lit().filter(|_| I::FOLLOWS_LIGHT);
                     let one_way = sight.seen_one_way().filter(|_| I::FOLLOWS_LIGHT);
-                    let unseen = unseen.into_iter().chain(endless).chain(one_way);
+                    let unseen = unseen.into_iter().chain(diffusion).chain(endless).chain(one_way);
                     unseen.chain(integrator.incompatibilities(sight)).collect()
                 }
                 match self {

@@ -49,6 +49,7 @@ impl Moment {
 impl Integrator for Moment {
     /// Its nested integrators are asked.
     const MEDIA: bool = true;
+    const DIFFUSION: bool = true;
 
     type State = ();
 

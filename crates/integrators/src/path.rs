@@ -126,6 +126,7 @@ pub(crate) fn follow_drafts<W: World, S: Sampler, K: TileSink, C: PathHooks + Co
 impl Integrator for Path {
     const UNBIASED: bool = true;
     const MEDIA: bool = true;
+    const DIFFUSION: bool = true;
 
     type State = ();
 

@@ -29,7 +29,7 @@ pub(crate) struct PathState<S, C = ()> {
     pub(crate) throughput: PathThroughput,
     pub(crate) light_mis: LightMis,
     /// The product of the indices of refraction passed.
-    eta: f32,
+    pub(crate) eta: f32,
     /// Number of segments, that of `ray` included.
     pub(crate) depth: u32,
     /// Scattering events so far, null interactions not counted.
@@ -37,7 +37,7 @@ pub(crate) struct PathState<S, C = ()> {
     /// Events so far for which random numbers were drawn.
     events: u32,
     /// Whether the path goes on with `ray`.
-    goes_on: bool,
+    pub(crate) goes_on: bool,
     pub(crate) shadow_ray: Option<ShadowRay>,
     /// How many light samples compete for the shadow ray of the next surface. One, once the path was scattered at
     /// random: what is farther down the path adds less noise than the samples take time.
@@ -230,12 +230,29 @@ impl<S: Sampler, C: PathHooks> PathState<S, C> {
             self.alpha = self.alpha.max(steps::opacity(&bsdf));
             return;
         }
+        self.scatter_at(world, settings, &vertex, &bsdf, wo, !last);
+        if self.goes_on && self.ray.medium.is_some() {
+            self.diffuse(world, settings, &vertex);
+        }
+    }
+
+    /// Prepares next-event estimation, if light may be sampled (`lit`), and samples the BSDF.
+    #[inline]
+    pub(crate) fn scatter_at<W: World>(
+        &mut self,
+        world: &W,
+        settings: &PathSettings,
+        vertex: &SurfaceInteraction,
+        bsdf: &impl Bsdf,
+        wo: Vec3,
+        lit: bool,
+    ) {
         let event = self.draw_event();
-        let from = LightSampleContext::new(&vertex, wo, &bsdf).combined();
-        if bsdf.has_continuous() && !last {
+        let from = LightSampleContext::new(vertex, wo, bsdf).combined();
+        if lit && bsdf.has_continuous() {
             let throughput = self.throughput;
             let candidates = Candidates::at(self.variant.candidates, world, &from);
-            let aim = |light: &LightSample| Aim::new(light, &throughput, &bsdf, wo, [1.0; 2]);
+            let aim = |light: &LightSample| Aim::new(light, &throughput, bsdf, wo, [1.0; 2]);
             let aim = candidates.draw(
                 world,
                 &from,
@@ -254,7 +271,7 @@ impl<S: Sampler, C: PathHooks> PathState<S, C> {
             });
             self.hooks.on_light_sample();
         }
-        self.scatter(&vertex, &from, &bsdf, wo, settings, &event);
+        self.scatter(vertex, &from, bsdf, wo, settings, &event);
     }
 
     /// Samples the BSDF and plays Russian roulette: extends the path, or ends it.

@@ -3,10 +3,11 @@
 use etalon_geometry::Shape;
 use etalon_params::{Class, Diagnostic, Diagnostics, Node, Params, Span};
 use etalon_sampling::{Independent, Sampler};
-use etalon_subsurface::{MediumAtWavelengths, MediumDescription};
+use etalon_subsurface::{MediumAtWavelengths, MediumDescription, ProfileAt};
 use etalon_transport::flight::march;
 use etalon_transport::{
-    LightId, Medium, MediumId, MediumInterface, Ray, ShapeId, Shapes, Textures, Tracking,
+    LightId, Medium, MediumId, MediumInterface, Ray, ShapeId, Shapes, SurfaceInteraction, Textures,
+    Tracking,
 };
 use glam::{Vec3, Vec4};
 
@@ -57,6 +58,7 @@ pub(crate) fn prepared(
             }
         }
         note_bias(&medium, lookup, span, diagnostics);
+        note_bias_of_profile(&medium, lookup, span, diagnostics);
         prepared.push(medium);
     }
     Some(prepared)
@@ -70,7 +72,7 @@ fn note_bias(
     diagnostics: &Diagnostics,
 ) {
     const WAYS: u32 = 256;
-    let at = medium.resolve(lookup, Vec4::new(450.0, 520.0, 590.0, 660.0));
+    let at = medium.resolve(lookup, LAMBDA);
     let (Tracking::RayMarching(step), Some([low, high])) = (at.tracking(), medium.bounds()) else {
         return;
     };
@@ -95,6 +97,32 @@ fn note_bias(
     );
     let help =
         "the other ways of `tracking` are unbiased; half the step has about a quarter of the bias";
+    diagnostics.push(Diagnostic::note(span, message).help(help));
+}
+
+/// Wavelengths (nm) at which biases are told.
+const LAMBDA: Vec4 = Vec4::new(450.0, 520.0, 590.0, 660.0);
+
+/// Says by how much a diffusion profile is wrong about a flat surface.
+fn note_bias_of_profile(
+    medium: &MediumDescription,
+    lookup: &SceneTables,
+    span: Span,
+    diagnostics: &Diagnostics,
+) {
+    let MediumDescription::Homogeneous(medium) = medium else {
+        return;
+    };
+    let Some([profile, exact]) = medium.bias(lookup, LAMBDA) else {
+        return;
+    };
+    let ([b, g, _, r], walk) = ((100.0 * profile).to_array(), 100.0 * exact);
+    let message = format!(
+        "a diffusion profile is biased: of the light that enters a flat piece of this it lets {r:.1}, {g:.1} and {b:.1} % leave at \
+         660, 520 and 450 nm, where a walk lets {:.1}, {:.1} and {:.1} %; where a surface bends or matter is thin it is off by more",
+        walk.w, walk.y, walk.x
+    );
+    let help = "`randomwalk` is unbiased";
     diagnostics.push(Diagnostic::note(span, message).help(help));
 }
 
@@ -320,6 +348,29 @@ impl SceneMedia {
         }
         let own = self.of_shape(shape);
         own.unwrap_or(MediumInterface::within(arriving))
+    }
+
+    /// Whether any has a diffusion profile.
+    pub fn diffuse(&self) -> bool {
+        let diffuses = |medium: &MediumDescription| match medium {
+            MediumDescription::Homogeneous(medium) => medium.diffuses(),
+            MediumDescription::Heterogeneous(_) => false,
+        };
+        self.media.iter().any(diffuses)
+    }
+
+    /// The diffusion profile of a medium below a point, if it has one.
+    pub fn profile<'a>(
+        &'a self,
+        medium: MediumId,
+        textures: &impl Textures,
+        at: &SurfaceInteraction,
+        lambda: Vec4,
+    ) -> Option<ProfileAt<'a>> {
+        match self.media.get(self.filling(medium).0 as usize)? {
+            MediumDescription::Homogeneous(medium) => medium.profile(textures, &at.into(), lambda),
+            MediumDescription::Heterogeneous(_) => None,
+        }
     }
 
     /// A medium at four wavelengths (nm).

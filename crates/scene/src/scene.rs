@@ -11,9 +11,9 @@ use etalon_math::{Density, SolidAngle};
 use etalon_spectrum::{Sensor, SensorWeights, Wavelengths};
 use etalon_subsurface::MediumAtWavelengths;
 use etalon_transport::{
-    Camera, Emission, EmissionPdf, Hit, LegacyPhong, LightId, LightKind, LightSample,
-    LightSampleContext, LightVariety, MediumId, Ray, SceneCapabilities, SurfaceInteraction,
-    Transmission, World,
+    Camera, DiffusionProfile, Emission, EmissionPdf, Hit, LegacyPhong, LightId, LightKind,
+    LightSample, LightSampleContext, LightVariety, MediumId, Ray, SceneCapabilities,
+    SurfaceInteraction, Transmission, World,
 };
 use glam::{UVec2, Vec2, Vec3, Vec4};
 use std::sync::Arc;
@@ -135,6 +135,7 @@ impl Scene {
             aperture: self.parts.camera.can_receive(),
             sky: self.has_background(),
             media: self.parts.media.any(),
+            diffusion: self.parts.media.diffuse(),
             endless: self.parts.lookup.geometry.is_endless() && self.parts.lights.has_infinite(),
             narrow_filter: false,
             one_way: self.parts.materials.iter().any(Material::is_one_way),
@@ -234,6 +235,16 @@ impl World for Scene {
     #[inline]
     fn medium(&self, medium: MediumId, wavelengths: &Wavelengths) -> Option<Self::Medium<'_>> {
         self.medium_at(medium, wavelengths.lambda)
+    }
+
+    #[inline]
+    fn diffusion(
+        &self,
+        medium: MediumId,
+        at: &SurfaceInteraction,
+        wavelengths: &Wavelengths,
+    ) -> Option<impl DiffusionProfile> {
+        (self.parts.media).profile(medium, &self.parts.lookup, at, wavelengths.lambda)
     }
 
     #[inline]

@@ -1,6 +1,6 @@
-//! `<subsurface type="randomwalk">`: light that enters a closed shape, walks about in it and leaves elsewhere.
+//! `<subsurface>`: light that enters a closed shape, walks about in it and leaves elsewhere.
 //!
-//! It is exactly a shape with a medium inside and a boundary, and is made into that: every estimator that sees media sees it, and
+//! `randomwalk` is exactly a shape with a medium inside and a boundary, and is made into that: every estimator that sees media sees it, and
 //! an explicit medium in the same boundary is the same. The `boundary` is
 //!
 //! - `diffuse`, the default: all light passes, and in all directions alike (`difftrans`), as through a fine powder: what enters
@@ -8,23 +8,28 @@
 //! - `smooth`: a `dielectric`, through which lights that are but points or directions are not seen by integrators that connect
 //!   surfaces with lights;
 //! - `rough`: a `roughdielectric`.
+//!
+//! The diffusion profiles (`dipole`, `beamdiffusion`, `burley`) are the same, with a profile in place of the walk
+//! (`etalon_subsurface::diffusion`).
 
 use crate::builder::Builder;
 use crate::surfaces::Surfaces;
 use etalon_bsdf::{fresnel, ior::RelativeIndex};
 use etalon_params::{Class, Diagnostic, Node, Params, Property, Spanned, Value};
-use etalon_subsurface::{Homogeneous, MediumDescription};
+use etalon_subsurface::{Boundary, Homogeneous, MediumDescription, Profile};
 use etalon_transport::MediumId;
 use std::sync::Arc;
 
 /// Names of what may be below a surface.
-const BUILT: [&str; 1] = ["randomwalk"];
+fn built() -> impl Iterator<Item = &'static str> + Clone {
+    ["randomwalk"].into_iter().chain(Profile::BUILT)
+}
 
 /// The boundary's description, and the medium inside. `None` after a mistake.
 fn read(node: &Node, builder: &mut Builder<'_>) -> Option<(Arc<Node>, MediumDescription)> {
     let params = Params::new(node, builder.diagnostics);
-    if !BUILT.contains(&node.plugin.value.as_str()) {
-        (builder.diagnostics).push(etalon_params::plugins::not_built(node, BUILT));
+    if !built().any(|name| name == node.plugin.value) {
+        (builder.diagnostics).push(etalon_params::plugins::not_built(node, built()));
         return None;
     }
     let (plugin, own): (_, &[&str]) =
@@ -45,12 +50,17 @@ fn read(node: &Node, builder: &mut Builder<'_>) -> Option<(Arc<Node>, MediumDesc
             let span = node.plugin.span;
             let all = Value::Float(1.0);
             properties.push(Property::new("transmittance", span, all, span));
-            None
+            Boundary {
+                eta: None,
+                inside: 0.0,
+            }
         }
         _ => {
             let eta = RelativeIndex::constant_from_params(&params, "bk7")?;
-            let inside = fresnel::internal_diffuse_reflectance(eta);
-            Some([eta as f32, inside as f32])
+            Boundary {
+                eta: Some(eta as f32),
+                inside: fresnel::internal_diffuse_reflectance(eta) as f32,
+            }
         }
     };
     let medium = Homogeneous::of_subsurface(&params, boundary, builder);

@@ -225,7 +225,8 @@ impl Surfaces {
         let boundary = below.as_ref().map(|(boundary, _)| boundary);
         let bsdf = boundary.or_else(|| params.child(Class::Bsdf));
         if let Some(shape) = &shape {
-            for user in emitter.iter().chain(bsdf) {
+            let others = params.child(Class::Subsurface);
+            for user in emitter.iter().chain(bsdf).chain(others) {
                 let place = node.plugin.span;
                 self.asked.by(user, shape, place, builder.diagnostics);
             }

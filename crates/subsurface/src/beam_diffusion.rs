@@ -13,8 +13,8 @@
 //! All depends on the albedo, the mean cosine and the index alone if lengths are counted in mean free paths: a table of profiles
 //! for 64 albedos is made when a scene is read.
 
+use crate::HenyeyGreenstein;
 use crate::diffusion::{Matter, Radial};
-use crate::henyey_greenstein::HenyeyGreenstein;
 use crate::rotational::Rotational;
 use core::f64::consts::{PI, TAU};
 use etalon_math::{float64, fresnel};
@@ -63,8 +63,9 @@ fn moments(eta: f32) -> [f64; 2] {
 }
 
 impl BeamDiffusion {
-    /// For matter with this mean cosine below a boundary of the relative index `eta` (1 for one that lets all light pass).
-    pub(crate) fn new(g: f32, eta: f32) -> Self {
+    /// For matter with this phase function below a boundary of the relative index `eta` (1 for one that lets all light pass).
+    pub(crate) fn new(phase: &HenyeyGreenstein, eta: f32) -> Self {
+        let g = phase.mean_cosine();
         let moments = moments(eta);
         let distances: Vec<f64> = core::iter::once(0.0)
             .chain((1..DISTANCES).map(|i| 2e-3 * float64::pow(1.18, i as f64)))
@@ -77,7 +78,7 @@ impl BeamDiffusion {
                 .map(|r| {
                     let r = r.max(1e-4);
                     let many = scattered_often(r, albedo, f64::from(g), moments);
-                    TAU * r * (many + scattered_once(r, albedo, g, eta)).max(0.0)
+                    TAU * r * (many + scattered_once(r, albedo, phase, eta)).max(0.0)
                 })
                 .collect();
             let density = PiecewiseLinear::new(&distances, &values);
@@ -85,7 +86,8 @@ impl BeamDiffusion {
             let flat = || PiecewiseLinear::new(&[0.0, 1.0], &[1.0, 1.0]);
             match density {
                 Ok(density) => {
-                    let total = density.integral();
+                    // Of matter that hardly absorbs it gives back up to 1.04: what would feed on itself.
+                    let total = density.integral().min(1.0);
                     Some((density, total))
                 }
                 Err(_) => flat().ok().map(|density| (density, 0.0)),
@@ -141,8 +143,7 @@ fn scattered_often(r: f64, albedo: f64, g: f64, [twice, thrice]: [f64; 2]) -> f6
 }
 
 /// Light that is scattered once, at r mean free paths, and leaves through the boundary.
-fn scattered_once(r: f64, albedo: f64, g: f32, eta: f32) -> f64 {
-    let phase = HenyeyGreenstein::new(g);
+fn scattered_once(r: f64, albedo: f64, phase: &HenyeyGreenstein, eta: f32) -> f64 {
     // Nearer the surface it would be reflected totally.
     let nearest = r * f64::from((eta * eta - 1.0).max(0.0).sqrt());
     let sum: f64 = (0..DEPTHS)

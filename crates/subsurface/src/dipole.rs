@@ -42,16 +42,17 @@ impl Dipole {
         self.depths.map(|z| float::exp(-self.transport * z))
     }
 
-    /// The d beyond which the share `u` of what the source at `z` sends out leaves: σtr d + ln d = σtr z + ln z − ln u.
+    /// The d beyond which the share `u` of what the source at `z` sends out leaves: with y = ln(d/z), σtr z eʸ + y = σtr z − ln u.
     fn beyond(&self, z: f32, u: f32) -> f32 {
-        let target = self.transport * z + float::ln(z) - float::ln(u);
-        // In ln d, where the left side is convex, so that Newton's method comes from above after one step.
-        let mut x = target.min(float::ln((target / self.transport.max(1e-20)).max(z)));
-        for _ in 0..12 {
-            let grown = self.transport * float::exp(x);
-            x -= (grown + x - target) / (grown + 1.0);
+        let (depth, falls) = (self.transport * z, -float::ln(u));
+        let target = depth + falls;
+        // The left side is convex, and the root not above this, so that Newton's method comes down to it.
+        let mut y = falls.min(float::ln(target / depth.max(1e-20)));
+        for _ in 0..8 {
+            let grown = depth * float::exp(y);
+            y -= (grown + y - target) / (grown + 1.0);
         }
-        float::exp(x).max(z)
+        z * float::exp(y.max(0.0))
     }
 }
 

@@ -10,7 +10,7 @@
 use crate::majorants::Segments;
 use crate::phases::{PhaseAt, PhaseFunction};
 use crate::surface_albedo::{below, single_scattering};
-use crate::{materials, volume};
+use crate::{Boundary, Profile, ProfileAt, materials, volume};
 use etalon_params::{Diagnostic, Params};
 use etalon_spectrum::Spectrum;
 use etalon_transport::{
@@ -35,9 +35,7 @@ enum Given {
         albedo: TextureId,
         mean_free_path: TextureId,
         g: f32,
-        /// The relative index of a boundary and its reflectance for diffuse light from inside, if it is not one that lets
-        /// all light pass.
-        boundary: Option<[f32; 2]>,
+        boundary: Boundary,
     },
 }
 
@@ -49,6 +47,16 @@ pub struct Homogeneous {
     phase: PhaseFunction,
     emission: Option<TextureId>,
     tracking: Tracking,
+    /// What is taken in place of walks below a surface.
+    surface: Option<Surface>,
+}
+
+/// A diffusion profile, with what it needs besides coefficients.
+#[derive(Clone, Debug, PartialEq)]
+struct Surface {
+    profile: Profile,
+    g: f32,
+    boundary: Boundary,
 }
 
 /// The same at the wavelengths of a path.
@@ -100,6 +108,7 @@ impl Homogeneous {
                 volume::emission(params, build)
             },
             tracking: volume::tracking(params, Tracking::Closed),
+            surface: None,
         })
     }
 
@@ -113,18 +122,48 @@ impl Homogeneous {
         None
     }
 
-    /// Reads what `homogeneous` has, or `albedo` of a surface and `mean_free_path`, for a closed shape whose `boundary` has this
-    /// relative index and reflectance for diffuse light from inside.
+    /// Reads what `homogeneous` has, or `albedo` of a surface and `mean_free_path`, for a closed shape with this `boundary`; with the
+    /// diffusion profile that the plugin is, if it is one.
     pub fn of_subsurface(
         params: &Params<'_>,
-        boundary: Option<[f32; 2]>,
+        boundary: Boundary,
         build: &mut dyn Build,
     ) -> Option<Self> {
+        let name = params.node.plugin.value.as_str();
+        let is_profile = Profile::BUILT.contains(&name);
         let by_coefficients = ["material", "sigma_a", "sigma_s", "sigma_t"];
-        if by_coefficients.iter().any(|name| params.has(name)) {
-            return Self::from_params(params, build);
+        let mut medium = match by_coefficients.iter().any(|name| params.has(name)) {
+            true => Self::from_params(params, build)?,
+            false => Self::by_surface(params, boundary, is_profile, build)?,
+        };
+        if is_profile {
+            let Some(g) = medium.phase.mean_cosine() else {
+                params.error(
+                    "diffusion profiles know the phase functions `isotropic`, `rayleigh` and `hg`",
+                );
+                return None;
+            };
+            medium.surface = Some(Surface {
+                profile: Profile::named(name, g, &boundary)?,
+                g,
+                boundary,
+            });
         }
-        let albedo = volume::constant(params, "albedo", 0.8, SpectrumKind::Reflectance, build);
+        Some(medium)
+    }
+
+    /// Reads `albedo` of a surface, which may vary over it if `varying`, and `mean_free_path`.
+    fn by_surface(
+        params: &Params<'_>,
+        boundary: Boundary,
+        varying: bool,
+        build: &mut dyn Build,
+    ) -> Option<Self> {
+        let role = SpectrumKind::Reflectance;
+        let albedo = match varying {
+            true => build.texture(params, "albedo", Some(0.8), role),
+            false => volume::constant(params, "albedo", 0.8, role, build),
+        };
         let length = volume::constant(
             params,
             "mean_free_path",
@@ -135,14 +174,10 @@ impl Homogeneous {
         let what = "a finite number above 0";
         let scale = params.float_where("scale", 1.0, what, |s| s > 0.0 && s.is_finite());
         let phase = PhaseFunction::of_medium(params, build)?;
-        let g = match &phase {
-            PhaseFunction::HenyeyGreenstein(phase) => phase.mean_cosine(),
-            PhaseFunction::Isotropic(_) | PhaseFunction::Rayleigh(_) => 0.0,
-            _ => {
-                let message = "the albedo of a surface is known for the phase functions `isotropic`, `rayleigh` and `hg`";
-                params.error(message);
-                return None;
-            }
+        let Some(g) = phase.mean_cosine() else {
+            let message = "the albedo of a surface is known for the phase functions `isotropic`, `rayleigh` and `hg`";
+            params.error(message);
+            return None;
         };
         Some(Self {
             given: Given::Surface {
@@ -155,6 +190,7 @@ impl Homogeneous {
             phase,
             emission: None,
             tracking: Tracking::Closed,
+            surface: None,
         })
     }
 
@@ -166,7 +202,62 @@ impl Homogeneous {
         lambda: Vec4,
     ) -> HomogeneousAt<'a, T> {
         let at = TexturePoint::at_uv(Vec2::ZERO);
-        let spectrum = |id| textures.spectrum(id, &at, lambda);
+        let coefficients = self.coefficients(textures, &at, lambda);
+        let emission = (self.emission).map_or(Vec4::ZERO, |le| {
+            coefficients.absorption * textures.spectrum(le, &at, lambda)
+        });
+        HomogeneousAt {
+            emission,
+            coefficients,
+            phase: &self.phase,
+            textures,
+            lambda,
+            tracking: self.tracking,
+        }
+    }
+
+    /// The diffusion profile at a point of the surface, if it has one.
+    pub fn profile(
+        &self,
+        textures: &impl Textures,
+        at: &TexturePoint,
+        lambda: Vec4,
+    ) -> Option<ProfileAt<'_>> {
+        let surface = self.surface.as_ref()?;
+        let coefficients = self.coefficients(textures, at, lambda);
+        let Surface {
+            profile,
+            g,
+            boundary,
+        } = surface;
+        Some(profile.at(&coefficients, *g, *boundary))
+    }
+
+    /// Whether a diffusion profile stands for walks in it.
+    pub fn diffuses(&self) -> bool {
+        self.surface.is_some()
+    }
+
+    /// What leaves by the diffusion profile and by the albedo of a half-space, of light that has entered, per lane.
+    pub fn bias(&self, textures: &impl Textures, lambda: Vec4) -> Option<[Vec4; 2]> {
+        let surface = self.surface.as_ref()?;
+        let coefficients = self.coefficients(textures, &TexturePoint::at_uv(Vec2::ZERO), lambda);
+        let Surface {
+            profile,
+            g,
+            boundary,
+        } = surface;
+        Some(profile.bias(&coefficients, *g, *boundary))
+    }
+
+    /// σa and σs, at a point of the surface where they vary over it.
+    fn coefficients(
+        &self,
+        textures: &impl Textures,
+        at: &TexturePoint,
+        lambda: Vec4,
+    ) -> Coefficients {
+        let spectrum = |id| textures.spectrum(id, at, lambda);
         let coefficients = match self.given {
             Given::Albedo { albedo, sigma_t } => {
                 let extinction = spectrum(sigma_t) * self.scale;
@@ -187,7 +278,9 @@ impl Homogeneous {
                 boundary,
             } => {
                 let seen = spectrum(albedo);
-                let below = boundary.map_or(seen, |[eta, inside]| below(seen, eta, inside));
+                let below = boundary
+                    .eta
+                    .map_or(seen, |eta| below(seen, eta, boundary.inside));
                 let length = spectrum(mean_free_path).max(Vec4::splat(f32::MIN_POSITIVE));
                 let extinction = self.scale / length;
                 let scattering = extinction * single_scattering(below, g);
@@ -197,18 +290,9 @@ impl Homogeneous {
                 }
             }
         };
-        let coefficients = Coefficients {
+        Coefficients {
             absorption: coefficients.absorption.min(Vec4::splat(MOST)),
             scattering: coefficients.scattering.min(Vec4::splat(MOST)),
-        };
-        HomogeneousAt {
-            emission: (self.emission)
-                .map_or(Vec4::ZERO, |le| coefficients.absorption * spectrum(le)),
-            coefficients,
-            phase: &self.phase,
-            textures,
-            lambda,
-            tracking: self.tracking,
         }
     }
 }

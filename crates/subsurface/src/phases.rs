@@ -118,6 +118,15 @@ impl PhaseFunction {
         Self::from_params(&Params::new(node, medium.diagnostics), build)
     }
 
+    /// The mean cosine of the angle of scattering, where it is known.
+    pub(crate) fn mean_cosine(&self) -> Option<f32> {
+        match self {
+            Self::HenyeyGreenstein(phase) => Some(phase.mean_cosine()),
+            Self::Isotropic(_) | Self::Rayleigh(_) => Some(0.0),
+            _ => None,
+        }
+    }
+
     /// Reads a phase function. After a mistake, which has been recorded, `None`.
     pub fn from_params(params: &Params<'_>, build: &mut dyn Build) -> Option<Self> {
         let Some(phase) = Self::read(params, build) else {

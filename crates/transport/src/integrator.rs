@@ -93,6 +93,9 @@ pub trait Integrator: Sync {
     /// Whether it sees participating media; if not, it refuses scenes that have them.
     const MEDIA: bool = false;
 
+    /// Whether it sees what lies below surfaces by diffusion profiles; if not, it refuses scenes that have any.
+    const DIFFUSION: bool = false;
+
     /// Whether it follows light from its sources; if so, it refuses scenes where it cannot be sent everywhere.
     const FOLLOWS_LIGHT: bool = false;
 

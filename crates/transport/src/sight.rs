@@ -50,6 +50,8 @@ pub struct SceneCapabilities {
     pub sky: bool,
     /// Whether there are participating media.
     pub media: bool,
+    /// Whether a diffusion profile stands for walks in any of them.
+    pub diffusion: bool,
     /// Whether light at infinity falls on surfaces without end, which particles cannot be sent to.
     pub endless: bool,
     /// Whether a surface scatters light that leaves elsewhere than it came (hair), which paths from the lights cannot
@@ -184,6 +186,14 @@ impl SceneCapabilities {
         let help = "integrators that see media: `volpath`, `path`, `guided`, `bdpt`, `ptracer`, `forward`, `photonmap`, \
                     `sppm`, `vcm`, `pssmlt`, `mmlt`";
         self.media.then(|| impossible(message, help))
+    }
+
+    /// The objection, if any, of an estimator that knows nothing of diffusion profiles.
+    pub fn diffusion_unseen(&self) -> Option<Incompatibility> {
+        let message = "this integrator cannot have the scene's diffusion profiles (`dipole`, `beamdiffusion`, `burley`)";
+        let help =
+            "`path` and `volpath` can; or let light walk: `<subsurface type=\"randomwalk\">`";
+        self.diffusion.then(|| impossible(message, help))
     }
 
     /// The objection, if any, of an estimator that finds light by connecting surfaces with the

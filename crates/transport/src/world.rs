@@ -1,8 +1,9 @@
 //! The contract of a scene: all that an integrator may ask.
 
 use crate::{
-    Bsdf, Camera, Emission, EmissionPdf, Hit, LegacyPhong, LightId, LightSample,
-    LightSampleContext, LightVariety, Medium, MediumId, Ray, SurfaceInteraction, TraceEvent,
+    Bsdf, Camera, DiffusionProfile, Emission, EmissionPdf, Hit, LegacyPhong, LightId, LightSample,
+    LightSampleContext, LightVariety, Medium, MediumId, NoProfile, Ray, SurfaceInteraction,
+    TraceEvent,
 };
 use etalon_math::{Density, SolidAngle};
 use etalon_spectrum::sensor::standard_unit;
@@ -73,6 +74,18 @@ pub trait World: Sync {
     #[inline]
     fn medium(&self, _medium: MediumId, _wavelengths: &Wavelengths) -> Option<Self::Medium<'_>> {
         None
+    }
+
+    /// The diffusion profile that stands for walks in a medium below the surface point `at`, if it has one. A world without
+    /// such media keeps this.
+    #[inline]
+    fn diffusion(
+        &self,
+        _medium: MediumId,
+        _at: &SurfaceInteraction,
+        _wavelengths: &Wavelengths,
+    ) -> Option<impl DiffusionProfile> {
+        None::<NoProfile>
     }
 
     /// Draws the wavelengths of a path.

@@ -6,9 +6,9 @@ use super::model::RecordingBsdf;
 use etalon_math::{Density, SolidAngle};
 use etalon_spectrum::{SensorWeights, Wavelengths};
 use etalon_transport::{
-    ApertureHit, Camera, CameraRay, CameraSample, Emission, EmissionPdf, Hit, LegacyPhong, LightId,
-    LightSample, LightSampleContext, LightVariety, MediumId, Ray, SurfaceInteraction, TraceEvent,
-    Transmission, World,
+    ApertureHit, Camera, CameraRay, CameraSample, DiffusionProfile, Emission, EmissionPdf, Hit,
+    LegacyPhong, LightId, LightSample, LightSampleContext, LightVariety, MediumId, Ray,
+    SurfaceInteraction, TraceEvent, Transmission, World,
 };
 use glam::{Vec2, Vec3, Vec4};
 
@@ -93,6 +93,15 @@ impl<'a, W: World> World for Recorder<'a, W> {
 
     fn medium(&self, medium: MediumId, wavelengths: &Wavelengths) -> Option<Self::Medium<'_>> {
         self.world.medium(medium, wavelengths)
+    }
+
+    fn diffusion(
+        &self,
+        medium: MediumId,
+        at: &SurfaceInteraction,
+        wavelengths: &Wavelengths,
+    ) -> Option<impl DiffusionProfile> {
+        self.world.diffusion(medium, at, wavelengths)
     }
 
     fn wavelengths(&self, u: f32) -> Wavelengths {

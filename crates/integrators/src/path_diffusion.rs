@@ -1,0 +1,201 @@
+//! A path below a surface with a diffusion profile: it leaves elsewhere.
+//!
+//! The point where it leaves is looked for along a line through a disk about the point where it came in. Distances on the disk are chosen
+//! by the profile, and the disk faces the normal or either of two tangents, so that what a bent surface hides from one is seen from
+//! another; all three are combined by multiple importance sampling, over the four wavelengths too (A. King, C. Kulla, A. Conty,
+//! M. Fajardo, BSSRDF importance sampling, 2013).
+
+use crate::path_hooks::PathHooks;
+use crate::path_state::PathState;
+use crate::settings::PathSettings;
+use core::f32::consts::TAU;
+use etalon_math::{Density, Frame, SolidAngle, float};
+use etalon_sampling::Sampler;
+use etalon_sampling::warps::square_to_cosine_hemisphere;
+use etalon_transport::{
+    Bsdf, BsdfSample, DiffusionProfile, MediumId, Ray, SamplePdf, SurfaceInteraction,
+    TransportMode, World,
+};
+use glam::{Vec2, Vec3, Vec4};
+
+/// The probabilities of the disk that faces the normal, and of either other.
+const FACING: [f32; 3] = [0.5, 0.25, 0.25];
+
+/// The most surfaces along a line.
+const MOST_CROSSINGS: u32 = 64;
+
+/// The surface where light leaves: diffuse, but for what the boundary reflects.
+struct Leaving<'a, P> {
+    profile: &'a P,
+    /// Outside.
+    frame: Frame,
+    /// Geometric, outside.
+    normal: Vec3,
+}
+
+impl<P: DiffusionProfile> Bsdf for Leaving<'_, P> {
+    fn eval(&self, _: Vec3, wi: Vec3, _: TransportMode) -> Vec4 {
+        let cos = self.frame.n.dot(wi);
+        if !(cos > 0.0 && self.normal.dot(wi) > 0.0) {
+            return Vec4::ZERO;
+        }
+        Vec4::splat(self.profile.leaving(cos) * cos)
+    }
+
+    fn density(&self, _: Vec3, wi: Vec3) -> Density<SolidAngle> {
+        Density::uniform(self.frame.n.dot(wi).max(0.0) / core::f32::consts::PI)
+    }
+
+    fn sample(&self, wo: Vec3, _: f32, u: Vec2, mode: TransportMode) -> Option<BsdfSample> {
+        let wi = self.frame.to_world(square_to_cosine_hemisphere(u));
+        let value = self.eval(wo, wi, mode);
+        (value != Vec4::ZERO).then(|| BsdfSample {
+            wi,
+            value,
+            chance: SamplePdf::Continuous(self.density(wo, wi)),
+            eta: 1.0,
+            is_null: false,
+        })
+    }
+
+    fn has_continuous(&self) -> bool {
+        true
+    }
+
+    fn hemisphere(&self) -> Option<Frame> {
+        Some(self.frame)
+    }
+
+    fn null_transmittance(&self) -> Vec4 {
+        Vec4::ZERO
+    }
+
+    fn null_probability(&self) -> Vec4 {
+        Vec4::ZERO
+    }
+
+    fn albedo(&self, _: Vec3) -> Vec4 {
+        Vec4::ONE
+    }
+}
+
+/// A point on the surface of `medium` that `line` crosses, each alike, and how many there are.
+fn crossed<W: World>(
+    world: &W,
+    line: Ray,
+    medium: MediumId,
+    stream: &mut impl Sampler,
+) -> Option<(SurfaceInteraction, u32)> {
+    let (mut ray, mut chosen, mut count) = (line, None, 0);
+    for _ in 0..MOST_CROSSINGS {
+        let Some(hit) = world.intersect(&ray) else {
+            break;
+        };
+        let vertex = world.vertex(&ray, &hit);
+        if vertex.media.inside == medium {
+            count += 1;
+            if stream.next_1d() * (count as f32) < 1.0 {
+                chosen = Some(vertex);
+            }
+        }
+        ray = Ray {
+            medium: line.medium,
+            ..vertex.spawn(line.direction)
+        };
+        ray.t_max = line.t_max - (ray.origin - line.origin).dot(line.direction);
+        if !(ray.t_max > 0.0) {
+            break;
+        }
+    }
+    chosen.map(|vertex| (vertex, count))
+}
+
+impl<S: Sampler, C: PathHooks> PathState<S, C> {
+    /// Takes a path that has gone below the surface at `entered` to where it leaves, if a diffusion profile says where, and goes on
+    /// from there.
+    #[cold]
+    #[inline(never)]
+    pub(crate) fn diffuse<W: World>(
+        &mut self,
+        world: &W,
+        settings: &PathSettings,
+        entered: &SurfaceInteraction,
+    ) {
+        let medium = self.ray.medium;
+        let waves = self.wavelengths;
+        let Some(profile) = world.diffusion(medium, entered, &waves) else {
+            return;
+        };
+        self.goes_on = false;
+        // What the boundary reflects.
+        self.trace_shadow(world);
+        let Some(vertex) = self.leave(world, &profile, entered) else {
+            return;
+        };
+        // Radiance was compressed when it came in, and is as it was now.
+        let eta = profile.relative_index();
+        self.throughput.beta *= eta * eta;
+        self.eta /= eta;
+        if self.depth == settings.max_depth || self.throughput.beta == Vec4::ZERO {
+            return;
+        }
+        let normal = vertex.normal;
+        let shading = vertex.shading.n;
+        let frame = Frame::from_normal(if shading.dot(normal) < 0.0 {
+            -shading
+        } else {
+            shading
+        });
+        let leaving = Leaving {
+            profile: &profile,
+            frame,
+            normal,
+        };
+        self.scatter_at(world, settings, &vertex, &leaving, frame.n, true);
+    }
+
+    /// Where the path leaves.
+    fn leave<W: World>(
+        &mut self,
+        world: &W,
+        profile: &impl DiffusionProfile,
+        entered: &SurfaceInteraction,
+    ) -> Option<SurfaceInteraction> {
+        let event = self.draw_event();
+        let frame = Frame::from_normal(entered.normal);
+        let axes = [frame.n, frame.s, frame.t];
+        let axis = match event.lobe {
+            u if u < FACING[0] => 0,
+            u if u < FACING[0] + FACING[1] => 1,
+            _ => 2,
+        };
+        let [n, s, t] = [0, 1, 2].map(|i| axes[(axis + i) % 3]);
+        let (r, reach) = (profile.sample(event.direction.x)?, profile.reach());
+        let half = float::safe_sqrt(reach * reach - r * r);
+        if !(half > 0.0) {
+            return None;
+        }
+        let (sin, cos) = float::sin_cos(TAU * event.direction.y);
+        let middle = entered.position + r * (cos * s + sin * t);
+        let line = Ray {
+            t_max: 2.0 * half,
+            ..Ray::new(middle + half * n, -n, entered.time)
+        };
+        let mut stream = line.stream(event.roulette);
+        let (vertex, count) = crossed(world, line, self.ray.medium, &mut stream)?;
+        let way = vertex.position - entered.position;
+        let least = 1e-6 * reach;
+        let mut density = Vec4::ZERO;
+        for (axis, probability) in axes.into_iter().zip(FACING) {
+            let along = way.dot(axis);
+            let r = float::safe_sqrt(way.length_squared() - along * along).max(least);
+            density += profile.density(r) * (probability * vertex.normal.dot(axis).abs());
+        }
+        let value = profile.value(way.length().max(least));
+        if !(density.x > 0.0) {
+            return None;
+        }
+        self.throughput.scatter(value * count as f32, density);
+        Some(vertex)
+    }
+}
