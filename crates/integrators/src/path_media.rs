@@ -81,7 +81,7 @@ impl<S: Sampler, C: PathHooks> PathState<S, C> {
         let along = Equiangular::new(&self.ray, t_max, light.target?)?;
         let t = along.sample(event.lobe);
         let at = self.ray.at(t);
-        let coefficients = medium.coefficients(at);
+        let coefficients = medium.coefficients(at, self.ray.direction);
         if !(t < t_max) || coefficients.scattering == Vec4::ZERO {
             return Some(along);
         }

@@ -50,7 +50,12 @@ pub(crate) fn prepared(
                 .min(MOST_CELLS);
             let most = |low: Vec3, high: Vec3| density.most_within(table, low, high);
             let least = |low: Vec3, high: Vec3| density.least_within(table, low, high);
-            if !varying.prepare(bounds, cells, most, least) {
+            let anywhere = [Vec3::NEG_INFINITY, Vec3::INFINITY];
+            let area = varying.largest_area(|id| {
+                let [low, high] = anywhere;
+                table.get(id).most_within(table, low, high)
+            });
+            if !varying.prepare(bounds, cells, area, most, least) {
                 let message = "nothing bounds the density of this medium: it must be made of grids, patterns, numbers \
                                and spectra";
                 diagnostics.push(Diagnostic::error(span, message));

@@ -193,7 +193,7 @@ impl Scene {
         let emitted = |_| {
             let at = corner + three(&mut stream) * region.side;
             let inside = self.within(region.medium, at).is_some();
-            let emission = 0.25 * medium.emission(at).element_sum();
+            let emission = 0.25 * medium.emission(at, Vec3::Z).element_sum();
             if inside { emission } else { 0.0 }
         };
         let mean = (0..ASKED).map(emitted).sum::<f32>() / ASKED as f32;
@@ -220,19 +220,20 @@ impl Scene {
         let way = at - from.position;
         let distance_squared = way.length_squared();
         let resolved = self.medium(medium, wavelengths)?;
-        let radiance = resolved.emission(at);
+        let direction = way / distance_squared.sqrt();
+        let radiance = resolved.emission(at, direction);
         if radiance == Vec4::ZERO || !(distance_squared > 0.0) {
             return None;
         }
         self.within(medium, at)?;
         Some(LightSample {
-            direction: way / distance_squared.sqrt(),
+            direction,
             target: Some(at),
             radiance,
             chance: SamplePdf::Continuous(Density::uniform(density * distance_squared)),
             cos: 1.0,
             origin: LightKind::Medium,
-            extinction: resolved.coefficients(at).extinction(),
+            extinction: resolved.coefficients(at, direction).extinction(),
             light: LightId::NONE,
         })
     }
@@ -248,13 +249,14 @@ impl Scene {
     ) -> Option<Emission> {
         let (medium, at, origin) = lights.point(u_light, u_position)?;
         let resolved = self.medium(medium, wavelengths)?;
-        let radiance = resolved.emission(at);
+        let direction = square_to_uniform_sphere(u_direction);
+        let radiance = resolved.emission(at, direction);
         if radiance == Vec4::ZERO {
             return None;
         }
         let ray = Ray {
             medium: self.within(medium, at)?,
-            ..Ray::new(at, square_to_uniform_sphere(u_direction), time)
+            ..Ray::new(at, direction, time)
         };
         Some(Emission {
             point: Emission::point_of(&ray),
@@ -265,7 +267,7 @@ impl Scene {
                 ray: 0.25 / PI,
             },
             origin: LightKind::Medium,
-            extinction: resolved.coefficients(at).extinction(),
+            extinction: resolved.coefficients(at, direction).extinction(),
             light: LightId::NONE,
         })
     }

@@ -33,6 +33,13 @@ impl Blend {
             ));
             return None;
         }
+        if parts
+            .iter()
+            .any(|part| matches!(part, PhaseFunction::Sggx(_)))
+        {
+            params.error("`sggx` cannot be blended: the density of a medium of flakes depends on where light goes");
+            return None;
+        }
         Some(Self {
             weight,
             parts: Box::new(parts.try_into().ok()?),

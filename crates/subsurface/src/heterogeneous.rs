@@ -12,8 +12,8 @@ use crate::phases::{PhaseAt, PhaseFunction};
 use crate::volume;
 use etalon_params::Params;
 use etalon_transport::{
-    Build, Coefficients, MajorantSegment, Medium, Ray, SpectrumKind, TextureId, TexturePoint,
-    Textures, Tracking,
+    Build, Coefficients, MajorantSegment, Medium, Phase, Ray, SpectrumKind, TextureId,
+    TexturePoint, Textures, Tracking,
 };
 use glam::{Vec3, Vec4};
 
@@ -67,22 +67,36 @@ impl Heterogeneous {
         self.majorants.as_ref().map(|grid| grid.bounds())
     }
 
+    /// The most that a flake shows, of a phase function of flakes; `most` knows the largest number of a texture. 1 of any other.
+    pub fn largest_area(&self, most: impl Fn(TextureId) -> f32) -> f32 {
+        match &self.phase {
+            PhaseFunction::Sggx(flakes) => flakes.largest_area(most),
+            _ => 1.0,
+        }
+    }
+
     /// The texture of its density, in units of `scale`.
     pub fn density(&self) -> TextureId {
         self.sigma_t
     }
 
     /// Makes it ready: `bounds` are the corners of the box that holds all of it, if it has an end, `along` cells along its
-    /// longest side may differ, and `most` and `least` know bounds of the density in a box. Whether there is a finite bound.
+    /// longest side may differ, and `most` and `least` know bounds of the density in a box;
+    /// `largest_area` is that of [`Heterogeneous::largest_area`]. Whether there is a finite bound.
     pub fn prepare(
         &mut self,
         bounds: Option<[Vec3; 2]>,
         along: u32,
+        largest_area: f32,
         most: impl Fn(Vec3, Vec3) -> f32,
         least: impl Fn(Vec3, Vec3) -> f32,
     ) -> bool {
         // A little more, so that rounding does not matter.
-        let most = |low: Vec3, high: Vec3| most(low, high) * self.scale * 1.0001;
+        let densest = self.scale * largest_area * 1.0001;
+        let most = |low: Vec3, high: Vec3| most(low, high) * densest;
+        // Flakes may show nothing of themselves.
+        let is_even = !matches!(self.phase, PhaseFunction::Sggx(_));
+        let least = |low: Vec3, high: Vec3| if is_even { least(low, high) } else { 0.0 };
         self.majorants = match bounds {
             // Nothing is where the box is empty.
             Some([low, high]) if !low.cmplt(high).all() => {
@@ -145,12 +159,13 @@ impl<'a, T: Textures> Medium for HeterogeneousAt<'a, T> {
     }
 
     #[inline]
-    fn coefficients(&self, at: Vec3) -> Coefficients {
+    fn coefficients(&self, at: Vec3, direction: Vec3) -> Coefficients {
         let place = TexturePoint::in_space(at);
         let density = self
             .textures
             .spectrum(self.medium.sigma_t, &place, self.lambda);
-        let extinction = density.max(Vec4::ZERO) * self.medium.scale;
+        let area = self.phase(at).projected_area(direction);
+        let extinction = density.max(Vec4::ZERO) * (self.medium.scale * area);
         let albedo = self
             .textures
             .spectrum(self.medium.albedo, &place, self.lambda);
@@ -167,13 +182,13 @@ impl<'a, T: Textures> Medium for HeterogeneousAt<'a, T> {
     }
 
     #[inline]
-    fn emission(&self, at: Vec3) -> Vec4 {
+    fn emission(&self, at: Vec3, direction: Vec3) -> Vec4 {
         let Some(emission) = self.medium.emission else {
             return Vec4::ZERO;
         };
         let place = TexturePoint::in_space(at);
         let radiance = self.textures.spectrum(emission, &place, self.lambda);
-        self.coefficients(at).absorption * radiance
+        self.coefficients(at, direction).absorption * radiance
     }
 
     #[inline]
@@ -234,7 +249,7 @@ mod tests {
         let most = |_: Vec3, high: Vec3| top * high.x;
         // Any control will do, not only one below the density of every lane.
         let least = |low: Vec3, _: Vec3| 0.5 * ramp.top.x * low.x;
-        assert!(medium.prepare(Some([Vec3::ZERO, Vec3::ONE]), along, most, least));
+        assert!(medium.prepare(Some([Vec3::ZERO, Vec3::ONE]), along, 1.0, most, least));
         medium
     }
 

@@ -14,8 +14,8 @@ use crate::{Boundary, Profile, ProfileAt, materials, volume};
 use etalon_params::{Diagnostic, Params};
 use etalon_spectrum::Spectrum;
 use etalon_transport::{
-    Build, Coefficients, MajorantSegment, Medium, Ray, SpectrumKind, TextureId, TexturePoint,
-    Textures, Tracking, refuse_varying,
+    Build, Coefficients, MajorantSegment, Medium, Phase, Ray, SpectrumKind, TextureId,
+    TexturePoint, Textures, Tracking, refuse_varying,
 };
 use glam::{Vec2, Vec3, Vec4};
 
@@ -102,7 +102,14 @@ impl Homogeneous {
         Some(Self {
             given,
             scale: scale as f32,
-            phase: PhaseFunction::of_medium(params, build)?,
+            phase: {
+                let phase = PhaseFunction::of_medium(params, build)?;
+                if matches!(&phase, PhaseFunction::Sggx(flakes) if !flakes.is_even()) {
+                    params.error("flakes that vary in space need a `heterogeneous` medium");
+                    return None;
+                }
+                phase
+            },
             emission: {
                 refuse_varying(params, "emission");
                 volume::emission(params, build)
@@ -319,8 +326,11 @@ fn by_name(params: &Params<'_>, build: &mut dyn Build) -> Option<Given> {
 impl<T> HomogeneousAt<'_, T> {
     /// The stretches of a ray.
     #[inline]
-    pub(crate) fn segments(&self, _: &Ray, _: f32) -> Segments<'_> {
-        let extinction = self.coefficients.extinction();
+    pub(crate) fn segments(&self, ray: &Ray, _: f32) -> Segments<'_>
+    where
+        T: Textures,
+    {
+        let extinction = self.coefficients(ray.origin, ray.direction).extinction();
         let control = match self.tracking {
             Tracking::Residual => 0.999 * extinction.min_element(),
             _ => 0.0,
@@ -338,8 +348,8 @@ impl<'a, T: Textures> Medium for HomogeneousAt<'a, T> {
     }
 
     #[inline]
-    fn coefficients(&self, _: Vec3) -> Coefficients {
-        self.coefficients
+    fn coefficients(&self, at: Vec3, direction: Vec3) -> Coefficients {
+        self.coefficients * self.phase(at).projected_area(direction)
     }
 
     #[inline]
@@ -348,8 +358,8 @@ impl<'a, T: Textures> Medium for HomogeneousAt<'a, T> {
     }
 
     #[inline]
-    fn emission(&self, _: Vec3) -> Vec4 {
-        self.emission
+    fn emission(&self, at: Vec3, direction: Vec3) -> Vec4 {
+        self.emission * self.phase(at).projected_area(direction)
     }
 
     #[inline]

@@ -69,8 +69,8 @@ macro_rules! media {
             }
 
             #[inline]
-            fn coefficients(&self, at: Vec3) -> Coefficients {
-                match self { $(Self::$kind(medium) => medium.coefficients(at),)* }
+            fn coefficients(&self, at: Vec3, direction: Vec3) -> Coefficients {
+                match self { $(Self::$kind(medium) => medium.coefficients(at, direction),)* }
             }
 
             #[inline]
@@ -79,8 +79,8 @@ macro_rules! media {
             }
 
             #[inline]
-            fn emission(&self, at: Vec3) -> Vec4 {
-                match self { $(Self::$kind(medium) => medium.emission(at),)* }
+            fn emission(&self, at: Vec3, direction: Vec3) -> Vec4 {
+                match self { $(Self::$kind(medium) => medium.emission(at, direction),)* }
             }
 
             #[inline]

@@ -1,6 +1,6 @@
 //! The list of phase functions, and how each is read.
 
-use crate::{Blend, Draine, HenyeyGreenstein, Isotropic, Mie, Rayleigh, Tabulated};
+use crate::{Blend, Draine, HenyeyGreenstein, Isotropic, Mie, Rayleigh, Sggx, Tabulated};
 use etalon_math::{Density, SolidAngle};
 use etalon_params::{Class, Params, plugins};
 use etalon_transport::{Build, Phase, PhaseSample, Textures};
@@ -41,6 +41,12 @@ pub(crate) trait PhaseModel {
 
     /// Samples a direction with `u` uniform in [0, 1)².
     fn sample(&self, at: &PhasePoint<'_, impl Textures>, wo: Vec3, u: Vec2) -> PhaseSample;
+
+    /// See [`Phase::projected_area`].
+    #[inline]
+    fn projected_area(&self, _: &PhasePoint<'_, impl Textures>, _: Vec3) -> f32 {
+        1.0
+    }
 }
 
 macro_rules! phases {
@@ -86,6 +92,11 @@ macro_rules! phases {
             fn sample(&self, at: &PhasePoint<'_, impl Textures>, wo: Vec3, u: Vec2) -> PhaseSample {
                 match self { $(Self::$kind(phase) => phase.sample(at, wo, u),)* }
             }
+
+            #[inline]
+            fn projected_area(&self, at: &PhasePoint<'_, impl Textures>, direction: Vec3) -> f32 {
+                match self { $(Self::$kind(phase) => phase.projected_area(at, direction),)* }
+            }
         }
     };
 }
@@ -104,6 +115,8 @@ phases! {
     "mie" => Mie: |params, _| Mie::from_params(params);
     /// A table.
     "tabphase" => Tabulated: |params, _| Tabulated::from_params(params);
+    /// Of flakes.
+    "sggx" => Sggx: Sggx::from_params;
     /// Two others.
     "blendphase" => Blend: Blend::from_params;
 }
@@ -181,5 +194,10 @@ impl<T: Textures> Phase for PhaseAt<'_, T> {
     #[inline]
     fn sample(&self, wo: Vec3, u: Vec2) -> PhaseSample {
         self.phase.sample(&self.point, wo, u)
+    }
+
+    #[inline]
+    fn projected_area(&self, direction: Vec3) -> f32 {
+        self.phase.projected_area(&self.point, direction)
     }
 }

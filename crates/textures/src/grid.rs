@@ -4,7 +4,7 @@
 //! where that puts it); the value i of n along
 //! an axis is at (i + ½)/n, and values between are interpolated (`trilinear`), or those of the `nearest`. Beyond the
 //! cube the grid goes on as `wrap_mode` says. Three channels are colours, interpolated as spectra; those of a
-//! share of light are held to 1.
+//! share of light are held to 1. Six are symmetric matrices (xx, yy, zz, xy, xz, yz).
 
 use crate::nanovdb;
 use crate::pixels::{Image, Pixels, Texels, Values};
@@ -27,6 +27,8 @@ pub struct Grid {
     size: UVec3,
     /// By z, y and x.
     values: Arc<Image>,
+    /// Of symmetric matrices what is beside the diagonal, which are the values then.
+    beside: Option<Arc<[[f32; 3]]>>,
     /// From the world to the grid, in which values are 1 apart.
     to_grid: Affine3A,
     filter: Filter,
@@ -124,6 +126,13 @@ impl TextureModel for Grid {
             Texels::Raw(values) => self.interpolate(at.position, |i| Vec3::from_array(values[i])),
             _ => recovered::colour(|lambda| self.spectrum(set, shapes, at, lambda)),
         }
+    }
+
+    fn tensor(&self, set: &TextureTable, shapes: &impl Shapes, at: &TexturePoint) -> [Vec3; 2] {
+        let beside = self.beside.as_ref().map_or(Vec3::ZERO, |values| {
+            self.interpolate(at.position, |i| Vec3::from_array(values[i]))
+        });
+        [self.colour(set, shapes, at), beside]
     }
 
     fn mean(&self, _: &TextureTable) -> f32 {
@@ -235,6 +244,15 @@ pub(crate) fn read(
     let volume = read
         .map_err(|reason| params.error_at("filename", format!("`{name}` cannot be used: {reason}")))
         .ok()?;
+    let is_tensor = role == SpectrumKind::Tensor;
+    if is_tensor != volume.beside.is_some() {
+        let message = match is_tensor {
+            true => "a volume of matrices has six channels",
+            false => "a volume of six channels is one of matrices, for `S` of `sggx`",
+        };
+        params.error_at("filename", message);
+        return None;
+    }
     let place = match by_place {
         true => to_world * volume.place,
         false => to_world,
@@ -268,7 +286,8 @@ pub(crate) fn read(
     let (low, high) = corners.fold(start, |(low, high), p| (low.min(p), high.max(p)));
     Some(Texture::from(Grid {
         size: volume.size,
-        values: Arc::new(Image::new(pixels, raw, role, true)),
+        values: Arc::new(Image::new(pixels, raw || is_tensor, role, true)),
+        beside: volume.beside.map(Arc::from),
         to_grid: Affine3A::from_mat4(DMat4::from(to_grid).as_mat4()),
         filter,
         wrap,
@@ -321,6 +340,7 @@ mod tests {
         Grid {
             size,
             values: Arc::new(Image::new(pixels, false, SpectrumKind::Unbounded, true)),
+            beside: None,
             to_grid,
             filter,
             wrap,

@@ -281,6 +281,7 @@ fn dense(grid: &Bytes<'_>) -> Result<VolFile, String> {
         size,
         place: to_world * box_of_values,
         values,
+        beside: None,
     })
 }
 

@@ -15,6 +15,8 @@ pub(crate) struct VolFile {
     pub(crate) place: DAffine3,
     /// By z, y and x.
     pub(crate) values: Values,
+    /// Of six channels the last three: of symmetric matrices what is beside the diagonal.
+    pub(crate) beside: Option<Vec<[f32; 3]>>,
 }
 
 /// Length of what stands before the values (bytes).
@@ -52,10 +54,10 @@ impl VolFile {
         }
         let sides = [1, 2, 3].map(integer);
         let channels = integer(4);
-        if sides.iter().any(|&side| side < 1) || ![1, 3].contains(&channels) {
+        if sides.iter().any(|&side| side < 1) || ![1, 3, 6].contains(&channels) {
             let [x, y, z] = sides;
             return Err(format!(
-                "it claims {x} × {y} × {z} values of {channels} channels; 1 or 3 are read"
+                "it claims {x} × {y} × {z} values of {channels} channels; 1, 3 or 6 are read"
             ));
         }
         let expected =
@@ -73,19 +75,42 @@ impl VolFile {
         let (floats, _) = data.as_chunks::<4>();
         let floats = floats.iter().map(|bytes| f32::from_le_bytes(*bytes));
         let size = UVec3::from_array(sides.map(|side| side as u32));
+        let mut beside = None;
         let values = match channels {
             1 => Values::One(floats.collect()),
+            6 => {
+                let floats: Vec<f32> = floats.collect();
+                let halves = || floats.as_chunks::<3>().0.iter().copied();
+                beside = Some(halves().skip(1).step_by(2).collect());
+                Values::Three(halves().step_by(2).collect())
+            }
             _ => {
                 let floats: Vec<f32> = floats.collect();
                 Values::Three(floats.as_chunks::<3>().0.to_vec())
             }
         };
         refuse_bad(&values, size)?;
+        // No number beside the diagonal of a sound matrix is larger than those on it.
+        if let (Values::Three(diagonal), Some(beside)) = (&values, &beside) {
+            let bad = |(d, b): (&[f32; 3], &[f32; 3])| {
+                let bound = |i: usize, j: usize| (d[i] * d[j]).sqrt() * 1.001 + 1e-6;
+                let bounds = [bound(0, 1), bound(0, 2), bound(1, 2)];
+                !b.iter()
+                    .zip(bounds)
+                    .all(|(value, bound)| value.abs() <= bound)
+            };
+            if let Some(index) = diagonal.iter().zip(beside).position(bad) {
+                return Err(format!(
+                    "number {index} of its matrices (xx, yy, zz, xy, xz, yz) has a negative eigenvalue, or is not finite"
+                ));
+            }
+        }
         let [low, high] = bounds;
         Ok(Self {
             size,
             place: DAffine3::from_translation(low) * DAffine3::from_scale(high - low),
             values,
+            beside,
         })
     }
 }
@@ -156,6 +181,12 @@ mod tests {
         );
         says(&file([1, 1, -1, 1, 1], BOX, &[0.0]), "1 × -1 × 1");
         says(&file([1, 1, 1, 1, 2], BOX, &[0.0; 2]), "2 channels");
+        let flake = [1.0, 0.5, 0.25, -0.7, 0.5, 0.3];
+        let read = VolFile::read(&file([1, 1, 1, 1, 6], BOX, &flake)).expect("sound");
+        assert_eq!(read.values, Values::Three(vec![[1.0, 0.5, 0.25]]));
+        assert_eq!(read.beside, Some(vec![[-0.7, 0.5, 0.3]]));
+        let worse = [1.0, 0.5, 0.25, -0.8, 0.5, 0.3];
+        says(&file([1, 1, 1, 1, 6], BOX, &worse), "negative eigenvalue");
         says(&file([1, 2, 1, 1, 1], BOX, &[0.0, -1.0]), "(1, 0, 0) is -1");
         says(
             &file([1, 1, 1, 2, 3], BOX, &[0.0, 0.0, 0.0, 0.0, f32::NAN, 0.0]),

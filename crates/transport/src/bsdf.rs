@@ -92,6 +92,12 @@ pub trait Bsdf {
     /// expectation depends on (Russian roulette).
     fn albedo(&self, wo: Vec3) -> Vec4;
 
+    /// By what matter at a point of space is denser for light along `direction`: see [`crate::Phase::projected_area`]. 1 of surfaces.
+    #[inline]
+    fn projected_area(&self, _direction: Vec3) -> f32 {
+        1.0
+    }
+
     /// Tells whoever draws a sample again that what the model was asked last was for a mixture of its own
     /// density with another; see [`crate::World::record`].
     #[inline]

@@ -13,6 +13,8 @@ pub enum SpectrumKind {
     Emission,
     /// A quantity without upper bound (η, k): RGB is upsampled with a scale.
     Unbounded,
+    /// Six numbers that are no colour: a symmetric matrix ([`crate::Textures::tensor`]).
+    Tensor,
 }
 
 /// Services for plugins being built; implemented by the scene.

@@ -137,7 +137,7 @@ fn flown<M: Medium + ?Sized>(
     };
     FreeFlight {
         factor: passed * coefficients.scattering,
-        emitted: passed * medium.emission(ray.at(t)),
+        emitted: passed * medium.emission(ray.at(t), ray.direction),
         passed,
         scattering: Some(Collision {
             t,
@@ -155,7 +155,7 @@ pub(crate) fn closed<M: Medium + ?Sized>(
     t_max: f32,
     u: f32,
 ) -> FreeFlight<M::Phase> {
-    let coefficients = medium.coefficients(ray.origin);
+    let coefficients = medium.coefficients(ray.origin, ray.direction);
     let extinction = coefficients.extinction();
     let t = -float::ln(1.0 - u) / extinction.x;
     // False where lane 0 is not attenuated, and for NaN.
@@ -189,7 +189,7 @@ fn steps<M: Medium + ?Sized>(
             break;
         }
         let end = (begin + step).min(to);
-        let coefficients = medium.coefficients(ray.at(0.5 * (begin + end)));
+        let coefficients = medium.coefficients(ray.at(0.5 * (begin + end)), ray.direction);
         let extinction = coefficients.extinction();
         let through = extinction * (end - begin);
         if through.x > left {

@@ -55,6 +55,18 @@ pub struct Coefficients {
     pub scattering: Vec4,
 }
 
+impl core::ops::Mul<f32> for Coefficients {
+    type Output = Self;
+
+    #[inline]
+    fn mul(self, factor: f32) -> Self {
+        Self {
+            absorption: self.absorption * factor,
+            scattering: self.scattering * factor,
+        }
+    }
+}
+
 impl Coefficients {
     /// σt.
     #[inline]
@@ -135,15 +147,15 @@ pub trait Medium {
     /// The stretches that cover `ray` up to `t_max`.
     fn majorants(&self, ray: &Ray, t_max: f32) -> impl Iterator<Item = MajorantSegment>;
 
-    /// The coefficients at a point.
-    fn coefficients(&self, at: Vec3) -> Coefficients;
+    /// The coefficients at a point, for light along `direction` either way.
+    fn coefficients(&self, at: Vec3, direction: Vec3) -> Coefficients;
 
     /// The phase function at a point.
     fn phase(&self, at: Vec3) -> Self::Phase;
 
-    /// σa Lₑ at a point: the radiance that a stretch of it emits, per metre (W·m⁻³·sr⁻¹·nm⁻¹). Most emit nothing.
+    /// σa Lₑ at a point: the radiance that a stretch of it emits along `direction`, per metre (W·m⁻³·sr⁻¹·nm⁻¹). Most emit nothing.
     #[inline]
-    fn emission(&self, _at: Vec3) -> Vec4 {
+    fn emission(&self, _at: Vec3, _direction: Vec3) -> Vec4 {
         Vec4::ZERO
     }
 
@@ -181,13 +193,13 @@ pub trait Medium {
         }) = collisions.next()
         {
             let at = ray.at(t);
-            let coefficients = self.coefficients(at);
+            let coefficients = self.coefficients(at, ray.direction);
             let extinction = coefficients.extinction();
             if stream.next_1d() * majorant < extinction.x {
                 let passed = flight::passing_control(collisions.controlled);
                 flight.passed *= passed;
                 flight.factor *= passed;
-                flight.emitted = flight.factor * self.emission(at);
+                flight.emitted = flight.factor * self.emission(at, ray.direction);
                 flight.factor *= coefficients.scattering;
                 flight.scattering = Some(Collision {
                     t,
@@ -211,7 +223,7 @@ pub trait Medium {
     fn transmittance(&self, ray: &Ray, t_max: f32, stream: &mut impl Sampler) -> Transmission {
         let closed = match self.tracking() {
             Tracking::Closed => {
-                let extinction = self.coefficients(ray.origin).extinction();
+                let extinction = self.coefficients(ray.origin, ray.direction).extinction();
                 Some(flight::passing(extinction, t_max))
             }
             Tracking::RayMarching(step) => Some(flight::march(self, ray, t_max, step)),
@@ -232,7 +244,7 @@ pub trait Medium {
             control,
         }) = collisions.next()
         {
-            let extinction = self.coefficients(ray.at(t)).extinction();
+            let extinction = self.coefficients(ray.at(t), ray.direction).extinction();
             ratio *= flight::ratio(extinction, majorant, control);
             if ratio == Vec4::ZERO {
                 break;
@@ -258,7 +270,7 @@ impl Medium for Vacuum {
         core::iter::empty()
     }
 
-    fn coefficients(&self, _: Vec3) -> Coefficients {
+    fn coefficients(&self, _: Vec3, _: Vec3) -> Coefficients {
         match *self {}
     }
 

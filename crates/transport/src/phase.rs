@@ -26,4 +26,11 @@ pub trait Phase {
 
     /// Samples a direction with `u` uniform in [0, 1)².
     fn sample(&self, wo: Vec3, u: Vec2) -> PhaseSample;
+
+    /// By what the medium is denser for light along `direction` than its coefficients say; 1 but of flakes, which show more area to
+    /// some directions than to others. The medium counts it ([`crate::Medium::coefficients`]).
+    #[inline]
+    fn projected_area(&self, _direction: Vec3) -> f32 {
+        1.0
+    }
 }

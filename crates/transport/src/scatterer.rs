@@ -86,6 +86,14 @@ impl<B: Bsdf, P: Phase> Bsdf for Scatterer<B, P> {
     }
 
     #[inline]
+    fn projected_area(&self, direction: Vec3) -> f32 {
+        match self {
+            Self::Surface(_) => 1.0,
+            Self::Space(phase) => phase.projected_area(direction),
+        }
+    }
+
+    #[inline]
     fn has_continuous(&self) -> bool {
         match self {
             Self::Surface(bsdf) => bsdf.has_continuous(),

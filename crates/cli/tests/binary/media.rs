@@ -252,3 +252,28 @@ fn light_looked_for_along_a_ray_is_the_same_with_less_noise() {
         );
     }
 }
+
+/// Flakes that absorb nothing cannot be seen in an even sky, from whichever side, nor when paths are joined from both ends: within four
+/// standard errors (α = 10⁻⁴). The mutant whose density does not depend on where light goes is off by a fifth.
+#[test]
+fn flakes_that_absorb_nothing_are_not_seen_in_an_even_sky() {
+    let sky = "<emitter type=\"constant\"><spectrum name=\"radiance\" type=\"d65\"/></emitter>";
+    for (kind, matrix) in [
+        ("homogeneous", "1, 1, 0.02, 0, 0, 0"),
+        ("homogeneous", "0.5, 0.02, 0.9, 0.05, 0, 0.1"),
+        ("heterogeneous", "0.02, 1, 1, 0, 0, 0"),
+    ] {
+        let medium = format!(
+            "<medium type=\"{kind}\" name=\"interior\"><float name=\"sigma_t\" value=\"1.5\"/><float name=\"albedo\" value=\"1\"/>
+            <phase type=\"sggx\"><string name=\"S\" value=\"{matrix}\"/></phase></medium>"
+        );
+        for integrator in ["volpath", "bdpt"] {
+            let scene = matter(&medium, sky).replace("\"volpath\"", &format!("\"{integrator}\""));
+            let (mean, error) = shown(&scene);
+            assert!(
+                error < 0.01 && (mean - 1.0).abs() < 4.0 * error + 1e-4,
+                "{kind}, {integrator}: {mean} ± {error}"
+            );
+        }
+    }
+}

@@ -67,7 +67,7 @@ impl FromLight {
 
     /// Density per area of arriving at the first corner, which sees the light along −`direction`.
     #[inline]
-    pub(super) fn arrival<B>(
+    pub(super) fn arrival<B: Bsdf>(
         emission_ray: f32,
         parallel: bool,
         corner: &PathVertex<B>,

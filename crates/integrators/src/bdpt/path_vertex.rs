@@ -13,7 +13,7 @@ pub(crate) struct PathVertex<B> {
     pub(super) vertex: SurfaceInteraction,
     /// The scattering model there, for `wo`.
     pub(super) bsdf: B,
-    /// σt at a point of a medium (m⁻¹), per lane: the density of stopping there; 1 at a surface.
+    /// σt at a point of a medium (m⁻¹), per lane, over the area that its matter shows: the density of stopping there; 1 at a surface.
     pub(super) extinction: Vec4,
     /// Unit direction back along the subpath.
     pub(super) wo: Vec3,
@@ -80,8 +80,12 @@ impl<B> PathVertex<B> {
     /// What makes of a density per solid angle, seen from `distance_squared` away along `direction`, the density of
     /// arriving here if nothing is in between, per lane: per area of a surface, per volume of a medium.
     #[inline]
-    pub(super) fn per_area(&self, direction: Vec3, distance_squared: f32) -> Vec4 {
-        self.extinction * (self.vertex.area_cos(direction) / counted(distance_squared))
+    pub(super) fn per_area(&self, direction: Vec3, distance_squared: f32) -> Vec4
+    where
+        B: Bsdf,
+    {
+        let area = self.vertex.area_cos(direction) * self.bsdf.projected_area(direction);
+        self.extinction * (area / counted(distance_squared))
     }
 
     /// Whether it can be merged with a photon: one on a surface.

@@ -5,7 +5,7 @@ use super::path_vertex::{Corner, PathVertex};
 use crate::path_throughput::PathThroughput;
 use crate::steps;
 use etalon_spectrum::Wavelengths;
-use etalon_transport::{Hit, Ray, Scatterer, ScattererOf, SurfaceInteraction, World};
+use etalon_transport::{Bsdf, Hit, Ray, Scatterer, ScattererOf, SurfaceInteraction, World};
 use glam::{Vec3, Vec4};
 
 /// The numbers of the camera walk's events, of the emission, and of the light walk's events lie
@@ -34,7 +34,7 @@ pub(super) struct SubpathState {
 pub(super) struct Met<'w, W: World + 'w> {
     pub(super) vertex: SurfaceInteraction,
     pub(super) bsdf: ScattererOf<'w, W>,
-    /// See [`PathVertex::extinction`].
+    /// σt for light along the walk, of a medium (m⁻¹), per lane; 1 of a surface.
     pub(super) extinction: Vec4,
     /// The walk up to what a medium emits there, if it does.
     pub(super) shining: Option<PathThroughput>,
@@ -115,7 +115,7 @@ impl SubpathState {
         PathVertex {
             vertex,
             bsdf,
-            extinction,
+            extinction: extinction / bsdf.projected_area(self.ray.direction),
             wo: -self.ray.direction,
             prefix: self.prefix,
             arrival: arrival * self.passed.x,

@@ -356,7 +356,12 @@ impl<'w, W: World> GatherPath<'_, 'w, W> {
                         Scatterer::Surface(world.bsdf(vertex, wo, sets.get(set)))
                     }
                 });
-                let value = model.eval(wo, photon.from, TransportMode::Radiance);
+                // Of flakes only the way of the light counts.
+                let [known, other] = match model {
+                    Scatterer::Space(_) => [photon.from, wo],
+                    Scatterer::Surface(_) => [wo, photon.from],
+                };
+                let value = model.eval(known, other, TransportMode::Radiance);
                 *sum += value * photon.value * kernel;
                 any = true;
                 world.record(|| {
