@@ -108,7 +108,7 @@ pub(crate) const CLASSES: [(Class, &str, &str); 13] = [
     (
         Class::Phase,
         "Phase functions",
-        "<sensor type='perspective'/><integrator type='volpath'/><shape type='sphere'><bsdf type='null'/><medium type='homogeneous' name='interior'>ELEMENT</medium></shape>",
+        "<sensor type='perspective'/><integrator type='volpath'/><shape type='sphere'><bsdf type='null'/><medium type='heterogeneous' name='interior'>ELEMENT</medium></shape>",
     ),
     (
         Class::Volume,
