@@ -6,6 +6,7 @@
 mod attributes;
 mod bodies;
 pub mod builder;
+mod capabilities;
 pub mod compile;
 mod displacement;
 mod emission_medium;

@@ -3,7 +3,7 @@
 use crate::lookup::SceneTables;
 use crate::media::SceneMedia;
 use crate::medium_lights::{LightChoice, MediumLights};
-use crate::{rays, view};
+use crate::rays;
 use etalon_bsdf::{BsdfAtPoint, Material};
 use etalon_cameras::AnyCamera;
 use etalon_lights::LightSet;
@@ -11,29 +11,28 @@ use etalon_math::{Density, SolidAngle};
 use etalon_spectrum::{Sensor, SensorWeights, Wavelengths};
 use etalon_subsurface::MediumAtWavelengths;
 use etalon_transport::{
-    Camera, DiffusionProfile, Emission, EmissionPdf, Hit, LegacyPhong, LightId, LightKind,
-    LightSample, LightSampleContext, LightVariety, MediumId, Ray, SceneCapabilities,
-    SurfaceInteraction, Transmission, World,
+    DiffusionProfile, Emission, EmissionPdf, Hit, LegacyPhong, LightId, LightKind, LightSample,
+    LightSampleContext, LightVariety, MediumId, Ray, SurfaceInteraction, Transmission, World,
 };
-use glam::{UVec2, Vec2, Vec3, Vec4};
+use glam::{Vec2, Vec3, Vec4};
 use std::sync::Arc;
 
 /// A scene: immutable, shared by all threads. Cloning is cheap: clones share all but their sensor.
 #[derive(Clone)]
 pub struct Scene {
-    parts: Arc<Parts>,
+    pub(crate) parts: Arc<Parts>,
     sensor: Sensor,
 }
 
 /// What scenes share that differ in their sensors.
-struct Parts {
-    camera: AnyCamera,
-    lookup: SceneTables,
-    materials: Vec<Material>,
-    lights: LightSet,
+pub(crate) struct Parts {
+    pub(crate) camera: AnyCamera,
+    pub(crate) lookup: SceneTables,
+    pub(crate) materials: Vec<Material>,
+    pub(crate) lights: LightSet,
     /// Whether any material lets light pass straight, so that shadow rays must ask.
     has_null: bool,
-    media: SceneMedia,
+    pub(crate) media: SceneMedia,
     /// Whether there are media, so that shadow rays must ask.
     has_media: bool,
     /// The medium beyond everything.
@@ -98,49 +97,6 @@ impl Scene {
             parts: Arc::clone(&self.parts),
         };
         sensors.into_iter().map(with).collect()
-    }
-
-    /// How much there is, for people.
-    pub fn summary(&self) -> String {
-        let s = self.parts.lookup.geometry.statistics();
-        format!(
-            "shapes       {} ({} triangles)\ninstances    {} ({} triangles)\n\
-             accelerator  {} nodes; geometry takes {:.1} MiB\nmaterials    {}\nlights       {}\n",
-            s.shapes,
-            s.triangles,
-            s.instances,
-            s.instanced_triangles,
-            s.nodes,
-            s.bytes as f64 / f64::from(1 << 20),
-            self.parts.materials.len(),
-            self.parts.lights.len(),
-        )
-    }
-
-    /// What an estimator can see of it, through the film's window of `size` pixels from `origin`.
-    pub fn sight(&self, origin: UVec2, size: UVec2) -> SceneCapabilities {
-        let view = view::look(self, origin, size);
-        // Nobody asked for these rays.
-        rays::take();
-        // Paths run into matter that shines.
-        let mut lights = self.parts.lights.count();
-        let shining = self.parts.media.emitting();
-        for count in [&mut lights.all, &mut lights.hittable, &mut lights.either] {
-            *count += shining;
-        }
-        lights.chosen += self.parts.media.emitting_bounds().count() as u32;
-        SceneCapabilities {
-            view,
-            lights,
-            aperture: self.parts.camera.can_receive(),
-            sky: self.has_background(),
-            media: self.parts.media.any(),
-            diffusion: self.parts.media.diffuse(),
-            endless: self.parts.lookup.geometry.is_endless() && self.parts.lights.has_infinite(),
-            narrow_filter: false,
-            one_way: self.parts.materials.iter().any(Material::is_one_way),
-            classic: self.parts.materials.iter().any(Material::is_classic),
-        }
     }
 
     /// The media.

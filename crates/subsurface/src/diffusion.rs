@@ -244,7 +244,8 @@ mod tests {
                 let (mut sum, steps) = (0.0_f64, 200_000);
                 let mut next = 1;
                 for i in 0..steps {
-                    let r = 1e-5 * (1e10_f64).powf((f64::from(i) + 0.5) / f64::from(steps));
+                    let r = 1e-5
+                        * etalon_math::float64::pow(1e10, (f64::from(i) + 0.5) / f64::from(steps));
                     let width = r * 10.0 * std::f64::consts::LN_10 / f64::from(steps);
                     sum += std::f64::consts::TAU * r * f64::from(radial.value(r as f32)) * width;
                     if next < 20 && r >= f64::from(chosen[next * count / 20]) {

@@ -268,6 +268,7 @@ mod tests {
         let expected = depth.to_array().map(|depth| float::exp(-depth));
         let trackings = [
             Tracking::Ratio,
+            Tracking::Delta,
             Tracking::Residual,
             Tracking::RayMarching(0.3),
         ];

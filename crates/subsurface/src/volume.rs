@@ -39,7 +39,7 @@ pub(crate) fn constant(
 /// How a medium is travelled through: `tracking`, and `step` of ray marching; `usual` unless it says.
 pub(crate) fn tracking(params: &Params<'_>, usual: Tracking) -> Tracking {
     // Only what is the same everywhere has a closed form.
-    let all = ["closed", "ratio", "residual", "raymarch"];
+    let all = ["closed", "ratio", "delta", "residual", "raymarch"];
     let accepted = &all[usize::from(usual != Tracking::Closed)..];
     let chosen = params.choice("tracking", accepted[0], accepted);
     let what = "a length in metres, above 0";
@@ -61,6 +61,7 @@ pub(crate) fn tracking(params: &Params<'_>, usual: Tracking) -> Tracking {
             }
             match chosen {
                 "closed" => Tracking::Closed,
+                "delta" => Tracking::Delta,
                 "residual" => Tracking::Residual,
                 _ => Tracking::Ratio,
             }

@@ -132,6 +132,8 @@ pub enum Tracking {
     /// By tentative collisions with all of the majorant: delta tracking, and ratio tracking of transmittance.
     #[default]
     Ratio,
+    /// The same, where transmittance is all or nothing: a tentative collision that is real for every lane ends the way (Woodcock et al. 1965).
+    Delta,
     /// The same, where transmittance follows from tentative collisions with what exceeds a control density, and from that itself
     /// in closed form (residual ratio tracking, Novák et al. 2014).
     Residual,
@@ -177,7 +179,7 @@ pub trait Medium {
         match self.tracking() {
             Tracking::Closed => return flight::closed(self, ray, t_max, u),
             Tracking::RayMarching(step) => return flight::marched(self, ray, t_max, step, u),
-            Tracking::Ratio | Tracking::Residual => {}
+            Tracking::Ratio | Tracking::Delta | Tracking::Residual => {}
         }
         let mut flight = FreeFlight {
             factor: Vec4::ONE,
@@ -227,7 +229,7 @@ pub trait Medium {
                 Some(flight::passing(extinction, t_max))
             }
             Tracking::RayMarching(step) => Some(flight::march(self, ray, t_max, step)),
-            Tracking::Ratio | Tracking::Residual => None,
+            Tracking::Ratio | Tracking::Delta | Tracking::Residual => None,
         };
         if let Some(transmittance) = closed {
             return Transmission {
@@ -235,7 +237,10 @@ pub trait Medium {
                 probability: transmittance,
             };
         }
+        let all_or_nothing = self.tracking() == Tracking::Delta;
         let mut ratio = Vec4::ONE;
+        // What passes in the mean of those that go on.
+        let mut kept = 1.0;
         let majorants = self.majorants(ray, t_max);
         let mut collisions = Collisions::new(majorants, t_max, stream.next_1d(), true);
         while let Some(MajorantSegment {
@@ -245,7 +250,17 @@ pub trait Medium {
         }) = collisions.next()
         {
             let extinction = self.coefficients(ray.at(t), ray.direction).extinction();
-            ratio *= flight::ratio(extinction, majorant, control);
+            let null = flight::ratio(extinction, majorant, control);
+            ratio *= null;
+            if all_or_nothing {
+                // By the lane that is attenuated least, so that no lane is lost.
+                let most = null.max_element();
+                if stream.next_1d() >= most {
+                    ratio = Vec4::ZERO;
+                } else {
+                    kept *= most;
+                }
+            }
             if ratio == Vec4::ZERO {
                 break;
             }
@@ -253,7 +268,7 @@ pub trait Medium {
         }
         ratio *= flight::passing_control(collisions.controlled);
         Transmission {
-            transmittance: ratio,
+            transmittance: ratio / kept,
             probability: ratio,
         }
     }

@@ -78,7 +78,7 @@ fn an_open_shape_with_something_below_its_surface_is_pointed_out() {
         ball_scene(ball, "<emitter type=\"constant\"/>").replace("\"sphere\"", shape)
     };
     for (shape, open) in [("\"rectangle\"", true), ("\"cube\"", false)] {
-        workshop.write("s.xml", &scene(shape));
+        workshop.write("s.xml", scene(shape));
         let ran = workshop.run(&["info", "s.xml"]).fine();
         let said =
             ran.stdout.contains("this shape is open") || ran.stderr.contains("this shape is open");

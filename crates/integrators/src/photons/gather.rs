@@ -1,8 +1,7 @@
 //! The camera's walk, which gathers photons where it meets surfaces that scatter.
 //!
-//! It follows sharp directions to their end, as `path` does, light sampling included; in all others
-//! it leaves light that is not direct to photons, and ends. With a final gather it goes on once in
-//! such a direction, and leaves to photons what it meets there.
+//! It follows sharp directions to their end, as `path` does, light sampling included; in all others it leaves light that is not
+//! direct to photons, and ends. With a final gather it goes on once in such a direction, and leaves to photons what it meets there.
 
 use super::elsewhere::{CameraPath, CameraVertex};
 use super::is_sharp;
@@ -344,9 +343,8 @@ impl<'w, W: World> GatherPath<'_, 'w, W> {
                 {
                     return;
                 }
-                // What is sharp is so for the walk's own wavelengths.
                 if is_sharp(own.density(wo, photon.from)) {
-                    return;
+                    return; // For the walk's own wavelengths.
                 }
                 let (model, sum) = &mut at[set];
                 let model = model.get_or_insert_with(|| match own {
@@ -356,12 +354,11 @@ impl<'w, W: World> GatherPath<'_, 'w, W> {
                         Scatterer::Surface(world.bsdf(vertex, wo, sets.get(set)))
                     }
                 });
-                // Of flakes only the way of the light counts.
-                let [known, other] = match model {
-                    Scatterer::Space(_) => [photon.from, wo],
-                    Scatterer::Surface(_) => [wo, photon.from],
+                let value = match model.is_in_space() {
+                    // Of flakes only the way of the light counts.
+                    true => model.eval(photon.from, wo, TransportMode::Radiance),
+                    false => model.eval(wo, photon.from, TransportMode::Radiance),
                 };
-                let value = model.eval(known, other, TransportMode::Radiance);
                 *sum += value * photon.value * kernel;
                 any = true;
                 world.record(|| {

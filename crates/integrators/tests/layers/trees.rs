@@ -51,6 +51,7 @@ fn with_one_branch_it_is_path_number_for_number() {
                 skips_null: false,
                 settings: settings(max_depth, rr_depth),
                 light_candidates: LightCandidates::ONE,
+                equiangular: false,
             };
             let tree = distribution(max_depth, rr_depth, 1, 1);
             let [a, b] = [measure(&path, &stack, 500), measure(&tree, &stack, 500)];

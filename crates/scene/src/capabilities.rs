@@ -1,0 +1,52 @@
+//! What a scene has, for people and for estimators.
+
+use crate::scene::Scene;
+use crate::{rays, view};
+use etalon_bsdf::Material;
+use etalon_transport::{Camera, SceneCapabilities, World};
+use glam::UVec2;
+
+impl Scene {
+    /// How much there is, for people.
+    pub fn summary(&self) -> String {
+        let s = self.parts.lookup.geometry.statistics();
+        format!(
+            "shapes       {} ({} triangles)\ninstances    {} ({} triangles)\n\
+             accelerator  {} nodes; geometry takes {:.1} MiB\nmaterials    {}\nlights       {}\n",
+            s.shapes,
+            s.triangles,
+            s.instances,
+            s.instanced_triangles,
+            s.nodes,
+            s.bytes as f64 / f64::from(1 << 20),
+            self.parts.materials.len(),
+            self.parts.lights.len(),
+        )
+    }
+
+    /// What an estimator can see of it, through the film's window of `size` pixels from `origin`.
+    pub fn sight(&self, origin: UVec2, size: UVec2) -> SceneCapabilities {
+        let view = view::look(self, origin, size);
+        // Nobody asked for these rays.
+        rays::take();
+        // Paths run into matter that shines.
+        let mut lights = self.parts.lights.count();
+        let shining = self.parts.media.emitting();
+        for count in [&mut lights.all, &mut lights.hittable, &mut lights.either] {
+            *count += shining;
+        }
+        lights.chosen += self.parts.media.emitting_bounds().count() as u32;
+        SceneCapabilities {
+            view,
+            lights,
+            aperture: self.parts.camera.can_receive(),
+            sky: self.has_background(),
+            media: self.parts.media.any(),
+            diffusion: self.parts.media.diffuse(),
+            endless: self.parts.lookup.geometry.is_endless() && self.parts.lights.has_infinite(),
+            narrow_filter: false,
+            one_way: self.parts.materials.iter().any(Material::is_one_way),
+            classic: self.parts.materials.iter().any(Material::is_classic),
+        }
+    }
+}
