@@ -53,6 +53,15 @@ pub fn noise_and_gradient(p: DVec3) -> (f64, DVec3) {
     (value, gradient)
 }
 
+/// Bounds of n within `half` of `p` along each axis: by the slope at `p` and [`LARGEST_CURVATURE`], or by [`LARGEST_SLOPE`].
+pub fn noise_within(p: DVec3, half: DVec3) -> [f64; 2] {
+    let (value, gradient) = noise_and_gradient(p);
+    let reach = half.element_sum();
+    let bent = gradient.abs().dot(half) + 0.5 * LARGEST_CURVATURE * reach * reach;
+    let off = bent.min(LARGEST_SLOPE * reach);
+    [(value - off).max(-1.0), (value + off).min(1.0)]
+}
+
 /// A lattice point's own random number.
 pub fn lattice_hash(q: DVec3) -> u32 {
     // As integers; far away, where there are no such integers, the noise repeats the last ones.

@@ -180,9 +180,18 @@ impl Spectrum {
 
     /// The largest value at the whole nanometres of 360–830 nm.
     pub fn maximum(&self) -> f64 {
-        (0..cie::COUNT)
-            .map(|i| self.eval_at((cie::FIRST + i) as f64))
-            .fold(f64::NEG_INFINITY, f64::max)
+        self.range()[1]
+    }
+
+    /// The smallest and the largest.
+    pub fn range(&self) -> [f64; 2] {
+        if let Self::Uniform(value) = self {
+            return [f64::from(*value); 2];
+        }
+        let values = (0..cie::COUNT).map(|i| self.eval_at((cie::FIRST + i) as f64));
+        values.fold([f64::INFINITY, f64::NEG_INFINITY], |[a, b], x| {
+            [a.min(x), b.max(x)]
+        })
     }
 
     /// Whether the spectrum is zero at every wavelength, by construction.

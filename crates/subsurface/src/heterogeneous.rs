@@ -93,7 +93,11 @@ impl Heterogeneous {
     ) -> bool {
         // A little more, so that rounding does not matter.
         let densest = self.scale * largest_area * 1.0001;
-        let most = |low: Vec3, high: Vec3| most(low, high) * densest;
+        let most = |low: Vec3, high: Vec3| {
+            let bound = most(low, high) * densest;
+            // Below zero there is nothing.
+            if bound < 0.0 { 0.0 } else { bound }
+        };
         // Flakes may show nothing of themselves.
         let is_even = !matches!(self.phase, PhaseFunction::Sggx(_));
         let least = |low: Vec3, high: Vec3| if is_even { least(low, high) } else { 0.0 };

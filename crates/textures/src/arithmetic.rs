@@ -51,6 +51,31 @@ impl Arithmetic {
         set.number(self.parts[2], shapes, at).clamp(0.0, 1.0)
     }
 
+    /// Bounds of what comes out in a box.
+    fn range_within(&self, set: &TextureTable, low: Vec3, high: Vec3) -> [f32; 2] {
+        let [a, b] = [0, 1].map(|part| {
+            let part = set.get(self.parts[part]);
+            [
+                part.least_within(set, low, high),
+                part.most_within(set, low, high),
+            ]
+        });
+        let range = match self.operation {
+            Operation::Multiply => {
+                // What is nowhere is not, however much of it there might be.
+                let product = |x: f32, y: f32| if x == 0.0 || y == 0.0 { 0.0 } else { x * y };
+                let ends = a.map(|x| b.map(|y| product(x, y)));
+                (ends.as_flattened().iter())
+                    .fold([f32::INFINITY, f32::NEG_INFINITY], |[a, b], x| {
+                        [a.min(*x), b.max(*x)]
+                    })
+            }
+            Operation::Add => [a[0] + b[0], a[1] + b[1]],
+            Operation::Mix => [a[0].min(b[0]), a[1].max(b[1])],
+        };
+        range.map(|end| end.min(self.most()))
+    }
+
     /// The greatest value that may come out.
     #[inline]
     fn most(&self) -> f32 {
@@ -93,25 +118,11 @@ impl TextureModel for Arithmetic {
     }
 
     fn most_within(&self, set: &TextureTable, low: Vec3, high: Vec3) -> f32 {
-        let [a, b] = [0, 1].map(|part| set.get(self.parts[part]).most_within(set, low, high));
-        let most = match self.operation {
-            // What is nowhere is not, however much of it there might be.
-            Operation::Multiply if a == 0.0 || b == 0.0 => 0.0,
-            Operation::Multiply => a * b,
-            Operation::Add => a + b,
-            Operation::Mix => a.max(b),
-        };
-        most.min(self.most())
+        self.range_within(set, low, high)[1]
     }
 
     fn least_within(&self, set: &TextureTable, low: Vec3, high: Vec3) -> f32 {
-        let [a, b] = [0, 1].map(|part| set.get(self.parts[part]).least_within(set, low, high));
-        let least = match self.operation {
-            Operation::Multiply => a * b,
-            Operation::Add => a + b,
-            Operation::Mix => a.min(b),
-        };
-        least.min(self.most())
+        self.range_within(set, low, high)[0]
     }
 
     fn extent(&self, set: &TextureTable) -> Option<[Vec3; 2]> {

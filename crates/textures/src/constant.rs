@@ -21,6 +21,8 @@ pub struct Constant {
     pub mean: f32,
     /// Linear Rec.709 as a reflectance under D65.
     pub colour: Vec3,
+    /// The smallest and the largest value at any wavelength.
+    range: [f32; 2],
 }
 
 impl Constant {
@@ -42,6 +44,7 @@ impl Constant {
             number: number as f32,
             mean: mean as f32,
             colour: Vec3::from_array(rgb.map(|x| x as f32)),
+            range: spectrum.range().map(|x| x as f32),
             spectrum,
         }
     }
@@ -53,6 +56,7 @@ impl Constant {
             number: value,
             mean: value,
             colour: Vec3::splat(value),
+            range: [value; 2],
         }
     }
 
@@ -93,7 +97,11 @@ impl TextureModel for Constant {
     }
 
     fn most_within(&self, _: &TextureTable, _: Vec3, _: Vec3) -> f32 {
-        self.spectrum.maximum() as f32
+        self.range[1]
+    }
+
+    fn least_within(&self, _: &TextureTable, _: Vec3, _: Vec3) -> f32 {
+        self.range[0]
     }
 }
 

@@ -21,10 +21,13 @@ use crate::texture::TextureModel;
 use crate::{Texture, TextureReader, TextureTable};
 use core::f64::consts::TAU;
 use etalon_math::float64::sin;
-use etalon_math::noise::{lattice_hash, noise};
+use etalon_math::noise::{lattice_hash, noise, noise_within};
 use etalon_params::Params;
 use etalon_transport::{Shapes, TextureId, TexturePoint};
-use glam::{DAffine3, DVec3, Vec3, Vec4};
+use glam::{DAffine3, DMat3, DVec3, Vec3, Vec4};
+
+/// How many cells along a medium may be bounded apart, in units of [`TextureModel::cells`].
+const CELLS: u32 = 256;
 
 /// A kind of pattern.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -74,6 +77,56 @@ impl Procedural {
             p = p * 2.0 + DVec3::new(17.0, 31.0, 47.0);
         }
         sum
+    }
+
+    /// The least and the greatest of [`Procedural::sum`] within `half` of `p` along each axis.
+    fn sum_within(&self, p: DVec3, half: DVec3, of: impl Fn([f64; 2]) -> [f64; 2]) -> [f64; 2] {
+        let (mut sum, mut amplitude, mut p, mut half) = ([0.0; 2], 1.0, p, half);
+        for _ in 0..self.octaves {
+            let octave = of(noise_within(p, half));
+            sum = [0, 1].map(|end| sum[end] + amplitude * octave[end]);
+            amplitude *= self.roughness;
+            p = p * 2.0 + DVec3::new(17.0, 31.0, 47.0);
+            half *= 2.0;
+        }
+        sum
+    }
+
+    /// Bounds of s in a box.
+    fn share_within(&self, low: Vec3, high: Vec3) -> [f64; 2] {
+        let (low, high) = (low.as_dvec3(), high.as_dvec3());
+        let all = [0.0, 1.0];
+        if self.by_uv || !(low.is_finite() && high.is_finite()) {
+            return all;
+        }
+        let p = self.place.transform_point3(0.5 * (low + high));
+        let m = self.place.matrix3;
+        let extent = DMat3::from_cols(m.x_axis.abs(), m.y_axis.abs(), m.z_axis.abs());
+        // A little more, so that rounding does not matter.
+        let half = extent * (high - low) * 0.500_001;
+        let size = |[a, b]: [f64; 2]| {
+            let least = if a * b <= 0.0 {
+                0.0
+            } else {
+                a.abs().min(b.abs())
+            };
+            [least, a.abs().max(b.abs())]
+        };
+        let of = |range: [f64; 2], scale: f64| range.map(|n| 0.5 + 0.5 * scale * n);
+        let range = match self.pattern {
+            Pattern::Noise => of(noise_within(p, half), 1.0),
+            Pattern::Fbm => of(self.sum_within(p, half, |n| n), 1.0 / self.total()),
+            Pattern::Turbulence => {
+                let total = self.total();
+                self.sum_within(p, half, size).map(|sum| sum / total)
+            }
+            Pattern::Voronoi => {
+                let (nearest, reach) = (nearest_point(p), half.length());
+                [nearest - reach, nearest + reach]
+            }
+            Pattern::Marble | Pattern::Wood | Pattern::Bricks | Pattern::Gradient => all,
+        };
+        range.map(|share| share.clamp(0.0, 1.0))
     }
 
     /// Σ rⁱ.
@@ -152,11 +205,28 @@ impl TextureModel for Procedural {
         let [a, b] = self
             .colours
             .map(|id| set.get(id).most_within(set, low, high));
-        a.max(b)
+        self.share_within(low, high)
+            .map(|share| a + share as f32 * (b - a))
+            .into_iter()
+            .fold(f32::NEG_INFINITY, f32::max)
+    }
+
+    fn least_within(&self, set: &TextureTable, low: Vec3, high: Vec3) -> f32 {
+        let [a, b] = self
+            .colours
+            .map(|id| set.get(id).least_within(set, low, high));
+        self.share_within(low, high)
+            .map(|share| a + share as f32 * (b - a))
+            .into_iter()
+            .fold(f32::INFINITY, f32::min)
     }
 
     fn cells(&self, _: &TextureTable) -> u32 {
-        1
+        use Pattern::{Fbm, Noise, Turbulence, Voronoi};
+        match self.pattern {
+            Noise | Fbm | Turbulence | Voronoi if !self.by_uv => CELLS,
+            _ => 1,
+        }
     }
 
     fn is_constant(&self, _: &TextureTable) -> bool {
@@ -230,4 +300,57 @@ pub(crate) fn read(
         distortion,
         joint,
     }))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use proptest::prelude::*;
+
+    proptest! {
+        /// Of a turned and stretched pattern, in boxes smaller and larger than its features.
+        #[test]
+        fn no_share_in_a_box_is_beyond_its_bounds(
+            low in prop::array::uniform3(-5.0_f32..5.0),
+            size in -3.0_f32..1.0,
+            part in prop::array::uniform3(0.0_f32..1.0),
+            pattern in prop::sample::select(vec![
+                Pattern::Noise, Pattern::Fbm, Pattern::Turbulence, Pattern::Voronoi, Pattern::Marble,
+            ]),
+        ) {
+            let pattern = Procedural {
+                pattern,
+                colours: [TextureId(0), TextureId(1)],
+                place: DAffine3::from_rotation_z(0.4) * DAffine3::from_scale(DVec3::new(1.0, 2.0, 0.7)),
+                by_uv: false,
+                octaves: 5,
+                roughness: 0.6,
+                distortion: 1.0,
+                joint: 0.0,
+            };
+            let low = Vec3::from_array(low);
+            let side = etalon_math::float::exp(size * 2.0) * Vec3::new(1.0, 0.6, 0.8);
+            let [least, most] = pattern.share_within(low, low + side);
+            let at = TexturePoint::in_space(low + side * Vec3::from_array(part));
+            let share = f64::from(pattern.share(&at));
+            prop_assert!(least - 1e-6 <= share && share <= most + 1e-6, "{least} {share} {most}");
+        }
+    }
+
+    /// The bounds of a small box are near what is in it.
+    #[test]
+    fn bounds_of_a_small_box_are_tight() {
+        let pattern = Procedural {
+            pattern: Pattern::Noise,
+            colours: [TextureId(0), TextureId(1)],
+            place: DAffine3::IDENTITY,
+            by_uv: false,
+            octaves: 1,
+            roughness: 0.5,
+            distortion: 0.0,
+            joint: 0.0,
+        };
+        let [least, most] = pattern.share_within(Vec3::splat(0.4), Vec3::splat(0.45));
+        assert!(most - least < 0.15, "{least} {most}");
+    }
 }

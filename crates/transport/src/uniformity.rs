@@ -1,6 +1,6 @@
 //! Lights without extent, skies of one colour and homogeneous media have nothing over which a texture could vary.
 
-use etalon_params::{Class, Node, Params, Value};
+use etalon_params::{Class, Diagnostic, Node, Params, Value};
 
 /// Refuses a texture that varies in space as the value of `name`.
 pub fn refuse_varying(params: &Params<'_>, name: &str) {
@@ -8,13 +8,19 @@ pub fn refuse_varying(params: &Params<'_>, name: &str) {
     if let Some(Value::Object(node)) = property.map(|p| &p.value)
         && varies(node)
     {
-        params.error_at(
-            name,
-            format!(
-                "`{name}` of `{}` must be a spectrum or colour that does not vary in space",
-                params.node.plugin.value
-            ),
+        let message = format!(
+            "`{name}` of `{}` must be a spectrum or colour that does not vary in space",
+            params.node.plugin.value
         );
+        let span = params.property(name).map_or(params.node.span, |p| p.span);
+        let error = Diagnostic::error(span, message);
+        params.diagnostics.push(match params.node.class {
+            Class::Subsurface => error.help(
+                "the diffusion profiles take textures over the surface; matter that varies in space is a `heterogeneous` \
+                 medium, the `interior` of a shape with a `difftrans` or `roughdielectric`",
+            ),
+            _ => error,
+        });
     }
 }
 
