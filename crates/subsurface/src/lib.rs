@@ -1,4 +1,4 @@
-//! Participating media and the phase functions of their points.
+//! Participating media, the phase functions of their points, and diffusion profiles.
 //!
 //! A medium is described by spectra and volumes ([`MediumDescription`]) and resolved at the wavelengths of a path into
 //! plain numbers ([`MediumAtWavelengths`]), which know how to fly ([`etalon_transport::Medium`]).
