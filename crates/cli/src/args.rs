@@ -4,6 +4,7 @@ use crate::arg_values::{
     ReplayAddress, parse_accelerator, parse_define, parse_error, parse_light_chooser,
     parse_probability, parse_rate, parse_replay, parse_seconds, parse_seed, whole,
 };
+use crate::farm::Engine;
 use crate::frames::{Frame, FrameRange};
 use crate::outputs::Outputs;
 use crate::part::PartOfMany;
@@ -58,8 +59,22 @@ Examples:
   etalon render scene.xml -o a.exr --part 1/2   # on one machine
   etalon render scene.xml -o b.exr --part 2/2   # on another
   etalon merge a.exr b.exr -o whole.exr
+  etalon merge parts -o whole.exr               # all that are in the folder
   etalon merge a.exr -o so-far.exr --partial")]
     Merge(MergeArgs),
+    /// Write the job files that render a scene on a cluster: for Slurm, Open Job Description or GNU parallel.
+    ///
+    /// `-o` is the folder for job files, parts and the picture; all other options are those of `render`. Each task renders
+    /// one part of the replicates, or one frame, may be started again at any time, and goes on from its checkpoint.
+    #[command(after_help = "\
+Exit codes: 0 done, 2 bad input or usage.
+
+Examples:
+  etalon farm --engine slurm scene.xml -o job --parts 8 --spp 4096
+  etalon farm --engine slurm walk.xml -o job --frames 1..240 --submit
+  etalon farm --engine openjd scene.xml -o job
+  etalon farm --engine parallel scene.xml -o job --parts 4 && HOSTS=machines.txt sh job/submit.sh")]
+    Farm(FarmArgs),
     /// Decide whether two images agree, tile by tile, from their replicates.
     #[command(after_help = "\
 Exit codes: 0 equivalent, 1 different, 2 bad input or usage, 3 inconclusive.
@@ -221,11 +236,31 @@ impl RenderArgs {
     }
 }
 
+/// Arguments of `farm`.
+#[derive(Debug, Args, Clone)]
+pub struct FarmArgs {
+    /// Who runs the tasks.
+    #[arg(long, value_name = "ENGINE", value_enum)]
+    pub engine: Engine,
+    /// Into how many parts a picture is dealt [default: one for each replicate].
+    #[arg(long, value_name = "N", value_parser = whole::<1, 4096>, allow_negative_numbers = true, conflicts_with = "frames")]
+    pub parts: Option<u32>,
+    /// The program as the cluster's machines see it [default: this one].
+    #[arg(long, value_name = "PATH")]
+    pub program: Option<PathBuf>,
+    /// Submit the job at once.
+    #[arg(long)]
+    pub submit: bool,
+    /// What to render.
+    #[command(flatten)]
+    pub render: RenderArgs,
+}
+
 /// Arguments of `merge`.
 #[derive(Debug, Args, Clone)]
 pub struct MergeArgs {
-    /// The parts, in any order.
-    #[arg(required = true, value_name = "PART.exr")]
+    /// The parts, in any order, or a folder with them.
+    #[arg(required = true, value_name = "PART.exr|DIR")]
     pub parts: Vec<PathBuf>,
     /// The image to write.
     #[arg(short, long, value_name = "OUT.exr")]

@@ -10,6 +10,7 @@ pub mod checkpointing;
 pub mod commands;
 pub mod diagnose;
 pub mod estimators;
+pub mod farm;
 pub mod frames;
 pub mod interrupt;
 pub mod judge;

@@ -221,7 +221,7 @@ mod tests {
     };
 
     /// 2πr R integrates to the total, and samples are distributed by it: of each twentieth of the light as much is found within as
-    /// without (midpoints in ln r, to 0.5 %). The mutant of the dipole that leaves out σtr d in ln d is off by 30 %.
+    /// without (midpoints in ln r, to 0.5 %).
     #[test]
     fn distances_are_chosen_as_light_leaves() {
         let coefficients = Coefficients {

@@ -223,8 +223,7 @@ mod tests {
         #![proptest_config(ProptestConfig::with_cases(24))]
 
         /// The phase function integrates to one, in both ways the same light is scattered, and samples have its density: the mean of a
-        /// polynomial by samples is that by quadrature (to 3 %). The mutant whose normals are seen from everywhere alike
-        /// (u.x² in place of u.x) is off by 10 % and more.
+        /// polynomial by samples is that by quadrature (to 3 %).
         #[test]
         fn flakes_scatter_all_light_and_as_much_either_way(
             s in matrices(),

@@ -1,5 +1,6 @@
 //! The command that draws a sample again.
 
+use super::{options, quoted};
 use crate::args::RenderArgs;
 use etalon_integrators::RenderPlan;
 
@@ -13,31 +14,15 @@ pub(super) fn command(
     replicate: u32,
     sample: u32,
 ) -> String {
-    // `shlex` quotes more than a shell asks for; a NUL, which it refuses, no command line held.
-    let plain = |c: char| c.is_ascii_alphanumeric() || "-_./=,:+".contains(c);
-    let quoted = |text: String| match shlex::try_quote(&text) {
-        Ok(quoted) if !text.chars().all(plain) || text.is_empty() => quoted.into_owned(),
-        _ => text.clone(),
-    };
     let mut words = vec![
         "etalon render".to_owned(),
-        quoted(args.scene.display().to_string()),
+        quoted(&args.scene.display().to_string()),
     ];
-    if let Some(integrator) = &args.integrator {
-        words.push(format!("--integrator {}", quoted(integrator.clone())));
-    }
-    if let Some(chooser) = args.light_chooser {
-        words.push(format!("--light-chooser {}", chooser.name()));
-    }
+    words.extend(options::of_the_picture(args));
     if let Some(frame) = args.frame {
         words.push(format!("--frames {} --fps {}", frame.number, args.fps));
     }
-    for (key, value) in &args.define {
-        words.push(format!("-D {}", quoted(format!("{key}={value}"))));
-    }
-    for folder in &args.data {
-        words.push(format!("--data {}", quoted(folder.display().to_string())));
-    }
+    words.extend(options::of_the_scene(args));
     let spp = u64::from(plan.replicates) * u64::from(plan.samples_per_replicate);
     words.push(format!(
         "--spp {spp} --replicates {} --seed {}",

@@ -4,14 +4,15 @@
 use super::note;
 use crate::adaptive::{self, Distribution};
 use crate::args::RenderArgs;
+use crate::part::PartOfMany;
 use crate::pipeline::{self, Loaded, RenderOptions};
 use crate::progress::Bar;
 use crate::target::{self, Failure, Pilot, Target};
 use etalon_film::{
-    CheckpointFacts, Disagreement, ExactFilm, Metadata, Part, SampleCounts, disagreements,
-    read_developed,
+    CheckpointFacts, Disagreement, ExactFilm, Metadata, Part, PartFacts, ReplicateSet,
+    SampleCounts, disagreements, read_developed,
 };
-use etalon_integrators::RenderPlan;
+use etalon_integrators::{RenderPlan, ReplicateRange};
 use etalon_params::Diagnostic;
 use std::path::{Path, PathBuf};
 use std::sync::atomic::AtomicBool;
@@ -294,21 +295,38 @@ pub(super) fn is_finished(
         let help = "to render it anew, remove it or leave `--resume` out";
         Diagnostic::error_nowhere(format!("{}: {reason}", path.display())).help(help)
     };
-    let there = read_developed(path).map_err(|error| refused(error.to_string()))?;
-    let Some(there) = there.metadata else {
+    let there = if args.part.is_some() {
+        // All of it, so that its checksum is verified.
+        Part::read(path)
+            .map(|part| Some(part.metadata()))
+            .map_err(|error| refused(error.to_string()))?
+    } else {
+        let there = read_developed(path).map_err(|error| refused(error.to_string()))?;
+        there.metadata
+    };
+    let Some(there) = there else {
         return Err(refused("is no image of Etalon's".to_owned()));
     };
-    if there.unfinished.is_some() {
+    let lacks = args.part.is_some_and(|part| !has_share(&there, part, plan));
+    if there.unfinished.is_some() || lacks {
         return Ok(false);
     }
     let film = ExactFilm::new(loaded.compiled.film.clone(), &loaded.integrator.channels())?;
     let mut here = film.metadata(pipeline::facts(loaded, plan));
     here.adaptive.clone_from(&there.adaptive);
+    here.part = there.part.clone().map(|part| PartFacts {
+        of: plan.replicates,
+        ..part
+    });
     (here.spp, here.replicates) = match args.error.is_some() || args.time.is_some() {
         true => (there.spp, there.replicates),
         false => {
             let each = u64::from(plan.samples_per_replicate);
-            (each * u64::from(plan.replicates), plan.replicates)
+            let replicates = match args.part {
+                Some(_) => there.replicates,
+                None => plan.replicates,
+            };
+            (each * u64::from(replicates), replicates)
         }
     };
     let differences = disagreements(&there, &here);
@@ -319,6 +337,14 @@ pub(super) fn is_finished(
         "is of another render: {}",
         in_words(&differences)
     )))
+}
+
+/// Whether a file has all the replicates that are the share of `part` in the whole.
+fn has_share(there: &Metadata, part: PartOfMany, plan: &RenderPlan) -> bool {
+    let share = ReplicateRange::of(plan.replicates, part.number - 1, part.count);
+    share.zip(there.part.as_ref()).is_some_and(|(share, part)| {
+        part.replicates == ReplicateSet::new(share.first..share.first + share.count)
+    })
 }
 
 /// What differs there and here.

@@ -10,6 +10,10 @@ use std::process::ExitCode;
 
 /// Puts parts together.
 pub fn run(args: &MergeArgs) -> ExitCode {
+    let args = &match with_folders(args) {
+        Ok(args) => args,
+        Err(message) => return fail(message),
+    };
     if let Err(message) = check_output(args) {
         return fail(message);
     }
@@ -25,6 +29,39 @@ pub fn run(args: &MergeArgs) -> ExitCode {
         Ok(()) => ExitCode::SUCCESS,
         Err(message) => fail(message),
     }
+}
+
+/// The same with the images of a folder in its place, in the order of their names; the output, where it lies among them, is none
+/// of them.
+fn with_folders(args: &MergeArgs) -> Result<MergeArgs, String> {
+    let mut parts = Vec::new();
+    for path in &args.parts {
+        if !path.is_dir() {
+            parts.push(path.clone());
+            continue;
+        }
+        let unreadable = |error| format!("cannot read {}: {error}", path.display());
+        let mut images = Vec::new();
+        for entry in std::fs::read_dir(path).map_err(unreadable)? {
+            let file = entry.map_err(unreadable)?.path();
+            let is_image = file.extension().is_some_and(|extension| extension == "exr");
+            let hidden = file
+                .file_name()
+                .is_some_and(|name| name.to_string_lossy().starts_with('.'));
+            if is_image && !hidden && file != args.output {
+                images.push(file);
+            }
+        }
+        if images.is_empty() {
+            return Err(format!("{} holds no .exr", path.display()));
+        }
+        images.sort();
+        parts.extend(images);
+    }
+    Ok(MergeArgs {
+        parts,
+        ..args.clone()
+    })
 }
 
 /// Refuses an output that could not be written, or that would take the place of a part.

@@ -6,10 +6,12 @@ pub mod compare;
 pub mod convert;
 mod delivery;
 pub mod estimators;
+pub mod farm;
 mod frames;
 pub mod info;
 pub mod merge;
 pub mod movie;
+mod options;
 mod plugins;
 pub mod render;
 pub mod replay;
@@ -28,6 +30,7 @@ pub fn run(command: &Command) -> ExitCode {
     match command {
         Command::Render(args) => render::run(args),
         Command::Merge(args) => merge::run(args),
+        Command::Farm(args) => farm::run(args),
         Command::Compare(args) => compare::run(args),
         Command::Estimators(args) => estimators::run(args),
         Command::Convert(args) => convert::run(args),
@@ -39,6 +42,15 @@ pub fn run(command: &Command) -> ExitCode {
             clap_complete::generate(args.shell, &mut command, "etalon", &mut script);
             answer(&String::from_utf8_lossy(&script), ExitCode::SUCCESS)
         }
+    }
+}
+
+/// A word for a shell. `shlex` quotes more than a shell asks for; a NUL, which it refuses, no command line held.
+pub(crate) fn quoted(text: &str) -> String {
+    let plain = |c: char| c.is_ascii_alphanumeric() || "-_./=,:+".contains(c);
+    match shlex::try_quote(text) {
+        Ok(quoted) if !text.chars().all(plain) || text.is_empty() => quoted.into_owned(),
+        _ => text.to_owned(),
     }
 }
 

@@ -79,7 +79,7 @@ pub(super) fn run_here(args: &RenderArgs) -> ExitCode {
     {
         return fail(message);
     }
-    if args.frame.is_some() && args.resume {
+    if (args.frame.is_some() || args.part.is_some()) && args.resume {
         let plan = amount::plan(args, &loaded);
         match amount::is_finished(args, &loaded, &plan) {
             Ok(true) => {

@@ -12,6 +12,7 @@ mod convert;
 mod determinism;
 mod estimators;
 mod failure;
+mod farm;
 mod field_scenes;
 mod frames;
 mod info;

@@ -150,8 +150,8 @@ fn all_estimators_find_the_same_light_in_media() {
 }
 
 /// A shell of glass with matter in it, by surfaces between each two of air, glass and matter, or by `priority` of bodies that
-/// overlap: both ways the same light, within four standard errors (α = 10⁻⁴) for `path` and `bdpt`. Without `priority` the
-/// overlapping bodies are 20 standard errors away.
+/// overlap: both ways the same light, within four standard errors (α = 10⁻⁴) for `path` and `bdpt`. With the priorities the other
+/// way round they are more than ten apart.
 #[test]
 fn overlapping_bodies_are_surfaces_between_each_two() {
     let glass = |inside: f64, outside: f64| {
@@ -254,7 +254,7 @@ fn light_looked_for_along_a_ray_is_the_same_with_less_noise() {
 }
 
 /// Flakes that absorb nothing cannot be seen in an even sky, from whichever side, nor when paths are joined from both ends: within four
-/// standard errors (α = 10⁻⁴). The mutant whose density does not depend on where light goes is off by a fifth.
+/// standard errors (α = 10⁻⁴).
 #[test]
 fn flakes_that_absorb_nothing_are_not_seen_in_an_even_sky() {
     let sky = "<emitter type=\"constant\"><spectrum name=\"radiance\" type=\"d65\"/></emitter>";

@@ -162,3 +162,71 @@ fn nothing_is_left_of_a_render_that_was_not_interrupted() {
     assert!(workshop.read("plain.exr") == workshop.read("kept.exr"));
     assert_eq!(workshop.files(), ["kept.exr", "plain.exr"]);
 }
+
+/// A part that is finished is verified and left alone; one of another render, or a damaged one, is refused and stays as it is.
+#[test]
+fn a_finished_part_is_verified_and_left_alone() {
+    let workshop = Workshop::new();
+    let part = ["--spp", "64", "--part", "2/4", "--resume"];
+    workshop.render("b.exr", &part);
+    let before = workshop.read("b.exr");
+    let ran = workshop.render("b.exr", &part);
+    assert!(ran.stderr.contains("is there already"), "{}", ran.stderr);
+    assert!(workshop.read("b.exr") == before);
+    let scene = cornell_box();
+    let again = |further: &[&str]| {
+        let all = [
+            &["render", &scene, "-o", "b.exr"],
+            &SIZE[..],
+            &part,
+            further,
+        ]
+        .concat();
+        workshop.run(&all)
+    };
+    let other = again(&["--seed", "5"]);
+    assert_eq!(other.code, Some(2));
+    assert!(
+        other.stderr.contains("the seed is 0 there, 5 here"),
+        "{}",
+        other.stderr
+    );
+    let damaged = &before[..before.len() - 100];
+    workshop.write("b.exr", damaged);
+    assert_eq!(again(&[]).code, Some(2));
+    assert!(workshop.read("b.exr") == damaged);
+}
+
+/// A folder of parts is merged to the bits of one render, and one that is missing or damaged is named.
+#[test]
+fn a_folder_of_parts_is_merged() {
+    let workshop = Workshop::new();
+    workshop.render("whole.exr", &["--spp", "64"]);
+    std::fs::create_dir(workshop.path("parts")).expect("a folder");
+    for i in 1..=4 {
+        let (name, part) = (format!("parts/{i}.exr"), format!("{i}/4"));
+        workshop.render(&name, &["--spp", "64", "--part", &part]);
+    }
+    workshop.run(&["merge", "parts", "-o", "merged.exr"]).fine();
+    assert!(workshop.read("merged.exr") == workshop.read("whole.exr"));
+    let third = workshop.read("parts/3.exr");
+    workshop.write("parts/3.exr", &third[..third.len() - 50]);
+    let ran = workshop.run(&["merge", "parts", "-o", "again.exr"]);
+    assert!(
+        ran.code == Some(2) && ran.stderr.contains("3.exr"),
+        "{}",
+        ran.stderr
+    );
+    std::fs::remove_file(workshop.path("parts/3.exr")).expect("removed");
+    let ran = workshop.run(&["merge", "parts", "-o", "again.exr"]);
+    assert!(
+        ran.code == Some(2) && ran.stderr.contains("missing: 4–5")
+            || ran.stderr.contains("missing: 4"),
+        "{}",
+        ran.stderr
+    );
+    let ran = workshop
+        .run(&["merge", "parts", "-o", "preview.exr", "--partial"])
+        .fine();
+    assert!(ran.stderr.contains("missing"), "{}", ran.stderr);
+}

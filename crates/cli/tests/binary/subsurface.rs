@@ -87,8 +87,7 @@ fn an_open_shape_with_something_below_its_surface_is_pointed_out() {
 }
 
 /// A thick ball of `burley` shows its `albedo`, which may vary over it: half the ball black and half 0.8 is half as bright, through glass
-/// as below a diffuse boundary less what that mirrors; to 2.5 % and four standard errors (α = 10⁻⁴). The mutant that takes what is seen
-/// through glass for what is below it is off by a third.
+/// as below a diffuse boundary less what that mirrors; to 2.5 % and four standard errors (α = 10⁻⁴).
 #[test]
 fn a_diffusion_profile_shows_the_albedo_of_the_surface() {
     let halves = "<texture name=\"albedo\" type=\"checkerboard\"><spectrum name=\"color0\" value=\"0\"/>

@@ -1,0 +1,100 @@
+//! `etalon farm`: job files whose tasks, by whatever engine, come to the picture of one render.
+
+use crate::workshop::{Workshop, cornell_box};
+use std::process::Command;
+
+const SIZE: [&str; 6] = ["-D", "resx=24", "-D", "resy=20", "--spp", "64"];
+
+/// Runs a script of a job as an engine would.
+#[track_caller]
+fn sh(workshop: &Workshop, script: &str, arguments: &[&str]) -> (bool, String) {
+    let ran = Command::new("sh")
+        .arg(workshop.path(script))
+        .args(arguments)
+        .env("SOURCE_DATE_EPOCH", "0")
+        .output()
+        .expect("sh runs");
+    (
+        ran.status.success(),
+        String::from_utf8_lossy(&ran.stderr).into_owned(),
+    )
+}
+
+#[track_caller]
+fn farm(workshop: &Workshop, further: &[&str]) -> String {
+    let scene = cornell_box();
+    let all = [&["farm", &scene, "-o", "job"], &SIZE[..], further].concat();
+    workshop.run(&all).fine().stdout
+}
+
+/// Three tasks, one of them twice and another out of order, come to the bits of one render.
+#[test]
+fn tasks_and_merge_come_to_the_bits_of_one_render() {
+    let workshop = Workshop::new();
+    // By the name that tasks know it by.
+    let scene = std::fs::canonicalize(cornell_box()).expect("the scene is there");
+    let scene = scene.to_string_lossy();
+    let all = [&["render", &scene, "-o", "whole.exr"], &SIZE[..]].concat();
+    workshop.run(&all).fine();
+    let told = farm(&workshop, &["--engine", "parallel", "--parts", "3"]);
+    assert!(
+        told.starts_with("sh ") && told.contains("submit.sh"),
+        "{told}"
+    );
+    assert!(
+        !sh(&workshop, "job/merge.sh", &[]).0,
+        "nothing is there yet"
+    );
+    for task in ["2", "3", "2"] {
+        let (fine, said) = sh(&workshop, "job/task.sh", &[task]);
+        assert!(fine, "{said}");
+    }
+    let (fine, said) = sh(&workshop, "job/merge.sh", &[]);
+    assert!(!fine && said.contains("missing: 0"), "{said}");
+    assert!(sh(&workshop, "job/task.sh", &["1"]).0);
+    let (fine, said) = sh(&workshop, "job/merge.sh", &[]);
+    assert!(fine, "{said}");
+    assert!(workshop.read("job/cornell-box.exr") == workshop.read("whole.exr"));
+    assert!(workshop.path("job/cornell-box.png").exists());
+}
+
+#[test]
+fn frames_are_tasks_too() {
+    let workshop = Workshop::new();
+    farm(&workshop, &["--engine", "slurm", "--frames", "3..4"]);
+    let script = String::from_utf8(workshop.read("job/render.slurm")).expect("text");
+    assert!(
+        script.contains("--array=3-4") && script.contains("--requeue"),
+        "{script}"
+    );
+    assert!(sh(&workshop, "job/task.sh", &["3"]).0 && sh(&workshop, "job/task.sh", &["4"]).0);
+    assert!(sh(&workshop, "job/merge.sh", &[]).0);
+    assert!(workshop.path("job/frames/cornell-box.0004.exr").exists());
+    assert!(workshop.path("job/cornell-box.png").exists());
+}
+
+#[test]
+fn what_tasks_cannot_have_is_refused_before_anything_is_written() {
+    let workshop = Workshop::new();
+    let scene = cornell_box();
+    for (further, words) in [
+        (&["--parts", "9"][..], "9 parts"),
+        (&["--resume"], "--resume"),
+        (&["--part", "1/2"], "--part"),
+        (&["--integrator", "pathh"], "pathh"),
+        (&["--time", "5"], "--time"),
+    ] {
+        let all = [
+            &["farm", &scene, "-o", "job", "--engine", "openjd"],
+            further,
+        ]
+        .concat();
+        let ran = workshop.run(&all);
+        assert!(
+            ran.code == Some(2) && ran.stderr.contains(words),
+            "{further:?}: {}",
+            ran.stderr
+        );
+    }
+    assert!(workshop.files().is_empty());
+}
