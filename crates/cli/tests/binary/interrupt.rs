@@ -287,18 +287,22 @@ fn a_part_without_a_finished_replicate_is_no_part() {
     assert!(said.stderr.contains("not a part"), "{}", said.stderr);
 }
 
-/// Both arrive before anything could be finished.
+/// Both arrive before anything could be finished. On a busy machine the first may get as far as an image before the second is
+/// heard, but not three times; a second signal that is not heard at all leaves one every time.
 #[test]
 fn a_second_signal_ends_the_process_at_once() {
-    let workshop = Workshop::new();
-    let child = long_render(&workshop, &["1"]);
-    wait_until_it_listens(&child);
-    wait_until_it_renders(&child);
-    for signal in ["-STOP", "-INT", "-TERM", "-CONT"] {
-        send(signal, &child);
-    }
-    assert_eq!(end(child).code(), Some(130));
-    assert!(workshop.files().is_empty());
+    let at_once = |_| {
+        let workshop = Workshop::new();
+        let child = long_render(&workshop, &["1"]);
+        wait_until_it_listens(&child);
+        wait_until_it_renders(&child);
+        for signal in ["-STOP", "-INT", "-TERM", "-CONT"] {
+            send(signal, &child);
+        }
+        assert_eq!(end(child).code(), Some(130));
+        workshop.files().is_empty()
+    };
+    assert!((0..3).any(at_once));
 }
 
 #[test]
