@@ -153,11 +153,13 @@ fn hand_over(args: &FarmArgs, job: &Job) -> ExitCode {
             Work::Parts(_) => "parts",
             Work::Frames { .. } => "frames",
         };
-        note(format!(
-            "{} {what} in {}; submit them with",
-            job.work.count(),
-            job.folder.display()
-        ));
+        if !args.render.quiet {
+            note(format!(
+                "{} {what} in {}; submit them with",
+                job.work.count(),
+                job.folder.display()
+            ));
+        }
         return super::answer(&format!("{command}\n"), ExitCode::SUCCESS);
     }
     let needed = match job.engine {
