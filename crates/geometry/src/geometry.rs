@@ -173,6 +173,13 @@ impl Geometry {
         self.attachments[hit.shape.0 as usize].light
     }
 
+    /// The material of the hit shape; `None` if its faces have their own.
+    #[inline]
+    pub fn material(&self, hit: &Hit) -> Option<MaterialId> {
+        let binding = &self.attachments[hit.shape.0 as usize];
+        binding.faces.is_none().then_some(binding.material)
+    }
+
     /// The differential geometry of a hit.
     #[inline]
     pub fn vertex(&self, ray: &Ray, hit: &Hit) -> SurfaceInteraction {

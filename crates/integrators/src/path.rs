@@ -82,7 +82,7 @@ pub(crate) fn follow<W: World, S: Sampler, C: PathHooks>(
     while walks.iter().flatten().any(PathState::goes_on) {
         let going = || |walk: &&mut PathState<S, C>| walk.goes_on();
         let queries = walks.iter_mut().flatten().filter(going());
-        world.intersect_batch(queries.map(PathState::ray_query));
+        world.intersect_batch(queries.map(|walk| walk.ray_query(world)));
         for walk in walks.iter_mut().flatten().filter(going()) {
             walk.look_through_hidden(world, settings);
         }

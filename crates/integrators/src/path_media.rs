@@ -25,12 +25,26 @@ struct Arrival {
 }
 
 impl<S: Sampler, C: PathHooks> PathState<S, C> {
+    /// Decides how far the path flies through the medium that it is in, so that no surface beyond is looked for.
+    #[cold]
+    #[inline(never)]
+    pub(crate) fn prepare_flight<W: World>(&mut self, world: &W) {
+        self.flight = self.draw_event().lobe;
+        if self.variant.equiangular {
+            return;
+        }
+        let medium = world.medium(self.ray.medium, &self.wavelengths);
+        let reach = medium.and_then(|medium| medium.reach(&self.ray, self.flight));
+        // A little farther than where light is scattered, so that it is a surface that ends the ray or nothing. NaN changes nothing.
+        self.ray.t_max = self.ray.t_max.min(reach.map_or(f32::INFINITY, |t| t * 1.01));
+    }
+
     /// Flies through the medium to the hit, or to where light is scattered before it. Whether the path has left its
     /// ray: it goes on from a point of the medium, or has ended.
     #[cold]
     #[inline(never)]
     pub(crate) fn fly<W: World>(&mut self, world: &W, settings: &PathSettings) -> bool {
-        let u = self.draw_event().lobe;
+        let u = self.flight;
         let scatters = self.depth < settings.max_depth;
         let along = (self.variant.equiangular && scatters)
             .then(|| self.look_along(world, settings))

@@ -34,6 +34,8 @@ pub(crate) struct PathState<S, C = ()> {
     pub(crate) depth: u32,
     /// Scattering events so far, null interactions not counted.
     pub(crate) scatter_count: u32,
+    /// The number that decides how far the path flies through the medium that it is in.
+    pub(crate) flight: f32,
     /// Events so far for which random numbers were drawn.
     events: u32,
     /// Whether the path goes on with `ray`.
@@ -82,6 +84,7 @@ impl<S: Sampler, C: PathHooks> PathState<S, C> {
             eta: 1.0,
             depth: 1,
             scatter_count: 0,
+            flight: 0.0,
             events: 0,
             goes_on: settings.max_depth > 0,
             shadow_ray: None,
@@ -166,14 +169,17 @@ impl<S: Sampler, C: PathHooks> PathState<S, C> {
     /// Finds the next surface; the camera looks through hidden lights.
     #[inline]
     fn intersect<W: World>(&mut self, world: &W, settings: &PathSettings) {
-        let (ray, hit) = self.ray_query();
+        let (ray, hit) = self.ray_query(world);
         *hit = world.intersect(ray);
         self.look_through_hidden(world, settings);
     }
 
     /// The ray whose nearest surface is wanted, and the place for it.
     #[inline]
-    pub(crate) fn ray_query(&mut self) -> (&Ray, &mut Option<Hit>) {
+    pub(crate) fn ray_query<W: World>(&mut self, world: &W) -> (&Ray, &mut Option<Hit>) {
+        if self.ray.medium.is_some() {
+            self.prepare_flight(world);
+        }
         (&self.ray, &mut self.hit)
     }
 

@@ -5,6 +5,8 @@
 //! portable implementations (errors below 1 ulp unless its documentation says otherwise).
 //! Everything an image depends on calls these; a lint forbids the standard library's.
 
+use glam::Vec4;
+
 /// The largest number below one: what a random number in [0, 1) is clamped to after arithmetic.
 pub const ONE_MINUS_EPSILON: f32 = 1.0 - f32::EPSILON / 2.0;
 
@@ -111,6 +113,33 @@ pub fn exp(x: f32) -> f32 {
     libm::expf(x)
 }
 
+/// e to the power of each of four numbers, none above 88: 0 below −87, where results would lose digits.
+///
+/// All lanes at once, without a branch: the error is below 1.1 ulp. x = n·ln 2 + r with |r| ≤ ½ ln 2, and eʳ by a polynomial fitted
+/// by ourselves (minimax, relative error 3·10⁻⁹).
+#[inline]
+pub fn exp4(x: Vec4) -> Vec4 {
+    // Adding 1½·2²³ rounds to an integer and leaves it in the lowest bits.
+    const ROUNDING: Vec4 = Vec4::splat(12_582_912.0);
+    let rounded = x.mul_add(Vec4::splat(core::f32::consts::LOG2_E), ROUNDING);
+    let n = rounded - ROUNDING;
+    // ln 2 in two parts.
+    let r = n.mul_add(Vec4::splat(-core::f32::consts::LN_2), x);
+    let r = n.mul_add(Vec4::splat(1.904_654_2e-9), r);
+    let tail = r
+        .mul_add(Vec4::splat(1.381_454e-3), Vec4::splat(8.368_745e-3))
+        .mul_add(r, Vec4::splat(4.166_839e-2))
+        .mul_add(r, Vec4::splat(0.166_665_21))
+        .mul_add(r, Vec4::splat(0.499_999_94));
+    let mantissa = (r * r).mul_add(tail, r) + Vec4::ONE;
+    // 2ⁿ by the exponent's bits.
+    let power = rounded
+        .to_array()
+        .map(|n| f32::from_bits(n.to_bits().wrapping_add(127) << 23));
+    let small = x.cmplt(Vec4::splat(-87.0));
+    Vec4::select(small, Vec4::ZERO, mantissa * Vec4::from_array(power))
+}
+
 /// Natural logarithm.
 #[inline]
 pub fn ln(x: f32) -> f32 {
@@ -189,5 +218,18 @@ mod tests {
             let expected = exact[quarter.rem_euclid(4) as usize];
             assert_eq!(sin_cos_turns(quarter as f32 * 0.25), expected);
         }
+    }
+
+    #[test]
+    fn exponentials_of_four_are_within_1_1_ulp() {
+        let mut worst = 0.0f64;
+        for i in 0..(1 << 22) {
+            let x = 88.0 - 175.0 * i as f32 / (1 << 22) as f32;
+            let exact = crate::float64::exp(f64::from(x));
+            let all = exp4(Vec4::new(x, 0.0, -100.0, f32::NEG_INFINITY));
+            assert_eq!(all.to_array()[1..], [1.0, 0.0, 0.0]);
+            worst = worst.max((f64::from(all.x) - exact).abs() / ulp(exact));
+        }
+        assert!(worst < 1.1, "{worst} ulp");
     }
 }

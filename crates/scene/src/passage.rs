@@ -1,11 +1,46 @@
 //! Straight travel past what lets light pass.
 
+use crate::rays;
 use crate::scene::Scene;
 use etalon_spectrum::Wavelengths;
-use etalon_transport::{Bsdf, Medium, Ray, Transmission, World};
+use etalon_transport::{Bsdf, Hit, Medium, Ray, Transmission, World};
 use glam::Vec4;
 
 impl Scene {
+    /// Whether no light goes straight on where a ray hits a surface; `false` also where that is not known yet.
+    #[inline]
+    fn is_opaque(&self, hit: &Hit) -> bool {
+        let material = self.parts.lookup.geometry.material(hit);
+        material.is_some_and(|id| !self.parts.materials[id.0 as usize].has_null())
+            && self.media().bodies().is_none()
+    }
+
+    /// A segment through what fills the space, past nothing: any surface is opaque.
+    #[inline]
+    pub(crate) fn clear_passage(
+        &self,
+        ray: &Ray,
+        wavelengths: &Wavelengths,
+    ) -> Option<Transmission> {
+        rays::count();
+        if self.parts.lookup.geometry.occluded(ray) {
+            return None;
+        }
+        let mut passage = Transmission::FREE;
+        self.fill(&mut passage, ray, ray.t_max, wavelengths);
+        (passage.transmittance != Vec4::ZERO).then_some(passage)
+    }
+
+    /// Goes on through the medium that a ray is in, up to `t_max`.
+    #[inline]
+    fn fill(&self, passage: &mut Transmission, ray: &Ray, t_max: f32, wavelengths: &Wavelengths) {
+        if ray.medium.is_some()
+            && let Some(medium) = self.medium(ray.medium, wavelengths)
+        {
+            passage.then(&medium.transmittance(ray, t_max, &mut ray.stream(0.0)));
+        }
+    }
+
     /// A segment through surfaces that let light pass: each is met in turn and asked how much.
     pub(crate) fn passage_through(
         &self,
@@ -18,24 +53,17 @@ impl Scene {
         let mut passage = Transmission::FREE;
         loop {
             let hit = self.intersect(&ray);
-            if ray.medium.is_some()
-                && let Some(medium) = self.medium(ray.medium, wavelengths)
-            {
-                let t = hit.map_or(ray.t_max, |hit| hit.t);
-                passage.then(&medium.transmittance(&ray, t, &mut ray.stream(0.0)));
-                if passage.transmittance == Vec4::ZERO {
-                    return None;
-                }
+            if hit.is_some_and(|hit| crossings == 0 || self.is_opaque(&hit)) {
+                return None;
+            }
+            let t = hit.map_or(ray.t_max, |hit| hit.t);
+            self.fill(&mut passage, &ray, t, wavelengths);
+            if passage.transmittance == Vec4::ZERO {
+                return None;
             }
             let Some(hit) = hit else { break };
-            if crossings == 0 {
-                return None;
-            }
             crossings -= 1;
             let vertex = self.vertex(&ray, &hit);
-            if !self.material(&vertex).has_null() && self.media().bodies().is_none() {
-                return None;
-            }
             let bsdf = self.bsdf(&vertex, -ray.direction, wavelengths);
             passage.then(&Transmission {
                 transmittance: bsdf.null_transmittance(),

@@ -210,9 +210,8 @@ impl World for Scene {
         wavelengths: &Wavelengths,
         crossings: u32,
     ) -> Option<Transmission> {
-        if !self.parts.has_null && !self.parts.has_media {
-            rays::count();
-            return (!self.parts.lookup.geometry.occluded(ray)).then_some(Transmission::FREE);
+        if !self.parts.has_null && self.parts.media.bodies().is_none() {
+            return self.clear_passage(ray, wavelengths);
         }
         self.passage_through(*ray, wavelengths, crossings)
     }

@@ -109,7 +109,7 @@ pub(crate) fn passing_control(depth: f32) -> f32 {
 /// T of an optical depth, per lane.
 #[inline]
 fn attenuated(depth: Vec4) -> Vec4 {
-    Vec4::from_array(depth.to_array().map(|depth| float::exp(-depth)))
+    float::exp4(-depth)
 }
 
 /// T over a distance, per lane.
@@ -147,6 +147,12 @@ fn flown<M: Medium + ?Sized>(
     }
 }
 
+/// How far lane 0 flies in closed form if nothing ends the ray before.
+#[inline]
+pub(crate) fn reach(extinction: Vec4, u: f32) -> f32 {
+    -float::ln(1.0 - u) / extinction.x
+}
+
 /// A flight in closed form, through a medium that is the same everywhere.
 #[inline]
 pub(crate) fn closed<M: Medium + ?Sized>(
@@ -157,7 +163,7 @@ pub(crate) fn closed<M: Medium + ?Sized>(
 ) -> FreeFlight<M::Phase> {
     let coefficients = medium.coefficients(ray.origin, ray.direction);
     let extinction = coefficients.extinction();
-    let t = -float::ln(1.0 - u) / extinction.x;
+    let t = reach(extinction, u);
     // False where lane 0 is not attenuated, and for NaN.
     let end = (t < t_max).then_some((t, coefficients));
     let way = if end.is_some() { t } else { t_max };

@@ -221,6 +221,16 @@ pub trait Medium {
         flight
     }
 
+    /// How far a flight along `ray` with the number `u` goes if nothing ends the ray before: no surface beyond matters to it.
+    /// `None` if that is not known before it has been flown.
+    #[inline]
+    fn reach(&self, ray: &Ray, u: f32) -> Option<f32> {
+        (self.tracking() == Tracking::Closed).then(|| {
+            let coefficients = self.coefficients(ray.origin, ray.direction);
+            flight::reach(coefficients.extinction(), u)
+        })
+    }
+
     /// An estimate of the light that arrives at `t_max`.
     fn transmittance(&self, ray: &Ray, t_max: f32, stream: &mut impl Sampler) -> Transmission {
         let closed = match self.tracking() {
