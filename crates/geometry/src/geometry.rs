@@ -173,10 +173,10 @@ impl Geometry {
         self.attachments[hit.shape.0 as usize].light
     }
 
-    /// The material of the hit shape; `None` if its faces have their own.
+    /// The material of a shape; `None` if its faces have their own.
     #[inline]
-    pub fn material(&self, hit: &Hit) -> Option<MaterialId> {
-        let binding = &self.attachments[hit.shape.0 as usize];
+    pub fn material_of(&self, shape: ShapeId) -> Option<MaterialId> {
+        let binding = &self.attachments[shape.0 as usize];
         binding.faces.is_none().then_some(binding.material)
     }
 

@@ -36,7 +36,10 @@ impl<S: Sampler, C: PathHooks> PathState<S, C> {
         let medium = world.medium(self.ray.medium, &self.wavelengths);
         let reach = medium.and_then(|medium| medium.reach(&self.ray, self.flight));
         // A little farther than where light is scattered, so that it is a surface that ends the ray or nothing. NaN changes nothing.
-        self.ray.t_max = self.ray.t_max.min(reach.map_or(f32::INFINITY, |t| t * 1.01));
+        self.ray.t_max = self
+            .ray
+            .t_max
+            .min(reach.map_or(f32::INFINITY, |t| t * 1.01));
     }
 
     /// Flies through the medium to the hit, or to where light is scattered before it. Whether the path has left its
@@ -46,7 +49,8 @@ impl<S: Sampler, C: PathHooks> PathState<S, C> {
     pub(crate) fn fly<W: World>(&mut self, world: &W, settings: &PathSettings) -> bool {
         let u = self.flight;
         let scatters = self.depth < settings.max_depth;
-        let along = (self.variant.equiangular && scatters)
+        let dark = world.is_dark(self.ray.medium);
+        let along = (self.variant.equiangular && scatters && !dark)
             .then(|| self.look_along(world, settings))
             .flatten();
         let hit = self.hit.as_ref();
@@ -133,16 +137,19 @@ impl<S: Sampler, C: PathHooks> PathState<S, C> {
     ) {
         let (wo, time, medium) = (-self.ray.direction, self.ray.time, self.ray.medium);
         let event = self.draw_event();
-        let from = self.light_in_medium(world, settings, arrival, phase, &event);
-        self.hooks.on_light_sample();
+        let mut sampled = None;
+        if !world.is_dark(medium) {
+            sampled = Some(self.light_in_medium(world, settings, arrival, phase, &event));
+            self.hooks.on_light_sample();
+        }
         let sample = phase.sample(wo, event.direction);
         self.scatter_count += 1;
         self.variant.candidates = LightCandidates::ONE;
         let density = sample.density.lanes();
-        self.light_mis = LightMis {
+        self.light_mis = sampled.map_or(LightMis::NONE, |from| LightMis {
             from,
             r_l: arrival.lit.r_u / density.x,
-        };
+        });
         self.throughput.scatter(sample.value, density);
         self.ray = Ray {
             medium,

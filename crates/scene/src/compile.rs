@@ -115,7 +115,7 @@ pub fn compile_with(
     }
     let bounded = (!surfaces.placed_media).then_some(surfaces.interfaces.as_slice());
     let media = media::prepared(surfaces.media, bounded, camera_medium, &lookup, diagnostics)?;
-    let media = SceneMedia::new(
+    let mut media = SceneMedia::new(
         media,
         &surfaces.interfaces,
         surfaces.placed_media,
@@ -124,6 +124,7 @@ pub fn compile_with(
         bodies,
         &lookup,
     );
+    media.find_dark(&surfaces.interfaces, &surfaces.materials, &lights, &lookup);
     let [low, high] = media.extent([bounds.min, bounds.max]);
     let bounds = BoundingSphere::of_box(low, high);
     let kind = (options.light_chooser)

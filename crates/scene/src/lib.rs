@@ -8,6 +8,7 @@ mod bodies;
 pub mod builder;
 mod capabilities;
 pub mod compile;
+mod dark_media;
 mod displacement;
 mod emission_medium;
 pub mod lookup;

@@ -221,7 +221,9 @@ pub struct SceneMedia {
     /// That of the camera.
     pub camera: MediumId,
     /// The boxes of the shapes that hold each.
-    boxes: Vec<Option<[Vec3; 2]>>,
+    pub(crate) boxes: Vec<Option<[Vec3; 2]>>,
+    /// Whether no light enters each straight.
+    pub(crate) dark: Vec<bool>,
     /// Around each light, as far as the scene says.
     lights: Vec<Option<MediumInterface>>,
     /// Shapes that overlap, if any do.
@@ -276,6 +278,7 @@ impl SceneMedia {
             interfaces,
             camera,
             bodies,
+            dark: Vec::new(),
         }
     }
 

@@ -10,7 +10,7 @@ impl Scene {
     /// Whether no light goes straight on where a ray hits a surface; `false` also where that is not known yet.
     #[inline]
     fn is_opaque(&self, hit: &Hit) -> bool {
-        let material = self.parts.lookup.geometry.material(hit);
+        let material = self.parts.lookup.geometry.material_of(hit.shape);
         material.is_some_and(|id| !self.parts.materials[id.0 as usize].has_null())
             && self.media().bodies().is_none()
     }

@@ -194,6 +194,11 @@ impl World for Scene {
     }
 
     #[inline]
+    fn is_dark(&self, medium: MediumId) -> bool {
+        self.parts.media.is_dark(medium)
+    }
+
+    #[inline]
     fn diffusion(
         &self,
         medium: MediumId,

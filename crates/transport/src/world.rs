@@ -76,6 +76,13 @@ pub trait World: Sync {
         None
     }
 
+    /// Whether no light enters a medium straight, so that sampling lights there finds nothing. A world that does not know keeps
+    /// this.
+    #[inline]
+    fn is_dark(&self, _medium: MediumId) -> bool {
+        false
+    }
+
     /// The diffusion profile that stands for walks in a medium below the surface point `at`, if it has one. A world without
     /// such media keeps this.
     #[inline]
