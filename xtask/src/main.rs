@@ -1,10 +1,11 @@
-//! The tasks of the house: `cargo xtask validate`, `accelerators`, `references`, `mutants`, `calibrate`, `efficiency`, `speed`, `bits`, `scenes`, `plugins`, `tables`, `tabulate`.
+//! The tasks of the house: `cargo xtask validate`, `accelerators`, `references`, `mutants`, `calibrate`, `efficiency`, `speed`, `bits`, `farm-test`, `scenes`, `plugins`, `tables`, `tabulate`.
 
 mod accelerators;
 mod bits;
 mod calibrate;
 mod compatibility;
 mod efficiency;
+mod farm_test;
 mod mutants;
 mod plugins;
 mod references;
@@ -46,6 +47,8 @@ enum Task {
     Accelerators(accelerators::Arguments),
     /// Check that threads and build profiles do not change a bit (builds `release`: minutes)
     Bits,
+    /// Run the job files of `etalon farm` by the engines that are installed, one node killed on the way, and compare bits
+    FarmTest(farm_test::Arguments),
     /// Write the generated files of `scenes/` anew
     Scenes,
     /// Write `docs/scene-format.md` and `docs/mitsuba-compatibility.md` anew: what there is, asked of the code
@@ -66,6 +69,7 @@ fn main() -> ExitCode {
         Task::Speed(arguments) => speed::run(&arguments),
         Task::Accelerators(arguments) => accelerators::run(&arguments),
         Task::Bits => bits::run(),
+        Task::FarmTest(arguments) => farm_test::run(&arguments),
         Task::Scenes => scenes::run(),
         Task::Plugins => plugins::run(),
         Task::Tables(arguments) => tables::run(&arguments),

@@ -238,6 +238,7 @@ impl RenderArgs {
 
 /// Arguments of `farm`.
 #[derive(Debug, Args, Clone)]
+#[command(mut_arg("output", |output| output.value_name("DIR").help("The folder for job files, parts and picture").long_help(None)))]
 pub struct FarmArgs {
     /// Who runs the tasks.
     #[arg(long, value_name = "ENGINE", value_enum)]

@@ -197,7 +197,7 @@ fn a_finished_part_is_verified_and_left_alone() {
     assert!(workshop.read("b.exr") == damaged);
 }
 
-/// A folder of parts is merged to the bits of one render, and one that is missing or damaged is named.
+/// A folder of parts is merged to the bits of one render, and one that is missing, damaged, another scene's or there twice is named.
 #[test]
 fn a_folder_of_parts_is_merged() {
     let workshop = Workshop::new();
@@ -217,6 +217,24 @@ fn a_folder_of_parts_is_merged() {
         "{}",
         ran.stderr
     );
+    // In its place: the same part of another scene, and one that is there already.
+    let other = ["--spp", "64", "--part", "3/4", "-D", "max_depth=3"];
+    workshop.render("parts/3.exr", &other);
+    let ran = workshop.run(&["merge", "parts", "-o", "again.exr"]);
+    assert!(
+        ran.code == Some(2) && ran.stderr.contains("scene"),
+        "{}",
+        ran.stderr
+    );
+    let second = workshop.read("parts/2.exr");
+    workshop.write("parts/3.exr", &second);
+    let ran = workshop.run(&["merge", "parts", "-o", "again.exr"]);
+    assert!(
+        ran.code == Some(2) && ran.stderr.contains("replicate"),
+        "{}",
+        ran.stderr
+    );
+    assert!(!workshop.path("again.exr").exists());
     std::fs::remove_file(workshop.path("parts/3.exr")).expect("removed");
     let ran = workshop.run(&["merge", "parts", "-o", "again.exr"]);
     assert!(
