@@ -1,10 +1,13 @@
 //! The command line.
 
+mod farm;
+
+pub use farm::{FarmArgs, PathMap};
+
 use crate::arg_values::{
     ReplayAddress, parse_accelerator, parse_define, parse_error, parse_light_chooser,
     parse_probability, parse_rate, parse_replay, parse_seconds, parse_seed, whole,
 };
-use crate::farm::Engine;
 use crate::frames::{Frame, FrameRange};
 use crate::outputs::Outputs;
 use crate::part::PartOfMany;
@@ -234,27 +237,6 @@ impl RenderArgs {
     pub fn output(&self) -> &Path {
         (self.outputs.as_ref()).map_or(Path::new(""), |outputs| &outputs.image)
     }
-}
-
-/// Arguments of `farm`.
-#[derive(Debug, Args, Clone)]
-#[command(mut_arg("output", |output| output.value_name("DIR").help("The folder for job files, parts and picture").long_help(None)))]
-pub struct FarmArgs {
-    /// Who runs the tasks.
-    #[arg(long, value_name = "ENGINE", value_enum)]
-    pub engine: Engine,
-    /// Into how many parts a picture is dealt [default: one for each replicate].
-    #[arg(long, value_name = "N", value_parser = whole::<1, 4096>, allow_negative_numbers = true, conflicts_with = "frames")]
-    pub parts: Option<u32>,
-    /// The program as the cluster's machines see it [default: this one].
-    #[arg(long, value_name = "PATH")]
-    pub program: Option<PathBuf>,
-    /// Submit the job at once.
-    #[arg(long)]
-    pub submit: bool,
-    /// What to render.
-    #[command(flatten)]
-    pub render: RenderArgs,
 }
 
 /// Arguments of `merge`.

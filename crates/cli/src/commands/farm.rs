@@ -101,8 +101,16 @@ fn write(args: &FarmArgs, work: Work) -> Result<Job, String> {
             fs::create_dir_all(&folder).map_err(failed)?;
         }
     }
-    let data: Result<Vec<PathBuf>, String> =
-        render.data.iter().map(|path| absolute(path)).collect();
+    // Where the cluster has it: by the first map that knows the folder.
+    let seen = |path: PathBuf| {
+        args.map
+            .iter()
+            .find_map(|map| map.seen(&path))
+            .unwrap_or(path)
+    };
+    let data: Result<Vec<PathBuf>, String> = (render.data.iter())
+        .map(|path| absolute(path).map(seen))
+        .collect();
     let render = RenderArgs {
         data: data?,
         ..render.clone()
@@ -124,20 +132,22 @@ fn write(args: &FarmArgs, work: Work) -> Result<Job, String> {
     let program = match &args.program {
         Some(program) => program.clone(),
         None => {
-            std::env::current_exe().map_err(|error| format!("cannot find this program: {error}"))?
+            let here = std::env::current_exe();
+            seen(here.map_err(|error| format!("cannot find this program: {error}"))?)
         }
     };
+    let here = absolute(&folder)?;
     let job = Job {
         engine: args.engine,
         work,
         name: name.unwrap_or_else(|| "image".to_owned()),
         program,
-        scene,
-        folder: absolute(&folder)?,
+        scene: seen(scene),
+        folder: seen(here.clone()),
         options: words.iter().map(|word| format!(" {word}")).collect(),
     };
     for (name, text) in job.files() {
-        let file = job.folder.join(name);
+        let file = here.join(name);
         fs::write(&file, text)
             .map_err(|error| format!("cannot write {}: {error}", file.display()))?;
     }

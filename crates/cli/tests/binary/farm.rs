@@ -98,3 +98,23 @@ fn what_tasks_cannot_have_is_refused_before_anything_is_written() {
     }
     assert!(workshop.files().is_empty());
 }
+
+/// Scripts name what the cluster sees, and are written where they were asked for.
+#[test]
+fn paths_are_those_of_the_cluster() {
+    let workshop = Workshop::new();
+    let here = std::fs::canonicalize(workshop.path(".")).expect("a folder");
+    let map = format!("{}=/mnt/share", here.display());
+    farm(&workshop, &["--engine", "slurm", "--map", &map]);
+    let script = String::from_utf8(workshop.read("job/render.slurm")).expect("text");
+    assert!(
+        script.contains("--output=/mnt/share/job/log/")
+            && script.contains("sh /mnt/share/job/task.sh"),
+        "{script}"
+    );
+    let scene = cornell_box();
+    let submitted = [
+        "farm", &scene, "-o", "job", "--engine", "slurm", "--map", &map, "--submit",
+    ];
+    assert_eq!(workshop.run(&submitted).code, Some(2));
+}
