@@ -25,6 +25,16 @@ struct Arrival {
 }
 
 impl<S: Sampler, C: PathHooks> PathState<S, C> {
+    /// The medium that the path is in.
+    #[inline]
+    fn medium<'w, W: World>(&self, world: &'w W) -> Option<W::Medium<'w>> {
+        let medium = world.medium(self.ray.medium, &self.wavelengths)?;
+        Some(match self.entered {
+            Some(coefficients) => medium.entered(coefficients),
+            None => medium,
+        })
+    }
+
     /// Decides how far the path flies through the medium that it is in, so that no surface beyond is looked for.
     #[cold]
     #[inline(never)]
@@ -33,7 +43,7 @@ impl<S: Sampler, C: PathHooks> PathState<S, C> {
         if self.variant.equiangular {
             return;
         }
-        let medium = world.medium(self.ray.medium, &self.wavelengths);
+        let medium = self.medium(world);
         let reach = medium.and_then(|medium| medium.reach(&self.ray, self.flight));
         // A little farther than where light is scattered, so that it is a surface that ends the ray or nothing. NaN changes nothing.
         self.ray.t_max = self
@@ -54,9 +64,10 @@ impl<S: Sampler, C: PathHooks> PathState<S, C> {
             .then(|| self.look_along(world, settings))
             .flatten();
         let hit = self.hit.as_ref();
-        let Some(flight) = steps::free_flight(world, &self.ray, hit, &self.wavelengths, u) else {
+        let Some(medium) = self.medium(world) else {
             return false;
         };
+        let flight = steps::flight_in(&medium, &self.ray, hit, u);
         let density = flight.density();
         self.light_mis.r_l /= density.x;
         let (ray, light_mis) = (&self.ray, &self.light_mis);
@@ -89,7 +100,7 @@ impl<S: Sampler, C: PathHooks> PathState<S, C> {
     /// a light sample at that; all but the first are combined with free flight by multiple importance sampling. Nothing, in a
     /// vacuum, or if the light chosen is at infinity.
     fn look_along<W: World>(&mut self, world: &W, settings: &PathSettings) -> Option<Equiangular> {
-        let medium = world.medium(self.ray.medium, &self.wavelengths)?;
+        let medium = self.medium(world)?;
         let event = self.draw_event();
         let t_max = self.hit.map_or(self.ray.t_max, |hit| hit.t);
         let middle = if t_max.is_finite() { 0.5 * t_max } else { 0.0 };

@@ -12,7 +12,7 @@ use core::ops::Range;
 use etalon_sampling::Sampler;
 use etalon_spectrum::Wavelengths;
 use etalon_transport::{
-    Bsdf, Hit, LightSample, LightSampleContext, PixelSample, Ray, ShadowQuery, Sink,
+    Bsdf, Coefficients, Hit, LightSample, LightSampleContext, PixelSample, Ray, ShadowQuery, Sink,
     SurfaceInteraction, Transmission, TransportMode, World,
 };
 use glam::{Vec3, Vec4};
@@ -36,6 +36,8 @@ pub(crate) struct PathState<S, C = ()> {
     pub(crate) scatter_count: u32,
     /// The number that decides how far the path flies through the medium that it is in.
     pub(crate) flight: f32,
+    /// The coefficients of that medium where the path entered it, if they vary over its surface.
+    pub(crate) entered: Option<Coefficients>,
     /// Events so far for which random numbers were drawn.
     events: u32,
     /// Whether the path goes on with `ray`.
@@ -85,6 +87,7 @@ impl<S: Sampler, C: PathHooks> PathState<S, C> {
             depth: 1,
             scatter_count: 0,
             flight: 0.0,
+            entered: None,
             events: 0,
             goes_on: settings.max_depth > 0,
             shadow_ray: None,
@@ -236,8 +239,12 @@ impl<S: Sampler, C: PathHooks> PathState<S, C> {
             self.alpha = self.alpha.max(steps::opacity(&bsdf));
             return;
         }
+        let before = self.ray.medium;
         self.scatter_at(world, settings, &vertex, &bsdf, wo, !last);
         if self.goes_on && self.ray.medium.is_some() {
+            if self.ray.medium != before {
+                self.entered = world.entered(self.ray.medium, &vertex, &self.wavelengths);
+            }
             self.diffuse(world, settings, &vertex);
         }
     }

@@ -63,9 +63,20 @@ pub(crate) fn free_flight<'w, W: World>(
         return None;
     }
     let medium = world.medium(ray.medium, wavelengths)?;
+    Some(flight_in(&medium, ray, hit, u))
+}
+
+/// The same in a medium at hand.
+#[inline]
+pub(crate) fn flight_in<M: Medium>(
+    medium: &M,
+    ray: &Ray,
+    hit: Option<&Hit>,
+    u: f32,
+) -> FreeFlight<M::Phase> {
     let t_max = hit.map_or(ray.t_max, |hit| hit.t);
     // The number of tentative collisions has no bound, so they have a stream of their own.
-    Some(medium.free_flight(ray, t_max, u, &mut ray.stream(u)))
+    medium.free_flight(ray, t_max, u, &mut ray.stream(u))
 }
 
 /// The contribution of a path that arrives where `flight` along `ray` ends, by what the medium emits there; `light_mis`

@@ -3,6 +3,7 @@
 use crate::scene::Scene;
 use crate::{rays, view};
 use etalon_bsdf::Material;
+use etalon_subsurface::Homogeneous;
 use etalon_transport::{Camera, SceneCapabilities, World};
 use glam::UVec2;
 
@@ -42,7 +43,8 @@ impl Scene {
             aperture: self.parts.camera.can_receive(),
             sky: self.has_background(),
             media: self.parts.media.any(),
-            diffusion: self.parts.media.diffuse(),
+            diffusion: self.parts.media.any_homogeneous(Homogeneous::diffuses),
+            textured_walk: self.parts.media.any_homogeneous(Homogeneous::varies),
             endless: self.parts.lookup.geometry.is_endless() && self.parts.lights.has_infinite(),
             narrow_filter: false,
             one_way: self.parts.materials.iter().any(Material::is_one_way),

@@ -7,6 +7,7 @@ use crate::lookup::SceneTables;
 use crate::media::SceneMedia;
 use etalon_bsdf::Material;
 use etalon_lights::LightDescription;
+use etalon_subsurface::Homogeneous;
 use etalon_transport::{MediumId, MediumInterface, ShapeId};
 use glam::Vec3;
 
@@ -34,11 +35,15 @@ impl SceneMedia {
                 && material.is_some_and(|id| !materials[id.0 as usize].has_null())
         };
         let is_dark = |(index, bounds): (usize, &Option<[Vec3; 2]>)| {
+            let within = MediumId(index as u32);
+            // A shadow ray does not know where its walk began.
+            if self.homogeneous(within).is_some_and(Homogeneous::varies) {
+                return true;
+            }
             let Some([low, high]) = *bounds else {
                 return false;
             };
             let beside = |[from, to]: &[Vec3; 2]| from.cmpgt(high).any() || to.cmplt(low).any();
-            let within = MediumId(index as u32);
             let mut holding = bounded
                 .iter()
                 .filter(|(_, interface)| interface.inside == within);

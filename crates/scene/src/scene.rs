@@ -11,8 +11,9 @@ use etalon_math::{Density, SolidAngle};
 use etalon_spectrum::{Sensor, SensorWeights, Wavelengths};
 use etalon_subsurface::MediumAtWavelengths;
 use etalon_transport::{
-    DiffusionProfile, Emission, EmissionPdf, Hit, LegacyPhong, LightId, LightKind, LightSample,
-    LightSampleContext, LightVariety, MediumId, Ray, SurfaceInteraction, Transmission, World,
+    Coefficients, DiffusionProfile, Emission, EmissionPdf, Hit, LegacyPhong, LightId, LightKind,
+    LightSample, LightSampleContext, LightVariety, MediumId, Ray, SurfaceInteraction, Transmission,
+    World,
 };
 use glam::{Vec2, Vec3, Vec4};
 use std::sync::Arc;
@@ -196,6 +197,16 @@ impl World for Scene {
     #[inline]
     fn is_dark(&self, medium: MediumId) -> bool {
         self.parts.media.is_dark(medium)
+    }
+
+    #[inline]
+    fn entered(
+        &self,
+        medium: MediumId,
+        at: &SurfaceInteraction,
+        wavelengths: &Wavelengths,
+    ) -> Option<Coefficients> {
+        (self.parts.media).entered(medium, &self.parts.lookup, at, wavelengths.lambda)
     }
 
     #[inline]

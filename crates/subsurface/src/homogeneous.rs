@@ -15,7 +15,7 @@ use etalon_params::{Diagnostic, Params};
 use etalon_spectrum::Spectrum;
 use etalon_transport::{
     Build, Coefficients, MajorantSegment, Medium, Phase, Ray, SpectrumKind, TextureId,
-    TexturePoint, Textures, Tracking, refuse_varying,
+    TexturePoint, Textures, Tracking, is_varying, refuse_varying,
 };
 use glam::{Vec2, Vec3, Vec4};
 
@@ -47,6 +47,8 @@ pub struct Homogeneous {
     phase: PhaseFunction,
     emission: Option<TextureId>,
     tracking: Tracking,
+    /// Whether the coefficients vary over the surface, so that a walk has those of where it entered.
+    varies: bool,
     /// What is taken in place of walks below a surface.
     surface: Option<Surface>,
 }
@@ -115,6 +117,7 @@ impl Homogeneous {
                 volume::emission(params, build)
             },
             tracking: volume::tracking(params, Tracking::Closed),
+            varies: false,
             surface: None,
         })
     }
@@ -141,7 +144,7 @@ impl Homogeneous {
         let by_coefficients = ["material", "sigma_a", "sigma_s", "sigma_t"];
         let mut medium = match by_coefficients.iter().any(|name| params.has(name)) {
             true => Self::from_params(params, build)?,
-            false => Self::by_surface(params, boundary, is_profile, build)?,
+            false => Self::by_surface(params, boundary, build)?,
         };
         if is_profile {
             let Some(g) = medium.phase.mean_cosine() else {
@@ -150,6 +153,8 @@ impl Homogeneous {
                 );
                 return None;
             };
+            // It is told the coefficients where it is entered anyway.
+            medium.varies = false;
             medium.surface = Some(Surface {
                 profile: Profile::named(name, g, &boundary)?,
                 g,
@@ -159,25 +164,14 @@ impl Homogeneous {
         Some(medium)
     }
 
-    /// Reads `albedo` of a surface, which may vary over it if `varying`, and `mean_free_path`.
-    fn by_surface(
-        params: &Params<'_>,
-        boundary: Boundary,
-        varying: bool,
-        build: &mut dyn Build,
-    ) -> Option<Self> {
-        let role = SpectrumKind::Reflectance;
-        let albedo = match varying {
-            true => build.texture(params, "albedo", Some(0.8), role),
-            false => volume::constant(params, "albedo", 0.8, role, build),
+    /// Reads `albedo` of a surface and `mean_free_path`, which may vary over it.
+    fn by_surface(params: &Params<'_>, boundary: Boundary, build: &mut dyn Build) -> Option<Self> {
+        let albedo = build.texture(params, "albedo", Some(0.8), SpectrumKind::Reflectance);
+        let name = "mean_free_path";
+        let length = match is_varying(params, name) {
+            true => build.texture(params, name, Some(1.0), SpectrumKind::Unbounded),
+            false => volume::constant(params, name, 1.0, SpectrumKind::Unbounded, build),
         };
-        let length = volume::constant(
-            params,
-            "mean_free_path",
-            1.0,
-            SpectrumKind::Unbounded,
-            build,
-        );
         let what = "a finite number above 0";
         let scale = params.float_where("scale", 1.0, what, |s| s > 0.0 && s.is_finite());
         let phase = PhaseFunction::of_medium(params, build)?;
@@ -197,6 +191,7 @@ impl Homogeneous {
             phase,
             emission: None,
             tracking: Tracking::Closed,
+            varies: ["albedo", name].iter().any(|name| is_varying(params, name)),
             surface: None,
         })
     }
@@ -240,6 +235,11 @@ impl Homogeneous {
         Some(profile.at(&coefficients, *g, *boundary))
     }
 
+    /// Whether walks have the coefficients of the surface point where they enter.
+    pub fn varies(&self) -> bool {
+        self.varies
+    }
+
     /// Whether a diffusion profile stands for walks in it.
     pub fn diffuses(&self) -> bool {
         self.surface.is_some()
@@ -258,7 +258,7 @@ impl Homogeneous {
     }
 
     /// σa and σs, at a point of the surface where they vary over it.
-    fn coefficients(
+    pub fn coefficients(
         &self,
         textures: &impl Textures,
         at: &TexturePoint,
@@ -360,6 +360,14 @@ impl<'a, T: Textures> Medium for HomogeneousAt<'a, T> {
     #[inline]
     fn emission(&self, at: Vec3, direction: Vec3) -> Vec4 {
         self.emission * self.phase(at).projected_area(direction)
+    }
+
+    #[inline]
+    fn entered(self, coefficients: Coefficients) -> Self {
+        Self {
+            coefficients,
+            ..self
+        }
     }
 
     #[inline]

@@ -65,5 +65,5 @@ pub use sight::{
 };
 pub use surface_interaction::{Hit, SurfaceInteraction};
 pub use textures::{TexturePoint, Textures, gradient_by_differences};
-pub use uniformity::refuse_varying;
+pub use uniformity::{is_varying, refuse_varying};
 pub use world::{ShadowQuery, Transmission, World};

@@ -52,6 +52,8 @@ pub struct SceneCapabilities {
     pub media: bool,
     /// Whether a diffusion profile stands for walks in any of them.
     pub diffusion: bool,
+    /// Whether a walk in any of them has the coefficients of where it entered.
+    pub textured_walk: bool,
     /// Whether light at infinity falls on surfaces without end, which particles cannot be sent to.
     pub endless: bool,
     /// Whether a surface scatters light that leaves elsewhere than it came (hair), which paths from the lights cannot
@@ -188,12 +190,22 @@ impl SceneCapabilities {
         self.media.then(|| impossible(message, help))
     }
 
-    /// The objection, if any, of an estimator that knows nothing of diffusion profiles.
+    /// The objection, if any, of an estimator that knows nothing of diffusion profiles, and nothing of where a walk began.
     pub fn diffusion_unseen(&self) -> Option<Incompatibility> {
-        let message = "this integrator cannot have the scene's diffusion profiles (`dipole`, `beamdiffusion`, `burley`)";
-        let help =
-            "`path` and `volpath` can; or let light walk: `<subsurface type=\"randomwalk\">`";
-        self.diffusion.then(|| impossible(message, help))
+        let profile = || {
+            let message = "this integrator cannot have the scene's diffusion profiles (`dipole`, `beamdiffusion`, `burley`)";
+            let help =
+                "`path` and `volpath` can; or let light walk: `<subsurface type=\"randomwalk\">`";
+            impossible(message, help)
+        };
+        let walk = || {
+            let message = "this integrator cannot have a `randomwalk` whose coefficients vary over the surface: it follows walks both \
+                           ways, and they have those of where they begin";
+            let help =
+                "`path` and `volpath` can; a `heterogeneous` medium varies in space and is for all";
+            impossible(message, help)
+        };
+        (self.diffusion.then(profile)).or_else(|| self.textured_walk.then(walk))
     }
 
     /// The objection, if any, of an estimator that finds light by connecting surfaces with the

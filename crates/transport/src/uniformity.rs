@@ -2,12 +2,15 @@
 
 use etalon_params::{Class, Diagnostic, Node, Params, Value};
 
+/// Whether the value of `name` is a texture that varies in space.
+pub fn is_varying(params: &Params<'_>, name: &str) -> bool {
+    let property = params.node.properties.iter().find(|p| p.name == name);
+    matches!(property.map(|p| &p.value), Some(Value::Object(node)) if varies(node))
+}
+
 /// Refuses a texture that varies in space as the value of `name`.
 pub fn refuse_varying(params: &Params<'_>, name: &str) {
-    let property = params.node.properties.iter().find(|p| p.name == name);
-    if let Some(Value::Object(node)) = property.map(|p| &p.value)
-        && varies(node)
-    {
+    if is_varying(params, name) {
         let message = format!(
             "`{name}` of `{}` must be a spectrum or colour that does not vary in space",
             params.node.plugin.value
@@ -16,7 +19,7 @@ pub fn refuse_varying(params: &Params<'_>, name: &str) {
         let error = Diagnostic::error(span, message);
         params.diagnostics.push(match params.node.class {
             Class::Subsurface => error.help(
-                "the diffusion profiles take textures over the surface; matter that varies in space is a `heterogeneous` \
+                "`albedo` and `mean_free_path` of a surface may vary over it; matter that varies in space is a `heterogeneous` \
                  medium, the `interior` of a shape with a `difftrans` or `roughdielectric`",
             ),
             _ => error,

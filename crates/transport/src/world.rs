@@ -1,9 +1,9 @@
 //! The contract of a scene: all that an integrator may ask.
 
 use crate::{
-    Bsdf, Camera, DiffusionProfile, Emission, EmissionPdf, Hit, LegacyPhong, LightId, LightSample,
-    LightSampleContext, LightVariety, Medium, MediumId, NoProfile, Ray, SurfaceInteraction,
-    TraceEvent,
+    Bsdf, Camera, Coefficients, DiffusionProfile, Emission, EmissionPdf, Hit, LegacyPhong, LightId,
+    LightSample, LightSampleContext, LightVariety, Medium, MediumId, NoProfile, Ray,
+    SurfaceInteraction, TraceEvent,
 };
 use etalon_math::{Density, SolidAngle};
 use etalon_spectrum::sensor::standard_unit;
@@ -81,6 +81,18 @@ pub trait World: Sync {
     #[inline]
     fn is_dark(&self, _medium: MediumId) -> bool {
         false
+    }
+
+    /// The coefficients of a medium for paths that enter it at the surface point `at`, if they vary over its surface. A world
+    /// without such media keeps this.
+    #[inline]
+    fn entered(
+        &self,
+        _medium: MediumId,
+        _at: &SurfaceInteraction,
+        _wavelengths: &Wavelengths,
+    ) -> Option<Coefficients> {
+        None
     }
 
     /// The diffusion profile that stands for walks in a medium below the surface point `at`, if it has one. A world without

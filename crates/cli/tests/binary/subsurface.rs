@@ -69,6 +69,43 @@ fn a_thick_piece_shows_its_albedo() {
     }
 }
 
+/// A walk has the coefficients of where it enters: below a texture of one value it is the walk of that value, to the bit, and below
+/// black and grey squares, far larger than the walk, it shows their mean (to four standard errors, α = 10⁻⁴). The mutant that keeps those
+/// of the texture's first corner shows black or grey.
+#[test]
+fn a_walk_below_a_texture_has_the_matter_of_where_it_enters() {
+    let workshop = Workshop::new();
+    let squares = |name: &str, dark: f64, light: f64| {
+        format!(
+            "<texture name=\"{name}\" type=\"checkerboard\"><spectrum name=\"color0\" value=\"{dark}\"/>
+            <spectrum name=\"color1\" value=\"{light}\"/><transform name=\"to_uv\"><scale value=\"200\"/></transform></texture>"
+        )
+    };
+    let number = |name: &str, x: f64| format!("<spectrum name=\"{name}\" value=\"{x}\"/>");
+    let mut picture = |albedo: &str, length: &str| {
+        let ball = format!("<subsurface type=\"randomwalk\">{albedo}{length}</subsurface>");
+        workshop.write("s.xml", scene(&ball));
+        workshop
+            .run(&["render", "s.xml", "--spp", "256", "-o", "a.exr", "-q"])
+            .fine();
+        workshop.image("a.exr")
+    };
+    let [even, length] = [number("albedo", 0.6), number("mean_free_path", 0.2)];
+    let expected = picture(&even, &length).image;
+    assert!(picture(&squares("albedo", 0.6, 0.6), &length).image == expected);
+    assert!(picture(&even, &squares("mean_free_path", 0.2, 0.2)).image == expected);
+    let short = number("mean_free_path", 0.0001);
+    let (mean, error) = luminance(&picture(&squares("albedo", 0.0, 0.8), &short));
+    assert!(error < 0.01, "too noisy: {error}");
+    assert!((mean - 0.4).abs() < 4.0 * error + 0.01, "{mean} ± {error}");
+    let ran = workshop.run(&["render", "s.xml", "-o", "b.exr", "--integrator", "bdpt"]);
+    assert!(
+        ran.code == Some(2) && ran.stderr.contains("where they begin"),
+        "{}",
+        ran.stderr
+    );
+}
+
 /// What is open cannot hold what is below its surface: said, but not refused, as other shapes may close it.
 #[test]
 fn an_open_shape_with_something_below_its_surface_is_pointed_out() {
