@@ -28,11 +28,13 @@ impl<S: Sampler, C: PathHooks> PathState<S, C> {
     /// The medium that the path is in.
     #[inline]
     fn medium<'w, W: World>(&self, world: &'w W) -> Option<W::Medium<'w>> {
-        let medium = world.medium(self.ray.medium, &self.wavelengths)?;
-        Some(match self.entered {
-            Some(coefficients) => medium.entered(coefficients),
-            None => medium,
-        })
+        let (medium, waves) = (self.ray.medium, &self.wavelengths);
+        match self.entered {
+            Some((entered, coefficients)) if entered == medium => {
+                world.entered(medium, coefficients, waves)
+            }
+            _ => world.medium(medium, waves),
+        }
     }
 
     /// Decides how far the path flies through the medium that it is in, so that no surface beyond is looked for.

@@ -12,8 +12,8 @@ use core::ops::Range;
 use etalon_sampling::Sampler;
 use etalon_spectrum::Wavelengths;
 use etalon_transport::{
-    Bsdf, Coefficients, Hit, LightSample, LightSampleContext, PixelSample, Ray, ShadowQuery, Sink,
-    SurfaceInteraction, Transmission, TransportMode, World,
+    Bsdf, Coefficients, Hit, LightSample, LightSampleContext, MediumId, PixelSample, Ray,
+    ShadowQuery, Sink, SurfaceInteraction, Transmission, TransportMode, World,
 };
 use glam::{Vec3, Vec4};
 
@@ -36,8 +36,8 @@ pub(crate) struct PathState<S, C = ()> {
     pub(crate) scatter_count: u32,
     /// The number that decides how far the path flies through the medium that it is in.
     pub(crate) flight: f32,
-    /// The coefficients of that medium where the path entered it, if they vary over its surface.
-    pub(crate) entered: Option<Coefficients>,
+    /// The medium that the path entered last, with the coefficients where it did, if they are all to know of it.
+    pub(crate) entered: Option<(MediumId, Coefficients)>,
     /// Events so far for which random numbers were drawn.
     events: u32,
     /// Whether the path goes on with `ray`.
@@ -243,7 +243,9 @@ impl<S: Sampler, C: PathHooks> PathState<S, C> {
         self.scatter_at(world, settings, &vertex, &bsdf, wo, !last);
         if self.goes_on && self.ray.medium.is_some() {
             if self.ray.medium != before {
-                self.entered = world.entered(self.ray.medium, &vertex, &self.wavelengths);
+                let medium = self.ray.medium;
+                let entry = world.entry(medium, &vertex, &self.wavelengths);
+                self.entered = entry.map(|coefficients| (medium, coefficients));
             }
             self.diffuse(world, settings, &vertex);
         }

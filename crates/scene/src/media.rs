@@ -3,11 +3,10 @@
 use etalon_geometry::Shape;
 use etalon_params::{Class, Diagnostic, Diagnostics, Node, Params, Span};
 use etalon_sampling::{Independent, Sampler};
-use etalon_subsurface::{Homogeneous, MediumAtWavelengths, MediumDescription, ProfileAt};
+use etalon_subsurface::{MediumAtWavelengths, MediumDescription};
 use etalon_transport::flight::march;
 use etalon_transport::{
-    Coefficients, LightId, Medium, MediumId, MediumInterface, Ray, ShapeId, Shapes,
-    SurfaceInteraction, Textures, Tracking,
+    LightId, Medium, MediumId, MediumInterface, Ray, ShapeId, Shapes, Textures, Tracking,
 };
 use glam::{Vec3, Vec4};
 
@@ -215,7 +214,7 @@ impl Surfaces {
 /// Media by id.
 #[derive(Debug)]
 pub struct SceneMedia {
-    media: Vec<MediumDescription>,
+    pub(crate) media: Vec<MediumDescription>,
     /// By shape, as far as any shape has media.
     interfaces: Vec<Option<MediumInterface>>,
     /// That of the camera.
@@ -356,47 +355,6 @@ impl SceneMedia {
         }
         let own = self.of_shape(shape);
         own.unwrap_or(MediumInterface::within(arriving))
-    }
-
-    pub(crate) fn homogeneous(&self, medium: MediumId) -> Option<&Homogeneous> {
-        match self.media.get(self.filling(medium).0 as usize)? {
-            MediumDescription::Homogeneous(medium) => Some(medium),
-            MediumDescription::Heterogeneous(_) => None,
-        }
-    }
-
-    /// Whether something holds of any homogeneous medium.
-    pub fn any_homogeneous(&self, holds: impl Fn(&Homogeneous) -> bool) -> bool {
-        let holds = |medium: &MediumDescription| match medium {
-            MediumDescription::Homogeneous(medium) => holds(medium),
-            MediumDescription::Heterogeneous(_) => false,
-        };
-        self.media.iter().any(holds)
-    }
-
-    /// The coefficients for paths that enter a medium at a point of its surface, if they vary over it.
-    #[inline]
-    pub fn entered(
-        &self,
-        medium: MediumId,
-        textures: &impl Textures,
-        at: &SurfaceInteraction,
-        lambda: Vec4,
-    ) -> Option<Coefficients> {
-        let medium = self.homogeneous(medium)?;
-        (medium.varies()).then(|| medium.coefficients(textures, &at.into(), lambda))
-    }
-
-    /// The diffusion profile of a medium below a point, if it has one.
-    pub fn profile<'a>(
-        &'a self,
-        medium: MediumId,
-        textures: &impl Textures,
-        at: &SurfaceInteraction,
-        lambda: Vec4,
-    ) -> Option<ProfileAt<'a>> {
-        self.homogeneous(medium)?
-            .profile(textures, &at.into(), lambda)
     }
 
     /// A medium at four wavelengths (nm).

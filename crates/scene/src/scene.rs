@@ -3,6 +3,7 @@
 use crate::lookup::SceneTables;
 use crate::media::SceneMedia;
 use crate::medium_lights::{LightChoice, MediumLights};
+use crate::parts::Parts;
 use crate::rays;
 use etalon_bsdf::{BsdfAtPoint, Material};
 use etalon_cameras::AnyCamera;
@@ -22,26 +23,7 @@ use std::sync::Arc;
 #[derive(Clone)]
 pub struct Scene {
     pub(crate) parts: Arc<Parts>,
-    sensor: Sensor,
-}
-
-/// What scenes share that differ in their sensors.
-pub(crate) struct Parts {
-    pub(crate) camera: AnyCamera,
-    pub(crate) lookup: SceneTables,
-    pub(crate) materials: Vec<Material>,
-    pub(crate) lights: LightSet,
-    /// Whether any material lets light pass straight, so that shadow rays must ask.
-    has_null: bool,
-    pub(crate) media: SceneMedia,
-    /// Whether there are media, so that shadow rays must ask.
-    has_media: bool,
-    /// The medium beyond everything.
-    outermost: MediumId,
-    /// Media that are lights.
-    shining: Option<MediumLights>,
-    /// How often any other light is chosen, and by what its densities are multiplied therefore.
-    of_others: f32,
+    pub(crate) sensor: Sensor,
 }
 
 impl Scene {
@@ -89,59 +71,6 @@ impl Scene {
             parts.shining = shining;
         }
         scene
-    }
-
-    /// The scene with each of these sensors.
-    pub fn with_sensors(self, sensors: Vec<Sensor>) -> Vec<Self> {
-        let with = |sensor| Self {
-            sensor,
-            parts: Arc::clone(&self.parts),
-        };
-        sensors.into_iter().map(with).collect()
-    }
-
-    /// The media.
-    pub(crate) fn media(&self) -> &SceneMedia {
-        &self.parts.media
-    }
-
-    /// A medium at four wavelengths (nm).
-    #[inline]
-    pub(crate) fn medium_at(
-        &self,
-        medium: MediumId,
-        lambda: Vec4,
-    ) -> Option<MediumAtWavelengths<'_, SceneTables>> {
-        self.parts.media.at(medium, &self.parts.lookup, lambda)
-    }
-
-    /// The medium beyond everything.
-    pub(crate) fn outermost(&self) -> MediumId {
-        self.parts.outermost
-    }
-
-    /// The materials, by id.
-    pub(crate) fn materials(&self) -> &[Material] {
-        &self.parts.materials
-    }
-
-    /// Textures and shapes.
-    pub(crate) fn lookup(&self) -> &SceneTables {
-        &self.parts.lookup
-    }
-
-    /// The densities of a particle from a light that is no medium, the choice included.
-    #[inline]
-    fn of_others(&self, density: EmissionPdf) -> EmissionPdf {
-        EmissionPdf {
-            origin: density.origin * self.parts.of_others,
-            ..density
-        }
-    }
-
-    #[inline]
-    pub(crate) fn material(&self, vertex: &SurfaceInteraction) -> &Material {
-        &self.parts.materials[vertex.material.0 as usize]
     }
 }
 
@@ -200,13 +129,24 @@ impl World for Scene {
     }
 
     #[inline]
-    fn entered(
+    fn entry(
         &self,
         medium: MediumId,
         at: &SurfaceInteraction,
         wavelengths: &Wavelengths,
     ) -> Option<Coefficients> {
-        (self.parts.media).entered(medium, &self.parts.lookup, at, wavelengths.lambda)
+        (self.parts.media).entry(medium, &self.parts.lookup, at, wavelengths.lambda)
+    }
+
+    #[inline]
+    fn entered(
+        &self,
+        medium: MediumId,
+        coefficients: Coefficients,
+        wavelengths: &Wavelengths,
+    ) -> Option<Self::Medium<'_>> {
+        let Parts { media, lookup, .. } = &*self.parts;
+        media.entered(medium, coefficients, lookup, wavelengths.lambda)
     }
 
     #[inline]

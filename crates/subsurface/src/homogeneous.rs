@@ -210,6 +210,20 @@ impl Homogeneous {
         });
         HomogeneousAt {
             emission,
+            ..self.entered(coefficients, textures, lambda)
+        }
+    }
+
+    /// The same for a path that entered it where it has these coefficients; nothing is emitted.
+    #[inline]
+    pub fn entered<'a, T: Textures>(
+        &'a self,
+        coefficients: Coefficients,
+        textures: &'a T,
+        lambda: Vec4,
+    ) -> HomogeneousAt<'a, T> {
+        HomogeneousAt {
+            emission: Vec4::ZERO,
             coefficients,
             phase: &self.phase,
             textures,
@@ -360,14 +374,6 @@ impl<'a, T: Textures> Medium for HomogeneousAt<'a, T> {
     #[inline]
     fn emission(&self, at: Vec3, direction: Vec3) -> Vec4 {
         self.emission * self.phase(at).projected_area(direction)
-    }
-
-    #[inline]
-    fn entered(self, coefficients: Coefficients) -> Self {
-        Self {
-            coefficients,
-            ..self
-        }
     }
 
     #[inline]

@@ -84,13 +84,6 @@ macro_rules! media {
             }
 
             #[inline]
-            fn entered(self, coefficients: Coefficients) -> Self {
-                match self {
-                    $(Self::$kind(medium) => Self::$kind(medium.entered(coefficients)),)*
-                }
-            }
-
-            #[inline]
             fn tracking(&self) -> Tracking {
                 match self { $(Self::$kind(medium) => medium.tracking(),)* }
             }

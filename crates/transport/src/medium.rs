@@ -161,16 +161,6 @@ pub trait Medium {
         Vec4::ZERO
     }
 
-    /// The same for a path that entered it where it has these coefficients, if they vary over its surface. Most are the same.
-    #[inline]
-    #[must_use]
-    fn entered(self, _coefficients: Coefficients) -> Self
-    where
-        Self: Sized,
-    {
-        self
-    }
-
     /// How it is travelled through.
     #[inline]
     fn tracking(&self) -> Tracking {

@@ -83,16 +83,27 @@ pub trait World: Sync {
         false
     }
 
-    /// The coefficients of a medium for paths that enter it at the surface point `at`, if they vary over its surface. A world
-    /// without such media keeps this.
+    /// The coefficients of a medium for paths that enter it at the surface point `at`, if that is all to know of it: they need not be
+    /// asked for again, and may vary over its surface. A world that knows none keeps this.
     #[inline]
-    fn entered(
+    fn entry(
         &self,
         _medium: MediumId,
         _at: &SurfaceInteraction,
         _wavelengths: &Wavelengths,
     ) -> Option<Coefficients> {
         None
+    }
+
+    /// A medium for a path that entered it where it has these coefficients ([`World::entry`]).
+    #[inline]
+    fn entered(
+        &self,
+        medium: MediumId,
+        _coefficients: Coefficients,
+        wavelengths: &Wavelengths,
+    ) -> Option<Self::Medium<'_>> {
+        self.medium(medium, wavelengths)
     }
 
     /// The diffusion profile that stands for walks in a medium below the surface point `at`, if it has one. A world without

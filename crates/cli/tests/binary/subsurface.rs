@@ -82,7 +82,7 @@ fn a_walk_below_a_texture_has_the_matter_of_where_it_enters() {
         )
     };
     let number = |name: &str, x: f64| format!("<spectrum name=\"{name}\" value=\"{x}\"/>");
-    let mut picture = |albedo: &str, length: &str| {
+    let picture = |albedo: &str, length: &str| {
         let ball = format!("<subsurface type=\"randomwalk\">{albedo}{length}</subsurface>");
         workshop.write("s.xml", scene(&ball));
         workshop
