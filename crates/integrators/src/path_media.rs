@@ -47,11 +47,10 @@ impl<S: Sampler, C: PathHooks> PathState<S, C> {
         }
         let medium = self.medium(world);
         let reach = medium.and_then(|medium| medium.reach(&self.ray, self.flight));
-        // A little farther than where light is scattered, so that it is a surface that ends the ray or nothing. NaN changes nothing.
-        self.ray.t_max = self
-            .ray
-            .t_max
-            .min(reach.map_or(f32::INFINITY, |t| t * 1.01));
+        // A little farther than where light is scattered, be it at once, so that it is a surface that ends the ray or nothing. NaN
+        // changes nothing.
+        let farther = |t| t * 1.01 + f32::MIN_POSITIVE;
+        self.ray.t_max = self.ray.t_max.min(reach.map_or(f32::INFINITY, farther));
     }
 
     /// Flies through the medium to the hit, or to where light is scattered before it. Whether the path has left its

@@ -190,8 +190,8 @@ impl<S: Sampler, C: PathHooks> PathState<S, C> {
     #[inline]
     pub(crate) fn look_through_hidden<W: World>(&mut self, world: &W, settings: &PathSettings) {
         let hidden = settings.hide_emitters && self.depth == 1;
-        if let Some(hit) = self.hit.filter(|hit| hidden && world.is_emitter(hit)) {
-            self.ray = world.vertex(&self.ray, &hit).spawn(self.ray.direction);
+        if hidden && self.hit.is_some_and(|hit| world.is_emitter(&hit)) {
+            // Once more from where the ray starts, as what is in between may be flown through.
             self.hit = steps::next_hit(world, &mut self.ray, hidden);
         }
     }
