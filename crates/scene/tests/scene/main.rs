@@ -3,6 +3,7 @@
 
 mod attributes;
 mod compiled;
+mod darkness;
 mod mistakes;
 mod passing;
 mod reading;
