@@ -11,7 +11,8 @@ use std::path::{Path, PathBuf};
 use std::process::{Child, Command};
 use std::time::{Duration, Instant};
 
-const NODES: [&str; 2] = ["n1", "n2"];
+/// Names that no other cluster has, as processes are ended by the name of their node.
+const NODES: [&str; 2] = ["etalon-test-1", "etalon-test-2"];
 
 /// The daemons; they end with this.
 pub(super) struct Cluster {
@@ -39,7 +40,11 @@ impl Cluster {
         if folder.exists() {
             fs::remove_dir_all(folder).map_err(failed(folder))?;
         }
-        for name in ["state", "log", "spool-n1", "spool-n2"] {
+        let spools = NODES.map(|node| format!("spool-{node}"));
+        for name in ["state", "log"]
+            .into_iter()
+            .chain(spools.iter().map(String::as_str))
+        {
             let made = folder.join(name);
             fs::create_dir_all(&made).map_err(failed(&made))?;
         }

@@ -44,6 +44,9 @@ pub struct Revolution {
     areas: Lengths,
 }
 
+/// No t is larger, so that its products with zero are zero.
+const MOST: f64 = 1e300;
+
 /// The shortest part of a piece in which zeros are told apart.
 const SMALLEST: f64 = 1e-9;
 
@@ -184,8 +187,13 @@ impl Revolution {
         }
     }
 
-    /// Calls `visit` with t, the piece and s of every crossing.
-    fn crossings(&self, line: &Line, mut visit: impl FnMut(f64, usize, f64)) {
+    /// Calls `visit` with t, the piece and s of every crossing of a line between `from` and `to`, and perhaps of others.
+    fn crossings(
+        &self,
+        line: &Line,
+        (from, to): (f64, f64),
+        mut visit: impl FnMut(f64, usize, f64),
+    ) {
         let [low, high] = self.profile.bounds();
         // From the point nearest to the middle, so that a far origin costs no digits.
         let middle = DVec3::new(0.0, 0.0, 0.5 * (low.y + high.y));
@@ -199,15 +207,24 @@ impl Revolution {
             b: o.truncate().dot(d.truncate()),
             c: o.truncate().length_squared(),
         };
-        let nearest = line.c
-            - if line.a > 0.0 {
-                line.b * line.b / line.a
-            } else {
-                0.0
-            };
         let slack = 1e-9 * (high.x + high.y - low.y);
+        // The ring that the segment lies in: heights, and squares of distances from the axis.
+        let margin = 1e-12 * start.abs();
+        let ends = [from - start - margin, to - start + margin].map(|t| t.clamp(-MOST, MOST));
+        let distance = |t: f64| (line.a * t + 2.0 * line.b) * t + line.c;
+        let nearest = if line.a > 0.0 {
+            distance((-line.b / line.a).clamp(ends[0], ends[1].max(ends[0])))
+        } else {
+            line.c
+        };
+        let farthest = distance(ends[0]).max(distance(ends[1]));
+        let heights = ends.map(|t| o.z + t * d.z);
+        let [lowest, highest] = [heights[0].min(heights[1]), heights[0].max(heights[1])];
         let meets = |[low, high]: [DVec2; 2]| {
-            let reach = high.x + slack;
+            let (reach, hole) = (high.x + slack, (low.x - slack).max(0.0));
+            if lowest > high.y + slack || highest < low.y - slack || farthest < hole * hole {
+                return false;
+            }
             let around = [
                 DVec3::new(-reach, -reach, low.y - slack),
                 DVec3::new(reach, reach, high.y + slack),
@@ -254,17 +271,25 @@ impl Revolution {
 }
 
 impl OwnShape for Revolution {
-    fn next_crossing(&self, line: &Line, after: f64, _: f64) -> Option<Crossing> {
+    fn next_crossing(&self, line: &Line, after: f64, before: f64) -> Option<Crossing> {
         let mut nearest: Option<(f64, usize, f64)> = None;
         let mut passed = 0_u32;
-        self.crossings(line, |t, index, s| {
+        // What lies behind counts where a solid is entered and left by turns, and is looked for only then if there is a limit ahead.
+        let all = before == f64::INFINITY && self.closed;
+        let from = if all { f64::NEG_INFINITY } else { after };
+        self.crossings(line, (from, before), |t, index, s| {
             if t <= after {
-                passed += 1;
+                passed += u32::from(all);
             } else if nearest.is_none_or(|(best, ..)| t < best) {
                 nearest = Some((t, index, s));
             }
         });
         let (t, index, s) = nearest?;
+        if self.closed && !all {
+            self.crossings(line, (f64::NEG_INFINITY, after), |t, _, _| {
+                passed += u32::from(t <= after);
+            });
+        }
         let p = line.at(t);
         let point = self.point(atan2(p.y, p.x), index, s);
         let against = point.normal.dot(line.direction) < 0.0;
