@@ -257,6 +257,13 @@ fn rays_cross_what_is_there() {
             };
             let ray = Ray::new(origin, direction, 0.0);
             let crossings = follow(&case, ray);
+            // A limit to the ray changes nothing before it.
+            if let Some(hit) = case.geometry.intersect(&ray) {
+                let within = |t_max| case.geometry.intersect(&Ray { t_max, ..ray });
+                let [short, long] = [hit.t * 0.999 - 1e-3, hit.t * 1.001 + 1e-3];
+                assert_eq!(within(long), Some(hit), "{}: {ray:?}", case.name);
+                assert_eq!(within(short), None, "{}: {ray:?}", case.name);
+            }
             let starts_inside = crossings.first().is_some_and(|(_, enters)| !enters);
             for pair in crossings.windows(2) {
                 assert!(
