@@ -187,30 +187,29 @@ impl Revolution {
         }
     }
 
-    /// Calls `visit` with t, the piece and s of every crossing of a line between `from` and `to`, and perhaps of others.
-    fn crossings(
-        &self,
-        line: &Line,
-        (from, to): (f64, f64),
-        mut visit: impl FnMut(f64, usize, f64),
-    ) {
+    /// The line from the point nearest to the middle, so that a far origin costs no digits; and where that is.
+    fn turned(&self, line: &Line) -> (f64, Turned) {
         let [low, high] = self.profile.bounds();
-        // From the point nearest to the middle, so that a far origin costs no digits.
         let middle = DVec3::new(0.0, 0.0, 0.5 * (low.y + high.y));
         let d = line.direction;
         let start = (middle - line.origin).dot(d) / d.length_squared();
         let o = line.at(start);
-        let line = Turned {
+        let turned = Turned {
             o,
             d,
             a: d.truncate().length_squared(),
             b: o.truncate().dot(d.truncate()),
             c: o.truncate().length_squared(),
         };
+        (start, turned)
+    }
+
+    /// Calls `visit` with every piece that a segment of a line may cross.
+    fn reached(&self, line: &Turned, (from, to): (f64, f64), visit: impl FnMut(usize)) {
+        let [low, high] = self.profile.bounds();
         let slack = 1e-9 * (high.x + high.y - low.y);
         // The ring that the segment lies in: heights, and squares of distances from the axis.
-        let margin = 1e-12 * start.abs();
-        let ends = [from - start - margin, to - start + margin].map(|t| t.clamp(-MOST, MOST));
+        let ends = [from, to].map(|t| t.clamp(-MOST, MOST));
         let distance = |t: f64| (line.a * t + 2.0 * line.b) * t + line.c;
         let nearest = if line.a > 0.0 {
             distance((-line.b / line.a).clamp(ends[0], ends[1].max(ends[0])))
@@ -218,7 +217,7 @@ impl Revolution {
             line.c
         };
         let farthest = distance(ends[0]).max(distance(ends[1]));
-        let heights = ends.map(|t| o.z + t * d.z);
+        let heights = ends.map(|t| line.o.z + t * line.d.z);
         let [lowest, highest] = [heights[0].min(heights[1]), heights[0].max(heights[1])];
         let meets = |[low, high]: [DVec2; 2]| {
             let (reach, hole) = (high.x + slack, (low.x - slack).max(0.0));
@@ -231,65 +230,72 @@ impl Revolution {
             ];
             nearest <= reach * reach
                 && !Line {
-                    origin: o,
-                    direction: d,
+                    origin: line.o,
+                    direction: line.d,
                 }
                 .misses(around, f64::NEG_INFINITY)
         };
-        self.profile.search(meets, |index| {
-            let piece = &self.profile.pieces()[index];
-            if d.z * d.z > ACROSS * line.a {
-                let [rr, zz, z] = &self.powers[index];
-                let linear = 2.0 * (line.b * d.z - line.a * o.z);
-                let constant = line.a * o.z * o.z + d.z * (line.c * d.z - 2.0 * line.b * o.z);
-                let polynomial: [f64; 7] = core::array::from_fn(|k| {
-                    line.a * zz[k] + linear * z[k] + constant - d.z * d.z * rr[k]
-                });
-                bernstein::sign_changes(&polynomial, SMALLEST, |s, _| {
-                    visit(start + line.t(piece.at(s)), index, s);
-                    ControlFlow::<()>::Continue(())
-                });
-                return;
-            }
-            for sign in [-1.0, 1.0] {
-                let across = Across {
-                    line: &line,
-                    piece,
-                    sign,
-                };
-                let nothing = |_: f64, _: f64| false;
-                sign_changes(&across, (0.0, 1.0), 1e-5, nothing, |s, _| {
-                    let r = piece.at(s).x;
-                    if line.beyond(r) >= -1e-12 * line.b * line.b {
-                        visit(start + across.t(s), index, s);
-                    }
-                    ControlFlow::<()>::Continue(())
-                });
-            }
-        });
+        self.profile.search(meets, visit);
+    }
+
+    /// Calls `visit` with t and s of every crossing of a piece.
+    fn crossings(&self, line: &Turned, index: usize, mut visit: impl FnMut(f64, f64)) {
+        let piece = &self.profile.pieces()[index];
+        let Turned { o, d, .. } = *line;
+        if d.z * d.z > ACROSS * line.a {
+            let [rr, zz, z] = &self.powers[index];
+            let linear = 2.0 * (line.b * d.z - line.a * o.z);
+            let constant = line.a * o.z * o.z + d.z * (line.c * d.z - 2.0 * line.b * o.z);
+            let polynomial: [f64; 7] = core::array::from_fn(|k| {
+                line.a * zz[k] + linear * z[k] + constant - d.z * d.z * rr[k]
+            });
+            bernstein::sign_changes(&polynomial, SMALLEST, |s, _| {
+                visit(line.t(piece.at(s)), s);
+                ControlFlow::<()>::Continue(())
+            });
+            return;
+        }
+        for sign in [-1.0, 1.0] {
+            let across = Across { line, piece, sign };
+            let nothing = |_: f64, _: f64| false;
+            sign_changes(&across, (0.0, 1.0), 1e-5, nothing, |s, _| {
+                let r = piece.at(s).x;
+                if line.beyond(r) >= -1e-12 * line.b * line.b {
+                    visit(across.t(s), s);
+                }
+                ControlFlow::<()>::Continue(())
+            });
+        }
     }
 }
 
 impl OwnShape for Revolution {
     fn next_crossing(&self, line: &Line, after: f64, before: f64) -> Option<Crossing> {
+        let (start, turned) = self.turned(line);
+        let margin = 1e-12 * start.abs();
+        let [from, to] = [after - start - margin, before - start + margin];
+        let mut reached = false;
+        if self.closed && before.is_finite() {
+            self.reached(&turned, (from, to), |_| reached = true);
+            if !reached {
+                return None;
+            }
+        }
+        // A solid is entered and left by turns, so what lies behind counts.
+        let from = if self.closed { f64::NEG_INFINITY } else { from };
         let mut nearest: Option<(f64, usize, f64)> = None;
         let mut passed = 0_u32;
-        // What lies behind counts where a solid is entered and left by turns, and is looked for only then if there is a limit ahead.
-        let all = before == f64::INFINITY && self.closed;
-        let from = if all { f64::NEG_INFINITY } else { after };
-        self.crossings(line, (from, before), |t, index, s| {
-            if t <= after {
-                passed += u32::from(all);
-            } else if nearest.is_none_or(|(best, ..)| t < best) {
-                nearest = Some((t, index, s));
-            }
+        self.reached(&turned, (from, to), |index| {
+            self.crossings(&turned, index, |t, s| {
+                let t = start + t;
+                if t <= after {
+                    passed += 1;
+                } else if nearest.is_none_or(|(best, ..)| t < best) {
+                    nearest = Some((t, index, s));
+                }
+            });
         });
         let (t, index, s) = nearest?;
-        if self.closed && !all {
-            self.crossings(line, (f64::NEG_INFINITY, after), |t, _, _| {
-                passed += u32::from(t <= after);
-            });
-        }
         let p = line.at(t);
         let point = self.point(atan2(p.y, p.x), index, s);
         let against = point.normal.dot(line.direction) < 0.0;
