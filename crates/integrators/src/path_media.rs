@@ -60,8 +60,7 @@ impl<S: Sampler, C: PathHooks> PathState<S, C> {
     pub(crate) fn fly<W: World>(&mut self, world: &W, settings: &PathSettings) -> bool {
         let u = self.flight;
         let scatters = self.depth < settings.max_depth;
-        let dark = world.is_dark(self.ray.medium);
-        let along = (self.variant.equiangular && scatters && !dark)
+        let along = (self.variant.equiangular && scatters && !world.is_dark(self.ray.medium))
             .then(|| self.look_along(world, settings))
             .flatten();
         let hit = self.hit.as_ref();

@@ -110,6 +110,9 @@ pub fn compile_with(
         camera_medium,
         diagnostics,
     );
+    if bodies.is_some() {
+        media::refuse_varying_bodies(&surfaces.media, diagnostics);
+    }
     if diagnostics.has_errors() {
         return None;
     }

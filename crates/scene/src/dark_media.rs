@@ -21,9 +21,8 @@ impl SceneMedia {
         lights: &[LightDescription],
         lookup: &SceneTables,
     ) {
-        if self.bodies().is_some() || self.emitting() > 0 {
-            return;
-        }
+        // Bodies end where others begin, and a medium that emits is a lamp.
+        let certain = self.bodies().is_none() && self.emitting() == 0;
         let light_boxes: Vec<[Vec3; 2]> = (lights.iter())
             .filter_map(|light| light.light.extent(lookup))
             .map(|extent| [extent.low.as_vec3(), extent.high.as_vec3()])
@@ -40,7 +39,7 @@ impl SceneMedia {
             if self.homogeneous(within).is_some_and(Homogeneous::varies) {
                 return true;
             }
-            let Some([low, high]) = *bounds else {
+            let Some([low, high]) = bounds.filter(|_| certain) else {
                 return false;
             };
             let beside = |[from, to]: &[Vec3; 2]| from.cmpgt(high).any() || to.cmplt(low).any();

@@ -68,6 +68,21 @@ pub(crate) fn prepared(
     Some(prepared)
 }
 
+/// Refuses coefficients that vary over a surface in a scene whose shapes overlap: where a walk passes a body that is not there, it would
+/// take that one's surface for its own.
+pub(crate) fn refuse_varying_bodies(
+    media: &[(MediumDescription, Span)],
+    diagnostics: &Diagnostics,
+) {
+    let varies = |medium: &MediumDescription| matches!(medium, MediumDescription::Homogeneous(walk) if walk.varies());
+    for (_, span) in media.iter().filter(|(medium, _)| varies(medium)) {
+        let message =
+            "coefficients that vary over a surface do not go with `priority` in one scene";
+        let help = "give `albedo` and `mean_free_path` without a texture";
+        diagnostics.push(Diagnostic::error(*span, message).help(help));
+    }
+}
+
 /// Says by how much ray marching is wrong, on the way from side to side of a medium's box.
 fn note_bias(
     medium: &MediumDescription,

@@ -22,7 +22,7 @@ pub(crate) struct Parts {
     /// Whether any material lets light pass straight, so that shadow rays must ask.
     pub(crate) has_null: bool,
     pub(crate) media: SceneMedia,
-    /// Whether there are media, so that shadow rays must ask.
+    /// Whether there are media, so that rays must know what they are in.
     pub(crate) has_media: bool,
     /// The medium beyond everything.
     pub(crate) outermost: MediumId,

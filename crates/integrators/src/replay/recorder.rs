@@ -6,9 +6,9 @@ use super::model::RecordingBsdf;
 use etalon_math::{Density, SolidAngle};
 use etalon_spectrum::{SensorWeights, Wavelengths};
 use etalon_transport::{
-    ApertureHit, Camera, CameraRay, CameraSample, DiffusionProfile, Emission, EmissionPdf, Hit,
-    LegacyPhong, LightId, LightSample, LightSampleContext, LightVariety, MediumId, Ray,
-    SurfaceInteraction, TraceEvent, Transmission, World,
+    ApertureHit, Camera, CameraRay, CameraSample, Coefficients, DiffusionProfile, Emission,
+    EmissionPdf, Hit, LegacyPhong, LightId, LightSample, LightSampleContext, LightVariety,
+    MediumId, Ray, SurfaceInteraction, TraceEvent, Transmission, World,
 };
 use glam::{Vec2, Vec3, Vec4};
 
@@ -93,6 +93,28 @@ impl<'a, W: World> World for Recorder<'a, W> {
 
     fn medium(&self, medium: MediumId, wavelengths: &Wavelengths) -> Option<Self::Medium<'_>> {
         self.world.medium(medium, wavelengths)
+    }
+
+    fn is_dark(&self, medium: MediumId) -> bool {
+        self.world.is_dark(medium)
+    }
+
+    fn entry(
+        &self,
+        medium: MediumId,
+        at: &SurfaceInteraction,
+        wavelengths: &Wavelengths,
+    ) -> Option<Coefficients> {
+        self.world.entry(medium, at, wavelengths)
+    }
+
+    fn entered(
+        &self,
+        medium: MediumId,
+        coefficients: Coefficients,
+        wavelengths: &Wavelengths,
+    ) -> Option<Self::Medium<'_>> {
+        self.world.entered(medium, coefficients, wavelengths)
     }
 
     fn diffusion(
