@@ -48,9 +48,9 @@ impl Cluster {
             let made = folder.join(name);
             fs::create_dir_all(&made).map_err(failed(&made))?;
         }
-        // The folder of a socket must be open to all, and no other folder of munged's to others.
-        let closed = fs::Permissions::from_mode(0o755);
-        fs::set_permissions(folder, closed).map_err(failed(folder))?;
+        // `munged` wants the folder of its socket open to all, and writable by its owner alone.
+        let open = fs::Permissions::from_mode(0o755);
+        fs::set_permissions(folder, open).map_err(failed(folder))?;
         let mut cluster = Self {
             folder: folder.to_owned(),
             central: Vec::new(),
