@@ -6,6 +6,7 @@ use crate::fault::PlantedFault;
 use crate::kept::{BatchCache, Wanted};
 use crate::rendering;
 use crate::run::Task;
+use crate::tier::Multiple;
 use etalon_film::RenderedImage;
 use etalon_integrators::RenderPlan;
 use std::hash::{DefaultHasher, Hasher};
@@ -17,9 +18,9 @@ pub(crate) struct Batches<'a> {
     /// The first look's budget.
     pub(crate) first: Budget,
     /// Replicates there are, in multiples of the first look's.
-    pub(crate) from: u32,
+    pub(crate) from: Multiple,
     /// Replicates there shall be.
-    pub(crate) to: u32,
+    pub(crate) to: Multiple,
     /// Where finished batches are kept.
     pub(crate) kept: &'a BatchCache<'a>,
 }
@@ -51,14 +52,14 @@ impl Batches<'_> {
         seed: u64,
         part: Side,
     ) -> Result<RenderedImage, String> {
-        let more = self.to - self.from;
+        let more = |count: u32| self.to.of(count) - self.from.of(count);
         let budget = Budget {
-            spp: self.first.spp * more,
-            replicates: self.first.replicates * more,
+            spp: more(self.first.spp),
+            replicates: more(self.first.replicates),
             ..self.first
         };
         // Batches are independent: each has its own seed.
-        let seed = seed.wrapping_add(u64::from(self.from) << 40);
+        let seed = seed.wrapping_add(u64::from(self.from.in_halves()) << 40);
         let loaded = rendering::load_for(self.task.claim, estimator)?;
         let plan = rendering::plan(&loaded, estimator, budget, seed);
         let name = self.name(estimator, &plan, part);
@@ -90,7 +91,7 @@ impl Batches<'_> {
 
     /// What tells a batch from all others of the claim. The oracle's belong to no estimator.
     fn name(&self, estimator: &Estimator, plan: &RenderPlan, part: Side) -> String {
-        let (from, print) = (self.from, fingerprint(estimator));
+        let (from, print) = (self.from.in_halves(), fingerprint(estimator));
         match part {
             Side::Own => {
                 let fault = self.task.fault.map(|fault| format!("-{fault}"));

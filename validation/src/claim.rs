@@ -297,9 +297,13 @@ impl Claim {
         };
         for estimator in self.estimators.iter().chain(oracle) {
             for budget in [estimator.least_budget(), estimator.thorough] {
-                if budget.replicates < 2 || budget.spp < budget.replicates {
+                if budget.replicates < 2
+                    || !budget.replicates.is_multiple_of(2)
+                    || budget.spp < budget.replicates
+                {
                     return Err(
-                        "a budget needs at least 2 replicates of at least 1 sample".to_owned()
+                        "a budget needs an even number of replicates of at least 1 sample each"
+                            .to_owned(),
                     );
                 }
             }

@@ -29,7 +29,7 @@
 //! [`crate::calibrate`] deals replicates that there are.
 
 use crate::run::Task;
-use crate::tier::{self, FAULT_LOOKS, STATED, Tier};
+use crate::tier::{self, FAULT_LOOKS, Multiple, STATED, Tier};
 use etalon_statistics::{Family, Verdict};
 use std::time::{Duration, Instant};
 
@@ -45,7 +45,7 @@ pub struct Stage {
     /// The task's place among all tasks.
     pub place: usize,
     /// How many replicates there shall be, in multiples of the first look's.
-    pub multiple: u32,
+    pub multiple: Multiple,
     /// The level of its intervals.
     pub alpha: f64,
     /// The level at which it may show a failure.
@@ -100,7 +100,7 @@ pub struct Progress<'a> {
 /// Comparisons that share a family and a plan of looks.
 struct Group<'a> {
     family: Family,
-    looks: &'static [u32],
+    looks: &'static [Multiple],
     /// The level of the intervals at each look.
     levels: Vec<f64>,
     /// What each look is granted of [`STATED`].
@@ -136,7 +136,7 @@ impl Member<'_> {
 impl<'a> Group<'a> {
     fn new(
         tasks: impl Iterator<Item = (usize, Task<'a>)>,
-        looks: &'static [u32],
+        looks: &'static [Multiple],
         alarm: f64,
     ) -> Result<Self, String> {
         let mut family = Family::new(alarm).ok_or("the level is none")?;
@@ -268,8 +268,12 @@ pub fn decide<'a>(
         let work = |groups: &[Group<'_>; 2], (group, index): (usize, usize)| -> f64 {
             let group: &Group<'_> = &groups[group];
             let task = &group.members[index].task;
-            let before = if look > 0 { group.looks[look - 1] } else { 0 };
-            let more = f64::from(group.looks[look] - before);
+            let before = if look > 0 {
+                group.looks[look - 1]
+            } else {
+                Multiple::ZERO
+            };
+            let more = group.looks[look].factor() - before.factor();
             more * task.samples(tier)
         };
         let all: f64 = open.iter().map(|at| work(&groups, *at)).sum();

@@ -1,8 +1,9 @@
 //! What is not rendered twice.
 //!
 //! The estimators of a claim are held against one oracle, rendered with one seed: its batches are the
-//! same for all of them, and are kept in memory until the next claim's turn. (That their comparisons
-//! depend on each other so is nothing new, and no correction of this crate assumes otherwise.) A full
+//! same for all of them, and are kept in memory until the next claim's turn. So are pictures that a
+//! planted fault of what is reported spoils: the sound comparison has rendered them already. Comparisons
+//! depend on each other so; no correction of this crate assumes otherwise. A full
 //! run keeps all batches on disk, too ([`crate::state`]).
 
 use crate::state::State;
@@ -15,14 +16,14 @@ use std::collections::HashMap;
 /// What there is already.
 pub(crate) struct BatchCache<'a> {
     state: Option<&'a State>,
-    oracles: RefCell<Oracles>,
+    shared: RefCell<Shared>,
 }
 
-/// The batches of one claim's oracle.
+/// What the comparisons of one claim share.
 #[derive(Default)]
-struct Oracles {
+struct Shared {
     claim: String,
-    batches: HashMap<String, RenderedImage>,
+    pictures: HashMap<String, RenderedImage>,
 }
 
 /// Which batch.
@@ -44,7 +45,7 @@ impl<'a> BatchCache<'a> {
     pub(crate) fn new(state: Option<&'a State>) -> Self {
         Self {
             state,
-            oracles: RefCell::default(),
+            shared: RefCell::default(),
         }
     }
 
@@ -57,9 +58,36 @@ impl<'a> BatchCache<'a> {
         wanted: &Wanted<'_>,
         render: impl FnOnce() -> Result<RenderedImage, String>,
     ) -> Result<RenderedImage, String> {
-        if let Some(batch) = self.oracles.borrow().get(wanted) {
-            return Ok(batch.clone());
+        if wanted.shared {
+            return self.shared(wanted.claim, wanted.name, || self.stored(wanted, render));
         }
+        self.stored(wanted, render)
+    }
+
+    /// What the comparisons of a claim share in memory, or else what is rendered.
+    ///
+    /// # Errors
+    /// If it cannot be rendered.
+    pub(crate) fn shared(
+        &self,
+        claim: &str,
+        name: &str,
+        render: impl FnOnce() -> Result<RenderedImage, String>,
+    ) -> Result<RenderedImage, String> {
+        if let Some(picture) = self.shared.borrow().get(claim, name) {
+            return Ok(picture.clone());
+        }
+        let picture = render()?;
+        self.shared.borrow_mut().put(claim, name, &picture);
+        Ok(picture)
+    }
+
+    /// What is on disk, or else what is rendered and put there.
+    fn stored(
+        &self,
+        wanted: &Wanted<'_>,
+        render: impl FnOnce() -> Result<RenderedImage, String>,
+    ) -> Result<RenderedImage, String> {
         let file = format!("{}-{}", wanted.claim, wanted.name);
         let read = |state: &State| state.read(&file, wanted.plan, wanted.loaded);
         let batch = match self.state.and_then(read) {
@@ -72,26 +100,23 @@ impl<'a> BatchCache<'a> {
                 batch
             }
         };
-        if wanted.shared {
-            self.oracles.borrow_mut().put(wanted, &batch);
-        }
         Ok(batch)
     }
 }
 
-impl Oracles {
-    fn get(&self, wanted: &Wanted<'_>) -> Option<&RenderedImage> {
-        if !wanted.shared || self.claim != wanted.claim {
+impl Shared {
+    fn get(&self, claim: &str, name: &str) -> Option<&RenderedImage> {
+        if self.claim != claim {
             return None;
         }
-        self.batches.get(wanted.name)
+        self.pictures.get(name)
     }
 
-    fn put(&mut self, wanted: &Wanted<'_>, batch: &RenderedImage) {
-        if self.claim != wanted.claim {
-            self.claim = wanted.claim.to_owned();
-            self.batches.clear();
+    fn put(&mut self, claim: &str, name: &str, picture: &RenderedImage) {
+        if self.claim != claim {
+            self.claim = claim.to_owned();
+            self.pictures.clear();
         }
-        self.batches.insert(wanted.name.to_owned(), batch.clone());
+        self.pictures.insert(name.to_owned(), picture.clone());
     }
 }

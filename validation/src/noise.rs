@@ -20,9 +20,11 @@
 //! importance-sampled (checked). One channel is counted, as those of a pixel
 //! are not independent of each other. Errors are relative to the truth.
 
+use crate::batches;
 use crate::claim::{Budget, Claim, Estimator};
 use crate::closed_form;
 use crate::fault::PlantedFault;
+use crate::kept::BatchCache;
 use crate::measure::{self, Measure};
 use crate::rendering;
 use crate::samples;
@@ -93,7 +95,7 @@ impl Counting {
         let least = self.default.unwrap_or(all);
         match (fault, tier) {
             (Some(_), _) => Effort {
-                seeds: least.seeds.div_ceil(4),
+                seeds: 2 * least.seeds.div_ceil(8),
                 ..least
             },
             (None, Tier::Default) => least,
@@ -107,10 +109,12 @@ impl Counting {
     /// Says which.
     pub fn check(&self) -> Result<(), String> {
         let sensible = |x: f64| x > 0.0 && x < 1.0;
-        if self.seeds == 0 || !sensible(self.tolerance) {
-            return Err("`seeds` and `tolerance` must be above 0".to_owned());
+        // Looks add a half of them.
+        let even = |seeds: u32| seeds > 0 && seeds.is_multiple_of(2);
+        if !even(self.seeds) || !sensible(self.tolerance) {
+            return Err("`seeds` must be even, `tolerance` above 0".to_owned());
         }
-        let less = |e: Effort| e.seeds > 0 && e.seeds < self.seeds && sensible(e.tolerance);
+        let less = |e: Effort| even(e.seeds) && e.seeds < self.seeds && sensible(e.tolerance);
         if !self.default.is_none_or(less) {
             return Err("`default` needs fewer `seeds`, and a `tolerance` above 0".to_owned());
         }
@@ -140,13 +144,14 @@ struct Trial {
 ///
 /// # Errors
 /// If a picture cannot be rendered, or an integrator makes pixels depend on each other.
-pub fn count(
+pub(crate) fn count(
     claim: &Claim,
     (counting, numbers): (&Counting, Range<u32>),
     estimator: &Estimator,
     fault: Option<PlantedFault>,
     budget: Budget,
     seed: u64,
+    kept: &BatchCache<'_>,
 ) -> Result<Vec<Counted>, String> {
     let shrink = match fault {
         None => 1.0,
@@ -160,11 +165,14 @@ pub fn count(
     let size = loaded.compiled.film.crop_size.to_array();
     let known = closed_form::picture(&counting.formula, claim, estimator, size)?;
     let freedom = f64::from(budget.replicates) - 1.0;
+    let print = batches::fingerprint(estimator);
     let mut pictures = Vec::new();
     for number in numbers {
         let seed = seed.wrapping_add((u64::from(number) + 1) << 32);
         let plan = rendering::plan(&loaded, estimator, budget, seed);
-        let picture = rendering::picture(&loaded, &plan, estimator, None, None)?;
+        let name = format!("{print:08x}-{number}");
+        let render = || rendering::picture(&loaded, &plan, estimator, None, None);
+        let picture = kept.shared(&claim.name, &name, render)?;
         let shared = |metadata: &Metadata| metadata.film.filter_method.is_some();
         if picture.metadata.as_ref().is_some_and(shared) {
             return Err("pixels that share samples depend on each other".to_owned());

@@ -22,10 +22,12 @@
 //! A pixel whose interval reaches beyond the tolerance *may* differ, and one that may differ leaves
 //! the claim undecided.
 
+use crate::batches;
 use crate::claim::{Budget, Claim, Estimator};
 use crate::edges;
 use crate::fault::PlantedFault;
 use crate::folders;
+use crate::kept::BatchCache;
 use crate::measure::Measure;
 use crate::povray;
 use crate::rendering;
@@ -66,20 +68,29 @@ pub struct Compared {
 ///
 /// # Errors
 /// If the picture cannot be rendered or the reference cannot be used.
-pub fn compare(
+pub(crate) fn compare(
     claim: &Claim,
     limits: Limits,
     estimator: &Estimator,
     fault: Option<PlantedFault>,
     budget: Budget,
     (seed, alpha): (u64, f64),
+    kept: &BatchCache<'_>,
 ) -> Result<Compared, String> {
     let twins = povray::twins(claim)?;
     let oracle = povray::read_in(&folders::references(), &claim.name, &twins)?;
     let loaded = rendering::load_for(claim, estimator)?;
     let plan = rendering::plan(&loaded, estimator, budget, seed);
     let physical = fault.filter(|fault| fault.is_physical());
-    let mut picture = rendering::picture(&loaded, &plan, estimator, physical, None)?;
+    let render = || rendering::picture(&loaded, &plan, estimator, physical, None);
+    let mut picture = match physical {
+        Some(_) => render()?,
+        None => {
+            let print = batches::fingerprint(estimator);
+            let name = format!("{print:08x}-{}", plan.replicates);
+            kept.shared(&claim.name, &name, render)?
+        }
+    };
     if let Some(fault) = fault.filter(|fault| !fault.is_physical()) {
         spoil(&mut picture.image, fault)?;
     }

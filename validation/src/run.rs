@@ -11,6 +11,7 @@ use crate::judged::{self, Against, Asked};
 use crate::kept::BatchCache;
 use crate::measure::Measure;
 use crate::noise::Effort;
+use crate::tier::Multiple;
 use crate::{closed_form, convergence, invariance, noise, pixelwise, reference, rendering};
 use etalon::judge::{ExactImage, ImageComparison};
 use etalon_film::RenderedImage;
@@ -88,7 +89,7 @@ pub struct Comparison<'a> {
     /// The batches so far, of a claim about convergence.
     batches: convergence::Batches,
     /// Replicates so far, in multiples of the first look's.
-    multiple: u32,
+    multiple: Multiple,
 }
 
 /// The seed of what an agreement's estimator is held against: the two must be independent.
@@ -103,7 +104,7 @@ impl<'a> Comparison<'a> {
             oracle: None,
             counted: Vec::new(),
             batches: convergence::Batches::default(),
-            multiple: 0,
+            multiple: Multiple::ZERO,
         }
     }
 
@@ -141,8 +142,8 @@ impl<'a> Comparison<'a> {
         } = turn;
         let first = self.task.budget(options.tier);
         let budget = Budget {
-            spp: first.spp * multiple,
-            replicates: first.replicates * multiple,
+            spp: multiple.of(first.spp),
+            replicates: multiple.of(first.replicates),
             ..first
         };
         let (mut shown, mut fall, mut replicates) = (None, None, budget.replicates);
@@ -153,7 +154,8 @@ impl<'a> Comparison<'a> {
                     excused: *excused,
                 };
                 let seeded = (options.seed, alpha);
-                let made = pixelwise::compare(claim, limits, estimator, fault, budget, seeded)?;
+                let made =
+                    pixelwise::compare(claim, limits, estimator, fault, budget, seeded, kept)?;
                 shown = Some(Box::new([made.picture, made.oracle]));
                 (made.measures, made.spp)
             }
@@ -167,10 +169,10 @@ impl<'a> Comparison<'a> {
             }
             Oracle::Noise(counting) => {
                 let Effort { seeds, tolerance } = counting.effort(options.tier, fault);
-                let pictures = multiple * seeds;
+                let pictures = multiple.of(seeds);
                 let numbers = self.counted.len() as u32..pictures;
                 let of = (counting, numbers);
-                let more = noise::count(claim, of, estimator, fault, first, options.seed)?;
+                let more = noise::count(claim, of, estimator, fault, first, options.seed, kept)?;
                 self.counted.extend(more);
                 // Those of all pictures, as its samples are.
                 replicates = pictures * first.replicates;
@@ -251,12 +253,16 @@ impl<'a> Comparison<'a> {
             }
             (Oracle::Agreement { estimator } | Oracle::Invariance { estimator }, _) => {
                 let seed = options.seed ^ ORACLE_SEED;
-                // A fault must show against as much work as is spent on finding it.
-                work.first = match fault {
-                    Some(_) => estimator.fault_budget(),
-                    None => options.tier.budget(estimator),
+                work.first = options.tier.budget(estimator);
+                let oracle = match (fault, self.oracle.take()) {
+                    // A fault must show against what the sound comparison rendered for its first look.
+                    (Some(_), Some(oracle)) => oracle,
+                    (Some(_), None) => {
+                        work.to = Multiple::ONE;
+                        work.extend(None, estimator, seed, Side::Oracle)?
+                    }
+                    (None, so_far) => work.extend(so_far, estimator, seed, Side::Oracle)?,
                 };
-                let oracle = work.extend(self.oracle.take(), estimator, seed, Side::Oracle)?;
                 self.oracle = Some(oracle.clone());
                 (None, oracle)
             }

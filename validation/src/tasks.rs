@@ -84,11 +84,12 @@ impl Task<'_> {
         let own = f64::from(self.budget(tier).spp);
         let spp = match &self.claim.oracle {
             Oracle::Agreement { estimator } | Oracle::Invariance { estimator } => {
+                // A fault is held against the oracle that there is.
                 let other = match self.fault {
-                    Some(_) => estimator.fault_budget(),
-                    None => tier.budget(estimator),
+                    Some(_) => 0,
+                    None => tier.budget(estimator).spp,
                 };
-                own + f64::from(other.spp)
+                own + f64::from(other)
             }
             Oracle::Noise(counting) => own * f64::from(counting.effort(tier, self.fault).seeds),
             _ => own,

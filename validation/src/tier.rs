@@ -1,8 +1,9 @@
 //! How thorough a run is: default, thorough or full, and how often it may look again.
 //!
-//! Every comparison is looked at once with its budget. Those that are undecided get as many
-//! replicates again, and again, until they are decided or the plan ends: a group-sequential test
+//! Every comparison is looked at once with its budget. Those that are undecided get half as many
+//! replicates again, and more, until they are decided or the plan ends: a group-sequential test
 //! whose levels are spent by Pocock's function over the planned replicates and never used twice.
+//! Steps of a half cost little of the level and spare what doubling would render in excess.
 //! Counts alone decide how much is done, never a clock: the same program and seed give the same
 //! verdicts and numbers on any machine, however busy it is.
 //! Each look is judged by what it alone is granted, so that nothing is assumed of how the looks
@@ -51,11 +52,10 @@ impl Tier {
     }
 
     /// Replicates at each look, in multiples of the budget's.
-    pub fn looks(self) -> &'static [u32] {
+    pub fn looks(self) -> &'static [Multiple] {
         match self {
-            Self::Default => &[1, 2, 4, 8],
-            Self::Thorough => &[1, 2, 4, 8],
-            Self::Full => &[1, 2, 4, 8, 16, 32, 64],
+            Self::Default | Self::Thorough => FINE_LOOKS,
+            Self::Full => FULL_LOOKS,
         }
     }
 
@@ -78,20 +78,72 @@ impl Tier {
     }
 }
 
-/// Looks at planted faults: up to what the default run spends on the sound estimator.
-pub const FAULT_LOOKS: &[u32] = &[1, 2, 4, 8];
+/// How many replicates a look asks for, in multiples of a budget's.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord)]
+pub struct Multiple {
+    halves: u32,
+}
 
-/// What each look may spend of `alpha`, with `looks` in multiples of the first; they add up to it.
+impl Multiple {
+    /// None.
+    pub const ZERO: Self = Self::halves(0);
+    /// The budget itself.
+    pub const ONE: Self = Self::halves(2);
+
+    const fn halves(halves: u32) -> Self {
+        Self { halves }
+    }
+
+    /// How many halves of the budget that is.
+    pub fn in_halves(self) -> u32 {
+        self.halves
+    }
+
+    /// As many times a count of the budget, which is even (of replicates, of pictures).
+    pub fn of(self, count: u32) -> u32 {
+        count * self.halves / 2
+    }
+
+    /// As a number.
+    pub fn factor(self) -> f64 {
+        f64::from(self.halves) / 2.0
+    }
+}
+
+const FINE_LOOKS: &[Multiple] = &[
+    Multiple::ONE,
+    Multiple::halves(3),
+    Multiple::halves(4),
+    Multiple::halves(6),
+    Multiple::halves(8),
+    Multiple::halves(12),
+    Multiple::halves(16),
+];
+
+const FULL_LOOKS: &[Multiple] = &[
+    Multiple::ONE,
+    Multiple::halves(4),
+    Multiple::halves(8),
+    Multiple::halves(16),
+    Multiple::halves(32),
+    Multiple::halves(64),
+    Multiple::halves(128),
+];
+
+/// Looks at planted faults: up to what the default run spends on the sound estimator.
+pub const FAULT_LOOKS: &[Multiple] = FINE_LOOKS;
+
+/// What each look may spend of `alpha`; they add up to it.
 ///
 /// # Errors
 /// If the looks do not grow.
-pub fn granted(alpha: f64, looks: &[u32]) -> Result<Vec<f64>, String> {
+pub fn granted(alpha: f64, looks: &[Multiple]) -> Result<Vec<f64>, String> {
     let mut boundaries = Boundaries::new(alpha, Spending::Pocock).ok_or("no level to spend")?;
-    let last = looks.last().copied().unwrap_or(1);
+    let last = looks.last().copied().unwrap_or(Multiple::ONE).factor();
     looks
         .iter()
         .map(|look| {
-            let bound = boundaries.look(f64::from(*look) / f64::from(last));
+            let bound = boundaries.look(look.factor() / last);
             bound.map(|b| b.granted).map_err(|e| e.to_string())
         })
         .collect()
@@ -114,6 +166,6 @@ mod tests {
             assert!(levels.iter().all(|level| *level > 2e-7), "{levels:?}");
         }
         // Mutant rejected: looks that shrink would spend twice.
-        assert!(granted(1e-5, &[2, 1]).is_err());
+        assert!(granted(1e-5, &[Multiple::halves(4), Multiple::ONE]).is_err());
     }
 }

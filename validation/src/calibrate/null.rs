@@ -9,7 +9,7 @@ use super::question::Question;
 use crate::decision::{self, FALSE_POSITIVE_LEVEL, Seen};
 use crate::outcome::Outcome;
 use crate::run::Task;
-use crate::tier::Tier;
+use crate::tier::{Multiple, Tier};
 use etalon_statistics::error_rates::Rate;
 use rayon::prelude::*;
 use std::sync::atomic::{AtomicU32, Ordering};
@@ -108,7 +108,7 @@ fn once(tasks: &[Task<'_>], pools: &[Pool], tier: Tier, seed: u64) -> Result<Run
         |turn| {
             let table = &mut tables[turn.place];
             let dealt = table.look(turn).ok()?;
-            if turn.multiple == 1 {
+            if turn.multiple == Multiple::ONE {
                 p_values.extend(table.questions());
             }
             Some(Seen {

@@ -16,13 +16,14 @@ use crate::claim::{Budget, Oracle};
 use crate::convergence;
 use crate::decision::Stage;
 use crate::judged::{self, Against, Asked};
+use crate::kept::BatchCache;
 use crate::measure::Measure;
 use crate::noise::{self, Counted};
 use crate::reference;
 use crate::rendering;
 use crate::run::Task;
 use crate::state::State;
-use crate::tier::Tier;
+use crate::tier::{Multiple, Tier};
 use etalon::judge::ExactImage;
 use etalon_film::{Metadata, RenderedImage, TileMeans};
 use etalon_images::{Frame, Image};
@@ -118,7 +119,15 @@ impl Pool {
             }
             Oracle::Noise(counting) => {
                 let of = (counting, 0..counting.effort(tier, None).seeds);
-                Kind::Coverages(noise::count(claim, of, estimator, None, first, seed)?)
+                Kind::Coverages(noise::count(
+                    claim,
+                    of,
+                    estimator,
+                    None,
+                    first,
+                    seed,
+                    &BatchCache::new(None),
+                )?)
             }
             Oracle::Invariance { .. } if estimator.change.is_some_and(|c| c.is_of_bits()) => {
                 Kind::Certain
@@ -233,7 +242,7 @@ impl<'a> Table<'a> {
         match &self.pool.kind {
             Kind::Pictures(pictures) => self.pictures(pictures, turn),
             Kind::Exponents(exponents) => {
-                let count = exponents.len() * multiple as usize;
+                let count = multiple.of(exponents.len() as u32);
                 let drawn: Vec<f64> = (0..count).map(|_| *self.draw(exponents)).collect();
                 let measure = convergence::judge(&drawn, self.task.estimator, alpha)?;
                 Ok(Dealt {
@@ -246,7 +255,7 @@ impl<'a> Table<'a> {
                     return Err("coverages belong to claims about noise".to_owned());
                 };
                 let tolerance = counting.effort(self.pool.tier, None).tolerance;
-                let count = counted.len() * multiple as usize;
+                let count = multiple.of(counted.len() as u32);
                 let drawn: Vec<Counted> = (0..count).map(|_| *self.draw(counted)).collect();
                 let blocks = self.task.estimator.blocks;
                 let measures = noise::judge(&drawn, blocks, tolerance, alpha)?;
@@ -271,7 +280,7 @@ impl<'a> Table<'a> {
             exact: self.task.claim.oracle.is_exact(),
             alarm: turn.alarm,
         };
-        let want = |first: u32| (first * multiple) as usize;
+        let want = |first: u32| multiple.of(first) as usize;
         let judged = if let Some(known) = &pictures.known {
             while self.own.len() < want(pictures.own) {
                 let drawn = self.random.random_range(0..pictures.replicates());
@@ -287,10 +296,14 @@ impl<'a> Table<'a> {
             let mut own = std::mem::take(&mut self.own);
             let mut other = std::mem::take(&mut self.other);
             self.deal(&mut own, want(pictures.own), pictures.replicates());
-            let most = if pictures.other_grows { multiple } else { 1 };
+            let most = if pictures.other_grows {
+                multiple
+            } else {
+                Multiple::ONE
+            };
             self.deal(
                 &mut other,
-                (pictures.other * most) as usize,
+                most.of(pictures.other) as usize,
                 pictures.replicates(),
             );
             (self.own, self.other) = (own, other);

@@ -5,7 +5,7 @@ use etalon_statistics::Verdict;
 use etalon_validation::decision::{self, Seen, Stage};
 use etalon_validation::fault::PlantedFault;
 use etalon_validation::run::{self, Options};
-use etalon_validation::tier::Tier;
+use etalon_validation::tier::{Multiple, Tier};
 
 #[test]
 fn a_doubt_gets_more_replicates_and_never_passes() {
@@ -28,19 +28,20 @@ fn a_doubt_gets_more_replicates_and_never_passes() {
         let verdict = decision.verdict.expect("decided");
         (verdict, decision.in_doubt, decision.looks)
     };
+    let all = Tier::Thorough.looks().len();
     let seen = |verdict, p| Seen { verdict, p };
     let doubt = |turn: Stage| seen(Verdict::Differs, 0.5 * turn.alpha);
     // Mutants rejected: a failure at the level of the intervals; a doubt that passes, or ends the looks.
-    assert_eq!(decide(0, &doubt), (Verdict::Undecided, true, 4));
+    assert_eq!(decide(0, &doubt), (Verdict::Undecided, true, all));
     // Equality in doubt, though the bias is within its bounds. Mutant rejected: that passes.
     let equality = |turn: Stage| seen(Verdict::Agrees, 0.5 * turn.alpha);
-    assert_eq!(decide(0, &equality), (Verdict::Undecided, true, 4));
+    assert_eq!(decide(0, &equality), (Verdict::Undecided, true, all));
     // Too wide an interval is no doubt. Mutant rejected: all that is undecided is in doubt.
     let wide = |_: Stage| seen(Verdict::Undecided, 0.5);
-    assert_eq!(decide(0, &wide), (Verdict::Undecided, false, 4));
+    assert_eq!(decide(0, &wide), (Verdict::Undecided, false, all));
     // Chance: more replicates dispel it. Mutant rejected: a first look that is never forgotten.
     let chance = |turn: Stage| match turn.multiple {
-        1 => doubt(turn),
+        Multiple::ONE => doubt(turn),
         _ => seen(Verdict::Agrees, 0.5),
     };
     assert_eq!(decide(0, &chance), (Verdict::Agrees, false, 2));
