@@ -38,8 +38,11 @@ use std::ops::Range;
 /// The levels whose intervals are counted.
 pub const LEVELS: [f64; 3] = [0.68, 0.95, 0.99];
 
-/// How far the mean squared error may be from the reported one, relative to it.
-pub const RATIO_TOLERANCE: f64 = 0.15;
+/// How far the mean squared error may be from the reported one, relative to it, where coverages may be off by
+/// `tolerance`: 0.15, or more where a quick look is content with less.
+pub fn ratio_tolerance(tolerance: f64) -> f64 {
+    (2.5 * tolerance).max(0.15)
+}
 
 /// The channel that is counted.
 const CHANNEL: &str = "G";
@@ -204,7 +207,7 @@ pub fn judge(
     let all = (pictures.iter()).fold(Counted::default(), |all, picture| all.and(picture));
     let each = alpha / (LEVELS.len() + 1) as f64;
     let coverages = (0..LEVELS.len()).map(|index| all.coverage(index, blocks, tolerance, each));
-    let ratio = std::iter::once_with(|| all.squared_error(blocks, each));
+    let ratio = std::iter::once_with(|| all.squared_error(blocks, tolerance, each));
     let measures: Option<Vec<Measure>> = coverages.chain(ratio).collect();
     measures.ok_or_else(|| "there is nothing to count".to_owned())
 }
@@ -293,14 +296,15 @@ impl Counted {
     }
 
     /// The mean squared error over the reported one.
-    fn squared_error(&self, blocks: bool, alpha: f64) -> Option<Measure> {
+    fn squared_error(&self, blocks: bool, tolerance: f64, alpha: f64) -> Option<Measure> {
+        let tolerance = ratio_tolerance(tolerance);
         let [errors, reported, aa, ab, bb] = self.squares;
         let ratio = errors / reported;
         // Σ (a − ratio b)².
         let residuals = (aa - 2.0 * ratio * ab + ratio * ratio * bb).max(0.0);
         let estimate = Estimate::with_known_error(ratio, residuals.sqrt() / reported)?;
-        let least = if blocks { 0.0 } else { 1.0 - RATIO_TOLERANCE };
-        let accepted = [least, 1.0 + RATIO_TOLERANCE];
+        let least = if blocks { 0.0 } else { 1.0 - tolerance };
+        let accepted = [least, 1.0 + tolerance];
         let name = "squared error over the reported".to_owned();
         Some(Measure::new(name, &estimate, accepted, alpha))
     }
