@@ -1,17 +1,23 @@
 //! Faults planted from outside: worlds that lie in one respect, to show that lies are found.
 //!
-//! A [`Faulty`] world passes every question on to a sound one and falsifies a kind of answer.
+//! A [`Faulty`] world passes every question on to a sound one and falsifies a kind of answer; without a fault its
+//! pictures are the same bits.
 //! The renderer itself has no hooks for this. It may also rotate the lanes of wavelengths, which
 //! is no fault: another wavelength chooses then, and the picture must be the same.
 
+mod bsdf;
+mod medium;
+
+use bsdf::FaultyBsdf;
 use etalon_math::{Density, SolidAngle};
 use etalon_spectrum::{SensorWeights, Wavelengths};
 use etalon_transport::{
-    Bsdf, BsdfSample, Emission, EmissionPdf, Hit, LegacyPhong, LightId, LightSample,
-    LightSampleContext, MediumId, Ray, SamplePdf, SurfaceInteraction, Transmission, TransportMode,
-    World,
+    Coefficients, DiffusionProfile, Emission, EmissionPdf, Hit, LegacyPhong, LightId, LightSample,
+    LightSampleContext, LightVariety, MediumId, Ray, SamplePdf, ShadowQuery, SurfaceInteraction,
+    TraceEvent, Transmission, World,
 };
 use glam::{Vec2, Vec3, Vec4};
+use medium::FaultyMedium;
 use serde::Deserialize;
 
 /// A physical fault.
@@ -24,7 +30,7 @@ pub enum PlantedFault {
     /// asked: the multiple importance weights do not sum to one.
     #[serde(rename = "wrong light density")]
     WrongLightDensity,
-    /// All lights give 2 % too much.
+    /// All lights give 2 % too much, media that emit among them.
     #[serde(rename = "energy x 1.02")]
     Energy,
     /// Independent samples where others are claimed: for convergence claims.
@@ -103,6 +109,13 @@ impl<'a, W: World> Faulty<'a, W> {
         }
     }
 
+    fn faulty_medium<M>(&self, medium: M) -> FaultyMedium<M> {
+        FaultyMedium {
+            medium,
+            energy: self.energy(),
+        }
+    }
+
     fn faulty(&self, mut sample: LightSample) -> LightSample {
         sample.radiance *= self.energy();
         if let (Some(PlantedFault::WrongLightDensity), SamplePdf::Continuous(density)) =
@@ -114,71 +127,13 @@ impl<'a, W: World> Faulty<'a, W> {
     }
 }
 
-/// A scattering model that may have lost its cosine.
-#[derive(Clone, Copy)]
-pub struct FaultyBsdf<B> {
-    model: B,
-    /// The normal whose cosine is missing.
-    missing: Option<Vec3>,
-}
-
-impl<B> FaultyBsdf<B> {
-    fn without_cosine(&self, wi: Vec3, value: Vec4) -> Vec4 {
-        match self.missing {
-            Some(normal) => value / normal.dot(wi).abs().max(1e-3),
-            None => value,
-        }
-    }
-}
-
-impl<B: Bsdf> Bsdf for FaultyBsdf<B> {
-    fn eval(&self, wo: Vec3, wi: Vec3, mode: TransportMode) -> Vec4 {
-        self.without_cosine(wi, self.model.eval(wo, wi, mode))
-    }
-
-    fn density(&self, wo: Vec3, wi: Vec3) -> Density<SolidAngle> {
-        self.model.density(wo, wi)
-    }
-
-    fn sample(&self, wo: Vec3, u_lobe: f32, u: Vec2, mode: TransportMode) -> Option<BsdfSample> {
-        let sample = self.model.sample(wo, u_lobe, u, mode)?;
-        if sample.chance.is_delta() {
-            return Some(sample);
-        }
-        Some(BsdfSample {
-            value: self.without_cosine(sample.wi, sample.value),
-            ..sample
-        })
-    }
-
-    fn discrete(&self, wo: Vec3, index: u32, mode: TransportMode) -> Option<BsdfSample> {
-        self.model.discrete(wo, index, mode)
-    }
-
-    fn has_continuous(&self) -> bool {
-        self.model.has_continuous()
-    }
-
-    fn null_transmittance(&self) -> Vec4 {
-        self.model.null_transmittance()
-    }
-
-    fn null_probability(&self) -> Vec4 {
-        self.model.null_probability()
-    }
-
-    fn albedo(&self, wo: Vec3) -> Vec4 {
-        self.model.albedo(wo)
-    }
-}
-
 impl<W: World> World for Faulty<'_, W> {
     type Bsdf<'w>
         = FaultyBsdf<W::Bsdf<'w>>
     where
         Self: 'w;
     type Medium<'w>
-        = W::Medium<'w>
+        = FaultyMedium<W::Medium<'w>>
     where
         Self: 'w;
     type Camera = W::Camera;
@@ -192,7 +147,40 @@ impl<W: World> World for Faulty<'_, W> {
     }
 
     fn medium(&self, medium: MediumId, wavelengths: &Wavelengths) -> Option<Self::Medium<'_>> {
-        self.world.medium(medium, wavelengths)
+        let medium = self.world.medium(medium, wavelengths)?;
+        Some(self.faulty_medium(medium))
+    }
+
+    fn is_dark(&self, medium: MediumId) -> bool {
+        self.world.is_dark(medium)
+    }
+
+    fn entry(
+        &self,
+        medium: MediumId,
+        at: &SurfaceInteraction,
+        wavelengths: &Wavelengths,
+    ) -> Option<Coefficients> {
+        self.world.entry(medium, at, wavelengths)
+    }
+
+    fn entered(
+        &self,
+        medium: MediumId,
+        coefficients: Coefficients,
+        wavelengths: &Wavelengths,
+    ) -> Option<Self::Medium<'_>> {
+        let medium = self.world.entered(medium, coefficients, wavelengths)?;
+        Some(self.faulty_medium(medium))
+    }
+
+    fn diffusion(
+        &self,
+        medium: MediumId,
+        at: &SurfaceInteraction,
+        wavelengths: &Wavelengths,
+    ) -> Option<impl DiffusionProfile> {
+        self.world.diffusion(medium, at, wavelengths)
     }
 
     fn wavelengths(&self, u: f32) -> Wavelengths {
@@ -211,6 +199,10 @@ impl<W: World> World for Faulty<'_, W> {
         self.world.intersect(ray)
     }
 
+    fn intersect_batch<'r>(&self, queries: impl Iterator<Item = (&'r Ray, &'r mut Option<Hit>)>) {
+        self.world.intersect_batch(queries);
+    }
+
     fn vertex(&self, ray: &Ray, hit: &Hit) -> SurfaceInteraction {
         self.world.vertex(ray, hit)
     }
@@ -222,6 +214,10 @@ impl<W: World> World for Faulty<'_, W> {
         crossings: u32,
     ) -> Option<Transmission> {
         self.world.transmittance(ray, wavelengths, crossings)
+    }
+
+    fn transmittance_batch<'r>(&self, queries: impl Iterator<Item = ShadowQuery<'r>>) {
+        self.world.transmittance_batch(queries);
     }
 
     fn bsdf(
@@ -269,6 +265,10 @@ impl<W: World> World for Faulty<'_, W> {
     ) -> Option<LightSample> {
         let sample = self.world.sample_light(from, wavelengths, u_light, u)?;
         Some(self.faulty(sample))
+    }
+
+    fn light_variety(&self, from: &LightSampleContext) -> LightVariety {
+        self.world.light_variety(from)
     }
 
     fn light_count(&self) -> u32 {
@@ -338,7 +338,15 @@ impl<W: World> World for Faulty<'_, W> {
         self.world.light_sample_density(from, start)
     }
 
+    fn medium_light_density(&self, medium: MediumId, at: Vec3) -> f32 {
+        self.world.medium_light_density(medium, at)
+    }
+
     fn take_ray_count(&self) -> u64 {
         self.world.take_ray_count()
+    }
+
+    fn record(&self, remark: impl FnOnce() -> TraceEvent) -> bool {
+        self.world.record(remark)
     }
 }

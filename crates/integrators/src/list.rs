@@ -128,16 +128,16 @@ macro_rules! integrators {
                 }
             }
 
-            /// Draws one sample again: see [`replay`].
+            /// Draws samples again: see [`replay`].
             pub fn replay<W: World, F: Film>(
                 &self,
                 world: &W,
                 film: &F,
                 plan: &RenderPlan,
-                address: &Address,
-            ) -> Replay {
+                addresses: &[Address],
+            ) -> Vec<Replay> {
                 match self {
-                    $(Self::$variant(integrator) => replay(world, integrator, film, plan, address),)*
+                    $(Self::$variant(integrator) => replay(world, integrator, film, plan, addresses),)*
                 }
             }
 

@@ -13,3 +13,4 @@ mod references;
 mod state;
 mod stills;
 mod tails;
+mod transparent;

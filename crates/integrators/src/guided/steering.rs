@@ -10,7 +10,7 @@
 
 use super::field;
 use etalon_math::float::ONE_MINUS_EPSILON;
-use etalon_math::{DeltaProbability, Density, SolidAngle};
+use etalon_math::{DeltaProbability, Density, Frame, SolidAngle};
 use etalon_sampling::discrete::Quadtree;
 use etalon_transport::{Bsdf, BsdfSample, Mixed, Mixture, SamplePdf, TransportMode};
 use glam::{Vec2, Vec3, Vec4};
@@ -42,6 +42,12 @@ impl<B: Bsdf> GuidedBsdf<'_, B> {
     ) -> Density<SolidAngle> {
         let scattered = self.on_scatter(learned).lanes();
         Density::per_lane(own.lanes() * share + scattered * (1.0 - share))
+    }
+
+    /// The probability of a discrete direction, which the model alone finds: it is asked with this probability.
+    #[inline]
+    fn by_model(own: DeltaProbability, share: f32) -> SamplePdf {
+        SamplePdf::Discrete(DeltaProbability(own.0 * share))
     }
 
     /// A direction of the learned density.
@@ -145,10 +151,7 @@ impl<B: Bsdf> Bsdf for GuidedBsdf<'_, B> {
                     learned,
                 )
             }
-            SamplePdf::Discrete(DeltaProbability(probability)) => (
-                SamplePdf::Discrete(DeltaProbability(probability * share)),
-                Density::uniform(0.0),
-            ),
+            SamplePdf::Discrete(own) => (Self::by_model(own, share), Density::uniform(0.0)),
         };
         sample.chance = chance;
         self.bsdf.mixed(|| Mixture {
@@ -164,9 +167,29 @@ impl<B: Bsdf> Bsdf for GuidedBsdf<'_, B> {
         Some(sample)
     }
 
+    fn discrete(&self, wo: Vec3, index: u32, mode: TransportMode) -> Option<BsdfSample> {
+        let mut sample = self.bsdf.discrete(wo, index, mode)?;
+        if let (Some((_, share)), false) = (self.lobe, sample.is_null) {
+            sample.chance = match sample.chance {
+                SamplePdf::Discrete(own) => Self::by_model(own, share),
+                continuous @ SamplePdf::Continuous(_) => continuous,
+            };
+        }
+        Some(sample)
+    }
+
     #[inline]
     fn has_continuous(&self) -> bool {
         self.bsdf.has_continuous()
+    }
+
+    fn has_discrete(&self) -> bool {
+        self.bsdf.has_discrete()
+    }
+
+    #[inline]
+    fn hemisphere(&self) -> Option<Frame> {
+        self.bsdf.hemisphere()
     }
 
     #[inline]
@@ -182,5 +205,15 @@ impl<B: Bsdf> Bsdf for GuidedBsdf<'_, B> {
     #[inline]
     fn albedo(&self, wo: Vec3) -> Vec4 {
         self.bsdf.albedo(wo)
+    }
+
+    #[inline]
+    fn projected_area(&self, direction: Vec3) -> f32 {
+        self.bsdf.projected_area(direction)
+    }
+
+    #[inline]
+    fn mixed(&self, mixture: impl FnOnce() -> Mixture) {
+        self.bsdf.mixed(mixture);
     }
 }

@@ -2,10 +2,10 @@
 
 use super::field::{self, FACES, Lobes, RegionUpdate, SdTree};
 use super::steering::GuidedBsdf;
-use etalon_math::{DeltaProbability, Density, SolidAngle};
+use etalon_math::{DeltaProbability, Density, Frame, SolidAngle};
 use etalon_sampling::discrete::{Quadtree, Refinement};
 use etalon_sampling::{Independent, Sampler};
-use etalon_transport::{Bsdf, BsdfSample, SamplePdf, TransportMode};
+use etalon_transport::{Bsdf, BsdfSample, Mixture, SamplePdf, TransportMode};
 use glam::{Vec2, Vec3, Vec4};
 use std::f32::consts::PI;
 
@@ -221,6 +221,131 @@ fn a_steered_model_scatters_the_same_light() {
     // learned directions is larger by 1/(1 − p₀) = 1.25, and the diffuse light too dark by far.
     let wrong = exact[0] * (1.0 - 0.9 * 0.2);
     assert!((wrong - exact[0]).abs() > 0.1 * exact[0]);
+}
+
+/// A model whose every answer differs from what the contract says by default, and from all others.
+#[derive(Clone, Copy)]
+struct Odd<'a>(&'a std::cell::Cell<u32>);
+
+const ODD_FRAME: Frame = Frame {
+    s: Vec3::Y,
+    t: Vec3::Z,
+    n: Vec3::X,
+};
+
+impl Bsdf for Odd<'_> {
+    fn eval(&self, _: Vec3, wi: Vec3, _: TransportMode) -> Vec4 {
+        Vec4::splat(0.25) * wi.x.abs()
+    }
+    fn density(&self, _: Vec3, wi: Vec3) -> Density<SolidAngle> {
+        Density::per_lane(Vec4::new(0.1, 0.2, 0.3, 0.4) * wi.y.abs())
+    }
+    fn eval_and_density(
+        &self,
+        wo: Vec3,
+        wi: Vec3,
+        mode: TransportMode,
+    ) -> (Vec4, Density<SolidAngle>) {
+        // As by itself, and told apart.
+        self.0.set(self.0.get() + 1);
+        (self.eval(wo, wi, mode), self.density(wo, wi))
+    }
+    fn sample(&self, wo: Vec3, _: f32, _: Vec2, mode: TransportMode) -> Option<BsdfSample> {
+        self.discrete(wo, 1, mode)
+    }
+    fn discrete(&self, wo: Vec3, index: u32, _: TransportMode) -> Option<BsdfSample> {
+        (index < 2).then(|| BsdfSample {
+            wi: [-wo, Vec3::X][index as usize],
+            value: Vec4::new(0.4, 0.3, 0.2, 0.1),
+            chance: SamplePdf::Discrete(DeltaProbability(Vec4::splat(0.5))),
+            eta: 1.5,
+            is_null: index == 0,
+        })
+    }
+    fn has_continuous(&self) -> bool {
+        false
+    }
+    fn has_discrete(&self) -> bool {
+        false
+    }
+    fn hemisphere(&self) -> Option<Frame> {
+        Some(ODD_FRAME)
+    }
+    fn null_transmittance(&self) -> Vec4 {
+        Vec4::new(0.1, 0.2, 0.3, 0.4)
+    }
+    fn null_probability(&self) -> Vec4 {
+        PASSING
+    }
+    fn albedo(&self, wo: Vec3) -> Vec4 {
+        wo.extend(0.5)
+    }
+    fn projected_area(&self, direction: Vec3) -> f32 {
+        2.0 + direction.z
+    }
+    fn mixed(&self, _: impl FnOnce() -> Mixture) {
+        self.0.set(self.0.get() + 100);
+    }
+}
+
+/// Everything that a model can be asked, as text. `mixed` and `eval_and_density` count.
+fn answers(model: &impl Bsdf, asked: &std::cell::Cell<u32>) -> Vec<String> {
+    let (wo, wi) = (Vec3::new(0.0, 0.6, 0.8), Vec3::new(0.48, 0.64, 0.6));
+    let mode = TransportMode::Importance;
+    asked.set(0);
+    model.mixed(|| unreachable!("nobody listens"));
+    let mixed = asked.take();
+    let mut all = vec![
+        format!("eval {}", model.eval(wo, wi, mode)),
+        format!(
+            "null {} {}",
+            model.null_transmittance(),
+            model.null_probability()
+        ),
+        format!("has {} {}", model.has_continuous(), model.has_discrete()),
+        format!("hemisphere {:?}", model.hemisphere()),
+        format!(
+            "albedo {}, area {}",
+            model.albedo(wo),
+            model.projected_area(wi)
+        ),
+        format!("mixed {mixed}"),
+        format!("passes {:?}", model.discrete(wo, 0, mode)),
+        format!("end {:?}", model.discrete(wo, 2, mode)),
+        format!("value {:?}", model.eval_and_density(wo, wi, mode).0),
+    ];
+    all.push(format!("at once {}", asked.get() % 100));
+    all
+}
+
+/// Every question of the contract reaches the model within: what is steered differs in how directions are
+/// found, and in nothing else. Mutant: any answer that is the contract's default.
+#[test]
+fn a_steered_model_answers_as_the_model_within() {
+    let lobe = lobe();
+    let asked = std::cell::Cell::new(0);
+    let model = Odd(&asked);
+    for steering in [None, Some((&lobe, 0.25))] {
+        let steered = GuidedBsdf {
+            bsdf: model,
+            lobe: steering,
+        };
+        assert_eq!(answers(&steered, &asked), answers(&model, &asked));
+        let probability = |model: &dyn Fn() -> Option<BsdfSample>| {
+            let sample = model().expect("a mirror");
+            sample.chance.lanes()
+        };
+        let own = probability(&|| model.discrete(Vec3::Z, 1, TransportMode::Radiance));
+        let found = probability(&|| steered.discrete(Vec3::Z, 1, TransportMode::Radiance));
+        let share = steering.map_or(1.0, |(_, share)| share);
+        assert_eq!(found, own * share);
+        if steering.is_none() {
+            let ask =
+                |model: &dyn Fn(Vec3) -> Density<SolidAngle>| model(Vec3::new(0.48, 0.64, 0.6));
+            let plain = ask(&|wi| model.density(Vec3::Z, wi));
+            assert_eq!(ask(&|wi| steered.density(Vec3::Z, wi)), plain);
+        }
+    }
 }
 
 #[test]

@@ -4,6 +4,7 @@ use etalon_sampling::{Independent, SampleId, Sampler, SamplerKind, Sobol, Strati
 use glam::Vec2;
 
 /// A sampler of any kind.
+#[derive(Clone)]
 pub(super) enum AnySampler {
     Independent(Independent),
     Sobol(Sobol),

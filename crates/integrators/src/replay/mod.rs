@@ -1,7 +1,7 @@
 //! One sample drawn again, with everything that its estimator asked and was told.
 //!
 //! A sample is a pure function of its address, so that a number that was not finite, or a pixel far
-//! too bright, can be looked at: the estimator runs once in a world that answers as the scene does
+//! too bright, can be looked at: the estimator runs in a world that answers as the scene does
 //! and writes down the answers. It need not know; every estimator can be replayed. What an estimator
 //! does by itself, such as gathering photons, it remarks ([`etalon_transport::TraceEvent`]) in a way that
 //! costs nothing where nobody listens.
@@ -43,25 +43,46 @@ pub struct Replay {
     pub weight: f32,
     /// What happened.
     pub events: Vec<Event>,
+    /// What the film is given of this sample when nobody listens: deliveries alone, the same as those among `events`.
+    pub unheard: Vec<Event>,
 }
 
-/// Draws a sample again, exactly as [`crate::render()`] with this plan does, but for what an estimator makes of several
+/// Draws samples again, exactly as [`crate::render()`] with this plan does, but for what an estimator makes of several
 /// samples together: `guided` lets those of its training join them on the way to the film.
 pub fn replay<W: World, I: Integrator, F: Film>(
     world: &W,
     integrator: &I,
     film: &F,
     plan: &RenderPlan,
+    addresses: &[Address],
+) -> Vec<Replay> {
+    let mut prepared: Option<(Pass, I::State)> = None;
+    let replays = addresses.iter().map(|address| {
+        let pass = pass_of(integrator, film, plan, address);
+        let (_, state) = match prepared.take() {
+            Some(same) if same.0 == pass => prepared.insert(same),
+            // What is learned does not depend on the passes before.
+            _ => prepared.insert((pass, integrator.prepare(world, film, &pass, None))),
+        };
+        replay_one(world, (integrator, state), film, (plan, &pass), address)
+    });
+    replays.collect()
+}
+
+/// The pass that a sample belongs to.
+fn pass_of<I: Integrator, F: Film>(
+    integrator: &I,
+    film: &F,
+    plan: &RenderPlan,
     address: &Address,
-) -> Replay {
-    let size = film.size();
+) -> Pass {
     let samples = plan.samples_per_replicate;
     let lengths = integrator.samples_per_pass();
     let length = lengths.map_or(samples, |length| length.max(1));
     // Where the film deals unevenly there is one pass, however many samples a pixel has.
     let passes = samples.div_ceil(length).max(1);
     let number = (address.sample / length).min(passes - 1);
-    let pass = Pass {
+    Pass {
         seed: plan.seed,
         replicate: address.replicate,
         number,
@@ -70,11 +91,21 @@ pub fn replay<W: World, I: Integrator, F: Film>(
         replicates: plan.replicates,
         image_samples: samples.saturating_mul(plan.replicates),
         origin: film.origin(),
-        size,
+        size: film.size(),
         margin: film.margin().ceil() as u32,
-    };
-    // What is learned does not depend on the passes before.
-    let state = integrator.prepare(world, film, &pass, None);
+    }
+}
+
+/// Draws a sample again in a pass that has been prepared: once unheard, once with somebody who listens.
+fn replay_one<W: World, I: Integrator, F: Film>(
+    world: &W,
+    (integrator, state): (&I, &I::State),
+    film: &F,
+    (plan, pass): (&RenderPlan, &Pass),
+    address: &Address,
+) -> Replay {
+    let samples = plan.samples_per_replicate;
+    let length = integrator.samples_per_pass().map_or(samples, |l| l.max(1));
     let dealt = film.dealt(address.pixel, samples);
     let sample = plan.address(address.replicate, address.pixel, address.sample, dealt);
     let mut sampler = AnySampler::start(plan.sampler, &sample);
@@ -88,15 +119,29 @@ pub fn replay<W: World, I: Integrator, F: Film>(
         margin: film.margin(),
         pixels: film.light_paths(),
         spacing: 1.0 / spp.sqrt(),
-        sample: address.sample - number * length,
+        sample: address.sample - pass.number * length,
     };
+    let unheard = SharedEventLog::default();
+    integrator.sample(
+        world,
+        state,
+        &site,
+        &mut sampler.clone(),
+        &mut Delivery(&unheard),
+    );
     let notebook = SharedEventLog::default();
     let recorder = Recorder::new(world, &notebook);
-    let mut delivery = Delivery(&notebook);
-    integrator.sample(&recorder, &state, &site, &mut sampler, &mut delivery);
+    integrator.sample(
+        &recorder,
+        state,
+        &site,
+        &mut sampler,
+        &mut Delivery(&notebook),
+    );
     Replay {
         weight: placement.weight,
         events: notebook.take_events(),
+        unheard: unheard.take_events(),
     }
 }
 

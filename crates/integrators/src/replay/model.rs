@@ -104,6 +104,10 @@ impl<B: Bsdf> Bsdf for RecordingBsdf<'_, B> {
         self.model.albedo(wo)
     }
 
+    fn projected_area(&self, direction: Vec3) -> f32 {
+        self.model.projected_area(direction)
+    }
+
     fn mixed(&self, mixture: impl FnOnce() -> Mixture) {
         let mixture = mixture();
         self.notebook.write(|notes| notes.mix(self.place, mixture));

@@ -81,9 +81,10 @@ fn told(
         replicate: asked.replicate,
         sample: asked.sample,
     };
-    let replay = loaded
+    let addresses = core::slice::from_ref(&address);
+    let replays = loaded
         .integrator
-        .replay(&loaded.compiled.scene, &film, plan, &address);
+        .replay(&loaded.compiled.scene, &film, plan, addresses);
     let mut text = format!(
         "{}: pixel ({}, {}), replicate {} of {}, sample {} of {}, seed {}, {} by {}\n",
         loaded.path.display(),
@@ -97,11 +98,13 @@ fn told(
         loaded.integrator_name,
         pipeline::sampler_name(plan.sampler),
     );
-    if replay.weight != 1.0 {
-        line(&mut text, format!("film weight {}", replay.weight));
-    }
-    for event in &replay.events {
-        tell(&mut text, event, &loaded.compiled.names, &channels);
+    for replay in &replays {
+        if replay.weight != 1.0 {
+            line(&mut text, format!("film weight {}", replay.weight));
+        }
+        for event in &replay.events {
+            tell(&mut text, event, &loaded.compiled.names, &channels);
+        }
     }
     Ok(text)
 }

@@ -1,0 +1,135 @@
+//! A world around another that changes nothing changes no bit of any picture.
+//!
+//! Whoever passes questions on may forget one, and the contract's default answers in its place: what is drawn is then
+//! another estimator, or wrong. So every claim's scene is rendered through a [`Faulty`] world without a fault, and some
+//! of its samples are drawn again both unheard and while they are written down.
+
+use etalon::pipeline::Loaded;
+use etalon_film::ExactFilm;
+use etalon_integrators::RenderPlan;
+use etalon_integrators::replay::{Address, Event};
+use etalon_transport::Film;
+use etalon_validation::claim::{Budget, Claim, Estimator, Oracle};
+use etalon_validation::fault::Faulty;
+use etalon_validation::{folders, rendering};
+use glam::UVec2;
+use rayon::prelude::*;
+use std::collections::HashSet;
+
+/// Samples per pixel.
+const SPP: u32 = 4;
+
+/// The longest side of a picture (pixels), around the middle of the scene's own.
+const LONGEST: u32 = 6;
+
+/// A claim's estimators that stand in its file, that of its oracle among them, each once.
+fn estimators(claim: &Claim) -> Vec<&Estimator> {
+    let oracle = match &claim.oracle {
+        Oracle::Agreement { estimator } => Some(estimator.as_ref()),
+        _ => None,
+    };
+    let mut known = HashSet::new();
+    let own = claim.estimators.iter().filter(|e| e.in_matrix.is_none());
+    let all = own.chain(oracle);
+    all.filter(|e| {
+        known.insert(format!(
+            "{:?} {:?} {:?}",
+            e.integrator, e.defines, e.light_chooser
+        ))
+    })
+    .collect()
+}
+
+/// The scene's film, cut down to its middle.
+fn film(loaded: &Loaded) -> Result<ExactFilm, String> {
+    let mut settings = loaded.compiled.film.clone();
+    let size = settings.crop_size.min(UVec2::splat(LONGEST));
+    settings.crop_offset += (settings.crop_size - size) / 2;
+    settings.crop_size = size;
+    ExactFilm::new(settings, &loaded.integrator.channels()).map_err(|e| e.message)
+}
+
+/// Whether a world without a fault is rendered to the same bits as the world itself.
+fn renders_alike(loaded: &Loaded, plan: &RenderPlan) -> Result<bool, String> {
+    let scene = &loaded.compiled.scene;
+    let (mut plain, mut through) = (film(loaded)?, film(loaded)?);
+    let integrator = &loaded.integrator;
+    integrator.render(std::slice::from_ref(scene), &mut plain, plan, &());
+    integrator.render(&[Faulty::new(scene, None, 0)], &mut through, plan, &());
+    let [plain, through] = [plain, through].map(|film| {
+        let developed = film.develop(rendering::facts(loaded, plan, String::new()));
+        let planes = developed.colours().into_iter().filter_map(|name| {
+            let plane = developed.image.channel(name)?;
+            Some(plane.iter().map(|x| x.to_bits()).collect::<Vec<_>>())
+        });
+        planes.collect::<Vec<_>>()
+    });
+    Ok(plain == through)
+}
+
+/// Whether samples are the same while they are written down.
+fn replays_alike(loaded: &Loaded, plan: &RenderPlan) -> Result<bool, String> {
+    let film = film(loaded)?;
+    let (origin, size) = (film.origin(), film.size());
+    let addresses: Vec<Address> = (0..size.min_element())
+        .map(|at| Address {
+            pixel: origin + UVec2::splat(at),
+            replicate: 0,
+            sample: at % SPP.min(plan.samples_per_replicate),
+        })
+        .collect();
+    let scene = &loaded.compiled.scene;
+    let replays = loaded.integrator.replay(scene, &film, plan, &addresses);
+    Ok(replays.iter().all(|replay| {
+        let is_delivered = |event: &&Event| {
+            matches!(
+                event,
+                Event::Radiance(..) | Event::Splat(..) | Event::Channel(..)
+            )
+        };
+        // Debug tells every float apart, but for the payload of a NaN.
+        let heard = replay.events.iter().filter(is_delivered);
+        format!("{:?}", heard.collect::<Vec<_>>())
+            == format!("{:?}", replay.unheard.iter().collect::<Vec<_>>())
+    }))
+}
+
+/// What differs for an estimator.
+fn differences(claim: &Claim, estimator: &Estimator) -> Vec<String> {
+    let found = || -> Result<Vec<&str>, String> {
+        let loaded = rendering::load_for(claim, estimator)?;
+        let budget = Budget {
+            spp: SPP,
+            replicates: 1,
+            ..estimator.thorough
+        };
+        let plan = rendering::plan(&loaded, estimator, budget, 1);
+        let mut found = Vec::new();
+        if !renders_alike(&loaded, &plan)? {
+            found.push("another picture through a world without a fault");
+        }
+        if !replays_alike(&loaded, &plan)? {
+            found.push("another sample where it is written down");
+        }
+        Ok(found)
+    };
+    let say = |what: &str| format!("{}, {}: {what}", claim.name, estimator.label());
+    match found() {
+        Ok(found) => found.into_iter().map(say).collect(),
+        Err(message) => vec![say(&message)],
+    }
+}
+
+/// Mutants rejected: a world that forgets `medium_light_density`; a scattering model that forgets `hemisphere`.
+#[test]
+fn worlds_around_a_world_are_transparent() {
+    let claims = Claim::read_all(&folders::claims()).expect("claims can be read");
+    let rows: Vec<(&Claim, &Estimator)> = claims
+        .iter()
+        .flat_map(|claim| estimators(claim).into_iter().map(move |e| (claim, e)))
+        .collect();
+    let found: Vec<String> = (rows.par_iter())
+        .flat_map(|(claim, estimator)| differences(claim, estimator))
+        .collect();
+    assert!(found.is_empty(), "of {}:\n{}", rows.len(), found.join("\n"));
+}
