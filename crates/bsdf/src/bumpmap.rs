@@ -57,12 +57,9 @@ impl Description {
     ) {
         let moved = [site.dp_du, site.dp_dv];
         let slope = site.textures.gradient(self.heights, &site.at, moved) * self.scale;
-        // The frame of the outer side, whichever side is seen.
-        let n = if frame.n.dot(site.shading_normal) < 0.0 {
-            -frame.n
-        } else {
-            frame.n
-        };
+        // Heights rise outward, whichever side is seen.
+        let side = 1.0_f32.copysign(frame.n.dot(site.shading_normal));
+        let n = frame.n * side;
         let u = site.dp_du + n * (slope.x - n.dot(site.dp_du));
         let v = site.dp_dv + n * (slope.y - n.dot(site.dp_dv));
         let bumped = u.cross(v);
@@ -71,9 +68,8 @@ impl Description {
         } else {
             bumped
         };
-        let outer = frame.to_local(bumped);
-        // Seen from behind, the surface's frame is turned, and so is the bump.
-        let local = if n == frame.n { outer } else { -outer };
+        let mut local = frame.to_local(bumped);
+        local.z *= side;
         self.tilted.flatten(site, frame, weight, local, into);
     }
 }

@@ -93,4 +93,8 @@ impl Bxdf for Conductor {
     fn has_continuous(&self) -> bool {
         false
     }
+
+    fn has_discrete(&self) -> bool {
+        true
+    }
 }

@@ -109,6 +109,10 @@ impl Bxdf for Dielectric {
     fn has_continuous(&self) -> bool {
         false
     }
+
+    fn has_discrete(&self) -> bool {
+        true
+    }
 }
 
 impl Dielectric {

@@ -92,15 +92,26 @@ impl<'a> LobeList<'a> {
         }
     }
 
-    /// Tilts the normals of the lobes that `add` adds.
-    pub(crate) fn tilted(&mut self, tilt: Tilt, add: impl FnOnce(&mut Self)) {
+    /// Tilts the normals of the lobes that `add` adds: by one relief, given in `frame`, whose back is seen by lobes of the
+    /// other side.
+    pub(crate) fn tilted(&mut self, tilt: Tilt, frame: Frame, add: impl FnOnce(&mut Self)) {
         let first = self.count;
         add(self);
         for lobe in self.lobes[first..self.count].iter_mut().flatten() {
             // Of a varnish, light paths could not tell which viewer will see the normal.
             let mixed = lobe.scatter.has_discrete() && lobe.scatter.has_continuous();
             let flips = tilt.flips && !mixed;
-            lobe.tilt = Some(Tilt { flips, ..tilt });
+            let normal = if lobe.frame == frame {
+                tilt.normal
+            } else {
+                let side = 1.0_f32.copysign(lobe.frame.n.dot(frame.n));
+                side * lobe.frame.to_local(frame.to_world(tilt.normal))
+            };
+            lobe.tilt = Some(Tilt {
+                normal,
+                flips,
+                ..tilt
+            });
         }
     }
 

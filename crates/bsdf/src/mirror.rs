@@ -38,4 +38,8 @@ impl Bxdf for Mirror {
     fn has_continuous(&self) -> bool {
         false
     }
+
+    fn has_discrete(&self) -> bool {
+        true
+    }
 }

@@ -39,17 +39,15 @@ pub trait Bxdf: Copy {
     /// Whether any lobe is continuous.
     fn has_continuous(&self) -> bool;
 
-    /// Whether any lobe may be discrete; `true` is always right.
-    fn has_discrete(&self) -> bool {
-        true
-    }
+    /// Whether any lobe may be discrete.
+    fn has_discrete(&self) -> bool;
 
     /// Whether a continuous lobe may lead to the other side; `true` is always right.
     fn transmits(&self) -> bool {
         true
     }
 
-    /// What the `albedo` channel shows, as in Mitsuba: the reflectance of a diffuse base whichever
+    /// What the `albedo` channel shows, as in Mitsuba, which may exceed 1: the reflectance of a diffuse base whichever
     /// side is seen; of other models the value toward the normal, times π; nothing of mirrors.
     fn albedo(&self, wo: Vec3) -> Vec4 {
         self.eval_and_density(wo, Vec3::Z, TransportMode::Radiance)

@@ -119,6 +119,10 @@ impl Bxdf for Plastic {
         true
     }
 
+    fn has_discrete(&self) -> bool {
+        true
+    }
+
     fn transmits(&self) -> bool {
         false
     }

@@ -208,14 +208,12 @@ impl Principled {
         Microfacet::new(Kind::Ggx, self.alpha, true)
     }
 
-    /// The base; nothing where all is metal or lets light through, sheen neither, as Mitsuba has it.
+    /// The base, of which sheen is left where all lets light through.
     #[inline]
     fn base(&self) -> Base {
-        let share = 1.0 - self.metallic - self.through;
-        let sheen = if share > 0.0 { self.sheen } else { 0.0 };
         Base {
-            colour: self.colour * share,
-            sheen: Base::sheen_colour(sheen, self.sheen_tint, self.tint),
+            colour: self.colour * (1.0 - self.metallic - self.through).max(0.0),
+            sheen: Base::sheen_colour(self.sheen, self.sheen_tint, self.tint),
             roughness: self.roughness,
             flatness: self.flatness,
         }
@@ -274,12 +272,9 @@ impl Principled {
             let fresnel = fresnel::dielectric(cos, self.eta).0;
             let microfacet = self.microfacet();
             let d = microfacet.d(m);
-            // As Mitsuba: where a dielectric would reflect nothing at all, a metal does not either.
-            if fresnel > 0.0 {
-                let reflected = self.fresnel(cos, fresnel);
-                let shadowing = microfacet.g1(wo, m) * microfacet.g1(wi, m);
-                value += reflected * (d * shadowing / (4.0 * wo.z));
-            }
+            let reflected = self.fresnel(cos, fresnel);
+            let shadowing = microfacet.g1(wo, m) * microfacet.g1(wi, m);
+            value += reflected * (d * shadowing / (4.0 * wo.z));
             let reflects = 1.0 - self.through * (1.0 - fresnel);
             let normals = self.interface_probability() * reflects * microfacet.density(wo, m, d);
             let mut normals = normals / (4.0 * cos);

@@ -228,4 +228,8 @@ impl Bxdf for RoughDielectric {
     fn has_continuous(&self) -> bool {
         true
     }
+
+    fn has_discrete(&self) -> bool {
+        false
+    }
 }

@@ -11,6 +11,9 @@
 //! function to solve the bump terminator problem, Ray Tracing Gems, 2019). A normal that the viewer sees from
 //! behind is turned about the surface's, n → (−x, −y, z) (V. Schüssler et al., Microfacet-based normal mapping, 2017, as
 //! Mitsuba has it; here not that of a `plastic`, which is smooth and not smooth at once). Both tell light and viewer apart, so that importance is scattered by the adjoint.
+//!
+//! A relief is one thing with two sides, whatever is nested in it: what lies behind n is seen with the normal −n. So is the back of
+//! `twosided` within a map; around one, its back is the mirror image of the front.
 
 use crate::{LobeList, Material, MaterialFlags, ShadingContext};
 use etalon_math::Frame;
@@ -123,6 +126,8 @@ impl Tilted {
         into: &mut LobeList<'a>,
     ) {
         let tilt = Tilt::new(normal, self.flips, self.shadows);
-        into.tilted(tilt, |into| self.nested.flatten(site, frame, weight, into));
+        into.tilted(tilt, frame, |into| {
+            self.nested.flatten(site, frame, weight, into)
+        });
     }
 }

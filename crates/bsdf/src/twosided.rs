@@ -1,7 +1,12 @@
 //! One-sided materials on either side of a surface.
 //!
-//! The side is that of the known direction, by the shading normal; the back's material works in
-//! the frame turned about, so that both see the light from their own front. One material serves
+//! The side is that of the known direction, by the shading normal; the back is the mirror image of a front,
+//!
+//! ```text
+//! f(ωo, ωi) = f_back(M ωo, M ωi)    from behind, with M (x, y, z) = (x, y, −z)
+//! ```
+//!
+//! so that both see the light from their own front, and what lies along the tangents stays there. One material serves
 //! both sides unless a second is given for the back. Mitsuba's plugin of that name.
 
 use crate::{LobeList, Material, MaterialFlags, ShadingContext};
@@ -74,7 +79,7 @@ impl Description {
         if cos > 0.0 {
             Some((&self.front, frame))
         } else if cos < 0.0 {
-            Some((self.back.as_ref().unwrap_or(&self.front), frame.flipped()))
+            Some((self.back.as_ref().unwrap_or(&self.front), frame.mirrored()))
         } else {
             None
         }

@@ -145,6 +145,10 @@ impl Bxdf for Ward {
         true
     }
 
+    fn has_discrete(&self) -> bool {
+        false
+    }
+
     /// ρd, the reflectance of the diffuse part.
     fn albedo(&self, _: Vec3) -> Vec4 {
         self.diffuse

@@ -6,7 +6,7 @@
 
 use glam::Vec3;
 
-/// A right-handed orthonormal frame (`s` × `t` = `n`).
+/// An orthonormal frame, right-handed (`s` × `t` = `n`) unless it is [`Frame::mirrored`].
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Frame {
     /// First tangent.
@@ -81,6 +81,15 @@ impl Frame {
             n: -self.n,
         }
     }
+
+    /// The same tangents about the opposite normal: the mirror image, left-handed where this one is right-handed.
+    #[inline]
+    pub fn mirrored(&self) -> Self {
+        Self {
+            n: -self.n,
+            ..*self
+        }
+    }
 }
 
 #[cfg(test)]
@@ -110,6 +119,8 @@ mod tests {
             prop_assert!(orthonormal(&Frame::from_normal(n)));
             prop_assert!(orthonormal(&Frame::from_normal_and_tangent(n, Vec3::new(tx, ty, tz))));
             prop_assert!(orthonormal(&Frame::from_normal(n).flipped()));
+            let mirrored = Frame::from_normal(n).mirrored();
+            prop_assert!((mirrored.s.cross(mirrored.t) + mirrored.n).length() < 1e-5);
         }
     }
 

@@ -82,7 +82,7 @@ fn either_side_of_a_twosided_material_sees_its_front() {
     let one = Sample::new(&format!("twosided ( {ROUGH} )"));
     let (rough, diffuse) = (Sample::new(ROUGH), Sample::new(DIFFUSE));
     let mut uniform = Uniform::new(8);
-    let turned = |v: Vec3| Vec3::new(v.x, -v.y, -v.z);
+    let turned = |v: Vec3| Vec3::new(v.x, v.y, -v.z);
     for _ in 0..200 {
         let (a, b) = (uniform.direction(), uniform.direction());
         let (wo, wi) = (

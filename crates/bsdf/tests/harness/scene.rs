@@ -57,8 +57,15 @@ impl Textures for Scene {
         self.spectra[texture.0 as usize].eval(Vec4::splat(550.0)).x
     }
 
-    fn colour(&self, texture: TextureId, at: &TexturePoint) -> Vec3 {
-        Vec3::splat(self.number(texture, at))
+    /// A table's values at 600, 550 and 450 nm.
+    fn colour(&self, texture: TextureId, _: &TexturePoint) -> Vec3 {
+        let at = Vec4::new(600.0, 550.0, 450.0, 550.0);
+        self.spectra[texture.0 as usize].eval(at).truncate()
+    }
+
+    /// As heights, a table rises by its values at 600 and 550 nm along u and v.
+    fn gradient(&self, texture: TextureId, at: &TexturePoint, _: [Vec3; 2]) -> Vec2 {
+        self.colour(texture, at).truncate()
     }
 
     fn mean(&self, texture: TextureId) -> f32 {
