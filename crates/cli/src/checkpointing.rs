@@ -92,7 +92,7 @@ impl CheckpointingFilm {
         of: (u32, u32),
     ) -> Result<Self, String> {
         let Some(keeping) = keeping else {
-            return Ok(Self::null_transmittance(film));
+            return Ok(Self::unkept(film));
         };
         let (_, before) = keeping.finished();
         let film = match keeping.earlier {
@@ -117,7 +117,7 @@ impl CheckpointingFilm {
     }
 
     /// A film of which nothing is kept.
-    pub(crate) fn null_transmittance(film: ExactFilm) -> Self {
+    pub(crate) fn unkept(film: ExactFilm) -> Self {
         Self { film, keeper: None }
     }
 
@@ -158,7 +158,7 @@ impl Keeper {
             && !self.failed
         {
             self.failed = true;
-            say::record(&format!("warning: there is no checkpoint: {error}\n"));
+            say::remark(&format!("warning: there is no checkpoint: {error}\n"));
         }
         self.written = Some((Instant::now(), begin.elapsed()));
     }

@@ -267,7 +267,7 @@ fn harmless(text: &Arc<str>) -> Arc<str> {
 pub fn print(diagnostics: &[Diagnostic], sources: &Sources) {
     let refused = std::env::var_os("NO_COLOR").is_some_and(|value| !value.is_empty());
     let coloured = std::io::stderr().is_terminal() && !refused;
-    say::record(&render(diagnostics, sources, coloured));
+    say::remark(&render(diagnostics, sources, coloured));
 }
 
 #[cfg(test)]

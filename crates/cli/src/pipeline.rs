@@ -314,7 +314,7 @@ pub fn render_into(
     plan: &RenderPlan,
     progress: &dyn Progress,
 ) -> ExactFilm {
-    let mut film = CheckpointingFilm::null_transmittance(film);
+    let mut film = CheckpointingFilm::unkept(film);
     integrator.render(std::slice::from_ref(scene), &mut film, plan, progress);
     film.finish()
 }

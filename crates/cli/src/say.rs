@@ -17,6 +17,6 @@ pub fn result(text: &str) -> Result<(), String> {
 }
 
 /// Writes a remark to standard error. If nobody can hear it, the work goes on.
-pub fn record(text: &str) {
+pub fn remark(text: &str) {
     let _ = stderr().lock().write_all(text.as_bytes());
 }

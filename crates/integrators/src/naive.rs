@@ -67,7 +67,7 @@ pub struct Naive {
 /// A direction in which a path goes on.
 struct Step {
     wi: Vec3,
-    /// What [`PathThroughput::extend`] takes.
+    /// What [`PathThroughput::scatter`] takes.
     value: Vec4,
     chance: Vec4,
     eta: f32,

@@ -43,8 +43,8 @@ pub(crate) struct PathState<S, C = ()> {
     /// Whether the path goes on with `ray`.
     pub(crate) goes_on: bool,
     pub(crate) shadow_ray: Option<ShadowRay>,
-    /// How many light samples compete for the shadow ray of the next surface. One, once the path was scattered at
-    /// random: what is farther down the path adds less noise than the samples take time.
+    /// What its integrator does in one way or another. One light sample is left for a shadow ray, once the path was scattered
+    /// at random: what is farther down the path adds less noise than the samples take time.
     pub(crate) variant: PathVariant,
     /// The radiance found, per lane, over the sum of all densities' ratios (see
     /// [`PathThroughput::contribution`]).

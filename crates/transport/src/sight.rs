@@ -124,7 +124,7 @@ impl Incompatibility {
     }
 
     /// A remark.
-    pub fn record(subject: Subject, message: impl Into<String>) -> Self {
+    pub fn remark(subject: Subject, message: impl Into<String>) -> Self {
         Self {
             fatal: false,
             ..Self::fatal(subject, message)
@@ -234,7 +234,7 @@ impl SceneCapabilities {
                 "this integrator cannot see what is mirrored, or behind glass, in {share} % of \
                  the picture: {why}"
             );
-            Incompatibility::record(Subject::Integrator, message)
+            Incompatibility::remark(Subject::Integrator, message)
         };
         Some(objection.help(help))
     }
@@ -255,7 +255,7 @@ impl SceneCapabilities {
     /// A remark if there is no light at all.
     pub fn unlit(&self) -> Option<Incompatibility> {
         (self.lights.all == 0).then(|| {
-            Incompatibility::record(Subject::Scene, "nothing in this scene emits light")
+            Incompatibility::remark(Subject::Scene, "nothing in this scene emits light")
                 .help("the picture will be black: add a light")
         })
     }
@@ -267,7 +267,7 @@ impl SceneCapabilities {
         nothing.then(|| {
             let message = "the camera sees no light, and no surface that light could be connected \
                            with: not straight, nor by way of mirrors and smooth glass";
-            Incompatibility::record(Subject::Scene, message).help(
+            Incompatibility::remark(Subject::Scene, message).help(
                 "the picture will be black, or nearly: turn the camera to the scene, or give the \
                  lights an extent or a surface some roughness",
             )
@@ -284,7 +284,7 @@ impl SceneCapabilities {
                 "this integrator cannot see light that comes through smooth glass to {share} % of the picture: \
                  it connects surfaces with lights by straight lines, and a point or a direction is never hit"
             );
-            Incompatibility::record(Subject::Integrator, message).help(
+            Incompatibility::remark(Subject::Integrator, message).help(
                 "use an estimator that follows light from the lights, too (`bdpt`, `vcm`), or give the lights an \
                  extent",
             )
@@ -339,7 +339,7 @@ impl SceneCapabilities {
                 let message = format!(
                     "this integrator cannot see {missing} of the scene's {all} lights: {why}"
                 );
-                Incompatibility::record(Subject::Integrator, message).help(help)
+                Incompatibility::remark(Subject::Integrator, message).help(help)
             }
             _ => return Vec::new(),
         };

@@ -36,7 +36,7 @@ pub(super) fn deliver(
         write_picture(args, picture, &rendered.developed)?;
     }
     if let Some(facts) = metadata.and_then(|m| m.unfinished.as_ref()) {
-        say::record(&unfinished_in_words(args, facts));
+        say::remark(&unfinished_in_words(args, facts));
     }
     let dealt = metadata.and_then(|m| m.adaptive.as_ref());
     let again = Again {
@@ -54,26 +54,26 @@ pub(super) fn deliver(
     }
     if let Some(aim) = args.error {
         match relative_error(rendered) {
-            Some(error) if error <= aim && !args.quiet => say::record(&format!(
+            Some(error) if error <= aim && !args.quiet => say::remark(&format!(
                 "relative standard error {:.3} %, of {} % aimed at\n",
                 100.0 * error,
                 100.0 * aim
             )),
             Some(error) if error <= aim => {}
-            Some(error) => say::record(&format!(
+            Some(error) => say::remark(&format!(
                 "warning: the target is missed: relative standard error {:.3} % instead of {} %\n",
                 100.0 * error,
                 100.0 * aim
             )),
-            None => say::record("warning: whether the target is reached is unknown\n"),
+            None => say::remark("warning: whether the target is reached is unknown\n"),
         }
     }
     for remark in &rendered.outcome.remarks {
-        say::record(&format!("note: {remark}\n"));
+        say::remark(&format!("note: {remark}\n"));
     }
     let black = is_black(&rendered.developed);
     if black {
-        say::record("warning: the picture is black: not one sample found light\n");
+        say::remark("warning: the picture is black: not one sample found light\n");
     }
     if !args.quiet {
         let seconds = rendered.time.as_secs_f64();
@@ -94,7 +94,7 @@ pub(super) fn deliver(
             }
             _ => String::new(),
         };
-        say::record(&format!(
+        say::remark(&format!(
             "{}: {stopped}{seconds:.2} s, {:.2} M samples/s, {:.2} M rays/s, {error}\n",
             args.output().display(),
             per_second(rendered.outcome.samples),
@@ -165,11 +165,11 @@ fn tell_trouble(
 ) {
     let faults = metadata.faults.total();
     if faults > 0 {
-        say::record(&format!(
+        say::remark(&format!(
             "warning: {faults} contributions were not finite; see `etalon info`\n"
         ));
         if let Some(command) = again.of_faults(&metadata.faults) {
-            say::record(&format!("look at the first of them with\n  {command}\n"));
+            say::remark(&format!("look at the first of them with\n  {command}\n"));
         }
     }
     let fireflies = Fireflies::of(developed, metadata);

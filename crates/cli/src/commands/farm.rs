@@ -183,7 +183,7 @@ fn hand_over(args: &FarmArgs, job: &Job) -> ExitCode {
             "`{command}` failed ({status}); it needs `{needed}`, and may be run again: finished parts stay"
         )),
         Err(error) => {
-            say::record(&format!("error: cannot run `{command}`: {error}\n"));
+            say::remark(&format!("error: cannot run `{command}`: {error}\n"));
             ExitCode::from(BAD_INPUT)
         }
     }

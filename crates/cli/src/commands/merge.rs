@@ -21,7 +21,7 @@ pub fn run(args: &MergeArgs) -> ExitCode {
     let problems = problems(args);
     if !problems.is_empty() {
         for problem in problems {
-            say::record(&format!("error: {problem}\n"));
+            say::remark(&format!("error: {problem}\n"));
         }
         return ExitCode::from(BAD_INPUT);
     }
@@ -189,7 +189,7 @@ fn merge(args: &MergeArgs) -> Result<(), String> {
 fn report(args: &MergeArgs, part: &Part, picture: &RenderedImage) {
     let faults = picture.metadata.as_ref().map_or(0, |m| m.faults.total());
     if faults > 0 {
-        say::record(&format!(
+        say::remark(&format!(
             "warning: {faults} contributions were not finite; see `etalon info`\n"
         ));
     }
@@ -207,7 +207,7 @@ fn report(args: &MergeArgs, part: &Part, picture: &RenderedImage) {
         None => "no standard error (one replicate)".to_owned(),
     };
     let (files, replicates) = (args.parts.len(), part.replicates().count());
-    say::record(&format!(
+    say::remark(&format!(
         "{}: {replicates} replicates from {files} files{incomplete}, {error}\n",
         args.output.display()
     ));

@@ -61,11 +61,11 @@ fn answer(text: &str, code: ExitCode) -> ExitCode {
 
 /// Says something worth knowing.
 fn note(message: impl std::fmt::Display) {
-    say::record(&format!("note: {message}\n"));
+    say::remark(&format!("note: {message}\n"));
 }
 
 /// Says why a command failed, in one line, and gives its exit code.
 fn fail(message: impl std::fmt::Display) -> ExitCode {
-    say::record(&format!("error: {message}\n"));
+    say::remark(&format!("error: {message}\n"));
     ExitCode::from(BAD_INPUT)
 }

@@ -107,7 +107,7 @@ pub(super) fn run_here(args: &RenderArgs) -> ExitCode {
         Err(diagnostic) => return give_up(diagnostic.into(), &loaded),
     };
     if !rendered.has_samples() {
-        say::record("stopped before the first sample, without an image\n");
+        say::remark("stopped before the first sample, without an image\n");
         return ExitCode::from(interrupt::STOPPED);
     }
     if let Err(message) = delivery::deliver(args, &loaded, &rendered, &plan, pilot) {
@@ -145,7 +145,7 @@ pub(super) fn run_here(args: &RenderArgs) -> ExitCode {
 fn give_up(failure: target::Failure, loaded: &Loaded) -> ExitCode {
     match failure {
         target::Failure::Cancelled => {
-            say::record("stopped during the pilot, without an image\n");
+            say::remark("stopped during the pilot, without an image\n");
             ExitCode::from(interrupt::STOPPED)
         }
         target::Failure::Refused(diagnostic) => {
@@ -158,7 +158,7 @@ fn give_up(failure: target::Failure, loaded: &Loaded) -> ExitCode {
 /// Removes the checkpoint of an image that is finished.
 fn remove(checkpoint: &Path) {
     match fs::remove_file(checkpoint) {
-        Err(error) if error.kind() != ErrorKind::NotFound => say::record(&format!(
+        Err(error) if error.kind() != ErrorKind::NotFound => say::remark(&format!(
             "warning: {} could not be removed: {error}\n",
             checkpoint.display()
         )),

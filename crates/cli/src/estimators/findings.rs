@@ -1,6 +1,6 @@
 //! What a comparison found: the schema of its JSON (`docs/estimators-json.md`).
 
-use super::reference::LightKind;
+use super::reference::ReferenceOrigin;
 use serde::Serialize;
 
 /// Everything that was found.
@@ -51,7 +51,7 @@ impl Findings {
 #[derive(Clone, Debug, Serialize)]
 pub struct ReferenceFacts {
     /// Where it comes from.
-    pub origin: LightKind,
+    pub origin: ReferenceOrigin,
     /// Its own relMSE, which was subtracted; absent without standard errors.
     pub rel_mse: Option<f64>,
 }

@@ -26,7 +26,7 @@ use std::path::Path;
 /// Where a reference comes from.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 #[serde(rename_all = "snake_case", tag = "kind")]
-pub enum LightKind {
+pub enum ReferenceOrigin {
     /// A file.
     File {
         /// As it was named.
@@ -57,7 +57,7 @@ pub enum LightKind {
 #[derive(Clone, Debug)]
 pub struct Reference {
     /// Where it comes from.
-    pub origin: LightKind,
+    pub origin: ReferenceOrigin,
     /// Its own relMSE (the mean of s² / (r² + ε)), if it has standard errors.
     pub noise: Option<f64>,
     /// Its own mean squared error (the mean of s²).
@@ -90,7 +90,7 @@ impl Reference {
             ));
         }
         let metadata = developed.metadata.as_ref();
-        let origin = LightKind::File {
+        let origin = ReferenceOrigin::File {
             path: path.display().to_string(),
             integrator: metadata.map(|m| m.integrator.clone()),
             samples_per_pixel: metadata.map(|m| m.spp),
@@ -127,7 +127,7 @@ impl Reference {
             version: VERSION.to_owned(),
             ..RenderFacts::default()
         });
-        let origin = LightKind::Rendered {
+        let origin = ReferenceOrigin::Rendered {
             estimator: entrant.name.clone(),
             sampler: sampler_name(entrant.sampler).to_owned(),
             samples_per_replicate: size.samples,
@@ -138,7 +138,7 @@ impl Reference {
         Self::of(&developed, origin).map_err(|reason| format!("the rendered reference: {reason}"))
     }
 
-    fn of(developed: &RenderedImage, origin: LightKind) -> Result<Self, String> {
+    fn of(developed: &RenderedImage, origin: ReferenceOrigin) -> Result<Self, String> {
         let image = &developed.image;
         let size = [image.width(), image.height()];
         let pixels = interleaved(image, "").ok_or("it has no channels R, G and B")?;

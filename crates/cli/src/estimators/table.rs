@@ -1,7 +1,7 @@
 //! The findings as text for a terminal.
 
 use super::findings::{EntrantResult, Findings, Uncertain};
-use super::reference::LightKind;
+use super::reference::ReferenceOrigin;
 
 /// The whole text.
 pub fn text(findings: &Findings) -> String {
@@ -77,7 +77,7 @@ pub fn text(findings: &Findings) -> String {
 /// Where the reference comes from, in a sentence.
 pub fn reference(findings: &Findings) -> String {
     let origin = match &findings.reference.origin {
-        LightKind::File {
+        ReferenceOrigin::File {
             path,
             integrator,
             samples_per_pixel,
@@ -87,7 +87,7 @@ pub fn reference(findings: &Findings) -> String {
             let (by, spp) = (by.unwrap_or_default(), spp.unwrap_or_default());
             format!("reference: {path}{by}{spp}")
         }
-        LightKind::Rendered {
+        ReferenceOrigin::Rendered {
             estimator,
             sampler,
             samples_per_replicate,
