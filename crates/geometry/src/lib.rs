@@ -29,3 +29,4 @@ pub use builder::{GeometryBuilder, GroupId};
 pub use geometry::{Geometry, GeometryStatistics};
 pub use placement::Placement;
 pub use shapes::Shape;
+pub use shapes::control_points;

@@ -6,6 +6,7 @@ pub mod bilinear;
 pub mod bspline_curve;
 mod clip_box;
 pub mod cone;
+pub mod control_points;
 mod convex;
 pub(crate) mod crossing;
 pub mod csg;

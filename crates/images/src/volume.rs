@@ -14,15 +14,24 @@ pub struct Volume {
     pub bounds: [[f32; 3]; 2],
     /// All numbers.
     pub samples: Vec<f32>,
+    /// Bytes behind the numbers, of which the header says nothing.
+    pub behind: usize,
 }
 
-/// The most numbers that are read (2 GiB).
-const MOST: u64 = 1 << 29;
+/// Whether these bytes begin like an OpenVDB file.
+fn is_openvdb(bytes: &[u8]) -> bool {
+    bytes.starts_with(b" BDV\0\0\0\0")
+}
 
 impl Volume {
-    /// Reads a volume, or says what is wrong with it.
+    /// Reads a volume, or says what is wrong with it. Memory is taken for what is there, whatever the header says.
     pub fn decode(bytes: &[u8]) -> Result<Self, String> {
         let broken = |reason: String| Err(reason);
+        if is_openvdb(bytes) {
+            return broken(
+                "it is an OpenVDB file; NanoVDB files are read: `nanovdb_convert in.vdb out.nvdb` makes one".into(),
+            );
+        }
         let Some(header) = bytes.get(..48) else {
             return broken("it is shorter than a volume's header of 48 bytes".into());
         };
@@ -43,21 +52,20 @@ impl Volume {
             ));
         }
         let sizes = [2, 3, 4, 5].map(|index| usize::try_from(word(index)).unwrap_or(0));
-        let count = (sizes.iter()).try_fold(1_u64, |n, &size| n.checked_mul(size as u64));
-        let count = count.filter(|count| (1..=MOST).contains(count));
-        let Some(count) = count else {
+        if sizes.contains(&0) {
             return broken(format!(
-                "its size {} × {} × {} with {} channels is not between 1 and {MOST} numbers",
+                "its size is {} × {} × {} with {} channels, and is 1 or more",
                 word(2),
                 word(3),
                 word(4),
                 word(5)
             ));
-        };
-        let wanted = 48 + 4 * count as usize;
-        if bytes.len() < wanted {
+        }
+        let wanted = 48 + 4 * sizes.iter().map(|&size| size as u128).product::<u128>();
+        if (bytes.len() as u128) < wanted {
             return broken(format!("it ends after {} bytes of {wanted}", bytes.len()));
         }
+        let wanted = wanted as usize;
         let float = |index: usize| f32::from_bits(word(index) as u32);
         let corner = |first: usize| core::array::from_fn(|axis| float(first + axis));
         let samples = bytes[48..wanted]
@@ -68,6 +76,7 @@ impl Volume {
             channels: sizes[3],
             bounds: [corner(6), corner(9)],
             samples: samples.collect(),
+            behind: bytes.len() - wanted,
         })
     }
 }
@@ -104,7 +113,10 @@ mod tests {
         assert!(message(&file([2, 3, 4, 1], 23)).contains("ends after 140 bytes of 144"));
         assert!(message(&file([-2, 3, 4, 1], 0)).contains("-2 × 3 × 4"));
         let huge = i32::MAX;
-        assert!(message(&file([huge; 4], 0)).contains("numbers"));
+        assert!(message(&file([huge; 4], 0)).contains("ends after 48 bytes of"));
+        assert!(message(b" BDV\0\0\0\0").contains("nanovdb_convert"));
+        let behind = Volume::decode(&[file([2, 3, 4, 1], 24), vec![7]].concat()).expect("read");
+        assert_eq!((behind.samples.len(), behind.behind), (24, 1));
         let mut other = file([1; 4], 1);
         other[4] = 2;
         assert!(message(&other).contains("sample type is 2"));

@@ -222,9 +222,11 @@ fn the_part_with_the_colour_is_the_picture() {
     let (rgb, xyz) = (["R", "G", "B"], ["X", "Y", "Z"]);
     let normal = || part("Normal", (3, 3), xyz, 5.0);
     let picture = file(vec![normal(), part("beauty", (2, 1), rgb, 1.0)], false);
-    assert_eq!((picture.width(), picture.height()), (2, 1));
-    assert_eq!(picture.to_floats(), [1.0, 2.0, 3.0, 1.0, 2.0, 3.0]);
-    assert_eq!(picture.notes(false).count(), 0);
+    assert_eq!((picture.width(), picture.height()), (4, 4));
+    let found = picture.to_floats();
+    assert_eq!(found[..7], [1.0, 2.0, 3.0, 1.0, 2.0, 3.0, 0.0]);
+    // That it fills a part of the window.
+    assert_eq!(picture.notes(false).count(), 1);
 
     let ao = part("AO", (1, 1), rgb, 5.0);
     let picture = file(vec![ao, part("Combined", (1, 1), rgb, 1.0)], true);
@@ -243,7 +245,7 @@ fn the_part_with_the_colour_is_the_picture() {
     // The only part holds vectors: they are what they are.
     let picture = file(vec![normal()], false);
     assert_eq!(picture.to_floats()[..3], [5.0, 6.0, 7.0]);
-    assert_eq!(picture.notes(false).count(), 1);
+    assert_eq!(picture.notes(false).count(), 2);
 }
 
 proptest! {

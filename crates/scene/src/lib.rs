@@ -8,6 +8,7 @@ mod bodies;
 pub mod builder;
 mod capabilities;
 pub mod compile;
+pub mod contents;
 mod dark_media;
 mod displacement;
 mod emission_medium;

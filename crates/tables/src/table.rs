@@ -56,6 +56,15 @@ impl BrdfTable {
         }
     }
 
+    /// What it is, in words.
+    pub fn kind(&self) -> &'static str {
+        match self {
+            Self::Merl(_) => "a BRDF of the MERL database",
+            Self::Rgl(_) => "a BRDF of the RGL material database",
+            Self::Spectral(_) => "a spectral table of a BRDF",
+        }
+    }
+
     /// The table at the wavelengths `lambda` in nm.
     #[inline]
     pub fn at(&self, lambda: Vec4) -> BrdfAtWavelengths<'_> {

@@ -142,6 +142,19 @@ impl<'a> TensorFile<'a> {
         self.fields.iter().any(|field| field.name == name)
     }
 
+    /// The fields in words: a line for each.
+    pub fn summary(&self) -> String {
+        let lines = self.fields.iter().map(|field| {
+            let sides: Vec<String> = field.shape.iter().map(usize::to_string).collect();
+            let text = match (field.name, field.kind, core::str::from_utf8(field.bytes)) {
+                ("description", UINT8, Ok(text)) => format!(": {}", text.trim()),
+                _ => String::new(),
+            };
+            format!("  {:<20} {}{text}\n", field.name, sides.join(" × "))
+        });
+        lines.collect()
+    }
+
     fn find(&self, name: &str, kinds: &[u8]) -> Result<&Field<'a>, BrdfTableError> {
         let Some(field) = self.fields.iter().find(|field| field.name == name) else {
             let names: Vec<&str> = self.fields.iter().map(|field| field.name).collect();

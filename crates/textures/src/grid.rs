@@ -14,7 +14,7 @@ use crate::texture::TextureModel;
 use crate::vol_file::VolFile;
 use crate::{Filter, Texture, TextureReader, TextureTable, Wrap};
 use core::ops::{Add, Mul};
-use etalon_params::Params;
+use etalon_params::{Diagnostic, Params};
 use etalon_spectrum::RgbCoefficients;
 use etalon_transport::{Shapes, SpectrumKind, TexturePoint, file};
 use glam::{Affine3A, DAffine3, DMat4, DVec3, IVec3, UVec2, UVec3, Vec3, Vec4};
@@ -253,9 +253,22 @@ pub(crate) fn read(
         params.error_at("filename", message);
         return None;
     }
-    let place = match by_place {
-        true => to_world * volume.place,
-        false => to_world,
+    for note in &volume.notes {
+        let message = format!("`{name}`: {note}");
+        let span = file::span_of_filename(params);
+        (params.diagnostics).push(Diagnostic::note(span, message));
+    }
+    let place = match (by_place, volume.place) {
+        (true, Some(place)) => to_world * place,
+        (true, None) => {
+            let message = format!("the box that `{name}` names is empty or not finite");
+            let error = Diagnostic::error(file::span_of_filename(params), message);
+            let help =
+                "without `use_grid_bbox` the grid fills the unit cube, which `to_world` places";
+            (params.diagnostics).push(error.help(help));
+            return None;
+        }
+        (false, _) => to_world,
     };
     let to_grid = DAffine3::from_scale(volume.size.as_dvec3()) * place.inverse();
     if !(place.is_finite() && to_grid.is_finite()) {

@@ -18,7 +18,7 @@ pub mod footprint;
 pub mod grid;
 pub mod illuminated;
 pub mod mesh_attribute;
-mod nanovdb;
+pub mod nanovdb;
 pub mod pixels;
 pub mod procedural;
 pub mod reader;

@@ -9,7 +9,7 @@
 //! Every offset is checked, and memory is taken in proportion to what is there.
 
 use crate::pixels::Values;
-use crate::vol_file::{VolFile, refuse_bad};
+use crate::vol_file::{self, VolFile, refuse_bad};
 use flate2::read::ZlibDecoder;
 use glam::{DAffine3, DMat3, DVec3, IVec3, UVec3};
 use std::collections::HashMap;
@@ -113,12 +113,52 @@ struct Stored<'a> {
     kind: u32,
     size: u64,
     codec: u16,
+    /// The first and the last voxel in use.
+    corners: [IVec3; 2],
     bytes: &'a [u8],
 }
 
 /// Whether these bytes begin like such a file.
-pub(crate) fn is_nanovdb(bytes: &[u8]) -> bool {
+pub fn is_nanovdb(bytes: &[u8]) -> bool {
     bytes.starts_with(b"NanoVDB")
+}
+
+/// What a grid holds, by the number that files have for it.
+fn kind(number: u32) -> String {
+    let known = match number {
+        1 => "32-bit floats",
+        2 => "64-bit floats",
+        3..=5 | 22 | 23 => "integers",
+        6 | 16..=18 => "vectors",
+        7 => "vectors of 64-bit floats",
+        8 | 21 => "a mask",
+        9 | 13..=15 | 20 => "compressed floats",
+        10 | 19 | 25 | 26 => "indices and points",
+        _ => return format!("values of the type {number}"),
+    };
+    known.to_owned()
+}
+
+/// What a file holds, a line for each grid.
+///
+/// # Errors
+/// What is wrong with it.
+pub fn summary(bytes: &[u8]) -> Result<String, String> {
+    let (grids, _) = stored(&Bytes(bytes))?;
+    let compression = |codec| match codec {
+        0 => "not compressed",
+        1 => "compressed with zip",
+        2 => "compressed with Blosc",
+        _ => "compressed in an unknown way",
+    };
+    let lines = grids.iter().map(|grid| {
+        let [name, holds, how] = [&grid.name, &kind(grid.kind), compression(grid.codec)];
+        let [low, high] = grid.corners;
+        let side = |i: usize| i64::from(high[i]) - i64::from(low[i]) + 1;
+        let size = [0, 1, 2].map(|i| side(i).to_string()).join(" × ");
+        format!("grid         `{name}`: {holds}, {size} from {low}, {how}\n")
+    });
+    Ok(lines.collect())
 }
 
 /// Reads the grid called `name`, or the first one.
@@ -126,7 +166,7 @@ pub(crate) fn is_nanovdb(bytes: &[u8]) -> bool {
 /// # Errors
 /// What is wrong with it.
 pub(crate) fn read(bytes: &[u8], name: Option<&str>) -> Result<VolFile, String> {
-    let grids = stored(&Bytes(bytes))?;
+    let (grids, behind) = stored(&Bytes(bytes))?;
     let names = || {
         let names: Vec<String> = grids.iter().map(|g| format!("`{}`", g.name)).collect();
         names.join(", ")
@@ -137,14 +177,18 @@ pub(crate) fn read(bytes: &[u8], name: Option<&str>) -> Result<VolFile, String> 
         None => grids.first().ok_or("it has no grid")?,
     };
     if grid.kind != FLOAT {
+        let floats = grids.iter().find(|grid| grid.kind == FLOAT);
+        let instead = match floats {
+            Some(other) => format!("`grid_name` chooses another, such as `{}`", other.name),
+            None => format!("it has {}", names()),
+        };
         return Err(format!(
-            "the values of its grid `{}` have type {}, and 1 (32-bit floats) is read; it has {}",
+            "its grid `{}` holds {}, and 32-bit floats are read; {instead}",
             grid.name,
-            grid.kind,
-            names()
+            kind(grid.kind),
         ));
     }
-    match grid.codec {
+    let read = match grid.codec {
         0 => dense(&Bytes(grid.bytes)),
         1 => dense(&Bytes(&inflated(grid)?)),
         2 => Err(
@@ -154,15 +198,31 @@ pub(crate) fn read(bytes: &[u8], name: Option<&str>) -> Result<VolFile, String> 
         other => Err(format!(
             "it is compressed in a way that is not known ({other})"
         )),
+    };
+    let mut read = read?;
+    if behind > 0 {
+        read.notes.push(vol_file::behind(behind));
     }
+    Ok(read)
 }
 
-/// All grids of a file.
-fn stored<'a>(bytes: &Bytes<'a>) -> Result<Vec<Stored<'a>>, String> {
+/// All grids of a file, and how many bytes there are behind them.
+fn stored<'a>(bytes: &Bytes<'a>) -> Result<(Vec<Stored<'a>>, usize), String> {
+    // In the memory of a grid a checksum stands before the version.
+    let is_32 = |at: usize| bytes.u32(at).is_ok_and(|word| word >> 21 == 32);
+    if is_nanovdb(bytes.0) && !is_32(8) && is_32(16) {
+        return Err(
+            "it is the memory of a NanoVDB grid without the header of a file: `nanovdb::io::writeGrid` writes both"
+                .to_owned(),
+        );
+    }
     let mut grids = Vec::new();
     let mut at = 0;
     while at < bytes.0.len() {
         if !is_nanovdb(&bytes.0[at..]) {
+            if !grids.is_empty() {
+                break;
+            }
             return Err(format!("there is no `NanoVDB` at byte {at}"));
         }
         let version = bytes.u32(at + 8)? >> 21;
@@ -181,6 +241,7 @@ fn stored<'a>(bytes: &Bytes<'a>) -> Result<Vec<Stored<'a>>, String> {
                 kind: bytes.u32(at + 32)?,
                 size: bytes.u64(at)?,
                 codec: u16::from_le_bytes(bytes.array(at + 168)?),
+                corners: [bytes.corner(at + 88)?, bytes.corner(at + 100)?],
                 bytes: &[],
             });
             sizes.push(bytes.u64(at + 8)?);
@@ -199,7 +260,7 @@ fn stored<'a>(bytes: &Bytes<'a>) -> Result<Vec<Stored<'a>>, String> {
             at += grid.bytes.len();
         }
     }
-    Ok(grids)
+    Ok((grids, bytes.0.len() - at))
 }
 
 /// A grid compressed with zlib.
@@ -261,8 +322,8 @@ fn dense(grid: &Bytes<'_>) -> Result<VolFile, String> {
             }
         }
     }
-    let values = Values::One(values);
-    refuse_bad(&values, size)?;
+    let mut values = Values::One(values);
+    let notes = refuse_bad(&mut values, size)?.into_iter().collect();
     // Rows of the matrix in double precision, and what is added.
     let map = 296 + 88;
     let rows = [
@@ -279,9 +340,10 @@ fn dense(grid: &Bytes<'_>) -> Result<VolFile, String> {
         DAffine3::from_translation(low.as_dvec3() - 0.5) * DAffine3::from_scale(size.as_dvec3());
     Ok(VolFile {
         size,
-        place: to_world * box_of_values,
+        place: Some(to_world * box_of_values),
         values,
         beside: None,
+        notes,
     })
 }
 

@@ -1,95 +1,53 @@
-//! Mitsuba's `.vol` files, version 3: a grid of 32-bit floats.
-//!
-//! Little-endian: `VOL`, 3; the encoding (1: 32-bit floats), the size along x, y and z and the number of channels, as 32-bit
-//! integers; the lower and the upper corner of the grid's box; then the values by z, y, x and channel.
+//! Mitsuba's `.vol` files as media take them: densities, shares of light, matrices; [`Volume`] reads the file itself.
 
 use crate::pixels::Values;
-use glam::{DAffine3, DVec3, UVec3, Vec3};
+use etalon_images::Volume;
+use glam::{DAffine3, UVec3, Vec3};
 
 /// What a file holds.
 #[derive(Debug)]
 pub(crate) struct VolFile {
     /// Values along x, y and z.
     pub(crate) size: UVec3,
-    /// Where its box is: what the unit cube becomes.
-    pub(crate) place: DAffine3,
+    /// Where its box is: what the unit cube becomes. Some files name none that has a volume.
+    pub(crate) place: Option<DAffine3>,
     /// By z, y and x.
     pub(crate) values: Values,
     /// Of six channels the last three: of symmetric matrices what is beside the diagonal.
     pub(crate) beside: Option<Vec<[f32; 3]>>,
+    /// What whoever gave the file should know of it.
+    pub(crate) notes: Vec<String>,
 }
 
-/// Length of what stands before the values (bytes).
-const HEADER: usize = 48;
-
 impl VolFile {
-    /// Reads a file. Memory is taken for what is there, whatever the header says.
+    /// Reads a file.
     ///
     /// # Errors
     /// What is wrong with it.
     pub(crate) fn read(bytes: &[u8]) -> Result<Self, String> {
-        let Some((header, data)) = bytes.split_at_checked(HEADER) else {
+        let volume = Volume::decode(bytes)?;
+        if ![1, 3, 6].contains(&volume.channels) {
+            let channels = volume.channels;
             return Err(format!(
-                "it has {} bytes, fewer than the header of a .vol file",
-                bytes.len()
-            ));
-        };
-        if header[..3] != *b"VOL" {
-            return Err("it does not begin with `VOL`".to_owned());
-        }
-        if header[3] != 3 {
-            return Err(format!("it has version {}, and 3 is read", header[3]));
-        }
-        let word = |i: usize| [header[i], header[i + 1], header[i + 2], header[i + 3]];
-        let integer = |i: usize| i32::from_le_bytes(word(4 + 4 * i));
-        let corner = |i: usize| {
-            let number = |k: usize| f64::from(f32::from_le_bytes(word(24 + 4 * (i + k))));
-            DVec3::new(number(0), number(1), number(2))
-        };
-        if integer(0) != 1 {
-            return Err(format!(
-                "its encoding is {}, and 1 (32-bit floats) is read",
-                integer(0)
+                "it has {channels} channels, and 1, 3 or 6 are read"
             ));
         }
-        let sides = [1, 2, 3].map(integer);
-        let channels = integer(4);
-        if sides.iter().any(|&side| side < 1) || ![1, 3, 6].contains(&channels) {
-            let [x, y, z] = sides;
-            return Err(format!(
-                "it claims {x} × {y} × {z} values of {channels} channels; 1, 3 or 6 are read"
-            ));
+        let mut notes = Vec::new();
+        if volume.behind > 0 {
+            notes.push(behind(volume.behind));
         }
-        let expected =
-            sides.iter().map(|&side| side as u128).product::<u128>() * channels as u128 * 4;
-        if expected != data.len() as u128 {
-            return Err(format!(
-                "its header claims {expected} bytes of values, and there are {}",
-                data.len()
-            ));
-        }
-        let bounds = [corner(0), corner(3)];
-        if !(bounds[0].is_finite() && bounds[0].cmplt(bounds[1]).all() && bounds[1].is_finite()) {
-            return Err("its box is empty or not finite".to_owned());
-        }
-        let (floats, _) = data.as_chunks::<4>();
-        let floats = floats.iter().map(|bytes| f32::from_le_bytes(*bytes));
-        let size = UVec3::from_array(sides.map(|side| side as u32));
+        let size = UVec3::from_array(volume.size.map(|side| side as u32));
         let mut beside = None;
-        let values = match channels {
-            1 => Values::One(floats.collect()),
+        let mut values = match volume.channels {
+            1 => Values::One(volume.samples),
             6 => {
-                let floats: Vec<f32> = floats.collect();
-                let halves = || floats.as_chunks::<3>().0.iter().copied();
+                let halves = || volume.samples.as_chunks::<3>().0.iter().copied();
                 beside = Some(halves().skip(1).step_by(2).collect());
                 Values::Three(halves().step_by(2).collect())
             }
-            _ => {
-                let floats: Vec<f32> = floats.collect();
-                Values::Three(floats.as_chunks::<3>().0.to_vec())
-            }
+            _ => Values::Three(volume.samples.as_chunks::<3>().0.to_vec()),
         };
-        refuse_bad(&values, size)?;
+        notes.extend(refuse_bad(&mut values, size)?);
         // No number beside the diagonal of a sound matrix is larger than those on it.
         if let (Values::Three(diagonal), Some(beside)) = (&values, &beside) {
             let bad = |(d, b): (&[f32; 3], &[f32; 3])| {
@@ -105,41 +63,68 @@ impl VolFile {
                 ));
             }
         }
-        let [low, high] = bounds;
+        let [low, high] = volume
+            .bounds
+            .map(|corner| Vec3::from_array(corner).as_dvec3());
+        let has_box = low.is_finite() && high.is_finite() && low.cmplt(high).all();
         Ok(Self {
             size,
-            place: DAffine3::from_translation(low) * DAffine3::from_scale(high - low),
+            place: has_box
+                .then(|| DAffine3::from_translation(low) * DAffine3::from_scale(high - low)),
             values,
             beside,
+            notes,
         })
     }
 }
 
-/// Refuses values that no density, albedo or emission has.
-pub(crate) fn refuse_bad(values: &Values, size: UVec3) -> Result<(), String> {
-    let bad = |value: &f32| !(value.is_finite() && *value >= 0.0);
-    let (found, channels) = match values {
-        Values::One(values) => (values.iter().position(bad), 1),
-        Values::Three(values) => (values.as_flattened().iter().position(bad), 3),
+/// What to say of bytes behind the data of a file.
+pub(crate) fn behind(count: usize) -> String {
+    let (bytes, are) = match count {
+        1 => ("byte", "is"),
+        _ => ("bytes", "are"),
     };
-    let Some(index) = found else { return Ok(()) };
-    let value = match values {
-        Values::One(values) => values[index],
-        Values::Three(values) => Vec3::from_array(values[index / 3])[index % 3],
+    format!("{count} {bytes} behind its values {are} passed over")
+}
+
+/// Values so little below 0, as a share of the largest, are what compression leaves of 0.
+const ROUNDING: f32 = 1e-5;
+
+/// Refuses values that no density, albedo or emission has. Those that rounding has moved below 0 become 0, of which a note is made.
+pub(crate) fn refuse_bad(values: &mut Values, size: UVec3) -> Result<Option<String>, String> {
+    let (values, channels) = match values {
+        Values::One(values) => (values.as_mut_slice(), 1),
+        Values::Three(values) => (values.as_flattened_mut(), 3),
     };
-    let place = index / channels;
-    let (x, y) = (size.x as usize, size.y as usize);
-    Err(format!(
-        "the value at ({}, {}, {}) is {value}, and values are finite and not below 0",
-        place % x,
-        place / x % y,
-        place / x / y
-    ))
+    let largest = values.iter().fold(0.0_f32, |most, value| most.max(*value));
+    let least = -ROUNDING * if largest > 0.0 { largest } else { 1.0 };
+    let bad = |value: &f32| !(value.is_finite() && *value >= least);
+    if let Some(index) = values.iter().position(bad) {
+        let place = index / channels;
+        let (x, y) = (size.x as usize, size.y as usize);
+        return Err(format!(
+            "the value at ({}, {}, {}) is {}, and values are finite and not below 0",
+            place % x,
+            place / x % y,
+            place / x / y,
+            values[index]
+        ));
+    }
+    let (mut count, mut lowest) = (0, 0.0_f32);
+    for value in values.iter_mut().filter(|value| **value < 0.0) {
+        count += 1;
+        lowest = lowest.min(*value);
+        *value = 0.0;
+    }
+    Ok((count > 0).then(|| {
+        format!("{count} of its values are a little below 0 (down to {lowest:e}), and count as 0")
+    }))
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use glam::DVec3;
 
     fn file(integers: [i32; 5], corners: [f32; 6], values: &[f32]) -> Vec<u8> {
         let mut bytes = b"VOL\x03".to_vec();
@@ -155,8 +140,11 @@ mod tests {
         let read = VolFile::read(&file([1, 3, 1, 2, 1], BOX, &[1.0, 2.0, 3.0, 4.0, 5.0, 6.0]));
         let read = read.expect("sound");
         assert_eq!(read.size, UVec3::new(3, 1, 2));
-        let corner = read.place.transform_point3(DVec3::ONE);
-        assert_eq!(corner, DVec3::new(1.0, 2.0, 3.0));
+        let place = read.place.expect("a box");
+        assert_eq!(
+            place.transform_point3(DVec3::ONE),
+            DVec3::new(1.0, 2.0, 3.0)
+        );
         assert_eq!(read.values, Values::One(vec![1.0, 2.0, 3.0, 4.0, 5.0, 6.0]));
     }
 
@@ -171,13 +159,13 @@ mod tests {
             let reason = VolFile::read(bytes).expect_err("wrong");
             assert!(reason.contains(words), "{reason}");
         };
-        says(b"VOX\x03", "fewer than the header");
+        says(b"VOX\x03", "shorter than a volume's header");
         says(&[&b"VOL\x02"[..], &[0; 44]].concat(), "version 2");
-        says(&file([2, 1, 1, 1, 1], BOX, &[0.0]), "encoding is 2");
+        says(&file([2, 1, 1, 1, 1], BOX, &[0.0]), "sample type is 2");
         // A header that claims more than a machine has costs nothing.
         says(
             &file([1, i32::MAX, i32::MAX, i32::MAX, 3], BOX, &[0.0]),
-            "claims",
+            "ends after 52 bytes of",
         );
         says(&file([1, 1, -1, 1, 1], BOX, &[0.0]), "1 × -1 × 1");
         says(&file([1, 1, 1, 1, 2], BOX, &[0.0; 2]), "2 channels");
@@ -192,6 +180,20 @@ mod tests {
             &file([1, 1, 1, 2, 3], BOX, &[0.0, 0.0, 0.0, 0.0, f32::NAN, 0.0]),
             "(0, 0, 1) is NaN",
         );
-        says(&file([1, 1, 1, 1, 1], [0.0; 6], &[0.0]), "box is empty");
+    }
+
+    #[test]
+    fn what_does_no_harm_is_told_and_passed_over() {
+        let mut bytes = file(
+            [1, 3, 1, 1, 1],
+            [1.0, 0.0, 0.0, 0.0, 1.0, 1.0],
+            &[2.0, -1e-9, 0.0],
+        );
+        bytes.push(0);
+        let read = VolFile::read(&bytes).expect("usable");
+        assert!(read.place.is_none(), "its box is turned inside out");
+        assert_eq!(read.values, Values::One(vec![2.0, 0.0, 0.0]));
+        assert_eq!(read.notes[0], "1 byte behind its values is passed over");
+        assert!(read.notes[1].contains("down to -1e-9"), "{}", read.notes[1]);
     }
 }

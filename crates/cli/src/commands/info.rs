@@ -23,11 +23,20 @@ pub fn run(args: &InfoArgs) -> ExitCode {
             Ok(developed) => answer(&image(&developed), ExitCode::SUCCESS),
             Err(error) => fail(error),
         },
-        _ => match picture(file) {
-            Ok(text) => answer(&text, ExitCode::SUCCESS),
-            Err(error) => fail(format!("neither a scene (.xml) nor an image: {error}")),
+        _ => match contents(file) {
+            Some(Ok(text)) => answer(&text, ExitCode::SUCCESS),
+            Some(Err(reason)) => fail(format!("{}: {reason}", file.display())),
+            None => match picture(file) {
+                Ok(text) => answer(&text, ExitCode::SUCCESS),
+                Err(error) => fail(format!("neither a scene (.xml) nor an image: {error}")),
+            },
         },
     }
+}
+
+/// What a file other than a picture holds; `None` if it is none that scenes name, or cannot be read.
+fn contents(path: &Path) -> Option<Result<String, String>> {
+    etalon_scene::contents::describe(&std::fs::read(path).ok()?)
 }
 
 /// What a picture of any other format says of itself.

@@ -1,26 +1,19 @@
 //! Curves from files, as hair is made of: what `linearcurve` and `bsplinecurve` share.
 //!
-//! A file has a control point on each line, `x y z r`; empty lines begin a new curve. Points are placed by `to_world`,
+//! Points are placed by `to_world`,
 //! radii are lengths in the world whatever it scales. Each segment is a primitive of its own. Curves are seen from
 //! outside only, as in Mitsuba, and are no lights.
 
 use crate::local_interaction::LocalInteraction;
 use crate::placement::Placement;
+pub use crate::shapes::control_points::ControlPoint;
+use crate::shapes::control_points::{self, ControlPoints, fits};
 use crate::shapes::crossing::{Crossing, Line};
 use crate::shapes::model::ShapeModel;
-use etalon_params::Params;
+use etalon_params::{Diagnostic, Params};
 use etalon_transport::file;
 use etalon_transport::{Build, SurfacePoint};
 use glam::{DVec2, DVec3, Vec2};
-
-/// A control point: where, and how thick there.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct ControlPoint {
-    /// Position in the world.
-    pub position: DVec3,
-    /// Radius (m).
-    pub radius: f64,
-}
 
 /// A point of a segment's surface.
 #[derive(Clone, Copy, Debug)]
@@ -65,55 +58,43 @@ impl<S: Segment> Curves<S> {
     /// Reads `filename` and `to_world`.
     pub(crate) fn from_params(params: &Params<'_>, build: &mut dyn Build) -> Option<Self> {
         let placement = Placement::from_params(params);
-        let text = file::read(params, build, "the file of control points", |bytes| {
-            Ok(String::from_utf8_lossy(bytes).into_owned())
-        });
-        let curves = Self::parse(&text?, &placement?);
-        let refuse = |message: String| {
-            params.error_at("filename", format!("the control points, {message}"));
+        let what = "the file of control points";
+        let file = file::read(params, build, what, control_points::parse)?;
+        let name = params.string("filename").unwrap_or_default();
+        if let Some(header) = &file.header {
+            let message = format!(
+                "the first line of `{name}`, `{header}`, is no control point and is passed over"
+            );
+            let span = file::span_of_filename(params);
+            (params.diagnostics).push(Diagnostic::note(span, message));
+        }
+        let refuse = |reason: String| {
+            params.error_at("filename", format!("`{name}` cannot be used: {reason}"));
         };
-        curves.map_err(refuse).ok()
+        Self::new(&file, &placement?).map_err(refuse).ok()
     }
 
-    /// Curves of a text, or what is wrong with it, and in which line.
-    fn parse(text: &str, placement: &Placement) -> Result<Self, String> {
-        let (mut segments, mut curve) = (Vec::new(), Vec::new());
-        // An empty line at the end finishes the last curve.
-        for (index, line) in text.lines().chain([""]).enumerate() {
-            let line_number = index + 1;
-            if line.trim().is_empty() {
-                if (1..S::POINTS).contains(&curve.len()) {
-                    let (count, least) = (curve.len(), S::POINTS);
-                    return Err(format!(
-                        "line {line_number}: the curve that ends here has {count} control points; it \
-                         takes {least} or more"
-                    ));
-                }
-                segments.extend(curve.windows(S::POINTS).map(S::new));
-                curve.clear();
-                continue;
+    /// Curves through control points, or what is wrong with these, and in which line.
+    fn new(file: &ControlPoints, placement: &Placement) -> Result<Self, String> {
+        let mut segments = Vec::new();
+        for (points, end) in &file.strands {
+            let (count, least) = (points.len(), S::POINTS);
+            if count < least {
+                return Err(format!(
+                    "line {end}: the curve that ends here has {count} control points; it takes {least} or more"
+                ));
             }
-            let numbers: Vec<f64> = line
-                .split_whitespace()
-                .map_while(|word| word.parse().ok())
-                .filter(|number: &f64| number.is_finite())
-                .collect();
-            match numbers[..] {
-                [x, y, z, radius, ..] if radius >= 0.0 => curve.push(ControlPoint {
-                    position: placement.point(DVec3::new(x, y, z)),
-                    radius,
-                }),
-                _ => {
-                    return Err(format!(
-                        "line {line_number}: `{}` is no control point `x y z radius` of finite \
-                         numbers, the radius not below 0",
-                        line.trim()
-                    ));
-                }
+            let placed = points.iter().map(|point| ControlPoint {
+                position: placement.point(point.position),
+                ..*point
+            });
+            let placed: Vec<ControlPoint> = placed.collect();
+            if !placed.iter().flat_map(|p| p.position.to_array()).all(fits) {
+                return Err(format!(
+                    "line {end}: the curve that ends here lies too far away"
+                ));
             }
-        }
-        if segments.is_empty() {
-            return Err("line 1: there are no control points".into());
+            segments.extend(placed.windows(least).map(S::new));
         }
         Ok(Self { segments })
     }
