@@ -51,7 +51,7 @@ enum Task {
     FarmTest(farm_test::Arguments),
     /// Write the generated files of `scenes/` anew
     Scenes,
-    /// Write `docs/scene-format.md` and `docs/mitsuba-compatibility.md` anew: what there is, asked of the code
+    /// Write the pages of `docs/` on plugins and parameters anew: what there is, asked of the code
     Plugins,
     /// Write the generated tables of the spectrum crate anew
     Tables(tables::Arguments),

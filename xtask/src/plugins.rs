@@ -4,10 +4,10 @@
 //! read, and what its plugin asks for meanwhile is noted ([`etalon_params::questions`]). The file adds words. A test
 //! keeps the two together: no plugin and no parameter may lack words, no words may lack a plugin or parameter.
 
-use crate::compatibility;
+use crate::compatibility::{self, MITSUBA_3, MITSUBA_06};
 use etalon::pipeline::{self, LoadOptions};
 use etalon_params::questions::{self, Question, Questions};
-use etalon_params::{Class, Severity};
+use etalon_params::{Class, Severity, ignored};
 use etalon_validation::folders;
 use serde::Deserialize;
 use std::collections::{BTreeMap, BTreeSet};
@@ -127,8 +127,14 @@ pub(crate) fn run() -> Result<(), String> {
     let path = page();
     fs::write(&path, text()?).map_err(|e| format!("{}: {e}", path.display()))?;
     println!("{}", path.display());
-    let path = compatibility::page();
-    fs::write(&path, compatibility::text()?).map_err(|e| format!("{}: {e}", path.display()))?;
+    for version in [MITSUBA_3, MITSUBA_06] {
+        let path = version.page();
+        let text = compatibility::text(&version)?;
+        fs::write(&path, text).map_err(|e| format!("{}: {e}", path.display()))?;
+        println!("{}", path.display());
+    }
+    let path = folders::root().join("docs/ignored-parameters.md");
+    fs::write(&path, ignored::markdown()).map_err(|e| format!("{}: {e}", path.display()))?;
     println!("{}", path.display());
     Ok(())
 }
@@ -143,6 +149,11 @@ pub(crate) fn turn() -> MutexGuard<'static, ()> {
 
 /// Loads a scene with an element in its place, and gives back what was wrong.
 pub(crate) fn load(surroundings: &str, element: &str) -> Vec<String> {
+    load_as("3.0.0", surroundings, element)
+}
+
+/// The same with a scene of this version.
+pub(crate) fn load_as(version: &str, surroundings: &str, element: &str) -> Vec<String> {
     // Lights of shapes stand in one; a beam is seen by integrators that follow it.
     let is = |name: &str| element.contains(&format!("type=\"{name}\""));
     let surroundings = match surroundings {
@@ -153,7 +164,7 @@ pub(crate) fn load(surroundings: &str, element: &str) -> Vec<String> {
         surroundings => surroundings,
     };
     let scene = format!(
-        "<scene version=\"3.0.0\">{}</scene>",
+        "<scene version=\"{version}\">{}</scene>",
         surroundings.replace("ELEMENT", element)
     );
     let folder = std::env::temp_dir();

@@ -72,7 +72,21 @@ pub fn constant_from_params(params: &Params<'_>) -> Microfacet {
     )
 }
 
+/// Distributions of Mitsuba 0.6 that are not built: cosᵉ with e = 2/α² − 2, which no α makes one of the others.
+const POWERS_OF_COSINES: [&str; 2] = ["as", "phong"];
+
 fn kind(params: &Params<'_>) -> Kind {
+    let named = params.string("distribution").unwrap_or_default();
+    if POWERS_OF_COSINES
+        .iter()
+        .any(|name| name.eq_ignore_ascii_case(named))
+    {
+        let message = format!("the distribution `{named}` of Mitsuba 0.6 is not built");
+        let help =
+            "accepted: beckmann, ggx; `beckmann` with the same `alpha` comes near for small ones";
+        params.error_with_help("distribution", &message, help);
+        return Kind::Beckmann;
+    }
     match params.choice("distribution", "beckmann", &["beckmann", "ggx"]) {
         "ggx" => Kind::Ggx,
         _ => Kind::Beckmann,

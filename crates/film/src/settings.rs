@@ -124,10 +124,8 @@ impl FilmSettings {
         let components = ["float16", "float32", "uint32"];
         let component = params.choice("component_format", "float32", &components);
         if component != "float32" {
-            let property = params.property("component_format");
-            let span = property.map_or(params.node.plugin.span, |p| p.span);
             let message = format!("`{component}` is not used: files hold 32-bit floats");
-            params.diagnostics.push(Diagnostic::note(span, message));
+            note(params, "component_format", message);
         }
         let filter = params
             .child(Class::ReconstructionFilter)
@@ -157,8 +155,32 @@ fn formats(params: &Params<'_>) -> (PixelFormat, FileFormat) {
     let mut names: Vec<_> = PixelFormat::ALL.iter().map(|(name, _)| *name).collect();
     // As Mitsuba 0.6 spells it.
     names.push("luminanceAlpha");
-    let name = match params.choice("pixel_format", PixelFormat::default().name(), &names) {
+    // … which has two more: what a build of three numbers per spectrum keeps, and one for each part of `multichannel`.
+    names.push("spectrum");
+    let list = params.string("pixel_format").unwrap_or_default();
+    let name = match list.split_once(',') {
+        Some((first, _)) => {
+            let first = names
+                .iter()
+                .find(|name| name.eq_ignore_ascii_case(first.trim()));
+            let message =
+                "of a list of formats the first counts: the integrator `multichannel` is not built";
+            note(params, "pixel_format", message);
+            first.copied().unwrap_or_else(|| {
+                params.refuse("pixel_format", list, &names.join(", "));
+                PixelFormat::default().name()
+            })
+        }
+        None => params.choice("pixel_format", PixelFormat::default().name(), &names),
+    };
+    let name = match name {
         "luminanceAlpha" => "luminance_alpha",
+        "spectrum" => {
+            let message =
+                "`spectrum` is read as `rgb`: the film `specfilm` keeps bands of the spectrum";
+            note(params, "pixel_format", message);
+            "rgb"
+        }
         name => name,
     };
     let pixel_format = PixelFormat::ALL
@@ -178,6 +200,13 @@ fn formats(params: &Params<'_>) -> (PixelFormat, FileFormat) {
     (pixel_format, file_format)
 }
 
+/// Makes a note at a parameter.
+fn note(params: &Params<'_>, name: &str, message: impl Into<String>) {
+    let property = params.property(name);
+    let span = property.map_or(params.node.plugin.span, |p| p.span);
+    params.diagnostics.push(Diagnostic::note(span, message));
+}
+
 /// Reads `filter_method`; says so where the filter is too wide for what was asked.
 fn filter_method(params: &Params<'_>, filter: &Filter) -> FilterMethod {
     let names = FilterMethod::ALL.map(|(name, _)| name);
@@ -187,14 +216,12 @@ fn filter_method(params: &Params<'_>, filter: &Filter) -> FilterMethod {
         .find(|(known, _)| *known == name);
     let method = named.map_or_else(FilterMethod::default, |(_, method)| method);
     if filter.radius() > FilterMethod::WIDEST && method != FilterMethod::ImportanceSampling {
-        let property = params.property("filter_method");
-        let span = property.map_or(params.node.plugin.span, |p| p.span);
         let message = format!(
             "the filter reaches {:.1} pixels far: it is importance-sampled, since pixels share samples up to {} pixels",
             filter.radius(),
             FilterMethod::WIDEST
         );
-        params.diagnostics.push(Diagnostic::note(span, message));
+        note(params, "filter_method", message);
     }
     method
 }

@@ -68,7 +68,7 @@ impl FileAssets {
     fn find(&self, name: &str) -> Result<PathBuf, AssetError> {
         let path = self.search.find(name).ok_or_else(|| AssetError {
             message: format!("the file `{name}` was not found"),
-            help: Some(self.search.describe()),
+            help: Some(self.search.why_not(name)),
         })?;
         self.state().used.insert(path.clone());
         Ok(path)
@@ -234,6 +234,12 @@ mod tests {
             format!("the file `none.obj` was not found (looked in `{place}`)")
         );
         assert!(message("x.ply").ends_with("(this is a PLY file: use the shape `ply`)"));
+        let pointer = "version https://git-lfs.github.com/spec/v1\noid sha256:0\nsize 9\n";
+        std::fs::write(folder.path().join("lfs.obj"), pointer).expect("written");
+        assert!(message("lfs.obj").contains("`lfs.obj`: it is a pointer of git LFS"));
+        assert!(message("A.OBJ").ends_with(
+            "(there is `a.obj`: capital and small letters differ in the names of files)"
+        ));
         let assets = FileAssets::new(assets.search().clone()).with_limit(4);
         assert_eq!(
             assets.bytes("small").expect_err("too large").message,

@@ -62,5 +62,14 @@ fn bounded_length(path: &Path, limit: u64) -> Result<u64, String> {
             metadata.len()
         ));
     }
+    // What git keeps in place of a large file is some 130 bytes.
+    if metadata.len() < 1024 && std::fs::read(path).is_ok_and(|b| b.starts_with(LFS_POINTER)) {
+        return Err(
+            "it is a pointer of git LFS to the file; `git lfs pull` fetches that".to_owned(),
+        );
+    }
     Ok(metadata.len())
 }
+
+/// How the pointers begin that git LFS keeps in place of files.
+const LFS_POINTER: &[u8] = b"version https://git-lfs.github.com/spec/";

@@ -57,8 +57,45 @@ impl SearchPath {
             .find(|path| path.exists())
     }
 
-    /// Where was looked, for messages.
-    pub fn describe(&self) -> String {
+    /// Why `name` leads nowhere: a file is called so but for its case, or where was looked.
+    pub fn why_not(&self, name: &str) -> String {
+        match self.called_so_but_for_case(name) {
+            Some(other) => format!(
+                "there is `{}`: capital and small letters differ in the names of files",
+                other.display()
+            ),
+            None => self.describe(),
+        }
+    }
+
+    /// What a relative name would be that differs in its case only.
+    fn called_so_but_for_case(&self, name: &str) -> Option<PathBuf> {
+        let name = name.replace('\\', "/");
+        self.folders.iter().find_map(|folder| {
+            // From folder to folder, as each may be spelt otherwise.
+            let mut found = PathBuf::new();
+            for part in Path::new(&name).components() {
+                let part = part.as_os_str();
+                if folder.join(&found).join(part).exists() {
+                    found.push(part);
+                    continue;
+                }
+                let here = match folder.join(&found) {
+                    here if here.as_os_str().is_empty() => PathBuf::from("."),
+                    here => here,
+                };
+                let mut names = std::fs::read_dir(here)
+                    .ok()?
+                    .flatten()
+                    .map(|e| e.file_name());
+                found.push(names.find(|known| known.eq_ignore_ascii_case(part))?);
+            }
+            (found != Path::new(&name)).then_some(found)
+        })
+    }
+
+    /// Where was looked.
+    fn describe(&self) -> String {
         let folders: Vec<String> = self
             .folders
             .iter()
@@ -92,5 +129,10 @@ mod tests {
         assert_eq!(path.find("..\\b\\x.obj"), Some(b.join("../b/x.obj")));
         assert_eq!(path.find("nothing.obj"), None);
         assert_eq!(path.find(""), None);
+        std::fs::create_dir(a.join("Meshes")).expect("created");
+        std::fs::write(a.join("Meshes/M.OBJ"), "").expect("written");
+        let why = path.why_not("meshes\\m.obj");
+        assert!(why.starts_with("there is `Meshes/M.OBJ`"), "{why}");
+        assert!(path.why_not("m.obj").starts_with("looked in "));
     }
 }

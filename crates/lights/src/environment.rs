@@ -117,16 +117,17 @@ impl SkyImage {
 }
 
 impl EnvironmentMap {
-    /// Reads `filename`, `scale`, `to_world` and `mis_compensation`.
+    /// Reads `filename`, `scale`, `to_world`, `mis_compensation`, and `gamma` as `bitmap` has it.
     pub fn from_params(params: &Params<'_>, build: &mut dyn Build) -> Option<Self> {
         let scale = params.float_where("scale", 1.0, "a finite number not below 0", |x| {
             x >= 0.0 && x.is_finite()
         });
         let compensated = params.boolean_or("mis_compensation", true);
         let pose = Pose::from_params(params);
+        let raw = file::is_linear(params);
         let filename = params.string("filename").unwrap_or_default();
         let what = "the name of an image file";
-        let pixels = file::read(params, build, what, |bytes| decode(bytes, filename))?;
+        let pixels = file::read(params, build, what, |bytes| decode(bytes, raw, filename))?;
         let span = file::span_of_filename(params);
         for note in &pixels.notes {
             let message = format!("`{filename}`: {note}");
@@ -346,11 +347,14 @@ struct Pixels {
     notes: Vec<String>,
 }
 
-fn decode(bytes: &[u8], filename: &str) -> Result<Pixels, String> {
+fn decode(bytes: &[u8], raw: bool, filename: &str) -> Result<Pixels, String> {
     let raster = raster::decode(bytes, Path::new(filename)).map_err(|error| error.to_string())?;
     let (width, height) = (raster.width(), raster.height());
     let channels = raster.channels();
-    let values = raster.to_linear();
+    let values = match raw {
+        true => raster.to_floats(),
+        false => raster.to_linear(),
+    };
     let mut negative = 0;
     let mut rgb = Vec::with_capacity(width * height);
     for (i, pixel) in values.chunks_exact(channels).enumerate() {

@@ -18,7 +18,7 @@ use crate::light_model::LightModel;
 use crate::pose::{Pose, emit_from_point, extent_of_way, sample_point};
 use crate::{BoundingSphere, LightExtent};
 use etalon_math::{Animated, DirectionCone, float, float64};
-use etalon_params::Params;
+use etalon_params::{Class, Params, Value};
 use etalon_sampling::warps::{square_to_uniform_cone, uniform_cone_density};
 use etalon_spectrum::Wavelengths;
 use etalon_transport::refuse_varying;
@@ -51,9 +51,23 @@ impl SpotLight {
     pub fn from_params(params: &Params<'_>, build: &mut dyn Build) -> Option<Self> {
         refuse_varying(params, "intensity");
         let intensity = build.texture(params, "intensity", Some(1.0), SpectrumKind::Emission);
-        let texture = params
-            .has("texture")
-            .then(|| build.texture(params, "texture", None, SpectrumKind::Reflectance));
+        // Mitsuba 0.6 takes one without a name as well.
+        let nameless = params.node.properties.iter().find_map(|p| match &p.value {
+            Value::Object(node) if p.name.is_empty() && node.class == Class::Texture => {
+                Some((p, node))
+            }
+            _ => None,
+        });
+        let texture = match nameless {
+            _ if params.has("texture") => {
+                Some(build.texture(params, "texture", None, SpectrumKind::Reflectance))
+            }
+            Some((property, node)) => {
+                property.mark_used();
+                Some(build.nested_texture(node, SpectrumKind::Reflectance))
+            }
+            None => None,
+        };
         let what = if texture.is_some() {
             "degrees above 0 and below 90 (with `texture`)"
         } else {

@@ -1,9 +1,11 @@
-//! The one list of parameters that are accepted and change nothing.
+//! The one list of parameters that are accepted and change nothing; those of Mitsuba 0.6 are in [`mitsuba06`].
 //!
 //! Most belong to how Mitsuba works, not to what the picture is: its tiles, its acceleration
 //! structures, its accumulation; others mean nothing to one plugin of a class whose others take
 //! them. [`crate::Params::finish`] does not complain about them.
 //! `docs/ignored-parameters.md` is this list for people; a test keeps the two equal.
+
+mod mitsuba06;
 
 use crate::{Class, Value};
 
@@ -33,8 +35,8 @@ pub struct Only {
     pub holds: fn(&Value) -> bool,
 }
 
-/// The list.
-pub const IGNORED: [Ignored; 29] = [
+/// Those of Mitsuba 3.
+const OF_MITSUBA_3: &[Ignored] = &[
     Ignored {
         class: Class::Scene,
         plugins: &[],
@@ -84,38 +86,6 @@ pub const IGNORED: [Ignored; 29] = [
     Ignored {
         class: Class::Film,
         plugins: &[],
-        names: &["high_quality_edges"],
-        only: None,
-        said: false,
-        reason: "It asked Mitsuba 0.6 for what `sample_border` asks for today.",
-    },
-    Ignored {
-        class: Class::Film,
-        plugins: &[],
-        names: &["attach_log"],
-        only: None,
-        said: false,
-        reason: "It asked Mitsuba 0.6 to keep its log in the file. Files here say how they were made.",
-    },
-    Ignored {
-        class: Class::Film,
-        plugins: &["ldrfilm"],
-        names: &["gamma", "exposure", "tonemap_method", "key", "burn"],
-        only: None,
-        said: false,
-        reason: "An `ldrfilm` is read as an `hdrfilm`, which is said: the picture stays linear.",
-    },
-    Ignored {
-        class: Class::Film,
-        plugins: &["mfilm"],
-        names: &["digits", "variable"],
-        only: None,
-        said: false,
-        reason: "An `mfilm` is read as an `hdrfilm`, which is said.",
-    },
-    Ignored {
-        class: Class::Film,
-        plugins: &[],
         names: &["sample_border"],
         only: None,
         said: false,
@@ -133,14 +103,6 @@ pub const IGNORED: [Ignored; 29] = [
     Ignored {
         class: Class::Integrator,
         plugins: &[],
-        names: &["strict_normals"],
-        only: None,
-        said: true,
-        reason: "Shading normals are treated as in Mitsuba 3, which has no such parameter.",
-    },
-    Ignored {
-        class: Class::Integrator,
-        plugins: &[],
         names: &["timeout"],
         only: Some(Only {
             words: "not above 0, which means no limit",
@@ -148,6 +110,21 @@ pub const IGNORED: [Ignored; 29] = [
         }),
         said: false,
         reason: "Rendering ends when the samples are done, not when the time is up; `--time` fixes how many there are.",
+    },
+    Ignored {
+        class: Class::Integrator,
+        plugins: &["direct_projective", "prb_projective"],
+        names: &[
+            "sppc",
+            "sppp",
+            "sppi",
+            "guiding",
+            "guiding_proj",
+            "guiding_rounds",
+        ],
+        only: None,
+        said: false,
+        reason: "They choose how derivatives are estimated.",
     },
     Ignored {
         class: Class::Integrator,
@@ -218,15 +195,6 @@ pub const IGNORED: [Ignored; 29] = [
         reason: "The sampler `sobol` stands in for these, which is said.",
     },
     Ignored {
-        class: Class::Sampler,
-        plugins: &[],
-        names: &["dimension", "scramble"],
-        only: None,
-        said: false,
-        reason: "With Mitsuba 0.6 they choose how many dimensions are well distributed, and how they \
-                 are scrambled. Here all are, with a scramble of their own in every pixel.",
-    },
-    Ignored {
         class: Class::Emitter,
         plugins: &["constant"],
         names: &["to_world"],
@@ -241,30 +209,6 @@ pub const IGNORED: [Ignored; 29] = [
         only: None,
         said: false,
         reason: "It weighs shapes in Mitsuba's estimation of derivatives.",
-    },
-    Ignored {
-        class: Class::Shape,
-        plugins: &["obj", "ply", "serialized"],
-        names: &["max_smooth_angle"],
-        only: None,
-        said: true,
-        reason: "Vertex normals are those of the file or of all faces around a vertex, as in Mitsuba 3.",
-    },
-    Ignored {
-        class: Class::Shape,
-        plugins: &["obj"],
-        names: &["collapse", "load_materials"],
-        only: None,
-        said: false,
-        reason: "All of a file is one shape, whose material stands in the scene.",
-    },
-    Ignored {
-        class: Class::Emitter,
-        plugins: &["envmap"],
-        names: &["cache", "gamma"],
-        only: None,
-        said: true,
-        reason: "Images are kept as they are, and decoded as their format says.",
     },
     Ignored {
         class: Class::Shape,
@@ -313,12 +257,33 @@ fn is_not_positive(value: &Value) -> bool {
     }
 }
 
+/// The whole list.
+pub fn list() -> impl Iterator<Item = &'static Ignored> {
+    OF_MITSUBA_3.iter().chain(mitsuba06::LIST)
+}
+
+/// Whether an entry of a list is about a parameter. No plugins are all of the class, and a name that ends with `[` stands for
+/// those that begin so.
+pub(crate) fn names(
+    class: Class,
+    plugins: &[&str],
+    names: &[&str],
+    (of, plugin, name): (Class, &str, &str),
+) -> bool {
+    let is_called =
+        |known: &&str| *known == name || known.ends_with('[') && name.starts_with(known);
+    class == of && (plugins.is_empty() || plugins.contains(&plugin)) && names.iter().any(is_called)
+}
+
 /// The entry of a plugin's parameter, whatever its value.
 pub fn entry(class: Class, plugin: &str, name: &str) -> Option<&'static Ignored> {
-    IGNORED.iter().find(|entry| {
-        entry.class == class
-            && (entry.plugins.is_empty() || entry.plugins.contains(&plugin))
-            && entry.names.contains(&name)
+    list().find(|entry| {
+        names(
+            entry.class,
+            entry.plugins,
+            entry.names,
+            (class, plugin, name),
+        )
     })
 }
 
@@ -333,11 +298,11 @@ pub fn markdown() -> String {
     let mut text = String::from(
         "# Parameters that are accepted and ignored\n\n\
          These parameters cannot change a picture made here. Every other parameter \
-         that a plugin does not know is an error; in files of a version before 2.0 it is ignored \
-         with a note, as Mitsuba 0.6 did.\n\n\
+         that a plugin does not know is an error, in files of Mitsuba 0.x too: what becomes of their parameters is told in \
+         [mitsuba-0.6.md](mitsuba-0.6.md).\n\n\
          | object | parameter | why it changes nothing |\n|---|---|---|\n",
     );
-    for entry in &IGNORED {
+    for entry in list() {
         let class = entry.class.name();
         let object = if entry.plugins.is_empty() {
             format!("every `{class}`")

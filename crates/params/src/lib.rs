@@ -14,6 +14,8 @@ pub mod questions;
 pub mod read;
 pub mod source;
 pub mod suggest;
+pub mod unbuilt;
+pub mod unused;
 
 pub use diagnostic::{Diagnostic, Diagnostics, Severity};
 pub use glam::{DMat4, DVec3};

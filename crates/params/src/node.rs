@@ -131,7 +131,6 @@ pub struct Property {
     /// Where the value stands.
     pub span: Span,
     used: AtomicBool,
-    lenient: bool,
 }
 
 impl Property {
@@ -143,20 +142,7 @@ impl Property {
             value,
             span,
             used: AtomicBool::new(false),
-            lenient: false,
         }
-    }
-
-    /// The same property, about which a plugin that does not know it only makes a note: it comes
-    /// from a file of Mitsuba 0.x, which warned of such and went on.
-    pub fn lenient(mut self) -> Self {
-        self.lenient = true;
-        self
-    }
-
-    /// Whether it is no mistake that no plugin knows it.
-    pub fn is_lenient(&self) -> bool {
-        self.lenient
     }
 
     /// Notes that somebody asked for it.
@@ -183,4 +169,14 @@ pub struct Node {
     pub span: Span,
     /// Properties and children in the order of the file.
     pub properties: Vec<Property>,
+}
+
+impl Node {
+    /// The plugin's name with its article, for messages: "a `cone`", "an `ellipsoid`".
+    pub fn with_article(&self) -> String {
+        let name = self.plugin.value.as_str();
+        // As one says "a union".
+        let vowel = name.starts_with(['a', 'e', 'i', 'o']);
+        format!("{} `{name}`", if vowel { "an" } else { "a" })
+    }
 }

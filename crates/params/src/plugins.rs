@@ -3,6 +3,9 @@
 //! The tables follow Mitsuba 3.9. What is built here is decided by whoever builds it; this
 //! module only finds the right words for what is not.
 
+mod mitsuba06;
+mod other_names;
+
 use crate::{Class, Diagnostic, Node, suggest};
 
 /// What is known about a plugin's name.
@@ -148,56 +151,12 @@ pub fn names(class: Class) -> &'static [&'static str] {
     }
 }
 
-/// Plugins that Mitsuba 0.6 had in a class and Mitsuba 3 has not.
-fn names_of_06(class: Class) -> &'static [&'static str] {
-    match class {
-        Class::Bsdf => &[
-            "coating",
-            "difftrans",
-            "hk",
-            "irawan",
-            "mixturebsdf",
-            "phong",
-            "roughcoating",
-            "roughdiffuse",
-            "ward",
-        ],
-        Class::Emitter => &["collimated", "sky", "sun"],
-        Class::Film => &["ldrfilm", "mfilm", "tiledhdrfilm"],
-        Class::Integrator => &[
-            "adaptive",
-            "ao",
-            "bdpt",
-            "dipole",
-            "erpt",
-            "irrcache",
-            "mlt",
-            "photonmapper",
-            "ppm",
-            "pssmlt",
-            "sppm",
-            "vpl",
-        ],
-        Class::Phase => &["kkay", "microflake", "mixturephase"],
-        Class::Sampler => &["halton", "hammersley", "sobol"],
-        Class::Sensor => &[
-            "fluencemeter",
-            "perspective_rdist",
-            "spherical",
-            "telecentric",
-        ],
-        Class::Shape => &["deformable", "hair", "heightfield"],
-        Class::Texture => &[
-            "curvature",
-            "gridtexture",
-            "scale",
-            "vertexcolors",
-            "wireframe",
-        ],
-        Class::Subsurface => &["dipole", "singlescatter"],
-        Class::Volume => &["hgridvolume", "volcache"],
-        Class::Scene | Class::Medium | Class::ReconstructionFilter => &[],
-    }
+/// What can be used instead of a plugin that Mitsuba 0.6 had and Mitsuba 3 has not.
+fn instead_of_06(class: Class, name: &str) -> Option<&'static str> {
+    let found = mitsuba06::PLUGINS
+        .iter()
+        .find(|(of, known, _)| *of == class && *known == name);
+    found.map(|(.., instead)| *instead)
 }
 
 /// Every class, for looking a name up in all of them.
@@ -223,13 +182,20 @@ pub fn status(class: Class, name: &str) -> Status {
     if names(class).contains(&name) {
         return Status::Mitsuba3;
     }
-    if names_of_06(class).contains(&name) {
+    if instead_of_06(class, name).is_some() {
         return Status::Mitsuba06;
     }
     CLASSES
         .into_iter()
         .find(|&other| names(other).contains(&name))
         .map_or(Status::Unknown, Status::OtherClass)
+}
+
+/// The plugin that other programs call `name`, in whatever class.
+pub fn called_otherwise(name: &str) -> Option<&'static str> {
+    CLASSES
+        .into_iter()
+        .find_map(|class| other_names::ours(class, name))
 }
 
 /// The diagnostic for a node whose plugin is not among those that are `built`.
@@ -260,14 +226,20 @@ pub fn not_built<'a>(node: &Node, built: impl IntoIterator<Item = &'a str>) -> D
             other.name()
         ))
         .help(format!("write `<{} type=\"{name}\">`", other.name())),
-        Status::Mitsuba06 => error(format!(
-            "the {class} plugin `{name}` belongs to Mitsuba 0.6 and is absent from Mitsuba 3"
-        ))
-        .help(list()),
+        Status::Mitsuba06 => {
+            let diagnostic = error(format!(
+                "the {class} plugin `{name}` of Mitsuba 0.6 is not built yet"
+            ));
+            match instead_of_06(node.class, name).unwrap_or_default() {
+                "" => diagnostic.help(list()),
+                instead => diagnostic.help(format!("instead: {instead}")),
+            }
+        }
         Status::Unknown => {
             let known = names(node.class).iter().chain(&built).copied();
             let diagnostic = error(format!("unknown {class} plugin `{name}`"));
-            match suggest::nearest(name, known) {
+            let other = other_names::ours(node.class, name).filter(|name| built.contains(name));
+            match other.or_else(|| suggest::nearest(name, known)) {
                 Some(near) => diagnostic.help(format!("did you mean `{near}`?")),
                 None => diagnostic.help(list()),
             }
@@ -304,12 +276,11 @@ mod tests {
     #[test]
     fn names_are_sorted_and_in_one_list_only() {
         for class in CLASSES {
-            for list in [names(class), names_of_06(class)] {
-                assert!(list.is_sorted(), "{}", class.name());
-            }
-            for name in names_of_06(class) {
-                assert!(!names(class).contains(name), "{name}");
-            }
+            assert!(names(class).is_sorted(), "{}", class.name());
+        }
+        assert!(mitsuba06::PLUGINS.is_sorted_by_key(|(class, name, _)| (*class, *name)));
+        for (class, name, _) in mitsuba06::PLUGINS {
+            assert!(!names(*class).contains(name), "{name}");
         }
     }
 
@@ -324,7 +295,10 @@ mod tests {
             words(Class::Bsdf, "area"),
             "`area` is a plugin of the class emitter, not bsdf (write `<emitter type=\"area\">`)"
         );
-        assert!(words(Class::Bsdf, "ward").contains("belongs to Mitsuba 0.6"));
+        assert_eq!(
+            words(Class::Emitter, "sky"),
+            "the emitter plugin `sky` of Mitsuba 0.6 is not built yet (instead: `sunsky` with a `sun_scale` of 0)"
+        );
         assert!(words(Class::Integrator, "my_research").contains("`--integrator NAME`"));
         assert_eq!(
             words(Class::Bsdf, "difuse"),
@@ -334,5 +308,6 @@ mod tests {
             words(Class::Bsdf, "velvett"),
             "unknown bsdf plugin `velvett` (did you mean `velvet`?)"
         );
+        assert!(words(Class::Bsdf, "Glass").ends_with("(did you mean `dielectric`?)"));
     }
 }

@@ -6,7 +6,8 @@
 //! nobody asked for.
 
 use crate::questions::{self, Question};
-use crate::{Class, Diagnostic, Diagnostics, Node, Property, Value};
+use crate::unused::Unused;
+use crate::{Class, Diagnostic, Diagnostics, Node, Property, Value, suggest};
 use etalon_math::Motion;
 use glam::{DMat4, DVec3};
 use std::cell::RefCell;
@@ -67,6 +68,13 @@ impl<'a> Params<'a> {
         let property = self.node.properties.iter().find(|p| p.name == name);
         let span = property.map_or(self.node.plugin.span, |p| p.span);
         self.diagnostics.push(Diagnostic::error(span, message));
+    }
+
+    /// The same with what helps.
+    pub fn error_with_help(&self, name: &str, message: &str, help: &str) {
+        let property = self.node.properties.iter().find(|p| p.name == name);
+        let span = property.map_or(self.node.plugin.span, |p| p.span);
+        (self.diagnostics).push(Diagnostic::error(span, message).help(help));
     }
 
     /// Records an error about the node as a whole.
@@ -340,52 +348,32 @@ impl<'a> Params<'a> {
         }
     }
 
-    /// Reports every property that nobody asked for, with the nearest name that was. Parameters
-    /// in the list of [`crate::ignored`] are passed over.
+    /// Reports every property that nobody asked for, with the nearest name that was.
     pub fn finish(&self) {
+        self.finish_after(true);
+    }
+
+    /// The same after an attempt to read the plugin. One that has given up, for a mistake that has been recorded, need not have
+    /// asked for all that it knows: what is left is then called unknown only if it is near to something that it missed.
+    pub fn finish_after(&self, is_read: bool) {
         let known = self.known.borrow();
-        let (class, plugin) = (self.node.class, self.node.plugin.value.as_str());
+        let known = || known.iter().map(String::as_str);
+        let missed = || known().filter(|name| !self.has(name));
+        let gave_up = !is_read && self.diagnostics.has_errors();
+        let plugin = self.node.plugin.value.as_str();
         for property in self.node.properties.iter().filter(|p| !p.is_used()) {
-            let entry = crate::ignored::entry(class, plugin, &property.name);
-            if let Some(entry) = entry {
-                let diagnostic = match entry.only.filter(|only| !(only.holds)(&property.value)) {
-                    None if !entry.said => continue,
-                    None => Diagnostic::note(
-                        property.name_span,
-                        format!("`{}` has no effect: {}", property.name, entry.reason),
-                    ),
-                    Some(only) => Diagnostic::error(
-                        property.name_span,
-                        format!("`{}` must be {}", property.name, only.words),
-                    )
-                    .label(entry.reason),
-                };
-                self.diagnostics.push(diagnostic);
+            if gave_up && suggest::nearest(&property.name, missed()).is_none() {
                 continue;
             }
-            let message = if property.name.is_empty() {
-                format!(
-                    "`{}` does not take {}",
-                    self.node.plugin.value,
-                    property.value.kind()
-                )
-            } else {
-                format!(
-                    "`{}` has no parameter `{}`",
-                    self.node.plugin.value, property.name
-                )
+            let unused = Unused {
+                class: self.node.class,
+                plugin,
+                name: &property.name,
+                span: property.name_span,
             };
-            let diagnostic = if property.is_lenient() {
-                let message = format!("{message}: it is ignored, as in Mitsuba 0.6");
-                Diagnostic::note(property.name_span, message)
-            } else {
-                Diagnostic::error(property.name_span, message)
-            };
-            self.diagnostics.push(
-                diagnostic
-                    .label("not a parameter of this plugin")
-                    .suggest(&property.name, known.iter().map(String::as_str)),
-            );
+            if let Some(diagnostic) = unused.judge(&property.value, known()) {
+                self.diagnostics.push(diagnostic);
+            }
         }
     }
 }

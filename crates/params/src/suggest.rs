@@ -11,7 +11,7 @@ pub fn nearest<'a>(word: &str, candidates: impl IntoIterator<Item = &'a str>) ->
                 c,
             )
         })
-        .filter(|(d, c)| *d <= 1 + c.chars().count().max(word.chars().count()) / 4)
+        .filter(|(d, c)| *d <= (c.chars().count().max(word.chars().count()) / 3).max(1))
         .min_by_key(|(d, _)| *d)
         .map(|(_, c)| c)
 }
@@ -26,5 +26,6 @@ mod tests {
         assert_eq!(nearest("difuse", names), Some("diffuse"));
         assert_eq!(nearest("Dielectirc", names), Some("dielectric"));
         assert_eq!(nearest("plastic", ["perspective"]), None);
+        assert_eq!(nearest("bvh", ["bush", "bose"]), None);
     }
 }

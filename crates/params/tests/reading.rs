@@ -148,7 +148,7 @@ fn children_are_found_by_class() {
         messages,
         [
             "s.xml:1:3: error: `cube` takes one bsdf only",
-            "s.xml:1:4: error: `cube` does not take an object",
+            "s.xml:1:4: error: `cube` does not take an object of the class `sampler`",
         ]
     );
 }
@@ -200,4 +200,51 @@ fn what_would_change_nothing_is_passed_over_and_a_limit_of_time_is_not() {
     let lights = || vec![("hide_emitters", Value::Boolean(true))];
     assert_eq!(said("depth", lights()), [""; 0]);
     assert_eq!(said("path", lights()).len(), 1);
+}
+
+#[test]
+fn what_mitsuba_06_obeys_and_nothing_here_is_refused_with_what_does_instead() {
+    let scene = Scene::new();
+    let said = |class, plugin: &str, name, value| {
+        let node = scene.node(class, plugin, vec![(name, value)]);
+        scene.messages(&node, |_| ()).concat()
+    };
+    let g = said(Class::Medium, "homogeneous", "g", Value::Float(0.5));
+    assert!(g.contains("error: `g` of `homogeneous`, which Mitsuba 0.6 obeys, is not built"));
+    assert!(g.contains("<phase type=\"hg\">"), "{g}");
+    let text = || Value::String("a".into());
+    let label = said(Class::Film, "hdrfilm", "label[10, 10]", text());
+    assert!(label.contains("error"), "{label}");
+    assert_eq!(said(Class::Film, "hdrfilm", "metadata['a']", text()), "");
+    let index = |i| said(Class::Shape, "obj", "shape_index", Value::Integer(i));
+    assert!(index(0).contains("must be negative"), "{}", index(0));
+    assert_eq!(index(-1), "");
+}
+
+/// A plugin that gives up half way has not asked for all that it knows.
+#[test]
+fn what_was_not_asked_for_after_a_mistake_is_not_called_unknown() {
+    let scene = Scene::new();
+    let node = scene.node(Class::Bsdf, "mixture", vec![("int_ior", Value::Float(1.5))]);
+    let said = |is_read: bool| {
+        let diagnostics = Diagnostics::new();
+        let params = Params::new(&node, &diagnostics);
+        params.error("the shares are more than 1");
+        params.finish_after(is_read);
+        diagnostics.into_sorted().len()
+    };
+    assert_eq!([true, false].map(said), [2, 1]);
+    // A slip in the name of what it missed is told all the same.
+    let node = scene.node(
+        Class::Texture,
+        "bitmap",
+        vec![("filname", Value::Integer(1))],
+    );
+    let diagnostics = Diagnostics::new();
+    let params = Params::new(&node, &diagnostics);
+    assert!(params.string("filename").is_none());
+    params.missing("filename", "a file");
+    params.finish_after(false);
+    let help = diagnostics.into_sorted().into_iter().filter_map(|d| d.help);
+    assert_eq!(help.collect::<Vec<_>>(), ["did you mean `filename`?"]);
 }

@@ -4,6 +4,7 @@
 //! point are evaluated and averaged with the bilinear weights, t(λ) = Σᵢ wᵢ S(cᵢ; λ). Averaging
 //! the coefficients cᵢ instead would give colours that are in none of the texels.
 
+use crate::decode::ImageChannel;
 use crate::footprint::BilinearTap;
 use crate::pixels::{Image, Pixels, Texels, Values};
 use crate::reader::Use;
@@ -12,7 +13,7 @@ use crate::texture::TextureModel;
 use crate::{Filter, Texture, TextureReader, TextureTable, UvTransform, Wrap};
 use etalon_params::{Diagnostic, Params};
 use etalon_spectrum::RgbCoefficients;
-use etalon_transport::{Shapes, SpectrumKind, TexturePoint};
+use etalon_transport::{Shapes, SpectrumKind, TexturePoint, file};
 use glam::{UVec2, Vec2, Vec3, Vec4};
 use std::ops::{Add, Mul};
 use std::sync::Arc;
@@ -158,7 +159,8 @@ pub(crate) fn read(
     params: &Params<'_>,
     Use { role, .. }: Use,
 ) -> Option<Texture> {
-    let raw = params.boolean_or("raw", false) || is_linear(params);
+    let raw = params.boolean_or("raw", false) || file::is_linear(params);
+    let channel = channel(params);
     let filter = filter(params);
     let wrap = wrap(params);
     let to_uv = UvTransform::from_params(params);
@@ -168,7 +170,7 @@ pub(crate) fn read(
         }
         return None;
     };
-    let image = image(reader, params, filename, raw, role)?;
+    let image = image(reader, params, filename, (raw, channel), role)?;
     Some(Texture::from(Bitmap {
         image,
         filter,
@@ -182,10 +184,11 @@ fn image(
     reader: &mut TextureReader<'_>,
     params: &Params<'_>,
     filename: &str,
-    raw: bool,
+    (raw, channel): (bool, Option<ImageChannel>),
     role: SpectrumKind,
 ) -> Option<Arc<Image>> {
-    let key = (filename.to_owned(), raw, role != SpectrumKind::Reflectance);
+    let is_bounded = role == SpectrumKind::Reflectance;
+    let key = (filename.to_owned(), raw, channel, is_bounded);
     if let Some(image) = reader.set.images.get(&key) {
         return Some(Arc::clone(image));
     }
@@ -202,7 +205,7 @@ fn image(
             return None;
         }
     };
-    let (pixels, notes) = match Pixels::decode(&bytes, raw, filename) {
+    let (pixels, notes) = match Pixels::decode(&bytes, raw, channel, filename) {
         Ok(decoded) => decoded,
         Err(message) => {
             fail(message, None);
@@ -240,6 +243,17 @@ fn image(
     Some(image)
 }
 
+/// Mitsuba 0.6's `channel`: one of an image's, as a number.
+fn channel(params: &Params<'_>) -> Option<ImageChannel> {
+    match params.choice("channel", "all", &["all", "r", "g", "b", "a"]) {
+        "r" => Some(ImageChannel::Colour(0)),
+        "g" => Some(ImageChannel::Colour(1)),
+        "b" => Some(ImageChannel::Colour(2)),
+        "a" => Some(ImageChannel::Alpha),
+        _ => None,
+    }
+}
+
 /// `filter_type`. Those of other versions of Mitsuba that average over a pixel's footprint are left to the
 /// samples of the pixel, with a note.
 fn filter(params: &Params<'_>) -> Filter {
@@ -273,22 +287,4 @@ fn wrap(params: &Params<'_>) -> Wrap {
         "clamp" => Wrap::Clamp,
         _ => Wrap::Repeat,
     }
-}
-
-/// Whether Mitsuba 0.6's `gamma` says that the values are linear: 1 does; 0 and below leave it to
-/// the file, and so does 2.2, which is close to what files of integers hold.
-fn is_linear(params: &Params<'_>) -> bool {
-    let accepted = "1 (linear), 2.2 or -1 (as the file's format says)";
-    let gamma = params.float_where("gamma", -1.0, accepted, |gamma| {
-        gamma <= 0.0 || gamma == 1.0 || gamma == 2.2
-    });
-    if gamma == 2.2 {
-        params.diagnostics.push(Diagnostic::note(
-            params
-                .property("gamma")
-                .map_or(params.node.plugin.span, |p| p.span),
-            "a `gamma` of 2.2 is read as sRGB, which is close to it",
-        ));
-    }
-    gamma == 1.0
 }

@@ -5,12 +5,26 @@ use etalon_images::raster;
 use glam::UVec2;
 use std::path::Path;
 
+/// One channel of an image.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum ImageChannel {
+    /// Red, green or blue; of a grey image grey.
+    Colour(usize),
+    /// Alpha.
+    Alpha,
+}
+
 impl Pixels {
     /// Decodes an image file, whose format is known by its content. Integer samples are taken to
     /// be encoded as sRGB, unless `raw`; floats are linear. Alpha is dropped (not divided by), as
-    /// Mitsuba does. `name` is for messages, which name the file. Beside the pixels stands what
-    /// their user should know of the file.
-    pub fn decode(bytes: &[u8], raw: bool, name: &str) -> Result<(Self, Vec<String>), String> {
+    /// Mitsuba does, unless it is the one `channel` that is wanted. `name` is for messages, which name the file. Beside the
+    /// pixels stands what their user should know of the file.
+    pub fn decode(
+        bytes: &[u8],
+        raw: bool,
+        channel: Option<ImageChannel>,
+        name: &str,
+    ) -> Result<(Self, Vec<String>), String> {
         let raster = raster::decode(bytes, Path::new(name)).map_err(|error| error.to_string())?;
         let size = UVec2::new(raster.width() as u32, raster.height() as u32);
         let samples = if raw {
@@ -19,6 +33,12 @@ impl Pixels {
             raster.to_linear()
         };
         let channels = raster.channels();
+        let wanted = match channel {
+            None => None,
+            Some(ImageChannel::Colour(i)) => Some(if channels < 3 { 0 } else { i }),
+            Some(ImageChannel::Alpha) if raster.has_alpha() => Some(channels - 1),
+            Some(ImageChannel::Alpha) => return Err(format!("`{name}` has no channel `a`")),
+        };
         let notes = raster.notes(raw);
         let notes = notes.map(|note| format!("`{name}`: {note}")).collect();
         drop(raster);
@@ -33,10 +53,11 @@ impl Pixels {
             ));
         }
         let pixels = samples.chunks_exact(channels);
-        let values = match channels {
-            1 => Values::One(samples),
-            2 => Values::One(pixels.map(|pixel| pixel[0]).collect()),
-            _ => Values::Three(pixels.map(|p| [p[0], p[1], p[2]]).collect()),
+        let values = match (wanted, channels) {
+            (Some(wanted), _) => Values::One(pixels.map(|pixel| pixel[wanted]).collect()),
+            (None, 1) => Values::One(samples),
+            (None, 2) => Values::One(pixels.map(|pixel| pixel[0]).collect()),
+            (None, _) => Values::Three(pixels.map(|p| [p[0], p[1], p[2]]).collect()),
         };
         Ok((Self { size, values }, notes))
     }

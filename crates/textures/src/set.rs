@@ -1,5 +1,6 @@
 //! All textures of a scene.
 
+use crate::decode::ImageChannel;
 use crate::pixels::Image;
 use crate::{Constant, Texture};
 use etalon_params::{Node, Span};
@@ -21,7 +22,7 @@ pub struct TextureTable {
     pub(crate) read: HashMap<(usize, SpectrumKind), TextureId>,
     /// Keeps the nodes in `read` alive, so that no address is used twice.
     pub(crate) nodes: Vec<Arc<Node>>,
-    pub(crate) images: HashMap<(String, bool, bool), Arc<Image>>,
+    pub(crate) images: HashMap<(String, bool, Option<ImageChannel>, bool), Arc<Image>>,
 }
 
 impl TextureTable {

@@ -1,7 +1,7 @@
 //! `fov` and `focal_length` of whatever looks or shines through a rectangle: cameras, projectors.
 
 use etalon_math::float64::tan;
-use etalon_params::Params;
+use etalon_params::{Diagnostic, Params};
 
 /// 36 mm × 24 mm film, whose diagonal the focal length refers to.
 const FULL_FRAME_DIAGONAL_MM: f64 = 43.266_615_305_567_875;
@@ -39,9 +39,10 @@ pub fn half_width_from_params(params: &Params<'_>, aspect: f64) -> f64 {
             _ => half,
         }
     } else {
-        if params.has("fov_axis") {
-            params.property("fov_axis");
-            params.error_at("fov_axis", "`fov_axis` says nothing without `fov`");
+        if let Some(axis) = params.property("fov_axis") {
+            let message =
+                "`fov_axis` says nothing without `fov`: a focal length refers to the diagonal";
+            (params.diagnostics).push(Diagnostic::note(axis.name_span, message));
         }
         of_diagonal(FULL_FRAME_DIAGONAL_MM / (2.0 * focal_length_from_params(params)))
     }

@@ -36,3 +36,21 @@ pub fn read<T>(
     });
     read.map_err(|error| report(params, error)).ok()
 }
+
+/// Whether Mitsuba 0.6's `gamma` says that the values are linear: 1 does; 0 and below leave it to
+/// the file, and so does 2.2, which is close to what files of integers hold.
+pub fn is_linear(params: &Params<'_>) -> bool {
+    let accepted = "1 (linear), 2.2 or -1 (as the file's format says)";
+    let gamma = params.float_where("gamma", -1.0, accepted, |gamma| {
+        gamma <= 0.0 || gamma == 1.0 || gamma == 2.2
+    });
+    if gamma == 2.2 {
+        params.diagnostics.push(Diagnostic::note(
+            params
+                .property("gamma")
+                .map_or(params.node.plugin.span, |p| p.span),
+            "a `gamma` of 2.2 is read as sRGB, which is close to it",
+        ));
+    }
+    gamma == 1.0
+}

@@ -1,7 +1,7 @@
 //! `etalon info --plugins`: the reference of scenes, as `docs/scene-format.md` has it.
 
 use super::{answer, fail};
-use etalon_params::suggest;
+use etalon_params::{plugins, suggest};
 use std::process::ExitCode;
 
 /// Written by `cargo xtask plugins` from what the code asks for; a test keeps it up to date.
@@ -60,7 +60,9 @@ pub(super) fn run(name: &str) -> ExitCode {
     let names = sections
         .iter()
         .flat_map(|section| section.names.iter().copied());
-    let near = suggest::nearest(name, names)
+    let near = plugins::called_otherwise(name)
+        .filter(|ours| names.clone().any(|name| name == *ours))
+        .or_else(|| suggest::nearest(name, names))
         .map(|near| format!("; did you mean `{near}`?"))
         .unwrap_or_default();
     fail(format!("no plugin is called `{name}`{near}"))

@@ -158,7 +158,7 @@ fn mistakes_are_told() {
     );
     error(
         filter("box", vec![("radius", Value::Float(1.0))]),
-        "parameter `radius`",
+        "`radius` must be 0.5",
     );
     let two = vec![
         ("", filter_node("box", vec![])),
@@ -189,4 +189,26 @@ fn films_in_xyz_give_back_their_colours() {
     for (found, right) in colour.planes.iter().zip(rgb) {
         assert!((found[0] - right).abs() < 1e-6, "{} {right}", found[0]);
     }
+}
+
+/// What Mitsuba 0.6 has beside the formats of today: one for each part of a spectrum, and lists.
+#[test]
+fn pixel_formats_of_mitsuba_06_are_read_with_a_note() {
+    for (given, format, words) in [
+        ("spectrum", PixelFormat::Rgb, "`specfilm` keeps bands"),
+        ("Luminance, rgb", PixelFormat::Luminance, "the first counts"),
+        ("luminanceAlpha", PixelFormat::LuminanceAlpha, ""),
+    ] {
+        let (settings, messages) = read(vec![("pixel_format", word(given))]);
+        assert_eq!(settings.pixel_format, format, "{given}");
+        let said = messages.iter().map(|(severity, text)| {
+            assert_eq!(*severity, Severity::Note, "{text}");
+            text.as_str()
+        });
+        assert!(said.collect::<String>().contains(words), "{messages:?}");
+    }
+    let (_, messages) = read(vec![("pixel_format", word("rainbow, rgb"))]);
+    assert!(messages.iter().any(|(severity, text)| {
+        *severity == Severity::Error && text.contains("cannot be rainbow, rgb")
+    }));
 }

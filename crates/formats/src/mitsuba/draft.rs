@@ -30,8 +30,6 @@ pub(crate) struct DraftProperty {
     pub(crate) span: Span,
     /// Counts as used from the start, so that no plugin complains about it.
     pub(crate) excused: bool,
-    /// A plugin that does not know it only makes a note.
-    pub(crate) lenient: bool,
 }
 
 /// An object.

@@ -51,7 +51,7 @@ pub(crate) fn include(
         reader.report(
             filename
                 .error_whole(format!("the included file `{name}` was not found"))
-                .help(file.search.describe()),
+                .help(file.search.why_not(&filename.text)),
         );
         return;
     };
@@ -199,6 +199,9 @@ fn root(
         }
     };
     let version = version(reader, id, node);
+    if upgrade::is_old(version) {
+        reader.old_files.push(id);
+    }
     let mut file = File {
         id,
         version,

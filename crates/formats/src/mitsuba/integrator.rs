@@ -5,15 +5,20 @@
 //! not know one of these leaves it unused without complaint. One that has the type already keeps
 //! all. A scene without an integrator gets one.
 //!
-//! Without `--integrator`, some integrators that are not built are replaced in the same way by
+//! Some integrators that are not built, whether the scene names them or `--integrator`, are replaced in the same way by
 //! one that converges to the same picture, with a note: see [`stand_in`].
 
 use super::draft::{DraftObject, DraftProperty, DraftValue, ObjectId};
+use super::number::excerpt;
 use super::reader::Reader;
-use etalon_params::{Class, Diagnostic, Span, Spanned, Value};
+use etalon_params::unused::Unused;
+use etalon_params::{Class, Diagnostic, Span, Spanned, Value, plugins};
 
 /// The properties that survive the change.
 const KEPT: [&str; 3] = ["max_depth", "rr_depth", "hide_emitters"];
+
+/// What survives of `ppm` beside them, whose photons are those of `sppm`.
+const PHOTONS: [&str; 3] = ["photons", "radius", "alpha"];
 
 /// What stands in for integrators that are not built, and in what they agree.
 const STAND_INS: [(&str, &str, &str); 16] = [
@@ -63,30 +68,65 @@ pub(crate) fn stand_in(reader: &mut Reader<'_>) {
         };
         let span = object.plugin.span;
         object.plugin.value = other.to_owned();
-        object
-            .properties
-            .retain(|property| KEPT.contains(&property.name.as_str()));
-        let is_bounded = object.properties.iter().any(|p| p.name == "max_depth");
+        let kept = |p: &DraftProperty| {
+            KEPT.contains(&p.name.as_str()) || name == "ppm" && PHOTONS.contains(&p.name.as_str())
+        };
+        let (mut rest, dropped) = std::mem::take(&mut object.properties)
+            .into_iter()
+            .partition::<Vec<_>, _>(kept);
+        let is_bounded = rest.iter().any(|p| p.name == "max_depth");
         if name.starts_with("prb") && !is_bounded {
-            object.properties.push(DraftProperty {
+            rest.push(DraftProperty {
                 name: "max_depth".to_owned(),
                 name_span: span,
                 value: DraftValue::Plain(Value::Integer(DIFFERENTIABLE_DEPTH)),
                 span,
                 excused: false,
-                lenient: false,
             });
         }
         // An integrator that does not know one of these is not to be blamed.
-        object.properties.iter_mut().for_each(|p| p.excused = true);
+        rest.iter_mut().for_each(|p| p.excused = true);
+        object.properties = rest;
+        let unknown = judge(reader, name, &dropped);
+        let help = match unknown.as_slice() {
+            [] => agree.to_owned(),
+            names => format!("{agree}; it does without {}", names.join(", ")),
+        };
         reader.report(
             Diagnostic::note(
                 span,
                 format!("the integrator `{name}` is not built: `{other}` stands in for it"),
             )
-            .help(agree),
+            .help(help),
         );
     }
+}
+
+/// Judges the parameters of an integrator that another one stands in for, which has no use for them. What is unknown of one that
+/// no Mitsuba has is returned.
+fn judge(reader: &mut Reader<'_>, plugin: &str, dropped: &[DraftProperty]) -> Vec<String> {
+    let is_mitsubas = plugins::status(Class::Integrator, plugin) != plugins::Status::Unknown;
+    let mut unknown = Vec::new();
+    for property in dropped {
+        let DraftValue::Plain(value) = &property.value else {
+            continue;
+        };
+        let name = property.name.as_str();
+        if !is_mitsubas {
+            unknown.push(format!("`{}`", excerpt(name)));
+            continue;
+        }
+        let unused = Unused {
+            class: Class::Integrator,
+            plugin,
+            name,
+            span: property.name_span,
+        };
+        if let Some(diagnostic) = unused.judge(value, KEPT) {
+            reader.report(diagnostic);
+        }
+    }
+    unknown
 }
 
 /// Puts the only integrator inside of a wrapper in the wrapper's place.
@@ -102,6 +142,9 @@ fn unwrap(reader: &mut Reader<'_>, wrapper: ObjectId) {
             }
         }
     }
+    let name = reader.draft.objects[wrapper].plugin.value.clone();
+    let own = reader.draft.objects[wrapper].properties.clone();
+    judge(reader, &name, &own);
     let plugin = &reader.draft.objects[wrapper].plugin;
     let message = format!(
         "the integrator `{}` is not built: the `{}` inside of it stands in for it",
@@ -162,7 +205,6 @@ pub(crate) fn replace(reader: &mut Reader<'_>, root: ObjectId, name: &str) {
             value: DraftValue::Object(id),
             span,
             excused: false,
-            lenient: false,
         });
     }
 }

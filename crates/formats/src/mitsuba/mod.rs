@@ -14,6 +14,7 @@ mod encoding;
 mod include;
 mod integrator;
 mod markup;
+mod mitsuba06;
 mod number;
 mod object;
 mod property;
@@ -31,6 +32,7 @@ use etalon_params::{Diagnostic, Node, Severity, Sources, Span};
 use reader::Reader;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
+pub use upgrade::underscored;
 
 /// What may be said about a scene from outside of it.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -131,10 +133,11 @@ fn document(reader: &mut Reader<'_>, path: &Path) -> Option<Document> {
         return None;
     }
     references::resolve(reader);
-    match &reader.options.integrator {
-        Some(name) => integrator::replace(reader, root.object, name),
-        None => integrator::stand_in(reader),
+    mitsuba06::invisible_surfaces(reader);
+    if let Some(name) = &reader.options.integrator {
+        integrator::replace(reader, root.object, name);
     }
+    integrator::stand_in(reader);
     reader.report_unused_parameters();
     let order = references::order(reader, root.object)?;
     let mut search = root.search;

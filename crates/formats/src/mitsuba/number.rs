@@ -16,6 +16,8 @@ pub(crate) enum NotANumber {
     NotFinite,
     /// An integer beyond 64 bits.
     TooLarge,
+    /// A number beyond 32-bit floats, in which scenes are rendered.
+    Beyond,
 }
 
 impl NotANumber {
@@ -26,6 +28,7 @@ impl NotANumber {
             Self::Malformed => format!("`{text}` is not {wanted}"),
             Self::NotFinite => format!("`{text}` is not a finite number"),
             Self::TooLarge => format!("`{text}` does not fit into 64 bits"),
+            Self::Beyond => format!("`{text}` is more than a 32-bit float can hold (3.4e38)"),
         }
     }
 }
@@ -39,11 +42,12 @@ pub(crate) fn excerpt(text: &str) -> String {
     short.replace(['\n', '\r', '\t'], " ")
 }
 
-/// A finite float.
+/// A float that is finite as one of 32 bits, too.
 pub(crate) fn float(text: &str) -> Result<f64, NotANumber> {
     let text = text.trim();
     match text.parse::<f64>() {
-        Ok(x) if x.is_finite() => Ok(x),
+        Ok(x) if (x as f32).is_finite() => Ok(x),
+        Ok(x) if x.is_finite() => Err(NotANumber::Beyond),
         Ok(_) => Err(NotANumber::NotFinite),
         Err(_) => Err(NotANumber::Malformed),
     }
@@ -110,6 +114,8 @@ mod tests {
         for text in ["inf", "nan", "-infinity", "1e400"] {
             assert_eq!(float(text), Err(NotANumber::NotFinite), "{text}");
         }
+        assert_eq!(float("-1e39"), Err(NotANumber::Beyond));
+        assert!(float("3.4e38").is_ok());
     }
 
     #[test]

@@ -87,7 +87,6 @@ pub(crate) fn object(
         value: DraftValue::Object(this),
         span: reader.draft.objects[this].plugin.span,
         excused: false,
-        lenient: false,
     };
     sound.then_some((this, property))
 }
@@ -107,7 +106,10 @@ fn register(reader: &mut Reader<'_>, id: &str, span: Span, object: ObjectId) {
 /// Upgrades an object of an old file and reports names given twice.
 fn finish(reader: &mut Reader<'_>, file: &File, object: ObjectId) {
     if upgrade::is_old(file.version) {
-        upgrade::upgrade(&mut reader.draft.objects[object], file.version);
+        let object = &mut reader.draft.objects[object];
+        if let Some(diagnostic) = upgrade::upgrade(object, file.version) {
+            reader.report(diagnostic);
+        }
     }
     let duplicates = duplicates(&reader.draft.objects[object].properties);
     for &(later, first) in duplicates.iter().rev() {
@@ -263,7 +265,6 @@ fn reference(reader: &mut Reader<'_>, file: &File, parent: ObjectId, node: Node<
         value: DraftValue::Reference(id.text.clone().into_owned()),
         span: id.span,
         excused: false,
-        lenient: false,
     };
     reader.draft.objects[parent].properties.push(property);
 }
@@ -327,7 +328,7 @@ fn path(reader: &mut Reader<'_>, file: &mut File, node: Node<'_, '_>, in_root: b
                     "the folder `{}` was not found",
                     excerpt(&value.text)
                 ))
-                .help(file.search.describe()),
+                .help(file.search.why_not(&value.text)),
         ),
     }
 }

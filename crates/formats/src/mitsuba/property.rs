@@ -8,7 +8,7 @@ use super::draft::{DraftProperty, DraftValue, ObjectId};
 use super::number;
 use super::reader::{File, Reader};
 use super::tags::{OPERATIONS, Tag};
-use super::{animation, colour, transform};
+use super::{animation, colour, transform, upgrade};
 use etalon_params::{DMat4, DVec3, Diagnostic, Span, SpectrumText, Value};
 use etalon_spectrum::spd::check_unit;
 use roxmltree::Node;
@@ -62,7 +62,6 @@ pub(crate) fn property(
         value,
         span,
         excused: false,
-        lenient: false,
     });
 }
 
@@ -166,7 +165,6 @@ fn stand_in(file: &File, tag: Tag, node: Node<'_, '_>) -> Option<DraftProperty> 
         value: DraftValue::Plain(value),
         span: written.map_or_else(|| tag_span(file.id, node), place),
         excused: false,
-        lenient: false,
     })
 }
 
@@ -305,51 +303,59 @@ fn operation(reader: &mut Reader<'_>, file: &File, node: Node<'_, '_>) -> Option
         "scale" => attributes
             .vector(reader, name, 1.0)
             .map(|(factors, _)| DMat4::from_scale(factors)),
-        "rotate" => rotation(reader, &attributes),
+        "rotate" => rotation(reader, file, &attributes),
         "lookat" => look_at(reader, &attributes),
         _ => matrix(reader, &attributes),
     }
 }
 
-/// The matrix of 16 numbers, whose last row must be that of an affine map, or of 9.
+/// The matrix of 16 numbers, whose last row must be that of an affine map but for a factor, or of 9.
+///
+/// Points are homogeneous: M and M/w map them alike.
 fn matrix(reader: &mut Reader<'_>, attributes: &Attributes<'_>) -> Option<DMat4> {
     /// How far the last row may be off by its rounding in the file.
     const ROUNDING: f64 = 1e-5;
     let mut numbers = attributes.list(reader, "value", &[9, 16])?;
-    if let Some(last) = numbers.get_mut(12..) {
-        let affine = [0.0, 0.0, 0.0, 1.0];
-        let differs = |(a, b): (&f64, &f64)| (a - b).abs() > ROUNDING;
-        if last.iter().zip(&affine).any(differs) {
+    if let Some(&[x, y, z, w]) = numbers.get(12..) {
+        let is_affine = [x, y, z].iter().all(|a| a.abs() <= ROUNDING * w.abs());
+        if w == 0.0 || !is_affine {
             let value = attributes.required("value");
-            let written: Vec<String> = last.iter().map(f64::to_string).collect();
+            let written: Vec<String> = numbers[12..].iter().map(f64::to_string).collect();
             let tokens = number::tokens(&value.text).map(|(range, _)| range);
             let place = tokens.skip(12).reduce(|all, next| all.start..next.end);
             let message = format!(
-                "the last row of the matrix is `{}`: this is no affine map",
+                "the last row of the matrix is `{}`: this is no affine map, but one with a perspective",
                 written.join(" ")
             );
             let place = place.unwrap_or(0..value.text.len());
             reader.report(
                 value
                     .error(place, message)
-                    .help("the last row must be `0 0 0 1`; matrices are written row by row"),
+                    .help("the last row must be `0 0 0 1` or a multiple of it; matrices are written row by row"),
             );
             return None;
         }
-        last.copy_from_slice(&affine);
+        if (w - 1.0).abs() > ROUNDING {
+            numbers.iter_mut().for_each(|number| *number /= w);
+        }
+        numbers[12..].copy_from_slice(&[0.0, 0.0, 0.0, 1.0]);
     }
     transform::matrix(&numbers)
 }
 
-fn rotation(reader: &mut Reader<'_>, attributes: &Attributes<'_>) -> Option<DMat4> {
+fn rotation(reader: &mut Reader<'_>, file: &File, attributes: &Attributes<'_>) -> Option<DMat4> {
     let angle = attributes.float(reader, "angle");
-    let (axis, span) = attributes.vector(reader, "rotate", 0.0)?;
+    let (mut axis, span) = attributes.vector(reader, "rotate", 0.0)?;
     if axis == DVec3::ZERO {
         reader.report(Diagnostic::error(
             span,
             "the axis of a rotation cannot be zero",
         ));
         return None;
+    }
+    if upgrade::is_old(file.version) {
+        // Mitsuba 0.x divided by the length.
+        axis = axis.normalize();
     }
     if !transform::is_unit(axis) {
         reader.report(

@@ -30,6 +30,8 @@ pub(crate) struct Reader<'o> {
     pub(crate) chain: Vec<(PathBuf, Option<Span>)>,
     /// The folders of included files, searched last for what the scene refers to.
     pub(crate) included_folders: Vec<PathBuf>,
+    /// Files of a version before 2.0.
+    pub(crate) old_files: Vec<FileId>,
     /// Where harmless values stand in place of broken ones.
     pub(crate) stand_ins: Vec<Span>,
     errors: usize,
@@ -53,6 +55,7 @@ impl<'o> Reader<'o> {
             files: Vec::new(),
             chain: Vec::new(),
             included_folders: Vec::new(),
+            old_files: Vec::new(),
             stand_ins: Vec::new(),
             errors: 0,
         }

@@ -232,10 +232,7 @@ fn finished(
         DraftValue::Object(child) => Value::Object(built[child].clone()?),
         DraftValue::Reference(_) => return None,
     };
-    let mut finished = Property::new(property.name, property.name_span, value, property.span);
-    if property.lenient {
-        finished = finished.lenient();
-    }
+    let finished = Property::new(property.name, property.name_span, value, property.span);
     if property.excused {
         finished.mark_used();
     }

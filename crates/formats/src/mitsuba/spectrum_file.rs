@@ -22,7 +22,7 @@ pub(crate) fn read(
         reader.report(
             attribute
                 .error_whole(format!("the file `{name}` was not found"))
-                .help(file.search.describe()),
+                .help(file.search.why_not(name)),
         );
         return None;
     };
@@ -61,6 +61,12 @@ pub(crate) fn read(
         bytes: Arc::new(bytes),
     });
     match parsed {
+        Ok((_, values)) if values.iter().any(|value| !(*value as f32).is_finite()) => {
+            let message =
+                format!("a value of `{name}` is more than a 32-bit float can hold (3.4e38)");
+            reader.report(attribute.error_whole(message));
+            None
+        }
         Ok((wavelengths, values)) => Some(SpectrumText::Samples(
             wavelengths.into_iter().zip(values).collect(),
         )),

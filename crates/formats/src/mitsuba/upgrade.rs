@@ -1,10 +1,9 @@
 //! Scenes of Mitsuba 0.x, read as Mitsuba 3 reads them.
 //!
 //! Files of a version before 2.0 write names in camel case (`toWorld`, `intIOR`); they become
-//! underscored. `diffuse` called its reflectance `diffuseReflectance`, and textures had
+//! underscored. Some had other names, see [`mitsuba06`], and textures had
 //! `uoffset`, `voffset`, `uscale` and `vscale` where they now have `to_uv`, a scale after a
-//! translation. Parameters that a plugin does not know earn a note only, since Mitsuba 0.x warned
-//! of them and went on.
+//! translation.
 //!
 //! Before 0.4, sensors were `<camera>`s whose x axis pointed the other way, emitters were
 //! `<luminaire>`s, and some plugins and parameters had other names; they become what Mitsuba 0.6
@@ -12,7 +11,8 @@
 
 use super::animation::Animation;
 use super::draft::{DraftObject, DraftProperty, DraftValue};
-use etalon_params::{Class, DMat4, DVec3, Value};
+use super::mitsuba06;
+use etalon_params::{Class, DMat4, DVec3, Diagnostic, Value};
 use glam::DMat3;
 
 /// The version of a scene file.
@@ -33,7 +33,7 @@ pub(crate) fn is_old(version: Version) -> bool {
 }
 
 /// `toWorld` → `to_world`, `intIOR` → `int_ior`.
-fn underscored(name: &str) -> String {
+pub fn underscored(name: &str) -> String {
     let mut result = String::with_capacity(name.len() + 4);
     let mut previous = ' ';
     let mut in_capitals = false;
@@ -101,19 +101,16 @@ pub(crate) fn tag(version: Version, name: &str) -> &str {
     }
 }
 
-/// Upgrades an object of an old file.
-pub(crate) fn upgrade(object: &mut DraftObject, version: Version) {
+/// Upgrades an object of an old file; what to say of it, if anything.
+pub(crate) fn upgrade(object: &mut DraftObject, version: Version) -> Option<Diagnostic> {
     for property in &mut object.properties {
         property.name = underscored(&property.name);
-        property.lenient = matches!(property.value, DraftValue::Plain(_));
-        if object.plugin.value == "diffuse" && property.name == "diffuse_reflectance" {
-            property.name = "reflectance".into();
-        }
     }
     if is_ancient(version) {
         upgrade_ancient(object, version);
     }
     upgrade_uv(&mut object.properties);
+    mitsuba06::upgrade(object)
 }
 
 /// What changed with 0.3 and 0.4.
@@ -193,7 +190,6 @@ fn upgrade_uv(properties: &mut Vec<DraftProperty>) {
             value: DraftValue::Plain(Value::Transform(to_uv)),
             span,
             excused: false,
-            lenient: false,
         });
     }
 }

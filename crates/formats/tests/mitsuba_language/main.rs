@@ -1,5 +1,6 @@
 //! The scene language, feature by feature.
 
+mod mitsuba06;
 mod old_files;
 
 use etalon_formats::mitsuba::{Document, ReadOptions, ReadOutcome, read};

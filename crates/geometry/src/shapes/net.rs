@@ -10,6 +10,7 @@ use crate::shapes::profile::numbers;
 use etalon_images::raster;
 use etalon_math::bernstein;
 use etalon_params::Params;
+use etalon_spectrum::colour_space::LUMINANCE_WEIGHTS;
 use etalon_transport::file;
 use etalon_transport::{Build, MeshData};
 use glam::{DVec3, Vec2};
@@ -108,9 +109,11 @@ pub(crate) fn bicubic(params: &Params<'_>) -> Option<Mesh> {
     net(params, Some(([steps + 1; 2], &point)))
 }
 
-/// A picture as heights over the square [−1, 1]², its first row at y = 1: reads `filename`, and `height` (1) of white.
+/// A picture as heights over the square [−1, 1]², its first row at y = 1: reads `filename`, `height` (1) of white, and `raw`
+/// (true), whether the numbers of the file are heights, or the luminance of its colours.
 pub(crate) fn heightfield(params: &Params<'_>, build: &mut dyn Build) -> Option<Mesh> {
     let height = params.float_or("height", 1.0);
+    let raw = params.boolean_or("raw", true);
     let what = "a picture of two pixels or more along each side";
     let picture = file::read(params, build, what, |bytes| {
         let name = params.string("filename").unwrap_or_default();
@@ -124,12 +127,19 @@ pub(crate) fn heightfield(params: &Params<'_>, build: &mut dyn Build) -> Option<
         return net(params, None);
     };
     let (columns, rows, channels) = (picture.width(), picture.height(), picture.channels());
-    let floats = picture.to_floats();
-    let colours = if channels >= 3 { 3 } else { 1 };
+    let (floats, weights) = match raw {
+        true => (picture.to_floats(), [1.0 / 3.0; 3]),
+        false => (picture.to_linear(), LUMINANCE_WEIGHTS),
+    };
     let value = |column: usize, row: usize| {
         let first = ((rows - 1 - row) * columns + column) * channels;
-        let sum: f32 = floats[first..first + colours].iter().sum();
-        height * f64::from(sum) / colours as f64
+        let pixel = &floats[first..first + channels];
+        let weighted = |(&x, w): (&f32, f64)| f64::from(x) * w;
+        height
+            * match channels {
+                1 | 2 => f64::from(pixel[0]),
+                _ => pixel.iter().zip(weights).map(weighted).sum::<f64>(),
+            }
     };
     let step = [columns, rows].map(|n| 2.0 / (n as f64 - 1.0));
     let point = |column: usize, row: usize| {

@@ -42,6 +42,24 @@ fn bitmap(file: &str, more: Vec<(&'static str, Value)>) -> One {
     )
 }
 
+/// Mitsuba 0.6's `channel`.
+#[test]
+fn one_channel_of_an_image_is_a_number() {
+    for (name, expected) in [("r", RED[0]), ("g", GREEN[0]), ("b", BLUE[0]), ("a", 0.5)] {
+        let texture = bitmap("alpha.exr", vec![("channel", text(name))]);
+        assert!(
+            (texture.number(0.25, 0.25) - expected).abs() < 1e-6,
+            "{name}"
+        );
+    }
+    let node = node(
+        "bitmap",
+        vec![("filename", text("grey.exr")), ("channel", text("a"))],
+    );
+    let (.., said) = read(&files(), &node, SpectrumKind::Reflectance);
+    assert_eq!(said, ["`grey.exr` has no channel `a`"]);
+}
+
 #[test]
 fn wrapping_and_filtering_match_mitsuba() {
     let places = [
