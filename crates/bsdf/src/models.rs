@@ -215,7 +215,7 @@ impl Material {
         let params = Params::new(node, diagnostics);
         match Self::from_named(&params, build) {
             Some(material) => {
-                params.finish();
+                params.finish_after(material.is_some());
                 material
             }
             None => {

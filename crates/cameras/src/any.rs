@@ -68,7 +68,7 @@ cameras! {
 }
 
 impl AnyCamera {
-    /// Reads a sensor node for a film of `window`. The children `film`, `sampler` and `medium`, and `srf`, belong to
+    /// Reads a sensor node for a film of `window`. The children `film`, `rfilter`, `sampler` and `medium`, and `srf`, belong to
     /// the scene, which reads them itself; they are marked as used here. Reports every mistake,
     /// unknown properties included; `None` if no camera can be made of it.
     pub fn from_params(params: &Params<'_>, window: FilmWindow) -> Option<(Self, Shutter)> {
@@ -83,7 +83,8 @@ impl AnyCamera {
         params.children(Class::Medium);
         params.children(Class::Film);
         params.children(Class::Sampler);
-        params.finish();
+        params.children(Class::ReconstructionFilter);
+        params.finish_after(camera.is_some());
         Some((camera?, shutter))
     }
 }

@@ -64,7 +64,7 @@ macro_rules! integrators {
                         return None;
                     }
                 };
-                params.finish();
+                params.finish_after(read.is_some());
                 read
             }
 

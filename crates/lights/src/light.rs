@@ -97,11 +97,17 @@ impl LightDescription {
         let name = params.node.plugin.value.as_str();
         let light = match (is_of_shape(name), shape) {
             (Some(true), None) => {
-                params.error(format!("an `{name}` light must be the child of a shape"));
+                params.error(format!(
+                    "{} light must be the child of a shape",
+                    params.node.with_article()
+                ));
                 return None;
             }
             (Some(false), Some(_)) => {
-                params.error(format!("a `{name}` light cannot be the child of a shape"));
+                params.error(format!(
+                    "{} light cannot be the child of a shape",
+                    params.node.with_article()
+                ));
                 return None;
             }
             (Some(_), shape) => read(params, shape.unwrap_or(ShapeId::NONE), build),
@@ -115,7 +121,7 @@ impl LightDescription {
         let what = "a finite number not below 0";
         let sampling_weight =
             params.float_where("sampling_weight", 1.0, what, |w| w >= 0.0 && w.is_finite());
-        params.finish();
+        params.finish_after(light.is_some());
         Some(Self {
             light: light?,
             sampling_weight,

@@ -282,11 +282,35 @@ const OTHER_FILMS: [&str; 3] = ["ldrfilm", "mfilm", "tiledhdrfilm"];
 
 /// The film of a sensor, by default Mitsuba's `hdrfilm`.
 fn film(sensor: &Params<'_>, builder: &mut Builder<'_>) -> Option<(FilmSettings, Response)> {
-    let Some(node) = sensor.child(Class::Film) else {
-        let film = FilmSettings::new(768, 576, Filter::default());
-        return Some((film, Response::default()));
+    let (mut film, response) = match sensor.child(Class::Film) {
+        Some(node) => read_film(node, builder)?,
+        None => {
+            let film = FilmSettings::new(768, 576, Filter::default());
+            (film, Response::default())
+        }
     };
-    read_film(node, builder)
+    if let Some(node) = sensor.child(Class::ReconstructionFilter) {
+        let has_own = |film: &Arc<Node>| {
+            let film = Params::new(film, builder.diagnostics);
+            !film.children(Class::ReconstructionFilter).is_empty()
+        };
+        if sensor.child(Class::Film).is_some_and(has_own) {
+            let message = "the film has a filter of its own";
+            (builder.diagnostics).push(Diagnostic::error(node.plugin.span, message));
+            return None;
+        }
+        let message = "an `rfilter` stands in the film: this one is taken as the film's";
+        (builder.diagnostics).push(Diagnostic::note(node.plugin.span, message));
+        film.filter = read_filter(node, builder.diagnostics);
+    }
+    Some((film, response))
+}
+
+fn read_filter(node: &Node, diagnostics: &Diagnostics) -> Filter {
+    let params = Params::new(node, diagnostics);
+    let filter = Filter::from_params(&params);
+    params.finish();
+    filter
 }
 
 /// An `hdrfilm` or `specfilm`, or one of Mitsuba 0.6's other films, which is read as an `hdrfilm`.
@@ -323,9 +347,7 @@ fn read_definitions(params: &Params<'_>, builder: &mut Builder<'_>) {
         SamplerSettings::from_node(node, diagnostics);
     }
     for (_, node) in params.children(Class::ReconstructionFilter) {
-        let params = Params::new(node, diagnostics);
-        Filter::from_params(&params);
-        params.finish();
+        read_filter(node, diagnostics);
     }
 }
 

@@ -60,13 +60,19 @@ fn displaced(params: &Params<'_>, builder: &mut Builder<'_>) -> Option<Shape> {
         || Operation::named(plugin).is_some()
         || own.is_animated("to_world")
     {
-        return refused(format!("a `{plugin}` cannot be moved by a texture"));
+        return refused(format!(
+            "{} cannot be moved by a texture",
+            child.with_article()
+        ));
     }
     let shape = Shape::from_params(&own, builder);
-    own.finish();
+    own.finish_after(shape.is_some());
     let shape = shape?;
     if !shape.can_be_displaced() {
-        return refused(format!("a `{plugin}` cannot be moved by a texture"));
+        return refused(format!(
+            "{} cannot be moved by a texture",
+            child.with_article()
+        ));
     }
     let textures = &builder.textures;
     let mut attributes = textures.attributes();

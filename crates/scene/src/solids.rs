@@ -34,10 +34,7 @@ impl Surfaces {
         for (_, child) in &children {
             let operand = Params::new(child, diagnostics);
             if COMPOSED.contains(&child.plugin.value.as_str()) || operand.is_animated("to_world") {
-                let message = format!(
-                    "a `{}` is made of solids that stand still",
-                    node.plugin.value
-                );
+                let message = format!("{} is made of solids that stand still", node.with_article());
                 diagnostics.push(Diagnostic::error(child.plugin.span, message));
                 continue;
             }
@@ -50,8 +47,14 @@ impl Surfaces {
                 diagnostics.push(Diagnostic::error(emitter.span, message));
             }
             if !shape.is_solid() {
-                let message = format!("a `{}` bounds no volume here", child.plugin.value);
-                let help = "accepted: shapes without holes, and meshes only if they are convex, of at most 64 triangles";
+                let message = format!("{} bounds no volume here", child.with_article());
+                let help = match child.plugin.value.as_str() {
+                    // Which has no ends.
+                    "cylinder" => "a `cone` with equal radii at both ends is a closed cylinder",
+                    _ => {
+                        "accepted: shapes without holes, and meshes only if they are convex, of at most 64 triangles"
+                    }
+                };
                 diagnostics.push(Diagnostic::error(child.plugin.span, message).help(help));
                 continue;
             }
@@ -67,8 +70,13 @@ impl Surfaces {
             operands.push(shape);
         }
         self.inherited = outer;
-        if children.is_empty() {
-            params.missing("shape", "solids to make it of");
+        match children.as_slice() {
+            [] => params.missing("shape", "solids to make it of"),
+            [_] if operation == Operation::Difference => {
+                let message = "nothing is taken away from the only solid of this `difference`";
+                diagnostics.push(Diagnostic::note(node.plugin.span, message));
+            }
+            _ => {}
         }
         let media = self.media(&params, None, builder);
         let material = whole.unwrap_or_else(|| self.grey(builder));

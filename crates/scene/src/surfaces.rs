@@ -148,8 +148,8 @@ impl Surfaces {
                 if let Some(emitter) = carried.emitter {
                     if !can_emit {
                         let message = format!(
-                            "a `{}` cannot emit light here: points of it cannot be sampled uniformly",
-                            node.plugin.value
+                            "{} cannot emit light here: points of it cannot be sampled uniformly",
+                            node.with_article()
                         );
                         let help = "a shape of known area under a `to_world` that keeps angles can";
                         let diagnostic = Diagnostic::error(emitter.span, message).help(help);
@@ -250,7 +250,7 @@ impl Surfaces {
         let inside = below.as_ref().map(|(_, medium)| *medium);
         let media = self.media(&params, inside, builder);
         let body = Body::from_params(&params, material, media);
-        params.finish();
+        params.finish_after(shape.is_some());
         let shape = shape?;
         Self::expect_closed(&params, &shape, below.is_some(), body.is_some());
         let carried = ShapeExtras {
@@ -329,8 +329,8 @@ impl Surfaces {
             Some(group) if group.plugin.value == "shapegroup" => Some(self.group(group, builder)),
             Some(other) => {
                 params.error(format!(
-                    "an `instance` places a `shapegroup`, not a `{}`",
-                    other.plugin.value
+                    "an `instance` places a `shapegroup`, not {}",
+                    other.with_article()
                 ));
                 None
             }
@@ -339,7 +339,7 @@ impl Surfaces {
                 None
             }
         };
-        params.finish();
+        params.finish_after(group.is_some());
         Some((group?, Animated::new(motion?)))
     }
 

@@ -111,7 +111,7 @@ impl MediumDescription {
         };
         // Whether light is sampled at scattering points, as it always is here.
         params.ignore(&["sample_emitters", "has_spectral_extinction"]);
-        params.finish();
+        params.finish_after(medium.is_some());
         medium
     }
 }

@@ -147,7 +147,7 @@ impl PhaseFunction {
             (params.diagnostics).push(plugins::not_built(params.node, built));
             return None;
         };
-        params.finish();
+        params.finish_after(phase.is_some());
         phase
     }
 

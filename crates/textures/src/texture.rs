@@ -121,7 +121,7 @@ macro_rules! textures {
                     }
                 };
                 let texture = read(self, params, purpose);
-                params.finish();
+                params.finish_after(texture.is_some());
                 texture
             }
         }

@@ -75,10 +75,11 @@ impl Cylinder {
         }
         let cylinder = Self::new(&placement?, ends, radius, flip);
         if cylinder.is_none() {
-            params.error_at(
+            params.error_with_help(
                 "to_world",
                 "a `cylinder` must stay a right circular one: `to_world` shears it or scales it \
                  differently in different directions across its axis",
+                "a `cone` with equal radii is a cylinder that may be scaled and sheared; it has ends",
             );
         }
         cylinder

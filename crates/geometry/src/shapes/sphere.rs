@@ -63,9 +63,10 @@ impl Sphere {
         let flip = read_flip(params);
         let sphere = Self::new(&placement?, center, radius, flip);
         if sphere.is_none() {
-            params.error_at(
+            params.error_with_help(
                 "to_world",
                 "a `sphere` must stay round: `to_world` scales it differently in different directions",
+                "an `ellipsoid` has three `radii`, and may be scaled and sheared",
             );
         }
         sphere
