@@ -126,7 +126,8 @@ fn at(sources: &Sources, span: Span) -> &str {
 }
 
 fn number() -> impl Strategy<Value = f64> {
-    prop_oneof![-1e6..1e6, prop::num::f64::NORMAL | prop::num::f64::ZERO]
+    let wide = prop::num::f32::NORMAL | prop::num::f32::ZERO;
+    prop_oneof![-1e6..1e6, wide.prop_map(f64::from)]
 }
 
 fn vector() -> impl Strategy<Value = DVec3> {

@@ -272,7 +272,7 @@ pub(crate) fn operations(
         product = product.zip(operation).map(|(before, m)| m * before);
     }
     if let Some(matrix) = product
-        && !matrix.is_finite()
+        && !matrix.as_mat4().is_finite()
     {
         let span = tag_span(file.id, node);
         reader.report(Diagnostic::error(span, "the transform overflows"));
