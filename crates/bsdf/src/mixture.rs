@@ -89,6 +89,7 @@ impl Description {
         MaterialFlags {
             lobes: usize::from(self.present[0]) + usize::from(self.present[1] || self.present[2]),
             transmission: self.present[2],
+            refraction: self.present[2],
             ..MaterialFlags::default()
         }
     }

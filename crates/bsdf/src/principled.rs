@@ -122,9 +122,9 @@ impl Description {
 
     /// What it can do.
     pub fn flags(&self) -> MaterialFlags {
-        MaterialFlags {
-            transmission: self.transmits,
-            ..MaterialFlags::reflecting(self)
+        match self.transmits {
+            true => MaterialFlags::refracting(self),
+            false => MaterialFlags::reflecting(self),
         }
     }
 

@@ -9,6 +9,8 @@ pub struct MaterialFlags {
     pub null: bool,
     /// Whether light may reach the other side at all.
     pub transmission: bool,
+    /// Whether light may be bent on its way to the other side, as by an interface of dielectrics.
+    pub refraction: bool,
     /// Whether a texture tilts its normals.
     pub tilted: bool,
     /// Whether light leaves elsewhere than it came, which the model puts where the viewer looks: paths from the lights
@@ -31,15 +33,17 @@ impl MaterialFlags {
             lobes: self.lobes + other.lobes,
             null: self.null || other.null,
             transmission: self.transmission || other.transmission,
+            refraction: self.refraction || other.refraction,
             tilted: self.tilted || other.tilted,
             one_way: self.one_way || other.one_way,
         }
     }
 
-    /// One lobe that also transmits, whatever its parameters.
+    /// One lobe that also refracts, whatever its parameters.
     pub(crate) fn refracting<T>(model: &T) -> Self {
         Self {
             transmission: true,
+            refraction: true,
             ..Self::reflecting(model)
         }
     }

@@ -221,6 +221,11 @@ impl Shape {
         }
     }
 
+    /// Whether rays that come from inside meet it.
+    pub fn has_inner_side(&self) -> bool {
+        ask!(self, shape => shape.has_inner_side())
+    }
+
     /// Whether it has a border, so that it bounds no volume.
     pub fn is_open(&self) -> bool {
         match self.mesh() {

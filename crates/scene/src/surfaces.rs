@@ -92,23 +92,6 @@ pub fn read(scene: &Params<'_>, builder: &mut Builder<'_>) -> Surfaces {
     surfaces
 }
 
-/// Whether what is described here contains a smooth or rough dielectric.
-fn refracts(node: &Node) -> bool {
-    let dielectric =
-        ["dielectric", "roughdielectric", "mixture"].contains(&node.plugin.value.as_str());
-    (node.class == Class::Bsdf && dielectric)
-        || (node.properties.iter()).any(|property| match &property.value {
-            Value::Object(child) => {
-                let holds = [Class::Bsdf, Class::Shape, Class::Subsurface];
-                holds.contains(&child.class) && refracts(child)
-            }
-            Value::String(word) if node.class == Class::Subsurface => {
-                property.name == "boundary" && word != "diffuse"
-            }
-            _ => false,
-        })
-}
-
 /// What a shape carries besides its form.
 pub(crate) struct ShapeExtras {
     pub(crate) material: MaterialId,
@@ -139,7 +122,7 @@ impl Surfaces {
                 } else {
                     let material = carried.material;
                     let id = self.geometry.add_shape(shape, material, LightId::NONE);
-                    if refracts(node) {
+                    if self.refracts(&carried) {
                         self.geometry.set_refractive(id);
                     }
                     self.carry(id, &carried);
@@ -159,6 +142,13 @@ impl Surfaces {
                 }
             }
         }
+    }
+
+    /// Whether light may be bent where it enters a shape.
+    fn refracts(&self, carried: &ShapeExtras) -> bool {
+        let materials = carried.faces.iter().chain([&carried.material]);
+        let mut known = materials.filter_map(|id| self.materials.get(id.0 as usize));
+        known.any(|material| material.traits().refraction)
     }
 
     /// Notes what a shape carries that an accelerator need not know.
@@ -252,7 +242,6 @@ impl Surfaces {
         let body = Body::from_params(&params, material, media);
         params.finish_after(shape.is_some());
         let shape = shape?;
-        Self::expect_closed(&params, &shape, below.is_some(), body.is_some());
         let carried = ShapeExtras {
             material,
             emitter,
@@ -260,7 +249,20 @@ impl Surfaces {
             media,
             body,
         };
+        if shape.has_inner_side() {
+            Self::expect_closed(&params, &shape, below.is_some(), body.is_some());
+        } else if self.refracts(&carried) || media.is_some() || body.is_some() {
+            Self::no_way_out(&params);
+        }
         Some((shape, carried))
+    }
+
+    /// Says that light which enters a shape does not meet it again.
+    fn no_way_out(params: &Params<'_>) {
+        let message = "this shape is seen from outside only, as in Mitsuba: light that enters it does not meet its surface from within";
+        let help = "glass, media and `subsurface` need another shape, such as a mesh; the BSDF `hair` knows of the way out by itself";
+        let note = Diagnostic::note(params.node.plugin.span, message);
+        params.diagnostics.push(note.help(help));
     }
 
     /// The shapes of a group, read once however often they are placed.

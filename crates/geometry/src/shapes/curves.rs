@@ -112,6 +112,10 @@ impl<S: Segment> ShapeModel for Curves<S> {
         self.segments.len() as u32
     }
 
+    fn has_inner_side(&self) -> bool {
+        false
+    }
+
     fn piece_bounds(&self, piece: u32) -> [DVec3; 2] {
         self.segments[piece as usize].bounds()
     }

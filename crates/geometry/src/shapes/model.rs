@@ -57,6 +57,11 @@ pub(crate) trait ShapeModel {
         None
     }
 
+    /// Whether rays that come from inside meet it.
+    fn has_inner_side(&self) -> bool {
+        true
+    }
+
     /// Whether it bounds a volume, so that a line leaves it as often as it enters it.
     fn is_closed(&self) -> bool {
         false

@@ -1,6 +1,6 @@
 //! Straight travel through surfaces that let light pass.
 
-use crate::reading::{LANES, down, meet, scene};
+use crate::reading::{LANES, document, down, meet, read_with, scene};
 use etalon_transport::{Ray, World};
 use glam::{Vec3, Vec4};
 use proptest::prelude::*;
@@ -121,7 +121,10 @@ proptest! {
 fn dielectrics_that_touch_are_both_met() {
     let water = "<bsdf type=\"dielectric\"/>";
     let named = "<bsdf type=\"mask\"><bsdf type=\"roughdielectric\"/></bsdf>";
-    for (inner, outer) in [(water, named), (named, water)] {
+    let principled = "<bsdf type=\"principled\"><float name=\"spec_trans\" value=\"1\"/></bsdf>";
+    let both = [water, named, principled];
+    let pairs = both.iter().flat_map(|a| both.iter().map(move |b| (*a, *b)));
+    for (inner, outer) in pairs.filter(|(inner, outer)| inner != outer) {
         let cube = |size: &str, bsdf: &str| {
             format!(
                 "<shape type=\"cube\"><transform name=\"to_world\"><scale value=\"{size}\"/>\
@@ -136,5 +139,38 @@ fn dielectrics_that_touch_are_both_met() {
             ray = vertex.spawn(ray.direction);
         }
         assert_eq!(met, [0, 1, 1, 0]);
+    }
+}
+
+/// Light that enters a curve does not come out: a note says so wherever any would. Mutants rejected: silence; a note for hair.
+#[test]
+fn curves_have_no_way_out_and_say_so() {
+    let medium = "<medium type=\"homogeneous\" name=\"interior\"><float name=\"sigma_t\" value=\"1\"/></medium>";
+    let glass = "<bsdf type=\"mask\"><bsdf type=\"roughdielectric\"/></bsdf>";
+    let frosted = "<bsdf type=\"principled\"><float name=\"spec_trans\" value=\"0.5\"/></bsdf>";
+    let notes = |shape: &str, content: &str| {
+        let shape = format!(
+            "<shape type=\"{shape}\"><string name=\"filename\" value=\"c.txt\"/>{content}</shape>"
+        );
+        let points = "0 0 0 .1\n1 0 0 .1\n2 1 0 .1\n3 1 0 .1\n";
+        let read = read_with(&document(&shape), &[("c.txt", points)]);
+        assert_eq!(read.errors, Vec::<String>::new());
+        let said = read.notes.iter();
+        said.filter(|note| note.contains("seen from outside only"))
+            .count()
+    };
+    for curve in ["linearcurve", "bsplinecurve"] {
+        for content in [
+            "<bsdf type=\"dielectric\"/>",
+            glass,
+            frosted,
+            &format!("{NULL}{medium}"),
+            "<subsurface type=\"randomwalk\"><float name=\"mean_free_path\" value=\"1\"/></subsurface>",
+        ] {
+            assert_eq!(notes(curve, content), 1, "{curve} {content}");
+        }
+        for content in ["", "<bsdf type=\"hair\"/>", "<bsdf type=\"plastic\"/>"] {
+            assert_eq!(notes(curve, content), 0, "{curve} {content}");
+        }
     }
 }
