@@ -33,6 +33,9 @@ pub enum PlantedFault {
     /// All lights give 2 % too much, media that emit among them.
     #[serde(rename = "energy x 1.02")]
     Energy,
+    /// All lights give 20 % too much: for claims whose noise hides less.
+    #[serde(rename = "energy x 1.2")]
+    GreatEnergy,
     /// Independent samples where others are claimed: for convergence claims.
     #[serde(rename = "independent samples")]
     IndependentSamples,
@@ -57,7 +60,9 @@ impl PlantedFault {
     /// Whether it is a fault of the world, and not of how it is sampled or what is reported.
     pub fn is_physical(self) -> bool {
         match self {
-            Self::DroppedCosine | Self::WrongLightDensity | Self::Energy => true,
+            Self::DroppedCosine | Self::WrongLightDensity | Self::Energy | Self::GreatEnergy => {
+                true
+            }
             Self::IndependentSamples
             | Self::StandardError
             | Self::AnotherSeed
@@ -74,6 +79,7 @@ impl std::fmt::Display for PlantedFault {
             Self::DroppedCosine => "dropped cosine",
             Self::WrongLightDensity => "wrong light density",
             Self::Energy => "energy x 1.02",
+            Self::GreatEnergy => "energy x 1.2",
             Self::IndependentSamples => "independent samples",
             Self::StandardError => "standard error / sqrt 2",
             Self::AnotherSeed => "another seed",
@@ -102,10 +108,10 @@ impl<'a, W: World> Faulty<'a, W> {
     }
 
     fn energy(&self) -> f32 {
-        if self.fault == Some(PlantedFault::Energy) {
-            1.02
-        } else {
-            1.0
+        match self.fault {
+            Some(PlantedFault::Energy) => 1.02,
+            Some(PlantedFault::GreatEnergy) => 1.2,
+            _ => 1.0,
         }
     }
 

@@ -1,15 +1,17 @@
 //! A world in which everything goes as a path says: whatever is drawn, it is the path's next step.
 //!
-//! All values and densities are those of the world that it is a script for.
+//! All values and densities are those of the world that it is a script for, and so is every answer that the script has
+//! nothing to say of. Its camera receives no particles that run into it: no course ends so.
 
 use crate::course::Course;
 use etalon_math::DeltaProbability;
 use etalon_math::{Density, Frame, SolidAngle};
-use etalon_spectrum::Wavelengths;
+use etalon_spectrum::{SensorWeights, Wavelengths};
 use etalon_transport::{
-    Bsdf, BsdfSample, Camera, CameraRay, CameraSample, Emission, EmissionPdf, Hit, InstanceId,
-    LightId, LightKind, LightSample, LightSampleContext, LightVariety, Ray, SamplePdf, ShapeId,
-    SurfaceInteraction, Transmission, TransportMode, Vacuum, World,
+    Bsdf, BsdfSample, Camera, CameraRay, CameraSample, Coefficients, DiffusionProfile, Emission,
+    EmissionPdf, Hit, InstanceId, LegacyPhong, LightId, LightKind, LightSample, LightSampleContext,
+    LightVariety, MediumId, Mixture, Ray, SamplePdf, ShapeId, SurfaceInteraction, TraceEvent,
+    Transmission, TransportMode, World,
 };
 use glam::{Vec2, Vec3, Vec4};
 use std::sync::atomic::{AtomicUsize, Ordering};
@@ -100,8 +102,14 @@ impl<B: Bsdf> Bsdf for Scripted<B> {
             is_null: false,
         })
     }
+    fn discrete(&self, wo: Vec3, index: u32, mode: TransportMode) -> Option<BsdfSample> {
+        self.model.discrete(wo, index, mode)
+    }
     fn has_continuous(&self) -> bool {
         self.model.has_continuous()
+    }
+    fn has_discrete(&self) -> bool {
+        self.model.has_discrete()
     }
     fn hemisphere(&self) -> Option<Frame> {
         self.model.hemisphere()
@@ -114,6 +122,12 @@ impl<B: Bsdf> Bsdf for Scripted<B> {
     }
     fn albedo(&self, wo: Vec3) -> Vec4 {
         self.model.albedo(wo)
+    }
+    fn projected_area(&self, direction: Vec3) -> f32 {
+        self.model.projected_area(direction)
+    }
+    fn mixed(&self, mixture: impl FnOnce() -> Mixture) {
+        self.model.mixed(mixture);
     }
 }
 
@@ -188,7 +202,7 @@ impl<'s, W: World> World for Script<'s, W> {
     where
         Self: 'w;
     type Medium<'w>
-        = Vacuum
+        = W::Medium<'w>
     where
         Self: 'w;
     type Camera = Aperture<'s, W>;
@@ -196,8 +210,44 @@ impl<'s, W: World> World for Script<'s, W> {
     fn camera(&self) -> &Aperture<'s, W> {
         &self.camera
     }
+    fn camera_medium(&self) -> MediumId {
+        self.world.camera_medium()
+    }
+    fn medium(&self, medium: MediumId, wavelengths: &Wavelengths) -> Option<Self::Medium<'_>> {
+        self.world.medium(medium, wavelengths)
+    }
+    fn is_dark(&self, medium: MediumId) -> bool {
+        self.world.is_dark(medium)
+    }
+    fn entry(
+        &self,
+        medium: MediumId,
+        at: &SurfaceInteraction,
+        wavelengths: &Wavelengths,
+    ) -> Option<Coefficients> {
+        self.world.entry(medium, at, wavelengths)
+    }
+    fn entered(
+        &self,
+        medium: MediumId,
+        coefficients: Coefficients,
+        wavelengths: &Wavelengths,
+    ) -> Option<Self::Medium<'_>> {
+        self.world.entered(medium, coefficients, wavelengths)
+    }
+    fn diffusion(
+        &self,
+        medium: MediumId,
+        at: &SurfaceInteraction,
+        wavelengths: &Wavelengths,
+    ) -> Option<impl DiffusionProfile> {
+        self.world.diffusion(medium, at, wavelengths)
+    }
     fn wavelengths(&self, _: f32) -> Wavelengths {
         self.course.wavelengths.rotated(self.turn)
+    }
+    fn sensor(&self, wavelengths: &Wavelengths) -> SensorWeights {
+        self.world.sensor(wavelengths)
     }
     fn intersect(&self, ray: &Ray) -> Option<Hit> {
         let [_, to] = self.between(ray)?;
@@ -247,6 +297,13 @@ impl<'s, W: World> World for Script<'s, W> {
             wi,
             sharp: node.is_some_and(|node| course.sharp[node - 1]),
         }
+    }
+    fn legacy_phong(
+        &self,
+        vertex: &SurfaceInteraction,
+        wavelengths: &Wavelengths,
+    ) -> Option<LegacyPhong> {
+        self.world.legacy_phong(vertex, wavelengths)
     }
     fn emitted(&self, vertex: &SurfaceInteraction, wo: Vec3, wavelengths: &Wavelengths) -> Vec4 {
         match self.node(vertex) {
@@ -383,7 +440,13 @@ impl<'s, W: World> World for Script<'s, W> {
     fn light_sample_density(&self, from: &LightSampleContext, start: &Emission) -> f32 {
         self.world.light_sample_density(from, start)
     }
+    fn medium_light_density(&self, medium: MediumId, at: Vec3) -> f32 {
+        self.world.medium_light_density(medium, at)
+    }
     fn take_ray_count(&self) -> u64 {
         0
+    }
+    fn record(&self, remark: impl FnOnce() -> TraceEvent) -> bool {
+        self.world.record(remark)
     }
 }
