@@ -57,6 +57,9 @@ const RENAMED: [(Class, &[&str], &str, &str); 10] = [
     ),
 ];
 
+/// What a medium may be given by.
+const COEFFICIENTS: [&str; 5] = ["material", "sigma_a", "sigma_s", "sigma_t", "albedo"];
+
 /// The aperture of the sun (°).
 const SUN: f64 = 0.5358;
 
@@ -119,18 +122,15 @@ pub(crate) fn upgrade(object: &mut DraftObject) -> Option<Diagnostic> {
             add_default(object, "raw", Value::Boolean(false));
         }
         (Class::Volume, "gridvolume") => grid(object),
-        (Class::Bsdf, "conductor" | "roughconductor") => {
-            if !has_any(object, &["material", "eta", "k"]) {
-                add_default(object, "material", Value::String("Cu".into()));
-            }
+        (Class::Bsdf, "conductor" | "roughconductor")
+            if !has_any(object, &["material", "eta", "k"]) =>
+        {
+            add_default(object, "material", Value::String("Cu".into()));
         }
-        (Class::Medium, "homogeneous") | (Class::Subsurface, "dipole") => {
-            if !has_any(
-                object,
-                &["material", "sigma_a", "sigma_s", "sigma_t", "albedo"],
-            ) {
-                add_default(object, "material", Value::String("skin1".into()));
-            }
+        (Class::Medium, "homogeneous") | (Class::Subsurface, "dipole")
+            if !has_any(object, &COEFFICIENTS) =>
+        {
+            add_default(object, "material", Value::String("skin1".into()));
         }
         _ => {}
     }
