@@ -261,10 +261,12 @@ pub fn decide<'a>(
     ];
     let most = groups.iter().map(|group| group.looks.len()).max();
     for look in 0..most.unwrap_or(0) {
-        let open: Vec<(usize, usize)> = (groups.iter().enumerate())
+        let mut open: Vec<(usize, usize)> = (groups.iter().enumerate())
             .filter(|(_, group)| look < group.looks.len())
             .flat_map(|(number, group)| group.open().into_iter().map(move |i| (number, i)))
             .collect();
+        // Claim by claim, as its comparisons share what is rendered.
+        open.sort_by_key(|(number, index)| groups[*number].members[*index].place);
         let work = |groups: &[Group<'_>; 2], (group, index): (usize, usize)| -> f64 {
             let group: &Group<'_> = &groups[group];
             let task = &group.members[index].task;

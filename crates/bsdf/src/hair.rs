@@ -118,8 +118,9 @@ impl Description {
     /// What the material can do.
     pub fn flags(&self) -> MaterialFlags {
         MaterialFlags {
+            transmission: true,
             one_way: true,
-            ..MaterialFlags::refracting(self)
+            ..MaterialFlags::reflecting(self)
         }
     }
 

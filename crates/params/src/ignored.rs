@@ -1,4 +1,4 @@
-//! The one list of parameters that are accepted and change nothing; those of Mitsuba 0.6 are in [`mitsuba06`].
+//! The one list of parameters that are accepted and change nothing; those of Mitsuba 0.6 are in `mitsuba06`.
 //!
 //! Most belong to how Mitsuba works, not to what the picture is: its tiles, its acceleration
 //! structures, its accumulation; others mean nothing to one plugin of a class whose others take

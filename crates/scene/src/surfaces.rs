@@ -8,7 +8,7 @@ use etalon_bsdf::{Material, classicphong};
 use etalon_geometry::shapes::csg::Operation;
 use etalon_geometry::{GeometryBuilder, GroupId, Placement, Shape};
 use etalon_math::Animated;
-use etalon_params::{Class, Diagnostic, Node, Params, Span, Value};
+use etalon_params::{Class, Diagnostic, Node, Params, Span};
 use etalon_subsurface::MediumDescription;
 use etalon_textures::{Constant, Texture};
 use etalon_transport::{LightId, MaterialId, MediumId, MediumInterface, ShapeId};

@@ -230,6 +230,7 @@ fn every_fault_is_planted_somewhere() {
         "dropped cosine",
         "energy x 1.01",
         "energy x 1.02",
+        "energy x 1.2",
         "independent samples",
         "mirrored",
         "shifted by a pixel",
@@ -260,7 +261,7 @@ fn a_wrong_claim_says_what_is_wrong() {
         ),
         (
             good.replace("replicates = 2", "replicates = 1"),
-            "2 replicates",
+            "even number of replicates",
         ),
         (good.replace("[[estimators]]", "[estimator]"), "estimator"),
         (

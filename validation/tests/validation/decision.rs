@@ -324,7 +324,7 @@ fn an_undecided_comparison_gets_more_replicates_and_is_never_passed() {
     let rows = outcome::run(tasks, &options, None, |_| ()).expect("a plan");
     assert_eq!(rows.len(), 1);
     assert_eq!(rows[0].outcome, Outcome::Undecided);
-    assert_eq!(rows[0].decision.looks, 4);
+    assert_eq!(rows[0].decision.looks, Tier::Default.looks().len());
     let compared = rows[0].compared.as_ref().expect("it can be compared");
     assert_eq!((compared.spp, compared.replicates), (512, 256));
     assert_eq!(Conclusion::of(&rows).exit_code(), 3);

@@ -87,7 +87,7 @@ fn mistakes_are_named() {
         ("roughdielectric int_ior=s:air", "must differ"),
         (
             "roughdielectric distribution=s:phong",
-            "`phong` is not a value",
+            "`phong` of Mitsuba 0.6 is not built",
         ),
         ("roughdielectric alpha=f:-0.1", "cannot be -0.1"),
         ("roughplastic alpha=f:-0.1", "cannot be -0.1"),

@@ -227,7 +227,7 @@ fn bad_input_is_diagnosed() {
             "did you mean `ptracer`?",
         ),
         (
-            &["--integrators", "path,prbvolpath", "--time", "9"],
+            &["--integrators", "path,stokes", "--time", "9"],
             "not built yet",
         ),
         (

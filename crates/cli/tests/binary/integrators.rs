@@ -104,7 +104,7 @@ fn unknown_names_are_refused() {
         ("pathh", "did you mean `path`?"),
         ("forwards", "did you mean `forward`?"),
         ("nave", "did you mean `naive`?"),
-        ("prbvolpath", "not built yet"),
+        ("stokes", "not built yet"),
     ] {
         let arguments = ["render", &scene, "-o", "a.exr", "--integrator", name];
         let ran = workshop.run(&arguments).refused();

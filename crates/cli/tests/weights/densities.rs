@@ -5,7 +5,7 @@
 //! lane's are asked of models in which that lane stands first and so chooses.
 
 use crate::course::Course;
-use crate::script::discrete;
+use crate::scripted_bsdf::discrete;
 use etalon_spectrum::Wavelengths;
 use etalon_transport::{Bsdf, Camera, LightKind, LightSampleContext, TransportMode, World};
 use glam::Vec4;

@@ -9,6 +9,7 @@ mod course;
 mod densities;
 mod rooms;
 mod script;
+mod scripted_bsdf;
 
 use course::Course;
 use densities::{Densities, LANES};

@@ -28,7 +28,7 @@ const HOSTS: [(&str, &str, &[&str]); 10] = [
     (
         "<sensor type=\"perspective\">",
         "</sensor>",
-        &["film", "sampler"],
+        &["film", "sampler", "rfilter"],
     ),
     (
         "<sensor type=\"perspective\"><film type=\"hdrfilm\">",
