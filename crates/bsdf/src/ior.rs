@@ -4,7 +4,7 @@
 //! model can disperse they may also be a spectrum, or Cauchy's or Sellmeier's coefficients as a
 //! string (an extension: see `docs/extensions.md`).
 
-use etalon_params::{Class, Diagnostic, Params, Property, SpectrumText, Value};
+use etalon_params::{Class, Diagnostic, Params, Property, Span, SpectrumText, Value};
 use etalon_spectrum::{LAMBDA_MAX, LAMBDA_MIN, RefractiveIndex, Spectrum, SpectrumError, ior};
 use etalon_transport::{Build, SpectrumKind, TextureId, Textures};
 use glam::Vec4;
@@ -173,10 +173,10 @@ fn read(params: &Params<'_>, build: &mut dyn Build, name: &str, default: &str) -
             positive(params, name, *value).map(Given::Number)
         }
         Value::Spectrum(SpectrumText::Samples(samples)) => {
-            table(params, name, samples).map(|index| Given::Index(Index::Formula(index)))
+            table(params, property, samples).map(|index| Given::Index(Index::Formula(index)))
         }
         Value::Object(node) if node.class == Class::Texture => Some(Given::Index(Index::Texture(
-            build.nested_texture(node, SpectrumKind::Unbounded),
+            build.nested_texture(node, SpectrumKind::Index),
         ))),
         Value::Float(_) | Value::Integer(_) | Value::String(_) => {
             number_from_params(params, name, default).map(Given::Number)
@@ -258,24 +258,30 @@ fn formula(params: &Params<'_>, property: &Property, text: &str) -> Option<Refra
     }
 }
 
-/// A table of (wavelength in nm, index); beyond its ends the index stays what it is there.
-fn table(params: &Params<'_>, name: &str, samples: &[(f64, f64)]) -> Option<RefractiveIndex> {
-    let mut wavelengths: Vec<f64> = samples.iter().map(|s| s.0).collect();
-    let mut values: Vec<f64> = samples.iter().map(|s| s.1).collect();
-    for value in &values {
-        positive(params, name, *value)?;
+/// A table of (wavelength in nm, index), each above zero.
+fn table(
+    params: &Params<'_>,
+    property: &Property,
+    samples: &[(f64, f64)],
+) -> Option<RefractiveIndex> {
+    for (_, value) in samples {
+        positive(params, &property.name, *value)?;
     }
-    if let (&[first, ..], &[.., last]) = (&wavelengths[..], &wavelengths[..]) {
-        wavelengths.insert(0, first.min(LAMBDA_MIN) * 0.5);
-        values.insert(0, values[0]);
-        wavelengths.push(last.max(LAMBDA_MAX) * 2.0);
-        values.push(values[values.len() - 1]);
+    held_table(params, property.span, samples).map(RefractiveIndex::Tabulated)
+}
+
+/// A table of (wavelength in nm, part of an index) that is held at its ends.
+pub(crate) fn held_table(
+    params: &Params<'_>,
+    span: Span,
+    samples: &[(f64, f64)],
+) -> Option<Spectrum> {
+    let (wavelengths, values): (Vec<f64>, Vec<f64>) = samples.iter().copied().unzip();
+    let held = ior::held_table(&wavelengths, &values);
+    let held = held.map_err(|error| Diagnostic::error(span, error.to_string()));
+    let (table, note) = params.diagnostics.keep(held)?;
+    if let Some(note) = note {
+        params.diagnostics.push(Diagnostic::note(span, note));
     }
-    match Spectrum::irregular(&wavelengths, &values) {
-        Ok(spectrum) => Some(RefractiveIndex::Tabulated(spectrum)),
-        Err(error) => {
-            params.error_at(name, error.to_string());
-            None
-        }
-    }
+    Some(table)
 }

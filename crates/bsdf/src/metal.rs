@@ -1,9 +1,9 @@
 //! Reading the complex refractive index of a conductor: by name, or as `eta` and `k`.
 
 use crate::ShadingContext;
-use crate::ior::number_from_params;
-use etalon_params::{Diagnostic, Params};
-use etalon_spectrum::{Spectrum, conductors, parse_spd};
+use crate::ior::{held_table, number_from_params};
+use etalon_params::{Diagnostic, Params, Property, Value};
+use etalon_spectrum::{Spectrum, conductor_colour, conductors, parse_spd};
 use etalon_transport::{Build, SpectrumKind, TextureId, Textures};
 use glam::Vec4;
 
@@ -18,7 +18,8 @@ pub struct Metal {
 
 impl Metal {
     /// Reads `material` (a name, or `none` for a perfect mirror), or `eta` (0) and `k` (1), whose
-    /// defaults are the perfect mirror too; and `ext_eta`, a number or a name (vacuum), by which
+    /// defaults are the perfect mirror too and which belong together where they are colours (see
+    /// [`conductor_colour`]); and `ext_eta`, a number or a name (vacuum), by which
     /// both are divided.
     pub fn from_params(params: &Params<'_>, build: &mut dyn Build) -> Option<Self> {
         let exterior = number_from_params(params, "ext_eta", "vacuum");
@@ -26,9 +27,16 @@ impl Metal {
         params.note_default("material", "a string", "none");
         let name = params.string("material").unwrap_or("none");
         if name == "none" {
+            let [eta, k] = match of_colours(params) {
+                Some((eta, k)) => [build.spectrum(eta), build.spectrum(k)],
+                None => [("eta", 0.0), ("k", 1.0)]
+                    .map(|(name, default)| {
+                        build.texture(params, name, Some(default), SpectrumKind::Index)
+                    }),
+            };
             return Some(Self {
-                eta: build.texture(params, "eta", Some(0.0), SpectrumKind::Unbounded),
-                k: build.texture(params, "k", Some(1.0), SpectrumKind::Unbounded),
+                eta,
+                k,
                 inverse_exterior,
             });
         }
@@ -64,6 +72,41 @@ impl Metal {
     }
 }
 
+/// `eta` and `k` where one of them is a colour and the other a colour or a number.
+fn of_colours(params: &Params<'_>) -> Option<(Spectrum, Spectrum)> {
+    let find = |name| params.node.properties.iter().find(|p| p.name == name);
+    let triple = |property: Option<&Property>, default| match property.map(|p| &p.value) {
+        None => Some([default; 3]),
+        Some(Value::Float(x)) => Some([*x; 3]),
+        Some(Value::Integer(i)) => Some([*i as f64; 3]),
+        Some(Value::Rgb(rgb)) => Some(rgb.to_array()),
+        Some(_) => None,
+    };
+    let given = [find("eta"), find("k")];
+    let mut colours = given
+        .into_iter()
+        .flatten()
+        .filter(|p| matches!(p.value, Value::Rgb(_)));
+    let span = colours.next()?.span;
+    let (eta, k) = (triple(given[0], 0.0)?, triple(given[1], 1.0)?);
+    let made = match conductor_colour::metal(eta, k) {
+        Some(name) => {
+            let message = format!(
+                "`eta` and `k` are the colours of the metal `{name}`: its measured curves are taken"
+            );
+            let help = format!("`material` `{name}` says the same");
+            params
+                .diagnostics
+                .push(Diagnostic::note(span, message).help(help));
+            conductors::lookup(name)?
+        }
+        // Whoever reads them one by one says which of them is wrong.
+        None => conductor_colour::smooth(eta, k).ok()?,
+    };
+    given.into_iter().flatten().for_each(Property::mark_used);
+    Some(made)
+}
+
 /// The name of the file with one part of a conductor's index.
 fn file(name: &str, part: &str) -> String {
     format!("{name}.{part}.spd")
@@ -77,17 +120,10 @@ fn from_file(
     part: &str,
 ) -> Option<Spectrum> {
     let path = file(name, part);
+    let material = params.node.properties.iter().find(|p| p.name == "material");
+    let span = material.map_or(params.node.plugin.span, |p| p.span);
     let refuse = |message: String, help: String| {
-        let mut error = Diagnostic::error(
-            params
-                .node
-                .properties
-                .iter()
-                .find(|p| p.name == "material")
-                .map_or(params.node.plugin.span, |p| p.span),
-            message,
-        );
-        error = error.help(help);
+        let error = Diagnostic::error(span, message).help(help);
         params.diagnostics.push(error);
         None
     };
@@ -110,12 +146,16 @@ fn from_file(
         .map_err(|_| "it is not text".to_owned())
         .and_then(|text| {
             parse_spd(&text).map_err(|(line, message)| format!("line {line}: {message}"))
-        })
-        .and_then(|(wavelengths, values)| {
-            Spectrum::tabulated(&wavelengths, &values).map_err(|error| error.to_string())
         });
     match parsed {
-        Ok(spectrum) => Some(spectrum),
+        Ok(table) => {
+            if let Some(line) = table.header {
+                let message = format!("line {line} of `{path}` holds no number: it is taken for a header");
+                params.diagnostics.push(Diagnostic::note(span, message));
+            }
+            let samples = table.wavelengths.into_iter().zip(table.values);
+            held_table(params, span, &samples.collect::<Vec<_>>())
+        }
         Err(message) => refuse(
             format!("`{path}` cannot be read: {message}"),
             "expected lines of a wavelength in nm and a value".to_owned(),

@@ -136,7 +136,7 @@ fn vector() -> impl Strategy<Value = DVec3> {
 
 fn samples() -> impl Strategy<Value = Vec<(f64, f64)>> {
     prop::collection::vec((0.001..50.0, number()), 2..8).prop_map(|steps| {
-        let mut wavelength = 300.0;
+        let mut wavelength = 361.0;
         let sum = |(step, value)| {
             wavelength += step;
             (wavelength, value)

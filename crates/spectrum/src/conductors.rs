@@ -48,7 +48,8 @@ fn header(line: &str) -> Option<&str> {
         .map(|(name, _)| name)
 }
 
-fn held(wavelengths: &[f64], values: &[f64]) -> Result<Spectrum, SpectrumError> {
+/// `values` at `wavelengths`, held constant beyond them.
+pub(crate) fn held(wavelengths: &[f64], values: &[f64]) -> Result<Spectrum, SpectrumError> {
     Irregular::with_outside(wavelengths, values, Outside::Hold).map(Spectrum::from)
 }
 

@@ -1,8 +1,30 @@
 //! Refractive indices of dielectrics: named ones, the dispersion formulas of Cauchy and Sellmeier,
 //! and tables.
 
+use crate::tabulated::{Irregular, Outside};
 use crate::{Spectrum, SpectrumError, cie, error};
 use glam::Vec4;
+
+/// The wavelengths (nm) beyond which the eye sees next to nothing: what a table leaves out there is not worth a word.
+const SEEN: [f64; 2] = [400.0, 700.0];
+
+/// A table of a part of an index (n, η or k), which beyond its ends stays what it is there, and what is to be said of that
+/// where it can be seen.
+///
+/// # Errors
+/// Wavelengths (nm) that do not increase, or too few.
+pub fn held_table(
+    wavelengths: &[f64],
+    values: &[f64],
+) -> Result<(Spectrum, Option<String>), SpectrumError> {
+    let table = Irregular::with_outside(wavelengths, values, Outside::Hold)?;
+    let [first, last] = table.range().map(f64::from);
+    let ends = first > SEEN[0] || last < SEEN[1];
+    let note = ends.then(|| {
+        format!("this index is given from {first} to {last} nm: beyond, it stays what it is there")
+    });
+    Ok((Spectrum::from(table), note))
+}
 
 /// A real refractive index as a function of the wavelength.
 #[derive(Clone, Debug, PartialEq)]

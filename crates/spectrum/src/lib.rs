@@ -11,6 +11,7 @@
 pub mod blackbody;
 pub mod cie;
 pub mod colour_space;
+pub mod conductor_colour;
 pub mod conductors;
 pub mod error;
 pub mod illuminants;
@@ -28,7 +29,7 @@ pub use blackbody::Blackbody;
 pub use error::SpectrumError;
 pub use ior::RefractiveIndex;
 pub use sensor::{Sensor, SensorWeights, sensor_response};
-pub use spd::{parse_spb, parse_spd};
+pub use spd::{SpdTable, parse_spb, parse_spd};
 pub use spectrum::Spectrum;
 pub use tabulated::{Irregular, Regular};
 pub use upsample::{RgbCoefficients, RgbSpectrum};

@@ -178,20 +178,34 @@ impl Spectrum {
         }))
     }
 
-    /// The largest value at the whole nanometres of 360–830 nm.
+    /// The largest value (see [`Spectrum::range`]).
     pub fn maximum(&self) -> f64 {
         self.range()[1]
     }
 
-    /// The smallest and the largest.
+    /// The smallest and the largest value at the whole nanometres of 360–830 nm and at the wavelengths of a table
+    /// between them. Rounding in between does not count: no more is found than a table holds, and zero.
     pub fn range(&self) -> [f64; 2] {
-        if let Self::Uniform(value) = self {
-            return [f64::from(*value); 2];
-        }
-        let values = (0..cie::COUNT).map(|i| self.eval_at((cie::FIRST + i) as f64));
-        values.fold([f64::INFINITY, f64::NEG_INFINITY], |[a, b], x| {
-            [a.min(x), b.max(x)]
-        })
+        let extremes = |values: &mut dyn Iterator<Item = f64>| {
+            values.fold([f64::INFINITY, f64::NEG_INFINITY], |[a, b], x| {
+                [a.min(x), b.max(x)]
+            })
+        };
+        let mut sampled = (0..cie::COUNT).map(|i| self.eval_at((cie::FIRST + i) as f64));
+        let knots: Vec<(f64, f64)> = match self {
+            Self::Uniform(value) => return [f64::from(*value); 2],
+            Self::Regular(table) => table.knots().collect(),
+            Self::Irregular(table) => {
+                let knots = table.knots();
+                knots.map(|(x, y)| (f64::from(x), f64::from(y))).collect()
+            }
+            Self::Blackbody(_) | Self::Srgb(_) | Self::D65(_) => return extremes(&mut sampled),
+        };
+        let values = knots.iter().map(|(_, y)| *y);
+        let [least, most] = extremes(&mut values.chain([0.0]));
+        let visible = |(x, _): &&(f64, f64)| (LAMBDA_MIN..=LAMBDA_MAX).contains(x);
+        let within = knots.iter().filter(visible).map(|(_, y)| *y);
+        extremes(&mut sampled.map(|y| y.clamp(least, most)).chain(within))
     }
 
     /// Whether the spectrum is zero at every wavelength, by construction.

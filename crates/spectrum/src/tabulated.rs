@@ -83,6 +83,14 @@ impl Regular {
     pub fn values(&self) -> &[f32] {
         &self.values[..self.values.len() - 1]
     }
+
+    /// The wavelengths (nm) and their values.
+    pub fn knots(&self) -> impl Iterator<Item = (f64, f64)> + '_ {
+        let [min, max] = self.range().map(f64::from);
+        let step = (max - min) / (self.values().len() - 1) as f64;
+        let values = self.values().iter().enumerate();
+        values.map(move |(i, value)| (min + i as f64 * step, f64::from(*value)))
+    }
 }
 
 /// Values at any strictly increasing wavelengths.
@@ -125,8 +133,10 @@ impl Irregular {
         let count = wavelengths.len();
         let knots: Box<[[f32; 3]]> = (0..count)
             .map(|i| {
+                // Between the wavelengths as they are stored: a steep slope else misses the next value.
+                let stored = |i: usize| f64::from(wavelengths[i] as f32);
                 let slope = if i + 1 < count {
-                    (values[i + 1] - values[i]) / (wavelengths[i + 1] - wavelengths[i])
+                    (values[i + 1] - values[i]) / (stored(i + 1) - stored(i))
                 } else {
                     0.0
                 };

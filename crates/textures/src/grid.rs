@@ -244,6 +244,7 @@ pub(crate) fn read(
     let volume = read
         .map_err(|reason| params.error_at("filename", format!("`{name}` cannot be used: {reason}")))
         .ok()?;
+    let is_share = role == SpectrumKind::Reflectance;
     let is_tensor = role == SpectrumKind::Tensor;
     if is_tensor != volume.beside.is_some() {
         let message = match is_tensor {
@@ -299,12 +300,12 @@ pub(crate) fn read(
     let (low, high) = corners.fold(start, |(low, high), p| (low.min(p), high.max(p)));
     Some(Texture::from(Grid {
         size: volume.size,
-        values: Arc::new(Image::new(pixels, raw || is_tensor, role, true)),
+        values: Arc::new(Image::new(pixels, raw || is_tensor, role, !is_share)),
         beside: volume.beside.map(Arc::from),
         to_grid: Affine3A::from_mat4(DMat4::from(to_grid).as_mat4()),
         filter,
         wrap,
-        is_share: role == SpectrumKind::Reflectance,
+        is_share,
         bounds: [low, high],
     }))
 }

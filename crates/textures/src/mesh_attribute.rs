@@ -34,9 +34,10 @@ impl MeshAttribute {
     pub fn range(&self) -> [f32; 2] {
         match self.role {
             SpectrumKind::Reflectance => [0.0, (1.0 / self.scale).min(f32::MAX)],
-            SpectrumKind::Emission | SpectrumKind::Unbounded | SpectrumKind::Tensor => {
-                [0.0, f32::MAX]
-            }
+            SpectrumKind::Emission
+            | SpectrumKind::Unbounded
+            | SpectrumKind::Index
+            | SpectrumKind::Tensor => [0.0, f32::MAX],
         }
     }
 

@@ -3,11 +3,11 @@
 //! | written | reflectance | emission | unbounded |
 //! |---|---|---|---|
 //! | number x | constant x | x·D65 | constant x |
-//! | `rgb` c | smooth spectrum of c, in [0, 1] | D65 times the scaled spectrum of c | smooth spectrum of c held to [0, 1] |
+//! | `rgb` c | smooth spectrum of c, in [0, 1] | D65 times the scaled spectrum of c | smooth spectrum of c, of any brightness |
 //! | `spectrum` as text | as written | as written | as written |
 //! | nested object | what the plugin says | likewise | likewise |
 //!
-//! These are Mitsuba's rules in spectral mode. In particular an image is *not* multiplied by D65
+//! These are Mitsuba's rules in spectral mode, which however holds the last of them to [0, 1]. In particular an image is *not* multiplied by D65
 //! when it emits, unless it is wrapped in a `d65` object. Values inside of nested textures follow
 //! the first column, whatever the outermost property is for.
 
@@ -15,7 +15,7 @@ use crate::{Constant, Texture, TextureTable};
 use etalon_params::questions::Question;
 use etalon_params::{Class, Diagnostic, Diagnostics, Node, Params, Property, Span, Value};
 use etalon_params::{DVec3, SpectrumText};
-use etalon_spectrum::{LAMBDA_MAX, LAMBDA_MIN, Spectrum, SpectrumError};
+use etalon_spectrum::{Spectrum, SpectrumError, ior};
 use etalon_transport::{Assets, SpectrumKind, TextureId};
 use std::sync::Arc;
 
@@ -174,22 +174,9 @@ impl TextureReader<'_> {
         let bounded = values.iter().all(|x| (0.0..=1.0).contains(x));
         let spectrum = match purpose.role {
             SpectrumKind::Emission if !purpose.nested => Spectrum::emission(values),
-            // An index of refraction is no colour, and Mitsuba's spectral modes hold each
-            // component to [0, 1]. So do we, aloud.
-            SpectrumKind::Unbounded => {
-                if !bounded {
-                    self.diagnostics.push(
-                        Diagnostic::note(
-                            span,
-                            "an rgb colour given for an unbounded quantity is held to [0, 1], \
-                             as in Mitsuba's spectral modes",
-                        )
-                        .help("give a <spectrum> to be exact"),
-                    );
-                }
-                Spectrum::reflectance(values.map(|x| x.clamp(0.0, 1.0)))
+            SpectrumKind::Emission | SpectrumKind::Unbounded | SpectrumKind::Index if !bounded => {
+                Spectrum::unbounded(values)
             }
-            SpectrumKind::Emission if !bounded => Spectrum::unbounded(values),
             _ => {
                 if values.iter().any(|&x| x > 1.0) {
                     self.note_held(span);
@@ -205,11 +192,29 @@ impl TextureReader<'_> {
             SpectrumText::Uniform(x) => Spectrum::uniform(*x),
             SpectrumText::Samples(pairs) => {
                 let (wavelengths, values): (Vec<f64>, Vec<f64>) = pairs.iter().copied().unzip();
-                Spectrum::tabulated(&wavelengths, &values)
+                self.table(&wavelengths, &values, purpose, span)
             }
         };
         let spectrum = self.checked(spectrum, span)?;
         self.admitted(spectrum, purpose, span)
+    }
+
+    /// A table of `values` at `wavelengths` (nm): beyond its ends zero, but an index goes on, with a note.
+    pub(crate) fn table(
+        &self,
+        wavelengths: &[f64],
+        values: &[f64],
+        purpose: Use,
+        span: Span,
+    ) -> Result<Spectrum, SpectrumError> {
+        if purpose.role != SpectrumKind::Index {
+            return Spectrum::tabulated(wavelengths, values);
+        }
+        let (table, note) = ior::held_table(wavelengths, values)?;
+        if let Some(note) = note {
+            self.diagnostics.push(Diagnostic::note(span, note));
+        }
+        Ok(table)
     }
 
     /// Refuses spectra below zero: no surface reflects and no light emits a negative amount. Holds
@@ -220,9 +225,7 @@ impl TextureReader<'_> {
         purpose: Use,
         span: Span,
     ) -> Option<Spectrum> {
-        let lowest = (LAMBDA_MIN as i32..=LAMBDA_MAX as i32)
-            .map(|nm| spectrum.eval_at(f64::from(nm)))
-            .fold(f64::INFINITY, f64::min);
+        let [lowest, _] = spectrum.range();
         if lowest < 0.0 && purpose.role != SpectrumKind::Unbounded {
             self.refuse(
                 span,

@@ -65,6 +65,7 @@ impl TextureTable {
             SpectrumKind::Reflectance,
             SpectrumKind::Emission,
             SpectrumKind::Unbounded,
+            SpectrumKind::Index,
         ];
         roles
             .into_iter()

@@ -14,12 +14,12 @@ pub(crate) fn read(
     params: &Params<'_>,
     purpose: Use,
 ) -> Option<Texture> {
-    let spectrum = spectrum(reader, params)?;
+    let spectrum = spectrum(reader, params, purpose)?;
     let admitted = reader.admitted(spectrum, purpose, params.node.plugin.span)?;
     Some(Texture::from(Constant::new(admitted)))
 }
 
-fn spectrum(reader: &TextureReader<'_>, params: &Params<'_>) -> Option<Spectrum> {
+fn spectrum(reader: &TextureReader<'_>, params: &Params<'_>, purpose: Use) -> Option<Spectrum> {
     let span = params.node.plugin.span;
     let numbers = |name| numbers(params, name);
     let required = |name| {
@@ -33,14 +33,27 @@ fn spectrum(reader: &TextureReader<'_>, params: &Params<'_>) -> Option<Spectrum>
         "uniform" => Spectrum::uniform(required("value")?),
         "regular" => {
             let (min, max) = (required("wavelength_min"), required("wavelength_max"));
-            in_nanometres(params, "wavelength_max", max.as_slice())?;
-            let values = numbers("values")?;
-            Spectrum::regular(min?, max?, &values)
+            let values = numbers("values");
+            let (min, max) = (min?, max?);
+            in_nanometres(params, "wavelength_max", &[min, max])?;
+            let values = values?;
+            match Spectrum::regular(min, max, &values) {
+                Ok(_) if purpose.role == SpectrumKind::Index => {
+                    let step = (max - min) / (values.len() - 1) as f64;
+                    let wavelengths = (0..values.len()).map(|i| min + i as f64 * step);
+                    reader.table(&wavelengths.collect::<Vec<_>>(), &values, purpose, span)
+                }
+                made => made,
+            }
         }
         "irregular" => {
             let (wavelengths, values) = (numbers("wavelengths"), numbers("values"));
             in_nanometres(params, "wavelengths", wavelengths.as_deref().unwrap_or(&[]))?;
-            Spectrum::irregular(&wavelengths?, &values?)
+            let (wavelengths, values) = (wavelengths?, values?);
+            match purpose.role {
+                SpectrumKind::Index => reader.table(&wavelengths, &values, purpose, span),
+                _ => Spectrum::irregular(&wavelengths, &values),
+            }
         }
         "illuminant" => {
             let Some(name) = params.string("name") else {

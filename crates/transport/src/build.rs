@@ -11,8 +11,11 @@ pub enum SpectrumKind {
     Reflectance,
     /// Emitted light: RGB and plain numbers scale D65.
     Emission,
-    /// A quantity without upper bound (η, k): RGB is upsampled with a scale.
+    /// A quantity without upper bound: RGB is upsampled with a scale.
     Unbounded,
+    /// A refractive index or an extinction coefficient (η, k): without upper bound, and a table goes on beyond its ends as
+    /// it is there.
+    Index,
     /// Six numbers that are no colour: a symmetric matrix ([`crate::Textures::tensor`]).
     Tensor,
 }

@@ -149,6 +149,55 @@ fn a_conductor_without_data_is_looked_up_in_files() {
 }
 
 #[test]
+fn conductors_given_as_colours_are_metals() {
+    for plugin in ["conductor", "roughconductor"] {
+        let said = |text: &str| {
+            let (material, notes) = Scene::default().read(&format!("{plugin} {text}"));
+            assert!(material.is_some(), "{notes:?}");
+            notes
+        };
+        let copper = "eta=c:0.200438,0.924033,1.10221 k=c:3.91295,2.45285,2.14219";
+        let notes = said(copper);
+        assert!(notes[0].message.contains("`Cu`"), "{notes:?}");
+        assert_eq!(said("eta=c:0.21,0.97,1.16 k=c:3.91295,2.45285,2.14219"), []);
+        assert_eq!(said("eta=f:0 k=c:1,1,1"), []);
+    }
+    let copper = "conductor eta=c:0.200438,0.924033,1.10221 k=c:3.91295,2.45285,2.14219";
+    let named = mirror("conductor material=s:Cu", Scene::default());
+    assert_eq!(mirror(copper, Scene::default()), named);
+    let grey = mirror("conductor eta=c:1.5,1.5,1.5 k=f:2", Scene::default());
+    assert!(
+        (grey - mirror("conductor eta=f:1.5 k=f:2", Scene::default()))
+            .abs()
+            .max_element()
+            < 1e-6
+    );
+    let (material, errors) = Scene::default().read("conductor eta=c:0,0,1");
+    assert!(material.is_some(), "{errors:?}");
+}
+
+#[test]
+fn an_index_that_ends_goes_on_with_a_note() {
+    // The test's wavelengths lie on both sides of the tables' ends. Tables given by themselves: `rules` in `textures`.
+    let short = "500 1.5\n510 1.5\n";
+    let files = Scene::default()
+        .with_file("Xx.eta.spd", "wavelength n\n510 1.5\n500 1.5\n")
+        .with_file("Xx.k.spd", "500 2\n510 2\n");
+    let flat = mirror("conductor eta=f:1.5 k=f:2", Scene::default());
+    let held = mirror("conductor material=s:Xx", files);
+    assert!((held - flat).abs().max_element() < 1e-6, "{held}");
+    let mut files = Scene::default()
+        .with_file("Xx.eta.spd", &format!("wavelength n\n{short}"))
+        .with_file("Xx.k.spd", short);
+    let said = files.read("conductor material=s:Xx").1;
+    for part in ["line 1 of `Xx.eta.spd`", "from 500 to 510 nm"] {
+        assert!(said.iter().any(|d| d.message.contains(part)), "{said:?}");
+    }
+    let notes = Scene::default().read("dielectric int_ior=t:500:1.5,510:1.5").1;
+    assert!(notes[0].message.contains("from 500 to 510 nm"), "{notes:?}");
+}
+
+#[test]
 fn the_perfect_mirror_is_the_default_conductor() {
     for text in ["conductor", "conductor material=s:none"] {
         assert_eq!(mirror(text, Scene::default()), Vec4::ONE);

@@ -2,9 +2,9 @@
 //!
 //! `plugin key=kind:value … ( nested ) …` with the kinds `f` (number), `s` (string, `_` for a
 //! space), `b` (boolean), `u` (uniform spectrum) and `t` (tabulated spectrum, `nm:value,…`)
-//! and `n` (the same as a nested object).
+//! and `n` (the same as a nested object), `c` (a colour, `r,g,b`).
 
-use etalon_params::{Class, FileId, Node, Property, Span, Spanned, SpectrumText, Value};
+use etalon_params::{Class, DVec3, FileId, Node, Property, Span, Spanned, SpectrumText, Value};
 use std::sync::Arc;
 
 /// A place for things that stand nowhere.
@@ -59,6 +59,10 @@ fn value(kind: &str, text: &str) -> Value {
         "f" => Value::Float(number(text)),
         "s" => Value::String(text.replace('_', " ")),
         "b" => Value::Boolean(text == "true"),
+        "c" => {
+            let channels: Vec<f64> = text.split(',').map(number).collect();
+            Value::Rgb(DVec3::from_slice(&channels))
+        }
         "u" => Value::Spectrum(SpectrumText::Uniform(number(text))),
         "t" => Value::Spectrum(SpectrumText::Samples(
             text.split(',')

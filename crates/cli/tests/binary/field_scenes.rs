@@ -262,12 +262,12 @@ fn a_negative_radius_is_refused() {
 
 #[test]
 fn a_note_made_at_many_places_is_shown_once() {
-    let metal = "<bsdf type=\"conductor\"><rgb name=\"eta\" value=\"0.2, 1.1, 1.4\"/>\
-                 <rgb name=\"k\" value=\"3.9, 2.4, 2.1\"/></bsdf>\n";
+    let metal = "<bsdf type=\"conductor\"><spectrum name=\"eta\" value=\"500:0.9, 600:0.3\"/>\
+                 <spectrum name=\"k\" value=\"500:1.8, 600:3\"/></bsdf>\n";
     let scene = plain("0.6.0", &metal.repeat(20));
     let (_, said) = rendered(&scene);
     assert_eq!(
-        said.matches("an rgb colour given for an unbounded quantity")
+        said.matches("this index is given from 500 to 600 nm")
             .count(),
         1,
         "{said}"

@@ -142,15 +142,18 @@ fn colours_of_old_files_have_their_values() {
 }
 
 #[test]
-fn wavelengths_in_micrometres_are_refused() {
+fn wavelengths_in_other_units_are_refused() {
     let text = "<scene version='3.0.0'><bsdf type='x'>
         <spectrum name='a' value='0.4:0.5, 0.7:0.5'/></bsdf></scene>";
-    refused(text, "the wavelengths end at 0.7 nm");
+    refused(text, "the wavelengths go from 0.4 to 0.7 nm");
+    let text = "<scene version='3.0.0'><bsdf type='x'>
+        <spectrum name='a' value='4000:0.5, 7000:0.5'/></bsdf></scene>";
+    refused(text, "not in ångström");
     let text = "<scene version='3.0.0'><bsdf type='x'><spectrum name='a' filename='a.spd'/></bsdf></scene>";
     let files = [("main.xml", text), ("a.spd", "0.4 0.5\n0.7 0.5\n")];
     let lines = outcome(&files, &ReadOptions::default()).lines();
     assert!(
-        lines.contains("a.spd:2:1: error: the wavelengths end at 0.7 nm"),
+        lines.contains("a.spd:2:1: error: the wavelengths go from 0.4 to 0.7 nm"),
         "{lines}"
     );
 }
