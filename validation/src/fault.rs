@@ -197,10 +197,6 @@ impl<W: World> World for Faulty<'_, W> {
         self.world.sensor(wavelengths)
     }
 
-    fn sensor_unit(&self) -> Vec3 {
-        self.world.sensor_unit()
-    }
-
     fn intersect(&self, ray: &Ray) -> Option<Hit> {
         self.world.intersect(ray)
     }

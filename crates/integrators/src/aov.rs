@@ -9,11 +9,11 @@
 //!
 //! over the n samples of a pixel, which its filter places and weighs by wᵢ (1 without negative lobes):
 //! the geometric buffers of Saito & Takahashi 1990 ("Comprehensible Rendering of 3-D Shapes"), with
-//! antialiasing. All variables are numbers but the albedo ρ, which is a spectrum and so an estimate itself,
-//! by a sample's four wavelengths, their density p and the sensor's response s:
+//! antialiasing. All variables are numbers but the albedo ρ, a spectrum, whose channels are its colour under daylight D
+//! ([`QuadratureNode`] with 36 wavelengths), so that what is grey is grey:
 //!
 //! ```text
-//! v = ¼ Σⱼ ρ(x, λⱼ) s(λⱼ) / p(λⱼ)
+//! v = ∫ ρ(x, λ) D(λ) s(λ) dλ,   held to [0, 1], as ρ(x, λ) is
 //! ```
 //!
 //! Channels, named as Mitsuba names them: for each nested integrator `NAME` its `NAME.R`,
@@ -26,17 +26,18 @@ use crate::list::Nested;
 use crate::path::camera_ray;
 use etalon_params::{Diagnostic, Params};
 use etalon_sampling::{ReplicateKind, Sampler};
-use etalon_spectrum::Wavelengths;
+use etalon_spectrum::QuadratureNode;
 use etalon_transport::{
     Bsdf, Camera, Channel, Incompatibility, Integrator, Pass, PixelSample, Placing, Ray,
     SceneCapabilities, Sink, SurfaceInteraction, World,
 };
-use glam::{Vec2, Vec3};
+use glam::{Vec2, Vec3, Vec4};
+use std::sync::LazyLock;
 
 /// A variable of the first surface.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Variable {
-    /// Albedo (linear Rec.709).
+    /// Albedo under daylight (linear Rec.709).
     Albedo,
     /// Distance along the ray (m).
     Depth,
@@ -61,6 +62,13 @@ pub enum Variable {
     /// Number of the shape in the scene, from 1, in the order of the file; 0 is no shape.
     ShapeIndex,
 }
+
+/// Fourths of the wavelengths at which an albedo is asked for.
+const NODES: u32 = 9;
+
+/// These wavelengths.
+static DAYLIGHT: LazyLock<Vec<QuadratureNode>> =
+    LazyLock::new(|| QuadratureNode::standard(NODES).collect());
 
 /// Name, variable, channel suffixes: one line per variable.
 const VARIABLES: [(&str, Variable, &[&str]); 12] = [
@@ -195,7 +203,7 @@ impl Integrator for Aov {
             index += 4 + nested.channels;
         }
 
-        let (wavelengths, ray, _) = camera_ray(world, site, sampler);
+        let (_, ray, _) = camera_ray(world, site, sampler);
         let hit = world.intersect(&ray);
         if self.nested.is_empty() {
             sink.radiance([0.0; 3], if hit.is_some() { 1.0 } else { 0.0 });
@@ -205,15 +213,7 @@ impl Integrator for Aov {
         };
         let vertex = world.vertex(&ray, &hit);
         for request in &self.requests {
-            let value = evaluate(
-                request.variable,
-                world,
-                &wavelengths,
-                &ray,
-                &vertex,
-                site,
-                sampler,
-            );
+            let value = evaluate(request.variable, world, &ray, &vertex, site, sampler);
             for (i, _) in request.suffixes.iter().enumerate() {
                 sink.channel(index, value[i]);
                 index += 1;
@@ -225,7 +225,6 @@ impl Integrator for Aov {
 fn evaluate<W: World, S: Sampler>(
     variable: Variable,
     world: &W,
-    wavelengths: &Wavelengths,
     ray: &Ray,
     vertex: &SurfaceInteraction,
     site: &PixelSample,
@@ -234,8 +233,16 @@ fn evaluate<W: World, S: Sampler>(
     match variable {
         Variable::Albedo => {
             let wo = -ray.direction;
-            let albedo = world.bsdf(vertex, wo, wavelengths).albedo(wo);
-            world.sensor(wavelengths).rgb(albedo * 0.25)
+            let colour: Vec3 = DAYLIGHT
+                .iter()
+                .map(|node| {
+                    let albedo = world.bsdf(vertex, wo, &node.wavelengths).albedo(wo);
+                    let light = node.daylight / (4 * NODES) as f32;
+                    node.response
+                        .rgb(albedo.clamp(Vec4::ZERO, Vec4::ONE) * light)
+                })
+                .sum();
+            colour.clamp(Vec3::ZERO, Vec3::ONE)
         }
         Variable::Depth => Vec3::splat(vertex.t),
         Variable::Position => vertex.position,

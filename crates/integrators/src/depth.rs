@@ -1,17 +1,13 @@
 //! `depth`: the distance to the first surface.
 //!
 //! ```text
-//! C = ∫ s(λ) dλ · 1/n Σᵢ wᵢ tᵢ
+//! C = 1/n Σᵢ wᵢ tᵢ
 //! ```
 //!
 //! with tᵢ the distance along the ray of the pixel's i-th sample (a depth buffer, Catmull 1974, with
-//! antialiasing and along the ray), wᵢ the sample's weight in the pixel's filter (1 without negative
-//! lobes) and s the sensor's response.
-//!
-//! As in Mitsuba the distance is a spectrum that is constant over wavelength, so the sensor
-//! turns it into a colour; the expected colour of a constant spectrum 1 is known exactly, so no
-//! wavelength is drawn for it. Nothing hit counts as distance 0. The plain number is the `depth`
-//! channel of `aov`.
+//! antialiasing and along the ray) and wᵢ the sample's weight in the pixel's filter (1 without negative
+//! lobes): a number and no light, so all channels have it, as the `depth` channel of `aov` does. Nothing hit counts as
+//! distance 0.
 
 use crate::path::camera_ray;
 use etalon_sampling::{ReplicateKind, Sampler};
@@ -47,6 +43,6 @@ impl Integrator for Depth {
     ) {
         let (_, ray, _) = camera_ray(world, site, sampler);
         let (t, alpha) = world.intersect(&ray).map_or((0.0, 0.0), |hit| (hit.t, 1.0));
-        sink.radiance((world.sensor_unit() * t).to_array(), alpha);
+        sink.radiance([t; 3], alpha);
     }
 }

@@ -93,10 +93,6 @@ impl World for Scene {
         self.sensor.weights(wavelengths)
     }
 
-    fn sensor_unit(&self) -> Vec3 {
-        self.sensor.unit()
-    }
-
     #[inline]
     fn intersect(&self, ray: &Ray) -> Option<Hit> {
         rays::count();

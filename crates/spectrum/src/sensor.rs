@@ -16,7 +16,7 @@ use crate::cie::{self, COUNT, FIRST};
 use crate::colour_space::{XYZ_TO_RGB, apply};
 use crate::{LAMBDA_MAX, LAMBDA_MIN, Spectrum, WavelengthDistribution, Wavelengths};
 use glam::{Mat4, Vec3, Vec4};
-use std::sync::{Arc, LazyLock};
+use std::sync::Arc;
 
 /// s(λⱼ)/p(λⱼ) for each channel and each lane, nm.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -130,26 +130,6 @@ impl Sensor {
     pub fn weights(&self, wavelengths: &Wavelengths) -> SensorWeights {
         SensorWeights::new(respond(&self.rows, wavelengths.lambda), wavelengths)
     }
-
-    /// Its channels for a radiance of 1 at every wavelength.
-    pub fn unit(&self) -> Vec3 {
-        unit(&self.rows)
-    }
-}
-
-/// The standard sensor's linear Rec. 709 for a radiance of 1 at every wavelength.
-pub fn standard_unit() -> Vec3 {
-    static UNIT: LazyLock<Vec3> = LazyLock::new(|| unit(&RESPONSE));
-    *UNIT
-}
-
-/// The integrals of curves: linear between whole nanometres, and next to nothing at the ends.
-fn unit(rows: &Rows) -> Vec3 {
-    let sum = |channel: usize| -> f64 {
-        let seen = rows.iter().take(COUNT);
-        seen.map(|row| f64::from(row[channel])).sum()
-    };
-    Vec3::new(sum(0) as f32, sum(1) as f32, sum(2) as f32)
 }
 
 /// The weights of a path's wavelengths for the standard sensor: response over density.

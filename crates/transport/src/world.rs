@@ -6,7 +6,6 @@ use crate::{
     SurfaceInteraction, TraceEvent,
 };
 use etalon_math::{Density, SolidAngle};
-use etalon_spectrum::sensor::standard_unit;
 use etalon_spectrum::{SensorWeights, Wavelengths, sensor_response};
 use glam::{Vec2, Vec3, Vec4};
 
@@ -125,11 +124,6 @@ pub trait World: Sync {
     #[inline]
     fn sensor(&self, wavelengths: &Wavelengths) -> SensorWeights {
         sensor_response(wavelengths)
-    }
-
-    /// What the sensor makes of a radiance of 1 at all wavelengths. A world with the standard sensor keeps this.
-    fn sensor_unit(&self) -> Vec3 {
-        standard_unit()
     }
 
     /// The nearest surface along a ray.

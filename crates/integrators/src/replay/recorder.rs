@@ -136,10 +136,6 @@ impl<'a, W: World> World for Recorder<'a, W> {
         self.world.sensor(wavelengths)
     }
 
-    fn sensor_unit(&self) -> Vec3 {
-        self.world.sensor_unit()
-    }
-
     fn intersect(&self, ray: &Ray) -> Option<Hit> {
         let hit = self.world.intersect(ray);
         self.notebook.write(|notes| {

@@ -22,11 +22,12 @@
 //! L_mirror. Light passes transparent classic surfaces straight on its way from a lamp, dimmed by α
 //! at each; other interfaces cast black shadows unless light passes them straight (`mask`, …).
 //!
-//! Wavelengths are those of the midpoint rule in the distribution that paths draw theirs from, so
-//! every picture is without noise; smooth dispersion sends each its own way. Every pixel is the
+//! Wavelengths are those of a rule for integrals ([`QuadratureNode`]) in strata that paths draw theirs from with equal
+//! probability, so every picture is without noise; smooth dispersion sends each its own way. Every pixel is the
 //! mean of a grid of points over its square, refined where neighbours differ.
 //!
 //! [`LegacyPhong`]: etalon_transport::LegacyPhong
+//! [`QuadratureNode`]: etalon_spectrum::QuadratureNode
 
 mod light;
 mod phong;
@@ -42,6 +43,7 @@ use etalon_transport::{
 use glam::{UVec2, Vec4};
 pub use pixel::Grid;
 use std::sync::OnceLock;
+use tree::Packet;
 pub use tree::{Continuation, onward};
 
 /// How the light of lamps without extent fades with distance.
@@ -129,11 +131,10 @@ impl Whitted {
     }
 
     /// A pixel's colour and alpha.
-    fn pixel<W: World>(&self, world: &W, pixel: UVec2) -> Vec4 {
-        let packets = tree::Packets::new(world, self.wavelengths / 4);
+    fn pixel<W: World>(&self, world: &W, packets: &[Packet], pixel: UVec2) -> Vec4 {
         let corner = pixel.as_vec2();
         self.grid
-            .mean(corner, |raster| self.through(world, &packets, raster))
+            .mean(corner, |raster| self.through(world, packets, raster))
     }
 }
 
@@ -143,15 +144,17 @@ pub struct Picture {
     origin: UVec2,
     width: u32,
     pixels: Vec<OnceLock<Vec4>>,
+    packets: Vec<Packet>,
 }
 
 impl Picture {
-    fn blank(pass: &Pass) -> Self {
+    fn blank(pass: &Pass, packets: Vec<Packet>) -> Self {
         let count = pass.size.x as usize * pass.size.y as usize;
         Self {
             origin: pass.origin,
             width: pass.size.x,
             pixels: core::iter::repeat_with(OnceLock::new).take(count).collect(),
+            packets,
         }
     }
 
@@ -189,12 +192,15 @@ impl Integrator for Whitted {
 
     fn prepare<W: World>(
         &self,
-        _: &W,
+        world: &W,
         _: &impl Placing,
         pass: &Pass,
         before: Option<Picture>,
     ) -> Picture {
-        before.unwrap_or_else(|| Picture::blank(pass))
+        before.unwrap_or_else(|| {
+            let packets = tree::packets(world, self.wavelengths / 4);
+            Picture::blank(pass, packets)
+        })
     }
 
     fn sample<W: World, S: Sampler, K: Sink>(
@@ -205,7 +211,9 @@ impl Integrator for Whitted {
         _: &mut S,
         sink: &mut K,
     ) {
-        let seen = picture.pixel(site.pixel, || self.pixel(world, site.pixel));
+        let seen = picture.pixel(site.pixel, || {
+            self.pixel(world, &picture.packets, site.pixel)
+        });
         sink.radiance(seen.truncate().to_array(), seen.w);
     }
 

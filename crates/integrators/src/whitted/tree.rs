@@ -5,7 +5,7 @@
 
 use super::{Whitted, phong};
 use crate::steps::next_surface;
-use etalon_spectrum::{SensorWeights, Wavelengths};
+use etalon_spectrum::{QuadratureNode, SensorWeights, Wavelengths};
 use etalon_transport::{Bsdf, Camera, Ray, SurfaceInteraction, TransportMode, World};
 use glam::{Vec2, Vec3, Vec4};
 
@@ -23,42 +23,32 @@ pub(super) struct Packet {
 
 impl Packet {
     /// The packet in which lane `k` chooses, and is alone.
-    fn alone(&self, world: &impl World, k: usize) -> Self {
-        let wavelengths = self.wavelengths.rotated(k);
+    fn alone(&self, k: usize) -> Self {
+        let lane = |channel: Vec4| Vec4::X * channel[k];
+        let SensorWeights { r, g, b } = self.response;
         Self {
-            response: world.sensor(&wavelengths),
+            response: SensorWeights {
+                r: lane(r),
+                g: lane(g),
+                b: lane(b),
+            },
             weight: Vec4::X * self.weight[k],
-            wavelengths,
+            wavelengths: self.wavelengths.rotated(k),
         }
     }
 }
 
-/// Packets that go the same way.
-pub(super) struct Packets {
-    list: [Packet; SETS],
-    count: usize,
-}
-
-impl Packets {
-    /// The wavelengths of the midpoint rule with `count` packets, at most [`SETS`].
-    pub(super) fn new<W: World>(world: &W, count: u32) -> Self {
-        let packet = |i: usize| {
-            let wavelengths = world.wavelengths((i as f32 + 0.5) / (4 * count) as f32);
-            Packet {
-                response: world.sensor(&wavelengths),
-                weight: Vec4::splat(1.0 / (4 * count) as f32),
-                wavelengths,
-            }
-        };
-        Self {
-            list: core::array::from_fn(|i| packet(i % count as usize)),
-            count: count as usize,
-        }
-    }
-
-    fn get(&self) -> &[Packet] {
-        &self.list[..self.count]
-    }
+/// The packets of `count` nodes, at most [`SETS`].
+pub(super) fn packets<W: World>(world: &W, count: u32) -> Vec<Packet> {
+    let nodes = QuadratureNode::all(count, |u| world.wavelengths(u), |w| world.sensor(w));
+    let weight = Vec4::splat(1.0 / (4 * count) as f32);
+    nodes
+        .map(|node| Packet {
+            wavelengths: node.wavelengths,
+            response: node.response,
+            weight,
+        })
+        .collect()
 }
 
 /// A ray that leaves a surface in a direction of its own.
@@ -74,13 +64,12 @@ pub struct Continuation {
 
 impl Whitted {
     /// Colour and alpha seen through a point of the film.
-    pub(super) fn through<W: World>(&self, world: &W, packets: &Packets, raster: Vec2) -> Vec4 {
+    pub(super) fn through<W: World>(&self, world: &W, packets: &[Packet], raster: Vec2) -> Vec4 {
         if self.max_depth == 0 {
             return Vec4::ZERO;
         }
         // A lens is looked through in its middle, and its shutter only opens.
         let start = world.camera().ray(raster, Vec2::splat(0.5), 0.0);
-        let packets = packets.get();
         let rgb = self.follow(world, start.ray, packets, 1);
         let alpha = self.alpha(world, start.ray, &packets[0].wavelengths);
         (rgb * start.weight).extend(alpha)
@@ -144,7 +133,7 @@ impl Whitted {
                 // Lane 0 chose; others that go elsewhere are asked one by one.
                 for lane in (1..4).filter(|&k| packet.weight[k] != 0.0 && whole.together[k] == 0.0)
                 {
-                    let alone = packet.alone(world, lane);
+                    let alone = packet.alone(lane);
                     let Some(own) = at(&alone).filter(|own| own.value.x != 0.0) else {
                         continue;
                     };

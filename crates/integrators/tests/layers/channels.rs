@@ -166,6 +166,35 @@ fn variables_describe_the_first_surface() {
     }
 }
 
+/// An albedo has the colour that daylight shows, and is a share of the light: what is grey is grey in every sample, and
+/// nothing exceeds 1. Mutants rejected: the colour under even light; a value that is not held to 1.
+#[test]
+fn an_albedo_is_the_colour_under_daylight() {
+    let list = ("aovs", Value::String("a:albedo".into()));
+    let aov = read(&node("aov", vec![list]), Aov::from_params);
+    let of = |reflectance: fn(f32) -> f32, i| {
+        let plane = Plane {
+            reflectance,
+            ..Plane::WHITE
+        };
+        let seen = sample(&aov, &floor(vec![plane]), i);
+        ["a.R", "a.G", "a.B"].map(|name| seen.values[name])
+    };
+    for i in 0..4 {
+        for channel in of(|_| 0.5, i) {
+            assert!((channel - 0.5).abs() < 1e-4, "{channel}");
+        }
+        assert!(
+            of(|_| 28.0, i)
+                .iter()
+                .all(|channel| (channel - 1.0).abs() < 1e-4)
+        );
+        // More than the colours of the screen: held to them.
+        let [r, g, b] = of(|nm| if nm < 500.0 { 0.9 } else { 0.0 }, i);
+        assert!((0.0..0.3).contains(&r) && (0.0..0.3).contains(&g) && (0.5..=1.0).contains(&b));
+    }
+}
+
 #[test]
 fn moments_are_squares_of_single_samples() {
     let aov = node("aov", vec![("aovs", Value::String("d:depth".into()))]);
@@ -204,16 +233,15 @@ fn moments_are_squares_of_single_samples() {
     assert!(luminances.len() > 1, "samples do not vary");
 }
 
-/// The colour of distance is that of a constant spectrum, without noise.
+/// Distance is a number, and no light that has a colour. Mutant rejected: the colour of an even spectrum.
 #[test]
-fn depth_is_a_constant_spectrum() {
+fn depth_is_grey() {
     let world = floor(vec![Plane::WHITE]);
-    let white = crate::exact::integral(|_| 1.0);
     for i in 0..4 {
         let seen = sample(&Depth, &world, i);
-        for (c, white) in ["R", "G", "B"].into_iter().zip(white) {
-            let value = f64::from(seen.values[&format!("picture.{c}")]);
-            assert!((value - 2.5 * white).abs() < 1e-4 * value, "{c}: {value}");
+        for c in ["R", "G", "B"] {
+            let value = seen.values[&format!("picture.{c}")];
+            assert!((value - 2.5).abs() < 1e-5, "{c}: {value}");
         }
     }
     let missed = sample(&Depth, &floor(Vec::new()), 0);

@@ -4,7 +4,7 @@ use crate::exact::Exact;
 use crate::world::{Fault, Plane, Stack, ZERO};
 use etalon_integrators::whitted::{Falloff, Grid, Whitted};
 use etalon_sampling::{Independent, SampleId};
-use etalon_spectrum::sensor_response;
+use etalon_spectrum::{QuadratureNode, sensor_response};
 use etalon_transport::{Integrator, Pass, PixelSample, Sink, World};
 use glam::{UVec2, Vec2, Vec4};
 
@@ -91,14 +91,11 @@ fn exact(stack: &Stack, max_depth: u32) -> [f32; 3] {
         max_depth,
         hidden: false,
     };
-    let sets = WAVELENGTHS / 4;
-    let colour = (0..sets).map(|i| {
-        let wavelengths = stack.wavelengths((i as f32 + 0.5) / WAVELENGTHS as f32);
-        let radiance = wavelengths
-            .lambda
-            .to_array()
-            .map(|l| exact.radiance(l) as f32);
-        sensor_response(&wavelengths).rgb(Vec4::from_array(radiance) / WAVELENGTHS as f32)
+    let nodes = QuadratureNode::all(WAVELENGTHS / 4, |u| stack.wavelengths(u), sensor_response);
+    let colour = nodes.map(|node| {
+        let lambda = node.wavelengths.lambda.to_array();
+        let radiance = lambda.map(|l| exact.radiance(l) as f32);
+        (node.response).rgb(Vec4::from_array(radiance) / WAVELENGTHS as f32)
     });
     colour.sum::<glam::Vec3>().to_array()
 }
