@@ -1,5 +1,6 @@
 //! Writing a file so that it is either the old one or the whole new one, never a part.
 
+use std::ffi::{OsStr, OsString};
 use std::fs::{self, File, OpenOptions};
 use std::io::{self, BufWriter, ErrorKind, Write};
 use std::path::{Path, PathBuf};
@@ -8,7 +9,8 @@ use std::path::{Path, PathBuf};
 ///
 /// The new file lies beside `path` under a temporary name until it is complete and on the disk;
 /// renaming it is one step for every reader. If `write` fails, or the process is killed, `path`
-/// is what it was (a killed process may leave the temporary file, `.NAME.PID-N.part`). A
+/// is what it was (a killed process may leave the temporary file, `.NAME.PID-N.part`, where a long
+/// NAME is cut). A
 /// symbolic link stays one: the file it points to is replaced, or made if it does not exist yet.
 /// Something that is not a regular file, such as a device or a pipe, cannot be replaced and is
 /// written directly.
@@ -89,10 +91,7 @@ fn create_beside(path: &Path) -> io::Result<(PathBuf, File)> {
     }
     let process = std::process::id();
     for attempt in 0..1000 {
-        let mut hidden = std::ffi::OsString::from(".");
-        hidden.push(name);
-        hidden.push(format!(".{process}-{attempt}.part"));
-        let temporary = path.with_file_name(hidden);
+        let temporary = path.with_file_name(hidden(name, &format!(".{process}-{attempt}.part")));
         match OpenOptions::new()
             .write(true)
             .create_new(true)
@@ -107,6 +106,26 @@ fn create_beside(path: &Path) -> io::Result<(PathBuf, File)> {
         ErrorKind::AlreadyExists,
         "no free temporary name beside the file",
     ))
+}
+
+/// The bytes that a name may have.
+const LONGEST: usize = 255;
+
+/// A hidden name that ends so, with as much of `name` as there is room for.
+fn hidden(name: &OsStr, suffix: &str) -> OsString {
+    let mut hidden = OsString::from(".");
+    if 1 + name.len() + suffix.len() <= LONGEST {
+        hidden.push(name);
+    } else {
+        let mut most = LONGEST - 1 - suffix.len();
+        let name = name.to_string_lossy();
+        while !name.is_char_boundary(most) {
+            most -= 1;
+        }
+        hidden.push(&name[..most]);
+    }
+    hidden.push(suffix);
+    hidden
 }
 
 #[cfg(all(test, unix))]
@@ -152,5 +171,23 @@ mod tests {
         symlink("loop", folder.path().join("loop")).expect("linked");
         write_atomically(&folder.path().join("loop"), |_| Ok(())).expect_err("a circle");
         assert!(fs::read_link(&nowhere).is_ok());
+    }
+
+    /// A name of 255 bytes is legal, and its temporary one must be.
+    #[test]
+    fn long_names_are_written() {
+        let folder = tempfile::tempdir().expect("a folder");
+        for name in [
+            "a".repeat(251) + ".exr",
+            "光".repeat(83) + "ab.exr",
+            "光".repeat(85),
+        ] {
+            let path = folder.path().join(&name);
+            write_atomically(&path, |file| file.write_all(b"x")).expect("written");
+            assert_eq!(fs::read(&path).expect("reads"), b"x");
+        }
+        let longer = folder.path().join("a".repeat(256));
+        write_atomically(&longer, |_| Ok(())).expect_err("too long");
+        assert_eq!(fs::read_dir(folder.path()).expect("lists").count(), 3);
     }
 }
