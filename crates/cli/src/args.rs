@@ -117,7 +117,7 @@ Exit codes: 0 done, 2 bad input or usage.
 
 Examples:
   etalon movie walk.*.exr -o walk.png --fps 24
-  etalon movie walk.*.exr -o walk.mp4")]
+  etalon movie walk.####.exr --frames 1..240 -o walk.mp4")]
     Movie(MovieArgs),
     /// Say what is in a scene or an image, or which plugins there are.
     #[command(after_help = "\
@@ -365,9 +365,12 @@ pub struct ConvertArgs {
 /// Arguments of `movie`.
 #[derive(Debug, Args, Clone)]
 pub struct MovieArgs {
-    /// The frames, in order (EXR, PNG or what `etalon convert` reads).
+    /// The frames, in order (EXR, PNG or what `etalon convert` reads), or one name with `####` for their numbers.
     #[arg(required = true, value_name = "FRAME.exr")]
-    pub frames: Vec<PathBuf>,
+    pub files: Vec<PathBuf>,
+    /// Which numbers the frames of one name have: all of them must be there.
+    #[arg(long, value_name = "A..B", value_parser = FrameRange::parse, allow_hyphen_values = true)]
+    pub frames: Option<FrameRange>,
     /// The file to write: .png (animated), or what ffmpeg makes, such as .mp4, .webm, .mkv, .gif.
     #[arg(short, long, value_name = "OUT.png")]
     pub output: PathBuf,

@@ -262,10 +262,11 @@ fn harmless(text: &Arc<str>) -> Arc<str> {
     text.chars().map(replace).collect::<String>().into()
 }
 
-/// Prints diagnostics to standard error, in colour if that is a terminal and `NO_COLOR`
+/// Prints diagnostics to standard error, in colour if that is a terminal that can, and `NO_COLOR`
 /// (no-color.org) is not set.
 pub fn print(diagnostics: &[Diagnostic], sources: &Sources) {
-    let refused = std::env::var_os("NO_COLOR").is_some_and(|value| !value.is_empty());
+    let refused = std::env::var_os("NO_COLOR").is_some_and(|value| !value.is_empty())
+        || std::env::var_os("TERM").is_some_and(|value| value == "dumb");
     let coloured = std::io::stderr().is_terminal() && !refused;
     say::remark(&render(diagnostics, sources, coloured));
 }

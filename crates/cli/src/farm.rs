@@ -3,6 +3,8 @@
 //! A task is one command, `sh task.sh N`: it renders a part of the replicates, or a frame, with `--resume`, so that it may be started again
 //! at any time, by whatever engine. `sh merge.sh` puts the parts together, and `sh submit.sh` hands both to the engine.
 
+use crate::quoting;
+use std::collections::HashSet;
 use std::fmt::Write;
 use std::path::{Path, PathBuf};
 
@@ -69,14 +71,41 @@ pub struct Job {
     pub options: String,
 }
 
-/// A word for a shell.
+/// A path for a shell.
 fn quoted(path: &Path) -> String {
-    super::commands::quoted(&path.display().to_string())
+    quoting::shell(&path.display().to_string())
 }
 
 impl Job {
     fn inside(&self, name: &str) -> String {
         quoted(&self.folder.join(name))
+    }
+
+    /// The folder that the pieces go to, and their names, where `number` stands for the piece.
+    fn pieces(&self, number: &str) -> (&'static str, String) {
+        match self.work {
+            Work::Parts(_) => ("parts", format!("part-{number}.exr")),
+            Work::Frames { .. } => ("frames", format!("{}.{number}.exr", self.name)),
+        }
+    }
+
+    /// Files, of these names, in the folder of the pieces, that are pictures of another job.
+    pub fn stale<'a>(&self, names: &'a [String]) -> Vec<&'a str> {
+        let [first, last] = self.work.range();
+        let ours: HashSet<String> = (first..=last)
+            .map(|n| self.pieces(&format!("{n:04}")).1)
+            .collect();
+        let names = names.iter().map(String::as_str);
+        names
+            .filter(|name| {
+                name.ends_with(".exr") && !name.starts_with('.') && !ours.contains(*name)
+            })
+            .collect()
+    }
+
+    /// The folder of the pieces.
+    pub fn pieces_folder(&self) -> &'static str {
+        self.pieces("").0
     }
 
     /// How many tasks there are; each has every so many-th piece.
@@ -102,16 +131,16 @@ impl Job {
     fn task(&self) -> String {
         let [first, last] = self.work.range();
         let (tasks, program, scene) = (self.tasks(), quoted(&self.program), quoted(&self.scene));
+        let (folder, frame) = self.pieces("####");
         let piece = match self.work {
             Work::Parts(count) => format!(
                 "-o {}/part-$(printf %04d \"$piece\").exr --part \"$piece\"/{count}",
-                self.inside("parts")
+                self.inside(folder)
             ),
-            Work::Frames { .. } => format!(
-                "-o {}/{}.####.exr --frames \"$piece\"",
-                self.inside("frames"),
-                super::commands::quoted(&self.name)
-            ),
+            Work::Frames { .. } => {
+                let frame = self.inside(&format!("{folder}/{frame}"));
+                format!("-o {frame} --frames \"$piece\"")
+            }
         };
         let last_task = first + tasks - 1;
         format!(
@@ -132,21 +161,26 @@ impl Job {
     fn merge(&self) -> String {
         let program = quoted(&self.program);
         let image = self.folder.join(&self.name);
+        let (folder, frame) = self.pieces("####");
+        // What else may lie in the folders is of other jobs.
         let commands = match self.work {
-            Work::Parts(_) => format!(
-                "\"$etalon\" merge {} -o {image}\n\"$etalon\" convert {image} {picture}\n",
-                self.inside("parts"),
+            Work::Parts(count) => format!(
+                "for piece in $(seq 1 {count}); do\n    \
+                     set -- \"$@\" {}/part-$(printf %04d \"$piece\").exr\n\
+                 done\n\
+                 \"$etalon\" merge \"$@\" -o {image}\n\"$etalon\" convert {image} {picture}\n",
+                self.inside(folder),
                 image = quoted(&image.with_extension("exr")),
                 picture = quoted(&image.with_extension("png"))
             ),
-            Work::Frames { .. } => format!(
-                "\"$etalon\" movie {}/*.exr -o {}\n",
-                self.inside("frames"),
+            Work::Frames { first, last } => format!(
+                "\"$etalon\" movie {} --frames {first}..{last} -o {}\n",
+                self.inside(&format!("{folder}/{frame}")),
                 quoted(&image.with_extension("png"))
             ),
         };
         format!(
-            "#!/bin/sh\n# Puts together what the tasks have rendered.\nset -eu\netalon=${{ETALON:-{program}}}\n{commands}"
+            "#!/bin/sh\n# Puts together what the tasks have rendered.\nset -eu\nset --\netalon=${{ETALON:-{program}}}\n{commands}"
         )
     }
 
@@ -161,26 +195,39 @@ impl Job {
         let (task, merge) = (self.inside("task.sh"), self.inside("merge.sh"));
         let commands = match self.engine {
             Engine::Slurm => format!(
-                "job=$(sbatch --parsable {script} | cut -d';' -f1)\n\
+                "job=$(sbatch --parsable {script})\n\
+                 job=${{job%%;*}}\n\
+                 [ -n \"$job\" ] || {{ echo \"sbatch has named no job\" >&2; exit 1; }}\n\
                  merge=$(sbatch --parsable --job-name={name} --dependency=afterok:\"$job\" --kill-on-invalid-dep=yes \\\n    \
-                 --output={log}/merge.txt --wrap {command} | cut -d';' -f1)\n\
-                 echo \"submitted: array job $job, merge $merge (squeue, then {folder})\"\n",
+                 --output={log} --wrap {command})\n\
+                 merge=${{merge%%;*}}\n\
+                 echo \"submitted: array job $job, merge $merge (squeue --me)\"\n",
                 script = self.inside("render.slurm"),
-                name = super::commands::quoted(&format!("{}-merge", self.name)),
-                log = self.inside("log"),
-                command = super::commands::quoted(&format!("sh {merge}")),
-                folder = quoted(&self.folder)
+                name = quoting::shell(&format!("{}-merge", self.name)),
+                log = quoting::shell(&self.log("merge.txt")),
+                command = quoting::shell(&format!("sh {merge}")),
             ),
             Engine::Openjd => format!("openjd run {}\n", self.inside("template.yaml")),
+            // The lines are commands already, for a second shell, and nothing in them is replaced.
             Engine::Parallel => format!(
                 "# JOBS tasks at a time on each machine; with HOSTS, a file with one machine in a line, by ssh.\n\
-                 parallel --will-cite --jobs \"${{JOBS:-1}}\" ${{HOSTS:+--sshloginfile \"$HOSTS\"}} \\\n    \
-                 --joblog {log}/tasks.tsv --resume-failed sh {task} ::: $(seq {first} {last})\n\
+                 export PARALLEL_SHELL=/bin/sh\n\
+                 for task in $(seq {first} {last}); do\n    \
+                     printf '%s %s\\0' {command} \"$task\"\n\
+                 done | parallel --null --will-cite --jobs \"${{JOBS:-1}}\" ${{HOSTS:+--sshloginfile \"$HOSTS\"}} \\\n    \
+                 --joblog {log} --resume-failed\n\
                  sh {merge}\n",
-                log = self.inside("log")
+                command = quoting::shell(&format!("sh {task}")),
+                log = self.inside("log/tasks.tsv")
             ),
         };
         format!("#!/bin/sh\nset -eu\n{commands}")
+    }
+
+    /// A file of Slurm's, whose name may have its `%A`.
+    fn log(&self, name: &str) -> String {
+        let folder = self.folder.join("log").display().to_string();
+        format!("{}/{name}", quoting::slurm_name(&folder))
     }
 
     fn slurm(&self) -> String {
@@ -192,40 +239,50 @@ impl Job {
              #SBATCH --ntasks=1\n\
              #SBATCH --requeue\n\
              #SBATCH --open-mode=append\n\
-             #SBATCH --output={folder}/log/%A_%a.txt\n\
+             #SBATCH --output={log}\n\
              # Options of sbatch on its command line, such as --cpus-per-task=8 or --time=4:00:00, go before these.\n\
              exec sh {task} \"$SLURM_ARRAY_TASK_ID\"\n",
-            name = self.name,
-            folder = self.folder.display(),
+            name = quoting::sbatch(&self.name),
+            log = quoting::sbatch(&self.log("%A_%a.txt")),
             task = self.inside("task.sh")
         )
     }
 
+    /// Names and paths are values of parameters, which are taken as they are: what stands elsewhere in a template is
+    /// searched for `{{…}}`.
     fn template(&self) -> String {
         let [first, last] = self.span();
         let text = |text: &str| serde_json::Value::from(text).to_string();
-        let mut template = format!(
-            "specificationVersion: jobtemplate-2023-09\nname: {}\nsteps:\n",
-            text(&self.name)
-        );
-        let step = |name: &str, parameters: &str, script: &str, argument: &str| {
+        let path = |script: &str| self.folder.join(script).display().to_string();
+        let mut template =
+            "specificationVersion: jobtemplate-2023-09\nname: \"{{Param.JobName}}\"\n\
+             parameterDefinitions:\n"
+                .to_owned();
+        for (name, value) in [
+            ("JobName", self.name.clone()),
+            ("Task", path("task.sh")),
+            ("Merge", path("merge.sh")),
+        ] {
+            let _ = write!(
+                template,
+                "- name: {name}\n  type: STRING\n  default: {}\n",
+                text(&value)
+            );
+        }
+        let step = |name: &str, parameters: &str, arguments: &str| {
             format!(
                 "- name: {name}\n{parameters}  script:\n    actions:\n      onRun:\n        command: sh\n        \
-                 args: [{}{argument}]\n",
-                text(&self.folder.join(script).display().to_string())
+                 args: [{arguments}]\n"
             )
         };
         let parameters = format!(
             "  parameterSpace:\n    taskParameterDefinitions:\n    - name: Piece\n      type: INT\n      range: \"{first}-{last}\"\n"
         );
-        template += &step(
-            "Render",
-            &parameters,
-            "task.sh",
-            ", \"{{Task.Param.Piece}}\"",
-        );
+        let arguments = "\"{{Param.Task}}\", \"{{Task.Param.Piece}}\"";
+        template += "steps:\n";
+        template += &step("Render", &parameters, arguments);
         let waits = "  dependencies:\n  - dependsOn: Render\n";
-        let _ = write!(template, "{}", step("Merge", waits, "merge.sh", ""));
+        template += &step("Merge", waits, "\"{{Param.Merge}}\"");
         template
     }
 }
@@ -288,7 +345,7 @@ mod tests {
         assert!(file(&slurm, "submit.sh").contains("afterok"));
         let parallel = file(&of(Engine::Parallel), "submit.sh");
         assert!(
-            parallel.contains(&format!("{task} ::: $(seq 1 8)")),
+            parallel.contains("in $(seq 1 8)") && parallel.contains(&format!("'{task}'")),
             "{parallel}"
         );
         let template = file(&of(Engine::Openjd), "template.yaml");

@@ -74,7 +74,7 @@ impl Frame {
 }
 
 /// The path with the number in place of the last run of `#`, or before the extension.
-fn numbered(path: &Path, number: u32) -> PathBuf {
+pub fn numbered(path: &Path, number: u32) -> PathBuf {
     let name = path.file_name().unwrap_or_default().to_string_lossy();
     let numbered = match name.rfind('#') {
         Some(end) => {
@@ -88,6 +88,34 @@ fn numbered(path: &Path, number: u32) -> PathBuf {
         },
     };
     path.with_file_name(numbered)
+}
+
+/// The frame that a list lacks: its numbers, the last in each name, go in steps, and one step is longer than the
+/// shortest. Names that differ in more than their numbers are no sequence.
+pub fn lacking(files: &[PathBuf]) -> Option<PathBuf> {
+    let mut sequence: Option<(PathBuf, usize)> = None;
+    let mut numbers = Vec::new();
+    for file in files {
+        let name = file.file_name()?.to_str()?;
+        let is_digit = |c: char| c.is_ascii_digit();
+        let end = name.rfind(is_digit)? + 1;
+        let digits = &name[name[..end].trim_end_matches(is_digit).len()..end];
+        let before = &name[..end - digits.len()];
+        let pattern = file.with_file_name(format!("{before}#{}", &name[end..]));
+        let (of, width) = sequence.get_or_insert((pattern.clone(), digits.len()));
+        if pattern != *of {
+            return None;
+        }
+        *width = (*width).min(digits.len());
+        numbers.push(digits.parse::<u32>().ok()?);
+    }
+    numbers.sort_unstable();
+    numbers.dedup();
+    let step = numbers.windows(2).map(|pair| pair[1] - pair[0]).min()?;
+    let gap = numbers.windows(2).find(|pair| pair[1] - pair[0] > step)?;
+    let (pattern, width) = sequence?;
+    let pattern = pattern.to_string_lossy().replace('#', &"#".repeat(width));
+    Some(numbered(Path::new(&pattern), gap[0] + step))
 }
 
 #[cfg(test)]
@@ -121,6 +149,32 @@ mod tests {
         ] {
             assert_eq!(numbered(Path::new(pattern), 7), Path::new(name));
         }
+    }
+
+    #[test]
+    fn a_gap_in_a_list_is_found() {
+        let lacking = |names: &[&str]| {
+            let files: Vec<PathBuf> = names.iter().map(PathBuf::from).collect();
+            lacking(&files).map(|file| file.display().to_string())
+        };
+        let found = |name: &str| Some(name.to_owned());
+        assert_eq!(
+            lacking(&["d/a.0001.exr", "d/a.0002.exr", "d/a.0004.exr"]),
+            found("d/a.0003.exr")
+        );
+        assert_eq!(
+            lacking(&["a8.exr", "a9.exr", "a10.exr", "a12.exr"]),
+            found("a11.exr")
+        );
+        // Every other frame, back and forth, another shot, one frame, and names without numbers.
+        assert_eq!(lacking(&["a0.exr", "a2.exr", "a4.exr"]), None);
+        assert_eq!(
+            lacking(&["a1.exr", "a2.exr", "a3.exr", "a2.exr", "a1.exr"]),
+            None
+        );
+        assert_eq!(lacking(&["a1.exr", "a2.exr", "b4.exr"]), None);
+        assert_eq!(lacking(&["a1.exr"]), None);
+        assert_eq!(lacking(&["a.exr", "b.exr"]), None);
     }
 
     #[test]

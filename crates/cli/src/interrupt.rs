@@ -41,6 +41,17 @@ pub fn listen() -> std::io::Result<()> {
     Ok(())
 }
 
+/// From now on a file that grows beyond what the system allows (`ulimit -f`) is an error of the one who writes it, who
+/// cleans up, rather than the end of the process.
+///
+/// # Errors
+/// If the system refuses; the signal ends the process then.
+pub fn outlive_too_large_files() -> std::io::Result<()> {
+    #[cfg(unix)]
+    flag::register(signal_hook::consts::SIGXFSZ, Arc::default())?;
+    Ok(())
+}
+
 /// Whether whoever started the process wants it to outlive its terminal, as `nohup` does.
 #[cfg(unix)]
 fn hangups_are_ignored() -> bool {

@@ -20,6 +20,7 @@ pub mod outputs;
 pub mod part;
 pub mod pipeline;
 pub mod progress;
+mod quoting;
 pub mod report;
 pub mod resources;
 pub mod say;
@@ -27,6 +28,7 @@ mod scene_hash;
 mod sizes;
 pub mod target;
 pub mod tolerance;
+pub mod write_guard;
 
 /// The version of the program.
 pub const VERSION: &str = env!("CARGO_PKG_VERSION");

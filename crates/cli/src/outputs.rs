@@ -5,8 +5,8 @@
 //! only if Etalon has rendered it.
 
 use crate::args::RenderArgs;
+use crate::write_guard::WriteGuard;
 use etalon_images::exr;
-use std::fs::{self, OpenOptions};
 use std::path::{Path, PathBuf};
 
 /// What the names of images may end in, in words.
@@ -75,20 +75,23 @@ impl Outputs {
         }
     }
 
-    /// Refuses folders that are not there, outputs that could not be written anyway, and files that
-    /// are somebody else's, before hours are spent on them.
+    /// Claims all files of a render, before hours are spent on them: refuses places where they cannot be, files
+    /// that are read, and images that are somebody else's.
     ///
     /// # Errors
     /// One sentence.
-    pub fn check(&self, args: &RenderArgs) -> Result<(), String> {
-        let mut all = vec![self.image.as_path()];
-        all.extend(self.picture.as_deref());
-        all.extend(args.stats.as_deref());
-        all.iter().try_for_each(|path| check_place(path))?;
-        for (index, path) in all.iter().enumerate() {
-            if all[..index].iter().any(|other| same(other, path)) {
-                return Err(format!("{} would be written twice", path.display()));
-            }
+    pub fn claim(&self, args: &RenderArgs) -> Result<WriteGuard, String> {
+        let mut guard = WriteGuard::of([&args.scene]);
+        let files = [
+            Some(self.image.as_path()),
+            self.picture.as_deref(),
+            args.stats.as_deref(),
+        ];
+        for path in files.into_iter().flatten() {
+            guard.claim(path)?;
+        }
+        if args.resume {
+            guard.claim(&self.checkpoint())?;
         }
         if !self.named && self.image.exists() && !is_ours(&self.image) {
             let (image, picture) = (self.image.display(), self.picture.as_ref());
@@ -103,37 +106,15 @@ impl Outputs {
                 "{image} exists, and Etalon has not rendered it: {why}; name another file with `-o`"
             ));
         }
-        Ok(())
+        Ok(guard)
     }
 
-    /// Refuses outputs that are among the files that the scene was read from.
-    ///
-    /// # Errors
-    /// One sentence.
-    pub fn check_inputs(&self, args: &RenderArgs, inputs: &[PathBuf]) -> Result<(), String> {
-        let outputs = [
-            Some(&self.image),
-            self.picture.as_ref(),
-            args.stats.as_ref(),
-        ];
-        let clash = outputs.into_iter().flatten().find(|output| {
-            let there = inputs.iter().any(|input| same(input, output));
-            output.exists() && there
-        });
-        match clash {
-            Some(output) => Err(format!(
-                "cannot write {}: the scene is read from it; give the image another name",
-                output.display()
-            )),
-            None => Ok(()),
-        }
+    /// Where the state of a render is kept while it lasts.
+    pub fn checkpoint(&self) -> PathBuf {
+        let mut name = self.image.clone().into_os_string();
+        name.push(".checkpoint");
+        name.into()
     }
-}
-
-/// Whether two names are of one file.
-fn same(a: &Path, b: &Path) -> bool {
-    let place = |path: &Path| fs::canonicalize(path).ok();
-    a == b || place(a).is_some_and(|a| Some(a) == place(b))
 }
 
 /// Whether a file is an image that was rendered here.
@@ -145,38 +126,4 @@ fn extension(path: &Path) -> String {
     path.extension()
         .map(|e| e.to_string_lossy().to_lowercase())
         .unwrap_or_default()
-}
-
-/// Refuses a place where no file can be made.
-///
-/// # Errors
-/// One sentence.
-pub fn check_place(path: &Path) -> Result<(), String> {
-    let refuse =
-        |reason: &dyn std::fmt::Display| Err(format!("cannot write {}: {reason}", path.display()));
-    // The file that a symbolic link names is made where it leads.
-    let path = match etalon_images::atomic_file::target(path) {
-        Ok(target) => target,
-        Err(error) => return refuse(&error),
-    };
-    if path.is_dir() {
-        return refuse(&"it is a folder");
-    }
-    let folder = path.parent().filter(|p| !p.as_os_str().is_empty());
-    if folder.is_some_and(|folder| !folder.is_dir()) {
-        return refuse(&"there is no such folder");
-    }
-    // A device is written to as it is; a file is written beside its old self and takes its place.
-    let place = fs::canonicalize(&path).unwrap_or(path);
-    if place.exists() && !place.is_file() {
-        return Ok(());
-    }
-    // Only trying tells whether a file can be made there.
-    let trial = place.with_file_name(format!(".etalon-{}.part", std::process::id()));
-    let made = OpenOptions::new()
-        .write(true)
-        .create_new(true)
-        .open(&trial)
-        .and_then(|_| fs::remove_file(&trial));
-    made.or_else(|error| refuse(&error))
 }

@@ -22,7 +22,7 @@ impl<'a> Bar<'a> {
         };
         let bar = ProgressBar::with_draw_target(Some(samples), target);
         let style = ProgressStyle::with_template(
-            "{prefix}{bar:32} {percent:>3} %  {rate}  {elapsed} elapsed, {eta} left {msg}",
+            "{prefix}{wide_bar} {percent:>3} %  {rate}, {eta} left {msg}",
         )
         .unwrap_or_else(|_| ProgressStyle::default_bar())
         .with_key(

@@ -1,7 +1,8 @@
 //! The command that draws a sample again.
 
-use super::{options, quoted};
+use super::options;
 use crate::args::RenderArgs;
+use crate::quoting;
 use etalon_integrators::RenderPlan;
 
 /// The command that replays sample `sample` of a pixel in a replicate of this render; `pilot` is
@@ -16,7 +17,7 @@ pub(super) fn command(
 ) -> String {
     let mut words = vec![
         "etalon render".to_owned(),
-        quoted(&args.scene.display().to_string()),
+        quoting::shell(&args.scene.display().to_string()),
     ];
     words.extend(options::of_the_picture(args));
     if let Some(frame) = args.frame {

@@ -4,6 +4,7 @@
 use super::note;
 use crate::adaptive::{self, Distribution};
 use crate::args::RenderArgs;
+use crate::outputs::Outputs;
 use crate::part::PartOfMany;
 use crate::pipeline::{self, Loaded, RenderOptions};
 use crate::progress::Bar;
@@ -194,9 +195,7 @@ fn tell_rounding(args: &RenderArgs, loaded: &Loaded, plan: &RenderPlan) {
 
 /// Where the checkpoint of an image is kept.
 pub(super) fn checkpoint(args: &RenderArgs) -> PathBuf {
-    let mut name = args.output().as_os_str().to_owned();
-    name.push(".checkpoint");
-    name.into()
+    (args.outputs.as_ref()).map_or_else(PathBuf::new, Outputs::checkpoint)
 }
 
 /// What a checkpoint of this render says beside what a part says.

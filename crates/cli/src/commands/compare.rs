@@ -4,10 +4,10 @@ use super::{answer, fail, note};
 use crate::args::CompareArgs;
 use crate::judge::{self, ImageComparison, Tolerances};
 use crate::report::comparison;
+use crate::write_guard::{Destination, WriteGuard};
 use etalon_film::{RenderedImage, read_developed};
-use etalon_images::{Channel, Image, write_atomically};
+use etalon_images::{Channel, Image};
 use etalon_statistics::Verdict;
-use std::io::Write;
 use std::process::ExitCode;
 
 /// Exit code of images that differ.
@@ -17,6 +17,15 @@ const INCONCLUSIVE: u8 = 3;
 
 /// Compares two images.
 pub fn run(args: &CompareArgs) -> ExitCode {
+    let mut guard = WriteGuard::of([&args.a, &args.b]);
+    let report = args.report.as_deref();
+    match report.map(|path| guard.claim(path)).transpose() {
+        Ok(report) => compare(args, report.as_ref()),
+        Err(message) => fail(message),
+    }
+}
+
+fn compare(args: &CompareArgs, report: Option<&Destination>) -> ExitCode {
     let first = match read_developed(&args.a) {
         Ok(image) => image,
         Err(error) => return fail(error),
@@ -41,19 +50,19 @@ pub fn run(args: &CompareArgs) -> ExitCode {
         }
     }
     if identical(&first.image, &second.image) {
-        return say_identical(args);
+        return say_identical(args, report);
     }
     let unfit = [(&args.a, &first), (&args.b, &second)]
         .into_iter()
         .find_map(|(path, image)| Some(format!("{} {}", path.display(), unfit(image)?)));
     if let Some(reason) = unfit {
-        return say_inconclusive(args, &reason, [&first, &second]);
+        return say_inconclusive(args, report, &reason, [&first, &second]);
     }
     let black = [(&args.a, &first), (&args.b, &second)]
         .into_iter()
         .find_map(|(path, image)| Some(format!("{} {}", path.display(), black(image)?)));
     if let Some(reason) = black {
-        return say_inconclusive(args, &reason, [&first, &second]);
+        return say_inconclusive(args, report, &reason, [&first, &second]);
     }
     if let Some(seed) = shared_seed(&first, &second) {
         note(format!(
@@ -71,11 +80,11 @@ pub fn run(args: &CompareArgs) -> ExitCode {
         Ok(judgement) => judgement,
         Err(message) => return fail(message),
     };
-    if let Some(path) = &args.report {
+    if let Some(file) = report {
         let names = [args.a.display().to_string(), args.b.display().to_string()];
         let html = comparison::judged(&judgement, &first, &second, &names);
-        if let Err(error) = write_atomically(path, |file| file.write_all(html.as_bytes())) {
-            return fail(format!("cannot write {}: {error}", path.display()));
+        if let Err(message) = file.write_text(&html) {
+            return fail(message);
         }
     }
     let text = match args.json {
@@ -157,12 +166,17 @@ fn black(image: &RenderedImage) -> Option<String> {
 }
 
 /// Says that these images cannot be judged, which is no pass.
-fn say_inconclusive(args: &CompareArgs, reason: &str, images: [&RenderedImage; 2]) -> ExitCode {
-    if let Some(path) = &args.report {
+fn say_inconclusive(
+    args: &CompareArgs,
+    report: Option<&Destination>,
+    reason: &str,
+    images: [&RenderedImage; 2],
+) -> ExitCode {
+    if let Some(file) = report {
         let names = [&args.a, &args.b].map(|path| path.display().to_string());
         let html = comparison::inconclusive(reason, images[0], images[1], &names);
-        if let Err(error) = write_atomically(path, |file| file.write_all(html.as_bytes())) {
-            return fail(format!("cannot write {}: {error}", path.display()));
+        if let Err(message) = file.write_text(&html) {
+            return fail(message);
         }
     }
     let verdict = Verdict::Undecided.to_string();
@@ -187,11 +201,11 @@ fn identical(a: &Image, b: &Image) -> bool {
         && a.channels().iter().zip(b.channels()).all(same)
 }
 
-fn say_identical(args: &CompareArgs) -> ExitCode {
-    if let Some(path) = &args.report {
+fn say_identical(args: &CompareArgs, report: Option<&Destination>) -> ExitCode {
+    if let Some(file) = report {
         let html = comparison::identical([&args.a, &args.b].map(|path| path.display().to_string()));
-        if let Err(error) = write_atomically(path, |file| file.write_all(html.as_bytes())) {
-            return fail(format!("cannot write {}: {error}", path.display()));
+        if let Err(message) = file.write_text(&html) {
+            return fail(message);
         }
     }
     let verdict = Verdict::Agrees.to_string();

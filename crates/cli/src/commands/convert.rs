@@ -2,6 +2,7 @@
 
 use super::{fail, note};
 use crate::args::ConvertArgs;
+use crate::write_guard::WriteGuard;
 use etalon_images::{Colour, Error, Format, Image, Losses, exr, hdr, pfm, png, raster};
 use std::path::Path;
 use std::process::ExitCode;
@@ -21,6 +22,7 @@ fn convert(args: &ConvertArgs) -> Result<Vec<String>, String> {
     if !args.exposure.is_finite() {
         return Err("--exposure must be a finite number of stops".to_owned());
     }
+    let output = WriteGuard::of([&args.input]).claim(&args.output)?;
     let in_words = |error: Error| error.to_string();
     let (image, mut notes, ours) = read(&args.input)?;
     let colour = match &args.channels {
@@ -32,22 +34,23 @@ fn convert(args: &ConvertArgs) -> Result<Vec<String>, String> {
             of_colour(&image, &colour)
         }
     };
-    let output = &args.output;
-    let losses = match extension(output).as_str() {
-        "png" => png::write(output, &colour, args.exposure),
-        "hdr" | "rgbe" => hdr::write(output, &brightened(colour, args.exposure, &mut notes)),
+    let losses = match extension(&args.output).as_str() {
+        "png" => output.write_with(|path| png::write(path, &colour, args.exposure)),
+        "hdr" | "rgbe" => {
+            let image = brightened(colour, args.exposure, &mut notes);
+            output.write_with(|path| hdr::write(path, &image))
+        }
         "pfm" => {
             let image = brightened(colour, args.exposure, &mut notes);
-            pfm::write(output, &image).map(|()| Losses::default())
+            output.write_with(|path| pfm::write(path, &image).map(|()| Losses::default()))
         }
         _ => {
             return Err(format!(
                 "cannot write `{}`: the name must end in .png, .hdr or .pfm",
-                output.display()
+                args.output.display()
             ));
         }
-    }
-    .map_err(in_words)?;
+    }?;
     let input = args.input.display();
     let notes = notes.iter().map(|note| format!("`{input}`: {note}"));
     Ok(notes.chain(losses_in_words(&losses)).collect())

@@ -2,14 +2,12 @@
 
 use super::{BAD_INPUT, answer, fail};
 use crate::args::EstimatorsArgs;
-use crate::diagnose;
 use crate::estimators::{Failure, Findings, Options, Trial, page, table};
-use crate::outputs::check_place;
 use crate::pipeline::LoadOptions;
 use crate::progress::Bar;
-use etalon_images::write_atomically;
-use std::io::Write;
-use std::path::Path;
+use crate::write_guard::{Destination, WriteGuard};
+use crate::{diagnose, quoting};
+use std::path::PathBuf;
 use std::process::ExitCode;
 use std::sync::atomic::AtomicBool;
 
@@ -22,20 +20,41 @@ pub fn run(args: &EstimatorsArgs) -> ExitCode {
     if let Some(folder) = folders.into_iter().find(|folder| !folder.is_dir()) {
         return fail(format!("there is no folder {}", folder.display()));
     }
-    let mut places = [&args.report, &args.json].into_iter().flatten();
-    if let Err(message) = places.try_for_each(|path| check_place(path)) {
-        return fail(message);
-    }
+    let files = match Files::claim(args) {
+        Ok(files) => files,
+        Err(message) => return fail(message),
+    };
     let threads = args.threads.unwrap_or(0) as usize;
     match rayon::ThreadPoolBuilder::new().num_threads(threads).build() {
-        Ok(pool) => pool.install(|| run_here(args)),
+        Ok(pool) => pool.install(|| run_here(args, files)),
         Err(error) => fail(format!("cannot start threads: {error}")),
     }
 }
 
+/// What is written.
+struct Files {
+    guard: WriteGuard,
+    report: Option<Destination>,
+    json: Option<Destination>,
+}
+
+impl Files {
+    fn claim(args: &EstimatorsArgs) -> Result<Self, String> {
+        let mut guard = WriteGuard::of([&args.scene].into_iter().chain(&args.reference));
+        let mut claim =
+            |path: &Option<PathBuf>| path.as_deref().map(|path| guard.claim(path)).transpose();
+        let (report, json) = (claim(&args.report)?, claim(&args.json)?);
+        Ok(Self {
+            guard,
+            report,
+            json,
+        })
+    }
+}
+
 /// Compares on the current thread pool.
-fn run_here(args: &EstimatorsArgs) -> ExitCode {
-    let findings = match measure(args) {
+fn run_here(args: &EstimatorsArgs, mut files: Files) -> ExitCode {
+    let findings = match measure(args, &mut files.guard) {
         Ok(findings) => findings,
         Err(Failure::Refused(refusal)) => {
             diagnose::print(&refusal.diagnostics, &refusal.sources);
@@ -43,23 +62,20 @@ fn run_here(args: &EstimatorsArgs) -> ExitCode {
         }
         Err(failure) => return fail(failure),
     };
-    let written = args
-        .report
-        .as_ref()
-        .map_or(Ok(()), |path| {
-            write(path, &page::page(&findings, &command(args)))
-        })
-        .and_then(|()| match &args.json {
-            Some(path) => write(path, &format!("{:#}\n", serde_json::json!(findings))),
-            None => Ok(()),
-        });
+    let report = files.report.map_or(Ok(()), |file| {
+        file.write_text(&page::page(&findings, &command(args)))
+    });
+    let written = report.and_then(|()| match &files.json {
+        Some(file) => file.write_text(&format!("{:#}\n", serde_json::json!(findings))),
+        None => Ok(()),
+    });
     if let Err(message) = written {
         return fail(message);
     }
     answer(&table::text(&findings), ExitCode::SUCCESS)
 }
 
-fn measure(args: &EstimatorsArgs) -> Result<Findings, Failure> {
+fn measure(args: &EstimatorsArgs, guard: &mut WriteGuard) -> Result<Findings, Failure> {
     let options = Options {
         load: LoadOptions {
             defines: args.define.clone(),
@@ -76,6 +92,7 @@ fn measure(args: &EstimatorsArgs) -> Result<Findings, Failure> {
         seed: args.seed,
     };
     let trial = Trial::prepare(&args.scene, &options)?;
+    guard.reads(&trial.scene().inputs)?;
     if !args.quiet {
         diagnose::print(&trial.scene().notes, &trial.scene().sources);
     }
@@ -85,16 +102,11 @@ fn measure(args: &EstimatorsArgs) -> Result<Findings, Failure> {
     findings
 }
 
-fn write(path: &Path, text: &str) -> Result<(), String> {
-    write_atomically(path, |file| file.write_all(text.as_bytes()))
-        .map_err(|error| format!("cannot write {}: {error}", path.display()))
-}
-
 /// The command line that measures the same again.
 fn command(args: &EstimatorsArgs) -> String {
     let mut words = vec![
         "etalon estimators".to_owned(),
-        quoted(&args.scene.display().to_string()),
+        quoting::shell(&args.scene.display().to_string()),
     ];
     let choosers: Vec<String> = (args.light_choosers.iter())
         .map(|chooser| chooser.name().to_owned())
@@ -106,18 +118,21 @@ fn command(args: &EstimatorsArgs) -> String {
         ("--light-choosers", &choosers),
     ];
     for (option, names) in lists.into_iter().filter(|(_, names)| !names.is_empty()) {
-        words.push(format!("{option} {}", quoted(&names.join(","))));
+        words.push(format!("{option} {}", quoting::shell(&names.join(","))));
     }
     for (key, value) in &args.define {
-        words.push(format!("-D {}", quoted(&format!("{key}={value}"))));
+        words.push(format!("-D {}", quoting::shell(&format!("{key}={value}"))));
     }
     for folder in &args.data {
-        words.push(format!("--data {}", quoted(&folder.display().to_string())));
+        words.push(format!(
+            "--data {}",
+            quoting::shell(&folder.display().to_string())
+        ));
     }
     match &args.reference {
         Some(path) => words.push(format!(
             "--reference {}",
-            quoted(&path.display().to_string())
+            quoting::shell(&path.display().to_string())
         )),
         None => words.push(format!("--reference-share {}", args.reference_share)),
     }
@@ -126,13 +141,4 @@ fn command(args: &EstimatorsArgs) -> String {
         words.push(format!("--threads {threads}"));
     }
     words.join(" ")
-}
-
-/// A word as a shell would take it.
-fn quoted(word: &str) -> String {
-    let plain = |c: char| c.is_ascii_alphanumeric() || "-_./,=:+".contains(c);
-    match !word.is_empty() && word.chars().all(plain) {
-        true => word.to_owned(),
-        false => format!("'{}'", word.replace('\'', "'\\''")),
-    }
 }

@@ -4,7 +4,8 @@ use super::{BAD_INPUT, amount, fail, note, options};
 use crate::args::{FarmArgs, RenderArgs};
 use crate::farm::{Engine, Job, Work};
 use crate::pipeline::{self, LoadOptions};
-use crate::{diagnose, say};
+use crate::write_guard::WriteGuard;
+use crate::{diagnose, quoting, say};
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::{Command, ExitCode};
@@ -50,7 +51,7 @@ pub fn run(args: &FarmArgs) -> ExitCode {
              with `--replicates {parts}`"
         ));
     }
-    match write(args, work) {
+    match write(args, work, &loaded.inputs) {
         Ok(job) => hand_over(args, &job),
         Err(message) => fail(message),
     }
@@ -90,7 +91,7 @@ fn absolute(path: &Path) -> Result<PathBuf, String> {
 }
 
 /// Writes the files of a job.
-fn write(args: &FarmArgs, work: Work) -> Result<Job, String> {
+fn write(args: &FarmArgs, work: Work, inputs: &[PathBuf]) -> Result<Job, String> {
     let render = &args.render;
     let folder = render.output.clone().unwrap_or_default();
     for name in ["log", "parts", "frames"] {
@@ -146,18 +147,39 @@ fn write(args: &FarmArgs, work: Work) -> Result<Job, String> {
         folder: seen(here.clone()),
         options: words.iter().map(|word| format!(" {word}")).collect(),
     };
+    let mut guard = WriteGuard::of(inputs);
     for (name, text) in job.files() {
-        let file = here.join(name);
-        fs::write(&file, text)
-            .map_err(|error| format!("cannot write {}: {error}", file.display()))?;
+        guard.claim(&here.join(name))?.write_text(&text)?;
     }
+    tell_stale(&job, &here);
     Ok(job)
+}
+
+/// Says which pictures in a job's folder are not of this job, and are left out of what it makes.
+fn tell_stale(job: &Job, here: &Path) {
+    let folder = here.join(job.pieces_folder());
+    let entries = fs::read_dir(&folder).into_iter().flatten().flatten();
+    let names: Vec<String> = entries
+        .map(|entry| entry.file_name().to_string_lossy().into_owned())
+        .collect();
+    let mut stale = job.stale(&names);
+    stale.sort_unstable();
+    if let [first, others @ ..] = stale.as_slice() {
+        let more = match others {
+            [] => String::new(),
+            [.., last] => format!(" and {} more, to {last}", others.len()),
+        };
+        note(format!(
+            "{}{more}: of another job, and left out of this one",
+            folder.join(first).display()
+        ));
+    }
 }
 
 /// Says how to submit a job, or does.
 fn hand_over(args: &FarmArgs, job: &Job) -> ExitCode {
     let script = job.folder.join("submit.sh");
-    let command = format!("sh {}", super::quoted(&script.display().to_string()));
+    let command = format!("sh {}", quoting::shell(&script.display().to_string()));
     if !args.submit {
         let what = match job.work {
             Work::Parts(_) => "parts",

@@ -2,10 +2,10 @@
 
 use super::{BAD_INPUT, fail};
 use crate::args::MergeArgs;
-use crate::outputs::check_place;
 use crate::say;
+use crate::write_guard::{Destination, WriteGuard};
 use etalon_film::{Metadata, Part, RenderedImage, ReplicateSet, disagreements};
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 use std::process::ExitCode;
 
 /// Puts parts together.
@@ -14,9 +14,10 @@ pub fn run(args: &MergeArgs) -> ExitCode {
         Ok(args) => args,
         Err(message) => return fail(message),
     };
-    if let Err(message) = check_output(args) {
-        return fail(message);
-    }
+    let output = match output(args) {
+        Ok(output) => output,
+        Err(message) => return fail(message),
+    };
     // What the files say of themselves is judged before any pixels are read.
     let problems = problems(args);
     if !problems.is_empty() {
@@ -25,7 +26,7 @@ pub fn run(args: &MergeArgs) -> ExitCode {
         }
         return ExitCode::from(BAD_INPUT);
     }
-    match merge(args) {
+    match merge(args, &output) {
         Ok(()) => ExitCode::SUCCESS,
         Err(message) => fail(message),
     }
@@ -64,8 +65,8 @@ fn with_folders(args: &MergeArgs) -> Result<MergeArgs, String> {
     })
 }
 
-/// Refuses an output that could not be written, or that would take the place of a part.
-fn check_output(args: &MergeArgs) -> Result<(), String> {
+/// The output, if it can be written and takes the place of no part.
+fn output(args: &MergeArgs) -> Result<Destination, String> {
     let output = &args.output;
     let extension = output
         .extension()
@@ -74,16 +75,7 @@ fn check_output(args: &MergeArgs) -> Result<(), String> {
         let output = output.display();
         return Err(format!("cannot write {output}: the name must end in .exr"));
     }
-    check_place(output)?;
-    let place = |path: &Path| std::fs::canonicalize(path).ok();
-    let there = place(output);
-    if there.is_some() && args.parts.iter().any(|part| place(part) == there) {
-        let output = output.display();
-        return Err(format!(
-            "{output} is one of the parts; give the merged image another name"
-        ));
-    }
-    Ok(())
+    WriteGuard::of(&args.parts).claim(output)
 }
 
 /// Everything that keeps the parts from being merged, one sentence each.
@@ -156,7 +148,7 @@ fn problems(args: &MergeArgs) -> Vec<String> {
 }
 
 /// Reads the parts, one after the other, and writes the image.
-fn merge(args: &MergeArgs) -> Result<(), String> {
+fn merge(args: &MergeArgs, output: &Destination) -> Result<(), String> {
     let mut merged: Option<(Part, &PathBuf)> = None;
     for path in &args.parts {
         let part = Part::read(path).map_err(|error| error.to_string())?;
@@ -171,14 +163,11 @@ fn merge(args: &MergeArgs) -> Result<(), String> {
     let (part, _) = merged.ok_or("there is nothing to merge")?;
     let picture = match part.whole() {
         Some(picture) => {
-            picture
-                .write_exr(&args.output)
-                .map_err(|error| error.to_string())?;
+            output.write_with(|path| picture.write_exr(path))?;
             picture
         }
         None => {
-            part.write_exr(&args.output)
-                .map_err(|error| error.to_string())?;
+            output.write_with(|path| part.write_exr(path))?;
             part.picture()
         }
     };

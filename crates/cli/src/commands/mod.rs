@@ -19,7 +19,7 @@ pub mod strategies;
 mod trouble;
 
 use crate::args::Command;
-use crate::say;
+use crate::{interrupt, say};
 use std::process::ExitCode;
 
 /// Exit code for input that cannot be used.
@@ -27,6 +27,11 @@ pub const BAD_INPUT: u8 = 2;
 
 /// Runs a command; failures have been explained on standard error.
 pub fn run(command: &Command) -> ExitCode {
+    if let Err(error) = interrupt::outlive_too_large_files() {
+        note(format!(
+            "a file that grows too large will end the process: {error}"
+        ));
+    }
     match command {
         Command::Render(args) => render::run(args),
         Command::Merge(args) => merge::run(args),
@@ -42,15 +47,6 @@ pub fn run(command: &Command) -> ExitCode {
             clap_complete::generate(args.shell, &mut command, "etalon", &mut script);
             answer(&String::from_utf8_lossy(&script), ExitCode::SUCCESS)
         }
-    }
-}
-
-/// A word for a shell. `shlex` quotes more than a shell asks for; a NUL, which it refuses, no command line held.
-pub(crate) fn quoted(text: &str) -> String {
-    let plain = |c: char| c.is_ascii_alphanumeric() || "-_./=,:+".contains(c);
-    match shlex::try_quote(text) {
-        Ok(quoted) if !text.chars().all(plain) || text.is_empty() => quoted.into_owned(),
-        _ => text.to_owned(),
     }
 }
 

@@ -3,7 +3,8 @@
 use super::convert::{of_colour, read};
 use super::{fail, note};
 use crate::args::MovieArgs;
-use crate::outputs::check_place;
+use crate::frames::{FrameRange, lacking, numbered};
+use crate::write_guard::{Destination, WriteGuard};
 use etalon_images::animated_png::{self, AnimationFormat};
 use etalon_images::png;
 use std::io::{ErrorKind, Write};
@@ -29,7 +30,9 @@ fn movie(args: &MovieArgs) -> Result<(), String> {
     if !args.exposure.is_finite() {
         return Err("--exposure must be a finite number of stops".to_owned());
     }
-    check_place(&args.output)?;
+    let format = format(&args.output)?;
+    let files = &frames(args)?;
+    let output = &WriteGuard::of(files).claim(&args.output)?;
     let load = |path: &Path| -> Result<Frame, String> {
         let (image, _, _) = read(path)?;
         let colour = image.needed_colour(path).map_err(|e| e.to_string())?;
@@ -42,9 +45,9 @@ fn movie(args: &MovieArgs) -> Result<(), String> {
             alpha: image.channel("A").is_some(),
         })
     };
-    let first = load(&args.frames[0])?;
+    let first = load(&files[0])?;
     let conforming = |index: usize| -> Result<Frame, String> {
-        let path = &args.frames[index];
+        let path = &files[index];
         let frame = load(path)?;
         if frame.size != first.size || frame.alpha != first.alpha {
             let words = |frame: &Frame| {
@@ -61,103 +64,173 @@ fn movie(args: &MovieArgs) -> Result<(), String> {
         }
         Ok(frame)
     };
-    let extension = args.output.extension().unwrap_or_default();
-    match extension.to_string_lossy().to_lowercase().as_str() {
-        "png" | "apng" => animated(args, &first, conforming)?,
-        "" => return Err("the film's name must end in .png, .mp4, .webm, .mkv or .gif".to_owned()),
-        _ => by_ffmpeg(args, &first, conforming)?,
+    let film = Film {
+        output,
+        rate: args.fps,
+        frames: files.len(),
+        first: &first,
+    };
+    match format {
+        Format::Animated => film.animated(conforming)?,
+        Format::ByFfmpeg => film.by_ffmpeg(conforming)?,
     }
     note(format!(
         "{}: {} frames, {:.2} s",
         args.output.display(),
-        args.frames.len(),
-        args.frames.len() as f64 / args.fps
+        files.len(),
+        files.len() as f64 / args.fps
     ));
     Ok(())
 }
 
-/// Writes an animated PNG.
-fn animated(
-    args: &MovieArgs,
-    first: &Frame,
-    frame: impl Fn(usize) -> Result<Frame, String>,
-) -> Result<(), String> {
-    let size = first.size.map(|n| u32::try_from(n).unwrap_or(u32::MAX));
-    let format = AnimationFormat {
-        width: size[0],
-        height: size[1],
-        alpha: first.alpha,
-        frames: u32::try_from(args.frames.len()).map_err(|e| e.to_string())?,
-        rate: args.fps,
-    };
-    animated_png::write(&args.output, format, |number| {
-        let frame = frame(number as usize).map_err(std::io::Error::other)?;
-        Ok(frame.bytes)
-    })
-    .map_err(|error| error.to_string())
+/// Who writes a film.
+enum Format {
+    Animated,
+    ByFfmpeg,
 }
 
-/// Hands the frames to ffmpeg, which writes beside the output until it is done.
-fn by_ffmpeg(
-    args: &MovieArgs,
-    first: &Frame,
-    frame: impl Fn(usize) -> Result<Frame, String>,
-) -> Result<(), String> {
-    let output = &args.output;
-    let partial: PathBuf = {
-        let name = output.file_name().unwrap_or_default().to_string_lossy();
-        output.with_file_name(format!(".part-{}-{name}", std::process::id()))
-    };
-    let [width, height] = first.size;
-    let pixels = if first.alpha { "rgba" } else { "rgb24" };
-    let mut command = Command::new("ffmpeg");
-    command
-        .args(["-hide_banner", "-loglevel", "error", "-y", "-f", "rawvideo"])
-        .args(["-pixel_format", pixels])
-        .args(["-video_size", &format!("{width}x{height}")])
-        .args(["-framerate", &args.fps.to_string(), "-i", "-"]);
-    if output
-        .extension()
-        .is_none_or(|extension| extension != "gif")
-    {
-        // What players agree on, which needs even sizes.
-        let even = "pad=ceil(iw/2)*2:ceil(ih/2)*2";
-        command.args(["-vf", even, "-pix_fmt", "yuv420p"]);
+/// What ffmpeg is asked for: it would take other names, too, and put a single frame in a picture.
+const BY_FFMPEG: [&str; 7] = ["mp4", "m4v", "mov", "webm", "mkv", "avi", "gif"];
+
+fn format(output: &Path) -> Result<Format, String> {
+    let extension = output.extension().unwrap_or_default();
+    match extension.to_string_lossy().to_lowercase().as_str() {
+        "png" | "apng" => Ok(Format::Animated),
+        extension if BY_FFMPEG.contains(&extension) => Ok(Format::ByFfmpeg),
+        _ => Err(format!(
+            "cannot write {}: a film's name must end in .png, .apng or, by ffmpeg, .{}",
+            output.display(),
+            BY_FFMPEG.join(", .")
+        )),
     }
-    let mut child = command
-        .arg(&partial)
-        .stdin(Stdio::piped())
-        .spawn()
-        .map_err(|error| match error.kind() {
-            ErrorKind::NotFound => format!(
-                "`ffmpeg` is needed for {} and was not found: install it, or write an animated \
-                 picture, such as {}",
-                output.display(),
-                output.with_extension("png").display()
-            ),
-            _ => format!("`ffmpeg` cannot be started: {error}"),
-        })?;
-    let mut send = || {
-        let mut pipe = child.stdin.take().ok_or("`ffmpeg` takes no frames")?;
-        for index in 0..args.frames.len() {
-            let bytes = frame(index)?.bytes;
-            pipe.write_all(&bytes)
-                .map_err(|error| format!("`ffmpeg` ended early: {error}"))?;
+}
+
+/// The files that a film is made of, each of which is there.
+fn frames(args: &MovieArgs) -> Result<Vec<PathBuf>, String> {
+    let files = match (args.frames, args.files.as_slice()) {
+        (None, files) => {
+            if let Some(missing) = lacking(files) {
+                return Err(format!(
+                    "{} is missing between the frames that were named",
+                    missing.display()
+                ));
+            }
+            files.to_vec()
         }
-        Ok::<_, String>(())
-    };
-    let sent = send();
-    let ended = child.wait().map_err(|error| error.to_string());
-    let delivered = match (sent, ended) {
-        (Ok(()), Ok(status)) if status.success() => {
-            std::fs::rename(&partial, output).map_err(|e| e.to_string())
+        (Some(FrameRange { first, last }), [pattern]) => (first..=last)
+            .map(|number| numbered(pattern, number))
+            .collect(),
+        (Some(_), _) => {
+            return Err(
+                "`--frames` goes with one name for all frames, such as walk.####.exr".to_owned(),
+            );
         }
-        (Ok(()), Ok(status)) => Err(format!("`ffmpeg` ended with {status}")),
-        (Err(message), _) | (_, Err(message)) => Err(message),
     };
-    if delivered.is_err() {
-        // There may be nothing to remove.
-        let _ = std::fs::remove_file(&partial);
+    let missing: Vec<&PathBuf> = files.iter().filter(|file| !file.exists()).collect();
+    match missing.as_slice() {
+        [] => Ok(files),
+        [only] => Err(format!("the frame {} is missing", only.display())),
+        [first, .., last] => Err(format!(
+            "of {} frames {} are missing, from {} to {}",
+            files.len(),
+            missing.len(),
+            first.display(),
+            last.display()
+        )),
     }
-    delivered
+}
+
+/// A film to be written.
+struct Film<'a> {
+    output: &'a Destination,
+    rate: f64,
+    frames: usize,
+    first: &'a Frame,
+}
+
+impl Film<'_> {
+    /// Writes an animated PNG.
+    fn animated(&self, frame: impl Fn(usize) -> Result<Frame, String>) -> Result<(), String> {
+        let size = self
+            .first
+            .size
+            .map(|n| u32::try_from(n).unwrap_or(u32::MAX));
+        let format = AnimationFormat {
+            width: size[0],
+            height: size[1],
+            alpha: self.first.alpha,
+            frames: u32::try_from(self.frames).map_err(|e| e.to_string())?,
+            rate: self.rate,
+        };
+        self.output.write_with(|path| {
+            animated_png::write(path, format, |number| {
+                let frame = frame(number as usize).map_err(std::io::Error::other)?;
+                Ok(frame.bytes)
+            })
+        })
+    }
+
+    /// Hands the frames to ffmpeg, which writes beside the output until it is done.
+    fn by_ffmpeg(&self, frame: impl Fn(usize) -> Result<Frame, String>) -> Result<(), String> {
+        let output = self.output.path();
+        // What ffmpeg writes follows from the extension.
+        let partial = {
+            let extension = output.extension().unwrap_or_default().to_string_lossy();
+            let name = format!(".etalon-{}.part.{extension}", std::process::id());
+            output.with_file_name(name)
+        };
+        let first = self.first;
+        let [width, height] = first.size;
+        let pixels = if first.alpha { "rgba" } else { "rgb24" };
+        let mut command = Command::new("ffmpeg");
+        command
+            .args(["-hide_banner", "-loglevel", "error", "-y", "-f", "rawvideo"])
+            .args(["-pixel_format", pixels])
+            .args(["-video_size", &format!("{width}x{height}")])
+            .args(["-framerate", &self.rate.to_string(), "-i", "-"]);
+        if output
+            .extension()
+            .is_none_or(|extension| extension != "gif")
+        {
+            // What players agree on, which needs even sizes.
+            let even = "pad=ceil(iw/2)*2:ceil(ih/2)*2";
+            command.args(["-vf", even, "-pix_fmt", "yuv420p"]);
+        }
+        let mut child = command
+            .arg(&partial)
+            .stdin(Stdio::piped())
+            .spawn()
+            .map_err(|error| match error.kind() {
+                ErrorKind::NotFound => format!(
+                    "`ffmpeg` is needed for {} and was not found: install it, or write an animated \
+                     picture, such as {}",
+                    output.display(),
+                    output.with_extension("png").display()
+                ),
+                _ => format!("`ffmpeg` cannot be started: {error}"),
+            })?;
+        let mut send = || {
+            let mut pipe = child.stdin.take().ok_or("`ffmpeg` takes no frames")?;
+            for index in 0..self.frames {
+                let bytes = frame(index)?.bytes;
+                pipe.write_all(&bytes)
+                    .map_err(|error| format!("`ffmpeg` ended early: {error}"))?;
+            }
+            Ok::<_, String>(())
+        };
+        let sent = send();
+        let ended = child.wait().map_err(|error| error.to_string());
+        let delivered = match (sent, ended) {
+            (Ok(()), Ok(status)) if status.success() => self
+                .output
+                .write_with(|path| std::fs::rename(&partial, path)),
+            (Ok(()), Ok(status)) => Err(format!("`ffmpeg` ended with {status}")),
+            (Err(message), _) | (_, Err(message)) => Err(message),
+        };
+        if delivered.is_err() {
+            // There may be nothing to remove.
+            let _ = std::fs::remove_file(&partial);
+        }
+        delivered
+    }
 }

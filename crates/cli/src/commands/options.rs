@@ -1,13 +1,13 @@
 //! Options of `etalon render`, written as somebody would type them.
 
-use super::quoted;
 use crate::args::RenderArgs;
+use crate::quoting;
 
 /// What decides the picture, but for scene, seed, frames and amount.
 pub(super) fn of_the_picture(args: &RenderArgs) -> Vec<String> {
     let mut words = Vec::new();
     if let Some(integrator) = &args.integrator {
-        words.push(format!("--integrator {}", quoted(integrator)));
+        words.push(format!("--integrator {}", quoting::shell(integrator)));
     }
     if let Some(chooser) = args.light_chooser {
         words.push(format!("--light-chooser {}", chooser.name()));
@@ -18,9 +18,11 @@ pub(super) fn of_the_picture(args: &RenderArgs) -> Vec<String> {
 /// Values of scene parameters, and folders with data.
 pub(super) fn of_the_scene(args: &RenderArgs) -> Vec<String> {
     let defines = args.define.iter();
-    let defines = defines.map(|(key, value)| format!("-D {}", quoted(&format!("{key}={value}"))));
+    let defines =
+        defines.map(|(key, value)| format!("-D {}", quoting::shell(&format!("{key}={value}"))));
     let data = args.data.iter();
-    let data = data.map(|folder| format!("--data {}", quoted(&folder.display().to_string())));
+    let data =
+        data.map(|folder| format!("--data {}", quoting::shell(&folder.display().to_string())));
     defines.chain(data).collect()
 }
 

@@ -8,6 +8,7 @@ use crate::outputs::Outputs;
 use crate::part::PartOfMany;
 use crate::pipeline::{self, LoadOptions, Loaded, RenderControls, Rendered};
 use crate::progress::Bar;
+use crate::write_guard::WriteGuard;
 use crate::{diagnose, interrupt, say, target};
 use etalon_integrators::ReplicateRange;
 use etalon_params::Diagnostic;
@@ -35,10 +36,11 @@ pub fn run(args: &RenderArgs) -> ExitCode {
 
 /// Renders one picture on the current thread pool.
 pub(super) fn run_here(args: &RenderArgs) -> ExitCode {
-    let args = &match with_outputs(args) {
-        Ok(args) => args,
+    let (args, mut guard) = match with_outputs(args) {
+        Ok(claimed) => claimed,
         Err(message) => return fail(message),
     };
+    let args = &args;
     let mut loaded = match pipeline::load(
         &args.scene,
         &LoadOptions {
@@ -74,9 +76,7 @@ pub(super) fn run_here(args: &RenderArgs) -> ExitCode {
         Ok(techniques) => techniques,
         Err(message) => return fail(message),
     };
-    if let Some(outputs) = &args.outputs
-        && let Err(message) = outputs.check_inputs(args, &loaded.inputs)
-    {
+    if let Err(message) = guard.reads(&loaded.inputs) {
         return fail(message);
     }
     if (args.frame.is_some() || args.part.is_some()) && args.resume {
@@ -126,7 +126,7 @@ pub(super) fn run_here(args: &RenderArgs) -> ExitCode {
             let whole = rendered.outcome.replicates == rendered.replicates;
             Ok(whole.then_some(rendered.developed))
         };
-        match strategies::write(folder, args, &mut loaded, &integrator, each) {
+        match strategies::write(folder, args, &mut guard, &mut loaded, &integrator, each) {
             Ok(Ok(())) => {}
             Ok(Err(diagnostic)) => {
                 diagnose::print(&[diagnostic], &loaded.sources);
@@ -166,14 +166,14 @@ fn remove(checkpoint: &Path) {
     }
 }
 
-/// The arguments with the outputs that they stand for, unless a sample is replayed.
-fn with_outputs(args: &RenderArgs) -> Result<RenderArgs, String> {
+/// The arguments with the outputs that they stand for, which are claimed, unless a sample is replayed.
+fn with_outputs(args: &RenderArgs) -> Result<(RenderArgs, WriteGuard), String> {
     let mut args = args.clone();
     if args.replay.is_some() {
-        return Ok(args);
+        return Ok((args, WriteGuard::default()));
     }
     let outputs = Outputs::of(&args)?;
-    outputs.check(&args)?;
+    let guard = outputs.claim(&args)?;
     if !args.quiet && !outputs.named {
         note(match &outputs.picture {
             Some(picture) => format!(
@@ -185,7 +185,7 @@ fn with_outputs(args: &RenderArgs) -> Result<RenderArgs, String> {
         });
     }
     args.outputs = Some(outputs);
-    Ok(args)
+    Ok((args, guard))
 }
 
 /// Refuses folders that are not there.

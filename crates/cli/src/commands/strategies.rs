@@ -8,13 +8,12 @@
 use crate::args::RenderArgs;
 use crate::pipeline::Loaded;
 use crate::report;
+use crate::write_guard::WriteGuard;
 use etalon_film::RenderedImage;
-use etalon_images::write_atomically;
 use etalon_integrators::AnyIntegrator;
 use etalon_integrators::bdpt::{Bidirectional, Technique};
 use etalon_params::Diagnostic;
 use maud::html;
-use std::io::Write;
 use std::path::Path;
 
 /// The longest paths whose techniques are written, in segments: more would be hundreds of files.
@@ -59,6 +58,7 @@ struct Shown {
 pub fn write(
     folder: &Path,
     args: &RenderArgs,
+    guard: &mut WriteGuard,
     loaded: &mut Loaded,
     integrator: &Bidirectional,
     mut render: impl FnMut(&Loaded) -> Result<Option<RenderedImage>, Diagnostic>,
@@ -88,8 +88,8 @@ pub fn write(
                     Err(diagnostic) => return Ok(Err(diagnostic)),
                 };
                 let suffix = if weighted { "" } else { "-unweighted" };
-                let path = folder.join(format!("s{light}-t{camera}{suffix}.exr"));
-                picture.write_exr(&path).map_err(|e| e.to_string())?;
+                let file = guard.claim(&folder.join(format!("s{light}-t{camera}{suffix}.exr")))?;
+                file.write_with(|path| picture.write_exr(path))?;
                 pictures.push(picture);
             }
             if let Ok(pictures) = <[RenderedImage; 2]>::try_from(pictures) {
@@ -102,9 +102,8 @@ pub fn write(
         }
     }
     loaded.integrator = AnyIntegrator::Bidirectional(integrator.clone());
-    let text = page(args, &shown);
-    let path = folder.join("strategies.html");
-    write_atomically(&path, |file| file.write_all(text.as_bytes())).map_err(|e| error(&e))?;
+    let file = guard.claim(&folder.join("strategies.html"))?;
+    file.write_text(&page(args, &shown))?;
     Ok(Ok(()))
 }
 
