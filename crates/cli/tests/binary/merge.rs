@@ -212,7 +212,7 @@ fn what_does_not_belong_together_is_refused() {
         );
         assert_eq!(workshop.files(), before);
     };
-    output("a.exr", "a.exr is one of the parts");
+    output("a.exr", "a.exr: it is read from");
     output("m.png", "the name must end in .exr");
     output("nowhere/m.exr", "no such folder");
     merge(&workshop, &["a.exr", "b.exr"]).fine();
