@@ -29,10 +29,9 @@ impl Metal {
         if name == "none" {
             let [eta, k] = match of_colours(params) {
                 Some((eta, k)) => [build.spectrum(eta), build.spectrum(k)],
-                None => [("eta", 0.0), ("k", 1.0)]
-                    .map(|(name, default)| {
-                        build.texture(params, name, Some(default), SpectrumKind::Index)
-                    }),
+                None => [("eta", 0.0), ("k", 1.0)].map(|(name, default)| {
+                    build.texture(params, name, Some(default), SpectrumKind::Index)
+                }),
             };
             return Some(Self {
                 eta,
@@ -150,7 +149,8 @@ fn from_file(
     match parsed {
         Ok(table) => {
             if let Some(line) = table.header {
-                let message = format!("line {line} of `{path}` holds no number: it is taken for a header");
+                let message =
+                    format!("line {line} of `{path}` holds no number: it is taken for a header");
                 params.diagnostics.push(Diagnostic::note(span, message));
             }
             let samples = table.wavelengths.into_iter().zip(table.values);

@@ -104,6 +104,9 @@ pub struct Metadata {
     pub film: FilmFacts,
     /// The channels with means, in the order of the tile means.
     pub channels: Vec<String>,
+    /// In how many pixels not one sample found light: 0, with a standard error of 0 that says nothing.
+    #[serde(default, skip_serializing_if = "is_none")]
+    pub unlit_pixels: u64,
     /// Numbers that were refused.
     pub faults: FaultLog,
     /// Samples that stand out.
@@ -111,6 +114,11 @@ pub struct Metadata {
     pub outliers: OutlierLog,
     /// Tile means of every replicate.
     pub tile_means: Vec<TileMeans>,
+}
+
+/// Whether there is nothing to be said.
+fn is_none(count: &u64) -> bool {
+    *count == 0
 }
 
 impl Metadata {
@@ -148,6 +156,7 @@ impl Metadata {
                     .map(|_| settings.filter_method.name().to_owned()),
             },
             channels: film.channels().to_vec(),
+            unlit_pixels: film.unlit_pixels(),
             faults: film.faults(),
             outliers: film.outliers(),
             tile_means: film.tile_means().to_vec(),

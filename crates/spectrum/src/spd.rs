@@ -95,9 +95,8 @@ pub fn check_unit(wavelengths: &[f64]) -> Result<(), String> {
     if last >= LAMBDA_MIN && first <= LAMBDA_MAX {
         return Ok(());
     }
-    let sees = |nanometres: f64| {
-        last * nanometres >= LAMBDA_MIN && first * nanometres <= LAMBDA_MAX
-    };
+    let sees =
+        |nanometres: f64| last * nanometres >= LAMBDA_MIN && first * nanometres <= LAMBDA_MAX;
     let units = [("ångström", 0.1), ("micrometres", 1e3), ("metres", 1e9)];
     let unit = units.into_iter().find(|(_, nanometres)| sees(*nanometres));
     Err(format!(
@@ -194,7 +193,10 @@ mod tests {
         same("\u{feff}# head\r600 -2\r500.5 0.1\r400 0.25");
         for (text, line) in [
             ("wavelength (nm), n\n400 0.25\n500.5 0.1\n600 -2\n", 1),
-            ("\u{feff}# head\n\"wl\" \"value\"\r\n600 -2\n500.5 0.1\n400 0.25", 2),
+            (
+                "\u{feff}# head\n\"wl\" \"value\"\r\n600 -2\n500.5 0.1\n400 0.25",
+                2,
+            ),
         ] {
             let headed = SpdTable {
                 header: Some(line),
@@ -217,7 +219,12 @@ mod tests {
             let message = check_unit(&wavelengths).expect_err(unit);
             assert!(message.ends_with(unit), "{message}");
         }
-        for seen in [[100.0, 360.0], [830.0, 4000.0], [200.0, 7000.0], [500.0, 501.0]] {
+        for seen in [
+            [100.0, 360.0],
+            [830.0, 4000.0],
+            [200.0, 7000.0],
+            [500.0, 501.0],
+        ] {
             assert_eq!(check_unit(&seen), Ok(()), "{seen:?}");
         }
     }

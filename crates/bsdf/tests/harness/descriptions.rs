@@ -193,7 +193,9 @@ fn an_index_that_ends_goes_on_with_a_note() {
     for part in ["line 1 of `Xx.eta.spd`", "from 500 to 510 nm"] {
         assert!(said.iter().any(|d| d.message.contains(part)), "{said:?}");
     }
-    let notes = Scene::default().read("dielectric int_ior=t:500:1.5,510:1.5").1;
+    let notes = Scene::default()
+        .read("dielectric int_ior=t:500:1.5,510:1.5")
+        .1;
     assert!(notes[0].message.contains("from 500 to 510 nm"), "{notes:?}");
 }
 

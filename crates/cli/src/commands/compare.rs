@@ -5,7 +5,7 @@ use crate::args::CompareArgs;
 use crate::judge::{self, ImageComparison, Tolerances};
 use crate::report::comparison;
 use crate::write_guard::{Destination, WriteGuard};
-use etalon_film::{RenderedImage, read_developed};
+use etalon_film::{LightCarriers, RenderedImage, read_developed};
 use etalon_images::{Channel, Image};
 use etalon_statistics::Verdict;
 use std::process::ExitCode;
@@ -70,6 +70,14 @@ fn compare(args: &CompareArgs, report: Option<&Destination>) -> ExitCode {
              makes the comparison less sharp; `--seed` gives another one"
         ));
     }
+    if let Some(remark) = other_scenes(&first, &second) {
+        note(remark);
+    }
+    for (path, image) in [(&args.a, &first), (&args.b, &second)] {
+        if let Some(warning) = LightCarriers::of(image).and_then(LightCarriers::warning) {
+            note(format!("{}: {warning}", path.display()));
+        }
+    }
     let rules = Tolerances {
         image_bound: args.bound,
         tile_bound: args.tile_bound,
@@ -97,6 +105,25 @@ fn compare(args: &CompareArgs, report: Option<&Destination>) -> ExitCode {
         Verdict::Undecided => ExitCode::from(INCONCLUSIVE),
     };
     answer(&text, code)
+}
+
+/// Whether two images are of different scenes, as far as their files say.
+fn other_scenes(first: &RenderedImage, second: &RenderedImage) -> Option<String> {
+    let (first, second) = (first.metadata.as_ref()?, second.metadata.as_ref()?);
+    // Another integrator by the command line is another hash, and the same scene.
+    if first.scene_hash == second.scene_hash || first.integrator != second.integrator {
+        return None;
+    }
+    Some(match first.scene == second.scene {
+        true => format!(
+            "the images are of different states of {}: its files or what `-D` said have changed",
+            first.scene
+        ),
+        false => format!(
+            "the images are of different scenes, {} and {}: what differs may be the scenes, not the estimators",
+            first.scene, second.scene
+        ),
+    })
 }
 
 /// The first pixel that is not a finite number, if there is one.

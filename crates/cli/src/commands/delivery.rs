@@ -7,9 +7,10 @@ use crate::args::RenderArgs;
 use crate::pipeline::{Loaded, Rendered};
 use crate::target::Noise;
 use crate::{resources, say};
-use etalon_film::{Metadata, RenderedImage, UnfinishedFacts};
+use etalon_film::{LightCarriers, Metadata, RenderedImage, UnfinishedFacts, light_carriers};
 use etalon_images::{Losses, hdr, pfm, png, write_atomically};
 use etalon_integrators::RenderPlan;
+use etalon_transport::{Camera, World};
 use std::io::Write;
 use std::path::Path;
 
@@ -74,6 +75,9 @@ pub(super) fn deliver(
     let black = is_black(&rendered.developed);
     if black {
         say::remark("warning: the picture is black: not one sample found light\n");
+    }
+    if !args.quiet && !black {
+        tell_few(loaded, &rendered.developed);
     }
     if !args.quiet {
         let seconds = rendered.time.as_secs_f64();
@@ -154,6 +158,39 @@ fn is_black(developed: &RenderedImage) -> bool {
         .filter(|name| *name != "A")
         .filter_map(|name| developed.image.channel(name));
     means.all(|means| means.iter().all(|mean| *mean == 0.0))
+}
+
+/// The share of pixels without light, of those that show something, that is told.
+const UNLIT: f64 = 0.01;
+
+/// Says where few samples carry the light, or none found any although there is a surface.
+fn tell_few(loaded: &Loaded, developed: &RenderedImage) {
+    if let Some(warning) = LightCarriers::of(developed).and_then(LightCarriers::warning) {
+        say::remark(&format!("note: {warning}\n"));
+    }
+    let colours = developed.colours();
+    let unlit = light_carriers::unlit(&developed.image, &colours);
+    let width = developed.image.width();
+    let scene = &loaded.compiled.scene;
+    let shows_something = |pixel: &usize| {
+        let corner = glam::Vec2::new((pixel % width) as f32, (pixel / width) as f32);
+        let offset = glam::IVec2::from(developed.frame.offset).as_vec2();
+        let within = [[0.5, 0.5], [0.1, 0.1], [0.9, 0.1], [0.1, 0.9], [0.9, 0.9]];
+        within.into_iter().any(|within| {
+            let raster = offset + corner + glam::Vec2::from(within);
+            let seen = scene.camera().ray(raster, glam::Vec2::splat(0.5), 0.0);
+            scene.intersect(&seen.ray).is_some()
+        })
+    };
+    let count = unlit.iter().filter(|pixel| shows_something(pixel)).count();
+    let all = width * developed.image.height();
+    let seen = all - (unlit.len() - count);
+    if count as f64 >= UNLIT * seen as f64 && count > 0 {
+        say::remark(&format!(
+            "note: in {count} of {seen} pixels that show something no sample found light: their standard error of 0 says \
+             nothing\n"
+        ));
+    }
 }
 
 /// Says which samples went wrong, and how to look at the first or largest of them.

@@ -5,7 +5,7 @@ use super::{BAD_INPUT, answer, fail, plugins};
 use crate::args::InfoArgs;
 use crate::diagnose;
 use crate::pipeline::{self, LoadOptions};
-use etalon_film::{InvalidKind, InvalidSample, RenderedImage, read_developed};
+use etalon_film::{InvalidKind, InvalidSample, LightCarriers, RenderedImage, read_developed};
 use etalon_images::{Error, raster};
 use etalon_sampling::ReplicateKind;
 use std::path::Path;
@@ -121,6 +121,15 @@ fn image(developed: &RenderedImage) -> String {
             "noise        {:.2} % mean relative standard error\n",
             100.0 * error
         );
+    }
+    if m.unlit_pixels > 0 {
+        text += &format!(
+            "unlit        {} pixels in which no sample found light: their standard error of 0 says nothing\n",
+            m.unlit_pixels
+        );
+    }
+    if let Some(warning) = LightCarriers::of(developed).and_then(LightCarriers::warning) {
+        text += &format!("few samples  {warning}\n");
     }
     text += &format!("version      {} ({})\n", m.version, m.floating_point);
     if m.faults.total() > 0 {

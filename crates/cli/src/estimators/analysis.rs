@@ -56,6 +56,8 @@ pub struct Measured<'a> {
     pub cells: &'a [Vec<Cell>],
     /// How long it took.
     pub seconds: f64,
+    /// How many pictures were left out for lack of time, and how many were planned.
+    pub left_out: [u32; 2],
 }
 
 /// Draws the conclusions.
@@ -97,6 +99,14 @@ pub fn findings(measured: &Measured<'_>) -> Findings {
             .collect(),
     };
     findings.remarks = remarks::about(&findings, &black);
+    let late = remarks::late(measured.left_out);
+    findings.remarks.extend(late);
+    let rows = findings.estimators.iter().zip(measured.cells);
+    let carried = rows.filter_map(|(row, cells)| {
+        let errors = cells[0].of(|picture| picture.squared);
+        remarks::few(&row.name, &errors)
+    });
+    findings.remarks.extend(carried.collect::<Vec<_>>());
     findings
 }
 

@@ -20,6 +20,36 @@ pub struct Black {
     pub estimators: Vec<bool>,
 }
 
+/// Pictures of fewer samples per pixel say little of those that people render.
+const ENOUGH_SAMPLES: u32 = 8;
+
+/// An error that fewer of its pictures carry is not known.
+const CARRIERS: f64 = 4.0;
+
+/// What is to be said of pictures that were left out, of so many.
+pub fn late([left_out, all]: [u32; 2]) -> Option<String> {
+    (left_out > 0).then(|| {
+        format!(
+            "the machine was slower than in the pilot: {left_out} of {all} pictures were left out, to end in time"
+        )
+    })
+}
+
+/// What is to be said of an estimator whose error, in these pictures, few of them carry.
+pub fn few(name: &str, errors: &[f64]) -> Option<String> {
+    let [sum, squares] = errors.iter().fold([0.0; 2], |[sum, squares], x| {
+        [sum + x, squares + x * x]
+    });
+    let carriers = sum * sum / squares;
+    (carriers < CARRIERS && errors.len() >= 8).then(|| {
+        format!(
+            "the error of `{name}` is that of {carriers:.1} of its {} pictures at equal time: samples that are rarer still \
+             may be missing, and its figures say little",
+            errors.len()
+        )
+    })
+}
+
 /// All remarks, each one sentence.
 pub fn about(findings: &Findings, black: &Black) -> Vec<String> {
     let mut remarks = Vec::new();
@@ -67,6 +97,15 @@ pub fn about(findings: &Findings, black: &Black) -> Vec<String> {
                 "{:.0} % of the relMSE of `{}` is bias, which no more samples take away",
                 100.0 * share.min(1.0),
                 row.name
+            ));
+        }
+        let samples = row.equal_time.samples_per_pixel;
+        if samples < ENOUGH_SAMPLES {
+            remarks.push(format!(
+                "the pictures of `{}` have {samples} samples per pixel: what it prepares or learns for each weighs more \
+                 than in a picture of use; give {:.0} times the time or more",
+                row.name,
+                (f64::from(ENOUGH_SAMPLES) / f64::from(samples.max(1))).ceil()
             ));
         }
         let noisy = row.equal_time.rel_mse.value != Some(0.0);

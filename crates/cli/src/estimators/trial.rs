@@ -5,7 +5,7 @@ use super::cell::{self, Cell};
 use super::entrant::{self, EstimatorConfig, Lists};
 use super::findings::Findings;
 use super::reference::Reference;
-use super::schedule::{Pace, Schedule, Share, Size};
+use super::schedule::{FEWEST, LADDER, Pace, Schedule, Share, Size};
 use crate::memory;
 use crate::pipeline::{LoadError, LoadOptions, Loaded};
 use etalon_integrators::Progress;
@@ -13,7 +13,7 @@ use etalon_params::Diagnostic;
 use etalon_sampling::hash::{derived_key, stream_key};
 use etalon_scene::LightSamplerKind;
 use std::path::{Path, PathBuf};
-use std::time::Instant;
+use std::time::{Duration, Instant};
 
 /// What to compare, and for how long.
 #[derive(Clone, Debug)]
@@ -101,7 +101,12 @@ pub struct Trial {
     reference: Option<Reference>,
     schedule: Schedule,
     options: Options,
+    /// When there is no time left; a schedule of another time has none.
+    deadline: Option<Instant>,
 }
+
+/// How far beyond the time that was asked for pictures are still begun, relatively.
+const OVERTIME: f64 = 0.05;
 
 /// What the random numbers of a comparison are for.
 #[derive(Clone, Copy)]
@@ -185,6 +190,7 @@ impl Trial {
             reference,
             schedule,
             options: options.clone(),
+            deadline: Some(start + Duration::from_secs_f64(options.seconds * (1.0 + OVERTIME))),
         })
     }
 
@@ -220,7 +226,11 @@ impl Trial {
             && schedule.reference.iter().all(enough)
             && schedule.reference.is_none() == self.reference.is_some();
         match sound {
-            true => Ok(Self { schedule, ..self }),
+            true => Ok(Self {
+                schedule,
+                deadline: None,
+                ..self
+            }),
             false => Err("this schedule is of another comparison".to_owned().into()),
         }
     }
@@ -248,6 +258,11 @@ impl Trial {
             })
             .collect();
         for (entrant, cell, index) in order(&cells) {
+            // By the clock alone, whatever was seen. All cells are equally far, as the order spreads them.
+            let is_late = self.deadline.is_some_and(|end| Instant::now() > end);
+            if is_late && cells.iter().all(|cells| is_enough(cells)) {
+                break;
+            }
             let estimator = &self.entrants[entrant];
             let target = &mut cells[entrant][cell];
             let seed = seed(&self.options, Purpose::Measurement, entrant, cell, index);
@@ -260,7 +275,16 @@ impl Trial {
             measured.map_err(|reason| format!("{}: {reason}", estimator.name))?;
         }
         let seconds = start.elapsed().as_secs_f64();
+        let planned = |cells: &[Vec<Cell>]| -> u32 {
+            let sizes = cells.iter().flatten().map(|cell| cell.size.replicates);
+            sizes.sum()
+        };
+        let all = planned(&cells);
+        for cell in cells.iter_mut().flatten() {
+            cell.size.replicates = cell.measured.len() as u32;
+        }
         let measured = analysis::Measured {
+            left_out: [all - planned(&cells), all],
             scene: &self.scene,
             entrants: &self.entrants,
             options: &self.options,
@@ -284,6 +308,14 @@ impl Trial {
             false => Ok(reference),
         }
     }
+}
+
+/// Whether there are pictures enough, of every size, to measure an estimator by.
+fn is_enough(cells: &[Cell]) -> bool {
+    cells.iter().enumerate().all(|(index, cell)| {
+        let fewest = if index == 0 { FEWEST } else { LADDER / 2 };
+        cell.measured.len() as u32 >= fewest.min(cell.size.replicates)
+    })
 }
 
 /// Every picture as (estimator, cell, index), those of all cells spread evenly over the run.

@@ -1,6 +1,6 @@
 //! `etalon farm`: job files whose tasks, by whatever engine, come to the picture of one render.
 
-use crate::workshop::{Workshop, cornell_box};
+use crate::workshop::{Workshop, cornell_box, small_scene};
 use std::process::Command;
 
 const SIZE: [&str; 6] = ["-D", "resx=24", "-D", "resy=20", "--spp", "64"];
@@ -97,6 +97,88 @@ fn what_tasks_cannot_have_is_refused_before_anything_is_written() {
         );
     }
     assert!(workshop.files().is_empty());
+}
+
+/// A search path that finds a program of ours first.
+fn programs(workshop: &Workshop, name: &str, script: &str) -> String {
+    use std::os::unix::fs::PermissionsExt;
+    let folder = workshop.path("bin");
+    std::fs::create_dir_all(&folder).expect("created");
+    workshop.write(&format!("bin/{name}"), script);
+    let mode = std::fs::Permissions::from_mode(0o755);
+    std::fs::set_permissions(folder.join(name), mode).expect("made a program");
+    format!("{}:/bin:/usr/bin", folder.display())
+}
+
+/// Names with spaces, quotes and what engines replace reach the program as they are. Mutants rejected: quotes for one shell
+/// where there are two; `%A` and `{{x}}` left to the engine.
+#[test]
+fn names_that_mean_something_to_engines() {
+    let workshop = Workshop::new();
+    let scene = "it's {{my}} scene%A.xml";
+    workshop.write(scene, small_scene("<integrator type=\"path\"/>"));
+    let job = "jo b%A{{x}}";
+    let farm = |engine: &str| {
+        let all = [
+            "farm", scene, "-o", job, "--engine", engine, "--parts", "2", "--spp", "16",
+        ];
+        workshop.run(&all).fine();
+    };
+    let text = |name: &str| {
+        let bytes = workshop.read(&format!("{job}/{name}"));
+        String::from_utf8(bytes).expect("text")
+    };
+    // A `parallel` that does what that of GNU does with the lines it reads: hands each to a shell.
+    farm("parallel");
+    let bin = programs(
+        &workshop,
+        "parallel",
+        "#!/bin/sh\ntr '\\0' '\\n' | while IFS= read -r line; do sh -c \"$line\" || exit 1; done\n",
+    );
+    let ran = Command::new("sh")
+        .arg(workshop.path(job).join("submit.sh"))
+        .env("PATH", &bin)
+        .output()
+        .expect("sh runs");
+    assert!(
+        ran.status.success(),
+        "{}",
+        String::from_utf8_lossy(&ran.stderr)
+    );
+    assert!(workshop.path(job).join("it's {{my}} scene%A.png").exists());
+    farm("slurm");
+    let script = text("render.slurm");
+    assert!(script.contains("jo\\ b%%A{{x}}"), "{script}");
+    farm("openjd");
+    let template = text("template.yaml");
+    assert!(!template.contains("{{x}}"), "{template}");
+}
+
+/// A submission that fails is a failure.
+#[test]
+fn a_submission_that_fails_is_told() {
+    let workshop = Workshop::new();
+    let scene = cornell_box();
+    let all = ["farm", &scene, "-o", "job", "--engine", "slurm", "--submit"];
+    let all = [&all[..], &SIZE[..]].concat();
+    for program in ["none", "sbatch"] {
+        let path = programs(
+            &workshop,
+            program,
+            "#!/bin/sh\necho no such partition >&2\nexit 1\n",
+        );
+        let mut command = workshop.command();
+        let ran = command
+            .args(&all)
+            .env("PATH", &path)
+            .output()
+            .expect("it runs");
+        let said = String::from_utf8_lossy(&ran.stderr);
+        assert_eq!(ran.status.code(), Some(2), "{said}");
+        assert!(said.contains("it needs `sbatch`"), "{said}");
+        let out = String::from_utf8_lossy(&ran.stdout);
+        assert!(!out.contains("submitted"), "{out}");
+    }
 }
 
 /// Scripts name what the cluster sees, and are written where they were asked for.

@@ -108,6 +108,40 @@ fn a_film_of_frames() {
     assert!(said.contains("`ffmpeg` is needed for b.mp4"), "{said}");
 }
 
+/// A film has the frames that were asked for, all of them.
+#[test]
+fn a_frame_that_is_missing_is_named() {
+    let (workshop, scene) = (Workshop::new(), scene("motion"));
+    workshop.run(&sequence("a.##.exr", "1..5", &scene)).fine();
+    let movie =
+        |frames: &[&str]| workshop.run(&[&["movie"][..], frames, &["-o", "film.png"]].concat());
+    movie(&["a.##.exr", "--frames", "2..4"]).fine();
+    let film = workshop.read("film.png");
+    assert_eq!(film.windows(4).filter(|w| *w == b"fcTL").count(), 3);
+    std::fs::remove_file(workshop.path("a.03.exr")).expect("removed");
+    let listed = ["a.01.exr", "a.02.exr", "a.04.exr", "a.05.exr"];
+    for frames in [&["a.##.exr", "--frames", "1..5"][..], &listed] {
+        let said = movie(frames).refused().stderr;
+        assert!(
+            said.contains("a.03.exr") && said.contains("missing"),
+            "{said}"
+        );
+    }
+    let said = movie(&["a.##.exr", "--frames", "1..9"]).refused().stderr;
+    assert!(
+        said.contains("of 9 frames 5 are missing, from a.03.exr to a.09.exr"),
+        "{said}"
+    );
+    assert!(workshop.read("film.png") == film);
+    for name in ["film.exr", "film.jpg"] {
+        let said = workshop
+            .run(&["movie", "a.01.exr", "-o", name])
+            .refused()
+            .stderr;
+        assert!(said.contains("must end in .png"), "{said}");
+    }
+}
+
 #[test]
 fn ranges_of_nothing() {
     let (workshop, scene) = (Workshop::new(), scene("motion"));

@@ -34,3 +34,4 @@ mod subsurface;
 mod target;
 mod trouble;
 mod workshop;
+mod write_guard;

@@ -424,7 +424,10 @@ fn a_table_of_an_index_goes_on_beyond_its_ends() {
     for value in [
         Value::Spectrum(SpectrumText::Samples(vec![(500.0, 1.5), (510.0, 1.5)])),
         table("irregular", &[("wavelengths", "500, 505, 510")]),
-        table("regular", &[("wavelength_min", "500"), ("wavelength_max", "510")]),
+        table(
+            "regular",
+            &[("wavelength_min", "500"), ("wavelength_max", "510")],
+        ),
     ] {
         let found = eval(value.clone(), SpectrumKind::Index);
         assert_eq!(found, Vec4::splat(1.5), "{value:?}");

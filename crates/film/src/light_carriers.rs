@@ -1,0 +1,137 @@
+//! Whether a picture's light is carried by few of its samples, whose spread says little then.
+//!
+//! Of R replicates x with mean m, whose standard error is s, as many carry a pixel as would with equal shares (L. Kish, Survey
+//! Sampling, 1965, section 11.7):
+//!
+//! ```text
+//! N = (Σ x)² / Σ x² = R / (1 + (R − 1) (s/m)²)
+//! ```
+//!
+//! N is R for equal replicates and 1 where one alone found light. Below four, intervals of the usual width hold far
+//! less often than they say: who has not found the rare and bright thing does not know how bright it is. Where replicates are
+//! exponentially distributed, N falls below 4 of 32 in none of 10⁵ pixels.
+
+use crate::RenderedImage;
+use etalon_images::Image;
+use etalon_sampling::ReplicateKind;
+
+/// The share of a picture's light (of all channels) that is told.
+pub const TOLD: f64 = 0.05;
+
+/// Of a picture with standard errors.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct LightCarriers {
+    /// How many replicates there are.
+    pub replicates: u32,
+    /// Fewer than so many are few.
+    pub few: f64,
+    /// The share of the light that is in pixels which few replicates carry.
+    pub share: f64,
+}
+
+impl LightCarriers {
+    /// Those of a picture; `None` of one with less than eight replicates, or with such as depend on each other.
+    pub fn of(developed: &RenderedImage) -> Option<Self> {
+        let metadata = developed.metadata.as_ref()?;
+        let replicates = metadata.replicates;
+        if replicates < 8 || metadata.replicate_kind != ReplicateKind::Independent {
+            return None;
+        }
+        let few = (f64::from(replicates) / 4.0).min(4.0);
+        let [mut all, mut by_few] = [0.0; 2];
+        for name in metadata.colours() {
+            let plane = developed.image.channel(name)?;
+            let errors = developed.standard_error(name)?;
+            for (&mean, &error) in plane.iter().zip(errors) {
+                let (mean, error) = (f64::from(mean), f64::from(error));
+                if mean > 0.0 {
+                    all += mean;
+                    let carriers = effective(replicates, mean, error);
+                    by_few += if carriers < few { mean } else { 0.0 };
+                }
+            }
+        }
+        (all > 0.0).then(|| Self {
+            replicates,
+            few,
+            share: by_few / all,
+        })
+    }
+
+    /// What is to be said of them.
+    pub fn warning(self) -> Option<String> {
+        let Self {
+            replicates,
+            few,
+            share,
+        } = self;
+        (share >= TOLD).then(|| {
+            format!(
+                "{:.0} % of the light is in pixels that fewer than {few:.0} of {replicates} replicates carry: the standard \
+                 errors there say little, and what was not found may be missing",
+                100.0 * share
+            )
+        })
+    }
+}
+
+/// As many as would carry the mean with equal shares.
+fn effective(replicates: u32, mean: f64, error: f64) -> f64 {
+    let count = f64::from(replicates);
+    let spread = error / mean;
+    count / (1.0 + (count - 1.0) * spread * spread)
+}
+
+/// The pixels in which not one sample found light: 0 with a standard error of 0.
+pub fn unlit(image: &Image, colours: &[&str]) -> Vec<usize> {
+    let planes: Option<Vec<&[f32]>> = colours.iter().map(|name| image.channel(name)).collect();
+    let planes = planes.unwrap_or_default();
+    let count = planes.first().map_or(0, |plane| plane.len());
+    let is_unlit = |pixel: &usize| planes.iter().all(|plane| plane[*pixel] == 0.0);
+    (0..count).filter(is_unlit).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use etalon_sampling::hash::{derived_key, random_float};
+
+    /// Mean and standard error of replicates.
+    fn moments(values: &[f64]) -> (f64, f64) {
+        let count = values.len() as f64;
+        let mean = values.iter().sum::<f64>() / count;
+        let squares: f64 = values.iter().map(|x| (x - mean) * (x - mean)).sum();
+        (mean, (squares / (count - 1.0) / count).sqrt())
+    }
+
+    #[test]
+    fn equal_shares_are_counted() {
+        for carriers in [1, 3, 16, 32] {
+            let values: Vec<f64> = (0..32).map(|i| f64::from(u8::from(i < carriers))).collect();
+            let (mean, error) = moments(&values);
+            let found = effective(32, mean, error);
+            assert!((found - f64::from(carriers)).abs() < 1e-9, "{found}");
+        }
+    }
+
+    /// The stated rate of false alarms, and that what it is for is seen: light that one of 30 replicates finds.
+    #[test]
+    fn noise_alone_is_not_told() {
+        let mut drawn = 0;
+        let mut uniform = || {
+            drawn += 1;
+            f64::from(random_float(derived_key(7, drawn) as u32)).max(1e-9)
+        };
+        let mut few = |draw: &dyn Fn(f64, f64) -> f64, pixels: u32| {
+            let is_few = |_: &u32| {
+                let values: Vec<f64> = (0..32).map(|_| draw(uniform(), uniform())).collect();
+                let (mean, error) = moments(&values);
+                mean > 0.0 && effective(32, mean, error) < 4.0
+            };
+            (0..pixels).filter(is_few).count()
+        };
+        assert_eq!(few(&|u, _| -u.ln(), 100_000), 0);
+        let rare = few(&|u, v| if v < 1.0 / 30.0 { -u.ln() } else { 0.01 }, 1000);
+        assert!(rare > 500, "{rare}");
+    }
+}
