@@ -238,23 +238,6 @@ impl ExactFilm {
         &self.moments
     }
 
-    /// In how many pixels every sample of the finished replicates was black.
-    pub(crate) fn unlit_pixels(&self) -> u64 {
-        if self.replicates() == 0 {
-            return 0;
-        }
-        let colours = self.settings.colours();
-        let is_colour: Vec<bool> = (self.channels.iter())
-            .map(|name| colours.contains(name))
-            .collect();
-        let pixels = self.moments.chunks(self.channels.len().max(1));
-        let is_unlit = |moments: &&[PixelMoments]| {
-            let of_colours = moments.iter().zip(&is_colour).filter(|(_, colour)| **colour);
-            of_colours.into_iter().all(|(moments, _)| *moments == PixelMoments::ZERO)
-        };
-        pixels.filter(is_unlit).count() as u64
-    }
-
     /// Takes the sums over finished replicates out of it.
     pub(crate) fn take_sums(&mut self) -> ExactSums {
         ExactSums::new(self.channels.len(), std::mem::take(&mut self.moments))

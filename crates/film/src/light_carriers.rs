@@ -13,7 +13,6 @@
 
 use crate::RenderedImage;
 use etalon_images::Image;
-use etalon_sampling::ReplicateKind;
 
 /// The share of a picture's light (of all channels) that is told.
 pub const TOLD: f64 = 0.05;
@@ -30,11 +29,12 @@ pub struct LightCarriers {
 }
 
 impl LightCarriers {
-    /// Those of a picture; `None` of one with less than eight replicates, or with such as depend on each other.
+    /// Those of a picture; `None` of one with less than eight replicates. Blocks of one sequence spread more than they err, so that
+    /// theirs are fewer than there are.
     pub fn of(developed: &RenderedImage) -> Option<Self> {
         let metadata = developed.metadata.as_ref()?;
         let replicates = metadata.replicates;
-        if replicates < 8 || metadata.replicate_kind != ReplicateKind::Independent {
+        if replicates < 8 {
             return None;
         }
         let few = (f64::from(replicates) / 4.0).min(4.0);

@@ -156,7 +156,7 @@ impl Metadata {
                     .map(|_| settings.filter_method.name().to_owned()),
             },
             channels: film.channels().to_vec(),
-            unlit_pixels: film.unlit_pixels(),
+            unlit_pixels: 0,
             faults: film.faults(),
             outliers: film.outliers(),
             tile_means: film.tile_means().to_vec(),

@@ -197,7 +197,7 @@ impl Part {
                 self.counts.as_ref(),
             ),
         };
-        RenderedImage {
+        let developed = RenderedImage {
             image,
             frame: Frame {
                 offset: metadata.film.crop_offset.map(|n| n as i32),
@@ -209,7 +209,8 @@ impl Part {
                     .and_then(recorded_seconds),
                 ..metadata
             }),
-        }
+        };
+        developed.with_unlit_pixels()
     }
 
     /// The metadata, those of a part, without checksum.

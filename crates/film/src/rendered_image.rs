@@ -11,7 +11,7 @@ use crate::exact_film::STANDARD_ERROR;
 use crate::exact_sums::EXACT;
 use crate::pixel_moments::PixelMoments;
 use crate::sample_counts::{SAMPLES, SampleCounts};
-use crate::{ExactFilm, Metadata, RenderFacts};
+use crate::{ExactFilm, Metadata, RenderFacts, light_carriers};
 use etalon_images::{Error, Frame, Image, exr};
 use rayon::prelude::*;
 use std::path::{Path, PathBuf};
@@ -116,7 +116,7 @@ impl ExactFilm {
     pub fn develop(&self, facts: RenderFacts) -> RenderedImage {
         let settings = self.settings();
         let size = settings.crop_size.to_array().map(|n| n as usize);
-        RenderedImage {
+        let developed = RenderedImage {
             image: image_of(
                 self.channels(),
                 self.moments(),
@@ -129,7 +129,8 @@ impl ExactFilm {
                 size: settings.size.to_array().map(|n| n as usize),
             },
             metadata: Some(Metadata::new(self, facts)),
-        }
+        };
+        developed.with_unlit_pixels()
     }
 }
 
@@ -161,6 +162,19 @@ impl RenderedImage {
     /// The standard errors of a channel, if there are any.
     pub fn standard_error(&self, name: &str) -> Option<&[f32]> {
         self.image.channel(&format!("{STANDARD_ERROR}{name}"))
+    }
+
+    /// The same with the number of pixels in which no sample found light; parts do not count them.
+    #[must_use]
+    pub(crate) fn with_unlit_pixels(mut self) -> Self {
+        let count = light_carriers::unlit(&self.image, &self.colours()).len() as u64;
+        if let Some(metadata) = &mut self.metadata
+            && metadata.part.is_none()
+            && metadata.replicates > 0
+        {
+            metadata.unlit_pixels = count;
+        }
+        self
     }
 
     /// The names of the colour channels; of a file that does not say, those of linear Rec. 709 and CIE XYZ that are there.

@@ -49,10 +49,10 @@ impl AmbientOcclusion {
     /// Reads the integrator from its description: `distance` (default: unlimited), `sampling`
     /// (`cosine` or `uniform`) and `shading_samples` (1).
     pub fn from_params(params: &Params<'_>) -> Self {
-        let distance = match params.has("distance") {
-            true => params.float_where("distance", 1.0, "a number above 0", |d| d > 0.0) as f32,
-            false => f32::INFINITY,
-        };
+        let distance = params.float("distance").unwrap_or(f64::INFINITY) as f32;
+        if !(distance > 0.0) {
+            params.refuse("distance", distance, "a number above 0");
+        }
         let samples = params.integer_or("shading_samples", 1);
         let shading_samples = u32::try_from(samples)
             .ok()

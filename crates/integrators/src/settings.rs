@@ -75,10 +75,9 @@ impl LightCandidates {
     /// Reads `light_candidates`.
     pub fn from_params(params: &Params<'_>) -> Self {
         const NAME: &str = "light_candidates";
-        if !params.has(NAME) {
+        let Some(value) = params.integer(NAME) else {
             return Self(None);
-        }
-        let value = params.integer_or(NAME, 1);
+        };
         let count = u32::try_from(value).ok().filter(|n| *n <= Self::MOST);
         let count = count.and_then(NonZeroU32::new);
         if count.is_none() {

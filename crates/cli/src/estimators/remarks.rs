@@ -37,9 +37,9 @@ pub fn late([left_out, all]: [u32; 2]) -> Option<String> {
 
 /// What is to be said of an estimator whose error, in these pictures, few of them carry.
 pub fn few(name: &str, errors: &[f64]) -> Option<String> {
-    let [sum, squares] = errors.iter().fold([0.0; 2], |[sum, squares], x| {
-        [sum + x, squares + x * x]
-    });
+    let [sum, squares] = errors
+        .iter()
+        .fold([0.0; 2], |[sum, squares], x| [sum + x, squares + x * x]);
     let carriers = sum * sum / squares;
     (carriers < CARRIERS && errors.len() >= 8).then(|| {
         format!(

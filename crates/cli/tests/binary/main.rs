@@ -10,6 +10,7 @@ mod command_line;
 mod compare;
 mod convert;
 mod determinism;
+mod docs;
 mod estimators;
 mod failure;
 mod farm;

@@ -31,12 +31,19 @@ const PATHS: [(&str, &str, Use); 21] = [
     (
         "estimators",
         "report",
-        Use::Writes(&["scene.xml", "--reference", "a.exr", "--report"]),
+        Use::Writes(&[
+            "scene.xml",
+            "--time",
+            "9",
+            "--reference",
+            "a.exr",
+            "--report",
+        ]),
     ),
     (
         "estimators",
         "json",
-        Use::Writes(&["scene.xml", "--reference", "a.exr", "--json"]),
+        Use::Writes(&["scene.xml", "--time", "9", "--reference", "a.exr", "--json"]),
     ),
     ("estimators", "data", Use::Reads),
     ("convert", "input", Use::Reads),
@@ -169,10 +176,16 @@ fn long_names_are_written() {
         let exr = format!("{name}.exr");
         let all = ["render", "scene.xml", "-q", "--spp", "1", "-o", &exr];
         workshop.run(&all).fine();
-        workshop.run(&[&all[..], &["--resume"]].concat()).fine();
+        // A checkpoint has a longer name, and is refused before anything is rendered.
+        let resumed = workshop.run(&[&all[..], &["--resume"]].concat()).refused();
+        assert!(
+            resumed.stderr.contains(".exr.checkpoint"),
+            "{}",
+            resumed.stderr
+        );
         let png = format!("{name}.png");
         workshop.run(&["convert", &exr, &png]).fine();
-        let report = format!("{}.html", &name[..240]);
+        let report = format!("{}.html", &name[..240]); // a boundary of `光`, too
         workshop.run(&["compare", &exr, &exr, "--report", &report]);
         for file in [exr, png, report] {
             assert!(workshop.path(&file).exists(), "{file}");

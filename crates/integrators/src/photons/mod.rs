@@ -53,10 +53,7 @@ const MOST: i64 = 1 << 26;
 /// Reads `photons`, the number of photons per pass, rounded up to a power of two that the sets
 /// divide; `None` for as many as the film has pixels.
 pub(crate) fn read_count(params: &Params<'_>) -> Option<u32> {
-    if !params.has("photons") {
-        return None;
-    }
-    let count = params.integer_or("photons", 1);
+    let count = params.integer("photons")?;
     if !(1..=MOST).contains(&count) {
         params.refuse("photons", count, "1, 2, … 67108864");
     }

@@ -57,9 +57,11 @@ impl Default for Radius {
 /// Reads a radius; `None` if it is not given.
 pub(crate) fn read(params: &Params<'_>, name: &str) -> Option<f32> {
     let what = "a radius in metres, above 0";
-    params
-        .has(name)
-        .then(|| params.float_where(name, 1.0, what, |radius| radius > 0.0 && radius < 1e18) as f32)
+    let radius = params.float(name)?;
+    if !(radius > 0.0 && radius < 1e18) {
+        params.refuse(name, radius, what);
+    }
+    Some(radius as f32)
 }
 
 impl Radius {
