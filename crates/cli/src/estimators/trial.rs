@@ -281,6 +281,10 @@ impl Trial {
         };
         let all = planned(&cells);
         for cell in cells.iter_mut().flatten() {
+            // Of those that were left out, one may lack its partner.
+            if (cell.measured.len() as u32) < cell.size.replicates {
+                cell.measured.truncate(2 * cell.pairs.len());
+            }
             cell.size.replicates = cell.measured.len() as u32;
         }
         let measured = analysis::Measured {

@@ -33,6 +33,8 @@ const PATHS: [(&str, &str, Use); 21] = [
         "report",
         Use::Writes(&[
             "scene.xml",
+            "--integrators",
+            "path,direct",
             "--time",
             "9",
             "--reference",
@@ -43,7 +45,16 @@ const PATHS: [(&str, &str, Use); 21] = [
     (
         "estimators",
         "json",
-        Use::Writes(&["scene.xml", "--time", "9", "--reference", "a.exr", "--json"]),
+        Use::Writes(&[
+            "scene.xml",
+            "--integrators",
+            "path,direct",
+            "--time",
+            "9",
+            "--reference",
+            "a.exr",
+            "--json",
+        ]),
     ),
     ("estimators", "data", Use::Reads),
     ("convert", "input", Use::Reads),
