@@ -243,6 +243,14 @@ const OF_MITSUBA_3: &[Ignored] = &[
         said: false,
         reason: "They say where Mitsuba samples wavelengths; the value holds everywhere.",
     },
+    Ignored {
+        class: Class::Volume,
+        plugins: &["constvolume"],
+        names: &["to_world"],
+        only: None,
+        said: false,
+        reason: "It is the same everywhere.",
+    },
 ];
 
 fn is_true(value: &Value) -> bool {

@@ -8,8 +8,8 @@
 //! η = η(inside) / η(outside)
 //! ```
 //!
-//! A ray carries which bodies it is in. All sets of at most [`DEPTH`] of them are listed beforehand and named by numbers after those
-//! of the media, so that to carry one is to carry a [`MediumId`].
+//! A ray carries which bodies it is in. All sets of bodies that may overlap are listed beforehand and named by numbers after those of
+//! the media, so that to carry one is to carry a [`MediumId`].
 
 use crate::scene::Scene;
 use etalon_bsdf::BsdfAtPoint;
@@ -19,8 +19,17 @@ use etalon_transport::{MaterialId, MediumId, MediumInterface, ShapeId, SurfaceIn
 use glam::{Vec3, Vec4};
 use std::collections::HashMap;
 
-/// The most bodies that a point may be in.
-const DEPTH: usize = 4;
+/// The most sets of bodies.
+const MOST_SETS: u64 = 1 << 16;
+
+/// How many bodies may overlap of which it is not known where they are.
+const DEPTH_UNKNOWN: usize = 16;
+
+/// How often a point may be in one body that may cut itself.
+const ITSELF: usize = 4;
+
+/// The most bodies whose boxes are compared.
+const MOST_COMPARED: usize = 4096;
 
 /// The most kinds of bodies.
 const MOST: usize = 16;
@@ -59,6 +68,23 @@ impl Body {
     }
 }
 
+/// Where a body is.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Extent {
+    /// The corners of its box.
+    pub(crate) bounds: [Vec3; 2],
+    /// Whether no point is in it more than once.
+    pub(crate) is_simple: bool,
+}
+
+impl Extent {
+    /// Whether the boxes of two meet.
+    fn meets(&self, other: &Self) -> bool {
+        let ([from, to], [low, high]) = (self.bounds, other.bounds);
+        from.cmple(high).all() && to.cmpge(low).all()
+    }
+}
+
 /// The bodies that a point is in, with the medium around them all.
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
 struct Set {
@@ -88,6 +114,8 @@ pub(crate) struct Bodies {
     sets: HashMap<Set, usize>,
     /// The places of the media with no body in them; empty space is the last.
     plain: Vec<Option<usize>>,
+    /// How many bodies of each kind may overlap, and how many of all.
+    most: (Vec<usize>, usize),
     /// What fills the points of each set.
     fillings: Vec<Filling>,
     /// By set and kind: with one more, with one less.
@@ -96,12 +124,14 @@ pub(crate) struct Bodies {
 
 impl Bodies {
     /// Of shapes, in a scene with so many media, of which those at other shapes (`bounded`) and the camera's are what bodies
-    /// may be put into. `None` without any, or after a mistake, which has been recorded.
+    /// may be put into. `extent` is where a shape is, if that is known. `None` without any, or after a mistake, which has been
+    /// recorded.
     pub(crate) fn new(
         shapes: &[(ShapeId, Body, Span)],
         media: usize,
         bounded: &[(ShapeId, MediumInterface)],
         camera: MediumId,
+        extent: impl Fn(ShapeId) -> Option<Extent>,
         diagnostics: &Diagnostics,
     ) -> Option<Self> {
         let mut kinds: Vec<Body> = Vec::new();
@@ -132,16 +162,21 @@ impl Bodies {
             media: media as u32,
             sets: HashMap::new(),
             plain: vec![None; media + 1],
+            most: (Vec::new(), 0),
             fillings: Vec::new(),
             moves: Vec::new(),
         };
         let others = bounded
             .iter()
             .filter(|(shape, _)| bodies.of_shape(*shape).is_none());
-        let around: Vec<MediumId> = others
+        let mut around: Vec<MediumId> = others
             .flat_map(|(_, sides)| [sides.inside, sides.outside])
             .chain([camera, MediumId::NONE])
             .collect();
+        around.sort_unstable();
+        around.dedup();
+        let count = around.len() as u64;
+        bodies.most = most_overlapping(shapes, &bodies.kinds, count, extent, diagnostics);
         for medium in around {
             bodies.list(Set {
                 around: medium,
@@ -174,7 +209,11 @@ impl Bodies {
         });
         self.moves.extend(vec![[number; 2]; kinds]);
         self.sets.insert(set.clone(), index);
-        for kind in (0..kinds).filter(|_| set.bodies.len() < DEPTH) {
+        for kind in 0..kinds {
+            let alike = set.bodies.iter().filter(|other| **other == kind).count();
+            if alike == self.most.0[kind] || set.bodies.len() == self.most.1 {
+                continue;
+            }
             let mut more = set.clone();
             let place = more.bodies.partition_point(|other| *other < kind);
             more.bodies.insert(place, kind);
@@ -234,6 +273,89 @@ impl Bodies {
     }
 }
 
+/// How many bodies of each kind may overlap at a point, and how many of all, by their boxes. What may cut itself, as no simple solid does,
+/// is entered up to [`ITSELF`] times, or as often as sets can be listed. Where even so there are too many, fewer of all are told
+/// apart, which is said.
+fn most_overlapping(
+    shapes: &[(ShapeId, Body, Span)],
+    kinds: &[Body],
+    media: u64,
+    extent: impl Fn(ShapeId) -> Option<Extent>,
+    diagnostics: &Diagnostics,
+) -> (Vec<usize>, usize) {
+    let extents: Option<Vec<_>> = match shapes.len() {
+        0..=MOST_COMPARED => shapes.iter().map(|(shape, ..)| extent(*shape)).collect(),
+        _ => None,
+    };
+    let Some(extents) = extents else {
+        let of_kinds = vec![DEPTH_UNKNOWN; kinds.len()];
+        let told_apart = largest_listed(&of_kinds, DEPTH_UNKNOWN, media);
+        return (of_kinds, told_apart);
+    };
+    let kind_of = |body: &Body| kinds.iter().position(|kind| kind == body);
+    let placed: Vec<(usize, Extent)> = (shapes.iter().zip(extents))
+        .filter_map(|((_, body, _), extent)| Some((kind_of(body)?, extent)))
+        .collect();
+    // Whatever overlaps at a point has boxes that overlap that of any of it.
+    let deepest = |itself: usize| {
+        let (mut of_kinds, mut of_all) = (vec![0; kinds.len()], 0);
+        for (_, own) in &placed {
+            let mut near = vec![0; kinds.len()];
+            for (kind, other) in placed.iter().filter(|(_, other)| other.meets(own)) {
+                near[*kind] += if other.is_simple { 1 } else { itself };
+            }
+            of_all = of_all.max(near.iter().sum());
+            of_kinds = of_kinds.iter().zip(near).map(|(a, b)| b.max(*a)).collect();
+        }
+        (of_kinds, of_all)
+    };
+    let mut most = deepest(ITSELF);
+    for itself in (1..ITSELF).rev() {
+        if largest_listed(&most.0, most.1, media) == most.1 {
+            return most;
+        }
+        most = deepest(itself);
+    }
+    let (of_kinds, of_all) = most;
+    let told_apart = largest_listed(&of_kinds, of_all, media);
+    if let (true, Some((.., span))) = (told_apart < of_all, shapes.first()) {
+        let message = format!(
+            "up to {of_all} bodies may overlap at a point here, by their boxes, and {told_apart} are told apart"
+        );
+        let help = "where more overlap, those entered last count for nothing: bodies of one priority, material and medium are of one \
+                    kind, and fewer kinds make fewer sets";
+        diagnostics.push(Diagnostic::note(*span, message).help(help));
+    }
+    (of_kinds, told_apart)
+}
+
+/// The size up to which all sets of bodies can be listed, in each of so many media.
+fn largest_listed(of_kinds: &[usize], of_all: usize, media: u64) -> usize {
+    let sets = sets_by_size(of_kinds, of_all);
+    let mut listed = 0_u64;
+    let fits = sets.iter().take_while(|count| {
+        listed = listed.saturating_add(**count);
+        listed.saturating_mul(media) <= MOST_SETS
+    });
+    fits.count().saturating_sub(1)
+}
+
+/// How many sets there are of 0, 1, … up to `of_all` bodies, with so many of each kind at most.
+fn sets_by_size(of_kinds: &[usize], of_all: usize) -> Vec<u64> {
+    let mut sets = vec![0_u64; of_all + 1];
+    sets[0] = 1;
+    for most in of_kinds {
+        let fewer = sets.clone();
+        for (size, count) in sets.iter_mut().enumerate() {
+            let from = size.saturating_sub(*most);
+            *count = fewer[from..=size]
+                .iter()
+                .fold(0, |sum: u64, count| sum.saturating_add(*count));
+        }
+    }
+    sets
+}
+
 impl Scene {
     /// What the surface of a body is between those on both of its sides: `own`, if it is the surface of none.
     pub(crate) fn between_bodies<'w>(
@@ -268,30 +390,47 @@ mod tests {
 
     const AIR: MediumId = MediumId::NONE;
 
-    /// Glass (3), ice (2) and juice (1), which is medium 1; medium 0 is fog.
-    fn bodies() -> Bodies {
+    /// Bodies of shapes with these priorities and media around the origin.
+    fn concentric(
+        shapes: &[(u32, i64, u32)],
+        camera: MediumId,
+        is_simple: bool,
+    ) -> (Bodies, Diagnostics) {
         let mut sources = etalon_params::Sources::default();
         let span = Span {
             file: sources.add("", ""),
             start: 0,
             end: 0,
         };
-        let shapes = [
-            (0, 1, 1),
-            (1, 3, u32::MAX),
-            (2, 2, u32::MAX),
-            (3, 2, u32::MAX),
-        ];
-        let shapes = shapes.map(|(shape, priority, medium)| {
+        let shapes = shapes.iter().map(|(shape, priority, medium)| {
+            let (priority, medium) = (*priority, *medium);
             let (material, medium) = (MaterialId(priority as u32), MediumId(medium));
             let body = Body {
                 priority,
                 material,
                 medium,
             };
-            (ShapeId(shape), body, span)
+            (ShapeId(*shape), body, span)
         });
-        Bodies::new(&shapes, 2, &[], MediumId(0), &Diagnostics::new()).expect("sound")
+        let shapes: Vec<_> = shapes.collect();
+        let diagnostics = Diagnostics::new();
+        let extent = |_| {
+            let bounds = [Vec3::NEG_ONE, Vec3::ONE];
+            Some(Extent { bounds, is_simple })
+        };
+        let bodies = Bodies::new(&shapes, 2, &[], camera, extent, &diagnostics);
+        (bodies.expect("sound"), diagnostics)
+    }
+
+    /// Glass (3), ice (2) and juice (1), which is medium 1; medium 0 is fog.
+    fn bodies() -> Bodies {
+        let shapes = [
+            (0, 1, 1),
+            (1, 3, u32::MAX),
+            (2, 2, u32::MAX),
+            (3, 2, u32::MAX),
+        ];
+        concentric(&shapes, MediumId(0), true).0
     }
 
     /// The priority that counts after entering (+) and leaving (−) shapes, and the medium.
@@ -329,10 +468,54 @@ mod tests {
     }
 
     #[test]
-    fn what_was_never_entered_is_not_left_and_more_than_four_are_not_told_apart() {
-        let bodies = bodies();
-        assert_eq!(walk(&bodies, AIR, &[-2]).0, AIR);
-        assert_eq!(walk(&bodies, AIR, &[1, 1, 1, 1, 2]).1, 1);
+    fn what_was_never_entered_is_not_left() {
+        assert_eq!(walk(&bodies(), AIR, &[-2]).0, AIR);
+    }
+
+    /// In the one medium in which all sets of them can be listed.
+    #[test]
+    fn sixteen_bodies_in_each_other_are_told_apart() {
+        let shapes: Vec<_> = (0..16).map(|index| (index, i64::from(index), 1)).collect();
+        for is_simple in [true, false] {
+            let (bodies, diagnostics) = concentric(&shapes, AIR, is_simple);
+            assert!(diagnostics.into_sorted().is_empty());
+            let mut set = AIR;
+            for entered in 1..=16 {
+                let (after, priority, _) = walk(&bodies, set, &[entered]);
+                assert_eq!(priority, i64::from(entered) - 1);
+                set = after;
+            }
+            for left in (1..=16).rev() {
+                assert_eq!(walk(&bodies, set, &[]).1, i64::from(left) - 1);
+                set = walk(&bodies, set, &[-left]).0;
+            }
+            assert_eq!(set, AIR);
+        }
+    }
+
+    /// A mesh that cuts itself is entered twice before it is left.
+    #[test]
+    fn a_body_may_be_entered_again() {
+        let (bodies, _) = concentric(&[(0, 1, 1), (1, 3, 1)], AIR, false);
+        assert_eq!(walk(&bodies, AIR, &[1, 1, 2, 2, -1, -2]).1, 3);
+        assert_eq!(walk(&bodies, AIR, &[1, 1, 2, 2, -1, -2, -2]).1, 1);
+    }
+
+    #[test]
+    fn bodies_that_are_too_many_to_tell_apart_are_told() {
+        let shapes: Vec<_> = (0..20)
+            .map(|index| (index, i64::from(index % 16), 1))
+            .collect();
+        let (bodies, diagnostics) = concentric(&shapes, MediumId(0), true);
+        let message = diagnostics.into_sorted()[0].message.clone();
+        assert!(
+            message.contains("20 bodies") && message.contains("6 are told apart"),
+            "{message}"
+        );
+        assert_eq!(walk(&bodies, AIR, &[1, 2, 3, 4, 5, 6]).1, 5);
+        assert_eq!(walk(&bodies, AIR, &[1, 2, 3, 4, 5, 6, 7]).1, 5);
+        assert!(bodies.fillings.len() as u64 <= MOST_SETS);
+        assert_eq!(sets_by_size(&[1, 2], 3), [1, 2, 2, 1]);
     }
 
     #[test]

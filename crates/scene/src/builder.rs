@@ -57,6 +57,17 @@ impl Build for Builder<'_> {
         self.reader().parameter(params, name, default, role)
     }
 
+    fn volume(
+        &mut self,
+        params: &Params<'_>,
+        name: &str,
+        default: Option<f64>,
+        role: SpectrumKind,
+    ) -> TextureId {
+        self.reader()
+            .parameter_in_space(params, name, default, role)
+    }
+
     fn nested_texture(&mut self, node: &Arc<Node>, role: SpectrumKind) -> TextureId {
         self.reader().node(node, role)
     }

@@ -3,9 +3,9 @@
 use crate::scene::Scene;
 use crate::{rays, view};
 use etalon_bsdf::Material;
-use etalon_subsurface::Homogeneous;
-use etalon_transport::{Camera, SceneCapabilities, World};
-use glam::UVec2;
+use etalon_subsurface::{Homogeneous, MediumAtWavelengths};
+use etalon_transport::{Camera, Medium, SceneCapabilities, World};
+use glam::{UVec2, Vec3};
 
 impl Scene {
     /// How much there is, for people.
@@ -25,6 +25,17 @@ impl Scene {
         )
     }
 
+    /// Whether what is beyond everything is a medium without end that light does not come through.
+    fn is_swallowed(&self) -> bool {
+        let (media, outermost) = (self.media(), self.outermost());
+        let is_there = |medium: MediumAtWavelengths<'_, _>| {
+            let coefficients = medium.coefficients(Vec3::ZERO, Vec3::Z);
+            coefficients.extinction().min_element() > 0.0
+        };
+        let medium = self.medium(outermost, &self.wavelengths(0.5));
+        media.is_endless(outermost) && medium.is_some_and(is_there)
+    }
+
     /// What an estimator can see of it, through the film's window of `size` pixels from `origin`.
     pub fn sight(&self, origin: UVec2, size: UVec2) -> SceneCapabilities {
         let view = view::look(self, origin, size);
@@ -42,6 +53,7 @@ impl Scene {
             lights,
             aperture: self.parts.camera.can_receive(),
             sky: self.has_background(),
+            swallowed: self.parts.lights.has_infinite() && self.is_swallowed(),
             media: self.parts.media.any(),
             diffusion: self.parts.media.any_homogeneous(Homogeneous::diffuses),
             textured_walk: self.parts.media.any_homogeneous(Homogeneous::varies),

@@ -1,12 +1,13 @@
 //! From a description to a scene.
 
-use crate::bodies::Bodies;
+use crate::bodies::{Bodies, Extent};
 use crate::builder::Builder;
 use crate::lookup::SceneTables;
 use crate::media::{self, LightMedium, SceneMedia};
 use crate::sampler::SamplerSettings;
 use crate::scene::Scene;
 use crate::sensor::{Response, curve};
+use crate::subsurface;
 use crate::surfaces::{self, Emitting, Names, Surfaces};
 use etalon_cameras::{AnyCamera, FilmWindow};
 use etalon_film::{FilmSettings, Filter};
@@ -14,7 +15,8 @@ use etalon_geometry::AcceleratorKind;
 use etalon_lights::{BoundingSphere, LightDescription, LightSamplerKind, LightSet};
 use etalon_params::{Class, Diagnostic, Diagnostics, Node, Params, Property, Span, plugins};
 use etalon_spectrum::Sensor;
-use etalon_transport::{Assets, Build, LightId, MediumId, ShapeId, Shutter, SpectrumKind};
+use etalon_subsurface::PhaseFunction;
+use etalon_transport::{Assets, Build, LightId, MediumId, ShapeId, Shapes, Shutter, SpectrumKind};
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 
@@ -79,9 +81,8 @@ pub fn compile_with(
         LightSamplerKind::default().name(),
         &LightSamplerKind::ALL.map(LightSamplerKind::name),
     );
-    read_unused_textures(&params, &mut builder);
+    read_unused(&params, &mut builder);
     read_definitions(&params, &mut builder);
-    refuse_unknown_children(&params);
     params.finish();
     if diagnostics.has_errors() {
         return None;
@@ -108,6 +109,13 @@ pub fn compile_with(
         surfaces.media.len(),
         &surfaces.interfaces,
         camera_medium,
+        |shape| {
+            let extent = Extent {
+                bounds: Shapes::bounds(&lookup, shape),
+                is_simple: lookup.geometry.shape(shape).is_solid(),
+            };
+            (!surfaces.placed_bodies).then_some(extent)
+        },
         diagnostics,
     );
     if bodies.is_some() {
@@ -351,22 +359,20 @@ fn read_definitions(params: &Params<'_>, builder: &mut Builder<'_>) {
     }
 }
 
-/// Textures at the top of a scene are definitions for others to refer to. Those that nobody
-/// refers to are read all the same, so that mistakes in them are found; as emission, which
-/// takes any colour.
-fn read_unused_textures(params: &Params<'_>, builder: &mut Builder<'_>) {
-    for (_, node) in params.children(Class::Texture) {
-        if !node.properties.iter().any(Property::is_used) {
-            builder.nested_texture(node, SpectrumKind::Emission);
-        }
+/// Textures, volumes, phase functions and what is below surfaces are at the top of a scene definitions for others to refer to. Those
+/// that nobody refers to are read all the same, so that mistakes in them are found; textures as emission, which takes any colour.
+fn read_unused(params: &Params<'_>, builder: &mut Builder<'_>) {
+    let unused = |class| {
+        let children = params.children(class).into_iter().map(|(_, node)| node);
+        children.filter(|node| !node.properties.iter().any(Property::is_used))
+    };
+    for node in unused(Class::Texture).chain(unused(Class::Volume)) {
+        builder.nested_texture(node, SpectrumKind::Emission);
     }
-}
-
-/// Volumes and phase functions at the top of a scene, for which nothing asks.
-fn refuse_unknown_children(params: &Params<'_>) {
-    for class in [Class::Volume, Class::Phase] {
-        for (_, node) in params.children(class) {
-            params.diagnostics.push(plugins::not_built(node, []));
-        }
+    for node in unused(Class::Phase) {
+        PhaseFunction::from_params(&Params::new(node, builder.diagnostics), builder);
+    }
+    for node in unused(Class::Subsurface) {
+        subsurface::read(node, builder);
     }
 }

@@ -20,19 +20,29 @@ impl Scene {
         }
         let direction = emission.ray.direction;
         if let Some(own) = media.of_light(emission.light) {
-            return Some(own.toward(direction.dot(emission.point.normal)));
+            let named = own.toward(direction.dot(emission.point.normal));
+            let body = self.body_filled_with(named, emission.ray, self.outermost());
+            return Some(body.unwrap_or(named));
         }
-        Some(self.medium_along(emission.ray))
+        Some(self.medium_along(emission.ray, self.outermost()))
+    }
+
+    /// The bodies at the origin of a ray, if the one that fills it is filled with a medium that a camera or a light there names.
+    fn body_filled_with(&self, named: MediumId, ray: Ray, beyond: MediumId) -> Option<MediumId> {
+        let bodies = self.media().bodies()?;
+        let set = self.medium_along(ray, beyond);
+        let filling = bodies.filling(set);
+        (filling.body.is_some() && filling.medium == named).then_some(set)
     }
 
     /// The medium on this side of the first boundary on a ray's way, with the bodies that the ray leaves without having entered
-    /// them.
-    pub(crate) fn medium_along(&self, mut ray: Ray) -> MediumId {
+    /// them. Without a boundary it is the one `beyond` everything.
+    pub(crate) fn medium_along(&self, mut ray: Ray, beyond: MediumId) -> MediumId {
         let bodies = self.media().bodies();
         let (mut around, mut entered, mut left) = (MediumId::NONE, Vec::new(), Vec::new());
         for _ in 0..PASSED {
             let Some(hit) = self.intersect(&ray) else {
-                around = self.outermost();
+                around = beyond;
                 break;
             };
             let vertex = self.vertex(&ray, &hit);
@@ -61,7 +71,10 @@ impl Scene {
             return self.camera_medium();
         }
         let start = (self.camera()).ray(Vec2::splat(0.5), Vec2::splat(0.5), 0.0);
-        self.medium_along(start.ray)
+        let named = self.camera_medium();
+        // A medium that fills the camera's body says nothing of what is around all bodies.
+        let body = self.body_filled_with(named, start.ray, MediumId::NONE);
+        body.unwrap_or_else(|| self.medium_along(start.ray, named))
     }
 
     /// The medium beyond everything: where a ray from the camera ends that goes straight on.

@@ -209,7 +209,7 @@ impl Surfaces {
         }
     }
 
-    /// A medium, read once however often it is used.
+    /// A medium, read once however often it is used; media that are the same are one.
     pub fn medium(&mut self, node: &Arc<Node>, builder: &mut Builder<'_>) -> MediumId {
         let key = Arc::as_ptr(node) as usize;
         if let Some(id) = self.medium_by_node.get(&key) {
@@ -219,8 +219,11 @@ impl Surfaces {
         let Some(medium) = MediumDescription::from_params(&params, builder) else {
             return MediumId::NONE;
         };
-        let id = MediumId(self.media.len() as u32);
-        self.media.push((medium, node.plugin.span));
+        let same = self.media.iter().position(|(other, _)| *other == medium);
+        let id = MediumId(same.unwrap_or(self.media.len()) as u32);
+        if same.is_none() {
+            self.media.push((medium, node.plugin.span));
+        }
         self.medium_by_node.insert(key, id);
         id
     }

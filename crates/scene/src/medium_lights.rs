@@ -203,7 +203,7 @@ impl Scene {
     /// What a ray from a point must know that is in a medium, and not only in its box.
     fn within(&self, medium: MediumId, at: Vec3) -> Option<MediumId> {
         let direction = Vec3::new(0.36, 0.48, 0.8);
-        let there = self.medium_along(Ray::new(at, direction, 0.0));
+        let there = self.medium_along(Ray::new(at, direction, 0.0), self.outermost());
         (self.media().filling(there) == medium).then_some(there)
     }
 

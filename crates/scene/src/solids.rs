@@ -24,10 +24,10 @@ impl Surfaces {
         let cutaway =
             operation == Operation::Difference && params.boolean_or("cutaway_textures", false);
         let emitter = params.child(Class::Emitter).cloned();
-        let whole = params
-            .child(Class::Bsdf)
-            .map(|bsdf| self.material(bsdf, builder))
-            .or(self.inherited);
+        let bsdf = params.child(Class::Bsdf);
+        let named = (bsdf.is_some() || emitter.is_some())
+            .then(|| self.material_or_default(bsdf, emitter.is_some(), builder));
+        let whole = named.or(self.inherited);
         let outer = core::mem::replace(&mut self.inherited, whole);
         let (mut operands, mut faces) = (Vec::new(), Vec::new());
         let children = params.children(Class::Shape);

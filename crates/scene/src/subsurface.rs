@@ -26,7 +26,10 @@ fn built() -> impl Iterator<Item = &'static str> + Clone {
 }
 
 /// The boundary's description, and the medium inside. `None` after a mistake.
-fn read(node: &Node, builder: &mut Builder<'_>) -> Option<(Arc<Node>, MediumDescription)> {
+pub(crate) fn read(
+    node: &Node,
+    builder: &mut Builder<'_>,
+) -> Option<(Arc<Node>, MediumDescription)> {
     let params = Params::new(node, builder.diagnostics);
     if !built().any(|name| name == node.plugin.value) {
         (builder.diagnostics).push(etalon_params::plugins::not_built(node, built()));

@@ -68,6 +68,8 @@ pub struct Surfaces {
     pub(crate) bodies: Vec<(ShapeId, Body, Span)>,
     /// Whether any of these shapes is seen through instances only, which have places of their own.
     pub placed_media: bool,
+    /// Whether any body is placed as an instance.
+    pub(crate) placed_bodies: bool,
     /// Descriptions made of others.
     pub(crate) boundaries: Vec<Arc<Node>>,
     pub(crate) medium_by_node: HashMap<usize, MediumId>,
@@ -167,6 +169,7 @@ impl Surfaces {
     /// Adds a shape that is only seen through instances.
     fn member(&mut self, shape: Shape, carried: &ShapeExtras) -> ShapeId {
         self.placed_media |= carried.media.is_some();
+        self.placed_bodies |= carried.body.is_some();
         let id = self.geometry.add_member(shape, carried.material);
         self.carry(id, carried);
         id
@@ -221,16 +224,10 @@ impl Surfaces {
                 self.asked.by(user, shape, place, builder.diagnostics);
             }
         }
-        let material = match bsdf {
-            Some(bsdf) => {
-                if bsdf.plugin.value == classicphong::NAME {
-                    self.classic.get_or_insert(bsdf.plugin.span);
-                }
-                self.material(bsdf, builder)
-            }
-            None if emitter.is_some() => self.black(builder),
-            None => self.grey(builder),
-        };
+        if let Some(bsdf) = bsdf.filter(|bsdf| bsdf.plugin.value == classicphong::NAME) {
+            self.classic.get_or_insert(bsdf.plugin.span);
+        }
+        let material = self.material_or_default(bsdf, emitter.is_some(), builder);
         for (property, _) in params.children(Class::Sensor) {
             let message = "a sensor on a shape is not built yet";
             builder
@@ -369,6 +366,20 @@ impl Surfaces {
         };
         self.by_node.insert(key, id);
         id
+    }
+
+    /// The material of a shape: the one that it names, or else black if it emits light and grey if not.
+    pub(crate) fn material_or_default(
+        &mut self,
+        bsdf: Option<&Arc<Node>>,
+        emits: bool,
+        builder: &mut Builder<'_>,
+    ) -> MaterialId {
+        match bsdf {
+            Some(bsdf) => self.material(bsdf, builder),
+            None if emits => self.black(builder),
+            None => self.grey(builder),
+        }
     }
 
     fn push(&mut self, material: Material, name: String) -> MaterialId {

@@ -4,7 +4,8 @@
 //! through whatever lets light pass. Something small may slip through; what is found is there.
 
 use etalon_transport::{
-    Bsdf, Camera, CameraProbe, LightSampleContext, Ray, SurfaceInteraction, TransportMode, World,
+    Bsdf, Camera, CameraProbe, LightSampleContext, Ray, SamplePdf, SurfaceInteraction,
+    TransportMode, World,
 };
 use glam::{UVec2, Vec2, Vec3, Vec4};
 
@@ -13,6 +14,9 @@ const LATTICE: u32 = 48;
 
 /// The most surfaces that a ray passes straight.
 const PASSED: u32 = 64;
+
+/// Directions in which light may be scattered that are tried.
+const TRIED: u32 = 16;
 
 /// Multiples of this spread evenly over a square, modulo one: powers of the inverse of the plastic
 /// number (Roberts 2018, "The Unreasonable Effectiveness of Quasirandom Sequences").
@@ -67,7 +71,7 @@ fn reach<W: World>(world: &W, mut ray: Ray, number: u32) -> Option<Reached> {
         let vertex = world.vertex(&ray, &hit);
         let wo = -ray.direction;
         let bsdf = world.bsdf(&vertex, wo, &wavelengths);
-        if bsdf.has_continuous() && bsdf.albedo(wo) != Vec4::ZERO {
+        if scatters(&bsdf, wo) {
             return Some(Reached::Surface(vertex, wo));
         }
         if world.is_emitter(&hit) {
@@ -82,6 +86,18 @@ fn reach<W: World>(world: &W, mut ray: Ray, number: u32) -> Option<Reached> {
         ray = vertex.spawn(*onward.get(choice)?);
     }
     None
+}
+
+/// Whether a surface seen from a direction scatters any light in a continuum of directions, on either side.
+fn scatters<B: Bsdf>(bsdf: &B, wo: Vec3) -> bool {
+    let tried = |index: u32| {
+        let [u_lobe, u, v] = SPREAD_3.map(|s| (s * index as f32).fract());
+        bsdf.sample(wo, u_lobe, Vec2::new(u, v), TransportMode::Radiance)
+    };
+    bsdf.has_continuous()
+        && (1..=TRIED).filter_map(tried).any(|sample| {
+            matches!(sample.chance, SamplePdf::Continuous(_)) && sample.value != Vec4::ZERO
+        })
 }
 
 /// Whether a light that is but a point or a direction would light a surface, were it not for smooth glass
@@ -133,9 +149,9 @@ fn veiled<W: World>(world: &W, vertex: &SurfaceInteraction, wo: Vec3, number: u3
 /// Adds what one ray sees.
 fn follow<W: World>(world: &W, mut ray: Ray, view: &mut CameraProbe) {
     let wavelengths = world.wavelengths(0.5);
-    let [mut scatters, mut smooth, mut light] = [false; 3];
+    let [mut scattering, mut smooth, mut light] = [false; 3];
     for _ in 0..PASSED {
-        scatters |= ray.medium.is_some();
+        scattering |= ray.medium.is_some();
         let Some(hit) = world.intersect(&ray) else {
             light |= world.has_background();
             break;
@@ -146,7 +162,7 @@ fn follow<W: World>(world: &W, mut ray: Ray, view: &mut CameraProbe) {
         light |= emits;
         let bsdf = world.bsdf(&vertex, wo, &wavelengths);
         // A lamp without a material is a black surface.
-        scatters |= bsdf.has_continuous() && !(emits && bsdf.albedo(wo) == Vec4::ZERO);
+        scattering |= bsdf.has_continuous() && (!emits || scatters(&bsdf, wo));
         smooth |= (0..)
             .map_while(|index| bsdf.discrete(wo, index, TransportMode::Radiance))
             .any(|sample| !sample.is_null && sample.value != Vec4::ZERO);
@@ -156,7 +172,7 @@ fn follow<W: World>(world: &W, mut ray: Ray, view: &mut CameraProbe) {
         ray = vertex.spawn(ray.direction);
     }
     view.rays += 1;
-    view.scattering += u32::from(scatters);
+    view.scattering += u32::from(scattering);
     view.smooth += u32::from(smooth);
     view.lights += u32::from(light);
 }

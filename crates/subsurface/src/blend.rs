@@ -20,7 +20,7 @@ pub struct Blend {
 impl Blend {
     /// Reads `weight` and the two phase functions.
     pub(crate) fn from_params(params: &Params<'_>, build: &mut dyn Build) -> Option<Self> {
-        let weight = build.texture(params, "weight", Some(0.5), SpectrumKind::Reflectance);
+        let weight = build.volume(params, "weight", Some(0.5), SpectrumKind::Reflectance);
         let children = params.children(Class::Phase);
         let parts = children.iter().filter_map(|(_, node)| {
             PhaseFunction::from_params(&Params::new(node, params.diagnostics), build)

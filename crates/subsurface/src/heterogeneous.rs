@@ -5,7 +5,8 @@
 //! ```
 //!
 //! and emits σa Lₑ(x) per metre (`emission`). `sigma_t`, `albedo` and `emission` may be anything that has a value at a point of space: a grid, a computed pattern, a product of
-//! such. A medium ends where the grid of its `sigma_t` does, whatever the shape that holds it.
+//! such. A medium ends where the grid of its `sigma_t` does, whatever the shape that holds it. A `homogeneous` medium whose albedo or
+//! emission varies is one of these whose `sigma_t` does not.
 
 use crate::majorants::{MajorantGrid, Segments};
 use crate::phases::{PhaseAt, PhaseFunction};
@@ -13,7 +14,7 @@ use crate::volume;
 use etalon_params::Params;
 use etalon_transport::{
     Build, Coefficients, MajorantSegment, Medium, Phase, Ray, SpectrumKind, TextureId,
-    TexturePoint, Textures, Tracking,
+    TexturePoint, Textures, Tracking, is_varying, refuse_varying,
 };
 use glam::{Vec3, Vec4};
 
@@ -46,8 +47,8 @@ impl Heterogeneous {
         let what = "a finite number not below 0";
         let scale = params.float_where("scale", 1.0, what, |s| s >= 0.0 && s.is_finite());
         Some(Self {
-            albedo: build.texture(params, "albedo", Some(0.75), SpectrumKind::Reflectance),
-            sigma_t: build.texture(params, "sigma_t", Some(1.0), SpectrumKind::Unbounded),
+            albedo: build.volume(params, "albedo", Some(0.75), SpectrumKind::Reflectance),
+            sigma_t: build.volume(params, "sigma_t", Some(1.0), SpectrumKind::Unbounded),
             scale: scale as f32,
             phase: PhaseFunction::of_medium(params, build)?,
             emission: volume::emission(params, build),
@@ -55,6 +56,24 @@ impl Heterogeneous {
             majorants: None,
             most: 0.0,
         })
+    }
+
+    /// Reads a `homogeneous` medium whose `albedo` or `emission` varies in space; `None` if this is none.
+    pub(crate) fn of_even_extinction(
+        params: &Params<'_>,
+        build: &mut dyn Build,
+    ) -> Option<Option<Self>> {
+        let varies = ["albedo", "emission"]
+            .iter()
+            .any(|name| is_varying(params, name));
+        let by_others = ["material", "sigma_a", "sigma_s"]
+            .iter()
+            .any(|name| params.has(name));
+        if params.node.plugin.value != "homogeneous" || !varies || by_others {
+            return None;
+        }
+        refuse_varying(params, "sigma_t");
+        Some(Self::from_params(params, build))
     }
 
     /// Whether it emits light.

@@ -5,7 +5,7 @@
 //! ```
 //!
 //! and emits σa Lₑ per metre, with the radiance Lₑ (`emission`) that a thick piece would have if it scattered nothing;
-//! with the single-scattering albedo α and the extinction σt, or σa and σs themselves, or those of a `material`; all are spectra.
+//! with the single-scattering albedo α (where that varies in space, `heterogeneous` reads it) and the extinction σt, or σa and σs themselves, or those of a `material`; all are spectra.
 
 use crate::majorants::Segments;
 use crate::phases::{PhaseAt, PhaseFunction};

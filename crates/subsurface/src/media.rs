@@ -102,7 +102,11 @@ media! {
 impl MediumDescription {
     /// Reads a medium. After a mistake, which has been recorded, `None`.
     pub fn from_params(params: &Params<'_>, build: &mut dyn Build) -> Option<Self> {
-        let Some(medium) = Self::read(params, build) else {
+        let read = match Heterogeneous::of_even_extinction(params, build) {
+            None => Self::read(params, build),
+            varying => varying.map(|medium| medium.map(Self::Heterogeneous)),
+        };
+        let Some(medium) = read else {
             let built = BUILT.iter().copied();
             params
                 .diagnostics

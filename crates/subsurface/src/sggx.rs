@@ -115,7 +115,7 @@ impl Sggx {
             }
             return sound.map(Self::Even);
         }
-        Some(Self::Varying(build.texture(
+        Some(Self::Varying(build.volume(
             params,
             "S",
             None,

@@ -76,5 +76,5 @@ pub(crate) fn emission(params: &Params<'_>, build: &mut dyn Build) -> Option<Tex
         ..Question::default()
     });
     let given = params.has("emission");
-    given.then(|| build.texture(params, "emission", None, SpectrumKind::Emission))
+    given.then(|| build.volume(params, "emission", None, SpectrumKind::Emission))
 }

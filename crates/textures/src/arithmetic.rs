@@ -145,6 +145,10 @@ impl TextureModel for Arithmetic {
             2
         }]
     }
+
+    fn instead_in_space(&self) -> Option<&'static str> {
+        None
+    }
 }
 
 /// Reads `a` and `b`, and `weight` (0.5) of `mix`; of `scale`, the nested texture and the factor `scale` (1).

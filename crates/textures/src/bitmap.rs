@@ -152,6 +152,10 @@ impl TextureModel for Bitmap {
     fn is_constant(&self, _: &TextureTable) -> bool {
         self.image.size == UVec2::ONE
     }
+
+    fn instead_in_space(&self) -> Option<&'static str> {
+        Some("a `gridvolume` has values in space")
+    }
 }
 
 pub(crate) fn read(

@@ -79,6 +79,10 @@ impl TextureModel for Checkerboard {
     fn nested(&self) -> &[TextureId] {
         &self.colours
     }
+
+    fn instead_in_space(&self) -> Option<&'static str> {
+        Some("`bricks` with `space` = `world` has a pattern in space")
+    }
 }
 
 pub(crate) fn read(

@@ -103,6 +103,10 @@ impl TextureModel for Constant {
     fn least_within(&self, _: &TextureTable, _: Vec3, _: Vec3) -> f32 {
         self.range[0]
     }
+
+    fn instead_in_space(&self) -> Option<&'static str> {
+        None
+    }
 }
 
 /// `constvolume`: the spectrum in `value` (1), everywhere in space.

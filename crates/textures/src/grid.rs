@@ -163,6 +163,10 @@ impl TextureModel for Grid {
     fn cells(&self, _: &TextureTable) -> u32 {
         self.size.max_element()
     }
+
+    fn instead_in_space(&self) -> Option<&'static str> {
+        None
+    }
 }
 
 impl Grid {

@@ -65,6 +65,10 @@ impl TextureModel for TimesD65 {
     fn nested(&self) -> &[TextureId] {
         std::slice::from_ref(&self.inner)
     }
+
+    fn instead_in_space(&self) -> Option<&'static str> {
+        None
+    }
 }
 
 /// A colour becomes one spectrum, a texture is multiplied where it is asked.

@@ -120,6 +120,10 @@ impl TextureModel for MeshAttribute {
     fn mean(&self, _: &TextureTable) -> f32 {
         0.5 * self.scale
     }
+
+    fn instead_in_space(&self) -> Option<&'static str> {
+        Some("a `gridvolume` has values in space")
+    }
 }
 
 pub(crate) fn read(

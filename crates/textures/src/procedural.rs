@@ -236,6 +236,11 @@ impl TextureModel for Procedural {
     fn nested(&self) -> &[TextureId] {
         &self.colours
     }
+
+    fn instead_in_space(&self) -> Option<&'static str> {
+        self.by_uv
+            .then_some("with `space` = `world` the pattern stands in space")
+    }
 }
 
 /// Reads `color0` (0) and `color1` (1), `to_world`, `space` (`world` or `uv`; `uv` for `bricks` and `gradient`), and

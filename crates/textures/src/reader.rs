@@ -53,6 +53,39 @@ impl TextureReader<'_> {
         self.parameter_in(params, name, default, top)
     }
 
+    /// The same where it is asked at points of space, which are on no surface: what has values on surfaces only is refused.
+    pub fn parameter_in_space(
+        &mut self,
+        params: &Params<'_>,
+        name: &str,
+        default: Option<f64>,
+        role: SpectrumKind,
+    ) -> TextureId {
+        let id = self.parameter(params, name, default, role);
+        if let Some(Value::Object(node)) = params.property(name).map(|p| &p.value) {
+            self.refuse_on_surfaces(node);
+        }
+        id
+    }
+
+    /// Refuses every texture within `node` that has values on surfaces only.
+    fn refuse_on_surfaces(&self, node: &Arc<Node>) {
+        let mut read = self.set.read_as(node).map(|id| self.set.get(id));
+        if let Some(help) = read.find_map(Texture::instead_in_space) {
+            let name = node.with_article();
+            let message = format!(
+                "{name} looks at where it is on a surface, and points in a medium are on none"
+            );
+            let error = Diagnostic::error(node.plugin.span, message);
+            self.diagnostics.push(error.help(help));
+        }
+        for property in &node.properties {
+            if let Value::Object(nested) = &property.value {
+                self.refuse_on_surfaces(nested);
+            }
+        }
+    }
+
     pub(crate) fn parameter_in(
         &mut self,
         params: &Params<'_>,

@@ -22,6 +22,8 @@ pub struct TextureTable {
     pub(crate) read: HashMap<(usize, SpectrumKind), TextureId>,
     /// Keeps the nodes in `read` alive, so that no address is used twice.
     pub(crate) nodes: Vec<Arc<Node>>,
+    /// Those that have values in space, by the bits of their means.
+    alike: HashMap<u32, Vec<TextureId>>,
     pub(crate) images: HashMap<(String, bool, Option<ImageChannel>, bool), Arc<Image>>,
 }
 
@@ -31,10 +33,21 @@ impl TextureTable {
         Self::default()
     }
 
-    /// Adds a texture.
+    /// Adds a texture. Of equal ones that have values in space there is one, so that media are equal that are the same.
     pub fn add(&mut self, texture: Texture) -> TextureId {
+        let id = TextureId(self.textures.len() as u32);
+        if texture.instead_in_space().is_none() {
+            let near = (self.alike.entry(texture.mean(self).to_bits())).or_default();
+            let known = near
+                .iter()
+                .find(|id| self.textures[id.0 as usize] == texture);
+            if let Some(known) = known {
+                return *known;
+            }
+            near.push(id);
+        }
         self.textures.push(texture);
-        TextureId(self.textures.len() as u32 - 1)
+        id
     }
 
     /// Adds a spectrum that is the same everywhere.
@@ -66,6 +79,7 @@ impl TextureTable {
             SpectrumKind::Emission,
             SpectrumKind::Unbounded,
             SpectrumKind::Index,
+            SpectrumKind::Tensor,
         ];
         roles
             .into_iter()
@@ -83,6 +97,7 @@ impl TextureTable {
         self.read = HashMap::new();
         self.nodes = Vec::new();
         self.images = HashMap::new();
+        self.alike = HashMap::new();
     }
 
     /// A texture.

@@ -63,6 +63,10 @@ pub(crate) trait TextureModel {
         &[]
     }
 
+    /// What helps where it is asked at a point of space: `None` if it has a value there, as far as what it refers to has, and
+    /// not on surfaces only.
+    fn instead_in_space(&self) -> Option<&'static str>;
+
     /// Not less than its value at any wavelength and anywhere in the world's box from `low` to `high`; infinite if nothing
     /// is known.
     fn most_within(&self, _: &TextureTable, _low: Vec3, _high: Vec3) -> f32 {
@@ -264,6 +268,11 @@ impl Texture {
     /// How many parts of its extent, along the longest side, may differ; 1 if nothing is known.
     pub fn cells(&self, set: &TextureTable) -> u32 {
         ask!(self, texture => texture.cells(set))
+    }
+
+    /// What helps where it is asked at a point of space, if it has a value on surfaces only.
+    pub fn instead_in_space(&self) -> Option<&'static str> {
+        ask!(self, texture => texture.instead_in_space())
     }
 
     /// The textures that it refers to.

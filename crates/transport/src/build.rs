@@ -41,6 +41,17 @@ pub trait Build {
         role: SpectrumKind,
     ) -> TextureId;
 
+    /// The same where it is asked at points of space, which are on no surface: what has values on surfaces only is refused.
+    fn volume(
+        &mut self,
+        params: &Params<'_>,
+        name: &str,
+        default: Option<f64>,
+        role: SpectrumKind,
+    ) -> TextureId {
+        self.texture(params, name, default, role)
+    }
+
     /// The texture described by a nested texture or spectrum object.
     fn nested_texture(&mut self, node: &Arc<Node>, role: SpectrumKind) -> TextureId;
 

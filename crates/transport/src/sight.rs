@@ -48,6 +48,8 @@ pub struct SceneCapabilities {
     pub aperture: bool,
     /// Whether there is light at infinity that a ray can hit.
     pub sky: bool,
+    /// Whether light at infinity is behind a medium without end, through which none of it comes.
+    pub swallowed: bool,
     /// Whether there are participating media.
     pub media: bool,
     /// Whether a diffusion profile stands for walks in any of them.
@@ -153,6 +155,7 @@ impl SceneCapabilities {
     pub fn incompatibilities(&self, finding: LightSearch) -> Vec<Incompatibility> {
         let mut objections = self.missing(finding);
         objections.extend(self.unreached());
+        objections.extend(self.swallowed());
         if finding == LightSearch::FromCamera {
             objections.extend(self.veiled());
         }
@@ -270,6 +273,18 @@ impl SceneCapabilities {
             Incompatibility::remark(Subject::Scene, message).help(
                 "the picture will be black, or nearly: turn the camera to the scene, or give the \
                  lights an extent or a surface some roughness",
+            )
+        })
+    }
+
+    /// A remark where light from infinity never comes to the scene.
+    fn swallowed(&self) -> Option<Incompatibility> {
+        self.swallowed.then(|| {
+            let message = "a medium without end is around the scene, and nothing comes through it of a sky or of other light at \
+                           infinity";
+            Incompatibility::remark(Subject::Scene, message).help(
+                "make it the `interior` of a closed shape with a `null` material around camera and scene: fog is as thick then as \
+                 that shape (Mitsuba has its sky on the scene's bounding sphere)",
             )
         })
     }

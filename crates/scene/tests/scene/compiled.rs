@@ -44,6 +44,40 @@ fn shapes_without_material_are_grey_and_lights_black() {
     assert_eq!(albedo(&world, 4.0), Vec4::splat(0.25));
 }
 
+/// Lights of every make: what they are made of does not matter.
+#[test]
+fn lights_of_every_make_are_black_without_material() {
+    let half = "<float name=\"radius\" value=\"0.5\"/>";
+    let operands = "<shape type=\"sphere\"/><shape type=\"cube\"/>";
+    let nested = format!("<shape type=\"union\">{operands}</shape><shape type=\"cube\"/>");
+    let shapes = [
+        ("sphere", half),
+        ("cube", ""),
+        ("disk", ""),
+        ("rectangle", ""),
+        ("union", operands),
+        ("intersection", operands),
+        (
+            "difference",
+            "<shape type=\"cube\"/><shape type=\"sphere\"><point name=\"center\" x=\"0\" y=\"0\" z=\"-3\"/></shape>",
+        ),
+        ("union", &nested),
+    ];
+    for (plugin, content) in shapes {
+        let shape =
+            |further: &str| format!("<shape type=\"{plugin}\">{content}{further}</shape>\n");
+        let lit = scene(&shape(&glow(1.0)));
+        assert_eq!(albedo(&lit, 0.1), Vec4::ZERO, "{plugin}");
+        assert_eq!(
+            albedo(&scene(&shape("")), 0.1),
+            Vec4::splat(0.5),
+            "{plugin}"
+        );
+        let painted = scene(&shape(&(glow(1.0) + &grey(0.25))));
+        assert_eq!(albedo(&painted, 0.1), Vec4::splat(0.25), "{plugin}");
+    }
+}
+
 #[test]
 fn a_shared_material_is_compiled_once() {
     let shared = "<bsdf type=\"plastic\" id=\"m\"/>\n".to_owned();
