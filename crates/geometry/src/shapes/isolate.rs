@@ -109,3 +109,42 @@ pub(crate) fn refine<F: OneParameter>(f: &F, mut a: f64, mut b: f64, inside: boo
     }
     0.5 * (a + b)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use core::cell::Cell;
+
+    /// √(s − ¾) − ¼, which is defined from ¾ on, and vanishes at 13/16; and how often it is asked.
+    struct Root(Cell<u32>);
+
+    impl OneParameter for Root {
+        fn eval<N: Number>(&self, s: N) -> N {
+            self.0.set(self.0.get() + 1);
+            s.shift(-0.75).sqrt().shift(-0.25)
+        }
+    }
+
+    /// What is undefined is one piece, not as many as are short enough.
+    #[test]
+    fn a_piece_that_is_undefined_everywhere_is_passed_over() {
+        let root = Root(Cell::new(0));
+        let mut changes = Vec::new();
+        let found: Option<()> = sign_changes(
+            &root,
+            (0.0, 1.0),
+            1e-6,
+            |_, _| false,
+            |s, inside| {
+                changes.push((s, inside));
+                ControlFlow::Continue(())
+            },
+        );
+        assert_eq!(found, None);
+        let [(begins, false), (ends, true)] = changes[..] else {
+            panic!("{changes:?}");
+        };
+        assert!((begins - 0.75).abs() < 1e-6 && (ends - 0.8125).abs() < 1e-12);
+        assert!(root.0.get() < 500, "{} evaluations", root.0.get());
+    }
+}

@@ -75,6 +75,18 @@ fn cases() -> Vec<Case> {
     };
     let cube = || built("cube", vec![]);
     add("torus", torus(), Box::new(in_torus));
+    // All that is in the tube, which reaches over the axis.
+    add(
+        "spindle torus",
+        built(
+            "torus",
+            vec![number("major_radius", 0.4), number("minor_radius", 0.7)],
+        ),
+        Box::new(|p| {
+            let ring = p.truncate().length() - 0.4;
+            0.7 - (ring * ring + p.z * p.z).sqrt()
+        }),
+    );
     let sheared = moved(Vec3::new(0.2, -0.1, 0.1), 0.8, Vec3::new(1.2, 0.7, -0.9));
     let matrix = etalon_params::DMat4::from_cols(
         sheared.vector(DVec3::X).extend(0.0),
@@ -308,6 +320,14 @@ fn points_are_spread_by_area() {
         vec![number("major_radius", 1.0), number("minor_radius", 0.4)],
     );
     assert!((torus.area() - 4.0 * PI * PI * 0.4).abs() < 1e-12);
+    for (major, minor) in [(0.6_f64, 0.6_f64), (0.4, 0.7), (1e-9, 1.0)] {
+        let radii = vec![number("major_radius", major), number("minor_radius", minor)];
+        // The arc that does not reach over the axis, by Pappus and Guldin; at last a sphere.
+        let angle = etalon_math::float64::acos(-major / minor);
+        let expected = 4.0 * PI * minor * (major * angle + (minor * minor - major * major).sqrt());
+        let area = built("torus", radii).area();
+        assert!((area - expected).abs() < 1e-12, "{area} {expected}");
+    }
     let cone = built("cone", vec![number("radius0", 0.3), number("radius1", 0.9)]);
     let slant = (1.0_f64 + 0.36).sqrt();
     assert!((cone.area() - PI * (1.2 * slant + 0.09 + 0.81)).abs() < 1e-12);
@@ -391,7 +411,7 @@ fn points_are_spread_by_area() {
 fn mistakes() {
     let message = |plugin, properties| make(plugin, properties).1;
     assert!(
-        message("torus", vec![number("minor_radius", 2.0)]).contains("below its `major_radius`")
+        message("torus", vec![number("minor_radius", -2.0)]).contains("a positive finite number")
     );
     assert!(message("cone", vec![vector("p1", 0.0, 0.0, 0.0)]).contains("must differ"));
     assert!(message("cone", vec![number("radius0", 0.0)]).contains("above 0"));

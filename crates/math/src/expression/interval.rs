@@ -2,7 +2,8 @@
 //! Analysis*).
 //!
 //! Ends are rounded outward: by a neighbouring number for what IEEE 754 rounds correctly, by a few for the elementary
-//! functions. What may be undefined (a pole, the root of a negative number) is everything.
+//! functions. What may be undefined (a pole, a root of what may be negative) is everything, what certainly is undefined (the root of a
+//! negative number) is an interval of no number, which has no zero, and so is all that is computed of it.
 
 use super::number::Number;
 use crate::noise::{self, LARGEST_CURVATURE, LARGEST_SLOPE};
@@ -24,6 +25,18 @@ impl Interval {
         low: f64::NEG_INFINITY,
         high: f64::INFINITY,
     };
+
+    /// What is no number.
+    pub const NONE: Self = Self {
+        low: f64::NAN,
+        high: f64::NAN,
+    };
+
+    /// Whether it is no number.
+    #[inline]
+    pub fn is_none(&self) -> bool {
+        self.low.is_nan()
+    }
 
     /// From `low` to `high`, a neighbouring number further on both sides; all if one of them is no number.
     #[inline]
@@ -86,12 +99,21 @@ impl Number for Interval {
         }
     }
     fn add(self, b: Self) -> Self {
+        if self.is_none() || b.is_none() {
+            return Self::NONE;
+        }
         Self::around(self.low + b.low, self.high + b.high)
     }
     fn shift(self, c: f64) -> Self {
+        if self.is_none() {
+            return self;
+        }
         Self::around(self.low + c, self.high + c)
     }
     fn scale(self, c: f64) -> Self {
+        if self.is_none() {
+            return self;
+        }
         let (a, b) = (self.low * c, self.high * c);
         if c < 0.0 {
             Self::around(b, a)
@@ -100,6 +122,9 @@ impl Number for Interval {
         }
     }
     fn mul(self, b: Self) -> Self {
+        if self.is_none() || b.is_none() {
+            return Self::NONE;
+        }
         let ends = [
             self.low * b.low,
             self.low * b.high,
@@ -115,8 +140,18 @@ impl Number for Interval {
         )
     }
     fn div(self, b: Self) -> Self {
+        if self.is_none() || b.is_none() {
+            return Self::NONE;
+        }
         if b.has_zero() {
-            return Self::ALL;
+            // Of 0 itself, as a constant, the sign is known.
+            let is_zero = [b.low, b.high].iter().all(|end| end.to_bits() == 0);
+            return match (is_zero, self) {
+                (true, a) if a.low > 0.0 => Self::constant(f64::INFINITY),
+                (true, a) if a.high < 0.0 => Self::constant(f64::NEG_INFINITY),
+                (true, a) if a.low == 0.0 && a.high == 0.0 => Self::NONE,
+                _ => Self::ALL,
+            };
         }
         self.mul(Self::around(1.0 / b.high, 1.0 / b.low))
     }
@@ -127,6 +162,9 @@ impl Number for Interval {
         }
     }
     fn powi(self, n: i32) -> Self {
+        if self.is_none() && n != 0 {
+            return self;
+        }
         if n < 0 {
             return Self::constant(1.0).div(self.powi(-n));
         }
@@ -140,16 +178,25 @@ impl Number for Interval {
         Self::wide(least, a.max(b), parts).at_least(0.0)
     }
     fn sqrt(self) -> Self {
+        if self.is_none() || self.high < 0.0 {
+            return Self::NONE;
+        }
         if self.low < 0.0 {
             return Self::ALL;
         }
         Self::around(self.low.sqrt(), self.high.sqrt()).at_least(0.0)
     }
     fn exp(self) -> Self {
+        if self.is_none() {
+            return self;
+        }
         let end = <f64 as Number>::exp;
         Self::wide(end(self.low), end(self.high), ELEMENTARY).at_least(0.0)
     }
     fn ln(self) -> Self {
+        if self.is_none() || self.high < 0.0 {
+            return Self::NONE;
+        }
         if self.low < 0.0 {
             return Self::ALL;
         }
@@ -157,6 +204,9 @@ impl Number for Interval {
         Self::wide(end(self.low), end(self.high), ELEMENTARY)
     }
     fn sin(self) -> Self {
+        if self.is_none() {
+            return self;
+        }
         let far = self.low.abs().max(self.high.abs());
         // Far away π is not known well enough to tell the waves apart.
         if !(self.high - self.low < TAU && far < 1e9) {
@@ -189,10 +239,17 @@ impl Number for Interval {
         self.add(Self::wide(FRAC_PI_2, FRAC_PI_2, ELEMENTARY)).sin()
     }
     fn atan(self) -> Self {
+        if self.is_none() {
+            return self;
+        }
         let end = <f64 as Number>::atan;
         Self::wide(end(self.low), end(self.high), ELEMENTARY).meet(Self::around(-PI, PI))
     }
     fn max_with(a: Self, b: Self, da: Self, db: Self) -> (Self, Self) {
+        // As of numbers: what is not the greater is left out, and what is no number is never the greater.
+        if a.is_none() || b.is_none() {
+            return (b, db);
+        }
         let value = Self {
             low: a.low.max(b.low),
             high: a.high.max(b.high),

@@ -57,6 +57,38 @@ fn mistakes_are_placed() {
     assert!(error.message.contains("256"), "{error:?}");
 }
 
+/// A piece in which an expression is defined nowhere has no values, and so no zero; the quotient by nothing has a sign.
+#[test]
+fn what_is_undefined_everywhere_has_no_zero() {
+    let enclosed = |text: &str, low: f64, high: f64| {
+        let expression = Expression::parse(text, &["x"]).expect("valid");
+        expression.eval(&[Interval { low, high }])
+    };
+    for text in [
+        "sqrt(x)",
+        "x^1.5 - 1",
+        "ln(x)",
+        "2 * sqrt(x) + x / ln(x)",
+        "max(x, sin(sqrt(x)))",
+        "exp(sqrt(x))^-2",
+        "abs(sqrt(x)) - 1",
+    ] {
+        assert!(enclosed(text, -2.0, -1.0).is_none(), "{text}");
+        assert!(!enclosed(text, -2.0, 1.0).is_none(), "{text}");
+        assert!(value(text, [-1.5, 0.0, 0.0]).is_nan(), "{text}");
+    }
+    // As of numbers, what is no number is not the greater.
+    assert_eq!(
+        enclosed("max(sqrt(x), x)", -2.0, -1.0),
+        Interval {
+            low: -2.0,
+            high: -1.0
+        }
+    );
+    assert!(enclosed("x / 0", -2.0, -1.0).high < 0.0 && enclosed("x / 0", 1.0, 2.0).low > 0.0);
+    assert!(enclosed("x / 0", -1.0, 1.0).has_zero());
+}
+
 const SAMPLES: &[&str] = &[
     "x^2 + y^2 + z^2 - 1",
     "x^3 - 3*x*y^2 + z",
@@ -67,6 +99,8 @@ const SAMPLES: &[&str] = &[
     "noise(2*x, 2*y, 2*z) + 0.2 * atan(y*z)",
     "x^5 / (z - 0.3) + tan(y)",
     "(x*x + 0.1)^1.7",
+    "max(sqrt(x), y) - x^1.5",
+    "sqrt(z) + min(z, ln(y))",
 ];
 
 proptest! {
