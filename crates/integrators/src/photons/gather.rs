@@ -387,11 +387,13 @@ impl<'w, W: World> GatherPath<'_, 'w, W> {
             };
             if lookup.nearest == 0 {
                 world.record(|| gathering(radius_squared));
-                tree.within(vertex.position, radius_squared, |found| {
+                let near = &mut scratch.nearest;
+                let (weight, among) = placed.around(vertex.position, radius_squared, near);
+                for found in near.iter() {
                     let kernel =
                         (lookup.kernel).value(found.distance_squared, radius_squared, in_space);
-                    merge(&photons[found.place], kernel * scale);
-                });
+                    merge(&among.photons[found.place], kernel * (scale * weight));
+                }
             } else {
                 let nearest = &mut scratch.nearest;
                 tree.nearest(vertex.position, lookup.nearest, radius_squared, nearest);

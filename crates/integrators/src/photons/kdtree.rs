@@ -67,6 +67,24 @@ impl KdTree {
         });
     }
 
+    /// The points that [`KdTree::within`] visits, in the same order, in `found`, if there are at most `most`. Whether that is so;
+    /// if not, no more than one beyond are visited.
+    pub fn within_at_most(
+        &self,
+        centre: Vec3,
+        radius_squared: f32,
+        most: usize,
+        found: &mut Vec<Found>,
+    ) -> bool {
+        found.clear();
+        self.search(centre, radius_squared, |point, bound| {
+            found.push(point);
+            // Nothing is within a negative bound.
+            if found.len() > most { -1.0 } else { bound }
+        });
+        found.len() <= most
+    }
+
     /// The `count` nearest points (fewer if there are no more within the root of `radius_squared`)
     /// in `nearest`, nearest first.
     pub fn nearest(
@@ -222,6 +240,11 @@ mod tests {
             tree.within(centre, radius * radius, |point| {
                 found.push((point.distance_squared, order[point.place]));
             });
+            let mut limited = Vec::new();
+            let all = tree.within_at_most(centre, radius * radius, count, &mut limited);
+            prop_assert_eq!(all, found.len() <= count);
+            let limited: Vec<_> = limited.iter().map(|f| (f.distance_squared, order[f.place])).collect();
+            prop_assert_eq!(&limited, &found[..found.len().min(count + 1)]);
             found.sort_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
             prop_assert_eq!(&found, &expected);
             // Of points at the same distance any may be the last of the nearest.

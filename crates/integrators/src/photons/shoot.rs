@@ -6,8 +6,9 @@
 //! per unit area of a surface estimates the integral of radiance over directions; that per unit volume of a medium σs
 //! times it.
 
+use super::is_sharp;
+use super::kdtree::{Found, KdTree};
 use super::sets::{WavelengthChoice, WavelengthSets};
-use super::{is_sharp, kdtree::KdTree};
 use crate::particle::{LightPath, LightVertex};
 use crate::settings::PathSettings;
 use etalon_sampling::hash::mix64;
@@ -53,13 +54,53 @@ pub(crate) struct Photon {
 pub(crate) struct PlacedPhotons {
     pub(crate) tree: KdTree,
     pub(crate) photons: Vec<Photon>,
+    /// One of [`THINNED`] of them, chosen at random, if they are more than a look-up visits.
+    thinned: Option<Box<PlacedPhotons>>,
 }
+
+/// The most photons that a look-up within a radius visits of a map, thinned or not.
+pub(crate) const MOST_VISITED: usize = 1024;
+
+/// Of so many photons a thinned map keeps one.
+const THINNED: u64 = 4;
 
 impl PlacedPhotons {
     fn new(photons: &[Photon]) -> Self {
         let (tree, order) = KdTree::new(photons.iter().map(|photon| photon.position));
-        let photons = order.iter().map(|i| photons[*i as usize]).collect();
-        Self { tree, photons }
+        let placed: Vec<Photon> = order.iter().map(|i| photons[*i as usize]).collect();
+        let thinned = (photons.len() > MOST_VISITED).then(|| {
+            // Not the random numbers of paths, and others in each of the nested maps.
+            let key = mix64(photons.len() as u64);
+            let stays = |index: &u64| mix64(key ^ index).is_multiple_of(THINNED);
+            let stay = (photons.iter().zip(0..)).filter(|(_, index)| stays(index));
+            Box::new(Self::new(
+                &stay.map(|(photon, _)| *photon).collect::<Vec<_>>(),
+            ))
+        });
+        Self {
+            tree,
+            photons: placed,
+            thinned,
+        }
+    }
+
+    /// The photons not farther than the root of `radius_squared`, in `found`: of how many each of them is one, and the map that they
+    /// are places of. Where more than [`MOST_VISITED`] are, those of a thinned map stand for them: whether a photon stays does not
+    /// depend on where it is, so that whatever is summed over them has the same expectation.
+    pub(crate) fn around(
+        &self,
+        centre: Vec3,
+        radius_squared: f32,
+        found: &mut Vec<Found>,
+    ) -> (f32, &Self) {
+        let (mut weight, mut map) = (1.0, self);
+        while !(map.tree).within_at_most(centre, radius_squared, MOST_VISITED, found)
+            && let Some(thinned) = &map.thinned
+        {
+            weight *= THINNED as f32;
+            map = thinned;
+        }
+        (weight, map)
     }
 }
 
@@ -229,5 +270,45 @@ fn trace<W: World>(
                 _ => Kind::Indirect,
             };
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// In a spot that a look-up covers there may be any number of photons: it visits a bounded number of each of the nested maps, and the
+    /// mean of what it finds is all that there is, over maps of different photons (|z| < 4.5, α = 10⁻⁵; the mutant whose thinned
+    /// photons count for one less is off by 30 standard errors). Where few are, it finds these.
+    #[test]
+    fn a_look_up_visits_a_bounded_number_of_photons_that_stand_for_all() {
+        let mut found = Vec::new();
+        let (mut sum, mut squares, maps) = (0.0_f64, 0.0_f64, 40_u32);
+        for map in 0..maps {
+            let photon = |index: u32| Photon {
+                position: Vec3::new(index as f32, (index * 7 % 64) as f32, 0.0) * 1e-6,
+                normal: Vec3::Z,
+                from: Vec3::Z,
+                value: Vec4::ONE,
+                set: 0,
+                segments: 1,
+                kind: Kind::Indirect,
+                medium: MediumId::NONE,
+            };
+            let count = 20_000 + 97 * map;
+            let placed = PlacedPhotons::new(&(0..count).map(photon).collect::<Vec<_>>());
+            let (weight, among) = placed.around(Vec3::ZERO, 1.0, &mut found);
+            assert!(found.len() <= MOST_VISITED && among.photons.len() < count as usize);
+            let share = f64::from(weight) * found.len() as f64 / f64::from(count);
+            sum += share;
+            squares += share * share;
+            let (weight, among) = placed.around(Vec3::ZERO, 1e-8, &mut found);
+            assert_eq!((weight, among.photons.len()), (1.0, count as usize));
+            assert!((90..=100).contains(&found.len()), "{}", found.len());
+        }
+        let n = f64::from(maps);
+        let mean = sum / n;
+        let error = ((squares / n - mean * mean) / (n - 1.0)).sqrt();
+        assert!((mean - 1.0).abs() < 4.5 * error, "{mean} {error}");
     }
 }
