@@ -89,7 +89,7 @@ const OF_MITSUBA_3: &[Ignored] = &[
         names: &["sample_border"],
         only: None,
         said: false,
-        reason: "Samples of pixels beyond the border are not needed: no sample is shared between pixels.",
+        reason: "Where pixels share samples, pixels beyond the border take some, too, whatever it says; where none are shared, none are needed.",
     },
     Ignored {
         class: Class::Integrator,
