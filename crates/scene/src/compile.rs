@@ -7,6 +7,7 @@ use crate::media::{self, LightMedium, SceneMedia};
 use crate::sampler::SamplerSettings;
 use crate::scene::Scene;
 use crate::sensor::{Response, curve};
+use crate::short_flights;
 use crate::subsurface;
 use crate::surfaces::{self, Emitting, Names, Surfaces};
 use etalon_cameras::{AnyCamera, FilmWindow};
@@ -124,6 +125,12 @@ pub fn compile_with(
     if diagnostics.has_errors() {
         return None;
     }
+    short_flights::hold(
+        &mut surfaces.media,
+        &surfaces.interfaces,
+        &lookup,
+        diagnostics,
+    );
     let bounded = (!surfaces.placed_media).then_some(surfaces.interfaces.as_slice());
     let media = media::prepared(surfaces.media, bounded, camera_medium, &lookup, diagnostics)?;
     let mut media = SceneMedia::new(

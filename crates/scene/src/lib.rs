@@ -23,6 +23,7 @@ mod rays;
 pub mod sampler;
 pub mod scene;
 mod sensor;
+mod short_flights;
 mod solids;
 mod subsurface;
 pub mod surfaces;

@@ -24,7 +24,9 @@ impl Surfaces {
         let cutaway =
             operation == Operation::Difference && params.boolean_or("cutaway_textures", false);
         let emitter = params.child(Class::Emitter).cloned();
-        let bsdf = params.child(Class::Bsdf);
+        let below = self.below(&params, builder);
+        let boundary = below.as_ref().map(|(boundary, _)| boundary);
+        let bsdf = boundary.or_else(|| params.child(Class::Bsdf));
         let named = (bsdf.is_some() || emitter.is_some())
             .then(|| self.material_or_default(bsdf, emitter.is_some(), builder));
         let whole = named.or(self.inherited);
@@ -45,6 +47,10 @@ impl Surfaces {
             if let Some(emitter) = &carried.emitter {
                 let message = "an operand cannot emit light: the whole can";
                 diagnostics.push(Diagnostic::error(emitter.span, message));
+            }
+            if carried.media.is_some() || carried.body.is_some() {
+                let message = "what is in an operand is in the whole: its medium, `subsurface` and `priority` are the whole's";
+                diagnostics.push(Diagnostic::error(child.plugin.span, message));
             }
             if !shape.is_solid() {
                 let message = format!("{} bounds no volume here", child.with_article());
@@ -78,7 +84,8 @@ impl Surfaces {
             }
             _ => {}
         }
-        let media = self.media(&params, None, builder);
+        let inside = below.as_ref().map(|(_, medium)| *medium);
+        let media = self.media(&params, inside, builder);
         let material = whole.unwrap_or_else(|| self.grey(builder));
         let body = Body::from_params(&params, material, media);
         params.finish();

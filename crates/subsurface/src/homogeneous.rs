@@ -51,6 +51,8 @@ pub struct Homogeneous {
     varies: bool,
     /// What is taken in place of walks below a surface.
     surface: Option<Surface>,
+    /// Its extinction is held to this (m⁻¹), with the same albedo.
+    densest: f32,
 }
 
 /// A diffusion profile, with what it needs besides coefficients.
@@ -119,7 +121,21 @@ impl Homogeneous {
             tracking: volume::tracking(params, Tracking::Closed),
             varies: false,
             surface: None,
+            densest: MOST,
         })
+    }
+
+    /// Holds the mean free path to at least `length` (m), with the same albedo: what shorter flights do is lost in the rounding of
+    /// coordinates. Whether that makes a difference, as far as coefficients do not vary.
+    pub fn hold_flights(&mut self, length: f32, textures: &impl Textures, lambda: Vec4) -> bool {
+        let at = TexturePoint::at_uv(Vec2::ZERO);
+        let coefficients = self.coefficients(textures, &at, lambda);
+        let scatters = coefficients.scattering != Vec4::ZERO || self.varies;
+        let densest = 1.0 / length;
+        if scatters {
+            self.densest = densest.min(MOST);
+        }
+        scatters && coefficients.extinction().max_element() > densest
     }
 
     /// Whether it emits light.
@@ -193,6 +209,7 @@ impl Homogeneous {
             tracking: Tracking::Closed,
             varies: ["albedo", name].iter().any(|name| is_varying(params, name)),
             surface: None,
+            densest: MOST,
         })
     }
 
@@ -279,19 +296,24 @@ impl Homogeneous {
         lambda: Vec4,
     ) -> Coefficients {
         let spectrum = |id| textures.spectrum(id, at, lambda);
-        let coefficients = match self.given {
+        match self.given {
             Given::Albedo { albedo, sigma_t } => {
-                let extinction = spectrum(sigma_t) * self.scale;
+                let extinction = (spectrum(sigma_t) * self.scale).min(Vec4::splat(self.densest));
                 let scattering = extinction * spectrum(albedo);
                 Coefficients {
                     absorption: (extinction - scattering).max(Vec4::ZERO),
                     scattering,
                 }
             }
-            Given::Both { sigma_a, sigma_s } => Coefficients {
-                absorption: spectrum(sigma_a) * self.scale,
-                scattering: spectrum(sigma_s) * self.scale,
-            },
+            Given::Both { sigma_a, sigma_s } => {
+                let of = |id| (spectrum(id) * self.scale).min(Vec4::splat(MOST));
+                let (absorption, scattering) = (of(sigma_a), of(sigma_s));
+                let held = (self.densest / (absorption + scattering)).min(Vec4::ONE);
+                Coefficients {
+                    absorption: absorption * held,
+                    scattering: scattering * held,
+                }
+            }
             Given::Surface {
                 albedo,
                 mean_free_path,
@@ -303,17 +325,13 @@ impl Homogeneous {
                     .eta
                     .map_or(seen, |eta| below(seen, eta, boundary.inside));
                 let length = spectrum(mean_free_path).max(Vec4::splat(f32::MIN_POSITIVE));
-                let extinction = self.scale / length;
+                let extinction = (self.scale / length).min(Vec4::splat(self.densest));
                 let scattering = extinction * single_scattering(below, g);
                 Coefficients {
                     absorption: (extinction - scattering).max(Vec4::ZERO),
                     scattering,
                 }
             }
-        };
-        Coefficients {
-            absorption: coefficients.absorption.min(Vec4::splat(MOST)),
-            scattering: coefficients.scattering.min(Vec4::splat(MOST)),
         }
     }
 }

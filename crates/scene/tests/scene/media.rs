@@ -2,7 +2,7 @@
 
 use crate::reading::{LANES, Read, down, meet, read, read_with, scene};
 use etalon_scene::Scene;
-use etalon_transport::{LightSearch, Medium, MediumId, Ray, World};
+use etalon_transport::{Bsdf, LightSearch, Medium, MediumId, Ray, TransportMode, World};
 use glam::{UVec2, Vec3, Vec4};
 
 /// A medium, as a child of a given name.
@@ -289,4 +289,81 @@ fn endless_fog_before_a_sky_is_told() {
         "<float name=\"radius\" value=\"9\"/><bsdf type=\"null\"/><ref id=\"fog\" name=\"interior\"/>"
     );
     assert!(!scene_with(fog, &in_a_shape, sky));
+}
+
+/// Below a solid of solids as below any other closed shape; its operands have nothing in them of their own.
+#[test]
+fn light_walks_about_in_solids_of_solids() {
+    let operands = "<shape type=\"sphere\"/><shape type=\"cube\"/>";
+    let walk =
+        "<subsurface type=\"randomwalk\"><float name=\"albedo\" value=\"0.5\"/></subsurface>";
+    let sphere = scene(&format!("<shape type=\"sphere\">{walk}</shape>"));
+    for solid in ["union", "intersection"] {
+        let world = scene(&format!("<shape type=\"{solid}\">{operands}{walk}</shape>"));
+        let medium = |world: &Scene| {
+            let medium = world.medium(inside(world, 0.0), &LANES).expect("a medium");
+            let at = medium.coefficients(Vec3::ZERO, Vec3::X);
+            (at.scattering, at.absorption)
+        };
+        assert_eq!(medium(&world), medium(&sphere), "{solid}");
+        let (_, vertex) = meet(&world, &down(0.0, 0.0)).expect("a surface");
+        let through = world.bsdf(&vertex, Vec3::Z, &LANES);
+        let down = Vec3::new(0.0, 0.6, -0.8);
+        let passes = through.eval(Vec3::Z, down, TransportMode::Radiance);
+        assert!(passes.min_element() > 0.2, "{solid}: {passes}");
+    }
+    for inner in [walk, "<medium type=\"homogeneous\" name=\"interior\"/>"] {
+        let mistaken = format!(
+            "<shape type=\"union\"><shape type=\"sphere\">{inner}</shape><shape type=\"cube\"/></shape>"
+        );
+        let errors = read(&mistaken).errors;
+        assert!(
+            errors.len() == 1 && errors[0].contains("the whole's"),
+            "{errors:?}"
+        );
+    }
+}
+
+/// What light does in flights that rounding hides is what it does in somewhat longer ones; absorbing matter stays as it is.
+#[test]
+fn mean_free_paths_are_long_against_rounding() {
+    let ball_at = |x: f32, content: &str| {
+        format!(
+            "<shape type=\"sphere\"><point name=\"center\" x=\"{x}\" y=\"0\" z=\"0\"/>{content}</shape>"
+        )
+    };
+    let walk = |length: &str| {
+        format!(
+            "<subsurface type=\"randomwalk\"><float name=\"albedo\" value=\"0.5\"/><float name=\"mean_free_path\" value=\"{length}\"/></subsurface>"
+        )
+    };
+    let thick = |albedo: &str| {
+        format!(
+            "<medium type=\"homogeneous\" name=\"interior\"><float name=\"sigma_t\" value=\"1e5\"/>\
+             <float name=\"albedo\" value=\"{albedo}\"/></medium>"
+        )
+    };
+    // 256 ulps of coordinates up to 1 m, and .003 of a radius of 1 m.
+    let [near, far] = [256.0 * f32::EPSILON, 3e-3];
+    for (x, content, length, told) in [
+        (0.0, walk("1e-4"), 1e-4, 0),
+        (0.0, walk("1e-8"), near, 1),
+        (0.0, walk("0"), near, 1),
+        (1000.0, walk("1e-3"), far, 1),
+        (1000.0, walk("0.1"), 0.1, 0),
+        (1000.0, thick("0.9"), far, 1),
+        (1000.0, thick("0"), 1e-5, 0),
+    ] {
+        let read = read(&ball_at(x, &content));
+        assert_eq!(read.errors, Vec::<String>::new());
+        let said = read.notes.iter().filter(|note| note.contains("counts as"));
+        assert_eq!(said.count(), told, "{content}: {:?}", read.notes);
+        let world = read.compiled.expect("a scene without mistakes").scene;
+        let medium = world.medium(inside(&world, x), &LANES).expect("a medium");
+        let extinction = medium.coefficients(Vec3::ZERO, Vec3::X).extinction().x;
+        assert!(
+            (extinction * length - 1.0).abs() < 1e-5,
+            "{content}: {extinction}"
+        );
+    }
 }
