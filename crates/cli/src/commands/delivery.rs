@@ -168,6 +168,9 @@ fn tell_few(loaded: &Loaded, developed: &RenderedImage) {
     if let Some(warning) = LightCarriers::of(developed).and_then(LightCarriers::warning) {
         say::remark(&format!("note: {warning}\n"));
     }
+    if developed.metadata.as_ref().is_none_or(|m| m.replicates < 2) {
+        return;
+    }
     let colours = developed.colours();
     let unlit = light_carriers::unlit(&developed.image, &colours);
     let width = developed.image.width();

@@ -260,8 +260,8 @@ impl Trial {
         for (entrant, cell, index) in order(&cells) {
             // By the clock alone, whatever was seen. All cells are equally far, as the order spreads them.
             let is_late = self.deadline.is_some_and(|end| Instant::now() > end);
-            if is_late && cells.iter().all(|cells| is_enough(cells)) {
-                break;
+            if is_late && may_be_left_out(&cells[entrant][cell], cell) {
+                continue;
             }
             let estimator = &self.entrants[entrant];
             let target = &mut cells[entrant][cell];
@@ -314,12 +314,15 @@ impl Trial {
     }
 }
 
-/// Whether there are pictures enough, of every size, to measure an estimator by.
-fn is_enough(cells: &[Cell]) -> bool {
-    cells.iter().enumerate().all(|(index, cell)| {
-        let fewest = if index == 0 { FEWEST } else { LADDER / 2 };
-        cell.measured.len() as u32 >= fewest.min(cell.size.replicates)
-    })
+/// Whether there are pictures enough in a cell: of equal time (cell 0), or of a size of the ladder beyond its first, whose pictures
+/// take no time.
+fn may_be_left_out(cell: &Cell, index: usize) -> bool {
+    let fewest = match index {
+        0 => FEWEST,
+        1 => cell.size.replicates,
+        _ => LADDER / 2,
+    };
+    cell.measured.len() as u32 >= fewest
 }
 
 /// Every picture as (estimator, cell, index), those of all cells spread evenly over the run.
