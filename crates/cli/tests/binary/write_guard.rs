@@ -79,7 +79,7 @@ enum Use {
 /// Whether an argument of `farm` is one of `render`, which `farm` takes over.
 fn is_of_render(command: &str, argument: &str) -> bool {
     let of_render = |(c, a, _): &(&str, &str, Use)| *c == "render" && *a == argument;
-    command == "farm" && PATHS.iter().any(|path| of_render(path))
+    command == "farm" && PATHS.iter().any(of_render)
 }
 
 /// Whoever adds a command or an option says here whether it writes.

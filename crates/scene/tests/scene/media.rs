@@ -285,10 +285,8 @@ fn endless_fog_before_a_sky_is_told() {
     assert!(scene_with(fog, "", "<emitter type=\"directional\"/>"));
     assert!(!scene_with("", "", sky));
     assert!(!scene_with(fog, "", "<emitter type=\"point\"/>"));
-    let in_a_shape = format!(
-        "<float name=\"radius\" value=\"9\"/><bsdf type=\"null\"/><ref id=\"fog\" name=\"interior\"/>"
-    );
-    assert!(!scene_with(fog, &in_a_shape, sky));
+    let in_a_shape = "<float name=\"radius\" value=\"9\"/><bsdf type=\"null\"/><ref id=\"fog\" name=\"interior\"/>";
+    assert!(!scene_with(fog, in_a_shape, sky));
 }
 
 /// Below a solid of solids as below any other closed shape; its operands have nothing in them of their own.
