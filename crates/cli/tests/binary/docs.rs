@@ -130,11 +130,10 @@ fn defaults_of_the_page_are_those_of_help() {
                 continue;
             };
             let default = default.to_string_lossy();
-            let mut rows = part
-                .lines()
-                .filter(|line| line.contains(&format!("--{name}")));
-            let told =
-                rows.any(|line| line.contains(&format!("({default})")) || line.contains(&*default));
+            // Beside the option, or within the same sentence.
+            let names = part.match_indices(&format!("--{name}"));
+            let mut near = names.map(|(at, _)| part[at..].chars().take(160).collect::<String>());
+            let told = near.any(|text| text.contains(&*default));
             // Zero is what everybody expects of an exposure.
             assert!(
                 told || default == "0",
