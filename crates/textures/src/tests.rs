@@ -16,6 +16,7 @@ mod arithmetic;
 mod bitmap;
 mod mesh_attribute;
 mod procedural;
+mod ranges;
 mod rules;
 
 const NOWHERE: Span = Span {

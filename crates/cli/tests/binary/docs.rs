@@ -131,7 +131,8 @@ fn defaults_of_the_page_are_those_of_help() {
             };
             let default = default.to_string_lossy();
             // Beside the option, or within the same sentence.
-            let names = part.match_indices(&format!("--{name}"));
+            let option = format!("--{name}");
+            let names = part.match_indices(&option);
             let mut near = names.map(|(at, _)| part[at..].chars().take(160).collect::<String>());
             let told = near.any(|text| text.contains(&*default));
             // Zero is what everybody expects of an exposure.

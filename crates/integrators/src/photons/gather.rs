@@ -4,17 +4,15 @@
 //! direct to photons, and ends. With a final gather it goes on once in such a direction, and leaves to photons what it meets there.
 
 use super::elsewhere::{CameraPath, CameraVertex};
-use super::is_sharp;
-use super::kernel::KernelLookup;
 use super::sets::{WavelengthChoice, WavelengthSets};
 use super::shoot::{Kind, Photon, PhotonMap};
+use super::{is_sharp, kernel::KernelLookup};
 use crate::candidates::Aim;
 use crate::dimensions::{BounceSamples, draw_flight};
 use crate::light_mis::LightMis;
 use crate::path::{draw_lens, ray_at};
 use crate::path_throughput::PathThroughput;
-use crate::settings::PathSettings;
-use crate::steps;
+use crate::{settings::PathSettings, steps};
 use etalon_sampling::Sampler;
 use etalon_spectrum::Wavelengths;
 use etalon_transport::{
