@@ -43,7 +43,7 @@
 //! is so dense that a look-up would find more than 32 photons on average ([`crate::photons::radius`]).
 //!
 //! Where more than 1024 photons are within r, one of 4, 16, … of them is visited, chosen at random beforehand, and counts for as many
-//! ([`crate::photons::shoot`]): the expectation is the same, and a look-up takes no longer where a narrow beam leaves all photons.
+//! (`photons.rs`): the expectation is the same, and a look-up takes no longer where a narrow beam leaves all photons.
 //!
 //! In a medium photons are kept where they are scattered, and K is one over a ball: the box 1/(4/3 π r³), the cone with
 //! 3/(4c) in place of 2/(3c). Free flight brings the camera's path to a point, where the photons around are gathered
