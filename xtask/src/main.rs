@@ -6,6 +6,7 @@ mod calibrate;
 mod compatibility;
 mod efficiency;
 mod farm_test;
+mod hearing;
 mod mutants;
 mod plugins;
 mod references;

@@ -5,8 +5,8 @@
 //! keeps the two together: no plugin and no parameter may lack words, no words may lack a plugin or parameter.
 
 use crate::compatibility::{self, MITSUBA_3, MITSUBA_06};
+use crate::hearing::{Hearing, Heard};
 use etalon::pipeline::{self, LoadOptions};
-use etalon_params::questions::{self, Question, Questions};
 use etalon_params::{Class, Severity, ignored};
 use etalon_validation::folders;
 use serde::Deserialize;
@@ -46,6 +46,9 @@ struct Plugin {
     /// Words for parameters, where those for all plugins do not fit.
     #[serde(default)]
     parameters: BTreeMap<String, String>,
+    /// What holds without a parameter, where that depends on others.
+    #[serde(default)]
+    defaults: BTreeMap<String, String>,
 }
 
 fn yes() -> bool {
@@ -230,36 +233,24 @@ pub(crate) fn text() -> Result<String, String> {
             .iter()
             .filter(|plugin| plugin.class == class.name());
         for plugin in of_class {
-            let mut asked = Questions::new();
+            let mut rows: BTreeMap<String, Heard> = BTreeMap::new();
             let surroundings = plugin.scene.as_deref().unwrap_or(surroundings);
             for name in &plugin.names {
                 if !undescribed.remove(name) {
                     wrong.push(format!("{} `{name}` is not built", class.name()));
                 }
                 let example = plugin.example.replace("NAME", name);
-                let (said, questions) = questions::record(|| load(surroundings, &example));
+                let mut hearing = Hearing::new(class, name, surroundings);
+                let said = hearing.read(&example);
                 if plugin.loads && !said.is_empty() {
                     wrong.push(format!("the example of `{name}`: {}", said.join("; ")));
                 }
-                asked.extend(questions);
-                let bare = format!("<{} type=\"{name}\"/>", class.name());
-                for probe in plugin
-                    .probes
-                    .iter()
-                    .map(|probe| probe.replace("NAME", name))
-                    .chain([bare])
-                {
-                    let (_, questions) = questions::record(|| load(surroundings, &probe));
-                    for (key, question) in questions {
-                        let known = asked.entry(key).or_default();
-                        merge(known, question);
-                    }
+                for probe in &plugin.probes {
+                    hearing.read(&probe.replace("NAME", name));
                 }
-            }
-            let mut rows: BTreeMap<&str, &Question> = BTreeMap::new();
-            for ((of, name, parameter), question) in &asked {
-                if *of == class && plugin.names.contains(name) {
-                    rows.insert(parameter, question);
+                hearing.read(&format!("<{} type=\"{name}\"/>", class.name()));
+                for (parameter, heard) in hearing.in_all_branches(&example) {
+                    rows.entry(parameter).or_default().and(&heard);
                 }
             }
             describe(
@@ -289,23 +280,10 @@ pub(crate) fn text() -> Result<String, String> {
     }
 }
 
-fn merge(known: &mut Question, new: Question) {
-    for (known, new) in [
-        (&mut known.kind, new.kind),
-        (&mut known.default, new.default),
-        (&mut known.accepted, new.accepted),
-    ] {
-        if known.is_empty() {
-            *known = new;
-        }
-    }
-    known.required |= new.required;
-}
-
 fn describe<'a>(
     out: &mut String,
     plugin: &Plugin,
-    rows: &BTreeMap<&str, &Question>,
+    rows: &BTreeMap<String, Heard>,
     common: &'a BTreeMap<String, String>,
     unused: &mut BTreeSet<&'a str>,
     wrong: &mut Vec<String>,
@@ -317,8 +295,9 @@ fn describe<'a>(
         plugin.is
     );
     let mut missing: BTreeSet<&str> = plugin.parameters.keys().map(String::as_str).collect();
-    let described: Vec<(&str, &Question, &str)> = (rows.iter())
-        .filter_map(|(&name, &question)| {
+    let described: Vec<(&str, &Heard, &str)> = (rows.iter())
+        .filter_map(|(name, heard)| {
+            let name = name.as_str();
             missing.remove(name);
             let words = match plugin.parameters.get(name) {
                 Some(words) => words,
@@ -335,7 +314,7 @@ fn describe<'a>(
                 }
             };
             // A parameter that is but refused with a better message than others.
-            (words != "-").then_some((name, question, words.as_str()))
+            (words != "-").then_some((name, heard, words.as_str()))
         })
         .collect();
     wrong.extend(
@@ -346,7 +325,9 @@ fn describe<'a>(
     if !described.is_empty() {
         out.push_str("| parameter | kind | default | |\n|---|---|---|---|\n");
     }
-    for (name, question, words) in described {
+    let mut depending: BTreeSet<&str> = plugin.defaults.keys().map(String::as_str).collect();
+    for (name, heard, words) in described {
+        let question = &heard.question;
         let nested = name.starts_with('<');
         let kind = match question.kind.as_str() {
             "" if question.accepted.is_empty() => "",
@@ -360,10 +341,16 @@ fn describe<'a>(
             accepted if accepted.contains(&kind) || kind.is_empty() => String::new(),
             accepted => format!("; {accepted}"),
         };
-        let default = match (question.default.as_str(), question.required) {
-            ("", true) => "required".to_owned(),
-            (default, _) => default.to_owned(),
-        };
+        let default = (plugin.defaults.get(name).cloned()).or_else(|| heard.what_holds());
+        let default = default.unwrap_or_else(|| {
+            let plugin = &plugin.names[0];
+            wrong.push(format!(
+                "what holds without `{name}` of `{plugin}` takes words: {:?}",
+                heard.defaults
+            ));
+            String::new()
+        });
+        depending.remove(name);
         let shown = if nested {
             format!("a nested {}", name.trim_matches(['<', '>']))
         } else {
@@ -372,6 +359,10 @@ fn describe<'a>(
         let kind = if nested { String::new() } else { kind };
         let _ = writeln!(out, "| {shown} | {kind} | {default} | {words}{accepted} |");
     }
+    wrong.extend(
+        (depending.into_iter())
+            .map(|name| format!("`{}` has no default of `{name}`", plugin.names[0])),
+    );
     let _ = write!(
         out,
         "\n```xml\n{}\n```\n",

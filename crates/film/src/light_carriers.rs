@@ -16,6 +16,9 @@
 use crate::RenderedImage;
 use etalon_images::Image;
 
+/// Fewer than so many say little of how bright it is what they found.
+pub const FEW: f64 = 4.0;
+
 /// The share of a picture's light (of all channels) that is told.
 pub const TOLD: f64 = 0.05;
 
@@ -39,7 +42,7 @@ impl LightCarriers {
         if replicates < 8 {
             return None;
         }
-        let few = (f64::from(replicates) / 4.0).min(4.0);
+        let few = (f64::from(replicates) / 4.0).min(FEW);
         let [mut all, mut by_few] = [0.0; 2];
         for name in metadata.colours() {
             let plane = developed.image.channel(name)?;
@@ -77,11 +80,16 @@ impl LightCarriers {
     }
 }
 
-/// As many as would carry the mean with equal shares.
+/// As many values as would carry this sum with equal shares, where these are the sum and the sum of squares of some.
+pub fn carriers(sum: f64, sum_of_squares: f64) -> f64 {
+    sum * sum / sum_of_squares
+}
+
+/// As many replicates as would carry the mean with equal shares.
 fn effective(replicates: u32, mean: f64, error: f64) -> f64 {
     let count = f64::from(replicates);
-    let spread = error / mean;
-    count / (1.0 + (count - 1.0) * spread * spread)
+    let spread = (count - 1.0) * error * error;
+    carriers(count * mean, count * (mean * mean + spread))
 }
 
 /// The pixels in which not one sample found light: 0 with a standard error of 0.

@@ -19,6 +19,7 @@ pub use file_assets::FileAssets;
 pub use mesh_error::{MeshError, Place};
 pub use search_path::SearchPath;
 
+use etalon_images::lfs_pointer;
 use std::fs::File;
 use std::io::{BufReader, Read};
 use std::path::Path;
@@ -63,13 +64,11 @@ fn bounded_length(path: &Path, limit: u64) -> Result<u64, String> {
         ));
     }
     // What git keeps in place of a large file is some 130 bytes.
-    if metadata.len() < 1024 && std::fs::read(path).is_ok_and(|b| b.starts_with(LFS_POINTER)) {
-        return Err(
-            "it is a pointer of git LFS to the file; `git lfs pull` fetches that".to_owned(),
-        );
+    if metadata.len() < 1024
+        && let Ok(bytes) = std::fs::read(path)
+        && let Some(pointer) = lfs_pointer(&bytes)
+    {
+        return Err(pointer.to_owned());
     }
     Ok(metadata.len())
 }
-
-/// How the pointers begin that git LFS keeps in place of files.
-const LFS_POINTER: &[u8] = b"version https://git-lfs.github.com/spec/";

@@ -53,6 +53,17 @@ impl Format {
     }
 }
 
+/// How the pointers begin that git LFS keeps in place of large files.
+const LFS_POINTER: &[u8] = b"version https://git-lfs.github.com/spec/";
+
+/// What to say of a file that is only a pointer of git LFS to what was meant, as in a repository whose large files were not fetched.
+#[must_use]
+pub fn lfs_pointer(bytes: &[u8]) -> Option<&'static str> {
+    bytes
+        .starts_with(LFS_POINTER)
+        .then_some("it is a pointer of git LFS to the file; `git lfs pull` fetches that")
+}
+
 /// Whether a file begins as a TGA file does, which has no mark at its head: every field must make
 /// sense.
 fn is_tga(bytes: &[u8]) -> bool {

@@ -30,7 +30,7 @@ pub use atomic_file::write_atomically;
 pub use chromaticities::Chromaticities;
 pub use colour::Colour;
 pub use error::Error;
-pub use format::Format;
+pub use format::{Format, lfs_pointer};
 pub use losses::Losses;
 pub use plane::{Channel, Frame, Image};
 pub use raster::{Raster, RasterHeader, Samples};

@@ -2,7 +2,7 @@
 //!
 //! The formats are told apart by the files' content, never by their names.
 
-use crate::{Error, Format, Frame, Image, exr, foreign, pfm, srgb};
+use crate::{Error, Format, Frame, Image, exr, foreign, lfs_pointer, pfm, srgb};
 use std::path::Path;
 
 /// Samples, pixel after pixel, row after row from the top.
@@ -238,8 +238,10 @@ pub fn decode_header(bytes: &[u8], path: &Path) -> Result<RasterHeader, Error> {
 }
 
 fn format(bytes: &[u8], path: &Path) -> Result<Format, Error> {
-    Format::of(bytes)
-        .ok_or_else(|| Error::unsupported(path, format!("it is none of {}", Format::NAMES)))
+    Format::of(bytes).ok_or_else(|| match lfs_pointer(bytes) {
+        Some(pointer) => Error::unsupported(path, pointer),
+        None => Error::unsupported(path, format!("it is none of {}", Format::NAMES)),
+    })
 }
 
 /// The largest number that 16 bits hold.

@@ -60,6 +60,7 @@ impl<'a> Params<'a> {
 
     /// Whether the property is present (does not mark it).
     pub fn has(&self, name: &str) -> bool {
+        self.note(name, Question::default);
         self.node.properties.iter().any(|p| p.name == name)
     }
 

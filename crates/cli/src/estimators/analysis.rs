@@ -104,9 +104,10 @@ pub fn findings(measured: &Measured<'_>) -> Findings {
     }
     let late = remarks::late(measured.left_out);
     findings.remarks.extend(late);
+    let noise = measured.reference.squared_noise.unwrap_or(0.0);
     let rows = findings.estimators.iter().zip(measured.cells);
     let carried = rows.filter_map(|(row, cells)| {
-        let errors = cells[0].of(|picture| picture.squared);
+        let errors = cells[0].of(|picture| picture.squared + noise);
         remarks::few(&row.name, &errors)
     });
     findings.remarks.extend(carried.collect::<Vec<_>>());

@@ -1,6 +1,7 @@
 //! What a reader should know before believing the figures of a comparison.
 
 use super::findings::Findings;
+use etalon_film::light_carriers::{FEW, carriers};
 
 /// The reference's noise is small if it is less than this share of an error.
 const CONVERGED: f64 = 0.1;
@@ -23,9 +24,6 @@ pub struct Black {
 /// Pictures of fewer samples per pixel say little of those that people render.
 const ENOUGH_SAMPLES: u32 = 8;
 
-/// An error that fewer of its pictures carry is not known.
-const CARRIERS: f64 = 4.0;
-
 /// What is to be said of pictures that were left out, of so many.
 pub fn late([left_out, all]: [u32; 2]) -> Option<String> {
     (left_out > 0).then(|| {
@@ -35,13 +33,14 @@ pub fn late([left_out, all]: [u32; 2]) -> Option<String> {
     })
 }
 
-/// What is to be said of an estimator whose error, in these pictures, few of them carry.
+/// What is to be said of an estimator whose error few of its pictures carry; these errors still have the reference's noise, which all
+/// pictures share: without it those of an estimator at the noise have either sign, and nothing carries their sum.
 pub fn few(name: &str, errors: &[f64]) -> Option<String> {
     let [sum, squares] = errors
         .iter()
         .fold([0.0; 2], |[sum, squares], x| [sum + x, squares + x * x]);
-    let carriers = sum * sum / squares;
-    (carriers < CARRIERS && errors.len() >= 8).then(|| {
+    let carriers = carriers(sum, squares);
+    (carriers < FEW && errors.len() >= 8).then(|| {
         format!(
             "the error of `{name}` is that of {carriers:.1} of its {} pictures at equal time: samples that are rarer still \
              may be missing, and its figures say little",

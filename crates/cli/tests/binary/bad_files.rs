@@ -154,3 +154,28 @@ fn a_mesh_without_triangles_is_no_mistake() {
         assert!(ran.refused().stderr.contains("m.obj"));
     }
 }
+
+/// What git keeps of a large file that was not fetched says so, wherever a picture is read.
+#[test]
+fn pointers_of_git_lfs_are_told() {
+    let pointer = "version https://git-lfs.github.com/spec/v1\noid sha256:0\nsize 9\n";
+    let bitmap = "<texture type=\"bitmap\" name=\"reflectance\">FILE</texture>";
+    let shape = format!(
+        "<shape type=\"sphere\"><bsdf type=\"diffuse\">{bitmap}</bsdf></shape>"
+    );
+    refused("t.png", pointer.as_bytes(), &shape, "a pointer of git LFS");
+    let workshop = Workshop::new();
+    for name in ["a.exr", "b.exr", "c.png"] {
+        workshop.write(name, pointer);
+    }
+    for arguments in [
+        &["info", "a.exr"][..],
+        &["info", "c.png"],
+        &["compare", "a.exr", "b.exr"],
+        &["convert", "a.exr", "o.png"],
+        &["convert", "c.png", "o.pfm"],
+    ] {
+        let ran = workshop.run(arguments).refused();
+        assert!(ran.stderr.contains("a pointer of git LFS"), "{}", ran.stderr);
+    }
+}

@@ -1,12 +1,12 @@
 //! What an EXR file says of itself, without its pixels.
 
 use super::ATTRIBUTE;
-use crate::{Chromaticities, Error};
+use crate::{Chromaticities, Error, lfs_pointer};
 use ::exr::math::Vec2;
 use ::exr::meta::attribute::{AttributeValue, Text};
 use ::exr::meta::{BlockDescription, MetaData};
 use std::fs::File;
-use std::io::{self, BufReader, Read};
+use std::io::{self, BufRead, BufReader, Read};
 use std::path::Path;
 
 /// How a channel's samples are stored.
@@ -87,7 +87,10 @@ pub struct Header {
 /// [`Error::Unsupported`] where the header is not one.
 pub fn read_header(path: &Path) -> Result<Header, Error> {
     let file = File::open(path).map_err(|source| Error::read(path, source))?;
-    let meta = metadata(BufReader::new(file), path)?;
+    let mut reader = BufReader::new(file);
+    let head = reader.fill_buf();
+    refuse_pointer(head.map_err(|source| Error::read(path, source))?, path)?;
+    let meta = metadata(reader, path)?;
     Ok(describe(&meta))
 }
 
@@ -101,6 +104,7 @@ pub fn decode_header(bytes: &[u8], path: &Path) -> Result<Header, Error> {
 
 /// As [`metadata`], of a file's bytes.
 pub(super) fn metadata_of_bytes(bytes: &[u8], path: &Path) -> Result<MetaData, Error> {
+    refuse_pointer(bytes, path)?;
     metadata(bytes, path).map_err(|error| match unknown_compression(bytes) {
         Some(number) => {
             let name = match number {
@@ -117,6 +121,13 @@ pub(super) fn metadata_of_bytes(bytes: &[u8], path: &Path) -> Result<MetaData, E
         }
         None => error,
     })
+}
+
+fn refuse_pointer(bytes: &[u8], path: &Path) -> Result<(), Error> {
+    match lfs_pointer(bytes) {
+        Some(pointer) => Err(Error::unsupported(path, pointer)),
+        None => Ok(()),
+    }
 }
 
 /// The number of a compression beyond those of OpenEXR 3.4, if a header that could not be read
