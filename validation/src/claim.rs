@@ -133,6 +133,9 @@ pub struct Estimator {
     pub in_matrix: Option<matrix::Place>,
 }
 
+/// The least bias of a picture that a fault may plant in claims about whole pictures, relative to the mean.
+const LEAST_FAULT: f64 = 0.02;
+
 impl Estimator {
     /// Its name in reports.
     pub fn label(&self) -> String {
@@ -162,10 +165,10 @@ impl Estimator {
         self.default.unwrap_or(self.thorough)
     }
 
-    /// Whether the default run looks for its faults: not with a budget that is content with a wider
-    /// `bound` than the one that they must break.
+    /// Whether the default run looks for its faults: not with a budget that is content with a `bound` as wide as the
+    /// least of them ([`PlantedFault::Energy`]).
     pub fn finds_faults_by_default(&self) -> bool {
-        self.least_budget().bound.is_none()
+        (self.least_budget().bound).is_none_or(|bound| bound < LEAST_FAULT)
     }
 
     /// The budget that must suffice to find a fault: an eighth of the first run's that looks for it.

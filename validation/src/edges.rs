@@ -98,7 +98,13 @@ fn look(scene: &Scene, ray: &Ray, (way, weight, depth): (u64, f32, u32), sight: 
         return;
     }
     for index in 0.. {
-        let Some(next) = onward(scene, &vertex, wo, &wavelengths, index) else {
+        let Some(next) = onward(
+            scene,
+            &vertex,
+            wo,
+            (&wavelengths, TransportMode::Radiance),
+            index,
+        ) else {
             break;
         };
         let weight = weight * next.value.max_element();
@@ -120,7 +126,7 @@ fn albedo(
     wo: Vec3,
     wavelengths: &Wavelengths,
 ) -> Vec<u32> {
-    let numbers = match scene.legacy_phong(vertex, wavelengths) {
+    let numbers = match scene.legacy_phong(vertex, wo, wavelengths) {
         None => vec![scene.bsdf(vertex, wo, wavelengths).albedo(wo)],
         Some(LegacyPhong {
             ambient,
@@ -145,7 +151,7 @@ fn lights(
     let lit = |light: u32| {
         let middle = Vec2::splat(0.5);
         let sample = scene.sample_one_light(LightId(light), &from, wavelengths, middle)?;
-        let shows = if scene.legacy_phong(vertex, wavelengths).is_some() {
+        let shows = if scene.legacy_phong(vertex, wo, wavelengths).is_some() {
             vertex.shading.n.dot(sample.direction) * vertex.shading.n.dot(wo) > 0.0
         } else {
             let bsdf = scene.bsdf(vertex, wo, wavelengths);
@@ -169,8 +175,8 @@ fn passed(scene: &Scene, mut ray: Ray, wavelengths: &Wavelengths) -> Option<Vec<
     let end = ray.origin + ray.direction * ray.t_max;
     while let Some(hit) = scene.intersect(&ray) {
         let vertex = scene.vertex(&ray, &hit);
-        let open = match scene.legacy_phong(&vertex, wavelengths) {
-            Some(material) => material.transparency > 0.0,
+        let open = match scene.legacy_phong(&vertex, -ray.direction, wavelengths) {
+            Some(material) => material.transparency > 0.0 || material.opacity < 1.0,
             None => {
                 let bsdf = scene.bsdf(&vertex, -ray.direction, wavelengths);
                 bsdf.null_transmittance().max_element() > 0.0

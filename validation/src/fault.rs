@@ -237,9 +237,10 @@ impl<W: World> World for Faulty<'_, W> {
     fn legacy_phong(
         &self,
         vertex: &SurfaceInteraction,
+        wo: Vec3,
         wavelengths: &Wavelengths,
     ) -> Option<LegacyPhong> {
-        self.world.legacy_phong(vertex, wavelengths)
+        self.world.legacy_phong(vertex, wo, wavelengths)
     }
 
     fn emitted(&self, vertex: &SurfaceInteraction, wo: Vec3, wavelengths: &Wavelengths) -> Vec4 {

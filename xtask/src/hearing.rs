@@ -112,7 +112,9 @@ impl<'a> Hearing<'a> {
                 ..Heard::default()
             };
             if !gives(element, name) {
-                heard.defaults.extend((!default.is_empty()).then_some(default));
+                heard
+                    .defaults
+                    .extend((!default.is_empty()).then_some(default));
             } else if is_written {
                 heard.said = default;
             }

@@ -5,7 +5,7 @@
 //! keeps the two together: no plugin and no parameter may lack words, no words may lack a plugin or parameter.
 
 use crate::compatibility::{self, MITSUBA_3, MITSUBA_06};
-use crate::hearing::{Hearing, Heard};
+use crate::hearing::{Heard, Hearing};
 use etalon::pipeline::{self, LoadOptions};
 use etalon_params::{Class, Severity, ignored};
 use etalon_validation::folders;

@@ -11,7 +11,8 @@ use crate::tilt::Tilted;
 use crate::{LobeList, MaterialFlags, ShadingContext};
 use etalon_math::Frame;
 use etalon_params::{Class, Params};
-use etalon_transport::{Build, SpectrumKind, TextureId, Textures};
+use etalon_transport::{Build, LegacyPhong, SpectrumKind, TextureId, Textures};
+use glam::Vec3;
 
 /// Parameters to test with (see [`crate::test_materials`]); how heights tilt is tested in scenes.
 pub const EXEMPLARS: &[&str] = &[];
@@ -47,14 +48,13 @@ impl Description {
         self.tilted.traits()
     }
 
-    /// The nested material's lobes, tilted.
-    pub fn flatten<'a, T: Textures>(
-        &'a self,
-        site: &ShadingContext<'_, T>,
-        frame: Frame,
-        weight: f32,
-        into: &mut LobeList<'a>,
-    ) {
+    /// What is tilted.
+    pub(crate) fn tilted(&self) -> &Tilted {
+        &self.tilted
+    }
+
+    /// The normal, of any length, in `frame`.
+    fn normal<T: Textures>(&self, site: &ShadingContext<'_, T>, frame: Frame) -> Vec3 {
         let moved = [site.dp_du, site.dp_dv];
         let slope = site.textures.gradient(self.heights, &site.at, moved) * self.scale;
         // Heights rise outward, whichever side is seen.
@@ -70,6 +70,27 @@ impl Description {
         };
         let mut local = frame.to_local(bumped);
         local.z *= side;
-        self.tilted.flatten(site, frame, weight, local, into);
+        local
+    }
+
+    /// The nested classic Phong material, tilted, if it is one.
+    pub fn classic<T: Textures>(
+        &self,
+        site: &ShadingContext<'_, T>,
+        frame: Frame,
+    ) -> Option<LegacyPhong> {
+        self.tilted.classic(site, frame, self.normal(site, frame))
+    }
+
+    /// The nested material's lobes, tilted.
+    pub fn flatten<'a, T: Textures>(
+        &'a self,
+        site: &ShadingContext<'_, T>,
+        frame: Frame,
+        weight: f32,
+        into: &mut LobeList<'a>,
+    ) {
+        let normal = self.normal(site, frame);
+        self.tilted.flatten(site, frame, weight, normal, into);
     }
 }

@@ -11,6 +11,7 @@
 //!
 //! [`Material::legacy_phong`]: crate::Material::legacy_phong
 
+use crate::inputs::non_negative;
 use crate::ior::RelativeIndex;
 use crate::{LobeList, MaterialFlags, ShadingContext};
 use etalon_math::Frame;
@@ -20,9 +21,6 @@ use etalon_transport::{Build, LegacyPhong, SpectrumKind, TextureId, Textures};
 /// Nothing for the harness of scattering models.
 pub const EXEMPLARS: &[&str] = &[];
 
-/// The name in scene files.
-pub const NAME: &str = "classicphong";
-
 /// `classicphong` in a scene file.
 #[derive(Clone, Debug)]
 pub struct Description {
@@ -30,9 +28,10 @@ pub struct Description {
     diffuse: TextureId,
     specular: TextureId,
     global: TextureId,
-    exponent: f32,
+    exponent: TextureId,
     transparency: TextureId,
     eta: RelativeIndex,
+    is_opaque: bool,
 }
 
 impl Description {
@@ -47,38 +46,40 @@ impl Description {
         let specular = factor("specular", 0.0);
         let global = factor("global", 0.0);
         let transparency = factor("transparency", 0.0);
-        let exponent = params.float_where("exponent", 30.0, "a finite number not below 0", |n| {
-            n >= 0.0 && n.is_finite()
-        });
+        let accepted = "a finite number not below 0";
+        let exponent = non_negative(params, build, ("exponent", Some(30.0)), accepted)?;
         Some(Self {
             ambient,
             diffuse,
             specular,
             global,
-            exponent: exponent as f32,
+            exponent,
             transparency,
             eta: RelativeIndex::from_params(params, build, "bk7")?,
+            is_opaque: !params.has("transparency"),
         })
     }
 
     /// No lobes: it does not scatter.
     pub fn traits(&self) -> MaterialFlags {
         MaterialFlags {
-            transmission: true,
+            transmission: !self.is_opaque,
             ..MaterialFlags::default()
         }
     }
 
-    /// The material at a point.
-    pub fn resolve<T: Textures>(&self, site: &ShadingContext<'_, T>) -> LegacyPhong {
+    /// The material at a point whose normal is that of `frame`.
+    pub fn resolve<T: Textures>(&self, site: &ShadingContext<'_, T>, frame: Frame) -> LegacyPhong {
         LegacyPhong {
             ambient: site.spectrum(self.ambient),
             diffuse: site.spectrum(self.diffuse),
             specular: site.spectrum(self.specular),
             global: site.spectrum(self.global),
-            exponent: self.exponent,
+            exponent: site.number(self.exponent).max(0.0),
             transparency: site.share(self.transparency),
             eta: self.eta.eval(site),
+            normal: frame.n,
+            opacity: 1.0,
         }
     }
 

@@ -1,5 +1,29 @@
 //! Parameters of a model that may all be textured: a line each.
 
+use etalon_params::{Params, Value};
+use etalon_transport::{Build, SpectrumKind, TextureId};
+
+/// A texture of numbers, or a number that must not be below 0; `accepted` says so.
+pub(crate) fn non_negative(
+    params: &Params<'_>,
+    build: &mut dyn Build,
+    (name, default): (&str, Option<f64>),
+    accepted: &str,
+) -> Option<TextureId> {
+    if let Some(property) = params.property(name) {
+        let number = match &property.value {
+            Value::Float(value) => *value,
+            Value::Integer(value) => *value as f64,
+            _ => 0.0,
+        };
+        if !(number >= 0.0 && number.is_finite()) {
+            params.refuse(name, number, accepted);
+            return None;
+        }
+    }
+    Some(build.texture(params, name, default, SpectrumKind::Unbounded))
+}
+
 /// Declares a model's textured parameters and what they are at a point.
 ///
 /// ```ignore

@@ -9,7 +9,7 @@
 use crate::{LobeList, Material, MaterialFlags, ShadingContext};
 use etalon_math::Frame;
 use etalon_params::Params;
-use etalon_transport::{Build, SpectrumKind, TextureId, Textures};
+use etalon_transport::{Build, LegacyPhong, SpectrumKind, TextureId, Textures};
 use glam::Vec4;
 
 /// Parameters to test with (see [`crate::test_materials`]).
@@ -29,8 +29,7 @@ impl Description {
     /// Reads `opacity` (0.5) and one nested material.
     pub fn from_params(params: &Params<'_>, build: &mut dyn Build) -> Option<Self> {
         let opacity = build.texture(params, "opacity", Some(0.5), SpectrumKind::Reflectance);
-        let nested = Material::nested::<1>(params, build)?;
-        let [nested] = nested;
+        let [nested] = Material::nested_or_classic::<1>(params, build)?;
         Some(Self {
             opacity,
             nested: Box::new(nested),
@@ -44,6 +43,24 @@ impl Description {
             transmission: true,
             ..self.nested.traits()
         }
+    }
+
+    /// The nested material.
+    pub fn nested(&self) -> &Material {
+        &self.nested
+    }
+
+    /// A classic Phong material that is there with the opacity o.
+    pub fn classic<T: Textures>(
+        &self,
+        site: &ShadingContext<'_, T>,
+        frame: Frame,
+    ) -> Option<LegacyPhong> {
+        let nested = self.nested.classic(site, frame)?;
+        Some(LegacyPhong {
+            opacity: nested.opacity * site.share(self.opacity),
+            ..nested
+        })
     }
 
     /// Passing light, and the nested material with the share o.

@@ -231,8 +231,24 @@ impl Material {
         params: &Params<'_>,
         build: &mut dyn Build,
     ) -> Option<[Self; N]> {
+        let materials = Self::nested_or_classic::<N>(params, build)?;
+        let classic = materials.iter().position(Self::is_classic);
+        match classic {
+            Some(index) => {
+                refuse_classic(params, index);
+                None
+            }
+            None => Some(materials),
+        }
+    }
+
+    /// The same where a classic Phong material may be nested, too.
+    pub(crate) fn nested_or_classic<const N: usize>(
+        params: &Params<'_>,
+        build: &mut dyn Build,
+    ) -> Option<[Self; N]> {
         let given = params.children(Class::Bsdf).len();
-        let materials = Self::all_nested(params, build)?;
+        let materials = Self::all(params, build);
         if given != N {
             params.error(format!(
                 "`{}` needs {N} nested BSDF{}, not {given}",
@@ -246,42 +262,58 @@ impl Material {
 
     /// The materials nested in a composed one that could be read, in the order of the file.
     pub(crate) fn all_nested(params: &Params<'_>, build: &mut dyn Build) -> Option<Vec<Self>> {
-        let children = params.children(Class::Bsdf);
-        for (_, node) in &children {
-            if node.plugin.value == crate::classicphong::NAME {
-                let message = format!(
-                    "`{}` takes BSDFs, and a classic Phong material is none",
-                    params.node.plugin.value
-                );
-                let diagnostic = Diagnostic::error(node.plugin.span, message);
-                (params.diagnostics).push(diagnostic.help("put it on a shape by itself"));
-                return None;
+        let materials = Self::all(params, build);
+        match materials.iter().position(Self::is_classic) {
+            Some(index) => {
+                refuse_classic(params, index);
+                None
             }
+            None => Some(materials),
         }
-        let materials = children
-            .into_iter()
-            .filter_map(|(_, node)| Self::from_node(node, build, params.diagnostics));
-        Some(materials.collect())
     }
 
-    /// Whether it is a classic Phong material, and no scattering model.
+    fn all(params: &Params<'_>, build: &mut dyn Build) -> Vec<Self> {
+        (params.children(Class::Bsdf).into_iter())
+            .filter_map(|(_, node)| Self::from_node(node, build, params.diagnostics))
+            .collect()
+    }
+
+    /// Whether it is, or holds, a classic Phong material, which is no scattering model.
     pub fn is_classic(&self) -> bool {
-        matches!(self, Self::LegacyPhong(_))
+        match self {
+            Self::LegacyPhong(_) => true,
+            Self::Mask(mask) => mask.nested().is_classic(),
+            Self::TwoSided(sides) => sides.nested().any(Self::is_classic),
+            Self::NormalMap(map) => map.tilted().nested().is_classic(),
+            Self::BumpMap(map) => map.tilted().nested().is_classic(),
+            _ => false,
+        }
     }
 
-    /// The classic Phong material at a point, if it is one and no scattering model.
+    /// The classic Phong material at a point for the known direction `wo`, if it is one and no scattering model.
     pub fn legacy_phong<T: Textures>(
         &self,
         textures: &T,
         vertex: &SurfaceInteraction,
+        wo: Vec3,
         wavelengths: &Wavelengths,
     ) -> Option<LegacyPhong> {
+        let site = ShadingContext::new(textures, vertex, wo, wavelengths);
+        self.classic(&site, vertex.shading)
+    }
+
+    /// The same within another material, which may have made the normal that of `frame`.
+    pub(crate) fn classic<T: Textures>(
+        &self,
+        site: &ShadingContext<'_, T>,
+        frame: Frame,
+    ) -> Option<LegacyPhong> {
         match self {
-            Self::LegacyPhong(description) => {
-                // No parameter depends on where it is seen from.
-                let site = ShadingContext::new(textures, vertex, vertex.normal, wavelengths);
-                Some(description.resolve(&site))
-            }
+            Self::LegacyPhong(phong) => Some(phong.resolve(site, frame)),
+            Self::Mask(mask) => mask.classic(site, frame),
+            Self::TwoSided(sides) => sides.classic(site, frame),
+            Self::NormalMap(map) => map.classic(site, frame),
+            Self::BumpMap(map) => map.classic(site, frame),
             _ => None,
         }
     }
@@ -305,6 +337,22 @@ impl Material {
         self.flatten(site, vertex.shading, 1.0, &mut lobes);
         lobes.resolved(vertex.normal)
     }
+}
+
+/// Says that a composed material takes no classic Phong material, which is its nested BSDF number `index`.
+fn refuse_classic(params: &Params<'_>, index: usize) {
+    let message = format!(
+        "`{}` takes BSDFs, and a classic Phong material is none",
+        params.node.plugin.value
+    );
+    let children = params.children(Class::Bsdf);
+    let span = children
+        .get(index)
+        .map_or(params.node.plugin.span, |(_, node)| node.plugin.span);
+    let help = "put it on a shape, by itself or in `twosided`, `mask`, `normalmap` or `bumpmap`";
+    params
+        .diagnostics
+        .push(Diagnostic::error(span, message).help(help));
 }
 
 models! {

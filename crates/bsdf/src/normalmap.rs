@@ -10,7 +10,8 @@ use crate::tilt::Tilted;
 use crate::{LobeList, MaterialFlags, ShadingContext};
 use etalon_math::Frame;
 use etalon_params::{Class, Diagnostic, Params, Value};
-use etalon_transport::{Build, SpectrumKind, TextureId, Textures};
+use etalon_transport::{Build, LegacyPhong, SpectrumKind, TextureId, Textures};
+use glam::Vec3;
 
 /// Parameters to test with (see [`crate::test_materials`]).
 pub const EXEMPLARS: &[&str] = &[
@@ -54,6 +55,25 @@ impl Description {
         self.tilted.traits()
     }
 
+    /// What is tilted.
+    pub(crate) fn tilted(&self) -> &Tilted {
+        &self.tilted
+    }
+
+    /// The normal, of any length, in the surface's frame.
+    fn normal<T: Textures>(&self, site: &ShadingContext<'_, T>) -> Vec3 {
+        site.textures.colour(self.normals, &site.at) * 2.0 - 1.0
+    }
+
+    /// The nested classic Phong material, tilted, if it is one.
+    pub fn classic<T: Textures>(
+        &self,
+        site: &ShadingContext<'_, T>,
+        frame: Frame,
+    ) -> Option<LegacyPhong> {
+        self.tilted.classic(site, frame, self.normal(site))
+    }
+
     /// The nested material's lobes, tilted.
     pub fn flatten<'a, T: Textures>(
         &'a self,
@@ -62,7 +82,6 @@ impl Description {
         weight: f32,
         into: &mut LobeList<'a>,
     ) {
-        let normal = site.textures.colour(self.normals, &site.at) * 2.0 - 1.0;
-        self.tilted.flatten(site, frame, weight, normal, into);
+        (self.tilted).flatten(site, frame, weight, self.normal(site), into);
     }
 }

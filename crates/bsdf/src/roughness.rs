@@ -1,9 +1,10 @@
 //! Reading the roughness of a microfacet model.
 
 use crate::ShadingContext;
+use crate::inputs::non_negative;
 use crate::microfacet::{Kind, LEAST_ALPHA, Microfacet};
-use etalon_params::{Params, Value};
-use etalon_transport::{Build, SpectrumKind, TextureId, Textures};
+use etalon_params::Params;
+use etalon_transport::{Build, TextureId, Textures};
 use glam::Vec2;
 
 /// What to say when a number is refused.
@@ -33,11 +34,11 @@ impl Roughness {
         let (alpha_u, alpha_v) = if anisotropic {
             // A missing one of the two is reported by `texture`.
             (
-                read(params, build, "alpha_u", None)?,
-                read(params, build, "alpha_v", None)?,
+                non_negative(params, build, ("alpha_u", None), ACCEPTED)?,
+                non_negative(params, build, ("alpha_v", None), ACCEPTED)?,
             )
         } else {
-            let alpha = read(params, build, "alpha", Some(0.1))?;
+            let alpha = non_negative(params, build, ("alpha", Some(0.1)), ACCEPTED)?;
             (alpha, alpha)
         };
         Some(Self {
@@ -91,24 +92,4 @@ fn kind(params: &Params<'_>) -> Kind {
         "ggx" => Kind::Ggx,
         _ => Kind::Beckmann,
     }
-}
-
-fn read(
-    params: &Params<'_>,
-    build: &mut dyn Build,
-    name: &str,
-    default: Option<f64>,
-) -> Option<TextureId> {
-    if let Some(property) = params.property(name) {
-        let number = match &property.value {
-            Value::Float(value) => *value,
-            Value::Integer(value) => *value as f64,
-            _ => 0.0,
-        };
-        if !(number >= 0.0 && number.is_finite()) {
-            params.refuse(name, number, ACCEPTED);
-            return None;
-        }
-    }
-    Some(build.texture(params, name, default, SpectrumKind::Unbounded))
 }

@@ -18,7 +18,7 @@
 use crate::{LobeList, Material, MaterialFlags, ShadingContext};
 use etalon_math::Frame;
 use etalon_params::Params;
-use etalon_transport::{Build, Textures};
+use etalon_transport::{Build, LegacyPhong, Textures};
 use glam::Vec3;
 
 /// A tilted normal.
@@ -94,7 +94,7 @@ impl Tilted {
     pub(crate) fn from_params(params: &Params<'_>, build: &mut dyn Build) -> Option<Self> {
         let flips = params.boolean_or("flip_invalid_normals", true);
         let shadows = params.boolean_or("use_shadowing_function", true);
-        let [nested] = Material::nested::<1>(params, build)?;
+        let [nested] = Material::nested_or_classic::<1>(params, build)?;
         if nested.traits().tilted {
             let name = &params.node.plugin.value;
             let message = format!("`{name}` cannot hold another material that tilts normals");
@@ -114,6 +114,24 @@ impl Tilted {
             tilted: true,
             ..self.nested.traits()
         }
+    }
+
+    /// The nested material.
+    pub(crate) fn nested(&self) -> &Material {
+        &self.nested
+    }
+
+    /// The nested classic Phong material with the normal `normal`, of any length, in `frame`. Light counts by its angle with the
+    /// tilted normal alone, without G, as the model has it.
+    pub(crate) fn classic<T: Textures>(
+        &self,
+        site: &ShadingContext<'_, T>,
+        frame: Frame,
+        normal: Vec3,
+    ) -> Option<LegacyPhong> {
+        let tilt = Tilt::new(normal, self.flips, self.shadows);
+        let seen = tilt.frame(frame.to_local(site.wo)).n;
+        (self.nested).classic(site, Frame::from_normal(frame.to_world(seen)))
     }
 
     /// The nested material's lobes with the normal `normal`, of any length, in `frame`.

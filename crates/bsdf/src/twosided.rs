@@ -12,7 +12,7 @@
 use crate::{LobeList, Material, MaterialFlags, ShadingContext};
 use etalon_math::Frame;
 use etalon_params::{Class, Diagnostic, Params};
-use etalon_transport::{Build, Textures};
+use etalon_transport::{Build, LegacyPhong, Textures};
 
 /// Parameters to test with (see [`crate::test_materials`]).
 pub const EXEMPLARS: &[&str] = &[
@@ -33,10 +33,10 @@ impl Description {
     pub fn from_params(params: &Params<'_>, build: &mut dyn Build) -> Option<Self> {
         let allowed = params.boolean_or("allow_transmission", false);
         let (front, back) = if params.children(Class::Bsdf).len() > 1 {
-            let [front, back] = Material::nested::<2>(params, build)?;
+            let [front, back] = Material::nested_or_classic::<2>(params, build)?;
             (front, Some(Box::new(back)))
         } else {
-            let [front] = Material::nested::<1>(params, build)?;
+            let [front] = Material::nested_or_classic::<1>(params, build)?;
             (front, None)
         };
         let description = Self {
@@ -83,6 +83,23 @@ impl Description {
         } else {
             None
         }
+    }
+
+    /// Those of both sides.
+    pub fn nested(&self) -> impl Iterator<Item = &Material> {
+        std::iter::once(&self.front)
+            .chain(&self.back)
+            .map(|side| &**side)
+    }
+
+    /// The classic Phong material of the side where `wo` lies, if it is one.
+    pub fn classic<T: Textures>(
+        &self,
+        site: &ShadingContext<'_, T>,
+        frame: Frame,
+    ) -> Option<LegacyPhong> {
+        let (material, frame) = self.side(site, frame)?;
+        material.classic(site, frame)
     }
 
     /// The material of the side where `wo` lies; none for a direction in the surface itself.

@@ -11,6 +11,7 @@
 pub mod any;
 pub mod clip;
 pub mod field_of_view;
+pub mod lens;
 pub mod orthographic;
 pub mod perspective;
 pub mod pose;
@@ -20,6 +21,7 @@ pub mod window;
 pub use any::AnyCamera;
 pub use clip::ClipRange;
 pub use field_of_view::ImagePlane;
+pub use lens::Lens;
 pub use orthographic::Orthographic;
 pub use perspective::Perspective;
 pub use pose::Pose;

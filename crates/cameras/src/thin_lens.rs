@@ -15,11 +15,11 @@
 //! dx/dω / (A·cos θ) = |P|⁴ / (πR²·|det M|²·pixel area),   as cos θ = |det M| / (|P|·|M x̂ × M ŷ|)
 //! ```
 
+use crate::lens::Lens;
 use crate::{ClipRange, FilmWindow, ImagePlane, Pose};
 use etalon_math::Animated;
 use etalon_params::Params;
 use etalon_sampling::warps::square_to_concentric_disk;
-use etalon_transport::half_width_from_params;
 use etalon_transport::{ApertureHit, Camera, CameraRay, CameraSample, Ray, Shutter};
 use glam::{DVec2, Vec2, Vec3};
 
@@ -55,31 +55,31 @@ impl ThinLens {
         }
     }
 
-    /// Reads `aperture_radius`, `focus_distance` (default: the far clipping distance, as Mitsuba
-    /// has it) and the parameters of `perspective`. The principal point's offset is an
+    /// Reads the parameters of [`Lens`], where `focus_distance` is the far clipping distance by default, as Mitsuba
+    /// has it, and those of `perspective`. The principal point's offset is an
     /// extension: Mitsuba's lens has none.
     pub fn from_params(params: &Params<'_>, window: FilmWindow, shutter: &Shutter) -> Option<Self> {
-        const RADIUS: &str = "a finite number not below 0";
         let finite = |name| params.float_where(name, 0.0, "a finite number", f64::is_finite);
         let offset = DVec2::new(
             finite("principal_point_offset_x"),
             finite("principal_point_offset_y"),
         );
-        if !params.has("aperture_radius") {
-            params.missing("aperture_radius", RADIUS);
-        }
-        let radius = params.float_where("aperture_radius", 0.0, RADIUS, |r| {
-            r >= 0.0 && r.is_finite()
-        });
         let clip = ClipRange::from_params(params);
-        let focus =
-            params.float_where("focus_distance", clip.far, "a finite number above 0", |f| {
-                f > 0.0 && f.is_finite()
-            });
-        let half_width = half_width_from_params(params, window.aspect());
+        let lens = Lens::from_params(params, window.aspect(), clip.far);
         let pose = Pose::from_params(params, true, shutter)?;
+        let Lens {
+            aperture_radius,
+            focus_distance,
+            half_width,
+        } = lens?;
         let image = ImagePlane::new(window, half_width, offset);
-        Some(Self::new(pose, image, clip, radius, focus))
+        Some(Self::new(
+            pose,
+            image,
+            clip,
+            aperture_radius,
+            focus_distance,
+        ))
     }
 
     /// The aperture point (camera space, z = 0) chosen by `lens`.

@@ -58,7 +58,7 @@ use crate::photons::kernel::{Kernel, KernelLookup};
 use crate::photons::radius::{MOST_FOUND, from_pixels, held, read};
 use crate::photons::sets::WavelengthSets;
 use crate::photons::shoot::{Kind, PhotonMap, PlacedPhotons, moment, shoot};
-use crate::photons::{read_count, read_sets, rounded};
+use crate::photons::{read_count, read_nearest, read_sets, rounded};
 use crate::settings::PathSettings;
 use etalon_params::Params;
 use etalon_sampling::Sampler;
@@ -136,17 +136,9 @@ impl PhotonMapper {
     /// `wavelength_sets`, `final_gather`, `filter` (`box` or `cone`), `cone`, and for both maps
     /// `global_radius`, `global_nearest`, `caustic_radius` and `caustic_nearest`.
     pub fn from_params(params: &Params<'_>) -> Self {
-        let nearest = |name: &str| {
-            let count = params.integer_or(name, 0);
-            // The farthest photon only says how far away it is: of one alone nothing would be left.
-            if count == 1 || !(0..=MOST_NEAREST).contains(&count) {
-                params.refuse(name, count, "0 (all within the radius), 2, 3, … 65536");
-            }
-            usize::try_from(count).unwrap_or(0)
-        };
         let estimate = |radius: &str, count: &str| Estimate {
             radius: read(params, radius),
-            nearest: nearest(count),
+            nearest: read_nearest(params, count),
         };
         let filter = params.choice("filter", "box", &["box", "cone"]);
         let what = "a number from 1: where the cone ends, in radii";
@@ -226,9 +218,6 @@ impl PhotonMapper {
 
 /// A radius beyond everything (m) whose square is a number.
 const ANYWHERE: f32 = 1e18;
-
-/// The most photons that may be looked for.
-const MOST_NEAREST: i64 = 1 << 16;
 
 impl Integrator for PhotonMapper {
     const FOLLOWS_LIGHT: bool = true;

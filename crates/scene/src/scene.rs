@@ -187,10 +187,11 @@ impl World for Scene {
     fn legacy_phong(
         &self,
         vertex: &SurfaceInteraction,
+        wo: Vec3,
         wavelengths: &Wavelengths,
     ) -> Option<LegacyPhong> {
         self.material(vertex)
-            .legacy_phong(&self.parts.lookup, vertex, wavelengths)
+            .legacy_phong(&self.parts.lookup, vertex, wo, wavelengths)
     }
 
     #[inline]

@@ -4,7 +4,7 @@ use crate::attributes::Asked;
 use crate::bodies::Body;
 use crate::builder::Builder;
 use crate::{displacement, merge};
-use etalon_bsdf::{Material, classicphong};
+use etalon_bsdf::Material;
 use etalon_geometry::shapes::csg::Operation;
 use etalon_geometry::{GeometryBuilder, GroupId, Placement, Shape};
 use etalon_math::Animated;
@@ -224,10 +224,10 @@ impl Surfaces {
                 self.asked.by(user, shape, place, builder.diagnostics);
             }
         }
-        if let Some(bsdf) = bsdf.filter(|bsdf| bsdf.plugin.value == classicphong::NAME) {
+        let material = self.material_or_default(bsdf, emitter.is_some(), builder);
+        if let Some(bsdf) = bsdf.filter(|_| self.is_classic(material)) {
             self.classic.get_or_insert(bsdf.plugin.span);
         }
-        let material = self.material_or_default(bsdf, emitter.is_some(), builder);
         for (property, _) in params.children(Class::Sensor) {
             let message = "a sensor on a shape is not built yet";
             builder
@@ -380,6 +380,10 @@ impl Surfaces {
             None if emits => self.black(builder),
             None => self.grey(builder),
         }
+    }
+
+    fn is_classic(&self, material: MaterialId) -> bool {
+        (self.materials.get(material.0 as usize)).is_some_and(Material::is_classic)
     }
 
     fn push(&mut self, material: Material, name: String) -> MaterialId {

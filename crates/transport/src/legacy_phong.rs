@@ -7,7 +7,7 @@
 //! tells whoever can use them. The equation stands where it is evaluated, at the head of the
 //! integrator `whitted`.
 
-use glam::Vec4;
+use glam::{Vec3, Vec4};
 
 /// A classic Phong material at a point. Spectra have one value per lane.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -26,4 +26,8 @@ pub struct LegacyPhong {
     pub transparency: f32,
     /// Index of refraction of the side away from the normal over that of the other.
     pub eta: Vec4,
+    /// Unit normal by which light and reflections go, outside: the shading normal, or what a map has made of it.
+    pub normal: Vec3,
+    /// The share of the surface that is there; the rest lets light pass straight on.
+    pub opacity: f32,
 }

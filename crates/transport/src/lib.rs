@@ -42,7 +42,7 @@ pub use bsdf::{Bsdf, BsdfSample, TransportMode};
 pub use build::{Build, SpectrumKind};
 pub use camera::{ApertureHit, Camera, CameraRay, CameraSample};
 pub use diffusion::{DiffusionProfile, NoProfile};
-pub use field_of_view::half_width_from_params;
+pub use field_of_view::{half_width_from_params, half_width_of_fov};
 pub use film::{Channel, Film, FilmSample, Placing, Sink, TileSink};
 pub use ids::{InstanceId, LightId, MaterialId, MediumId, ShapeId, TextureId};
 pub use integrator::{Integrator, Pass, PixelSample, SampleJob};

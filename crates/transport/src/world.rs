@@ -177,6 +177,7 @@ pub trait World: Sync {
     fn legacy_phong(
         &self,
         _vertex: &SurfaceInteraction,
+        _wo: Vec3,
         _wavelengths: &Wavelengths,
     ) -> Option<LegacyPhong> {
         None

@@ -160,9 +160,7 @@ fn a_mesh_without_triangles_is_no_mistake() {
 fn pointers_of_git_lfs_are_told() {
     let pointer = "version https://git-lfs.github.com/spec/v1\noid sha256:0\nsize 9\n";
     let bitmap = "<texture type=\"bitmap\" name=\"reflectance\">FILE</texture>";
-    let shape = format!(
-        "<shape type=\"sphere\"><bsdf type=\"diffuse\">{bitmap}</bsdf></shape>"
-    );
+    let shape = format!("<shape type=\"sphere\"><bsdf type=\"diffuse\">{bitmap}</bsdf></shape>");
     refused("t.png", pointer.as_bytes(), &shape, "a pointer of git LFS");
     let workshop = Workshop::new();
     for name in ["a.exr", "b.exr", "c.png"] {
@@ -176,6 +174,10 @@ fn pointers_of_git_lfs_are_told() {
         &["convert", "c.png", "o.pfm"],
     ] {
         let ran = workshop.run(arguments).refused();
-        assert!(ran.stderr.contains("a pointer of git LFS"), "{}", ran.stderr);
+        assert!(
+            ran.stderr.contains("a pointer of git LFS"),
+            "{}",
+            ran.stderr
+        );
     }
 }

@@ -220,9 +220,10 @@ impl<'s, W: World> World for Script<'s, W> {
     fn legacy_phong(
         &self,
         vertex: &SurfaceInteraction,
+        wo: Vec3,
         wavelengths: &Wavelengths,
     ) -> Option<LegacyPhong> {
-        self.world.legacy_phong(vertex, wavelengths)
+        self.world.legacy_phong(vertex, wo, wavelengths)
     }
     fn emitted(&self, vertex: &SurfaceInteraction, wo: Vec3, wavelengths: &Wavelengths) -> Vec4 {
         match self.node(vertex) {

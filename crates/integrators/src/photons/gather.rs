@@ -5,7 +5,7 @@
 
 use super::elsewhere::{CameraPath, CameraVertex};
 use super::sets::{WavelengthChoice, WavelengthSets};
-use super::shoot::{Kind, Photon, PhotonMap};
+use super::shoot::{FACING, Kind, Photon, PhotonMap};
 use super::{is_sharp, kernel::KernelLookup};
 use crate::candidates::Aim;
 use crate::dimensions::{BounceSamples, draw_flight};
@@ -20,9 +20,6 @@ use etalon_transport::{
     ScattererOf, Sink, SurfaceInteraction, TileSink, TraceEvent, TransportMode, World,
 };
 use glam::{Vec3, Vec4};
-
-/// The least cosine of the angle between the normals of surfaces that share photons.
-const FACING: f32 = 0.7;
 
 /// A map, how to look it up, and what of it counts.
 #[derive(Clone, Copy, Debug)]
@@ -377,40 +374,15 @@ impl<'w, W: World> GatherPath<'_, 'w, W> {
                 true => (&layer.in_space, &layer.map.space),
             };
             let scale = 1.0 / layer.shot as f32;
-            let radius_squared = lookup.radius * lookup.radius;
-            let (tree, photons) = (&placed.tree, &placed.photons);
-            let gathering = |radius_squared: f32| TraceEvent::Gathering {
-                radius: radius_squared.sqrt(),
-                among: photons.len(),
+            let begin = |radius_squared: f32| {
+                world.record(|| TraceEvent::Gathering {
+                    radius: radius_squared.sqrt(),
+                    among: placed.photons.len(),
+                });
             };
-            if lookup.nearest == 0 {
-                world.record(|| gathering(radius_squared));
-                let near = &mut scratch.nearest;
-                let (weight, among) = placed.around(vertex.position, radius_squared, near);
-                for found in near.iter() {
-                    let kernel =
-                        (lookup.kernel).value(found.distance_squared, radius_squared, in_space);
-                    merge(&among.photons[found.place], kernel * (scale * weight));
-                }
-            } else {
-                let nearest = &mut scratch.nearest;
-                tree.nearest(vertex.position, lookup.nearest, radius_squared, nearest);
-                // The farthest only tells how far they reach.
-                let Some((last, inside)) = nearest.split_last() else {
-                    continue;
-                };
-                let full = nearest.len() == lookup.nearest;
-                let (reach, inside) = if full {
-                    (last.distance_squared, inside)
-                } else {
-                    (radius_squared, &nearest[..])
-                };
-                world.record(|| gathering(reach));
-                for found in inside {
-                    let kernel = (lookup.kernel).value(found.distance_squared, reach, in_space);
-                    merge(&photons[found.place], kernel * scale);
-                }
-            }
+            let (at, near) = (vertex.position, &mut scratch.nearest);
+            let merge = |photon: &Photon, kernel: f32| merge(photon, kernel * scale);
+            lookup.visit(placed, at, in_space, near, begin, merge);
         }
         if any {
             self.rgb = behind.carried(world, at.iter().map(|(_, sum)| *sum), self.rgb);

@@ -1,6 +1,9 @@
 //! Kernels: how much a photon counts by its distance.
 
+use super::kdtree::Found;
+use super::shoot::{Photon, PlacedPhotons};
 use core::f32::consts::PI;
+use glam::Vec3;
 
 /// What is looked up in a photon map.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -12,6 +15,46 @@ pub(crate) struct KernelLookup {
     pub(crate) nearest: usize,
     /// The shape of the kernel.
     pub(crate) kernel: Kernel,
+}
+
+impl KernelLookup {
+    /// Visits the photons around a point, each with its kernel (m⁻², in a medium m⁻³), after `begin` was told the squared radius.
+    pub(crate) fn visit(
+        &self,
+        placed: &PlacedPhotons,
+        centre: Vec3,
+        in_space: bool,
+        found: &mut Vec<Found>,
+        begin: impl FnOnce(f32),
+        mut visit: impl FnMut(&Photon, f32),
+    ) {
+        let radius_squared = self.radius * self.radius;
+        if self.nearest == 0 {
+            begin(radius_squared);
+            let (weight, among) = placed.around(centre, radius_squared, found);
+            for found in found.iter() {
+                let kernel = (self.kernel).value(found.distance_squared, radius_squared, in_space);
+                visit(&among.photons[found.place], kernel * weight);
+            }
+            return;
+        }
+        (placed.tree).nearest(centre, self.nearest, radius_squared, found);
+        // The farthest only tells how far they reach.
+        let Some((last, inside)) = found.split_last() else {
+            return;
+        };
+        let full = found.len() == self.nearest;
+        let (reach, inside) = if full {
+            (last.distance_squared, inside)
+        } else {
+            (radius_squared, &found[..])
+        };
+        begin(reach);
+        for found in inside {
+            let kernel = (self.kernel).value(found.distance_squared, reach, in_space);
+            visit(&placed.photons[found.place], kernel);
+        }
+    }
 }
 
 /// A kernel on a disc, or in a ball.

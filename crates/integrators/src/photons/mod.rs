@@ -60,6 +60,19 @@ pub(crate) fn read_count(params: &Params<'_>) -> Option<u32> {
     u32::try_from(count).ok()
 }
 
+/// The most photons that may be looked for.
+const MOST_NEAREST: i64 = 1 << 16;
+
+/// Reads a number of nearest photons; 0, all within the radius, if it is not given.
+pub(crate) fn read_nearest(params: &Params<'_>, name: &str) -> usize {
+    let count = params.integer_or(name, 0);
+    // The farthest photon only says how far away it is: of one alone nothing would be left.
+    if count == 1 || !(0..=MOST_NEAREST).contains(&count) {
+        params.refuse(name, count, "0 (all within the radius), 2, 3, … 65536");
+    }
+    usize::try_from(count).unwrap_or(0)
+}
+
 /// The number of photons to shoot: a power of two, and a multiple of four times the sets.
 pub(crate) fn rounded(count: u32, sets: u32) -> u32 {
     count.clamp(4 * sets, MOST as u32).next_power_of_two()

@@ -52,6 +52,16 @@ impl WavelengthChoice {
             _ => [b, c, d, a],
         })
     }
+
+    /// Brings values per lane of the set into the order of the path.
+    #[inline]
+    pub(crate) fn of_set(self, value: Vec4) -> Vec4 {
+        let back = Self {
+            first: (4 - self.first) % 4,
+            ..self
+        };
+        back.to_set(value)
+    }
 }
 
 impl WavelengthSets {
@@ -131,6 +141,7 @@ mod tests {
             };
             let lanes = WavelengthChoice { set: 0, first };
             assert_eq!(lanes.to_set(wavelengths.rotated(first).lambda), set);
+            assert_eq!(lanes.of_set(set), wavelengths.rotated(first).lambda);
         }
     }
 }

@@ -61,11 +61,14 @@ pub(crate) struct PlacedPhotons {
 /// The most photons that a look-up within a radius visits of a map, thinned or not.
 pub(crate) const MOST_VISITED: usize = 1024;
 
+/// The least cosine of the angle between the normals of surfaces that share photons.
+pub(crate) const FACING: f32 = 0.7;
+
 /// Of so many photons a thinned map keeps one.
 const THINNED: u64 = 4;
 
 impl PlacedPhotons {
-    fn new(photons: &[Photon]) -> Self {
+    pub(crate) fn new(photons: &[Photon]) -> Self {
         let (tree, order) = KdTree::new(photons.iter().map(|photon| photon.position));
         let placed: Vec<Photon> = order.iter().map(|i| photons[*i as usize]).collect();
         let thinned = (photons.len() > MOST_VISITED).then(|| {

@@ -185,9 +185,10 @@ impl<'a, W: World> World for Recorder<'a, W> {
     fn legacy_phong(
         &self,
         vertex: &SurfaceInteraction,
+        wo: Vec3,
         wavelengths: &Wavelengths,
     ) -> Option<LegacyPhong> {
-        self.world.legacy_phong(vertex, wavelengths)
+        self.world.legacy_phong(vertex, wo, wavelengths)
     }
 
     fn emitted(&self, vertex: &SurfaceInteraction, wo: Vec3, wavelengths: &Wavelengths) -> Vec4 {

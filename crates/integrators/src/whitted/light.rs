@@ -1,29 +1,14 @@
 //! What arrives straight from the lights.
 
+use super::shading::{Surface, Surfaces};
 use super::tree::{Packet, SETS};
-use super::{Falloff, Whitted, phong};
+use super::{Falloff, Whitted};
+use etalon_sampling::Sampler;
 use etalon_spectrum::Wavelengths;
 use etalon_transport::{
-    Bsdf, LegacyPhong, LightId, LightSample, LightSampleContext, Ray, SurfaceInteraction,
-    TransportMode, World,
+    Bsdf, LegacyPhong, LightId, LightSample, LightSampleContext, Ray, SurfaceInteraction, World,
 };
-use glam::{Vec2, Vec3, Vec4};
-
-/// What lies at a surface, for one packet.
-enum Surface<B> {
-    Classic(LegacyPhong),
-    Scattering(B),
-}
-
-impl<B: Bsdf> Surface<B> {
-    /// What it shows of a lamp, per unit of irradiance.
-    fn shade(&self, vertex: &SurfaceInteraction, wo: Vec3, wi: Vec3) -> Vec4 {
-        match self {
-            Self::Classic(material) => phong::shade(material, vertex, wo, wi),
-            Self::Scattering(bsdf) => bsdf.eval(wo, wi, TransportMode::Radiance),
-        }
-    }
-}
+use glam::{Vec3, Vec4};
 
 impl Whitted {
     /// The light of all lamps that the surface shows toward `wo`. Shadow rays may pass as many
@@ -34,27 +19,20 @@ impl Whitted {
         world: &W,
         vertex: &SurfaceInteraction,
         wo: Vec3,
-        packets: &[Packet],
+        (packets, surfaces): (&[Packet], &Surfaces<'_, W>),
         crossings: u32,
+        sampler: &mut impl Sampler,
     ) -> Vec3 {
-        let surfaces: [Option<Surface<W::Bsdf<'_>>>; SETS] = core::array::from_fn(|i| {
-            let wavelengths = &packets.get(i)?.wavelengths;
-            Some(match world.legacy_phong(vertex, wavelengths) {
-                Some(material) => Surface::Classic(material),
-                None => Surface::Scattering(world.bsdf(vertex, wo, wavelengths)),
-            })
-        });
         let from = match &surfaces[0] {
             Some(Surface::Scattering(bsdf)) => LightSampleContext::new(vertex, wo, bsdf),
             _ => LightSampleContext::on_surface(vertex.position, vertex.shading.n).at(vertex.time),
         };
-        let side = self.light_samples;
         let mut sum = Vec3::ZERO;
         for light in (0..world.light_count()).map(LightId) {
-            for point in 0..side * side {
-                let place = Vec2::new((point % side) as f32, (point / side) as f32) + 0.5;
+            for point in 0..self.light_points.count() {
+                let place = self.light_points.point(point, sampler);
                 let sample = |wavelengths: &Wavelengths| {
-                    world.sample_one_light(light, &from, wavelengths, place / side as f32)
+                    world.sample_one_light(light, &from, wavelengths, place)
                 };
                 let Some(first) = sample(&packets[0].wavelengths) else {
                     continue;
@@ -62,10 +40,10 @@ impl Whitted {
                 let share = if first.chance.is_delta() {
                     1.0
                 } else {
-                    1.0 / (side * side) as f32
+                    1.0 / self.light_points.count() as f32
                 };
                 let mut shown = [Vec4::ZERO; SETS];
-                for ((shown, packet), surface) in shown.iter_mut().zip(packets).zip(&surfaces) {
+                for ((shown, packet), surface) in shown.iter_mut().zip(packets).zip(surfaces) {
                     let (Some(surface), Some(lamp)) = (surface, sample(&packet.wavelengths)) else {
                         continue;
                     };
@@ -79,7 +57,9 @@ impl Whitted {
                     continue;
                 }
                 let ray = vertex.shadow_ray(first.direction, first.target);
-                if let Some(arrives) = ray.and_then(|ray| reach(world, ray, packets, crossings)) {
+                if let Some(arrives) =
+                    ray.and_then(|ray| self.reach(world, ray, packets, crossings))
+                {
                     for ((packet, shown), arrives) in packets.iter().zip(shown).zip(arrives) {
                         sum += packet.response.rgb(shown * arrives);
                     }
@@ -102,42 +82,50 @@ impl Whitted {
             _ => irradiance,
         }
     }
-}
 
-/// The fraction of light that travels a segment, for each packet; `None` if none does.
-fn reach<W: World>(
-    world: &W,
-    mut ray: Ray,
-    packets: &[Packet],
-    mut crossings: u32,
-) -> Option<[Vec4; SETS]> {
-    let (origin, end) = (ray.origin, ray.t_max);
-    let mut fractions = [Vec4::ONE; SETS];
-    while let Some(hit) = world.intersect(&ray) {
-        crossings = crossings.checked_sub(1)?;
-        let vertex = world.vertex(&ray, &hit);
-        let mut any = false;
-        for (fraction, packet) in fractions.iter_mut().zip(packets) {
-            *fraction *= match world.legacy_phong(&vertex, &packet.wavelengths) {
-                Some(material) => Vec4::splat(material.transparency),
-                None => {
-                    let bsdf = world.bsdf(&vertex, -ray.direction, &packet.wavelengths);
-                    bsdf.null_transmittance()
+    /// The fraction of light that travels a segment, for each packet; `None` if none does.
+    fn reach<W: World>(
+        &self,
+        world: &W,
+        mut ray: Ray,
+        packets: &[Packet],
+        mut crossings: u32,
+    ) -> Option<[Vec4; SETS]> {
+        let (origin, end) = (ray.origin, ray.t_max);
+        let mut fractions = [Vec4::ONE; SETS];
+        // Photons bring what is refracted to where it arrives in truth.
+        let passes = |material: &LegacyPhong| match self.caustics.photons {
+            0 => material.transparency,
+            _ => 0.0,
+        };
+        while let Some(hit) = world.intersect(&ray) {
+            crossings = crossings.checked_sub(1)?;
+            let vertex = world.vertex(&ray, &hit);
+            let wo = -ray.direction;
+            let mut any = false;
+            for (fraction, packet) in fractions.iter_mut().zip(packets) {
+                *fraction *= match world.legacy_phong(&vertex, wo, &packet.wavelengths) {
+                    Some(material) => {
+                        Vec4::splat(1.0 - material.opacity * (1.0 - passes(&material)))
+                    }
+                    None => world
+                        .bsdf(&vertex, wo, &packet.wavelengths)
+                        .null_transmittance(),
+                };
+                any |= *fraction != Vec4::ZERO;
+            }
+            if !any {
+                return None;
+            }
+            ray = vertex.spawn(ray.direction);
+            if end.is_finite() {
+                // What is left of the segment, measured from where the ray goes on.
+                ray.t_max = end - (ray.origin - origin).dot(ray.direction);
+                if !(ray.t_max > 0.0) {
+                    break;
                 }
-            };
-            any |= *fraction != Vec4::ZERO;
-        }
-        if !any {
-            return None;
-        }
-        ray = vertex.spawn(ray.direction);
-        if end.is_finite() {
-            // What is left of the segment, measured from where the ray goes on.
-            ray.t_max = end - (ray.origin - origin).dot(ray.direction);
-            if !(ray.t_max > 0.0) {
-                break;
             }
         }
+        Some(fractions)
     }
-    Some(fractions)
 }

@@ -1,11 +1,11 @@
-//! `whitted`: recursive ray tracing (Whitted 1980), without random numbers.
+//! `whitted`: recursive ray tracing (Whitted 1980), without random numbers unless they are asked for.
 //!
 //! ```text
 //! L(x, ω) = Lₑ + Σ_lights Σ_points V f |cos θ| E + Σ_directions w · L(next surface)
 //! ```
 //!
 //! Of the integral over all directions two parts are kept: what arrives straight from the lights,
-//! every light being asked at fixed points, and what arrives from the few directions that smooth
+//! every light being asked at N points ([`PointSet`]), and what arrives from the few directions that smooth
 //! surfaces single out (mirrors, refraction, total reflection), each of which is followed. Light
 //! that reaches a surface in any other way is missing, which is what makes this no estimator of the
 //! rendering equation; but wherever there is no such light it is exact, with hard shadows.
@@ -13,27 +13,36 @@
 //! Classic Phong materials ([`LegacyPhong`]) fill the gap with an ambient term:
 //!
 //! ```text
-//! L = (1 − α) (kₐ Lₐ + Σ V E (k_d cos θ + kₛ max(0, cos ρ)ⁿ) + k_g L_mirror) + α L_refracted
+//! L = (1 − α) (kₐ Lₐ + Σ V E (k_d cos θ + kₛ max(0, cos ρ)ⁿ) + k_g L_mirror + k_d E_caustic) + α L_refracted
 //! ```
 //!
 //! θ is the angle of the light with the normal on the viewer's side, ρ that with the mirrored
 //! view (Phong 1975); lights behind the surface count nothing. E is the irradiance of a lamp of
 //! intensity I, I/r² or, if light does not fall off, I. Under total reflection L_refracted is
 //! L_mirror. Light passes transparent classic surfaces straight on its way from a lamp, dimmed by α
-//! at each; other interfaces cast black shadows unless light passes them straight (`mask`, …).
+//! at each; other interfaces cast black shadows unless light passes them straight (`mask`, …). With `photons` it is a photon map
+//! instead that tells where light arrives by way of mirrors and glass, E_caustic (`caustics.rs`), and transparent surfaces cast
+//! black shadows, too. θ, ρ and the ways onward go by the normal that `normalmap` and `bumpmap` give.
 //!
 //! Wavelengths are those of a rule for integrals ([`QuadratureNode`]) in strata that paths draw theirs from with equal
-//! probability, so every picture is without noise; smooth dispersion sends each its own way. Every pixel is the
-//! mean of a grid of points over its square, refined where neighbours differ.
+//! probability, so pictures are without noise as long as no point is random; smooth dispersion sends each its own way. Every pixel is the
+//! mean of a grid of points over its square, refined where neighbours differ. What is random is drawn for each sample of a pixel,
+//! and photons for each replicate.
 //!
 //! [`LegacyPhong`]: etalon_transport::LegacyPhong
 //! [`QuadratureNode`]: etalon_spectrum::QuadratureNode
 
+mod caustics;
 mod light;
 mod phong;
 mod pixel;
+mod points;
+mod shading;
 mod tree;
 
+use crate::photons::{radius, read_count, read_nearest};
+pub use caustics::CausticSettings;
+use caustics::Caustics;
 use etalon_params::Params;
 use etalon_sampling::Sampler;
 use etalon_transport::{
@@ -42,6 +51,7 @@ use etalon_transport::{
 };
 use glam::{UVec2, Vec4};
 pub use pixel::Grid;
+pub use points::{Placement, PointSet};
 use std::sync::OnceLock;
 use tree::Packet;
 pub use tree::{Continuation, onward};
@@ -66,8 +76,12 @@ pub struct Whitted {
     pub falloff: Falloff,
     /// The strength of ambient light, which is white.
     pub ambient: f32,
-    /// Lights with an extent are asked at the square of this many points.
-    pub light_samples: u32,
+    /// The points at which lights with an extent are asked.
+    pub light_points: PointSet,
+    /// The points of a lens that are looked through.
+    pub lens_points: PointSet,
+    /// How caustics are made.
+    pub caustics: CausticSettings,
     /// Number of wavelengths, a multiple of four.
     pub wavelengths: u32,
     /// The points of a pixel.
@@ -79,8 +93,8 @@ const MOST_WAVELENGTHS: u32 = 64;
 
 impl Whitted {
     /// Reads `max_depth` (8), `hide_emitters`, `falloff` (`inverse_square`), `ambient` (1),
-    /// `light_samples` (1), `wavelengths` (36), `supersampling` (2), `adaptive` (0) and `contrast`
-    /// (0.05).
+    /// `light_samples` (1), `light_sampling` (`grid`), `lens_samples` (1), `lens_sampling` (`grid`), `photons` (none), `radius`, `nearest`
+    /// (0), `wavelengths` (36), `supersampling` (2), `adaptive` (0) and `contrast` (0.05).
     pub fn from_params(params: &Params<'_>) -> Self {
         let count = |name: &str, default: u32, range: core::ops::RangeInclusive<u32>| {
             let value = params.integer_or(name, i64::from(default));
@@ -110,10 +124,17 @@ impl Whitted {
         let names = falloff.map(|(name, _)| name);
         let chosen = params.choice("falloff", "inverse_square", &names);
         let falloff = falloff.into_iter().find(|(name, _)| *name == chosen);
+        for name in ["radius", "nearest"] {
+            if params.has(name) && !params.has("photons") {
+                params.error_at(name, format!("`{name}` has no effect without `photons`"));
+            }
+        }
         let positive = |x: f64| x >= 0.0 && x.is_finite();
         let number = |name, default| {
             params.float_where(name, default, "a finite number not below 0", positive) as f32
         };
+        let points =
+            |placement, side| PointSet::from_params(params, placement, count(side, 1, 1..=64));
         let grid = Grid {
             side: count("supersampling", 2, 1..=pixel::MOST),
             levels: count("adaptive", 0, 0..=8),
@@ -124,37 +145,56 @@ impl Whitted {
             hide_emitters: params.boolean_or("hide_emitters", false),
             falloff: falloff.map_or(Falloff::InverseSquare, |(_, falloff)| falloff),
             ambient: number("ambient", 1.0),
-            light_samples: count("light_samples", 1, 1..=64),
+            light_points: points("light_sampling", "light_samples"),
+            lens_points: points("lens_sampling", "lens_samples"),
+            caustics: CausticSettings {
+                photons: read_count(params).unwrap_or(0),
+                radius: radius::read(params, "radius"),
+                nearest: read_nearest(params, "nearest"),
+            },
             wavelengths,
             grid,
         }
     }
 
+    /// Whether every sample of a pixel differs from the others.
+    fn is_random(&self) -> bool {
+        self.light_points.is_random() || self.lens_points.is_random()
+    }
+
     /// A pixel's colour and alpha.
-    fn pixel<W: World>(&self, world: &W, packets: &[Packet], pixel: UVec2) -> Vec4 {
+    fn pixel<W: World>(
+        &self,
+        world: &W,
+        picture: &Picture,
+        pixel: UVec2,
+        sampler: &mut impl Sampler,
+    ) -> Vec4 {
         let corner = pixel.as_vec2();
-        self.grid
-            .mean(corner, |raster| self.through(world, packets, raster))
+        let look = |raster| self.through(world, picture, raster, sampler);
+        self.grid.mean(corner, look)
     }
 }
 
-/// The pixels seen so far. Since nothing is random each is looked at once, however many samples and
-/// replicates are asked for.
+/// The pixels of a pass seen so far, and its photons. Where nothing is random each pixel is looked at once, however many samples are asked
+/// for; without photons, in all replicates together.
 pub struct Picture {
     origin: UVec2,
     width: u32,
     pixels: Vec<OnceLock<Vec4>>,
     packets: Vec<Packet>,
+    caustics: Option<Caustics>,
 }
 
 impl Picture {
-    fn blank(pass: &Pass, packets: Vec<Packet>) -> Self {
+    fn blank(pass: &Pass, packets: Vec<Packet>, caustics: Option<Caustics>) -> Self {
         let count = pass.size.x as usize * pass.size.y as usize;
         Self {
             origin: pass.origin,
             width: pass.size.x,
             pixels: core::iter::repeat_with(OnceLock::new).take(count).collect(),
             packets,
+            caustics,
         }
     }
 
@@ -187,20 +227,37 @@ impl Integrator for Whitted {
             .then(|| Incompatibility::fatal(Subject::Integrator, message));
         let ambient = sight.classic && self.ambient > 0.0;
         let unlit = sight.unlit().filter(|_| !ambient);
-        sky.into_iter().chain(unlit).collect()
+        let lens = match (sight.aperture, self.lens_points.side) {
+            (true, 1) if !self.lens_points.is_random() => Some((
+                "`whitted` looks through the middle of the lens alone, so that all is in focus",
+                "`lens_samples` 8 looks through 8 × 8 points of it",
+            )),
+            (false, 2..) => Some((
+                "`lens_samples` has no effect: the camera has no lens, and what it sees is in focus",
+                "the sensor `thinlens` has one",
+            )),
+            _ => None,
+        };
+        let lens = lens.map(|(message, help)| {
+            Incompatibility::remark(Subject::Integrator, message).help(help)
+        });
+        sky.into_iter().chain(unlit).chain(lens).collect()
     }
 
     fn prepare<W: World>(
         &self,
         world: &W,
-        _: &impl Placing,
+        placing: &impl Placing,
         pass: &Pass,
         before: Option<Picture>,
     ) -> Picture {
-        before.unwrap_or_else(|| {
-            let packets = tree::packets(world, self.wavelengths / 4);
-            Picture::blank(pass, packets)
-        })
+        if let Some(before) = before.filter(|_| self.caustics.photons == 0) {
+            return before;
+        }
+        let packets = tree::packets(world, self.wavelengths / 4);
+        let settings = (self.caustics, self.max_depth);
+        let caustics = Caustics::shoot(world, placing, pass, &packets, settings);
+        Picture::blank(pass, packets, caustics)
     }
 
     fn sample<W: World, S: Sampler, K: Sink>(
@@ -208,12 +265,14 @@ impl Integrator for Whitted {
         world: &W,
         picture: &Picture,
         site: &PixelSample,
-        _: &mut S,
+        sampler: &mut S,
         sink: &mut K,
     ) {
-        let seen = picture.pixel(site.pixel, || {
-            self.pixel(world, &picture.packets, site.pixel)
-        });
+        let mut look = || self.pixel(world, picture, site.pixel, sampler);
+        let seen = match self.is_random() {
+            true => look(),
+            false => picture.pixel(site.pixel, look),
+        };
         sink.radiance(seen.truncate().to_array(), seen.w);
     }
 

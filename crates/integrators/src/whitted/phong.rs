@@ -5,10 +5,38 @@ use etalon_math::float;
 use etalon_transport::{LegacyPhong, SurfaceInteraction};
 use glam::{Vec3, Vec4};
 
-/// The shading normal on the side of `wo`.
-fn facing(vertex: &SurfaceInteraction, wo: Vec3) -> Vec3 {
-    let n = vertex.shading.n;
+/// The material's normal on the side of `wo`.
+fn facing(material: &LegacyPhong, wo: Vec3) -> Vec3 {
+    let n = material.normal;
     if n.dot(wo) < 0.0 { -n } else { n }
+}
+
+/// Whether two directions are on one side of the surface, whatever a map has made of its normal.
+fn on_one_side(vertex: &SurfaceInteraction, wo: Vec3, wi: Vec3) -> bool {
+    vertex.shading.n.dot(wo) * vertex.shading.n.dot(wi) > 0.0
+}
+
+/// The cosine of a lamp's direction, and the normal; `None` for lamps behind the surface.
+fn lit(
+    material: &LegacyPhong,
+    vertex: &SurfaceInteraction,
+    wo: Vec3,
+    wi: Vec3,
+) -> Option<(f32, Vec3)> {
+    let n = facing(material, wo);
+    let cos = n.dot(wi);
+    (cos > 0.0 && on_one_side(vertex, wo, wi)).then_some((cos, n))
+}
+
+/// The diffuse part of [`shade`].
+pub(super) fn spread(
+    material: &LegacyPhong,
+    vertex: &SurfaceInteraction,
+    wo: Vec3,
+    wi: Vec3,
+) -> Vec4 {
+    let cos = lit(material, vertex, wo, wi).map_or(0.0, |(cos, _)| cos);
+    material.diffuse * (cos * (1.0 - material.transparency) * material.opacity)
 }
 
 /// What the surface itself shows of a lamp in direction `wi`, per unit of irradiance.
@@ -18,30 +46,28 @@ pub(super) fn shade(
     wo: Vec3,
     wi: Vec3,
 ) -> Vec4 {
-    let n = facing(vertex, wo);
-    let cos = n.dot(wi);
-    if !(cos > 0.0) {
+    let Some((cos, n)) = lit(material, vertex, wo, wi) else {
         return Vec4::ZERO;
-    }
+    };
     let mirrored = mirror(n, wo).dot(wi).max(0.0);
     let highlight = float::pow(mirrored, material.exponent);
     let own = material.diffuse * cos + material.specular * highlight;
-    own * (1.0 - material.transparency)
+    own * ((1.0 - material.transparency) * material.opacity)
 }
 
 fn mirror(n: Vec3, wo: Vec3) -> Vec3 {
     n * (2.0 * n.dot(wo)) - wo
 }
 
-/// The ray number `index` that leaves the surface: the mirrored one, and the refracted one; `None`
-/// beyond the last.
+/// The ray number `index` that leaves the surface: the mirrored one, the refracted one, and what goes straight on where the
+/// surface is not there; `None` beyond the last.
 pub(super) fn onward(
     material: &LegacyPhong,
     vertex: &SurfaceInteraction,
     wo: Vec3,
     index: u32,
 ) -> Option<Continuation> {
-    let n = facing(vertex, wo);
+    let n = facing(material, wo);
     let cos = n.dot(wo);
     // Index of the medium entered over that of the medium left.
     let eta = if vertex.shading.n.dot(wo) < 0.0 {
@@ -54,23 +80,37 @@ pub(super) fn onward(
     let refracts = Vec4::select(cos2.cmpgt(Vec4::ZERO), Vec4::ONE, Vec4::ZERO);
     let through = Vec4::splat(material.transparency);
     match index {
-        0 => Some(Continuation {
-            wi: mirror(n, wo),
-            value: material.global * (1.0 - through) + through * (1.0 - refracts),
-            together: Vec4::ONE,
-        }),
-        1 if material.transparency > 0.0 => {
+        0 => {
+            let wi = mirror(n, wo);
+            // A tilted normal may mirror into the surface.
+            let is_outside = f32::from(on_one_side(vertex, wo, wi));
+            let share = material.global * (1.0 - through) + through * (1.0 - refracts);
+            Some(Continuation {
+                wi,
+                value: share * (material.opacity * is_outside),
+                together: Vec4::ONE,
+                is_straight: false,
+            })
+        }
+        1 => {
             // The direction is that of lane 0; other lanes go with it only if theirs is the same.
             let same = Vec4::select(eta.cmpeq(Vec4::splat(eta.x)), Vec4::ONE, Vec4::ZERO);
             let together = same * refracts.x;
             let refracted = n * (cos / eta.x - cos2.x.max(0.0).sqrt()) - wo / eta.x;
             Some(Continuation {
                 wi: refracted.normalize(),
-                value: through * together,
+                value: through * together * material.opacity,
                 // Under total reflection lanes of the same index have no ray, either.
                 together: same,
+                is_straight: false,
             })
         }
+        2 if material.opacity < 1.0 => Some(Continuation {
+            wi: -wo,
+            value: Vec4::splat(1.0 - material.opacity),
+            together: Vec4::ONE,
+            is_straight: true,
+        }),
         _ => None,
     }
 }
@@ -90,6 +130,8 @@ mod tests {
         exponent: 2.0,
         transparency: 0.4,
         eta: Vec4::splat(1.5),
+        normal: Vec3::Z,
+        opacity: 1.0,
     };
 
     fn vertex() -> SurfaceInteraction {

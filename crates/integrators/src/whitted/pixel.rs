@@ -23,36 +23,35 @@ pub struct Grid {
 
 impl Grid {
     /// The mean of `look` over the pixel whose upper left corner is `corner`.
-    pub(super) fn mean(&self, corner: Vec2, look: impl Fn(Vec2) -> Vec4) -> Vec4 {
+    pub(super) fn mean<L: FnMut(Vec2) -> Vec4>(&self, corner: Vec2, mut look: L) -> Vec4 {
         let side = self.side as f32;
-        let at = |x: u32, y: u32, shift: f32| {
-            look(corner + (Vec2::new(x as f32, y as f32) + shift) / side)
-        };
+        let place =
+            |x: u32, y: u32, shift: f32| corner + (Vec2::new(x as f32, y as f32) + shift) / side;
         let mut sum = Vec4::ZERO;
         if self.levels == 0 {
             for y in 0..self.side {
-                sum += (0..self.side).map(|x| at(x, y, 0.5)).sum::<Vec4>();
+                sum += (0..self.side).map(|x| look(place(x, y, 0.5))).sum::<Vec4>();
             }
             return sum / (side * side);
         }
-        let row = |y: u32| -> [Vec4; MOST as usize + 1] {
+        let row = |y: u32, look: &mut L| -> [Vec4; MOST as usize + 1] {
             core::array::from_fn(|x| {
                 let x = x as u32;
                 if x <= self.side {
-                    at(x, y, 0.0)
+                    look(place(x, y, 0.0))
                 } else {
                     Vec4::ZERO
                 }
             })
         };
-        let mut above = row(0);
+        let mut above = row(0, &mut look);
         for y in 0..self.side {
-            let below = row(y + 1);
+            let below = row(y + 1, &mut look);
             for x in 0..self.side {
                 let i = x as usize;
                 let corners = [above[i], above[i + 1], below[i], below[i + 1]];
-                let place = corner + Vec2::new(x as f32, y as f32) / side;
-                sum += self.square(place, 1.0 / side, self.levels, corners, &look);
+                let place = place(x, y, 0.0);
+                sum += self.square(place, 1.0 / side, self.levels, corners, &mut look);
             }
             above = below;
         }
@@ -67,14 +66,14 @@ impl Grid {
         size: f32,
         levels: u32,
         [a, b, c, d]: [Vec4; 4],
-        look: &impl Fn(Vec2) -> Vec4,
+        look: &mut impl FnMut(Vec2) -> Vec4,
     ) -> Vec4 {
         let spread = a.max(b).max(c).max(d) - a.min(b).min(c).min(d);
         if levels == 0 || spread.max_element() <= self.contrast {
             return 0.25 * (a + b + c + d);
         }
         let half = 0.5 * size;
-        let at = |x: f32, y: f32| look(corner + half * Vec2::new(x, y));
+        let mut at = |x: f32, y: f32| look(corner + half * Vec2::new(x, y));
         let [north, west, middle] = [at(1.0, 0.0), at(0.0, 1.0), at(1.0, 1.0)];
         let [east, south] = [at(2.0, 1.0), at(1.0, 2.0)];
         let quarters = [

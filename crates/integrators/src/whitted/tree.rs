@@ -3,8 +3,11 @@
 //! A ray carries all wavelengths at once, four to a packet, as long as they go the same way. Where
 //! a dispersive interface parts them, every wavelength goes on alone.
 
-use super::{Whitted, phong};
+use super::caustics::Caustics;
+use super::{Picture, Whitted, phong, shading};
+use crate::photons::sets::WavelengthChoice;
 use crate::steps::next_surface;
+use etalon_sampling::Sampler;
 use etalon_spectrum::{QuadratureNode, SensorWeights, Wavelengths};
 use etalon_transport::{Bsdf, Camera, Ray, SurfaceInteraction, TransportMode, World};
 use glam::{Vec2, Vec3, Vec4};
@@ -19,6 +22,8 @@ pub(super) struct Packet {
     pub(super) response: SensorWeights,
     /// What radiance counts, per lane.
     pub(super) weight: Vec4,
+    /// Which of the integrator's packets it is, and which of its lanes stands first.
+    pub(super) lanes: WavelengthChoice,
 }
 
 impl Packet {
@@ -34,6 +39,10 @@ impl Packet {
             },
             weight: Vec4::X * self.weight[k],
             wavelengths: self.wavelengths.rotated(k),
+            lanes: WavelengthChoice {
+                first: (self.lanes.first + k) % 4,
+                ..self.lanes
+            },
         }
     }
 }
@@ -42,11 +51,12 @@ impl Packet {
 pub(super) fn packets<W: World>(world: &W, count: u32) -> Vec<Packet> {
     let nodes = QuadratureNode::all(count, |u| world.wavelengths(u), |w| world.sensor(w));
     let weight = Vec4::splat(1.0 / (4 * count) as f32);
-    nodes
-        .map(|node| Packet {
+    (nodes.zip(0..))
+        .map(|(node, set)| Packet {
             wavelengths: node.wavelengths,
             response: node.response,
             weight,
+            lanes: WavelengthChoice { set, first: 0 },
         })
         .collect()
 }
@@ -60,23 +70,52 @@ pub struct Continuation {
     pub value: Vec4,
     /// Zero for lanes that go elsewhere, or nowhere.
     pub together: Vec4,
+    /// Whether it goes on as if the surface were not there.
+    pub is_straight: bool,
+}
+
+/// What a tree of rays grows in.
+struct Tree<'a, W> {
+    world: &'a W,
+    caustics: Option<&'a Caustics>,
 }
 
 impl Whitted {
     /// Colour and alpha seen through a point of the film.
-    pub(super) fn through<W: World>(&self, world: &W, packets: &[Packet], raster: Vec2) -> Vec4 {
+    pub(super) fn through<W: World>(
+        &self,
+        world: &W,
+        picture: &Picture,
+        raster: Vec2,
+        sampler: &mut impl Sampler,
+    ) -> Vec4 {
         if self.max_depth == 0 {
             return Vec4::ZERO;
         }
-        // A lens is looked through in its middle, and its shutter only opens.
-        let start = world.camera().ray(raster, Vec2::splat(0.5), 0.0);
-        let rgb = self.follow(world, start.ray, packets, 1);
-        let alpha = self.alpha(world, start.ray, &packets[0].wavelengths);
-        (rgb * start.weight).extend(alpha)
+        let packets = &picture.packets;
+        let mut sum = Vec4::ZERO;
+        for point in 0..self.lens_points.count() {
+            let lens = self.lens_points.point(point, sampler);
+            // The shutter only opens.
+            let start = world.camera().ray(raster, lens, 0.0);
+            let caustics = picture.caustics.as_ref();
+            let rgb = self.follow(&Tree { world, caustics }, start.ray, packets, 1, sampler);
+            let alpha = self.alpha(world, start.ray, &packets[0].wavelengths);
+            sum += (rgb * start.weight).extend(alpha);
+        }
+        sum / self.lens_points.count() as f32
     }
 
     /// What arrives along a ray, the last of `depth` segments.
-    fn follow<W: World>(&self, world: &W, mut ray: Ray, packets: &[Packet], depth: u32) -> Vec3 {
+    fn follow<W: World>(
+        &self,
+        tree: &Tree<'_, W>,
+        mut ray: Ray,
+        packets: &[Packet],
+        depth: u32,
+        sampler: &mut impl Sampler,
+    ) -> Vec3 {
+        let world = tree.world;
         let hidden = self.hide_emitters && depth == 1;
         let Some((hit, vertex)) = next_surface(world, &mut ray, hidden) else {
             return Vec3::ZERO;
@@ -88,34 +127,60 @@ impl Whitted {
             if world.is_emitter(&hit) {
                 radiance += world.emitted(&vertex, wo, &packet.wavelengths);
             }
-            if let Some(material) = world.legacy_phong(&vertex, &packet.wavelengths) {
-                radiance += material.ambient * (self.ambient * (1.0 - material.transparency));
+            if let Some(material) = world.legacy_phong(&vertex, wo, &packet.wavelengths) {
+                let own = (1.0 - material.transparency) * material.opacity;
+                radiance += material.ambient * (self.ambient * own);
             }
             sum += packet.response.rgb(radiance * packet.weight);
         }
         if depth == self.max_depth {
             return sum;
         }
-        sum += self.direct(world, &vertex, wo, packets, self.max_depth - depth - 1);
-        sum + self.branch(world, &vertex, wo, packets, depth + 1)
+        sum += self.lit(tree, &vertex, wo, packets, depth, sampler);
+        sum + self.branch(tree, &vertex, wo, packets, depth + 1, sampler)
+    }
+
+    /// What a surface, `depth` segments from the camera, shows of the lamps: straight, and by caustics.
+    #[inline(never)] // Its tables need not stay on the stack while rays go on.
+    fn lit<W: World>(
+        &self,
+        tree: &Tree<'_, W>,
+        vertex: &SurfaceInteraction,
+        wo: Vec3,
+        packets: &[Packet],
+        depth: u32,
+        sampler: &mut impl Sampler,
+    ) -> Vec3 {
+        let surfaces = shading::at(tree.world, vertex, wo, packets);
+        let lies = (packets, &surfaces);
+        let crossings = self.max_depth - depth - 1;
+        let straight = self.direct(tree.world, vertex, wo, lies, crossings, sampler);
+        let depths = [depth, self.max_depth];
+        let caustics = tree.caustics.map(|c| c.seen::<W>(vertex, wo, lies, depths));
+        straight + caustics.unwrap_or(Vec3::ZERO)
     }
 
     /// What arrives from the directions that a smooth surface singles out.
     fn branch<W: World>(
         &self,
-        world: &W,
+        tree: &Tree<'_, W>,
         vertex: &SurfaceInteraction,
         wo: Vec3,
         packets: &[Packet],
         depth: u32,
+        sampler: &mut impl Sampler,
     ) -> Vec3 {
+        let world = tree.world;
         let mut sum = Vec3::ZERO;
         let mut group = [packets[0]; SETS];
         for index in 0.. {
             let mut found = false;
             let (mut count, mut way) = (0, Vec3::ZERO);
             for packet in packets {
-                let at = |packet: &Packet| onward(world, vertex, wo, &packet.wavelengths, index);
+                let at = |packet: &Packet| {
+                    let lanes = (&packet.wavelengths, TransportMode::Radiance);
+                    onward(world, vertex, wo, lanes, index)
+                };
                 let Some(whole) = at(packet) else {
                     continue;
                 };
@@ -123,7 +188,8 @@ impl Whitted {
                 let weight = packet.weight * whole.value;
                 if weight != Vec4::ZERO {
                     if count > 0 && way != whole.wi {
-                        sum += self.follow(world, vertex.spawn(way), &group[..count], depth);
+                        sum +=
+                            self.follow(tree, vertex.spawn(way), &group[..count], depth, sampler);
                         count = 0;
                     }
                     way = whole.wi;
@@ -139,14 +205,14 @@ impl Whitted {
                     };
                     let weight = alone.weight * own.value.x;
                     let alone = Packet { weight, ..alone };
-                    sum += self.follow(world, vertex.spawn(own.wi), &[alone], depth);
+                    sum += self.follow(tree, vertex.spawn(own.wi), &[alone], depth, sampler);
                 }
             }
             if !found {
                 break;
             }
             if count > 0 {
-                sum += self.follow(world, vertex.spawn(way), &group[..count], depth);
+                sum += self.follow(tree, vertex.spawn(way), &group[..count], depth, sampler);
             }
         }
         sum
@@ -161,8 +227,14 @@ impl Whitted {
             let Some((_, vertex)) = next_surface(world, &mut ray, hidden) else {
                 return 1.0 - open;
             };
-            let bsdf = world.bsdf(&vertex, -ray.direction, wavelengths);
-            open *= 0.25 * bsdf.null_probability().element_sum();
+            let wo = -ray.direction;
+            open *= match world.legacy_phong(&vertex, wo, wavelengths) {
+                Some(material) => 1.0 - material.opacity,
+                None => {
+                    let bsdf = world.bsdf(&vertex, wo, wavelengths);
+                    0.25 * bsdf.null_probability().element_sum()
+                }
+            };
             segment += 1;
             if open == 0.0 {
                 break;
@@ -173,22 +245,23 @@ impl Whitted {
     }
 }
 
-/// The ray number `index` that leaves a surface, whatever it is made of; `None` beyond the last.
+/// The ray number `index` that leaves a surface, whatever it is made of; `None` beyond the last. `mode` says whether it brings light, or
+/// is followed by it.
 pub fn onward<W: World>(
     world: &W,
     vertex: &SurfaceInteraction,
     wo: Vec3,
-    wavelengths: &Wavelengths,
+    (wavelengths, mode): (&Wavelengths, TransportMode),
     index: u32,
 ) -> Option<Continuation> {
-    if let Some(material) = world.legacy_phong(vertex, wavelengths) {
+    if let Some(material) = world.legacy_phong(vertex, wo, wavelengths) {
         return phong::onward(&material, vertex, wo, index);
     }
-    let sample =
-        (world.bsdf(vertex, wo, wavelengths)).discrete(wo, index, TransportMode::Radiance)?;
+    let sample = (world.bsdf(vertex, wo, wavelengths)).discrete(wo, index, mode)?;
     Some(Continuation {
         wi: sample.wi,
         value: sample.value,
         together: sample.chance.lanes(),
+        is_straight: sample.is_null,
     })
 }

@@ -2,7 +2,7 @@
 
 use crate::exact::Exact;
 use crate::world::{Fault, Plane, Stack, ZERO};
-use etalon_integrators::whitted::{Falloff, Grid, Whitted};
+use etalon_integrators::whitted::{CausticSettings, Falloff, Grid, Placement, PointSet, Whitted};
 use etalon_sampling::{Independent, SampleId};
 use etalon_spectrum::{QuadratureNode, sensor_response};
 use etalon_transport::{Integrator, Pass, PixelSample, Sink, World};
@@ -16,7 +16,19 @@ fn whitted(max_depth: u32, light_samples: u32) -> Whitted {
         hide_emitters: false,
         falloff: Falloff::InverseSquare,
         ambient: 1.0,
-        light_samples,
+        light_points: PointSet {
+            side: light_samples,
+            placement: Placement::Grid,
+        },
+        lens_points: PointSet {
+            side: 1,
+            placement: Placement::Grid,
+        },
+        caustics: CausticSettings {
+            photons: 0,
+            radius: None,
+            nearest: 0,
+        },
         wavelengths: WAVELENGTHS,
         grid: Grid {
             side: 1,

@@ -1,0 +1,59 @@
+//! What lies at a surface: a classic Phong material, or a scattering model.
+
+use super::phong;
+use super::tree::{Packet, SETS};
+use etalon_transport::{Bsdf, LegacyPhong, SurfaceInteraction, TransportMode, World};
+use glam::{Vec3, Vec4};
+
+/// What lies at a surface, for one packet.
+pub(super) enum Surface<B> {
+    Classic(LegacyPhong),
+    Scattering(B),
+}
+
+/// The same for each packet.
+pub(super) type Surfaces<'w, W> = [Option<Surface<<W as World>::Bsdf<'w>>>; SETS];
+
+/// What lies at `vertex`, seen from `wo`, for each packet.
+pub(super) fn at<'w, W: World>(
+    world: &'w W,
+    vertex: &SurfaceInteraction,
+    wo: Vec3,
+    packets: &[Packet],
+) -> Surfaces<'w, W> {
+    core::array::from_fn(|i| {
+        let wavelengths = &packets.get(i)?.wavelengths;
+        Some(match world.legacy_phong(vertex, wo, wavelengths) {
+            Some(material) => Surface::Classic(material),
+            None => Surface::Scattering(world.bsdf(vertex, wo, wavelengths)),
+        })
+    })
+}
+
+impl<B: Bsdf> Surface<B> {
+    /// What it shows of a lamp, per unit of irradiance.
+    pub(super) fn shade(&self, vertex: &SurfaceInteraction, wo: Vec3, wi: Vec3) -> Vec4 {
+        match self {
+            Self::Classic(material) => phong::shade(material, vertex, wo, wi),
+            Self::Scattering(bsdf) => bsdf.eval(wo, wi, TransportMode::Radiance),
+        }
+    }
+
+    /// The same of light that photons bring: of a classic material its diffuse part alone.
+    pub(super) fn spread(&self, vertex: &SurfaceInteraction, wo: Vec3, wi: Vec3) -> Vec4 {
+        match self {
+            Self::Classic(material) => phong::spread(material, vertex, wo, wi),
+            Self::Scattering(bsdf) => bsdf.eval(wo, wi, TransportMode::Radiance),
+        }
+    }
+
+    /// Whether it shows photons.
+    pub(super) fn spreads(&self) -> bool {
+        match self {
+            Self::Classic(material) => {
+                material.diffuse != Vec4::ZERO && material.transparency < 1.0
+            }
+            Self::Scattering(bsdf) => bsdf.has_continuous(),
+        }
+    }
+}
