@@ -7,6 +7,7 @@
 //! asked for.
 
 pub mod diagnostic;
+mod expression;
 pub mod ignored;
 pub mod node;
 pub mod plugins;

@@ -12,6 +12,7 @@
 pub mod arithmetic;
 mod bitmap;
 pub mod checkerboard;
+pub mod computed;
 pub mod constant;
 pub mod decode;
 pub mod footprint;
@@ -32,6 +33,7 @@ mod vol_file;
 pub use arithmetic::Arithmetic;
 pub use bitmap::Bitmap;
 pub use checkerboard::Checkerboard;
+pub use computed::Computed;
 pub use constant::Constant;
 pub use footprint::{Filter, Wrap};
 pub use grid::Grid;

@@ -9,11 +9,10 @@
 //! reflectance, times `scale`, lies in [0, 1], nothing else is below 0.
 
 use crate::reader::Use;
-use crate::recovered::luminance;
+use crate::recovered::{luminance, spectrum_of};
 use crate::texture::TextureModel;
 use crate::{Texture, TextureReader, TextureTable};
 use etalon_params::Params;
-use etalon_spectrum::{RgbCoefficients, RgbSpectrum};
 use etalon_transport::{Shapes, SpectrumKind, TexturePoint};
 use glam::{Vec3, Vec4};
 
@@ -58,24 +57,7 @@ impl MeshAttribute {
     /// The spectrum.
     #[inline]
     pub fn spectrum(&self, shapes: &impl Shapes, at: &TexturePoint, lambda: Vec4) -> Vec4 {
-        let value = self.stored(shapes, at);
-        if value.x == value.y && value.y == value.z {
-            return Vec4::splat(value.x * self.scale);
-        }
-        let bright = value.max_element() > 1.0;
-        if self.role == SpectrumKind::Reflectance && (bright || self.scale > 1.0) {
-            // Scaled first: a spectrum that is multiplied may exceed 1 where its colour does not.
-            let scaled = value * self.scale;
-            return RgbCoefficients::from_rgb(scaled.to_array()).eval(lambda);
-        }
-        if !bright {
-            return RgbCoefficients::from_rgb(value.to_array()).eval(lambda) * self.scale;
-        }
-        // Refused only if not finite or negative, and neither is left.
-        match RgbSpectrum::unbounded(value.as_dvec3().to_array()) {
-            Ok(spectrum) => spectrum.coefficients().eval(lambda) * (spectrum.scale() * self.scale),
-            Err(_) => Vec4::ZERO,
-        }
+        spectrum_of(self.stored(shapes, at), self.scale, self.role, lambda)
     }
 
     /// The number: the luminance of a colour.

@@ -10,7 +10,10 @@
 //!
 //! with N such that s = 1 is (1, 1, 1).
 
-use etalon_spectrum::{LAMBDA_MAX, LAMBDA_MIN, cie, colour_space, illuminants};
+use etalon_spectrum::{
+    LAMBDA_MAX, LAMBDA_MIN, RgbCoefficients, RgbSpectrum, cie, colour_space, illuminants,
+};
+use etalon_transport::SpectrumKind;
 use glam::{Vec3, Vec4};
 use std::sync::LazyLock;
 
@@ -53,6 +56,28 @@ pub fn colour(reflectance: impl Fn(Vec4) -> Vec4) -> Vec3 {
         let s = reflectance(nodes.lambda);
         sum + Vec3::from_array(nodes.weights.map(|w| w.dot(s)))
     })
+}
+
+/// The spectrum at four wavelengths (nm) of a colour that is computed where it is looked up, `scale` times `value`, both 0 or more: what is of
+/// the role stays within it.
+#[inline]
+pub(crate) fn spectrum_of(value: Vec3, scale: f32, role: SpectrumKind, lambda: Vec4) -> Vec4 {
+    if value.x == value.y && value.y == value.z {
+        return Vec4::splat(value.x * scale);
+    }
+    let bright = value.max_element() > 1.0;
+    if role == SpectrumKind::Reflectance && (bright || scale > 1.0) {
+        // Scaled first: a spectrum that is multiplied may exceed 1 where its colour does not.
+        return RgbCoefficients::from_rgb((value * scale).to_array()).eval(lambda);
+    }
+    if !bright {
+        return RgbCoefficients::from_rgb(value.to_array()).eval(lambda) * scale;
+    }
+    // Refused only if not finite or negative, and neither is left.
+    match RgbSpectrum::unbounded(value.as_dvec3().to_array()) {
+        Ok(spectrum) => spectrum.coefficients().eval(lambda) * (spectrum.scale() * scale),
+        Err(_) => Vec4::ZERO,
+    }
 }
 
 /// The luminance of a linear Rec.709 colour.

@@ -89,7 +89,7 @@ impl Assets for Files {
 
 /// One shape, whose attribute `vertex_color` is (parameters, ½), `face_grey` 3, and
 /// `vertex_bytes` (51, 102, −255).
-struct OneShape;
+pub(crate) struct OneShape;
 
 impl Shapes for OneShape {
     fn area(&self, _: ShapeId, _: f32) -> f32 {

@@ -4,12 +4,12 @@
 
 use crate::reader::Use;
 use crate::{
-    Arithmetic, Bitmap, Checkerboard, Constant, Grid, MeshAttribute, Procedural, TextureReader,
-    TextureTable, TimesD65,
+    Arithmetic, Bitmap, Checkerboard, Computed, Constant, Grid, MeshAttribute, Procedural,
+    TextureReader, TextureTable, TimesD65,
 };
 use crate::{
-    arithmetic, bitmap, checkerboard, constant, grid, illuminated, mesh_attribute, procedural,
-    spectra,
+    arithmetic, bitmap, checkerboard, computed, constant, grid, illuminated, mesh_attribute,
+    procedural, spectra,
 };
 use etalon_params::{Class, Params, plugins};
 use etalon_transport::{Shapes, TextureId, TexturePoint, gradient_by_differences};
@@ -90,6 +90,9 @@ pub(crate) trait TextureModel {
     }
 }
 
+/// One that scenes call a texture or a volume, as they like.
+const EITHER: &str = "expression";
+
 /// Those that scenes call volumes.
 const VOLUMES: [&str; 2] = ["constvolume", "gridvolume"];
 
@@ -118,7 +121,8 @@ macro_rules! textures {
                 let read: Read = match params.node.plugin.value.as_str() {
                     $($($plugin => $read,)*)*
                     _ => {
-                        let of_class = |name: &&str| VOLUMES.contains(name) == (params.node.class == Class::Volume);
+                        let is_volume = params.node.class == Class::Volume;
+                        let of_class = |name: &&str| *name == EITHER || VOLUMES.contains(name) == is_volume;
                         let built = BUILT.iter().copied().filter(of_class);
                         self.diagnostics.push(plugins::not_built(params.node, built));
                         return None;
@@ -178,6 +182,8 @@ textures! {
         "multiply" => arithmetic::read,
         "scale" => arithmetic::read,
     }
+    /// By a formula.
+    Computed { "expression" => computed::read, }
     /// Values on a grid in space.
     Grid {
         "gridvolume" => grid::read,

@@ -96,9 +96,7 @@ fn said(text: &str) -> Vec<Said<'_>> {
         let column = |title: &str| row.iter().position(|cell| *cell == title);
         let Some((default, of)) = columns else {
             columns = Some((
-                column("default")
-                    .or(row.len().checked_sub(2))
-                    .filter(|_| row[0] == "parameter"),
+                column("default").filter(|_| row[0] == "parameter"),
                 column("of"),
             ));
             continue;

@@ -35,5 +35,6 @@ mod strategies;
 mod subsurface;
 mod target;
 mod trouble;
+mod whitted;
 mod workshop;
 mod write_guard;

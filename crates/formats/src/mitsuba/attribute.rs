@@ -2,6 +2,7 @@
 
 use super::number::{self, NotANumber};
 use super::reader::Reader;
+use etalon_math::Expression;
 use etalon_params::{DVec3, Diagnostic, FileId, Span};
 use std::borrow::Cow;
 use std::ops::Range;
@@ -46,6 +47,28 @@ impl Attribute<'_> {
     /// An error at the whole value.
     pub(crate) fn error_whole(&self, message: impl Into<String>) -> Diagnostic {
         self.error(0..self.text.len(), message)
+    }
+
+    /// The finite number in a part of it: written out, or by an expression of constants.
+    fn float(&self, range: Range<usize>, wanted: &str) -> Result<f64, Diagnostic> {
+        let text = &self.text[range.clone()];
+        match number::float(text) {
+            Err(NotANumber::Malformed) if number::is_computed(text) => {
+                number::computed(text).map_err(|error| {
+                    // From there to the end of the part.
+                    let place = text.char_indices().nth(error.character - 1);
+                    let start = range.start + place.map_or(text.len(), |(byte, _)| byte);
+                    let message =
+                        format!("{} in `{}`", error.message, number::excerpt(text.trim()));
+                    let diagnostic = self.error(start.min(range.end)..range.end, message);
+                    match &error.unknown {
+                        Some(word) => diagnostic.suggest(word, Expression::names()),
+                        None => diagnostic.label(format!("expected {wanted}")),
+                    }
+                })
+            }
+            other => other.map_err(|error| self.not_a_number(range, wanted, error)),
+        }
     }
 
     fn not_a_number(&self, range: Range<usize>, wanted: &str, error: NotANumber) -> Diagnostic {
@@ -178,23 +201,34 @@ impl<'a> Attributes<'a> {
     /// The finite float in an attribute.
     pub(crate) fn float(&self, reader: &mut Reader<'_>, name: &str) -> Option<f64> {
         let attribute = self.required(name);
-        number::float(&attribute.text)
-            .map_err(|error| {
-                let all = 0..attribute.text.len();
-                reader.report(attribute.not_a_number(all, "a number", error));
-            })
+        attribute
+            .float(0..attribute.text.len(), "a number")
+            .map_err(|error| reader.report(error))
             .ok()
     }
 
     /// The integer in an attribute.
     pub(crate) fn integer(&self, reader: &mut Reader<'_>, name: &str) -> Option<i64> {
         let attribute = self.required(name);
-        number::integer(&attribute.text)
-            .map_err(|error| {
-                let all = 0..attribute.text.len();
-                reader.report(attribute.not_a_number(all, "an integer", error));
-            })
-            .ok()
+        let all = 0..attribute.text.len();
+        let value = match number::integer(&attribute.text) {
+            Err(NotANumber::Malformed) if number::is_computed(&attribute.text) => attribute
+                .float(all.clone(), "an integer")
+                .and_then(|value| {
+                    let is_whole = value.fract() == 0.0 && value.abs() < 9e15;
+                    let message = format!(
+                        "`{}` is {value}, not an integer",
+                        number::excerpt(attribute.text.trim())
+                    );
+                    if is_whole {
+                        Ok(value as i64)
+                    } else {
+                        Err(attribute.error(all, message))
+                    }
+                }),
+            other => other.map_err(|error| attribute.not_a_number(all, "an integer", error)),
+        };
+        value.map_err(|error| reader.report(error)).ok()
     }
 
     /// The numbers of a list; how many there may be is in `counts`.
@@ -206,11 +240,11 @@ impl<'a> Attributes<'a> {
     ) -> Option<Vec<f64>> {
         let attribute = self.required(name);
         let mut numbers = Vec::with_capacity(16);
-        for (range, token) in number::tokens(&attribute.text) {
-            match number::float(token) {
+        for (range, _) in number::tokens(&attribute.text) {
+            match attribute.float(range, "a number") {
                 Ok(x) => numbers.push(x),
                 Err(error) => {
-                    reader.report(attribute.not_a_number(range, "a number", error));
+                    reader.report(error);
                     return None;
                 }
             }

@@ -5,6 +5,8 @@
 //! around them and nothing else behind them. `nan` and `inf`, which Mitsuba lets through, are
 //! refused here: no parameter means anything with them.
 
+use etalon_math::Expression;
+use etalon_math::expression::ExpressionError;
 use std::ops::Range;
 
 /// Why a text is not a number that a scene can use.
@@ -51,6 +53,28 @@ pub(crate) fn float(text: &str) -> Result<f64, NotANumber> {
         Ok(_) => Err(NotANumber::NotFinite),
         Err(_) => Err(NotANumber::Malformed),
     }
+}
+
+/// Whether a text that is no number may be meant for an expression: it has an operator, a parenthesis or a name of one.
+pub(crate) fn is_computed(text: &str) -> bool {
+    let has_operator = text
+        .trim_start()
+        .trim_start_matches(['-', '+'])
+        .contains(['+', '-', '*', '/', '^', '(', ')']);
+    has_operator || Expression::names().any(|name| text.trim() == name)
+}
+
+/// A number by an expression of constants, such as `2*pi`.
+pub(crate) fn computed(text: &str) -> Result<f64, ExpressionError> {
+    let value = Expression::parse(text, &[])?.eval::<f64>(&[]);
+    if (value as f32).is_finite() {
+        return Ok(value);
+    }
+    Err(ExpressionError {
+        character: 1,
+        message: format!("`{}` is {value}, not a finite number", excerpt(text.trim())),
+        unknown: None,
+    })
 }
 
 /// A 64-bit integer without anything behind it.

@@ -10,8 +10,8 @@
 use crate::shapes::clip_box::ClipBox;
 use crate::shapes::profile::numbers;
 use etalon_math::Expression;
-use etalon_math::expression::{ExpressionError, Number};
-use etalon_params::{Diagnostic, Params};
+use etalon_math::expression::Number;
+use etalon_params::Params;
 use glam::DVec3;
 
 /// A function of a point.
@@ -98,7 +98,7 @@ impl Field {
         if !params.has("function") {
             params.missing("function", "an expression of x, y and z");
         }
-        let read = |variables| expression(params, "function", variables);
+        let read = |variables: &[&str]| params.expression("function", variables);
         let kinds = ["none", "revolution", "extrusion"];
         match params.choice("profile", "none", &kinds) {
             "revolution" => read(&["x", "y"]).map(Self::Revolution),
@@ -181,35 +181,4 @@ impl Field {
         let field = c.zip(count).map(|(c, count)| Self::Julia(c, w, count));
         (field, clip)
     }
-}
-
-/// Reads an expression of some variables; `None` if there is none, or after a mistake.
-pub(crate) fn expression(
-    params: &Params<'_>,
-    name: &str,
-    variables: &'static [&'static str],
-) -> Option<Expression> {
-    let read = Expression::parse(params.string(name)?, variables);
-    read.map_err(|error| report(params, name, variables, &error))
-        .ok()
-}
-
-/// Records what is wrong with an expression of some variables.
-fn report(
-    params: &Params<'_>,
-    name: &str,
-    variables: &'static [&'static str],
-    error: &ExpressionError,
-) {
-    let property = (params.node.properties.iter()).find(|p| p.name == name);
-    let span = property.map_or(params.node.plugin.span, |p| p.span);
-    let (message, character) = (&error.message, error.character);
-    let message = format!("{message} at character {character} of `{name}`");
-    let diagnostic = Diagnostic::error(span, message);
-    params.diagnostics.push(match &error.unknown {
-        Some(word) => {
-            diagnostic.suggest(word, variables.iter().copied().chain(Expression::names()))
-        }
-        None => diagnostic,
-    });
 }

@@ -6,7 +6,6 @@
 //! its derivatives there is within [`CLOSE`] of it.
 
 use crate::shapes::cubic::{Cubic, Profile};
-use crate::shapes::field::expression;
 use etalon_math::Dual;
 use etalon_params::Params;
 use glam::DVec2;
@@ -33,7 +32,7 @@ fn parametric(params: &Params<'_>) -> Option<Vec<Cubic>> {
         if !params.has(name) {
             params.missing(name, "an expression of t, such as `cos(2*pi*t)`");
         }
-        expression(params, name, &["t"])
+        params.expression(name, &["t"])
     };
     let [x, y] = ["x", "y"].map(read);
     let first = params.float_or("from", 0.0);

@@ -174,6 +174,50 @@ mod tests {
         }
     }
 
+    /// Light and mirror images go by the normal that a map gives; a lamp, or a mirror image, on the other side of the surface itself does not
+    /// count (mutants: the surface's normal for the map's; no test of the side).
+    #[test]
+    fn a_map_tilts_light_and_mirror_images() {
+        let tilted = LegacyPhong {
+            normal: Vec3::new(0.6, 0.0, 0.8),
+            ..MATERIAL
+        };
+        let wo = Vec3::Z;
+        // cos θ = 0.8, and the mirrored view is 2 (n·wo) n − wo = (0.96, 0, 0.28).
+        assert!(close(
+            shade(&tilted, &vertex(), wo, Vec3::Z),
+            0.6 * (0.5 * 0.8 + 0.25 * 0.28 * 0.28)
+        ));
+        let mirrored = onward(&tilted, &vertex(), wo, 0).expect("there always is one");
+        assert!((mirrored.wi - Vec3::new(0.96, 0.0, 0.28)).length() < 1e-6);
+        let behind = Vec3::new(0.96, 0.0, -0.28);
+        assert!(tilted.normal.dot(behind) > 0.0);
+        assert!(close(shade(&tilted, &vertex(), wo, behind), 0.0));
+        let grazing = Vec3::new(-0.8, 0.0, 0.6);
+        let into = onward(&tilted, &vertex(), grazing, 0).expect("there always is one");
+        assert!(into.wi.z < 0.0 && close(into.value, 0.0));
+    }
+
+    /// What is not there lets light pass straight, and has no part in the rest.
+    #[test]
+    fn a_mask_leaves_a_share() {
+        let masked = LegacyPhong {
+            opacity: 0.25,
+            ..MATERIAL
+        };
+        let wo = Vec3::new(0.6, 0.0, 0.8);
+        let whole = |material| shade(material, &vertex(), wo, Vec3::Z);
+        assert!(close(whole(&masked), 0.25 * whole(&MATERIAL).x));
+        assert!(onward(&MATERIAL, &vertex(), wo, 2).is_none());
+        let straight = onward(&masked, &vertex(), wo, 2).expect("some of it passes");
+        assert!(straight.is_straight && straight.wi == -wo && close(straight.value, 0.75));
+        for index in [0, 1] {
+            let [part, all] = [&masked, &MATERIAL].map(|m| onward(m, &vertex(), wo, index));
+            let [part, all] = [part, all].map(|way| way.expect("there is one").value.x);
+            assert!((part - 0.25 * all).abs() < 1e-6);
+        }
+    }
+
     #[test]
     fn refraction_obeys_snell_from_either_side() {
         let sin = 0.6_f32;

@@ -68,6 +68,12 @@ impl Expression {
         parse::NAMES.iter().copied()
     }
 
+    /// Whether it has the variable number `index`.
+    pub fn has(&self, index: usize) -> bool {
+        (self.operations.iter())
+            .any(|operation| matches!(*operation, Operation::Variable(i) if i as usize == index))
+    }
+
     /// Its value.
     pub fn eval<N: Number>(&self, variables: &[N]) -> N {
         // A short one does not pay for what it does not use.

@@ -1,0 +1,29 @@
+//! Expressions among the properties of a node.
+
+use crate::{Diagnostic, Params};
+use etalon_math::Expression;
+use etalon_math::expression::ExpressionError;
+
+impl Params<'_> {
+    /// The expression of some variables in a property; `None` if there is none, or after a mistake.
+    pub fn expression(&self, name: &str, variables: &[&str]) -> Option<Expression> {
+        let read = Expression::parse(self.string(name)?, variables);
+        read.map_err(|error| self.report(name, variables, &error))
+            .ok()
+    }
+
+    /// Records what is wrong with an expression of some variables.
+    fn report(&self, name: &str, variables: &[&str], error: &ExpressionError) {
+        let property = (self.node.properties.iter()).find(|p| p.name == name);
+        let span = property.map_or(self.node.plugin.span, |p| p.span);
+        let (message, character) = (&error.message, error.character);
+        let message = format!("{message} at character {character} of `{name}`");
+        let diagnostic = Diagnostic::error(span, message);
+        let mut known: Vec<&str> = Expression::names().collect();
+        known.extend(variables);
+        self.diagnostics.push(match &error.unknown {
+            Some(word) => diagnostic.suggest(word, known),
+            None => diagnostic,
+        });
+    }
+}
