@@ -5,7 +5,7 @@
 //! its beginning. The formats, their interpolation and their sampling are in the crate of tables.
 
 use crate::{Bxdf, ShadingContext};
-use etalon_params::Params;
+use etalon_params::{Diagnostic, Params};
 use etalon_tables::{BrdfAtWavelengths, BrdfTable};
 use etalon_transport::{BsdfSample, Build, Textures, TransportMode, file};
 use glam::{Vec2, Vec3, Vec4};
@@ -33,6 +33,13 @@ impl Description {
         let table = file::read(params, build, what, |bytes| {
             BrdfTable::parse(bytes).map_err(|error| error.to_string())
         })?;
+        let most = most_reflected(&table);
+        if most > GAIN {
+            let message =
+                format!("this table gives back up to {most:.2} of the light that arrives");
+            let place = params.node.plugin.span;
+            params.diagnostics.push(Diagnostic::note(place, message));
+        }
         Some(Self {
             table: Arc::new(table),
         })
@@ -44,6 +51,34 @@ impl Description {
             table: self.table.at(site.lambda),
         }
     }
+}
+
+/// As much may be the noise of a measurement, or of these few samples; more is told.
+const GAIN: f32 = 1.1;
+
+/// Strata of each random number in [`most_reflected`].
+const STRATA: u32 = 16;
+
+/// The most of the light from some directions that a table gives back at some wavelengths, about.
+fn most_reflected(table: &BrdfTable) -> f32 {
+    let at = table.at(Vec4::new(450.0, 520.0, 590.0, 650.0));
+    let albedo = |cos: f32| {
+        let wo = Vec3::new((1.0 - cos * cos).sqrt(), 0.0, cos);
+        let part = |i: u32| (i as f32 + 0.5) / STRATA as f32;
+        let sample = |index: u32| {
+            let u = Vec2::new(part(index % STRATA), part(index / STRATA));
+            // Every row of strata chooses among lobes by other numbers.
+            let u_lobe = part((index * 7 + index / STRATA) % STRATA);
+            let (value, density) = at.eval_and_density(wo, at.sample(wo, u_lobe, u)?);
+            (density > 0.0).then(|| value / density)
+        };
+        let sum: Vec4 = (0..STRATA * STRATA).filter_map(sample).sum();
+        sum.max_element() / (STRATA * STRATA) as f32
+    };
+    [1.0, 0.9, 0.7, 0.4]
+        .map(albedo)
+        .into_iter()
+        .fold(0.0, f32::max)
 }
 
 /// A table at the path's wavelengths.

@@ -231,15 +231,7 @@ impl Material {
         params: &Params<'_>,
         build: &mut dyn Build,
     ) -> Option<[Self; N]> {
-        let materials = Self::nested_or_classic::<N>(params, build)?;
-        let classic = materials.iter().position(Self::is_classic);
-        match classic {
-            Some(index) => {
-                refuse_classic(params, index);
-                None
-            }
-            None => Some(materials),
-        }
+        Self::scattering(params, Self::nested_or_classic::<N>(params, build)?)
     }
 
     /// The same where a classic Phong material may be nested, too.
@@ -262,14 +254,27 @@ impl Material {
 
     /// The materials nested in a composed one that could be read, in the order of the file.
     pub(crate) fn all_nested(params: &Params<'_>, build: &mut dyn Build) -> Option<Vec<Self>> {
-        let materials = Self::all(params, build);
-        match materials.iter().position(Self::is_classic) {
-            Some(index) => {
-                refuse_classic(params, index);
-                None
-            }
-            None => Some(materials),
-        }
+        Self::scattering(params, Self::all(params, build))
+    }
+
+    /// The nested materials, if none of them is a classic Phong material; otherwise that is said.
+    fn scattering<M: AsRef<[Self]>>(params: &Params<'_>, materials: M) -> Option<M> {
+        let Some(index) = materials.as_ref().iter().position(Self::is_classic) else {
+            return Some(materials);
+        };
+        let message = format!(
+            "`{}` takes BSDFs, and a classic Phong material is none",
+            params.node.plugin.value
+        );
+        let children = params.children(Class::Bsdf);
+        let own = params.node.plugin.span;
+        let span = children
+            .get(index)
+            .map_or(own, |(_, node)| node.plugin.span);
+        let help =
+            "put it on a shape, by itself or in `twosided`, `mask`, `normalmap` or `bumpmap`";
+        (params.diagnostics).push(Diagnostic::error(span, message).help(help));
+        None
     }
 
     fn all(params: &Params<'_>, build: &mut dyn Build) -> Vec<Self> {
@@ -337,22 +342,6 @@ impl Material {
         self.flatten(site, vertex.shading, 1.0, &mut lobes);
         lobes.resolved(vertex.normal)
     }
-}
-
-/// Says that a composed material takes no classic Phong material, which is its nested BSDF number `index`.
-fn refuse_classic(params: &Params<'_>, index: usize) {
-    let message = format!(
-        "`{}` takes BSDFs, and a classic Phong material is none",
-        params.node.plugin.value
-    );
-    let children = params.children(Class::Bsdf);
-    let span = children
-        .get(index)
-        .map_or(params.node.plugin.span, |(_, node)| node.plugin.span);
-    let help = "put it on a shape, by itself or in `twosided`, `mask`, `normalmap` or `bumpmap`";
-    params
-        .diagnostics
-        .push(Diagnostic::error(span, message).help(help));
 }
 
 models! {

@@ -16,7 +16,7 @@ use crate::recovered::{luminance, spectrum_of};
 use crate::texture::TextureModel;
 use crate::{Texture, TextureReader, TextureTable};
 use etalon_math::Expression;
-use etalon_math::expression::{Interval, Number};
+use etalon_math::expression::Interval;
 use etalon_params::{Class, Params, Property, Value};
 use etalon_transport::{Shapes, SpectrumKind, TextureId, TexturePoint};
 use glam::{DAffine3, DVec3, Vec3, Vec4};
