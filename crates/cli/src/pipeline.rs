@@ -111,8 +111,7 @@ pub fn load(path: &Path, options: &LoadOptions) -> Result<Loaded, LoadError> {
             let film = &compiled.film;
             let mut sight = compiled.scene.sight(film.crop_offset, film.crop_size);
             sight.narrow_filter = !PixelFilter::new(film.filter).catches_splats();
-            // A classic material that no shape has does no harm.
-            sight.classic = compiled.classic.is_some();
+            sight.classic = compiled.classic.is_some(); // One that no shape has does no harm.
             for objection in integrator.incompatibilities(&sight) {
                 complete = false;
                 let material = compiled.classic;

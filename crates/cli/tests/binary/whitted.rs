@@ -1,6 +1,7 @@
 //! The course's ray tracer: caustics by photons, lenses that are looked through, and what is said of them.
 
 use crate::workshop::{Workshop, mean_of};
+use etalon_math::float64::cos;
 
 /// A spot whose cone lies within a ball, over a floor that an orthographic camera sees between both, 4 m wide.
 fn lamp_through_ball(integrator: &str, ball: &str, floor: &str) -> String {
@@ -30,7 +31,7 @@ fn a_caustic_has_the_flux_that_arrives() {
     let workshop = Workshop::new();
     let glass = "<bsdf type=\"classicphong\"><float name=\"transparency\" value=\"1\"/></bsdf>";
     let expected = |share: f64| {
-        let cone = 2.0 * core::f64::consts::PI * (1.0 - 10.0_f64.to_radians().cos());
+        let cone = 2.0 * core::f64::consts::PI * (1.0 - cos(10.0_f64.to_radians()));
         share * 10.0 * cone / 16.0
     };
     for (name, floor, share) in [
