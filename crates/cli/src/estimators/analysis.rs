@@ -102,8 +102,7 @@ pub fn findings(measured: &Measured<'_>) -> Findings {
     if black.reference {
         return findings;
     }
-    let late = remarks::late(measured.left_out);
-    findings.remarks.extend(late);
+    findings.remarks.extend(remarks::late(measured.left_out));
     let noise = measured.reference.squared_noise.unwrap_or(0.0);
     let rows = findings.estimators.iter().zip(measured.cells);
     let carried = rows.filter_map(|(row, cells)| {
