@@ -67,10 +67,10 @@ fn a_caustic_has_the_flux_that_arrives() {
             expected(share)
         );
     }
-    // The k nearest in place of a radius bend with the caustic's edges (some per cent), and are right under even light.
+    // The k nearest within it are right under even light, and some per cent off at the caustic's edges.
     let nearest = PHOTONS.replace(
         "<float name=\"radius\" value=\"0.1\"/>",
-        "<integer name=\"nearest\" value=\"50\"/>",
+        "<float name=\"radius\" value=\"0.1\"/><integer name=\"nearest\" value=\"50\"/>",
     );
     let floor = "<bsdf type=\"classicphong\"><float name=\"diffuse\" value=\"0.25\"/></bsdf>";
     workshop.write("scene.xml", lamp_through_ball(&nearest, glass, floor));
