@@ -84,6 +84,10 @@ fn the_oracle_of_several_estimators_is_rendered_once() {
     // One look shall do, at all estimators.
     claims[0].bounds.image = 0.5;
     let budget = claims[0].estimators[0].default;
+    let budget = budget.map(|budget| Budget {
+        bound: None,
+        ..budget
+    });
     for estimator in &mut claims[0].estimators {
         estimator.default = budget;
     }
