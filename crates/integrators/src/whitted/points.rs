@@ -68,8 +68,9 @@ mod tests {
     use super::*;
     use etalon_sampling::{Independent, SampleId};
 
-    /// The mean over the square of x² + x y, which is 7/12, is met by each within five standard errors of n⁴ points; the mutants that take
-    /// corners of cells for their middles (off by 8 %) or one coordinate for both are not.
+    /// The mean over the square of x² + x y is 7/12. Of 32 × 32 points (fixed seed) a grid is within 10⁻³, points in cells within 2·10⁻³, points
+    /// anywhere within 2.5 standard errors of it. Mutants rejected: corners of cells for their middles (5 % off), one coordinate for both
+    /// (14 % off).
     #[test]
     fn means_over_points_are_integrals() {
         let mut sampler = Independent::start(&SampleId {
