@@ -19,7 +19,7 @@ use glam::{Vec2, Vec3};
 pub(crate) struct ShapeBinding {
     pub(crate) material: MaterialId,
     pub(crate) light: LightId,
-    /// The instance that carries it, if it moves and emits.
+    /// The placement of the world that carries it, if it moves and emits.
     pub(crate) carrier: InstanceId,
     /// Whether light is refracted into it.
     pub(crate) refractive: bool,

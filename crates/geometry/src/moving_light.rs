@@ -1,10 +1,12 @@
 //! What lights ask of shapes, which may move while they shine.
 //!
-//! A shape that moves is the only member of a group that an instance carries. If it emits, the instance keeps angles
-//! and scales by k(t): a density per solid angle is the same in both spaces, one per area is k² times that in the world.
+//! A shape that moves is the only member of a group that an instance carries, perhaps carried itself. If it emits, all
+//! that keeps angles and scales by k(t): a density per solid angle is the same in both spaces, one per area is k² times that in the world.
 
+use crate::accelerator::Bounds;
 use crate::builder::placed_bounds;
 use crate::geometry::Geometry;
+use crate::instance::Group;
 use crate::placement::Placement;
 use crate::shapes::Shape;
 use etalon_math::{DirectionCone, float64};
@@ -27,8 +29,29 @@ impl Geometry {
         if !carrier.is_some() {
             return ask(model, None);
         }
-        let instance = &self.instances[carrier.0 as usize];
-        (instance.placement).at(time, |placement| ask(model, Some(placement)))
+        let (instance, rest) = self.enter(&self.world, carrier.0);
+        instance.placement.at(time, |outermost| {
+            if rest == 0 {
+                return ask(model, Some(outermost));
+            }
+            let (mut whole, mut group, mut path) = (*outermost, instance.group, rest);
+            while path > 0 {
+                let (inner, rest) = self.enter(&self.groups[group.0 as usize], path);
+                whole = inner.placement.at(time, |placement| whole.after(placement));
+                (group, path) = (inner.group, rest);
+            }
+            ask(model, Some(&whole))
+        })
+    }
+
+    /// The box around what a placement of a group carries, whenever.
+    fn carried_bounds(&self, group: &Group, path: u32, bounds: Bounds) -> Bounds {
+        let (instance, rest) = self.enter(group, path);
+        let inner = match rest {
+            0 => bounds,
+            _ => self.carried_bounds(&self.groups[instance.group.0 as usize], rest, bounds),
+        };
+        placed_bounds(inner, &instance.placement)
     }
 }
 
@@ -79,7 +102,7 @@ impl Shapes for Geometry {
         let mut bounds = self.shape(shape).bounds();
         let carrier = self.attachments[shape.0 as usize].carrier;
         if carrier.is_some() {
-            bounds = placed_bounds(bounds, &self.instances[carrier.0 as usize].placement);
+            bounds = self.carried_bounds(&self.world, carrier.0, bounds);
         }
         [bounds.min, bounds.max]
     }

@@ -4,6 +4,7 @@
 
 pub mod bilinear;
 pub mod bspline_curve;
+mod chart;
 mod clip_box;
 pub mod cone;
 pub mod control_points;
@@ -347,7 +348,7 @@ impl Shape {
 
     /// Whether it may be a light: whether points of it can be sampled.
     pub fn can_emit(&self) -> bool {
-        ask!(self, shape => ShapeModel::area(shape)).is_some()
+        ask!(self, shape => ShapeModel::can_emit(shape))
     }
 
     /// A point chosen uniformly by area, with its density per unit area. A mesh without area

@@ -179,4 +179,31 @@ impl Node {
         let vowel = name.starts_with(['a', 'e', 'i', 'o']);
         format!("{} `{name}`", if vowel { "an" } else { "a" })
     }
+
+    /// The same with one property of another value; one that is not there is added where the plugin's name stands.
+    pub fn with(&self, name: &str, value: Value) -> Self {
+        let copied = |property: &Property| {
+            let value = match property.name == name {
+                true => value.clone(),
+                false => property.value.clone(),
+            };
+            let copy = Property::new(&property.name, property.name_span, value, property.span);
+            if property.is_used() {
+                copy.mark_used();
+            }
+            copy
+        };
+        let mut properties: Vec<Property> = self.properties.iter().map(copied).collect();
+        if !properties.iter().any(|property| property.name == name) {
+            let span = self.plugin.span;
+            properties.push(Property::new(name, span, value.clone(), span));
+        }
+        Self {
+            class: self.class,
+            plugin: self.plugin.clone(),
+            id: self.id.clone(),
+            span: self.span,
+            properties,
+        }
+    }
 }

@@ -12,6 +12,7 @@ pub mod contents;
 mod dark_media;
 mod displacement;
 mod emission_medium;
+mod groups;
 mod homogeneous_media;
 pub mod lookup;
 mod media;

@@ -3,11 +3,12 @@
 use crate::attributes::Asked;
 use crate::bodies::Body;
 use crate::builder::Builder;
+use crate::groups::GroupedLamp;
 use crate::{displacement, merge};
 use etalon_bsdf::Material;
 use etalon_geometry::shapes::csg::Operation;
-use etalon_geometry::{GeometryBuilder, GroupId, Placement, Shape};
-use etalon_math::Animated;
+use etalon_geometry::{GeometryBuilder, GroupId, Shape};
+use etalon_math::Motion;
 use etalon_params::{Class, Diagnostic, Node, Params, Span};
 use etalon_subsurface::MediumDescription;
 use etalon_textures::{Constant, Texture};
@@ -37,7 +38,7 @@ pub struct Names {
 }
 
 /// What people call a thing.
-fn name(node: &Node) -> String {
+pub(crate) fn name(node: &Node) -> String {
     let plugin = &node.plugin.value;
     match &node.id {
         Some(id) => format!("{plugin} `{id}`"),
@@ -74,7 +75,9 @@ pub struct Surfaces {
     pub(crate) boundaries: Vec<Arc<Node>>,
     pub(crate) medium_by_node: HashMap<usize, MediumId>,
     by_node: HashMap<usize, MaterialId>,
-    groups: HashMap<usize, GroupId>,
+    pub(crate) groups: HashMap<usize, GroupId>,
+    /// The shapes of groups that emit.
+    pub(crate) lamps: HashMap<GroupId, Vec<GroupedLamp>>,
     /// The material of operands that have none of their own.
     pub(crate) inherited: Option<MaterialId>,
     black: Option<MaterialId>,
@@ -113,36 +116,49 @@ impl Surfaces {
             }
             "instance" => self.instance(node, builder),
             _ => {
-                let Some((shape, carried)) = self.shape(node, builder) else {
-                    return;
-                };
                 let params = Params::new(node, builder.diagnostics);
-                let can_emit = shape.can_emit();
-                self.names.shapes.push(name(node));
-                let id = if params.is_animated("to_world") {
-                    self.moving(&params, shape, &carried, builder)
-                } else {
-                    let material = carried.material;
-                    let id = self.geometry.add_shape(shape, material, LightId::NONE);
-                    if self.refracts(&carried) {
-                        self.geometry.set_refractive(id);
-                    }
-                    self.carry(id, &carried);
-                    id
-                };
-                if let Some(emitter) = carried.emitter {
-                    if !can_emit {
-                        let message = format!(
-                            "{} cannot emit light here: points of it cannot be sampled uniformly",
-                            node.with_article()
-                        );
-                        let help = "a shape of known area under a `to_world` that keeps angles can";
-                        let diagnostic = Diagnostic::error(emitter.span, message).help(help);
-                        builder.diagnostics.push(diagnostic);
-                    }
-                    self.emitting.push(Emitting { shape: id, emitter });
+                if !params.is_animated("to_world") {
+                    self.place(node, &[], builder);
+                } else if let Some(motion) = builder.shutter.motion(&params, "to_world") {
+                    self.place(node, &[motion], builder);
                 }
             }
+        }
+    }
+
+    /// Adds a shape of the world, carried by these motions, the outermost first.
+    pub(crate) fn place(
+        &mut self,
+        node: &Arc<Node>,
+        carriers: &[Motion],
+        builder: &mut Builder<'_>,
+    ) {
+        let Some((shape, carried)) = self.shape(node, builder) else {
+            return;
+        };
+        let can_emit = shape.can_emit();
+        self.names.shapes.push(name(node));
+        let id = if carriers.is_empty() {
+            let id = (self.geometry).add_shape(shape, carried.material, LightId::NONE);
+            if self.refracts(&carried) {
+                self.geometry.set_refractive(id);
+            }
+            self.carry(id, &carried);
+            id
+        } else {
+            self.moving(shape, &carried, carriers, builder)
+        };
+        if let Some(emitter) = carried.emitter {
+            if !can_emit {
+                let message = format!(
+                    "{} cannot emit light here: points of it cannot be sampled uniformly",
+                    node.with_article()
+                );
+                let help = "shapes whose points are known by parameters can, and so can all meshes";
+                let diagnostic = Diagnostic::error(emitter.span, message).help(help);
+                builder.diagnostics.push(diagnostic);
+            }
+            self.emitting.push(Emitting { shape: id, emitter });
         }
     }
 
@@ -154,7 +170,7 @@ impl Surfaces {
     }
 
     /// Notes what a shape carries that an accelerator need not know.
-    fn carry(&mut self, shape: ShapeId, carried: &ShapeExtras) {
+    pub(crate) fn carry(&mut self, shape: ShapeId, carried: &ShapeExtras) {
         if !carried.faces.is_empty() {
             self.geometry.set_face_materials(shape, &carried.faces);
         }
@@ -164,42 +180,6 @@ impl Surfaces {
         if let Some((body, place)) = carried.body {
             self.bodies.push((shape, body, place));
         }
-    }
-
-    /// Adds a shape that is only seen through instances.
-    fn member(&mut self, shape: Shape, carried: &ShapeExtras) -> ShapeId {
-        self.placed_media |= carried.media.is_some();
-        self.placed_bodies |= carried.body.is_some();
-        let id = self.geometry.add_member(shape, carried.material);
-        self.carry(id, carried);
-        id
-    }
-
-    /// Adds a shape that moves: the only member of a group, which an instance moves.
-    fn moving(
-        &mut self,
-        params: &Params<'_>,
-        shape: Shape,
-        carried: &ShapeExtras,
-        builder: &Builder<'_>,
-    ) -> ShapeId {
-        let member = self.member(shape, carried);
-        let group = self.geometry.add_members(vec![member], Vec::new());
-        let Some(motion) = builder.shutter.motion(params, "to_world") else {
-            return member;
-        };
-        if let Some(emitter) = &carried.emitter
-            && !motion.keeps_angles()
-        {
-            let message = "a light that moves must keep its angles";
-            let help = "its `to_world` may turn, mirror, shift and scale uniformly";
-            (builder.diagnostics).push(Diagnostic::error(emitter.span, message).help(help));
-        }
-        let instance = self.geometry.add_instance(group, Animated::new(motion));
-        if let Some(instance) = instance.filter(|_| carried.emitter.is_some()) {
-            self.geometry.set_carrier(member, instance);
-        }
-        member
     }
 
     /// One shape with its material and emitter.
@@ -260,96 +240,6 @@ impl Surfaces {
         let help = "glass, media and `subsurface` need another shape, such as a mesh; the BSDF `hair` knows of the way out by itself";
         let note = Diagnostic::note(params.node.plugin.span, message);
         params.diagnostics.push(note.help(help));
-    }
-
-    /// The shapes of a group, read once however often they are placed.
-    fn group(&mut self, node: &Arc<Node>, builder: &mut Builder<'_>) -> GroupId {
-        let key = Arc::as_ptr(node) as usize;
-        if let Some(group) = self.groups.get(&key) {
-            return *group;
-        }
-        let params = Params::new(node, builder.diagnostics);
-        let (mut members, mut instances) = (Vec::new(), Vec::new());
-        for (property, child) in merge::shapes(&params) {
-            match child.plugin.value.as_str() {
-                "instance" => {
-                    if let Some((group, motion)) = self.placed_group(child, builder) {
-                        instances.push(self.geometry.add_nested_instance(group, motion));
-                    }
-                    continue;
-                }
-                "shapegroup" => {
-                    let message = "a `shapegroup` cannot hold a `shapegroup`";
-                    let diagnostic = Diagnostic::error(property.name_span, message);
-                    let help = "place it: put it, or a `ref` to it, into an `instance`";
-                    builder.diagnostics.push(diagnostic.help(help));
-                    continue;
-                }
-                _ => {}
-            }
-            let Some((shape, carried)) = self.shape(child, builder) else {
-                continue;
-            };
-            if let Some(emitter) = carried.emitter {
-                let message = "a shape in a `shapegroup` cannot emit light";
-                builder
-                    .diagnostics
-                    .push(Diagnostic::error(emitter.span, message));
-                continue;
-            }
-            let member = self.member(shape, &carried);
-            self.names.shapes.push(name(child));
-            let own = Params::new(child, builder.diagnostics);
-            if own.is_animated("to_world") {
-                if let Some(motion) = builder.shutter.motion(&own, "to_world") {
-                    let group = self.geometry.add_members(vec![member], Vec::new());
-                    let motion = Animated::new(motion);
-                    instances.push(self.geometry.add_nested_instance(group, motion));
-                }
-            } else {
-                members.push(member);
-            }
-        }
-        params.finish();
-        let group = self.geometry.add_members(members, instances);
-        self.groups.insert(key, group);
-        group
-    }
-
-    /// The group that an instance places, and where.
-    fn placed_group(
-        &mut self,
-        node: &Arc<Node>,
-        builder: &mut Builder<'_>,
-    ) -> Option<(GroupId, Animated<Placement>)> {
-        let params = Params::new(node, builder.diagnostics);
-        let motion = builder.shutter.motion(&params, "to_world");
-        let group = match params.child(Class::Shape) {
-            Some(group) if group.plugin.value == "shapegroup" => Some(self.group(group, builder)),
-            Some(other) => {
-                params.error(format!(
-                    "an `instance` places a `shapegroup`, not {}",
-                    other.with_article()
-                ));
-                None
-            }
-            None => {
-                params.missing("shapegroup", "a reference to a shape group");
-                None
-            }
-        };
-        params.finish_after(group.is_some());
-        Some((group?, Animated::new(motion?)))
-    }
-
-    fn instance(&mut self, node: &Arc<Node>, builder: &mut Builder<'_>) {
-        if let Some((group, motion)) = self.placed_group(node, builder)
-            && self.geometry.add_instance(group, motion).is_none()
-        {
-            let message = "too many placements of groups: with this `instance` more than 2³¹";
-            let diagnostic = Diagnostic::error(node.plugin.span, message);
-            builder.diagnostics.push(diagnostic);
-        }
     }
 
     /// The material of a BSDF node, read once however often it is used.

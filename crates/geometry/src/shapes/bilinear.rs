@@ -116,6 +116,15 @@ impl OwnShape for Bilinear {
         Some(self.point(uv))
     }
 
+    fn charts(&self) -> usize {
+        1
+    }
+
+    fn charted(&self, _chart: usize, uv: DVec2) -> Option<(OwnPoint, [DVec3; 2])> {
+        let point = self.point(uv);
+        Some((point, [point.dp_du, point.dp_dv]))
+    }
+
     fn bounds(&self) -> [DVec3; 2] {
         let corners =
             [DVec2::ZERO, DVec2::X, DVec2::Y, DVec2::ONE].map(|uv| self.point(uv).position);

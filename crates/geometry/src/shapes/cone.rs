@@ -202,6 +202,23 @@ impl OwnShape for Cone {
         true
     }
 
+    fn charts(&self) -> usize {
+        self.areas().len()
+    }
+
+    /// The chart of a face is that of its texture coordinates.
+    fn charted(&self, face: usize, uv: DVec2) -> Option<(OwnPoint, [DVec3; 2])> {
+        let face = face as u32;
+        let radius = match face {
+            SIDE => self.radius(uv.y),
+            BOTTOM => self.radius(0.0) * uv.y,
+            _ => self.radius(1.0) * uv.y,
+        };
+        let (sin, cos) = sin_cos(TAU * uv.x);
+        let point = self.point(face, DVec3::new(radius * cos, radius * sin, uv.y));
+        Some((point, [point.dp_du, point.dp_dv]))
+    }
+
     fn area(&self) -> Option<f64> {
         Some(self.areas().iter().sum())
     }

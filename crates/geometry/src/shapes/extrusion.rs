@@ -219,6 +219,22 @@ impl OwnShape for Extrusion {
         3
     }
 
+    /// None of ends.
+    fn charts(&self) -> usize {
+        if self.caps {
+            0
+        } else {
+            self.profile.pieces().len()
+        }
+    }
+
+    /// The chart of a piece: place on it and height.
+    fn charted(&self, piece: usize, uv: DVec2) -> Option<(OwnPoint, [DVec3; 2])> {
+        let point = self.side(piece, uv.x, uv.y * self.height);
+        let along = point.dp_du / self.profile.pieces().len() as f64;
+        Some((point, [along, point.dp_dv]))
+    }
+
     /// Without ends: points of those are not sampled.
     fn area(&self) -> Option<f64> {
         (!self.caps).then(|| self.lengths.total() * self.height)

@@ -97,6 +97,11 @@ pub(crate) trait ShapeModel {
     /// Makes now what sampling would make when first asked.
     fn prepare_sampling(&self) {}
 
+    /// Whether it may be a light: whether points of it can be sampled.
+    fn can_emit(&self) -> bool {
+        self.area().is_some()
+    }
+
     /// Surface area (m²); `None` if points of it cannot be sampled, so that it cannot be a light.
     fn area(&self) -> Option<f64>;
 

@@ -5,12 +5,14 @@
 
 use crate::local_interaction::LocalInteraction;
 use crate::placement::{Placement, perpendicular};
+use crate::shapes::chart::Chart;
 use crate::shapes::crossing::{Crossing, Line};
 use crate::shapes::model::ShapeModel;
 use etalon_math::Frame;
 use etalon_params::Params;
 use etalon_transport::SurfacePoint;
 use glam::{DVec2, DVec3, Vec2};
+use std::sync::OnceLock;
 
 /// A point of a surface in the shape's own space.
 #[derive(Clone, Copy, Debug)]
@@ -63,6 +65,16 @@ pub trait OwnShape {
         false
     }
 
+    /// How many charts cover the whole surface once, each without kinks; 0 if points of it are not known by charts.
+    fn charts(&self) -> usize {
+        0
+    }
+
+    /// A point of a chart, (u, v) in [0, 1)², and ∂p/∂u and ∂p/∂v of that chart.
+    fn charted(&self, _chart: usize, _uv: DVec2) -> Option<(OwnPoint, [DVec3; 2])> {
+        None
+    }
+
     /// Surface area; `None` if points of it cannot be sampled.
     fn area(&self) -> Option<f64> {
         None
@@ -84,6 +96,8 @@ pub struct Placed<S> {
     scale: Option<f64>,
     /// What a crossing found in double precision errs by (m), where a coordinate is near 0.
     rounding: f32,
+    /// How points are chosen in the world where the shape's own way does not do; made when first asked for.
+    charts: OnceLock<Box<[Chart]>>,
 }
 
 impl<S: OwnShape> Placed<S> {
@@ -104,6 +118,7 @@ impl<S: OwnShape> Placed<S> {
             scale: similar.then_some(scale),
             // Eight roundings.
             rounding: (8.0 * f64::EPSILON * extent) as f32,
+            charts: OnceLock::new(),
         }
     }
 
@@ -112,6 +127,44 @@ impl<S: OwnShape> Placed<S> {
         let placement = Placement::from_params(params);
         let flip = super::model::read_flip(params);
         Some(Self::new(placement?, shape?, flip))
+    }
+
+    /// The area in the world by the shape's own formula, where the map keeps angles.
+    fn own_area(&self) -> Option<f64> {
+        let scale = self.scale?;
+        Some(self.shape.area()? * scale * scale)
+    }
+
+    /// The area element of a chart in the world.
+    fn element(&self, chart: usize, uv: DVec2) -> f64 {
+        let charted = self.shape.charted(chart, uv);
+        charted.map_or(0.0, |(_, tangents)| {
+            let [along_u, along_v] = tangents.map(|tangent| self.placement.vector(tangent));
+            along_u.cross(along_v).length()
+        })
+    }
+
+    fn charts(&self) -> &[Chart] {
+        self.charts.get_or_init(|| {
+            let chart = |index| Chart::new(|uv| self.element(index, uv));
+            (0..self.shape.charts()).map(chart).collect()
+        })
+    }
+
+    /// A point chosen uniformly by area over all charts.
+    fn sample_charts(&self, u: Vec2) -> Option<OwnPoint> {
+        let charts = self.charts();
+        let total: f64 = charts.iter().map(Chart::area).sum();
+        let mut rest = f64::from(u.x) * total;
+        for (index, chart) in charts.iter().enumerate() {
+            if rest < chart.area() || index + 1 == charts.len() {
+                let x = (rest / chart.area()).min(1.0);
+                let uv = chart.sample(DVec2::new(x, u.y.into()));
+                return Some(self.shape.charted(index, uv)?.0);
+            }
+            rest -= chart.area();
+        }
+        None
     }
 
     fn surface(&self, own: &OwnPoint) -> LocalInteraction {
@@ -169,12 +222,24 @@ impl<S: OwnShape> ShapeModel for Placed<S> {
         self.shape.is_convex()
     }
 
+    fn can_emit(&self) -> bool {
+        self.own_area().is_some() || self.shape.charts() > 0
+    }
+
+    fn prepare_sampling(&self) {
+        self.area();
+    }
+
     fn area(&self) -> Option<f64> {
-        let scale = self.scale?;
-        Some(self.shape.area()? * scale * scale)
+        let charts = || self.charts().iter().map(Chart::area).sum();
+        (self.own_area()).or_else(|| (self.shape.charts() > 0).then(charts))
     }
 
     fn sample_area(&self, u: Vec2) -> Option<SurfacePoint> {
-        Some(self.surface(&self.shape.sample_area(u)?).whole())
+        let point = match self.own_area() {
+            Some(_) => self.shape.sample_area(u),
+            None => self.sample_charts(u),
+        };
+        Some(self.surface(&point?).whole())
     }
 }

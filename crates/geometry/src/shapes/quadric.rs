@@ -11,9 +11,11 @@
 use crate::shapes::clip_box::{CURVED, ClipBox, FACES};
 use crate::shapes::crossing::{Crossing, Line};
 use crate::shapes::placed::{OwnPoint, OwnShape, Placed};
+use core::f64::consts::{PI, TAU};
+use etalon_math::float64::sin_cos;
 use etalon_math::polynomial::quadratic;
 use etalon_params::Params;
-use glam::{DMat3, DVec3};
+use glam::{DMat3, DVec2, DVec3};
 
 /// A quadric in a box.
 #[derive(Clone, Copy, Debug)]
@@ -23,6 +25,8 @@ pub struct Quadric {
     linear: DVec3,
     constant: f64,
     clip: ClipBox,
+    /// Centre and radii of an `ellipsoid`.
+    ellipsoid: Option<[DVec3; 2]>,
 }
 
 impl Quadric {
@@ -44,6 +48,7 @@ impl Quadric {
             linear,
             constant,
             clip,
+            ellipsoid: None,
         });
         let finite = matrix.is_finite() && linear.is_finite() && constant.is_finite();
         if !finite || (matrix == DMat3::ZERO && linear == DVec3::ZERO) {
@@ -72,6 +77,7 @@ impl Quadric {
                 low: center - radii * (1.0 + 1e-9),
                 high: center + radii * (1.0 + 1e-9),
             },
+            ellipsoid: Some([center, radii]),
         };
         Placed::from_params(params, Some(ellipsoid))
     }
@@ -133,6 +139,25 @@ impl OwnShape for Quadric {
         }
         let normal = self.gradient(position).try_normalize().unwrap_or(DVec3::Z);
         self.clip.curved(position, normal)
+    }
+
+    fn charts(&self) -> usize {
+        usize::from(self.ellipsoid.is_some())
+    }
+
+    /// Azimuth and polar angle of the unit sphere, stretched.
+    fn charted(&self, _chart: usize, uv: DVec2) -> Option<(OwnPoint, [DVec3; 2])> {
+        let [center, radii] = self.ellipsoid?;
+        let ((sin_u, cos_u), (sin_v, cos_v)) = (sin_cos(TAU * uv.x), sin_cos(PI * uv.y));
+        let n = DVec3::new(sin_v * cos_u, sin_v * sin_u, cos_v);
+        let position = center + radii * n;
+        let normal = self.gradient(position).try_normalize()?;
+        let around = DVec3::new(-sin_v * sin_u, sin_v * cos_u, 0.0) * TAU;
+        let down = DVec3::new(cos_v * cos_u, cos_v * sin_u, -sin_v) * PI;
+        Some((
+            self.clip.curved(position, normal),
+            [radii * around, radii * down],
+        ))
     }
 
     fn faces(&self) -> u32 {

@@ -331,6 +331,17 @@ impl OwnShape for Revolution {
         self.closed
     }
 
+    fn charts(&self) -> usize {
+        self.profile.pieces().len()
+    }
+
+    /// The chart of a piece: azimuth and place on it.
+    fn charted(&self, piece: usize, uv: DVec2) -> Option<(OwnPoint, [DVec3; 2])> {
+        let point = self.point(TAU * uv.x, piece, uv.y);
+        let along = point.dp_dv / self.profile.pieces().len() as f64;
+        Some((point, [point.dp_du, along]))
+    }
+
     fn area(&self) -> Option<f64> {
         Some(self.areas.total())
     }

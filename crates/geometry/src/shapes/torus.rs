@@ -135,6 +135,15 @@ impl OwnShape for Torus {
         Some(self.point(TAU * uv.x, around))
     }
 
+    fn charts(&self) -> usize {
+        1
+    }
+
+    fn charted(&self, _chart: usize, uv: DVec2) -> Option<(OwnPoint, [DVec3; 2])> {
+        let point = self.parametric(uv)?;
+        Some((point, [point.dp_du, point.dp_dv]))
+    }
+
     fn bounds(&self) -> [DVec3; 2] {
         let outer = self.major + self.minor;
         let corner = DVec3::new(outer, outer, self.minor);

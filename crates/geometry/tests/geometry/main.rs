@@ -4,6 +4,7 @@ mod accelerators;
 mod bilinear;
 mod commotion;
 mod curves;
+mod deformed_lamps;
 mod description;
 mod far_lights;
 mod functions;
