@@ -13,6 +13,7 @@ pub(crate) mod crossing;
 pub mod csg;
 pub mod cube;
 mod cubic;
+mod curve;
 pub mod curves;
 pub mod cylinder;
 pub mod disk;
@@ -112,6 +113,7 @@ shapes! {
         "serialized" => file_mesh::serialized,
         "cube" => |params, _| cube::from_params(params),
         "bicubic" => |params, _| net::bicubic(params),
+        "curve" => |params, _| curve::from_params(params),
         "heightfield" => net::heightfield,
     }
     /// A rectangle.

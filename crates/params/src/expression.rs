@@ -1,6 +1,6 @@
 //! Expressions among the properties of a node.
 
-use crate::{Diagnostic, Params};
+use crate::{Diagnostic, Params, Value};
 use etalon_math::Expression;
 use etalon_math::expression::ExpressionError;
 
@@ -10,6 +10,22 @@ impl Params<'_> {
         let read = Expression::parse(self.string(name)?, variables);
         read.map_err(|error| self.report(name, variables, &error))
             .ok()
+    }
+
+    /// A number, or an expression of some variables in a string; the default if it is not given.
+    pub fn number_or_expression(
+        &self,
+        name: &str,
+        default: f64,
+        variables: &[&str],
+    ) -> Option<Expression> {
+        let property = self.node.properties.iter().find(|p| p.name == name);
+        if property.is_some_and(|property| matches!(property.value, Value::String(_))) {
+            return self.expression(name, variables);
+        }
+        self.note_default(name, "a number or an expression", default);
+        let number = self.float(name).unwrap_or(default);
+        Expression::parse(&format!("({number})"), &[]).ok()
     }
 
     /// Records what is wrong with an expression of some variables.

@@ -5,7 +5,7 @@
 //! the missing neighbour is the end. A curve (x(t), y(t)) of expressions is cut until the cubic with its ends and
 //! its derivatives there is within [`CLOSE`] of it.
 
-use crate::shapes::cubic::{Cubic, Profile};
+use crate::shapes::cubic::{Cubic, Profile, Vector};
 use etalon_math::Dual;
 use etalon_params::Params;
 use glam::DVec2;
@@ -108,39 +108,54 @@ fn snap(pieces: &mut [Cubic], near: f64) {
 /// Reads `profile`, pairs of numbers, and `closed` (false).
 fn through_points(params: &Params<'_>, curve: &str) -> Option<Vec<Cubic>> {
     let closed = params.boolean_or("closed", false);
-    let numbers = numbers(
+    let example = "pairs of numbers, such as `0.5 0, 0.7 1`";
+    let points = points(
         params,
-        "profile",
-        "pairs of numbers, such as `0.5 0, 0.7 1`",
+        ("profile", example),
+        curve,
+        closed,
+        DVec2::from_array,
     )?;
-    let mut points: Vec<DVec2> = (numbers.chunks_exact(2))
-        .map(|pair| DVec2::new(pair[0], pair[1]))
-        .collect();
+    Some(pieces_of(curve, closed, &points))
+}
+
+/// Reads the points that a curve of a kind goes through, each of so many numbers; a closed one ends where it begins.
+pub(crate) fn points<const N: usize, V: Vector>(
+    params: &Params<'_>,
+    (name, example): (&str, &str),
+    curve: &str,
+    closed: bool,
+    point: impl Fn([f64; N]) -> V,
+) -> Option<Vec<V>> {
+    let numbers = numbers(params, name, example)?;
+    let (chunks, rest) = numbers.as_chunks::<N>();
+    let mut points: Vec<V> = chunks.iter().map(|chunk| point(*chunk)).collect();
     let pieces = |n: usize| match curve {
         "bezier" => n >= 4 && n % 3 == 1,
         _ => n >= 2,
     };
     if closed && curve == "bezier" && points.first() != points.last() {
-        let message = "a closed `bezier` profile must end where it begins";
-        params.error_at("profile", message);
+        let message =
+            format!("a closed `bezier` curve must end where it begins: `{name}` does not");
+        params.error_at(name, message);
         return None;
     }
-    if numbers.len() % 2 == 1 || !pieces(points.len()) {
+    if !rest.is_empty() || !pieces(points.len()) {
         let wanted = match curve {
             "bezier" => "4, 7, 10, … points: ends of pieces with two inner points between",
             _ => "two points or more",
         };
         let message = format!(
-            "`profile` has {} numbers; a `{curve}` one takes {wanted}, two numbers each",
-            numbers.len()
+            "`{name}` has {} numbers; a `{curve}` one takes {wanted}, {N} numbers each",
+            numbers.len(),
         );
-        params.error_at("profile", message);
+        params.error_at(name, message);
         return None;
     }
     if closed && curve != "bezier" && points.first() != points.last() {
         points.push(points[0]);
     }
-    Some(pieces_of(curve, closed, &points))
+    Some(points)
 }
 
 /// Reads finite numbers, separated by blanks and commas, from a string that is needed.
@@ -164,7 +179,8 @@ pub(crate) fn numbers(params: &Params<'_>, name: &str, what: &str) -> Option<Vec
     Some(numbers)
 }
 
-fn pieces_of(curve: &str, closed: bool, points: &[DVec2]) -> Vec<Cubic> {
+/// The pieces of a curve of a kind through points.
+pub(crate) fn pieces_of<V: Vector>(curve: &str, closed: bool, points: &[V]) -> Vec<Cubic<V>> {
     let last = points.len() - 1;
     match curve {
         "bezier" => (0..last / 3)
@@ -183,7 +199,7 @@ fn pieces_of(curve: &str, closed: bool, points: &[DVec2]) -> Vec<Cubic> {
                     _ => points[last],
                 };
                 let (a, b) = (points[i], points[i + 1]);
-                Cubic::hermite([a, b], [0.5 * (b - before), 0.5 * (after - a)])
+                Cubic::hermite([a, b], [(b - before) * 0.5, (after - a) * 0.5])
             })
             .collect(),
         _ => (points.windows(2))

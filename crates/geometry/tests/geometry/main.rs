@@ -6,6 +6,7 @@ mod commotion;
 mod curves;
 mod deformed_lamps;
 mod description;
+mod drawn_curves;
 mod far_lights;
 mod functions;
 mod grids;
