@@ -56,7 +56,7 @@ impl Description {
             exponent,
             transparency,
             eta: RelativeIndex::from_params(params, build, "bk7")?,
-            is_opaque: !params.has("transparency"),
+            is_opaque: params.is_zero_or_absent("transparency"),
         })
     }
 

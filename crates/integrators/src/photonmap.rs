@@ -55,7 +55,7 @@
 
 use crate::photons::gather::{GatherConfig, Layer, follow_all, follow_one};
 use crate::photons::kernel::{Kernel, KernelLookup};
-use crate::photons::radius::{MOST_FOUND, from_pixels, held, read};
+use crate::photons::radius::{ANYWHERE, MOST_FOUND, from_pixels, held, read};
 use crate::photons::sets::WavelengthSets;
 use crate::photons::shoot::{Kind, PhotonMap, PlacedPhotons, moment, shoot};
 use crate::photons::{read_count, read_nearest, read_sets, rounded};
@@ -215,9 +215,6 @@ impl PhotonMapper {
         })
     }
 }
-
-/// A radius beyond everything (m) whose square is a number.
-const ANYWHERE: f32 = 1e18;
 
 impl Integrator for PhotonMapper {
     const FOLLOWS_LIGHT: bool = true;

@@ -64,6 +64,12 @@ impl<'a> Params<'a> {
         self.node.properties.iter().any(|p| p.name == name)
     }
 
+    /// Whether the property is the number 0, or not there (does not mark it).
+    pub fn is_zero_or_absent(&self, name: &str) -> bool {
+        let mut named = self.node.properties.iter().filter(|p| p.name == name);
+        named.all(|p| matches!(p.value, Value::Float(0.0) | Value::Integer(0)))
+    }
+
     /// Records an error at the value of a property (or at the plugin's name if it is absent).
     pub fn error_at(&self, name: &str, message: impl Into<String>) {
         let property = self.node.properties.iter().find(|p| p.name == name);

@@ -33,6 +33,9 @@ const PIXELS: f32 = 2.0;
 /// The most photons that a look-up of a map finds on average where the radius is not given.
 pub(crate) const MOST_FOUND: usize = 32;
 
+/// A radius beyond everything (m) whose square is a number.
+pub(crate) const ANYWHERE: f32 = 1e18;
+
 /// Rays along each side of the film that look for the size of pixels.
 const GRID: u32 = 16;
 

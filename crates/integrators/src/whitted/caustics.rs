@@ -15,10 +15,11 @@
 //! the recursion would go with the probability that it has as a share of the light there, and is absorbed with the rest.
 
 use super::shading::{Surface, Surfaces};
-use super::tree::{Packet, SETS, onward};
+use super::tree::{Continuation, Packet, SETS, onward};
 use crate::particle::LightPath;
+use crate::photons::kdtree::Found;
 use crate::photons::kernel::{Kernel, KernelLookup};
-use crate::photons::radius::{from_pixels, held};
+use crate::photons::radius::{ANYWHERE, from_pixels, held};
 use crate::photons::sets::WavelengthChoice;
 use crate::photons::shoot::{FACING, Kind, Photon, PlacedPhotons, in_order, moment, numbers};
 use crate::steps::next_surface;
@@ -85,7 +86,7 @@ impl Caustics {
         let radius = match (settings.radius, settings.nearest) {
             (Some(radius), _) => radius,
             (None, 0) => held(world, pass, &placed.tree, from_pixels(world, pass)),
-            (None, _) => f32::MAX.sqrt(),
+            (None, _) => ANYWHERE,
         };
         Some(Self {
             placed,
@@ -105,6 +106,7 @@ impl Caustics {
         wo: Vec3,
         (packets, surfaces): (&[Packet], &Surfaces<'_, W>),
         [depth, max_depth]: [u32; 2],
+        found: &mut Vec<Found>,
     ) -> Vec3 {
         if !surfaces.iter().flatten().any(Surface::spreads) {
             return Vec3::ZERO;
@@ -115,13 +117,12 @@ impl Caustics {
         }
         let mut sums = [Vec4::ZERO; SETS];
         let side = vertex.normal.dot(wo);
-        let mut found = Vec::new();
         let (placed, centre) = (&self.placed, vertex.position);
         self.lookup.visit(
             placed,
             centre,
             false,
-            &mut found,
+            found,
             |_| (),
             |photon, kernel| {
                 let Some(index) = place[photon.set as usize] else {
@@ -194,7 +195,11 @@ fn trace<W: World>(
                 index,
             )
         };
-        let ways = || (0..MOST_WAYS).map_while(way);
+        let ways: [Option<Continuation>; MOST_WAYS as usize] = {
+            let mut ways = (0..MOST_WAYS).map_while(way);
+            core::array::from_fn(|_| ways.next())
+        };
+        let ways = || ways.iter().flatten();
         // More than all there is may only be given by a material that gives more than it gets.
         let whole = ways().map(|way| way.value).sum::<Vec4>().max(Vec4::ONE);
         let mut left = sampler.next_1d();

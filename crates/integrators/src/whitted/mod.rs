@@ -52,9 +52,10 @@ use etalon_transport::{
 use glam::{UVec2, Vec4};
 pub use pixel::Grid;
 pub use points::{Placement, PointSet};
+use std::cell::RefCell;
 use std::sync::OnceLock;
-use tree::Packet;
 pub use tree::{Continuation, onward};
+use tree::{Packet, Tree};
 
 /// How the light of lamps without extent fades with distance.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -171,7 +172,13 @@ impl Whitted {
         sampler: &mut impl Sampler,
     ) -> Vec4 {
         let corner = pixel.as_vec2();
-        let look = |raster| self.through(world, picture, raster, sampler);
+        let neighbours = RefCell::default();
+        let tree = Tree {
+            world,
+            caustics: picture.caustics.as_ref(),
+            neighbours: &neighbours,
+        };
+        let look = |raster| self.through(&tree, &picture.packets, raster, sampler);
         self.grid.mean(corner, look)
     }
 }

@@ -4,13 +4,15 @@
 //! a dispersive interface parts them, every wavelength goes on alone.
 
 use super::caustics::Caustics;
-use super::{Picture, Whitted, phong, shading};
+use super::{Whitted, phong, shading};
+use crate::photons::kdtree::Found;
 use crate::photons::sets::WavelengthChoice;
 use crate::steps::next_surface;
 use etalon_sampling::Sampler;
 use etalon_spectrum::{QuadratureNode, SensorWeights, Wavelengths};
 use etalon_transport::{Bsdf, Camera, Ray, SurfaceInteraction, TransportMode, World};
 use glam::{Vec2, Vec3, Vec4};
+use std::cell::RefCell;
 
 /// The most packets.
 pub(super) const SETS: usize = super::MOST_WAVELENGTHS as usize / 4;
@@ -75,31 +77,32 @@ pub struct Continuation {
 }
 
 /// What a tree of rays grows in.
-struct Tree<'a, W> {
-    world: &'a W,
-    caustics: Option<&'a Caustics>,
+pub(super) struct Tree<'a, W> {
+    pub(super) world: &'a W,
+    pub(super) caustics: Option<&'a Caustics>,
+    /// Room for the photons that a look-up finds.
+    pub(super) neighbours: &'a RefCell<Vec<Found>>,
 }
 
 impl Whitted {
     /// Colour and alpha seen through a point of the film.
     pub(super) fn through<W: World>(
         &self,
-        world: &W,
-        picture: &Picture,
+        tree: &Tree<'_, W>,
+        packets: &[Packet],
         raster: Vec2,
         sampler: &mut impl Sampler,
     ) -> Vec4 {
         if self.max_depth == 0 {
             return Vec4::ZERO;
         }
-        let packets = &picture.packets;
+        let world = tree.world;
         let mut sum = Vec4::ZERO;
         for point in 0..self.lens_points.count() {
             let lens = self.lens_points.point(point, sampler);
             // The shutter only opens.
             let start = world.camera().ray(raster, lens, 0.0);
-            let caustics = picture.caustics.as_ref();
-            let rgb = self.follow(&Tree { world, caustics }, start.ray, packets, 1, sampler);
+            let rgb = self.follow(tree, start.ray, packets, 1, sampler);
             let alpha = self.alpha(world, start.ray, &packets[0].wavelengths);
             sum += (rgb * start.weight).extend(alpha);
         }
@@ -156,7 +159,10 @@ impl Whitted {
         let crossings = self.max_depth - depth - 1;
         let straight = self.direct(tree.world, vertex, wo, lies, crossings, sampler);
         let depths = [depth, self.max_depth];
-        let caustics = tree.caustics.map(|c| c.seen::<W>(vertex, wo, lies, depths));
+        let caustics = tree.caustics.map(|caustics| {
+            let found = &mut tree.neighbours.borrow_mut();
+            caustics.seen::<W>(vertex, wo, lies, depths, found)
+        });
         straight + caustics.unwrap_or(Vec3::ZERO)
     }
 
