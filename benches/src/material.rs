@@ -1,6 +1,6 @@
 //! A material by itself, on a plane whose normal is z.
 
-use etalon::pipeline::{self, LoadOptions, Loaded};
+use etalon_render::pipeline::{self, LoadOptions, Loaded};
 use etalon_scene::Scene;
 use etalon_spectrum::Wavelengths;
 use etalon_transport::{Bsdf, Ray, SurfaceInteraction, TransportMode, World};

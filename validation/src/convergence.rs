@@ -20,10 +20,10 @@ use crate::closed_form;
 use crate::fault::PlantedFault;
 use crate::measure::Measure;
 use crate::rendering;
-use etalon::judge::ExactImage;
-use etalon::pipeline::Loaded;
 use etalon_film::RenderedImage;
 use etalon_math::float64;
+use etalon_render::judge::ExactImage;
+use etalon_render::pipeline::Loaded;
 use etalon_statistics::{Estimate, Line, Summary};
 use serde::{Deserialize, Serialize};
 

@@ -42,7 +42,7 @@ impl Provenance {
     /// Of a run on this machine.
     pub fn of(options: &Options, plan: RunPlan, seconds: f64) -> Self {
         Self {
-            version: etalon::VERSION.to_owned(),
+            version: etalon_render::VERSION.to_owned(),
             program: program::fingerprint().ok().map(str::to_owned),
             floating_point: etalon_film::floating_point_fingerprint(),
             machine: format!("{} {}", std::env::consts::OS, std::env::consts::ARCH),

@@ -1,6 +1,6 @@
 //! A picture against its oracle: etalon's decision, and whether the replicates allow it.
 //!
-//! [`etalon::judge`] decides by Student's t. Where the replicates of a mean are too far from normal
+//! [`etalon_render::judge`] decides by Student's t. Where the replicates of a mean are too far from normal
 //! for that (`etalon_statistics::tails`, with the declared limits), the bias of the image is judged
 //! by the studentised bootstrap instead, and where that cannot reach the level, it is undecided. A
 //! whole run's levels, below 10⁻⁶ for each question, are beyond it; what is [`stated`] of a row by
@@ -12,9 +12,9 @@
 //! a failure is shown. A distribution that t may be trusted with at one can be too skewed for the other.
 
 use crate::samples::{Samples, p_of};
-use etalon::judge::{self, ExactImage, ImageComparison, TileRow, Tolerances};
-use etalon::tolerance::Tolerance;
 use etalon_film::{Metadata, RenderedImage};
+use etalon_render::judge::{self, ExactImage, ImageComparison, TileRow, Tolerances};
+use etalon_render::tolerance::Tolerance;
 use etalon_statistics::{Interval, Verdict};
 
 /// What a picture is held against.

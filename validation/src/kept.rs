@@ -7,9 +7,9 @@
 //! run keeps all batches on disk, too ([`crate::state`]).
 
 use crate::state::State;
-use etalon::pipeline::Loaded;
 use etalon_film::RenderedImage;
 use etalon_integrators::RenderPlan;
+use etalon_render::pipeline::Loaded;
 use std::cell::RefCell;
 use std::collections::HashMap;
 

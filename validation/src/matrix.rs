@@ -2,7 +2,7 @@
 //!
 //! A claim names the integrators that it is about. With a table `matrix` all others take part, too,
 //! each as one more comparison of the thorough and the full run, unless they object to the scene when
-//! they are asked ([`etalon::pipeline::Loaded::complete`]): then the report says so, and why. An
+//! they are asked ([`etalon_render::pipeline::Loaded::complete`]): then the report says so, and why. An
 //! integrator that is added to the house so stands in all these rows without a word.
 //!
 //! ```toml
@@ -22,8 +22,8 @@ use crate::budget::Budget;
 use crate::claim::{Claim, Estimator, Oracle};
 use crate::rendering;
 use crate::tier::{FULL_BOUND, Tier};
-use etalon::pipeline::Loaded;
 use etalon_integrators::list;
+use etalon_render::pipeline::Loaded;
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 

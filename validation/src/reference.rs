@@ -268,7 +268,7 @@ fn relative_error(picture: &RenderedImage) -> Result<f64, String> {
     let metadata = picture.metadata.as_ref().ok_or("there are no statistics")?;
     let mut largest = 0.0_f64;
     for channel in ["R", "G", "B"] {
-        let (means, _) = etalon::judge::replicates(metadata, channel, None)?;
+        let (means, _) = etalon_render::judge::replicates(metadata, channel, None)?;
         let summary = etalon_statistics::Summary::of(&means).ok_or("too few seeds")?;
         largest = largest.max(summary.standard_error() / summary.mean().abs());
     }

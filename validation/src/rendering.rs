@@ -3,11 +3,11 @@
 use crate::claim::{self, Budget, Change, Claim, Estimator};
 use crate::fault::{Faulty, PlantedFault};
 use crate::folders;
-use etalon::adaptive;
-use etalon::pipeline::{self, LoadOptions, Loaded, RenderControls, RenderOptions};
-use etalon::target::Failure;
 use etalon_film::{ExactFilm, RenderFacts, RenderedImage, SampleCounts};
 use etalon_integrators::RenderPlan;
+use etalon_render::adaptive;
+use etalon_render::pipeline::{self, LoadOptions, Loaded, RenderControls, RenderOptions};
+use etalon_render::target::Failure;
 use etalon_sampling::SamplerKind;
 use etalon_scene::LightSamplerKind;
 
@@ -156,7 +156,7 @@ pub fn finite(picture: RenderedImage) -> Result<RenderedImage, String> {
 /// What a film knows of a render.
 pub fn facts(loaded: &Loaded, plan: &RenderPlan, integrator: String) -> RenderFacts {
     RenderFacts {
-        version: etalon::VERSION.to_owned(),
+        version: etalon_render::VERSION.to_owned(),
         scene: loaded.path.display().to_string(),
         scene_hash: loaded.hash.clone(),
         integrator,

@@ -13,9 +13,9 @@ use crate::measure::Measure;
 use crate::noise::Effort;
 use crate::tier::Multiple;
 use crate::{closed_form, convergence, invariance, noise, pixelwise, reference, rendering};
-use etalon::judge::{ExactImage, ImageComparison};
 use etalon_film::RenderedImage;
 use etalon_images::{Frame, Image};
+use etalon_render::judge::{ExactImage, ImageComparison};
 use etalon_statistics::Verdict;
 
 pub use crate::rendering::{defines, load};

@@ -1,8 +1,8 @@
 //! The replicates of one mean and of what it is held against: what t makes of them, and when it may.
 
 use crate::judged::Against;
-use etalon::judge::{self, ExactImage};
 use etalon_film::Metadata;
+use etalon_render::judge::{self, ExactImage};
 use etalon_statistics::bootstrap::Resampling;
 use etalon_statistics::robust::{self, Method, Symmetry};
 use etalon_statistics::tails::Limits;

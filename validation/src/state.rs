@@ -7,9 +7,9 @@
 
 use crate::program;
 use crate::run::Options;
-use etalon::pipeline::Loaded;
 use etalon_film::{RenderedImage, read_developed};
 use etalon_integrators::RenderPlan;
+use etalon_render::pipeline::Loaded;
 use std::hash::{DefaultHasher, Hasher};
 use std::path::{Path, PathBuf};
 

@@ -4,7 +4,7 @@ use crate::claim::{Claim, Oracle};
 use crate::matrix::SkippedIntegrator;
 use crate::outcome::{FALSE_POSITIVE_LEVEL, Outcome, Row, counts};
 use crate::run::{Compared, Evidence};
-use etalon::judge::ImageComparison;
+use etalon_render::judge::ImageComparison;
 
 /// The headings of the table.
 pub fn head() -> String {

@@ -3,9 +3,9 @@
 use crate::claim::{Budget, Claim, Estimator, Oracle};
 use crate::fault::PlantedFault;
 use crate::tier::Tier;
-use etalon::judge::Tolerances;
-use etalon::part::PartOfMany;
 use etalon_params::suggest::nearest;
+use etalon_render::judge::Tolerances;
+use etalon_render::part::PartOfMany;
 
 /// What to run.
 #[derive(Clone, Debug)]

@@ -3,8 +3,8 @@
 //!
 //! References are rendered once, into `target/efficiency`, and kept as long as their scene stays the same.
 
-use etalon::estimators::{Findings, Options, Trial, table};
-use etalon::pipeline::{self, LoadOptions, Loaded, RenderOptions};
+use etalon_render::estimators::{Findings, Options, Trial, table};
+use etalon_render::pipeline::{self, LoadOptions, Loaded, RenderOptions};
 use etalon_validation::folders;
 use serde::Deserialize;
 use std::collections::BTreeMap;

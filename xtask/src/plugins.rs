@@ -6,8 +6,8 @@
 
 use crate::compatibility::{self, MITSUBA_3, MITSUBA_06};
 use crate::hearing::{Heard, Hearing};
-use etalon::pipeline::{self, LoadOptions};
 use etalon_params::{Class, Severity, ignored};
+use etalon_render::pipeline::{self, LoadOptions};
 use etalon_validation::folders;
 use serde::Deserialize;
 use std::collections::{BTreeMap, BTreeSet};

@@ -1,7 +1,7 @@
 //! `cargo xtask validate`: renders every claim, decides it, and reports.
 
-use etalon::part::PartOfMany;
 use etalon_images::write_atomically;
+use etalon_render::part::PartOfMany;
 use etalon_validation::claim::Claim;
 use etalon_validation::json::{self, Provenance};
 use etalon_validation::outcome::{self, Conclusion, Outcome, Progress};

@@ -10,8 +10,8 @@ use crate::arg_values::{
 };
 use crate::frames::{Frame, FrameRange};
 use crate::outputs::Outputs;
-use crate::part::PartOfMany;
 use clap::{Args, Parser, Subcommand};
+use etalon_render::part::PartOfMany;
 use etalon_scene::{AcceleratorKind, LightSamplerKind};
 use std::path::{Path, PathBuf};
 

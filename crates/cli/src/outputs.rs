@@ -5,8 +5,8 @@
 //! only if Etalon has rendered it.
 
 use crate::args::RenderArgs;
-use crate::write_guard::WriteGuard;
 use etalon_images::exr;
+use etalon_render::write_guard::WriteGuard;
 use std::path::{Path, PathBuf};
 
 /// What the names of images may end in, in words.

@@ -4,7 +4,7 @@ use super::null::NullRuns;
 use super::single::Single;
 use super::verdict::{Promise, decades, histogram};
 use crate::run::Task;
-use etalon::report;
+use etalon_render::report;
 use etalon_statistics::Verdict;
 use maud::{Markup, html};
 

@@ -8,7 +8,7 @@ use super::{CHANNEL, COVERAGES, LEVEL};
 use crate::claim::{Budget, Claim, Oracle};
 use crate::closed_form;
 use crate::rendering;
-use etalon::judge;
+use etalon_render::judge;
 use etalon_statistics::error_rates::{self, Rate};
 use etalon_statistics::{Estimate, Replicates, Summary, kolmogorov_smirnov};
 

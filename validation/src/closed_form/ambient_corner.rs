@@ -14,8 +14,8 @@
 
 use super::light::known;
 use crate::claim::Claim;
-use etalon::judge::ExactImage;
 use etalon_math::float64::acos;
+use etalon_render::judge::ExactImage;
 use std::f64::consts::PI;
 
 /// The picture of the floor, the wall at its left edge.

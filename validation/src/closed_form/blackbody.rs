@@ -8,7 +8,7 @@
 
 use super::light::known;
 use crate::claim::Claim;
-use etalon::judge::ExactImage;
+use etalon_render::judge::ExactImage;
 
 /// Temperature (K) and linear Rec. 709 in W·m⁻²·sr⁻¹·nm⁻¹.
 ///

@@ -9,7 +9,7 @@
 
 use super::light::{decoded, known, rgb};
 use crate::claim::Claim;
-use etalon::judge::ExactImage;
+use etalon_render::judge::ExactImage;
 
 /// The bytes of `scenes/blend/tint.png`.
 const TINT: [u8; 3] = [210, 70, 240];

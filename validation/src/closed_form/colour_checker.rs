@@ -8,7 +8,7 @@ use super::light::{known, rgb};
 use super::spectra::{at, table};
 use crate::claim::Claim;
 use crate::folders;
-use etalon::judge::ExactImage;
+use etalon_render::judge::ExactImage;
 
 /// Patches in a row.
 const COLUMNS: u32 = 6;

@@ -17,8 +17,8 @@
 use super::light::{known, rgb};
 use super::pile_of_plates::reflectance;
 use crate::claim::Claim;
-use etalon::judge::ExactImage;
 use etalon_math::float64::{exp, pow, tan};
+use etalon_render::judge::ExactImage;
 use std::f64::consts::{FRAC_1_PI, FRAC_1_SQRT_2, FRAC_PI_8, PI};
 
 /// Patches in a row.

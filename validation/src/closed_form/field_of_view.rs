@@ -16,8 +16,8 @@
 
 use super::light::{known, rgb};
 use crate::claim::Claim;
-use etalon::judge::ExactImage;
 use etalon_math::float64::tan;
+use etalon_render::judge::ExactImage;
 
 /// Ends of the rectangle along x and y: `scenes/fields-of-view/scene.xml`.
 const ENDS: [[f64; 2]; 2] = [[-0.14, 0.30], [-0.21, 0.11]];

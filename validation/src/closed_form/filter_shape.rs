@@ -16,8 +16,8 @@
 
 use super::light::{known, rgb};
 use crate::claim::Claim;
-use etalon::judge::ExactImage;
 use etalon_math::float64::{exp, sin};
+use etalon_render::judge::ExactImage;
 use std::f64::consts::PI;
 
 /// Where the square ends (pixels from the film's corner), and its side: `scenes/filters/corner.xml`.

@@ -15,8 +15,8 @@
 
 use super::light::{known, rgb};
 use crate::claim::Claim;
-use etalon::judge::ExactImage;
 use etalon_math::float64::{atan, ln};
+use etalon_render::judge::ExactImage;
 use std::f64::consts::PI;
 
 /// The ends of an interval.

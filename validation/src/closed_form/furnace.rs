@@ -5,7 +5,7 @@
 
 use super::light::{known, rgb};
 use crate::claim::Claim;
-use etalon::judge::ExactImage;
+use etalon_render::judge::ExactImage;
 
 /// The picture of a furnace of `reflectance` that emits `radiance`.
 pub fn picture(claim: &Claim, size: [u32; 2]) -> Result<ExactImage, String> {

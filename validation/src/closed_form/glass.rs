@@ -13,8 +13,8 @@ use super::light::{known, rgb};
 use super::pile_of_plates::reflectance;
 use super::pixels;
 use crate::claim::Claim;
-use etalon::judge::ExactImage;
 use etalon_math::float64::tan;
+use etalon_render::judge::ExactImage;
 
 /// The camera's angle of view (degrees); it looks at the plane at right angles.
 const FIELD_OF_VIEW: f64 = 50.0;

@@ -12,7 +12,7 @@
 use super::light::{known, rgb};
 use super::pixels;
 use crate::claim::Claim;
-use etalon::judge::ExactImage;
+use etalon_render::judge::ExactImage;
 use std::f64::consts::PI;
 
 /// Where the camera stands; it looks along +z with an angle of view of 90°.

@@ -16,8 +16,8 @@
 use super::light::{known, rgb};
 use super::pixels;
 use crate::claim::Claim;
-use etalon::judge::ExactImage;
 use etalon_math::float64::{acos, atan, cos, sin};
+use etalon_render::judge::ExactImage;
 use std::f64::consts::PI;
 
 /// Half the width of what the camera sees (m).

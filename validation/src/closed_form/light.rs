@@ -3,8 +3,8 @@
 //! A colour is C = M ∫ (x̄, ȳ, z̄) L(λ) dλ / N, with the CIE 1931 observer, the normalisation N that
 //! Mitsuba uses, and the matrix M from XYZ to linear Rec. 709.
 
-use etalon::judge::ExactImage;
 use etalon_math::float64::pow;
+use etalon_render::judge::ExactImage;
 use etalon_spectrum::{cie, colour_space};
 
 /// Linear Rec. 709 of the spectral radiance `radiance`.

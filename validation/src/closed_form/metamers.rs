@@ -11,7 +11,7 @@ use super::light::{known, rgb};
 use super::spectra::{at, table};
 use crate::claim::Claim;
 use crate::folders;
-use etalon::judge::ExactImage;
+use etalon_render::judge::ExactImage;
 
 /// The colours of the pair under the claim's illuminant.
 fn pair(claim: &Claim) -> Result<[[f64; 3]; 2], String> {

@@ -11,7 +11,7 @@
 
 use super::light::{known, rgb};
 use crate::claim::Claim;
-use etalon::judge::ExactImage;
+use etalon_render::judge::ExactImage;
 
 /// The height at which the camera stands.
 const CAMERA: f64 = 0.1;

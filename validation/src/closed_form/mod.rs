@@ -31,7 +31,7 @@ pub mod spectra;
 pub mod wrapped_bitmap;
 
 use crate::claim::{Claim, Estimator};
-use etalon::judge::ExactImage;
+use etalon_render::judge::ExactImage;
 
 /// The picture that a formula gives for a claim's scene, as one of its estimators sees it, at `size` pixels.
 ///

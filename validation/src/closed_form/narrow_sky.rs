@@ -6,7 +6,7 @@
 use super::light::{known, rgb};
 use super::spectra;
 use crate::claim::Claim;
-use etalon::judge::ExactImage;
+use etalon_render::judge::ExactImage;
 
 /// The picture of the sky.
 pub fn picture(claim: &Claim, size: [u32; 2]) -> Result<ExactImage, String> {

@@ -17,8 +17,8 @@
 use super::light::{known, rgb};
 use super::pixels;
 use crate::claim::Claim;
-use etalon::judge::ExactImage;
 use etalon_math::float64::{acos, tan};
+use etalon_render::judge::ExactImage;
 use std::f64::consts::PI;
 
 /// Parts of a pixel, along each side, over which the mean is taken: the share has kinks where the circles

@@ -7,8 +7,8 @@
 
 use super::light::known;
 use crate::claim::Claim;
-use etalon::judge::ExactImage;
 use etalon_math::float64::{cos, sin};
+use etalon_render::judge::ExactImage;
 use etalon_spectrum::{cie, colour_space};
 
 /// Half the width of what the camera sees (m).

@@ -6,7 +6,7 @@
 
 use super::light::known;
 use crate::claim::Claim;
-use etalon::judge::ExactImage;
+use etalon_render::judge::ExactImage;
 
 /// Patches in a row.
 const COLUMNS: u32 = 3;

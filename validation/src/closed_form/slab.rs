@@ -23,8 +23,8 @@
 use super::light::{known, rgb};
 use super::pixels;
 use crate::claim::Claim;
-use etalon::judge::ExactImage;
 use etalon_math::float64::exp;
+use etalon_render::judge::ExactImage;
 use std::f64::consts::PI;
 
 /// The irradiance of a plane across the light.

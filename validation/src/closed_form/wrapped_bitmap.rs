@@ -10,7 +10,7 @@
 use super::light::{decoded, known, rgb};
 use super::pixels;
 use crate::claim::Claim;
-use etalon::judge::ExactImage;
+use etalon_render::judge::ExactImage;
 
 /// The bytes of `scenes/wrapped-bitmap/texels.png`.
 const TEXELS: [[u8; 4]; 3] = [[40, 200, 120, 255], [90, 0, 230, 160], [180, 70, 20, 140]];

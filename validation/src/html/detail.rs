@@ -11,11 +11,11 @@ use crate::noise::Counting;
 use crate::outcome::Row;
 use crate::run::{Compared, Evidence};
 use crate::table;
-use etalon::report::album::Album;
-use etalon::report::plot::{self, Curve};
-use etalon::report::running::{self, Point};
-use etalon::report::{self, interval, probability, tables, tiles, viewer};
 use etalon_math::float64;
+use etalon_render::report::album::Album;
+use etalon_render::report::plot::{self, Curve};
+use etalon_render::report::running::{self, Point};
+use etalon_render::report::{self, interval, probability, tables, tiles, viewer};
 use maud::{Markup, html};
 use serde_json::Value;
 

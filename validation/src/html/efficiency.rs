@@ -6,8 +6,8 @@
 
 use crate::outcome::Row;
 use crate::run::Evidence;
-use etalon::estimators::findings::Uncertain;
-use etalon::report::plot;
+use etalon_render::estimators::findings::Uncertain;
+use etalon_render::report::plot;
 use maud::{Markup, html};
 
 /// Bars for all sound estimators of the row's claim; nothing if fewer than two are known.

@@ -3,8 +3,8 @@
 use crate::measure::Measure;
 use crate::outcome::{Outcome, Row};
 use crate::table;
-use etalon::judge::{ImageComparison, ImageRow};
-use etalon::report::{self, interval, probability};
+use etalon_render::judge::{ImageComparison, ImageRow};
+use etalon_render::report::{self, interval, probability};
 use maud::{Markup, html};
 
 /// An outcome's name, as in the JSON.

@@ -2,7 +2,7 @@
 //!
 //! At the top what the run came to; then the table of decisions, one [`line`] for each claim and
 //! estimator, which unfolds to all that is known of it: its `detail`. The frame, the pictures and
-//! the plots are those of `etalon::report`.
+//! the plots are those of `etalon_render::report`.
 
 mod detail;
 mod efficiency;
@@ -11,7 +11,7 @@ mod line;
 use crate::json::Provenance;
 use crate::outcome::{ALPHA, Conclusion, FALSE_POSITIVE_LEVEL, Outcome, Row, counts};
 use crate::table;
-use etalon::report::{self, album::Album};
+use etalon_render::report::{self, album::Album};
 use maud::{Markup, html};
 use std::collections::BTreeMap;
 

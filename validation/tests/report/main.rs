@@ -7,7 +7,7 @@ mod browser;
 mod rows;
 
 use browser::{Folder, exercise, failures};
-use etalon::report::{comparison, running};
+use etalon_render::report::{comparison, running};
 use etalon_validation::claim::Claim;
 use etalon_validation::json::Provenance;
 use etalon_validation::judged::{self, Against};

@@ -1,8 +1,8 @@
 //! Rows of every kind and outcome, made of numbers instead of renders.
 
-use etalon::judge::{ExactImage, ImageRow, Tolerances};
 use etalon_film::{BoxFilter, ExactFilm, FilmSettings, Filter, RenderFacts, RenderedImage};
 use etalon_images::{Frame, Image};
+use etalon_render::judge::{ExactImage, ImageRow, Tolerances};
 use etalon_statistics::Verdict;
 use etalon_validation::claim::Claim;
 use etalon_validation::convergence::Fall;

@@ -2,9 +2,9 @@
 //! without faults.
 
 use crate::claims::claims;
-use etalon::judge::{ExactImage, ImageComparison, Tolerances, judge, judge_known};
 use etalon_film::{BoxFilter, ExactFilm, FilmSettings, Filter, RenderFacts, RenderedImage};
 use etalon_images::Image;
+use etalon_render::judge::{ExactImage, ImageComparison, Tolerances, judge, judge_known};
 use etalon_statistics::Verdict;
 use etalon_validation::claim::{Budget, Claim};
 use etalon_validation::fault::PlantedFault;
@@ -275,7 +275,7 @@ fn batches_together_are_as_if_rendered_at_once() {
     assert_eq!(facts.replicates, 32);
     for channel in ["R", "G", "B"] {
         // The whole image's mean is a tile, and a mean of pixels.
-        let (means, _) = etalon::judge::replicates(facts, channel, None).expect("means");
+        let (means, _) = etalon_render::judge::replicates(facts, channel, None).expect("means");
         assert_eq!(means.len(), 32);
         let mean = means.iter().sum::<f64>() / 32.0;
         let pixels = both.image.channel(channel).expect("a channel");

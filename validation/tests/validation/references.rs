@@ -1,12 +1,12 @@
 //! References that cannot be used: each gives a clear error, never a pass.
 
 use crate::claims::claims;
-use etalon::judge::{Tolerances, judge};
 use etalon_film::{
     BoxFilter, ExactFilm, FilmSettings, Filter, Metadata, RenderFacts, RenderedImage,
     read_developed,
 };
 use etalon_images::Image;
+use etalon_render::judge::{Tolerances, judge};
 use etalon_validation::claim::{Claim, Oracle};
 use etalon_validation::folders;
 use etalon_validation::judged::{self, Against, Asked};
@@ -170,7 +170,7 @@ fn a_reference_without_a_channel_or_a_size_of_tiles_is_an_error() {
 fn a_picture_of_our_own_is_no_reference() {
     // It has the numbers that are asked for. Mutants rejected: nobody asks who made it, or with
     // which variant.
-    for version in [etalon::VERSION, "Mitsuba 3.9.1 scalar_spectral"] {
+    for version in [etalon_render::VERSION, "Mitsuba 3.9.1 scalar_spectral"] {
         let message = said_of("own", |picture| {
             facts(picture).version = version.to_owned();
         });

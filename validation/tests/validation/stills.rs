@@ -1,10 +1,10 @@
 //! Things that move while the shutter is open, against the mean of 64 pictures in which they stand still.
 
-use etalon::judge::{Tolerances, judge};
-use etalon::pipeline::{self, LoadOptions, Loaded, RenderOptions};
 use etalon_film::{ExactFilm, RenderFacts, RenderedImage};
 use etalon_images::Image;
 use etalon_integrators::AnyIntegrator;
+use etalon_render::judge::{Tolerances, judge};
+use etalon_render::pipeline::{self, LoadOptions, Loaded, RenderOptions};
 use etalon_statistics::Verdict;
 use rayon::prelude::*;
 

@@ -1,8 +1,8 @@
 //! Means whose replicates are too far from normal for t: tiles that it calls off, and whole images.
 
-use etalon::judge::{ExactImage, Tolerances};
 use etalon_film::{BoxFilter, ExactFilm, FilmSettings, Filter, RenderFacts, RenderedImage};
 use etalon_images::Image;
+use etalon_render::judge::{ExactImage, Tolerances};
 use etalon_statistics::Verdict;
 use etalon_validation::judged::{Against, Asked, judge, stated};
 

@@ -4,10 +4,10 @@
 //! another estimator, or wrong. So every claim's scene is rendered through a [`Faulty`] world without a fault, and some
 //! of its samples are drawn again both unheard and while they are written down.
 
-use etalon::pipeline::Loaded;
 use etalon_film::ExactFilm;
 use etalon_integrators::RenderPlan;
 use etalon_integrators::replay::{Address, Event};
+use etalon_render::pipeline::Loaded;
 use etalon_transport::Film;
 use etalon_validation::claim::{Budget, Claim, Estimator, Oracle};
 use etalon_validation::fault::{Faulty, PlantedFault};

@@ -2,8 +2,8 @@
 
 use super::Report;
 use super::measure::Row;
-use etalon::report::{self, plot};
 use etalon_benches::rays::Kind;
+use etalon_render::report::{self, plot};
 use maud::{Markup, html};
 use std::collections::BTreeSet;
 

@@ -10,8 +10,8 @@ mod table;
 
 use crate::references::mitsuba;
 use clap::ValueEnum;
-use etalon::pipeline::{self, LoadOptions, Loaded, RenderOptions};
 use etalon_film::{BoxFilter, Filter, Gaussian};
+use etalon_render::pipeline::{self, LoadOptions, Loaded, RenderOptions};
 use etalon_sampling::SamplerKind;
 use etalon_validation::{claim, folders};
 use opponent::Opponent;

@@ -2,19 +2,19 @@
 //! finds, or what a checkpoint holds.
 
 use super::note;
-use crate::adaptive::{self, Distribution};
 use crate::args::RenderArgs;
 use crate::outputs::Outputs;
-use crate::part::PartOfMany;
-use crate::pipeline::{self, Loaded, RenderOptions};
 use crate::progress::Bar;
-use crate::target::{self, Failure, Pilot, Target};
 use etalon_film::{
     CheckpointFacts, Disagreement, ExactFilm, Metadata, Part, PartFacts, ReplicateSet,
     SampleCounts, disagreements, read_developed,
 };
 use etalon_integrators::{RenderPlan, ReplicateRange};
 use etalon_params::Diagnostic;
+use etalon_render::adaptive::{self, Distribution};
+use etalon_render::part::PartOfMany;
+use etalon_render::pipeline::{self, Loaded, RenderOptions};
+use etalon_render::target::{self, Failure, Pilot, Target};
 use std::path::{Path, PathBuf};
 use std::sync::atomic::AtomicBool;
 use std::time::Instant;

@@ -2,11 +2,11 @@
 
 use super::{answer, fail, note};
 use crate::args::CompareArgs;
-use crate::judge::{self, ImageComparison, Tolerances};
-use crate::report::comparison;
-use crate::write_guard::{Destination, WriteGuard};
 use etalon_film::{LightCarriers, RenderedImage, read_developed};
 use etalon_images::{Channel, Image};
+use etalon_render::judge::{self, ImageComparison, Tolerances};
+use etalon_render::report::comparison;
+use etalon_render::write_guard::{Destination, WriteGuard};
 use etalon_statistics::Verdict;
 use std::process::ExitCode;
 

@@ -2,8 +2,8 @@
 
 use super::{fail, note};
 use crate::args::ConvertArgs;
-use crate::write_guard::WriteGuard;
 use etalon_images::{Colour, Error, Format, Image, Losses, exr, hdr, pfm, png, raster};
+use etalon_render::write_guard::WriteGuard;
 use std::path::Path;
 use std::process::ExitCode;
 

@@ -2,11 +2,11 @@
 
 use super::{BAD_INPUT, answer, fail};
 use crate::args::EstimatorsArgs;
-use crate::estimators::{Failure, Findings, Options, Trial, page, table};
-use crate::pipeline::LoadOptions;
 use crate::progress::Bar;
-use crate::write_guard::{Destination, WriteGuard};
 use crate::{diagnose, quoting};
+use etalon_render::estimators::{Failure, Findings, Options, Trial, page, table};
+use etalon_render::pipeline::LoadOptions;
+use etalon_render::write_guard::{Destination, WriteGuard};
 use std::path::PathBuf;
 use std::process::ExitCode;
 use std::sync::atomic::AtomicBool;

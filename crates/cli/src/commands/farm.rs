@@ -3,9 +3,9 @@
 use super::{BAD_INPUT, amount, fail, note, options};
 use crate::args::{FarmArgs, RenderArgs};
 use crate::farm::{Engine, Job, Work};
-use crate::pipeline::{self, LoadOptions};
-use crate::write_guard::WriteGuard;
 use crate::{diagnose, quoting, say};
+use etalon_render::pipeline::{self, LoadOptions};
+use etalon_render::write_guard::WriteGuard;
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::{Command, ExitCode};

@@ -3,8 +3,8 @@
 use super::{BAD_INPUT, fail};
 use crate::args::MergeArgs;
 use crate::say;
-use crate::write_guard::{Destination, WriteGuard};
 use etalon_film::{Metadata, Part, RenderedImage, ReplicateSet, disagreements};
+use etalon_render::write_guard::{Destination, WriteGuard};
 use std::path::PathBuf;
 use std::process::ExitCode;
 

@@ -3,15 +3,16 @@
 use super::amount::{self, SampleBudget};
 use super::{BAD_INPUT, delivery, fail, frames, note, replay, strategies};
 use crate::args::RenderArgs;
-use crate::checkpointing::Checkpointing;
 use crate::outputs::Outputs;
-use crate::part::PartOfMany;
-use crate::pipeline::{self, LoadOptions, Loaded, RenderControls, Rendered};
 use crate::progress::Bar;
-use crate::write_guard::WriteGuard;
-use crate::{diagnose, interrupt, say, target};
+use crate::{diagnose, interrupt, say};
 use etalon_integrators::ReplicateRange;
 use etalon_params::Diagnostic;
+use etalon_render::checkpointing::Checkpointing;
+use etalon_render::part::PartOfMany;
+use etalon_render::pipeline::{self, LoadOptions, Loaded, RenderControls, Rendered};
+use etalon_render::target;
+use etalon_render::write_guard::WriteGuard;
 use std::fs;
 use std::io::ErrorKind;
 use std::path::Path;
@@ -210,6 +211,7 @@ fn render(
         path: amount::checkpoint(args),
         facts: amount::checkpoint_facts(args, amount.pilot),
         earlier: amount.earlier,
+        failed: |reason| say::remark(&format!("warning: there is no checkpoint: {reason}\n")),
     });
     let size = loaded.compiled.film.crop_size;
     let finished = keeping.as_ref().map_or(0, |keeping| keeping.finished().0);

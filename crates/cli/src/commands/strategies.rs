@@ -6,13 +6,13 @@
 //! them in Veach's pyramid: path lengths from above, s from left to right.
 
 use crate::args::RenderArgs;
-use crate::pipeline::Loaded;
-use crate::report;
-use crate::write_guard::WriteGuard;
 use etalon_film::RenderedImage;
 use etalon_integrators::AnyIntegrator;
 use etalon_integrators::bdpt::{Bidirectional, Technique};
 use etalon_params::Diagnostic;
+use etalon_render::pipeline::Loaded;
+use etalon_render::report;
+use etalon_render::write_guard::WriteGuard;
 use maud::html;
 use std::path::Path;
 

@@ -1,6 +1,6 @@
 //! Scenes broken at random are refused, or rendered, but never end the program.
 
-use etalon::pipeline::{self, LoadOptions, RenderOptions};
+use etalon_render::pipeline::{self, LoadOptions, RenderOptions};
 use proptest::prelude::*;
 use proptest::test_runner::RngSeed;
 

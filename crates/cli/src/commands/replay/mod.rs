@@ -11,10 +11,10 @@ mod words;
 
 use super::{answer, fail};
 use crate::arg_values::ReplayAddress;
-use crate::pipeline::{self, Loaded};
 use etalon_film::{ExactFilm, SampleCounts};
 use etalon_integrators::RenderPlan;
 use etalon_integrators::replay::Address;
+use etalon_render::pipeline::{self, Loaded};
 use etalon_transport::{Film, Placing};
 use glam::IVec2;
 use std::process::ExitCode;

@@ -1,6 +1,6 @@
 //! Random scenes: a ball on a floor before a wall, a lamp of some kind, a camera of some kind.
 
-use etalon::pipeline::{LoadOptions, Loaded, load};
+use etalon_render::pipeline::{LoadOptions, Loaded, load};
 use proptest::num;
 use proptest::prelude::{Strategy, prop};
 use std::path::Path;

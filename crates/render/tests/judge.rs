@@ -3,10 +3,10 @@
 //! A picture has 40 × 24 pixels (tiles of 16² at the edges are smaller) and eight replicates with
 //! independent, skewed noise in every pixel, as renders have.
 
-use etalon::judge::{ExactImage, ImageComparison, Tolerances, judge, judge_known};
 use etalon_film::{ExactFilm, FilmSettings, Filter, RenderFacts, RenderedImage};
 use etalon_images::Image;
 use etalon_math::float64;
+use etalon_render::judge::{ExactImage, ImageComparison, Tolerances, judge, judge_known};
 use etalon_statistics::Verdict;
 
 const SIZE: [u32; 2] = [40, 24];

@@ -6,7 +6,6 @@
 //! when the render is interrupted. It appears under its name only when it is complete, in place of
 //! the one before.
 
-use crate::say;
 use etalon_film::{CheckpointFacts, ExactFilm, ExactTile, Part, RenderFacts, recorded_seconds};
 use etalon_integrators::ReplicateRange;
 use etalon_transport::{Film, FilmSample, Placing};
@@ -29,11 +28,13 @@ pub struct Checkpointing {
     pub facts: CheckpointFacts,
     /// A checkpoint to go on from.
     pub earlier: Option<Part>,
+    /// Hears why no checkpoint could be written, the first time.
+    pub failed: fn(&str),
 }
 
 impl Checkpointing {
     /// Samples of the replicate that was being rendered, all pixels together.
-    pub(crate) fn samples_begun(&self) -> u64 {
+    pub fn samples_begun(&self) -> u64 {
         let metadata = self.earlier.as_ref().map(Part::metadata);
         metadata.map_or(0, |metadata| {
             let [width, height] = metadata.film.crop_size.map(f64::from);
@@ -43,7 +44,7 @@ impl Checkpointing {
     }
 
     /// Replicates that are finished, and the time that they took as far as it is known.
-    pub(crate) fn finished(&self) -> (u32, Duration) {
+    pub fn finished(&self) -> (u32, Duration) {
         let metadata = self.earlier.as_ref().map(Part::metadata);
         metadata.map_or((0, Duration::ZERO), |metadata| {
             let seconds = metadata.seconds.unwrap_or(0.0);
@@ -68,7 +69,7 @@ struct Keeper {
     before: Duration,
     /// When the last checkpoint was finished, and what writing it took.
     written: Option<(Instant, Duration)>,
-    failed: bool,
+    failed: Option<fn(&str)>,
 }
 
 /// A film that is kept, if somebody asked for it.
@@ -108,7 +109,7 @@ impl CheckpointingFilm {
             begin: Instant::now(),
             before,
             written: None,
-            failed: false,
+            failed: Some(keeping.failed),
         };
         Ok(Self {
             film,
@@ -155,10 +156,9 @@ impl Keeper {
             part.write_exr(&self.path)
         });
         if let Some(Err(error)) = written
-            && !self.failed
+            && let Some(failed) = self.failed.take()
         {
-            self.failed = true;
-            say::remark(&format!("warning: there is no checkpoint: {error}\n"));
+            failed(&error.to_string());
         }
         self.written = Some((Instant::now(), begin.elapsed()));
     }

@@ -330,7 +330,7 @@ pub struct RenderControls {
 }
 
 /// What a file says of a render, but for its time.
-pub(crate) fn facts(loaded: &Loaded, plan: &RenderPlan) -> RenderFacts {
+pub fn facts(loaded: &Loaded, plan: &RenderPlan) -> RenderFacts {
     RenderFacts {
         version: VERSION.to_owned(),
         scene: loaded.path.display().to_string(),

@@ -4,13 +4,13 @@
 //! b; the reference is the mean of noisy replicates. So relMSE is (b² + σ²)/1.01, variance σ²/1.01 and
 //! squared bias b²/1.01.
 
-use etalon::estimators::cell::{Cell, Rendered};
-use etalon::estimators::schedule::{Share, Size};
-use etalon::estimators::{Failure, Findings, Options, Reference, Schedule, Trial, table};
-use etalon::pipeline::LoadOptions;
 use etalon_film::{ExactFilm, FilmSettings, Filter, RenderFacts};
 use etalon_images::Image;
 use etalon_math::float64;
+use etalon_render::estimators::cell::{Cell, Rendered};
+use etalon_render::estimators::schedule::{Share, Size};
+use etalon_render::estimators::{Failure, Findings, Options, Reference, Schedule, Trial, table};
+use etalon_render::pipeline::LoadOptions;
 use etalon_statistics::{Estimate, Summary};
 
 const SIDE: u32 = 32;

@@ -1,0 +1,24 @@
+//! Rendering as a library: from a scene file to an image, and from images to a verdict.
+//!
+//! [`pipeline`] is the way from a scene file to an image, [`judge`] decides whether two images agree, [`estimators`] compares
+//! estimators, [`report`] makes pages. Nothing here prints or holds a global state: the binary, the validation and
+//! whoever binds to it are thin around it.
+
+pub mod adaptive;
+pub mod checkpointing;
+pub mod estimators;
+pub mod judge;
+mod memory;
+mod objections;
+pub mod part;
+pub mod pipeline;
+pub mod report;
+pub mod resources;
+mod scene_hash;
+mod sizes;
+pub mod target;
+pub mod tolerance;
+pub mod write_guard;
+
+/// The version of the program.
+pub const VERSION: &str = env!("CARGO_PKG_VERSION");
