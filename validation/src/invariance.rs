@@ -215,7 +215,7 @@ fn linear(claim: &Claim, estimator: &Estimator, loaded: &Loaded) -> Result<Compi
         accelerator: AcceleratorKind::Linear,
         ..CompileOptions::default()
     };
-    etalon_scene::compile_with(&document.root, &assets, &diagnostics, options)
+    etalon_scene::compile_with(&document.root, &assets, &diagnostics, &options)
         .ok_or_else(|| refused.to_owned())
 }
 

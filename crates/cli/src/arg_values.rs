@@ -1,6 +1,8 @@
 //! Values on the command line: numbers within bounds, names of a list, addresses of samples.
 
-use etalon_scene::{AcceleratorKind, LightSamplerKind};
+use etalon_images::View;
+use etalon_scene::{AcceleratorKind, LightSamplerKind, SensorChoice};
+use glam::UVec2;
 
 /// A sample to be drawn again.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -97,4 +99,57 @@ pub(crate) fn parse_define(text: &str) -> Result<(String, String), String> {
         Some((key, value)) if !key.is_empty() => Ok((key.to_owned(), value.to_owned())),
         _ => Err("expected key=value".to_owned()),
     }
+}
+
+/// `WxH`.
+pub(crate) fn parse_size(text: &str) -> Result<UVec2, String> {
+    let sides = text.split_once(['x', 'X', '×']);
+    sides
+        .and_then(|(w, h)| Some(UVec2::new(w.trim().parse().ok()?, h.trim().parse().ok()?)))
+        .filter(|size| size.min_element() > 0)
+        .ok_or_else(|| "expected width and height in pixels, such as 640x480".to_owned())
+}
+
+/// `25%` or `0.25`.
+pub(crate) fn parse_scale(text: &str) -> Result<f64, String> {
+    let (number, unit) = match text.strip_suffix('%') {
+        Some(number) => (number, 0.01),
+        None => (text, 1.0),
+    };
+    let share = number.trim().parse::<f64>().ok().map(|x| x * unit);
+    share
+        .filter(|share| *share > 0.0 && *share <= 1000.0)
+        .ok_or_else(|| {
+            "expected a share of the scene's size above 0, such as 25% or 0.25".to_owned()
+        })
+}
+
+/// `X,Y,W,H`.
+pub(crate) fn parse_crop(text: &str) -> Result<[UVec2; 2], String> {
+    let numbers: Option<Vec<u32>> =
+        (text.split(',').map(|word| word.trim().parse().ok())).collect();
+    match numbers.as_deref() {
+        Some([x, y, w, h]) if *w > 0 && *h > 0 => Ok([UVec2::new(*x, *y), UVec2::new(*w, *h)]),
+        _ => Err(
+            "expected four whole numbers, such as 100,50,64,64: column, row, width, height"
+                .to_owned(),
+        ),
+    }
+}
+
+/// A number or an id.
+pub(crate) fn parse_sensor(text: &str) -> Result<SensorChoice, String> {
+    match text.parse() {
+        Ok(number) => Ok(SensorChoice::Number(number)),
+        Err(_) if text.is_empty() => Err("expected the number or the id of a sensor".to_owned()),
+        Err(_) => Ok(SensorChoice::Id(text.to_owned())),
+    }
+}
+
+/// The name of a view.
+pub(crate) fn parse_view(text: &str) -> Result<View, String> {
+    View::named(text).ok_or_else(|| {
+        let names = View::ALL.map(View::name);
+        format!("expected one of {}", names.join(", "))
+    })
 }

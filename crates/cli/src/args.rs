@@ -1,8 +1,10 @@
 //! The command line.
 
 mod farm;
+mod picture;
 
 pub use farm::{FarmArgs, PathMap};
+pub use picture::{FramingArgs, ShownArgs};
 
 use crate::arg_values::{
     ReplayAddress, parse_accelerator, parse_define, parse_error, parse_light_chooser,
@@ -45,7 +47,10 @@ Exit codes: 0 done, 2 bad input or usage, 130 ended by Ctrl-C or such a signal.
 Examples:
   etalon render scenes/cornell-box/scene.xml
   etalon render scene.xml -o cornell.png
-  etalon render scene.xml -o out.exr --spp 256 --seed 7 -D resx=512 -D resy=512
+  etalon render scene.xml -o small.png --scale 25% --spp 16
+  etalon render scene.xml -o corner.png --crop 100,50,64,64 --exposure 1.5
+  etalon render scene.xml -o top.exr --sensor top --size 640x480
+  etalon render scene.xml -o out.exr --spp 256 --seed 7 -D colour=0.5
   etalon render scene.xml -o direct.exr --integrator direct --stats stats.json
   etalon render scene.xml -o out.exr --error 0.01
   etalon render scene.xml -o out.exr --error 0.01 --adaptive
@@ -180,6 +185,12 @@ pub struct RenderArgs {
     /// Give a scene parameter ($key) a value.
     #[arg(short = 'D', value_name = "key=value", value_parser = parse_define)]
     pub define: Vec<(String, String)>,
+    /// What part of the scene.
+    #[command(flatten)]
+    pub framing: FramingArgs,
+    /// How a picture beside the image is shown.
+    #[command(flatten)]
+    pub shown: ShownArgs,
     /// Replicates the image is the mean of [default: 8, or fewer if spp is less].
     #[arg(long, value_name = "R", value_parser = whole::<1, 4096>, allow_negative_numbers = true)]
     pub replicates: Option<u32>,
@@ -348,14 +359,9 @@ pub struct ConvertArgs {
     pub input: PathBuf,
     /// The picture to write (.png, .hdr, .pfm).
     pub output: PathBuf,
-    /// Brighten by so many stops (a factor of 2 each).
-    #[arg(
-        long,
-        value_name = "EV",
-        default_value_t = 0.0,
-        allow_negative_numbers = true
-    )]
-    pub exposure: f32,
+    /// How it is shown.
+    #[command(flatten)]
+    pub shown: ShownArgs,
     /// Show the channels PREFIX.R, PREFIX.G, PREFIX.B (or X, Y, Z), or the one channel PREFIX,
     /// instead of R, G, B.
     #[arg(long, value_name = "PREFIX")]
@@ -377,14 +383,9 @@ pub struct MovieArgs {
     /// Frames per second.
     #[arg(long, value_name = "N", default_value_t = 24.0, value_parser = parse_rate, allow_negative_numbers = true)]
     pub fps: f64,
-    /// Brighten by so many stops (a factor of 2 each).
-    #[arg(
-        long,
-        value_name = "EV",
-        default_value_t = 0.0,
-        allow_negative_numbers = true
-    )]
-    pub exposure: f32,
+    /// How it is shown.
+    #[command(flatten)]
+    pub shown: ShownArgs,
 }
 
 /// Arguments of `info`.

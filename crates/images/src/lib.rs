@@ -24,6 +24,7 @@ pub mod png;
 mod png_encoding;
 pub mod raster;
 pub mod srgb;
+pub mod view;
 pub mod volume;
 
 pub use atomic_file::write_atomically;
@@ -34,4 +35,5 @@ pub use format::{Format, lfs_pointer};
 pub use losses::Losses;
 pub use plane::{Channel, Frame, Image};
 pub use raster::{Raster, RasterHeader, Samples};
+pub use view::{Development, View};
 pub use volume::Volume;

@@ -1,14 +1,14 @@
 //! Eight-bit sRGB pictures for people, as PNG.
 
 use crate::losses::Losses;
+use crate::view::Development;
 use crate::{Colour, Error, Image, srgb, write_atomically};
 use image::codecs::png::PngEncoder;
 use image::{ExtendedColorType, ImageEncoder};
 use std::io;
 use std::path::Path;
 
-/// Writes the colour of an image, times 2^`exposure` and encoded as sRGB, with its alpha if it
-/// has any.
+/// Writes the colour of an image, developed and encoded as sRGB, with its alpha if it has any.
 ///
 /// What is above 1 or below 0 is clipped, and what is not finite is painted magenta; the result
 /// counts both. Colour is taken to be premultiplied by alpha, as EXR has it, and PNG is not, so it
@@ -17,9 +17,13 @@ use std::path::Path;
 /// # Errors
 /// [`Error::Unsupported`] for an image without colour, [`Error::Write`] where the operating
 /// system refuses.
-pub fn write(path: &Path, image: &Image, exposure: f32) -> Result<Losses, Error> {
+pub fn write(
+    path: &Path,
+    image: &Image,
+    development: impl Into<Development>,
+) -> Result<Losses, Error> {
     let colour = image.needed_colour(path)?;
-    let (bytes, losses) = develop_colour(&colour, exposure);
+    let (bytes, losses) = develop_colour(&colour, development.into());
     let colour = if colour.alpha.is_some() {
         ExtendedColorType::Rgba8
     } else {
@@ -32,13 +36,13 @@ pub fn write(path: &Path, image: &Image, exposure: f32) -> Result<Losses, Error>
 /// The bytes [`write()`] puts into a file: RGB, or RGBA if the image has alpha. `None` for an
 /// image without colour.
 #[must_use]
-pub fn develop(image: &Image, exposure: f32) -> Option<(Vec<u8>, Losses)> {
-    Some(develop_colour(&image.colour()?, exposure))
+pub fn develop(image: &Image, development: impl Into<Development>) -> Option<(Vec<u8>, Losses)> {
+    Some(develop_colour(&image.colour()?, development.into()))
 }
 
-fn develop_colour(colour: &Colour<'_>, exposure: f32) -> (Vec<u8>, Losses) {
+fn develop_colour(colour: &Colour<'_>, development: Development) -> (Vec<u8>, Losses) {
     let alpha = colour.alpha;
-    let gain = gain(exposure);
+    let gain = development.gain();
     let mut losses = Losses::default();
     let pixels = colour.planes[0].len();
     let mut bytes = Vec::with_capacity(pixels * if alpha.is_some() { 4 } else { 3 });
@@ -52,7 +56,7 @@ fn develop_colour(colour: &Colour<'_>, exposure: f32) -> (Vec<u8>, Losses) {
         if rgb.iter().chain(&opacity).all(|x| x.is_finite()) {
             for x in rgb {
                 // In double precision: no finite gain of a finite sample is not a number.
-                let x = (f64::from(x) * scale) as f32;
+                let x = development.view.shown(f64::from(x) * scale) as f32;
                 losses.negative += usize::from(x < 0.0);
                 losses.too_bright += usize::from(x > 1.0);
                 bytes.push(srgb::encode_u8(x));

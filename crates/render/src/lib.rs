@@ -8,6 +8,7 @@ pub mod adaptive;
 pub mod checkpointing;
 pub mod estimators;
 pub mod judge;
+pub mod load_options;
 mod memory;
 mod objections;
 pub mod part;

@@ -2,22 +2,22 @@
 
 use crate::pipeline::place;
 use etalon_params::{Class, Diagnostic, Node, Span, Value};
+use etalon_scene::Compiled;
 use etalon_transport::{Incompatibility, Subject};
 
-/// An objection as a message at the place in the scene file that it is about; `legacy_phong` is where a
-/// classic Phong material is described.
+/// An objection as a message at the place in the scene file that it is about.
 pub(crate) fn diagnostic(
     objection: Incompatibility,
     root: &Node,
-    classic: Option<Span>,
+    compiled: &Compiled,
 ) -> Diagnostic {
     let span = match objection.subject {
         Subject::Integrator => place(root, &[Class::Integrator]),
         Subject::Parameter(name) => {
             parameter(root, name).unwrap_or_else(|| place(root, &[Class::Integrator]))
         }
-        Subject::Classic => classic.unwrap_or(root.plugin.span),
-        Subject::Camera => place(root, &[Class::Sensor]),
+        Subject::Classic => compiled.classic.unwrap_or(root.plugin.span),
+        Subject::Camera => compiled.sensor.plugin.span,
         Subject::Scene => root.plugin.span,
     };
     let diagnostic = if objection.fatal {

@@ -1,6 +1,7 @@
 //! From a scene file to an image: the way every command and every claim takes.
 
 use crate::checkpointing::{Checkpointing, CheckpointingFilm};
+pub use crate::load_options::LoadOptions;
 use crate::scene_hash::scene_hash;
 use crate::{VERSION, memory, objections};
 use etalon_film::{
@@ -12,27 +13,10 @@ use etalon_formats::mitsuba::{self, Document, ReadOptions, ReadOutcome};
 use etalon_integrators::{AnyIntegrator, Progress, RenderPlan, RenderStatistics, ReplicateRange};
 use etalon_params::{Class, Diagnostic, Diagnostics, Node, Params, Sources, Span, Value};
 use etalon_sampling::{ReplicateKind, SamplerKind};
-use etalon_scene::{AcceleratorKind, CompileOptions, Compiled, LightSamplerKind, Scene};
+use etalon_scene::{CompileOptions, Compiled, Scene};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::time::{Duration, Instant};
-
-/// How to read a scene.
-#[derive(Clone, Debug, Default)]
-pub struct LoadOptions {
-    /// Values of scene parameters (`-D key=value`).
-    pub defines: Vec<(String, String)>,
-    /// Replaces the type of the innermost integrator.
-    pub integrator: Option<String>,
-    /// Further folders with data.
-    pub data: Vec<PathBuf>,
-    /// How points choose the light that they ask, if not as the scene says.
-    pub light_chooser: Option<LightSamplerKind>,
-    /// How surfaces are looked up.
-    pub accelerator: AcceleratorKind,
-    /// The moment that the shutter counts from (units of scene time).
-    pub time: f64,
-}
 
 /// Why a scene cannot be used: what is wrong, and the texts in which it stands.
 #[derive(Debug)]
@@ -102,8 +86,11 @@ pub fn load(path: &Path, options: &LoadOptions) -> Result<Loaded, LoadError> {
         let overruled = CompileOptions {
             light_chooser: options.light_chooser,
             accelerator: options.accelerator,
+            sensor: options.sensor.clone(),
+            framing: options.framing,
         };
-        let compiled = etalon_scene::compile_with(&document.root, &assets, &diagnostics, overruled);
+        let compiled =
+            etalon_scene::compile_with(&document.root, &assets, &diagnostics, &overruled);
         let integrator = integrator(&document.root, &diagnostics);
         if let (Some(compiled), Some((integrator, _))) = (&compiled, &integrator) {
             let place = place(&document.root, &[Class::Integrator]);
@@ -114,18 +101,19 @@ pub fn load(path: &Path, options: &LoadOptions) -> Result<Loaded, LoadError> {
             sight.classic = compiled.classic.is_some(); // One that no shape has does no harm.
             for objection in integrator.incompatibilities(&sight) {
                 complete = false;
-                let material = compiled.classic;
-                diagnostics.push(objections::diagnostic(objection, &document.root, material));
+                let root = &document.root;
+                diagnostics.push(objections::diagnostic(objection, root, compiled));
             }
         }
         if sound && !diagnostics.has_errors() {
             loaded = compiled.zip(integrator).map(|(compiled, integrator)| {
+                let film_place = place(&compiled.sensor, &[Class::Film]);
                 (
                     compiled,
                     integrator,
                     scene_hash(&document, &assets, options),
                     inputs(&document, &assets),
-                    place(&document.root, &[Class::Sensor, Class::Film]),
+                    film_place,
                 )
             });
         }

@@ -1,6 +1,7 @@
 //! What tells one scene from another, as a hash.
 
 use crate::pipeline::LoadOptions;
+use etalon_film::Framing;
 use etalon_formats::FileAssets;
 use etalon_formats::mitsuba::Document;
 
@@ -35,6 +36,12 @@ pub(crate) fn scene_hash(
     }
     if options.time != 0.0 {
         add(&options.time.to_le_bytes());
+    }
+    if let Some(sensor) = &options.sensor {
+        add(format!("{sensor:?}").as_bytes());
+    }
+    if options.framing != Framing::default() {
+        add(options.framing.to_string().as_bytes());
     }
     hasher.finalize().to_hex()[..16].to_owned()
 }

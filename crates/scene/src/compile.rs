@@ -7,11 +7,12 @@ use crate::media::{self, LightMedium, SceneMedia};
 use crate::sampler::SamplerSettings;
 use crate::scene::Scene;
 use crate::sensor::{Response, curve};
+use crate::sensor_choice::{self, SensorChoice};
 use crate::short_flights;
 use crate::subsurface;
 use crate::surfaces::{self, Emitting, Names, Surfaces};
 use etalon_cameras::{AnyCamera, FilmWindow};
-use etalon_film::{FilmSettings, Filter};
+use etalon_film::{FilmSettings, Filter, Framing};
 use etalon_geometry::AcceleratorKind;
 use etalon_lights::{BoundingSphere, LightDescription, LightSamplerKind, LightSet};
 use etalon_params::{Class, Diagnostic, Diagnostics, Node, Params, Property, Span, plugins};
@@ -27,6 +28,8 @@ pub struct Compiled {
     pub scene: Scene,
     /// The same for each group of three of the film's bands: one, unless it is a spectral film of more.
     pub scenes: Vec<Scene>,
+    /// The description of the sensor that is rendered.
+    pub sensor: Arc<Node>,
     /// The film of the sensor.
     pub film: FilmSettings,
     /// The sampler of the sensor.
@@ -45,12 +48,16 @@ pub struct Compiled {
 /// Compiles the `<scene>` node `root`. `None` if anything was wrong; the mistakes, as many as
 /// could be found in one run, are in `diagnostics`.
 pub fn compile(root: &Node, assets: &dyn Assets, diagnostics: &Diagnostics) -> Option<Compiled> {
-    compile_with(root, assets, diagnostics, CompileOptions::default())
+    compile_with(root, assets, diagnostics, &CompileOptions::default())
 }
 
 /// What a description leaves open, or is overruled in.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct CompileOptions {
+    /// Which sensor is rendered, if not the first.
+    pub sensor: Option<SensorChoice>,
+    /// What replaces the size of its film, and the part that is rendered.
+    pub framing: Framing,
     /// The kind of all accelerators.
     pub accelerator: AcceleratorKind,
     /// How points choose the light that they ask, if not as the scene says.
@@ -62,11 +69,12 @@ pub fn compile_with(
     root: &Node,
     assets: &dyn Assets,
     diagnostics: &Diagnostics,
-    options: CompileOptions,
+    options: &CompileOptions,
 ) -> Option<Compiled> {
     let params = Params::new(root, diagnostics);
     let mut builder = Builder::new(assets, diagnostics);
-    let sensor = sensor(&params, &mut builder);
+    let sensor_node = sensor_choice::chosen(&params, options.sensor.as_ref());
+    let sensor = sensor_node.and_then(|node| sensor(node, &options.framing, &mut builder));
     if let Some(sensor) = &sensor {
         builder.shutter = sensor.shutter;
     }
@@ -76,7 +84,7 @@ pub fn compile_with(
     for (_, node) in params.children(Class::Medium) {
         surfaces.medium(node, &mut builder);
     }
-    let camera_medium = camera_medium(&params, &mut surfaces, &mut builder);
+    let camera_medium = camera_medium(sensor_node, &mut surfaces, &mut builder);
     let named = params.choice(
         "light_chooser",
         LightSamplerKind::default().name(),
@@ -153,6 +161,7 @@ pub fn compile_with(
         Scene::new(camera, lookup, surfaces.materials, lights, media).with_sensors(responses);
     Some(Compiled {
         scene: scenes.first()?.clone(),
+        sensor: Arc::clone(sensor_node?),
         scenes,
         film,
         sampler,
@@ -165,14 +174,11 @@ pub fn compile_with(
 
 /// The medium that the camera is in.
 fn camera_medium(
-    params: &Params<'_>,
+    sensor: Option<&Arc<Node>>,
     surfaces: &mut Surfaces,
     builder: &mut Builder<'_>,
 ) -> MediumId {
-    let sensors = params.children(Class::Sensor);
-    let sensor = sensors
-        .first()
-        .map(|(_, node)| Params::new(node, builder.diagnostics));
+    let sensor = sensor.map(|node| Params::new(node, builder.diagnostics));
     let medium = sensor.and_then(|sensor| medium_of(&sensor, surfaces, builder));
     medium.unwrap_or(MediumId::NONE)
 }
@@ -243,28 +249,14 @@ struct DescribedSensor {
     responses: Vec<Sensor>,
 }
 
-/// The first sensor: camera, film and sampler. A scene may describe several; the first counts.
-fn sensor(params: &Params<'_>, builder: &mut Builder<'_>) -> Option<DescribedSensor> {
+/// A sensor: camera, film and sampler.
+fn sensor(node: &Node, framing: &Framing, builder: &mut Builder<'_>) -> Option<DescribedSensor> {
     let diagnostics = builder.diagnostics;
-    let sensors = params.children(Class::Sensor);
-    let Some((_, node)) = sensors.first() else {
-        diagnostics.push(
-            Diagnostic::error(params.node.span, "the scene has no sensor")
-                .help("add a <sensor type=\"perspective\">"),
-        );
-        return None;
-    };
-    for (property, _) in &sensors[1..] {
-        diagnostics.push(
-            Diagnostic::note(
-                property.name_span,
-                "only the scene's first sensor is rendered",
-            )
-            .label("not rendered"),
-        );
-    }
     let sensor = Params::new(node, diagnostics);
-    let film = film(&sensor, builder);
+    let film = film(&sensor, builder).and_then(|(mut film, response)| {
+        let framed = framing.apply(&mut film).map_err(Diagnostic::error_nowhere);
+        diagnostics.keep(framed).map(|()| (film, response))
+    });
     let filter = sensor.has("srf").then(|| curve(&sensor, "srf", builder));
     let sampler = SamplerSettings::from_sensor(&sensor);
     // After a mistake in the film, any film will do to find those of the camera.

@@ -2,7 +2,7 @@
 
 use super::{fail, note};
 use crate::args::ConvertArgs;
-use etalon_images::{Colour, Error, Format, Image, Losses, exr, hdr, pfm, png, raster};
+use etalon_images::{Colour, Error, Format, Image, Losses, View, exr, hdr, pfm, png, raster};
 use etalon_render::write_guard::WriteGuard;
 use std::path::Path;
 use std::process::ExitCode;
@@ -19,9 +19,8 @@ pub fn run(args: &ConvertArgs) -> ExitCode {
 }
 
 fn convert(args: &ConvertArgs) -> Result<Vec<String>, String> {
-    if !args.exposure.is_finite() {
-        return Err("--exposure must be a finite number of stops".to_owned());
-    }
+    let development = args.shown.development()?;
+    let exposure = development.exposure;
     let output = WriteGuard::of([&args.input]).claim(&args.output)?;
     let in_words = |error: Error| error.to_string();
     let (image, mut notes, ours) = read(&args.input)?;
@@ -34,14 +33,18 @@ fn convert(args: &ConvertArgs) -> Result<Vec<String>, String> {
             of_colour(&image, &colour)
         }
     };
+    let is_png = extension(&args.output) == "png";
+    if !is_png && development.view != View::Srgb {
+        return Err("--view shows pictures on a screen: only a .png can have it".to_owned());
+    }
     let losses = match extension(&args.output).as_str() {
-        "png" => output.write_with(|path| png::write(path, &colour, args.exposure)),
+        "png" => output.write_with(|path| png::write(path, &colour, development)),
         "hdr" | "rgbe" => {
-            let image = brightened(colour, args.exposure, &mut notes);
+            let image = brightened(colour, exposure, &mut notes);
             output.write_with(|path| hdr::write(path, &image))
         }
         "pfm" => {
-            let image = brightened(colour, args.exposure, &mut notes);
+            let image = brightened(colour, exposure, &mut notes);
             output.write_with(|path| pfm::write(path, &image).map(|()| Losses::default()))
         }
         _ => {

@@ -111,7 +111,9 @@ pub(super) fn deliver(
 
 /// Writes the picture beside the image.
 fn write_picture(args: &RenderArgs, path: &Path, developed: &RenderedImage) -> Result<(), String> {
-    let losses = png::write(path, &developed.image, 0.0).map_err(|error| error.to_string())?;
+    let development = args.shown.development()?;
+    let written = png::write(path, &developed.image, development);
+    let losses = written.map_err(|error| error.to_string())?;
     if !args.quiet && losses.not_finite > 0 {
         note(format!(
             "{}: {} samples are not finite and magenta",

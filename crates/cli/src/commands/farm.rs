@@ -26,6 +26,8 @@ pub fn run(args: &FarmArgs) -> ExitCode {
             light_chooser: render.light_chooser,
             accelerator: render.accelerator.unwrap_or_default(),
             time: 0.0,
+            sensor: render.framing.sensor.clone(),
+            framing: render.framing.framing(),
         },
     );
     let loaded = match loaded {

@@ -27,9 +27,7 @@ struct Frame {
 }
 
 fn movie(args: &MovieArgs) -> Result<(), String> {
-    if !args.exposure.is_finite() {
-        return Err("--exposure must be a finite number of stops".to_owned());
-    }
+    let development = args.shown.development()?;
     let format = format(&args.output)?;
     let files = &frames(args)?;
     let output = &WriteGuard::of(files).claim(&args.output)?;
@@ -37,7 +35,7 @@ fn movie(args: &MovieArgs) -> Result<(), String> {
         let (image, _, _) = read(path)?;
         let colour = image.needed_colour(path).map_err(|e| e.to_string())?;
         let image = of_colour(&image, &colour);
-        let developed = png::develop(&image, args.exposure);
+        let developed = png::develop(&image, development);
         let (bytes, _) = developed.ok_or("an image without colour")?;
         Ok(Frame {
             bytes,

@@ -2,6 +2,7 @@
 
 use crate::args::RenderArgs;
 use crate::quoting;
+use etalon_scene::SensorChoice;
 
 /// What decides the picture, but for scene, seed, frames and amount.
 pub(super) fn of_the_picture(args: &RenderArgs) -> Vec<String> {
@@ -12,6 +13,12 @@ pub(super) fn of_the_picture(args: &RenderArgs) -> Vec<String> {
     if let Some(chooser) = args.light_chooser {
         words.push(format!("--light-chooser {}", chooser.name()));
     }
+    let framing = args.framing.framing().to_string();
+    words.extend(Some(framing).filter(|words| !words.is_empty()));
+    words.extend((args.framing.sensor.as_ref()).map(|sensor| match sensor {
+        SensorChoice::Number(number) => format!("--sensor {number}"),
+        SensorChoice::Id(id) => format!("--sensor {}", quoting::shell(id)),
+    }));
     words
 }
 

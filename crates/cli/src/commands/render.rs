@@ -6,6 +6,7 @@ use crate::args::RenderArgs;
 use crate::outputs::Outputs;
 use crate::progress::Bar;
 use crate::{diagnose, interrupt, say};
+use etalon_images::Development;
 use etalon_integrators::ReplicateRange;
 use etalon_params::Diagnostic;
 use etalon_render::checkpointing::Checkpointing;
@@ -51,6 +52,8 @@ pub(super) fn run_here(args: &RenderArgs) -> ExitCode {
             light_chooser: args.light_chooser,
             accelerator: args.accelerator.unwrap_or_default(),
             time: args.frame.map_or(0.0, |frame| frame.time),
+            sensor: args.framing.sensor.clone(),
+            framing: args.framing.framing(),
         },
     ) {
         Ok(loaded) => loaded,
@@ -170,10 +173,15 @@ fn remove(checkpoint: &Path) {
 /// The arguments with the outputs that they stand for, which are claimed, unless a sample is replayed.
 fn with_outputs(args: &RenderArgs) -> Result<(RenderArgs, WriteGuard), String> {
     let mut args = args.clone();
+    let is_plain = args.shown.development()? == Development::default();
     if args.replay.is_some() {
         return Ok((args, WriteGuard::default()));
     }
     let outputs = Outputs::of(&args)?;
+    if !is_plain && outputs.picture.is_none() {
+        let message = "`--exposure` and `--view` are for pictures to look at: name one that ends in .png with `-o`";
+        return Err(message.to_owned());
+    }
     let guard = outputs.claim(&args)?;
     if !args.quiet && !outputs.named {
         note(match &outputs.picture {

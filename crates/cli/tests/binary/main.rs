@@ -17,6 +17,7 @@ mod failure;
 mod farm;
 mod field_scenes;
 mod frames;
+mod framing;
 mod info;
 mod integrators;
 mod interrupt;

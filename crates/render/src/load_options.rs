@@ -1,0 +1,26 @@
+//! How to read a scene, and what of it is overruled.
+
+use etalon_film::Framing;
+use etalon_scene::{AcceleratorKind, LightSamplerKind, SensorChoice};
+use std::path::PathBuf;
+
+/// How to read a scene.
+#[derive(Clone, Debug, Default)]
+pub struct LoadOptions {
+    /// Values of scene parameters (`-D key=value`).
+    pub defines: Vec<(String, String)>,
+    /// Replaces the type of the innermost integrator.
+    pub integrator: Option<String>,
+    /// Further folders with data.
+    pub data: Vec<PathBuf>,
+    /// How points choose the light that they ask, if not as the scene says.
+    pub light_chooser: Option<LightSamplerKind>,
+    /// How surfaces are looked up.
+    pub accelerator: AcceleratorKind,
+    /// The moment that the shutter counts from (units of scene time).
+    pub time: f64,
+    /// Which sensor is rendered, if not the first.
+    pub sensor: Option<SensorChoice>,
+    /// What replaces the size of its film, and the part that is rendered.
+    pub framing: Framing,
+}
