@@ -131,6 +131,7 @@ Exit codes: 0 done, 2 bad input or usage.
 Examples:
   etalon info out.exr
   etalon info scene.xml
+  etalon info scene.xml --json
   etalon info --plugins
   etalon info --plugins roughconductor")]
     Info(InfoArgs),
@@ -394,6 +395,9 @@ pub struct InfoArgs {
     /// An image or a scene.
     #[arg(required_unless_present = "plugins")]
     pub file: Option<PathBuf>,
+    /// Say it as JSON, of a scene or an image.
+    #[arg(long, conflicts_with = "plugins")]
+    pub json: bool,
     /// Say which plugins scenes may have, or what the parameters of one are.
     #[arg(long, value_name = "NAME", num_args = 0..=1, default_missing_value = "", conflicts_with = "file")]
     pub plugins: Option<String>,

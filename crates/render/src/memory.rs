@@ -14,8 +14,16 @@ const SPLAT_BYTES: u64 = 16;
 /// What the planes of exact sums take besides, in the file of a part or a checkpoint.
 const PART_BYTES: u64 = 48;
 
-/// Refuses a film that the memory cannot hold; `exact` if its exact sums are to be written.
-pub(crate) fn check(loaded: &Loaded, channels: usize, exact: bool) -> Result<(), Diagnostic> {
+/// What the film of a scene takes while it is rendered and written (bytes).
+pub fn film_bytes(loaded: &Loaded) -> u64 {
+    let film = &loaded.compiled.film;
+    let alpha = usize::from(film.pixel_format.has_alpha());
+    let planes = film.colours().len() + alpha + loaded.integrator.channels().len();
+    needed(loaded, planes, false)
+}
+
+/// What a film of so many channels takes (bytes); `exact` if its exact sums are to be written.
+fn needed(loaded: &Loaded, channels: usize, exact: bool) -> u64 {
     let splats = match loaded.integrator.splats() {
         true => SPLAT_BYTES,
         false => 0,
@@ -23,7 +31,13 @@ pub(crate) fn check(loaded: &Loaded, channels: usize, exact: bool) -> Result<(),
     let part = if exact { PART_BYTES } else { 0 };
     let bytes = PIXEL_BYTES + splats + part;
     let [width, height] = loaded.compiled.film.crop_size.to_array().map(u64::from);
-    let needed = (width * height).saturating_mul(channels as u64 * bytes);
+    (width * height).saturating_mul(channels as u64 * bytes)
+}
+
+/// Refuses a film that the memory cannot hold; `exact` if its exact sums are to be written.
+pub(crate) fn check(loaded: &Loaded, channels: usize, exact: bool) -> Result<(), Diagnostic> {
+    let [width, height] = loaded.compiled.film.crop_size.to_array();
+    let needed = needed(loaded, channels, exact);
     match resources::available_memory_bytes() {
         Some(available) if needed > available => {
             let gib = |bytes: u64| bytes as f64 / f64::from(1 << 30);

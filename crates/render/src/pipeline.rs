@@ -2,6 +2,7 @@
 
 use crate::checkpointing::{Checkpointing, CheckpointingFilm};
 pub use crate::load_options::LoadOptions;
+pub use crate::loaded::{Description, LoadError, Loaded};
 use crate::scene_hash::scene_hash;
 use crate::{VERSION, memory, objections};
 use etalon_film::{
@@ -11,49 +12,12 @@ use etalon_film::{
 use etalon_formats::FileAssets;
 use etalon_formats::mitsuba::{self, Document, ReadOptions, ReadOutcome};
 use etalon_integrators::{AnyIntegrator, Progress, RenderPlan, RenderStatistics, ReplicateRange};
-use etalon_params::{Class, Diagnostic, Diagnostics, Node, Params, Sources, Span, Value};
+use etalon_params::{Class, Diagnostic, Diagnostics, Node, Params, Span, Value};
 use etalon_sampling::{ReplicateKind, SamplerKind};
-use etalon_scene::{CompileOptions, Compiled, Scene};
+use etalon_scene::{CompileOptions, Scene};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::time::{Duration, Instant};
-
-/// Why a scene cannot be used: what is wrong, and the texts in which it stands.
-#[derive(Debug)]
-pub struct LoadError {
-    /// The messages.
-    pub diagnostics: Vec<Diagnostic>,
-    /// The texts that they point into.
-    pub sources: Sources,
-}
-
-/// A scene ready to be rendered.
-pub struct Loaded {
-    /// The scene and what belongs to it.
-    pub compiled: Arc<Compiled>,
-    /// The estimator.
-    pub integrator: AnyIntegrator,
-    /// Its name, nested ones after a slash.
-    pub integrator_name: String,
-    /// Whether the integrator objects to nothing: it finds all light that there is.
-    pub complete: bool,
-    /// Remarks that do not prevent rendering.
-    pub notes: Vec<Diagnostic>,
-    /// The texts that the remarks point into.
-    pub sources: Sources,
-    /// The file as it was named.
-    pub path: PathBuf,
-    /// Hash over everything that was read.
-    pub hash: String,
-    /// Time to read files and compile the description, without `build_time`.
-    pub load_time: Duration,
-    /// Time to build the accelerator.
-    pub build_time: Duration,
-    /// The files that it was read from.
-    pub inputs: Vec<PathBuf>,
-    /// Where the film is described, for messages about its size.
-    pub(crate) film_place: Span,
-}
 
 /// Reads and compiles a scene.
 ///
@@ -108,29 +72,36 @@ pub fn load(path: &Path, options: &LoadOptions) -> Result<Loaded, LoadError> {
         if sound && !diagnostics.has_errors() {
             loaded = compiled.zip(integrator).map(|(compiled, integrator)| {
                 let film_place = place(&compiled.sensor, &[Class::Film]);
+                let described = Description {
+                    root: Arc::clone(&document.root),
+                    parameters: document.parameters.clone(),
+                };
                 (
                     compiled,
                     integrator,
                     scene_hash(&document, &assets, options),
                     inputs(&document, &assets),
-                    film_place,
+                    (film_place, described),
                 )
             });
         }
         messages.extend(diagnostics.into_sorted());
         messages.sort_by_key(|d| (d.span.is_none(), d.span.map(|s| (s.file, s.start))));
     }
-    let Some((compiled, (integrator, integrator_name), hash, inputs, film_place)) = loaded else {
+    let Some((compiled, (integrator, integrator_name), hash, inputs, film_and_file)) = loaded
+    else {
         return Err(LoadError {
             diagnostics: messages,
             sources,
         });
     };
     let build_time = compiled.build_time;
+    let (film_place, described) = film_and_file;
     Ok(Loaded {
         compiled: Arc::new(compiled),
         integrator,
         integrator_name,
+        described,
         complete,
         notes: messages,
         hash,

@@ -3,26 +3,40 @@
 use crate::scene::Scene;
 use crate::{rays, view};
 use etalon_bsdf::Material;
+use etalon_geometry::GeometryStatistics;
 use etalon_subsurface::{Homogeneous, MediumAtWavelengths};
 use etalon_transport::{Camera, Medium, SceneCapabilities, World};
 use glam::{UVec2, Vec3};
 
+/// How much there is in a scene.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Contents {
+    /// Shapes, triangles, instances, nodes of accelerators, and their memory.
+    pub geometry: GeometryStatistics,
+    /// Materials.
+    pub materials: usize,
+    /// Lights that are no media.
+    pub lights: usize,
+    /// Textures and spectra.
+    pub textures: usize,
+    /// Pictures that textures look up.
+    pub pictures: usize,
+    /// Memory of their pixels (bytes).
+    pub picture_bytes: usize,
+}
+
 impl Scene {
-    /// How much there is, for people.
-    pub fn summary(&self) -> String {
-        let s = self.parts.lookup.geometry.statistics();
-        format!(
-            "shapes       {} ({} triangles)\ninstances    {} ({} triangles)\n\
-             accelerator  {} nodes; geometry takes {:.1} MiB\nmaterials    {}\nlights       {}\n",
-            s.shapes,
-            s.triangles,
-            s.instances,
-            s.instanced_triangles,
-            s.nodes,
-            s.bytes as f64 / f64::from(1 << 20),
-            self.parts.materials.len(),
-            self.parts.lights.len(),
-        )
+    /// How much there is.
+    pub fn contents(&self) -> Contents {
+        let (pictures, picture_bytes) = self.parts.lookup.textures.pictures();
+        Contents {
+            geometry: self.parts.lookup.geometry.statistics(),
+            materials: self.parts.materials.len(),
+            lights: self.parts.lights.len(),
+            textures: self.parts.lookup.textures.len(),
+            pictures,
+            picture_bytes,
+        }
     }
 
     /// Whether what is beyond everything is a medium without end that light does not come through.

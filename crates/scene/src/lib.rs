@@ -31,6 +31,7 @@ mod subsurface;
 pub mod surfaces;
 mod view;
 
+pub use capabilities::Contents;
 pub use compile::{CompileOptions, Compiled, compile, compile_with};
 pub use etalon_geometry::AcceleratorKind;
 pub use etalon_lights::LightSamplerKind;

@@ -51,6 +51,15 @@ pub struct Image {
 }
 
 impl Image {
+    /// Memory of its texels (bytes).
+    pub(crate) fn bytes(&self) -> usize {
+        match &self.texels {
+            Texels::Number(texels) => size_of_val(&texels[..]),
+            Texels::Raw(texels) | Texels::Colour(texels) => size_of_val(&texels[..]),
+            Texels::Bright(texels) => size_of_val(&texels[..]),
+        }
+    }
+
     /// Prepares pixels for lookup. With `raw`, three channels stay what they are. Numbers and
     /// colours beyond 1 are kept if `role` allows them, colours with a spectrum as for a bright
     /// `rgb` value; negative colours never.

@@ -50,6 +50,22 @@ impl TextureTable {
         id
     }
 
+    /// How many there are.
+    pub fn len(&self) -> usize {
+        self.textures.len()
+    }
+
+    /// Whether there is none.
+    pub fn is_empty(&self) -> bool {
+        self.textures.is_empty()
+    }
+
+    /// How many pictures are held, and the memory that their pixels take (bytes).
+    pub fn pictures(&self) -> (usize, usize) {
+        let bytes = self.images.values().map(|image| image.bytes()).sum();
+        (self.images.len(), bytes)
+    }
+
     /// Adds a spectrum that is the same everywhere.
     pub fn add_spectrum(&mut self, spectrum: Spectrum) -> TextureId {
         self.add(Texture::Constant(Constant::new(spectrum)))

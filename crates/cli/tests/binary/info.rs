@@ -65,6 +65,44 @@ fn of_a_scene() {
     }
 }
 
+/// All that `-D`, `--sensor` and their like may ask for, to people and to programs.
+#[test]
+fn of_a_scenes_parameters_and_sensors() {
+    let workshop = Workshop::new();
+    workshop.write(
+        "scene.xml",
+        "<scene version=\"3.0.0\"><default name=\"width\" value=\"40\"/><default name=\"grey\" value=\"0.5\"/>\
+         <sensor type=\"perspective\"><film type=\"hdrfilm\"><integer name=\"width\" value=\"$width\"/>\
+         <integer name=\"height\" value=\"30\"/><integer name=\"crop_width\" value=\"10\"/></film></sensor>\
+         <sensor type=\"thinlens\" id=\"close\"><float name=\"aperture_radius\" value=\"0.1\"/></sensor>\
+         <shape type=\"sphere\"><bsdf type=\"diffuse\"><float name=\"reflectance\" value=\"$grey\"/></bsdf></shape></scene>",
+    );
+    let said = workshop.run(&["info", "scene.xml"]).fine().stdout;
+    for words in [
+        "parameters   $width = 40\n             $grey = 0.5\n",
+        "sensors      0 perspective, rendered\n             1 thinlens `close`\n",
+        "film         40 × 30 pixels, of which 10 × 30 from (0, 0)\n",
+        "files        1, 0.0 MiB\n",
+        "memory       geometry 0.0 MiB, pictures 0.0 MiB, film 0.1 MiB\n",
+    ] {
+        assert!(said.contains(words), "{words:?} in {said}");
+    }
+    let said = workshop.run(&["info", "scene.xml", "--json"]).fine().stdout;
+    let json: serde_json::Value = serde_json::from_str(&said).expect("valid JSON");
+    assert_eq!(json["parameters"]["grey"], "0.5");
+    assert_eq!(json["sensors"][1]["id"], "close");
+    assert_eq!(json["film"]["crop_size"], serde_json::json!([10, 30]));
+    workshop.render("a.exr", &["--spp", "8", "-q"]);
+    let said = workshop.run(&["info", "a.exr", "--json"]).fine().stdout;
+    let json: serde_json::Value = serde_json::from_str(&said).expect("valid JSON");
+    assert_eq!(
+        (&json["width"], &json["metadata"]["spp"]),
+        (&24.into(), &8.into())
+    );
+    assert_eq!(json["channels"][0]["not_finite"], 0);
+    workshop.run(&["info", "--json", "scene.txt"]).refused();
+}
+
 #[test]
 fn of_what_is_neither() {
     let workshop = Workshop::new();

@@ -65,6 +65,8 @@ pub struct Document {
     pub search: SearchPath,
     /// The XML and spectrum files that the description consists of, in the order of reading.
     pub files: Vec<SourceFile>,
+    /// The `<default>`s in the order of the file, with the values that count: those of the command line beat them.
+    pub parameters: Vec<(String, String)>,
 }
 
 /// What came of reading a scene.
@@ -148,5 +150,6 @@ fn document(reader: &mut Reader<'_>, path: &Path) -> Option<Document> {
         root: references::build(reader, &order)?,
         search,
         files: std::mem::take(&mut reader.files),
+        parameters: reader.parameters.values(),
     })
 }

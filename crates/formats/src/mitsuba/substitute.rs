@@ -176,6 +176,15 @@ impl Parameters {
         self.list.iter().map(|p| p.name.as_str())
     }
 
+    /// The parameters that the scene mentions, in its order, with their values.
+    pub(crate) fn values(&self) -> Vec<(String, String)> {
+        let value = |name: &String| {
+            let found = self.list.iter().find(|p| p.name == *name)?;
+            Some((name.clone(), found.value.clone()?))
+        };
+        self.mentioned.iter().filter_map(value).collect()
+    }
+
     /// The names of the command line that the scene never asked for.
     pub(crate) fn unused(&self) -> impl Iterator<Item = &str> {
         self.list

@@ -1,12 +1,12 @@
 //! `etalon info`.
 
+mod scene;
+
 use super::trouble::Fireflies;
-use super::{BAD_INPUT, answer, fail, plugins};
+use super::{answer, fail, plugins};
 use crate::args::InfoArgs;
-use crate::diagnose;
 use etalon_film::{InvalidKind, InvalidSample, LightCarriers, RenderedImage, read_developed};
-use etalon_images::{Error, raster};
-use etalon_render::pipeline::{self, LoadOptions};
+use etalon_images::{Channel, Error, raster};
 use etalon_sampling::ReplicateKind;
 use std::path::Path;
 use std::process::ExitCode;
@@ -18,11 +18,13 @@ pub fn run(args: &InfoArgs) -> ExitCode {
     };
     let extension = file.extension().map(|e| e.to_string_lossy().to_lowercase());
     match extension.as_deref() {
-        Some("xml") => scene(file),
+        Some("xml") => scene::run(file, args.json),
         Some("exr") => match read_developed(file) {
+            Ok(developed) if args.json => answer(&as_json(&developed), ExitCode::SUCCESS),
             Ok(developed) => answer(&image(&developed), ExitCode::SUCCESS),
             Err(error) => fail(error),
         },
+        _ if args.json => fail("`--json` tells of scenes (.xml) and of images (.exr)"),
         _ => match contents(file) {
             Some(Ok(text)) => answer(&text, ExitCode::SUCCESS),
             Some(Err(reason)) => fail(format!("{}: {reason}", file.display())),
@@ -56,16 +58,41 @@ fn picture(path: &Path) -> Result<String, Error> {
     Ok(text)
 }
 
+/// The mean of a channel, and how many of its samples are not finite.
+fn mean_of(channel: &Channel) -> (f64, usize) {
+    let finite = channel.samples.iter().filter(|v| v.is_finite()).count();
+    let mean = channel.samples.iter().map(|v| f64::from(*v)).sum::<f64>()
+        / channel.samples.len().max(1) as f64;
+    (mean, channel.samples.len() - finite)
+}
+
+/// An image for programs.
+fn as_json(developed: &RenderedImage) -> String {
+    let image = &developed.image;
+    let channels: Vec<_> = (image.channels().iter())
+        .map(|channel| {
+            let (mean, not_finite) = mean_of(channel);
+            serde_json::json!({ "name": channel.name, "mean": mean, "not_finite": not_finite })
+        })
+        .collect();
+    let facts = serde_json::json!({
+        "width": image.width(),
+        "height": image.height(),
+        "channels": channels,
+        "mean_relative_standard_error": developed.mean_relative_standard_error(),
+        "metadata": developed.metadata,
+    });
+    format!("{facts:#}\n")
+}
+
 fn image(developed: &RenderedImage) -> String {
     let image = &developed.image;
     let mut text = format!("{} × {} pixels\n", image.width(), image.height());
     for channel in image.channels() {
-        let finite = channel.samples.iter().filter(|v| v.is_finite()).count();
-        let mean = channel.samples.iter().map(|v| f64::from(*v)).sum::<f64>()
-            / channel.samples.len().max(1) as f64;
+        let (mean, not_finite) = mean_of(channel);
         text += &format!("  {:<20} mean {mean:.6}", channel.name);
-        if finite < channel.samples.len() {
-            text += &format!(", {} not finite", channel.samples.len() - finite);
+        if not_finite > 0 {
+            text += &format!(", {not_finite} not finite");
         }
         text.push('\n');
     }
@@ -170,34 +197,4 @@ fn offence(offence: &InvalidSample) -> String {
         (format!(", sample {sample}"), replay)
     });
     format!("  pixel ({x}, {y}), replicate {replicate}{sample}: {source} is {kind}{replay}\n")
-}
-
-fn scene(path: &Path) -> ExitCode {
-    match pipeline::load(path, &LoadOptions::default()) {
-        Ok(loaded) => {
-            diagnose::print(&loaded.notes, &loaded.sources);
-            let compiled = &loaded.compiled;
-            let size = compiled.film.size;
-            let text = format!(
-                "scene        {} ({})\n\
-                 film         {} × {} pixels\n\
-                 integrator   {}\n\
-                 samples      {} per pixel, {}\n\
-                 {}",
-                path.display(),
-                loaded.hash,
-                size.x,
-                size.y,
-                loaded.integrator_name,
-                compiled.sampler.spp,
-                pipeline::sampler_name(compiled.sampler.kind),
-                compiled.scene.summary()
-            );
-            answer(&text, ExitCode::SUCCESS)
-        }
-        Err(refusal) => {
-            diagnose::print(&refusal.diagnostics, &refusal.sources);
-            ExitCode::from(BAD_INPUT)
-        }
-    }
 }
