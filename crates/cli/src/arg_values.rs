@@ -153,3 +153,11 @@ pub(crate) fn parse_view(text: &str) -> Result<View, String> {
         format!("expected one of {}", names.join(", "))
     })
 }
+
+/// `A..B`.
+pub(crate) fn parse_range(text: &str) -> Result<[f64; 2], String> {
+    let ends = text.split_once("..");
+    ends.and_then(|(a, b)| Some([a.trim().parse().ok()?, b.trim().parse().ok()?]))
+        .filter(|[a, b]: &[f64; 2]| a != b && a.is_finite() && b.is_finite())
+        .ok_or_else(|| "expected two different numbers, such as 0..10 or -1..1".to_owned())
+}

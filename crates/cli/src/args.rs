@@ -8,7 +8,7 @@ pub use picture::{FramingArgs, ShownArgs};
 
 use crate::arg_values::{
     ReplayAddress, parse_accelerator, parse_define, parse_error, parse_light_chooser,
-    parse_probability, parse_rate, parse_replay, parse_seconds, parse_seed, whole,
+    parse_probability, parse_range, parse_rate, parse_replay, parse_seconds, parse_seed, whole,
 };
 use crate::frames::{Frame, FrameRange};
 use crate::outputs::Outputs;
@@ -111,7 +111,8 @@ Exit codes: 0 done, 2 bad input or usage.
 Examples:
   etalon convert out.exr out.png
   etalon convert out.exr bright.png --exposure 2
-  etalon convert out.exr noise.png --channels standard_error")]
+  etalon convert out.exr noise.png --channels standard_error
+  etalon convert aov.exr depth.png --channels depth --range 0..20")]
     Convert(ConvertArgs),
     /// Make the frames of an animation a file that plays.
     ///
@@ -367,6 +368,9 @@ pub struct ConvertArgs {
     /// instead of R, G, B.
     #[arg(long, value_name = "PREFIX")]
     pub channels: Option<String>,
+    /// Show A as black and B as white, in proportion, as depths, normals and errors want it: 0..10 or -1..1.
+    #[arg(long, value_name = "A..B", value_parser = parse_range, allow_hyphen_values = true, conflicts_with_all = ["exposure", "view"])]
+    pub range: Option<[f64; 2]>,
 }
 
 /// Arguments of `movie`.

@@ -11,6 +11,7 @@ pub mod judge;
 pub mod load_options;
 pub mod loaded;
 pub mod memory;
+pub mod metrics;
 mod objections;
 pub mod part;
 pub mod pipeline;

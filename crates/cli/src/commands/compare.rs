@@ -5,6 +5,7 @@ use crate::args::CompareArgs;
 use etalon_film::{LightCarriers, RenderedImage, read_developed};
 use etalon_images::{Channel, Image};
 use etalon_render::judge::{self, ImageComparison, Tolerances};
+use etalon_render::metrics::PixelErrors;
 use etalon_render::report::comparison;
 use etalon_render::write_guard::{Destination, WriteGuard};
 use etalon_statistics::Verdict;
@@ -95,9 +96,15 @@ fn compare(args: &CompareArgs, report: Option<&Destination>) -> ExitCode {
             return fail(message);
         }
     }
+    let errors = PixelErrors::of(&first.image, &second.image);
     let text = match args.json {
-        true => format!("{:#}\n", serde_json::json!(judgement)),
-        false => table(&judgement),
+        true => {
+            let mut facts = serde_json::json!(judgement);
+            facts["pixel_errors"] = serde_json::json!(errors);
+            facts["more_samples"] = serde_json::json!(judgement.more_samples());
+            format!("{facts:#}\n")
+        }
+        false => table(&judgement, errors),
     };
     let code = match judgement.verdict {
         Verdict::Agrees => ExitCode::SUCCESS,
@@ -207,12 +214,13 @@ fn say_inconclusive(
         }
     }
     let verdict = Verdict::Undecided.to_string();
+    let errors = PixelErrors::of(&images[0].image, &images[1].image);
     let text = match args.json {
         true => format!(
             "{:#}\n",
-            serde_json::json!({ "verdict": verdict, "reason": reason })
+            serde_json::json!({ "verdict": verdict, "reason": reason, "pixel_errors": errors })
         ),
-        false => format!("inconclusive: {reason}\n"),
+        false => format!("inconclusive: {reason}\n{}", errors_in_words(errors)),
     };
     answer(&text, ExitCode::from(INCONCLUSIVE))
 }
@@ -252,8 +260,33 @@ fn shared_seed(a: &RenderedImage, b: &RenderedImage) -> Option<u64> {
     (a.seed == b.seed && a.sampler == b.sampler && a.scene == b.scene).then_some(a.seed)
 }
 
+/// A line of figures that decide nothing.
+fn errors_in_words(errors: Option<PixelErrors>) -> String {
+    errors.map_or_else(String::new, |errors| {
+        let PixelErrors {
+            mse,
+            rel_mse,
+            smape,
+        } = errors;
+        format!("pixels   MSE {mse:.3e}, relMSE {rel_mse:.3e}, SMAPE {smape:.4}, noise of both included\n")
+    })
+}
+
+/// What would decide an open comparison.
+fn more_in_words(factor: f64) -> String {
+    if factor < 1e4 {
+        format!(
+            "about {} times the samples of both would decide it, if the bias is what it seems\n",
+            factor.ceil().max(2.0)
+        )
+    } else {
+        "the bias is so near its bound that no affordable number of samples would decide it\n"
+            .to_owned()
+    }
+}
+
 /// The judgement as a table for a terminal.
-fn table(judgement: &ImageComparison) -> String {
+fn table(judgement: &ImageComparison, errors: Option<PixelErrors>) -> String {
     let mut text = String::from(
         "channel        mean       other      bias              interval   could see  verdict\n",
     );
@@ -283,6 +316,10 @@ fn table(judgement: &ImageComparison) -> String {
             row.differing,
         );
     }
+    text += &errors_in_words(errors);
+    text += &judgement
+        .more_samples()
+        .map_or_else(String::new, more_in_words);
     let verdict = match judgement.verdict {
         Verdict::Undecided => "inconclusive".to_owned(),
         verdict => verdict.to_string(),

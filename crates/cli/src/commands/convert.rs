@@ -2,7 +2,7 @@
 
 use super::{fail, note};
 use crate::args::ConvertArgs;
-use etalon_images::{Colour, Error, Format, Image, Losses, View, exr, hdr, pfm, png, raster};
+use etalon_images::{Colour, Error, Format, Image, Losses, View, exr, hdr, pfm, png, raster, srgb};
 use etalon_render::write_guard::WriteGuard;
 use std::path::Path;
 use std::process::ExitCode;
@@ -34,6 +34,10 @@ fn convert(args: &ConvertArgs) -> Result<Vec<String>, String> {
         }
     };
     let is_png = extension(&args.output) == "png";
+    let colour = match args.range {
+        Some(range) => ranged(colour, range, is_png),
+        None => colour,
+    };
     if !is_png && development.view != View::Srgb {
         return Err("--view shows pictures on a screen: only a .png can have it".to_owned());
     }
@@ -144,6 +148,17 @@ fn chosen(image: &Image, prefix: &str) -> Result<Image, String> {
         "there are no channels `{prefix}.R`, … in the image, nor one called `{prefix}`; it has {}",
         names.join(", ")
     ))
+}
+
+/// The image with A as 0 and B as 1; of a PNG, such that its numbers are in proportion although they are encoded.
+fn ranged(mut image: Image, [a, b]: [f64; 2], is_png: bool) -> Image {
+    for name in ["R", "G", "B"] {
+        for sample in image.channel_mut(name).into_iter().flatten() {
+            let part = ((f64::from(*sample) - a) / (b - a)) as f32;
+            *sample = if is_png { srgb::decode(part) } else { part };
+        }
+    }
+    image
 }
 
 fn brightened(mut image: Image, exposure: f32, notes: &mut Vec<String>) -> Image {

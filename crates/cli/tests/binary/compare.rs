@@ -41,6 +41,47 @@ fn equal_pictures_agree_within_a_bound_that_their_noise_allows() {
     assert!(ran.stdout.contains("\ninconclusive ("), "{}", ran.stdout);
 }
 
+/// What would decide an open comparison does: so many times the samples, by the half width and the bias found.
+#[test]
+fn an_open_comparison_says_what_would_decide_it() {
+    let workshop = three_images();
+    let render = |name: &str, seed: &str, spp: u32| {
+        workshop.render(name, &["--spp", &spp.to_string(), "--seed", seed, "-q"]);
+    };
+    let bound = ["--bound", "0.01", "--tile-bound", "0.9"];
+    let mut samples = 16;
+    let ran = loop {
+        render("c.exr", "5", samples);
+        render("d.exr", "6", samples);
+        let ran = compare(
+            &workshop,
+            ["c.exr", "d.exr"],
+            &[&bound[..], &["--json"]].concat(),
+        );
+        if ran.code == Some(3) {
+            break ran;
+        }
+        samples /= 2;
+        assert!(samples > 1, "{}", ran.stdout);
+    };
+    let facts: Value = serde_json::from_str(&ran.stdout).expect("JSON");
+    let factor = facts["more_samples"].as_f64().expect("it is open");
+    let row = &facts["images"][0];
+    let half = 0.5 * (row["interval"][1].as_f64().unwrap() - row["interval"][0].as_f64().unwrap());
+    let away = (row["bias"].as_f64().unwrap().abs() - 0.01).abs();
+    assert!(factor >= (half / away).powi(2) * 0.999, "{factor}");
+    let errors = &facts["pixel_errors"];
+    assert!(errors["mse"].as_f64().unwrap() > 0.0 && errors["smape"].as_f64().unwrap() < 1.0);
+    let ran = compare(&workshop, ["c.exr", "d.exr"], &bound);
+    assert!(
+        ran.stdout
+            .contains("times the samples of both would decide it"),
+        "{}",
+        ran.stdout
+    );
+    assert!(ran.stdout.contains("pixels   MSE "), "{}", ran.stdout);
+}
+
 #[test]
 fn missing_light_differs() {
     let workshop = three_images();

@@ -259,3 +259,49 @@ fn primaries_are_converted_and_shown() {
         "{said}"
     );
 }
+
+/// Numbers of a PNG are in proportion to what was rendered: 255 (x − A)/(B − A), rounded.
+#[test]
+fn a_range_is_shown_in_proportion() {
+    let workshop = one_image();
+    for (range, [a, b]) in [("0..2", [0.0, 2.0]), ("0.8..-0.3", [0.8, -0.3])] {
+        workshop
+            .run(&[
+                "convert",
+                "a.exr",
+                "r.png",
+                "--channels",
+                "G",
+                "--range",
+                range,
+            ])
+            .fine();
+        let picture = raster::read(&workshop.path("r.png"))
+            .expect("readable")
+            .to_floats()
+            .to_vec();
+        let image = workshop.image("a.exr").image;
+        for (pixel, x) in image.channel("G").expect("G").iter().enumerate() {
+            let expected = ((x - a) / (b - a)).clamp(0.0, 1.0);
+            assert!((picture[3 * pixel] - expected).abs() < 0.51 / 255.0, "{x}");
+        }
+        workshop
+            .run(&["convert", "a.exr", "r.pfm", "--range", range])
+            .fine();
+    }
+    for wrong in ["1..1", "0", "a..b", "0..inf"] {
+        workshop
+            .run(&["convert", "a.exr", "x.png", "--range", wrong])
+            .refused();
+    }
+    let both = [
+        "convert",
+        "a.exr",
+        "x.png",
+        "--range",
+        "0..1",
+        "--exposure",
+        "1",
+    ];
+    workshop.run(&both).refused();
+}
