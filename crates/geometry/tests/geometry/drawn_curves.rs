@@ -4,6 +4,7 @@ use crate::description::make;
 use crate::things::{Random, geometry_of};
 use core::f64::consts::PI;
 use etalon_geometry::{Geometry, Shape};
+use etalon_math::float64::{cos, sin};
 use etalon_params::Value;
 use etalon_transport::{Ray, ShapeId, Shapes};
 use glam::{DVec2, DVec3, Vec3};
@@ -175,7 +176,7 @@ fn meets(geometry: &Geometry, from: Vec3, direction: Vec3) -> Option<(f64, Vec3)
 /// Whether a place is on a stroke is known from its distance to the curve, but for a thousandth of the width at the edge.
 #[test]
 fn strokes_end_where_the_distance_says() {
-    let ellipse = |t: f64| DVec2::new((2.0 * PI * t).cos(), 0.5 * (2.0 * PI * t).sin());
+    let ellipse = |t: f64| DVec2::new(cos(2.0 * PI * t), 0.5 * sin(2.0 * PI * t));
     let width = 0.2;
     let properties = vec![
         text("curve", "parametric"),

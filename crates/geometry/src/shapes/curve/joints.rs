@@ -1,7 +1,8 @@
 //! A curve as joints with straight pieces between: as many as it takes.
 
 use crate::shapes::curve::Fineness;
-use etalon_math::float64::{atan2, sin};
+use core::f64::consts::PI;
+use etalon_math::float64::{atan2, sin_cos};
 use glam::DVec3;
 
 /// A place on a curve.
@@ -82,14 +83,14 @@ pub(super) fn turned(joints: &[Joint], fineness: Fineness) -> Vec<Joint> {
             let steps = (whole / fineness.turn()).ceil().max(1.0);
             // Where it turns back, any way around will do.
             let aside = joint.tangent - last.tangent * last.tangent.dot(joint.tangent);
-            let aside = if whole > 3.14 {
+            let aside = if whole > 0.999 * PI {
                 last.tangent.any_orthonormal_vector()
             } else {
                 aside.normalize_or_zero()
             };
             for step in 1..steps as u32 {
                 let part = f64::from(step) / steps;
-                let (sin, cos) = (sin(part * whole), etalon_math::float64::cos(part * whole));
+                let (sin, cos) = sin_cos(part * whole);
                 all.push(Joint {
                     u: last.u + (joint.u - last.u) * part,
                     position: last.position.lerp(joint.position, part),
