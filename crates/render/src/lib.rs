@@ -12,6 +12,7 @@ pub mod load_options;
 pub mod loaded;
 pub mod memory;
 pub mod metrics;
+mod more_samples;
 mod objections;
 pub mod part;
 pub mod pipeline;
