@@ -225,6 +225,12 @@ fn every_plugin_takes_its_parameters() {
                 properties.push(("profile", Value::String("0.5 0, 0.7 1".into())))
             }
             "implicit" => properties.extend([function("x^2 + y^2 - z"), flag("open", true)]),
+            "curve" => properties.extend([
+                ("points", Value::String("0 0 0, 1 1 1, 2 0 1".into())),
+                ("width", Value::String("0.1 + 0.1*u".into())),
+                flag("face_normals", true),
+                flag("closed", true),
+            ]),
             _ => {}
         }
         let (shape, messages) = make(plugin, properties);
@@ -250,6 +256,7 @@ fn every_plugin_answers_alike() {
             "blob" => vec![("balls", Value::String("0 0 0 1 1".into()))],
             "revolution" | "extrusion" => vec![("profile", Value::String("0.5 0, 0.7 1".into()))],
             "implicit" => vec![function("x^2 + y^2 + z^2 - 1")],
+            "curve" => vec![("points", Value::String("0 0 0, 1 1 1".into()))],
             _ => Vec::new(),
         };
         let (shape, messages) = make(plugin, properties);

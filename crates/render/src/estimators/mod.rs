@@ -18,7 +18,7 @@
 //! Pictures of all estimators alternate, so that a machine which slows down slows all of them.
 //!
 //! ```no_run
-//! use etalon::estimators::{Options, Trial};
+//! use etalon_render::estimators::{Options, Trial};
 //!
 //! let options = Options {
 //!     integrators: vec!["path".to_owned(), "ptracer".to_owned()],
@@ -30,7 +30,7 @@
 //! for row in &findings.estimators {
 //!     println!("{}: {:?}", row.name, row.efficiency.value);
 //! }
-//! # Ok::<(), etalon::estimators::Failure>(())
+//! # Ok::<(), etalon_render::estimators::Failure>(())
 //! ```
 
 pub mod analysis;
