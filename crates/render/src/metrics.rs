@@ -5,6 +5,7 @@
 
 use etalon_images::Image;
 use etalon_statistics::Picture;
+use etalon_statistics::flip::{PIXELS_PER_DEGREE, hdr_flip};
 use etalon_statistics::metrics::{EPSILON, mse, rel_mse, smape};
 use serde::Serialize;
 
@@ -17,6 +18,9 @@ pub struct PixelErrors {
     pub rel_mse: f64,
     /// Symmetric mean absolute error, from 0 to 1.
     pub smape: f64,
+    /// Mean of HDR-ꟻLIP, from 0 to 1, on a screen of 3840 pixels and 0.7 m, 0.7 m away; `None` beside a reference that is black in half of
+    /// its pixels.
+    pub flip: Option<f64>,
 }
 
 impl PixelErrors {
@@ -34,6 +38,9 @@ impl PixelErrors {
             mse: mse(&test, &reference).ok()?,
             rel_mse: rel_mse(&test, &reference, EPSILON).ok()?,
             smape: smape(&test, &reference, EPSILON).ok()?,
+            flip: hdr_flip(&test, &reference, PIXELS_PER_DEGREE)
+                .ok()
+                .map(|map| map.iter().sum::<f64>() / map.len() as f64),
         })
     }
 }
@@ -55,6 +62,7 @@ mod tests {
         assert!((errors.mse - 0.5).abs() < 1e-12);
         assert!((errors.rel_mse - 0.5 / 4.01).abs() < 1e-12);
         assert!((errors.smape - 0.5 / 5.01).abs() < 1e-12);
+        assert!(errors.flip.is_some_and(|flip| (0.0..1.0).contains(&flip)));
         assert_eq!(PixelErrors::of(&Image::new(2, 1), &image(1.0)), None);
     }
 }

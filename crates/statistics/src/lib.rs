@@ -15,6 +15,7 @@ pub mod estimate;
 pub mod exact;
 pub mod family;
 pub mod fault;
+pub mod flip;
 pub mod group_sequential;
 pub mod interval;
 pub mod kolmogorov_smirnov;

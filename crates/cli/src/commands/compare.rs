@@ -267,8 +267,12 @@ fn errors_in_words(errors: Option<PixelErrors>) -> String {
             mse,
             rel_mse,
             smape,
+            flip,
         } = errors;
-        format!("pixels   MSE {mse:.3e}, relMSE {rel_mse:.3e}, SMAPE {smape:.4}, noise of both included\n")
+        let flip = flip.map_or_else(String::new, |flip| format!(", HDR-FLIP {flip:.4}"));
+        format!(
+            "pixels   MSE {mse:.3e}, relMSE {rel_mse:.3e}, SMAPE {smape:.4}{flip}, noise of both included\n"
+        )
     })
 }
 
