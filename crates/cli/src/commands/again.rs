@@ -47,7 +47,7 @@ mod tests {
     #[test]
     fn the_command_says_all_that_decides_the_sample() {
         let said = "etalon render scene.xml -o a.exr --integrator path --light-chooser tree \
-                    -D colour=1,2 -D name=a'b";
+                    --scale 50% --crop 8,4,16,16 --sensor top -D colour=1,2 -D name=a'b";
         let parsed = Cli::try_parse_from(said.split(' ')).expect("a valid command line");
         let Command::Render(args) = parsed.command else {
             panic!("it renders");
@@ -61,7 +61,7 @@ mod tests {
             sampler: SamplerKind::Sobol,
         };
         let expected = "etalon render scene.xml --integrator path --light-chooser tree \
-                        -D colour=1,2 -D \"name=a'b\" --spp 32 --replicates 4 --seed 7 \
+                        --scale 0.5 --crop 8,4,16,16 --sensor top -D colour=1,2 -D \"name=a'b\" --spp 32 --replicates 4 --seed 7 \
                         --replay 12,5,2,3";
         assert_eq!(command(&args, &plan, None, [12, 5], 2, 3), expected);
         let dealt = expected.replace("--replay", "--adaptive --pilot 64 --replay");
