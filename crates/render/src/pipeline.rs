@@ -81,14 +81,16 @@ pub fn load(path: &Path, options: &LoadOptions) -> Result<Loaded, LoadError> {
                     integrator,
                     scene_hash(&document, &assets, options),
                     inputs(&document, &assets),
-                    (film_place, described),
+                    film_place,
+                    described,
                 )
             });
         }
         messages.extend(diagnostics.into_sorted());
         messages.sort_by_key(|d| (d.span.is_none(), d.span.map(|s| (s.file, s.start))));
     }
-    let Some((compiled, (integrator, integrator_name), hash, inputs, film_and_file)) = loaded
+    let Some((compiled, (integrator, integrator_name), hash, inputs, film_place, described)) =
+        loaded
     else {
         return Err(LoadError {
             diagnostics: messages,
@@ -96,7 +98,6 @@ pub fn load(path: &Path, options: &LoadOptions) -> Result<Loaded, LoadError> {
         });
     };
     let build_time = compiled.build_time;
-    let (film_place, described) = film_and_file;
     Ok(Loaded {
         compiled: Arc::new(compiled),
         integrator,

@@ -292,30 +292,6 @@ pub fn hdr_flip(
     Ok(greatest)
 }
 
-/// The map of LDR-ꟻLIP of pictures of linear colours, held to [0, 1].
-///
-/// # Errors
-/// As [`hdr_flip`], but for exposures.
-pub fn flip(
-    test: &Picture<'_>,
-    reference: &Picture<'_>,
-    per_degree: f64,
-) -> Result<Vec<f64>, PictureError> {
-    test.same_size(reference)?;
-    if !(per_degree > 0.0 && per_degree < 1e4) {
-        return Err(PictureError::BadOption {
-            option: "per_degree",
-        });
-    }
-    let [a, b] = [test, reference].map(|picture| -> Plane {
-        picture
-            .pixels()
-            .map(|rgb| rgb.map(|x| x.clamp(0.0, 1.0)))
-            .collect()
-    });
-    Ok(map(&a, &b, reference.width(), per_degree))
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -355,9 +331,11 @@ mod tests {
         let pictures = |test: &'static [f32], reference: &'static [f32]| {
             [test, reference].map(|v| Picture::new(v, SIZE.0, SIZE.1).expect("finite"))
         };
-        let [test, reference] = pictures(test.leak(), reference.leak());
-        let map = flip(&test, &reference, PIXELS_PER_DEGREE).expect("fits");
-        close(figures(&map), [0.029_078_9, 0.168_841_3, 0.022_411_6]);
+        let planes =
+            pictures(test.leak(), reference.leak()).map(|picture| picture.pixels().collect());
+        let [test, reference]: [Plane; 2] = planes;
+        let found = map(&test, &reference, SIZE.0, PIXELS_PER_DEGREE);
+        close(figures(&found), [0.029_078_9, 0.168_841_3, 0.022_411_6]);
         let base = |x: f64, y: f64, c: f64| {
             exp(2.5 * sin(0.2 * x + 0.35 * y) + 0.4 * sin(0.3 * x * (c + 1.0)))
         };
@@ -376,6 +354,8 @@ mod tests {
         let picture = Picture::new(&black, 2, 2).expect("finite");
         let refused = hdr_flip(&picture, &picture, PIXELS_PER_DEGREE);
         assert_eq!(refused, Err(PictureError::NoExposure));
-        assert!(flip(&picture, &picture, -1.0).is_err());
+        let grey = [0.5; 12];
+        let picture = Picture::new(&grey, 2, 2).expect("finite");
+        assert!(hdr_flip(&picture, &picture, -1.0).is_err());
     }
 }

@@ -94,6 +94,11 @@ pub(crate) fn from_params(params: &Params<'_>) -> Option<Mesh> {
     let flat = params.choice("style", "tube", &["tube", "flat"]) == "flat";
     let ends = match params.choice("ends", "flat", &["flat", "round", "open"]) {
         "round" => Ends::Round,
+        "open" if flat => {
+            let message = "a `flat` curve has no lids that it could leave open";
+            params.error_with_help("ends", message, "accepted: `flat`, `round`");
+            return None;
+        }
         "open" => Ends::Open,
         _ => Ends::Flat,
     };

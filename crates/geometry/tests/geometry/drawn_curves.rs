@@ -114,6 +114,17 @@ fn cases() -> Vec<Case> {
             6.0 * 0.1 - 0.01 - 3.0 * (0.01 / 4.0 - PI * 0.01 / 16.0),
             false,
         ),
+        // Width 0 at the ends and in the middle of a straight line: two lenses of 0.3 (2/π) each.
+        (
+            "lenses",
+            vec![
+                text("points", "0 0 0, 2 0 0"),
+                text("width", "0.3*abs(sin(2*pi*u))"),
+                flat(),
+            ],
+            2.0 * 0.3 * 2.0 / PI,
+            false,
+        ),
         // Of length 4 ϖ/2 = 5.244115…, the branches crossing at a right angle.
         (
             "lemniscate",
@@ -151,7 +162,7 @@ fn cases() -> Vec<Case> {
 }
 
 /// Facets take some (π/48)²/6 of an area; the loops of the lemniscate, whose corners are round, 4 parts in a thousand. Overlaps
-/// that counted twice would add a per cent or more to `corner`, `cross`, `lemniscate` and `square`.
+/// that counted twice would add 0.7 % or more to `corner`, `cross`, `lemniscate` and `square`.
 #[test]
 fn areas_are_those_of_formulas() {
     for (name, properties, expected, closed) in cases() {
@@ -277,6 +288,10 @@ fn mistakes_are_told() {
         (
             vec![text("points", "0 0 0, 1 0 0"), text("profile", "0 0, 1 1")],
             "both say where this curve runs",
+        ),
+        (
+            vec![text("points", "0 0 0, 1 0 0"), flat(), text("ends", "open")],
+            "no lids",
         ),
         (
             vec![text("points", "0 0 0, 1 0 1"), flat()],

@@ -134,7 +134,12 @@ fn through_points(params: &Params<'_>, curve: &str, fineness: Fineness) -> Optio
         if piece.0.iter().all(|p| *p == piece.0[0]) {
             continue;
         }
-        let parts = if curve == "linear" { 1 } else { PER_PIECE };
+        // Between points a formula may do anything.
+        let for_width = match &width {
+            Width::Formula(formula) if formula.has(0) => PER_FORMULA.div_ceil(pieces.len()),
+            _ => 1,
+        };
+        let parts = for_width.max(if curve == "linear" { 1 } else { PER_PIECE });
         joints.push(at(0.0));
         for part in 0..parts {
             let [a, b] = [part, part + 1].map(|part| at(part as f64 / parts as f64));
