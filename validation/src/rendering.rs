@@ -125,7 +125,7 @@ pub fn picture(
     } else {
         let manner = RenderControls {
             counts,
-            keeping: None,
+            ..RenderControls::default()
         };
         let rendered = pipeline::render_as(loaded, plan, manner, &()).map_err(|e| e.message)?;
         rendered.developed

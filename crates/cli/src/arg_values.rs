@@ -1,5 +1,6 @@
 //! Values on the command line: numbers within bounds, names of a list, addresses of samples.
 
+use crate::args::Port;
 use etalon_images::View;
 use etalon_scene::{AcceleratorKind, LightSamplerKind, SensorChoice};
 use glam::UVec2;
@@ -152,6 +153,26 @@ pub(crate) fn parse_view(text: &str) -> Result<View, String> {
         let names = View::ALL.map(View::name);
         format!("expected one of {}", names.join(", "))
     })
+}
+
+/// A port, or `any`.
+pub(crate) fn parse_port(text: &str) -> Result<Port, String> {
+    match text.parse() {
+        _ if text == "any" => Ok(Port(None)),
+        Ok(port) if port > 0 => Ok(Port(Some(port))),
+        _ => Err("expected the number of a port from 1 to 65535, such as 8750; other words go before the option".to_owned()),
+    }
+}
+
+/// `HOST:PORT`.
+pub(crate) fn parse_tev(text: &str) -> Result<String, String> {
+    let ends = text.rsplit_once(':');
+    ends.filter(|(host, port)| !host.is_empty() && port.parse::<u16>().is_ok_and(|port| port > 0))
+        .map(|_| text.to_owned())
+        .ok_or_else(|| {
+            "expected a host and a port, such as 127.0.0.1:14158; other words go before the option"
+                .to_owned()
+        })
 }
 
 /// `A..B`.

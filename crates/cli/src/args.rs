@@ -2,9 +2,11 @@
 
 mod farm;
 mod picture;
+mod preview;
 
 pub use farm::{FarmArgs, PathMap};
 pub use picture::{FramingArgs, ShownArgs};
+pub use preview::{Port, PreviewArgs, ViewArgs};
 
 use crate::arg_values::{
     ReplayAddress, parse_accelerator, parse_define, parse_error, parse_light_chooser,
@@ -50,6 +52,7 @@ Examples:
   etalon render scene.xml -o small.png --scale 25% --spp 16
   etalon render scene.xml -o corner.png --crop 100,50,64,64 --exposure 1.5
   etalon render scene.xml -o top.exr --sensor top --size 640x480
+  etalon render scene.xml --preview               # look on at http://127.0.0.1:8750/
   etalon render scene.xml -o out.exr --spp 256 --seed 7 -D colour=0.5
   etalon render scene.xml -o direct.exr --integrator direct --stats stats.json
   etalon render scene.xml -o out.exr --error 0.01
@@ -114,6 +117,17 @@ Examples:
   etalon convert out.exr noise.png --channels standard_error
   etalon convert aov.exr depth.png --channels depth --range 0..20")]
     Convert(ConvertArgs),
+    /// Look at an image in the browser, or at two and their difference.
+    ///
+    /// A page on this machine with exposure, zoom, pixel values, standard errors and all layers; a file that changes is
+    /// read again. Ctrl-C ends it.
+    #[command(after_help = "\
+Exit codes: 2 bad input or usage, 130 ended by Ctrl-C.
+
+Examples:
+  etalon view out.exr
+  etalon view out.exr reference.exr --exposure 1")]
+    View(ViewArgs),
     /// Make the frames of an animation a file that plays.
     ///
     /// An animated PNG is written here and plays in every browser; for other kinds `ffmpeg` is called, if it is
@@ -193,6 +207,9 @@ pub struct RenderArgs {
     /// How a picture beside the image is shown.
     #[command(flatten)]
     pub shown: ShownArgs,
+    /// Who looks on.
+    #[command(flatten)]
+    pub preview: PreviewArgs,
     /// Replicates the image is the mean of [default: 8, or fewer if spp is less].
     #[arg(long, value_name = "R", value_parser = whole::<1, 4096>, allow_negative_numbers = true)]
     pub replicates: Option<u32>,
@@ -318,6 +335,10 @@ pub struct EstimatorsArgs {
     /// Time for all rendering together (s).
     #[arg(long, value_name = "SECONDS", allow_negative_numbers = true)]
     pub time: f64,
+    /// The length of each picture at equal time (s), such as you mean to render: who learns stands differently in short and
+    /// long ones [default: as long as there is time for 24].
+    #[arg(long, value_name = "SECONDS", value_parser = parse_seconds, allow_negative_numbers = true)]
+    pub picture_time: Option<f64>,
     /// A converged picture to measure errors against [default: rendered with the first estimator].
     #[arg(long, value_name = "FILE.exr")]
     pub reference: Option<PathBuf>,

@@ -10,6 +10,7 @@ pub mod farm;
 pub mod frames;
 pub mod interrupt;
 pub mod outputs;
+pub mod preview;
 pub mod progress;
 mod quoting;
 pub mod say;

@@ -1,5 +1,6 @@
 //! A progress bar with the time that remains; silent when nobody is looking.
 
+use crate::preview::Onlookers;
 use etalon_integrators::Progress;
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressState, ProgressStyle};
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -59,5 +60,24 @@ impl Progress for Bar<'_> {
 
     fn cancelled(&self) -> bool {
         self.cancelled.load(Ordering::Relaxed)
+    }
+}
+
+/// A bar whose progress others see, too.
+pub struct Seen<'a> {
+    /// The bar.
+    pub bar: &'a Bar<'a>,
+    /// The others.
+    pub onlookers: &'a Onlookers,
+}
+
+impl Progress for Seen<'_> {
+    fn tile_done(&self, samples: u64) {
+        self.bar.tile_done(samples);
+        self.onlookers.advance(samples);
+    }
+
+    fn cancelled(&self) -> bool {
+        self.bar.cancelled()
     }
 }

@@ -2,7 +2,8 @@
 //!
 //! A replicate is an estimate of the whole image, independent of the others or a block of the sequence that
 //! they make up together ([`ReplicateKind`]), made in one pass or in as many as the integrator asks for. Tiles of a pass run in parallel, and a long pass goes over all of them in
-//! several rounds, so that a picture that is interrupted has some samples everywhere. Since a
+//! several rounds, so that a picture that is interrupted has some samples everywhere. The first round of all is of every
+//! [`COARSE`]th pixel of every [`COARSE`]th row, for those who look on. Since a
 //! sample is a pure function of its address and the film accumulates exactly, neither the number of
 //! threads nor the order of tiles nor the rounds change a bit, and a render goes on from any sample.
 
@@ -25,6 +26,9 @@ const TILES_PER_THREAD: u32 = 8;
 
 /// How many samples are handed to the integrator at once.
 pub const BATCH_SIZE: usize = 16;
+
+/// Columns and rows between the pixels of the first round.
+const COARSE: u32 = 4;
 
 /// How much to render.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -234,8 +238,14 @@ impl<W: World, I: Integrator> Run<'_, W, I> {
         let pixels = u64::from(size.x) * u64::from(size.y);
         let tiles = UVec2::new(size.x.div_ceil(self.side), size.y.div_ceil(self.side));
         self.pace.begin();
+        let mut is_coarse = self.is_first(pass) && until == 0;
         while until < pass.samples {
-            until += self.pace.round(pixels).min(pass.samples - until);
+            let stride = if is_coarse { COARSE } else { 1 };
+            let before = until;
+            until += match is_coarse {
+                true => 1,
+                false => self.pace.round(pixels).min(pass.samples - until),
+            };
             let (drawn, cut) = (AtomicU64::new(0), AtomicBool::new(false));
             let tile = |index: u32| {
                 let corner = UVec2::new(index % tiles.x, index / tiles.x) * self.side;
@@ -248,6 +258,7 @@ impl<W: World, I: Integrator> Run<'_, W, I> {
                     pass,
                     begin,
                     until,
+                    stride,
                 };
                 let (here, whole) = match self.plan.sampler {
                     SamplerKind::Independent => round.tile(from, to, Independent::start),
@@ -272,11 +283,19 @@ impl<W: World, I: Integrator> Run<'_, W, I> {
             if cut.into_inner() {
                 return false;
             }
+            if is_coarse {
+                (is_coarse, until) = (false, before);
+            }
             if until < pass.samples {
                 film.end_round();
             }
         }
         true
+    }
+
+    /// Whether a pass is the first of the picture, and its replicate has no other: pixels may be unlike then.
+    fn is_first(&self, pass: &Pass) -> bool {
+        pass.count == 1 && pass.replicate == self.plan.share().first
     }
 }
 
@@ -300,6 +319,8 @@ struct Round<'a, 'r, W: World, I: Integrator, F: Film> {
     pass: &'a Pass,
     begin: u32,
     until: u32,
+    /// Of how many columns and rows there is one in this round.
+    stride: u32,
 }
 
 impl<W: World, I: Integrator, F: Film> Round<'_, '_, W, I, F> {
@@ -336,6 +357,9 @@ impl<W: World, I: Integrator, F: Film> Round<'_, '_, W, I, F> {
         for y in from.y..to.y {
             for x in from.x..to.x {
                 let pixel = UVec2::new(x, y);
+                if self.stride > 1 && (pixel - self.pass.origin) % self.stride != UVec2::ZERO {
+                    continue;
+                }
                 let dealt = self.film.dealt(pixel, samples);
                 for sample in self.film.done(pixel).max(self.begin)..self.target(dealt) {
                     // Asked while no draft waits, so that what was begun is finished.

@@ -6,6 +6,7 @@
 //! when the render is interrupted. It appears under its name only when it is complete, in place of
 //! the one before.
 
+use crate::watch::Show;
 use etalon_film::{CheckpointFacts, ExactFilm, ExactTile, Part, RenderFacts, recorded_seconds};
 use etalon_integrators::ReplicateRange;
 use etalon_transport::{Film, FilmSample, Placing};
@@ -72,11 +73,12 @@ struct Keeper {
     failed: Option<fn(&str)>,
 }
 
-/// A film that is kept, if somebody asked for it.
+/// A film that is kept, and watched, if somebody asked for it.
 #[derive(Debug)]
 pub(crate) struct CheckpointingFilm {
     film: ExactFilm,
     keeper: Option<Keeper>,
+    show: Option<Show>,
 }
 
 impl CheckpointingFilm {
@@ -114,12 +116,30 @@ impl CheckpointingFilm {
         Ok(Self {
             film,
             keeper: Some(keeper),
+            show: None,
         })
     }
 
     /// A film of which nothing is kept.
     pub(crate) fn unkept(film: ExactFilm) -> Self {
-        Self { film, keeper: None }
+        Self {
+            film,
+            keeper: None,
+            show: None,
+        }
+    }
+
+    /// The same film, shown to somebody.
+    #[must_use]
+    pub(crate) fn shown(self, show: Option<Show>) -> Self {
+        Self { show, ..self }
+    }
+
+    /// Shows it, if somebody looks on.
+    fn show(&mut self) {
+        if let Some(show) = &mut self.show {
+            show.show(&mut self.film);
+        }
     }
 
     /// The film, after what there is has been kept if the render was interrupted.
@@ -218,6 +238,7 @@ impl Film for CheckpointingFilm {
     }
 
     fn end_round(&mut self) {
+        self.show();
         if let Some(keeper) = &mut self.keeper
             && keeper.is_due_within()
         {
@@ -227,6 +248,7 @@ impl Film for CheckpointingFilm {
 
     fn end_replicate(&mut self, samples: u32) {
         self.film.end_replicate(samples);
+        self.show();
         let replicates = self.film.replicates();
         if let Some(keeper) = &mut self.keeper
             && keeper.is_due(replicates)

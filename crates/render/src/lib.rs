@@ -22,6 +22,7 @@ mod scene_hash;
 mod sizes;
 pub mod target;
 pub mod tolerance;
+pub mod watch;
 pub mod write_guard;
 
 /// The version of the program.

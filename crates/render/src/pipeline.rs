@@ -4,6 +4,7 @@ use crate::checkpointing::{Checkpointing, CheckpointingFilm};
 pub use crate::load_options::LoadOptions;
 pub use crate::loaded::{Description, LoadError, Loaded};
 use crate::scene_hash::scene_hash;
+use crate::watch::{Show, Watcher};
 use crate::{VERSION, memory, objections};
 use etalon_film::{
     ExactFilm, FilmSettings, Filter, Part, PixelFilter, RenderFacts, RenderedImage, SampleCounts,
@@ -287,6 +288,8 @@ pub struct RenderControls {
     pub counts: Option<SampleCounts>,
     /// How to keep checkpoints, if there are to be any.
     pub keeping: Option<Checkpointing>,
+    /// Who looks on.
+    pub watcher: Option<Arc<dyn Watcher>>,
 }
 
 /// What a file says of a render, but for its time.
@@ -319,7 +322,11 @@ pub fn render_as(
     let alpha = usize::from(compiled.film.pixel_format.has_alpha());
     let planes = compiled.film.colours().len() + alpha + channels.len();
     let share = plan.share();
-    let RenderControls { counts, keeping } = manner;
+    let RenderControls {
+        counts,
+        keeping,
+        watcher,
+    } = manner;
     let exact = plan.share.is_some() || keeping.is_some();
     memory::check(loaded, planes, exact)?;
     let film = ExactFilm::new(compiled.film.clone(), &channels)
@@ -332,8 +339,10 @@ pub fn render_as(
         .unwrap_or_default();
     let facts = facts(loaded, plan);
     let of = (plan.replicates, plan.samples_per_replicate);
+    let show = watcher.map(|watcher| Show::new(watcher, plan.samples_per_replicate));
     let mut film = CheckpointingFilm::new(film, keeping, &facts, share, of)
-        .map_err(Diagnostic::error_nowhere)?;
+        .map_err(Diagnostic::error_nowhere)?
+        .shown(show);
     let remaining = RenderPlan {
         share: Some(ReplicateRange {
             first: share.first + finished,

@@ -83,7 +83,7 @@ fn extension(path: &Path) -> String {
 }
 
 /// The image in a file, what whoever gave it should know, and whether the file is our own.
-pub(super) fn read(path: &Path) -> Result<(Image, Vec<String>, bool), String> {
+pub(crate) fn read(path: &Path) -> Result<(Image, Vec<String>, bool), String> {
     let read = || {
         let bytes = std::fs::read(path).map_err(|source| Error::Read {
             path: path.to_owned(),
@@ -114,7 +114,7 @@ pub(super) fn of_colour(image: &Image, colour: &Colour<'_>) -> Image {
 }
 
 /// The image made of the channels that begin with `prefix`, or of the one that is called so.
-fn chosen(image: &Image, prefix: &str) -> Result<Image, String> {
+pub(crate) fn chosen(image: &Image, prefix: &str) -> Result<Image, String> {
     if let Some(colour) = image.colour_of_layer(prefix) {
         let opaque = Colour {
             alpha: None,

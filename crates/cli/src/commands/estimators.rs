@@ -89,6 +89,7 @@ fn measure(args: &EstimatorsArgs, guard: &mut WriteGuard) -> Result<Findings, Fa
         seconds: args.time,
         reference: args.reference.clone(),
         reference_share: args.reference_share,
+        picture_seconds: args.picture_time,
         seed: args.seed,
     };
     let trial = Trial::prepare(&args.scene, &options)?;
@@ -135,6 +136,9 @@ fn command(args: &EstimatorsArgs) -> String {
             quoting::shell(&path.display().to_string())
         )),
         None => words.push(format!("--reference-share {}", args.reference_share)),
+    }
+    if let Some(length) = args.picture_time {
+        words.push(format!("--picture-time {length}"));
     }
     words.push(format!("--time {} --seed {}", args.time, args.seed));
     if let Some(threads) = args.threads {

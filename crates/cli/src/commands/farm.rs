@@ -67,6 +67,8 @@ fn check(args: &RenderArgs) -> Result<(), String> {
         ("--replay", args.replay.is_some()),
         ("--strategies", args.strategies.is_some()),
         ("--stats", args.stats.is_some()),
+        ("--preview", args.preview.preview.is_some()),
+        ("--tev", args.preview.tev.is_some()),
         ("--time", args.time.is_some() && args.frames.is_none()),
         ("--error", args.error.is_some() && args.frames.is_none()),
     ];

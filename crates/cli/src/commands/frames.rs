@@ -4,6 +4,7 @@ use super::{fail, note, render};
 use crate::args::RenderArgs;
 use crate::frames::{Frame, FrameRange};
 use crate::interrupt;
+use crate::preview::Onlookers;
 use std::process::ExitCode;
 use std::time::{Duration, Instant};
 
@@ -15,7 +16,7 @@ pub(super) fn prefix(frame: Frame) -> String {
 }
 
 /// Renders the frames of a range, until one fails or the user has had enough.
-pub(super) fn run(args: &RenderArgs, range: FrameRange) -> ExitCode {
+pub(super) fn run(args: &RenderArgs, range: FrameRange, onlookers: &Onlookers) -> ExitCode {
     if args.replay.is_some() && range.count() > 1 {
         return fail("`--replay` is about one frame: name it alone, such as `--frames 7`");
     }
@@ -26,7 +27,7 @@ pub(super) fn run(args: &RenderArgs, range: FrameRange) -> ExitCode {
             of: range,
             time: f64::from(number) / args.fps,
         };
-        let code = render::run_here(&frame.arguments(args));
+        let code = render::run_here(&frame.arguments(args), onlookers);
         if code != ExitCode::SUCCESS || interrupt::asked() {
             return code;
         }

@@ -17,6 +17,7 @@ pub mod render;
 pub mod replay;
 pub mod strategies;
 mod trouble;
+pub mod view;
 
 use crate::args::Command;
 use crate::{interrupt, say};
@@ -39,6 +40,7 @@ pub fn run(command: &Command) -> ExitCode {
         Command::Compare(args) => compare::run(args),
         Command::Estimators(args) => estimators::run(args),
         Command::Convert(args) => convert::run(args),
+        Command::View(args) => view::run(args),
         Command::Movie(args) => movie::run(args),
         Command::Info(args) => info::run(args),
         Command::Completions(args) => {

@@ -4,7 +4,8 @@ use super::amount::{self, SampleBudget};
 use super::{BAD_INPUT, delivery, fail, frames, note, replay, strategies};
 use crate::args::RenderArgs;
 use crate::outputs::Outputs;
-use crate::progress::Bar;
+use crate::preview::Onlookers;
+use crate::progress::{Bar, Seen};
 use crate::{diagnose, interrupt, say};
 use etalon_images::Development;
 use etalon_integrators::ReplicateRange;
@@ -28,16 +29,24 @@ pub fn run(args: &RenderArgs) -> ExitCode {
     let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build();
     match pool {
         // Everything happens on these threads: reading meshes and pictures, too.
-        Ok(pool) => pool.install(|| match args.frames {
-            Some(range) => frames::run(args, range),
-            None => run_here(args),
-        }),
+        Ok(pool) => {
+            let onlookers = match Onlookers::of(args) {
+                Ok(onlookers) => onlookers,
+                Err(message) => return fail(message),
+            };
+            let code = pool.install(|| match args.frames {
+                Some(range) => frames::run(args, range, &onlookers),
+                None => run_here(args, &onlookers),
+            });
+            onlookers.finish();
+            code
+        }
         Err(error) => fail(format!("cannot start threads: {error}")),
     }
 }
 
 /// Renders one picture on the current thread pool.
-pub(super) fn run_here(args: &RenderArgs) -> ExitCode {
+pub(super) fn run_here(args: &RenderArgs, onlookers: &Onlookers) -> ExitCode {
     let (args, mut guard) = match with_outputs(args) {
         Ok(claimed) => claimed,
         Err(message) => return fail(message),
@@ -106,10 +115,11 @@ pub(super) fn run_here(args: &RenderArgs) -> ExitCode {
         Err(failure) => return give_up(failure, &loaded),
     };
     let (plan, pilot) = (amount.plan, amount.pilot);
-    let rendered = match render(args, &loaded, amount) {
+    let rendered = match render(args, &loaded, amount, onlookers) {
         Ok(rendered) => rendered,
         Err(diagnostic) => return give_up(diagnostic.into(), &loaded),
     };
+    onlookers.end(&rendered.developed);
     if !rendered.has_samples() {
         say::remark("stopped before the first sample, without an image\n");
         return ExitCode::from(interrupt::STOPPED);
@@ -126,7 +136,7 @@ pub(super) fn run_here(args: &RenderArgs) -> ExitCode {
                 return Ok(None);
             }
             let amount = SampleBudget::plain(amount::plan(args, loaded));
-            let rendered = render(args, loaded, amount)?;
+            let rendered = render(args, loaded, amount, onlookers)?;
             let whole = rendered.outcome.replicates == rendered.replicates;
             Ok(whole.then_some(rendered.developed))
         };
@@ -178,7 +188,7 @@ fn with_outputs(args: &RenderArgs) -> Result<(RenderArgs, WriteGuard), String> {
         return Ok((args, WriteGuard::default()));
     }
     let outputs = Outputs::of(&args)?;
-    if !is_plain && outputs.picture.is_none() {
+    if !is_plain && outputs.picture.is_none() && args.preview.preview.is_none() {
         let message = "`--exposure` and `--view` are for pictures to look at: name one that ends in .png with `-o`";
         return Err(message.to_owned());
     }
@@ -210,6 +220,7 @@ fn render(
     args: &RenderArgs,
     loaded: &Loaded,
     amount: SampleBudget,
+    onlookers: &Onlookers,
 ) -> Result<Rendered, Diagnostic> {
     let mut plan = amount.plan;
     if let Some(part) = args.part {
@@ -227,13 +238,19 @@ fn render(
     let samples = u64::from(here) * u64::from(plan.samples_per_replicate);
     let begun = keeping.as_ref().map_or(0, Checkpointing::samples_begun);
     let samples = (samples * u64::from(size.x) * u64::from(size.y)).saturating_sub(begun);
-    let bar = Bar::new(samples, args.quiet, interrupt::flag())
-        .named(args.frame.map_or_else(String::new, frames::prefix));
+    let name = args.frame.map_or_else(String::new, frames::prefix);
+    onlookers.begin(&name, samples);
+    let bar = Bar::new(samples, args.quiet, interrupt::flag()).named(name);
     let manner = RenderControls {
         counts: amount.counts,
         keeping,
+        watcher: onlookers.watcher(),
     };
-    let rendered = pipeline::render_as(loaded, &plan, manner, &bar);
+    let seen = Seen {
+        bar: &bar,
+        onlookers,
+    };
+    let rendered = pipeline::render_as(loaded, &plan, manner, &seen);
     bar.finish();
     rendered
 }

@@ -11,7 +11,7 @@ use etalon_integrators::AnyIntegrator;
 use etalon_integrators::bdpt::{Bidirectional, Technique};
 use etalon_params::Diagnostic;
 use etalon_render::pipeline::Loaded;
-use etalon_render::report;
+use etalon_render::report::{self, album::Album, exposed};
 use etalon_render::write_guard::WriteGuard;
 use maud::html;
 use std::path::Path;
@@ -110,22 +110,25 @@ pub fn write(
 /// The pyramids: weighted, and not.
 fn page(args: &RenderArgs, shown: &[Shown]) -> String {
     let longest = shown.iter().map(|s| s.light + s.camera).max().unwrap_or(0);
+    let mut album = Album::new();
     let body = html! {
         p { "Scene " code { (args.scene.display()) } ". A technique (s, t) makes s vertices of a path from the light \
             and t from the camera. Weighted pictures add up to the whole; unweighted ones of a row show the same \
             light, as far as the technique can find it." }
+        (exposed::slider())
         @for (index, what) in ["Weighted", "Unweighted"].iter().enumerate() {
             h2 { (what) }
             @for vertices in 2..=longest {
                 h3 { (segments(vertices - 1)) }
                 div style="display:flex;flex-wrap:wrap;gap:.5rem" {
                     @for technique in shown.iter().filter(|s| s.light + s.camera == vertices) {
-                        (report::figure(&technique.pictures[index].image, 0.0,
+                        (exposed::figure(&mut album, &technique.pictures[index].image,
                             &format!("s = {}, t = {}", technique.light, technique.camera)))
                     }
                 }
             }
         }
+        (album.markup())
     };
     report::page("Techniques of bidirectional path tracing", &body)
 }

@@ -134,6 +134,7 @@ fn outcome(
         integrator: entrant.integrator_name.clone(),
         sampler: sampler_name(entrant.sampler).to_owned(),
         filter: entrant.film.filter.to_string(),
+        prepares: entrant.integrator.prepares(),
         nanoseconds_per_sample: 1e9 * seconds / (per_pixel * f64::from(timed.size.samples)),
         efficiency: efficiency(timed, plan),
         gains: (!is_first).then(|| Gains {

@@ -163,6 +163,8 @@ pub struct EntrantResult {
     pub sampler: String,
     /// The reconstruction filter with its parameters.
     pub filter: String,
+    /// Whether it learns or prepares something for each picture, so that short pictures say little of long ones.
+    pub prepares: bool,
     /// Pictures that take as long as the others'.
     pub equal_time: AtSize,
     /// Pictures of as many samples as the others'.

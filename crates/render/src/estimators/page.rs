@@ -3,6 +3,8 @@
 use super::findings::{EntrantResult, Findings, Uncertain};
 use super::table::{difference, exponent, factor, number, reference, time};
 use crate::report;
+use crate::report::album::Album;
+use crate::report::exposed;
 use crate::report::plot::{self, Curve};
 use etalon_images::Image;
 use maud::{Markup, html};
@@ -189,19 +191,22 @@ fn over_time(findings: &Findings) -> Vec<Curve> {
 
 fn pictures(findings: &Findings) -> Markup {
     let size = findings.size;
+    let mut album = Album::new();
     let rows = findings
         .estimators
         .iter()
         .zip(&findings.pictures.estimators);
     html! {
+        (exposed::slider())
         div class="pictures" {
-            (report::figure(&image(&findings.pictures.reference, size), 0.0, "reference"))
+            (exposed::figure(&mut album, &image(&findings.pictures.reference, size), "reference"))
             @for (row, pixels) in rows {
                 @let caption = format!("{}, {} samples per pixel, {} s", row.name,
                     row.equal_time.samples_per_pixel, number(row.equal_time.seconds.value));
-                (report::figure(&image(pixels, size), 0.0, &caption))
+                (exposed::figure(&mut album, &image(pixels, size), &caption))
             }
         }
+        (album.markup())
     }
 }
 

@@ -1,6 +1,6 @@
 //! What a reader should know before believing the figures of a comparison.
 
-use super::findings::Findings;
+use super::findings::{EntrantResult, Findings, Step};
 use etalon_film::light_carriers::{FEW, carriers};
 
 /// The reference's noise is small if it is less than this share of an error.
@@ -23,6 +23,55 @@ pub struct Black {
 
 /// Pictures of fewer samples per pixel say little of those that people render.
 const ENOUGH_SAMPLES: u32 = 8;
+
+/// Nor do pictures of fewer say much of an estimator that learns from its own.
+const ENOUGH_TO_LEARN: u32 = 64;
+
+/// How many times its efficiency a four times longer picture has, of an estimator that is still learning.
+const STILL_LEARNING: f64 = 1.25;
+
+/// Standard errors that this must be beyond.
+const SURE: f64 = 2.0;
+
+/// How many times the efficiency of a short picture a longer one has, as far as it is sure: the last size of the ladder against the
+/// largest of at most a quarter of it.
+fn growth(steps: &[Step]) -> Option<f64> {
+    let last = steps.last()?;
+    let before =
+        (steps.iter().rev()).find(|s| 4 * s.samples_per_pixel <= last.samples_per_pixel)?;
+    let cost = |step: &Step| step.mse * step.seconds;
+    let ratio = cost(before) / cost(last);
+    let error = |step: &Step| step.standard_error / step.mse;
+    let spread = (error(last).powi(2) + error(before).powi(2)).sqrt();
+    let least = ratio * (1.0 - SURE * spread);
+    (before.mse > 0.0 && last.mse > 0.0 && least > 1.0 && ratio > STILL_LEARNING).then_some(ratio)
+}
+
+/// What is to be said of an estimator that learns, whose pictures were too short for it.
+fn too_short(row: &EntrantResult) -> Option<String> {
+    let (samples, seconds) = (
+        row.equal_time.samples_per_pixel,
+        row.equal_time.seconds.value?,
+    );
+    if !row.prepares {
+        return None;
+    }
+    let length = format!(
+        "`{}` learns or prepares for each picture, and those at equal time took {seconds:.2} s",
+        row.name
+    );
+    let advice = "in longer ones it may stand otherwise: ask for the length of those you mean to render with `--picture-time`";
+    let grown = growth(&row.convergence.steps);
+    match grown {
+        Some(ratio) => Some(format!(
+            "{length}; its efficiency still grows, by {ratio:.1} from its shorter pictures to four times as long ones: {advice}"
+        )),
+        None if samples < ENOUGH_TO_LEARN => {
+            Some(format!("{length}, {samples} samples per pixel: {advice}"))
+        }
+        None => None,
+    }
+}
 
 /// What is to be said of pictures that were left out, of so many.
 pub fn late([left_out, all]: [u32; 2]) -> Option<String> {
@@ -99,10 +148,11 @@ pub fn about(findings: &Findings, black: &Black) -> Vec<String> {
             ));
         }
         let samples = row.equal_time.samples_per_pixel;
-        if samples < ENOUGH_SAMPLES {
+        remarks.extend(too_short(row));
+        if samples < ENOUGH_SAMPLES && !row.prepares {
             remarks.push(format!(
-                "the pictures of `{}` have {samples} samples per pixel: what it prepares or learns for each weighs more \
-                 than in a picture of use; give {:.0} times the time or more",
+                "the pictures of `{}` have {samples} samples per pixel, fewer than a picture of use: give {:.0} times the time or \
+                 more",
                 row.name,
                 (f64::from(ENOUGH_SAMPLES) / f64::from(samples.max(1))).ceil()
             ));

@@ -3,8 +3,8 @@
 //! Of the time, a stated share goes to the reference (none if it is a file). The rest is divided
 //! equally among the estimators, and each one's part in two:
 //!
-//! - *equal time*, a share of [`EQUAL_TIME`]: about [`TARGET`] pictures that each take the same time
-//!   whoever renders them, as nearly as a sampler's sizes allow; what rounding down leaves goes into
+//! - *equal time*, a share of [`EQUAL_TIME`]: about [`TARGET`] pictures, or as many as there is time for if their length is asked
+//!   for, that each take the same time whoever renders them, as nearly as a sampler's sizes allow; what rounding down leaves goes into
 //!   more pictures, up to [`MOST`];
 //! - *ladder*, the rest: [`LADDER`] pictures at each of 1, b, b², … samples per pixel, as far as that
 //!   allows. b is 2, or 4 if a stratified sampler takes part, whose sizes are squares.
@@ -82,18 +82,25 @@ pub struct Pace {
 
 impl Schedule {
     /// Divides `seconds` among estimators of these paces, and `share` of it for a reference by the
-    /// first, if there is to be one.
+    /// first, if there is to be one. A picture at equal time takes `picture` seconds, if they are given.
     ///
     /// # Errors
     /// The seconds that would be enough, if these are not.
-    pub fn fix(paces: &[Pace], seconds: f64, share: Option<f64>) -> Result<Self, f64> {
+    pub fn fix(
+        paces: &[Pace],
+        seconds: f64,
+        share: Option<f64>,
+        picture: Option<f64>,
+    ) -> Result<Self, f64> {
         let slowest = paces.iter().map(|pace| pace.seconds).fold(0.0, f64::max);
         let (first, fewest) = (paces.first().map_or(0.0, |p| p.seconds), f64::from(FEWEST));
         let for_reference = |share: f64| f64::from(REFERENCE) * first / share;
         // One estimator's part of what the reference leaves.
         let part = (1.0 - share.unwrap_or(0.0)) / paces.len() as f64;
         let smaller = part * EQUAL_TIME.min(1.0 - EQUAL_TIME);
+        let pictures = fewest * picture.unwrap_or(0.0) / (part * EQUAL_TIME);
         let needed = (fewest * slowest / smaller).max(share.map_or(0.0, for_reference));
+        let needed = needed.max(pictures);
         if !(needed <= seconds) {
             return Err(needed);
         }
@@ -101,7 +108,7 @@ impl Schedule {
         let climbed = part * (1.0 - EQUAL_TIME) * seconds;
         let squares = (paces.iter()).any(|p| matches!(p.sampler, SamplerKind::Stratified { .. }));
         let base = if squares { 4 } else { 2 };
-        let each = timed / f64::from(TARGET);
+        let each = picture.unwrap_or(timed / f64::from(TARGET));
         let shares: Vec<Share> = paces
             .iter()
             .map(|pace| Share {
@@ -187,7 +194,7 @@ mod tests {
 
     #[test]
     fn time_is_kept_and_shared() {
-        let schedule = Schedule::fix(&paces(), 60.0, Some(0.25)).expect("enough");
+        let schedule = Schedule::fix(&paces(), 60.0, Some(0.25), None).expect("enough");
         let reference = schedule.reference.expect("rendered");
         let spent = seconds(&paces()[0], reference);
         assert!(spent <= 15.0 && spent > 10.0, "{reference:?}");
@@ -219,13 +226,27 @@ mod tests {
     #[test]
     fn too_little_time_is_refused_with_what_would_do() {
         for share in [None, Some(0.2)] {
-            let needed = Schedule::fix(&paces(), 0.3, share).expect_err("too little");
+            let needed = Schedule::fix(&paces(), 0.3, share, None).expect_err("too little");
             assert!(needed > 0.3);
-            let schedule = Schedule::fix(&paces(), 1.001 * needed, share).expect("enough");
+            let schedule = Schedule::fix(&paces(), 1.001 * needed, share, None).expect("enough");
             assert!((schedule.shares.iter()).all(|share| share.equal_time.replicates >= FEWEST));
-            assert!(Schedule::fix(&paces(), 0.99 * needed, share).is_err());
+            assert!(Schedule::fix(&paces(), 0.99 * needed, share, None).is_err());
         }
-        assert!(Schedule::fix(&paces(), 0.0, None).is_err());
+        assert!(Schedule::fix(&paces(), 0.0, None, None).is_err());
+    }
+
+    #[test]
+    fn pictures_are_as_long_as_asked() {
+        let fix = |seconds, picture| Schedule::fix(&paces(), seconds, Some(0.25), Some(picture));
+        let schedule = fix(200.0, 2.0).expect("enough");
+        for (share, pace) in schedule.shares.iter().zip(paces()) {
+            let each = pace.seconds * f64::from(share.equal_time.samples);
+            assert!(each <= 2.0 && each > 0.5, "{share:?}");
+            assert!(share.equal_time.replicates >= FEWEST, "{share:?}");
+        }
+        // Eight pictures of 2 s each for three estimators: 16 s of a part, of which 40 % are for them.
+        let needed = fix(100.0, 2.0).expect_err("too little");
+        assert!((needed - 160.0).abs() < 1e-9, "{needed}");
     }
 
     #[test]

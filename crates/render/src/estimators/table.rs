@@ -12,8 +12,15 @@ pub fn text(findings: &Findings) -> String {
     let percent = 100.0 * findings.confidence;
     let mut text = format!("{}\n\n", reference(findings));
     text += &format!(
-        "equal time\n{:<width$}  {:>7}  {:>8}  {:>9}  {:>9}  {:>10}  {:>10}  x {first}\n",
-        "estimator", "spp", "seconds", "relMSE", "variance", "bias²", "1/(e·s)"
+        "equal time: pictures of about {} s\n{:<width$}  {:>7}  {:>8}  {:>9}  {:>9}  {:>10}  {:>10}  x {first}\n",
+        length(findings),
+        "estimator",
+        "spp",
+        "seconds",
+        "relMSE",
+        "variance",
+        "bias²",
+        "1/(e·s)"
     );
     for row in rows {
         let size = &row.equal_time;
@@ -72,6 +79,14 @@ pub fn text(findings: &Findings) -> String {
     }
     let lines = text.lines().map(|line| format!("{}\n", line.trim_end()));
     lines.collect()
+}
+
+/// How long a picture at equal time took: the mean over estimators.
+fn length(findings: &Findings) -> String {
+    let times: Vec<f64> = (findings.estimators.iter())
+        .filter_map(|row| row.equal_time.seconds.value)
+        .collect();
+    number((!times.is_empty()).then(|| times.iter().sum::<f64>() / times.len() as f64))
 }
 
 /// Where the reference comes from, in a sentence.

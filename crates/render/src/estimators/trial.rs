@@ -34,6 +34,8 @@ pub struct Options {
     pub reference: Option<PathBuf>,
     /// The share of the time that rendering a reference is given.
     pub reference_share: f64,
+    /// The time that a picture at equal time takes (s); without one, what there is time for.
+    pub picture_seconds: Option<f64>,
     /// Seed of all randomness.
     pub seed: u64,
 }
@@ -49,6 +51,7 @@ impl Default for Options {
             seconds: 60.0,
             reference: None,
             reference_share: 0.3,
+            picture_seconds: None,
             seed: 0,
         }
     }
@@ -168,15 +171,18 @@ impl Trial {
         let paces = pilot(&entrants, options)?;
         let left = options.seconds - start.elapsed().as_secs_f64();
         let share = reference.is_none().then_some(options.reference_share);
-        let schedule = Schedule::fix(&paces, left, share).map_err(|needed| {
+        let schedule = Schedule::fix(&paces, left, share, options.picture_seconds).map_err(|needed| {
             let spent = options.seconds - left;
             let enough = (1.2 * (needed + spent)).max(0.1);
             format!(
-                "{} s are not enough for {} estimators: one sample per pixel takes up to {:.2} s, \
+                "{} s are not enough for {} estimators: one sample per pixel takes up to {:.2} s{}, \
                  and each renders 16 pictures or more; --time {} would do",
                 options.seconds,
                 paces.len(),
                 paces.iter().map(|p| p.seconds).fold(0.0, f64::max),
+                (options.picture_seconds)
+                    .map(|length| format!(", a picture {length} s"))
+                    .unwrap_or_default(),
                 if enough < 1.0 {
                     (enough * 10.0).ceil() / 10.0
                 } else {

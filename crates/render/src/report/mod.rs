@@ -8,6 +8,7 @@
 
 pub mod album;
 pub mod comparison;
+pub mod exposed;
 pub mod half;
 pub mod interval;
 pub mod plot;
@@ -18,7 +19,7 @@ pub mod viewer;
 
 use base64::Engine;
 use base64::engine::general_purpose::STANDARD;
-use etalon_images::{Image, png};
+use etalon_images::png;
 use etalon_statistics::Verdict;
 use maud::{DOCTYPE, Markup, PreEscaped, html};
 
@@ -62,33 +63,6 @@ pub fn page(title: &str, body: &Markup) -> String {
         }
     }
     .into_string()
-}
-
-/// An image as a still HTML figure.
-pub fn figure(image: &Image, exposure: f32, caption: &str) -> Markup {
-    let picture = png::develop(image, exposure)
-        .and_then(|(bytes, _)| encode(&opaque(&bytes, image), image.width(), image.height()));
-    html! {
-        figure class="still" {
-            @if let Some(source) = picture {
-                img src=(source) alt=(caption) width=(image.width()) height=(image.height());
-            }
-            figcaption { (caption) }
-        }
-    }
-}
-
-/// Drops alpha, if the picture has it.
-fn opaque(bytes: &[u8], image: &Image) -> Vec<u8> {
-    let pixels = image.width() * image.height();
-    if bytes.len() == 4 * pixels {
-        bytes
-            .chunks_exact(4)
-            .flat_map(|p| [p[0], p[1], p[2]])
-            .collect()
-    } else {
-        bytes.to_vec()
-    }
 }
 
 /// RGB bytes as a PNG file in an address.

@@ -247,6 +247,24 @@
   all('.viewer').forEach((viewer) => (sight ? sight.observe(viewer) : start(viewer)));
   addEventListener('beforeprint', () => all('.viewer').filter((viewer) => viewer.getClientRects().length).forEach(start));
 
+  // ---- Many pictures with one exposure.
+  const exposes = document.querySelector('.exposes');
+  if (exposes) {
+    const range = exposes.querySelector('input'), figures = all('figure[data-picture]');
+    const expose = (stops) => {
+      range.value = stops;
+      exposes.querySelector('output').textContent = `${signed(Number(range.value), 1)} EV`;
+      figures.forEach((figure) => {
+        const still = figure.querySelector('img, canvas'), drawn = exposed(picture(figure.dataset.picture), Number(range.value));
+        drawn.setAttribute('role', 'img');
+        drawn.setAttribute('aria-label', figure.querySelector('figcaption').textContent);
+        still.replaceWith(drawn);
+      });
+    };
+    range.addEventListener('input', () => expose(range.value));
+    exposes.querySelector('button').addEventListener('click', () => expose(0));
+  }
+
   // ---- The table of decisions.
   const table = document.querySelector('table.decisions');
   if (!table) return;

@@ -1,0 +1,1 @@
+//! The feed, the layers, and what the server refuses.
