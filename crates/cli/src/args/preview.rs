@@ -11,7 +11,7 @@ pub struct PreviewArgs {
     /// Show the picture while it renders, with its error map, exposure and pixel values, in a page on
     /// http://127.0.0.1:PORT/ [default PORT: 8750, or one that is free].
     #[arg(long, value_name = "PORT", num_args = 0..=1, default_missing_value = "any", value_parser = parse_port,
-        allow_hyphen_values = true, conflicts_with = "replay")]
+        conflicts_with = "replay")]
     pub preview: Option<Port>,
     /// Send the picture while it renders to a `tev` that listens [default HOST:PORT: 127.0.0.1:14158].
     #[arg(long, value_name = "HOST:PORT", num_args = 0..=1, default_missing_value = crate::preview::tev::ADDRESS,

@@ -82,7 +82,8 @@ fn picture(path: &str, feed: &Feed) -> Option<Answer> {
         .flat_map(|value| value.to_le_bytes())
         .collect();
     let [width, height] = planes.size;
-    let mut answer = Response::from_data(bytes);
+    // In one piece, with its length.
+    let mut answer = Response::from_data(bytes).with_chunked_threshold(usize::MAX);
     let facts = [
         ("Content-Type", "application/octet-stream".to_owned()),
         ("X-Size", format!("{width}x{height}")),

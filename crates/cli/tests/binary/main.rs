@@ -26,6 +26,7 @@ mod merge;
 mod mutations;
 mod objections;
 mod outputs;
+mod preview;
 mod render;
 mod replay;
 mod replay_methods;

@@ -6,6 +6,7 @@ mod exactness;
 mod expectation;
 mod files;
 mod filters;
+mod glance;
 mod parts;
 mod replicates;
 mod settings;
