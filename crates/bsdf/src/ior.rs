@@ -116,13 +116,18 @@ fn positive(params: &Params<'_>, name: &str, value: f64) -> Option<f64> {
 }
 
 fn unknown_name(params: &Params<'_>, property: &Property, word: &str) {
-    params.diagnostics.push(
-        Diagnostic::error(
-            property.span,
-            format!("no refractive index is known for `{word}`"),
-        )
-        .suggest(word, ior::names()),
-    );
+    let message = format!("no refractive index is known for `{word}`");
+    let error = Diagnostic::error(property.span, message);
+    // A glass of a catalogue, such as `sf11`, is known with its dispersion only.
+    let asked = word.to_lowercase();
+    let glass = ior::dispersive_names()
+        .find(|name| *name == asked || name.strip_prefix("n-") == Some(&asked));
+    params.diagnostics.push(match glass {
+        Some(glass) => error.help(format!(
+            "it is known with its dispersion: `sellmeier: {glass}`"
+        )),
+        None => error.suggest(word, ior::names()),
+    });
 }
 
 /// One index for all wavelengths: a number or a name; `default` is a name.

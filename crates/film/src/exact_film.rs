@@ -262,18 +262,35 @@ impl ExactFilm {
     /// The replicate that is not finished, if it has been begun.
     pub(crate) fn unfinished(&mut self) -> Option<Unfinished> {
         let mut unfinished = self.running.snapshot()?;
-        if let Some(footprint) = self
-            .footprint
-            .as_ref()
-            .filter(|_| !self.running.is_weighted())
-        {
-            let size = self.settings.crop_size.to_array().map(|n| n as usize);
-            let counts = (0..).zip(&unfinished.samples);
-            let weighted =
-                counts.map(|(pixel, n)| f64::from(*n) * f64::from(self.weight_of(pixel)));
-            unfinished.weights = reached(footprint, weighted.collect(), size);
+        if let Some(weights) = self.expected_weights(&unfinished.samples) {
+            let fixed = |count| Fixed128::from_f64(count).unwrap_or(Fixed128::ZERO);
+            unfinished.weights = weights.into_iter().map(fixed).collect();
         }
         Some(unfinished)
+    }
+
+    /// What samples count for each pixel in expectation if pixels have these numbers of them; `None` where each counts for its own
+    /// pixel alone, or is weighed itself.
+    fn expected_weights(&self, samples: &[u32]) -> Option<Vec<f64>> {
+        let footprint = self
+            .footprint
+            .as_ref()
+            .filter(|_| !self.running.is_weighted())?;
+        let size = self.settings.crop_size.to_array().map(|n| n as usize);
+        let counts = (0..).zip(samples);
+        let weighted = counts.map(|(pixel, n)| f64::from(*n) * f64::from(self.weight_of(pixel)));
+        Some(reached(footprint, weighted.collect(), size))
+    }
+
+    /// The means of the replicate that is being rendered, plane by plane, and the samples of each pixel; `None` before its first.
+    pub(crate) fn running_means(&mut self) -> Option<(Vec<Vec<f32>>, Vec<u32>)> {
+        let samples = self.running.all_samples();
+        if samples.iter().all(|&count| count == 0) {
+            return None;
+        }
+        let weights = self.expected_weights(&samples);
+        let means = self.running.means(&samples, weights.as_deref());
+        Some((means, samples))
     }
 
     /// Makes it go on with a replicate that is not finished, of as many pixels and channels.

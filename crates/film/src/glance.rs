@@ -28,26 +28,30 @@ impl ExactFilm {
     /// The picture so far, of replicates of `samples` samples per pixel each; `None` before the first sample. In the first round of
     /// the first replicate, a pixel that has no sample shows the one left of it or above.
     pub fn glance(&mut self, samples: u32) -> Option<Glance> {
-        let unfinished = self.unfinished();
+        let running = self.running_means();
         let replicates = self.replicates();
         let size = self.settings().crop_size.to_array().map(|n| n as usize);
-        let finished = || image_of(self.channels(), self.moments(), replicates, size, None);
         let seen = self.samples() as f64;
-        let Some(unfinished) = unfinished else {
-            return (replicates > 0).then(|| Glance {
-                image: finished(),
+        if running.is_none() && replicates == 0 {
+            return None;
+        }
+        let finished = (replicates > 0)
+            .then(|| image_of(self.channels(), self.moments(), replicates, size, None));
+        let Some((means, counts)) = running else {
+            return finished.map(|image| Glance {
+                image,
                 samples: seen,
                 replicates,
             });
         };
-        let running = unfinished.image(self.channels(), size);
-        let mean = unfinished.facts(samples).mean;
-        let image = if replicates == 0 {
-            spread(&running, &unfinished.samples)
-        } else {
-            let fraction = (mean / f64::from(samples.max(1))) as f32;
-            let weight = fraction / (replicates as f32 + fraction);
-            joined(finished(), &running, weight)
+        let total: u64 = counts.iter().map(|&count| u64::from(count)).sum();
+        let mean = total as f64 / counts.len() as f64;
+        let image = match finished {
+            None => spread(self.channels(), &means, &counts, size),
+            Some(finished) => {
+                let fraction = (mean / f64::from(samples.max(1))) as f32;
+                joined(finished, &means, fraction / (replicates as f32 + fraction))
+            }
         };
         Some(Glance {
             image,
@@ -57,31 +61,37 @@ impl ExactFilm {
     }
 }
 
-/// The finished picture with this weight of the running one.
-fn joined(finished: Image, running: &Image, weight: f32) -> Image {
+/// The finished picture with this weight of the running one, whose channels come first and in the same order. Standard errors are
+/// of the finished replicates alone.
+fn joined(finished: Image, running: &[Vec<f32>], weight: f32) -> Image {
     let mut image = Image::new(finished.width(), finished.height());
-    for mut channel in finished.into_channels() {
-        // Standard errors are of the finished replicates alone.
-        if let Some(more) = running.channel(&channel.name) {
-            for (mean, x) in channel.samples.iter_mut().zip(more) {
-                *mean += weight * (x - *mean);
-            }
+    for (index, mut channel) in finished.into_channels().into_iter().enumerate() {
+        for (mean, x) in channel
+            .samples
+            .iter_mut()
+            .zip(running.get(index).into_iter().flatten())
+        {
+            *mean += weight * (x - *mean);
         }
         image.push(channel.name, channel.samples);
     }
     image
 }
 
-/// A picture some of whose pixels have no sample yet.
-fn spread(running: &Image, samples: &[u32]) -> Image {
-    let (width, height) = (running.width(), running.height());
+/// A picture some of whose pixels may have no sample yet.
+fn spread(
+    names: &[String],
+    means: &[Vec<f32>],
+    counts: &[u32],
+    [width, height]: [usize; 2],
+) -> Image {
     // Where the value of each pixel is taken from.
-    let mut source: Vec<usize> = (0..samples.len()).collect();
+    let mut source: Vec<usize> = (0..counts.len()).collect();
     for y in 0..height {
         let row = y * width;
-        let is_empty = samples[row..row + width].iter().all(|&n| n == 0);
+        let is_empty = counts[row..row + width].iter().all(|&n| n == 0);
         for pixel in row..row + width {
-            if samples[pixel] > 0 {
+            if counts[pixel] > 0 {
                 continue;
             }
             if is_empty && y > 0 {
@@ -92,9 +102,11 @@ fn spread(running: &Image, samples: &[u32]) -> Image {
         }
     }
     let mut image = Image::new(width, height);
-    for channel in running.channels() {
-        let from = |&pixel: &usize| channel.samples[pixel];
-        image.push(channel.name.as_str(), source.iter().map(from).collect());
+    for (name, plane) in names.iter().zip(means) {
+        image.push(
+            name.as_str(),
+            source.iter().map(|&pixel| plane[pixel]).collect(),
+        );
     }
     image
 }

@@ -10,6 +10,7 @@ use crate::outliers::{DominantSample, Outlier, OutlierLog};
 use crate::unfinished::Unfinished;
 use etalon_statistics::{AtomicFixed128, Fixed128, InvalidValue};
 use glam::UVec2;
+use rayon::prelude::*;
 use std::sync::atomic::{AtomicU32, Ordering};
 use std::sync::{Mutex, OnceLock};
 
@@ -190,10 +191,67 @@ impl Running {
         std::mem::take(self.faults.get_mut().unwrap_or_else(|e| e.into_inner()))
     }
 
+    /// The samples of each pixel.
+    pub(crate) fn all_samples(&self) -> Vec<u32> {
+        (0..self.pixels.len())
+            .map(|pixel| self.samples(pixel))
+            .collect()
+    }
+
+    /// The means of what there is, plane by plane, of pixels with so many samples each: over what these count by themselves, else
+    /// over these weights, else over their number. Splats are divided by the mean number. For eyes: to the precision of a
+    /// float, quickly.
+    pub(crate) fn means(&mut self, samples: &[u32], weights: Option<&[f64]>) -> Vec<Vec<f32>> {
+        let total: u64 = samples.iter().map(|&count| u64::from(count)).sum();
+        let per_splat = samples.len() as f64 / total.max(1) as f64;
+        let (channels, colours) = (self.channels, self.colours);
+        // What the sums of each pixel are multiplied by.
+        let inverse = |x: f64| if x > 0.0 { 1.0 / x } else { 0.0 };
+        let factors: Vec<f64> = match (weights, self.weights.is_empty()) {
+            (_, false) => self
+                .weights
+                .par_iter_mut()
+                .map(|w| inverse(w.load().to_f64()))
+                .collect(),
+            (Some(weights), true) => weights.par_iter().map(|&w| inverse(w)).collect(),
+            (None, true) => samples.par_iter().map(|&n| inverse(f64::from(n))).collect(),
+        };
+        let mut values = vec![0.0_f32; self.own.len()];
+        let pixels = values
+            .par_chunks_mut(channels)
+            .zip(self.own.par_chunks_mut(channels))
+            .zip(&factors);
+        pixels.for_each(|((values, sums), factor)| {
+            for (value, sum) in values.iter_mut().zip(sums) {
+                *value = (sum.load().to_f64() * factor) as f32;
+            }
+        });
+        if let Some(splats) = self.splats.get_mut() {
+            let splats = splats.par_chunks_mut(colours);
+            values
+                .par_chunks_mut(channels)
+                .zip(splats)
+                .for_each(|(values, splats)| {
+                    for (value, splat) in values.iter_mut().zip(splats) {
+                        *value += (splat.load().to_f64() * per_splat) as f32;
+                    }
+                });
+        }
+        let plane = |channel: usize| {
+            values
+                .iter()
+                .skip(channel)
+                .step_by(channels)
+                .copied()
+                .collect()
+        };
+        (0..channels).into_par_iter().map(plane).collect()
+    }
+
     /// What there is, if any sample is there.
     pub(crate) fn snapshot(&mut self) -> Option<Unfinished> {
         let pixels = 0..self.pixels.len();
-        let samples: Vec<u32> = pixels.clone().map(|pixel| self.samples(pixel)).collect();
+        let samples = self.all_samples();
         if samples.iter().all(|&count| count == 0) {
             return None;
         }

@@ -271,7 +271,7 @@ pub(crate) fn reached(
     footprint: &Footprint,
     mut counts: Vec<f64>,
     [width, height]: [usize; 2],
-) -> Vec<Fixed128> {
+) -> Vec<f64> {
     let shares = footprint.shares();
     for (length, step, lines) in [(width, 1, height), (height, width, width)] {
         for line in 0..lines {
@@ -285,6 +285,5 @@ pub(crate) fn reached(
             }
         }
     }
-    let fixed = |count| Fixed128::from_f64(count).unwrap_or(Fixed128::ZERO);
-    counts.into_iter().map(fixed).collect()
+    counts
 }

@@ -3,7 +3,7 @@
 //! A replicate is an estimate of the whole image, independent of the others or a block of the sequence that
 //! they make up together ([`ReplicateKind`]), made in one pass or in as many as the integrator asks for. Tiles of a pass run in parallel, and a long pass goes over all of them in
 //! several rounds, so that a picture that is interrupted has some samples everywhere. The first round of all is of every
-//! [`COARSE`]th pixel of every [`COARSE`]th row, for those who look on. Since a
+//! [`COARSE`]th pixel of every [`COARSE`]th row, the second four times as fine, for those who look on. Since a
 //! sample is a pure function of its address and the film accumulates exactly, neither the number of
 //! threads nor the order of tiles nor the rounds change a bit, and a render goes on from any sample.
 
@@ -28,7 +28,7 @@ const TILES_PER_THREAD: u32 = 8;
 pub const BATCH_SIZE: usize = 16;
 
 /// Columns and rows between the pixels of the first round.
-const COARSE: u32 = 4;
+const COARSE: u32 = 8;
 
 /// How much to render.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -238,13 +238,15 @@ impl<W: World, I: Integrator> Run<'_, W, I> {
         let pixels = u64::from(size.x) * u64::from(size.y);
         let tiles = UVec2::new(size.x.div_ceil(self.side), size.y.div_ceil(self.side));
         self.pace.begin();
-        let mut is_coarse = self.is_first(pass) && until == 0;
+        let mut stride = match self.is_first(pass) && until == 0 {
+            true => COARSE,
+            false => 1,
+        };
         while until < pass.samples {
-            let stride = if is_coarse { COARSE } else { 1 };
             let before = until;
-            until += match is_coarse {
-                true => 1,
-                false => self.pace.round(pixels).min(pass.samples - until),
+            until += match stride {
+                1 => self.pace.round(pixels).min(pass.samples - until),
+                _ => 1,
             };
             let (drawn, cut) = (AtomicU64::new(0), AtomicBool::new(false));
             let tile = |index: u32| {
@@ -283,8 +285,8 @@ impl<W: World, I: Integrator> Run<'_, W, I> {
             if cut.into_inner() {
                 return false;
             }
-            if is_coarse {
-                (is_coarse, until) = (false, before);
+            if stride > 1 {
+                (stride, until) = ((stride / 4).max(1), before);
             }
             if until < pass.samples {
                 film.end_round();

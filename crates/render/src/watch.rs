@@ -1,6 +1,6 @@
 //! Looking on while a picture is rendered.
 //!
-//! The film is shown between rounds over it, when nobody adds to it, and no more often than that looking costs a twentieth of
+//! The film is shown between rounds over it, when nobody adds to it, and no more often than that looking costs a tenth of
 //! the time. What is seen decides no bit of the picture.
 
 use etalon_film::{ExactFilm, Glance};
@@ -18,7 +18,7 @@ pub trait Watcher: Send + Sync + Debug {
 const PATIENCE: Duration = Duration::from_millis(200);
 
 /// Time between looks, in units of what one takes.
-const SHARE: u32 = 20;
+const SHARE: u32 = 9;
 
 /// Shows a film to a watcher.
 #[derive(Debug)]
