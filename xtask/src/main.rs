@@ -1,7 +1,8 @@
-//! The tasks of the house: `cargo xtask validate`, `accelerators`, `references`, `mutants`, `calibrate`, `efficiency`, `speed`, `bits`, `farm-test`, `scenes`, `plugins`, `tables`, `tabulate`.
+//! The tasks of the house: `cargo xtask validate`, `accelerators`, `references`, `mutants`, `calibrate`, `efficiency`, `speed`, `bits`, `book`, `farm-test`, `scenes`, `plugins`, `tables`, `tabulate`.
 
 mod accelerators;
 mod bits;
+mod book;
 mod calibrate;
 mod compatibility;
 mod efficiency;
@@ -48,6 +49,8 @@ enum Task {
     Accelerators(accelerators::Arguments),
     /// Check that threads and build profiles do not change a bit (builds `release`: minutes)
     Bits,
+    /// Make a book of the pages of `docs/` (target/book), if mdBook is installed
+    Book,
     /// Run the job files of `etalon farm` by the engines that are installed, one node killed on the way, and compare bits
     FarmTest(farm_test::Arguments),
     /// Write the generated files of `scenes/` anew
@@ -70,6 +73,7 @@ fn main() -> ExitCode {
         Task::Speed(arguments) => speed::run(&arguments),
         Task::Accelerators(arguments) => accelerators::run(&arguments),
         Task::Bits => bits::run(),
+        Task::Book => book::run(),
         Task::FarmTest(arguments) => farm_test::run(&arguments),
         Task::Scenes => scenes::run(),
         Task::Plugins => plugins::run(),

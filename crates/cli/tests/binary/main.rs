@@ -11,6 +11,7 @@ mod compare;
 mod convert;
 mod determinism;
 mod docs;
+mod docs_pages;
 mod docs_plugins;
 mod estimators;
 mod failure;
