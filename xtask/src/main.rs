@@ -1,4 +1,4 @@
-//! The tasks of the house: `cargo xtask validate`, `accelerators`, `references`, `mutants`, `calibrate`, `efficiency`, `speed`, `bits`, `book`, `farm-test`, `scenes`, `plugins`, `tables`, `tabulate`.
+//! The tasks of the house: `cargo xtask validate`, `accelerators`, `references`, `mutants`, `calibrate`, `efficiency`, `speed`, `bits`, `book`, `gallery`, `farm-test`, `scenes`, `plugins`, `tables`, `tabulate`.
 
 mod accelerators;
 mod bits;
@@ -7,6 +7,7 @@ mod calibrate;
 mod compatibility;
 mod efficiency;
 mod farm_test;
+mod gallery;
 mod hearing;
 mod mutants;
 mod plugins;
@@ -51,6 +52,8 @@ enum Task {
     Bits,
     /// Make a book of the pages of `docs/` (target/book), if mdBook is installed
     Book,
+    /// Render the pictures of the book (`docs/gallery`) that have changed
+    Gallery(gallery::Arguments),
     /// Run the job files of `etalon farm` by the engines that are installed, one node killed on the way, and compare bits
     FarmTest(farm_test::Arguments),
     /// Write the generated files of `scenes/` anew
@@ -74,6 +77,7 @@ fn main() -> ExitCode {
         Task::Accelerators(arguments) => accelerators::run(&arguments),
         Task::Bits => bits::run(),
         Task::Book => book::run(),
+        Task::Gallery(arguments) => gallery::run(&arguments),
         Task::FarmTest(arguments) => farm_test::run(&arguments),
         Task::Scenes => scenes::run(),
         Task::Plugins => plugins::run(),
