@@ -1,6 +1,7 @@
 //! What the page shows: pictures, each with a number that grows when it changes, and how far the render is.
 
 use super::layers::{self, Planes};
+use crate::interrupt;
 use etalon_film::{Glance, RenderedImage};
 use etalon_images::{Development, Image};
 use etalon_render::watch::Watcher;
@@ -10,8 +11,8 @@ use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use std::time::{Duration, Instant, SystemTime};
 
-/// How long the last picture waits for a page that looks on.
-const FAREWELL: Duration = Duration::from_secs(3);
+/// How long the last picture waits for a page that looks on, and how long if somebody asked to stop.
+const FAREWELL: [Duration; 2] = [Duration::from_secs(3), Duration::from_secs(1)];
 
 /// A page that has not asked for so long is gone.
 const GONE: Duration = Duration::from_secs(2);
@@ -114,10 +115,11 @@ impl Feed {
         self.finished.store(true, Ordering::Relaxed);
         let newest = lock(&self.pictures).first().map_or(0, |p| p.version);
         let begin = Instant::now();
+        let patience = FAREWELL[usize::from(interrupt::asked())];
         let mut told = 0;
         let waiting = || {
             let asked = *lock(&self.asked);
-            asked.is_some_and(|asked| asked.elapsed() < GONE) && begin.elapsed() < FAREWELL
+            asked.is_some_and(|asked| asked.elapsed() < GONE) && begin.elapsed() < patience
         };
         // The state that says so must have been asked for, too.
         while waiting() && (self.fetched.load(Ordering::Relaxed) < newest || told < 3) {

@@ -226,3 +226,31 @@ fn filters(findings: &Findings, remarks: &mut Vec<String>) {
         ));
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Sizes 1, 2, 4 and 8 with these squared errors, known to a share of them; each sample takes a second.
+    fn steps(errors: [f64; 4], share: f64) -> Vec<Step> {
+        let step = |(samples_per_pixel, mse): (u32, f64)| Step {
+            samples_per_pixel,
+            replicates: 8,
+            seconds: f64::from(samples_per_pixel),
+            mse,
+            standard_error: share * mse,
+        };
+        [1, 2, 4, 8].into_iter().zip(errors).map(step).collect()
+    }
+
+    /// Mutants rejected: growth where errors fall as 1/n; none where the last falls twice as fast; growth within the noise.
+    #[test]
+    fn who_still_learns_is_found() {
+        assert_eq!(growth(&steps([1.0, 0.5, 0.25, 0.125], 0.01)), None);
+        let learning = [1.0, 0.5, 0.2, 0.0625];
+        let ratio = growth(&steps(learning, 0.05)).expect("it grows");
+        assert!((ratio - 2.0).abs() < 1e-12, "{ratio}");
+        assert_eq!(growth(&steps(learning, 0.4)), None, "not sure");
+        assert_eq!(growth(&[]), None);
+    }
+}
