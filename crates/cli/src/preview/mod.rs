@@ -2,7 +2,7 @@
 //!
 //! A page on this machine's loopback address asks for the state ([`feed`]) a few times a second and for the numbers of a picture
 //! when there are new ones; exposure, zoom and maps are the page's own affair. Nothing is fetched from elsewhere, and requests that name
-//! another host are refused ([`server`]). [`tev`] shows the same in Thomas Müller's viewer.
+//! another host are refused. [`tev`] shows the same in Thomas Müller's viewer.
 
 pub mod feed;
 mod layers;
