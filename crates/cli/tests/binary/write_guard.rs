@@ -62,6 +62,8 @@ const PATHS: [(&str, &str, Use); 21] = [
     ("movie", "files", Use::Reads),
     ("movie", "output", Use::Writes(&["p.png", "q.png", "-o"])),
     ("info", "file", Use::Reads),
+    ("view", "file", Use::Reads),
+    ("view", "other", Use::Reads),
     ("farm", "program", Use::Reads),
 ];
 
