@@ -14,6 +14,7 @@ mod docs;
 mod docs_pages;
 mod docs_plugins;
 mod estimators;
+mod estimators_length;
 mod failure;
 mod farm;
 mod field_scenes;

@@ -7,7 +7,7 @@ use std::any::TypeId;
 use std::path::{Path, PathBuf};
 
 /// The arguments of every command that are paths, and whether the command reads or writes there.
-const PATHS: [(&str, &str, Use); 21] = [
+const PATHS: [(&str, &str, Use); 23] = [
     ("render", "scene", Use::Reads),
     ("render", "output", Use::Writes(&["scene.xml", "-o"])),
     ("render", "strategies", Use::FillsFolder),
