@@ -36,6 +36,7 @@ mod positions;
 pub mod pssmlt;
 pub mod ptracer;
 pub mod render;
+mod render_plan;
 pub mod replay;
 mod rounds;
 pub mod settings;
@@ -48,5 +49,6 @@ mod visibility;
 pub mod whitted;
 
 pub use list::{AnyIntegrator, names};
-pub use render::{Progress, RenderPlan, RenderStatistics, render};
+pub use render::{Progress, RenderStatistics, render};
+pub use render_plan::RenderPlan;
 pub use share::ReplicateRange;

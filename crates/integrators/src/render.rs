@@ -1,18 +1,17 @@
 //! The render loop: replicates × passes × tiles × pixels × samples.
 //!
 //! A replicate is an estimate of the whole image, independent of the others or a block of the sequence that
-//! they make up together ([`ReplicateKind`]), made in one pass or in as many as the integrator asks for. Tiles of a pass run in parallel, and a long pass goes over all of them in
+//! they make up together ([`etalon_sampling::ReplicateKind`]), made in one pass or in as many as the integrator asks for. Tiles of a pass run in parallel, and a long pass goes over all of them in
 //! several rounds, so that a picture that is interrupted has some samples everywhere. The first round of all is of every
 //! [`COARSE`]th pixel of every [`COARSE`]th row, the second four times as fine, for those who look on. Since a
 //! sample is a pure function of its address and the film accumulates exactly, neither the number of
 //! threads nor the order of tiles nor the rounds change a bit, and a render goes on from any sample.
 
 use crate::positions::{Asked, around, position};
+use crate::render_plan::RenderPlan;
 use crate::rounds::{Batches, Pace};
 use crate::share::ReplicateRange;
-use etalon_sampling::{
-    Independent, ReplicateKind, SampleId, Sampler, SamplerKind, Sobol, Stratified,
-};
+use etalon_sampling::{Independent, SampleId, Sampler, SamplerKind, Sobol, Stratified};
 use etalon_transport::{Film, Integrator, Pass, PixelSample, SampleJob, TileSink, World};
 use glam::UVec2;
 use rayon::prelude::*;
@@ -29,55 +28,6 @@ pub const BATCH_SIZE: usize = 16;
 
 /// Columns and rows between the pixels of the first round.
 const COARSE: u32 = 8;
-
-/// How much to render.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct RenderPlan {
-    /// The seed of the image.
-    pub seed: u64,
-    /// Replicates of the image.
-    pub replicates: u32,
-    /// What they have to do with each other. Blocks are for integrators that declare them
-    /// ([`Integrator::replicate_kind`]).
-    pub replicate_kind: ReplicateKind,
-    /// The replicates that are rendered here; `None` for all of them.
-    pub share: Option<ReplicateRange>,
-    /// Samples per pixel in each replicate.
-    pub samples_per_replicate: u32,
-    /// The kind of sampler.
-    pub sampler: SamplerKind,
-}
-
-impl RenderPlan {
-    /// The replicates that are rendered.
-    pub fn share(&self) -> ReplicateRange {
-        self.share.unwrap_or(ReplicateRange {
-            first: 0,
-            count: self.replicates,
-        })
-    }
-
-    /// Where a sample's numbers are drawn from: sample `sample` of `dealt` that the pixel gets in a
-    /// replicate.
-    #[inline]
-    pub(crate) fn address(
-        &self,
-        replicate: u32,
-        pixel: UVec2,
-        sample: u32,
-        dealt: u32,
-    ) -> SampleId {
-        let within = SampleId {
-            seed: self.seed,
-            replicate,
-            pixel: pixel.into(),
-            sample,
-            samples_per_replicate: dealt,
-            blocks: 1,
-        };
-        self.replicate_kind.address(within, self.replicates)
-    }
-}
 
 /// What happened.
 #[derive(Clone, Debug, PartialEq, Eq)]
