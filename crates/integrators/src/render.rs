@@ -3,7 +3,7 @@
 //! A replicate is an estimate of the whole image, independent of the others or a block of the sequence that
 //! they make up together ([`etalon_sampling::ReplicateKind`]), made in one pass or in as many as the integrator asks for. Tiles of a pass run in parallel, and a long pass goes over all of them in
 //! several rounds, so that a picture that is interrupted has some samples everywhere. The first round of all is of every
-//! [`COARSE`]th pixel of every [`COARSE`]th row, the second four times as fine, for those who look on. Since a
+//! eighth pixel of every eighth row, the second four times as fine, for those who look on. Since a
 //! sample is a pure function of its address and the film accumulates exactly, neither the number of
 //! threads nor the order of tiles nor the rounds change a bit, and a render goes on from any sample.
 
@@ -26,7 +26,7 @@ const TILES_PER_THREAD: u32 = 8;
 /// How many samples are handed to the integrator at once.
 pub const BATCH_SIZE: usize = 16;
 
-/// Columns and rows between the pixels of the first round.
+/// Columns and rows from one pixel of the first round to the next.
 const COARSE: u32 = 8;
 
 /// What happened.
