@@ -39,7 +39,7 @@ fn pictures_are_as_long_as_asked() {
     assert!(!said.contains("`path` learns"), "{said}");
     let (_, long) = run("0.04");
     // Samples come in powers of two, and a busy machine is slow.
-    assert!(long[0] > 3.0 * short[0], "{short:?} {long:?}");
+    assert!(long[0] > 1.5 * short[0], "{short:?} {long:?}");
     let page = String::from_utf8(workshop.read("r.html")).expect("text");
     assert!(page.contains("Exposure of all pictures") && page.contains("data-picture"));
     let options = [
