@@ -193,9 +193,8 @@ impl<W: World, I: Integrator> Run<'_, W, I> {
             false => 1,
         };
         while until < pass.samples {
-            let before = until;
-            until += match stride {
-                1 => self.pace.round(pixels).min(pass.samples - until),
+            let target = match stride {
+                1 => until + self.pace.round(pixels).min(pass.samples - until),
                 _ => 1,
             };
             let (drawn, cut) = (AtomicU64::new(0), AtomicBool::new(false));
@@ -209,7 +208,7 @@ impl<W: World, I: Integrator> Run<'_, W, I> {
                     film: &*film,
                     pass,
                     begin,
-                    until,
+                    until: target,
                     stride,
                 };
                 let (here, whole) = match self.plan.sampler {
@@ -235,8 +234,10 @@ impl<W: World, I: Integrator> Run<'_, W, I> {
             if cut.into_inner() {
                 return false;
             }
-            if stride > 1 {
-                (stride, until) = ((stride / 4).max(1), before);
+            match stride {
+                1 => until = target,
+                // The same samples, of more pixels.
+                _ => stride = (stride / 4).max(1),
             }
             if until < pass.samples {
                 film.end_round();

@@ -119,11 +119,11 @@ pub(super) fn run_here(args: &RenderArgs, onlookers: &Onlookers) -> ExitCode {
         Ok(rendered) => rendered,
         Err(diagnostic) => return give_up(diagnostic.into(), &loaded),
     };
-    onlookers.end(&rendered.developed);
     if !rendered.has_samples() {
         say::remark("stopped before the first sample, without an image\n");
         return ExitCode::from(interrupt::STOPPED);
     }
+    onlookers.end(&rendered.developed);
     if let Err(message) = delivery::deliver(args, &loaded, &rendered, &plan, pilot) {
         return fail(message);
     }

@@ -46,6 +46,7 @@ struct Shown {
     name: String,
     version: u64,
     image: Arc<Image>,
+    layers: Vec<String>,
     /// Samples per pixel and replicates, as far as they are known.
     samples: Option<f64>,
     replicates: u32,
@@ -129,11 +130,13 @@ impl Feed {
     }
 
     fn replace(&self, image: Image, samples: Option<f64>, replicates: u32) {
+        let layers = layers::names(&image);
         let mut pictures = lock(&self.pictures);
         let version = pictures.first().map_or(1, |picture| picture.version + 1);
         let shown = Shown {
             name: self.title.clone(),
             version,
+            layers,
             image: Arc::new(image),
             samples,
             replicates,
@@ -189,8 +192,7 @@ impl Feed {
     /// The numbers of a layer of a picture, and the version that they are of.
     pub(super) fn planes(&self, picture: usize, layer: usize) -> Option<(Planes, u64)> {
         let shown = lock(&self.pictures).get(picture)?.clone();
-        let name = layers::names(&shown.image).into_iter().nth(layer)?;
-        let planes = layers::planes(&shown.image, &name)?;
+        let planes = layers::planes(&shown.image, shown.layers.get(layer)?)?;
         if picture == 0 {
             self.fetched.fetch_max(shown.version, Ordering::Relaxed);
         }
@@ -206,6 +208,7 @@ impl Shown {
             version,
             samples: metadata.map(|m| m.spp as f64),
             replicates: metadata.map_or(0, |m| m.replicates),
+            layers: layers::names(&picture.image),
             image: Arc::new(picture.image),
             file: Some((path.to_owned(), written(path))),
         }
@@ -217,7 +220,7 @@ impl Shown {
             "version": self.version,
             "width": self.image.width(),
             "height": self.image.height(),
-            "layers": layers::names(&self.image),
+            "layers": self.layers,
             "samples": self.samples,
             "replicates": self.replicates,
         })

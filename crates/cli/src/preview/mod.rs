@@ -8,8 +8,6 @@ pub mod feed;
 mod layers;
 mod onlookers;
 mod server;
-#[cfg(test)]
-mod tests;
 pub mod tev;
 
 pub use feed::Feed;

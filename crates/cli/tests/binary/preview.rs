@@ -1,6 +1,7 @@
 //! Looking on while a picture renders, and looking at finished ones: what the page is told, who is refused, what `tev` hears.
 
 use crate::workshop::{Ran, Workshop, cornell_box};
+use etalon_images::Image;
 use std::io::{BufRead, BufReader, Read, Write};
 use std::net::{TcpListener, TcpStream};
 use std::process::{Child, Stdio};
@@ -55,6 +56,16 @@ fn floats(answer: &Answer) -> Vec<f32> {
     let words = answer.body.chunks_exact(4);
     words
         .map(|word| f32::from_le_bytes([word[0], word[1], word[2], word[3]]))
+        .collect()
+}
+
+/// The colours of an image, then their standard errors.
+fn planes_of(image: &Image) -> Vec<&[f32]> {
+    let colours = ["R", "G", "B"];
+    let errors = colours.map(|colour| format!("standard_error.{colour}"));
+    let names = colours.into_iter().chain(errors.iter().map(String::as_str));
+    names
+        .map(|name| image.channel(name).expect("it is there"))
         .collect()
 }
 
@@ -129,15 +140,7 @@ fn a_page_sees_the_picture_grow() {
     }
     assert!(served.0.wait().expect("it ends").success());
     let file = workshop.image("a.exr").image;
-    let channels = [
-        "R",
-        "G",
-        "B",
-        "standard_error.R",
-        "standard_error.G",
-        "standard_error.B",
-    ];
-    let planes = channels.map(|name| file.channel(name).expect("it is there").to_vec());
+    let planes = planes_of(&file);
     assert!(
         seen == planes.concat(),
         "the last picture is not the file's"
@@ -331,15 +334,7 @@ fn tev_hears_the_picture() {
     );
     // The last two messages are the last picture: rows 0 to 63 and 64 to 99, plane by plane.
     let file = workshop.image("a.exr").image;
-    let colours = [
-        "R",
-        "G",
-        "B",
-        "standard_error.R",
-        "standard_error.G",
-        "standard_error.B",
-    ];
-    let planes = colours.map(|name| file.channel(name).expect("it is there"));
+    let planes = planes_of(&file);
     let last = &messages[messages.len() - 2..];
     for (band, first, rows) in [(&last[0], 0, 64), (&last[1], 64, 36)] {
         assert_eq!(band[0], UPDATE);

@@ -1,1 +1,0 @@
-//! The feed, the layers, and what the server refuses.
