@@ -2,9 +2,10 @@
 
 use crate::workshop::{Ran, Workshop, cornell_box};
 use etalon_images::Image;
+use std::ffi::OsString;
 use std::io::{BufRead, BufReader, Read, Write};
 use std::net::{TcpListener, TcpStream};
-use std::process::{Child, Stdio};
+use std::process::{Child, Command, Stdio};
 use std::time::{Duration, Instant};
 
 const PATIENCE: Duration = Duration::from_secs(30);
@@ -347,5 +348,68 @@ fn tev_hears_the_picture() {
             .iter()
             .flat_map(|plane| &plane[8 * first..8 * (first + rows)]);
         assert!(sent.iter().eq(expected), "{first}");
+    }
+}
+
+/// The page draws the pictures in a real browser, if there is one: its script has read the state and the numbers, and offers the maps that
+/// they allow. Mutants rejected: a script with an error, a policy that blocks it, a picture that is not fetched.
+#[test]
+fn a_browser_shows_the_page() {
+    let names = ["chromium", "chromium-browser", "google-chrome", "chrome"].map(Into::into);
+    let named = std::env::var_os("ETALON_CHROMIUM").into_iter();
+    let runs = |name: &OsString| Command::new(name).arg("--version").output().is_ok();
+    let Some(browser) = named.chain(names).find(runs) else {
+        let told =
+            "SKIPPED: the preview's page was not tried in a browser, as there is no Chromium.\n";
+        let _ = std::io::stderr().write_all(told.as_bytes());
+        return;
+    };
+    let workshop = Workshop::new();
+    let scene = cornell_box();
+    for (output, seed) in [("a.exr", "1"), ("b.exr", "2")] {
+        let words = [
+            "render", &scene, "-q", "-o", output, "--size", "16x12", "--spp", "16",
+        ];
+        workshop
+            .run(&[&words[..], &["--seed", seed]].concat())
+            .fine();
+    }
+    let mut child = (workshop.command())
+        .args(["view", "a.exr", "b.exr", "--exposure", "2"])
+        .stdout(Stdio::piped())
+        .spawn()
+        .expect("it runs");
+    let port = port_of(child.stdout.take().expect("it was asked for"));
+    let _served = Served(child, port);
+    let shown = Command::new(browser)
+        .args([
+            "--headless",
+            "--no-sandbox",
+            "--disable-gpu",
+            "--no-first-run",
+        ])
+        .args([
+            "--disable-background-networking",
+            "--disable-component-update",
+            "--disable-sync",
+        ])
+        .arg(format!(
+            "--user-data-dir={}",
+            workshop.path("profile").display()
+        ))
+        .args(["--virtual-time-budget=5000", "--dump-dom"])
+        .arg(format!("http://127.0.0.1:{port}/"))
+        .output()
+        .expect("it runs");
+    let page = String::from_utf8_lossy(&shown.stdout);
+    for words in [
+        ">a.exr and b.exr</span>",
+        ">16 samples per pixel<",
+        ">+2 EV<",
+        ">standard error</option>",
+        ">difference in standard errors</option>",
+        "id=\"empty\" hidden",
+    ] {
+        assert!(page.contains(words), "{words}: {page}");
     }
 }
