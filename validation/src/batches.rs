@@ -6,9 +6,9 @@ use crate::fault::PlantedFault;
 use crate::kept::{BatchCache, Wanted};
 use crate::rendering;
 use crate::run::Task;
-use crate::tier::Multiple;
 use etalon_film::RenderedImage;
 use etalon_integrators::RenderPlan;
+use etalon_render::decide::looks::Multiple;
 use std::hash::{DefaultHasher, Hasher};
 
 /// The replicates that a look adds.

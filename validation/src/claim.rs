@@ -20,10 +20,10 @@
 //! mutants = ["dropped cosine"] # faults that this very comparison must find
 //! ```
 
-use crate::convergence::Part;
 use crate::fault::PlantedFault;
 use crate::matrix::{self, Matrix, SkippedIntegrator};
 use crate::tasks::{named, unknown};
+use etalon_render::decide::convergence::Part;
 use rayon::iter::Either;
 use rayon::prelude::*;
 use serde::Deserialize;

@@ -6,13 +6,13 @@
 
 use crate::claim::{Change, Claim, Estimator, Oracle};
 use crate::fault::PlantedFault;
-use crate::measure::Measure;
 use crate::rendering;
 use etalon_film::{ExactFilm, Part, RenderedImage, TileMeans};
 use etalon_formats::FileAssets;
 use etalon_formats::mitsuba::{self, ReadOptions};
 use etalon_integrators::{RenderPlan, ReplicateRange};
 use etalon_params::Diagnostics;
+use etalon_render::decide::measure::Measure;
 use etalon_render::pipeline::{self, Loaded, RenderOptions};
 use etalon_scene::{AcceleratorKind, CompileOptions, Compiled};
 use std::io::Cursor;

@@ -25,11 +25,10 @@ use crate::claim::{Budget, Claim, Estimator};
 use crate::closed_form;
 use crate::fault::PlantedFault;
 use crate::kept::BatchCache;
-use crate::measure::{self, Measure};
 use crate::rendering;
-use crate::samples;
 use crate::tier::Tier;
 use etalon_film::{Metadata, RenderedImage};
+use etalon_render::decide::measure::{self, Measure};
 use etalon_render::judge::{self, ExactImage};
 use etalon_statistics::{Estimate, Summary, proportion};
 use serde::Deserialize;
@@ -215,8 +214,7 @@ pub fn judge(
 /// The pixels of a picture.
 fn pixels(picture: &RenderedImage, known: &ExactImage) -> Result<Vec<Trial>, String> {
     let missing = "the picture has no standard errors, or nothing is known of it";
-    let found = known.channels.iter().find(|(name, _)| name == CHANNEL);
-    let (_, truth) = found.ok_or(missing)?;
+    let truth = known.channel(CHANNEL)?;
     let means = picture.image.channel(CHANNEL).ok_or(missing)?;
     let errors = picture.standard_error(CHANNEL).ok_or(missing)?;
     let all = means.iter().zip(errors).zip(truth);
@@ -233,7 +231,7 @@ fn tiles(picture: &RenderedImage, known: &ExactImage) -> Result<Vec<Trial>, Stri
     let metadata = picture.metadata.as_ref().ok_or(missing)?;
     let (means, count) = judge::replicates(metadata, CHANNEL, SIDE)?;
     let trial = |tile: usize| {
-        let truth = samples::tile_mean(known, CHANNEL, SIDE, tile)?;
+        let truth = known.tile_mean(CHANNEL, SIDE, tile)?;
         let relative = means.iter().skip(tile).step_by(count).map(|x| x / truth);
         let summary = Summary::of_iter(relative).ok_or(missing)?;
         Ok(Trial {

@@ -1,16 +1,16 @@
 //! What became of a run: every comparison rendered, looked at until it is decided, and judged
-//! together with all others ([`crate::decision`]).
+//! together with all others ([`etalon_render::decide::decision`]).
 
-use crate::decision::{self, Decision, Seen, Stage};
 use crate::kept::BatchCache;
 use crate::look::Look;
 use crate::run::{Compared, Comparison, Options, Task};
 use crate::state::State;
+use etalon_render::decide::decision::{self, Decision, Question, Seen, Stage};
 use etalon_statistics::Verdict;
 use serde::Serialize;
 use std::time::Instant;
 
-pub use crate::decision::{ALPHA, FALSE_POSITIVE_LEVEL, Progress};
+pub use etalon_render::decide::decision::{ALPHA, FALSE_POSITIVE_LEVEL, Progress};
 
 /// What a comparison came to.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
@@ -111,15 +111,17 @@ pub fn run<'a>(
     tasks: Vec<Task<'a>>,
     options: &Options,
     state: Option<&State>,
-    watch: impl FnMut(&Progress<'_>),
+    mut watch: impl FnMut(&Task<'a>, &Progress),
 ) -> Result<Vec<Row<'a>>, String> {
     let mut works: Vec<Work<'a>> = tasks.iter().copied().map(Work::new).collect();
     let kept = BatchCache::new(state);
+    let questions = tasks.iter().map(|task| task.question(options.tier));
+    let questions: Vec<Question> = questions.collect();
     let decisions = decision::decide(
-        &tasks,
-        options.tier,
+        &questions,
+        options.tier.looks(),
         |turn| works[turn.place].look(turn, options, &kept),
-        watch,
+        |progress| watch(&tasks[progress.place], progress),
     )?;
     let made = tasks.into_iter().zip(works);
     let rows = made.filter(|(task, _)| !task.elsewhere).zip(decisions);

@@ -6,9 +6,9 @@
 use crate::claim::{Claim, Oracle};
 use crate::folders;
 use crate::rendering;
-use etalon_film::{ExactFilm, Metadata, RenderFacts, RenderedImage, read_developed};
+use etalon_film::{Metadata, RenderFacts, RenderedImage, read_developed};
 use etalon_images::{Image, write_atomically};
-use etalon_sampling::ReplicateKind;
+use etalon_render::seeds::Seeds;
 use serde::{Deserialize, Serialize};
 use std::io::Write;
 use std::path::{Path, PathBuf};
@@ -216,11 +216,8 @@ pub struct Rendered {
 pub fn write(claim: &Claim, rendered: &Rendered, spp: u32, pixels: &[f32]) -> Result<f64, String> {
     let defines = rendering::defines(claim, None);
     let loaded = rendering::load(claim, &defines, None)?;
-    let mut settings = loaded.compiled.film.clone();
-    settings.pixel_format = etalon_film::PixelFormat::Rgb;
-    let mut film = ExactFilm::new(settings, &[]).map_err(|e| e.message)?;
+    let mut together = Seeds::on(loaded.compiled.film.clone())?;
     let size = rendered.width * rendered.height;
-    let mut seeds = 0;
     for picture in pixels.chunks(3 * size) {
         if picture.len() != 3 * size {
             return Err("Mitsuba's pictures are incomplete".to_owned());
@@ -230,9 +227,9 @@ pub fn write(claim: &Claim, rendered: &Rendered, spp: u32, pixels: &[f32]) -> Re
             .with("R", plane(0))
             .with("G", plane(1))
             .with("B", plane(2));
-        film.add_replicate(&image, u64::from(spp))?;
-        seeds += 1;
+        together.add(&image, u64::from(spp))?;
     }
+    let seeds = together.count() as u32;
     let provenance = Provenance {
         scene: claim.scene.display().to_string(),
         defines,
@@ -244,15 +241,13 @@ pub fn write(claim: &Claim, rendered: &Rendered, spp: u32, pixels: &[f32]) -> Re
         spp,
         integrator: claim.oracle.integrator().map(str::to_owned),
     };
-    let developed = film.develop(RenderFacts {
+    let developed = together.develop(RenderFacts {
         version: maker(&rendered.mitsuba, &rendered.variant),
         scene: provenance.scene.clone(),
         scene_hash: loaded.hash,
         integrator: (provenance.integrator.clone()).unwrap_or(loaded.integrator_name),
-        sampler: "independent".to_owned(),
-        replicate_kind: ReplicateKind::Independent,
         seed: 1,
-        seconds: None,
+        ..RenderFacts::default()
     });
     developed
         .write_exr(&picture_path(&claim.name))

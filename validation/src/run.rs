@@ -5,16 +5,17 @@
 
 use crate::batches::{Batches, Side};
 use crate::claim::{Budget, Oracle};
-use crate::convergence::Fall;
-use crate::decision::Stage;
-use crate::judged::{self, Against, Asked};
 use crate::kept::BatchCache;
-use crate::measure::Measure;
 use crate::noise::Effort;
-use crate::tier::Multiple;
 use crate::{closed_form, convergence, invariance, noise, pixelwise, reference, rendering};
 use etalon_film::RenderedImage;
 use etalon_images::{Frame, Image};
+use etalon_render::decide::convergence::Fall;
+use etalon_render::decide::decision::Stage;
+use etalon_render::decide::judged::{self, Against, Asked};
+use etalon_render::decide::looks::Multiple;
+use etalon_render::decide::measure::Measure;
+use etalon_render::decide::pixelwise::Limits;
 use etalon_render::judge::{ExactImage, ImageComparison};
 use etalon_statistics::Verdict;
 
@@ -57,7 +58,7 @@ pub struct Compared {
     /// How the squared error falls, for claims of convergence.
     pub fall: Option<Fall>,
     /// The greatest relative bias of an image's mean that is not excluded with 99 % confidence
-    /// ([`crate::tier::STATED`]), if it was asked for.
+    /// ([`etalon_render::decide::looks::STATED`]), if it was asked for.
     pub bias_bound: Option<f64>,
 }
 
@@ -87,7 +88,7 @@ pub struct Comparison<'a> {
     /// The pictures counted so far, of a claim about noise.
     counted: Vec<noise::Counted>,
     /// The batches so far, of a claim about convergence.
-    batches: convergence::Batches,
+    climbed: convergence::Climbed,
     /// Replicates so far, in multiples of the first look's.
     multiple: Multiple,
 }
@@ -103,7 +104,7 @@ impl<'a> Comparison<'a> {
             picture: None,
             oracle: None,
             counted: Vec::new(),
-            batches: convergence::Batches::default(),
+            climbed: convergence::Climbed::default(),
             multiple: Multiple::ZERO,
         }
     }
@@ -149,7 +150,7 @@ impl<'a> Comparison<'a> {
         let (mut shown, mut fall, mut replicates) = (None, None, budget.replicates);
         let (measures, spp) = match &claim.oracle {
             Oracle::Povray { edges, excused } => {
-                let limits = pixelwise::Limits {
+                let limits = Limits {
                     edges: *edges,
                     excused: *excused,
                 };
@@ -161,11 +162,11 @@ impl<'a> Comparison<'a> {
             }
             Oracle::Convergence(ladder) => {
                 let seed = options.seed;
-                let batches = &mut self.batches;
-                batches.extend(claim, ladder, (estimator, fault), budget, seed)?;
-                let measure = convergence::judge(&batches.exponents, estimator, alpha)?;
-                fall = Some(batches.fall(ladder));
-                (vec![measure], batches.spp)
+                let climbed = &mut self.climbed;
+                climbed.extend(claim, ladder, (estimator, fault), budget, seed)?;
+                let measure = convergence::judge(&climbed.batches.exponents, estimator, alpha)?;
+                fall = Some(climbed.fall(ladder));
+                (vec![measure], climbed.spp)
             }
             Oracle::Noise(counting) => {
                 let Effort { seeds, tolerance } = counting.effort(options.tier, fault);

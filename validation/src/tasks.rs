@@ -4,6 +4,7 @@ use crate::claim::{Budget, Claim, Estimator, Oracle};
 use crate::fault::PlantedFault;
 use crate::tier::Tier;
 use etalon_params::suggest::nearest;
+use etalon_render::decide::decision::Question;
 use etalon_render::judge::Tolerances;
 use etalon_render::part::PartOfMany;
 
@@ -41,6 +42,16 @@ impl Task<'_> {
         match self.fault {
             Some(fault) => format!("mutant: {fault}"),
             None => self.estimator.label(),
+        }
+    }
+
+    /// The comparison as the decision of the whole run sees it.
+    pub fn question(&self, tier: Tier) -> Question {
+        Question {
+            name: format!("{}: {}", self.claim.name, self.label()),
+            is_mutant: self.fault.is_some(),
+            elsewhere: self.elsewhere,
+            cost: self.samples(tier),
         }
     }
 

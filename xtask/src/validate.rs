@@ -5,7 +5,7 @@ use etalon_render::part::PartOfMany;
 use etalon_validation::claim::Claim;
 use etalon_validation::json::{self, Provenance};
 use etalon_validation::outcome::{self, Conclusion, Outcome, Progress};
-use etalon_validation::run::{self, Options};
+use etalon_validation::run::{self, Options, Task};
 use etalon_validation::state::State;
 use etalon_validation::tier::Tier;
 use etalon_validation::{folders, html, table};
@@ -158,8 +158,8 @@ fn validate(arguments: &Arguments) -> Result<Conclusion, String> {
     }
     let start = Instant::now();
     let mut watch = Watch::default();
-    let rows = outcome::run(tasks, &options, state.as_ref(), |progress| {
-        watch.show(progress);
+    let rows = outcome::run(tasks, &options, state.as_ref(), |task, progress| {
+        watch.show(task, progress);
     })?;
     if std::io::stderr().is_terminal() {
         eprint!("\r\x1b[K");
@@ -215,11 +215,11 @@ struct Watch {
 }
 
 impl Watch {
-    fn show(&mut self, progress: &Progress<'_>) {
+    fn show(&mut self, task: &Task<'_>, progress: &Progress) {
         if std::io::stderr().is_terminal() {
-            eprint!("\r\x1b[K{}\r", line(progress));
+            eprint!("\r\x1b[K{}\r", line(task, progress));
         } else if self.told.is_none_or(|told| told.elapsed() >= LOG_EVERY) {
-            eprintln!("{}", line(progress));
+            eprintln!("{}", line(task, progress));
             self.told = Some(Instant::now());
         }
     }
@@ -227,7 +227,7 @@ impl Watch {
 
 /// Where the run is, and how long the rest takes. How many comparisons need a further look is not
 /// known beforehand; each look tells its own rest.
-fn line(progress: &Progress<'_>) -> String {
+fn line(task: &Task<'_>, progress: &Progress) -> String {
     let remaining = progress.remaining.map_or(String::new(), |rest| {
         format!(", about {} left", duration(rest))
     });
@@ -239,8 +239,8 @@ fn line(progress: &Progress<'_>) -> String {
         "{look}{} of {}: {} {} (after {}{remaining})",
         progress.done + 1,
         progress.total,
-        progress.task.claim.name,
-        progress.task.label(),
+        task.claim.name,
+        task.label(),
         duration(progress.elapsed),
     )
 }

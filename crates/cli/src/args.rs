@@ -4,11 +4,13 @@ mod estimators;
 mod farm;
 mod picture;
 mod preview;
+mod replicates;
 
 pub use estimators::EstimatorsArgs;
 pub use farm::{FarmArgs, PathMap};
 pub use picture::{FramingArgs, ShownArgs};
 pub use preview::{Port, PreviewArgs, ViewArgs};
+pub use replicates::ReplicatesArgs;
 
 use crate::arg_values::{
     ReplayAddress, parse_accelerator, parse_define, parse_error, parse_light_chooser,
@@ -75,6 +77,17 @@ Examples:
   etalon merge parts -o whole.exr               # all that are in the folder
   etalon merge a.exr -o so-far.exr --partial")]
     Merge(MergeArgs),
+    /// Put pictures of different seeds, by whatever program, into one image with standard errors.
+    ///
+    /// Then `compare` can judge them. Each picture is of the same scene with a seed of its own: linear Rec. 709 (EXR,
+    /// Radiance HDR, PFM), the first row on top.
+    #[command(after_help = "\
+Exit codes: 0 done, 2 bad input or usage.
+
+Examples:
+  etalon replicates seed-*.exr -o mine.exr --spp 64 --program 'mine 1.0'
+  etalon compare mine.exr etalon.exr --report mine.html")]
+    Replicates(ReplicatesArgs),
     /// Write the job files that render a scene on a cluster: for Slurm, Open Job Description or GNU parallel.
     ///
     /// `-o` is the folder for job files, parts and the picture; all other options are those of `render`. Each task renders

@@ -15,6 +15,8 @@ use etalon_film::{Metadata, RenderedImage, TileMeans};
 use etalon_statistics::{Replicates, TileDifferences, TilesError, Verdict};
 use serde::Serialize;
 
+pub use crate::exact_image::ExactImage;
+
 /// How large a bias matters, and how sure the verdict must be.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct Tolerances {
@@ -148,33 +150,6 @@ pub fn judge(
         }
     }
     decide(&comparisons, rules)
-}
-
-/// A picture that is known without error: the expected value of each pixel.
-#[derive(Clone, Debug, PartialEq)]
-pub struct ExactImage {
-    /// Width and height (pixels).
-    pub size: [u32; 2],
-    /// Channels with their pixels, row after row.
-    pub channels: Vec<(String, Vec<f64>)>,
-}
-
-impl ExactImage {
-    /// The means over tiles of `side` pixels, or over the whole image, row after row.
-    fn tile_means(&self, pixels: &[f64], side: Option<u32>) -> Vec<f64> {
-        let [width, height] = self.size.map(|n| n as usize);
-        let side = side.map_or(width.max(height), |side| side as usize);
-        let mut means = Vec::new();
-        for top in (0..height).step_by(side) {
-            for left in (0..width).step_by(side) {
-                let (bottom, right) = ((top + side).min(height), (left + side).min(width));
-                let rows = (top..bottom).map(|y| &pixels[y * width + left..y * width + right]);
-                let sum: f64 = rows.map(|row| row.iter().sum::<f64>()).sum();
-                means.push(sum / ((bottom - top) * (right - left)) as f64);
-            }
-        }
-        means
-    }
 }
 
 /// Compares an image that carries tile means of at least two replicates with a known picture.

@@ -1,12 +1,14 @@
 //! Rendering as a library: from a scene file to an image, and from images to a verdict.
 //!
-//! [`pipeline`] is the way from a scene file to an image, [`judge`] decides whether two images agree, [`estimators`] compares
-//! estimators, [`report`] makes pages. Nothing here prints or holds a global state: the binary, the validation and
+//! [`pipeline`] is the way from a scene file to an image, [`judge`] decides whether two images agree, [`decide`] whether
+//! many comparisons hold together, [`estimators`] compares estimators, [`report`] makes pages. Nothing here prints or holds a global state: the binary, the validation and
 //! whoever binds to it are thin around it.
 
 pub mod adaptive;
 pub mod checkpointing;
+pub mod decide;
 pub mod estimators;
+mod exact_image;
 pub mod judge;
 pub mod load_options;
 pub mod loaded;
@@ -19,6 +21,7 @@ pub mod pipeline;
 pub mod report;
 pub mod resources;
 mod scene_hash;
+pub mod seeds;
 mod sizes;
 pub mod target;
 pub mod tolerance;

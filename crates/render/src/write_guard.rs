@@ -43,6 +43,19 @@ impl WriteGuard {
         Ok(Destination(path.to_owned()))
     }
 
+    /// As [`WriteGuard::claim`], of an image that can only be an OpenEXR file.
+    ///
+    /// # Errors
+    /// If its name says otherwise, and as there.
+    pub fn claim_exr(&mut self, path: &Path) -> Result<Destination, String> {
+        let extension = path.extension().unwrap_or_default();
+        if extension.eq_ignore_ascii_case("exr") {
+            return self.claim(path);
+        }
+        let path = path.display();
+        Err(format!("cannot write {path}: the name must end in .exr"))
+    }
+
     /// Further files, which turned out to be read after the claims: those that a scene names.
     ///
     /// # Errors

@@ -4,7 +4,7 @@
 //!
 //! - [`null`]: the whole decision of a run, thousands of times, on replicates of one estimator
 //!   dealt anew each time ([`pool`]). Nothing is wrong, so every failure is a false alarm, and those may come
-//!   at the rate [`crate::decision::FALSE_POSITIVE_LEVEL`] at most.
+//!   at the rate [`etalon_render::decide::decision::FALSE_POSITIVE_LEVEL`] at most.
 //! - [`single`]: one question at a time between fresh renders: its p-values must be uniform, it
 //!   must raise its alarm as often as its level says, and its intervals must cover.
 //!

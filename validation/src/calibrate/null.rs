@@ -6,10 +6,11 @@
 
 use super::pool::Pool;
 use super::question::Question;
-use crate::decision::{self, FALSE_POSITIVE_LEVEL, Seen};
 use crate::outcome::Outcome;
 use crate::run::Task;
-use crate::tier::{Multiple, Tier};
+use crate::tier::Tier;
+use etalon_render::decide::decision::{self, FALSE_POSITIVE_LEVEL, Seen};
+use etalon_render::decide::looks::Multiple;
 use etalon_statistics::error_rates::Rate;
 use rayon::prelude::*;
 use std::sync::atomic::{AtomicU32, Ordering};
@@ -102,9 +103,10 @@ fn once(tasks: &[Task<'_>], pools: &[Pool], tier: Tier, seed: u64) -> Result<Run
         .map(|((task, pool), number)| pool.sit(*task, seed.wrapping_add(number)))
         .collect();
     let mut p_values = Vec::new();
+    let questions: Vec<_> = tasks.iter().map(|task| task.question(tier)).collect();
     let decisions = decision::decide(
-        tasks,
-        tier,
+        &questions,
+        tier.looks(),
         |turn| {
             let table = &mut tables[turn.place];
             let dealt = table.look(turn).ok()?;

@@ -14,18 +14,19 @@ use crate::calibrate::CHANNEL;
 use crate::calibrate::question::Question;
 use crate::claim::{Budget, Oracle};
 use crate::convergence;
-use crate::decision::Stage;
-use crate::judged::{self, Against, Asked};
 use crate::kept::BatchCache;
-use crate::measure::Measure;
 use crate::noise::{self, Counted};
 use crate::reference;
 use crate::rendering;
 use crate::run::Task;
 use crate::state::State;
-use crate::tier::{Multiple, Tier};
+use crate::tier::Tier;
 use etalon_film::{Metadata, RenderedImage, TileMeans};
 use etalon_images::{Frame, Image};
+use etalon_render::decide::decision::Stage;
+use etalon_render::decide::judged::{self, Against, Asked};
+use etalon_render::decide::looks::Multiple;
+use etalon_render::decide::measure::Measure;
 use etalon_render::judge::ExactImage;
 use etalon_statistics::{Estimate, Summary, Verdict};
 use rand::seq::SliceRandom;
@@ -113,9 +114,9 @@ impl Pool {
         let first = task.budget(tier);
         let kind = match &claim.oracle {
             Oracle::Convergence(ladder) => {
-                let mut batches = convergence::Batches::default();
-                batches.extend(claim, ladder, (estimator, None), first, seed)?;
-                Kind::Exponents(batches.exponents)
+                let mut climbed = convergence::Climbed::default();
+                climbed.extend(claim, ladder, (estimator, None), first, seed)?;
+                Kind::Exponents(climbed.batches.exponents)
             }
             Oracle::Noise(counting) => {
                 let of = (counting, 0..counting.effort(tier, None).seeds);

@@ -106,9 +106,7 @@ pub fn repeat(
                 .map(|picture| summary(picture, side))
                 .collect::<Result<_, String>>()?;
             estimates.push(match (&summaries[..], &known) {
-                ([own], Some(known)) => {
-                    Estimate::excess(own, crate::samples::tile_mean(known, CHANNEL, side, 0)?)
-                }
+                ([own], Some(known)) => Estimate::excess(own, known.tile_mean(CHANNEL, side, 0)?),
                 ([own, other], _) => Estimate::welch(own, other),
                 _ => return Err("a comparison has one picture or two".to_owned()),
             });

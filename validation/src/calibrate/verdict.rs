@@ -3,8 +3,8 @@
 use super::null::{Counts, NullRuns};
 use super::single::Single;
 use super::{ALARMS, CONFIDENCE, COVERAGES, MOST_UNDECIDED, REPETITIONS};
-use crate::decision::FALSE_POSITIVE_LEVEL;
 use crate::run::Task;
+use etalon_render::decide::decision::FALSE_POSITIVE_LEVEL;
 use etalon_statistics::error_rates::{self, Rate};
 use serde_json::{Value, json};
 

@@ -3,15 +3,16 @@
 use super::efficiency;
 use super::line;
 use crate::claim::Oracle;
-use crate::convergence::{Fall, Ladder};
+use crate::convergence::Ladder;
 use crate::json::{self, Provenance};
 use crate::look::Look;
-use crate::measure::Measure;
 use crate::noise::Counting;
 use crate::outcome::Row;
 use crate::run::{Compared, Evidence};
 use crate::table;
 use etalon_math::float64;
+use etalon_render::decide::convergence::Fall;
+use etalon_render::decide::measure::Measure;
 use etalon_render::report::album::Album;
 use etalon_render::report::plot::{self, Curve};
 use etalon_render::report::running::{self, Point};

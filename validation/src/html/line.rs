@@ -1,8 +1,8 @@
 //! One line of the table of decisions.
 
-use crate::measure::Measure;
 use crate::outcome::{Outcome, Row};
 use crate::table;
+use etalon_render::decide::measure::Measure;
 use etalon_render::judge::{ImageComparison, ImageRow};
 use etalon_render::report::{self, interval, probability};
 use maud::{Markup, html};

@@ -7,10 +7,10 @@ mod browser;
 mod rows;
 
 use browser::{Folder, exercise, failures};
+use etalon_render::decide::judged::{self, Against};
 use etalon_render::report::{comparison, running};
 use etalon_validation::claim::Claim;
 use etalon_validation::json::Provenance;
-use etalon_validation::judged::{self, Against};
 use etalon_validation::outcome::Row;
 use etalon_validation::{folders, html, json, table};
 

@@ -2,16 +2,16 @@
 
 use etalon_film::{BoxFilter, ExactFilm, FilmSettings, Filter, RenderFacts, RenderedImage};
 use etalon_images::{Frame, Image};
+use etalon_render::decide::convergence::Fall;
+use etalon_render::decide::decision::Decision;
+use etalon_render::decide::judged::{self, Against, Asked, Judged};
+use etalon_render::decide::measure::Measure;
 use etalon_render::judge::{ExactImage, ImageRow, Tolerances};
 use etalon_statistics::Verdict;
 use etalon_validation::claim::Claim;
-use etalon_validation::convergence::Fall;
-use etalon_validation::decision::Decision;
 use etalon_validation::fault::PlantedFault;
 use etalon_validation::folders;
-use etalon_validation::judged::{self, Against, Asked, Judged};
 use etalon_validation::look::Look;
-use etalon_validation::measure::Measure;
 use etalon_validation::outcome::{Outcome, Row};
 use etalon_validation::run::{Compared, Evidence, Task};
 
@@ -198,7 +198,7 @@ fn measure(name: &str, value: f64, reach: f64, accepted: [f64; 2]) -> Measure {
         } else {
             1e-7
         },
-        verdict: etalon_validation::measure::verdict(interval, accepted),
+        verdict: etalon_render::decide::measure::verdict(interval, accepted),
     }
 }
 

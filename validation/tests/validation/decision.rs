@@ -143,7 +143,7 @@ fn the_furnace_holds_and_its_mutants_are_found() {
     let claims: Vec<Claim> = claims.into_iter().filter(|c| c.name == "furnace").collect();
     let tasks = run::tasks(&claims, &options);
     assert_eq!(tasks.len(), 3);
-    let rows = outcome::run(tasks, &options, None, |_| ()).expect("a plan");
+    let rows = outcome::run(tasks, &options, None, |_, _| ()).expect("a plan");
     for row in &rows {
         assert_eq!(row.outcome, Outcome::Passed, "{:?}", row.task.fault);
     }
@@ -152,7 +152,7 @@ fn the_furnace_holds_and_its_mutants_are_found() {
 
 #[test]
 fn the_stated_bound_is_exceeded_no_more_often_than_it_says() {
-    use etalon_validation::judged::{Against, stated};
+    use etalon_render::decide::judged::{Against, stated};
     // 200 pictures that are off by 1 %, judged at α = 0.2: a bound below 1 % is wrong, and with
     // three channels of which the farthest counts it is rarer than α. More than 40 + 3.1 standard
     // deviations would happen once in a thousand runs. Mutant rejected: bounds 10 % too low.
@@ -196,7 +196,7 @@ fn passed(claims: &[Claim], tier: Tier) -> (usize, f64) {
         seed: 1,
         part: None,
     };
-    let rows = outcome::run(run::tasks(claims, &options), &options, None, |_| ());
+    let rows = outcome::run(run::tasks(claims, &options), &options, None, |_, _| ());
     let row = &rows.expect("a plan")[0];
     assert_eq!(row.outcome, Outcome::Passed, "{tier:?}");
     let compared = row.compared.as_ref().expect("made");
@@ -321,7 +321,7 @@ fn an_undecided_comparison_gets_more_replicates_and_is_never_passed() {
         part: None,
     };
     let tasks = run::tasks(&claims, &options);
-    let rows = outcome::run(tasks, &options, None, |_| ()).expect("a plan");
+    let rows = outcome::run(tasks, &options, None, |_, _| ()).expect("a plan");
     assert_eq!(rows.len(), 1);
     assert_eq!(rows[0].outcome, Outcome::Undecided);
     assert_eq!(rows[0].decision.looks, Tier::Default.looks().len());
@@ -347,7 +347,7 @@ fn the_json_is_the_one_that_is_described() {
     };
     let tasks = run::tasks(&claims, &options);
     let plan = run::RunPlan::of(&tasks, &options);
-    let rows = outcome::run(tasks, &options, None, |_| ()).expect("a plan");
+    let rows = outcome::run(tasks, &options, None, |_, _| ()).expect("a plan");
     let value = json::of(&rows, &Provenance::of(&options, plan, 1.0));
     assert_eq!(value["exit_code"], 0);
     let object = |value: &serde_json::Value| -> Vec<String> {
@@ -387,7 +387,7 @@ fn parts_are_decided_as_parts_of_the_whole() {
             part: part.map(|part| part.parse().expect("a part")),
         };
         let tasks = run::tasks(&claims, &options);
-        let rows = outcome::run(tasks, &options, None, |_| ()).expect("a plan");
+        let rows = outcome::run(tasks, &options, None, |_, _| ()).expect("a plan");
         let rows = rows.into_iter().map(|row| {
             let task = row.task;
             let name = format!("{} {}", task.claim.name, task.label());

@@ -45,7 +45,7 @@ fn a_slow_machine_comes_to_the_same_verdicts_and_numbers() {
     let run = |pause: std::time::Duration| {
         let tasks = run::tasks(&claims, &options);
         let plan = run::RunPlan::of(&tasks, &options);
-        let rows = outcome::run(tasks, &options, None, |_| std::thread::sleep(pause));
+        let rows = outcome::run(tasks, &options, None, |_, _| std::thread::sleep(pause));
         let rows = rows.expect("a plan");
         let looks: Vec<usize> = rows.iter().map(|row| row.decision.looks).collect();
         let seconds = rows.iter().map(|row| row.decision.seconds).sum();

@@ -5,12 +5,10 @@
 mod calibrate;
 mod claims;
 mod decision;
-mod doubt;
 mod load;
 mod pairs;
 mod povray;
 mod references;
 mod state;
 mod stills;
-mod tails;
 mod transparent;

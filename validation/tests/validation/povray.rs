@@ -5,11 +5,11 @@ use crate::claims;
 use etalon_film::{BoxFilter, ExactFilm, FilmSettings, Filter, RenderFacts, RenderedImage};
 use etalon_images::{Frame, Image, exr};
 use etalon_integrators::signature;
+use etalon_render::decide::measure::Measure;
+use etalon_render::decide::pixelwise::{self, Limits};
 use etalon_statistics::Verdict;
 use etalon_validation::claim::{Claim, Oracle};
-use etalon_validation::measure::Measure;
 use etalon_validation::outcome::{self, Conclusion, Outcome};
-use etalon_validation::pixelwise::{self, Limits};
 use etalon_validation::povray::{self, ScenePair};
 use etalon_validation::run::{self, Options};
 use etalon_validation::tier::Tier;
@@ -90,7 +90,7 @@ fn the_quickest_twins_agree_and_their_mutants_are_found() {
         .filter(|claim| claim.name.contains("signature") || claim.name == "povray-spheres")
         .collect();
     let rows =
-        outcome::run(run::tasks(&claims, &default()), &default(), None, |_| ()).expect("a plan");
+        outcome::run(run::tasks(&claims, &default()), &default(), None, |_, _| ()).expect("a plan");
     assert_eq!(rows.len(), 3 * 4 + 2);
     for row in &rows {
         assert_eq!(row.outcome, Outcome::Passed, "{}", row.task.label());
@@ -217,7 +217,7 @@ fn a_twin_without_its_reference_breaks_the_run() {
     claim.name = "no-such-claim".to_owned();
     let claims = [claim];
     let rows =
-        outcome::run(run::tasks(&claims, &default()), &default(), None, |_| ()).expect("a plan");
+        outcome::run(run::tasks(&claims, &default()), &default(), None, |_, _| ()).expect("a plan");
     // Not even a mutant counts as found.
     assert!(rows.iter().all(|row| row.outcome == Outcome::Broken));
     assert_eq!(Conclusion::of(&rows).exit_code(), 2);

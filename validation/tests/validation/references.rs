@@ -6,10 +6,10 @@ use etalon_film::{
     read_developed,
 };
 use etalon_images::Image;
+use etalon_render::decide::judged::{self, Against, Asked};
 use etalon_render::judge::{Tolerances, judge};
 use etalon_validation::claim::{Claim, Oracle};
 use etalon_validation::folders;
-use etalon_validation::judged::{self, Against, Asked};
 use etalon_validation::outcome::{self, Conclusion, Outcome};
 use etalon_validation::reference::{self, Expected};
 use etalon_validation::run::{self, Options};
@@ -209,7 +209,7 @@ fn a_reference_is_read_before_anything_is_rendered() {
         seed: 1,
         part: None,
     };
-    let rows = outcome::run(run::tasks(&claims, &options), &options, None, |_| ());
+    let rows = outcome::run(run::tasks(&claims, &options), &options, None, |_, _| ());
     let rows = rows.expect("a plan");
     let message = rows[0].compared.as_ref().err().expect("broken");
     assert!(message.contains("cargo xtask references"), "{message}");
@@ -300,7 +300,7 @@ fn a_claim_without_its_reference_breaks_the_run() {
         part: None,
     };
     let tasks = run::tasks(&claims, &options);
-    let rows = outcome::run(tasks, &options, None, |_| ()).expect("a plan");
+    let rows = outcome::run(tasks, &options, None, |_, _| ()).expect("a plan");
     let broken = rows.iter().find(|row| row.outcome == Outcome::Broken);
     let broken = broken.expect("it cannot be compared");
     assert_eq!(broken.task.claim.name, "no-such-claim");

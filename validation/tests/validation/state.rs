@@ -25,7 +25,7 @@ fn an_interrupted_run_goes_on_with_the_same_result() {
     };
     let bias = |claims: &[Claim], state: &State| {
         let tasks = run::tasks(claims, &options);
-        let rows = outcome::run(tasks, &options, Some(state), |_| ()).expect("a plan");
+        let rows = outcome::run(tasks, &options, Some(state), |_, _| ()).expect("a plan");
         let compared = rows[0].compared.as_ref().expect("it can be compared");
         compared.judgement().expect("pictures").images[0].bias
     };
@@ -101,7 +101,7 @@ fn the_oracle_of_several_estimators_is_rendered_once() {
     let estimators = tasks.len();
     assert!(estimators > 1);
     let state = State::open(&folder, &options).expect("a folder");
-    let shared = outcome::run(tasks, &options, Some(&state), |_| ()).expect("a plan");
+    let shared = outcome::run(tasks, &options, Some(&state), |_, _| ()).expect("a plan");
     // One batch each, and the oracle's. Mutant rejected: an oracle that is told from the next one's by the estimator.
     assert!(shared.iter().all(|row| row.decision.looks == 1));
     assert_eq!(state.len(), estimators + 1);
@@ -109,7 +109,7 @@ fn the_oracle_of_several_estimators_is_rendered_once() {
     for row in &shared {
         let mut one = vec![row.task.claim.clone()];
         one[0].estimators = vec![row.task.estimator.clone()];
-        let alone = outcome::run(run::tasks(&one, &options), &options, None, |_| ());
+        let alone = outcome::run(run::tasks(&one, &options), &options, None, |_, _| ());
         let alone = alone.expect("a plan").remove(0);
         let bias = |row: &outcome::Row<'_>| {
             let compared = row.compared.as_ref().expect("it can be compared");
@@ -144,7 +144,7 @@ fn replicates_of_a_noise_claim_are_those_of_all_its_pictures() {
         seed: 5,
         part: None,
     };
-    let rows = outcome::run(run::tasks(&claims, &options), &options, None, |_| ());
+    let rows = outcome::run(run::tasks(&claims, &options), &options, None, |_, _| ());
     for look in &rows.expect("a plan")[0].history {
         assert_eq!(look.spp, u64::from(look.replicates) * 4);
         assert_eq!(look.replicates % (3 * 8), 0);

@@ -14,7 +14,7 @@ pub fn run(args: &MergeArgs) -> ExitCode {
         Ok(args) => args,
         Err(message) => return fail(message),
     };
-    let output = match output(args) {
+    let output = match WriteGuard::of(&args.parts).claim_exr(&args.output) {
         Ok(output) => output,
         Err(message) => return fail(message),
     };
@@ -63,19 +63,6 @@ fn with_folders(args: &MergeArgs) -> Result<MergeArgs, String> {
         parts,
         ..args.clone()
     })
-}
-
-/// The output, if it can be written and takes the place of no part.
-fn output(args: &MergeArgs) -> Result<Destination, String> {
-    let output = &args.output;
-    let extension = output
-        .extension()
-        .map(|e| e.to_string_lossy().to_lowercase());
-    if extension.as_deref() != Some("exr") {
-        let output = output.display();
-        return Err(format!("cannot write {output}: the name must end in .exr"));
-    }
-    WriteGuard::of(&args.parts).claim(output)
 }
 
 /// Everything that keeps the parts from being merged, one sentence each.

@@ -15,6 +15,7 @@ mod options;
 mod plugins;
 pub mod render;
 pub mod replay;
+pub mod replicates;
 pub mod strategies;
 mod trouble;
 pub mod view;
@@ -36,6 +37,7 @@ pub fn run(command: &Command) -> ExitCode {
     match command {
         Command::Render(args) => render::run(args),
         Command::Merge(args) => merge::run(args),
+        Command::Replicates(args) => replicates::run(args),
         Command::Farm(args) => farm::run(args),
         Command::Compare(args) => compare::run(args),
         Command::Estimators(args) => estimators::run(args),

@@ -32,6 +32,7 @@ mod preview;
 mod render;
 mod replay;
 mod replay_methods;
+mod replicates;
 mod resume;
 mod spectral;
 mod statistics;

@@ -7,7 +7,7 @@ use std::any::TypeId;
 use std::path::{Path, PathBuf};
 
 /// The arguments of every command that are paths, and whether the command reads or writes there.
-const PATHS: [(&str, &str, Use); 23] = [
+const PATHS: [(&str, &str, Use); 25] = [
     ("render", "scene", Use::Reads),
     ("render", "output", Use::Writes(&["scene.xml", "-o"])),
     ("render", "strategies", Use::FillsFolder),
@@ -19,6 +19,12 @@ const PATHS: [(&str, &str, Use); 23] = [
     ("render", "data", Use::Reads),
     ("merge", "parts", Use::Reads),
     ("merge", "output", Use::Writes(&["a.exr", "b.exr", "-o"])),
+    ("replicates", "pictures", Use::Reads),
+    (
+        "replicates",
+        "output",
+        Use::Writes(&["a.exr", "b.exr", "-o"]),
+    ),
     ("compare", "a", Use::Reads),
     ("compare", "b", Use::Reads),
     (

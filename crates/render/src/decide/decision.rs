@@ -12,7 +12,7 @@
 //! Every comparison is *declared* to one family before anything is rendered, so that the family's
 //! size is the plan's and not the outcome's: a comparison that breaks counts with a p-value of 1.
 //! Each gets the same share of both levels (Bonferroni) and spends it over its looks
-//! ([`crate::tier`]). A look judges its intervals by its share of α. Its p-value is divided by the
+//! ([`super::looks`]). A look judges its intervals by its share of α. Its p-value is divided by the
 //! part of the level that the look was granted; the least of a comparison's goes through Holm's
 //! procedure at the level of alarms.
 //!
@@ -25,11 +25,10 @@
 //! the importance sampling of the tests of [`etalon_statistics::lowered`]; no test holds these two numbers).
 //! A level that allows one false alarm in a hundred thousand runs has room for a few such means.
 //!
-//! How a look comes by its evidence is the caller's: [`crate::outcome`] renders, and
-//! [`crate::calibrate`] deals replicates that there are.
+//! How a look comes by its evidence is the caller's: pictures may be rendered, dealt from others, or made by
+//! another program.
 
-use crate::run::Task;
-use crate::tier::{self, FAULT_LOOKS, Multiple, STATED, Tier};
+use super::looks::{self, FINE_LOOKS, Multiple, STATED};
 use etalon_statistics::{Family, Verdict};
 use std::time::{Duration, Instant};
 
@@ -39,10 +38,26 @@ pub const ALPHA: f64 = 1e-3;
 /// The probability that a run without faults shows a failure.
 pub const FALSE_POSITIVE_LEVEL: f64 = 1e-5;
 
+/// Looks at planted faults: up to eight times the budget.
+pub const MUTANT_LOOKS: &[Multiple] = FINE_LOOKS;
+
+/// A comparison as the decision sees it.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Question {
+    /// What is compared: a name of its own.
+    pub name: String,
+    /// Whether a fault was planted, so that the comparison must differ.
+    pub is_mutant: bool,
+    /// Whether another part of the run makes it: it is counted here, and not looked at.
+    pub elsewhere: bool,
+    /// What the first look costs, in any unit: what progress is measured in.
+    pub cost: f64,
+}
+
 /// A look that is to be made.
 #[derive(Clone, Copy, Debug)]
 pub struct Stage {
-    /// The task's place among all tasks.
+    /// The comparison's place among all.
     pub place: usize,
     /// How many replicates there shall be, in multiples of the first look's.
     pub multiple: Multiple,
@@ -82,9 +97,9 @@ pub struct Decision {
 
 /// How far a run is.
 #[derive(Clone, Copy, Debug)]
-pub struct Progress<'a> {
-    /// What begins now.
-    pub task: &'a Task<'a>,
+pub struct Progress {
+    /// The place of the comparison that begins now.
+    pub place: usize,
     /// Which look this is, from 1.
     pub look: usize,
     /// Comparisons of this look that are done.
@@ -98,22 +113,22 @@ pub struct Progress<'a> {
 }
 
 /// Comparisons that share a family and a plan of looks.
-struct Group<'a> {
+struct Group {
     family: Family,
     looks: &'static [Multiple],
     /// The level of the intervals at each look.
     levels: Vec<f64>,
     /// What each look is granted of [`STATED`].
     stated: Vec<f64>,
-    members: Vec<Member<'a>>,
+    members: Vec<Member>,
 }
 
-struct Member<'a> {
-    /// Its place among all tasks.
+struct Member {
+    /// Its place among all comparisons.
     place: usize,
     /// Its place in the family.
     hypothesis: usize,
-    task: Task<'a>,
+    cost: f64,
     /// What the last look came to; `None` in it if that broke.
     last: Option<Option<Verdict>>,
     /// The least p-value of the looks, each over the share it was granted.
@@ -122,7 +137,7 @@ struct Member<'a> {
     seconds: f64,
 }
 
-impl Member<'_> {
+impl Member {
     /// Whether another look may decide it; `level` is its share of the level of alarms.
     fn is_open(&self, level: f64) -> bool {
         match self.last {
@@ -133,23 +148,22 @@ impl Member<'_> {
     }
 }
 
-impl<'a> Group<'a> {
-    fn new(
-        tasks: impl Iterator<Item = (usize, Task<'a>)>,
+impl Group {
+    fn new<'a>(
+        questions: impl Iterator<Item = (usize, &'a Question)>,
         looks: &'static [Multiple],
         alarm: f64,
     ) -> Result<Self, String> {
         let mut family = Family::new(alarm).ok_or("the level is none")?;
         // What another part of the run makes is a hypothesis of this one, too: all parts together
         // have the error level of the whole.
-        let members: Vec<Member<'a>> = tasks
-            .filter_map(|(place, task)| {
-                let name = format!("{}: {}", task.claim.name, task.label());
-                let hypothesis = family.declare(name);
-                (!task.elsewhere).then_some(Member {
+        let members: Vec<Member> = questions
+            .filter_map(|(place, question)| {
+                let hypothesis = family.declare(question.name.clone());
+                (!question.elsewhere).then_some(Member {
                     place,
                     hypothesis,
-                    task,
+                    cost: question.cost,
                     last: None,
                     p: 1.0,
                     looks: 0,
@@ -158,10 +172,10 @@ impl<'a> Group<'a> {
             })
             .collect();
         Ok(Self {
-            levels: tier::granted(ALPHA / family.len().max(1) as f64, looks)?,
+            levels: looks::granted(ALPHA / family.len().max(1) as f64, looks)?,
             family,
             looks,
-            stated: tier::granted(STATED, looks)?,
+            stated: looks::granted(STATED, looks)?,
             members,
         })
     }
@@ -239,25 +253,26 @@ impl<'a> Group<'a> {
     }
 }
 
-/// Decides all comparisons of a run together, but for those made elsewhere; `make` makes a look, and
+/// Decides all comparisons of a run together, but for those made elsewhere. Sound ones are looked at as
+/// `looks` says, mutants as [`MUTANT_LOOKS`] does. `make` makes a look, and
 /// returns `None` if that cannot be done.
 ///
 /// # Errors
 /// If the plan of the run makes no sense.
-pub fn decide<'a>(
-    tasks: &[Task<'a>],
-    tier: Tier,
+pub fn decide(
+    questions: &[Question],
+    looks: &'static [Multiple],
     mut make: impl FnMut(Stage) -> Option<Seen>,
-    mut watch: impl FnMut(&Progress<'_>),
+    mut watch: impl FnMut(&Progress),
 ) -> Result<Vec<Decision>, String> {
     let start = Instant::now();
-    let of = |with_fault: bool| {
-        let all = tasks.iter().copied().enumerate();
-        all.filter(move |(_, task)| task.fault.is_some() == with_fault)
+    let of = |mutants: bool| {
+        let all = questions.iter().enumerate();
+        all.filter(move |(_, question)| question.is_mutant == mutants)
     };
     let mut groups = [
-        Group::new(of(false), tier.looks(), FALSE_POSITIVE_LEVEL)?,
-        Group::new(of(true), FAULT_LOOKS, ALPHA)?,
+        Group::new(of(false), looks, FALSE_POSITIVE_LEVEL)?,
+        Group::new(of(true), MUTANT_LOOKS, ALPHA)?,
     ];
     let most = groups.iter().map(|group| group.looks.len()).max();
     for look in 0..most.unwrap_or(0) {
@@ -265,18 +280,17 @@ pub fn decide<'a>(
             .filter(|(_, group)| look < group.looks.len())
             .flat_map(|(number, group)| group.open().into_iter().map(move |i| (number, i)))
             .collect();
-        // Claim by claim, as its comparisons share what is rendered.
+        // In their order, as neighbours share what is rendered.
         open.sort_by_key(|(number, index)| groups[*number].members[*index].place);
-        let work = |groups: &[Group<'_>; 2], (group, index): (usize, usize)| -> f64 {
-            let group: &Group<'_> = &groups[group];
-            let task = &group.members[index].task;
+        let work = |groups: &[Group; 2], (group, index): (usize, usize)| -> f64 {
+            let group: &Group = &groups[group];
             let before = if look > 0 {
                 group.looks[look - 1]
             } else {
                 Multiple::ZERO
             };
             let more = group.looks[look].factor() - before.factor();
-            more * task.samples(tier)
+            more * group.members[index].cost
         };
         let all: f64 = open.iter().map(|at| work(&groups, *at)).sum();
         let (began, mut finished) = (Instant::now(), 0.0);
@@ -288,7 +302,7 @@ pub fn decide<'a>(
             });
             let (group, index) = at;
             watch(&Progress {
-                task: &groups[group].members[index].task,
+                place: groups[group].members[index].place,
                 look: look + 1,
                 done,
                 total: open.len(),

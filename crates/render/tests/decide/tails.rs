@@ -2,9 +2,9 @@
 
 use etalon_film::{BoxFilter, ExactFilm, FilmSettings, Filter, RenderFacts, RenderedImage};
 use etalon_images::Image;
+use etalon_render::decide::judged::{Against, Asked, judge, stated};
 use etalon_render::judge::{ExactImage, Tolerances};
 use etalon_statistics::Verdict;
-use etalon_validation::judged::{Against, Asked, judge, stated};
 
 /// A picture of two tiles of 16², of which `left` and `right` are the replicates, and what it ought
 /// to be: ½.

@@ -1,8 +1,8 @@
 //! The replicates of one mean and of what it is held against: what t makes of them, and when it may.
 
-use crate::judged::Against;
+use super::judged::Against;
+use crate::judge;
 use etalon_film::Metadata;
-use etalon_render::judge::{self, ExactImage};
 use etalon_statistics::bootstrap::Resampling;
 use etalon_statistics::robust::{self, Method, Symmetry};
 use etalon_statistics::tails::Limits;
@@ -13,18 +13,18 @@ use etalon_statistics::{Estimate, Interval, Replicates, Summary, Verdict};
 const RESAMPLES: f64 = 2e7;
 
 /// The replicates of one mean, and of what it is held against.
-pub(crate) struct Samples {
+pub(super) struct Samples {
     own: Vec<f64>,
     other: Other,
 }
 
-pub(crate) enum Other {
+pub(super) enum Other {
     ExactImage(f64),
     Replicates(Vec<f64>),
 }
 
 impl Samples {
-    pub(crate) fn of(
+    pub(super) fn of(
         metadata: &Metadata,
         against: Against<'_>,
         channel: &str,
@@ -37,7 +37,7 @@ impl Samples {
             Ok(replicates.tile(tile).collect())
         };
         let other = match against {
-            Against::ExactImage(known) => Other::ExactImage(tile_mean(known, channel, side, tile)?),
+            Against::ExactImage(known) => Other::ExactImage(known.tile_mean(channel, side, tile)?),
             Against::Picture(picture) => {
                 let metadata = picture.metadata.as_ref().ok_or("there are no statistics")?;
                 Other::Replicates(of(metadata)?)
@@ -50,7 +50,7 @@ impl Samples {
     }
 
     /// Whether no replicate is farther than this from what it ought to be.
-    pub(crate) fn all_within(&self, tolerance: f64) -> bool {
+    pub(super) fn all_within(&self, tolerance: f64) -> bool {
         match &self.other {
             Other::ExactImage(known) => self.own.iter().all(|x| (x - known).abs() <= tolerance),
             Other::Replicates(_) => false,
@@ -58,7 +58,7 @@ impl Samples {
     }
 
     /// What the mean ought to be.
-    pub(crate) fn truth(&self) -> f64 {
+    pub(super) fn truth(&self) -> f64 {
         match &self.other {
             Other::ExactImage(known) => *known,
             Other::Replicates(other) => other.iter().sum::<f64>() / other.len() as f64,
@@ -66,7 +66,7 @@ impl Samples {
     }
 
     /// The difference of the means.
-    pub(crate) fn estimate(&self) -> Option<Estimate> {
+    pub(super) fn estimate(&self) -> Option<Estimate> {
         Summary::of(&self.own).and_then(|own| match &self.other {
             Other::ExactImage(known) => Some(Estimate::excess(&own, *known)),
             Other::Replicates(other) => Some(Estimate::welch(&own, &Summary::of(other)?)),
@@ -74,7 +74,7 @@ impl Samples {
     }
 
     /// The p-value, by Student's t, of a difference within ±`tolerance`.
-    pub(crate) fn p_differs(&self, tolerance: f64) -> f64 {
+    pub(super) fn p_differs(&self, tolerance: f64) -> f64 {
         let estimate = self.estimate();
         estimate.map_or(1.0, |estimate| estimate.p_differs(tolerance))
     }
@@ -82,7 +82,7 @@ impl Samples {
     /// What is left of `p`, which shows a difference beyond ±`tolerance` at the first of two levels, if
     /// the second and lower one is asked: there a normal approximation may be refused that the first
     /// allows, and another interval can show what an interval at the first could not.
-    pub(crate) fn alarming(&self, p: f64, tolerance: f64, [alpha, alarm]: [f64; 2]) -> f64 {
+    pub(super) fn alarming(&self, p: f64, tolerance: f64, [alpha, alarm]: [f64; 2]) -> f64 {
         match self.judge(alarm) {
             None => p,
             Some((_, Some(interval))) if interval.verdict(tolerance) == Verdict::Differs => {
@@ -94,7 +94,7 @@ impl Samples {
 
     /// Why a normal approximation is refused, if it is, and the interval of the difference that
     /// misses it with probability `alpha` at most, if there is one.
-    pub(crate) fn judge(&self, alpha: f64) -> Option<(String, Option<Interval>)> {
+    pub(super) fn judge(&self, alpha: f64) -> Option<(String, Option<Interval>)> {
         let resamples = (25.0 / alpha).clamp(9_999.0, RESAMPLES) as u32;
         let plan = Resampling::independent(resamples, 1);
         let limits = &Limits::DECLARED;
@@ -120,45 +120,17 @@ impl Samples {
     }
 }
 
-/// The mean of a known picture over one tile of `side` pixels, or over the whole image.
-///
-/// # Errors
-/// If it has no such channel.
-pub(crate) fn tile_mean(
-    known: &ExactImage,
-    channel: &str,
-    side: Option<u32>,
-    tile: usize,
-) -> Result<f64, String> {
-    let missing = || format!("nothing is known of channel `{channel}`");
-    let found = known.channels.iter().find(|(name, _)| name == channel);
-    let (_, pixels) = found.ok_or_else(missing)?;
-    let [width, height] = known.size.map(|n| n as usize);
-    let side = side.map_or(width.max(height), |side| side as usize);
-    let columns = width.div_ceil(side);
-    let (left, top) = (tile % columns * side, tile / columns * side);
-    let (right, bottom) = ((left + side).min(width), (top + side).min(height));
-    let sum: f64 = (top..bottom)
-        .map(|y| {
-            pixels[y * width + left..y * width + right]
-                .iter()
-                .sum::<f64>()
-        })
-        .sum();
-    Ok(sum / ((bottom - top) * (right - left)) as f64)
-}
-
 /// The p-value that an interval at `alpha` stands for: 1, or a hair below `alpha` if it rejects. The
 /// corrections divide and multiply it by shares and numbers of hypotheses, and what rounding does to
 /// `alpha` itself on that way would take some rejections back.
-pub(crate) fn p_of(rejects: bool, alpha: f64) -> f64 {
+pub(super) fn p_of(rejects: bool, alpha: f64) -> f64 {
     if rejects { alpha * (1.0 - 1e-12) } else { 1.0 }
 }
 
 #[cfg(test)]
 mod tests {
     use super::p_of;
-    use crate::decision::ALPHA;
+    use crate::decide::decision::ALPHA;
     use etalon_statistics::Family;
 
     #[test]

@@ -1,6 +1,6 @@
 //! A picture against its oracle: etalon's decision, and whether the replicates allow it.
 //!
-//! [`etalon_render::judge`] decides by Student's t. Where the replicates of a mean are too far from normal
+//! [`crate::judge`] decides by Student's t. Where the replicates of a mean are too far from normal
 //! for that (`etalon_statistics::tails`, with the declared limits), the bias of the image is judged
 //! by the studentised bootstrap instead, and where that cannot reach the level, it is undecided. A
 //! whole run's levels, below 10⁻⁶ for each question, are beyond it; what is [`stated`] of a row by
@@ -8,13 +8,13 @@
 //! tile that t would call different keeps that verdict only if some such tile is within the limits
 //! or the bootstrap agrees.
 //!
-//! Two levels are asked at ([`crate::decision`]): that of the intervals, and the much lower one at which
+//! Two levels are asked at ([`super::decision`]): that of the intervals, and the much lower one at which
 //! a failure is shown. A distribution that t may be trusted with at one can be too skewed for the other.
 
-use crate::samples::{Samples, p_of};
+use super::samples::{Samples, p_of};
+use crate::judge::{self, ExactImage, ImageComparison, TileRow, Tolerances};
+use crate::tolerance::Tolerance;
 use etalon_film::{Metadata, RenderedImage};
-use etalon_render::judge::{self, ExactImage, ImageComparison, TileRow, Tolerances};
-use etalon_render::tolerance::Tolerance;
 use etalon_statistics::{Interval, Verdict};
 
 /// What a picture is held against.
@@ -131,7 +131,7 @@ pub fn judge(
     })
 }
 
-/// What is said of a picture by itself, at a level of its own ([`crate::tier::STATED`]).
+/// What is said of a picture by itself, at a level of its own ([`super::looks::STATED`]).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct RowClaim {
     /// The greatest relative bias of an image's mean that is not excluded: the upper bound of the
