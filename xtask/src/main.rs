@@ -1,10 +1,11 @@
-//! The tasks of the house: `cargo xtask validate`, `accelerators`, `references`, `mutants`, `calibrate`, `efficiency`, `speed`, `bits`, `book`, `gallery`, `farm-test`, `scenes`, `plugins`, `tables`, `tabulate`.
+//! The tasks of the house: `cargo xtask validate`, `accelerators`, `references`, `mutants`, `calibrate`, `efficiency`, `speed`, `bits`, `book`, `denoiser`, `gallery`, `farm-test`, `scenes`, `plugins`, `tables`, `tabulate`.
 
 mod accelerators;
 mod bits;
 mod book;
 mod calibrate;
 mod compatibility;
+mod denoiser;
 mod efficiency;
 mod farm_test;
 mod gallery;
@@ -52,6 +53,8 @@ enum Task {
     Bits,
     /// Make a book of the pages of `docs/` (target/book), if mdBook is installed
     Book,
+    /// Measure what `etalon denoise` takes away, what it leaves and what it says of it
+    Denoiser(denoiser::Arguments),
     /// Render the pictures of the book (`docs/gallery`) that have changed
     Gallery(gallery::Arguments),
     /// Run the job files of `etalon farm` by the engines that are installed, one node killed on the way, and compare bits
@@ -77,6 +80,7 @@ fn main() -> ExitCode {
         Task::Accelerators(arguments) => accelerators::run(&arguments),
         Task::Bits => bits::run(),
         Task::Book => book::run(),
+        Task::Denoiser(arguments) => denoiser::run(&arguments),
         Task::Gallery(arguments) => gallery::run(&arguments),
         Task::FarmTest(arguments) => farm_test::run(&arguments),
         Task::Scenes => scenes::run(),

@@ -5,6 +5,7 @@
 //! keeps the two together: no plugin and no parameter may lack words, no words may lack a plugin or parameter.
 
 use crate::compatibility::{self, MITSUBA_3, MITSUBA_06};
+use crate::gallery::stages::Stages;
 use crate::hearing::{Heard, Hearing};
 use etalon_params::{Class, Severity, ignored};
 use etalon_render::pipeline::{self, LoadOptions};
@@ -19,22 +20,40 @@ use std::sync::{Mutex, MutexGuard};
 /// `docs/plugins.toml`.
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
-struct Words {
+pub(crate) struct Words {
     /// What parameters of a name are, whatever the plugin.
     parameters: BTreeMap<String, String>,
-    plugin: Vec<Plugin>,
+    /// All plugins, in the order of the page.
+    pub(crate) plugin: Vec<Plugin>,
+}
+
+impl Words {
+    /// Reads the file.
+    pub(crate) fn read() -> Result<Self, String> {
+        let path = folders::root().join("docs/plugins.toml");
+        let words = fs::read_to_string(&path).map_err(|e| format!("{}: {e}", path.display()))?;
+        toml::from_str(&words).map_err(|e| format!("{}: {e}", path.display()))
+    }
 }
 
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
-struct Plugin {
-    class: String,
+pub(crate) struct Plugin {
+    pub(crate) class: String,
     /// The name; several plugins with the same parameters share their words.
-    names: Vec<String>,
+    pub(crate) names: Vec<String>,
     /// What it is.
     is: String,
     /// An element of a scene, which must load; `NAME` stands for the plugin's name.
-    example: String,
+    pub(crate) example: String,
+    /// What the gallery shows, if not the example.
+    pub(crate) picture: Option<String>,
+    /// The class on whose stage it is shown, if not its own.
+    pub(crate) pictured_as: Option<String>,
+    /// How much brighter its picture is shown (stops).
+    pub(crate) exposure: Option<f32>,
+    /// Why there is no picture of it.
+    pub(crate) unpictured: Option<String>,
     /// The scene around the example, where that of its class does not do.
     scene: Option<String>,
     /// Whether the example loads: not if it names a file that is not here.
@@ -213,9 +232,8 @@ fn built(class: Class, surroundings: &str) -> BTreeSet<String> {
 /// The page.
 pub(crate) fn text() -> Result<String, String> {
     let _turn = turn();
-    let path = folders::root().join("docs/plugins.toml");
-    let words = fs::read_to_string(&path).map_err(|e| format!("{}: {e}", path.display()))?;
-    let words: Words = toml::from_str(&words).map_err(|e| format!("{}: {e}", path.display()))?;
+    let words = Words::read()?;
+    let stages = Stages::read()?;
     let mut wrong = Vec::new();
     let mut unused: BTreeSet<&str> = words.parameters.keys().map(String::as_str).collect();
     let mut out = String::from(
@@ -255,7 +273,7 @@ pub(crate) fn text() -> Result<String, String> {
             }
             describe(
                 &mut out,
-                plugin,
+                (plugin, stages.pictures(plugin)),
                 &rows,
                 &words.parameters,
                 &mut unused,
@@ -282,7 +300,7 @@ pub(crate) fn text() -> Result<String, String> {
 
 fn describe<'a>(
     out: &mut String,
-    plugin: &Plugin,
+    (plugin, pictures): (&Plugin, Vec<String>),
     rows: &BTreeMap<String, Heard>,
     common: &'a BTreeMap<String, String>,
     unused: &mut BTreeSet<&'a str>,
@@ -294,6 +312,12 @@ fn describe<'a>(
         plugin.names.join("`, `"),
         plugin.is
     );
+    for (name, picture) in plugin.names.iter().zip(&pictures) {
+        let _ = writeln!(out, "![`{name}`](gallery/{picture}.jpg)");
+    }
+    if !pictures.is_empty() {
+        out.push('\n');
+    }
     let mut missing: BTreeSet<&str> = plugin.parameters.keys().map(String::as_str).collect();
     let described: Vec<(&str, &Heard, &str)> = (rows.iter())
         .filter_map(|(name, heard)| {

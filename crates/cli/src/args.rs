@@ -1,11 +1,13 @@
 //! The command line.
 
+mod denoise;
 mod estimators;
 mod farm;
 mod picture;
 mod preview;
 mod replicates;
 
+pub use denoise::DenoiseArgs;
 pub use estimators::EstimatorsArgs;
 pub use farm::{FarmArgs, PathMap};
 pub use picture::{FramingArgs, ShownArgs};
@@ -86,6 +88,7 @@ Exit codes: 0 done, 2 bad input or usage.
 
 Examples:
   etalon replicates seed-*.exr -o mine.exr --spp 64 --program 'mine 1.0'
+  etalon replicates a.hdr b.hdr c.hdr d.hdr -o mine.exr
   etalon compare mine.exr etalon.exr --report mine.html")]
     Replicates(ReplicatesArgs),
     /// Write the job files that render a scene on a cluster: for Slurm, Open Job Description or GNU parallel.
@@ -122,6 +125,19 @@ Examples:
   etalon estimators scene.xml --integrators path,direct --reference converged.exr --time 30 \\
     --json figures.json")]
     Estimators(EstimatorsArgs),
+    /// Denoise an image that was rendered with `--features`, and estimate the error that is left.
+    ///
+    /// The result is biased and has no replicates: its standard errors are what the denoiser estimates. It is marked, `compare`
+    /// gives no verdict on it, and `merge`, `estimators` and `replicates` refuse it.
+    #[command(after_help = "\
+Exit codes: 0 done, 2 bad input or usage.
+
+Examples:
+  etalon render scene.xml -o noisy.exr --spp 32 --features
+  etalon denoise noisy.exr -o quiet.exr
+  etalon denoise frame-0001.exr -o quiet-0001.exr -q
+  etalon view noisy.exr quiet.exr")]
+    Denoise(DenoiseArgs),
     /// Turn an image into a picture one can look at (PNG, sRGB), or into HDR or PFM.
     #[command(after_help = "\
 Exit codes: 0 done, 2 bad input or usage.
@@ -231,6 +247,9 @@ pub struct RenderArgs {
     /// Independent replicates instead of blocks of one sequence: noisier, with unbiased squared standard errors.
     #[arg(long)]
     pub independent_replicates: bool,
+    /// Also write what `etalon denoise` needs: albedo, normal and depth, and the first half of the (independent) replicates.
+    #[arg(long, conflicts_with_all = ["resume", "part", "replay"])]
+    pub features: bool,
     /// As many samples as a relative standard error below REL takes, with 95 % confidence.
     #[arg(long, value_name = "REL", value_parser = parse_error, allow_negative_numbers = true, conflicts_with_all = ["spp", "time", "part", "strategies"])]
     pub error: Option<f64>,

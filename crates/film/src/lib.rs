@@ -52,7 +52,7 @@ pub use framing::{FilmSize, Framing};
 pub use glance::Glance;
 pub use light_carriers::LightCarriers;
 pub use merge::{Conflict, Disagreement, disagreements};
-pub use metadata::{FilmFacts, Metadata, RenderFacts, recorded_seconds};
+pub use metadata::{FeatureFacts, FilmFacts, Metadata, RenderFacts, recorded_seconds};
 pub use outliers::{Outlier, OutlierLog};
 pub use part::Part;
 pub use part_facts::PartFacts;

@@ -56,6 +56,15 @@ pub struct FilmFacts {
     pub filter_method: Option<String>,
 }
 
+/// What a file has for a denoiser.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub struct FeatureFacts {
+    /// Of how many replicates the channels `half.NAME` are the means; 0 if they are not there, as the render was ended early.
+    pub half: u32,
+    /// Samples per pixel of the features, which are none of the picture's.
+    pub spp: u32,
+}
+
 /// Everything a file says of itself.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Metadata {
@@ -93,6 +102,13 @@ pub struct Metadata {
     /// How the samples were dealt, if not evenly.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub adaptive: Option<DealtFacts>,
+    /// What the file has for a denoiser, if it was asked for.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub features: Option<FeatureFacts>,
+    /// By what the picture was denoised, if it was: standard errors are what the denoiser estimates then, and there are no
+    /// replicates to judge by.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub denoised: Option<String>,
     /// The seed.
     pub seed: u64,
     /// How long rendering took (s), unless the file was to be reproducible.
@@ -142,6 +158,8 @@ impl Metadata {
             checkpoint: None,
             unfinished: None,
             adaptive: film.counts().map(SampleCounts::facts),
+            features: None,
+            denoised: None,
             seed: facts.seed,
             seconds: facts.seconds,
             floating_point: floating_point_fingerprint(),

@@ -385,6 +385,10 @@ fn no_part(metadata: Option<&Metadata>) -> String {
              whole replicates"
                 .to_owned()
         }
+        Some(Metadata {
+            denoised: Some(method),
+            ..
+        }) => format!("it was denoised ({method}), and holds no replicates"),
         Some(metadata) => format!(
             "it is a whole image of {} replicates, not a part (`etalon render --part I/N` renders \
              one): it does not hold the exact sums",

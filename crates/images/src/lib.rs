@@ -16,6 +16,7 @@ pub mod exr;
 mod foreign;
 pub mod format;
 pub mod hdr;
+pub mod jpeg;
 mod layer_kind;
 pub mod losses;
 pub mod pfm;

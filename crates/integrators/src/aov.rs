@@ -120,6 +120,27 @@ impl Aov {
         })
     }
 
+    /// What a denoiser looks at: `albedo`, `normal` and `depth` of the first surface, and no picture.
+    pub fn features() -> Self {
+        let named = [
+            ("albedo", "albedo"),
+            ("normal", "sh_normal"),
+            ("depth", "depth"),
+        ];
+        let requests = named.into_iter().filter_map(|(name, kind)| {
+            let (_, variable, suffixes) = VARIABLES.iter().find(|(k, ..)| *k == kind)?;
+            Some(Request {
+                name: name.to_owned(),
+                variable: *variable,
+                suffixes,
+            })
+        });
+        Self {
+            nested: Vec::new(),
+            requests: requests.collect(),
+        }
+    }
+
     fn request(params: &Params<'_>, entry: &str) -> Option<Request> {
         let Some((name, kind)) = entry.split_once(':') else {
             params.error_at("aovs", format!("`{entry}` is not of the form `name:type`"));

@@ -6,6 +6,7 @@
 //! when the render is interrupted. It appears under its name only when it is complete, in place of
 //! the one before.
 
+use crate::features::FirstHalf;
 use crate::watch::Show;
 use etalon_film::{CheckpointFacts, ExactFilm, ExactTile, Part, RenderFacts, recorded_seconds};
 use etalon_integrators::ReplicateRange;
@@ -79,6 +80,7 @@ pub(crate) struct CheckpointingFilm {
     film: ExactFilm,
     keeper: Option<Keeper>,
     show: Option<Show>,
+    half: Option<FirstHalf>,
 }
 
 impl CheckpointingFilm {
@@ -117,6 +119,7 @@ impl CheckpointingFilm {
             film,
             keeper: Some(keeper),
             show: None,
+            half: None,
         })
     }
 
@@ -126,6 +129,7 @@ impl CheckpointingFilm {
             film,
             keeper: None,
             show: None,
+            half: None,
         }
     }
 
@@ -133,6 +137,17 @@ impl CheckpointingFilm {
     #[must_use]
     pub(crate) fn shown(self, show: Option<Show>) -> Self {
         Self { show, ..self }
+    }
+
+    /// The same film, which remembers its first half.
+    #[must_use]
+    pub(crate) fn halved(self, half: Option<FirstHalf>) -> Self {
+        Self { half, ..self }
+    }
+
+    /// The first half, if it was to be remembered.
+    pub(crate) fn take_half(&mut self) -> Option<FirstHalf> {
+        self.half.take()
     }
 
     /// Shows it, if somebody looks on.
@@ -248,6 +263,9 @@ impl Film for CheckpointingFilm {
 
     fn end_replicate(&mut self, samples: u32) {
         self.film.end_replicate(samples);
+        if let Some(half) = &mut self.half {
+            half.see(&self.film);
+        }
         self.show();
         let replicates = self.film.replicates();
         if let Some(keeper) = &mut self.keeper

@@ -7,8 +7,10 @@
 pub mod adaptive;
 pub mod checkpointing;
 pub mod decide;
+pub mod denoise;
 pub mod estimators;
 mod exact_image;
+pub mod features;
 pub mod judge;
 pub mod load_options;
 pub mod loaded;

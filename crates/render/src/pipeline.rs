@@ -1,11 +1,12 @@
 //! From a scene file to an image: the way every command and every claim takes.
 
 use crate::checkpointing::{Checkpointing, CheckpointingFilm};
+use crate::features::FirstHalf;
 pub use crate::load_options::LoadOptions;
 pub use crate::loaded::{Description, LoadError, Loaded};
 use crate::scene_hash::scene_hash;
 use crate::watch::{Show, Watcher};
-use crate::{VERSION, memory, objections};
+use crate::{VERSION, features, memory, objections};
 use etalon_film::{
     ExactFilm, FilmSettings, Filter, Part, PixelFilter, RenderFacts, RenderedImage, SampleCounts,
     recorded_seconds,
@@ -290,6 +291,8 @@ pub struct RenderControls {
     pub keeping: Option<Checkpointing>,
     /// Who looks on.
     pub watcher: Option<Arc<dyn Watcher>>,
+    /// Whether the image gets what a denoiser needs ([`crate::features`]).
+    pub features: bool,
 }
 
 /// What a file says of a render, but for its time.
@@ -326,7 +329,11 @@ pub fn render_as(
         counts,
         keeping,
         watcher,
+        features,
     } = manner;
+    if features {
+        features::check(loaded, plan)?;
+    }
     let exact = plan.share.is_some() || keeping.is_some();
     memory::check(loaded, planes, exact)?;
     let film = ExactFilm::new(compiled.film.clone(), &channels)
@@ -342,7 +349,8 @@ pub fn render_as(
     let show = watcher.map(|watcher| Show::new(watcher, plan.samples_per_replicate));
     let mut film = CheckpointingFilm::new(film, keeping, &facts, share, of)
         .map_err(Diagnostic::error_nowhere)?
-        .shown(show);
+        .shown(show)
+        .halved(features.then(|| FirstHalf::of(plan.replicates)));
     let remaining = RenderPlan {
         share: Some(ReplicateRange {
             first: share.first + finished,
@@ -354,6 +362,7 @@ pub fn render_as(
         .integrator
         .render(&compiled.scenes, &mut film, &remaining, progress);
     outcome.replicates += finished;
+    let half = film.take_half();
     let mut film = film.finish();
     let time = start.elapsed();
     let facts = RenderFacts {
@@ -361,7 +370,7 @@ pub fn render_as(
         ..facts
     };
     let unfinished = film.develop_unfinished(facts.clone(), plan.samples_per_replicate);
-    let (developed, part) = match unfinished {
+    let (mut developed, part) = match unfinished {
         Some(developed) => (developed, None),
         None if plan.share.is_some() && film.replicates() > 0 => {
             let part = film.into_part(facts, plan.replicates);
@@ -369,6 +378,9 @@ pub fn render_as(
         }
         None => (film.develop(facts), None),
     };
+    if let Some(half) = half {
+        features::add(&mut developed, half, loaded, plan, progress)?;
+    }
     Ok(Rendered {
         developed,
         part,

@@ -49,7 +49,8 @@ pub(super) fn plan(args: &RenderArgs, loaded: &Loaded) -> RenderPlan {
         spp: args.spp,
         seed: args.seed,
         replicates: args.replicates,
-        independent_replicates: args.independent_replicates,
+        // Blocks of one sequence overstate the noise that a denoiser is to take away.
+        independent_replicates: args.independent_replicates || args.features,
         sampler: None,
     };
     let plan = pipeline::plan(loaded, &options);

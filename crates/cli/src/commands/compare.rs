@@ -161,6 +161,11 @@ fn unfit(image: &RenderedImage) -> Option<String> {
             facts.mean, facts.samples_per_replicate
         ));
     }
+    if let Some(method) = &metadata.denoised {
+        return Some(format!(
+            "was denoised ({method}): it is biased and has no replicates, and no verdict is made of it"
+        ));
+    }
     if metadata.replicates < 2 {
         return Some(
             "has a single replicate and so no standard error: render it with --replicates"

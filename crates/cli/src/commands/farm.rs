@@ -66,6 +66,7 @@ fn check(args: &RenderArgs) -> Result<(), String> {
         ("--resume", args.resume),
         ("--replay", args.replay.is_some()),
         ("--strategies", args.strategies.is_some()),
+        ("--features", args.features),
         ("--stats", args.stats.is_some()),
         ("--preview", args.preview.preview.is_some()),
         ("--tev", args.preview.tev.is_some()),

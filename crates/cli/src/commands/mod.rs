@@ -5,6 +5,7 @@ mod amount;
 pub mod compare;
 pub mod convert;
 mod delivery;
+pub mod denoise;
 pub mod estimators;
 pub mod farm;
 mod frames;
@@ -41,6 +42,7 @@ pub fn run(command: &Command) -> ExitCode {
         Command::Farm(args) => farm::run(args),
         Command::Compare(args) => compare::run(args),
         Command::Estimators(args) => estimators::run(args),
+        Command::Denoise(args) => denoise::run(args),
         Command::Convert(args) => convert::run(args),
         Command::View(args) => view::run(args),
         Command::Movie(args) => movie::run(args),

@@ -58,6 +58,7 @@ pub(super) fn of(args: &RenderArgs) -> Vec<String> {
     let flags = [
         ("--adaptive", args.adaptive),
         ("--independent-replicates", args.independent_replicates),
+        ("--features", args.features),
     ];
     words.extend(
         flags

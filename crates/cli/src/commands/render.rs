@@ -245,6 +245,7 @@ fn render(
         counts: amount.counts,
         keeping,
         watcher: onlookers.watcher(),
+        features: args.features,
     };
     let seen = Seen {
         bar: &bar,

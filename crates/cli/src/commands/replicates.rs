@@ -4,7 +4,7 @@ use super::convert::{of_colour, read};
 use super::{fail, note};
 use crate::args::ReplicatesArgs;
 use crate::say;
-use etalon_film::RenderFacts;
+use etalon_film::{RenderFacts, read_developed};
 use etalon_images::Image;
 use etalon_render::seeds::Seeds;
 use etalon_render::write_guard::WriteGuard;
@@ -60,6 +60,15 @@ fn together(args: &ReplicatesArgs) -> Result<(), String> {
 /// A picture's colour in linear Rec. 709; what there is to know of it is said if it is the first.
 fn colour(path: &Path, first: bool) -> Result<Image, String> {
     let (image, mut notes, ours) = read(path)?;
+    if ours
+        && read_developed(path)
+            .is_ok_and(|image| image.metadata.is_some_and(|m| m.denoised.is_some()))
+    {
+        let path = path.display();
+        return Err(format!(
+            "{path} was denoised: its error is none of chance alone"
+        ));
+    }
     let colour = image
         .needed_colour(path)
         .map_err(|error| error.to_string())?;
@@ -68,7 +77,7 @@ fn colour(path: &Path, first: bool) -> Result<Image, String> {
         let path = path.display();
         notes
             .iter()
-            .for_each(|text| note(&format!("`{path}`: {text}")));
+            .for_each(|text| note(format!("`{path}`: {text}")));
     }
     Ok(of_colour(&image, &colour))
 }

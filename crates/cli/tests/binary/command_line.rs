@@ -13,6 +13,8 @@ fn help_has_examples_and_exit_codes() {
         "estimators",
         "convert",
         "info",
+        "denoise",
+        "replicates",
     ] {
         assert!(help.contains(&format!("\n  {command} ")), "{help}");
         let help = workshop.run(&[command, "--help"]).fine().stdout;
@@ -23,7 +25,7 @@ fn help_has_examples_and_exit_codes() {
     }
     assert!(help.contains("Exit codes:"), "{help}");
     // What is not built yet is not offered.
-    for absent in ["serve", "denoise", "--checkpoint"] {
+    for absent in ["serve", "--checkpoint"] {
         let all = ["render", "merge", "compare", "convert", "info"]
             .map(|command| workshop.run(&[command, "--help"]).fine().stdout)
             .concat();

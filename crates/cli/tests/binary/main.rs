@@ -9,6 +9,7 @@ mod blocks;
 mod command_line;
 mod compare;
 mod convert;
+mod denoise;
 mod determinism;
 mod docs;
 mod docs_pages;

@@ -7,7 +7,7 @@ use std::any::TypeId;
 use std::path::{Path, PathBuf};
 
 /// The arguments of every command that are paths, and whether the command reads or writes there.
-const PATHS: [(&str, &str, Use); 25] = [
+const PATHS: [(&str, &str, Use); 27] = [
     ("render", "scene", Use::Reads),
     ("render", "output", Use::Writes(&["scene.xml", "-o"])),
     ("render", "strategies", Use::FillsFolder),
@@ -63,6 +63,8 @@ const PATHS: [(&str, &str, Use); 25] = [
         ]),
     ),
     ("estimators", "data", Use::Reads),
+    ("denoise", "input", Use::Reads),
+    ("denoise", "output", Use::Writes(&["a.exr", "-o"])),
     ("convert", "input", Use::Reads),
     ("convert", "output", Use::Writes(&["p.png"])),
     ("movie", "files", Use::Reads),

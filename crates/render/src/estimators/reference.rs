@@ -77,6 +77,16 @@ impl Reference {
     /// One sentence, if it cannot be read, is not of this size, or has no finite colours.
     pub fn read(path: &Path, size: [usize; 2]) -> Result<Self, String> {
         let developed = read_developed(path).map_err(|error| error.to_string())?;
+        if let Some(method) = developed
+            .metadata
+            .as_ref()
+            .and_then(|m| m.denoised.as_ref())
+        {
+            return Err(format!(
+                "the reference {} was denoised ({method}): it is biased, and nothing can be held against it",
+                path.display()
+            ));
+        }
         let image = &developed.image;
         let found = [image.width(), image.height()];
         if found != size {

@@ -139,6 +139,17 @@ fn image(developed: &RenderedImage) -> String {
             dealt.least, dealt.most, dealt.mean, dealt.pilot
         );
     }
+    if let Some(features) = m.features {
+        text += &format!(
+            "features     of {} samples per pixel, and the first half of the replicates, for `etalon denoise`\n",
+            features.spp
+        );
+    }
+    if let Some(method) = &m.denoised {
+        text += &format!(
+            "denoised     {method}: biased, with standard errors that are the denoiser's estimates\n"
+        );
+    }
     text += &format!("film         {}, {}\n", m.film.pixel_format, m.film.filter);
     if let Some(seconds) = m.seconds {
         text += &format!("time         {seconds:.2} s\n");

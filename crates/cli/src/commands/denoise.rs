@@ -1,0 +1,37 @@
+//! `etalon denoise`.
+
+use super::fail;
+use crate::args::DenoiseArgs;
+use crate::say;
+use etalon_film::read_developed;
+use etalon_render::denoise;
+use etalon_render::write_guard::WriteGuard;
+use std::process::ExitCode;
+
+/// Denoises an image.
+pub fn run(args: &DenoiseArgs) -> ExitCode {
+    match denoised(args) {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(message) => fail(message),
+    }
+}
+
+fn denoised(args: &DenoiseArgs) -> Result<(), String> {
+    let output = WriteGuard::of([&args.input]).claim_exr(&args.output)?;
+    let picture = read_developed(&args.input).map_err(|error| error.to_string())?;
+    let denoised = denoise::denoise(&picture)
+        .map_err(|reason| format!("{}: {reason}", args.input.display()))?;
+    output.write_with(|path| denoised.write_exr(path))?;
+    if !args.quiet {
+        let error = |image: &etalon_film::RenderedImage| {
+            100.0 * image.mean_relative_standard_error().unwrap_or(f64::NAN)
+        };
+        say::remark(&format!(
+            "{}: mean relative error about {:.2} %, of {:.2} % before\n",
+            args.output.display(),
+            error(&denoised),
+            error(&picture)
+        ));
+    }
+    Ok(())
+}

@@ -1,0 +1,95 @@
+//! Denoising by a filter that knows its error.
+//!
+//! A picture of independent replicates is two independent pictures, A and B, the means of either half. Whatever a filter f makes
+//! of A alone, B tells its error without bias, pixel by pixel, as the noise of B has nothing to do with f(A):
+//!
+//! ```text
+//! E (f(A) − B)² = E (f(A) − t)² + Var B                    t: the truth
+//! E (f(A) − f(B))² = 2 Var f(A)
+//! ```
+//!
+//! so that the error of the picture that is shown, (f(A) + f(B)) / 2, is
+//!
+//! ```text
+//! e = ½ [(f(A) − B)² + (f(B) − A)²] − ½ (Var A + Var B) − ¼ (f(A) − f(B))²
+//! ```
+//!
+//! in expectation (cross-validation on dual buffers: Rousselle, Knaus, Zwicker 2012, "Adaptive Rendering with Non-Local Means
+//! Filtering"). Several filters are tried (`regression.rs`), and where its smoothed error is least, each is taken; the picture
+//! as it came is one of them, and its error is the square of its standard error. What is said of the result's error is
+//! the same e, and no promise of the filter.
+//!
+//! The filters are regressions of first order on albedo, normal and depth of the first surface, weighed by patches of colour that
+//! are alike but for noise (Bitterli et al. 2016, "Nonlinearly Weighted First-order Regression for Denoising Monte Carlo
+//! Renderings").
+//!
+//! A denoised picture is biased, has no replicates, and is marked: no verdict is made of it.
+
+mod choice;
+mod halves;
+mod regression;
+mod smooth;
+
+pub use halves::Halves;
+
+use crate::VERSION;
+use etalon_film::{RenderedImage, STANDARD_ERROR};
+use etalon_images::Image;
+
+/// Denoises a picture that was rendered with features.
+///
+/// # Errors
+/// If it lacks what a filter needs, in a sentence.
+pub fn denoise(picture: &RenderedImage) -> Result<RenderedImage, String> {
+    let halves = Halves::of(picture)?;
+    let filtered = regression::filter(&halves);
+    let denoised = choice::least_error(&halves, &filtered);
+    let method = format!("first-order regression, Etalon {VERSION}");
+    Ok(marked(picture, &halves, &denoised, method))
+}
+
+/// A colour for each pixel, row after row.
+type Plane = Vec<[f32; 3]>;
+
+/// A denoised picture.
+struct Denoised {
+    colour: Plane,
+    /// The estimated root mean square error of each colour.
+    error: Plane,
+}
+
+/// The denoised colours with their errors, and all other channels but those that speak of replicates.
+fn marked(
+    picture: &RenderedImage,
+    halves: &Halves,
+    denoised: &Denoised,
+    method: String,
+) -> RenderedImage {
+    let old = &picture.image;
+    let mut image = Image::new(old.width(), old.height());
+    let plane = |plane: &Plane, c: usize| plane.iter().map(|pixel| pixel[c]).collect();
+    for (c, name) in halves.colours.iter().enumerate() {
+        image.push(name.as_str(), plane(&denoised.colour, c));
+    }
+    if let Some(alpha) = old.channel("A") {
+        image.push("A", alpha.to_vec());
+    }
+    for (c, name) in halves.colours.iter().enumerate() {
+        let error = plane(&denoised.error, c);
+        image.push(format!("{STANDARD_ERROR}{name}"), error);
+    }
+    let mut metadata = picture.metadata.clone();
+    if let Some(metadata) = &mut metadata {
+        metadata
+            .channels
+            .retain(|name| image.channel(name).is_some());
+        metadata.tile_means.clear();
+        metadata.features = None;
+        metadata.denoised = Some(method);
+    }
+    RenderedImage {
+        image,
+        frame: picture.frame,
+        metadata,
+    }
+}
