@@ -13,8 +13,8 @@ use etalon_images::Image;
 use etalon_integrators::aov::Aov;
 use etalon_integrators::{AnyIntegrator, Progress, RenderPlan};
 use etalon_params::Diagnostic;
-use etalon_sampling::ReplicateKind;
 use etalon_sampling::hash::mix64;
+use etalon_sampling::{ReplicateKind, SamplerKind};
 use etalon_transport::Channel;
 
 /// What the names of channels with the means of the first half of the replicates begin with.
@@ -25,7 +25,7 @@ pub const FEATURES: [&str; 7] = [
     "albedo.R", "albedo.G", "albedo.B", "normal.X", "normal.Y", "normal.Z", "depth.T",
 ];
 
-/// Replicates of the features, and samples of a pixel in each.
+/// Replicates of the features, which are blocks of one sequence, and samples of a pixel in each.
 const REPLICATES: u32 = 4;
 const SAMPLES: u32 = 4;
 
@@ -134,10 +134,10 @@ fn render(loaded: &Loaded, seed: u64, progress: &dyn Progress) -> Result<Image, 
     let plan = RenderPlan {
         seed: mix64(seed ^ SEEDS),
         replicates: REPLICATES,
-        replicate_kind: ReplicateKind::Independent,
+        replicate_kind: ReplicateKind::Blocks,
         share: None,
         samples_per_replicate: SAMPLES,
-        sampler: loaded.compiled.sampler.kind,
+        sampler: SamplerKind::Sobol,
     };
     let mut film = CheckpointingFilm::unkept(film);
     integrator.render(
