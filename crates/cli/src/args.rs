@@ -135,7 +135,7 @@ Exit codes: 0 done, 2 bad input or usage.
 Examples:
   etalon render scene.xml -o noisy.exr --spp 32 --features
   etalon denoise noisy.exr -o quiet.exr
-  etalon denoise frame-0001.exr -o quiet-0001.exr -q
+  etalon denoise noisy.exr -o quiet.exr --oidn
   etalon view noisy.exr quiet.exr")]
     Denoise(DenoiseArgs),
     /// Turn an image into a picture one can look at (PNG, sRGB), or into HDR or PFM.

@@ -59,7 +59,7 @@ pub struct FilmFacts {
 /// What a file has for a denoiser.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct FeatureFacts {
-    /// Of how many replicates the channels `half.NAME` are the means; 0 if they are not there, as the render was ended early.
+    /// Of how many replicates the channels `half.NAME` are the means.
     pub half: u32,
     /// Samples per pixel of the features, which are none of the picture's.
     pub spp: u32,

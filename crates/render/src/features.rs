@@ -83,7 +83,7 @@ impl FirstHalf {
     }
 }
 
-/// Renders the features of a picture and adds them to it, with its first half, if the second is there, too.
+/// Renders the features of a picture and adds them to it, with its first half. A picture of a render that was ended early has neither.
 ///
 /// # Errors
 /// If there is no memory for them.
@@ -94,20 +94,22 @@ pub(crate) fn add(
     plan: &RenderPlan,
     progress: &dyn Progress,
 ) -> Result<(), Diagnostic> {
-    let rendered = render(loaded, plan.seed, progress)?;
     let colours: Vec<String> = picture.colours().into_iter().map(str::to_owned).collect();
-    let Some(metadata) = &mut picture.metadata else {
+    let (Some(metadata), Some(first)) = (&mut picture.metadata, &half.image) else {
         return Ok(());
     };
-    let image = half
-        .image
-        .filter(|_| metadata.replicates == 2 * half.replicates);
+    if metadata.replicates != 2 * half.replicates {
+        return Ok(());
+    }
+    let Some(rendered) = render(loaded, plan.seed, progress)? else {
+        return Ok(());
+    };
     metadata.features = Some(FeatureFacts {
-        half: image.as_ref().map_or(0, |_| half.replicates),
+        half: half.replicates,
         spp: REPLICATES * SAMPLES,
     });
     for name in colours {
-        if let Some(plane) = image.as_ref().and_then(|image| image.channel(&name)) {
+        if let Some(plane) = first.channel(&name) {
             picture.image.push(format!("{HALF}{name}"), plane.to_vec());
         }
     }
@@ -122,8 +124,12 @@ pub(crate) fn add(
     Ok(())
 }
 
-/// The features alone.
-fn render(loaded: &Loaded, seed: u64, progress: &dyn Progress) -> Result<Image, Diagnostic> {
+/// The features alone; `None` if somebody asked to stop.
+fn render(
+    loaded: &Loaded,
+    seed: u64,
+    progress: &dyn Progress,
+) -> Result<Option<Image>, Diagnostic> {
     let integrator = AnyIntegrator::Aov(Aov::features());
     let settings = FilmSettings {
         pixel_format: PixelFormat::Rgb,
@@ -146,7 +152,9 @@ fn render(loaded: &Loaded, seed: u64, progress: &dyn Progress) -> Result<Image, 
         &plan,
         &Quietly(progress),
     );
-    Ok(film.finish().develop(RenderFacts::default()).image)
+    let film = film.finish();
+    let whole = film.replicates() == REPLICATES;
+    Ok(whole.then(|| film.develop(RenderFacts::default()).image))
 }
 
 /// Stops when asked to, and counts nothing: what is counted are the picture's samples.

@@ -4,7 +4,7 @@ use super::fail;
 use crate::args::DenoiseArgs;
 use crate::say;
 use etalon_film::read_developed;
-use etalon_render::denoise;
+use etalon_render::denoise::{self, OpenImageDenoise};
 use etalon_render::write_guard::WriteGuard;
 use std::process::ExitCode;
 
@@ -19,8 +19,15 @@ pub fn run(args: &DenoiseArgs) -> ExitCode {
 fn denoised(args: &DenoiseArgs) -> Result<(), String> {
     let output = WriteGuard::of([&args.input]).claim_exr(&args.output)?;
     let picture = read_developed(&args.input).map_err(|error| error.to_string())?;
-    let denoised = denoise::denoise(&picture)
-        .map_err(|reason| format!("{}: {reason}", args.input.display()))?;
+    let library = args
+        .oidn
+        .as_ref()
+        .map(|place| OpenImageDenoise::find(place.as_deref()));
+    let denoised = match library.transpose()? {
+        Some(library) => denoise::denoise_with(&library, &picture),
+        None => denoise::denoise(&picture),
+    };
+    let denoised = denoised.map_err(|reason| format!("{}: {reason}", args.input.display()))?;
     output.write_with(|path| denoised.write_exr(path))?;
     if !args.quiet {
         let error = |image: &etalon_film::RenderedImage| {

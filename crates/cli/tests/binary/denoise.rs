@@ -153,7 +153,7 @@ fn denoised_pictures_are_marked_and_decide_nothing() {
     );
     refused(
         &["denoise", "plain.exr", "-o", "new.exr"],
-        "render it with `--features`",
+        "it has no features: render it with `--features`",
     );
     refused(
         &["denoise", "features.exr", "-o", "new.png"],
@@ -188,4 +188,33 @@ fn denoised_pictures_are_marked_and_decide_nothing() {
         "makes a channel `albedo.R`",
     );
     assert!(!workshop.files().contains(&"new.exr".to_owned()));
+}
+
+#[test]
+fn a_network_filters_where_there_is_one() {
+    let workshop = Workshop::new();
+    workshop.render("features.exr", &["--spp", "8", "--features", "-q"]);
+    let denoise = ["denoise", "features.exr", "-o", "quiet.exr"];
+    let nowhere = ["--oidn=nowhere.so"];
+    let ran = workshop.run(&[&denoise[..], &nowhere].concat()).refused();
+    let reason = "Open Image Denoise 2 cannot be loaded";
+    assert!(ran.stderr.contains(reason), "{}", ran.stderr);
+    let place = std::env::var("ETALON_OIDN").map(|place| format!("--oidn={place}"));
+    let place = place.unwrap_or_else(|_| "--oidn".to_owned());
+    let ran = workshop.run(&[&denoise[..], &[&place]].concat());
+    if ran.stderr.contains(reason) {
+        eprintln!("SKIPPED: {}", ran.stderr);
+        return;
+    }
+    let ran = ran.fine();
+    assert!(
+        ran.stderr.contains("mean relative error about"),
+        "{}",
+        ran.stderr
+    );
+    let method = workshop.run(&["info", "quiet.exr"]).fine().stdout;
+    assert!(
+        method.contains("denoised     Open Image Denoise 2."),
+        "{method}"
+    );
 }

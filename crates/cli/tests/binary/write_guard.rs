@@ -7,7 +7,7 @@ use std::any::TypeId;
 use std::path::{Path, PathBuf};
 
 /// The arguments of every command that are paths, and whether the command reads or writes there.
-const PATHS: [(&str, &str, Use); 27] = [
+const PATHS: [(&str, &str, Use); 28] = [
     ("render", "scene", Use::Reads),
     ("render", "output", Use::Writes(&["scene.xml", "-o"])),
     ("render", "strategies", Use::FillsFolder),
@@ -64,6 +64,7 @@ const PATHS: [(&str, &str, Use); 27] = [
     ),
     ("estimators", "data", Use::Reads),
     ("denoise", "input", Use::Reads),
+    ("denoise", "oidn", Use::Reads),
     ("denoise", "output", Use::Writes(&["a.exr", "-o"])),
     ("convert", "input", Use::Reads),
     ("convert", "output", Use::Writes(&["p.png"])),

@@ -41,12 +41,8 @@ impl Halves {
             return Err("it is denoised already".to_owned());
         }
         let again = "render it with `--features`";
-        let facts = metadata.features.as_ref();
-        let facts = facts.ok_or_else(|| format!("it has no features: {again}"))?;
-        if facts.half == 0 {
-            return Err(format!(
-                "its render was ended early, and its replicates are not in halves: {again} to its end"
-            ));
+        if metadata.features.is_none() {
+            return Err(format!("it has no features: {again}, to its end"));
         }
         if metadata.replicate_kind != ReplicateKind::Independent {
             return Err(format!("its replicates depend on each other: {again}"));

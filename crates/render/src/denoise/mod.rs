@@ -27,13 +27,15 @@
 
 mod choice;
 mod halves;
+mod oidn;
 mod regression;
 mod smooth;
 
 pub use halves::Halves;
+pub use oidn::OpenImageDenoise;
 
 use crate::VERSION;
-use etalon_film::{RenderedImage, STANDARD_ERROR};
+use etalon_film::{OutlierLog, RenderedImage, STANDARD_ERROR};
 use etalon_images::Image;
 
 /// Denoises a picture that was rendered with features.
@@ -43,9 +45,35 @@ use etalon_images::Image;
 pub fn denoise(picture: &RenderedImage) -> Result<RenderedImage, String> {
     let halves = Halves::of(picture)?;
     let filtered = regression::filter(&halves);
-    let denoised = choice::least_error(&halves, &filtered);
     let method = format!("first-order regression, Etalon {VERSION}");
-    Ok(marked(picture, &halves, &denoised, method))
+    Ok(chosen(picture, &halves, &filtered, method))
+}
+
+/// The same with Intel's network for a filter: its error is estimated as any filter's, and where it is larger than the noise
+/// was, the picture stays as it was.
+///
+/// # Errors
+/// If the picture lacks what a filter needs, or the library fails.
+pub fn denoise_with(
+    library: &OpenImageDenoise,
+    picture: &RenderedImage,
+) -> Result<RenderedImage, String> {
+    let halves = Halves::of(picture)?;
+    let filtered = [library.filter(&halves)?];
+    let version = library.version();
+    let method = format!("Open Image Denoise {version}, by halves, Etalon {VERSION}");
+    Ok(chosen(picture, &halves, &filtered, method))
+}
+
+/// The best of the filters at each pixel.
+fn chosen(
+    picture: &RenderedImage,
+    halves: &Halves,
+    filtered: &[regression::Filtered],
+    method: String,
+) -> RenderedImage {
+    let denoised = choice::least_error(halves, filtered);
+    marked(picture, halves, &denoised, method)
 }
 
 /// A colour for each pixel, row after row.
@@ -85,6 +113,8 @@ fn marked(
             .retain(|name| image.channel(name).is_some());
         metadata.tile_means.clear();
         metadata.features = None;
+        metadata.unlit_pixels = 0;
+        metadata.outliers = OutlierLog::default();
         metadata.denoised = Some(method);
     }
     RenderedImage {
