@@ -2,10 +2,10 @@
 //!
 //! Pictures of 32 samples per pixel and eight seeds are denoised and held against a picture of many samples: by relMSE, the
 //! mean over pixels and colours of (x − r)² / (r² + 0.01), over the picture and over each of its tiles of 16² pixels. The reference's
-//! own noise is known and taken away.
+//! own noise is known and taken away. Open Image Denoise stands beside it where it is found (`ETALON_OIDN` names its folder).
 
 use etalon_film::RenderedImage;
-use etalon_render::denoise::denoise;
+use etalon_render::denoise::{OpenImageDenoise, denoise, denoise_with};
 use etalon_render::pipeline::{self, LoadOptions, Loaded, RenderControls, RenderOptions};
 use etalon_validation::folders;
 use std::path::PathBuf;
@@ -50,28 +50,86 @@ struct Errors {
     whole: f64,
 }
 
+/// What a denoiser came to over all seeds of a scene.
+#[derive(Default)]
+struct Tally {
+    before: f64,
+    after: f64,
+    stated: f64,
+    /// Tiles that got worse, and all.
+    above: usize,
+    tiles: usize,
+    worst: f64,
+    seconds: f64,
+}
+
+impl Tally {
+    /// Adds a picture, and the same denoised.
+    fn add(
+        &mut self,
+        [noisy, quiet]: [&RenderedImage; 2],
+        reference: &RenderedImage,
+    ) -> Result<(), String> {
+        let noise = noise(reference)?;
+        let (input, output) = (errors(noisy, reference)?, errors(quiet, reference)?);
+        self.before += input.whole - noise.whole;
+        self.after += output.whole - noise.whole;
+        self.stated += stated(quiet, reference)?;
+        for ((before, after), noise) in input.tiles.iter().zip(&output.tiles).zip(&noise.tiles) {
+            // Beyond what the reference's noise, twice as large as its mean, would explain.
+            let ratio = (after - 2.0 * noise) / before.max(1e-12);
+            self.worst = self.worst.max(ratio);
+            self.above += usize::from(ratio > 1.05);
+            self.tiles += 1;
+        }
+        Ok(())
+    }
+
+    /// A row of the table.
+    fn row(&self, scene: &str, seeds: f64) -> String {
+        format!(
+            "| {scene} | {:.5} | {:.5} | {:.3} | {} of {} | {:.2} | {:.2} | {:.1} |",
+            self.before / seeds,
+            self.after / seeds,
+            self.after / self.before,
+            self.above,
+            self.tiles,
+            self.worst,
+            (self.stated / self.after).sqrt(),
+            self.seconds / seeds
+        )
+    }
+}
+
 /// Measures.
 ///
 /// # Errors
 /// If a scene cannot be rendered.
 pub(crate) fn run(arguments: &Arguments) -> Result<(), String> {
+    let place = std::env::var_os("ETALON_OIDN").map(PathBuf::from);
+    let library = OpenImageDenoise::find(place.as_deref());
+    if let Err(reason) = &library {
+        eprintln!("note: {reason}");
+    }
     println!(
         "| scene | relMSE at {SAMPLES} spp | denoised | ratio | tiles above 1.05 | worst tile | stated / true error | seconds |"
     );
     println!("|---|---|---|---|---|---|---|---|");
     for (name, size) in SCENES {
-        if arguments
-            .only
-            .as_ref()
-            .is_none_or(|only| name.contains(only))
-        {
-            println!("{}", row(name, size, arguments)?);
+        let wanted = |only: &String| name.contains(only);
+        if arguments.only.as_ref().is_none_or(wanted) {
+            measure(name, size, arguments, library.as_ref().ok())?;
         }
     }
     Ok(())
 }
 
-fn row(name: &str, size: [u32; 2], arguments: &Arguments) -> Result<String, String> {
+fn measure(
+    name: &str,
+    size: [u32; 2],
+    arguments: &Arguments,
+    library: Option<&OpenImageDenoise>,
+) -> Result<(), String> {
     let path: PathBuf = folders::scenes().join(name);
     let defines = ["resx", "resy"].into_iter().zip(size);
     let options = LoadOptions {
@@ -85,36 +143,28 @@ fn row(name: &str, size: [u32; 2], arguments: &Arguments) -> Result<String, Stri
         first.map_or_else(String::new, |d| d.one_line(&refusal.sources))
     })?;
     let reference = render(&loaded, arguments.reference, u64::MAX, false)?;
-    let noise = noise(&reference)?;
-    let (mut before, mut after, mut stated) = (0.0, 0.0, 0.0);
-    let (mut above, mut tiles, mut worst, mut seconds) = (0, 0, 0.0_f64, 0.0);
+    let (mut own, mut network) = (Tally::default(), Tally::default());
     for seed in 0..arguments.seeds {
         let noisy = render(&loaded, SAMPLES, seed, true)?;
         let begin = Instant::now();
         let quiet = denoise(&noisy)?;
-        seconds += begin.elapsed().as_secs_f64();
-        let [input, output] = [&noisy, &quiet].map(|picture| errors(picture, &reference));
-        let (input, output) = (input?, output?);
-        before += input.whole - noise.whole;
-        after += output.whole - noise.whole;
-        stated += self::stated(&quiet, &reference)?;
-        for ((before, after), noise) in input.tiles.iter().zip(&output.tiles).zip(&noise.tiles) {
-            // Beyond what the reference's noise, twice as large as its mean, would explain.
-            let ratio = (after - 2.0 * noise) / before.max(1e-12);
-            worst = worst.max(ratio);
-            above += usize::from(ratio > 1.05);
-            tiles += 1;
+        own.seconds += begin.elapsed().as_secs_f64();
+        own.add([&noisy, &quiet], &reference)?;
+        if let Some(library) = library {
+            let begin = Instant::now();
+            let quiet = denoise_with(library, &noisy)?;
+            network.seconds += begin.elapsed().as_secs_f64();
+            network.add([&noisy, &quiet], &reference)?;
         }
     }
     let seeds = arguments.seeds as f64;
-    Ok(format!(
-        "| {name} | {:.5} | {:.5} | {:.3} | {above} of {tiles} | {worst:.2} | {:.2} | {:.1} |",
-        before / seeds,
-        after / seeds,
-        after / before,
-        (stated / after).sqrt(),
-        seconds / seeds
-    ))
+    let scene = name.trim_end_matches("/scene.xml");
+    println!("{}", own.row(scene, seeds));
+    if let Some(library) = library {
+        let name = format!("… by Open Image Denoise {}", library.version());
+        println!("{}", network.row(&name, seeds));
+    }
+    Ok(())
 }
 
 fn render(loaded: &Loaded, spp: u32, seed: u64, features: bool) -> Result<RenderedImage, String> {
