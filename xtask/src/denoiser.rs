@@ -5,8 +5,9 @@
 //! own noise is known and taken away. Open Image Denoise stands beside it where it is found (`ETALON_OIDN` names its folder).
 
 use etalon_film::RenderedImage;
-use etalon_render::denoise::{OpenImageDenoise, denoise, denoise_with};
+use etalon_render::denoise::{OpenImageDenoise, denoise};
 use etalon_render::pipeline::{self, LoadOptions, Loaded, RenderControls, RenderOptions};
+use etalon_statistics::metrics::EPSILON;
 use etalon_validation::folders;
 use std::path::PathBuf;
 use std::time::Instant;
@@ -26,9 +27,6 @@ const SAMPLES: u32 = 32;
 
 /// Side of the tiles (pixels).
 const SIDE: usize = 16;
-
-/// In relMSE (radiance squared).
-const EPSILON: f64 = 0.01;
 
 /// The options of the command.
 #[derive(clap::Args)]
@@ -68,9 +66,8 @@ impl Tally {
     fn add(
         &mut self,
         [noisy, quiet]: [&RenderedImage; 2],
-        reference: &RenderedImage,
+        (reference, noise): (&RenderedImage, &Errors),
     ) -> Result<(), String> {
-        let noise = noise(reference)?;
         let (input, output) = (errors(noisy, reference)?, errors(quiet, reference)?);
         self.before += input.whole - noise.whole;
         self.after += output.whole - noise.whole;
@@ -143,18 +140,19 @@ fn measure(
         first.map_or_else(String::new, |d| d.one_line(&refusal.sources))
     })?;
     let reference = render(&loaded, arguments.reference, u64::MAX, false)?;
+    let noise = noise(&reference)?;
     let (mut own, mut network) = (Tally::default(), Tally::default());
     for seed in 0..arguments.seeds {
         let noisy = render(&loaded, SAMPLES, seed, true)?;
         let begin = Instant::now();
-        let quiet = denoise(&noisy)?;
+        let quiet = denoise(&noisy, None)?;
         own.seconds += begin.elapsed().as_secs_f64();
-        own.add([&noisy, &quiet], &reference)?;
-        if let Some(library) = library {
+        own.add([&noisy, &quiet], (&reference, &noise))?;
+        if library.is_some() {
             let begin = Instant::now();
-            let quiet = denoise_with(library, &noisy)?;
+            let quiet = denoise(&noisy, library)?;
             network.seconds += begin.elapsed().as_secs_f64();
-            network.add([&noisy, &quiet], &reference)?;
+            network.add([&noisy, &quiet], (&reference, &noise))?;
         }
     }
     let seeds = arguments.seeds as f64;

@@ -248,7 +248,7 @@ pub struct RenderArgs {
     #[arg(long)]
     pub independent_replicates: bool,
     /// Also write what `etalon denoise` needs: albedo, normal and depth, and the first half of the (independent) replicates.
-    #[arg(long, conflicts_with_all = ["resume", "part", "replay"])]
+    #[arg(long, conflicts_with_all = ["resume", "part", "replay", "strategies"])]
     pub features: bool,
     /// As many samples as a relative standard error below REL takes, with 95 % confidence.
     #[arg(long, value_name = "REL", value_parser = parse_error, allow_negative_numbers = true, conflicts_with_all = ["spp", "time", "part", "strategies"])]

@@ -56,11 +56,9 @@ pub struct FilmFacts {
     pub filter_method: Option<String>,
 }
 
-/// What a file has for a denoiser.
+/// What a file has for a denoiser: beside features, the means of the first half of its replicates (`half.NAME`).
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct FeatureFacts {
-    /// Of how many replicates the channels `half.NAME` are the means.
-    pub half: u32,
     /// Samples per pixel of the features, which are none of the picture's.
     pub spp: u32,
 }

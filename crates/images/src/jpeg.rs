@@ -37,3 +37,39 @@ pub fn write(
     written.map_err(|source| Error::write(path, source))?;
     Ok(losses)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::raster;
+
+    #[test]
+    fn a_picture_is_read_back_but_for_the_losses_of_the_format() {
+        let folder = tempfile::tempdir().expect("a folder");
+        let path = folder.path().join("a.jpg");
+        let slope = |scale: f32| {
+            (0..32 * 16)
+                .map(|i| scale * (i % 32) as f32 / 32.0)
+                .collect()
+        };
+        let image = Image::new(32, 16)
+            .with("R", slope(0.5))
+            .with("G", slope(1.0))
+            .with("B", slope(0.25))
+            .with("A", vec![1.0; 32 * 16]);
+        // Mutants rejected: alpha among the colours; no exposure.
+        write(&path, &image, 1.0, 95).expect("it is written");
+        let read = raster::read(&path)
+            .expect("it is read")
+            .to_linear()
+            .to_vec();
+        for (i, pixel) in read.chunks_exact(3).enumerate() {
+            let x = (i % 32) as f32 / 32.0;
+            for (value, known) in pixel.iter().zip([x, (2.0 * x).min(1.0), 0.5 * x]) {
+                assert!((value - known).abs() < 0.06, "{i}: {value} {known}");
+            }
+        }
+        let grey = Image::new(1, 1).with("depth", vec![1.0]);
+        assert!(write(&folder.path().join("b.jpg"), &grey, 0.0, 95).is_err());
+    }
+}

@@ -105,7 +105,6 @@ pub(crate) fn add(
         return Ok(());
     };
     metadata.features = Some(FeatureFacts {
-        half: half.replicates,
         spp: REPLICATES * SAMPLES,
     });
     for name in colours {

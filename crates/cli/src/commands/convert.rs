@@ -23,13 +23,13 @@ fn convert(args: &ConvertArgs) -> Result<Vec<String>, String> {
     let exposure = development.exposure;
     let output = WriteGuard::of([&args.input]).claim(&args.output)?;
     let in_words = |error: Error| error.to_string();
-    let (image, mut notes, ours) = read(&args.input)?;
+    let (image, mut notes, text) = read(&args.input)?;
     let colour = match &args.channels {
         Some(prefix) => chosen(&image, prefix)?,
         None => {
             let colour = image.needed_colour(&args.input).map_err(in_words)?;
             // In our own files the picture has no layer, and what else there is was asked for.
-            notes.extend(colour.notes.iter().filter(|_| !ours).cloned());
+            notes.extend(colour.notes.iter().filter(|_| text.is_empty()).cloned());
             of_colour(&image, &colour)
         }
     };
@@ -82,8 +82,8 @@ fn extension(path: &Path) -> String {
         .unwrap_or_default()
 }
 
-/// The image in a file, what whoever gave it should know, and whether the file is our own.
-pub(crate) fn read(path: &Path) -> Result<(Image, Vec<String>, bool), String> {
+/// The image in a file, what whoever gave it should know, and what the file says of itself: nothing if it is not our own.
+pub(crate) fn read(path: &Path) -> Result<(Image, Vec<String>, String), String> {
     let read = || {
         let bytes = std::fs::read(path).map_err(|source| Error::Read {
             path: path.to_owned(),
@@ -91,12 +91,12 @@ pub(crate) fn read(path: &Path) -> Result<(Image, Vec<String>, bool), String> {
         })?;
         if Format::of(&bytes) == Some(Format::Exr) {
             let document = exr::decode(&bytes, path)?;
-            let ours = !document.text.is_empty();
-            return Ok((document.flatten().0, Vec::new(), ours));
+            let text = document.text.clone();
+            return Ok((document.flatten().0, Vec::new(), text));
         }
         let raster = raster::decode(&bytes, path)?;
         let notes = raster.notes(false).map(str::to_owned).collect();
-        Ok((raster.to_image(), notes, false))
+        Ok((raster.to_image(), notes, String::new()))
     };
     read().map_err(|error: Error| error.to_string())
 }

@@ -4,7 +4,7 @@ use super::fail;
 use crate::args::DenoiseArgs;
 use crate::say;
 use etalon_film::read_developed;
-use etalon_render::denoise::{self, OpenImageDenoise};
+use etalon_render::denoise::{OpenImageDenoise, denoise};
 use etalon_render::write_guard::WriteGuard;
 use std::process::ExitCode;
 
@@ -23,11 +23,8 @@ fn denoised(args: &DenoiseArgs) -> Result<(), String> {
         .oidn
         .as_ref()
         .map(|place| OpenImageDenoise::find(place.as_deref()));
-    let denoised = match library.transpose()? {
-        Some(library) => denoise::denoise_with(&library, &picture),
-        None => denoise::denoise(&picture),
-    };
-    let denoised = denoised.map_err(|reason| format!("{}: {reason}", args.input.display()))?;
+    let denoised = denoise(&picture, library.transpose()?.as_ref())
+        .map_err(|reason| format!("{}: {reason}", args.input.display()))?;
     output.write_with(|path| denoised.write_exr(path))?;
     if !args.quiet {
         let error = |image: &etalon_film::RenderedImage| {

@@ -4,7 +4,7 @@ use super::convert::{of_colour, read};
 use super::{fail, note};
 use crate::args::ReplicatesArgs;
 use crate::say;
-use etalon_film::{RenderFacts, read_developed};
+use etalon_film::{Metadata, RenderFacts};
 use etalon_images::Image;
 use etalon_render::seeds::Seeds;
 use etalon_render::write_guard::WriteGuard;
@@ -59,11 +59,9 @@ fn together(args: &ReplicatesArgs) -> Result<(), String> {
 
 /// A picture's colour in linear Rec. 709; what there is to know of it is said if it is the first.
 fn colour(path: &Path, first: bool) -> Result<Image, String> {
-    let (image, mut notes, ours) = read(path)?;
-    if ours
-        && read_developed(path)
-            .is_ok_and(|image| image.metadata.is_some_and(|m| m.denoised.is_some()))
-    {
+    let (image, mut notes, text) = read(path)?;
+    let ours = Metadata::from_json(&text, [image.width(), image.height()]).ok();
+    if ours.as_ref().is_some_and(|facts| facts.denoised.is_some()) {
         let path = path.display();
         return Err(format!(
             "{path} was denoised: its error is none of chance alone"
@@ -72,7 +70,7 @@ fn colour(path: &Path, first: bool) -> Result<Image, String> {
     let colour = image
         .needed_colour(path)
         .map_err(|error| error.to_string())?;
-    notes.extend(colour.notes.iter().filter(|_| !ours).cloned());
+    notes.extend(colour.notes.iter().filter(|_| ours.is_none()).cloned());
     if first {
         let path = path.display();
         notes

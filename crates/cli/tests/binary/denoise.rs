@@ -49,7 +49,8 @@ fn errors_fall_and_are_what_is_said_of_them() {
         ["reference.exr", "noisy.exr", "quiet.exr"].map(|name| workshop.image(name));
     let (before, tiles_before) = error(&noisy, &reference);
     let (after, tiles_after) = error(&quiet, &reference);
-    // Mutants rejected: the picture as it came; a window's mean, which is worse in some tiles.
+    // The smaller the picture, the more of it are edges: at 64 x 64 pixels a third of the error is left. Mutants rejected: the
+    // picture as it came; a window's mean, which is worse in some tiles.
     assert!(after < 0.25 * before, "{after} {before}");
     for (after, before) in tiles_after.iter().zip(tiles_before) {
         assert!(*after < 1.05 * before, "{after} {before}");

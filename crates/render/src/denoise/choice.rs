@@ -3,6 +3,7 @@
 use super::regression::Filtered;
 use super::smooth::boxed;
 use super::{Denoised, Halves, Plane};
+use etalon_statistics::metrics::EPSILON;
 
 /// Radius of the squares over which errors are averaged, twice (pixels).
 const RADIUS: usize = 3;
@@ -12,9 +13,6 @@ const BLEND: usize = 2;
 
 /// How much less a filter's error must seem than the picture's own for it to be taken.
 const MARGIN: f32 = 0.85;
-
-/// Keeps dark pixels from deciding, as in relMSE (in units of radiance squared).
-const DARK: f32 = 0.01;
 
 /// A candidate: a picture, its squared error, and the part of it that is variance; both are relative to [`scale`].
 struct Candidate {
@@ -85,7 +83,8 @@ fn scale(filtered: &[Filtered]) -> Plane {
         .map(|(a, b)| {
             std::array::from_fn(|c| {
                 let colour = 0.5 * (a[c] + b[c]);
-                colour * colour + DARK
+                // As in relMSE: dark pixels decide nothing.
+                colour * colour + EPSILON as f32
             })
         })
         .collect()

@@ -12,9 +12,9 @@ pub(super) const NUMBERS: usize = 7;
 const LEAST: [f32; NUMBERS] = [0.02, 0.02, 0.02, 0.04, 0.04, 0.04, 0.005];
 
 /// A picture in halves.
-pub struct Halves {
+pub(super) struct Halves {
     /// Width and height (pixels).
-    pub size: [usize; 2],
+    pub(super) size: [usize; 2],
     /// The names of the colours: three, or one, which is the first of a pixel's three.
     pub(super) colours: Vec<String>,
     /// The picture.
@@ -34,7 +34,7 @@ impl Halves {
     ///
     /// # Errors
     /// If it lacks what a filter needs, in a sentence.
-    pub fn of(picture: &RenderedImage) -> Result<Self, String> {
+    pub(super) fn of(picture: &RenderedImage) -> Result<Self, String> {
         let metadata = picture.metadata.as_ref();
         let metadata = metadata.ok_or("it is no image of Etalon's")?;
         if metadata.denoised.is_some() {

@@ -31,49 +31,36 @@ mod oidn;
 mod regression;
 mod smooth;
 
-pub use halves::Halves;
 pub use oidn::OpenImageDenoise;
 
 use crate::VERSION;
 use etalon_film::{OutlierLog, RenderedImage, STANDARD_ERROR};
 use etalon_images::Image;
+use halves::Halves;
 
-/// Denoises a picture that was rendered with features.
-///
-/// # Errors
-/// If it lacks what a filter needs, in a sentence.
-pub fn denoise(picture: &RenderedImage) -> Result<RenderedImage, String> {
-    let halves = Halves::of(picture)?;
-    let filtered = regression::filter(&halves);
-    let method = format!("first-order regression, Etalon {VERSION}");
-    Ok(chosen(picture, &halves, &filtered, method))
-}
-
-/// The same with Intel's network for a filter: its error is estimated as any filter's, and where it is larger than the noise
-/// was, the picture stays as it was.
+/// Denoises a picture that was rendered with features: by regressions, or by Intel's network in their place. Either's error is
+/// estimated in the same way, and where it is larger than the noise was, the picture stays as it was.
 ///
 /// # Errors
 /// If the picture lacks what a filter needs, or the library fails.
-pub fn denoise_with(
-    library: &OpenImageDenoise,
+pub fn denoise(
     picture: &RenderedImage,
+    network: Option<&OpenImageDenoise>,
 ) -> Result<RenderedImage, String> {
     let halves = Halves::of(picture)?;
-    let filtered = [library.filter(&halves)?];
-    let version = library.version();
-    let method = format!("Open Image Denoise {version}, by halves, Etalon {VERSION}");
-    Ok(chosen(picture, &halves, &filtered, method))
-}
-
-/// The best of the filters at each pixel.
-fn chosen(
-    picture: &RenderedImage,
-    halves: &Halves,
-    filtered: &[regression::Filtered],
-    method: String,
-) -> RenderedImage {
-    let denoised = choice::least_error(halves, filtered);
-    marked(picture, halves, &denoised, method)
+    let (filtered, method) = match network {
+        None => (
+            regression::filter(&halves),
+            "first-order regression".to_owned(),
+        ),
+        Some(network) => (
+            vec![network.filter(&halves)?],
+            format!("Open Image Denoise {} by halves", network.version()),
+        ),
+    };
+    let denoised = choice::least_error(&halves, &filtered);
+    let method = format!("{method}, Etalon {VERSION}");
+    Ok(marked(picture, &halves, &denoised, method))
 }
 
 /// A colour for each pixel, row after row.
