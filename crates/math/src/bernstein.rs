@@ -131,11 +131,13 @@ impl<const N: usize> Binomials<N> {
 fn refine<const N: usize>(b: &[f64; N]) -> f64 {
     let scaled: [f64; N] = core::array::from_fn(|i| Binomials::<N>::ROW[i] * b[i]);
     let before = b[0] < 0.0;
-    let first_half = (scaled.iter().sum::<f64>() < 0.0) != before;
+    let middle: f64 = scaled.iter().sum();
+    let first_half = (middle < 0.0) != before;
     let c: [f64; N] = core::array::from_fn(|i| scaled[if first_half { i } else { N - 1 - i }]);
     let negative = c[0] < 0.0;
     let (mut low, mut high) = (0.0, 1.0);
-    let mut x = 0.5;
+    // Where a straight line between the ends has its zero.
+    let (mut x, mut last_step) = (c[0] / (c[0] - middle), 1.0);
     for _ in 0..80 {
         let (mut value, mut slope) = (0.0_f64, 0.0_f64);
         for c in c.iter().rev() {
@@ -147,17 +149,19 @@ fn refine<const N: usize>(b: &[f64; N]) -> f64 {
         } else {
             high = x;
         }
-        let newton = x - value / slope;
+        let step = value / slope;
+        // Near the zero steps shrink quadratically until only rounding is left, which never ends and may lie outside.
+        if step.abs() <= 2e-16 || (step.abs() <= 1e-10 && step.abs() > 0.25 * last_step) {
+            break;
+        }
+        let newton = x - step;
         let next = if newton > low && newton < high {
             newton
         } else {
             0.5 * (low + high)
         };
-        let step = (next - x).abs();
+        last_step = (next - x).abs();
         x = next;
-        if step <= 2e-16 {
-            break;
-        }
     }
     if first_half {
         x / (1.0 + x)

@@ -19,8 +19,12 @@ impl Line {
     }
 
     /// Whether it passes a box by, or has left it before `after`.
-    pub(crate) fn misses(&self, [low, high]: [DVec3; 2], after: f64) -> bool {
-        let inverse = self.direction.recip();
+    pub(crate) fn misses(&self, bounds: [DVec3; 2], after: f64) -> bool {
+        self.misses_by(self.direction.recip(), bounds, after)
+    }
+
+    /// The same, when 1/d is known.
+    pub(crate) fn misses_by(&self, inverse: DVec3, [low, high]: [DVec3; 2], after: f64) -> bool {
         let (a, b) = (
             (low - self.origin) * inverse,
             (high - self.origin) * inverse,

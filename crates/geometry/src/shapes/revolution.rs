@@ -219,6 +219,11 @@ impl Revolution {
         let farthest = distance(ends[0]).max(distance(ends[1]));
         let heights = ends.map(|t| line.o.z + t * line.d.z);
         let [lowest, highest] = [heights[0].min(heights[1]), heights[0].max(heights[1])];
+        let path = Line {
+            origin: line.o,
+            direction: line.d,
+        };
+        let inverse = line.d.recip();
         let meets = |[low, high]: [DVec2; 2]| {
             let (reach, hole) = (high.x + slack, (low.x - slack).max(0.0));
             if lowest > high.y + slack || highest < low.y - slack || farthest < hole * hole {
@@ -228,12 +233,7 @@ impl Revolution {
                 DVec3::new(-reach, -reach, low.y - slack),
                 DVec3::new(reach, reach, high.y + slack),
             ];
-            nearest <= reach * reach
-                && !Line {
-                    origin: line.o,
-                    direction: line.d,
-                }
-                .misses(around, f64::NEG_INFINITY)
+            nearest <= reach * reach && !path.misses_by(inverse, around, f64::NEG_INFINITY)
         };
         self.profile.search(meets, visit);
     }
