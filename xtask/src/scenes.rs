@@ -1,9 +1,10 @@
 //! `cargo xtask scenes`: writes the generated files of `scenes/` anew: a sky, leaves, trees and
-//! where they stand, a thousand lamps, bumps, water, smoke.
+//! where they stand, a thousand lamps, bumps, water, smoke, a gem.
 //!
 //! Nothing here is random: whatever should look irregular follows [`sequence`], so that the files
 //! are the same on every machine.
 
+mod brilliant;
 mod forest;
 mod lamps;
 mod leaf;
@@ -37,6 +38,10 @@ pub(crate) fn run() -> Result<(), String> {
         put(&scenes.join(name), &bytes)?;
     }
     put(&scenes.join("pool/water.obj"), pool::water().as_bytes())?;
+    put(
+        &scenes.join("gallery/parts/brilliant.obj"),
+        brilliant::gem().as_bytes(),
+    )?;
     put(
         &scenes.join("many-lights/lamps.xml"),
         lamps::fragment().as_bytes(),

@@ -1,13 +1,14 @@
 //! `cargo xtask gallery`: the pictures of the book, `docs/gallery/`.
 //!
-//! There is one for the scene on each page of the course, `course-NAME.jpg`, one for each scene of `scenes/gallery`, and one for each
-//! plugin ([`stages`]). `rendered.txt` beside them says which scene, by its hash, each is of, so that only what changed is rendered
+//! There is one for the scene on each page of the course, `course-NAME.jpg`, one for each scene of `scenes/gallery`, which is denoised,
+//! and one for each plugin ([`stages`]). `rendered.txt` beside them says which scene, by its hash, each is of, so that only what changed is rendered
 //! again.
 
 pub(crate) mod stages;
 
-use etalon_images::jpeg;
-use etalon_render::pipeline::{self, LoadOptions, Loaded, RenderOptions};
+use etalon_images::{Image, jpeg};
+use etalon_render::denoise::denoise;
+use etalon_render::pipeline::{self, LoadOptions, Loaded, RenderControls, RenderOptions};
 use etalon_validation::folders;
 use stages::Stages;
 use std::collections::BTreeMap;
@@ -37,6 +38,8 @@ struct Picture {
     spp: Option<u32>,
     /// How much brighter it is shown (stops).
     exposure: f32,
+    /// Whether it is denoised.
+    denoised: bool,
 }
 
 fn folder() -> PathBuf {
@@ -97,6 +100,7 @@ fn pictures() -> Result<Vec<Picture>, String> {
             scene: path,
             spp: Some(SAMPLES),
             exposure: 0.0,
+            denoised: false,
         });
     }
     fs::create_dir_all(place.join("plugins")).map_err(|e| failed(&place, &e))?;
@@ -108,6 +112,7 @@ fn pictures() -> Result<Vec<Picture>, String> {
             scene: path,
             spp: Some(shown.samples),
             exposure: shown.exposure,
+            denoised: false,
         });
     }
     for scene in files(&root.join("scenes/gallery"), "xml")? {
@@ -116,6 +121,7 @@ fn pictures() -> Result<Vec<Picture>, String> {
             scene,
             spp: None,
             exposure: 0.0,
+            denoised: true,
         });
     }
     Ok(pictures)
@@ -131,6 +137,27 @@ fn load(picture: &Picture) -> Result<Loaded, String> {
         let reason = first.map_or_else(String::new, |d| d.one_line(&refusal.sources));
         format!("{}: {reason}", picture.name)
     })
+}
+
+/// A picture, rendered.
+fn image(picture: &Picture, loaded: &Loaded) -> Result<Image, String> {
+    let options = RenderOptions {
+        spp: picture.spp,
+        independent_replicates: picture.denoised,
+        ..RenderOptions::default()
+    };
+    let plan = pipeline::plan(loaded, &options);
+    let controls = RenderControls {
+        features: picture.denoised,
+        ..RenderControls::default()
+    };
+    let rendered = pipeline::render_as(loaded, &plan, controls, &());
+    let rendered = rendered.map_err(|e| failed(&picture.scene, &e.message))?;
+    if !picture.denoised {
+        return Ok(rendered.developed.image);
+    }
+    let denoised = denoise(&rendered.developed, None).map_err(|e| failed(&picture.scene, &e))?;
+    Ok(denoised.image)
 }
 
 /// Renders what changed.
@@ -154,15 +181,8 @@ pub(crate) fn run(arguments: &Arguments) -> Result<(), String> {
             continue;
         }
         let begin = Instant::now();
-        let options = RenderOptions {
-            spp: picture.spp,
-            ..RenderOptions::default()
-        };
-        let plan = pipeline::plan(&loaded, &options);
-        let rendered = pipeline::render(&loaded, &plan, &())
-            .map_err(|e| failed(&picture.scene, &e.message))?;
-        let image = &rendered.developed.image;
-        jpeg::write(&path, image, picture.exposure, QUALITY).map_err(|e| e.to_string())?;
+        let image = image(picture, &loaded)?;
+        jpeg::write(&path, &image, picture.exposure, QUALITY).map_err(|e| e.to_string())?;
         println!("{}: {:.0} s", path.display(), begin.elapsed().as_secs_f64());
         known.insert(picture.name.clone(), loaded.hash.clone());
         let lines: String = known
