@@ -3,7 +3,7 @@
 use etalon_render::pipeline::{self, LoadOptions, Loaded};
 use etalon_scene::Scene;
 use etalon_spectrum::Wavelengths;
-use etalon_transport::{Bsdf, Ray, SurfaceInteraction, TransportMode, World};
+use etalon_transport::{Bsdf, BsdfOf, Ray, SurfaceInteraction, Surfaces, TransportMode, World};
 use glam::{Vec3, Vec4};
 use std::fs;
 use std::path::PathBuf;
@@ -43,18 +43,22 @@ impl LoneMaterial {
         })?;
         let ray = Ray::new(Vec3::new(0.0, 0.0, 1.0), Vec3::NEG_Z, 0.0);
         let scene = &loaded.compiled.scene;
-        let hit = scene.intersect(&ray).ok_or("the plane cannot be seen")?;
-        let vertex = scene.vertex(&ray, &hit);
+        let hit = scene
+            .surfaces()
+            .intersect(&ray)
+            .ok_or("the plane cannot be seen")?;
+        let vertex = scene.surfaces().vertex(&ray, &hit);
         Ok(Self { loaded, vertex })
     }
 
     /// The material for the known direction `wo` of the local frame, and that frame's directions in the world.
     #[inline]
-    pub fn at(&self, wo: Vec3, wavelengths: &Wavelengths) -> <Scene as World>::Bsdf<'_> {
+    pub fn at(&self, wo: Vec3, wavelengths: &Wavelengths) -> BsdfOf<'_, Scene> {
         let wo = self.to_world(wo);
         self.loaded
             .compiled
             .scene
+            .surfaces()
             .bsdf(&self.vertex, wo, wavelengths)
     }
 

@@ -22,8 +22,8 @@ use etalon_integrators::whitted::onward;
 use etalon_scene::Scene;
 use etalon_spectrum::Wavelengths;
 use etalon_transport::{
-    Bsdf, Camera, Hit, LegacyPhong, LightId, LightSampleContext, Ray, SurfaceInteraction,
-    TransportMode, World,
+    Bsdf, Camera, Hit, LegacyPhong, LightId, LightSampleContext, Lights, Ray, Sensor,
+    SurfaceInteraction, Surfaces, TransportMode, World,
 };
 use glam::{UVec2, Vec2, Vec3};
 use rayon::prelude::*;
@@ -82,12 +82,12 @@ pub fn edges(scene: &Scene, size: UVec2) -> Vec<bool> {
 
 /// Adds what a ray sees that came by `way`, counts `weight`, and may meet so many surfaces.
 fn look(scene: &Scene, ray: &Ray, (way, weight, depth): (u64, f32, u32), sight: &mut PixelKey) {
-    let Some(hit) = scene.intersect(ray) else {
+    let Some(hit) = scene.surfaces().intersect(ray) else {
         return;
     };
-    let vertex = scene.vertex(ray, &hit);
+    let vertex = scene.surfaces().vertex(ray, &hit);
     let wo = -ray.direction;
-    let wavelengths = scene.wavelengths(0.5);
+    let wavelengths = scene.sensor().wavelengths(0.5);
     sight.push(Surface {
         way,
         object: object(&hit),
@@ -126,8 +126,8 @@ fn albedo(
     wo: Vec3,
     wavelengths: &Wavelengths,
 ) -> Vec<u32> {
-    let numbers = match scene.legacy_phong(vertex, wo, wavelengths) {
-        None => vec![scene.bsdf(vertex, wo, wavelengths).albedo(wo)],
+    let numbers = match scene.surfaces().legacy_phong(vertex, wo, wavelengths) {
+        None => vec![scene.surfaces().bsdf(vertex, wo, wavelengths).albedo(wo)],
         Some(LegacyPhong {
             ambient,
             diffuse,
@@ -150,11 +150,17 @@ fn lights(
     let from = LightSampleContext::in_space(vertex.position);
     let lit = |light: u32| {
         let middle = Vec2::splat(0.5);
-        let sample = scene.sample_one_light(LightId(light), &from, wavelengths, middle)?;
-        let shows = if scene.legacy_phong(vertex, wo, wavelengths).is_some() {
+        let sample = scene
+            .lights()
+            .sample_one(LightId(light), &from, wavelengths, middle)?;
+        let shows = if scene
+            .surfaces()
+            .legacy_phong(vertex, wo, wavelengths)
+            .is_some()
+        {
             vertex.shading.n.dot(sample.direction) * vertex.shading.n.dot(wo) > 0.0
         } else {
-            let bsdf = scene.bsdf(vertex, wo, wavelengths);
+            let bsdf = scene.surfaces().bsdf(vertex, wo, wavelengths);
             bsdf.eval(wo, sample.direction, TransportMode::Radiance)
                 .max_element()
                 > 0.0
@@ -166,19 +172,22 @@ fn lights(
         let through = passed(scene, ray, wavelengths)?;
         Some(Lit { light, through })
     };
-    (0..scene.light_count()).filter_map(lit).collect()
+    (0..scene.lights().count()).filter_map(lit).collect()
 }
 
 /// The objects that light passes on a segment; `None` if it does not arrive.
 fn passed(scene: &Scene, mut ray: Ray, wavelengths: &Wavelengths) -> Option<Vec<(u32, u32)>> {
     let mut objects = Vec::new();
     let end = ray.origin + ray.direction * ray.t_max;
-    while let Some(hit) = scene.intersect(&ray) {
-        let vertex = scene.vertex(&ray, &hit);
-        let open = match scene.legacy_phong(&vertex, -ray.direction, wavelengths) {
+    while let Some(hit) = scene.surfaces().intersect(&ray) {
+        let vertex = scene.surfaces().vertex(&ray, &hit);
+        let open = match scene
+            .surfaces()
+            .legacy_phong(&vertex, -ray.direction, wavelengths)
+        {
             Some(material) => material.transparency > 0.0 || material.opacity < 1.0,
             None => {
-                let bsdf = scene.bsdf(&vertex, -ray.direction, wavelengths);
+                let bsdf = scene.surfaces().bsdf(&vertex, -ray.direction, wavelengths);
                 bsdf.null_transmittance().max_element() > 0.0
             }
         };

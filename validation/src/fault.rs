@@ -12,9 +12,9 @@ use bsdf::FaultyBsdf;
 use etalon_math::{Density, SolidAngle};
 use etalon_spectrum::{SensorWeights, Wavelengths};
 use etalon_transport::{
-    Coefficients, DiffusionProfile, Emission, EmissionPdf, Hit, LegacyPhong, LightId, LightSample,
-    LightSampleContext, LightVariety, MediumId, Ray, SamplePdf, ShadowQuery, SurfaceInteraction,
-    TraceEvent, Transmission, World,
+    BsdfOf, Coefficients, DiffusionProfile, Emission, EmissionPdf, Hit, LegacyPhong, LightId,
+    LightSample, LightSampleContext, LightVariety, Lights, Media, MediumId, MediumOf, Ray,
+    SamplePdf, Sensor, ShadowQuery, SurfaceInteraction, Surfaces, TraceEvent, Transmission, World,
 };
 use glam::{Vec2, Vec3, Vec4};
 use medium::FaultyMedium;
@@ -133,32 +133,102 @@ impl<'a, W: World> Faulty<'a, W> {
     }
 }
 
-impl<W: World> World for Faulty<'_, W> {
+impl<W: World> Surfaces for Faulty<'_, W> {
     type Bsdf<'w>
-        = FaultyBsdf<W::Bsdf<'w>>
+        = FaultyBsdf<BsdfOf<'w, W>>
     where
         Self: 'w;
-    type Medium<'w>
-        = FaultyMedium<W::Medium<'w>>
-    where
-        Self: 'w;
-    type Camera = W::Camera;
 
-    fn camera(&self) -> &Self::Camera {
-        self.world.camera()
+    fn intersect(&self, ray: &Ray) -> Option<Hit> {
+        self.world.surfaces().intersect(ray)
     }
 
-    fn camera_medium(&self) -> MediumId {
-        self.world.camera_medium()
+    fn intersect_batch<'r>(&self, queries: impl Iterator<Item = (&'r Ray, &'r mut Option<Hit>)>) {
+        self.world.surfaces().intersect_batch(queries);
+    }
+
+    fn vertex(&self, ray: &Ray, hit: &Hit) -> SurfaceInteraction {
+        self.world.surfaces().vertex(ray, hit)
+    }
+
+    fn bsdf(
+        &self,
+        vertex: &SurfaceInteraction,
+        wo: Vec3,
+        wavelengths: &Wavelengths,
+    ) -> Self::Bsdf<'_> {
+        FaultyBsdf {
+            model: self.world.surfaces().bsdf(vertex, wo, wavelengths),
+            missing: (self.fault == Some(PlantedFault::DroppedCosine)).then_some(vertex.shading.n),
+        }
+    }
+
+    fn legacy_phong(
+        &self,
+        vertex: &SurfaceInteraction,
+        wo: Vec3,
+        wavelengths: &Wavelengths,
+    ) -> Option<LegacyPhong> {
+        self.world.surfaces().legacy_phong(vertex, wo, wavelengths)
+    }
+
+    fn take_ray_count(&self) -> u64 {
+        self.world.surfaces().take_ray_count()
+    }
+}
+
+impl<W: World> Lights for Faulty<'_, W> {
+    fn count(&self) -> u32 {
+        self.world.lights().count()
+    }
+
+    fn is_emitter(&self, hit: &Hit) -> bool {
+        self.world.lights().is_emitter(hit)
+    }
+
+    fn emitted(&self, vertex: &SurfaceInteraction, wo: Vec3, wavelengths: &Wavelengths) -> Vec4 {
+        self.energy() * self.world.lights().emitted(vertex, wo, wavelengths)
+    }
+
+    fn has_background(&self) -> bool {
+        self.world.lights().has_background()
+    }
+
+    fn background(&self, direction: Vec3, wavelengths: &Wavelengths) -> Vec4 {
+        self.energy() * self.world.lights().background(direction, wavelengths)
+    }
+
+    fn sample_one(
+        &self,
+        light: LightId,
+        from: &LightSampleContext,
+        wavelengths: &Wavelengths,
+        u: Vec2,
+    ) -> Option<LightSample> {
+        let sample = (self.world)
+            .lights()
+            .sample_one(light, from, wavelengths, u)?;
+        Some(self.faulty(sample))
+    }
+}
+
+impl<W: World> Media for Faulty<'_, W> {
+    type Medium<'w>
+        = FaultyMedium<MediumOf<'w, W>>
+    where
+        Self: 'w;
+
+    fn around_camera(&self) -> MediumId {
+        self.world.media().around_camera()
     }
 
     fn medium(&self, medium: MediumId, wavelengths: &Wavelengths) -> Option<Self::Medium<'_>> {
-        let medium = self.world.medium(medium, wavelengths)?;
+        let medium = self.world.media().medium(medium, wavelengths)?;
         Some(self.faulty_medium(medium))
     }
 
     fn is_dark(&self, medium: MediumId) -> bool {
-        self.world.is_dark(medium)
+        self.world.media().is_dark(medium)
     }
 
     fn entry(
@@ -167,7 +237,7 @@ impl<W: World> World for Faulty<'_, W> {
         at: &SurfaceInteraction,
         wavelengths: &Wavelengths,
     ) -> Option<Coefficients> {
-        self.world.entry(medium, at, wavelengths)
+        self.world.media().entry(medium, at, wavelengths)
     }
 
     fn entered(
@@ -176,7 +246,10 @@ impl<W: World> World for Faulty<'_, W> {
         coefficients: Coefficients,
         wavelengths: &Wavelengths,
     ) -> Option<Self::Medium<'_>> {
-        let medium = self.world.entered(medium, coefficients, wavelengths)?;
+        let medium = self
+            .world
+            .media()
+            .entered(medium, coefficients, wavelengths)?;
         Some(self.faulty_medium(medium))
     }
 
@@ -186,27 +259,45 @@ impl<W: World> World for Faulty<'_, W> {
         at: &SurfaceInteraction,
         wavelengths: &Wavelengths,
     ) -> Option<impl DiffusionProfile> {
-        self.world.diffusion(medium, at, wavelengths)
+        self.world.media().diffusion(medium, at, wavelengths)
     }
+}
 
+impl<W: World> Sensor for Faulty<'_, W> {
     fn wavelengths(&self, u: f32) -> Wavelengths {
-        self.world.wavelengths(u).rotated(self.rotation)
+        self.world.sensor().wavelengths(u).rotated(self.rotation)
     }
 
-    fn sensor(&self, wavelengths: &Wavelengths) -> SensorWeights {
-        self.world.sensor(wavelengths)
+    fn weights(&self, wavelengths: &Wavelengths) -> SensorWeights {
+        self.world.sensor().weights(wavelengths)
+    }
+}
+
+impl<W: World> World for Faulty<'_, W> {
+    type Surfaces = Self;
+    type Lights = Self;
+    type Media = Self;
+    type Camera = W::Camera;
+    type Sensor = Self;
+
+    fn surfaces(&self) -> &Self {
+        self
     }
 
-    fn intersect(&self, ray: &Ray) -> Option<Hit> {
-        self.world.intersect(ray)
+    fn lights(&self) -> &Self {
+        self
     }
 
-    fn intersect_batch<'r>(&self, queries: impl Iterator<Item = (&'r Ray, &'r mut Option<Hit>)>) {
-        self.world.intersect_batch(queries);
+    fn media(&self) -> &Self {
+        self
     }
 
-    fn vertex(&self, ray: &Ray, hit: &Hit) -> SurfaceInteraction {
-        self.world.vertex(ray, hit)
+    fn camera(&self) -> &Self::Camera {
+        self.world.camera()
+    }
+
+    fn sensor(&self) -> &Self {
+        self
     }
 
     fn transmittance(
@@ -222,43 +313,6 @@ impl<W: World> World for Faulty<'_, W> {
         self.world.transmittance_batch(queries);
     }
 
-    fn bsdf(
-        &self,
-        vertex: &SurfaceInteraction,
-        wo: Vec3,
-        wavelengths: &Wavelengths,
-    ) -> Self::Bsdf<'_> {
-        FaultyBsdf {
-            model: self.world.bsdf(vertex, wo, wavelengths),
-            missing: (self.fault == Some(PlantedFault::DroppedCosine)).then_some(vertex.shading.n),
-        }
-    }
-
-    fn legacy_phong(
-        &self,
-        vertex: &SurfaceInteraction,
-        wo: Vec3,
-        wavelengths: &Wavelengths,
-    ) -> Option<LegacyPhong> {
-        self.world.legacy_phong(vertex, wo, wavelengths)
-    }
-
-    fn emitted(&self, vertex: &SurfaceInteraction, wo: Vec3, wavelengths: &Wavelengths) -> Vec4 {
-        self.energy() * self.world.emitted(vertex, wo, wavelengths)
-    }
-
-    fn is_emitter(&self, hit: &Hit) -> bool {
-        self.world.is_emitter(hit)
-    }
-
-    fn background(&self, direction: Vec3, wavelengths: &Wavelengths) -> Vec4 {
-        self.energy() * self.world.background(direction, wavelengths)
-    }
-
-    fn has_background(&self) -> bool {
-        self.world.has_background()
-    }
-
     fn sample_light(
         &self,
         from: &LightSampleContext,
@@ -272,21 +326,6 @@ impl<W: World> World for Faulty<'_, W> {
 
     fn light_variety(&self, from: &LightSampleContext) -> LightVariety {
         self.world.light_variety(from)
-    }
-
-    fn light_count(&self) -> u32 {
-        self.world.light_count()
-    }
-
-    fn sample_one_light(
-        &self,
-        light: LightId,
-        from: &LightSampleContext,
-        wavelengths: &Wavelengths,
-        u: Vec2,
-    ) -> Option<LightSample> {
-        let sample = (self.world).sample_one_light(light, from, wavelengths, u)?;
-        Some(self.faulty(sample))
     }
 
     fn light_density(
@@ -343,10 +382,6 @@ impl<W: World> World for Faulty<'_, W> {
 
     fn medium_light_density(&self, medium: MediumId, at: Vec3) -> f32 {
         self.world.medium_light_density(medium, at)
-    }
-
-    fn take_ray_count(&self) -> u64 {
-        self.world.take_ray_count()
     }
 
     fn record(&self, remark: impl FnOnce() -> TraceEvent) -> bool {

@@ -11,7 +11,7 @@
 use crate::{ClipRange, FilmWindow, Pose};
 use etalon_math::Animated;
 use etalon_params::Params;
-use etalon_transport::{Camera, CameraRay, CameraSample, Ray, Shutter};
+use etalon_transport::{ApertureHit, Camera, CameraRay, CameraSample, Ray, Shutter};
 use glam::{Vec2, Vec3};
 
 /// A camera without perspective.
@@ -95,6 +95,14 @@ impl Camera for Orthographic {
     }
 
     fn has_lens(&self) -> bool {
+        false
+    }
+
+    fn intersect_aperture(&self, _: &Ray, _: f32) -> Option<ApertureHit> {
+        None
+    }
+
+    fn can_receive(&self) -> bool {
         false
     }
 }

@@ -15,7 +15,7 @@ use crate::{ClipRange, FilmWindow, ImagePlane, Pose};
 use etalon_math::Animated;
 use etalon_params::Params;
 use etalon_transport::half_width_from_params;
-use etalon_transport::{Camera, CameraRay, CameraSample, Ray, Shutter};
+use etalon_transport::{ApertureHit, Camera, CameraRay, CameraSample, Ray, Shutter};
 use glam::{DVec2, Vec2, Vec3};
 
 /// A pinhole camera.
@@ -98,6 +98,14 @@ impl Camera for Perspective {
     }
 
     fn has_lens(&self) -> bool {
+        false
+    }
+
+    fn intersect_aperture(&self, _: &Ray, _: f32) -> Option<ApertureHit> {
+        None
+    }
+
+    fn can_receive(&self) -> bool {
         false
     }
 }

@@ -20,7 +20,7 @@ use etalon_sampling::{ReplicateKind, Sampler};
 use etalon_spectrum::Wavelengths;
 use etalon_transport::{
     Bsdf, Incompatibility, Integrator, Pass, PixelSample, Placing, Ray, SceneCapabilities, Sink,
-    SurfaceInteraction, World,
+    SurfaceInteraction, Surfaces, World,
 };
 use glam::Vec3;
 
@@ -77,10 +77,10 @@ impl AmbientOcclusion {
         sampler: &mut S,
     ) -> Option<(SurfaceInteraction, Vec3, u32)> {
         for depth in 0.. {
-            let hit = world.intersect(&ray)?;
-            let vertex = world.vertex(&ray, &hit);
+            let hit = world.surfaces().intersect(&ray)?;
+            let vertex = world.surfaces().vertex(&ray, &hit);
             let wo = -ray.direction;
-            let bsdf = world.bsdf(&vertex, wo, wavelengths);
+            let bsdf = world.surfaces().bsdf(&vertex, wo, wavelengths);
             let event = BounceSamples::draw(sampler, depth);
             if !(event.lobe < 0.25 * bsdf.null_probability().element_sum()) {
                 return Some((vertex, wo, depth));

@@ -29,7 +29,7 @@ use etalon_sampling::{ReplicateKind, Sampler};
 use etalon_spectrum::QuadratureNode;
 use etalon_transport::{
     Bsdf, Camera, Channel, Incompatibility, Integrator, Pass, PixelSample, Placing, Ray,
-    SceneCapabilities, Sink, SurfaceInteraction, World,
+    SceneCapabilities, Sink, SurfaceInteraction, Surfaces, World,
 };
 use glam::{Vec2, Vec3, Vec4};
 use std::sync::LazyLock;
@@ -225,14 +225,14 @@ impl Integrator for Aov {
         }
 
         let (_, ray, _) = camera_ray(world, site, sampler);
-        let hit = world.intersect(&ray);
+        let hit = world.surfaces().intersect(&ray);
         if self.nested.is_empty() {
             sink.radiance([0.0; 3], if hit.is_some() { 1.0 } else { 0.0 });
         }
         let Some(hit) = hit else {
             return;
         };
-        let vertex = world.vertex(&ray, &hit);
+        let vertex = world.surfaces().vertex(&ray, &hit);
         for request in &self.requests {
             let value = evaluate(request.variable, world, &ray, &vertex, site, sampler);
             for (i, _) in request.suffixes.iter().enumerate() {
@@ -257,7 +257,10 @@ fn evaluate<W: World, S: Sampler>(
             let colour: Vec3 = DAYLIGHT
                 .iter()
                 .map(|node| {
-                    let albedo = world.bsdf(vertex, wo, &node.wavelengths).albedo(wo);
+                    let albedo = world
+                        .surfaces()
+                        .bsdf(vertex, wo, &node.wavelengths)
+                        .albedo(wo);
                     let light = node.daylight / (4 * NODES) as f32;
                     node.response
                         .rgb(albedo.clamp(Vec4::ZERO, Vec4::ONE) * light)

@@ -12,7 +12,8 @@
 use crate::path::camera_ray;
 use etalon_sampling::{ReplicateKind, Sampler};
 use etalon_transport::{
-    Incompatibility, Integrator, Pass, PixelSample, Placing, SceneCapabilities, Sink, World,
+    Incompatibility, Integrator, Pass, PixelSample, Placing, SceneCapabilities, Sink, Surfaces,
+    World,
 };
 
 /// The distance integrator.
@@ -42,7 +43,10 @@ impl Integrator for Depth {
         sink: &mut K,
     ) {
         let (_, ray, _) = camera_ray(world, site, sampler);
-        let (t, alpha) = world.intersect(&ray).map_or((0.0, 0.0), |hit| (hit.t, 1.0));
+        let (t, alpha) = world
+            .surfaces()
+            .intersect(&ray)
+            .map_or((0.0, 0.0), |hit| (hit.t, 1.0));
         sink.radiance([t; 3], alpha);
     }
 }

@@ -23,8 +23,9 @@ use etalon_params::Params;
 use etalon_sampling::{ReplicateKind, Sampler};
 use etalon_spectrum::Wavelengths;
 use etalon_transport::{
-    Bsdf, Incompatibility, Integrator, LightSample, LightSampleContext, LightSearch, Pass,
-    PixelSample, Placing, Ray, SceneCapabilities, Sink, SurfaceInteraction, TransportMode, World,
+    Bsdf, BsdfOf, Incompatibility, Integrator, LightSample, LightSampleContext, LightSearch,
+    Lights, Pass, PixelSample, Placing, Ray, SceneCapabilities, Sensor, Sink, SurfaceInteraction,
+    Surfaces, TransportMode, World,
 };
 use glam::{Vec3, Vec4};
 
@@ -91,19 +92,19 @@ impl Direct {
     ) -> (Vec4, f32) {
         let visible = !self.hide_emitters;
         let Some((hit, vertex)) = steps::next_surface(world, &mut ray, !visible) else {
-            let seen = visible && self.max_depth >= 1 && world.has_background();
+            let seen = visible && self.max_depth >= 1 && world.lights().has_background();
             let sky = || steps::background(world, ray.direction, wavelengths, &START, &NONE);
             return (if seen { sky() } else { Vec4::ZERO }, 0.0);
         };
         let wo = -ray.direction;
         let mut result = Vec4::ZERO;
-        if world.is_emitter(&hit) && self.max_depth >= 1 {
+        if world.lights().is_emitter(&hit) && self.max_depth >= 1 {
             result += steps::emission(world, &vertex, ray.direction, wavelengths, &START, &NONE);
         }
         if self.max_depth < 2 {
             return (result, 1.0);
         }
-        let bsdf = world.bsdf(&vertex, wo, wavelengths);
+        let bsdf = world.surfaces().bsdf(&vertex, wo, wavelengths);
         let mut from = LightSampleContext::new(&vertex, wo, &bsdf);
         from.combined = self.bsdf_samples > 0;
         let mut event = 0;
@@ -146,7 +147,7 @@ impl Direct {
         wavelengths: &Wavelengths,
         vertex: &SurfaceInteraction,
         from: &LightSampleContext,
-        bsdf: &W::Bsdf<'_>,
+        bsdf: &BsdfOf<'_, W>,
         wo: Vec3,
         sampler: &mut S,
         event: u32,
@@ -166,7 +167,7 @@ impl Direct {
         wavelengths: &Wavelengths,
         vertex: &SurfaceInteraction,
         from: &LightSampleContext,
-        bsdf: &W::Bsdf<'_>,
+        bsdf: &BsdfOf<'_, W>,
         wo: Vec3,
         sampler: &mut S,
         event: u32,
@@ -183,10 +184,10 @@ impl Direct {
         light_mis.r_l *= self.emitter_samples as f32;
         let mut ray = vertex.spawn(sample.wi);
         match steps::next_surface(world, &mut ray, false) {
-            None if world.has_background() => {
+            None if world.lights().has_background() => {
                 steps::background(world, ray.direction, wavelengths, &path, &light_mis)
             }
-            Some((hit, end)) if world.is_emitter(&hit) => {
+            Some((hit, end)) if world.lights().is_emitter(&hit) => {
                 steps::emission(world, &end, ray.direction, wavelengths, &path, &light_mis)
             }
             _ => Vec4::ZERO,
@@ -221,7 +222,7 @@ impl Integrator for Direct {
     ) {
         let (wavelengths, ray, weight) = camera_ray(world, site, sampler);
         let (radiance, alpha) = self.incident(world, ray, &wavelengths, sampler);
-        let rgb = world.sensor(&wavelengths).rgb(radiance * weight);
+        let rgb = world.sensor().weights(&wavelengths).rgb(radiance * weight);
         sink.radiance(rgb.to_array(), alpha);
     }
 }

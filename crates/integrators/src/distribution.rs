@@ -27,8 +27,8 @@ use etalon_params::Params;
 use etalon_sampling::{ReplicateKind, Sampler};
 use etalon_spectrum::Wavelengths;
 use etalon_transport::{
-    Bsdf, Integrator, LightSampleContext, Pass, PixelSample, Placing, Ray, Sink,
-    SurfaceInteraction, TransportMode, World,
+    Bsdf, BsdfOf, Integrator, LightSampleContext, Lights, Pass, PixelSample, Placing, Ray, Sensor,
+    Sink, SurfaceInteraction, Surfaces, TransportMode, World,
 };
 use glam::{Vec2, Vec3, Vec4};
 
@@ -131,7 +131,7 @@ impl<W: World, S: Sampler> Tree<'_, W, S> {
         let hidden = settings.hide_emitters && branch.depth == 1;
         let Some(hit) = steps::next_hit(world, &mut branch.ray, hidden) else {
             let visible = !settings.hide_emitters || !branch.straight;
-            if visible && world.has_background() {
+            if visible && world.lights().has_background() {
                 let (direction, waves) = (branch.ray.direction, &self.wavelengths);
                 found.radiance +=
                     steps::background(world, direction, waves, &branch.prefix, &branch.light_mis);
@@ -139,19 +139,19 @@ impl<W: World, S: Sampler> Tree<'_, W, S> {
             }
             return None;
         };
-        let emits = world.is_emitter(&hit);
+        let emits = world.lights().is_emitter(&hit);
         let last = branch.depth == settings.max_depth;
         if last && !emits && !branch.straight {
             return None;
         }
-        let vertex = world.vertex(&branch.ray, &hit);
+        let vertex = world.surfaces().vertex(&branch.ray, &hit);
         let wo = -branch.ray.direction;
         if emits {
             let (direction, waves) = (branch.ray.direction, &self.wavelengths);
             let (before, light_mis) = (&branch.prefix, &branch.light_mis);
             found.radiance += steps::emission(world, &vertex, direction, waves, before, light_mis);
         }
-        let bsdf = world.bsdf(&vertex, wo, &self.wavelengths);
+        let bsdf = world.surfaces().bsdf(&vertex, wo, &self.wavelengths);
         if last {
             found.alpha = found.alpha.max(steps::opacity(&bsdf));
             return None;
@@ -211,7 +211,7 @@ impl<W: World, S: Sampler> Tree<'_, W, S> {
         branch: &Branch,
         vertex: &SurfaceInteraction,
         from: &LightSampleContext,
-        bsdf: &W::Bsdf<'_>,
+        bsdf: &BsdfOf<'_, W>,
         wo: Vec3,
         event: &BounceSamples,
     ) -> Vec4 {
@@ -229,7 +229,7 @@ impl<W: World, S: Sampler> Tree<'_, W, S> {
         branch: &Branch,
         vertex: &SurfaceInteraction,
         from: &LightSampleContext,
-        bsdf: &W::Bsdf<'_>,
+        bsdf: &BsdfOf<'_, W>,
         wo: Vec3,
         event: &BounceSamples,
     ) -> Next {
@@ -308,7 +308,10 @@ impl Integrator for Distribution {
         } else {
             Found::default()
         };
-        let rgb = world.sensor(&wavelengths).rgb(found.radiance * weight);
+        let rgb = world
+            .sensor()
+            .weights(&wavelengths)
+            .rgb(found.radiance * weight);
         sink.radiance(rgb.to_array(), found.alpha);
     }
 }

@@ -28,8 +28,8 @@ use etalon_params::Params;
 use etalon_sampling::{ReplicateKind, Sampler};
 use etalon_spectrum::{SensorWeights, Wavelengths};
 use etalon_transport::{
-    Bsdf, Camera, Incompatibility, Integrator, LightKind, LightSearch, Pass, PixelSample, Placing,
-    Ray, SceneCapabilities, Sink, Subject, World,
+    Bsdf, Camera, Incompatibility, Integrator, LightKind, LightSearch, Lights, Pass, PixelSample,
+    Placing, Ray, SceneCapabilities, Sensor, Sink, Subject, Surfaces, World,
 };
 use glam::Vec4;
 
@@ -65,18 +65,18 @@ impl Forward {
                 through *= passage.transmittance;
             }
             let Some(hit) = hit else {
-                if hide || !world.has_background() {
+                if hide || !world.lights().has_background() {
                     break;
                 }
                 let sky = match depth {
-                    1 => world.background(ray.direction, wavelengths),
+                    1 => world.lights().background(ray.direction, wavelengths),
                     _ => Vec4::ZERO,
                 };
                 let radiance = PathThroughput::START.contribution(through * sky, Vec4::ZERO);
                 return (radiance, 1.0);
             };
-            let vertex = world.vertex(&ray, &hit);
-            let bsdf = world.bsdf(&vertex, -ray.direction, wavelengths);
+            let vertex = world.surfaces().vertex(&ray, &hit);
+            let bsdf = world.surfaces().bsdf(&vertex, -ray.direction, wavelengths);
             through *= bsdf.null_probability();
             depth += 1;
             if through == Vec4::ZERO {
@@ -87,31 +87,29 @@ impl Forward {
         (Vec4::ZERO, 1.0 - 0.25 * through.element_sum())
     }
 
-    /// How much arrives of what travels along a ray that the camera receives; `None` if a surface stands in the way.
+    /// How much arrives of what travels along a segment to the camera; `None` if a surface stands in the way.
     fn arrives<W: World>(
         &self,
         world: &W,
-        mut ray: Ray,
+        segment: Ray,
         wavelengths: &Wavelengths,
     ) -> Option<Vec4> {
-        let end = ray.t_max;
-        let origin = ray.origin;
+        let mut ray = segment;
         let mut arriving = Vec4::ONE;
         loop {
-            let hit = world.intersect(&ray);
+            let hit = world.surfaces().intersect(&ray);
             if let Some(passage) = steps::transmittance(world, &ray, hit.as_ref(), wavelengths) {
                 arriving *= passage.transmittance;
             }
             let Some(hit) = hit else { break };
-            if !(self.settings.hide_emitters && world.is_emitter(&hit)) {
+            if !(self.settings.hide_emitters && world.lights().is_emitter(&hit)) {
                 return None;
             }
             // The camera looks through hidden lights.
-            ray = world.vertex(&ray, &hit).spawn(ray.direction);
-            ray.t_max = end - (ray.origin - origin).dot(ray.direction);
-            if !(ray.t_max > 0.0) {
+            let Some(rest) = world.surfaces().vertex(&ray, &hit).rest_of(&segment) else {
                 break;
-            }
+            };
+            ray = rest;
         }
         Some(arriving)
     }
@@ -209,7 +207,7 @@ impl Integrator for Forward {
         sink: &mut K,
     ) {
         let (wavelengths, ray, weight) = camera_ray(world, site, sampler);
-        let sensor = world.sensor(&wavelengths);
+        let sensor = world.sensor().weights(&wavelengths);
         let (sky, alpha) = self.straight(world, ray, &wavelengths);
         sink.radiance(sensor.rgb(sky * weight).to_array(), alpha);
         self.trace(

@@ -38,8 +38,8 @@ use etalon_sampling::warps::{square_to_cosine_hemisphere, square_to_uniform_hemi
 use etalon_sampling::{ReplicateKind, Sampler};
 use etalon_spectrum::Wavelengths;
 use etalon_transport::{
-    Bsdf, Incompatibility, Integrator, LightSearch, Pass, PixelSample, Placing, Ray,
-    SceneCapabilities, Sink, SurfaceInteraction, TransportMode, World,
+    Bsdf, Incompatibility, Integrator, LightSearch, Lights, Pass, PixelSample, Placing, Ray,
+    SceneCapabilities, Sensor, Sink, SurfaceInteraction, Surfaces, TransportMode, World,
 };
 use glam::{Vec2, Vec3, Vec4};
 
@@ -191,7 +191,7 @@ impl Naive {
             let Some((hit, vertex)) = next_surface(world, &mut ray, hide_emitters && depth == 1)
             else {
                 // A hidden sky stays hidden to rays that only went straight.
-                if world.has_background() && !(hide_emitters && alpha == 0.0) {
+                if world.lights().has_background() && !(hide_emitters && alpha == 0.0) {
                     let (direction, none) = (ray.direction, &LightMis::NONE);
                     radiance += steps::background(world, direction, wavelengths, &prefix, none);
                     alpha = 1.0;
@@ -199,11 +199,11 @@ impl Naive {
                 break;
             };
             let wo = -ray.direction;
-            if world.is_emitter(&hit) {
+            if world.lights().is_emitter(&hit) {
                 let (direction, none) = (ray.direction, &LightMis::NONE);
                 radiance += steps::emission(world, &vertex, direction, wavelengths, &prefix, none);
             }
-            let bsdf = world.bsdf(&vertex, wo, wavelengths);
+            let bsdf = world.surfaces().bsdf(&vertex, wo, wavelengths);
             if depth == max_depth {
                 alpha = alpha.max(steps::opacity(&bsdf));
                 break;
@@ -259,7 +259,7 @@ impl Integrator for Naive {
     ) {
         let (wavelengths, ray, weight) = camera_ray(world, site, sampler);
         let (radiance, alpha) = self.incident(world, ray, &wavelengths, sampler);
-        let rgb = world.sensor(&wavelengths).rgb(radiance * weight);
+        let rgb = world.sensor().weights(&wavelengths).rgb(radiance * weight);
         sink.radiance(rgb.to_array(), alpha);
     }
 }

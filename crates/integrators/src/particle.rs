@@ -10,7 +10,7 @@ use etalon_sampling::Sampler;
 use etalon_spectrum::Wavelengths;
 use etalon_transport::{
     Bsdf, BsdfSample, Emission, Hit, Phase, Ray, Scatterer, ScattererOf, SurfaceInteraction,
-    TransportMode, World,
+    Surfaces, TransportMode, World,
 };
 use glam::{Vec3, Vec4};
 
@@ -86,11 +86,11 @@ impl<'a> LightPath<'a> {
         {
             return Some(vertex);
         }
-        let vertex = world.vertex(&self.ray, &hit?);
+        let vertex = world.surfaces().vertex(&self.ray, &hit?);
         Some(LightVertex {
             vertex,
             wo,
-            bsdf: Scatterer::Surface(world.bsdf(&vertex, wo, self.wavelengths)),
+            bsdf: Scatterer::Surface(world.surfaces().bsdf(&vertex, wo, self.wavelengths)),
             event: BounceSamples::draw(sampler, self.depth),
         })
     }

@@ -27,7 +27,8 @@ use etalon_params::Params;
 use etalon_sampling::{ReplicateKind, Sampler};
 use etalon_spectrum::Wavelengths;
 use etalon_transport::{
-    Camera, Integrator, Pass, PixelSample, Placing, Ray, SampleJob, Sink, TileSink, World,
+    Camera, Integrator, Media, Pass, PixelSample, Placing, Ray, SampleJob, Sensor, Sink, Surfaces,
+    TileSink, World,
 };
 use glam::Vec2;
 
@@ -82,7 +83,9 @@ pub(crate) fn follow<W: World, S: Sampler, C: PathHooks>(
     while walks.iter().flatten().any(PathState::goes_on) {
         let going = || |walk: &&mut PathState<S, C>| walk.goes_on();
         let queries = walks.iter_mut().flatten().filter(going());
-        world.intersect_batch(queries.map(|walk| walk.ray_query(world)));
+        world
+            .surfaces()
+            .intersect_batch(queries.map(|walk| walk.ray_query(world)));
         for walk in walks.iter_mut().flatten().filter(going()) {
             walk.look_through_hidden(world, settings);
         }
@@ -181,7 +184,7 @@ pub(crate) fn camera_ray<W: World, S: Sampler>(
 ) -> (Wavelengths, Ray, f32) {
     let (lens, u, time) = draw_lens(sampler);
     let (ray, weight) = ray_at(world, site, lens, time);
-    (world.wavelengths(u), ray, weight)
+    (world.sensor().wavelengths(u), ray, weight)
 }
 
 /// The camera ray of a sample through a point of the lens, at the moment `time`.
@@ -189,7 +192,7 @@ pub(crate) fn camera_ray<W: World, S: Sampler>(
 pub(crate) fn ray_at<W: World>(world: &W, site: &PixelSample, lens: Vec2, time: f32) -> (Ray, f32) {
     let start = world.camera().ray(site.raster, lens, time);
     let ray = Ray {
-        medium: world.camera_medium(),
+        medium: world.media().around_camera(),
         ..start.ray
     };
     (ray, start.weight)

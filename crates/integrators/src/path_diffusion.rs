@@ -13,8 +13,8 @@ use etalon_math::{Density, Frame, SolidAngle, float};
 use etalon_sampling::Sampler;
 use etalon_sampling::warps::square_to_cosine_hemisphere;
 use etalon_transport::{
-    Bsdf, BsdfSample, DiffusionProfile, MediumId, Ray, SamplePdf, SurfaceInteraction,
-    TransportMode, World,
+    Bsdf, BsdfSample, DiffusionProfile, Media, MediumId, Mixture, Ray, SamplePdf,
+    SurfaceInteraction, Surfaces, TransportMode, World,
 };
 use glam::{Vec2, Vec3, Vec4};
 
@@ -77,6 +77,29 @@ impl<P: DiffusionProfile> Bsdf for Leaving<'_, P> {
     fn albedo(&self, _: Vec3) -> Vec4 {
         Vec4::ONE
     }
+
+    fn eval_and_density(
+        &self,
+        wo: Vec3,
+        wi: Vec3,
+        mode: TransportMode,
+    ) -> (Vec4, Density<SolidAngle>) {
+        (self.eval(wo, wi, mode), self.density(wo, wi))
+    }
+
+    fn discrete(&self, _: Vec3, _: u32, _: TransportMode) -> Option<BsdfSample> {
+        None
+    }
+
+    fn has_discrete(&self) -> bool {
+        false
+    }
+
+    fn projected_area(&self, _: Vec3) -> f32 {
+        1.0
+    }
+
+    fn mixed(&self, _: impl FnOnce() -> Mixture) {}
 }
 
 /// A point on the surface of `medium` that `line` crosses, each alike, and how many there are.
@@ -88,24 +111,23 @@ fn crossed<W: World>(
 ) -> Option<(SurfaceInteraction, u32)> {
     let (mut ray, mut chosen, mut count) = (line, None, 0);
     for _ in 0..MOST_CROSSINGS {
-        let Some(hit) = world.intersect(&ray) else {
+        let Some(hit) = world.surfaces().intersect(&ray) else {
             break;
         };
-        let vertex = world.vertex(&ray, &hit);
+        let vertex = world.surfaces().vertex(&ray, &hit);
         if vertex.media.inside == medium {
             count += 1;
             if stream.next_1d() * (count as f32) < 1.0 {
                 chosen = Some(vertex);
             }
         }
+        let Some(rest) = vertex.rest_of(&line) else {
+            break;
+        };
         ray = Ray {
             medium: line.medium,
-            ..vertex.spawn(line.direction)
+            ..rest
         };
-        ray.t_max = line.t_max - (ray.origin - line.origin).dot(line.direction);
-        if !(ray.t_max > 0.0) {
-            break;
-        }
     }
     chosen.map(|vertex| (vertex, count))
 }
@@ -123,7 +145,7 @@ impl<S: Sampler, C: PathHooks> PathState<S, C> {
     ) {
         let medium = self.ray.medium;
         let waves = self.wavelengths;
-        let Some(profile) = world.diffusion(medium, entered, &waves) else {
+        let Some(profile) = world.media().diffusion(medium, entered, &waves) else {
             return;
         };
         self.goes_on = false;

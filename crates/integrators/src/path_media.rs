@@ -11,7 +11,8 @@ use crate::settings::{LightCandidates, PathSettings};
 use crate::steps;
 use etalon_sampling::Sampler;
 use etalon_transport::{
-    Collision, LightSample, LightSampleContext, Medium, Phase, Ray, Transmission, World,
+    Collision, LightSample, LightSampleContext, Media, Medium, MediumOf, Phase, Ray, Transmission,
+    World,
 };
 use glam::{Vec3, Vec4};
 
@@ -27,13 +28,13 @@ struct Arrival {
 impl<S: Sampler, C: PathHooks> PathState<S, C> {
     /// The medium that the path is in.
     #[inline]
-    fn medium<'w, W: World>(&self, world: &'w W) -> Option<W::Medium<'w>> {
+    fn medium<'w, W: World>(&self, world: &'w W) -> Option<MediumOf<'w, W>> {
         let (medium, waves) = (self.ray.medium, &self.wavelengths);
         match self.entered {
             Some((entered, coefficients)) if entered == medium => {
-                world.entered(medium, coefficients, waves)
+                world.media().entered(medium, coefficients, waves)
             }
-            _ => world.medium(medium, waves),
+            _ => world.media().medium(medium, waves),
         }
     }
 
@@ -60,9 +61,10 @@ impl<S: Sampler, C: PathHooks> PathState<S, C> {
     pub(crate) fn fly<W: World>(&mut self, world: &W, settings: &PathSettings) -> bool {
         let u = self.flight;
         let scatters = self.depth < settings.max_depth;
-        let along = (self.variant.equiangular && scatters && !world.is_dark(self.ray.medium))
-            .then(|| self.look_along(world, settings))
-            .flatten();
+        let along =
+            (self.variant.equiangular && scatters && !world.media().is_dark(self.ray.medium))
+                .then(|| self.look_along(world, settings))
+                .flatten();
         let hit = self.hit.as_ref();
         let Some(medium) = self.medium(world) else {
             return false;
@@ -149,7 +151,7 @@ impl<S: Sampler, C: PathHooks> PathState<S, C> {
         let (wo, time, medium) = (-self.ray.direction, self.ray.time, self.ray.medium);
         let event = self.draw_event();
         let mut sampled = None;
-        if !world.is_dark(medium) {
+        if !world.media().is_dark(medium) {
             sampled = Some(self.light_in_medium(world, settings, arrival, phase, &event));
             self.hooks.on_light_sample();
         }

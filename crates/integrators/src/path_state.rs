@@ -12,8 +12,9 @@ use core::ops::Range;
 use etalon_sampling::Sampler;
 use etalon_spectrum::Wavelengths;
 use etalon_transport::{
-    Bsdf, Coefficients, Hit, LightSample, LightSampleContext, MediumId, PixelSample, Ray,
-    ShadowQuery, Sink, SurfaceInteraction, Transmission, TransportMode, World,
+    Bsdf, Coefficients, Hit, LightSample, LightSampleContext, Lights, Media, MediumId, PixelSample,
+    Ray, Sensor, ShadowQuery, Sink, SurfaceInteraction, Surfaces, Transmission, TransportMode,
+    World,
 };
 use glam::{Vec3, Vec4};
 
@@ -142,7 +143,8 @@ impl<S: Sampler, C: PathHooks> PathState<S, C> {
     #[inline]
     pub(crate) fn colour(&self, world: &impl World) -> Vec3 {
         world
-            .sensor(&self.wavelengths)
+            .sensor()
+            .weights(&self.wavelengths)
             .rgb(self.radiance * self.weight)
     }
 
@@ -173,7 +175,7 @@ impl<S: Sampler, C: PathHooks> PathState<S, C> {
     #[inline]
     fn intersect<W: World>(&mut self, world: &W, settings: &PathSettings) {
         let (ray, hit) = self.ray_query(world);
-        *hit = world.intersect(ray);
+        *hit = world.surfaces().intersect(ray);
         self.look_through_hidden(world, settings);
     }
 
@@ -190,7 +192,7 @@ impl<S: Sampler, C: PathHooks> PathState<S, C> {
     #[inline]
     pub(crate) fn look_through_hidden<W: World>(&mut self, world: &W, settings: &PathSettings) {
         let hidden = settings.hide_emitters && self.depth == 1;
-        if hidden && self.hit.is_some_and(|hit| world.is_emitter(&hit)) {
+        if hidden && self.hit.is_some_and(|hit| world.lights().is_emitter(&hit)) {
             // Once more from where the ray starts, as what is in between may be flown through.
             self.hit = steps::next_hit(world, &mut self.ray, hidden);
         }
@@ -207,7 +209,7 @@ impl<S: Sampler, C: PathHooks> PathState<S, C> {
         let Some(hit) = self.hit else {
             // A hidden sky stays hidden to rays that only went straight.
             let visible = !settings.hide_emitters || self.alpha > 0.0;
-            if visible && world.has_background() {
+            if visible && world.lights().has_background() {
                 self.alpha = 1.0;
                 let (before, light_mis) = (&self.throughput, &self.light_mis);
                 let estimate =
@@ -217,12 +219,12 @@ impl<S: Sampler, C: PathHooks> PathState<S, C> {
             }
             return;
         };
-        let emits = world.is_emitter(&hit);
+        let emits = world.lights().is_emitter(&hit);
         let last = self.depth == settings.max_depth;
         if last && !emits && self.alpha > 0.0 && self.variant.counts_null {
             return;
         }
-        let vertex = world.vertex(&self.ray, &hit);
+        let vertex = world.surfaces().vertex(&self.ray, &hit);
         let wo = -direction;
         if emits {
             let (before, light_mis) = (&self.throughput, &self.light_mis);
@@ -231,7 +233,7 @@ impl<S: Sampler, C: PathHooks> PathState<S, C> {
             self.radiance += estimate;
             self.hooks.on_emission(estimate);
         }
-        let bsdf = world.bsdf(&vertex, wo, &self.wavelengths);
+        let bsdf = world.surfaces().bsdf(&vertex, wo, &self.wavelengths);
         let bsdf = self.hooks.wrap_bsdf(&vertex, wo, bsdf);
         let passes = !self.variant.counts_null && bsdf.null_probability() != Vec4::ZERO;
         if last && !passes {
@@ -244,7 +246,7 @@ impl<S: Sampler, C: PathHooks> PathState<S, C> {
         if self.goes_on && self.ray.medium.is_some() {
             if self.ray.medium != before {
                 let medium = self.ray.medium;
-                let entry = world.entry(medium, &vertex, &self.wavelengths);
+                let entry = world.media().entry(medium, &vertex, &self.wavelengths);
                 self.entered = entry.map(|coefficients| (medium, coefficients));
             }
             self.diffuse(world, settings, &vertex);

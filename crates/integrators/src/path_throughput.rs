@@ -18,7 +18,7 @@
 //! ```
 //!
 //! The density p(λⱼ) with which wavelengths were drawn is divided out once, at the sensor
-//! ([`etalon_transport::World::sensor`]), and appears nowhere else.
+//! ([`etalon_transport::Sensor::weights`]), and appears nowhere else.
 
 use glam::Vec4;
 

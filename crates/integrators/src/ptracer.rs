@@ -27,8 +27,8 @@ use etalon_params::Params;
 use etalon_sampling::{ReplicateKind, Sampler};
 use etalon_spectrum::{SensorWeights, Wavelengths};
 use etalon_transport::{
-    Bsdf, Camera, Incompatibility, Integrator, LightSearch, Pass, PixelSample, Placing, Ray,
-    ScattererOf, SceneCapabilities, Sink, TransportMode, World,
+    Bsdf, Camera, Incompatibility, Integrator, LightSearch, Lights, Pass, PixelSample, Placing,
+    Ray, ScattererOf, SceneCapabilities, Sensor, Sink, Surfaces, TransportMode, World,
 };
 use glam::{Vec2, Vec4};
 
@@ -73,20 +73,23 @@ impl ParticleTracer {
                 prefix.beta *= passage.transmittance;
             }
             let Some(hit) = hit else {
-                if visible && world.has_background() {
-                    let background = world.background(ray.direction, wavelengths);
+                if visible && world.lights().has_background() {
+                    let background = world.lights().background(ray.direction, wavelengths);
                     radiance += prefix.contribution(background, Vec4::ZERO);
                     return (radiance, 1.0);
                 }
                 break;
             };
-            let vertex = world.vertex(&ray, &hit);
+            let vertex = world.surfaces().vertex(&ray, &hit);
             let wo = -ray.direction;
-            if world.is_emitter(&hit) {
-                let emitted = world.emitted(&vertex, wo, wavelengths);
+            if world.lights().is_emitter(&hit) {
+                let emitted = world.lights().emitted(&vertex, wo, wavelengths);
                 radiance += prefix.contribution(emitted, Vec4::ZERO);
             }
-            let passing = world.bsdf(&vertex, wo, wavelengths).null_transmittance();
+            let passing = world
+                .surfaces()
+                .bsdf(&vertex, wo, wavelengths)
+                .null_transmittance();
             if passing == Vec4::ZERO {
                 return (radiance, 1.0);
             }
@@ -199,7 +202,7 @@ impl Integrator for ParticleTracer {
         sink: &mut K,
     ) {
         let (wavelengths, ray, weight) = camera_ray(world, site, sampler);
-        let sensor = world.sensor(&wavelengths);
+        let sensor = world.sensor().weights(&wavelengths);
         let (lights, alpha) = {
             sampler.skip_to(dim::TIME + 1);
             self.visible_lights(world, ray, &wavelengths, sampler)

@@ -12,7 +12,7 @@ use crate::render_plan::RenderPlan;
 use crate::rounds::{Batches, Pace};
 use crate::share::ReplicateRange;
 use etalon_sampling::{Independent, SampleId, Sampler, SamplerKind, Sobol, Stratified};
-use etalon_transport::{Film, Integrator, Pass, PixelSample, SampleJob, TileSink, World};
+use etalon_transport::{Film, Integrator, Pass, PixelSample, SampleJob, Surfaces, TileSink, World};
 use glam::UVec2;
 use rayon::prelude::*;
 use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
@@ -218,7 +218,10 @@ impl<W: World, I: Integrator> Run<'_, W, I> {
                         round.tile(from, to, |sample| Stratified::with_jitter(sample, jitter))
                     }
                 };
-                let traced = self.worlds.first().map_or(0, World::take_ray_count);
+                let traced = self
+                    .worlds
+                    .first()
+                    .map_or(0, |world| world.surfaces().take_ray_count());
                 self.rays.fetch_add(traced, Ordering::Relaxed);
                 self.progress.tile_done(here);
                 drawn.fetch_add(here, Ordering::Relaxed);

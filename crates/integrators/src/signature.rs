@@ -17,7 +17,8 @@
 use crate::path::camera_ray;
 use etalon_sampling::{ReplicateKind, Sampler};
 use etalon_transport::{
-    Hit, Incompatibility, Integrator, Pass, PixelSample, Placing, SceneCapabilities, Sink, World,
+    Hit, Incompatibility, Integrator, Pass, PixelSample, Placing, SceneCapabilities, Sink,
+    Surfaces, World,
 };
 
 /// The signature integrator.
@@ -75,7 +76,7 @@ impl Integrator for Signature {
         sink: &mut K,
     ) {
         let (_, ray, _) = camera_ray(world, site, sampler);
-        match world.intersect(&ray) {
+        match world.surfaces().intersect(&ray) {
             Some(hit) => sink.radiance(colour(object(&hit)), 1.0),
             None => sink.radiance([0.0; 3], 0.0),
         }

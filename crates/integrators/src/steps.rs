@@ -9,7 +9,8 @@ use crate::light_mis::LightMis;
 use crate::path_throughput::PathThroughput;
 use etalon_spectrum::Wavelengths;
 use etalon_transport::{
-    Bsdf, FreeFlight, Hit, Medium, PhaseOf, Ray, SurfaceInteraction, Transmission, World,
+    Bsdf, FreeFlight, Hit, Lights, Media, Medium, PhaseOf, Ray, SurfaceInteraction, Surfaces,
+    Transmission, World,
 };
 use glam::{Vec3, Vec4};
 
@@ -18,13 +19,13 @@ use glam::{Vec3, Vec4};
 #[inline]
 pub(crate) fn next_hit<W: World>(world: &W, ray: &mut Ray, hidden: bool) -> Option<Hit> {
     let start = *ray;
-    let mut hit = world.intersect(ray);
+    let mut hit = world.surfaces().intersect(ray);
     while let Some(found) = hit
         && hidden
-        && world.is_emitter(&found)
+        && world.lights().is_emitter(&found)
     {
-        *ray = world.vertex(ray, &found).spawn(ray.direction);
-        hit = world.intersect(ray);
+        *ray = world.surfaces().vertex(ray, &found).spawn(ray.direction);
+        hit = world.surfaces().intersect(ray);
     }
     if start.medium.is_some() && start.medium == ray.medium {
         // The medium on this side of what is looked through is not.
@@ -46,7 +47,7 @@ pub(crate) fn next_surface<W: World>(
     hidden: bool,
 ) -> Option<(Hit, SurfaceInteraction)> {
     let hit = next_hit(world, ray, hidden)?;
-    Some((hit, world.vertex(ray, &hit)))
+    Some((hit, world.surfaces().vertex(ray, &hit)))
 }
 
 /// A flight through the medium that `ray` is in, to its `hit`, or to where light is scattered before it; `u` in [0, 1)
@@ -62,7 +63,7 @@ pub(crate) fn free_flight<'w, W: World>(
     if !ray.medium.is_some() {
         return None;
     }
-    let medium = world.medium(ray.medium, wavelengths)?;
+    let medium = world.media().medium(ray.medium, wavelengths)?;
     Some(flight_in(&medium, ray, hit, u))
 }
 
@@ -110,7 +111,7 @@ pub(crate) fn transmittance<W: World>(
     if !ray.medium.is_some() {
         return None;
     }
-    let medium = world.medium(ray.medium, wavelengths)?;
+    let medium = world.media().medium(ray.medium, wavelengths)?;
     let t_max = hit.map_or(ray.t_max, |hit| hit.t);
     Some(medium.transmittance(ray, t_max, &mut ray.stream(0.0)))
 }
@@ -124,7 +125,7 @@ pub(crate) fn background<W: World>(
     throughput: &PathThroughput,
     light_mis: &LightMis,
 ) -> Vec4 {
-    let radiance = world.background(direction, wavelengths);
+    let radiance = world.lights().background(direction, wavelengths);
     throughput.contribution(radiance, light_mis.pdf_at_background(world, direction))
 }
 
@@ -138,7 +139,7 @@ pub(crate) fn emission<W: World>(
     throughput: &PathThroughput,
     light_mis: &LightMis,
 ) -> Vec4 {
-    let radiance = world.emitted(at, -direction, wavelengths);
+    let radiance = world.lights().emitted(at, -direction, wavelengths);
     if radiance == Vec4::ZERO {
         return Vec4::ZERO;
     }

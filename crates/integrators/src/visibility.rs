@@ -6,7 +6,7 @@
 
 use crate::steps;
 use etalon_spectrum::Wavelengths;
-use etalon_transport::{Bsdf, Ray, Transmission, World};
+use etalon_transport::{Bsdf, Lights, Ray, Surfaces, Transmission, World};
 use glam::Vec4;
 
 /// A way to the camera.
@@ -18,32 +18,32 @@ pub(crate) struct CameraVisibility {
     pub(crate) through_emitter: bool,
 }
 
-/// The way of `ray` to the camera, from a surface that is a light (`on_light`) or not, past at most so many
+/// The way along `segment` to the camera, from a surface that is a light (`on_light`) or not, past at most so many
 /// surfaces; `None` if nothing is seen.
 pub(crate) fn camera_visibility<W: World>(
     world: &W,
     wavelengths: &Wavelengths,
-    mut ray: Ray,
+    segment: Ray,
     on_light: bool,
     mut crossings: u32,
 ) -> Option<CameraVisibility> {
-    let (origin, end) = (ray.origin, ray.t_max);
+    let mut ray = segment;
     let mut passage = Transmission::FREE;
     // Lights that nothing follows so far, and whether the way starts on one of them.
     let (mut lights, mut past_lights) = (0, Transmission::FREE);
     let mut hidden = on_light;
     loop {
-        let hit = world.intersect(&ray);
+        let hit = world.surfaces().intersect(&ray);
         if let Some(stretch) = steps::transmittance(world, &ray, hit.as_ref(), wavelengths) {
             passage.then(&stretch);
         }
         let Some(hit) = hit else { break };
-        let vertex = world.vertex(&ray, &hit);
-        let bsdf = world.bsdf(&vertex, -ray.direction, wavelengths);
+        let vertex = world.surfaces().vertex(&ray, &hit);
+        let bsdf = world.surfaces().bsdf(&vertex, -ray.direction, wavelengths);
         lights += 1;
         past_lights.transmittance *= bsdf.null_transmittance();
         past_lights.probability *= bsdf.null_probability();
-        if !world.is_emitter(&hit) {
+        if !world.lights().is_emitter(&hit) {
             // The lights before this surface are in the way like itself.
             crossings = crossings.checked_sub(lights)?;
             passage.then(&past_lights);
@@ -53,11 +53,10 @@ pub(crate) fn camera_visibility<W: World>(
             (lights, past_lights) = (0, Transmission::FREE);
             hidden = false;
         }
-        ray = vertex.spawn(ray.direction);
-        ray.t_max = end - (ray.origin - origin).dot(ray.direction);
-        if !(ray.t_max > 0.0) {
+        let Some(rest) = vertex.rest_of(&segment) else {
             break;
-        }
+        };
+        ray = rest;
     }
     (!hidden).then_some(CameraVisibility {
         passage,

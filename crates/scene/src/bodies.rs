@@ -11,7 +11,7 @@
 //! A ray carries which bodies it is in. All sets of bodies that may overlap are listed beforehand and named by numbers after those of
 //! the media, so that to carry one is to carry a [`MediumId`].
 
-use crate::scene::Scene;
+use crate::parts::Parts;
 use etalon_bsdf::BsdfAtPoint;
 use etalon_params::{Diagnostic, Diagnostics, Params, Span};
 use etalon_spectrum::Wavelengths;
@@ -356,7 +356,7 @@ fn sets_by_size(of_kinds: &[usize], of_all: usize) -> Vec<u64> {
     sets
 }
 
-impl Scene {
+impl Parts {
     /// What the surface of a body is between those on both of its sides: `own`, if it is the surface of none.
     pub(crate) fn between_bodies<'w>(
         &'w self,
@@ -375,8 +375,8 @@ impl Scene {
             return BsdfAtPoint::passing(vertex.normal);
         }
         let index = |filling: Filling| {
-            let material = &self.materials()[filling.body?.material.0 as usize];
-            let there = material.resolve(self.lookup(), vertex, wo, wavelengths);
+            let material = &self.materials[filling.body?.material.0 as usize];
+            let there = material.resolve(&self.space.lookup, vertex, wo, wavelengths);
             there.relative_index()
         };
         let [inside, outside] = [inside, outside].map(|side| index(side).unwrap_or(Vec4::ONE));

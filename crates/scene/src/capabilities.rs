@@ -5,7 +5,7 @@ use crate::{rays, view};
 use etalon_bsdf::Material;
 use etalon_geometry::GeometryStatistics;
 use etalon_subsurface::{Homogeneous, MediumAtWavelengths};
-use etalon_transport::{Camera, Medium, SceneCapabilities, World};
+use etalon_transport::{Camera, Lights, Media, Medium, SceneCapabilities, Sensor, World};
 use glam::{UVec2, Vec3};
 
 /// How much there is in a scene.
@@ -28,12 +28,12 @@ pub struct Contents {
 impl Scene {
     /// How much there is.
     pub fn contents(&self) -> Contents {
-        let (pictures, picture_bytes) = self.parts.lookup.textures.pictures();
+        let (pictures, picture_bytes) = self.parts.space.lookup.textures.pictures();
         Contents {
-            geometry: self.parts.lookup.geometry.statistics(),
+            geometry: self.parts.space.lookup.geometry.statistics(),
             materials: self.parts.materials.len(),
             lights: self.parts.lights.len(),
-            textures: self.parts.lookup.textures.len(),
+            textures: self.parts.space.lookup.textures.len(),
             pictures,
             picture_bytes,
         }
@@ -41,12 +41,14 @@ impl Scene {
 
     /// Whether what is beyond everything is a medium without end that light does not come through.
     fn is_swallowed(&self) -> bool {
-        let (media, outermost) = (self.media(), self.outermost());
+        let (media, outermost) = (&self.parts.space.media, self.outermost());
         let is_there = |medium: MediumAtWavelengths<'_, _>| {
             let coefficients = medium.coefficients(Vec3::ZERO, Vec3::Z);
             coefficients.extinction().min_element() > 0.0
         };
-        let medium = self.medium(outermost, &self.wavelengths(0.5));
+        let medium = self
+            .media()
+            .medium(outermost, &self.sensor().wavelengths(0.5));
         media.is_endless(outermost) && medium.is_some_and(is_there)
     }
 
@@ -57,21 +59,26 @@ impl Scene {
         rays::take();
         // Paths run into matter that shines.
         let mut lights = self.parts.lights.count();
-        let shining = self.parts.media.emitting();
+        let shining = self.parts.space.media.emitting();
         for count in [&mut lights.all, &mut lights.hittable, &mut lights.either] {
             *count += shining;
         }
-        lights.chosen += self.parts.media.emitting_bounds().count() as u32;
+        lights.chosen += self.parts.space.media.emitting_bounds().count() as u32;
         SceneCapabilities {
             view,
             lights,
             aperture: self.parts.camera.can_receive(),
-            sky: self.has_background(),
+            sky: self.lights().has_background(),
             swallowed: self.parts.lights.has_infinite() && self.is_swallowed(),
-            media: self.parts.media.any(),
-            diffusion: self.parts.media.any_homogeneous(Homogeneous::diffuses),
-            textured_walk: self.parts.media.any_homogeneous(Homogeneous::varies),
-            endless: self.parts.lookup.geometry.is_endless() && self.parts.lights.has_infinite(),
+            media: self.parts.space.media.any(),
+            diffusion: self
+                .parts
+                .space
+                .media
+                .any_homogeneous(Homogeneous::diffuses),
+            textured_walk: self.parts.space.media.any_homogeneous(Homogeneous::varies),
+            endless: self.parts.space.lookup.geometry.is_endless()
+                && self.parts.lights.has_infinite(),
             narrow_filter: false,
             one_way: self.parts.materials.iter().any(Material::is_one_way),
             classic: self.parts.materials.iter().any(Material::is_classic),

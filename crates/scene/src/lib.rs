@@ -27,6 +27,7 @@ mod sensor;
 mod sensor_choice;
 mod short_flights;
 mod solids;
+mod space;
 mod subsurface;
 pub mod surfaces;
 mod view;

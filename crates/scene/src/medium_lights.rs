@@ -10,6 +10,7 @@
 //! flames, 2013). Every cell has some probability, so that no light is ever missed.
 
 use crate::scene::Scene;
+use crate::space::Space;
 use core::f32::consts::PI;
 use etalon_math::Density;
 use etalon_math::float::ONE_MINUS_EPSILON;
@@ -19,8 +20,8 @@ use etalon_sampling::warps::square_to_uniform_sphere;
 use etalon_sampling::{Independent, Sampler};
 use etalon_spectrum::Wavelengths;
 use etalon_transport::{
-    Emission, EmissionPdf, LightId, LightKind, LightSample, LightSampleContext, Medium, MediumId,
-    Ray, SamplePdf, World,
+    Emission, EmissionPdf, LightId, LightKind, LightSample, LightSampleContext, Media, Medium,
+    MediumId, Ray, SamplePdf, World,
 };
 use glam::{UVec3, Vec2, Vec3, Vec4};
 
@@ -127,10 +128,10 @@ fn three(stream: &mut impl Sampler) -> Vec3 {
 }
 
 impl MediumLights {
-    /// Those of a scene, whose other lights have this power; `None` if there are none.
-    pub(crate) fn find(scene: &Scene, others: f64) -> Option<Self> {
+    /// Those of a space that is in the medium `outermost`; `None` if there are none. Other lights have the power `others`.
+    pub(crate) fn find(space: &Space, outermost: MediumId, others: f64) -> Option<Self> {
         let mut regions: Vec<Region> = Vec::new();
-        for (medium, bounds) in scene.media().emitting_bounds() {
+        for (medium, bounds) in space.media.emitting_bounds() {
             let first = regions.last().map_or(0, |last| last.first + last.len());
             regions.extend(Region::new(medium, bounds, first));
         }
@@ -138,7 +139,7 @@ impl MediumLights {
         let mut power = 0.0;
         for region in &regions {
             let powers: Vec<f64> = (0..region.len())
-                .map(|cell| scene.cell_power(region, cell))
+                .map(|cell| space.cell_power(region, cell, outermost))
                 .collect();
             let all: f64 = powers.iter().sum();
             let even = EVEN * all / powers.len() as f64;
@@ -182,17 +183,17 @@ impl MediumLights {
     }
 }
 
-impl Scene {
+impl Space {
     /// What a cell emits at some wavelengths, by an estimate (W·nm⁻¹).
-    fn cell_power(&self, region: &Region, cell: usize) -> f64 {
-        let Some(medium) = self.medium_at(region.medium, LAMBDA) else {
+    fn cell_power(&self, region: &Region, cell: usize, outermost: MediumId) -> f64 {
+        let Some(medium) = self.media.at(region.medium, &self.lookup, LAMBDA) else {
             return 0.0;
         };
         let mut stream = Independent::from_key(mix64(cell as u64));
         let corner = region.corner(cell);
         let emitted = |_| {
             let at = corner + three(&mut stream) * region.side;
-            let inside = self.within(region.medium, at).is_some();
+            let inside = self.within(region.medium, at, outermost).is_some();
             let emission = 0.25 * medium.emission(at, Vec3::Z).element_sum();
             if inside { emission } else { 0.0 }
         };
@@ -201,10 +202,16 @@ impl Scene {
     }
 
     /// What a ray from a point must know that is in a medium, and not only in its box.
-    fn within(&self, medium: MediumId, at: Vec3) -> Option<MediumId> {
+    fn within(&self, medium: MediumId, at: Vec3, outermost: MediumId) -> Option<MediumId> {
         let direction = Vec3::new(0.36, 0.48, 0.8);
-        let there = self.medium_along(Ray::new(at, direction, 0.0), self.outermost());
-        (self.media().filling(there) == medium).then_some(there)
+        let there = self.medium_along(Ray::new(at, direction, 0.0), outermost);
+        (self.media.filling(there) == medium).then_some(there)
+    }
+}
+
+impl Scene {
+    fn within(&self, medium: MediumId, at: Vec3) -> Option<MediumId> {
+        self.parts.space.within(medium, at, self.outermost())
     }
 
     /// A point of a medium that emits, as seen from `from`.
@@ -219,7 +226,7 @@ impl Scene {
         let (medium, at, density) = lights.point(u_light, u)?;
         let way = at - from.position;
         let distance_squared = way.length_squared();
-        let resolved = self.medium(medium, wavelengths)?;
+        let resolved = self.media().medium(medium, wavelengths)?;
         let direction = way / distance_squared.sqrt();
         let radiance = resolved.emission(at, direction);
         if radiance == Vec4::ZERO || !(distance_squared > 0.0) {
@@ -248,7 +255,7 @@ impl Scene {
         time: f32,
     ) -> Option<Emission> {
         let (medium, at, origin) = lights.point(u_light, u_position)?;
-        let resolved = self.medium(medium, wavelengths)?;
+        let resolved = self.media().medium(medium, wavelengths)?;
         let direction = square_to_uniform_sphere(u_direction);
         let radiance = resolved.emission(at, direction);
         if radiance == Vec4::ZERO {

@@ -1,29 +1,29 @@
-//! What a scene is made of: the tables that all its clones share.
+//! What a scene is made of: the tables that all its clones share, and what is asked of its surfaces, lights and media.
 
-use crate::lookup::SceneTables;
-use crate::media::SceneMedia;
+mod lights;
+mod media;
+mod surfaces;
+
 use crate::medium_lights::MediumLights;
 use crate::scene::Scene;
+use crate::space::Space;
 use etalon_bsdf::Material;
 use etalon_cameras::AnyCamera;
 use etalon_lights::LightSet;
 use etalon_spectrum::Sensor;
-use etalon_subsurface::MediumAtWavelengths;
-use etalon_transport::{EmissionPdf, MediumId, SurfaceInteraction};
-use glam::Vec4;
+use etalon_transport::{EmissionPdf, MediumId};
 use std::sync::Arc;
 
 /// What scenes share that differ in their sensors.
-pub(crate) struct Parts {
+pub struct Parts {
     pub(crate) camera: AnyCamera,
-    pub(crate) lookup: SceneTables,
+    pub(crate) space: Space,
     pub(crate) materials: Vec<Material>,
     pub(crate) lights: LightSet,
     /// Whether any material lets light pass straight, so that shadow rays must ask.
     pub(crate) has_null: bool,
-    pub(crate) media: SceneMedia,
-    /// Whether there are media, so that rays must know what they are in.
-    pub(crate) has_media: bool,
+    /// The medium that the camera is in, with the bodies that it is in.
+    pub(crate) camera_medium: MediumId,
     /// The medium beyond everything.
     pub(crate) outermost: MediumId,
     /// Media that are lights.
@@ -42,34 +42,9 @@ impl Scene {
         sensors.into_iter().map(with).collect()
     }
 
-    /// The media.
-    pub(crate) fn media(&self) -> &SceneMedia {
-        &self.parts.media
-    }
-
-    /// A medium at four wavelengths (nm).
-    #[inline]
-    pub(crate) fn medium_at(
-        &self,
-        medium: MediumId,
-        lambda: Vec4,
-    ) -> Option<MediumAtWavelengths<'_, SceneTables>> {
-        self.parts.media.at(medium, &self.parts.lookup, lambda)
-    }
-
     /// The medium beyond everything.
     pub(crate) fn outermost(&self) -> MediumId {
         self.parts.outermost
-    }
-
-    /// The materials, by id.
-    pub(crate) fn materials(&self) -> &[Material] {
-        &self.parts.materials
-    }
-
-    /// Textures and shapes.
-    pub(crate) fn lookup(&self) -> &SceneTables {
-        &self.parts.lookup
     }
 
     /// The densities of a particle from a light that is no medium, the choice included.
@@ -79,10 +54,5 @@ impl Scene {
             origin: density.origin * self.parts.of_others,
             ..density
         }
-    }
-
-    #[inline]
-    pub(crate) fn material(&self, vertex: &SurfaceInteraction) -> &Material {
-        &self.parts.materials[vertex.material.0 as usize]
     }
 }

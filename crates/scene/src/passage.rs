@@ -3,16 +3,16 @@
 use crate::rays;
 use crate::scene::Scene;
 use etalon_spectrum::Wavelengths;
-use etalon_transport::{Bsdf, Hit, Medium, Ray, Transmission, World};
+use etalon_transport::{Bsdf, Hit, Media, Medium, Ray, Surfaces, Transmission, World};
 use glam::Vec4;
 
 impl Scene {
     /// Whether no light goes straight on where a ray hits a surface; `false` also where that is not known yet.
     #[inline]
     fn is_opaque(&self, hit: &Hit) -> bool {
-        let material = self.parts.lookup.geometry.material_of(hit.shape);
+        let material = self.parts.space.lookup.geometry.material_of(hit.shape);
         material.is_some_and(|id| !self.parts.materials[id.0 as usize].has_null())
-            && self.media().bodies().is_none()
+            && self.parts.space.media.bodies().is_none()
     }
 
     /// A segment through what fills the space, past nothing: any surface is opaque.
@@ -23,7 +23,7 @@ impl Scene {
         wavelengths: &Wavelengths,
     ) -> Option<Transmission> {
         rays::count();
-        if self.parts.lookup.geometry.occluded(ray) {
+        if self.parts.space.lookup.geometry.occluded(ray) {
             return None;
         }
         let mut passage = Transmission::FREE;
@@ -35,7 +35,7 @@ impl Scene {
     #[inline]
     fn fill(&self, passage: &mut Transmission, ray: &Ray, t_max: f32, wavelengths: &Wavelengths) {
         if ray.medium.is_some()
-            && let Some(medium) = self.medium(ray.medium, wavelengths)
+            && let Some(medium) = self.media().medium(ray.medium, wavelengths)
         {
             passage.then(&medium.transmittance(ray, t_max, &mut ray.stream(0.0)));
         }
@@ -44,15 +44,14 @@ impl Scene {
     /// A segment through surfaces that let light pass: each is met in turn and asked how much.
     pub(crate) fn passage_through(
         &self,
-        mut ray: Ray,
+        segment: Ray,
         wavelengths: &Wavelengths,
         mut crossings: u32,
     ) -> Option<Transmission> {
-        let end = ray.t_max;
-        let origin = ray.origin;
+        let mut ray = segment;
         let mut passage = Transmission::FREE;
         loop {
-            let hit = self.intersect(&ray);
+            let hit = self.surfaces().intersect(&ray);
             if hit.is_some_and(|hit| crossings == 0 || self.is_opaque(&hit)) {
                 return None;
             }
@@ -63,8 +62,8 @@ impl Scene {
             }
             let Some(hit) = hit else { break };
             crossings -= 1;
-            let vertex = self.vertex(&ray, &hit);
-            let bsdf = self.bsdf(&vertex, -ray.direction, wavelengths);
+            let vertex = self.surfaces().vertex(&ray, &hit);
+            let bsdf = self.surfaces().bsdf(&vertex, -ray.direction, wavelengths);
             passage.then(&Transmission {
                 transmittance: bsdf.null_transmittance(),
                 probability: bsdf.null_probability(),
@@ -72,17 +71,10 @@ impl Scene {
             if passage.transmittance == Vec4::ZERO {
                 return None;
             }
-            ray = Ray {
-                t_max: f32::INFINITY,
-                ..vertex.spawn(ray.direction)
+            let Some(rest) = vertex.rest_of(&segment) else {
+                break;
             };
-            if end.is_finite() {
-                // What is left of the segment, measured from where the ray goes on.
-                ray.t_max = end - (ray.origin - origin).dot(ray.direction);
-                if !(ray.t_max > 0.0) {
-                    break;
-                }
-            }
+            ray = rest;
         }
         Some(passage)
     }

@@ -4,8 +4,8 @@
 //! through whatever lets light pass. Something small may slip through; what is found is there.
 
 use etalon_transport::{
-    Bsdf, Camera, CameraProbe, LightSampleContext, Ray, SamplePdf, SurfaceInteraction,
-    TransportMode, World,
+    Bsdf, Camera, CameraProbe, LightSampleContext, Lights, Media, Ray, SamplePdf, Sensor,
+    SurfaceInteraction, Surfaces, TransportMode, World,
 };
 use glam::{UVec2, Vec2, Vec3, Vec4};
 
@@ -33,7 +33,7 @@ pub(crate) fn look<W: World>(world: &W, origin: UVec2, size: UVec2) -> CameraPro
         let raster = origin.as_vec2() + size.as_vec2() * cell / LATTICE as f32;
         let lens = (SPREAD * index as f32).fract();
         let ray = Ray {
-            medium: world.camera_medium(),
+            medium: world.media().around_camera(),
             ..world.camera().ray(raster, lens, 0.5).ray
         };
         match reach(world, ray, index) {
@@ -60,21 +60,24 @@ enum Reached {
 /// Follows a ray that mirrors and glass send on to a light, or to something that scatters light.
 /// Where it may go on in several directions, the ray's number chooses.
 fn reach<W: World>(world: &W, mut ray: Ray, number: u32) -> Option<Reached> {
-    let wavelengths = world.wavelengths(0.5);
+    let wavelengths = world.sensor().wavelengths(0.5);
     for bounce in 0..PASSED {
         if ray.medium.is_some() {
             return Some(Reached::LightOrMedium);
         }
-        let Some(hit) = world.intersect(&ray) else {
-            return world.has_background().then_some(Reached::LightOrMedium);
+        let Some(hit) = world.surfaces().intersect(&ray) else {
+            return world
+                .lights()
+                .has_background()
+                .then_some(Reached::LightOrMedium);
         };
-        let vertex = world.vertex(&ray, &hit);
+        let vertex = world.surfaces().vertex(&ray, &hit);
         let wo = -ray.direction;
-        let bsdf = world.bsdf(&vertex, wo, &wavelengths);
+        let bsdf = world.surfaces().bsdf(&vertex, wo, &wavelengths);
         if scatters(&bsdf, wo) {
             return Some(Reached::Surface(vertex, wo));
         }
-        if world.is_emitter(&hit) {
+        if world.lights().is_emitter(&hit) {
             return Some(Reached::LightOrMedium);
         }
         let onward: Vec<Vec3> = (0..)
@@ -104,7 +107,7 @@ fn scatters<B: Bsdf>(bsdf: &B, wo: Vec3) -> bool {
 /// in the way: the light bends there, so that no straight connection finds it. The ray's number chooses
 /// the light.
 fn veiled<W: World>(world: &W, vertex: &SurfaceInteraction, wo: Vec3, number: u32) -> bool {
-    let wavelengths = world.wavelengths(0.5);
+    let wavelengths = world.sensor().wavelengths(0.5);
     let [u_light, u, v] = SPREAD_3.map(|s| (s * number as f32).fract());
     let Some(light) = world.sample_light(
         &LightSampleContext::on_surface(vertex.position, vertex.shading.n),
@@ -114,10 +117,11 @@ fn veiled<W: World>(world: &W, vertex: &SurfaceInteraction, wo: Vec3, number: u3
     ) else {
         return false;
     };
-    let shows =
-        world
-            .bsdf(vertex, wo, &wavelengths)
-            .eval(wo, light.direction, TransportMode::Radiance);
+    let shows = world.surfaces().bsdf(vertex, wo, &wavelengths).eval(
+        wo,
+        light.direction,
+        TransportMode::Radiance,
+    );
     if light.origin.can_be_hit() || shows * light.radiance == Vec4::ZERO {
         return false;
     }
@@ -125,12 +129,12 @@ fn veiled<W: World>(world: &W, vertex: &SurfaceInteraction, wo: Vec3, number: u3
     let mut bent = false;
     for _ in 0..PASSED {
         let Some(ray) = next else { return bent };
-        let Some(hit) = world.intersect(&ray) else {
+        let Some(hit) = world.surfaces().intersect(&ray) else {
             return bent;
         };
-        let at = world.vertex(&ray, &hit);
+        let at = world.surfaces().vertex(&ray, &hit);
         let wo = -ray.direction;
-        let bsdf = world.bsdf(&at, wo, &wavelengths);
+        let bsdf = world.surfaces().bsdf(&at, wo, &wavelengths);
         let bends = (0..)
             .map_while(|index| bsdf.discrete(wo, index, TransportMode::Radiance))
             .any(|sample| {
@@ -148,19 +152,19 @@ fn veiled<W: World>(world: &W, vertex: &SurfaceInteraction, wo: Vec3, number: u3
 
 /// Adds what one ray sees.
 fn follow<W: World>(world: &W, mut ray: Ray, view: &mut CameraProbe) {
-    let wavelengths = world.wavelengths(0.5);
+    let wavelengths = world.sensor().wavelengths(0.5);
     let [mut scattering, mut smooth, mut light] = [false; 3];
     for _ in 0..PASSED {
         scattering |= ray.medium.is_some();
-        let Some(hit) = world.intersect(&ray) else {
-            light |= world.has_background();
+        let Some(hit) = world.surfaces().intersect(&ray) else {
+            light |= world.lights().has_background();
             break;
         };
-        let vertex = world.vertex(&ray, &hit);
+        let vertex = world.surfaces().vertex(&ray, &hit);
         let wo = -ray.direction;
-        let emits = world.is_emitter(&hit);
+        let emits = world.lights().is_emitter(&hit);
         light |= emits;
-        let bsdf = world.bsdf(&vertex, wo, &wavelengths);
+        let bsdf = world.surfaces().bsdf(&vertex, wo, &wavelengths);
         // A lamp without a material is a black surface.
         scattering |= bsdf.has_continuous() && (!emits || scatters(&bsdf, wo));
         smooth |= (0..)

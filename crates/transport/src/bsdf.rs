@@ -34,7 +34,8 @@ pub struct BsdfSample {
 
 /// A scattering model at a point: plain data that knows neither textures nor scene.
 ///
-/// Directions are in world space. Evaluation cannot fail.
+/// Directions are in world space. Evaluation cannot fail. No question has a default answer, so that a model that wraps another
+/// cannot forget one.
 pub trait Bsdf {
     /// f(wo, wi)·|cos θi| of the continuous lobes (sr⁻¹), per lane.
     fn eval(&self, wo: Vec3, wi: Vec3, mode: TransportMode) -> Vec4;
@@ -44,15 +45,12 @@ pub trait Bsdf {
     fn density(&self, wo: Vec3, wi: Vec3) -> Density<SolidAngle>;
 
     /// [`Bsdf::eval`] and [`Bsdf::density`] together.
-    #[inline]
     fn eval_and_density(
         &self,
         wo: Vec3,
         wi: Vec3,
         mode: TransportMode,
-    ) -> (Vec4, Density<SolidAngle>) {
-        (self.eval(wo, wi, mode), self.density(wo, wi))
-    }
+    ) -> (Vec4, Density<SolidAngle>);
 
     /// Samples a direction; `None` if the light is absorbed. Lane 0 of the wavelengths for
     /// which the model was made chooses; `u_lobe` and `u` are uniform in [0, 1). Light passes straight on
@@ -62,25 +60,19 @@ pub trait Bsdf {
     /// The discrete direction number `index`, as [`Bsdf::sample`] would sample it (what passes
     /// straight on counts too); `None` beyond the last. There are as many whichever lane chooses:
     /// one that lane 0 does not have has value and probability zero. For estimators that follow
-    /// every direction instead of choosing. A model without any keeps this.
-    fn discrete(&self, _wo: Vec3, _index: u32, _mode: TransportMode) -> Option<BsdfSample> {
-        None
-    }
+    /// every direction instead of choosing.
+    fn discrete(&self, wo: Vec3, index: u32, mode: TransportMode) -> Option<BsdfSample>;
 
     /// Whether any lobe is continuous, i.e. whether light sampling can help.
     fn has_continuous(&self) -> bool;
 
     /// Whether any lobe may be discrete, passing straight on aside. `true` is always right, for
     /// those who need to know which directions [`Bsdf::eval`] cannot speak of.
-    fn has_discrete(&self) -> bool {
-        true
-    }
+    fn has_discrete(&self) -> bool;
 
     /// The frame about whose normal all continuous directions `wi` lie on the same side as `wo`;
     /// `None`, which is always right, if they may be anywhere.
-    fn hemisphere(&self) -> Option<Frame> {
-        None
-    }
+    fn hemisphere(&self) -> Option<Frame>;
 
     /// The fraction of light that goes straight on as if the surface were not there.
     fn null_transmittance(&self) -> Vec4;
@@ -92,14 +84,11 @@ pub trait Bsdf {
     /// expectation depends on (Russian roulette).
     fn albedo(&self, wo: Vec3) -> Vec4;
 
-    /// By what matter at a point of space is denser for light along `direction`: see [`crate::Phase::projected_area`]. 1 of surfaces.
-    #[inline]
-    fn projected_area(&self, _direction: Vec3) -> f32 {
-        1.0
-    }
+    /// The factor on the extinction of oriented particles for light along `direction` (see [`crate::Phase::projected_area`]); 1 on
+    /// surfaces.
+    fn projected_area(&self, direction: Vec3) -> f32;
 
-    /// Tells whoever draws a sample again that what the model was asked last was for a mixture of its own
+    /// Tells a replay of a sample that what the model was asked last was for a mixture of its own
     /// density with another; see [`crate::World::record`].
-    #[inline]
-    fn mixed(&self, _mixture: impl FnOnce() -> Mixture) {}
+    fn mixed(&self, mixture: impl FnOnce() -> Mixture);
 }

@@ -57,14 +57,10 @@ pub trait Camera: Sync {
     /// starts where the camera does not see, or arrives more than `margin` pixels outside of the
     /// film. An aperture without extent, or one through which each point of
     /// the film looks in one direction only, is never hit.
-    fn intersect_aperture(&self, _ray: &Ray, _margin: f32) -> Option<ApertureHit> {
-        None
-    }
+    fn intersect_aperture(&self, ray: &Ray, margin: f32) -> Option<ApertureHit>;
 
     /// Whether [`Camera::intersect_aperture`] can ever receive anything.
-    fn can_receive(&self) -> bool {
-        false
-    }
+    fn can_receive(&self) -> bool;
 
     /// Whether `lens` matters.
     fn has_lens(&self) -> bool;

@@ -66,4 +66,6 @@ pub use sight::{
 pub use surface_interaction::{Hit, SurfaceInteraction};
 pub use textures::{TexturePoint, Textures, gradient_by_differences};
 pub use uniformity::{is_varying, refuse_varying};
-pub use world::{ShadowQuery, Transmission, World};
+pub use world::{
+    BsdfOf, Lights, Media, MediumOf, NoMedia, Sensor, ShadowQuery, Surfaces, Transmission, World,
+};

@@ -3,7 +3,7 @@
 //! Paths that are built from both ends, and particles, do the same at either: evaluate, ask for a density, sample. A phase
 //! function has no cosine and no discrete direction, and light never passes it by.
 
-use crate::{Bsdf, BsdfSample, Medium, Mixture, Phase, SamplePdf, TransportMode, World};
+use crate::{Bsdf, BsdfOf, BsdfSample, Medium, MediumOf, Mixture, Phase, SamplePdf, TransportMode};
 use etalon_math::{Density, Frame, SolidAngle};
 use glam::{Vec2, Vec3, Vec4};
 
@@ -17,10 +17,10 @@ pub enum Scatterer<B, P> {
 }
 
 /// The phase functions of a world.
-pub type PhaseOf<'w, W> = <<W as World>::Medium<'w> as Medium>::Phase;
+pub type PhaseOf<'w, W> = <MediumOf<'w, W> as Medium>::Phase;
 
 /// What scatters in a world.
-pub type ScattererOf<'w, W> = Scatterer<<W as World>::Bsdf<'w>, PhaseOf<'w, W>>;
+pub type ScattererOf<'w, W> = Scatterer<BsdfOf<'w, W>, PhaseOf<'w, W>>;
 
 impl<B, P> Scatterer<B, P> {
     /// Whether it is a point of space.

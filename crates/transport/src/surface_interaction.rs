@@ -116,6 +116,14 @@ impl SurfaceInteraction {
         }
     }
 
+    /// What is left of a straight segment beyond this surface, which it crosses here; `None` if nothing is.
+    #[inline]
+    pub fn rest_of(&self, segment: &Ray) -> Option<Ray> {
+        let next = self.spawn(segment.direction);
+        let t_max = segment.t_max - (next.origin - segment.origin).dot(segment.direction);
+        (t_max > 0.0).then_some(Ray { t_max, ..next })
+    }
+
     /// Where the line from `origin`, just off this surface, along `direction` crosses it.
     #[inline]
     fn departure(&self, origin: Vec3, direction: Vec3) -> Departure {

@@ -1,12 +1,27 @@
 //! The contract of a scene: all that an integrator may ask.
+//!
+//! A scene has parts, each with a contract of its own: [`Surfaces`], [`Lights`], [`Media`], the [`Camera`] and the [`Sensor`].
+//! What needs several of them is asked of the [`World`]: light on its way between surfaces and through media, and the choice among
+//! lights, to which media that emit light belong.
+//!
+//! No question has a default answer: an implementation that wraps another and forgets one does not compile.
+
+mod lights;
+mod media;
+mod sensor;
+mod surfaces;
+
+pub use lights::Lights;
+pub use media::{Media, NoMedia};
+pub use sensor::Sensor;
+pub use surfaces::Surfaces;
 
 use crate::{
-    Bsdf, Camera, Coefficients, DiffusionProfile, Emission, EmissionPdf, Hit, LegacyPhong, LightId,
-    LightSample, LightSampleContext, LightVariety, Medium, MediumId, NoProfile, Ray,
-    SurfaceInteraction, TraceEvent,
+    Camera, Emission, EmissionPdf, LightId, LightSample, LightSampleContext, LightVariety,
+    MediumId, Ray, SurfaceInteraction, TraceEvent,
 };
 use etalon_math::{Density, SolidAngle};
-use etalon_spectrum::{SensorWeights, Wavelengths, sensor_response};
+use etalon_spectrum::Wavelengths;
 use glam::{Vec2, Vec3, Vec4};
 
 /// Straight travel along a segment.
@@ -49,97 +64,31 @@ pub struct ShadowQuery<'r> {
 
 /// A compiled, immutable scene.
 pub trait World: Sync {
-    /// A scattering model at a point.
-    type Bsdf<'w>: Bsdf + Copy
-    where
-        Self: 'w;
-    /// A medium at a path's wavelengths.
-    type Medium<'w>: Medium
-    where
-        Self: 'w;
-    /// The camera.
+    /// Its surfaces.
+    type Surfaces: Surfaces;
+    /// Its lights.
+    type Lights: Lights;
+    /// Its media.
+    type Media: Media;
+    /// Its camera.
     type Camera: Camera;
+    /// Its sensor.
+    type Sensor: Sensor;
+
+    /// The surfaces.
+    fn surfaces(&self) -> &Self::Surfaces;
+
+    /// The lights.
+    fn lights(&self) -> &Self::Lights;
+
+    /// The media.
+    fn media(&self) -> &Self::Media;
 
     /// The camera.
     fn camera(&self) -> &Self::Camera;
 
-    /// The medium that the camera is in.
-    #[inline]
-    fn camera_medium(&self) -> MediumId {
-        MediumId::NONE
-    }
-
-    /// A medium; `None` in empty space. A world without media keeps this.
-    #[inline]
-    fn medium(&self, _medium: MediumId, _wavelengths: &Wavelengths) -> Option<Self::Medium<'_>> {
-        None
-    }
-
-    /// Whether no light enters a medium straight, so that sampling lights there finds nothing. A world that does not know keeps
-    /// this.
-    #[inline]
-    fn is_dark(&self, _medium: MediumId) -> bool {
-        false
-    }
-
-    /// The coefficients of a medium for paths that enter it at the surface point `at`, if that is all to know of it: they need not be
-    /// asked for again, and may vary over its surface. A world that knows none keeps this.
-    #[inline]
-    fn entry(
-        &self,
-        _medium: MediumId,
-        _at: &SurfaceInteraction,
-        _wavelengths: &Wavelengths,
-    ) -> Option<Coefficients> {
-        None
-    }
-
-    /// A medium for a path that entered it where it has these coefficients ([`World::entry`]).
-    #[inline]
-    fn entered(
-        &self,
-        medium: MediumId,
-        _coefficients: Coefficients,
-        wavelengths: &Wavelengths,
-    ) -> Option<Self::Medium<'_>> {
-        self.medium(medium, wavelengths)
-    }
-
-    /// The diffusion profile that stands for walks in a medium below the surface point `at`, if it has one. A world without
-    /// such media keeps this.
-    #[inline]
-    fn diffusion(
-        &self,
-        _medium: MediumId,
-        _at: &SurfaceInteraction,
-        _wavelengths: &Wavelengths,
-    ) -> Option<impl DiffusionProfile> {
-        None::<NoProfile>
-    }
-
-    /// Draws the wavelengths of a path.
-    fn wavelengths(&self, u: f32) -> Wavelengths;
-
-    /// What the sensor makes of the light at these wavelengths. A world with the standard sensor keeps this.
-    #[inline]
-    fn sensor(&self, wavelengths: &Wavelengths) -> SensorWeights {
-        sensor_response(wavelengths)
-    }
-
-    /// The nearest surface along a ray.
-    fn intersect(&self, ray: &Ray) -> Option<Hit>;
-
-    /// The nearest surfaces along many rays, each with the place of its answer. A world that finds them no faster
-    /// together keeps this.
-    #[inline]
-    fn intersect_batch<'r>(&self, queries: impl Iterator<Item = (&'r Ray, &'r mut Option<Hit>)>) {
-        for (ray, hit) in queries {
-            *hit = self.intersect(ray);
-        }
-    }
-
-    /// The differential geometry of a hit.
-    fn vertex(&self, ray: &Ray, hit: &Hit) -> SurfaceInteraction;
+    /// The sensor.
+    fn sensor(&self) -> &Self::Sensor;
 
     /// How light travels straight along a segment, through at most `crossings` surfaces that
     /// let it pass (`mask`, `null`) and what fills the space between; `None` if it does not arrive at all.
@@ -151,49 +100,7 @@ pub trait World: Sync {
     ) -> Option<Transmission>;
 
     /// The same along many segments.
-    #[inline]
-    fn transmittance_batch<'r>(&self, queries: impl Iterator<Item = ShadowQuery<'r>>) {
-        for query in queries {
-            let ShadowQuery {
-                ray,
-                wavelengths,
-                crossings,
-                found,
-            } = query;
-            *found = self.transmittance(ray, wavelengths, crossings);
-        }
-    }
-
-    /// The scattering model at a vertex.
-    fn bsdf(
-        &self,
-        vertex: &SurfaceInteraction,
-        wo: Vec3,
-        wavelengths: &Wavelengths,
-    ) -> Self::Bsdf<'_>;
-
-    /// The classic Phong material at a vertex, if it has one in place of a scattering model (its
-    /// [`World::bsdf`] is black). A world without such materials keeps this.
-    fn legacy_phong(
-        &self,
-        _vertex: &SurfaceInteraction,
-        _wo: Vec3,
-        _wavelengths: &Wavelengths,
-    ) -> Option<LegacyPhong> {
-        None
-    }
-
-    /// Radiance emitted by the surface at `vertex` toward `wo`.
-    fn emitted(&self, vertex: &SurfaceInteraction, wo: Vec3, wavelengths: &Wavelengths) -> Vec4;
-
-    /// Whether the surface that was hit emits light at all.
-    fn is_emitter(&self, hit: &Hit) -> bool;
-
-    /// Radiance of the lights at infinity seen along the unit vector `direction`.
-    fn background(&self, direction: Vec3, wavelengths: &Wavelengths) -> Vec4;
-
-    /// Whether the scene has any light at infinity that a ray can hit.
-    fn has_background(&self) -> bool;
+    fn transmittance_batch<'r>(&self, queries: impl Iterator<Item = ShadowQuery<'r>>);
 
     /// Chooses a light with `u_light` and a direction toward it from `from` with `u`. `None` if
     /// nothing can arrive.
@@ -207,23 +114,7 @@ pub trait World: Sync {
 
     /// In what samples of [`World::sample_light`] from `from` may differ: whether anything can be gained by
     /// choosing among several of them. Any answer is right, as long as it is always the same.
-    #[inline]
-    fn light_variety(&self, _from: &LightSampleContext) -> LightVariety {
-        LightVariety::Several
-    }
-
-    /// How many lights there are. Their ids count from 0.
-    fn light_count(&self) -> u32;
-
-    /// A direction toward one light, as if it were the only one: without the probability of
-    /// choosing it. For estimators that ask every light.
-    fn sample_one_light(
-        &self,
-        light: LightId,
-        from: &LightSampleContext,
-        wavelengths: &Wavelengths,
-        u: Vec2,
-    ) -> Option<LightSample>;
+    fn light_variety(&self, from: &LightSampleContext) -> LightVariety;
 
     /// The density with which [`World::sample_light`] from `from` would have chosen the emitting
     /// surface point `at`, seen along the unit vector `direction`.
@@ -261,21 +152,17 @@ pub trait World: Sync {
     /// where a particle began; the probability of its light if that is a point or a direction.
     fn light_sample_density(&self, from: &LightSampleContext, start: &Emission) -> f32;
 
-    /// The density per volume (m⁻³) with which [`World::sample_light`], from wherever, and [`World::emit`] choose the point
+    /// The density per volume (m⁻³) with which [`World::sample_light`], from any point, and [`World::emit`] choose the point
     /// `at` of a medium that emits light; zero if they never do. Particles leave it evenly in all directions.
-    #[inline]
-    fn medium_light_density(&self, _medium: MediumId, _at: Vec3) -> f32 {
-        0.0
-    }
+    fn medium_light_density(&self, medium: MediumId, at: Vec3) -> f32;
 
-    /// How many rays the calling thread has traced since it last asked.
-    fn take_ray_count(&self) -> u64;
-
-    /// Tells whoever draws a sample again what cannot be seen from what was asked, and says whether
-    /// anybody listens: if so, more may be asked only to be told. A world that renders keeps this, and
-    /// the remark is never made.
-    #[inline]
-    fn record(&self, _remark: impl FnOnce() -> TraceEvent) -> bool {
-        false
-    }
+    /// Tells a replay of a sample what cannot be seen from what was asked, and says whether
+    /// anybody listens: if so, more may be asked only to be told. A world that renders never makes the remark.
+    fn record(&self, remark: impl FnOnce() -> TraceEvent) -> bool;
 }
+
+/// The scattering models of a world.
+pub type BsdfOf<'w, W> = <<W as World>::Surfaces as Surfaces>::Bsdf<'w>;
+
+/// The media of a world.
+pub type MediumOf<'w, W> = <<W as World>::Media as Media>::Medium<'w>;

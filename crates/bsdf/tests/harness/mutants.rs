@@ -7,8 +7,8 @@ use crate::pointwise::{inconsistency, lane_dependence};
 use crate::scene::Sample;
 use crate::statistical::{Integrals, chi_squared_p, quadrature_p};
 use etalon_bsdf::BsdfAtPoint;
-use etalon_math::{Density, SolidAngle};
-use etalon_transport::{Bsdf, BsdfSample, SamplePdf, TransportMode};
+use etalon_math::{Density, Frame, SolidAngle};
+use etalon_transport::{Bsdf, BsdfSample, Mixture, SamplePdf, TransportMode};
 use glam::{Vec2, Vec3, Vec4};
 
 /// A fault.
@@ -105,6 +105,24 @@ impl Bsdf for Wrong<'_> {
     fn albedo(&self, wo: Vec3) -> Vec4 {
         self.right.albedo(wo)
     }
+
+    fn discrete(&self, wo: Vec3, index: u32, mode: TransportMode) -> Option<BsdfSample> {
+        self.right.discrete(wo, index, mode)
+    }
+
+    fn has_discrete(&self) -> bool {
+        self.right.has_discrete()
+    }
+
+    fn hemisphere(&self) -> Option<Frame> {
+        self.right.hemisphere()
+    }
+
+    fn projected_area(&self, direction: Vec3) -> f32 {
+        self.right.projected_area(direction)
+    }
+
+    fn mixed(&self, _: impl FnOnce() -> Mixture) {}
 }
 
 /// The least p-values of χ² and quadrature over the known directions.

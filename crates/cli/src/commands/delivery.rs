@@ -11,7 +11,7 @@ use etalon_integrators::RenderPlan;
 use etalon_render::pipeline::{Loaded, Rendered};
 use etalon_render::resources;
 use etalon_render::target::Noise;
-use etalon_transport::{Camera, World};
+use etalon_transport::{Camera, Surfaces, World};
 use std::io::Write;
 use std::path::Path;
 
@@ -185,7 +185,7 @@ fn tell_few(loaded: &Loaded, developed: &RenderedImage) {
         within.into_iter().any(|within| {
             let raster = offset + corner + glam::Vec2::from(within);
             let seen = scene.camera().ray(raster, glam::Vec2::splat(0.5), 0.0);
-            scene.intersect(&seen.ray).is_some()
+            scene.surfaces().intersect(&seen.ray).is_some()
         })
     };
     let count = unlit.iter().filter(|pixel| shows_something(pixel)).count();

@@ -10,8 +10,8 @@ use crate::path_throughput::PathThroughput;
 use crate::settings::PathSettings;
 use etalon_spectrum::Wavelengths;
 use etalon_transport::{
-    Bsdf, Camera, EmissionPdf, LightKind, MediumId, PixelSample, SamplePdf, SurfaceInteraction,
-    TransportMode, World,
+    Bsdf, Camera, EmissionPdf, LightKind, Lights, MediumId, PixelSample, SamplePdf,
+    SurfaceInteraction, TransportMode, World,
 };
 use glam::{Vec2, Vec3, Vec4};
 
@@ -110,7 +110,7 @@ impl<'w, W: World> Connector<'_, 'w, W> {
         eye: &[Corner<'w, W>],
     ) {
         let world = self.world;
-        let radiance = world.emitted(vertex, wo, self.wavelengths);
+        let radiance = world.lights().emitted(vertex, wo, self.wavelengths);
         self.find(arrival, radiance, eye, |first| {
             let cos = vertex.normal.dot(wo).abs();
             let distance_squared = vertex.position.distance_squared(first.vertex.position);
@@ -155,7 +155,7 @@ impl<'w, W: World> Connector<'_, 'w, W> {
         eye: &[Corner<'w, W>],
     ) {
         let world = self.world;
-        let radiance = world.background(direction, self.wavelengths);
+        let radiance = world.lights().background(direction, self.wavelengths);
         self.find(arrival, radiance, eye, |first| {
             let emission = world.background_emission_density(direction);
             let from = first.receiver();

@@ -9,7 +9,7 @@ use crate::settings::PathSettings;
 use crate::steps;
 use etalon_sampling::Sampler;
 use etalon_spectrum::Wavelengths;
-use etalon_transport::{Bsdf, Ray, SurfaceInteraction, TransportMode, World};
+use etalon_transport::{Bsdf, Lights, Ray, SurfaceInteraction, Surfaces, TransportMode, World};
 use glam::Vec4;
 
 /// A walk from the camera.
@@ -110,7 +110,7 @@ impl FromCamera {
         let Some(hit) = hit else {
             // A hidden sky stays hidden to rays that only went straight.
             let visible = !settings.hide_emitters || self.alpha > 0.0;
-            if visible && world.has_background() {
+            if visible && world.lights().has_background() {
                 self.alpha = 1.0;
                 let density = self.carried.density * self.carried.passed.x;
                 let arrival = self.carried.arrival(density);
@@ -118,8 +118,8 @@ impl FromCamera {
             }
             return false;
         };
-        let vertex = world.vertex(&self.carried.ray, &hit);
-        let emits = world.is_emitter(&hit);
+        let vertex = world.surfaces().vertex(&self.carried.ray, &hit);
+        let emits = world.lights().is_emitter(&hit);
         let wo = -direction;
         let arrival = self.arrival(connector, &vertex, 1.0, corners);
         if emits {

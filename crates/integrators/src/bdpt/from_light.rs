@@ -8,7 +8,7 @@ use crate::settings::PathSettings;
 use crate::steps;
 use etalon_sampling::Sampler;
 use etalon_spectrum::Wavelengths;
-use etalon_transport::{Bsdf, Emission, LightKind, TransportMode, World};
+use etalon_transport::{Bsdf, Emission, LightKind, Surfaces, TransportMode, World};
 use glam::{Vec3, Vec4};
 
 /// A particle's start, and what its first corner's neighbours say of it.
@@ -128,7 +128,7 @@ impl FromLight {
                 met = carried.fly(world, hit.as_ref(), wavelengths, u);
             }
             let Some(met) = met.or_else(|| {
-                let vertex = world.vertex(&carried.ray, &hit?);
+                let vertex = world.surfaces().vertex(&carried.ray, &hit?);
                 Some(Met::surface(world, vertex, wo, wavelengths))
             }) else {
                 return;

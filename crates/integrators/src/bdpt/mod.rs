@@ -55,7 +55,7 @@ use etalon_sampling::{ReplicateKind, Sampler};
 use etalon_spectrum::Wavelengths;
 use etalon_transport::{
     Incompatibility, Integrator, LightSearch, Pass, PixelSample, Placing, Ray, SampleJob,
-    SceneCapabilities, Sink, Subject, TileSink, World,
+    SceneCapabilities, Sensor, Sink, Subject, TileSink, World,
 };
 use from_camera::FromCamera;
 use from_light::FromLight;
@@ -143,7 +143,7 @@ pub(crate) fn estimate<'w, W: World, S: Sampler, K: Sink>(
         weight,
         merging,
     } = begin;
-    let sensor = world.sensor(wavelengths);
+    let sensor = world.sensor().weights(wavelengths);
     eye.clear();
     light.clear();
     let connects = merging.is_none_or(Merging::connects);

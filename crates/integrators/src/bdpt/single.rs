@@ -13,7 +13,7 @@ use crate::dimensions as dim;
 use crate::path::camera_ray;
 use crate::settings::PathSettings;
 use etalon_sampling::Sampler;
-use etalon_transport::{PixelSample, ScattererOf, World};
+use etalon_transport::{PixelSample, ScattererOf, Sensor, World};
 use glam::{Vec2, Vec3, Vec4};
 
 /// The corners of both walks, lent from sample to sample.
@@ -42,7 +42,7 @@ pub(crate) fn sample<'w, W: World, S: Sampler>(
     mut found: impl FnMut(Vec2, Vec3),
 ) {
     let (wavelengths, ray, weight) = camera_ray(world, site, sampler);
-    let sensor = world.sensor(&wavelengths);
+    let sensor = world.sensor().weights(&wavelengths);
     let Lists { eye, light } = lists;
     eye.clear();
     light.clear();

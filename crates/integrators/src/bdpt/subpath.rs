@@ -5,7 +5,9 @@ use super::path_vertex::{Corner, PathVertex};
 use crate::path_throughput::PathThroughput;
 use crate::steps;
 use etalon_spectrum::Wavelengths;
-use etalon_transport::{Bsdf, Hit, Ray, Scatterer, ScattererOf, SurfaceInteraction, World};
+use etalon_transport::{
+    Bsdf, Hit, Ray, Scatterer, ScattererOf, SurfaceInteraction, Surfaces, World,
+};
 use glam::{Vec3, Vec4};
 
 /// The numbers of the camera walk's events, of the emission, and of the light walk's events lie
@@ -50,7 +52,7 @@ impl<'w, W: World> Met<'w, W> {
     ) -> Self {
         Self {
             vertex,
-            bsdf: Scatterer::Surface(world.bsdf(&vertex, wo, wavelengths)),
+            bsdf: Scatterer::Surface(world.surfaces().bsdf(&vertex, wo, wavelengths)),
             extinction: Vec4::ONE,
             shining: None,
         }

@@ -153,6 +153,27 @@ impl Bsdf for Model {
     fn albedo(&self, _: Vec3) -> Vec4 {
         Vec4::ONE
     }
+    fn eval_and_density(
+        &self,
+        wo: Vec3,
+        wi: Vec3,
+        mode: TransportMode,
+    ) -> (Vec4, Density<SolidAngle>) {
+        (self.eval(wo, wi, mode), self.density(wo, wi))
+    }
+    fn discrete(&self, _: Vec3, _: u32, _: TransportMode) -> Option<BsdfSample> {
+        None
+    }
+    fn has_discrete(&self) -> bool {
+        true
+    }
+    fn hemisphere(&self) -> Option<Frame> {
+        None
+    }
+    fn projected_area(&self, _: Vec3) -> f32 {
+        1.0
+    }
+    fn mixed(&self, _: impl FnOnce() -> Mixture) {}
 }
 
 /// The mean of what a model brings from a sky of brightness 1 + z, of the mirror's light and of the

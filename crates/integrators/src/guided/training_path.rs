@@ -237,7 +237,9 @@ mod tests {
     use crate::guided::field::{FACES, Lobes, RegionUpdate, SdTree};
     use etalon_math::{DeltaProbability, Density, Frame, SolidAngle};
     use etalon_sampling::discrete::{Quadtree, Refinement};
-    use etalon_transport::{InstanceId, LightId, MaterialId, SamplePdf, ShapeId, TransportMode};
+    use etalon_transport::{
+        InstanceId, LightId, MaterialId, Mixture, SamplePdf, ShapeId, TransportMode,
+    };
     use glam::Vec2;
 
     const ALBEDO: f32 = 0.5;
@@ -271,6 +273,27 @@ mod tests {
         fn albedo(&self, _: Vec3) -> Vec4 {
             Vec4::splat(ALBEDO)
         }
+        fn eval_and_density(
+            &self,
+            wo: Vec3,
+            wi: Vec3,
+            mode: TransportMode,
+        ) -> (Vec4, Density<SolidAngle>) {
+            (self.eval(wo, wi, mode), self.density(wo, wi))
+        }
+        fn discrete(&self, _: Vec3, _: u32, _: TransportMode) -> Option<BsdfSample> {
+            None
+        }
+        fn has_discrete(&self) -> bool {
+            false
+        }
+        fn hemisphere(&self) -> Option<Frame> {
+            None
+        }
+        fn projected_area(&self, _: Vec3) -> f32 {
+            1.0
+        }
+        fn mixed(&self, _: impl FnOnce() -> Mixture) {}
     }
 
     fn vertex() -> SurfaceInteraction {

@@ -8,7 +8,7 @@ use super::sets::{WavelengthChoice, WavelengthSets};
 use crate::path_throughput::PathThroughput;
 use etalon_math::float::ONE_MINUS_EPSILON;
 use etalon_spectrum::Wavelengths;
-use etalon_transport::{Bsdf, BsdfSample, SurfaceInteraction, TransportMode, World};
+use etalon_transport::{Bsdf, BsdfSample, SurfaceInteraction, Surfaces, TransportMode, World};
 use glam::{Vec2, Vec3, Vec4};
 
 /// A vertex of a camera path, with the direction sampled there.
@@ -69,7 +69,7 @@ impl CameraVertex {
 
     /// f/p₀ of leaving this way, f at other wavelengths.
     fn value<W: World>(&self, world: &W, wavelengths: &Wavelengths) -> Vec4 {
-        let bsdf = world.bsdf(&self.vertex, self.wo, wavelengths);
+        let bsdf = world.surfaces().bsdf(&self.vertex, self.wo, wavelengths);
         let value = match self.manner {
             ScatterKind::Passing => bsdf.null_transmittance(),
             ScatterKind::Continuous => bsdf.eval(self.wo, self.wi, TransportMode::Radiance),

@@ -16,8 +16,9 @@ use crate::{settings::PathSettings, steps};
 use etalon_sampling::Sampler;
 use etalon_spectrum::Wavelengths;
 use etalon_transport::{
-    Bsdf, LightSampleContext, MergedPhoton, PixelSample, Ray, SampleJob, SamplePdf, Scatterer,
-    ScattererOf, Sink, SurfaceInteraction, TileSink, TraceEvent, TransportMode, World,
+    Bsdf, LightSampleContext, Lights, MergedPhoton, PixelSample, Ray, SampleJob, SamplePdf,
+    Scatterer, ScattererOf, Sink, SurfaceInteraction, Surfaces, TileSink, TraceEvent,
+    TransportMode, World,
 };
 use glam::{Vec3, Vec4};
 
@@ -186,20 +187,20 @@ impl<'w, W: World> GatherPath<'_, 'w, W> {
             }
             let wo = -direction;
             if let Some(hit) = hit {
-                let vertex = world.vertex(&ray, &hit);
-                if world.is_emitter(&hit) && !self.second {
+                let vertex = world.surfaces().vertex(&ray, &hit);
+                if world.lights().is_emitter(&hit) && !self.second {
                     let (waves, light_mis) = (&self.wavelengths, &self.light_mis);
                     self.radiance +=
                         steps::emission(world, &vertex, direction, waves, &self.prefix, light_mis);
                 }
-                let bsdf = world.bsdf(&vertex, wo, &self.wavelengths);
+                let bsdf = world.surfaces().bsdf(&vertex, wo, &self.wavelengths);
                 met = Some((vertex, Scatterer::Surface(bsdf)));
                 gathering = self.prefix;
             }
             let Some((vertex, bsdf)) = met else {
                 // A hidden sky stays hidden to rays that only went straight.
                 let visible = !settings.hide_emitters || alpha > 0.0;
-                if visible && world.has_background() {
+                if visible && world.lights().has_background() {
                     alpha = 1.0;
                     if !self.second {
                         let (waves, light_mis) = (&self.wavelengths, &self.light_mis);
@@ -346,7 +347,7 @@ impl<'w, W: World> GatherPath<'_, 'w, W> {
                     // Only the walk's own set is looked for.
                     Scatterer::Space(_) => *own,
                     Scatterer::Surface(_) => {
-                        Scatterer::Surface(world.bsdf(vertex, wo, sets.get(set)))
+                        Scatterer::Surface(world.surfaces().bsdf(vertex, wo, sets.get(set)))
                     }
                 });
                 let value = match model.is_in_space() {

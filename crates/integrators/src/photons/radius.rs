@@ -21,7 +21,7 @@
 use crate::photons::kdtree::KdTree;
 use etalon_math::{float, float64};
 use etalon_params::Params;
-use etalon_transport::{Camera, Pass, World};
+use etalon_transport::{Camera, Pass, Surfaces, World};
 use glam::{Vec2, Vec3};
 
 /// α where the scene does not say.
@@ -108,7 +108,7 @@ fn seen<W: World>(world: &W, pass: &Pass) -> Vec<(Vec3, f32)> {
         let place = (Vec2::new((i % GRID) as f32, (i / GRID) as f32) + 0.5) / GRID as f32;
         let raster = pass.origin.as_vec2() + place * pass.size.as_vec2();
         let ray = camera.ray(raster, Vec2::splat(0.5), 0.5).ray;
-        let t = world.intersect(&ray)?.t;
+        let t = world.surfaces().intersect(&ray)?.t;
         let aside = camera.ray(raster + Vec2::X, Vec2::splat(0.5), 0.5).ray;
         Some((ray.at(t), ray.at(t).distance(aside.at(t))))
     });

@@ -13,7 +13,7 @@
 
 use etalon_sampling::hash::{derived_key, random_float, stream_key};
 use etalon_spectrum::{SensorWeights, Wavelengths};
-use etalon_transport::{Pass, World};
+use etalon_transport::{Pass, Sensor, World};
 use glam::Vec4;
 
 /// The fractional part of the golden ratio: its multiples are spread evenly (mod 1).
@@ -72,8 +72,8 @@ impl WavelengthSets {
         let shift = shift - shift.floor();
         let set = |g: usize| {
             let u = ((g as f64 + shift) / (4.0 * count as f64)) as f32;
-            let wavelengths = world.wavelengths(u);
-            (wavelengths, world.sensor(&wavelengths))
+            let wavelengths = world.sensor().wavelengths(u);
+            (wavelengths, world.sensor().weights(&wavelengths))
         };
         Self {
             sets: (0..count).map(set).collect(),

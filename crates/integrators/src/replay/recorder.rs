@@ -6,43 +6,57 @@ use super::model::RecordingBsdf;
 use etalon_math::{Density, SolidAngle};
 use etalon_spectrum::{SensorWeights, Wavelengths};
 use etalon_transport::{
-    ApertureHit, Camera, CameraRay, CameraSample, Coefficients, DiffusionProfile, Emission,
-    EmissionPdf, Hit, LegacyPhong, LightId, LightSample, LightSampleContext, LightVariety,
-    MediumId, Ray, SurfaceInteraction, TraceEvent, Transmission, World,
+    ApertureHit, Camera, CameraRay, CameraSample, Emission, EmissionPdf, Hit, LegacyPhong, LightId,
+    LightSample, LightSampleContext, LightVariety, Lights, MediumId, Ray, Sensor, ShadowQuery,
+    SurfaceInteraction, Surfaces, TraceEvent, Transmission, World,
 };
 use glam::{Vec2, Vec3, Vec4};
 
-/// A world that writes down what it says.
+/// A part of a world that writes down what it says.
+pub(super) struct Recording<'a, T> {
+    part: &'a T,
+    notebook: &'a SharedEventLog,
+}
+
+/// A world that writes down what it says; its media do not.
 pub(super) struct Recorder<'a, W: World> {
     world: &'a W,
-    camera: RecordingCamera<'a, W::Camera>,
+    surfaces: Recording<'a, W::Surfaces>,
+    lights: Recording<'a, W::Lights>,
+    camera: Recording<'a, W::Camera>,
+    sensor: Recording<'a, W::Sensor>,
     notebook: &'a SharedEventLog,
 }
 
 impl<'a, W: World> Recorder<'a, W> {
     /// A world that writes into a notebook.
     pub(super) fn new(world: &'a W, notebook: &'a SharedEventLog) -> Self {
-        let camera = RecordingCamera {
-            camera: world.camera(),
-            notebook,
-        };
         Self {
             world,
-            camera,
+            surfaces: Recording {
+                part: world.surfaces(),
+                notebook,
+            },
+            lights: Recording {
+                part: world.lights(),
+                notebook,
+            },
+            camera: Recording {
+                part: world.camera(),
+                notebook,
+            },
+            sensor: Recording {
+                part: world.sensor(),
+                notebook,
+            },
             notebook,
         }
     }
 }
 
-/// A camera that writes down what it says.
-pub(super) struct RecordingCamera<'a, C> {
-    camera: &'a C,
-    notebook: &'a SharedEventLog,
-}
-
-impl<C: Camera> Camera for RecordingCamera<'_, C> {
+impl<C: Camera> Camera for Recording<'_, C> {
     fn ray(&self, raster: Vec2, lens: Vec2, time: f32) -> CameraRay {
-        let start = self.camera.ray(raster, lens, time);
+        let start = self.part.ray(raster, lens, time);
         self.notebook.write(|notes| {
             let walk = notes.begin_at_camera(start.weight, start.ray.direction);
             let ray = start.ray;
@@ -52,92 +66,46 @@ impl<C: Camera> Camera for RecordingCamera<'_, C> {
     }
 
     fn connect(&self, point: Vec3, lens: Vec2, time: f32, margin: f32) -> Option<CameraSample> {
-        let connection = self.camera.connect(point, lens, time, margin);
+        let connection = self.part.connect(point, lens, time, margin);
         self.notebook.note(Event::CameraSample(connection));
         connection
     }
 
     fn intersect_aperture(&self, ray: &Ray, margin: f32) -> Option<ApertureHit> {
-        let reception = self.camera.intersect_aperture(ray, margin)?;
+        let reception = self.part.intersect_aperture(ray, margin)?;
         self.notebook.note(Event::ApertureHit(reception));
         Some(reception)
     }
 
     fn can_receive(&self) -> bool {
-        self.camera.can_receive()
+        self.part.can_receive()
     }
 
     fn has_lens(&self) -> bool {
-        self.camera.has_lens()
+        self.part.has_lens()
     }
 }
 
-impl<'a, W: World> World for Recorder<'a, W> {
-    type Bsdf<'w>
-        = RecordingBsdf<'w, W::Bsdf<'w>>
-    where
-        Self: 'w;
-    type Medium<'w>
-        = W::Medium<'w>
-    where
-        Self: 'w;
-    type Camera = RecordingCamera<'a, W::Camera>;
-
-    fn camera(&self) -> &Self::Camera {
-        &self.camera
-    }
-
-    fn camera_medium(&self) -> MediumId {
-        self.world.camera_medium()
-    }
-
-    fn medium(&self, medium: MediumId, wavelengths: &Wavelengths) -> Option<Self::Medium<'_>> {
-        self.world.medium(medium, wavelengths)
-    }
-
-    fn is_dark(&self, medium: MediumId) -> bool {
-        self.world.is_dark(medium)
-    }
-
-    fn entry(
-        &self,
-        medium: MediumId,
-        at: &SurfaceInteraction,
-        wavelengths: &Wavelengths,
-    ) -> Option<Coefficients> {
-        self.world.entry(medium, at, wavelengths)
-    }
-
-    fn entered(
-        &self,
-        medium: MediumId,
-        coefficients: Coefficients,
-        wavelengths: &Wavelengths,
-    ) -> Option<Self::Medium<'_>> {
-        self.world.entered(medium, coefficients, wavelengths)
-    }
-
-    fn diffusion(
-        &self,
-        medium: MediumId,
-        at: &SurfaceInteraction,
-        wavelengths: &Wavelengths,
-    ) -> Option<impl DiffusionProfile> {
-        self.world.diffusion(medium, at, wavelengths)
-    }
-
+impl<S: Sensor> Sensor for Recording<'_, S> {
     fn wavelengths(&self, u: f32) -> Wavelengths {
-        let wavelengths = self.world.wavelengths(u);
+        let wavelengths = self.part.wavelengths(u);
         self.notebook.note(Event::Wavelengths(wavelengths));
         wavelengths
     }
 
-    fn sensor(&self, wavelengths: &Wavelengths) -> SensorWeights {
-        self.world.sensor(wavelengths)
+    fn weights(&self, wavelengths: &Wavelengths) -> SensorWeights {
+        self.part.weights(wavelengths)
     }
+}
+
+impl<S: Surfaces> Surfaces for Recording<'_, S> {
+    type Bsdf<'w>
+        = RecordingBsdf<'w, S::Bsdf<'w>>
+    where
+        Self: 'w;
 
     fn intersect(&self, ray: &Ray) -> Option<Hit> {
-        let hit = self.world.intersect(ray);
+        let hit = self.part.intersect(ray);
         self.notebook.write(|notes| {
             let walk = notes.along(ray.direction).map(|place| place.walk);
             let hit = hit.as_ref().map(|hit| hit.t);
@@ -150,11 +118,110 @@ impl<'a, W: World> World for Recorder<'a, W> {
         hit
     }
 
+    fn intersect_batch<'r>(&self, queries: impl Iterator<Item = (&'r Ray, &'r mut Option<Hit>)>) {
+        for (ray, hit) in queries {
+            *hit = self.intersect(ray);
+        }
+    }
+
     fn vertex(&self, ray: &Ray, hit: &Hit) -> SurfaceInteraction {
-        let vertex = self.world.vertex(ray, hit);
+        let vertex = self.part.vertex(ray, hit);
         self.notebook
             .write(|notes| notes.shade(&vertex, ray.direction));
         vertex
+    }
+
+    fn bsdf(
+        &self,
+        vertex: &SurfaceInteraction,
+        wo: Vec3,
+        wavelengths: &Wavelengths,
+    ) -> Self::Bsdf<'_> {
+        let place = self.notebook.write(|notes| notes.place(vertex));
+        RecordingBsdf {
+            model: self.part.bsdf(vertex, wo, wavelengths),
+            place,
+            notebook: self.notebook,
+        }
+    }
+
+    fn legacy_phong(
+        &self,
+        vertex: &SurfaceInteraction,
+        wo: Vec3,
+        wavelengths: &Wavelengths,
+    ) -> Option<LegacyPhong> {
+        self.part.legacy_phong(vertex, wo, wavelengths)
+    }
+
+    fn take_ray_count(&self) -> u64 {
+        self.part.take_ray_count()
+    }
+}
+
+impl<L: Lights> Lights for Recording<'_, L> {
+    fn count(&self) -> u32 {
+        self.part.count()
+    }
+
+    fn is_emitter(&self, hit: &Hit) -> bool {
+        self.part.is_emitter(hit)
+    }
+
+    fn emitted(&self, vertex: &SurfaceInteraction, wo: Vec3, wavelengths: &Wavelengths) -> Vec4 {
+        let radiance = self.part.emitted(vertex, wo, wavelengths);
+        self.notebook.note(Event::Emission(radiance));
+        radiance
+    }
+
+    fn has_background(&self) -> bool {
+        self.part.has_background()
+    }
+
+    fn background(&self, direction: Vec3, wavelengths: &Wavelengths) -> Vec4 {
+        let radiance = self.part.background(direction, wavelengths);
+        self.notebook.note(Event::Background(direction, radiance));
+        radiance
+    }
+
+    fn sample_one(
+        &self,
+        light: LightId,
+        from: &LightSampleContext,
+        wavelengths: &Wavelengths,
+        u: Vec2,
+    ) -> Option<LightSample> {
+        let sample = self.part.sample_one(light, from, wavelengths, u);
+        self.notebook.note(Event::Light(sample));
+        sample
+    }
+}
+
+impl<'a, W: World> World for Recorder<'a, W> {
+    type Surfaces = Recording<'a, W::Surfaces>;
+    type Lights = Recording<'a, W::Lights>;
+    type Media = W::Media;
+    type Camera = Recording<'a, W::Camera>;
+    type Sensor = Recording<'a, W::Sensor>;
+
+    fn surfaces(&self) -> &Self::Surfaces {
+        &self.surfaces
+    }
+
+    fn lights(&self) -> &Self::Lights {
+        &self.lights
+    }
+
+    fn media(&self) -> &Self::Media {
+        self.world.media()
+    }
+
+    fn camera(&self) -> &Self::Camera {
+        &self.camera
+    }
+
+    fn sensor(&self) -> &Self::Sensor {
+        &self.sensor
     }
 
     fn transmittance(
@@ -168,47 +235,10 @@ impl<'a, W: World> World for Recorder<'a, W> {
         passage
     }
 
-    fn bsdf(
-        &self,
-        vertex: &SurfaceInteraction,
-        wo: Vec3,
-        wavelengths: &Wavelengths,
-    ) -> Self::Bsdf<'_> {
-        let place = self.notebook.write(|notes| notes.place(vertex));
-        RecordingBsdf {
-            model: self.world.bsdf(vertex, wo, wavelengths),
-            place,
-            notebook: self.notebook,
+    fn transmittance_batch<'r>(&self, queries: impl Iterator<Item = ShadowQuery<'r>>) {
+        for query in queries {
+            *query.found = self.transmittance(query.ray, query.wavelengths, query.crossings);
         }
-    }
-
-    fn legacy_phong(
-        &self,
-        vertex: &SurfaceInteraction,
-        wo: Vec3,
-        wavelengths: &Wavelengths,
-    ) -> Option<LegacyPhong> {
-        self.world.legacy_phong(vertex, wo, wavelengths)
-    }
-
-    fn emitted(&self, vertex: &SurfaceInteraction, wo: Vec3, wavelengths: &Wavelengths) -> Vec4 {
-        let radiance = self.world.emitted(vertex, wo, wavelengths);
-        self.notebook.note(Event::Emission(radiance));
-        radiance
-    }
-
-    fn is_emitter(&self, hit: &Hit) -> bool {
-        self.world.is_emitter(hit)
-    }
-
-    fn background(&self, direction: Vec3, wavelengths: &Wavelengths) -> Vec4 {
-        let radiance = self.world.background(direction, wavelengths);
-        self.notebook.note(Event::Background(direction, radiance));
-        radiance
-    }
-
-    fn has_background(&self) -> bool {
-        self.world.has_background()
     }
 
     fn sample_light(
@@ -225,22 +255,6 @@ impl<'a, W: World> World for Recorder<'a, W> {
 
     fn light_variety(&self, from: &LightSampleContext) -> LightVariety {
         self.world.light_variety(from)
-    }
-
-    fn light_count(&self) -> u32 {
-        self.world.light_count()
-    }
-
-    fn sample_one_light(
-        &self,
-        light: LightId,
-        from: &LightSampleContext,
-        wavelengths: &Wavelengths,
-        u: Vec2,
-    ) -> Option<LightSample> {
-        let sample = self.world.sample_one_light(light, from, wavelengths, u);
-        self.notebook.note(Event::Light(sample));
-        sample
     }
 
     fn light_density(
@@ -291,10 +305,6 @@ impl<'a, W: World> World for Recorder<'a, W> {
         self.world.emission_density(light, direction, cos, time)
     }
 
-    fn medium_light_density(&self, medium: MediumId, at: Vec3) -> f32 {
-        self.world.medium_light_density(medium, at)
-    }
-
     fn background_emission_density(&self, direction: Vec3) -> EmissionPdf {
         self.world.background_emission_density(direction)
     }
@@ -303,15 +313,18 @@ impl<'a, W: World> World for Recorder<'a, W> {
         self.world.light_sample_density(from, start)
     }
 
-    fn take_ray_count(&self) -> u64 {
-        self.world.take_ray_count()
+    fn medium_light_density(&self, medium: MediumId, at: Vec3) -> f32 {
+        self.world.medium_light_density(medium, at)
     }
 
     fn record(&self, remark: impl FnOnce() -> TraceEvent) -> bool {
         // It may itself ask the world.
         let remark = remark();
-        self.notebook
-            .write(|notes| notes.record(remark, |wavelengths| self.world.sensor(wavelengths)));
+        self.notebook.write(|notes| {
+            notes.record(remark, |wavelengths| {
+                self.world.sensor().weights(wavelengths)
+            })
+        });
         true
     }
 }

@@ -14,7 +14,7 @@
 //! Photons share the wavelengths of the integrator, so that each packet of four has a part of them for itself. A photon goes every way that
 //! the recursion would go with the probability that it has as a share of the light there, and is absorbed with the rest.
 
-use super::shading::{Surface, Surfaces};
+use super::shading::{Surface, SurfaceBySet};
 use super::tree::{Continuation, Packet, SETS, onward};
 use crate::particle::LightPath;
 use crate::photons::kdtree::Found;
@@ -104,7 +104,7 @@ impl Caustics {
         &self,
         vertex: &SurfaceInteraction,
         wo: Vec3,
-        (packets, surfaces): (&[Packet], &Surfaces<'_, W>),
+        (packets, surfaces): (&[Packet], &SurfaceBySet<'_, W>),
         [depth, max_depth]: [u32; 2],
         found: &mut Vec<Found>,
     ) -> Vec3 {

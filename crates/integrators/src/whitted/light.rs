@@ -1,12 +1,13 @@
 //! What arrives straight from the lights.
 
-use super::shading::{Surface, Surfaces};
+use super::shading::{Surface, SurfaceBySet};
 use super::tree::{Packet, SETS};
 use super::{Falloff, Whitted};
 use etalon_sampling::Sampler;
 use etalon_spectrum::Wavelengths;
 use etalon_transport::{
-    Bsdf, LegacyPhong, LightId, LightSample, LightSampleContext, Ray, SurfaceInteraction, World,
+    Bsdf, LegacyPhong, LightId, LightSample, LightSampleContext, Lights, Ray, SurfaceInteraction,
+    Surfaces, World,
 };
 use glam::{Vec3, Vec4};
 
@@ -19,7 +20,7 @@ impl Whitted {
         world: &W,
         vertex: &SurfaceInteraction,
         wo: Vec3,
-        (packets, surfaces): (&[Packet], &Surfaces<'_, W>),
+        (packets, surfaces): (&[Packet], &SurfaceBySet<'_, W>),
         crossings: u32,
         sampler: &mut impl Sampler,
     ) -> Vec3 {
@@ -28,11 +29,11 @@ impl Whitted {
             _ => LightSampleContext::on_surface(vertex.position, vertex.shading.n).at(vertex.time),
         };
         let mut sum = Vec3::ZERO;
-        for light in (0..world.light_count()).map(LightId) {
+        for light in (0..world.lights().count()).map(LightId) {
             for point in 0..self.light_points.count() {
                 let place = self.light_points.point(point, sampler);
                 let sample = |wavelengths: &Wavelengths| {
-                    world.sample_one_light(light, &from, wavelengths, place)
+                    world.lights().sample_one(light, &from, wavelengths, place)
                 };
                 let Some(first) = sample(&packets[0].wavelengths) else {
                     continue;
@@ -87,28 +88,32 @@ impl Whitted {
     fn reach<W: World>(
         &self,
         world: &W,
-        mut ray: Ray,
+        segment: Ray,
         packets: &[Packet],
         mut crossings: u32,
     ) -> Option<[Vec4; SETS]> {
-        let (origin, end) = (ray.origin, ray.t_max);
+        let mut ray = segment;
         let mut fractions = [Vec4::ONE; SETS];
         // Photons bring what is refracted to where it arrives in truth.
         let passes = |material: &LegacyPhong| match self.caustics.photons {
             0 => material.transparency,
             _ => 0.0,
         };
-        while let Some(hit) = world.intersect(&ray) {
+        while let Some(hit) = world.surfaces().intersect(&ray) {
             crossings = crossings.checked_sub(1)?;
-            let vertex = world.vertex(&ray, &hit);
+            let vertex = world.surfaces().vertex(&ray, &hit);
             let wo = -ray.direction;
             let mut any = false;
             for (fraction, packet) in fractions.iter_mut().zip(packets) {
-                *fraction *= match world.legacy_phong(&vertex, wo, &packet.wavelengths) {
+                *fraction *= match world
+                    .surfaces()
+                    .legacy_phong(&vertex, wo, &packet.wavelengths)
+                {
                     Some(material) => {
                         Vec4::splat(1.0 - material.opacity * (1.0 - passes(&material)))
                     }
                     None => world
+                        .surfaces()
                         .bsdf(&vertex, wo, &packet.wavelengths)
                         .null_transmittance(),
                 };
@@ -117,14 +122,10 @@ impl Whitted {
             if !any {
                 return None;
             }
-            ray = vertex.spawn(ray.direction);
-            if end.is_finite() {
-                // What is left of the segment, measured from where the ray goes on.
-                ray.t_max = end - (ray.origin - origin).dot(ray.direction);
-                if !(ray.t_max > 0.0) {
-                    break;
-                }
-            }
+            let Some(rest) = vertex.rest_of(&segment) else {
+                break;
+            };
+            ray = rest;
         }
         Some(fractions)
     }

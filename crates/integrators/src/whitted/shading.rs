@@ -2,7 +2,9 @@
 
 use super::phong;
 use super::tree::{Packet, SETS};
-use etalon_transport::{Bsdf, LegacyPhong, SurfaceInteraction, TransportMode, World};
+use etalon_transport::{
+    Bsdf, BsdfOf, LegacyPhong, SurfaceInteraction, Surfaces, TransportMode, World,
+};
 use glam::{Vec3, Vec4};
 
 /// What lies at a surface, for one packet.
@@ -12,7 +14,7 @@ pub(super) enum Surface<B> {
 }
 
 /// The same for each packet.
-pub(super) type Surfaces<'w, W> = [Option<Surface<<W as World>::Bsdf<'w>>>; SETS];
+pub(super) type SurfaceBySet<'w, W> = [Option<Surface<BsdfOf<'w, W>>>; SETS];
 
 /// What lies at `vertex`, seen from `wo`, for each packet.
 pub(super) fn at<'w, W: World>(
@@ -20,13 +22,15 @@ pub(super) fn at<'w, W: World>(
     vertex: &SurfaceInteraction,
     wo: Vec3,
     packets: &[Packet],
-) -> Surfaces<'w, W> {
+) -> SurfaceBySet<'w, W> {
     core::array::from_fn(|i| {
         let wavelengths = &packets.get(i)?.wavelengths;
-        Some(match world.legacy_phong(vertex, wo, wavelengths) {
-            Some(material) => Surface::Classic(material),
-            None => Surface::Scattering(world.bsdf(vertex, wo, wavelengths)),
-        })
+        Some(
+            match world.surfaces().legacy_phong(vertex, wo, wavelengths) {
+                Some(material) => Surface::Classic(material),
+                None => Surface::Scattering(world.surfaces().bsdf(vertex, wo, wavelengths)),
+            },
+        )
     })
 }
 

@@ -10,7 +10,9 @@ use crate::photons::sets::WavelengthChoice;
 use crate::steps::next_surface;
 use etalon_sampling::Sampler;
 use etalon_spectrum::{QuadratureNode, SensorWeights, Wavelengths};
-use etalon_transport::{Bsdf, Camera, Ray, SurfaceInteraction, TransportMode, World};
+use etalon_transport::{
+    Bsdf, Camera, Lights, Ray, Sensor, SurfaceInteraction, Surfaces, TransportMode, World,
+};
 use glam::{Vec2, Vec3, Vec4};
 use std::cell::RefCell;
 
@@ -51,7 +53,11 @@ impl Packet {
 
 /// The packets of `count` nodes, at most [`SETS`].
 pub(super) fn packets<W: World>(world: &W, count: u32) -> Vec<Packet> {
-    let nodes = QuadratureNode::all(count, |u| world.wavelengths(u), |w| world.sensor(w));
+    let nodes = QuadratureNode::all(
+        count,
+        |u| world.sensor().wavelengths(u),
+        |w| world.sensor().weights(w),
+    );
     let weight = Vec4::splat(1.0 / (4 * count) as f32);
     (nodes.zip(0..))
         .map(|(node, set)| Packet {
@@ -127,10 +133,13 @@ impl Whitted {
         let mut sum = Vec3::ZERO;
         for packet in packets {
             let mut radiance = Vec4::ZERO;
-            if world.is_emitter(&hit) {
-                radiance += world.emitted(&vertex, wo, &packet.wavelengths);
+            if world.lights().is_emitter(&hit) {
+                radiance += world.lights().emitted(&vertex, wo, &packet.wavelengths);
             }
-            if let Some(material) = world.legacy_phong(&vertex, wo, &packet.wavelengths) {
+            if let Some(material) = world
+                .surfaces()
+                .legacy_phong(&vertex, wo, &packet.wavelengths)
+            {
                 let own = (1.0 - material.transparency) * material.opacity;
                 radiance += material.ambient * (self.ambient * own);
             }
@@ -234,10 +243,10 @@ impl Whitted {
                 return 1.0 - open;
             };
             let wo = -ray.direction;
-            open *= match world.legacy_phong(&vertex, wo, wavelengths) {
+            open *= match world.surfaces().legacy_phong(&vertex, wo, wavelengths) {
                 Some(material) => 1.0 - material.opacity,
                 None => {
-                    let bsdf = world.bsdf(&vertex, wo, wavelengths);
+                    let bsdf = world.surfaces().bsdf(&vertex, wo, wavelengths);
                     0.25 * bsdf.null_probability().element_sum()
                 }
             };
@@ -260,10 +269,10 @@ pub fn onward<W: World>(
     (wavelengths, mode): (&Wavelengths, TransportMode),
     index: u32,
 ) -> Option<Continuation> {
-    if let Some(material) = world.legacy_phong(vertex, wo, wavelengths) {
+    if let Some(material) = world.surfaces().legacy_phong(vertex, wo, wavelengths) {
         return phong::onward(&material, vertex, wo, index);
     }
-    let sample = (world.bsdf(vertex, wo, wavelengths)).discrete(wo, index, mode)?;
+    let sample = (world.surfaces().bsdf(vertex, wo, wavelengths)).discrete(wo, index, mode)?;
     Some(Continuation {
         wi: sample.wi,
         value: sample.value,

@@ -1,7 +1,7 @@
 //! The sphere: a world without scene, materials and shapes.
 
 use etalon_math::{Area, Density, Frame, SolidAngle};
-use etalon_spectrum::{WavelengthDistribution, Wavelengths};
+use etalon_spectrum::{SensorWeights, WavelengthDistribution, Wavelengths, sensor_response};
 use etalon_transport::*;
 use glam::{Vec2, Vec3, Vec4};
 use std::f32::consts::PI;
@@ -135,6 +135,27 @@ impl Bsdf for Lambert {
     fn albedo(&self, _: Vec3) -> Vec4 {
         Vec4::splat(self.reflectance)
     }
+    fn eval_and_density(
+        &self,
+        wo: Vec3,
+        wi: Vec3,
+        mode: TransportMode,
+    ) -> (Vec4, Density<SolidAngle>) {
+        (self.eval(wo, wi, mode), self.density(wo, wi))
+    }
+    fn discrete(&self, _: Vec3, _: u32, _: TransportMode) -> Option<BsdfSample> {
+        None
+    }
+    fn has_discrete(&self) -> bool {
+        false
+    }
+    fn hemisphere(&self) -> Option<Frame> {
+        None
+    }
+    fn projected_area(&self, _: Vec3) -> f32 {
+        1.0
+    }
+    fn mixed(&self, _: impl FnOnce() -> Mixture) {}
 }
 
 fn on_sphere(u: Vec2) -> Vec3 {
@@ -172,17 +193,9 @@ impl Sphere {
     }
 }
 
-impl World for Sphere {
+impl Surfaces for Sphere {
     type Bsdf<'w> = Lambert;
-    type Medium<'w> = Vacuum;
-    type Camera = Pinhole;
 
-    fn camera(&self) -> &Pinhole {
-        &self.camera
-    }
-    fn wavelengths(&self, u: f32) -> Wavelengths {
-        Wavelengths::sample(&self.distribution, u)
-    }
     fn intersect(&self, ray: &Ray) -> Option<Hit> {
         let b = ray.origin.dot(ray.direction);
         let t = -b + (b * b + 1.0 - ray.origin.length_squared()).max(0.0).sqrt();
@@ -194,6 +207,11 @@ impl World for Sphere {
             instance: InstanceId::NONE,
             slot: 0,
         })
+    }
+    fn intersect_batch<'r>(&self, queries: impl Iterator<Item = (&'r Ray, &'r mut Option<Hit>)>) {
+        for (ray, hit) in queries {
+            *hit = self.intersect(ray);
+        }
     }
     fn vertex(&self, ray: &Ray, hit: &Hit) -> SurfaceInteraction {
         let normal = -ray.at(hit.t).normalize();
@@ -217,9 +235,6 @@ impl World for Sphere {
             media: etalon_transport::MediumInterface::NONE,
         }
     }
-    fn transmittance(&self, _: &Ray, _: &Wavelengths, _: u32) -> Option<Transmission> {
-        Some(Transmission::FREE)
-    }
     fn bsdf(&self, vertex: &SurfaceInteraction, _: Vec3, _: &Wavelengths) -> Lambert {
         Lambert {
             reflectance: self.reflectance,
@@ -227,17 +242,84 @@ impl World for Sphere {
             fault: self.fault,
         }
     }
-    fn emitted(&self, _: &SurfaceInteraction, _: Vec3, _: &Wavelengths) -> Vec4 {
-        Vec4::splat(self.radiance())
+    fn legacy_phong(
+        &self,
+        _: &SurfaceInteraction,
+        _: Vec3,
+        _: &Wavelengths,
+    ) -> Option<LegacyPhong> {
+        None
+    }
+    fn take_ray_count(&self) -> u64 {
+        0
+    }
+}
+
+impl Lights for Sphere {
+    fn count(&self) -> u32 {
+        1
     }
     fn is_emitter(&self, _: &Hit) -> bool {
         true
     }
-    fn background(&self, _: Vec3, _: &Wavelengths) -> Vec4 {
-        Vec4::ZERO
+    fn emitted(&self, _: &SurfaceInteraction, _: Vec3, _: &Wavelengths) -> Vec4 {
+        Vec4::splat(self.radiance())
     }
     fn has_background(&self) -> bool {
         false
+    }
+    fn background(&self, _: Vec3, _: &Wavelengths) -> Vec4 {
+        Vec4::ZERO
+    }
+    fn sample_one(
+        &self,
+        _: LightId,
+        from: &LightSampleContext,
+        w: &Wavelengths,
+        u: Vec2,
+    ) -> Option<LightSample> {
+        self.sample_light(from, w, 0.0, u)
+    }
+}
+
+impl Sensor for Sphere {
+    fn wavelengths(&self, u: f32) -> Wavelengths {
+        Wavelengths::sample(&self.distribution, u)
+    }
+    fn weights(&self, wavelengths: &Wavelengths) -> SensorWeights {
+        sensor_response(wavelengths)
+    }
+}
+
+impl World for Sphere {
+    type Surfaces = Self;
+    type Lights = Self;
+    type Media = NoMedia;
+    type Camera = Pinhole;
+    type Sensor = Self;
+
+    fn surfaces(&self) -> &Self {
+        self
+    }
+    fn lights(&self) -> &Self {
+        self
+    }
+    fn media(&self) -> &NoMedia {
+        &NoMedia
+    }
+    fn camera(&self) -> &Pinhole {
+        &self.camera
+    }
+    fn sensor(&self) -> &Self {
+        self
+    }
+    fn transmittance(&self, _: &Ray, _: &Wavelengths, _: u32) -> Option<Transmission> {
+        Some(Transmission::FREE)
+    }
+    fn transmittance_batch<'r>(&self, queries: impl Iterator<Item = ShadowQuery<'r>>) {
+        for query in queries {
+            *query.found = self.transmittance(query.ray, query.wavelengths, query.crossings);
+        }
     }
     fn sample_light(
         &self,
@@ -268,17 +350,8 @@ impl World for Sphere {
         })
         .filter(|_| w.lambda.x > 0.0)
     }
-    fn light_count(&self) -> u32 {
-        1
-    }
-    fn sample_one_light(
-        &self,
-        _: LightId,
-        from: &LightSampleContext,
-        w: &Wavelengths,
-        u: Vec2,
-    ) -> Option<LightSample> {
-        self.sample_light(from, w, 0.0, u)
+    fn light_variety(&self, _: &LightSampleContext) -> LightVariety {
+        LightVariety::Several
     }
     fn light_density(
         &self,
@@ -335,7 +408,10 @@ impl World for Sphere {
             .to_solid_angle(to.length_squared(), cos)
             .hero()
     }
-    fn take_ray_count(&self) -> u64 {
-        0
+    fn medium_light_density(&self, _: MediumId, _: Vec3) -> f32 {
+        0.0
+    }
+    fn record(&self, _: impl FnOnce() -> TraceEvent) -> bool {
+        false
     }
 }

@@ -4,7 +4,7 @@ use crate::tally::Tally;
 use crate::world::{Plane, Stack, ZERO};
 use etalon_integrators::{Progress, RenderPlan, RenderStatistics, ReplicateRange, render};
 use etalon_sampling::{ReplicateKind, Sampler, SamplerKind};
-use etalon_transport::{Channel, Integrator, Pass, PixelSample, Placing, Sink, World};
+use etalon_transport::{Channel, Integrator, Pass, PixelSample, Placing, Sink, Surfaces, World};
 use glam::UVec2;
 use std::sync::atomic::{AtomicU32, AtomicU64, Ordering};
 
@@ -65,7 +65,7 @@ impl Integrator for Marbles {
         sampler.skip_to(4);
         let anywhere = self.origin.as_vec2() + sampler.next_2d() * self.size.as_vec2();
         sink.splat(anywhere, [sampler.next_1d(); 3]);
-        world.intersect(&etalon_transport::Ray::new(
+        world.surfaces().intersect(&etalon_transport::Ray::new(
             glam::Vec3::Z,
             glam::Vec3::X,
             0.0,

@@ -5,7 +5,7 @@ use crate::world::{Fault, Plane, Stack, ZERO};
 use etalon_integrators::whitted::{CausticSettings, Falloff, Grid, Placement, PointSet, Whitted};
 use etalon_sampling::{Independent, SampleId};
 use etalon_spectrum::{QuadratureNode, sensor_response};
-use etalon_transport::{Integrator, Pass, PixelSample, Sink, World};
+use etalon_transport::{Integrator, Pass, PixelSample, Sensor, Sink, World};
 use glam::{UVec2, Vec2, Vec4};
 
 const WAVELENGTHS: u32 = 24;
@@ -103,7 +103,11 @@ fn exact(stack: &Stack, max_depth: u32) -> [f32; 3] {
         max_depth,
         hidden: false,
     };
-    let nodes = QuadratureNode::all(WAVELENGTHS / 4, |u| stack.wavelengths(u), sensor_response);
+    let nodes = QuadratureNode::all(
+        WAVELENGTHS / 4,
+        |u| stack.sensor().wavelengths(u),
+        sensor_response,
+    );
     let colour = nodes.map(|node| {
         let lambda = node.wavelengths.lambda.to_array();
         let radiance = lambda.map(|l| exact.radiance(l) as f32);

@@ -123,6 +123,18 @@ impl Bsdf for Scatter {
     fn albedo(&self, _: Vec3) -> Vec4 {
         self.lobe
     }
+    fn eval_and_density(
+        &self,
+        wo: Vec3,
+        wi: Vec3,
+        mode: TransportMode,
+    ) -> (Vec4, Density<SolidAngle>) {
+        (self.eval(wo, wi, mode), self.density(wo, wi))
+    }
+    fn projected_area(&self, _: Vec3) -> f32 {
+        1.0
+    }
+    fn mixed(&self, _: impl FnOnce() -> Mixture) {}
 }
 
 /// Cosine of the discrete direction's angle with the normal, for a wavelength.

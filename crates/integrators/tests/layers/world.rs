@@ -2,7 +2,7 @@
 
 use crate::scatter::{Scatter, tilt};
 use etalon_math::{Density, Frame, SolidAngle, float};
-use etalon_spectrum::{WavelengthDistribution, Wavelengths};
+use etalon_spectrum::{SensorWeights, WavelengthDistribution, Wavelengths, sensor_response};
 use etalon_transport::*;
 use glam::{Vec2, Vec3, Vec4};
 use std::f32::consts::PI;
@@ -105,6 +105,12 @@ impl Camera for Camera1D {
     fn has_lens(&self) -> bool {
         false
     }
+    fn intersect_aperture(&self, _: &Ray, _: f32) -> Option<ApertureHit> {
+        None
+    }
+    fn can_receive(&self) -> bool {
+        false
+    }
 }
 
 fn curve(f: Curve, lambda: Vec4) -> Vec4 {
@@ -133,7 +139,7 @@ impl Stack {
     }
 
     /// Lights: the planes that emit, and the sky.
-    fn lights(&self) -> usize {
+    fn light_total(&self) -> usize {
         self.planes.iter().filter(|p| p.emits()).count() + usize::from(self.has_background())
     }
 
@@ -142,27 +148,15 @@ impl Stack {
         let choice = if self.fault == Fault::LightChoice {
             1.0
         } else {
-            self.lights() as f32
+            self.light_total() as f32
         };
         1.0 / (2.0 * PI * choice)
     }
 }
 
-impl World for Stack {
+impl Surfaces for Stack {
     type Bsdf<'w> = Scatter;
-    type Medium<'w> = Vacuum;
-    type Camera = Camera1D;
 
-    fn camera(&self) -> &Camera1D {
-        &self.camera
-    }
-    fn wavelengths(&self, u: f32) -> Wavelengths {
-        match self.fixed {
-            None => Wavelengths::sample(&self.distribution, u),
-            Some(fixed) if self.fault == Fault::FirstLane => fixed,
-            Some(fixed) => fixed.rotated((u * 4.0) as usize),
-        }
-    }
     fn intersect(&self, ray: &Ray) -> Option<Hit> {
         let hit = |(i, plane): (usize, &Plane)| {
             let t = (plane.height - ray.origin.z) / ray.direction.z;
@@ -178,6 +172,11 @@ impl World for Stack {
             instance: InstanceId::NONE,
             slot: 0,
         })
+    }
+    fn intersect_batch<'r>(&self, queries: impl Iterator<Item = (&'r Ray, &'r mut Option<Hit>)>) {
+        for (ray, hit) in queries {
+            *hit = self.intersect(ray);
+        }
     }
     fn vertex(&self, ray: &Ray, hit: &Hit) -> SurfaceInteraction {
         let plane = &self.planes[hit.shape.0 as usize];
@@ -207,6 +206,105 @@ impl World for Stack {
             media: etalon_transport::MediumInterface::NONE,
         }
     }
+    fn bsdf(&self, vertex: &SurfaceInteraction, wo: Vec3, wavelengths: &Wavelengths) -> Scatter {
+        let plane = &self.planes[vertex.shape.0 as usize];
+        let lambda = wavelengths.lambda;
+        let passing = curve(plane.passing, lambda);
+        let reflected = curve(plane.reflectance, lambda) * (1.0 - passing);
+        Scatter {
+            passing,
+            lobe: reflected * (1.0 - plane.smooth),
+            atom: reflected * plane.smooth,
+            exponent: curve(plane.exponent, lambda),
+            share: plane.smooth,
+            normal: Vec3::Z * wo.z.signum(),
+            tilt: lambda.map(tilt),
+            fault: self.fault,
+            one_sided: self.one_sided,
+        }
+    }
+    fn legacy_phong(
+        &self,
+        _: &SurfaceInteraction,
+        _: Vec3,
+        _: &Wavelengths,
+    ) -> Option<LegacyPhong> {
+        None
+    }
+    fn take_ray_count(&self) -> u64 {
+        0
+    }
+}
+
+impl Lights for Stack {
+    fn count(&self) -> u32 {
+        self.light_total() as u32
+    }
+    fn is_emitter(&self, hit: &Hit) -> bool {
+        self.planes[hit.shape.0 as usize].emits()
+    }
+    fn emitted(&self, vertex: &SurfaceInteraction, wo: Vec3, wavelengths: &Wavelengths) -> Vec4 {
+        let plane = &self.planes[vertex.shape.0 as usize];
+        curve(plane.emission[usize::from(wo.z > 0.0)], wavelengths.lambda)
+    }
+    fn has_background(&self) -> bool {
+        (self.sky)(550.0) > 0.0
+    }
+    fn background(&self, direction: Vec3, wavelengths: &Wavelengths) -> Vec4 {
+        curve(self.sky, wavelengths.lambda) * float::pow(direction.z.abs(), self.sky_power)
+    }
+    fn sample_one(
+        &self,
+        light: LightId,
+        from: &LightSampleContext,
+        w: &Wavelengths,
+        v: Vec2,
+    ) -> Option<LightSample> {
+        let lights = self.light_total() as f32;
+        let sample = self.sample_light(from, w, (light.0 as f32 + 0.5) / lights, v)?;
+        let density = sample.chance.lanes() * lights;
+        Some(LightSample {
+            chance: SamplePdf::Continuous(Density::per_lane(density)),
+            ..sample
+        })
+    }
+}
+
+impl Sensor for Stack {
+    fn wavelengths(&self, u: f32) -> Wavelengths {
+        match self.fixed {
+            None => Wavelengths::sample(&self.distribution, u),
+            Some(fixed) if self.fault == Fault::FirstLane => fixed,
+            Some(fixed) => fixed.rotated((u * 4.0) as usize),
+        }
+    }
+    fn weights(&self, wavelengths: &Wavelengths) -> SensorWeights {
+        sensor_response(wavelengths)
+    }
+}
+
+impl World for Stack {
+    type Surfaces = Self;
+    type Lights = Self;
+    type Media = NoMedia;
+    type Camera = Camera1D;
+    type Sensor = Self;
+
+    fn surfaces(&self) -> &Self {
+        self
+    }
+    fn lights(&self) -> &Self {
+        self
+    }
+    fn media(&self) -> &NoMedia {
+        &NoMedia
+    }
+    fn camera(&self) -> &Camera1D {
+        &self.camera
+    }
+    fn sensor(&self) -> &Self {
+        self
+    }
     fn transmittance(
         &self,
         ray: &Ray,
@@ -231,35 +329,10 @@ impl World for Stack {
         }
         Some(passage)
     }
-    fn bsdf(&self, vertex: &SurfaceInteraction, wo: Vec3, wavelengths: &Wavelengths) -> Scatter {
-        let plane = &self.planes[vertex.shape.0 as usize];
-        let lambda = wavelengths.lambda;
-        let passing = curve(plane.passing, lambda);
-        let reflected = curve(plane.reflectance, lambda) * (1.0 - passing);
-        Scatter {
-            passing,
-            lobe: reflected * (1.0 - plane.smooth),
-            atom: reflected * plane.smooth,
-            exponent: curve(plane.exponent, lambda),
-            share: plane.smooth,
-            normal: Vec3::Z * wo.z.signum(),
-            tilt: lambda.map(tilt),
-            fault: self.fault,
-            one_sided: self.one_sided,
+    fn transmittance_batch<'r>(&self, queries: impl Iterator<Item = ShadowQuery<'r>>) {
+        for query in queries {
+            *query.found = self.transmittance(query.ray, query.wavelengths, query.crossings);
         }
-    }
-    fn emitted(&self, vertex: &SurfaceInteraction, wo: Vec3, wavelengths: &Wavelengths) -> Vec4 {
-        let plane = &self.planes[vertex.shape.0 as usize];
-        curve(plane.emission[usize::from(wo.z > 0.0)], wavelengths.lambda)
-    }
-    fn is_emitter(&self, hit: &Hit) -> bool {
-        self.planes[hit.shape.0 as usize].emits()
-    }
-    fn background(&self, direction: Vec3, wavelengths: &Wavelengths) -> Vec4 {
-        curve(self.sky, wavelengths.lambda) * float::pow(direction.z.abs(), self.sky_power)
-    }
-    fn has_background(&self) -> bool {
-        (self.sky)(550.0) > 0.0
     }
     fn sample_light(
         &self,
@@ -268,7 +341,7 @@ impl World for Stack {
         u: f32,
         v: Vec2,
     ) -> Option<LightSample> {
-        let lights = self.lights();
+        let lights = self.light_total();
         let choice = ((u * lights as f32) as usize).min(lights.checked_sub(1)?);
         let mut emitting = self.planes.iter().enumerate().filter(|(_, p)| p.emits());
         let uniform = |density: f32| SamplePdf::Continuous(Density::uniform(density));
@@ -306,23 +379,8 @@ impl World for Stack {
             light: LightId(index as u32),
         })
     }
-    fn light_count(&self) -> u32 {
-        self.lights() as u32
-    }
-    fn sample_one_light(
-        &self,
-        light: LightId,
-        from: &LightSampleContext,
-        w: &Wavelengths,
-        v: Vec2,
-    ) -> Option<LightSample> {
-        let lights = self.lights() as f32;
-        let sample = self.sample_light(from, w, (light.0 as f32 + 0.5) / lights, v)?;
-        let density = sample.chance.lanes() * lights;
-        Some(LightSample {
-            chance: SamplePdf::Continuous(Density::per_lane(density)),
-            ..sample
-        })
+    fn light_variety(&self, _: &LightSampleContext) -> LightVariety {
+        LightVariety::Several
     }
     fn light_density(
         &self,
@@ -352,7 +410,10 @@ impl World for Stack {
     fn light_sample_density(&self, _: &LightSampleContext, _: &Emission) -> f32 {
         0.0
     }
-    fn take_ray_count(&self) -> u64 {
-        0
+    fn medium_light_density(&self, _: MediumId, _: Vec3) -> f32 {
+        0.0
+    }
+    fn record(&self, _: impl FnOnce() -> TraceEvent) -> bool {
+        false
     }
 }

@@ -3,7 +3,8 @@
 use etalon_sampling::{Independent, Sampler};
 use etalon_spectrum::Wavelengths;
 use etalon_transport::{
-    Bsdf, Camera, Emission, LightId, LightKind, Ray, SurfaceInteraction, TransportMode, World,
+    Bsdf, Camera, Emission, LightId, LightKind, Lights, Ray, Sensor, SurfaceInteraction, Surfaces,
+    TransportMode, World,
 };
 use glam::{Vec2, Vec3, Vec4};
 
@@ -122,17 +123,17 @@ fn walk<W: World>(
 ) -> Option<Vec<(SurfaceInteraction, bool)>> {
     let mut found: Vec<(SurfaceInteraction, bool)> = Vec::new();
     while found.len() < count {
-        let hit = world.intersect(&ray)?;
-        if world.is_emitter(&hit) {
+        let hit = world.surfaces().intersect(&ray)?;
+        if world.lights().is_emitter(&hit) {
             return None;
         }
-        let vertex = world.vertex(&ray, &hit);
+        let vertex = world.surfaces().vertex(&ray, &hit);
         found.push((vertex, false));
         if found.len() == count {
             break;
         }
         let wo = -ray.direction;
-        let bsdf = world.bsdf(&vertex, wo, wavelengths);
+        let bsdf = world.surfaces().bsdf(&vertex, wo, wavelengths);
         let sample = bsdf.sample(wo, dice.next_1d(), dice.next_2d(), mode)?;
         found.last_mut()?.1 = sample.chance.is_delta();
         ray = vertex.spawn(sample.wi);
@@ -143,7 +144,7 @@ fn walk<W: World>(
 /// Draws a path: some surfaces from the light, some from the camera, connected. `None` if it carries no
 /// light, or is none that single precision is enough for.
 pub(crate) fn draw<W: World>(world: &W, dice: &mut Independent) -> Option<Course> {
-    let wavelengths = world.wavelengths(dice.next_1d());
+    let wavelengths = world.sensor().wavelengths(dice.next_1d());
     let raster = dice.next_2d() * 32.0;
     let lens = dice.next_2d();
     let ray = world.camera().ray(raster, lens, 0.0).ray;
@@ -201,8 +202,11 @@ pub(crate) fn draw<W: World>(world: &W, dice: &mut Independent) -> Option<Course
     let mut lamp = None;
     if start.origin == LightKind::Surface {
         let ray = first.spawn((start.point.position - first.position).try_normalize()?);
-        let hit = world.intersect(&ray).filter(|hit| world.is_emitter(hit))?;
-        let vertex = world.vertex(&ray, &hit);
+        let hit = world
+            .surfaces()
+            .intersect(&ray)
+            .filter(|hit| world.lights().is_emitter(hit))?;
+        let vertex = world.surfaces().vertex(&ray, &hit);
         if vertex.light != start.light || vertex.position.distance(start.point.position) > 1e-3 {
             return None;
         }
@@ -248,7 +252,7 @@ impl Course {
         let (radiance, density, cos) = match (self.start.origin, &self.lamp) {
             (LightKind::Surface, Some(lamp)) => {
                 let cos = lamp.normal.dot(away).abs();
-                let radiance = world.emitted(lamp, away, &self.wavelengths);
+                let radiance = world.lights().emitted(lamp, away, &self.wavelengths);
                 (
                     radiance,
                     world.emission_density(self.start.light, away, cos, 0.0),
@@ -256,7 +260,7 @@ impl Course {
                 )
             }
             (LightKind::Sky, _) => {
-                let radiance = world.background(-away, &self.wavelengths);
+                let radiance = world.lights().background(-away, &self.wavelengths);
                 (radiance, world.background_emission_density(-away), 1.0)
             }
             _ => return None,
@@ -276,7 +280,7 @@ impl Course {
                 self.direction(node, node - 1),
             );
             let shines = |wo: Vec3, wi: Vec3, mode: TransportMode| {
-                let bsdf = world.bsdf(vertex, wo, &self.wavelengths);
+                let bsdf = world.surfaces().bsdf(vertex, wo, &self.wavelengths);
                 let at = |wi: Vec3| (bsdf.eval(wo, wi, mode), bsdf.density(wo, wi).lanes());
                 let (value, density) = at(wi);
                 let turns = [Vec3::X, Vec3::Y, Vec3::Z].map(|axis| (wi + TURN * axis).normalize());

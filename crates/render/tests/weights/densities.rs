@@ -7,7 +7,9 @@
 use crate::course::Course;
 use crate::scripted_bsdf::discrete;
 use etalon_spectrum::Wavelengths;
-use etalon_transport::{Bsdf, Camera, LightKind, LightSampleContext, TransportMode, World};
+use etalon_transport::{
+    Bsdf, Camera, LightKind, LightSampleContext, Lights, Surfaces, TransportMode, World,
+};
 use glam::Vec4;
 
 /// Wavelengths of a path.
@@ -30,7 +32,7 @@ pub(crate) struct Densities {
 fn receiver<W: World>(world: &W, course: &Course, wavelengths: &Wavelengths) -> LightSampleContext {
     let wo = course.direction(1, 2);
     let vertex = &course.surfaces[0];
-    LightSampleContext::new(vertex, wo, &world.bsdf(vertex, wo, wavelengths)).combined()
+    LightSampleContext::new(vertex, wo, &world.surfaces().bsdf(vertex, wo, wavelengths)).combined()
 }
 
 /// A path as one lane sees it that chooses.
@@ -65,7 +67,7 @@ impl Lane {
         let scatter = |node: usize, from: usize, to: usize, mode: TransportMode| {
             let vertex = &course.surfaces[node - 1];
             let (wo, wi) = (course.direction(node, from), course.direction(node, to));
-            let bsdf = world.bsdf(vertex, wo, &wavelengths);
+            let bsdf = world.surfaces().bsdf(vertex, wo, &wavelengths);
             if !course.sharp[node - 1] {
                 let density = bsdf.density(wo, wi).hero();
                 return (f64::from(density), f64::from(bsdf.eval(wo, wi, mode).x));
@@ -203,7 +205,7 @@ pub(crate) fn of_lanes<W: World>(
         let vertex = &course.surfaces[node - 1];
         for [from, to] in [[node - 1, node + 1], [node + 1, node - 1]] {
             let (wo, wi) = (course.direction(node, from), course.direction(node, to));
-            let bsdf = world.bsdf(vertex, wo, wavelengths);
+            let bsdf = world.surfaces().bsdf(vertex, wo, wavelengths);
             found.push((format!("density at {node}"), bsdf.density(wo, wi).lanes()));
             found.push((
                 format!("value at {node}"),
@@ -227,11 +229,14 @@ pub(crate) fn of_lanes<W: World>(
         found.push(("light sampling".to_owned(), density.lanes()));
         found.push((
             "light".to_owned(),
-            world.emitted(lamp, -direction, wavelengths),
+            world.lights().emitted(lamp, -direction, wavelengths),
         ));
     }
     let density = world.background_density(&from, direction);
     found.push(("sky sampling".to_owned(), density.lanes()));
-    found.push(("sky".to_owned(), world.background(direction, wavelengths)));
+    found.push((
+        "sky".to_owned(),
+        world.lights().background(direction, wavelengths),
+    ));
     found
 }

@@ -9,9 +9,10 @@ use etalon_math::DeltaProbability;
 use etalon_math::{Density, SolidAngle};
 use etalon_spectrum::{SensorWeights, Wavelengths};
 use etalon_transport::{
-    Camera, CameraRay, CameraSample, Coefficients, DiffusionProfile, Emission, EmissionPdf, Hit,
-    InstanceId, LegacyPhong, LightId, LightKind, LightSample, LightSampleContext, LightVariety,
-    MediumId, Ray, SamplePdf, ShapeId, SurfaceInteraction, TraceEvent, Transmission, World,
+    ApertureHit, BsdfOf, Camera, CameraRay, CameraSample, Emission, EmissionPdf, Hit, InstanceId,
+    LegacyPhong, LightId, LightKind, LightSample, LightSampleContext, LightVariety, Lights,
+    MediumId, Ray, SamplePdf, Sensor, ShadowQuery, ShapeId, SurfaceInteraction, Surfaces,
+    TraceEvent, Transmission, World,
 };
 use glam::{Vec2, Vec3, Vec4};
 use std::sync::atomic::{AtomicUsize, Ordering};
@@ -47,6 +48,12 @@ impl<W: World> Camera for Aperture<'_, W> {
     }
     fn has_lens(&self) -> bool {
         self.camera.has_lens()
+    }
+    fn intersect_aperture(&self, _: &Ray, _: f32) -> Option<ApertureHit> {
+        None
+    }
+    fn can_receive(&self) -> bool {
+        false
     }
 }
 
@@ -115,59 +122,12 @@ impl<'s, W: World> Script<'s, W> {
     }
 }
 
-impl<'s, W: World> World for Script<'s, W> {
+impl<W: World> Surfaces for Script<'_, W> {
     type Bsdf<'w>
-        = Scripted<W::Bsdf<'w>>
+        = Scripted<BsdfOf<'w, W>>
     where
         Self: 'w;
-    type Medium<'w>
-        = W::Medium<'w>
-    where
-        Self: 'w;
-    type Camera = Aperture<'s, W>;
 
-    fn camera(&self) -> &Aperture<'s, W> {
-        &self.camera
-    }
-    fn camera_medium(&self) -> MediumId {
-        self.world.camera_medium()
-    }
-    fn medium(&self, medium: MediumId, wavelengths: &Wavelengths) -> Option<Self::Medium<'_>> {
-        self.world.medium(medium, wavelengths)
-    }
-    fn is_dark(&self, medium: MediumId) -> bool {
-        self.world.is_dark(medium)
-    }
-    fn entry(
-        &self,
-        medium: MediumId,
-        at: &SurfaceInteraction,
-        wavelengths: &Wavelengths,
-    ) -> Option<Coefficients> {
-        self.world.entry(medium, at, wavelengths)
-    }
-    fn entered(
-        &self,
-        medium: MediumId,
-        coefficients: Coefficients,
-        wavelengths: &Wavelengths,
-    ) -> Option<Self::Medium<'_>> {
-        self.world.entered(medium, coefficients, wavelengths)
-    }
-    fn diffusion(
-        &self,
-        medium: MediumId,
-        at: &SurfaceInteraction,
-        wavelengths: &Wavelengths,
-    ) -> Option<impl DiffusionProfile> {
-        self.world.diffusion(medium, at, wavelengths)
-    }
-    fn wavelengths(&self, _: f32) -> Wavelengths {
-        self.course.wavelengths.rotated(self.turn)
-    }
-    fn sensor(&self, wavelengths: &Wavelengths) -> SensorWeights {
-        self.world.sensor(wavelengths)
-    }
     fn intersect(&self, ray: &Ray) -> Option<Hit> {
         let [_, to] = self.between(ray)?;
         let surface = match to {
@@ -183,21 +143,16 @@ impl<'s, W: World> World for Script<'s, W> {
             slot: to as u32,
         })
     }
+    fn intersect_batch<'r>(&self, queries: impl Iterator<Item = (&'r Ray, &'r mut Option<Hit>)>) {
+        for (ray, hit) in queries {
+            *hit = self.intersect(ray);
+        }
+    }
     fn vertex(&self, _: &Ray, hit: &Hit) -> SurfaceInteraction {
         match (hit.slot, self.course.lamp) {
             (0, Some(lamp)) => lamp,
             (node, _) => self.course.surfaces[node as usize - 1],
         }
-    }
-    fn transmittance(&self, ray: &Ray, _: &Wavelengths, _: u32) -> Option<Transmission> {
-        let [_, to] = self.between(ray)?;
-        let arrives = match self.course.position(to) {
-            None => ray.t_max.is_infinite(),
-            // Where the camera begins is its own affair.
-            Some(_) if to > self.course.surfaces.len() => true,
-            Some(at) => ray.at(ray.t_max).distance_squared(at) < 1e-4,
-        };
-        arrives.then_some(Transmission::FREE)
     }
     fn bsdf(
         &self,
@@ -212,7 +167,7 @@ impl<'s, W: World> World for Script<'s, W> {
             if wo.dot(a) > wo.dot(b) { b } else { a }
         });
         Scripted {
-            model: self.world.bsdf(vertex, wo, wavelengths),
+            model: self.world.surfaces().bsdf(vertex, wo, wavelengths),
             wi,
             sharp: node.is_some_and(|node| course.sharp[node - 1]),
         }
@@ -223,16 +178,31 @@ impl<'s, W: World> World for Script<'s, W> {
         wo: Vec3,
         wavelengths: &Wavelengths,
     ) -> Option<LegacyPhong> {
-        self.world.legacy_phong(vertex, wo, wavelengths)
+        self.world.surfaces().legacy_phong(vertex, wo, wavelengths)
+    }
+    fn take_ray_count(&self) -> u64 {
+        0
+    }
+}
+
+impl<W: World> Lights for Script<'_, W> {
+    fn count(&self) -> u32 {
+        self.world.lights().count()
+    }
+    fn is_emitter(&self, hit: &Hit) -> bool {
+        hit.slot == 0
     }
     fn emitted(&self, vertex: &SurfaceInteraction, wo: Vec3, wavelengths: &Wavelengths) -> Vec4 {
         match self.node(vertex) {
             Some(_) => Vec4::ZERO,
-            None => self.shining(self.world.emitted(vertex, wo, wavelengths), wavelengths),
+            None => self.shining(
+                self.world.lights().emitted(vertex, wo, wavelengths),
+                wavelengths,
+            ),
         }
     }
-    fn is_emitter(&self, hit: &Hit) -> bool {
-        hit.slot == 0
+    fn has_background(&self) -> bool {
+        true
     }
     fn background(&self, direction: Vec3, wavelengths: &Wavelengths) -> Vec4 {
         let sky = self.course.start.origin == LightKind::Sky
@@ -240,10 +210,67 @@ impl<'s, W: World> World for Script<'s, W> {
         if !sky {
             return Vec4::ZERO;
         }
-        self.shining(self.world.background(direction, wavelengths), wavelengths)
+        self.shining(
+            self.world.lights().background(direction, wavelengths),
+            wavelengths,
+        )
     }
-    fn has_background(&self) -> bool {
-        true
+    fn sample_one(
+        &self,
+        _: LightId,
+        _: &LightSampleContext,
+        _: &Wavelengths,
+        _: Vec2,
+    ) -> Option<LightSample> {
+        None
+    }
+}
+
+impl<W: World> Sensor for Script<'_, W> {
+    fn wavelengths(&self, _: f32) -> Wavelengths {
+        self.course.wavelengths.rotated(self.turn)
+    }
+    fn weights(&self, wavelengths: &Wavelengths) -> SensorWeights {
+        self.world.sensor().weights(wavelengths)
+    }
+}
+
+impl<'s, W: World> World for Script<'s, W> {
+    type Surfaces = Self;
+    type Lights = Self;
+    type Media = W::Media;
+    type Camera = Aperture<'s, W>;
+    type Sensor = Self;
+
+    fn surfaces(&self) -> &Self {
+        self
+    }
+    fn lights(&self) -> &Self {
+        self
+    }
+    fn media(&self) -> &W::Media {
+        self.world.media()
+    }
+    fn camera(&self) -> &Aperture<'s, W> {
+        &self.camera
+    }
+    fn sensor(&self) -> &Self {
+        self
+    }
+    fn transmittance(&self, ray: &Ray, _: &Wavelengths, _: u32) -> Option<Transmission> {
+        let [_, to] = self.between(ray)?;
+        let arrives = match self.course.position(to) {
+            None => ray.t_max.is_infinite(),
+            // Where the camera begins is its own affair.
+            Some(_) if to > self.course.surfaces.len() => true,
+            Some(at) => ray.at(ray.t_max).distance_squared(at) < 1e-4,
+        };
+        arrives.then_some(Transmission::FREE)
+    }
+    fn transmittance_batch<'r>(&self, queries: impl Iterator<Item = ShadowQuery<'r>>) {
+        for query in queries {
+            *query.found = self.transmittance(query.ray, query.wavelengths, query.crossings);
+        }
     }
     fn sample_light(
         &self,
@@ -269,13 +296,13 @@ impl<'s, W: World> World for Script<'s, W> {
         let (target, radiance, chance, cos) = match (start.origin, &course.lamp) {
             (LightKind::Surface, Some(lamp)) => (
                 Some(lamp.origin_toward(from.position)),
-                world.emitted(lamp, -direction, wavelengths),
+                world.lights().emitted(lamp, -direction, wavelengths),
                 SamplePdf::Continuous(world.light_density(from, lamp, direction)),
                 lamp.normal.dot(direction).abs(),
             ),
             (LightKind::Sky, _) => (
                 None,
-                world.background(direction, wavelengths),
+                world.lights().background(direction, wavelengths),
                 SamplePdf::Continuous(world.background_density(from, direction)),
                 1.0,
             ),
@@ -300,19 +327,6 @@ impl<'s, W: World> World for Script<'s, W> {
     }
     fn light_variety(&self, from: &LightSampleContext) -> LightVariety {
         self.world.light_variety(from)
-    }
-
-    fn light_count(&self) -> u32 {
-        self.world.light_count()
-    }
-    fn sample_one_light(
-        &self,
-        _: LightId,
-        _: &LightSampleContext,
-        _: &Wavelengths,
-        _: Vec2,
-    ) -> Option<LightSample> {
-        None
     }
     fn light_density(
         &self,
@@ -362,9 +376,6 @@ impl<'s, W: World> World for Script<'s, W> {
     }
     fn medium_light_density(&self, medium: MediumId, at: Vec3) -> f32 {
         self.world.medium_light_density(medium, at)
-    }
-    fn take_ray_count(&self) -> u64 {
-        0
     }
     fn record(&self, remark: impl FnOnce() -> TraceEvent) -> bool {
         self.world.record(remark)

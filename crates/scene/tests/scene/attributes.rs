@@ -2,7 +2,7 @@
 //! what they ask for.
 
 use crate::reading::{LANES, Read, document, down, meet, read_with};
-use etalon_transport::{Bsdf, World};
+use etalon_transport::{Bsdf, Surfaces, World};
 use glam::{Vec3, Vec4};
 
 /// A large triangle across the z axis, with the same values at all vertices.
@@ -41,7 +41,7 @@ fn albedo(mesh: &str, name: &str, scale: f64) -> (Vec4, Vec<String>) {
     assert_eq!(read.errors, Vec::<String>::new());
     let scene = read.compiled.expect("a scene without mistakes").scene;
     let (_, vertex) = meet(&scene, &down(0.0, 0.0)).expect("a surface");
-    let bsdf = scene.bsdf(&vertex, Vec3::Z, &LANES);
+    let bsdf = scene.surfaces().bsdf(&vertex, Vec3::Z, &LANES);
     (bsdf.albedo(Vec3::Z), read.notes)
 }
 

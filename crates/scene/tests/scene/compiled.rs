@@ -3,7 +3,9 @@
 use crate::reading::{LANES, document, down, meet, read_with, scene};
 use etalon_sampling::SamplerKind;
 use etalon_scene::Scene;
-use etalon_transport::{Bsdf, LightId, LightSampleContext, SurfaceInteraction, World};
+use etalon_transport::{
+    Bsdf, LightId, LightSampleContext, Lights, SurfaceInteraction, Surfaces, World,
+};
 use glam::{Vec3, Vec4};
 
 fn vertex(scene: &Scene, x: f32) -> SurfaceInteraction {
@@ -12,6 +14,7 @@ fn vertex(scene: &Scene, x: f32) -> SurfaceInteraction {
 
 fn albedo(scene: &Scene, x: f32) -> Vec4 {
     scene
+        .surfaces()
         .bsdf(&vertex(scene, x), Vec3::Z, &LANES)
         .albedo(Vec3::Z)
 }
@@ -112,9 +115,12 @@ fn every_light_is_its_shapes_own() {
     let mut seen = Vec::new();
     for (x, radiance) in [(2.0, 1.0), (6.0, 2.0), (8.0, 4.0)] {
         let (hit, at) = meet(&world, &down(x, 0.0)).expect("a light");
-        assert!(world.is_emitter(&hit));
-        assert_eq!(world.emitted(&at, Vec3::Z, &LANES), Vec4::splat(radiance));
-        assert_eq!(world.emitted(&at, -Vec3::Z, &LANES), Vec4::ZERO);
+        assert!(world.lights().is_emitter(&hit));
+        assert_eq!(
+            world.lights().emitted(&at, Vec3::Z, &LANES),
+            Vec4::splat(radiance)
+        );
+        assert_eq!(world.lights().emitted(&at, -Vec3::Z, &LANES), Vec4::ZERO);
         assert!(!seen.contains(&at.light));
         seen.push(at.light);
         // From above the light is among what light sampling finds.
@@ -127,12 +133,12 @@ fn every_light_is_its_shapes_own() {
     }
     for x in [0.0, 4.0] {
         let (hit, at) = meet(&world, &down(x, 0.0)).expect("a surface");
-        assert!(!world.is_emitter(&hit));
+        assert!(!world.lights().is_emitter(&hit));
         assert_eq!(at.light, LightId::NONE);
-        assert_eq!(world.emitted(&at, Vec3::Z, &LANES), Vec4::ZERO);
+        assert_eq!(world.lights().emitted(&at, Vec3::Z, &LANES), Vec4::ZERO);
     }
-    assert!(world.has_background());
-    assert_eq!(world.background(Vec3::X, &LANES), Vec4::splat(3.0));
+    assert!(world.lights().has_background());
+    assert_eq!(world.lights().background(Vec3::X, &LANES), Vec4::splat(3.0));
 }
 
 #[test]
@@ -174,20 +180,23 @@ fn merged_shapes_stand_in_their_own_right() {
     assert_eq!(albedo(&world, 2.0), Vec4::splat(0.75));
     assert_eq!(albedo(&world, 8.0), Vec4::splat(0.75));
     let (hit, at) = meet(&world, &down(4.0, 0.0)).expect("a light");
-    assert!(world.is_emitter(&hit));
-    assert_eq!(world.emitted(&at, Vec3::Z, &LANES), Vec4::splat(2.0));
+    assert!(world.lights().is_emitter(&hit));
+    assert_eq!(
+        world.lights().emitted(&at, Vec3::Z, &LANES),
+        Vec4::splat(2.0)
+    );
 }
 
 #[test]
 fn the_calling_threads_rays_are_counted() {
     let world = scene(&sphere(0.0, ""));
-    world.take_ray_count();
+    world.surfaces().take_ray_count();
     for i in 0..5 {
-        world.intersect(&down(i as f32, 0.0));
+        world.surfaces().intersect(&down(i as f32, 0.0));
         world.transmittance(&down(i as f32, 0.0), &LANES, 0);
     }
-    assert_eq!(world.take_ray_count(), 10);
-    assert_eq!(world.take_ray_count(), 0);
+    assert_eq!(world.surfaces().take_ray_count(), 10);
+    assert_eq!(world.surfaces().take_ray_count(), 0);
 }
 
 #[test]

@@ -1,7 +1,7 @@
 //! Media in which no light is sampled: only where none enters straight.
 
 use crate::reading::scene;
-use etalon_transport::{MediumId, World};
+use etalon_transport::{Media, MediumId, World};
 
 const SKY: &str = "<emitter type=\"constant\"/>";
 const WALK: &str = "<subsurface type=\"randomwalk\"/>";
@@ -10,7 +10,7 @@ const MATTER: &str = "<medium type=\"homogeneous\" name=\"interior\"/>";
 /// Whether the medium of a ball of radius 1 is dark.
 fn is_dark(shape: &str, below: &str, further: &str) -> bool {
     let world = scene(&format!("<shape type=\"{shape}\">{below}</shape>{further}"));
-    world.is_dark(MediumId(0))
+    world.media().is_dark(MediumId(0))
 }
 
 #[test]
@@ -53,5 +53,8 @@ fn what_light_may_enter_or_holds_a_lamp_is_not() {
     let ball =
         "<shape type=\"cube\"><bsdf type=\"dielectric\"/><ref id=\"m\" name=\"interior\"/></shape>";
     let world = scene(&format!("{shared}{ball}{beyond}{SKY}"));
-    assert!(!world.is_dark(MediumId(0)), "also outside of another shape");
+    assert!(
+        !world.media().is_dark(MediumId(0)),
+        "also outside of another shape"
+    );
 }

@@ -2,7 +2,9 @@
 
 use crate::reading::{LANES, Read, down, meet, read, read_with, scene};
 use etalon_scene::Scene;
-use etalon_transport::{Bsdf, LightSearch, Medium, MediumId, Ray, TransportMode, World};
+use etalon_transport::{
+    Bsdf, LightSearch, Media, Medium, MediumId, Ray, Surfaces, TransportMode, World,
+};
 use glam::{UVec2, Vec3, Vec4};
 
 /// A medium, as a child of a given name.
@@ -83,13 +85,16 @@ fn a_camera_in_a_body_may_name_its_medium() {
         assert_eq!(read.errors, Vec::<String>::new());
         let world = read.compiled.expect("a scene without mistakes").scene;
         let inside = Ray {
-            medium: world.camera_medium(),
+            medium: world.media().around_camera(),
             ..Ray::new(Vec3::ZERO, Vec3::Z, 0.0)
         };
-        assert!(world.medium(inside.medium, &LANES).is_some(), "{named}");
+        assert!(
+            world.media().medium(inside.medium, &LANES).is_some(),
+            "{named}"
+        );
         let (_, boundary) = meet(&world, &inside).expect("a surface");
         let beyond = boundary.spawn(Vec3::Z).medium;
-        assert!(world.medium(beyond, &LANES).is_none(), "{named}");
+        assert!(world.media().medium(beyond, &LANES).is_none(), "{named}");
     }
 }
 
@@ -107,7 +112,10 @@ fn the_albedo_of_a_homogeneous_medium_may_vary_in_space() {
     );
     for (albedo, factor) in [(ramp("name=\"albedo\""), 1.0), (half, 0.5)] {
         let world = scene(&ball(0.5, &fog("name=\"interior\"", &albedo)));
-        let medium = world.medium(inside(&world, 0.5), &LANES).expect("a medium");
+        let medium = world
+            .media()
+            .medium(inside(&world, 0.5), &LANES)
+            .expect("a medium");
         for x in [0.125, 0.5, 0.875] {
             let at = medium.coefficients(Vec3::new(x, 0.1, 0.2), Vec3::X);
             let scattering = Vec4::splat(2.0 * factor * x);
@@ -299,13 +307,16 @@ fn light_walks_about_in_solids_of_solids() {
     for solid in ["union", "intersection"] {
         let world = scene(&format!("<shape type=\"{solid}\">{operands}{walk}</shape>"));
         let medium = |world: &Scene| {
-            let medium = world.medium(inside(world, 0.0), &LANES).expect("a medium");
+            let medium = world
+                .media()
+                .medium(inside(world, 0.0), &LANES)
+                .expect("a medium");
             let at = medium.coefficients(Vec3::ZERO, Vec3::X);
             (at.scattering, at.absorption)
         };
         assert_eq!(medium(&world), medium(&sphere), "{solid}");
         let (_, vertex) = meet(&world, &down(0.0, 0.0)).expect("a surface");
-        let through = world.bsdf(&vertex, Vec3::Z, &LANES);
+        let through = world.surfaces().bsdf(&vertex, Vec3::Z, &LANES);
         let down = Vec3::new(0.0, 0.6, -0.8);
         let passes = through.eval(Vec3::Z, down, TransportMode::Radiance);
         assert!(passes.min_element() > 0.2, "{solid}: {passes}");
@@ -357,7 +368,10 @@ fn mean_free_paths_are_long_against_rounding() {
         let said = read.notes.iter().filter(|note| note.contains("counts as"));
         assert_eq!(said.count(), told, "{content}: {:?}", read.notes);
         let world = read.compiled.expect("a scene without mistakes").scene;
-        let medium = world.medium(inside(&world, x), &LANES).expect("a medium");
+        let medium = world
+            .media()
+            .medium(inside(&world, x), &LANES)
+            .expect("a medium");
         let extinction = medium.coefficients(Vec3::ZERO, Vec3::X).extinction().x;
         assert!(
             (extinction * length - 1.0).abs() < 1e-5,

@@ -5,7 +5,7 @@ use etalon_formats::mitsuba::{self, ReadOptions};
 use etalon_params::{Diagnostics, Severity};
 use etalon_scene::{Compiled, Scene};
 use etalon_spectrum::Wavelengths;
-use etalon_transport::{Hit, Ray, SurfaceInteraction, World};
+use etalon_transport::{Hit, Ray, SurfaceInteraction, Surfaces, World};
 use glam::{Vec3, Vec4};
 
 /// What came of reading a scene.
@@ -87,6 +87,6 @@ pub(crate) fn down(x: f32, y: f32) -> Ray {
 
 /// What a ray meets.
 pub(crate) fn meet(scene: &Scene, ray: &Ray) -> Option<(Hit, SurfaceInteraction)> {
-    let hit = scene.intersect(ray)?;
-    Some((hit, scene.vertex(ray, &hit)))
+    let hit = scene.surfaces().intersect(ray)?;
+    Some((hit, scene.surfaces().vertex(ray, &hit)))
 }

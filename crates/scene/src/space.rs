@@ -1,0 +1,42 @@
+//! Shapes, and the media that fill the space between them.
+
+use crate::lookup::SceneTables;
+use crate::media::SceneMedia;
+use crate::rays;
+use etalon_transport::{Hit, Ray, SurfaceInteraction};
+
+/// Shapes with their tables, and the media that they bound.
+pub(crate) struct Space {
+    pub(crate) lookup: SceneTables,
+    pub(crate) media: SceneMedia,
+    /// Whether there are media, so that rays must know what they are in.
+    pub(crate) has_media: bool,
+}
+
+impl Space {
+    pub(crate) fn new(lookup: SceneTables, media: SceneMedia) -> Self {
+        Self {
+            has_media: media.exist(),
+            lookup,
+            media,
+        }
+    }
+
+    /// The nearest surface along a ray.
+    #[inline]
+    pub(crate) fn intersect(&self, ray: &Ray) -> Option<Hit> {
+        rays::count();
+        self.lookup.geometry.intersect(ray)
+    }
+
+    /// The surface that was hit, with the media on both sides.
+    #[inline]
+    pub(crate) fn vertex(&self, ray: &Ray, hit: &Hit) -> SurfaceInteraction {
+        let mut vertex = self.lookup.geometry.vertex(ray, hit);
+        if self.has_media {
+            let outside = ray.direction.dot(vertex.normal) < 0.0;
+            vertex.media = self.media.around(hit.shape, ray.medium, outside);
+        }
+        vertex
+    }
+}
