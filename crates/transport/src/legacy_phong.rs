@@ -3,7 +3,7 @@
 //! The model of Phong (1975) with the reflected and refracted light of Whitted (1980) is no BSDF:
 //! its ambient term shines without light, its highlight is neither reciprocal nor bounded in
 //! energy, and its light may refuse to fade with distance. It has a meaning to recursive ray
-//! tracing only, so it is no [`crate::Bsdf`] but these numbers, which [`crate::World::legacy_phong`]
+//! tracing only, so it is no [`crate::Bsdf`] but these numbers, which [`crate::Surfaces::legacy_phong`]
 //! tells whoever can use them. The equation stands where it is evaluated, at the head of the
 //! integrator `whitted`.
 

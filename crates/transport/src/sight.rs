@@ -62,7 +62,7 @@ pub struct SceneCapabilities {
     /// follow.
     pub one_way: bool,
     /// Whether a surface has a classic Phong material, which says nothing of how it scatters light
-    /// ([`crate::World::legacy_phong`]).
+    /// ([`crate::Surfaces::legacy_phong`]).
     pub classic: bool,
     /// Whether the film's filter is so narrow that splats find no pixel ([`crate::Film::light_paths`]).
     pub narrow_filter: bool,
