@@ -12,10 +12,10 @@
 //! like any other, shadow rays are stopped by such surfaces, and alpha is 1 wherever there is a
 //! surface, 0 before the background.
 
+use crate::camera_ray::camera_ray;
 use crate::candidates::{Aim, Candidates};
 use crate::dimensions::BounceSamples;
 use crate::light_mis::LightMis;
-use crate::path::camera_ray;
 use crate::path_throughput::PathThroughput;
 use crate::settings::{LightCandidates, read_max_depth};
 use crate::steps;

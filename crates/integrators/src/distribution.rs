@@ -15,10 +15,10 @@
 //! sums. The N directions at a point are stratified in one coordinate. Rays of later bounces matter
 //! less, so that N is divided at each.
 
+use crate::camera_ray::camera_ray;
 use crate::candidates::Aim;
 use crate::dimensions::BounceSamples;
 use crate::light_mis::LightMis;
-use crate::path::camera_ray;
 use crate::path_throughput::PathThroughput;
 use crate::settings::PathSettings;
 use crate::steps;

@@ -19,8 +19,8 @@
 //! ray per sample, which also tells alpha. Lights without extent are not seen themselves, as by
 //! any other estimator. With `hide_emitters` the camera looks through lights, as that of `path`.
 
+use crate::camera_ray::camera_ray;
 use crate::particle::LightPath;
-use crate::path::camera_ray;
 use crate::path_throughput::PathThroughput;
 use crate::settings::PathSettings;
 use crate::steps;

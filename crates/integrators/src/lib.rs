@@ -9,6 +9,7 @@
 pub mod ao;
 pub mod aov;
 pub mod bdpt;
+mod camera_ray;
 mod candidates;
 pub mod depth;
 pub mod dimensions;

@@ -24,9 +24,9 @@
 //! always. The density of a uniform or cosine direction is the same for every wavelength, that of
 //! a discrete one is not; the house's estimator ([`crate::path_throughput`]) takes one like the other.
 
+use crate::camera_ray::camera_ray;
 use crate::dimensions::BounceSamples;
 use crate::light_mis::LightMis;
-use crate::path::camera_ray;
 use crate::path_throughput::PathThroughput;
 use crate::settings::PathSettings;
 use crate::steps::{self, next_surface};

@@ -18,19 +18,15 @@
 //! Several paths are followed in step: all of them look for their next surface, then all meet it,
 //! then all trace their shadow rays. What one path waits for, another has meanwhile.
 
-use crate::dimensions as dim;
 use crate::path_hooks::PathHooks;
 use crate::path_state::PathState;
 use crate::render::BATCH_SIZE;
 use crate::settings::{LightCandidates, PathSettings, PathVariant};
 use etalon_params::Params;
 use etalon_sampling::{ReplicateKind, Sampler};
-use etalon_spectrum::Wavelengths;
 use etalon_transport::{
-    Camera, Integrator, Media, Pass, PixelSample, Placing, Ray, SampleJob, Sensor, Sink, Surfaces,
-    TileSink, World,
+    Integrator, Pass, PixelSample, Placing, SampleJob, Sink, Surfaces, TileSink, World,
 };
-use glam::Vec2;
 
 /// The path tracer.
 #[derive(Clone, Debug, Default)]
@@ -166,34 +162,4 @@ impl Integrator for Path {
     ) {
         follow_drafts(world, &self.settings, self.variant(), (), drafts, sink);
     }
-}
-
-/// What the lens, the wavelengths and the moment of a sample are chosen with.
-#[inline]
-pub(crate) fn draw_lens(sampler: &mut impl Sampler) -> (Vec2, f32, f32) {
-    sampler.skip_to(dim::LENS);
-    (sampler.next_2d(), sampler.next_1d(), sampler.next_1d())
-}
-
-/// Draws the wavelengths and the camera ray of a sample: everything before the first surface.
-#[inline]
-pub(crate) fn camera_ray<W: World, S: Sampler>(
-    world: &W,
-    site: &PixelSample,
-    sampler: &mut S,
-) -> (Wavelengths, Ray, f32) {
-    let (lens, u, time) = draw_lens(sampler);
-    let (ray, weight) = ray_at(world, site, lens, time);
-    (world.sensor().wavelengths(u), ray, weight)
-}
-
-/// The camera ray of a sample through a point of the lens, at the moment `time`.
-#[inline]
-pub(crate) fn ray_at<W: World>(world: &W, site: &PixelSample, lens: Vec2, time: f32) -> (Ray, f32) {
-    let start = world.camera().ray(site.raster, lens, time);
-    let ray = Ray {
-        medium: world.media().around_camera(),
-        ..start.ray
-    };
-    (ray, start.weight)
 }

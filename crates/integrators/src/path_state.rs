@@ -1,9 +1,9 @@
 //! One path of the path tracer, from surface to surface.
 
+use crate::camera_ray::camera_ray;
 use crate::candidates::{Aim, Candidates};
 use crate::dimensions::BounceSamples;
 use crate::light_mis::LightMis;
-use crate::path::camera_ray;
 use crate::path_hooks::PathHooks;
 use crate::path_throughput::PathThroughput;
 use crate::settings::{LightCandidates, PathSettings, PathVariant};

@@ -15,10 +15,10 @@
 //! stopped, the background included. With `hide_emitters` the camera looks through lights, as that of
 //! `path`. (Mitsuba's lights then still stand in the way of what is behind them.)
 
+use crate::camera_ray::camera_ray;
 use crate::dimensions as dim;
 use crate::light_mis::LightMis;
 use crate::particle::{LightPath, LightVertex};
-use crate::path::camera_ray;
 use crate::path_throughput::PathThroughput;
 use crate::settings::PathSettings;
 use crate::steps;

@@ -24,7 +24,7 @@
 
 use crate::bdpt::merge::{self, Merging, Terms};
 use crate::bdpt::{Start, estimate};
-use crate::path::{draw_lens, ray_at};
+use crate::camera_ray::{draw_lens, ray_at};
 use crate::photons::radius::Radius;
 use crate::photons::sets::WavelengthSets;
 use crate::photons::shoot::{in_order, moment, numbers};

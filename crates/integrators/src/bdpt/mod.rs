@@ -46,8 +46,8 @@ pub(crate) mod single;
 mod subpath;
 mod weight;
 
+use crate::camera_ray::camera_ray;
 use crate::dimensions as dim;
-use crate::path::camera_ray;
 use crate::settings::PathSettings;
 use connect::Connector;
 use etalon_params::Params;
