@@ -198,10 +198,16 @@ impl RenderedImage {
     /// with m the mean and s its standard error. The constant keeps dark pixels from deciding
     /// it. `None` without standard errors.
     pub fn mean_relative_standard_error(&self) -> Option<f64> {
+        self.standard_error_relative_to(self)
+    }
+
+    /// The same with m of another picture of the same size.
+    pub fn standard_error_relative_to(&self, other: &Self) -> Option<f64> {
         let mut sum = 0.0;
         let mut count = 0u32;
         for name in self.colours() {
-            let (Some(means), Some(errors)) = (self.image.channel(name), self.standard_error(name))
+            let (Some(means), Some(errors)) =
+                (other.image.channel(name), self.standard_error(name))
             else {
                 continue;
             };

@@ -27,8 +27,10 @@ fn denoised(args: &DenoiseArgs) -> Result<(), String> {
         .map_err(|reason| format!("{}: {reason}", args.input.display()))?;
     output.write_with(|path| denoised.write_exr(path))?;
     if !args.quiet {
+        // Both relative to what is shown: in the noisy picture a pixel that is too bright hides its error.
         let error = |image: &etalon_film::RenderedImage| {
-            100.0 * image.mean_relative_standard_error().unwrap_or(f64::NAN)
+            let relative = image.standard_error_relative_to(&denoised);
+            100.0 * relative.unwrap_or(f64::NAN)
         };
         say::remark(&format!(
             "{}: mean relative error about {:.2} %, of {:.2} % before\n",
