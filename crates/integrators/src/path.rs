@@ -19,14 +19,18 @@
 //! then all trace their shadow rays. What one path waits for, another has meanwhile.
 
 use crate::path_hooks::PathHooks;
-use crate::path_state::PathState;
+use crate::path_state::{PathState, ScatteringPoint};
 use crate::render::BATCH_SIZE;
-use crate::settings::{LightCandidates, PathSettings, PathVariant};
+use crate::settings::{LightCandidates, PathConfig, PathSettings};
+use crate::steps;
+use core::ops::{ControlFlow, Range};
 use etalon_params::Params;
 use etalon_sampling::{ReplicateKind, Sampler};
 use etalon_transport::{
-    Integrator, Pass, PixelSample, Placing, SampleJob, Sink, Surfaces, TileSink, World,
+    Bsdf, Integrator, Lights, Pass, PixelSample, Placing, Ray, SampleJob, Sink, Surfaces, TileSink,
+    World,
 };
+use glam::Vec4;
 
 /// The path tracer.
 #[derive(Clone, Debug, Default)]
@@ -60,8 +64,9 @@ impl Path {
 }
 
 impl Path {
-    fn variant(&self) -> PathVariant {
-        PathVariant {
+    fn config(&self) -> PathConfig {
+        PathConfig {
+            limits: self.settings,
             candidates: self.light_candidates,
             counts_null: !self.skips_null,
             equiangular: self.equiangular,
@@ -69,55 +74,127 @@ impl Path {
     }
 }
 
-/// Follows paths to their ends.
+/// Follows paths to their ends, in step.
 #[inline]
 pub(crate) fn follow<W: World, S: Sampler, C: PathHooks>(
     world: &W,
-    settings: &PathSettings,
-    walks: &mut [Option<PathState<S, C>>],
+    config: &PathConfig,
+    paths: &mut [Option<PathState<S, C>>],
 ) {
-    while walks.iter().flatten().any(PathState::goes_on) {
-        let going = || |walk: &&mut PathState<S, C>| walk.goes_on();
-        let queries = walks.iter_mut().flatten().filter(going());
+    while paths.iter().flatten().any(|path| path.ray.is_some()) {
+        for path in paths.iter_mut().flatten() {
+            path.plan_flight(world, config);
+        }
+        let rays = paths.iter_mut().flatten();
         world
             .surfaces()
-            .intersect_batch(queries.map(|walk| walk.ray_query(world)));
-        for walk in walks.iter_mut().flatten().filter(going()) {
-            walk.look_through_hidden(world, settings);
+            .intersect_batch(rays.filter_map(PathState::segment));
+        for path in paths.iter_mut().flatten() {
+            if let Some(ray) = path.ray.take() {
+                path.ray = extend(world, config, path, ray);
+            }
         }
-        for walk in walks.iter_mut().flatten().filter(|w| w.goes_on()) {
-            walk.shade(world, settings);
-        }
-        let queries = walks.iter_mut().flatten();
-        world.transmittance_batch(queries.filter_map(PathState::shadow_query));
-        walks.iter_mut().flatten().for_each(PathState::add_light);
+        let shadow_rays = paths.iter_mut().flatten();
+        world.transmittance_batch(shadow_rays.filter_map(PathState::shadow_query));
+        paths.iter_mut().flatten().for_each(PathState::add_light);
     }
+}
+
+/// Follows one path as long as it has scattered less than `wanted` ends at; of its contributions only those count whose number of
+/// scattering events is in `wanted`.
+pub(crate) fn follow_part<W: World, S: Sampler, C: PathHooks>(
+    world: &W,
+    config: &PathConfig,
+    path: &mut PathState<S, C>,
+    wanted: &Range<u32>,
+) {
+    while path.scatter_count < wanted.end {
+        path.plan_flight(world, config);
+        let Some(ray) = path.ray.take() else { break };
+        path.hit = world.surfaces().intersect(&ray);
+        let (radiance, scatter_count) = (path.radiance, path.scatter_count);
+        path.ray = extend(world, config, path, ray);
+        if scatter_count < wanted.start {
+            path.radiance = radiance;
+        }
+        if wanted.contains(&(scatter_count + 1)) {
+            path.trace_shadow(world);
+        } else {
+            path.shadow_ray = None;
+        }
+    }
+}
+
+/// What happens where `ray` leads, whose nearest surface is known: emission is added, a shadow ray prepared, and a direction
+/// sampled. The ray that the path goes on with; `None` if it ends.
+#[inline]
+fn extend<W: World, S: Sampler, C: PathHooks>(
+    world: &W,
+    config: &PathConfig,
+    path: &mut PathState<S, C>,
+    mut ray: Ray,
+) -> Option<Ray> {
+    path.look_through_hidden(world, config, &mut ray);
+    if ray.medium.is_some()
+        && let ControlFlow::Break(next) = path.fly(world, config, &ray)
+    {
+        return next;
+    }
+    let Some(hit) = path.hit else {
+        path.add_background(world, config, ray.direction);
+        return None;
+    };
+    let emits = world.lights().is_emitter(&hit);
+    let last = path.depth == config.limits.max_depth;
+    if last && !emits && path.alpha > 0.0 && config.counts_null {
+        return None;
+    }
+    let vertex = world.surfaces().vertex(&ray, &hit);
+    if emits {
+        path.add_emission(world, &vertex, ray.direction);
+    }
+    let wo = -ray.direction;
+    let bsdf = world.surfaces().bsdf(&vertex, wo, &path.wavelengths);
+    let bsdf = path.hooks.wrap_bsdf(&vertex, wo, bsdf);
+    let passes = !config.counts_null && bsdf.null_probability() != Vec4::ZERO;
+    if last && !passes {
+        // No direction is sampled at the last vertex: its null probability alone estimates alpha.
+        path.alpha = path.alpha.max(steps::opacity(&bsdf));
+        return None;
+    }
+    let at = ScatteringPoint::new(&vertex, &bsdf, wo, path.draw_event());
+    if !last {
+        path.sample_light(world, config, &at);
+    }
+    let next = path.scatter(config, &at)?;
+    if next.medium.is_some() {
+        return path.enter(world, config, &vertex, ray.medium, next);
+    }
+    Some(next)
 }
 
 /// Draws samples by paths that are followed in step, each with a copy of `hooks`.
 #[inline]
-pub(crate) fn follow_drafts<W: World, S: Sampler, K: TileSink, C: PathHooks + Copy>(
+pub(crate) fn follow_jobs<W: World, S: Sampler, K: TileSink, C: PathHooks + Copy>(
     world: &W,
-    settings: &PathSettings,
-    variant: PathVariant,
+    config: &PathConfig,
     hooks: C,
-    drafts: &mut [SampleJob<S>],
+    jobs: &mut [SampleJob<S>],
     sink: &mut K,
 ) {
-    for drafts in drafts.chunks_mut(BATCH_SIZE) {
+    for jobs in jobs.chunks_mut(BATCH_SIZE) {
         let mut places = [None; BATCH_SIZE];
-        let mut each = drafts.iter_mut().zip(&mut places);
-        let mut walks: [Option<PathState<&mut S, C>>; BATCH_SIZE] = core::array::from_fn(|_| {
-            let (draft, place) = each.next()?;
-            *place = Some((draft.site.pixel, draft.placement()));
-            let sampler = &mut draft.sampler;
-            let walk = PathState::start(world, settings, &draft.site, sampler, hooks);
-            Some(walk.with_variant(variant))
+        let mut each = jobs.iter_mut().zip(&mut places);
+        let mut paths: [Option<PathState<&mut S, C>>; BATCH_SIZE] = core::array::from_fn(|_| {
+            let (job, place) = each.next()?;
+            *place = Some((job.site.pixel, job.placement()));
+            let sampler = &mut job.sampler;
+            Some(PathState::start(world, config, &job.site, sampler, hooks))
         });
-        follow(world, settings, &mut walks);
-        for (walk, (pixel, placement)) in walks.iter().flatten().zip(places.iter().flatten()) {
+        follow(world, config, &mut paths);
+        for (path, (pixel, placement)) in paths.iter().flatten().zip(places.iter().flatten()) {
             sink.begin_placed(*pixel, placement);
-            walk.deliver(world, sink);
+            path.deliver(world, sink);
         }
     }
 }
@@ -143,23 +220,21 @@ impl Integrator for Path {
         sampler: &mut S,
         sink: &mut K,
     ) {
-        let walk =
-            PathState::start(world, &self.settings, site, sampler, ()).with_variant(self.variant());
-        let mut walks = [Some(walk)];
-        follow(world, &self.settings, &mut walks);
-        walks
-            .iter()
-            .flatten()
-            .for_each(|walk| walk.deliver(world, sink));
+        let config = self.config();
+        let mut paths = [Some(PathState::start(world, &config, site, sampler, ()))];
+        follow(world, &config, &mut paths);
+        for path in paths.iter().flatten() {
+            path.deliver(world, sink);
+        }
     }
 
     fn sample_batch<W: World, S: Sampler, K: TileSink>(
         &self,
         world: &W,
         (): &(),
-        drafts: &mut [SampleJob<S>],
+        jobs: &mut [SampleJob<S>],
         sink: &mut K,
     ) {
-        follow_drafts(world, &self.settings, self.variant(), (), drafts, sink);
+        follow_jobs(world, &self.config(), (), jobs, sink);
     }
 }

@@ -6,8 +6,8 @@
 //! M. Fajardo, BSSRDF importance sampling, 2013).
 
 use crate::path_hooks::PathHooks;
-use crate::path_state::PathState;
-use crate::settings::PathSettings;
+use crate::path_state::{PathState, ScatteringPoint};
+use crate::settings::PathConfig;
 use core::f32::consts::TAU;
 use etalon_math::{Density, Frame, SolidAngle, float};
 use etalon_sampling::Sampler;
@@ -133,33 +133,30 @@ fn crossed<W: World>(
 }
 
 impl<S: Sampler, C: PathHooks> PathState<S, C> {
-    /// Takes a path that has gone below the surface at `entered` to where it leaves, if a diffusion profile says where, and goes on
-    /// from there.
+    /// Where a path goes on that would enter a medium with `next` at the surface point `entered`: elsewhere on the surface, if a
+    /// diffusion profile says where it leaves.
     #[cold]
     #[inline(never)]
     pub(crate) fn diffuse<W: World>(
         &mut self,
         world: &W,
-        settings: &PathSettings,
+        config: &PathConfig,
         entered: &SurfaceInteraction,
-    ) {
-        let medium = self.ray.medium;
+        next: Ray,
+    ) -> Option<Ray> {
         let waves = self.wavelengths;
-        let Some(profile) = world.media().diffusion(medium, entered, &waves) else {
-            return;
+        let Some(profile) = world.media().diffusion(next.medium, entered, &waves) else {
+            return Some(next);
         };
-        self.goes_on = false;
         // What the boundary reflects.
         self.trace_shadow(world);
-        let Some(vertex) = self.leave(world, &profile, entered) else {
-            return;
-        };
+        let vertex = self.leave(world, &profile, entered, next.medium)?;
         // Radiance was compressed when it came in, and is as it was now.
         let eta = profile.relative_index();
         self.throughput.beta *= eta * eta;
         self.eta /= eta;
-        if self.depth == settings.max_depth || self.throughput.beta == Vec4::ZERO {
-            return;
+        if self.depth == config.limits.max_depth || self.throughput.beta == Vec4::ZERO {
+            return None;
         }
         let normal = vertex.normal;
         let shading = vertex.shading.n;
@@ -173,7 +170,9 @@ impl<S: Sampler, C: PathHooks> PathState<S, C> {
             frame,
             normal,
         };
-        self.scatter_at(world, settings, &vertex, &leaving, frame.n, true);
+        let at = ScatteringPoint::new(&vertex, &leaving, frame.n, self.draw_event());
+        self.sample_light(world, config, &at);
+        self.scatter(config, &at)
     }
 
     /// Where the path leaves.
@@ -182,6 +181,7 @@ impl<S: Sampler, C: PathHooks> PathState<S, C> {
         world: &W,
         profile: &impl DiffusionProfile,
         entered: &SurfaceInteraction,
+        medium: MediumId,
     ) -> Option<SurfaceInteraction> {
         let event = self.draw_event();
         let frame = Frame::from_normal(entered.normal);
@@ -204,7 +204,7 @@ impl<S: Sampler, C: PathHooks> PathState<S, C> {
             ..Ray::new(middle + half * n, -n, entered.time)
         };
         let mut stream = line.stream(event.roulette);
-        let (vertex, count) = crossed(world, line, self.ray.medium, &mut stream)?;
+        let (vertex, count) = crossed(world, line, medium, &mut stream)?;
         let way = vertex.position - entered.position;
         let least = 1e-6 * reach;
         let mut density = Vec4::ZERO;

@@ -21,8 +21,9 @@ use crate::dimensions as dim;
 use crate::metropolis::{
     ChainSettings, Contributions, FilmRegion, Metropolis, PathLengthPdf, PathSampler,
 };
+use crate::path::follow_part;
 use crate::path_state::PathState;
-use crate::settings::PathSettings;
+use crate::settings::{PathConfig, PathSettings};
 use etalon_params::Params;
 use etalon_sampling::Sampler;
 use etalon_transport::{LightSearch, World};
@@ -67,9 +68,10 @@ impl PathSampler for CameraPaths {
     ) {
         sampler.skip_to(dim::FILM);
         let site = field.site(sampler.next_2d());
-        let mut walk = PathState::start(world, settings, &site, sampler, ());
+        let config = PathConfig::plain(*settings);
+        let mut path = PathState::start(world, &config, &site, sampler, ());
         let wanted = chains.least_corners()..u32::MAX;
-        walk.follow(world, settings, &wanted);
-        found.add(site.raster, walk.colour(world) * field.area());
+        follow_part(world, &config, &mut path, &wanted);
+        found.add(site.raster, path.colour(world) * field.area());
     }
 }

@@ -40,9 +40,10 @@ impl PathSettings {
     }
 }
 
-/// What the path tracer may do in one way or another, beside the limits of its paths.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) struct PathVariant {
+/// How paths are traced. It is the same for all of them.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct PathConfig {
+    pub(crate) limits: PathSettings,
     /// How many light samples compete for a shadow ray where the path is not yet scattered at random.
     pub(crate) candidates: LightCandidates,
     /// Whether passing straight through a surface makes a path longer: so count Mitsuba's `path`, and not its
@@ -52,13 +53,26 @@ pub(crate) struct PathVariant {
     pub(crate) equiangular: bool,
 }
 
-impl PathVariant {
+impl PathConfig {
     /// One light sample for a shadow ray, and every segment counts.
-    pub(crate) const PLAIN: Self = Self {
-        candidates: LightCandidates::ONE,
-        counts_null: true,
-        equiangular: false,
-    };
+    pub(crate) const fn plain(limits: PathSettings) -> Self {
+        Self {
+            limits,
+            candidates: LightCandidates::ONE,
+            counts_null: true,
+            equiangular: false,
+        }
+    }
+
+    /// How many surfaces a shadow ray may pass straight that leaves a path of `depth` segments.
+    #[inline]
+    pub(crate) fn null_crossings(&self, depth: u32) -> u32 {
+        if self.counts_null {
+            self.limits.max_depth - depth - 1
+        } else {
+            u32::MAX
+        }
+    }
 }
 
 /// How many light samples compete for a shadow ray; `None` leaves it to the lights.

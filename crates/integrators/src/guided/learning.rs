@@ -22,9 +22,9 @@ use super::fraction::FractionOptimizer;
 use super::guide::GuidedHooks;
 use super::pictures::TrainingImages;
 use super::training_path::{Record, TrainingPath};
-use crate::path::follow;
+use crate::path::follow_part;
 use crate::path_state::PathState;
-use crate::settings::PathSettings;
+use crate::settings::{PathConfig, PathSettings};
 use etalon_sampling::hash::{derived_key, mix64};
 use etalon_sampling::{Independent, SampleId, Sampler, Sobol};
 use etalon_transport::{Pass, PixelSample, Placing, World};
@@ -382,12 +382,10 @@ impl Trainer {
             spacing: 1.0 / (pass.image_samples as f32).sqrt(),
             sample: address.sample,
         };
-        let walk = PathState::start(world, &self.settings, &site, &mut sampler, pupil);
-        let mut walks = [Some(walk)];
-        follow(world, &self.settings, &mut walks);
-        let [walk] = walks;
-        let walk = walk.expect("a path that was followed is still there");
-        let found = walk.colour(world).extend(walk.alpha()) * placement.weight;
-        (walk.into_hooks(), found)
+        let config = PathConfig::plain(self.settings);
+        let mut path = PathState::start(world, &config, &site, &mut sampler, pupil);
+        follow_part(world, &config, &mut path, &(0..u32::MAX));
+        let found = path.colour(world).extend(path.alpha()) * placement.weight;
+        (path.into_hooks(), found)
     }
 }

@@ -41,9 +41,9 @@ mod steering;
 mod tests;
 mod training_path;
 
-use crate::path::{follow, follow_drafts};
+use crate::path::{follow, follow_jobs};
 use crate::path_state::PathState;
-use crate::settings::{PathSettings, PathVariant};
+use crate::settings::{PathConfig, PathSettings};
 use etalon_params::Params;
 use etalon_sampling::Sampler;
 use etalon_transport::{Integrator, Pass, PixelSample, Placing, SampleJob, Sink, TileSink, World};
@@ -178,49 +178,30 @@ impl Integrator for Guided {
         sink: &mut K,
     ) {
         let guide = Self::guide(learned);
-        let mut walks = [Some(PathState::start(
-            world,
-            &self.settings,
-            site,
-            sampler,
-            guide,
-        ))];
-        follow(world, &self.settings, &mut walks);
-        walks
-            .iter()
-            .flatten()
-            .for_each(|walk| walk.deliver(world, sink));
+        let config = PathConfig::plain(self.settings);
+        let mut paths = [Some(PathState::start(world, &config, site, sampler, guide))];
+        follow(world, &config, &mut paths);
+        for path in paths.iter().flatten() {
+            path.deliver(world, sink);
+        }
     }
 
     fn sample_batch<W: World, S: Sampler, K: TileSink>(
         &self,
         world: &W,
         learned: &Learned,
-        drafts: &mut [SampleJob<S>],
+        jobs: &mut [SampleJob<S>],
         sink: &mut K,
     ) {
         let guide = Self::guide(learned);
+        let config = PathConfig::plain(self.settings);
         match &learned.pictures {
             Some(pictures) => {
-                let first = drafts.iter().map(|draft| draft.site.sample == 0).collect();
+                let first = jobs.iter().map(|job| job.site.sample == 0).collect();
                 let mut sink = Joined::new(sink, pictures, learned.replicate, first);
-                follow_drafts(
-                    world,
-                    &self.settings,
-                    PathVariant::PLAIN,
-                    guide,
-                    drafts,
-                    &mut sink,
-                );
+                follow_jobs(world, &config, guide, jobs, &mut sink);
             }
-            None => follow_drafts(
-                world,
-                &self.settings,
-                PathVariant::PLAIN,
-                guide,
-                drafts,
-                sink,
-            ),
+            None => follow_jobs(world, &config, guide, jobs, sink),
         }
     }
 }

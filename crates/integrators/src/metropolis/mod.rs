@@ -58,8 +58,9 @@ pub(crate) use found::{Contributions, FilmRegion};
 pub use integrator::Metropolis;
 pub(crate) use integrator::PathSampler;
 
+use crate::path::follow_part;
 use crate::path_state::PathState;
-use crate::settings::PathSettings;
+use crate::settings::{PathConfig, PathSettings};
 use core::ops::Range;
 use etalon_params::Params;
 use etalon_sampling::Sampler;
@@ -186,8 +187,9 @@ impl ChainSettings {
         sampler: &mut S,
         sink: &mut K,
     ) {
-        let mut walk = PathState::start(world, settings, site, sampler, ());
-        walk.follow(world, settings, &(0..self.least_corners()));
-        walk.deliver(world, sink);
+        let config = PathConfig::plain(*settings);
+        let mut path = PathState::start(world, &config, site, sampler, ());
+        follow_part(world, &config, &mut path, &(0..self.least_corners()));
+        path.deliver(world, sink);
     }
 }
