@@ -45,13 +45,20 @@ fn whole(workshop: &Workshop, output: &str, further: &[&str]) -> String {
 
 /// Tells a render to stop; gives what it said. It must be quick.
 #[track_caller]
-fn stop(child: Child, signal: &str) -> String {
+fn stop(mut child: Child, signal: &str) -> String {
     wait_until_it_listens(&child);
     wait_until_it_renders(&child);
     let start = Instant::now();
     send(signal, &child);
-    let output = child.wait_with_output().expect("it ends");
-    assert!(start.elapsed() < SOON, "it took {:?}", start.elapsed());
+    while child.try_wait().expect("it is a child").is_none() {
+        if start.elapsed() > SOON {
+            // Under `nohup`, for one, -HUP is ignored.
+            let _ = child.kill();
+            panic!("{signal} did not end it within {SOON:?}");
+        }
+        std::thread::sleep(Duration::from_millis(10));
+    }
+    let output = child.wait_with_output().expect("it has ended");
     assert_eq!(output.status.code(), Some(130));
     String::from_utf8_lossy(&output.stderr).into_owned()
 }
