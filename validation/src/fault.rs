@@ -143,8 +143,8 @@ impl<W: World> Surfaces for Faulty<'_, W> {
         self.world.surfaces().intersect(ray)
     }
 
-    fn intersect_batch<'r>(&self, queries: impl Iterator<Item = (&'r Ray, &'r mut Option<Hit>)>) {
-        self.world.surfaces().intersect_batch(queries);
+    fn intersect_batch(&self, rays: &[Ray], hits: &mut [Option<Hit>]) {
+        self.world.surfaces().intersect_batch(rays, hits);
     }
 
     fn vertex(&self, ray: &Ray, hit: &Hit) -> SurfaceInteraction {
@@ -309,8 +309,12 @@ impl<W: World> World for Faulty<'_, W> {
         self.world.transmittance(ray, wavelengths, crossings)
     }
 
-    fn transmittance_batch<'r>(&self, queries: impl Iterator<Item = ShadowQuery<'r>>) {
-        self.world.transmittance_batch(queries);
+    fn transmittance_batch(
+        &self,
+        queries: &[ShadowQuery],
+        transmissions: &mut [Option<Transmission>],
+    ) {
+        self.world.transmittance_batch(queries, transmissions);
     }
 
     fn sample_light(

@@ -20,8 +20,8 @@ use etalon_math::{Density, SolidAngle};
 use etalon_sampling::Sampler;
 use etalon_spectrum::Wavelengths;
 use etalon_transport::{
-    Bsdf, LightSample, LightSampleContext, LightVariety, SamplePdf, Transmission, TransportMode,
-    World,
+    Bsdf, LightSample, LightSampleContext, LightVariety, SamplePdf, SurfaceInteraction,
+    Transmission, TransportMode, World,
 };
 use glam::{Vec2, Vec3, Vec4};
 
@@ -102,6 +102,20 @@ impl Aim {
             complete,
             by_scattering,
         }
+    }
+
+    /// What it brings to `vertex` after its shadow ray, past at most `crossings` surfaces that let light pass.
+    #[inline]
+    pub(crate) fn traced<W: World>(
+        &self,
+        world: &W,
+        vertex: &SurfaceInteraction,
+        wavelengths: &Wavelengths,
+        crossings: u32,
+    ) -> Vec4 {
+        (vertex.shadow_ray(self.direction, self.target))
+            .and_then(|ray| world.transmittance(&ray, wavelengths, crossings))
+            .map_or(Vec4::ZERO, |transmission| self.estimate(&transmission))
     }
 
     /// What it brings through what lies in between.

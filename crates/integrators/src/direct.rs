@@ -12,20 +12,20 @@
 //! like any other, shadow rays are stopped by such surfaces, and alpha is 1 wherever there is a
 //! surface, 0 before the background.
 
+use crate::arrival::{Arrival, Arriving, next_hit};
 use crate::camera_ray::camera_ray;
 use crate::candidates::{Aim, Candidates};
 use crate::dimensions::BounceSamples;
 use crate::light_mis::LightMis;
 use crate::path_throughput::PathThroughput;
 use crate::settings::{LightCandidates, read_max_depth};
-use crate::steps;
 use etalon_params::Params;
 use etalon_sampling::{ReplicateKind, Sampler};
 use etalon_spectrum::Wavelengths;
 use etalon_transport::{
-    Bsdf, BsdfOf, Incompatibility, Integrator, LightSample, LightSampleContext, LightSearch,
-    Lights, Pass, PixelSample, Placing, Ray, SceneCapabilities, Sensor, Sink, SurfaceInteraction,
-    Surfaces, TransportMode, World,
+    Bsdf, BsdfOf, Incompatibility, Integrator, LightSample, LightSampleContext, LightSearch, Pass,
+    PixelSample, Placing, Ray, SceneCapabilities, Sensor, Sink, SurfaceInteraction, Surfaces,
+    TransportMode, World,
 };
 use glam::{Vec3, Vec4};
 
@@ -91,16 +91,23 @@ impl Direct {
         sampler: &mut S,
     ) -> (Vec4, f32) {
         let visible = !self.hide_emitters;
-        let Some((hit, vertex)) = steps::next_surface(world, &mut ray, !visible) else {
-            let seen = visible && self.max_depth >= 1 && world.lights().has_background();
-            let sky = || steps::background(world, ray.direction, wavelengths, &START, &NONE);
-            return (if seen { sky() } else { Vec4::ZERO }, 0.0);
+        let hit = next_hit(world, &mut ray, !visible);
+        let sees_background = visible && self.max_depth >= 1;
+        let arriving = Arriving {
+            wavelengths,
+            throughput: &START,
+            light_mis: &NONE,
+        };
+        let (vertex, emission) = match arriving.at(world, &ray, hit.as_ref(), sees_background) {
+            Arrival::Surface(vertex, emission) => (vertex, emission),
+            Arrival::Background(emission) => return (emission, 0.0),
+            Arrival::Nothing => return (Vec4::ZERO, 0.0),
         };
         let wo = -ray.direction;
-        let mut result = Vec4::ZERO;
-        if world.lights().is_emitter(&hit) && self.max_depth >= 1 {
-            result += steps::emission(world, &vertex, ray.direction, wavelengths, &START, &NONE);
-        }
+        let mut result = match self.max_depth {
+            0 => Vec4::ZERO,
+            _ => emission,
+        };
         if self.max_depth < 2 {
             return (result, 1.0);
         }
@@ -157,7 +164,7 @@ impl Direct {
         let balance = [self.emitter_samples as f32, self.bsdf_samples as f32];
         let aim = |light: &LightSample| Aim::new(light, &START, bsdf, wo, balance);
         let aim = candidates.draw(world, from, wavelengths, &event, sampler, aim);
-        steps::shadowed(world, vertex, wavelengths, aim, 0).unwrap_or(Vec4::ZERO)
+        aim.map_or(Vec4::ZERO, |aim| aim.traced(world, vertex, wavelengths, 0))
     }
 
     #[allow(clippy::too_many_arguments)]
@@ -182,15 +189,16 @@ impl Direct {
         path.scatter(sample.value, sample.chance.lanes());
         path.r_u *= self.bsdf_samples as f32;
         light_mis.r_l *= self.emitter_samples as f32;
-        let mut ray = vertex.spawn(sample.wi);
-        match steps::next_surface(world, &mut ray, false) {
-            None if world.lights().has_background() => {
-                steps::background(world, ray.direction, wavelengths, &path, &light_mis)
-            }
-            Some((hit, end)) if world.lights().is_emitter(&hit) => {
-                steps::emission(world, &end, ray.direction, wavelengths, &path, &light_mis)
-            }
-            _ => Vec4::ZERO,
+        let ray = vertex.spawn(sample.wi);
+        let hit = world.surfaces().intersect(&ray);
+        let arriving = Arriving {
+            wavelengths,
+            throughput: &path,
+            light_mis: &light_mis,
+        };
+        match arriving.at(world, &ray, hit.as_ref(), true) {
+            Arrival::Surface(_, emission) | Arrival::Background(emission) => emission,
+            Arrival::Nothing => Vec4::ZERO,
         }
     }
 }

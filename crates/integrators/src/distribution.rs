@@ -15,20 +15,20 @@
 //! sums. The N directions at a point are stratified in one coordinate. Rays of later bounces matter
 //! less, so that N is divided at each.
 
+use crate::arrival::{Arrival, Arriving, next_hit, opacity};
 use crate::camera_ray::camera_ray;
 use crate::candidates::Aim;
 use crate::dimensions::BounceSamples;
 use crate::light_mis::LightMis;
 use crate::path_throughput::PathThroughput;
 use crate::settings::PathSettings;
-use crate::steps;
 use etalon_math::float::ONE_MINUS_EPSILON;
 use etalon_params::Params;
 use etalon_sampling::{ReplicateKind, Sampler};
 use etalon_spectrum::Wavelengths;
 use etalon_transport::{
-    Bsdf, BsdfOf, Integrator, LightSampleContext, Lights, Pass, PixelSample, Placing, Ray, Sensor,
-    Sink, SurfaceInteraction, Surfaces, TransportMode, World,
+    Bsdf, BsdfOf, Integrator, LightSampleContext, Pass, PixelSample, Placing, Ray, Sensor, Sink,
+    SurfaceInteraction, Surfaces, TransportMode, World,
 };
 use glam::{Vec2, Vec3, Vec4};
 
@@ -80,7 +80,7 @@ impl Distribution {
 #[derive(Clone, Copy)]
 struct Branch {
     ray: Ray,
-    prefix: PathThroughput,
+    throughput: PathThroughput,
     light_mis: LightMis,
     /// The product of the indices of refraction passed.
     eta: f32,
@@ -129,31 +129,34 @@ impl<W: World, S: Sampler> Tree<'_, W, S> {
         let (world, settings) = (self.world, self.integrator.settings);
         found.alpha = found.alpha.max(f32::from(!branch.straight));
         let hidden = settings.hide_emitters && branch.depth == 1;
-        let Some(hit) = steps::next_hit(world, &mut branch.ray, hidden) else {
-            let visible = !settings.hide_emitters || !branch.straight;
-            if visible && world.lights().has_background() {
-                let (direction, waves) = (branch.ray.direction, &self.wavelengths);
-                found.radiance +=
-                    steps::background(world, direction, waves, &branch.prefix, &branch.light_mis);
-                found.alpha = 1.0;
-            }
-            return None;
+        let hit = next_hit(world, &mut branch.ray, hidden);
+        let arriving = Arriving {
+            wavelengths: &self.wavelengths,
+            throughput: &branch.throughput,
+            light_mis: &branch.light_mis,
         };
-        let emits = world.lights().is_emitter(&hit);
+        // A hidden sky stays hidden to rays that only went straight.
+        let sees_background = !settings.hide_emitters || !branch.straight;
+        let vertex = match arriving.at(world, &branch.ray, hit.as_ref(), sees_background) {
+            Arrival::Surface(vertex, emission) => {
+                found.radiance += emission;
+                vertex
+            }
+            Arrival::Background(emission) => {
+                found.radiance += emission;
+                found.alpha = 1.0;
+                return None;
+            }
+            Arrival::Nothing => return None,
+        };
         let last = branch.depth == settings.max_depth;
-        if last && !emits && !branch.straight {
+        if last && !branch.straight {
             return None;
         }
-        let vertex = world.surfaces().vertex(&branch.ray, &hit);
         let wo = -branch.ray.direction;
-        if emits {
-            let (direction, waves) = (branch.ray.direction, &self.wavelengths);
-            let (before, light_mis) = (&branch.prefix, &branch.light_mis);
-            found.radiance += steps::emission(world, &vertex, direction, waves, before, light_mis);
-        }
         let bsdf = world.surfaces().bsdf(&vertex, wo, &self.wavelengths);
         if last {
-            found.alpha = found.alpha.max(steps::opacity(&bsdf));
+            found.alpha = found.alpha.max(opacity(&bsdf));
             return None;
         }
         let continuous = bsdf.has_continuous();
@@ -217,10 +220,11 @@ impl<W: World, S: Sampler> Tree<'_, W, S> {
     ) -> Vec4 {
         let (world, settings) = (self.world, self.integrator.settings);
         let light = world.sample_light(from, &self.wavelengths, event.light_choice, event.light);
-        let aim = light.and_then(|light| Aim::new(&light, &branch.prefix, bsdf, wo, [1.0; 2]));
+        let aim = light.and_then(|light| Aim::new(&light, &branch.throughput, bsdf, wo, [1.0; 2]));
         let max_null = settings.max_depth - branch.depth - 1;
-        let brings = steps::shadowed(world, vertex, &self.wavelengths, aim, max_null);
-        brings.unwrap_or(Vec4::ZERO)
+        aim.map_or(Vec4::ZERO, |aim| {
+            aim.traced(world, vertex, &self.wavelengths, max_null)
+        })
     }
 
     /// The branch that leaves a surface.
@@ -239,22 +243,22 @@ impl<W: World, S: Sampler> Tree<'_, W, S> {
         };
         let mut next = Branch {
             ray: vertex.spawn(sample.wi),
-            light_mis: branch.light_mis.after(&branch.prefix, from, &sample),
+            light_mis: branch.light_mis.after(&branch.throughput, from, &sample),
             eta: branch.eta * sample.eta,
             depth: branch.depth + 1,
             bounces: branch.bounces + u32::from(bsdf.has_continuous()),
             straight: branch.straight && sample.is_null,
             ..*branch
         };
-        next.prefix.scatter(sample.value, sample.chance.lanes());
+        next.throughput.scatter(sample.value, sample.chance.lanes());
         let straight = next.straight;
         if branch.depth >= self.integrator.settings.rr_depth {
-            let survival = next.prefix.survival(next.eta);
-            if !next.prefix.survives(survival, event.roulette) {
+            let survival = next.throughput.survival(next.eta);
+            if !next.throughput.survives(survival, event.roulette) {
                 return Next::Ended { straight };
             }
         }
-        if next.prefix.beta == Vec4::ZERO {
+        if next.throughput.beta == Vec4::ZERO {
             return Next::Ended { straight };
         }
         Next::Branch(next)
@@ -298,7 +302,7 @@ impl Integrator for Distribution {
         let found = if self.settings.max_depth > 0 {
             tree.grow(Branch {
                 ray,
-                prefix: PathThroughput::START,
+                throughput: PathThroughput::START,
                 light_mis: LightMis::NONE,
                 eta: 1.0,
                 depth: 1,

@@ -19,11 +19,11 @@
 //! ray per sample, which also tells alpha. Lights without extent are not seen themselves, as by
 //! any other estimator. With `hide_emitters` the camera looks through lights, as that of `path`.
 
+use crate::arrival;
 use crate::camera_ray::camera_ray;
 use crate::particle::LightPath;
 use crate::path_throughput::PathThroughput;
 use crate::settings::PathSettings;
-use crate::steps;
 use etalon_params::Params;
 use etalon_sampling::{ReplicateKind, Sampler};
 use etalon_spectrum::{SensorWeights, Wavelengths};
@@ -60,8 +60,8 @@ impl Forward {
         let mut through = Vec4::ONE;
         let mut depth = 1;
         while depth <= self.settings.max_depth {
-            let hit = steps::next_hit(world, &mut ray, hide && depth == 1);
-            if let Some(passage) = steps::transmittance(world, &ray, hit.as_ref(), wavelengths) {
+            let hit = arrival::next_hit(world, &mut ray, hide && depth == 1);
+            if let Some(passage) = arrival::transmittance(world, &ray, hit.as_ref(), wavelengths) {
                 through *= passage.transmittance;
             }
             let Some(hit) = hit else {
@@ -98,7 +98,7 @@ impl Forward {
         let mut arriving = Vec4::ONE;
         loop {
             let hit = world.surfaces().intersect(&ray);
-            if let Some(passage) = steps::transmittance(world, &ray, hit.as_ref(), wavelengths) {
+            if let Some(passage) = arrival::transmittance(world, &ray, hit.as_ref(), wavelengths) {
                 arriving *= passage.transmittance;
             }
             let Some(hit) = hit else { break };

@@ -8,6 +8,7 @@
 
 pub mod ao;
 pub mod aov;
+mod arrival;
 pub mod bdpt;
 mod camera_ray;
 mod candidates;
@@ -26,6 +27,7 @@ pub mod moment;
 pub mod naive;
 mod particle;
 pub mod path;
+mod path_batch;
 mod path_diffusion;
 mod path_hooks;
 mod path_media;
@@ -44,7 +46,6 @@ pub mod settings;
 mod share;
 pub mod signature;
 pub mod sppm;
-mod steps;
 pub mod vcm;
 mod visibility;
 pub mod whitted;

@@ -24,12 +24,12 @@
 //! always. The density of a uniform or cosine direction is the same for every wavelength, that of
 //! a discrete one is not; the house's estimator ([`crate::path_throughput`]) takes one like the other.
 
+use crate::arrival::{Arrival, Arriving, next_hit, opacity};
 use crate::camera_ray::camera_ray;
 use crate::dimensions::BounceSamples;
 use crate::light_mis::LightMis;
 use crate::path_throughput::PathThroughput;
 use crate::settings::PathSettings;
-use crate::steps::{self, next_surface};
 use core::f32::consts::FRAC_1_PI;
 use etalon_math::Frame;
 use etalon_math::float::ONE_MINUS_EPSILON;
@@ -38,7 +38,7 @@ use etalon_sampling::warps::{square_to_cosine_hemisphere, square_to_uniform_hemi
 use etalon_sampling::{ReplicateKind, Sampler};
 use etalon_spectrum::Wavelengths;
 use etalon_transport::{
-    Bsdf, Incompatibility, Integrator, LightSearch, Lights, Pass, PixelSample, Placing, Ray,
+    Bsdf, Incompatibility, Integrator, LightSearch, Pass, PixelSample, Placing, Ray,
     SceneCapabilities, Sensor, Sink, SurfaceInteraction, Surfaces, TransportMode, World,
 };
 use glam::{Vec2, Vec3, Vec4};
@@ -182,30 +182,36 @@ impl Naive {
             rr_depth,
             hide_emitters,
         } = self.settings;
-        let mut prefix = PathThroughput::START;
+        let mut throughput = PathThroughput::START;
         let mut radiance = Vec4::ZERO;
         let (mut alpha, mut eta): (f32, f32) = (0.0, 1.0);
         // Number of segments, that of `ray` included.
         let mut depth = 1;
         while depth <= max_depth {
-            let Some((hit, vertex)) = next_surface(world, &mut ray, hide_emitters && depth == 1)
-            else {
-                // A hidden sky stays hidden to rays that only went straight.
-                if world.lights().has_background() && !(hide_emitters && alpha == 0.0) {
-                    let (direction, none) = (ray.direction, &LightMis::NONE);
-                    radiance += steps::background(world, direction, wavelengths, &prefix, none);
-                    alpha = 1.0;
+            let hit = next_hit(world, &mut ray, hide_emitters && depth == 1);
+            let arriving = Arriving {
+                wavelengths,
+                throughput: &throughput,
+                light_mis: &LightMis::NONE,
+            };
+            // A hidden sky stays hidden to rays that only went straight.
+            let sees_background = !hide_emitters || alpha > 0.0;
+            let vertex = match arriving.at(world, &ray, hit.as_ref(), sees_background) {
+                Arrival::Surface(vertex, emission) => {
+                    radiance += emission;
+                    vertex
                 }
-                break;
+                Arrival::Background(emission) => {
+                    radiance += emission;
+                    alpha = 1.0;
+                    break;
+                }
+                Arrival::Nothing => break,
             };
             let wo = -ray.direction;
-            if world.lights().is_emitter(&hit) {
-                let (direction, none) = (ray.direction, &LightMis::NONE);
-                radiance += steps::emission(world, &vertex, direction, wavelengths, &prefix, none);
-            }
             let bsdf = world.surfaces().bsdf(&vertex, wo, wavelengths);
             if depth == max_depth {
-                alpha = alpha.max(steps::opacity(&bsdf));
+                alpha = alpha.max(opacity(&bsdf));
                 break;
             }
             let event = BounceSamples::draw(sampler, depth - 1);
@@ -216,15 +222,15 @@ impl Naive {
             let Some(step) = step else {
                 break;
             };
-            prefix.scatter(step.value, step.chance);
+            throughput.scatter(step.value, step.chance);
             eta *= step.eta;
             if depth >= rr_depth {
-                let survival = prefix.survival(eta);
-                if !prefix.survives(survival, event.roulette) {
+                let survival = throughput.survival(eta);
+                if !throughput.survives(survival, event.roulette) {
                     break;
                 }
             }
-            if prefix.beta == Vec4::ZERO {
+            if throughput.beta == Vec4::ZERO {
                 break;
             }
             ray = vertex.spawn(step.wi);

@@ -15,22 +15,24 @@
 //! neither stop shadow rays nor end light sampling's claim on a path: the density with which the
 //! *last real vertex* would have sampled the light is carried across them.
 //!
-//! Several paths are followed in step: all of them look for their next surface, then all meet it,
-//! then all trace their shadow rays. What one path waits for, another has meanwhile.
+//! Several paths are followed in step, see [`crate::path_batch`].
 
+use crate::arrival;
+use crate::path_batch::PathBatch;
 use crate::path_hooks::PathHooks;
-use crate::path_state::{PathState, ScatteringPoint};
+use crate::path_state::{PathState, ScatteringPoint, Step};
 use crate::render::BATCH_SIZE;
 use crate::settings::{LightCandidates, PathConfig, PathSettings};
-use crate::steps;
+use arrayvec::ArrayVec;
 use core::ops::{ControlFlow, Range};
 use etalon_params::Params;
 use etalon_sampling::{ReplicateKind, Sampler};
 use etalon_transport::{
-    Bsdf, Integrator, Lights, Pass, PixelSample, Placing, Ray, SampleJob, Sink, Surfaces, TileSink,
-    World,
+    Bsdf, Hit, Integrator, Lights, Pass, PixelSample, Placing, Ray, SampleJob, Sink, Surfaces,
+    TileSink, World,
 };
 use glam::Vec4;
+use std::vec::Drain;
 
 /// The path tracer.
 #[derive(Clone, Debug, Default)]
@@ -76,28 +78,67 @@ impl Path {
 
 /// Follows paths to their ends, in step.
 #[inline]
-pub(crate) fn follow<W: World, S: Sampler, C: PathHooks>(
+pub(crate) fn follow<W: World, S: Sampler, C: PathHooks, const N: usize>(
     world: &W,
     config: &PathConfig,
-    paths: &mut [Option<PathState<S, C>>],
+    batch: &mut PathBatch<S, C, N>,
 ) {
-    while paths.iter().flatten().any(|path| path.ray.is_some()) {
-        for path in paths.iter_mut().flatten() {
-            path.plan_flight(world, config);
-        }
-        let rays = paths.iter_mut().flatten();
-        world
-            .surfaces()
-            .intersect_batch(rays.filter_map(PathState::segment));
-        for path in paths.iter_mut().flatten() {
-            if let Some(ray) = path.ray.take() {
-                path.ray = extend(world, config, path, ray);
-            }
-        }
-        let shadow_rays = paths.iter_mut().flatten();
-        world.transmittance_batch(shadow_rays.filter_map(PathState::shadow_query));
-        paths.iter_mut().flatten().for_each(PathState::add_light);
+    while batch.goes_on() {
+        batch.intersect(world, config);
+        batch.advance(|path, ray, hit| extend(world, config, path, ray, hit));
+        batch.trace_shadows(world);
     }
+}
+
+/// What becomes of a path along `ray`, whose nearest surface is `hit`: it arrives, emission is added, a light sampled, and a
+/// direction.
+#[inline]
+fn extend<W: World, S: Sampler, C: PathHooks>(
+    world: &W,
+    config: &PathConfig,
+    path: &mut PathState<S, C>,
+    ray: &Ray,
+    hit: Option<&Hit>,
+) -> Step {
+    if ray.medium.is_some()
+        && let ControlFlow::Break(step) = path.fly(world, config, ray, hit)
+    {
+        return step;
+    }
+    let last = path.depth == config.limits.max_depth;
+    if let Some(hit) = hit {
+        let emits = world.lights().is_emitter(hit);
+        if emits && path.sees_through_lights(config) {
+            let light = world.surfaces().vertex(ray, hit);
+            return Step::straight(light.spawn(ray.direction));
+        }
+        if last && !emits && path.alpha > 0.0 && config.counts_null {
+            return Step::END;
+        }
+    }
+    let Some(vertex) = path.arrive(world, config, ray, hit) else {
+        return Step::END;
+    };
+    let wo = -ray.direction;
+    let bsdf = world.surfaces().bsdf(&vertex, wo, &path.wavelengths);
+    let bsdf = path.hooks.wrap_bsdf(&vertex, wo, bsdf);
+    let passes = !config.counts_null && bsdf.null_probability() != Vec4::ZERO;
+    if last && !passes {
+        // No direction is sampled at the last vertex: its null probability alone estimates alpha.
+        path.alpha = path.alpha.max(arrival::opacity(&bsdf));
+        return Step::END;
+    }
+    let at = ScatteringPoint::new(&vertex, &bsdf, wo, path.draw_event());
+    let step = Step {
+        shadow: (!last)
+            .then(|| path.sample_light(world, config, &at))
+            .flatten(),
+        ray: path.scatter(config, &at),
+    };
+    if step.ray.is_some_and(|next| next.medium.is_some()) {
+        return path.enter(world, config, &vertex, ray.medium, step);
+    }
+    step
 }
 
 /// Follows one path as long as it has scattered less than `wanted` ends at; of its contributions only those count whose number of
@@ -105,72 +146,25 @@ pub(crate) fn follow<W: World, S: Sampler, C: PathHooks>(
 pub(crate) fn follow_part<W: World, S: Sampler, C: PathHooks>(
     world: &W,
     config: &PathConfig,
-    path: &mut PathState<S, C>,
+    (path, camera_ray): (&mut PathState<S, C>, Ray),
     wanted: &Range<u32>,
 ) {
-    while path.scatter_count < wanted.end {
-        path.plan_flight(world, config);
-        let Some(ray) = path.ray.take() else { break };
-        path.hit = world.surfaces().intersect(&ray);
+    let mut next = config.first_segment(camera_ray);
+    while path.scatter_count < wanted.end
+        && let Some(mut ray) = next
+    {
+        path.plan_flight(world, config, &mut ray);
+        let hit = world.surfaces().intersect(&ray);
         let (radiance, scatter_count) = (path.radiance, path.scatter_count);
-        path.ray = extend(world, config, path, ray);
+        let step = extend(world, config, path, &ray, hit.as_ref());
         if scatter_count < wanted.start {
             path.radiance = radiance;
         }
         if wanted.contains(&(scatter_count + 1)) {
-            path.trace_shadow(world);
-        } else {
-            path.shadow_ray = None;
+            path.trace_shadow(world, step.shadow);
         }
+        next = step.ray;
     }
-}
-
-/// What happens where `ray` leads, whose nearest surface is known: emission is added, a shadow ray prepared, and a direction
-/// sampled. The ray that the path goes on with; `None` if it ends.
-#[inline]
-fn extend<W: World, S: Sampler, C: PathHooks>(
-    world: &W,
-    config: &PathConfig,
-    path: &mut PathState<S, C>,
-    mut ray: Ray,
-) -> Option<Ray> {
-    path.look_through_hidden(world, config, &mut ray);
-    if ray.medium.is_some()
-        && let ControlFlow::Break(next) = path.fly(world, config, &ray)
-    {
-        return next;
-    }
-    let Some(hit) = path.hit else {
-        path.add_background(world, config, ray.direction);
-        return None;
-    };
-    let emits = world.lights().is_emitter(&hit);
-    let last = path.depth == config.limits.max_depth;
-    if last && !emits && path.alpha > 0.0 && config.counts_null {
-        return None;
-    }
-    let vertex = world.surfaces().vertex(&ray, &hit);
-    if emits {
-        path.add_emission(world, &vertex, ray.direction);
-    }
-    let wo = -ray.direction;
-    let bsdf = world.surfaces().bsdf(&vertex, wo, &path.wavelengths);
-    let bsdf = path.hooks.wrap_bsdf(&vertex, wo, bsdf);
-    let passes = !config.counts_null && bsdf.null_probability() != Vec4::ZERO;
-    if last && !passes {
-        // No direction is sampled at the last vertex: its null probability alone estimates alpha.
-        path.alpha = path.alpha.max(steps::opacity(&bsdf));
-        return None;
-    }
-    let at = ScatteringPoint::new(&vertex, &bsdf, wo, path.draw_event());
-    if !last {
-        path.sample_light(world, config, &at);
-    }
-    let next = path.scatter(config, &at)?;
-    if next.medium.is_some() {
-        return path.enter(world, config, &vertex, ray.medium, next);
-    }
-    Some(next)
 }
 
 /// Draws samples by paths that are followed in step, each with a copy of `hooks`.
@@ -179,24 +173,38 @@ pub(crate) fn follow_jobs<W: World, S: Sampler, K: TileSink, C: PathHooks + Copy
     world: &W,
     config: &PathConfig,
     hooks: C,
-    jobs: &mut [SampleJob<S>],
+    jobs: Drain<'_, SampleJob<S>>,
     sink: &mut K,
 ) {
-    for jobs in jobs.chunks_mut(BATCH_SIZE) {
-        let mut places = [None; BATCH_SIZE];
-        let mut each = jobs.iter_mut().zip(&mut places);
-        let mut paths: [Option<PathState<&mut S, C>>; BATCH_SIZE] = core::array::from_fn(|_| {
-            let (job, place) = each.next()?;
-            *place = Some((job.site.pixel, job.placement()));
-            let sampler = &mut job.sampler;
-            Some(PathState::start(world, config, &job.site, sampler, hooks))
-        });
-        follow(world, config, &mut paths);
-        for (path, (pixel, placement)) in paths.iter().flatten().zip(places.iter().flatten()) {
-            sink.begin_placed(*pixel, placement);
+    let mut jobs = jobs.peekable();
+    while jobs.peek().is_some() {
+        let mut batch = PathBatch::<_, _, BATCH_SIZE>::new();
+        let mut places = ArrayVec::<_, BATCH_SIZE>::new();
+        for job in jobs.by_ref().take(BATCH_SIZE) {
+            places.push((job.site.pixel, job.placement()));
+            let (path, ray) = PathState::start(world, &job.site, job.sampler, hooks);
+            batch.push(path, config.first_segment(ray));
+        }
+        follow(world, config, &mut batch);
+        for (path, (pixel, placement)) in batch.paths.iter().zip(places) {
+            sink.begin_placed(pixel, &placement);
             path.deliver(world, sink);
         }
     }
+}
+
+/// Draws one sample by a path that is followed alone.
+#[inline]
+pub(crate) fn follow_alone<W: World, S: Sampler, K: Sink, C: PathHooks>(
+    world: &W,
+    config: &PathConfig,
+    hooks: C,
+    (site, sampler): (&PixelSample, &mut S),
+    sink: &mut K,
+) {
+    let (mut path, ray) = PathState::start(world, site, sampler, hooks);
+    follow_part(world, config, (&mut path, ray), &(0..u32::MAX));
+    path.deliver(world, sink);
 }
 
 impl Integrator for Path {
@@ -220,19 +228,14 @@ impl Integrator for Path {
         sampler: &mut S,
         sink: &mut K,
     ) {
-        let config = self.config();
-        let mut paths = [Some(PathState::start(world, &config, site, sampler, ()))];
-        follow(world, &config, &mut paths);
-        for path in paths.iter().flatten() {
-            path.deliver(world, sink);
-        }
+        follow_alone(world, &self.config(), (), (site, sampler), sink);
     }
 
     fn sample_batch<W: World, S: Sampler, K: TileSink>(
         &self,
         world: &W,
         (): &(),
-        jobs: &mut [SampleJob<S>],
+        jobs: Drain<'_, SampleJob<S>>,
         sink: &mut K,
     ) {
         follow_jobs(world, &self.config(), (), jobs, sink);

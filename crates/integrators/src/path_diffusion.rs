@@ -6,7 +6,7 @@
 //! M. Fajardo, BSSRDF importance sampling, 2013).
 
 use crate::path_hooks::PathHooks;
-use crate::path_state::{PathState, ScatteringPoint};
+use crate::path_state::{PathState, ScatteringPoint, Step};
 use crate::settings::PathConfig;
 use core::f32::consts::TAU;
 use etalon_math::{Density, Frame, SolidAngle, float};
@@ -133,7 +133,7 @@ fn crossed<W: World>(
 }
 
 impl<S: Sampler, C: PathHooks> PathState<S, C> {
-    /// Where a path goes on that would enter a medium with `next` at the surface point `entered`: elsewhere on the surface, if a
+    /// Where a path goes on that would enter `medium` after `step` at the surface point `entered`: elsewhere on the surface, if a
     /// diffusion profile says where it leaves.
     #[cold]
     #[inline(never)]
@@ -142,21 +142,24 @@ impl<S: Sampler, C: PathHooks> PathState<S, C> {
         world: &W,
         config: &PathConfig,
         entered: &SurfaceInteraction,
-        next: Ray,
-    ) -> Option<Ray> {
+        medium: MediumId,
+        step: Step,
+    ) -> Step {
         let waves = self.wavelengths;
-        let Some(profile) = world.media().diffusion(next.medium, entered, &waves) else {
-            return Some(next);
+        let Some(profile) = world.media().diffusion(medium, entered, &waves) else {
+            return step;
         };
         // What the boundary reflects.
-        self.trace_shadow(world);
-        let vertex = self.leave(world, &profile, entered, next.medium)?;
+        self.trace_shadow(world, step.shadow);
+        let Some(vertex) = self.leave(world, &profile, entered, medium) else {
+            return Step::END;
+        };
         // Radiance was compressed when it came in, and is as it was now.
         let eta = profile.relative_index();
         self.throughput.beta *= eta * eta;
         self.eta /= eta;
         if self.depth == config.limits.max_depth || self.throughput.beta == Vec4::ZERO {
-            return None;
+            return Step::END;
         }
         let normal = vertex.normal;
         let shading = vertex.shading.n;
@@ -171,8 +174,9 @@ impl<S: Sampler, C: PathHooks> PathState<S, C> {
             normal,
         };
         let at = ScatteringPoint::new(&vertex, &leaving, frame.n, self.draw_event());
-        self.sample_light(world, config, &at);
-        self.scatter(config, &at)
+        let shadow = self.sample_light(world, config, &at);
+        let ray = self.scatter(config, &at);
+        Step { shadow, ray }
     }
 
     /// Where the path leaves.

@@ -1,18 +1,18 @@
 //! A path in a participating medium: free flight, next-event estimation and scattering at a point of space.
 
+use crate::arrival;
 use crate::candidates::{Aim, Candidates};
 use crate::dimensions::BounceSamples;
 use crate::equiangular::Equiangular;
 use crate::light_mis::LightMis;
 use crate::path_hooks::PathHooks;
-use crate::path_state::{PathState, ShadowRay};
+use crate::path_state::{PathState, ShadowRay, Step};
 use crate::path_throughput::PathThroughput;
 use crate::settings::PathConfig;
-use crate::steps;
 use core::ops::ControlFlow;
 use etalon_sampling::Sampler;
 use etalon_transport::{
-    Collision, LightSample, LightSampleContext, Media, Medium, MediumId, MediumOf, Phase, Ray,
+    Collision, Hit, LightSample, LightSampleContext, Media, Medium, MediumId, MediumOf, Phase, Ray,
     Transmission, World,
 };
 use glam::{Vec3, Vec4};
@@ -40,36 +40,31 @@ impl<S: Sampler, C: PathHooks> PathState<S, C> {
         }
     }
 
-    /// Decides how far the path flies through the medium that it is in, if it is in one.
+    /// Decides how far the path flies through the medium that `ray` is in, if it is in one.
     #[inline]
-    pub(crate) fn plan_flight<W: World>(&mut self, world: &W, config: &PathConfig) {
-        if self.ray.as_ref().is_some_and(|ray| ray.medium.is_some()) {
-            self.cut_short(world, config);
+    pub(crate) fn plan_flight<W: World>(&mut self, world: &W, config: &PathConfig, ray: &mut Ray) {
+        if ray.medium.is_some() {
+            self.cut_short(world, config, ray);
         }
     }
 
     /// Cuts the ray off where the path is scattered before, so that no surface beyond is looked for.
     #[cold]
     #[inline(never)]
-    fn cut_short<W: World>(&mut self, world: &W, config: &PathConfig) {
+    fn cut_short<W: World>(&mut self, world: &W, config: &PathConfig, ray: &mut Ray) {
         self.flight = self.draw_event().lobe;
         if config.equiangular {
             return;
         }
-        let Some(ray) = &self.ray else { return };
         let medium = self.medium(world, ray.medium);
         let reach = medium.and_then(|medium| medium.reach(ray, self.flight));
         // A little farther than where light is scattered, be it at once, so that it is a surface that ends the ray or nothing. NaN
         // changes nothing.
         let farther = |t| t * 1.01 + f32::MIN_POSITIVE;
-        let t_max = ray.t_max.min(reach.map_or(f32::INFINITY, farther));
-        if let Some(ray) = &mut self.ray {
-            ray.t_max = t_max;
-        }
+        ray.t_max = ray.t_max.min(reach.map_or(f32::INFINITY, farther));
     }
 
-    /// Flies through the medium to the hit, or to where light is scattered before it: there it breaks off, with the ray that the path
-    /// goes on with, if it does.
+    /// Flies through the medium to the hit, or to where light is scattered before it: there it breaks off, with what comes of that.
     #[cold]
     #[inline(never)]
     pub(crate) fn fly<W: World>(
@@ -77,21 +72,21 @@ impl<S: Sampler, C: PathHooks> PathState<S, C> {
         world: &W,
         config: &PathConfig,
         ray: &Ray,
-    ) -> ControlFlow<Option<Ray>> {
+        hit: Option<&Hit>,
+    ) -> ControlFlow<Step> {
         let u = self.flight;
         let scatters = self.depth < config.limits.max_depth;
         let along = (config.equiangular && scatters && !world.media().is_dark(ray.medium))
-            .then(|| self.look_along(world, config, ray))
+            .then(|| self.look_along(world, config, ray, hit))
             .flatten();
         let Some(medium) = self.medium(world, ray.medium) else {
             return ControlFlow::Continue(());
         };
-        let flight = steps::flight_in(&medium, ray, self.hit.as_ref(), u);
+        let flight = arrival::flight_in(&medium, ray, hit, u);
         let density = flight.density();
         self.light_mis.r_l /= density.x;
-        let light_mis = &self.light_mis;
-        let emitted = steps::emitted_on_the_way(world, &flight, ray, &self.throughput, light_mis);
-        self.add(emitted);
+        let emission = self.arriving().emitted_by_medium(world, &flight, ray);
+        self.add(emission);
         let before = self.throughput.r_u;
         self.throughput.scatter(flight.factor, density);
         self.hooks.on_medium(&self.throughput);
@@ -100,7 +95,7 @@ impl<S: Sampler, C: PathHooks> PathState<S, C> {
         };
         self.alpha = 1.0;
         if self.throughput.beta == Vec4::ZERO || !scatters {
-            return ControlFlow::Break(None);
+            return ControlFlow::Break(Step::END);
         }
         let looked_for = along.map_or(0.0, |along| along.density(t) / density.x);
         let PathThroughput { beta, r_u } = self.throughput;
@@ -124,10 +119,11 @@ impl<S: Sampler, C: PathHooks> PathState<S, C> {
         world: &W,
         config: &PathConfig,
         ray: &Ray,
+        hit: Option<&Hit>,
     ) -> Option<Equiangular> {
         let medium = self.medium(world, ray.medium)?;
         let event = self.draw_event();
-        let t_max = self.hit.map_or(ray.t_max, |hit| hit.t);
+        let t_max = hit.map_or(ray.t_max, |hit| hit.t);
         let middle = if t_max.is_finite() { 0.5 * t_max } else { 0.0 };
         let from = LightSampleContext::in_space(ray.at(middle)).at(ray.time);
         let light =
@@ -158,8 +154,8 @@ impl<S: Sampler, C: PathHooks> PathState<S, C> {
                 lit,
                 flown: r_u * flown,
             };
-            self.light_in_medium(world, config, ray, &vertex, &event);
-            self.trace_shadow(world);
+            let (_, shadow) = self.light_in_medium(world, config, ray, &vertex, &event);
+            self.trace_shadow(world, shadow);
         }
         Some(along)
     }
@@ -171,18 +167,19 @@ impl<S: Sampler, C: PathHooks> PathState<S, C> {
         config: &PathConfig,
         ray: &Ray,
         vertex: &MediumVertex<'_, P>,
-    ) -> Option<Ray> {
+    ) -> Step {
         let event = self.draw_event();
-        let mut sampled = None;
+        let (mut from, mut shadow) = (None, None);
         if !world.media().is_dark(ray.medium) {
-            sampled = Some(self.light_in_medium(world, config, ray, vertex, &event));
+            let (context, light) = self.light_in_medium(world, config, ray, vertex, &event);
+            (from, shadow) = (Some(context), light);
             self.hooks.on_light_sample();
         }
         let sample = vertex.phase.sample(-ray.direction, event.direction);
         self.scatter_count += 1;
         self.scattered = true;
         let density = sample.density.lanes();
-        self.light_mis = sampled.map_or(LightMis::NONE, |from| LightMis {
+        self.light_mis = from.map_or(LightMis::NONE, |from| LightMis {
             from,
             r_l: vertex.lit.r_u / density.x,
         });
@@ -193,13 +190,15 @@ impl<S: Sampler, C: PathHooks> PathState<S, C> {
             path.hooks.on_roulette(survival);
             survival
         });
-        (survives && self.throughput.beta != Vec4::ZERO).then(|| Ray {
+        let goes_on = survives && self.throughput.beta != Vec4::ZERO;
+        let next = goes_on.then(|| Ray {
             medium: ray.medium,
             ..Ray::new(vertex.at, sample.wi, ray.time)
-        })
+        });
+        Step { shadow, ray: next }
     }
 
-    /// Prepares the shadow ray of a light sample at a point of the medium.
+    /// Next-event estimation at a point of the medium.
     fn light_in_medium<W: World, P: Phase>(
         &mut self,
         world: &W,
@@ -207,7 +206,7 @@ impl<S: Sampler, C: PathHooks> PathState<S, C> {
         ray: &Ray,
         vertex: &MediumVertex<'_, P>,
         event: &BounceSamples,
-    ) -> LightSampleContext {
+    ) -> (LightSampleContext, Option<ShadowRay>) {
         let MediumVertex {
             at,
             phase,
@@ -225,7 +224,7 @@ impl<S: Sampler, C: PathHooks> PathState<S, C> {
         };
         let (waves, sampler) = (&self.wavelengths, &mut self.sampler);
         let aim = candidates.draw(world, &from, waves, event, sampler, aim);
-        self.shadow_ray = aim.and_then(|aim| {
+        let shadow = aim.and_then(|aim| {
             let ray = match aim.target {
                 Some(target) => Ray::between(at, target, time)?,
                 None => Ray::new(at, aim.direction, time),
@@ -234,9 +233,8 @@ impl<S: Sampler, C: PathHooks> PathState<S, C> {
                 ray: Ray { medium, ..ray },
                 crossings: config.null_crossings(self.depth),
                 aim,
-                found: None,
             })
         });
-        from
+        (from, shadow)
     }
 }

@@ -1,5 +1,6 @@
 //! One path of the path tracer, from surface to surface.
 
+use crate::arrival::{Arrival, Arriving};
 use crate::camera_ray::camera_ray;
 use crate::candidates::{Aim, Candidates};
 use crate::dimensions::BounceSamples;
@@ -7,12 +8,11 @@ use crate::light_mis::LightMis;
 use crate::path_hooks::PathHooks;
 use crate::path_throughput::PathThroughput;
 use crate::settings::{LightCandidates, PathConfig};
-use crate::steps;
 use etalon_sampling::Sampler;
 use etalon_spectrum::Wavelengths;
 use etalon_transport::{
-    Bsdf, Coefficients, Hit, LightSample, LightSampleContext, Lights, Media, MediumId, PixelSample,
-    Ray, Sensor, ShadowQuery, Sink, SurfaceInteraction, Transmission, TransportMode, World,
+    Bsdf, Coefficients, Hit, LightSample, LightSampleContext, Media, MediumId, PixelSample, Ray,
+    Sensor, Sink, SurfaceInteraction, Transmission, TransportMode, World,
 };
 use glam::{Vec3, Vec4};
 
@@ -22,15 +22,11 @@ pub(crate) struct PathState<S, C = ()> {
     pub(crate) wavelengths: Wavelengths,
     /// The factor by which what is found counts.
     weight: f32,
-    /// The ray that the path goes on with; `None` once it has ended.
-    pub(crate) ray: Option<Ray>,
-    /// The nearest surface along it.
-    pub(crate) hit: Option<Hit>,
     pub(crate) throughput: PathThroughput,
     pub(crate) light_mis: LightMis,
     /// The product of the indices of refraction passed.
     pub(crate) eta: f32,
-    /// Number of segments, that of `ray` included.
+    /// Number of segments, that included which the path goes on with.
     pub(crate) depth: u32,
     /// Scattering events so far, null interactions not counted.
     pub(crate) scatter_count: u32,
@@ -43,7 +39,6 @@ pub(crate) struct PathState<S, C = ()> {
     /// Whether a direction was sampled from a density. One light sample is left for a shadow ray from then on:
     /// what is farther down the path adds less noise than the samples take time.
     pub(crate) scattered: bool,
-    pub(crate) shadow_ray: Option<ShadowRay>,
     /// The radiance found, per lane, over the sum of all densities' ratios (see
     /// [`PathThroughput::contribution`]).
     pub(crate) radiance: Vec4,
@@ -56,10 +51,34 @@ pub(crate) struct PathState<S, C = ()> {
 /// A light sample before its shadow ray is traced.
 pub(crate) struct ShadowRay {
     pub(crate) ray: Ray,
+    /// How many surfaces may let it pass.
     pub(crate) crossings: u32,
     pub(crate) aim: Aim,
-    /// What comes of it, once it has been traced.
-    pub(crate) found: Option<Transmission>,
+}
+
+/// What a vertex makes of a path.
+pub(crate) struct Step {
+    /// The light sample there, if one may bring anything.
+    pub(crate) shadow: Option<ShadowRay>,
+    /// The ray that the path goes on with; `None` if it ends.
+    pub(crate) ray: Option<Ray>,
+}
+
+impl Step {
+    /// The path ends, with nothing left to do.
+    pub(crate) const END: Self = Self {
+        shadow: None,
+        ray: None,
+    };
+
+    /// The path goes on as if nothing were there.
+    #[inline]
+    pub(crate) fn straight(ray: Ray) -> Self {
+        Self {
+            shadow: None,
+            ray: Some(ray),
+        }
+    }
 }
 
 /// A point of a surface where a path is scattered.
@@ -92,22 +111,19 @@ impl<'a, B: Bsdf> ScatteringPoint<'a, B> {
 }
 
 impl<S: Sampler, C: PathHooks> PathState<S, C> {
-    /// The path of a sample, before its first surface is known.
+    /// The path of a sample, and the camera's ray that it begins with.
     #[inline]
     pub(crate) fn start<W: World>(
         world: &W,
-        config: &PathConfig,
         site: &PixelSample,
         mut sampler: S,
         hooks: C,
-    ) -> Self {
+    ) -> (Self, Ray) {
         let (wavelengths, ray, weight) = camera_ray(world, site, &mut sampler);
-        Self {
+        let path = Self {
             sampler,
             wavelengths,
             weight,
-            ray: (config.limits.max_depth > 0).then_some(ray),
-            hit: None,
             throughput: PathThroughput::START,
             light_mis: LightMis::NONE,
             eta: 1.0,
@@ -117,11 +133,11 @@ impl<S: Sampler, C: PathHooks> PathState<S, C> {
             entered: None,
             events: 0,
             scattered: false,
-            shadow_ray: None,
             radiance: Vec4::ZERO,
             alpha: 0.0,
             hooks,
-        }
+        };
+        (path, ray)
     }
 
     /// The hooks, when the path has ended.
@@ -151,60 +167,46 @@ impl<S: Sampler, C: PathHooks> PathState<S, C> {
             .rgb(self.radiance * self.weight)
     }
 
-    /// The next segment, and the place for the nearest surface along it.
+    /// Whether the path looks through lights: the camera's ray, where they are hidden.
     #[inline]
-    pub(crate) fn segment(&mut self) -> Option<(&Ray, &mut Option<Hit>)> {
-        Some((self.ray.as_ref()?, &mut self.hit))
+    pub(crate) fn sees_through_lights(&self, config: &PathConfig) -> bool {
+        config.limits.hide_emitters && self.depth == 1
     }
 
-    /// Goes on to what is behind lights that the camera does not see.
+    /// The path as it arrives somewhere.
     #[inline]
-    pub(crate) fn look_through_hidden<W: World>(
-        &mut self,
-        world: &W,
-        config: &PathConfig,
-        ray: &mut Ray,
-    ) {
-        let hidden = config.limits.hide_emitters && self.depth == 1;
-        if hidden && self.hit.is_some_and(|hit| world.lights().is_emitter(&hit)) {
-            // Once more from where the ray starts, as what is in between may be flown through.
-            self.hit = steps::next_hit(world, ray, hidden);
+    pub(crate) fn arriving(&self) -> Arriving<'_> {
+        Arriving {
+            wavelengths: &self.wavelengths,
+            throughput: &self.throughput,
+            light_mis: &self.light_mis,
         }
     }
 
-    /// Adds the lights at infinity that are seen along `direction`.
+    /// Where it arrives along `ray`, whose nearest surface is `hit`: the surface there, if there is one. Its emission, or that of
+    /// the lights at infinity, is added.
     #[inline]
-    pub(crate) fn add_background<W: World>(
+    pub(crate) fn arrive<W: World>(
         &mut self,
         world: &W,
         config: &PathConfig,
-        direction: Vec3,
-    ) {
+        ray: &Ray,
+        hit: Option<&Hit>,
+    ) -> Option<SurfaceInteraction> {
         // A hidden sky stays hidden to rays that only went straight.
-        let visible = !config.limits.hide_emitters || self.alpha > 0.0;
-        if visible && world.lights().has_background() {
-            self.alpha = 1.0;
-            let (before, light_mis) = (&self.throughput, &self.light_mis);
-            let waves = &self.wavelengths;
-            self.add(steps::background(
-                world, direction, waves, before, light_mis,
-            ));
+        let sees_background = !config.limits.hide_emitters || self.alpha > 0.0;
+        match self.arriving().at(world, ray, hit, sees_background) {
+            Arrival::Surface(vertex, emission) => {
+                self.add(emission);
+                Some(vertex)
+            }
+            Arrival::Background(emission) => {
+                self.alpha = 1.0;
+                self.add(emission);
+                None
+            }
+            Arrival::Nothing => None,
         }
-    }
-
-    /// Adds what the surface at `vertex` emits, reached along `direction`.
-    #[inline]
-    pub(crate) fn add_emission<W: World>(
-        &mut self,
-        world: &W,
-        vertex: &SurfaceInteraction,
-        direction: Vec3,
-    ) {
-        let (before, light_mis) = (&self.throughput, &self.light_mis);
-        let waves = &self.wavelengths;
-        self.add(steps::emission(
-            world, vertex, direction, waves, before, light_mis,
-        ));
     }
 
     /// Adds what emission contributes that the path has hit.
@@ -224,14 +226,14 @@ impl<S: Sampler, C: PathHooks> PathState<S, C> {
         }
     }
 
-    /// Next-event estimation: prepares the shadow ray of a light sample, if light sampling can find anything.
+    /// Next-event estimation: a light sample and its shadow ray, if light sampling can find anything.
     #[inline]
     pub(crate) fn sample_light<W: World>(
         &mut self,
         world: &W,
         config: &PathConfig,
         at: &ScatteringPoint<'_, impl Bsdf>,
-    ) {
+    ) -> Option<ShadowRay> {
         let ScatteringPoint {
             vertex,
             bsdf,
@@ -240,22 +242,20 @@ impl<S: Sampler, C: PathHooks> PathState<S, C> {
             event,
         } = at;
         if !bsdf.has_continuous() {
-            return;
+            return None;
         }
         let throughput = self.throughput;
         let candidates = Candidates::at(self.candidates(config), world, from);
         let aim = |light: &LightSample| Aim::new(light, &throughput, *bsdf, *wo, [1.0; 2]);
         let (waves, sampler) = (&self.wavelengths, &mut self.sampler);
         let aim = candidates.draw(world, from, waves, event, sampler, aim);
-        self.shadow_ray = aim.and_then(|aim| {
-            Some(ShadowRay {
-                ray: vertex.shadow_ray(aim.direction, aim.target)?,
-                crossings: config.null_crossings(self.depth),
-                aim,
-                found: None,
-            })
-        });
         self.hooks.on_light_sample();
+        let aim = aim?;
+        Some(ShadowRay {
+            ray: vertex.shadow_ray(aim.direction, aim.target)?,
+            crossings: config.null_crossings(self.depth),
+            aim,
+        })
     }
 
     /// Samples the BSDF and plays Russian roulette: the next ray, or `None` where the path ends.
@@ -299,7 +299,7 @@ impl<S: Sampler, C: PathHooks> PathState<S, C> {
         (survives && self.throughput.beta != Vec4::ZERO).then_some(next)
     }
 
-    /// Where a path goes on that would go into a medium with `next`, at a surface that it reached in the medium `before`: matter
+    /// Where a path goes on that would go into a medium after `step`, at a surface that it reached in the medium `before`: matter
     /// with a diffusion profile it leaves elsewhere.
     #[inline]
     pub(crate) fn enter<W: World>(
@@ -308,14 +308,14 @@ impl<S: Sampler, C: PathHooks> PathState<S, C> {
         config: &PathConfig,
         vertex: &SurfaceInteraction,
         before: MediumId,
-        next: Ray,
-    ) -> Option<Ray> {
-        let medium = next.medium;
+        step: Step,
+    ) -> Step {
+        let medium = step.ray.map_or(MediumId::NONE, |ray| ray.medium);
         if medium != before {
             let entry = world.media().entry(medium, vertex, &self.wavelengths);
             self.entered = entry.map(|coefficients| (medium, coefficients));
         }
-        self.diffuse(world, config, vertex, next)
+        self.diffuse(world, config, vertex, medium, step)
     }
 
     /// Plays Russian roulette, and counts one more segment if the path survives.
@@ -344,38 +344,25 @@ impl<S: Sampler, C: PathHooks> PathState<S, C> {
         event
     }
 
-    /// Traces the shadow ray of the light sample that was prepared, if any.
+    /// Traces the shadow ray of a light sample, and adds what it brings.
     #[inline]
-    pub(crate) fn trace_shadow<W: World>(&mut self, world: &W) {
-        world.transmittance_batch(self.shadow_query().into_iter());
-        self.add_light();
-    }
-
-    /// The shadow ray of the light sample that was prepared, if any, and the place for what comes of it.
-    #[inline]
-    pub(crate) fn shadow_query(&mut self) -> Option<ShadowQuery<'_>> {
-        let light = self.shadow_ray.as_mut()?;
-        Some(ShadowQuery {
-            ray: &light.ray,
-            wavelengths: &self.wavelengths,
-            crossings: light.crossings,
-            found: &mut light.found,
-        })
-    }
-
-    /// Adds the light sample whose shadow ray has been traced, if any.
-    #[inline]
-    pub(crate) fn add_light(&mut self) {
+    pub(crate) fn trace_shadow<W: World>(&mut self, world: &W, shadow: Option<ShadowRay>) {
         if let Some(ShadowRay {
+            ray,
+            crossings,
             aim,
-            found: Some(passage),
-            ..
-        }) = &self.shadow_ray
+        }) = shadow
+            && let Some(transmission) = world.transmittance(&ray, &self.wavelengths, crossings)
         {
-            let estimate = aim.estimate(passage);
-            self.radiance += estimate;
-            self.hooks.on_light_contribution(estimate);
+            self.add_light(&aim, &transmission);
         }
-        self.shadow_ray = None;
+    }
+
+    /// Adds a light sample that arrives through what is in the way.
+    #[inline]
+    pub(crate) fn add_light(&mut self, aim: &Aim, transmission: &Transmission) {
+        let estimate = aim.estimate(transmission);
+        self.radiance += estimate;
+        self.hooks.on_light_contribution(estimate);
     }
 }

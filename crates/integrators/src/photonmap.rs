@@ -66,6 +66,7 @@ use etalon_transport::{
     Incompatibility, Integrator, LightSearch, Pass, PixelSample, Placing, SampleJob,
     SceneCapabilities, Sink, TileSink, World,
 };
+use std::vec::Drain;
 
 /// The photon mapper.
 #[derive(Clone, Debug)]
@@ -299,9 +300,9 @@ impl Integrator for PhotonMapper {
         &self,
         world: &W,
         state: &State,
-        drafts: &mut [SampleJob<S>],
+        jobs: Drain<'_, SampleJob<S>>,
         sink: &mut K,
     ) {
-        self.plan(state, |plan| follow_all(world, plan, drafts, sink));
+        self.plan(state, |plan| follow_all(world, plan, jobs, sink));
     }
 }

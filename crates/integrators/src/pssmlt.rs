@@ -69,9 +69,9 @@ impl PathSampler for CameraPaths {
         sampler.skip_to(dim::FILM);
         let site = field.site(sampler.next_2d());
         let config = PathConfig::plain(*settings);
-        let mut path = PathState::start(world, &config, &site, sampler, ());
+        let (mut path, ray) = PathState::start(world, &site, sampler, ());
         let wanted = chains.least_corners()..u32::MAX;
-        follow_part(world, &config, &mut path, &wanted);
+        follow_part(world, &config, (&mut path, ray), &wanted);
         found.add(site.raster, path.colour(world) * field.area());
     }
 }

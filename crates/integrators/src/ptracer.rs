@@ -15,13 +15,13 @@
 //! stopped, the background included. With `hide_emitters` the camera looks through lights, as that of
 //! `path`. (Mitsuba's lights then still stand in the way of what is behind them.)
 
+use crate::arrival::{self, Arriving};
 use crate::camera_ray::camera_ray;
 use crate::dimensions as dim;
 use crate::light_mis::LightMis;
 use crate::particle::{LightPath, LightVertex};
 use crate::path_throughput::PathThroughput;
 use crate::settings::PathSettings;
-use crate::steps;
 use crate::visibility::camera_visibility;
 use etalon_params::Params;
 use etalon_sampling::{ReplicateKind, Sampler};
@@ -62,13 +62,18 @@ impl ParticleTracer {
         let mut depth = 1;
         while depth <= self.settings.max_depth {
             let hidden = !visible && depth == 1;
-            let hit = steps::next_hit(world, &mut ray, hidden);
-            if let Some(passage) = steps::transmittance(world, &ray, hit.as_ref(), wavelengths) {
+            let hit = arrival::next_hit(world, &mut ray, hidden);
+            if let Some(passage) = arrival::transmittance(world, &ray, hit.as_ref(), wavelengths) {
                 // Matter that shines is seen where a flight ends.
                 let u = sampler.next_1d();
-                let flight = steps::free_flight(world, &ray, hit.as_ref(), wavelengths, u);
+                let flight = arrival::free_flight(world, &ray, hit.as_ref(), wavelengths, u);
+                let arriving = Arriving {
+                    wavelengths,
+                    throughput: &prefix,
+                    light_mis: &LightMis::NONE,
+                };
                 radiance += flight.map_or(Vec4::ZERO, |flight| {
-                    steps::emitted_on_the_way(world, &flight, &ray, &prefix, &LightMis::NONE)
+                    arriving.emitted_by_medium(world, &flight, &ray)
                 });
                 prefix.beta *= passage.transmittance;
             }

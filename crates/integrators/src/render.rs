@@ -16,6 +16,7 @@ use etalon_transport::{Film, Integrator, Pass, PixelSample, SampleJob, Surfaces,
 use glam::UVec2;
 use rayon::prelude::*;
 use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
+use std::vec::Drain;
 
 /// Side of a tile (pixels) of pictures that have enough of them.
 pub const TILE: u32 = 16;
@@ -302,13 +303,12 @@ impl<W: World, I: Integrator, F: Film> Round<'_, '_, W, I, F> {
         let (rim, pixels) = (self.film.rim(), self.film.light_paths());
         let alone = !integrator.splats();
         let mut sink = self.film.tile(from, to, alone);
-        let mut drafts = Vec::with_capacity(BATCH_SIZE);
+        let mut jobs = Vec::with_capacity(BATCH_SIZE);
         let mut drawn = 0;
-        let mut deliver = |drafts: &mut Vec<SampleJob<S>>| {
+        let mut deliver = |jobs: &mut Vec<SampleJob<S>>| {
             batches.measure(|| {
-                self.draw(drafts, &mut sink);
+                self.draw(jobs.drain(..), &mut sink);
             });
-            drafts.clear();
         };
         for y in from.y..to.y {
             for x in from.x..to.x {
@@ -318,8 +318,8 @@ impl<W: World, I: Integrator, F: Film> Round<'_, '_, W, I, F> {
                 }
                 let dealt = self.film.dealt(pixel, samples);
                 for sample in self.film.done(pixel).max(self.begin)..self.target(dealt) {
-                    // Asked while no draft waits, so that what was begun is finished.
-                    if drafts.is_empty() && progress.cancelled() {
+                    // Asked while no job waits, so that what was begun is finished.
+                    if jobs.is_empty() && progress.cancelled() {
                         return (drawn, false);
                     }
                     for pixel in around(pixel, self.pass, rim) {
@@ -337,38 +337,38 @@ impl<W: World, I: Integrator, F: Film> Round<'_, '_, W, I, F> {
                             sample: sample - self.begin,
                         };
                         let weight = placement.weight;
-                        drafts.push(SampleJob {
+                        jobs.push(SampleJob {
                             site,
                             weight,
                             sampler,
                         });
-                        if drafts.len() >= batches.size() {
-                            deliver(&mut drafts);
+                        if jobs.len() >= batches.size() {
+                            deliver(&mut jobs);
                         }
                     }
                     drawn += 1;
                 }
             }
         }
-        deliver(&mut drafts);
+        deliver(&mut jobs);
         (drawn, true)
     }
 
     /// Draws samples and delivers them.
     #[inline]
-    fn draw<S: Sampler + Clone>(&self, drafts: &mut [SampleJob<S>], sink: &mut F::Tile<'_>) {
+    fn draw<S: Sampler + Clone>(&self, jobs: Drain<'_, SampleJob<S>>, sink: &mut F::Tile<'_>) {
         let Run {
             worlds, integrator, ..
         } = self.run;
         if let ([world], [state]) = (worlds, self.states) {
-            return integrator.sample_batch(world, state, drafts, sink);
+            return integrator.sample_batch(world, state, jobs, sink);
         }
-        for draft in drafts {
-            sink.begin_placed(draft.site.pixel, &draft.placement());
+        for job in jobs {
+            sink.begin_placed(job.site.pixel, &job.placement());
             for (group, (world, state)) in worlds.iter().zip(self.states).enumerate() {
                 sink.select_group(group);
-                let mut sampler = draft.sampler.clone();
-                integrator.sample(world, state, &draft.site, &mut sampler, sink);
+                let mut sampler = job.sampler.clone();
+                integrator.sample(world, state, &job.site, &mut sampler, sink);
             }
         }
     }

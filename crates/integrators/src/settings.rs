@@ -2,6 +2,7 @@
 
 use core::num::NonZeroU32;
 use etalon_params::{Diagnostic, Params};
+use etalon_transport::Ray;
 
 /// Path length limits and the visibility of lights, with Mitsuba's meaning.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -62,6 +63,12 @@ impl PathConfig {
             counts_null: true,
             equiangular: false,
         }
+    }
+
+    /// The camera's ray, if a path may have a segment at all.
+    #[inline]
+    pub(crate) fn first_segment(&self, camera_ray: Ray) -> Option<Ray> {
+        (self.limits.max_depth > 0).then_some(camera_ray)
     }
 
     /// How many surfaces a shadow ray may pass straight that leaves a path of `depth` segments.

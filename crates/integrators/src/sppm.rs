@@ -27,6 +27,7 @@ use etalon_transport::{
     Incompatibility, Integrator, LightSearch, Pass, PixelSample, Placing, SampleJob,
     SceneCapabilities, Sink, TileSink, World,
 };
+use std::vec::Drain;
 
 /// Stochastic progressive photon mapping.
 #[derive(Clone, Debug)]
@@ -166,9 +167,9 @@ impl Integrator for Progressive {
         &self,
         world: &W,
         state: &State,
-        drafts: &mut [SampleJob<S>],
+        jobs: Drain<'_, SampleJob<S>>,
         sink: &mut K,
     ) {
-        self.plan(state, |plan| follow_all(world, plan, drafts, sink));
+        self.plan(state, |plan| follow_all(world, plan, jobs, sink));
     }
 }

@@ -37,6 +37,7 @@ use etalon_transport::{
     Incompatibility, Integrator, LightSearch, Pass, PixelSample, Placing, SampleJob,
     SceneCapabilities, Sink, TileSink, TraceEvent, World,
 };
+use std::vec::Drain;
 
 /// Vertex connection and merging.
 #[derive(Clone, Debug)]
@@ -175,15 +176,15 @@ impl Integrator for ConnectionMerging {
         &self,
         world: &W,
         state: &State,
-        drafts: &mut [SampleJob<S>],
+        jobs: Drain<'_, SampleJob<S>>,
         sink: &mut K,
     ) {
         let (mut eye, mut light) = (Vec::new(), Vec::new());
-        for draft in drafts {
-            sink.begin_placed(draft.site.pixel, &draft.placement());
+        for mut job in jobs {
+            sink.begin_placed(job.site.pixel, &job.placement());
             let lists = [&mut eye, &mut light];
-            let start = self.start(world, state, &draft.site, &mut draft.sampler);
-            let (site, sampler) = (&draft.site, &mut draft.sampler);
+            let start = self.start(world, state, &job.site, &mut job.sampler);
+            let (site, sampler) = (&job.site, &mut job.sampler);
             estimate(world, &start, site, sampler, sink, lists);
         }
     }

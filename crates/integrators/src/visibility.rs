@@ -4,7 +4,7 @@
 //! surface that lets light pass is seen, and in the way, like any other surface; so is the point
 //! itself, unless it lies on a light that is hidden.
 
-use crate::steps;
+use crate::arrival;
 use etalon_spectrum::Wavelengths;
 use etalon_transport::{Bsdf, Lights, Ray, Surfaces, Transmission, World};
 use glam::Vec4;
@@ -34,7 +34,7 @@ pub(crate) fn camera_visibility<W: World>(
     let mut hidden = on_light;
     loop {
         let hit = world.surfaces().intersect(&ray);
-        if let Some(stretch) = steps::transmittance(world, &ray, hit.as_ref(), wavelengths) {
+        if let Some(stretch) = arrival::transmittance(world, &ray, hit.as_ref(), wavelengths) {
             passage.then(&stretch);
         }
         let Some(hit) = hit else { break };

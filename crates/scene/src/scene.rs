@@ -110,15 +110,13 @@ impl World for Scene {
     }
 
     #[inline]
-    fn transmittance_batch<'r>(&self, queries: impl Iterator<Item = ShadowQuery<'r>>) {
-        for query in queries {
-            let ShadowQuery {
-                ray,
-                wavelengths,
-                crossings,
-                found,
-            } = query;
-            *found = self.transmittance(ray, wavelengths, crossings);
+    fn transmittance_batch(
+        &self,
+        queries: &[ShadowQuery],
+        transmissions: &mut [Option<Transmission>],
+    ) {
+        for (query, transmission) in queries.iter().zip(transmissions) {
+            *transmission = self.transmittance(&query.ray, &query.wavelengths, query.crossings);
         }
     }
 

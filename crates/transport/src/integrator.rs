@@ -6,6 +6,7 @@ use crate::{
 };
 use etalon_sampling::{ReplicateKind, Sampler};
 use glam::{UVec2, Vec2};
+use std::vec::Drain;
 
 /// The place for which a sample is drawn.
 #[derive(Clone, Copy, Debug)]
@@ -161,12 +162,12 @@ pub trait Integrator: Sync {
         &self,
         world: &W,
         state: &Self::State,
-        drafts: &mut [SampleJob<S>],
+        jobs: Drain<'_, SampleJob<S>>,
         sink: &mut K,
     ) {
-        for draft in drafts {
-            sink.begin_placed(draft.site.pixel, &draft.placement());
-            self.sample(world, state, &draft.site, &mut draft.sampler, sink);
+        for mut job in jobs {
+            sink.begin_placed(job.site.pixel, &job.placement());
+            self.sample(world, state, &job.site, &mut job.sampler, sink);
         }
     }
 }

@@ -49,17 +49,15 @@ impl Transmission {
     }
 }
 
-/// A segment of which [`World::transmittance_batch`] is asked, and the place of the answer.
-#[derive(Debug)]
-pub struct ShadowQuery<'r> {
+/// What [`World::transmittance`] is asked, for many at once.
+#[derive(Clone, Copy, Debug)]
+pub struct ShadowQuery {
     /// The segment.
-    pub ray: &'r Ray,
+    pub ray: Ray,
     /// The wavelengths of its path.
-    pub wavelengths: &'r Wavelengths,
+    pub wavelengths: Wavelengths,
     /// How many surfaces may let it pass.
     pub crossings: u32,
-    /// The answer of [`World::transmittance`].
-    pub found: &'r mut Option<Transmission>,
 }
 
 /// A compiled, immutable scene.
@@ -99,8 +97,12 @@ pub trait World: Sync {
         crossings: u32,
     ) -> Option<Transmission>;
 
-    /// The same along many segments.
-    fn transmittance_batch<'r>(&self, queries: impl Iterator<Item = ShadowQuery<'r>>);
+    /// The same along many segments: as many `transmissions` as `queries`.
+    fn transmittance_batch(
+        &self,
+        queries: &[ShadowQuery],
+        transmissions: &mut [Option<Transmission>],
+    );
 
     /// Chooses a light with `u_light` and a direction toward it from `from` with `u`. `None` if
     /// nothing can arrive.

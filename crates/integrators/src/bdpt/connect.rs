@@ -1,12 +1,12 @@
 //! The techniques: what each adds, and what it is weighed against.
 
-use super::Technique;
 use super::from_light::FromLight;
 use super::merge::Merging;
 use super::path_vertex::Corner;
+use super::subpath::SubpathEnd;
+use super::technique::Technique;
 use super::weight::{CameraEnd, EndPdfs, LightEnd, fewer, more};
 use crate::dimensions::BounceSamples;
-use crate::path_throughput::PathThroughput;
 use crate::settings::PathSettings;
 use etalon_spectrum::Wavelengths;
 use etalon_transport::{
@@ -17,16 +17,6 @@ use glam::{Vec2, Vec3, Vec4};
 
 /// The density of the directions in which particles leave a medium (sr⁻¹).
 const EVENLY: f32 = 0.25 * core::f32::consts::FRAC_1_PI;
-
-/// The camera's walk at a light.
-pub(super) struct Arrival {
-    pub(super) prefix: PathThroughput,
-    /// Density of the arrival, of the lane that chose: per unit area, or per unit solid angle of
-    /// the sky, times the probability of passing what lies in between.
-    pub(super) density: f32,
-    /// That probability, per lane.
-    pub(super) passed: Vec4,
-}
 
 /// What would have made the last vertex of a path that ran into a light from the light's side.
 struct AlternativePdfs {
@@ -104,7 +94,7 @@ impl<'w, W: World> Connector<'_, 'w, W> {
     /// s = 0: the camera's walk ran into an emitting surface.
     pub(super) fn meet_light(
         &mut self,
-        arrival: &Arrival,
+        arrival: &SubpathEnd,
         vertex: &SurfaceInteraction,
         wo: Vec3,
         eye: &[Corner<'w, W>],
@@ -128,7 +118,7 @@ impl<'w, W: World> Connector<'_, 'w, W> {
     /// s = 0: the camera's walk ended in a medium that emits, which its prefix has.
     pub(super) fn meet_medium(
         &mut self,
-        arrival: &Arrival,
+        arrival: &SubpathEnd,
         vertex: &SurfaceInteraction,
         medium: MediumId,
         eye: &[Corner<'w, W>],
@@ -150,7 +140,7 @@ impl<'w, W: World> Connector<'_, 'w, W> {
     /// s = 0: the camera's walk left the scene.
     pub(super) fn meet_background(
         &mut self,
-        arrival: &Arrival,
+        arrival: &SubpathEnd,
         direction: Vec3,
         eye: &[Corner<'w, W>],
     ) {
@@ -171,7 +161,7 @@ impl<'w, W: World> Connector<'_, 'w, W> {
     /// same path from the light.
     fn find(
         &mut self,
-        arrival: &Arrival,
+        arrival: &SubpathEnd,
         radiance: Vec4,
         eye: &[Corner<'w, W>],
         rivals: impl FnOnce(&Corner<'w, W>) -> AlternativePdfs,

@@ -1,12 +1,12 @@
 //! The walk from the camera, and the corners it leaves behind.
 
-use super::connect::{Arrival, Connector};
+use super::connect::Connector;
 use super::path_vertex::{Corner, PathVertex, counted};
-use super::subpath::{Met, SubpathState, camera_event};
+use super::subpath::{Met, SubpathEnd, SubpathState, camera_event};
+use crate::arrival;
 use crate::dimensions::{BounceSamples, draw_flight};
 use crate::path_throughput::PathThroughput;
 use crate::settings::PathSettings;
-use crate::steps;
 use etalon_sampling::Sampler;
 use etalon_spectrum::Wavelengths;
 use etalon_transport::{Bsdf, Lights, Ray, SurfaceInteraction, Surfaces, TransportMode, World};
@@ -85,7 +85,7 @@ impl FromCamera {
         let direction = self.carried.ray.direction;
         let hidden = settings.hide_emitters && self.carried.segments == 1;
         let origin = self.carried.ray.origin;
-        let hit = steps::next_hit(world, &mut self.carried.ray, hidden);
+        let hit = arrival::next_hit(world, &mut self.carried.ray, hidden);
         self.through_hidden |= self.carried.ray.origin != origin;
         if self.carried.ray.medium.is_some() {
             let u = draw_flight(sampler, camera_event(self.carried.segments - 1));
@@ -94,7 +94,7 @@ impl FromCamera {
                 self.alpha = 1.0;
                 let density = self.arrival(connector, &met.vertex, met.extinction.x, corners);
                 if let Some(prefix) = met.shining {
-                    let arrival = Arrival {
+                    let arrival = SubpathEnd {
                         prefix,
                         density,
                         passed: self.carried.passed,
@@ -128,7 +128,7 @@ impl FromCamera {
         }
         let met = Met::surface(world, vertex, wo, wavelengths);
         if self.carried.segments == settings.max_depth {
-            self.alpha = self.alpha.max(steps::opacity(&met.bsdf));
+            self.alpha = self.alpha.max(arrival::opacity(&met.bsdf));
             return false;
         }
         self.turn(met, arrival, settings, sampler, corners, connector)

@@ -2,10 +2,10 @@
 
 use super::path_vertex::{Corner, PathVertex, counted};
 use super::subpath::{Met, SubpathState, light_event};
+use crate::arrival;
 use crate::dimensions::{BounceSamples, draw_flight};
 use crate::path_throughput::PathThroughput;
 use crate::settings::PathSettings;
-use crate::steps;
 use etalon_sampling::Sampler;
 use etalon_spectrum::Wavelengths;
 use etalon_transport::{Bsdf, Emission, LightKind, Surfaces, TransportMode, World};
@@ -120,7 +120,7 @@ impl FromLight {
         let mut departed = carried.prefix.throughput();
         // One more segment, at least, leads from a corner to the camera.
         while carried.segments < settings.max_depth && rounded < limit {
-            let hit = steps::next_hit(world, &mut carried.ray, false);
+            let hit = arrival::next_hit(world, &mut carried.ray, false);
             let wo = -carried.ray.direction;
             let mut met = None;
             if carried.ray.medium.is_some() {

@@ -8,43 +8,42 @@
 //! its density at the photon's parent alone, in which they are linear. So a photon carries one
 //! factor per lane for them.
 
-use super::connect::Connector;
 use super::from_light::FromLight;
-use super::path_vertex::{Corner, PathVertex};
-use super::weight::{EndPdfs, LightEnd, fewer, more};
+use super::path_vertex::PathVertex;
+use super::weight::{EndPdfs, LightEnd, fewer};
 use crate::photons::kdtree::KdTree;
 use crate::settings::PathSettings;
 use etalon_sampling::Sampler;
 use etalon_spectrum::Wavelengths;
-use etalon_transport::{Bsdf, MergedPhoton, TraceEvent, TransportMode, World};
+use etalon_transport::{Bsdf, World};
 use glam::{Vec3, Vec4};
 
 /// The least cosine of the angle between the normals of surfaces that are merged.
-const FACING: f32 = 0.7;
+pub(super) const FACING: f32 = 0.7;
 
 /// A corner of a walk from the light, without its scattering model.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Photon {
     /// Where (m).
-    position: Vec3,
+    pub(super) position: Vec3,
     /// Unit geometric normal there.
-    normal: Vec3,
+    pub(super) normal: Vec3,
     /// Unit direction to where it came from.
-    from: Vec3,
+    pub(super) from: Vec3,
     /// f/p₀ of its walk, over the cosine of its arrival.
-    value: Vec4,
+    pub(super) value: Vec4,
     /// pₖ/p₀ of its walk.
-    r_u: Vec4,
+    pub(super) r_u: Vec4,
     /// aᵢ of the lane that chose (m⁻²).
-    arrival: f32,
+    pub(super) arrival: f32,
     /// Density ratio of the technique that connects its parent with its place; for a photon
     /// straight from a light, of light sampling.
-    connected: Vec4,
+    pub(super) connected: Vec4,
     /// What the techniques with fewer vertices from the light sum up to, over the density per solid
     /// angle with which the camera's walk leaves toward the parent.
-    fewer: Vec4,
+    pub(super) fewer: Vec4,
     /// Segments behind it.
-    segments: u32,
+    pub(super) segments: u32,
 }
 
 /// What is merged.
@@ -62,12 +61,12 @@ pub(crate) struct Terms {
 
 impl Terms {
     /// n π r² (m²).
-    fn area(&self) -> f32 {
+    pub(super) fn area(&self) -> f32 {
         self.count as f32 * core::f32::consts::PI * self.radius * self.radius
     }
 
     /// The techniques that connect, as a factor.
-    fn connections(&self) -> f32 {
+    pub(super) fn connections(&self) -> f32 {
         if self.connections { 1.0 } else { 0.0 }
     }
 }
@@ -75,9 +74,9 @@ impl Terms {
 /// The photons of a pass.
 #[derive(Debug)]
 pub(crate) struct Merging {
-    tree: KdTree,
-    photons: Vec<Photon>,
-    terms: Terms,
+    pub(super) tree: KdTree,
+    pub(super) photons: Vec<Photon>,
+    pub(super) terms: Terms,
 }
 
 impl Merging {
@@ -187,69 +186,4 @@ fn photon<B: Bsdf>(
         fewer: fewer * corner.passed,
         segments: corner.segments,
     })
-}
-
-impl<'w, W: World> Connector<'_, 'w, W> {
-    /// n π r², zero if nothing is merged.
-    pub(super) fn area(&self) -> f32 {
-        self.merging.map_or(0.0, |merging| merging.terms.area())
-    }
-
-    /// One if there are techniques that connect, and zero if merging is asked for alone.
-    pub(super) fn connections(&self) -> f32 {
-        (self.merging).map_or(1.0, |merging| merging.terms.connections())
-    }
-
-    /// Merges the camera walk's corner with the photons around it.
-    pub(super) fn merge(&mut self, corner: &Corner<'w, W>, eye: &[Corner<'w, W>]) {
-        let Some(merging) = self.merging.filter(|_| corner.merges()) else {
-            return;
-        };
-        let (place, max_depth) = (corner.vertex.position, self.settings.max_depth);
-        let (camera_end, theirs) = (self.camera_end(), corner.prefix.r_u);
-        let mut radiance = Vec4::ZERO;
-        let radius = merging.terms.radius;
-        self.world.record(|| TraceEvent::Gathering {
-            radius,
-            among: merging.photons.len(),
-        });
-        merging.tree.within(place, radius * radius, |found| {
-            let photon = &merging.photons[found.place];
-            if corner.segments.saturating_add(photon.segments) > max_depth
-                || photon.normal.dot(corner.vertex.normal) < FACING
-            {
-                return;
-            }
-            let (value, density) =
-                (corner.bsdf).eval_and_density(corner.wo, photon.from, TransportMode::Radiance);
-            let scattering = value;
-            let value = photon.value * value * corner.prefix.beta;
-            if value == Vec4::ZERO {
-                return;
-            }
-            // Relative to technique i, whose density merging multiplies by aᵢ n π r²: divided out
-            // below, it leaves aᵢ.
-            let mut total = (photon.connected * theirs).element_sum();
-            total += (photon.fewer * density.lanes() * theirs).element_sum();
-            let ends = EndPdfs {
-                here: photon.r_u * photon.arrival,
-                before: self.beyond(corner, eye, photon.from),
-            };
-            total += more(Some(corner), eye, Vec4::ONE, ends, true, camera_end);
-            radiance += value * (photon.arrival / total);
-            self.world.record(|| {
-                TraceEvent::Photon(MergedPhoton {
-                    position: photon.position,
-                    distance: photon.position.distance(place),
-                    from: photon.from,
-                    segments: photon.segments,
-                    wavelengths: *self.wavelengths,
-                    scattering,
-                    estimate: value * (photon.arrival / total),
-                })
-            });
-        });
-        self.world.record(|| TraceEvent::Gathered);
-        self.radiance += radiance;
-    }
 }

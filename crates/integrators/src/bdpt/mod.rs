@@ -42,8 +42,10 @@ mod from_camera;
 mod from_light;
 pub(crate) mod merge;
 mod path_vertex;
+mod photon_connection;
 pub(crate) mod single;
 mod subpath;
+mod technique;
 mod weight;
 
 use crate::camera_ray::camera_ray;
@@ -62,18 +64,8 @@ use from_light::FromLight;
 use glam::Vec4;
 use merge::Merging;
 use path_vertex::Corner;
-
-/// One technique.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Technique {
-    /// s: vertices made from the light.
-    pub light: usize,
-    /// t: vertices made from the camera, which is one of them.
-    pub camera: usize,
-    /// Whether it is weighed against the others; if not, it estimates all paths of its length that
-    /// it can make.
-    pub weighted: bool,
-}
+use std::vec::Drain;
+pub use technique::Technique;
 
 /// The bidirectional path tracer.
 #[derive(Clone, Debug, Default)]
@@ -90,7 +82,7 @@ impl Bidirectional {
     pub fn from_params(params: &Params<'_>) -> Self {
         Self {
             settings: PathSettings::from_params(params),
-            only: technique(params),
+            only: technique::from_params(params),
         }
     }
 
@@ -178,34 +170,6 @@ pub(crate) fn estimate<'w, W: World, S: Sampler, K: Sink>(
     );
 }
 
-/// The single technique that a description asks for.
-fn technique(params: &Params<'_>) -> Option<Technique> {
-    let count = |name: &str, least: i64| {
-        let given = params.integer_or(name, least);
-        if given < least {
-            params.refuse(name, given, "a number of vertices");
-        }
-        usize::try_from(given).unwrap_or(0)
-    };
-    let asked = params.has("s") || params.has("t") || params.has("weighted");
-    let (light, camera) = (count("s", 0), count("t", 1));
-    let weighted = params.boolean_or("weighted", true);
-    if !asked {
-        return None;
-    }
-    if !(params.has("s") && params.has("t")) {
-        params.error("a single technique has both `s` and `t`: vertices made from the light and from the camera");
-    } else if light + camera < 2 || (light == 1 && camera == 1) {
-        let message = "there is no such technique: lights seen directly are found by s = 0, t = 2";
-        params.error_at("s", message);
-    }
-    Some(Technique {
-        light,
-        camera,
-        weighted,
-    })
-}
-
 impl Integrator for Bidirectional {
     const FOLLOWS_LIGHT: bool = true;
     const UNBIASED: bool = true;
@@ -274,15 +238,15 @@ impl Integrator for Bidirectional {
         &self,
         world: &W,
         (): &(),
-        drafts: &mut [SampleJob<S>],
+        jobs: Drain<'_, SampleJob<S>>,
         sink: &mut K,
     ) {
         let (mut eye, mut light) = (Vec::new(), Vec::new());
-        for draft in drafts {
-            sink.begin_placed(draft.site.pixel, &draft.placement());
+        for mut job in jobs {
+            sink.begin_placed(job.site.pixel, &job.placement());
             let lists = [&mut eye, &mut light];
-            let start = self.start(world, &draft.site, &mut draft.sampler);
-            estimate(world, &start, &draft.site, &mut draft.sampler, sink, lists);
+            let start = self.start(world, &job.site, &mut job.sampler);
+            estimate(world, &start, &job.site, &mut job.sampler, sink, lists);
         }
     }
 }

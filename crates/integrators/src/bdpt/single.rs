@@ -4,11 +4,11 @@
 //! those of [`crate::bdpt`]: a technique that takes a vertex more from the camera and one less
 //! from the light finds the rest of either walk where it was.
 
-use super::Technique;
 use super::connect::Connector;
 use super::from_camera::FromCamera;
 use super::from_light::FromLight;
 use super::path_vertex::PathVertex;
+use super::technique::Technique;
 use crate::camera_ray::camera_ray;
 use crate::dimensions as dim;
 use crate::settings::PathSettings;

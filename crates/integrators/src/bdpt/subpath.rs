@@ -1,9 +1,8 @@
 //! What walks from the camera and from a light share: the state between corners, and how the next one is found.
 
-use super::connect::Arrival;
 use super::path_vertex::{Corner, PathVertex};
+use crate::arrival;
 use crate::path_throughput::PathThroughput;
-use crate::steps;
 use etalon_spectrum::Wavelengths;
 use etalon_transport::{
     Bsdf, Hit, Ray, Scatterer, ScattererOf, SurfaceInteraction, Surfaces, World,
@@ -59,6 +58,16 @@ impl<'w, W: World> Met<'w, W> {
     }
 }
 
+/// A subpath from the camera where it runs into a light.
+pub(super) struct SubpathEnd {
+    pub(super) prefix: PathThroughput,
+    /// Density of the arrival, of the lane that chose: per unit area, or per unit solid angle of
+    /// the sky, times the probability of passing what lies in between.
+    pub(super) density: f32,
+    /// That probability, per lane.
+    pub(super) passed: Vec4,
+}
+
 impl SubpathState {
     /// Goes straight on through a surface.
     pub(super) fn pass(&mut self, vertex: &SurfaceInteraction, value: Vec4, chance: Vec4) {
@@ -69,8 +78,8 @@ impl SubpathState {
     }
 
     /// The arrival at a light.
-    pub(super) fn arrival(&self, density: f32) -> Arrival {
-        Arrival {
+    pub(super) fn arrival(&self, density: f32) -> SubpathEnd {
+        SubpathEnd {
             prefix: self.prefix,
             density,
             passed: self.passed,
@@ -87,7 +96,7 @@ impl SubpathState {
         wavelengths: &Wavelengths,
         u: f32,
     ) -> Option<Met<'w, W>> {
-        let flight = steps::free_flight(world, &self.ray, hit, wavelengths, u)?;
+        let flight = arrival::free_flight(world, &self.ray, hit, wavelengths, u)?;
         let density = flight.density();
         let before = self.prefix;
         self.prefix.scatter(flight.factor, density);

@@ -383,8 +383,8 @@ impl Trainer {
             sample: address.sample,
         };
         let config = PathConfig::plain(self.settings);
-        let mut path = PathState::start(world, &config, &site, &mut sampler, pupil);
-        follow_part(world, &config, &mut path, &(0..u32::MAX));
+        let (mut path, ray) = PathState::start(world, &site, &mut sampler, pupil);
+        follow_part(world, &config, (&mut path, ray), &(0..u32::MAX));
         let found = path.colour(world).extend(path.alpha()) * placement.weight;
         (path.into_hooks(), found)
     }

@@ -41,8 +41,7 @@ mod steering;
 mod tests;
 mod training_path;
 
-use crate::path::{follow, follow_jobs};
-use crate::path_state::PathState;
+use crate::path::{follow_alone, follow_jobs};
 use crate::settings::{PathConfig, PathSettings};
 use etalon_params::Params;
 use etalon_sampling::Sampler;
@@ -51,6 +50,7 @@ use field::SdTree;
 use guide::GuidedHooks;
 use learning::Trainer;
 use pictures::{Joined, TrainingImages};
+use std::vec::Drain;
 
 /// The guided path tracer.
 #[derive(Clone, Debug)]
@@ -179,25 +179,23 @@ impl Integrator for Guided {
     ) {
         let guide = Self::guide(learned);
         let config = PathConfig::plain(self.settings);
-        let mut paths = [Some(PathState::start(world, &config, site, sampler, guide))];
-        follow(world, &config, &mut paths);
-        for path in paths.iter().flatten() {
-            path.deliver(world, sink);
-        }
+        follow_alone(world, &config, guide, (site, sampler), sink);
     }
 
     fn sample_batch<W: World, S: Sampler, K: TileSink>(
         &self,
         world: &W,
         learned: &Learned,
-        jobs: &mut [SampleJob<S>],
+        jobs: Drain<'_, SampleJob<S>>,
         sink: &mut K,
     ) {
         let guide = Self::guide(learned);
         let config = PathConfig::plain(self.settings);
         match &learned.pictures {
             Some(pictures) => {
-                let first = jobs.iter().map(|job| job.site.sample == 0).collect();
+                let first = (jobs.as_slice().iter())
+                    .map(|job| job.site.sample == 0)
+                    .collect();
                 let mut sink = Joined::new(sink, pictures, learned.replicate, first);
                 follow_jobs(world, &config, guide, jobs, &mut sink);
             }

@@ -188,8 +188,8 @@ impl ChainSettings {
         sink: &mut K,
     ) {
         let config = PathConfig::plain(*settings);
-        let mut path = PathState::start(world, &config, site, sampler, ());
-        follow_part(world, &config, &mut path, &(0..self.least_corners()));
+        let (mut path, ray) = PathState::start(world, site, sampler, ());
+        follow_part(world, &config, (&mut path, ray), &(0..self.least_corners()));
         path.deliver(world, sink);
     }
 }

@@ -7,20 +7,21 @@ use super::elsewhere::{CameraPath, CameraVertex};
 use super::sets::{WavelengthChoice, WavelengthSets};
 use super::shoot::{FACING, Kind, Photon, PhotonMap};
 use super::{is_sharp, kernel::KernelLookup};
+use crate::arrival::{self, Arrival, Arriving};
 use crate::camera_ray::{draw_lens, ray_at};
 use crate::candidates::Aim;
 use crate::dimensions::{BounceSamples, draw_flight};
 use crate::light_mis::LightMis;
 use crate::path_throughput::PathThroughput;
-use crate::{settings::PathSettings, steps};
+use crate::settings::PathSettings;
 use etalon_sampling::Sampler;
 use etalon_spectrum::Wavelengths;
 use etalon_transport::{
-    Bsdf, LightSampleContext, Lights, MergedPhoton, PixelSample, Ray, SampleJob, SamplePdf,
-    Scatterer, ScattererOf, Sink, SurfaceInteraction, Surfaces, TileSink, TraceEvent,
-    TransportMode, World,
+    Bsdf, LightSampleContext, MergedPhoton, PixelSample, Ray, SampleJob, SamplePdf, Scatterer,
+    ScattererOf, Sink, SurfaceInteraction, Surfaces, TileSink, TraceEvent, TransportMode, World,
 };
 use glam::{Vec3, Vec4};
+use std::vec::Drain;
 
 /// A map, how to look it up, and what of it counts.
 #[derive(Clone, Copy, Debug)]
@@ -104,13 +105,13 @@ pub(crate) fn follow_one<W: World>(
 pub(crate) fn follow_all<W: World, S: Sampler>(
     world: &W,
     plan: &GatherConfig<'_>,
-    drafts: &mut [SampleJob<S>],
+    jobs: Drain<'_, SampleJob<S>>,
     sink: &mut impl TileSink,
 ) {
     let mut scratch = Scratch::default();
-    for draft in drafts {
-        sink.begin_placed(draft.site.pixel, &draft.placement());
-        let (site, sampler) = (&draft.site, &mut draft.sampler);
+    for mut job in jobs {
+        sink.begin_placed(job.site.pixel, &job.placement());
+        let (site, sampler) = (&job.site, &mut job.sampler);
         follow(world, plan, site, sampler, &mut scratch, sink);
     }
 }
@@ -156,62 +157,59 @@ impl<'w, W: World> GatherPath<'_, 'w, W> {
         let mut alpha = 0.0_f32;
         let mut eta = 1.0;
         while self.depth <= settings.max_depth && self.prefix.beta != Vec4::ZERO {
-            let direction = ray.direction;
             let hidden = settings.hide_emitters && self.depth == 1;
-            let mut hit = steps::next_hit(world, &mut ray, hidden);
+            let hit = arrival::next_hit(world, &mut ray, hidden);
             // What gathers photons in a medium counts without σs, which photons have.
             let mut gathering = self.prefix;
             let mut met = None;
             if ray.medium.is_some() {
                 let u = draw_flight(sampler, self.depth - 1);
                 let waves = &self.wavelengths;
-                if let Some(flight) = steps::free_flight(world, &ray, hit.as_ref(), waves, u) {
+                if let Some(flight) = arrival::free_flight(world, &ray, hit.as_ref(), waves, u) {
                     // It cannot be evaluated at other wavelengths.
                     self.alone = true;
                     let density = flight.density();
                     self.light_mis.r_l /= density.x;
                     if !self.second {
-                        let (prefix, light_mis) = (&self.prefix, &self.light_mis);
-                        self.radiance +=
-                            steps::emitted_on_the_way(world, &flight, &ray, prefix, light_mis);
+                        self.radiance += self.arriving().emitted_by_medium(world, &flight, &ray);
                     }
                     self.prefix.scatter(flight.factor, density);
                     gathering.scatter(flight.passed, density);
                     if let Some(collision) = flight.scattering {
                         alpha = 1.0;
-                        hit = None;
                         let vertex = SurfaceInteraction::in_space(&ray, collision.t);
                         met = Some((vertex, Scatterer::Space(collision.phase)));
                     }
                 }
             }
-            let wo = -direction;
-            if let Some(hit) = hit {
-                let vertex = world.surfaces().vertex(&ray, &hit);
-                if world.lights().is_emitter(&hit) && !self.second {
-                    let (waves, light_mis) = (&self.wavelengths, &self.light_mis);
-                    self.radiance +=
-                        steps::emission(world, &vertex, direction, waves, &self.prefix, light_mis);
-                }
-                let bsdf = world.surfaces().bsdf(&vertex, wo, &self.wavelengths);
-                met = Some((vertex, Scatterer::Surface(bsdf)));
-                gathering = self.prefix;
-            }
-            let Some((vertex, bsdf)) = met else {
-                // A hidden sky stays hidden to rays that only went straight.
-                let visible = !settings.hide_emitters || alpha > 0.0;
-                if visible && world.lights().has_background() {
-                    alpha = 1.0;
+            let wo = -ray.direction;
+            let (vertex, bsdf) = match met {
+                Some(met) => met,
+                None => {
+                    // A hidden sky stays hidden to rays that only went straight.
+                    let sees_background = !settings.hide_emitters || alpha > 0.0;
+                    let arrival = self
+                        .arriving()
+                        .at(world, &ray, hit.as_ref(), sees_background);
+                    let (vertex, emission) = match arrival {
+                        Arrival::Surface(vertex, emission) => (Some(vertex), emission),
+                        Arrival::Background(emission) => (None, emission),
+                        Arrival::Nothing => break,
+                    };
                     if !self.second {
-                        let (waves, light_mis) = (&self.wavelengths, &self.light_mis);
-                        self.radiance +=
-                            steps::background(world, direction, waves, &self.prefix, light_mis);
+                        self.radiance += emission;
                     }
+                    let Some(vertex) = vertex else {
+                        alpha = 1.0;
+                        break;
+                    };
+                    gathering = self.prefix;
+                    let bsdf = world.surfaces().bsdf(&vertex, wo, &self.wavelengths);
+                    (vertex, Scatterer::Surface(bsdf))
                 }
-                break;
             };
             if self.depth == settings.max_depth {
-                alpha = alpha.max(steps::opacity(&bsdf));
+                alpha = alpha.max(arrival::opacity(&bsdf));
                 break;
             }
             let event = BounceSamples::draw(sampler, self.depth - 1);
@@ -261,6 +259,15 @@ impl<'w, W: World> GatherPath<'_, 'w, W> {
         alpha
     }
 
+    /// The path as it arrives somewhere.
+    fn arriving(&self) -> Arriving<'_> {
+        Arriving {
+            wavelengths: &self.wavelengths,
+            throughput: &self.prefix,
+            light_mis: &self.light_mis,
+        }
+    }
+
     /// Adds direct light, weighed against following the same direction if that is sharp.
     fn trace_shadow(
         &mut self,
@@ -292,8 +299,7 @@ impl<'w, W: World> GatherPath<'_, 'w, W> {
             density,
             counts,
         );
-        let brings = steps::shadowed(world, vertex, &self.wavelengths, Some(aim), max_null);
-        self.radiance += brings.unwrap_or(Vec4::ZERO);
+        self.radiance += aim.traced(world, vertex, &self.wavelengths, max_null);
     }
 
     /// Adds the light that photons bring to a path of this throughput.

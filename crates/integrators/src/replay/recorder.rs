@@ -118,8 +118,8 @@ impl<S: Surfaces> Surfaces for Recording<'_, S> {
         hit
     }
 
-    fn intersect_batch<'r>(&self, queries: impl Iterator<Item = (&'r Ray, &'r mut Option<Hit>)>) {
-        for (ray, hit) in queries {
+    fn intersect_batch(&self, rays: &[Ray], hits: &mut [Option<Hit>]) {
+        for (ray, hit) in rays.iter().zip(hits) {
             *hit = self.intersect(ray);
         }
     }
@@ -235,9 +235,13 @@ impl<'a, W: World> World for Recorder<'a, W> {
         passage
     }
 
-    fn transmittance_batch<'r>(&self, queries: impl Iterator<Item = ShadowQuery<'r>>) {
-        for query in queries {
-            *query.found = self.transmittance(query.ray, query.wavelengths, query.crossings);
+    fn transmittance_batch(
+        &self,
+        queries: &[ShadowQuery],
+        transmissions: &mut [Option<Transmission>],
+    ) {
+        for (query, transmission) in queries.iter().zip(transmissions) {
+            *transmission = self.transmittance(&query.ray, &query.wavelengths, query.crossings);
         }
     }
 

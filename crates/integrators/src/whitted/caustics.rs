@@ -16,13 +16,13 @@
 
 use super::shading::{Surface, SurfaceBySet};
 use super::tree::{Continuation, Packet, SETS, onward};
+use crate::arrival::next_surface;
 use crate::particle::LightPath;
 use crate::photons::kdtree::Found;
 use crate::photons::kernel::{Kernel, KernelLookup};
 use crate::photons::radius::{ANYWHERE, from_pixels, held};
 use crate::photons::sets::WavelengthChoice;
 use crate::photons::shoot::{FACING, Kind, Photon, PlacedPhotons, in_order, moment, numbers};
-use crate::steps::next_surface;
 use etalon_sampling::Sampler;
 use etalon_transport::{
     LightKind, MediumId, Pass, Placing, SurfaceInteraction, TransportMode, World,

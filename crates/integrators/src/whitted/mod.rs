@@ -54,6 +54,7 @@ pub use pixel::Grid;
 pub use points::{Placement, PointSet};
 use std::cell::RefCell;
 use std::sync::OnceLock;
+use std::vec::Drain;
 pub use tree::{Continuation, onward};
 use tree::{Packet, Tree};
 
@@ -288,16 +289,16 @@ impl Integrator for Whitted {
         &self,
         world: &W,
         picture: &Picture,
-        drafts: &mut [SampleJob<S>],
+        jobs: Drain<'_, SampleJob<S>>,
         sink: &mut K,
     ) {
-        for SampleJob { site, sampler, .. } in drafts {
+        for mut job in jobs {
             // Pixels around the film are of no use to it.
-            if !picture.has(site.pixel) {
+            if !picture.has(job.site.pixel) {
                 continue;
             }
-            sink.begin_sample(site.pixel, 1.0);
-            self.sample(world, picture, site, sampler, sink);
+            sink.begin_sample(job.site.pixel, 1.0);
+            self.sample(world, picture, &job.site, &mut job.sampler, sink);
         }
     }
 }

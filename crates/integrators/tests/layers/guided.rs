@@ -271,7 +271,7 @@ fn replicate_means(
             let pixel = origin + UVec2::new(pixel % size.x, pixel / size.x);
             let dealt = placing.dealt(pixel, samples);
             let mut drafts = drafts(placing, &pass, pixel);
-            integrator.sample_batch(stack, &learned, &mut drafts, &mut scale);
+            integrator.sample_batch(stack, &learned, drafts.drain(..), &mut scale);
             for (mean, sum) in mean.iter_mut().zip(scale.sum) {
                 *mean += sum / f64::from(dealt * size.element_product());
             }
@@ -365,7 +365,7 @@ fn what_is_no_number_in_training_is_refused_once() {
     for pixel in [SPOILT, SPOILT + UVec2::X] {
         let mut record = Record::default();
         let mut drafts = drafts(&(), &pass, pixel);
-        integrator.sample_batch(&stack, &learned, &mut drafts, &mut record);
+        integrator.sample_batch(&stack, &learned, drafts.drain(..), &mut record);
         let no_number = |bits: [u32; 4]| {
             !bits
                 .into_iter()

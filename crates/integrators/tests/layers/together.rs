@@ -83,7 +83,7 @@ fn the_path_tracer_gives_the_same_bits_for_one_and_for_many() {
                 path.sample(&world, &(), &draft.site, &mut draft.sampler, &mut alone);
             }
             let mut together = Record::default();
-            path.sample_batch(&world, &(), &mut drafts(count), &mut together);
+            path.sample_batch(&world, &(), drafts(count).drain(..), &mut together);
             assert_eq!(alone.samples.len(), count as usize);
             assert_eq!(alone.samples, together.samples, "{count} to {max_depth}");
             let lit = |s: &&(UVec2, f32, [u32; 4])| s.2[0] != 0;

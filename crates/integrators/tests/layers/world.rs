@@ -173,8 +173,8 @@ impl Surfaces for Stack {
             slot: 0,
         })
     }
-    fn intersect_batch<'r>(&self, queries: impl Iterator<Item = (&'r Ray, &'r mut Option<Hit>)>) {
-        for (ray, hit) in queries {
+    fn intersect_batch(&self, rays: &[Ray], hits: &mut [Option<Hit>]) {
+        for (ray, hit) in rays.iter().zip(hits) {
             *hit = self.intersect(ray);
         }
     }
@@ -329,9 +329,13 @@ impl World for Stack {
         }
         Some(passage)
     }
-    fn transmittance_batch<'r>(&self, queries: impl Iterator<Item = ShadowQuery<'r>>) {
-        for query in queries {
-            *query.found = self.transmittance(query.ray, query.wavelengths, query.crossings);
+    fn transmittance_batch(
+        &self,
+        queries: &[ShadowQuery],
+        transmissions: &mut [Option<Transmission>],
+    ) {
+        for (query, transmission) in queries.iter().zip(transmissions) {
+            *transmission = self.transmittance(&query.ray, &query.wavelengths, query.crossings);
         }
     }
     fn sample_light(

@@ -143,8 +143,8 @@ impl<W: World> Surfaces for Script<'_, W> {
             slot: to as u32,
         })
     }
-    fn intersect_batch<'r>(&self, queries: impl Iterator<Item = (&'r Ray, &'r mut Option<Hit>)>) {
-        for (ray, hit) in queries {
+    fn intersect_batch(&self, rays: &[Ray], hits: &mut [Option<Hit>]) {
+        for (ray, hit) in rays.iter().zip(hits) {
             *hit = self.intersect(ray);
         }
     }
@@ -267,9 +267,13 @@ impl<'s, W: World> World for Script<'s, W> {
         };
         arrives.then_some(Transmission::FREE)
     }
-    fn transmittance_batch<'r>(&self, queries: impl Iterator<Item = ShadowQuery<'r>>) {
-        for query in queries {
-            *query.found = self.transmittance(query.ray, query.wavelengths, query.crossings);
+    fn transmittance_batch(
+        &self,
+        queries: &[ShadowQuery],
+        transmissions: &mut [Option<Transmission>],
+    ) {
+        for (query, transmission) in queries.iter().zip(transmissions) {
+            *transmission = self.transmittance(&query.ray, &query.wavelengths, query.crossings);
         }
     }
     fn sample_light(

@@ -23,8 +23,8 @@ impl Surfaces for Parts {
     }
 
     #[inline]
-    fn intersect_batch<'r>(&self, queries: impl Iterator<Item = (&'r Ray, &'r mut Option<Hit>)>) {
-        for (ray, hit) in queries {
+    fn intersect_batch(&self, rays: &[Ray], hits: &mut [Option<Hit>]) {
+        for (ray, hit) in rays.iter().zip(hits) {
             *hit = self.intersect(ray);
         }
     }

@@ -14,8 +14,8 @@ pub trait Surfaces: Sync {
     /// The nearest surface along a ray.
     fn intersect(&self, ray: &Ray) -> Option<Hit>;
 
-    /// The nearest surfaces along many rays, each with the place of its answer.
-    fn intersect_batch<'r>(&self, queries: impl Iterator<Item = (&'r Ray, &'r mut Option<Hit>)>);
+    /// The nearest surfaces along many rays: as many `hits` as `rays`.
+    fn intersect_batch(&self, rays: &[Ray], hits: &mut [Option<Hit>]);
 
     /// The differential geometry of a hit, with the media on both sides.
     fn vertex(&self, ray: &Ray, hit: &Hit) -> SurfaceInteraction;

@@ -1,0 +1,115 @@
+//! Paths that are followed in step: all of them look for their next surface, then all meet it, then all trace their
+//! shadow rays. What one path waits for, another has meanwhile.
+
+use crate::candidates::Aim;
+use crate::path_hooks::PathHooks;
+use crate::path_state::{PathState, ShadowRay, Step};
+use crate::settings::PathConfig;
+use arrayvec::ArrayVec;
+use etalon_sampling::Sampler;
+use etalon_transport::{Hit, Ray, ShadowQuery, Surfaces, Transmission, World};
+
+/// Up to `N` paths. Those that go on are kept together, so that no stage looks at the others.
+pub(crate) struct PathBatch<S, C, const N: usize> {
+    pub(crate) paths: ArrayVec<PathState<S, C>, N>,
+    /// The places in `paths` of those that go on.
+    active: ArrayVec<usize, N>,
+    /// The next ray of each of these.
+    rays: ArrayVec<Ray, N>,
+    /// The nearest surface along it.
+    hits: [Option<Hit>; N],
+    /// The places in `paths` of those that wait for a shadow ray, and the light samples that it belongs to.
+    waiting: ArrayVec<(usize, Aim), N>,
+    /// The shadow rays.
+    shadow_rays: ArrayVec<ShadowQuery, N>,
+    /// How light travels along them.
+    transmissions: [Option<Transmission>; N],
+}
+
+impl<S: Sampler, C: PathHooks, const N: usize> PathBatch<S, C, N> {
+    /// No paths.
+    pub(crate) fn new() -> Self {
+        Self {
+            paths: ArrayVec::new(),
+            active: ArrayVec::new(),
+            rays: ArrayVec::new(),
+            hits: [None; N],
+            waiting: ArrayVec::new(),
+            shadow_rays: ArrayVec::new(),
+            transmissions: [None; N],
+        }
+    }
+
+    /// Adds a path that begins with `ray`, if it is to have a segment at all.
+    #[inline]
+    pub(crate) fn push(&mut self, path: PathState<S, C>, ray: Option<Ray>) {
+        if let Some(ray) = ray {
+            self.active.push(self.paths.len());
+            self.rays.push(ray);
+        }
+        self.paths.push(path);
+    }
+
+    /// Whether any path goes on.
+    #[inline]
+    pub(crate) fn goes_on(&self) -> bool {
+        !self.active.is_empty()
+    }
+
+    /// Finds the next surface of every path that goes on.
+    #[inline]
+    pub(crate) fn intersect<W: World>(&mut self, world: &W, config: &PathConfig) {
+        for (path, ray) in self.active.iter().zip(&mut self.rays) {
+            self.paths[*path].plan_flight(world, config, ray);
+        }
+        let hits = &mut self.hits[..self.rays.len()];
+        world.surfaces().intersect_batch(&self.rays, hits);
+    }
+
+    /// Takes every path that goes on past its next vertex.
+    #[inline]
+    pub(crate) fn advance(
+        &mut self,
+        mut extend: impl FnMut(&mut PathState<S, C>, &Ray, Option<&Hit>) -> Step,
+    ) {
+        let mut kept = 0;
+        for place in 0..self.active.len() {
+            let index = self.active[place];
+            let path = &mut self.paths[index];
+            let step = extend(path, &self.rays[place], self.hits[place].as_ref());
+            if let Some(ShadowRay {
+                ray,
+                crossings,
+                aim,
+            }) = step.shadow
+            {
+                self.waiting.push((index, aim));
+                self.shadow_rays.push(ShadowQuery {
+                    ray,
+                    wavelengths: path.wavelengths,
+                    crossings,
+                });
+            }
+            if let Some(next) = step.ray {
+                self.active[kept] = index;
+                self.rays[kept] = next;
+                kept += 1;
+            }
+        }
+        self.active.truncate(kept);
+        self.rays.truncate(kept);
+    }
+
+    /// Traces the shadow rays, and adds what light samples bring.
+    #[inline]
+    pub(crate) fn trace_shadows<W: World>(&mut self, world: &W) {
+        let transmissions = &mut self.transmissions[..self.waiting.len()];
+        world.transmittance_batch(&self.shadow_rays, transmissions);
+        for ((path, aim), transmission) in self.waiting.drain(..).zip(transmissions) {
+            if let Some(transmission) = transmission {
+                self.paths[path].add_light(&aim, transmission);
+            }
+        }
+        self.shadow_rays.clear();
+    }
+}
