@@ -12,8 +12,8 @@
 //! compared. The hemisphere is that about the shading normal; of its directions those below the
 //! surface itself see nothing.
 
-use crate::camera_ray::camera_ray;
-use crate::dimensions::BounceSamples;
+use crate::steps::camera_ray::camera_ray;
+use crate::steps::dimensions::BounceSamples;
 use etalon_params::Params;
 use etalon_sampling::warps::{square_to_cosine_hemisphere, square_to_uniform_hemisphere};
 use etalon_sampling::{ReplicateKind, Sampler};

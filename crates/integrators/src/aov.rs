@@ -21,9 +21,9 @@
 //! one to three channels `name.…`. The picture is that of the first nested integrator (black if
 //! there is none).
 
-use crate::camera_ray::camera_ray;
-use crate::dimensions as dim;
 use crate::list::Nested;
+use crate::steps::camera_ray::camera_ray;
+use crate::steps::dimensions as dim;
 use etalon_params::{Diagnostic, Params};
 use etalon_sampling::{ReplicateKind, Sampler};
 use etalon_spectrum::QuadratureNode;

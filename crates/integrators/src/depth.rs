@@ -9,7 +9,7 @@
 //! lobes): a number and no light, so all channels have it, as the `depth` channel of `aov` does. Nothing hit counts as
 //! distance 0.
 
-use crate::camera_ray::camera_ray;
+use crate::steps::camera_ray::camera_ray;
 use etalon_sampling::{ReplicateKind, Sampler};
 use etalon_transport::{
     Incompatibility, Integrator, Pass, PixelSample, Placing, SceneCapabilities, Sink, Surfaces,

@@ -12,13 +12,13 @@
 //! like any other, shadow rays are stopped by such surfaces, and alpha is 1 wherever there is a
 //! surface, 0 before the background.
 
-use crate::arrival::{Arrival, Arriving, next_hit};
-use crate::camera_ray::camera_ray;
-use crate::candidates::{Aim, Candidates};
-use crate::dimensions::BounceSamples;
-use crate::light_mis::LightMis;
-use crate::path_throughput::PathThroughput;
-use crate::settings::{LightCandidates, read_max_depth};
+use crate::steps::arrival::{Arrival, Arriving, next_hit};
+use crate::steps::camera_ray::camera_ray;
+use crate::steps::candidates::{Aim, Candidates};
+use crate::steps::dimensions::BounceSamples;
+use crate::steps::light_mis::LightMis;
+use crate::steps::path_throughput::PathThroughput;
+use crate::steps::settings::{LightCandidates, read_max_depth};
 use etalon_params::Params;
 use etalon_sampling::{ReplicateKind, Sampler};
 use etalon_spectrum::Wavelengths;

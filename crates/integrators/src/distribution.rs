@@ -10,18 +10,18 @@
 //! at the price of a tree. Lens and shutter are sampled once for each tree. Smooth surfaces send
 //! one ray on, chosen at random.
 //!
-//! Weights are those of `path` ([`crate::path_throughput`]): they depend on a path alone and sum to one over
+//! Weights are those of `path` ([`crate::steps::path_throughput`]): they depend on a path alone and sum to one over
 //! techniques and lanes, so that any N is unbiased; with N = 1 it *is* `path`, but for the order of
 //! sums. The N directions at a point are stratified in one coordinate. Rays of later bounces matter
 //! less, so that N is divided at each.
 
-use crate::arrival::{Arrival, Arriving, next_hit, opacity};
-use crate::camera_ray::camera_ray;
-use crate::candidates::Aim;
-use crate::dimensions::BounceSamples;
-use crate::light_mis::LightMis;
-use crate::path_throughput::PathThroughput;
-use crate::settings::PathSettings;
+use crate::steps::arrival::{Arrival, Arriving, next_hit, opacity};
+use crate::steps::camera_ray::camera_ray;
+use crate::steps::candidates::Aim;
+use crate::steps::dimensions::BounceSamples;
+use crate::steps::light_mis::LightMis;
+use crate::steps::path_throughput::PathThroughput;
+use crate::steps::settings::PathSettings;
 use etalon_math::float::ONE_MINUS_EPSILON;
 use etalon_params::Params;
 use etalon_sampling::{ReplicateKind, Sampler};

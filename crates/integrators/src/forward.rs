@@ -19,11 +19,11 @@
 //! ray per sample, which also tells alpha. Lights without extent are not seen themselves, as by
 //! any other estimator. With `hide_emitters` the camera looks through lights, as that of `path`.
 
-use crate::arrival;
-use crate::camera_ray::camera_ray;
-use crate::particle::LightPath;
-use crate::path_throughput::PathThroughput;
-use crate::settings::PathSettings;
+use crate::steps::arrival;
+use crate::steps::camera_ray::camera_ray;
+use crate::steps::particle::LightPath;
+use crate::steps::path_throughput::PathThroughput;
+use crate::steps::settings::PathSettings;
 use etalon_params::Params;
 use etalon_sampling::{ReplicateKind, Sampler};
 use etalon_spectrum::{SensorWeights, Wavelengths};

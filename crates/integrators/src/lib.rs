@@ -4,53 +4,32 @@
 //! of a scene it asks through [`etalon_transport::World`], so every estimator can be tested in a
 //! world without geometry.
 //!
-//! Adding an estimator: its file, its module below, and one line in [`list`].
+//! The files and folders here are estimators, but for three: [`steps`] are what they share, [`render`] is the loop, and [`replay`]
+//! tells how a sample came about. Adding an estimator: its file, its module below, and one line in [`list`].
 
 pub mod ao;
 pub mod aov;
-mod arrival;
 pub mod bdpt;
-mod camera_ray;
-mod candidates;
 pub mod depth;
-pub mod dimensions;
 pub mod direct;
 pub mod distribution;
-mod equiangular;
 pub mod forward;
 pub mod guided;
-mod light_mis;
 pub mod list;
 pub mod metropolis;
-pub mod mmlt;
 pub mod moment;
 pub mod naive;
-mod particle;
 pub mod path;
-mod path_batch;
-mod path_diffusion;
-mod path_hooks;
-mod path_media;
-mod path_state;
-pub mod path_throughput;
-pub mod photonmap;
 pub mod photons;
-mod positions;
-pub mod pssmlt;
 pub mod ptracer;
 pub mod render;
-mod render_plan;
 pub mod replay;
-mod rounds;
-pub mod settings;
-mod share;
-pub mod signature;
-pub mod sppm;
+mod steps;
 pub mod vcm;
-mod visibility;
 pub mod whitted;
 
 pub use list::{AnyIntegrator, names};
-pub use render::{Progress, RenderStatistics, render};
-pub use render_plan::RenderPlan;
-pub use share::ReplicateRange;
+pub use metropolis::{mmlt, pssmlt};
+pub use photons::{photonmap, sppm};
+pub use render::{Progress, RenderPlan, RenderStatistics, ReplicateRange, render, signature};
+pub use steps::{dimensions, path_throughput, settings};

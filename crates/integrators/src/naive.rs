@@ -22,14 +22,14 @@
 //! any other lobe may be discrete, one half of the rest lets the model sample and keeps discrete
 //! directions only, and the other half draws from p; where nothing is continuous the model samples
 //! always. The density of a uniform or cosine direction is the same for every wavelength, that of
-//! a discrete one is not; the house's estimator ([`crate::path_throughput`]) takes one like the other.
+//! a discrete one is not; the house's estimator ([`crate::steps::path_throughput`]) takes one like the other.
 
-use crate::arrival::{Arrival, Arriving, next_hit, opacity};
-use crate::camera_ray::camera_ray;
-use crate::dimensions::BounceSamples;
-use crate::light_mis::LightMis;
-use crate::path_throughput::PathThroughput;
-use crate::settings::PathSettings;
+use crate::steps::arrival::{Arrival, Arriving, next_hit, opacity};
+use crate::steps::camera_ray::camera_ray;
+use crate::steps::dimensions::BounceSamples;
+use crate::steps::light_mis::LightMis;
+use crate::steps::path_throughput::PathThroughput;
+use crate::steps::settings::PathSettings;
 use core::f32::consts::FRAC_1_PI;
 use etalon_math::Frame;
 use etalon_math::float::ONE_MINUS_EPSILON;

@@ -9,20 +9,27 @@
 //! with ωᵢ the direction from xᵢ to xᵢ₊₁; the camera draws the one from x₀ (Kajiya 1986; Veach 1997,
 //! section 8.2). Directions are sampled from the scattering models;
 //! the last one also from the lights ("next-event estimation"); the two techniques and the four
-//! wavelengths are combined by one balance heuristic, see [`crate::path_throughput`].
+//! wavelengths are combined by one balance heuristic, see [`crate::steps::path_throughput`].
 //!
 //! Surfaces that light passes straight (`mask`, `null`) count as segments, as in Mitsuba, but
 //! neither stop shadow rays nor end light sampling's claim on a path: the density with which the
 //! *last real vertex* would have sampled the light is carried across them.
 //!
-//! Several paths are followed in step, see [`crate::path_batch`].
+//! Several paths are followed in step, see [`crate::path::batch`].
 
-use crate::arrival;
-use crate::path_batch::PathBatch;
-use crate::path_hooks::PathHooks;
-use crate::path_state::{PathState, ScatteringPoint, Step};
+pub(crate) mod batch;
+mod diffusion;
+mod equiangular;
+pub(crate) mod hooks;
+mod media;
+pub(crate) mod state;
+
+use crate::path::batch::PathBatch;
+use crate::path::hooks::PathHooks;
+use crate::path::state::{PathState, ScatteringPoint, Step};
 use crate::render::BATCH_SIZE;
-use crate::settings::{LightCandidates, PathConfig, PathSettings};
+use crate::steps::arrival;
+use crate::steps::settings::{LightCandidates, PathConfig, PathSettings};
 use arrayvec::ArrayVec;
 use core::ops::{ControlFlow, Range};
 use etalon_params::Params;

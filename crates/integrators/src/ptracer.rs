@@ -15,14 +15,14 @@
 //! stopped, the background included. With `hide_emitters` the camera looks through lights, as that of
 //! `path`. (Mitsuba's lights then still stand in the way of what is behind them.)
 
-use crate::arrival::{self, Arriving};
-use crate::camera_ray::camera_ray;
-use crate::dimensions as dim;
-use crate::light_mis::LightMis;
-use crate::particle::{LightPath, LightVertex};
-use crate::path_throughput::PathThroughput;
-use crate::settings::PathSettings;
-use crate::visibility::camera_visibility;
+use crate::steps::arrival::{self, Arriving};
+use crate::steps::camera_ray::camera_ray;
+use crate::steps::dimensions as dim;
+use crate::steps::light_mis::LightMis;
+use crate::steps::particle::{LightPath, LightVertex};
+use crate::steps::path_throughput::PathThroughput;
+use crate::steps::settings::PathSettings;
+use crate::steps::visibility::camera_visibility;
 use etalon_params::Params;
 use etalon_sampling::{ReplicateKind, Sampler};
 use etalon_spectrum::{SensorWeights, Wavelengths};

@@ -24,12 +24,12 @@
 
 use crate::bdpt::merge::{self, Merging, Terms};
 use crate::bdpt::{Start, estimate};
-use crate::camera_ray::{draw_lens, ray_at};
 use crate::photons::radius::Radius;
 use crate::photons::sets::WavelengthSets;
 use crate::photons::shoot::{in_order, moment, numbers};
 use crate::photons::{read_count, rounded};
-use crate::settings::PathSettings;
+use crate::steps::camera_ray::{draw_lens, ray_at};
+use crate::steps::settings::PathSettings;
 use etalon_params::Params;
 use etalon_sampling::Sampler;
 use etalon_spectrum::Wavelengths;

@@ -6,8 +6,8 @@ use super::path_vertex::Corner;
 use super::subpath::SubpathEnd;
 use super::technique::Technique;
 use super::weight::{CameraEnd, EndPdfs, LightEnd, fewer, more};
-use crate::dimensions::BounceSamples;
-use crate::settings::PathSettings;
+use crate::steps::dimensions::BounceSamples;
+use crate::steps::settings::PathSettings;
 use etalon_spectrum::Wavelengths;
 use etalon_transport::{
     Bsdf, Camera, EmissionPdf, LightKind, Lights, MediumId, PixelSample, SamplePdf,

@@ -2,10 +2,10 @@
 
 use super::path_vertex::{Corner, PathVertex, counted};
 use super::subpath::{Met, SubpathState, light_event};
-use crate::arrival;
-use crate::dimensions::{BounceSamples, draw_flight};
-use crate::path_throughput::PathThroughput;
-use crate::settings::PathSettings;
+use crate::steps::arrival;
+use crate::steps::dimensions::{BounceSamples, draw_flight};
+use crate::steps::path_throughput::PathThroughput;
+use crate::steps::settings::PathSettings;
 use etalon_sampling::Sampler;
 use etalon_spectrum::Wavelengths;
 use etalon_transport::{Bsdf, Emission, LightKind, Surfaces, TransportMode, World};

@@ -12,7 +12,7 @@ use super::from_light::FromLight;
 use super::path_vertex::PathVertex;
 use super::weight::{EndPdfs, LightEnd, fewer};
 use crate::photons::kdtree::KdTree;
-use crate::settings::PathSettings;
+use crate::steps::settings::PathSettings;
 use etalon_sampling::Sampler;
 use etalon_spectrum::Wavelengths;
 use etalon_transport::{Bsdf, World};

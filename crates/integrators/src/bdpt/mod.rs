@@ -48,9 +48,9 @@ mod subpath;
 mod technique;
 mod weight;
 
-use crate::camera_ray::camera_ray;
-use crate::dimensions as dim;
-use crate::settings::PathSettings;
+use crate::steps::camera_ray::camera_ray;
+use crate::steps::dimensions as dim;
+use crate::steps::settings::PathSettings;
 use connect::Connector;
 use etalon_params::Params;
 use etalon_sampling::{ReplicateKind, Sampler};

@@ -1,6 +1,6 @@
 //! A corner of a subpath, and how densities change from solid angle to area.
 
-use crate::path_throughput::PathThroughput;
+use crate::steps::path_throughput::PathThroughput;
 use etalon_transport::{
     Bsdf, BsdfSample, LightSampleContext, SamplePdf, ScattererOf, SurfaceInteraction,
 };

@@ -1,8 +1,8 @@
 //! What walks from the camera and from a light share: the state between corners, and how the next one is found.
 
 use super::path_vertex::{Corner, PathVertex};
-use crate::arrival;
-use crate::path_throughput::PathThroughput;
+use crate::steps::arrival;
+use crate::steps::path_throughput::PathThroughput;
 use etalon_spectrum::Wavelengths;
 use etalon_transport::{
     Bsdf, Hit, Ray, Scatterer, ScattererOf, SurfaceInteraction, Surfaces, World,

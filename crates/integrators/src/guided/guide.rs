@@ -2,8 +2,8 @@
 
 use super::field::SdTree;
 use super::steering::GuidedBsdf;
-use crate::path_hooks::PathHooks;
-use crate::path_throughput::PathThroughput;
+use crate::path::hooks::PathHooks;
+use crate::steps::path_throughput::PathThroughput;
 use etalon_transport::{Bsdf, BsdfSample, SurfaceInteraction};
 use glam::Vec3;
 

@@ -42,7 +42,7 @@ mod tests;
 mod training_path;
 
 use crate::path::{follow_alone, follow_jobs};
-use crate::settings::{PathConfig, PathSettings};
+use crate::steps::settings::{PathConfig, PathSettings};
 use etalon_params::Params;
 use etalon_sampling::Sampler;
 use etalon_transport::{Integrator, Pass, PixelSample, Placing, SampleJob, Sink, TileSink, World};

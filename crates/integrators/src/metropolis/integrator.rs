@@ -1,7 +1,7 @@
 //! The integrator that runs chains, whatever paths its primary samples stand for.
 
 use super::{ChainSettings, Contributions, FilmRegion, Integrand, PathLengthPdf, State};
-use crate::settings::PathSettings;
+use crate::steps::settings::PathSettings;
 use etalon_sampling::Sampler;
 use etalon_transport::{
     Incompatibility, Integrator, LightSearch, Pass, PixelSample, Placing, SceneCapabilities, Sink,

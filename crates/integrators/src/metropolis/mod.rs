@@ -48,7 +48,9 @@ mod chain;
 mod found;
 mod importance_map;
 mod integrator;
+pub mod mmlt;
 pub(crate) mod primary;
+pub mod pssmlt;
 #[cfg(test)]
 mod tests;
 
@@ -59,8 +61,8 @@ pub use integrator::Metropolis;
 pub(crate) use integrator::PathSampler;
 
 use crate::path::follow_part;
-use crate::path_state::PathState;
-use crate::settings::{PathConfig, PathSettings};
+use crate::path::state::PathState;
+use crate::steps::settings::{PathConfig, PathSettings};
 use core::ops::Range;
 use etalon_params::Params;
 use etalon_sampling::Sampler;

@@ -16,7 +16,7 @@
 //! equally likely to the last bit. They are made and moved only when they are asked for: a number
 //! that several accepted steps did not ask for catches up with all of them then.
 
-use crate::dimensions as dim;
+use crate::steps::dimensions as dim;
 use etalon_math::float;
 use etalon_sampling::Sampler;
 use etalon_sampling::hash::{GOLDEN, derived_key, mix64, random_float};

@@ -5,7 +5,7 @@
 //! with further ones.
 
 use super::sets::{WavelengthChoice, WavelengthSets};
-use crate::path_throughput::PathThroughput;
+use crate::steps::path_throughput::PathThroughput;
 use etalon_math::float::ONE_MINUS_EPSILON;
 use etalon_spectrum::Wavelengths;
 use etalon_transport::{Bsdf, BsdfSample, SurfaceInteraction, Surfaces, TransportMode, World};

@@ -29,9 +29,11 @@ pub(crate) mod elsewhere;
 pub(crate) mod gather;
 pub mod kdtree;
 pub(crate) mod kernel;
+pub mod photonmap;
 pub mod radius;
 pub(crate) mod sets;
 pub(crate) mod shoot;
+pub mod sppm;
 
 use etalon_math::{Density, SolidAngle};
 use etalon_params::Params;

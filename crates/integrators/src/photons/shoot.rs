@@ -2,15 +2,15 @@
 //!
 //! A photon of flux Φ that arrives at y stands for the part Φ of the flux that arrives there. Its
 //! value per lane is f/p of its path, with p the mean density over the lanes that could have
-//! chosen (see [`crate::path_throughput`]), over the cosine of its arrival: the sum of the values of photons
+//! chosen (see [`crate::steps::path_throughput`]), over the cosine of its arrival: the sum of the values of photons
 //! per unit area of a surface estimates the integral of radiance over directions; that per unit volume of a medium σs
 //! times it.
 
 use super::is_sharp;
 use super::kdtree::{Found, KdTree};
 use super::sets::{WavelengthChoice, WavelengthSets};
-use crate::particle::{LightPath, LightVertex};
-use crate::settings::PathSettings;
+use crate::steps::particle::{LightPath, LightVertex};
+use crate::steps::settings::PathSettings;
 use etalon_sampling::hash::mix64;
 use etalon_sampling::{SampleId, Sobol};
 use etalon_transport::{Bsdf, LightKind, MediumId, Pass, Placing, SamplePdf, World};

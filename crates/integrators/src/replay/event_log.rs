@@ -1,7 +1,7 @@
 //! What has been said so far, and which walk it belongs to.
 
 use super::{Event, Gathered};
-use crate::path_throughput::PathThroughput;
+use crate::steps::path_throughput::PathThroughput;
 use etalon_spectrum::{SensorWeights, Wavelengths};
 use etalon_transport::{
     BsdfSample, ChainRemark, Mixed, Mixture, ShapeId, SurfaceInteraction, TraceEvent,

@@ -16,8 +16,8 @@ mod tests;
 
 pub use event::{Event, Gathered};
 
-use crate::positions::position;
-use crate::render_plan::RenderPlan;
+use crate::render::RenderPlan;
+use crate::render::positions::position;
 use any_sampler::AnySampler;
 use etalon_sampling::Sampler;
 use etalon_transport::{Film, Integrator, Pass, PixelSample, Sink, World};

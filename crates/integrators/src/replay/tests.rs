@@ -2,7 +2,7 @@
 
 use super::event_log::{EventLog, Place};
 use super::{Event, Gathered};
-use crate::path_throughput::PathThroughput;
+use crate::steps::path_throughput::PathThroughput;
 use etalon_math::{Density, SolidAngle};
 use etalon_spectrum::{Wavelengths, sensor_response};
 use etalon_transport::{

@@ -9,20 +9,20 @@
 //!
 //! is added to what a surface shows (Jensen 1996); of a classic Phong material f is (1 − α) k_d, so that the sum is k_d times the flux
 //! that arrives per area. The kernel's integral is one: the flux of a caustic is that which arrives. r is `radius`, or the
-//! distance of the k-th nearest photon, which itself is not counted then, as in [`crate::photonmap`].
+//! distance of the k-th nearest photon, which itself is not counted then, as in [`crate::photons::photonmap`].
 //!
 //! Photons share the wavelengths of the integrator, so that each packet of four has a part of them for itself. A photon goes every way that
 //! the recursion would go with the probability that it has as a share of the light there, and is absorbed with the rest.
 
 use super::shading::{Surface, SurfaceBySet};
 use super::tree::{Continuation, Packet, SETS, onward};
-use crate::arrival::next_surface;
-use crate::particle::LightPath;
 use crate::photons::kdtree::Found;
 use crate::photons::kernel::{Kernel, KernelLookup};
 use crate::photons::radius::{ANYWHERE, from_pixels, held};
 use crate::photons::sets::WavelengthChoice;
 use crate::photons::shoot::{FACING, Kind, Photon, PlacedPhotons, in_order, moment, numbers};
+use crate::steps::arrival::next_surface;
+use crate::steps::particle::LightPath;
 use etalon_sampling::Sampler;
 use etalon_transport::{
     LightKind, MediumId, Pass, Placing, SurfaceInteraction, TransportMode, World,

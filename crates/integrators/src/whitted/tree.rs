@@ -5,9 +5,9 @@
 
 use super::caustics::Caustics;
 use super::{Whitted, phong, shading};
-use crate::arrival::next_surface;
 use crate::photons::kdtree::Found;
 use crate::photons::sets::WavelengthChoice;
+use crate::steps::arrival::next_surface;
 use etalon_sampling::Sampler;
 use etalon_spectrum::{QuadratureNode, SensorWeights, Wavelengths};
 use etalon_transport::{

@@ -17,13 +17,13 @@
 //! once (`separate_direct`; else what is seen of lights) is no part of F but is added by ordinary
 //! samples.
 
-use crate::dimensions as dim;
 use crate::metropolis::{
     ChainSettings, Contributions, FilmRegion, Metropolis, PathLengthPdf, PathSampler,
 };
 use crate::path::follow_part;
-use crate::path_state::PathState;
-use crate::settings::{PathConfig, PathSettings};
+use crate::path::state::PathState;
+use crate::steps::dimensions as dim;
+use crate::steps::settings::{PathConfig, PathSettings};
 use etalon_params::Params;
 use etalon_sampling::Sampler;
 use etalon_transport::{LightSearch, World};

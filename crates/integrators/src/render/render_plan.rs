@@ -1,6 +1,6 @@
 //! What is rendered: how many replicates of how many samples, and where their numbers are drawn from.
 
-use crate::share::ReplicateRange;
+use crate::render::ReplicateRange;
 use etalon_sampling::{ReplicateKind, SampleId, SamplerKind};
 #[cfg(doc)]
 use etalon_transport::Integrator;

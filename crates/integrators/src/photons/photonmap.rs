@@ -59,7 +59,7 @@ use crate::photons::radius::{ANYWHERE, MOST_FOUND, from_pixels, held, read};
 use crate::photons::sets::WavelengthSets;
 use crate::photons::shoot::{Kind, PhotonMap, PlacedPhotons, moment, shoot};
 use crate::photons::{read_count, read_nearest, read_sets, rounded};
-use crate::settings::PathSettings;
+use crate::steps::settings::PathSettings;
 use etalon_params::Params;
 use etalon_sampling::Sampler;
 use etalon_transport::{

@@ -1,6 +1,6 @@
 //! Hooks into the path loop, used by path guiding: wrap the BSDF at each vertex, and observe contributions.
 
-use crate::path_throughput::PathThroughput;
+use crate::steps::path_throughput::PathThroughput;
 use etalon_transport::{Bsdf, BsdfSample, SurfaceInteraction};
 use glam::{Vec3, Vec4};
 

@@ -14,7 +14,7 @@
 //! Two renderers that are given the same colours must agree pixel by pixel wherever neighbouring
 //! pixels do.
 
-use crate::camera_ray::camera_ray;
+use crate::steps::camera_ray::camera_ray;
 use etalon_sampling::{ReplicateKind, Sampler};
 use etalon_transport::{
     Hit, Incompatibility, Integrator, Pass, PixelSample, Placing, SceneCapabilities, Sink,

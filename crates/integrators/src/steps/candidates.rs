@@ -12,9 +12,9 @@
 //! as far as M shadow rays, which they are not: where visibility decides, or which of two lights, that was measured to
 //! double the variance. For the same reason one sample is drawn of a lone light whose samples are all alike.
 
-use crate::dimensions::BounceSamples;
-use crate::path_throughput::PathThroughput;
-use crate::settings::LightCandidates;
+use crate::steps::dimensions::BounceSamples;
+use crate::steps::path_throughput::PathThroughput;
+use crate::steps::settings::LightCandidates;
 use etalon_math::float::ONE_MINUS_EPSILON;
 use etalon_math::{Density, SolidAngle};
 use etalon_sampling::Sampler;

@@ -3,9 +3,9 @@
 //! What `ptracer` connects with the camera, `forward` waits for, and photon maps keep: they differ
 //! in what they do with a particle, not in how it goes.
 
-use crate::arrival::{free_flight, next_hit};
-use crate::dimensions::{self as dim, BounceSamples, draw_flight};
-use crate::path_throughput::PathThroughput;
+use crate::steps::arrival::{free_flight, next_hit};
+use crate::steps::dimensions::{self as dim, BounceSamples, draw_flight};
+use crate::steps::path_throughput::PathThroughput;
 use etalon_sampling::Sampler;
 use etalon_spectrum::Wavelengths;
 use etalon_transport::{

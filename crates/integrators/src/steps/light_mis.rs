@@ -1,7 +1,7 @@
 //! Multiple importance sampling of emission that a path hits: how likely light sampling would have been to
 //! find it. pbrt-v4 calls the ratio `r_l`.
 
-use crate::path_throughput::PathThroughput;
+use crate::steps::path_throughput::PathThroughput;
 use etalon_transport::{BsdfSample, LightSampleContext, MediumId, SurfaceInteraction, World};
 use glam::{Vec3, Vec4};
 

@@ -3,8 +3,8 @@
 //! Every estimator that follows rays from the camera begins a segment so; what a medium does to light on the way enters here and
 //! in [`World::transmittance`].
 
-use crate::light_mis::LightMis;
-use crate::path_throughput::PathThroughput;
+use crate::steps::light_mis::LightMis;
+use crate::steps::path_throughput::PathThroughput;
 use etalon_spectrum::Wavelengths;
 use etalon_transport::{
     Bsdf, FreeFlight, Hit, Lights, Media, Medium, PhaseOf, Ray, SurfaceInteraction, Surfaces,

@@ -1,6 +1,6 @@
 //! The camera ray of a sample: what every estimator that looks from the camera begins with.
 
-use crate::dimensions as dim;
+use crate::steps::dimensions as dim;
 use etalon_sampling::Sampler;
 use etalon_spectrum::Wavelengths;
 use etalon_transport::{Camera, Media, PixelSample, Ray, Sensor, World};

@@ -50,7 +50,7 @@ pub(crate) struct PathConfig {
     /// Whether passing straight through a surface makes a path longer: so count Mitsuba's `path`, and not its
     /// `volpath`.
     pub(crate) counts_null: bool,
-    /// Whether light is looked for along flights through media, see [`crate::equiangular`].
+    /// Whether light is looked for along flights through media, see [`crate::path::equiangular`].
     pub(crate) equiangular: bool,
 }
 

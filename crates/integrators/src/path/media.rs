@@ -1,14 +1,14 @@
 //! A path in a participating medium: free flight, next-event estimation and scattering at a point of space.
 
-use crate::arrival;
-use crate::candidates::{Aim, Candidates};
-use crate::dimensions::BounceSamples;
-use crate::equiangular::Equiangular;
-use crate::light_mis::LightMis;
-use crate::path_hooks::PathHooks;
-use crate::path_state::{PathState, ShadowRay, Step};
-use crate::path_throughput::PathThroughput;
-use crate::settings::PathConfig;
+use crate::path::equiangular::Equiangular;
+use crate::path::hooks::PathHooks;
+use crate::path::state::{PathState, ShadowRay, Step};
+use crate::steps::arrival;
+use crate::steps::candidates::{Aim, Candidates};
+use crate::steps::dimensions::BounceSamples;
+use crate::steps::light_mis::LightMis;
+use crate::steps::path_throughput::PathThroughput;
+use crate::steps::settings::PathConfig;
 use core::ops::ControlFlow;
 use etalon_sampling::Sampler;
 use etalon_transport::{

@@ -1,10 +1,10 @@
 //! Paths that are followed in step: all of them look for their next surface, then all meet it, then all trace their
 //! shadow rays. What one path waits for, another has meanwhile.
 
-use crate::candidates::Aim;
-use crate::path_hooks::PathHooks;
-use crate::path_state::{PathState, ShadowRay, Step};
-use crate::settings::PathConfig;
+use crate::path::hooks::PathHooks;
+use crate::path::state::{PathState, ShadowRay, Step};
+use crate::steps::candidates::Aim;
+use crate::steps::settings::PathConfig;
 use arrayvec::ArrayVec;
 use etalon_sampling::Sampler;
 use etalon_transport::{Hit, Ray, ShadowQuery, Surfaces, Transmission, World};

@@ -1,13 +1,13 @@
 //! One path of the path tracer, from surface to surface.
 
-use crate::arrival::{Arrival, Arriving};
-use crate::camera_ray::camera_ray;
-use crate::candidates::{Aim, Candidates};
-use crate::dimensions::BounceSamples;
-use crate::light_mis::LightMis;
-use crate::path_hooks::PathHooks;
-use crate::path_throughput::PathThroughput;
-use crate::settings::{LightCandidates, PathConfig};
+use crate::path::hooks::PathHooks;
+use crate::steps::arrival::{Arrival, Arriving};
+use crate::steps::camera_ray::camera_ray;
+use crate::steps::candidates::{Aim, Candidates};
+use crate::steps::dimensions::BounceSamples;
+use crate::steps::light_mis::LightMis;
+use crate::steps::path_throughput::PathThroughput;
+use crate::steps::settings::{LightCandidates, PathConfig};
 use etalon_sampling::Sampler;
 use etalon_spectrum::Wavelengths;
 use etalon_transport::{

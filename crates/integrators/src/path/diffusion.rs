@@ -5,9 +5,9 @@
 //! another; all three are combined by multiple importance sampling, over the four wavelengths too (A. King, C. Kulla, A. Conty,
 //! M. Fajardo, BSSRDF importance sampling, 2013).
 
-use crate::path_hooks::PathHooks;
-use crate::path_state::{PathState, ScatteringPoint, Step};
-use crate::settings::PathConfig;
+use crate::path::hooks::PathHooks;
+use crate::path::state::{PathState, ScatteringPoint, Step};
+use crate::steps::settings::PathConfig;
 use core::f32::consts::TAU;
 use etalon_math::{Density, Frame, SolidAngle, float};
 use etalon_sampling::Sampler;

@@ -22,11 +22,11 @@
 
 use crate::bdpt::Technique;
 use crate::bdpt::single::{Lists, sample};
-use crate::dimensions as dim;
 use crate::metropolis::{
     ChainSettings, Contributions, FilmRegion, Metropolis, PathLengthPdf, PathSampler,
 };
-use crate::settings::PathSettings;
+use crate::steps::dimensions as dim;
+use crate::steps::settings::PathSettings;
 use etalon_params::Params;
 use etalon_sampling::Sampler;
 use etalon_transport::{LightSearch, ScattererOf, TraceEvent, World};

@@ -20,7 +20,7 @@ use crate::photons::radius::Radius;
 use crate::photons::sets::WavelengthSets;
 use crate::photons::shoot::{Kind, PhotonMap, moment, shoot};
 use crate::photons::{read_count, read_sets, rounded};
-use crate::settings::PathSettings;
+use crate::steps::settings::PathSettings;
 use etalon_params::Params;
 use etalon_sampling::Sampler;
 use etalon_transport::{

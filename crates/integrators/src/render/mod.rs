@@ -7,10 +7,17 @@
 //! sample is a pure function of its address and the film accumulates exactly, neither the number of
 //! threads nor the order of tiles nor the rounds change a bit, and a render goes on from any sample.
 
-use crate::positions::{Asked, around, position};
-use crate::render_plan::RenderPlan;
-use crate::rounds::{Batches, Pace};
-use crate::share::ReplicateRange;
+pub(crate) mod positions;
+mod render_plan;
+mod replicate_range;
+mod rounds;
+pub mod signature;
+
+pub use render_plan::RenderPlan;
+pub use replicate_range::ReplicateRange;
+
+use crate::render::positions::{Asked, around, position};
+use crate::render::rounds::{Batches, Pace};
 use etalon_sampling::{Independent, SampleId, Sampler, SamplerKind, Sobol, Stratified};
 use etalon_transport::{Film, Integrator, Pass, PixelSample, SampleJob, Surfaces, TileSink, World};
 use glam::UVec2;

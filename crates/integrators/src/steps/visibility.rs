@@ -4,7 +4,7 @@
 //! surface that lets light pass is seen, and in the way, like any other surface; so is the point
 //! itself, unless it lies on a light that is hidden.
 
-use crate::arrival;
+use crate::steps::arrival;
 use etalon_spectrum::Wavelengths;
 use etalon_transport::{Bsdf, Lights, Ray, Surfaces, Transmission, World};
 use glam::Vec4;

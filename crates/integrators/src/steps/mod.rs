@@ -1,0 +1,11 @@
+//! The steps that estimators share: the camera's ray, where a path arrives, light samples, multiple importance sampling.
+
+pub(crate) mod arrival;
+pub(crate) mod camera_ray;
+pub(crate) mod candidates;
+pub mod dimensions;
+pub(crate) mod light_mis;
+pub(crate) mod particle;
+pub mod path_throughput;
+pub mod settings;
+pub(crate) mod visibility;
