@@ -14,8 +14,9 @@
 
 use crate::steps::arrival::{Arrival, Arriving, next_hit};
 use crate::steps::camera_ray::camera_ray;
-use crate::steps::candidates::{Aim, Candidates};
+use crate::steps::candidates::Candidates;
 use crate::steps::dimensions::BounceSamples;
+use crate::steps::light_connection::LightConnection;
 use crate::steps::light_mis::LightMis;
 use crate::steps::path_throughput::PathThroughput;
 use crate::steps::settings::{LightCandidates, read_max_depth};
@@ -162,9 +163,11 @@ impl Direct {
         let event = BounceSamples::draw(sampler, event);
         let candidates = Candidates::at(self.light_candidates, world, from);
         let balance = [self.emitter_samples as f32, self.bsdf_samples as f32];
-        let aim = |light: &LightSample| Aim::new(light, &START, bsdf, wo, balance);
-        let aim = candidates.draw(world, from, wavelengths, &event, sampler, aim);
-        aim.map_or(Vec4::ZERO, |aim| aim.traced(world, vertex, wavelengths, 0))
+        let connect = |light: &LightSample| LightConnection::new(light, &START, bsdf, wo, balance);
+        let connection = candidates.draw(world, from, wavelengths, &event, sampler, connect);
+        connection.map_or(Vec4::ZERO, |connection| {
+            connection.traced(world, vertex, wavelengths, 0)
+        })
     }
 
     #[allow(clippy::too_many_arguments)]

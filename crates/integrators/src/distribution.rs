@@ -17,8 +17,8 @@
 
 use crate::steps::arrival::{Arrival, Arriving, next_hit, opacity};
 use crate::steps::camera_ray::camera_ray;
-use crate::steps::candidates::Aim;
 use crate::steps::dimensions::BounceSamples;
+use crate::steps::light_connection::LightConnection;
 use crate::steps::light_mis::LightMis;
 use crate::steps::path_throughput::PathThroughput;
 use crate::steps::settings::PathSettings;
@@ -220,10 +220,11 @@ impl<W: World, S: Sampler> Tree<'_, W, S> {
     ) -> Vec4 {
         let (world, settings) = (self.world, self.integrator.settings);
         let light = world.sample_light(from, &self.wavelengths, event.light_choice, event.light);
-        let aim = light.and_then(|light| Aim::new(&light, &branch.throughput, bsdf, wo, [1.0; 2]));
+        let connection = light
+            .and_then(|light| LightConnection::new(&light, &branch.throughput, bsdf, wo, [1.0; 2]));
         let max_null = settings.max_depth - branch.depth - 1;
-        aim.map_or(Vec4::ZERO, |aim| {
-            aim.traced(world, vertex, &self.wavelengths, max_null)
+        connection.map_or(Vec4::ZERO, |connection| {
+            connection.traced(world, vertex, &self.wavelengths, max_null)
         })
     }
 

@@ -4,8 +4,9 @@ use crate::path::equiangular::Equiangular;
 use crate::path::hooks::PathHooks;
 use crate::path::state::{PathState, ShadowRay, Step};
 use crate::steps::arrival;
-use crate::steps::candidates::{Aim, Candidates};
+use crate::steps::candidates::Candidates;
 use crate::steps::dimensions::BounceSamples;
+use crate::steps::light_connection::LightConnection;
 use crate::steps::light_mis::LightMis;
 use crate::steps::path_throughput::PathThroughput;
 use crate::steps::settings::PathConfig;
@@ -19,12 +20,12 @@ use glam::{Vec3, Vec4};
 
 /// Where a path is scattered in a medium.
 struct MediumVertex<'p, P> {
-    at: Vec3,
+    position: Vec3,
     phase: &'p P,
     /// f / p₀ there, and pₖ / p₀ of all ways to sample a light there.
-    lit: PathThroughput,
+    throughput: PathThroughput,
     /// pₖ / p₀ of free flight alone, after which the path goes on.
-    flown: Vec4,
+    r_u_of_flight: Vec4,
 }
 
 impl<S: Sampler, C: PathHooks> PathState<S, C> {
@@ -44,14 +45,14 @@ impl<S: Sampler, C: PathHooks> PathState<S, C> {
     #[inline]
     pub(crate) fn plan_flight<W: World>(&mut self, world: &W, config: &PathConfig, ray: &mut Ray) {
         if ray.medium.is_some() {
-            self.cut_short(world, config, ray);
+            self.shorten(world, config, ray);
         }
     }
 
     /// Cuts the ray off where the path is scattered before, so that no surface beyond is looked for.
     #[cold]
     #[inline(never)]
-    fn cut_short<W: World>(&mut self, world: &W, config: &PathConfig, ray: &mut Ray) {
+    fn shorten<W: World>(&mut self, world: &W, config: &PathConfig, ray: &mut Ray) {
         self.flight = self.draw_event().lobe;
         if config.equiangular {
             return;
@@ -77,7 +78,7 @@ impl<S: Sampler, C: PathHooks> PathState<S, C> {
         let u = self.flight;
         let scatters = self.depth < config.limits.max_depth;
         let along = (config.equiangular && scatters && !world.media().is_dark(ray.medium))
-            .then(|| self.look_along(world, config, ray, hit))
+            .then(|| self.sample_equiangular(world, config, ray, hit))
             .flatten();
         let Some(medium) = self.medium(world, ray.medium) else {
             return ControlFlow::Continue(());
@@ -97,16 +98,16 @@ impl<S: Sampler, C: PathHooks> PathState<S, C> {
         if self.throughput.beta == Vec4::ZERO || !scatters {
             return ControlFlow::Break(Step::END);
         }
-        let looked_for = along.map_or(0.0, |along| along.density(t) / density.x);
+        let equiangular_pdf = along.map_or(0.0, |along| along.density(t) / density.x);
         let PathThroughput { beta, r_u } = self.throughput;
         let vertex = MediumVertex {
-            at: ray.at(t),
+            position: ray.at(t),
             phase: &phase,
-            lit: PathThroughput {
+            throughput: PathThroughput {
                 beta,
-                r_u: r_u + before * looked_for,
+                r_u: r_u + before * equiangular_pdf,
             },
-            flown: r_u,
+            r_u_of_flight: r_u,
         };
         ControlFlow::Break(self.scatter_in_medium(world, config, ray, &vertex))
     }
@@ -114,7 +115,7 @@ impl<S: Sampler, C: PathHooks> PathState<S, C> {
     /// Looks for light along the ray: chooses a point of a light, a point of the ray by the angle seen from there, and
     /// a light sample at that; all but the first are combined with free flight by multiple importance sampling. Nothing, in a
     /// vacuum, or if the light chosen is at infinity.
-    fn look_along<W: World>(
+    fn sample_equiangular<W: World>(
         &mut self,
         world: &W,
         config: &PathConfig,
@@ -140,19 +141,19 @@ impl<S: Sampler, C: PathHooks> PathState<S, C> {
             probability,
         } = medium.transmittance(ray, t, &mut ray.stream(event.roulette));
         let density = along.density(t);
-        let flown = probability * coefficients.extinction() / density;
+        let r_u_of_flight = probability * coefficients.extinction() / density;
         let PathThroughput { beta, r_u } = self.throughput;
-        let lit = PathThroughput {
+        let throughput = PathThroughput {
             beta: beta * transmittance * coefficients.scattering / density,
-            r_u: r_u * (Vec4::ONE + flown),
+            r_u: r_u * (Vec4::ONE + r_u_of_flight),
         };
-        if lit.beta != Vec4::ZERO {
+        if throughput.beta != Vec4::ZERO {
             let event = self.draw_event();
             let vertex = MediumVertex {
-                at,
+                position: at,
                 phase: &medium.phase(at),
-                lit,
-                flown: r_u * flown,
+                throughput,
+                r_u_of_flight: r_u * r_u_of_flight,
             };
             let (_, shadow) = self.light_in_medium(world, config, ray, &vertex, &event);
             self.trace_shadow(world, shadow);
@@ -181,7 +182,7 @@ impl<S: Sampler, C: PathHooks> PathState<S, C> {
         let density = sample.density.lanes();
         self.light_mis = from.map_or(LightMis::NONE, |from| LightMis {
             from,
-            r_l: vertex.lit.r_u / density.x,
+            r_l: vertex.throughput.r_u / density.x,
         });
         self.throughput.scatter(sample.value, density);
         self.hooks.on_medium(&self.throughput);
@@ -193,7 +194,7 @@ impl<S: Sampler, C: PathHooks> PathState<S, C> {
         let goes_on = survives && self.throughput.beta != Vec4::ZERO;
         let next = goes_on.then(|| Ray {
             medium: ray.medium,
-            ..Ray::new(vertex.at, sample.wi, ray.time)
+            ..Ray::new(vertex.position, sample.wi, ray.time)
         });
         Step { shadow, ray: next }
     }
@@ -208,31 +209,39 @@ impl<S: Sampler, C: PathHooks> PathState<S, C> {
         event: &BounceSamples,
     ) -> (LightSampleContext, Option<ShadowRay>) {
         let MediumVertex {
-            at,
+            position: at,
             phase,
-            lit,
-            flown,
+            throughput,
+            r_u_of_flight,
         } = *vertex;
         let (wo, time, medium) = (-ray.direction, ray.time, ray.medium);
         let from = LightSampleContext::in_space(at).at(time).combined();
         let candidates = Candidates::at(self.candidates(config), world, &from);
-        let aim = |light: &LightSample| {
+        let connect = |light: &LightSample| {
             let contribution = phase.eval(wo, light.direction) * light.radiance;
             let density = phase.density(wo, light.direction);
-            (contribution != Vec4::ZERO)
-                .then(|| Aim::of(light, &lit, flown, contribution, density, [1.0; 2]))
+            (contribution != Vec4::ZERO).then(|| {
+                LightConnection::of(
+                    light,
+                    &throughput,
+                    r_u_of_flight,
+                    contribution,
+                    density,
+                    [1.0; 2],
+                )
+            })
         };
         let (waves, sampler) = (&self.wavelengths, &mut self.sampler);
-        let aim = candidates.draw(world, &from, waves, event, sampler, aim);
-        let shadow = aim.and_then(|aim| {
-            let ray = match aim.target {
+        let connection = candidates.draw(world, &from, waves, event, sampler, connect);
+        let shadow = connection.and_then(|connection| {
+            let ray = match connection.target {
                 Some(target) => Ray::between(at, target, time)?,
-                None => Ray::new(at, aim.direction, time),
+                None => Ray::new(at, connection.direction, time),
             };
             Some(ShadowRay {
                 ray: Ray { medium, ..ray },
                 crossings: config.null_crossings(self.depth),
-                aim,
+                connection,
             })
         });
         (from, shadow)

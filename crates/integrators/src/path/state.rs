@@ -3,8 +3,9 @@
 use crate::path::hooks::PathHooks;
 use crate::steps::arrival::{Arrival, Arriving};
 use crate::steps::camera_ray::camera_ray;
-use crate::steps::candidates::{Aim, Candidates};
+use crate::steps::candidates::Candidates;
 use crate::steps::dimensions::BounceSamples;
+use crate::steps::light_connection::LightConnection;
 use crate::steps::light_mis::LightMis;
 use crate::steps::path_throughput::PathThroughput;
 use crate::steps::settings::{LightCandidates, PathConfig};
@@ -53,7 +54,7 @@ pub(crate) struct ShadowRay {
     pub(crate) ray: Ray,
     /// How many surfaces may let it pass.
     pub(crate) crossings: u32,
-    pub(crate) aim: Aim,
+    pub(crate) connection: LightConnection,
 }
 
 /// What a vertex makes of a path.
@@ -246,15 +247,16 @@ impl<S: Sampler, C: PathHooks> PathState<S, C> {
         }
         let throughput = self.throughput;
         let candidates = Candidates::at(self.candidates(config), world, from);
-        let aim = |light: &LightSample| Aim::new(light, &throughput, *bsdf, *wo, [1.0; 2]);
+        let connect =
+            |light: &LightSample| LightConnection::new(light, &throughput, *bsdf, *wo, [1.0; 2]);
         let (waves, sampler) = (&self.wavelengths, &mut self.sampler);
-        let aim = candidates.draw(world, from, waves, event, sampler, aim);
+        let connection = candidates.draw(world, from, waves, event, sampler, connect);
         self.hooks.on_light_sample();
-        let aim = aim?;
+        let connection = connection?;
         Some(ShadowRay {
-            ray: vertex.shadow_ray(aim.direction, aim.target)?,
+            ray: vertex.shadow_ray(connection.direction, connection.target)?,
             crossings: config.null_crossings(self.depth),
-            aim,
+            connection,
         })
     }
 
@@ -350,18 +352,18 @@ impl<S: Sampler, C: PathHooks> PathState<S, C> {
         if let Some(ShadowRay {
             ray,
             crossings,
-            aim,
+            connection,
         }) = shadow
             && let Some(transmission) = world.transmittance(&ray, &self.wavelengths, crossings)
         {
-            self.add_light(&aim, &transmission);
+            self.add_light(&connection, &transmission);
         }
     }
 
     /// Adds a light sample that arrives through what is in the way.
     #[inline]
-    pub(crate) fn add_light(&mut self, aim: &Aim, transmission: &Transmission) {
-        let estimate = aim.estimate(transmission);
+    pub(crate) fn add_light(&mut self, connection: &LightConnection, transmission: &Transmission) {
+        let estimate = connection.estimate(transmission);
         self.radiance += estimate;
         self.hooks.on_light_contribution(estimate);
     }

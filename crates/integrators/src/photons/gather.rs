@@ -9,8 +9,8 @@ use super::shoot::{FACING, Kind, Photon, PhotonMap};
 use super::{is_sharp, kernel::KernelLookup};
 use crate::steps::arrival::{self, Arrival, Arriving};
 use crate::steps::camera_ray::{draw_lens, ray_at};
-use crate::steps::candidates::Aim;
 use crate::steps::dimensions::{BounceSamples, draw_flight};
+use crate::steps::light_connection::LightConnection;
 use crate::steps::light_mis::LightMis;
 use crate::steps::path_throughput::PathThroughput;
 use crate::steps::settings::PathSettings;
@@ -291,7 +291,7 @@ impl<'w, W: World> GatherPath<'_, 'w, W> {
         let max_null = self.plan.settings.max_depth - self.depth - 1;
         // Directions that are not sharp are left to light sampling and photons.
         let counts = [1.0, f32::from(sharp)];
-        let aim = Aim::of(
+        let connection = LightConnection::of(
             &light,
             &self.prefix,
             self.prefix.r_u,
@@ -299,7 +299,7 @@ impl<'w, W: World> GatherPath<'_, 'w, W> {
             density,
             counts,
         );
-        self.radiance += aim.traced(world, vertex, &self.wavelengths, max_null);
+        self.radiance += connection.traced(world, vertex, &self.wavelengths, max_null);
     }
 
     /// Adds the light that photons bring to a path of this throughput.

@@ -13,17 +13,13 @@
 //! double the variance. For the same reason one sample is drawn of a lone light whose samples are all alike.
 
 use crate::steps::dimensions::BounceSamples;
-use crate::steps::path_throughput::PathThroughput;
+use crate::steps::light_connection::LightConnection;
 use crate::steps::settings::LightCandidates;
 use etalon_math::float::ONE_MINUS_EPSILON;
-use etalon_math::{Density, SolidAngle};
 use etalon_sampling::Sampler;
 use etalon_spectrum::Wavelengths;
-use etalon_transport::{
-    Bsdf, LightSample, LightSampleContext, LightVariety, SamplePdf, SurfaceInteraction,
-    Transmission, TransportMode, World,
-};
-use glam::{Vec2, Vec3, Vec4};
+use etalon_transport::{LightSample, LightSampleContext, LightVariety, Transmission, World};
+use glam::Vec2;
 
 /// Multiples of this spread evenly over a square, modulo one: powers of the inverse of the plastic
 /// number (Roberts 2018, "The Unreasonable Effectiveness of Quasirandom Sequences").
@@ -35,95 +31,6 @@ const AUTOMATIC: u32 = 2;
 /// How many light samples a vertex draws for its shadow ray; not zero.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Candidates(u32);
-
-/// A light sample before its shadow ray is traced.
-#[derive(Clone, Copy)]
-pub(crate) struct Aim {
-    /// Unit direction to the light.
-    pub(crate) direction: Vec3,
-    /// Where on the light, if it is not at infinity.
-    pub(crate) target: Option<Vec3>,
-    /// Everything but what lies in between.
-    complete: PathThroughput,
-    /// pₜ,ₖ / p₀ of finding the same path by scattering, but for passing what lies in between.
-    by_scattering: Vec4,
-}
-
-impl Aim {
-    /// The path `before` to a vertex, extended to `light`; `None` if it brings nothing. `lights` samples of
-    /// lights compete with `scattering` samples of `bsdf`.
-    #[inline]
-    pub(crate) fn new(
-        light: &LightSample,
-        before: &PathThroughput,
-        bsdf: &impl Bsdf,
-        wo: Vec3,
-        [lights, scattering]: [f32; 2],
-    ) -> Option<Self> {
-        let (value, density) = bsdf.eval_and_density(wo, light.direction, TransportMode::Radiance);
-        let contribution = value * light.radiance;
-        if contribution == Vec4::ZERO {
-            return None;
-        }
-        Some(Self::of(
-            light,
-            before,
-            before.r_u,
-            contribution,
-            density,
-            [lights, scattering],
-        ))
-    }
-
-    /// The same where the BSDF's value times the light's radiance (`contribution`) and its density are known; `scattered` is
-    /// pₖ / p₀ of having come here as paths do that are scattered here.
-    #[inline]
-    pub(crate) fn of(
-        light: &LightSample,
-        before: &PathThroughput,
-        scattered: Vec4,
-        contribution: Vec4,
-        density: Density<SolidAngle>,
-        [lights, scattering]: [f32; 2],
-    ) -> Self {
-        let mut complete = *before;
-        complete.scatter(contribution, light.chance.lanes());
-        complete.r_u *= lights;
-        let by_scattering = match light.chance {
-            // Scattering never finds a discrete light.
-            SamplePdf::Discrete(_) => Vec4::ZERO,
-            SamplePdf::Continuous(chosen) => {
-                scattered * density.lanes() * light.extinction * (scattering / chosen.hero())
-            }
-        };
-        Self {
-            direction: light.direction,
-            target: light.target,
-            complete,
-            by_scattering,
-        }
-    }
-
-    /// What it brings to `vertex` after its shadow ray, past at most `crossings` surfaces that let light pass.
-    #[inline]
-    pub(crate) fn traced<W: World>(
-        &self,
-        world: &W,
-        vertex: &SurfaceInteraction,
-        wavelengths: &Wavelengths,
-        crossings: u32,
-    ) -> Vec4 {
-        (vertex.shadow_ray(self.direction, self.target))
-            .and_then(|ray| world.transmittance(&ray, wavelengths, crossings))
-            .map_or(Vec4::ZERO, |transmission| self.estimate(&transmission))
-    }
-
-    /// What it brings through what lies in between.
-    #[inline]
-    pub(crate) fn estimate(&self, way: &Transmission) -> Vec4 {
-        (self.complete).contribution(way.transmittance, self.by_scattering * way.probability)
-    }
-}
 
 impl Candidates {
     /// One light sample.
@@ -147,7 +54,7 @@ impl Candidates {
         Self(count)
     }
 
-    /// Draws them, and chooses one; `aim` says what a light sample brings. Draws one more number of `sampler`
+    /// Draws them, and chooses one; `connect` says what a light sample brings. Draws one more number of `sampler`
     /// than the event has, if there is a choice.
     #[inline]
     pub(crate) fn draw<W: World>(
@@ -157,11 +64,11 @@ impl Candidates {
         wavelengths: &Wavelengths,
         event: &BounceSamples,
         sampler: &mut impl Sampler,
-        aim: impl Fn(&LightSample) -> Option<Aim>,
-    ) -> Option<Aim> {
+        connect: impl Fn(&LightSample) -> Option<LightConnection>,
+    ) -> Option<LightConnection> {
         if self == Self::ONE {
             let (choice, u) = (event.light_choice, event.light);
-            return aim(&world.sample_light(from, wavelengths, choice, u)?);
+            return connect(&world.sample_light(from, wavelengths, choice, u)?);
         }
         // The better number decides which candidate counts, and so which light: the candidates' lights
         // are nearly the same for all samples.
@@ -173,7 +80,7 @@ impl Candidates {
                 .fract()
                 .min(Vec2::splat(ONE_MINUS_EPSILON));
             let light = world.sample_light(from, wavelengths, choice, u);
-            let Some(candidate) = light.as_ref().and_then(&aim) else {
+            let Some(candidate) = light.as_ref().and_then(&connect) else {
                 continue;
             };
             let expected = candidate.estimate(&Transmission::FREE).element_sum();
@@ -192,8 +99,8 @@ impl Candidates {
                 }
             }
         }
-        let (mut aim, expected) = chosen?;
-        aim.complete.beta *= sum / (expected * self.0 as f32);
-        Some(aim)
+        let (mut connection, expected) = chosen?;
+        connection.throughput.beta *= sum / (expected * self.0 as f32);
+        Some(connection)
     }
 }

@@ -4,6 +4,7 @@ pub(crate) mod arrival;
 pub(crate) mod camera_ray;
 pub(crate) mod candidates;
 pub mod dimensions;
+pub(crate) mod light_connection;
 pub(crate) mod light_mis;
 pub(crate) mod particle;
 pub mod path_throughput;
