@@ -112,16 +112,14 @@ fn extend<W: World, S: Sampler, C: PathHooks>(
     {
         return step;
     }
+    let emits = |hit: &Hit| world.lights().is_emitter(hit);
+    if let Some(light) = hit.filter(|hit| path.sees_through_lights(config) && emits(hit)) {
+        let light = world.surfaces().vertex(ray, light);
+        return Step::straight(light.spawn(ray.direction));
+    }
     let last = path.depth == config.limits.max_depth;
-    if let Some(hit) = hit {
-        let emits = world.lights().is_emitter(hit);
-        if emits && path.sees_through_lights(config) {
-            let light = world.surfaces().vertex(ray, hit);
-            return Step::straight(light.spawn(ray.direction));
-        }
-        if last && !emits && path.alpha > 0.0 && config.counts_null {
-            return Step::END;
-        }
+    if last && config.counts_null && path.alpha > 0.0 && hit.is_some_and(|hit| !emits(hit)) {
+        return Step::END;
     }
     let Some(vertex) = path.arrive(world, config, ray, hit) else {
         return Step::END;

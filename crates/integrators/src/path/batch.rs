@@ -3,7 +3,7 @@
 
 use crate::path::hooks::PathHooks;
 use crate::path::state::{PathState, ShadowRay, Step};
-use crate::steps::light_connection::LightConnection;
+use crate::steps::light_connection::UnoccludedPath;
 use crate::steps::settings::PathConfig;
 use arrayvec::ArrayVec;
 use etalon_sampling::Sampler;
@@ -18,8 +18,8 @@ pub(crate) struct PathBatch<S, C, const N: usize> {
     rays: ArrayVec<Ray, N>,
     /// The nearest surface along it.
     hits: [Option<Hit>; N],
-    /// The places in `paths` of those that wait for a shadow ray, and the light samples that it belongs to.
-    waiting: ArrayVec<(usize, LightConnection), N>,
+    /// The places in `paths` of those that wait for a shadow ray, and the light samples that they belong to.
+    waiting: ArrayVec<(usize, UnoccludedPath), N>,
     /// The shadow rays.
     shadow_rays: ArrayVec<ShadowQuery, N>,
     /// How light travels along them.
@@ -80,10 +80,10 @@ impl<S: Sampler, C: PathHooks, const N: usize> PathBatch<S, C, N> {
             if let Some(ShadowRay {
                 ray,
                 crossings,
-                connection,
+                unoccluded,
             }) = step.shadow
             {
-                self.waiting.push((index, connection));
+                self.waiting.push((index, unoccluded));
                 self.shadow_rays.push(ShadowQuery {
                     ray,
                     wavelengths: path.wavelengths,
@@ -105,9 +105,9 @@ impl<S: Sampler, C: PathHooks, const N: usize> PathBatch<S, C, N> {
     pub(crate) fn trace_shadows<W: World>(&mut self, world: &W) {
         let transmissions = &mut self.transmissions[..self.waiting.len()];
         world.transmittance_batch(&self.shadow_rays, transmissions);
-        for ((path, connection), transmission) in self.waiting.drain(..).zip(transmissions) {
+        for ((path, unoccluded), transmission) in self.waiting.drain(..).zip(transmissions) {
             if let Some(transmission) = transmission {
-                self.paths[path].add_light(&connection, transmission);
+                self.paths[path].add_light(&unoccluded, transmission);
             }
         }
         self.shadow_rays.clear();

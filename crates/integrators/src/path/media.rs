@@ -241,7 +241,7 @@ impl<S: Sampler, C: PathHooks> PathState<S, C> {
             Some(ShadowRay {
                 ray: Ray { medium, ..ray },
                 crossings: config.null_crossings(self.depth),
-                connection,
+                unoccluded: connection.path,
             })
         });
         (from, shadow)

@@ -5,7 +5,7 @@ use crate::steps::arrival::{Arrival, Arriving};
 use crate::steps::camera_ray::camera_ray;
 use crate::steps::candidates::Candidates;
 use crate::steps::dimensions::BounceSamples;
-use crate::steps::light_connection::LightConnection;
+use crate::steps::light_connection::{LightConnection, UnoccludedPath};
 use crate::steps::light_mis::LightMis;
 use crate::steps::path_throughput::PathThroughput;
 use crate::steps::settings::{LightCandidates, PathConfig};
@@ -54,7 +54,7 @@ pub(crate) struct ShadowRay {
     pub(crate) ray: Ray,
     /// How many surfaces may let it pass.
     pub(crate) crossings: u32,
-    pub(crate) connection: LightConnection,
+    pub(crate) unoccluded: UnoccludedPath,
 }
 
 /// What a vertex makes of a path.
@@ -256,7 +256,7 @@ impl<S: Sampler, C: PathHooks> PathState<S, C> {
         Some(ShadowRay {
             ray: vertex.shadow_ray(connection.direction, connection.target)?,
             crossings: config.null_crossings(self.depth),
-            connection,
+            unoccluded: connection.path,
         })
     }
 
@@ -352,18 +352,18 @@ impl<S: Sampler, C: PathHooks> PathState<S, C> {
         if let Some(ShadowRay {
             ray,
             crossings,
-            connection,
+            unoccluded,
         }) = shadow
             && let Some(transmission) = world.transmittance(&ray, &self.wavelengths, crossings)
         {
-            self.add_light(&connection, &transmission);
+            self.add_light(&unoccluded, &transmission);
         }
     }
 
     /// Adds a light sample that arrives through what is in the way.
     #[inline]
-    pub(crate) fn add_light(&mut self, connection: &LightConnection, transmission: &Transmission) {
-        let estimate = connection.estimate(transmission);
+    pub(crate) fn add_light(&mut self, unoccluded: &UnoccludedPath, transmission: &Transmission) {
+        let estimate = unoccluded.estimate(transmission);
         self.radiance += estimate;
         self.hooks.on_light_contribution(estimate);
     }

@@ -47,7 +47,7 @@ impl Arriving<'_> {
             };
         };
         let vertex = world.surfaces().vertex(ray, hit);
-        let emission = match world.lights().is_emitter(hit) {
+        let emission = match vertex.light.is_some() {
             true => self.emission(world, &vertex, ray.direction),
             false => Vec4::ZERO,
         };

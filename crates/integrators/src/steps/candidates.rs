@@ -83,7 +83,7 @@ impl Candidates {
             let Some(candidate) = light.as_ref().and_then(&connect) else {
                 continue;
             };
-            let expected = candidate.estimate(&Transmission::FREE).element_sum();
+            let expected = candidate.path.estimate(&Transmission::FREE).element_sum();
             if !expected.is_finite() {
                 // Not for the choice to hide.
                 return Some(candidate);
@@ -100,7 +100,7 @@ impl Candidates {
             }
         }
         let (mut connection, expected) = chosen?;
-        connection.throughput.beta *= sum / (expected * self.0 as f32);
+        connection.path.throughput.beta *= sum / (expected * self.0 as f32);
         Some(connection)
     }
 }
