@@ -13,8 +13,7 @@ pub enum SpectrumKind {
     Emission,
     /// A quantity without upper bound: RGB is upsampled with a scale.
     Unbounded,
-    /// A refractive index or an extinction coefficient (η, k): without upper bound, and a table goes on beyond its ends as
-    /// it is there.
+    /// A refractive index or an extinction coefficient (η, k): without upper bound; a table is constant beyond its ends.
     Index,
     /// Six numbers that are no colour: a symmetric matrix ([`crate::Textures::tensor`]).
     Tensor,

@@ -32,8 +32,8 @@ pub struct CameraSample {
 pub struct ApertureHit {
     /// Where on the film (pixels of the whole film).
     pub raster: Vec2,
-    /// How far along the ray the camera begins (m): at the near clipping plane. Nothing may stand
-    /// before that; what is nearer to the aperture the camera does not see.
+    /// Distance along the ray to the near clipping plane (m). The ray must be unoccluded up to there;
+    /// the camera sees nothing between that plane and the aperture.
     pub t: f32,
     /// Pixels² per unit of flux (px²·m⁻²·sr⁻¹): dx/dω over the aperture's area and the cosine of
     /// arrival. A splat of Φ·`weight` with a filter that integrates to one estimates the pixel,

@@ -1,4 +1,4 @@
-//! What others may ask of textures.
+//! The contract of textures.
 
 use crate::{ShapeId, SurfaceInteraction, TextureId};
 use glam::{Vec2, Vec3, Vec4};

@@ -22,7 +22,7 @@ pub trait Lights: Sync {
     /// Radiance of the lights at infinity seen along the unit vector `direction`.
     fn background(&self, direction: Vec3, wavelengths: &Wavelengths) -> Vec4;
 
-    /// A direction toward one light, as if it were the only one: without the probability of choosing it. For estimators that ask
+    /// A direction toward one light, with a density that excludes the choice of the light. For estimators that sample
     /// every light.
     fn sample_one(
         &self,
