@@ -44,7 +44,7 @@ macro_rules! lights {
             }
         }
 
-        /// Asks the light, whichever it is.
+        /// Dispatches to the model.
         macro_rules! ask {
             ($light:expr, $it:ident => $answer:expr) => {
                 match $light {
@@ -257,8 +257,8 @@ impl Light {
         ask!(self, light => light.toward())
     }
 
-    /// Emitted power (lights at infinity: what enters the scene), averaged over the wavelengths
-    /// (W·nm⁻¹). Exact unless a texture's mean stands for the texture.
+    /// Emitted power (for lights at infinity, the power that enters the scene), averaged over the wavelengths
+    /// (W·nm⁻¹). Exact except that a texture's mean replaces the texture.
     pub fn power(&self, scene: &(impl Textures + Shapes), bounds: &BoundingSphere) -> f64 {
         ask!(self, light => light.power(scene, bounds))
     }
