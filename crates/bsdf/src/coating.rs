@@ -186,7 +186,7 @@ fn coatable(base: &Material) -> bool {
     )
 }
 
-/// A direction above the interface as it goes on below, still counted from the point; `None` under total reflection.
+/// Refracts a direction that leaves the point through the interface; `None` under total internal reflection.
 #[inline]
 fn refracted(v: Vec3, eta: f32) -> Option<Vec3> {
     let across = v.truncate() / eta;
@@ -214,7 +214,7 @@ impl Layer<'_> {
         }
     }
 
-    /// What is left of light on its way in and out.
+    /// Transmittance of the coating on the way in and out: Fresnel or rough transmittance, and absorption.
     #[inline]
     fn both_ways(&self, wo: Vec3, inner_o: Vec3, wi: Vec3, inner_i: Vec3) -> Vec4 {
         let way = -(1.0 / inner_o.z + 1.0 / inner_i.z);
@@ -223,7 +223,7 @@ impl Layer<'_> {
     }
 }
 
-/// What is under the coat.
+/// The material under the coating.
 #[derive(Clone, Copy, Debug)]
 #[allow(missing_docs)]
 pub enum Base {
@@ -235,7 +235,7 @@ pub enum Base {
     Ward(Ward),
 }
 
-/// Asks the base, whichever it is.
+/// Dispatches to the base.
 macro_rules! ask {
     ($base:expr, $it:ident => $answer:expr) => {
         match $base {

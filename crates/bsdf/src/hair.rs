@@ -65,7 +65,7 @@ struct Shape {
     variance: [f32; LOBES],
     /// s.
     spread: f32,
-    /// Sine and cosine by which scales tilt each lobe.
+    /// Sine and cosine of each lobe's tilt by the cuticle scales.
     tilt: [(f32, f32); LOBES],
 }
 
@@ -235,7 +235,7 @@ impl Hair {
         }
     }
 
-    /// Value and density toward `wi`, for what is known of `wo`.
+    /// Value and density toward `wi`, with the quantities that depend on `wo` only.
     fn sum(&self, known: &Known, wi: Vec3) -> (Vec4, Vec4) {
         let (sin, cos) = (wi.y.clamp(-1.0, 1.0), Vec2::new(wi.x, wi.z).length());
         let phi = float::atan2(wi.x, wi.z) - known.phi;

@@ -1,4 +1,4 @@
-//! The die: of the light that meets a surface, shares are scattered diffusely, mirrored and refracted.
+//! `mixture`: a stochastic mixture of diffuse scattering, perfect reflection and refraction.
 //!
 //! ```text
 //! f(wo, wi) = d · ρd / π  +  r · ρs δ(wi = mirror of wo) / |cos θi|  +  t · f_dielectric(wo, wi)       d + r + t = 1
@@ -22,7 +22,7 @@ pub const EXEMPLARS: &[&str] = &[
     "mixture diffuse=f:0.25 refractive=f:0.75 int_ior=s:cauchy:1.5,0.01 specular_transmittance=u:0.7",
 ];
 
-/// The shares, in the order of the die's faces.
+/// The parameters of the three shares.
 const SHARES: [&str; 3] = ["diffuse", "reflective", "refractive"];
 
 /// How far the sum of the shares may be from one by their rounding in the file.
@@ -94,7 +94,7 @@ impl Description {
         }
     }
 
-    /// The faces of the die. Textures whose shares do not add up to one are taken in proportion.
+    /// The three shares at a point. Textures whose shares do not add up to one are normalised.
     pub fn flatten<'a, T: Textures>(
         &'a self,
         site: &ShadingContext<'_, T>,

@@ -55,7 +55,7 @@ impl Description {
         self.tilted.traits()
     }
 
-    /// What is tilted.
+    /// The nested material with its tilt.
     pub(crate) fn tilted(&self) -> &Tilted {
         &self.tilted
     }

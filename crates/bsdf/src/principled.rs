@@ -45,9 +45,9 @@ pub const EXEMPLARS: &[&str] = &[
 inputs! {
     /// Parameters, each of which may be a texture.
     Inputs;
-    /// What they are at a point.
+    /// Their values at a point.
     Values {
-        /// The colour of the base, of metals, and squared of what is let through.
+        /// Colour of the base and of metals; squared, the colour of transmission.
         base_color: spectrum = 0.5,
         /// Roughness; α is its square.
         roughness: share = 0.5,
@@ -55,7 +55,7 @@ inputs! {
         anisotropic: share = 0.0,
         /// The share of metal.
         metallic: share = 0.0,
-        /// The share of what is not metal that lets light through.
+        /// Transmitting share of the non-metal.
         spec_trans: share = 0.0,
         /// How much the base's colour tints the reflection.
         spec_tint: share = 0.0,
@@ -120,7 +120,7 @@ impl Description {
         })
     }
 
-    /// What it can do.
+    /// Its flags.
     pub fn flags(&self) -> MaterialFlags {
         match self.transmits {
             true => MaterialFlags::refracting(self),
@@ -208,7 +208,7 @@ impl Principled {
         Microfacet::new(Kind::Ggx, self.alpha, true)
     }
 
-    /// The base, of which sheen is left where all lets light through.
+    /// The base; of a fully transmitting material only its sheen remains.
     #[inline]
     fn base(&self) -> Base {
         Base {

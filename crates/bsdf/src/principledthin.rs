@@ -35,7 +35,7 @@ pub const EXEMPLARS: &[&str] = &[
 inputs! {
     /// Parameters, each of which may be a texture.
     Inputs;
-    /// What they are at a point.
+    /// Their values at a point.
     Values {
         /// The colour.
         base_color: spectrum = 0.5,
@@ -86,7 +86,7 @@ impl Description {
         })
     }
 
-    /// What it can do.
+    /// Its flags.
     pub fn flags(&self) -> MaterialFlags {
         MaterialFlags {
             transmission: self.transmits,
