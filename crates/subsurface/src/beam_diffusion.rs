@@ -10,8 +10,8 @@
 //! and κ = 1 − e^(−2σ't (d + z)) dampens what is too near the surface for diffusion. R₁ is the light that is scattered once, integrated
 //! along the beam as it leaves through the boundary (ibid., eq. 15).
 //!
-//! All depends on the albedo, the mean cosine and the index alone if lengths are counted in mean free paths: a table of profiles
-//! for 64 albedos is made when a scene is read.
+//! In units of the mean free path the profile depends on the albedo, the mean cosine and the index only: a table of profiles
+//! for 64 albedos is computed when a scene is read.
 
 use crate::HenyeyGreenstein;
 use crate::diffusion::{Matter, Radial};
@@ -49,7 +49,7 @@ pub struct Beam<'a> {
     extinction: f64,
 }
 
-/// What of light inside the boundary is reflected: 2∫F μ dμ and 3∫F μ² dμ.
+/// Moments of internal Fresnel reflection: 2∫F μ dμ and 3∫F μ² dμ.
 fn moments(eta: f32) -> [f64; 2] {
     let count = 4096;
     let mut sums = [0.0; 2];

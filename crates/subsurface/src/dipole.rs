@@ -42,7 +42,7 @@ impl Dipole {
         self.depths.map(|z| float::exp(-self.transport * z))
     }
 
-    /// The d beyond which the share `u` of what the source at `z` sends out leaves: with y = ln(d/z), σtr z eʸ + y = σtr z − ln u.
+    /// The d beyond which the share `u` of the flux from the source at `z` leaves: with y = ln(d/z), σtr z eʸ + y = σtr z − ln u.
     fn beyond(&self, z: f32, u: f32) -> f32 {
         let (depth, falls) = (self.transport * z, -float::ln(u));
         let target = depth + falls;

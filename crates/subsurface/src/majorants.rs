@@ -102,7 +102,7 @@ impl MajorantGrid {
                 place / count.x / count.y,
             );
             let corner = self.low + side * cell.as_vec3();
-            // Below the upper bound, whatever rounding does.
+            // Not above the upper bound, in spite of rounding.
             let most = self.cells.at(cell.as_ivec3());
             least(corner, corner + side).clamp(0.0, 0.999 * most)
         };
@@ -193,7 +193,7 @@ impl Iterator for Segments<'_> {
 pub struct GridSegments<'a> {
     grid: &'a MajorantGrid,
     ray: Ray,
-    /// Where the ray enters the grid, until that is told.
+    /// Where the ray enters the grid, until that segment has been returned.
     before: Option<f32>,
     blocks: Walk,
     cells: Option<Walk>,
