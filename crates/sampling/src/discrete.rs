@@ -2,8 +2,8 @@
 //! between the entries of a table.
 //!
 //! Tables are in double precision, so that a sum over millions of texels is as exact as one
-//! over three. Every table can tell the density (or probability) of what it returns, and
-//! turn it back into the number it came from.
+//! over three. Every table has the density (or probability) of its samples, and the inverse of
+//! its map.
 
 mod alias;
 mod bilinear;

@@ -60,7 +60,7 @@ pub trait Sampler {
     fn skip_to(&mut self, dimension: u32);
 }
 
-/// A borrowed sampler is one, too: whoever owns a sampler may also be given one that others go on with.
+/// A borrowed sampler is a sampler too, for callers that use it afterwards.
 impl<S: Sampler + ?Sized> Sampler for &mut S {
     #[inline]
     fn next_1d(&mut self) -> f32 {

@@ -28,7 +28,7 @@ pub struct Choice {
     pub index: usize,
     /// Its probability.
     pub probability: f32,
-    /// What is left of the random number: uniform in [0, 1) and independent of the choice.
+    /// The random number rescaled for reuse: uniform in [0, 1) and independent of the choice.
     pub rest: f32,
 }
 
