@@ -15,7 +15,7 @@ const TABLE: &str = include_str!("../data/conductors.txt");
 const SAME: &[(&str, &str)] = &[("Cu_palik", "Cu"), ("d-C_palik", "d-C"), ("Hg_palik", "Hg")];
 
 /// η and k of the conductor `name`, held constant beyond 360 and 830 nm; `None` without data.
-/// Letters count as written, like the file names they stand for in Mitsuba.
+/// Names are case-sensitive, as they are file names in Mitsuba.
 pub fn lookup(name: &str) -> Option<(Spectrum, Spectrum)> {
     let name = SAME
         .iter()
