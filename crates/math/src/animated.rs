@@ -36,7 +36,7 @@ impl<T: FromAffine> Animated<T> {
         }
     }
 
-    /// Gives what it is at `time`, from 0 (the shutter opens) to 1, to `ask`.
+    /// Calls `ask` with its value at `time`, from 0 (the shutter opens) to 1.
     #[inline]
     pub fn at<R>(&self, time: f32, ask: impl FnOnce(&T) -> R) -> R {
         match &self.motion {
@@ -45,7 +45,7 @@ impl<T: FromAffine> Animated<T> {
         }
     }
 
-    /// What it is when the shutter opens.
+    /// Its value when the shutter opens.
     #[inline]
     pub fn start(&self) -> &T {
         &self.still

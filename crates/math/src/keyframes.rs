@@ -257,8 +257,8 @@ mod tests {
     }
 
     proptest! {
-        /// Hermite's and the cubic reproduce every cubic polynomial, whatever the times; Catmull–Rom every
-        /// quadratic between inner, evenly spaced keys; the line every line, and the step what was.
+        /// Hermite and cubic reproduce every cubic polynomial for any key times; Catmull–Rom every quadratic
+        /// between inner, evenly spaced keys; linear every line; step the previous key.
         #[test]
         fn polynomials_are_reproduced(
             c in prop::array::uniform4(-3.0..3.0f64), gaps in prop::array::uniform3(0.1..2.0f64),

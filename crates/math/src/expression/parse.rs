@@ -2,7 +2,7 @@
 
 use super::{Function, MOST, Operation};
 
-/// What is wrong with an expression.
+/// A mistake in an expression.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct ExpressionError {
     /// Where, in characters from 1.
@@ -23,7 +23,7 @@ const DEEPEST: usize = 64;
 
 struct Parser<'a> {
     text: &'a str,
-    /// Where reading goes on (bytes).
+    /// The position of the parser (bytes).
     at: usize,
     variables: &'a [&'a str],
     operations: Vec<Operation>,
