@@ -11,7 +11,7 @@ use serde::{Deserialize, Serialize};
 /// What only a checkpoint says.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct CheckpointFacts {
-    /// Options that decided how much to render, and how; a checkpoint goes on only under the same.
+    /// Options that decided how much to render, and how; a render resumes only under the same.
     pub asked: String,
     /// Samples per pixel of the pilot that fixed the number of samples.
     #[serde(default, skip_serializing_if = "Option::is_none")]
@@ -50,7 +50,7 @@ impl ExactFilm {
         Some(value)
     }
 
-    /// Goes on after the replicates of a checkpoint. The film is new, and of the same first
+    /// Continues after the replicates of a checkpoint. The film is new and has the same first
     /// replicate.
     ///
     /// # Errors

@@ -1,11 +1,11 @@
-//! Whether a picture's pixels are those that its statistics were made of.
+//! Whether a picture's pixels agree with its statistics.
 //!
 //! ```text
 //! mean over a tile of the pixels = mean over the replicates of the tile's means
 //! ```
 //!
-//! for every channel and tile, but for rounding. Verdicts are made of tile means; without this a file whose
-//! pixels were changed afterwards, and not its metadata, would be judged by what it no longer shows.
+//! for every channel and tile, up to rounding. Verdicts use tile means, so without this check a file whose
+//! pixels were edited afterwards would be judged by its old picture.
 
 use crate::{Metadata, TileMeans};
 use etalon_images::Image;

@@ -248,7 +248,7 @@ impl ExactFilm {
         self.moments = sums.into_moments();
     }
 
-    /// Makes it go on after the finished replicates that these are the facts of.
+    /// Continues after the finished replicates of this metadata.
     pub(crate) fn go_on_after(&mut self, metadata: Metadata) -> Result<(), String> {
         self.tiles = (metadata.tile_means.try_into())
             .map_err(|_| "its tile means are not those of a film".to_owned())?;
@@ -293,18 +293,18 @@ impl ExactFilm {
         Some((means, samples))
     }
 
-    /// Makes it go on with a replicate that is not finished, of as many pixels and channels.
+    /// Continues an unfinished replicate, of as many pixels and channels.
     pub(crate) fn go_on_with(&mut self, unfinished: Unfinished) {
         self.running.restore(unfinished);
     }
 
-    /// The samples that a pixel of the whole film has in this replicate, and what they bring.
+    /// The number of samples of a pixel of the whole film in this replicate, and the dominant one.
     pub(crate) fn progress(&self, pixel: UVec2) -> (u32, DominantSample) {
         let index = self.index(pixel - self.settings.crop_offset);
         (self.running.samples(index), self.running.standing(index))
     }
 
-    /// Notes how many samples a pixel of the whole film has, and what they bring.
+    /// Stores the number of samples of a pixel of the whole film, and the dominant one.
     pub(crate) fn advance(&self, pixel: UVec2, samples: u32, standing: &DominantSample) {
         let index = self.index(pixel - self.settings.crop_offset);
         self.running.advance(index, samples, standing);

@@ -46,7 +46,7 @@ struct Piece {
     integral: f64,
 }
 
-/// Cuts [0, radius] into at least `count` pieces and tells positive from negative ones.
+/// Cuts [0, radius] into at least `count` pieces, separated into positive and negative ones.
 pub(crate) fn part(f: impl Fn(f64) -> f64, radius: f64, count: u32) -> Parts {
     // At the end itself a filter is zero by definition; what counts is the limit from inside.
     let inside = radius * (1.0 - 1e-12);

@@ -29,8 +29,8 @@ pub struct RenderFacts {
     pub seconds: Option<f64>,
 }
 
-/// Seconds as they may be written into a file: none if `SOURCE_DATE_EPOCH` is set in the
-/// environment, which asks for output that depends on the input alone
+/// Seconds to be written into a file: none if `SOURCE_DATE_EPOCH` is set in the environment, which
+/// requests output that depends on the input alone
 /// (reproducible-builds.org).
 pub fn recorded_seconds(elapsed: Duration) -> Option<f64> {
     std::env::var_os("SOURCE_DATE_EPOCH")
@@ -47,7 +47,7 @@ pub struct FilmFacts {
     pub crop_offset: [u32; 2],
     /// Width and height of the part that was rendered.
     pub crop_size: [u32; 2],
-    /// What is stored of a colour.
+    /// The stored components of a colour.
     pub pixel_format: String,
     /// The reconstruction filter and its parameters.
     pub filter: String,
@@ -81,17 +81,16 @@ pub struct Metadata {
     /// Samples per pixel, all replicates together; where they are dealt unevenly, as many as they
     /// would be evenly.
     pub spp: u64,
-    /// Replicates that are finished. With one, there are no standard errors; with none,
-    /// the picture is of what there is of the first.
+    /// Finished replicates. With one, there are no standard errors; with none, the picture is that of
+    /// the samples of the first so far.
     pub replicates: u32,
-    /// What they have to do with each other; independent if not stated. The standard errors of blocks are
-    /// upper estimates.
+    /// How they are related; independent if not stated. The standard errors of blocks are upper estimates.
     #[serde(default, skip_serializing_if = "ReplicateKind::is_independent")]
     pub replicate_kind: ReplicateKind,
     /// Which replicates these are, if they are a part of a picture's.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub part: Option<PartFacts>,
-    /// Of what render this is a checkpoint, if it is one.
+    /// The render that this is a checkpoint of, if it is one.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub checkpoint: Option<CheckpointFacts>,
     /// The replicate that was being rendered when the render was interrupted, if the file has it.
@@ -100,11 +99,10 @@ pub struct Metadata {
     /// How the samples were dealt, if not evenly.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub adaptive: Option<DealtFacts>,
-    /// What the file has for a denoiser, if it was asked for.
+    /// The features for a denoiser, if there are any.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub features: Option<FeatureFacts>,
-    /// By what the picture was denoised, if it was: standard errors are what the denoiser estimates then, and there are no
-    /// replicates to judge by.
+    /// The denoiser that was applied, if any: standard errors are then its estimates, and there are no replicates to judge by.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub denoised: Option<String>,
     /// The seed.

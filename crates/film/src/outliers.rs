@@ -1,9 +1,9 @@
 //! Samples that stand out: how many there were, how large, and where the largest came from.
 //!
 //! A sample *stands out* if it brings more than all the others of its pixel and replicate together.
-//! Of fewer than [`FEWEST`] nobody can tell. What it brings is the largest component (linear Rec.
-//! 709) of what it delivered to its pixel or anywhere on the film. It *lifts* the pixel, in the
-//! mean of its replicate, by that over the pixel's number of samples.
+//! With fewer than [`FEWEST`] samples this is not decided. Its value is the largest component (linear
+//! Rec. 709) of its contributions to its pixel and by splats. It *lifts* the pixel, in the mean of its
+//! replicate, by that value over the pixel's number of samples.
 //!
 //! A *firefly* is a sample that stands out and lifts its pixel in the finished picture by more than
 //! the picture's mean. The mean is known only at the end, so samples that stand out are counted by
@@ -23,7 +23,7 @@ pub struct Outlier {
     pub pixel: [u32; 2],
     /// Its number within pixel and replicate.
     pub sample: u32,
-    /// What it brings.
+    /// Its value.
     pub value: f32,
     /// By how much it lifts the pixel in its replicate's mean.
     pub lift: f32,
@@ -145,7 +145,7 @@ impl DominantSample {
         }
     }
 
-    /// The sample that stands out of so many, and what it brings.
+    /// The sample that stands out among so many, and its value.
     pub(crate) fn outstanding(&self, samples: u32) -> Option<(u32, f32)> {
         let alone = samples >= FEWEST && 2.0 * self.most > self.total && self.most.is_finite();
         alone.then_some((self.sample, self.most))

@@ -110,7 +110,7 @@ impl Part {
         (self.unfinished, self.metadata.unfinished) = (unfinished, facts);
     }
 
-    /// What it says of itself, the exact sums, and those of the replicate that was being rendered.
+    /// Its metadata, its exact sums, and those of the unfinished replicate.
     pub(crate) fn into_parts(self) -> (Metadata, ExactSums, Option<Unfinished>) {
         (self.metadata, self.sums, self.unfinished)
     }

@@ -19,8 +19,7 @@ impl PartFacts {
     /// The most replicates whose exact sums cannot leave their range.
     pub const MOST: u32 = 1 << 15;
 
-    /// What is wrong with them beside a picture of `count` replicates, if anything. There may be
-    /// none if one was begun.
+    /// Checks them against a picture of `count` replicates. There may be none if one was begun.
     pub(crate) fn check(&self, count: u32, spp: u64, begun: bool) -> Result<(), String> {
         let sound = self.of <= Self::MOST
             && self.replicates.end() <= self.of

@@ -16,7 +16,7 @@ use etalon_images::{Error, Frame, Image, exr};
 use rayon::prelude::*;
 use std::path::{Path, PathBuf};
 
-/// A picture with what is known of it.
+/// A picture with its metadata and statistics.
 #[derive(Clone, Debug, PartialEq)]
 pub struct RenderedImage {
     /// The channels, `standard_error.*` included.
@@ -32,7 +32,7 @@ pub struct RenderedImage {
 pub enum ReadError {
     /// The file could not be read as an image.
     Image(Error),
-    /// The image could be read, but what it says of itself is wrong.
+    /// The image could be read, but its metadata are invalid.
     Metadata {
         /// The file.
         path: PathBuf,
@@ -43,7 +43,7 @@ pub enum ReadError {
     Part {
         /// The file.
         path: PathBuf,
-        /// What it is, and what would be accepted.
+        /// The mistake, and what would be accepted.
         reason: String,
     },
 }
@@ -235,7 +235,7 @@ impl RenderedImage {
     }
 }
 
-/// Reads an EXR file, whoever wrote it.
+/// Reads an EXR file, ours or of another program.
 ///
 /// # Errors
 /// If it is not an EXR file that can be read, or if it has metadata of ours that contradict

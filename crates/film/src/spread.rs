@@ -59,7 +59,7 @@ impl Term {
         let shift = exponent - 110;
         Ok(match shift {
             0..=38 => Self::Quick(mantissa << shift),
-            // Zero, and what is smaller than the unit.
+            // Zero, and numbers below the unit.
             _ if exponent == 0 => Self::Quick(0),
             _ => {
                 Fixed128::from_f32(x)?;
@@ -165,8 +165,8 @@ impl Spread {
         } else {
             self.each(channel, |sums: &mut [Fixed128; N], weight| {
                 for (sum, term) in sums.iter_mut().zip(terms) {
-                    // A tile's samples are too few to leave the range of 2⁶³ with sound values; where they do, the film
-                    // refuses what is left at the end.
+                    // Sound values cannot leave the range of 2⁶³ in one tile; if others do, the film refuses the
+                    // saturated sum in the end.
                     *sum = Fixed128::from_bits(sum.to_bits().saturating_add(term.times(weight)));
                 }
             });

@@ -315,7 +315,7 @@ fn fixed(colours: &[f32], weight: f32) -> Result<[Fixed128; 3], InvalidValue> {
     Ok(terms)
 }
 
-/// What is wrong with a colour before it was converted, which may turn one fault into another.
+/// The fault of a colour before its conversion, which may turn one fault into another.
 fn cause(rgb: [f32; 3]) -> Option<InvalidValue> {
     let sum: f32 = rgb.iter().map(|x| x * 0.0).sum();
     if sum == 0.0 {

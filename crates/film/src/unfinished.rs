@@ -1,11 +1,9 @@
-//! A replicate that was interrupted: what a checkpoint keeps of it, and the picture that it makes
-//! if nothing else is there.
+//! An interrupted replicate: its data in a checkpoint, and its picture if no replicate is finished.
 //!
-//! The picture divides every pixel by its own number of samples; where pixels share samples, by what those that
-//! are there count for it: their weights' sum with `weighted_mean`, and with `splatting` that sum's expectation
-//! for the numbers of samples around it. Splats come from the samples of
-//! all pixels, so theirs are divided by the mean number. It has no standard error: there is
-//! nothing whose spread could tell it.
+//! The picture divides every pixel by its own number of samples. Where pixels share samples, it divides by the sum of
+//! their weights with `weighted_mean`, and by the expectation of that sum, for the numbers of samples around the
+//! pixel, with `splatting`. Splats come from the samples of all pixels and are divided by the mean number. There is no
+//! standard error, as there is only one replicate.
 //!
 //! In a file a channel `NAME` takes four planes of 32-bit words `exact.NAME.unfinished.0` to `.3`,
 //! the sum over a pixel's samples, and as many of its splats, `exact.NAME.splats.0` to `.3`, both
@@ -169,7 +167,7 @@ impl Unfinished {
         planes
     }
 
-    /// What the planes of a file of so many pixels hold of it.
+    /// Reads it from the planes of a file of so many pixels.
     ///
     /// # Errors
     /// Says what is missing.
@@ -244,7 +242,7 @@ impl Unfinished {
     }
 }
 
-/// Of what a plane holds sums.
+/// The kind of sums that a plane holds.
 #[derive(Clone, Copy)]
 enum Kind {
     Own,

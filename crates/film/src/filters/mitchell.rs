@@ -6,7 +6,7 @@
 //!          ⎩ 0                                                                         else
 //! ```
 //!
-//! It integrates to one whatever B and C are. With C > 0 it has negative lobes.
+//! It integrates to one for any B and C. With C > 0 it has negative lobes.
 
 /// A cubic filter with blur B and ringing C.
 #[derive(Clone, Copy, Debug, PartialEq)]
