@@ -102,7 +102,7 @@ impl Asked {
         }
     }
 
-    /// Tells of attributes whose values are held to what their use allows; to be called when all
+    /// Notes attributes whose values are clamped to the range of their use; to be called when all
     /// textures have been read.
     pub(crate) fn note_ranges(&self, textures: &TextureTable, diagnostics: &Diagnostics) {
         for asked in &self.attributes {

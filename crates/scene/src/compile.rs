@@ -239,7 +239,7 @@ fn medium_of(
     Some(surfaces.medium(medium, builder))
 }
 
-/// A sensor and what it holds.
+/// A sensor with its film, filter and sampler.
 struct DescribedSensor {
     camera: AnyCamera,
     film: FilmSettings,
@@ -343,8 +343,8 @@ fn read_film(node: &Node, builder: &mut Builder<'_>) -> Option<(FilmSettings, Re
     Some((film, response?))
 }
 
-/// Films, filters and samplers at the top of a scene are definitions for others to refer to.
-/// All are read, so that mistakes in those that nobody refers to are found.
+/// Reads films, filters and samplers at the top of a scene, which others may refer to, so that mistakes in
+/// unused ones are found.
 fn read_definitions(params: &Params<'_>, builder: &mut Builder<'_>) {
     let diagnostics = builder.diagnostics;
     for (_, node) in params.children(Class::Film) {
@@ -358,8 +358,8 @@ fn read_definitions(params: &Params<'_>, builder: &mut Builder<'_>) {
     }
 }
 
-/// Textures, volumes, phase functions and what is below surfaces are at the top of a scene definitions for others to refer to. Those
-/// that nobody refers to are read all the same, so that mistakes in them are found; textures as emission, which takes any colour.
+/// Reads unused textures, volumes, phase functions and subsurface descriptions at the top of a scene, so that mistakes in them
+/// are found. Textures are read as emission, which accepts any colour.
 fn read_unused(params: &Params<'_>, builder: &mut Builder<'_>) {
     let unused = |class| {
         let children = params.children(class).into_iter().map(|(_, node)| node);

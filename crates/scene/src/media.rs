@@ -68,8 +68,8 @@ pub(crate) fn prepared(
     Some(prepared)
 }
 
-/// Refuses coefficients that vary over a surface in a scene whose shapes overlap: where a walk passes a body that is not there, it would
-/// take that one's surface for its own.
+/// Refuses coefficients that vary over a surface in a scene with overlapping bodies: a walk that crosses the suppressed
+/// surface of another body would take its coefficients from that surface.
 pub(crate) fn refuse_varying_bodies(
     media: &[(MediumDescription, Span)],
     diagnostics: &Diagnostics,
@@ -83,7 +83,7 @@ pub(crate) fn refuse_varying_bodies(
     }
 }
 
-/// Says by how much ray marching is wrong, on the way from side to side of a medium's box.
+/// Notes the bias of ray marching, estimated along random segments through a medium's box.
 fn note_bias(
     medium: &MediumDescription,
     lookup: &SceneTables,
@@ -119,7 +119,7 @@ fn note_bias(
     diagnostics.push(Diagnostic::note(span, message).help(help));
 }
 
-/// Wavelengths (nm) at which biases are told.
+/// Wavelengths (nm) at which biases are evaluated.
 const LAMBDA: Vec4 = Vec4::new(450.0, 520.0, 590.0, 660.0);
 
 /// Says by how much a diffusion profile is wrong about a flat surface.
@@ -352,7 +352,7 @@ impl SceneMedia {
         self.media.iter().filter(|medium| medium.emits()).count() as u32
     }
 
-    /// Whether rays must know what they are in.
+    /// Whether rays must track their medium.
     pub fn exist(&self) -> bool {
         !self.interfaces.is_empty() || self.camera.is_some() || self.bodies.is_some()
     }

@@ -6,8 +6,8 @@
 //! Φ = 4π ∫ σa Lₑ dV
 //! ```
 //!
-//! as some points of a cell tell; a point of it is then chosen evenly (C. Villemin, C. Hery, Practical illumination from
-//! flames, 2013). Every cell has some probability, so that no light is ever missed.
+//! estimated from some points of each cell; a point in the chosen cell is uniform (C. Villemin, C. Hery, Practical
+//! illumination from flames, 2013). Every cell has some probability, so that no emission is missed.
 
 use crate::scene::Scene;
 use crate::space::Space;
@@ -28,13 +28,13 @@ use glam::{UVec3, Vec2, Vec3, Vec4};
 /// Cells along the longest side of a box.
 const ALONG: f32 = 24.0;
 
-/// Points of a cell that are asked for what it emits.
+/// Points at which the emission of a cell is estimated.
 const ASKED: u32 = 4;
 
-/// The share of choices that are even over a box, whatever its cells emit.
+/// The probability of a uniform choice over the box, independent of emission.
 const EVEN: f64 = 0.05;
 
-/// Wavelengths (nm) that stand for all.
+/// Wavelengths (nm) that represent the spectrum.
 const LAMBDA: Vec4 = Vec4::new(450.0, 520.0, 590.0, 660.0);
 
 /// The box of a medium that emits.
@@ -100,7 +100,7 @@ impl Region {
     }
 }
 
-/// What emits the light that is asked for, with what is left of the number that chose it.
+/// The chosen kind of light, with the random number rescaled for reuse.
 pub(crate) enum LightChoice<'a> {
     Medium(&'a MediumLights, f32),
     Other(f32),
