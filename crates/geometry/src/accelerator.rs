@@ -52,7 +52,7 @@ impl AcceleratorKind {
         Self::Wide,
     ];
 
-    /// What it is called on the command line.
+    /// Its name on the command line.
     pub fn name(self) -> &'static str {
         match self {
             Self::Linear => "linear",
@@ -166,13 +166,13 @@ pub(crate) trait Primitives: Sync {
     }
 }
 
-/// How an accelerator intersects what is not a triangle.
+/// Intersection of primitives that are not triangles, for accelerators.
 pub(crate) trait CustomPrimitives {
-    /// Notes the nearest hit of `primitive`, if it wins over what is known.
+    /// Updates `nearest` with the nearest hit of `primitive`.
     fn intersect(&self, primitive: u32, probe: &TraversalRay, nearest: &mut ClosestHit);
     /// Whether the ray hits `primitive` before `t_max`.
     fn occludes(&self, primitive: u32, probe: &TraversalRay, t_max: f32) -> bool;
-    /// Who is told what a ray looks at.
+    /// The counter of visited nodes and primitives.
     fn counter(&self) -> &impl Counter;
 }
 
@@ -222,7 +222,7 @@ impl Accelerator {
         }
     }
 
-    /// Notes the nearest hit, if it wins over what is known.
+    /// Updates the nearest hit.
     #[inline(always)]
     pub(crate) fn intersect(
         &self,

@@ -1,7 +1,7 @@
-//! The nearest hit so far, and which of two hits at the same distance wins.
+//! The nearest hit so far, and the order of hits at the same distance.
 //!
-//! Two smooth shapes may lie closer than single precision tells, as water in a glass does. Which of
-//! them is met first is decided in double precision.
+//! Two smooth shapes may be closer than single precision resolves, as water in a glass. Their order is
+//! decided in double precision.
 
 use glam::Vec2;
 
@@ -91,9 +91,9 @@ impl ClosestHit {
         t < self.t || (t == self.t && primitive < self.primitive)
     }
 
-    /// Whether a hit of a smooth shape would win. Against another smooth shape it counts to
-    /// double precision; within `tolerance` they are at the same place, and `precedes` tells whether
-    /// the new one is before the primitive that was nearest.
+    /// Whether a hit of a smooth shape would win. Two smooth shapes are compared in double precision;
+    /// within `tolerance` they coincide, and `precedes` decides whether the new one is before the
+    /// nearest so far.
     #[inline]
     pub(crate) fn loses_to_smooth(
         &self,

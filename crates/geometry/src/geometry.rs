@@ -1,4 +1,4 @@
-//! All surfaces of a scene: what a ray hits, and what is known of the point it hits.
+//! All surfaces of a scene: intersection, and the vertex at a hit.
 
 use crate::accelerator::visits::{Counter, Uncounted, Visits};
 use crate::accelerator::{Accelerator, Bounds};
@@ -201,7 +201,7 @@ impl Geometry {
         let (instance, rest) = self.enter(group, path);
         let inner = &self.groups[instance.group.0 as usize];
         instance.placement.at(ray.time, |placement| {
-            // Of triangles no more than the time and the hit is asked.
+            // Triangles need only the time and the hit.
             let mut local = *ray;
             if rest > 0 || self.shapes[hit.shape.0 as usize].is_analytic() {
                 (local.origin, local.direction) = placement.local_ray(ray.origin, ray.direction);

@@ -47,7 +47,7 @@ impl Default for Bounds {
 }
 
 impl PrimitiveIndex {
-    /// Adds a thing of so many primitives.
+    /// Adds an owner of so many primitives.
     pub(crate) fn add(&mut self, thing: PrimitiveOwner, primitives: u32, bounds: Bounds) {
         if primitives == 0 {
             return;
@@ -149,7 +149,7 @@ impl Primitives for Contents<'_> {
     }
 }
 
-/// Intersects what is not a triangle of a group: its smooth shapes and its instances.
+/// Intersects the smooth shapes and instances of a group.
 pub(crate) struct GroupOthers<'a, C> {
     pub(crate) geometry: &'a Geometry,
     pub(crate) group: &'a Group,

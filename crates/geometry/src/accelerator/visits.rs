@@ -11,11 +11,11 @@ pub struct Visits {
     pub primitives: u64,
 }
 
-/// Is told of every node and primitive that a ray looks at.
+/// Counts the nodes and primitives that a ray visits.
 pub(crate) trait Counter {
     /// A node.
     fn node(&self);
-    /// Primitives; how many is only asked by one who counts.
+    /// Counts primitives; their number is evaluated only by counters that need it.
     fn primitives(&self, how_many: impl FnOnce() -> usize);
 }
 

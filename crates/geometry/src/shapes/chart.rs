@@ -1,12 +1,12 @@
-//! Points chosen uniformly by area on a surface that a chart covers once.
+//! Uniform sampling by area on a surface that a chart covers once.
 //!
 //! ```text
 //! A = ∫₀¹ ∫₀¹ J du dv,   J(u, v) = |∂p/∂u × ∂p/∂v|
 //! ```
 //!
-//! u is chosen with the density m(u) = ∫ J dv, v with J(u, v) / m(u), both by inverting their integrals, so that the
-//! density per area is the same everywhere, whatever map has deformed the surface. In each of [`CELLS`]² cells J is a
-//! polynomial, cubic in u and in v, through its values at Gauss's points, which also give its integrals.
+//! u is sampled with the density m(u) = ∫ J dv, v with J(u, v) / m(u), both by inverting their integrals, so that the
+//! density per area is constant under any map of the surface. In each of [`CELLS`]² cells J is a polynomial, cubic in u
+//! and in v, through its values at Gauss points, which also give its integrals.
 
 use glam::DVec2;
 
@@ -105,7 +105,7 @@ fn node(index: usize) -> f64 {
     ((index / GAUSS.len()) as f64 + GAUSS[index % GAUSS.len()].0) / CELLS as f64
 }
 
-/// Integrals up to the end of each cell of what has these values at the nodes.
+/// Integrals, up to the end of each cell, of the function with these values at the nodes.
 fn integrals(values: &[f64; NODES]) -> [f64; CELLS] {
     let mut sum = 0.0;
     core::array::from_fn(|cell| {

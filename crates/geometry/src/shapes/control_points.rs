@@ -24,7 +24,7 @@ pub(crate) struct ControlPoints {
     pub(crate) header: Option<String>,
 }
 
-/// Reads a file, or says what is wrong with it, and in which line.
+/// Reads a file; the error names the line.
 pub(crate) fn parse(bytes: &[u8]) -> Result<ControlPoints, String> {
     let text = String::from_utf8_lossy(bytes);
     let text = text.strip_prefix('\u{feff}').unwrap_or(&text);

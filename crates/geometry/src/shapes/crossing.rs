@@ -44,7 +44,7 @@ pub struct Crossing {
     /// Whether the line goes into the volume that the surface bounds; of a surface that bounds none, whether it
     /// goes against the normal.
     pub enters: bool,
-    /// Which of the faces that the shape tells apart.
+    /// The face of the shape, for materials by face.
     pub face: u32,
     /// Whether the face's own surface is crossed the other way: it has been carved out of a solid.
     pub carved: bool,

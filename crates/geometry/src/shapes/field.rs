@@ -19,7 +19,7 @@ use glam::DVec3;
 pub(crate) enum Field {
     /// Of x, y and z.
     Space(Expression),
-    /// Of x and y, whatever z.
+    /// A function of x and y, constant in z.
     Extrusion(Expression),
     /// Of the distance from the z axis, x, and z, called y.
     Revolution(Expression),
@@ -93,7 +93,7 @@ impl Field {
         }
     }
 
-    /// Reads the `function` of an `implicit`, and what it is of: `profile` (`none`, `revolution` or `extrusion`).
+    /// Reads the `function` of an `implicit`, and its variables: `profile` (`none`, `revolution` or `extrusion`).
     pub(crate) fn expression(params: &Params<'_>) -> Option<Self> {
         if !params.has("function") {
             params.missing("function", "an expression of x, y and z");

@@ -1,4 +1,4 @@
-//! Lengths along a curve, weighted by what it is swept along, and points chosen uniformly by them.
+//! Weighted arc length of a curve, and uniform sampling by it, for surfaces swept from the curve.
 //!
 //! ```text
 //! A = ∫ w(c(s)) |c′(s)| ds

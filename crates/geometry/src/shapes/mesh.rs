@@ -63,7 +63,7 @@ pub struct Mesh {
 }
 
 impl Mesh {
-    /// Places a mesh; says what is wrong with data that no surface can have.
+    /// Places a mesh; an error for invalid data.
     pub fn new(mut data: MeshData, options: &MeshOptions) -> Result<Self, String> {
         check(&data)?;
         for uv in data.uvs.iter_mut().filter(|uv| !uv.is_finite()) {
@@ -110,7 +110,7 @@ impl Mesh {
         self
     }
 
-    /// The mesh as it stands in the world, wound so that corners turn counter-clockwise as seen from outside.
+    /// The mesh in world space, wound counter-clockwise as seen from outside.
     pub(crate) fn data(&self) -> MeshData {
         let mut triangles = self.triangles.clone();
         for (primitive, triangle) in (0..).zip(&mut triangles) {
@@ -179,7 +179,7 @@ impl Mesh {
         self.by_area().map_or(0.0, AliasTable::total)
     }
 
-    /// The triangles weighted by area; `None` if there is no area. Made when first asked for.
+    /// The distribution of triangles by area, built at first use; `None` if there is no area.
     pub(crate) fn by_area(&self) -> Option<&AliasTable> {
         self.by_area
             .get_or_init(|| {
@@ -294,7 +294,7 @@ impl Mesh {
         Some(a0 * (1.0 - b.x - b.y) + a1 * b.x + a2 * b.y)
     }
 
-    /// What is stored on its vertices and faces.
+    /// The attributes of its vertices and faces.
     pub fn attributes(&self) -> &[Attribute] {
         &self.attributes
     }

@@ -16,7 +16,7 @@ const CLOSE: f64 = 1e-7;
 /// The most pieces of a curve of expressions: halvings of each of the first eight.
 const DEEPEST: u32 = 10;
 
-/// Reads `curve` (`linear`, `bezier`, `catmullrom` or `parametric`) and what it is made of.
+/// Reads `curve` (`linear`, `bezier`, `catmullrom` or `parametric`) and its points or formulas.
 pub(crate) fn from_params(params: &Params<'_>) -> Option<Profile> {
     let curves = ["linear", "bezier", "catmullrom", "parametric"];
     match params.choice("curve", "linear", &curves) {

@@ -47,7 +47,7 @@ pub struct Revolution {
 /// No t is larger, so that its products with zero are zero.
 const MOST: f64 = 1e300;
 
-/// The shortest part of a piece in which zeros are told apart.
+/// Resolution of zeros, as a share of a piece.
 const SMALLEST: f64 = 1e-9;
 
 /// Lines with dz² below this part of A lie across the axis.

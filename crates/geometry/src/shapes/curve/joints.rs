@@ -32,7 +32,7 @@ fn angle(a: DVec3, b: DVec3) -> f64 {
     atan2(a.cross(b).length(), a.dot(b))
 }
 
-/// Adds the joints after `a` up to `b`, of which `between` gives one in the middle, or `None` if there is none to be found.
+/// Adds the joints after `a` up to `b`; `between` computes one in the middle, or `None` if there is none.
 pub(super) fn refine(
     [a, b]: [Joint; 2],
     fineness: Fineness,

@@ -52,7 +52,7 @@ fn rings(strand: &Strand) -> Vec<Ring> {
         });
     }
     if strand.closed {
-        // What it has turned about itself on the way around is taken back little by little.
+        // The accumulated twist of a closed curve is compensated evenly along it.
         let (first, about) = (rings[0].start, rings[0].joint.tangent);
         let twist = atan2(about.cross(first).dot(start), first.dot(start));
         let whole = lengths[lengths.len() - 1];

@@ -1,5 +1,5 @@
-//! Triangles of a plane of which later ones keep what earlier ones have left uncovered, so that together they cover each
-//! place once: a light that overlapped itself would shine twice where it does.
+//! Plane triangles clipped against earlier ones, so that together they cover each point once: an overlapping light would
+//! emit twice there.
 
 use glam::DVec2;
 use std::collections::HashMap;
