@@ -23,7 +23,7 @@ pub enum Filter {
 }
 
 impl Wrap {
-    /// The texel in 0..n that stands for texel `i` of the endless image.
+    /// The texel in 0..n for texel `i` of the unbounded image, by the wrap mode.
     #[inline]
     pub(crate) fn texel(self, i: i64, n: u32) -> usize {
         let n = i64::from(n);

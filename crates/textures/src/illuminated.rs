@@ -71,7 +71,7 @@ impl TextureModel for TimesD65 {
     }
 }
 
-/// A colour becomes one spectrum, a texture is multiplied where it is asked.
+/// A colour becomes one spectrum; a texture is multiplied at look-up.
 pub(crate) fn read(
     reader: &mut TextureReader<'_>,
     params: &Params<'_>,

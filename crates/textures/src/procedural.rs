@@ -342,7 +342,7 @@ mod tests {
         }
     }
 
-    /// The bounds of a small box are near what is in it.
+    /// The bounds in a small box are tight.
     #[test]
     fn bounds_of_a_small_box_are_tight() {
         let pattern = Procedural {

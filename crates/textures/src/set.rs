@@ -71,7 +71,7 @@ impl TextureTable {
         self.add(Texture::Constant(Constant::new(spectrum)))
     }
 
-    /// Notes where a mesh attribute was asked for.
+    /// Stores the source position of a mesh attribute.
     pub(crate) fn note_attribute(&mut self, texture: TextureId, span: Span) {
         self.attributes.push((texture, span));
     }
