@@ -98,7 +98,7 @@ macro_rules! integrators {
                 }
             }
 
-            /// What it objects to in a scene.
+            /// The reasons why it cannot render a scene, or not all of its light.
             pub fn incompatibilities(&self, sight: &SceneCapabilities) -> Vec<Incompatibility> {
                 fn all<I: Integrator>(
                     integrator: &I,

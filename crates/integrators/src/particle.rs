@@ -1,7 +1,7 @@
-//! One particle from a light, from one point that scatters it to the next.
+//! A particle from a light, from one scattering vertex to the next.
 //!
-//! What `ptracer` connects with the camera, `forward` waits for, and photon maps keep: they differ
-//! in what they do with a particle, not in how it goes.
+//! `ptracer`, `forward` and photon maps use the same particles: the first connects them with the
+//! camera, the second waits until they hit the aperture, the third stores them.
 
 use crate::dimensions::{self as dim, BounceSamples, draw_flight};
 use crate::path_throughput::PathThroughput;

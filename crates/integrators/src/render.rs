@@ -1,11 +1,11 @@
 //! The render loop: replicates × passes × tiles × pixels × samples.
 //!
-//! A replicate is an estimate of the whole image, independent of the others or a block of the sequence that
-//! they make up together ([`etalon_sampling::ReplicateKind`]), made in one pass or in as many as the integrator asks for. Tiles of a pass run in parallel, and a long pass goes over all of them in
-//! several rounds, so that a picture that is interrupted has some samples everywhere. The first round of all is of every
-//! eighth pixel of every eighth row, the second four times as fine, for those who look on. Since a
-//! sample is a pure function of its address and the film accumulates exactly, neither the number of
-//! threads nor the order of tiles nor the rounds change a bit, and a render goes on from any sample.
+//! A replicate is an estimate of the whole image, independent of the others or a block of one sequence
+//! ([`etalon_sampling::ReplicateKind`]), rendered in one pass or as many as the integrator needs. Tiles of a pass run in
+//! parallel. A long pass goes over all tiles in several rounds, so that an interrupted picture has samples everywhere. For
+//! previews, the first round covers every eighth pixel of every eighth row, and the second is four times as dense. A
+//! sample is a pure function of its address, and the film accumulates exactly: the number of threads, the order of tiles
+//! and the rounds change no bit, and a render can resume at any sample.
 
 use crate::positions::{Asked, around, position};
 use crate::render_plan::RenderPlan;
@@ -69,8 +69,8 @@ fn tile_side(size: UVec2, threads: usize) -> u32 {
     side
 }
 
-/// Renders replicates into `film` on the current thread pool, and goes on where the film has some samples of the first
-/// of them already. If it is cancelled, the film keeps the replicate that was being rendered.
+/// Renders replicates into `film` on the current thread pool, and continues after the samples that the film already has of
+/// the first of them. If it is cancelled, the film keeps the unfinished replicate.
 ///
 /// A world's sensor has three channels. A film of more has several worlds, which differ in their sensors: every sample is
 /// drawn in each, with the same numbers, and goes to its group of the film's bands ([`TileSink::select_group`]).
@@ -318,7 +318,7 @@ impl<W: World, I: Integrator, F: Film> Round<'_, '_, W, I, F> {
                 }
                 let dealt = self.film.dealt(pixel, samples);
                 for sample in self.film.done(pixel).max(self.begin)..self.target(dealt) {
-                    // Asked while no draft waits, so that what was begun is finished.
+                    // Checked while no sample is pending, so that every sample begun is finished.
                     if drafts.is_empty() && progress.cancelled() {
                         return (drawn, false);
                     }

@@ -47,16 +47,16 @@ pub(crate) struct Photon {
     segments: u32,
 }
 
-/// What is merged.
+/// The parameters of merging.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Terms {
     /// r, within which photons are merged (m).
     pub(crate) radius: f32,
-    /// n, the walks from lights.
+    /// n, the number of light subpaths.
     pub(crate) count: u32,
-    /// Whether there are connections, too, and lights run into where merging could find them.
+    /// Whether there are connections as well, and light hits where merging could find the same paths.
     pub(crate) connections: bool,
-    /// The moment of all walks.
+    /// The time of all subpaths.
     pub(crate) time: f32,
 }
 
@@ -195,12 +195,12 @@ impl<'w, W: World> Connector<'_, 'w, W> {
         self.merging.map_or(0.0, |merging| merging.terms.area())
     }
 
-    /// One if there are techniques that connect, and zero if merging is asked for alone.
+    /// 1 if there are techniques that connect, 0 if there is only merging.
     pub(super) fn connections(&self) -> f32 {
         (self.merging).map_or(1.0, |merging| merging.terms.connections())
     }
 
-    /// Merges the camera walk's corner with the photons around it.
+    /// Merges the camera subpath's vertex with the photons around it.
     pub(super) fn merge(&mut self, corner: &Corner<'w, W>, eye: &[Corner<'w, W>]) {
         let Some(merging) = self.merging.filter(|_| corner.merges()) else {
             return;

@@ -70,8 +70,8 @@ pub struct Technique {
     pub light: usize,
     /// t: vertices made from the camera, which is one of them.
     pub camera: usize,
-    /// Whether it is weighed against the others; if not, it estimates all paths of its length that
-    /// it can make.
+    /// Whether it has its MIS weight; if not, it estimates all paths of its length that it can
+    /// generate.
     pub weighted: bool,
 }
 
@@ -116,17 +116,17 @@ impl Bidirectional {
 /// What a sample starts with.
 pub(crate) struct Start<'a> {
     pub(crate) settings: &'a PathSettings,
-    /// The only technique that is asked for, if not all are.
+    /// The only technique to evaluate, if not all.
     pub(crate) only: Option<Technique>,
     pub(crate) wavelengths: Wavelengths,
-    /// The camera's ray, and what it counts.
+    /// The camera's ray; `weight` is its weight.
     pub(crate) ray: Ray,
     pub(crate) weight: f32,
     /// The photons to merge with, if any.
     pub(crate) merging: Option<&'a Merging>,
 }
 
-/// One sample; the lists are only lent, so that they need not be made anew.
+/// Draws one sample; the lists are lent for reuse of their memory.
 pub(crate) fn estimate<'w, W: World, S: Sampler, K: Sink>(
     world: &'w W,
     begin: &Start<'_>,
@@ -178,7 +178,7 @@ pub(crate) fn estimate<'w, W: World, S: Sampler, K: Sink>(
     );
 }
 
-/// The single technique that a description asks for.
+/// The single technique of the description, if it names one.
 fn technique(params: &Params<'_>) -> Option<Technique> {
     let count = |name: &str, least: i64| {
         let given = params.integer_or(name, least);

@@ -83,7 +83,7 @@ pub(crate) struct RegionUpdate {
 }
 
 impl SdTree {
-    /// One region, of which nothing is known, that holds the box between two points; `own` is the least α.
+    /// One region with a uniform density, for the box between two points; `own` is the least α.
     pub(crate) fn new(from: Vec3, to: Vec3, own: f32) -> Self {
         // A little larger, and never empty.
         let side = (to - from).max_element().max(f32::MIN_POSITIVE.sqrt()) * 1.001;
@@ -240,7 +240,7 @@ pub(crate) fn place_of(direction: Vec3) -> Vec2 {
     uniform_sphere_to_square(direction).clamp(Vec2::ZERO, Vec2::splat(ONE_MINUS_EPSILON))
 }
 
-/// How finely directions are told apart, if squares with this share of the light are divided.
+/// The resolution of directions, if squares with more than this share of the light are divided.
 pub(crate) fn refinement(share: f64) -> Refinement {
     Refinement { share, depth: 20 }
 }

@@ -29,8 +29,7 @@ impl Stream {
     }
 }
 
-/// How often each kind of path is tried: in proportion to the light that it brings, but for a
-/// quarter of all that go to all alike.
+/// Probability of each kind of path: three quarters in proportion to its light, one quarter uniform.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct PathLengthPdf {
     /// The sums of the probabilities up to and with each.
@@ -73,7 +72,7 @@ impl PathLengthPdf {
     }
 }
 
-/// What is learned once per image.
+/// The result of the pilot, once per image.
 #[derive(Clone, Debug)]
 pub(super) struct Pilot {
     seed: u64,
@@ -211,7 +210,7 @@ impl State {
             self.starts = vec![0; chains as usize];
             return;
         }
-        // Systematic sampling: each start is picked as often as it should be, but for rounding.
+        // Systematic sampling: each start is picked in proportion, up to rounding.
         let offset = mix64(Stream::Choice.key(self.seed, self.replicate));
         let offset = f64::from(random_float((offset >> 32) as u32));
         let mut sum = 0.0;
@@ -283,8 +282,8 @@ pub(super) fn start_key(key: u64, index: u32) -> u64 {
     derived_key(key, index)
 }
 
-/// Draws `count` uniform samples, fewer if the film is told to stop, and notes what they found, some
-/// to a task, in order.
+/// Draws `count` uniform samples, fewer if the render is stopped, several per task, and returns their
+/// results in order.
 fn draw<T: Integrand, N: Default + Send>(
     (integrand, placing): (&T, &impl Placing),
     settings: &ChainSettings,

@@ -1,4 +1,4 @@
-//! The integrator that runs chains, whatever paths its primary samples stand for.
+//! The integrator that runs chains, generic over the paths of its primary samples.
 
 use super::{ChainSettings, Contributions, FilmRegion, Integrand, PathLengthPdf, State};
 use crate::settings::PathSettings;
@@ -18,7 +18,7 @@ pub(crate) trait PathSampler: Sync {
     /// Memory that one path lends to the next.
     type Lists<'w, W: World + 'w>: Default;
 
-    /// How many kinds of paths it tells apart; none if there is nothing to find.
+    /// Number of kinds of paths; 0 if there is nothing to find.
     fn kinds(&self, settings: &PathSettings, chains: &ChainSettings) -> usize;
 
     /// Turns a primary sample into contributions to the film.
@@ -40,7 +40,7 @@ pub struct Metropolis<P> {
     pub settings: PathSettings,
     /// How chains are run.
     pub chains: ChainSettings,
-    /// What primary samples stand for.
+    /// The mapping from primary samples to paths.
     pub paths: P,
 }
 

@@ -1,7 +1,8 @@
-//! The camera's walk, which gathers photons where it meets surfaces that scatter.
+//! The camera path, which gathers photons at scattering surfaces.
 //!
-//! It follows sharp directions to their end, as `path` does, light sampling included; in all others it leaves light that is not
-//! direct to photons, and ends. With a final gather it goes on once in such a direction, and leaves to photons what it meets there.
+//! It follows sharp directions to their end, as `path` does, including light sampling. At other surfaces indirect light
+//! comes from photons, and the path ends. With a final gather it continues once in such a direction, and gathers photons
+//! at the next surface.
 
 use super::elsewhere::{CameraPath, CameraVertex};
 use super::sets::{WavelengthChoice, WavelengthSets};
@@ -22,7 +23,7 @@ use etalon_transport::{
 };
 use glam::{Vec3, Vec4};
 
-/// A map, how to look it up, and what of it counts.
+/// A photon map, its kernel, and the photons of it that count.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Layer<'a> {
     pub(crate) map: &'a PhotonMap,

@@ -16,7 +16,7 @@ const ALONE: usize = 4096;
 #[derive(Clone, Debug, Default)]
 pub struct KdTree {
     points: Vec<Vec3>,
-    /// The coordinate by which each point parts its range.
+    /// The axis of each node's split.
     axes: Vec<u8>,
 }
 

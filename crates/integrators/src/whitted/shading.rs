@@ -35,7 +35,7 @@ pub(super) fn at<'w, W: World>(
 }
 
 impl<B: Bsdf> Surface<B> {
-    /// What it shows of a lamp, per unit of irradiance.
+    /// The radiance toward the viewer per unit of a lamp's irradiance.
     pub(super) fn shade(&self, vertex: &SurfaceInteraction, wo: Vec3, wi: Vec3) -> Vec4 {
         match self {
             Self::Classic(material) => phong::shade(material, vertex, wo, wi),

@@ -1,7 +1,7 @@
 //! The tree of rays that starts with one through a point of the film.
 //!
-//! A ray carries all wavelengths at once, four to a packet, as long as they go the same way. Where
-//! a dispersive interface parts them, every wavelength goes on alone.
+//! A ray carries all wavelengths, in packets of four, until a dispersive interface separates them;
+//! then every wavelength continues alone.
 
 use super::caustics::Caustics;
 use super::{Whitted, phong, shading};
@@ -78,7 +78,7 @@ pub struct Continuation {
     pub value: Vec4,
     /// Zero for lanes that go elsewhere, or nowhere.
     pub together: Vec4,
-    /// Whether it goes on as if the surface were not there.
+    /// Whether it is the null interaction.
     pub is_straight: bool,
 }
 
@@ -211,7 +211,7 @@ impl Whitted {
                     group[count] = Packet { weight, ..*packet };
                     count += 1;
                 }
-                // Lane 0 chose; others that go elsewhere are asked one by one.
+                // Lane 0 chose; lanes with another direction are evaluated one by one.
                 for lane in (1..4).filter(|&k| packet.weight[k] != 0.0 && whole.together[k] == 0.0)
                 {
                     let alone = packet.alone(lane);
@@ -233,7 +233,7 @@ impl Whitted {
         sum
     }
 
-    /// The share of what a ray meets that it does not pass straight on.
+    /// Opacity along a ray, through null interactions.
     fn alpha<W: World>(&self, world: &W, mut ray: Ray, wavelengths: &Wavelengths) -> f32 {
         let mut open = 1.0;
         let mut segment = 1;
@@ -260,8 +260,8 @@ impl Whitted {
     }
 }
 
-/// The ray number `index` that leaves a surface, whatever it is made of; `None` beyond the last. `mode` says whether it brings light, or
-/// is followed by it.
+/// The secondary ray number `index` of a surface of any material; `None` beyond the last. `mode` is the transported quantity:
+/// radiance along view rays, importance along photons.
 pub fn onward<W: World>(
     world: &W,
     vertex: &SurfaceInteraction,
