@@ -1,5 +1,5 @@
 //! Embree 4 as an opponent, loaded at run time: Intel's ray tracing kernels, by their C interface
-//! (<https://github.com/RenderKit/embree>, `include/embree4`). Nothing is linked; without the library nobody misses it.
+//! (<https://github.com/RenderKit/embree>, `include/embree4`). Nothing is linked; without the library its rows are left out.
 //!
 //! The device is asked for AVX2, which is what Etalon is compiled for; scenes are `ROBUST` (edges are watertight), the
 //! build's quality is `MEDIUM`, its default. Rays are traced one by one with `rtcIntersect1` and `rtcOccluded1`.
