@@ -15,7 +15,7 @@ pub struct CameraRay {
 /// A connection of a scene point with the camera.
 #[derive(Clone, Copy, Debug)]
 pub struct CameraSample {
-    /// Where on the film (pixels; (0, 0) is the upper left corner of the whole, uncropped film).
+    /// Film position (pixels; (0, 0) is the upper left corner of the whole, uncropped film).
     pub raster: Vec2,
     /// Unit direction from the point to the camera.
     pub direction: Vec3,
@@ -30,7 +30,7 @@ pub struct CameraSample {
 /// A ray's arrival on the camera's aperture.
 #[derive(Clone, Copy, Debug)]
 pub struct ApertureHit {
-    /// Where on the film (pixels of the whole film).
+    /// Film position (pixels of the whole film).
     pub raster: Vec2,
     /// Distance along the ray to the near clipping plane (m). The ray must be unoccluded up to there;
     /// the camera sees nothing between that plane and the aperture.

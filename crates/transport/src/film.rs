@@ -1,4 +1,4 @@
-//! Where results go.
+//! Films and sinks: the destination of samples.
 
 use glam::{UVec2, Vec2};
 
@@ -57,7 +57,7 @@ pub trait TileSink: Sink {
     }
 }
 
-/// Where samples go.
+/// Positions of samples on the film, and their number.
 pub trait Placing: Sync {
     /// Draws a position for a sample of `pixel`: from the reconstruction filter, or evenly in the pixel if pixels share
     /// samples. Pixels left of the film or above it have negative coordinates, modulo 2³².
@@ -113,7 +113,7 @@ pub trait Film: Placing {
     fn origin(&self) -> UVec2;
     /// Size of the cropped region (pixels).
     fn size(&self) -> UVec2;
-    /// How far (pixels) beyond the film a splat can still matter.
+    /// Distance (pixels) beyond the film up to which splats contribute.
     fn margin(&self) -> f32;
     /// Width (pixels) of the border around the film that is sampled too, for the pixels within. A border pixel has as
     /// many samples as the nearest pixel of the film, one after each of that pixel's.

@@ -14,13 +14,13 @@ pub(crate) struct Collisions<I> {
     t_max: f32,
     /// Whether the rate of collisions is σ̄ − μ̄ (residual tracking) instead of σ̄.
     residual: bool,
-    /// Where the last one was (m).
+    /// Position of the last one (m).
     t: f32,
     /// The optical depth to the next one.
     depth: f32,
     /// The optical depth of the control up to there.
     pub(crate) controlled: f32,
-    /// How many more there may be.
+    /// Remaining number of collisions.
     left: u32,
 }
 
@@ -147,7 +147,7 @@ fn flown<M: Medium + ?Sized>(
     }
 }
 
-/// How far lane 0 flies in closed form if nothing ends the ray before.
+/// Length of lane 0's free flight in closed form, along an unbounded ray.
 #[inline]
 pub(crate) fn reach(extinction: Vec4, u: f32) -> f32 {
     -float::ln(1.0 - u) / extinction.x

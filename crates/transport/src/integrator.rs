@@ -14,14 +14,14 @@ pub struct PixelSample {
     pub pixel: UVec2,
     /// The film position drawn from the reconstruction filter (pixels).
     pub raster: Vec2,
-    /// How far beyond the film a splat can still matter (pixels), see [`crate::Film::margin`].
+    /// Distance beyond the film up to which splats contribute (pixels), see [`crate::Film::margin`].
     pub margin: f32,
     /// Number of light paths traced per sample index over the whole film: one for each pixel (see
     /// [`crate::Film::light_paths`]). Each splat is divided by it. 0 disables splatting.
     pub pixels: u32,
     /// Mean distance between the samples of a pixel (pixels): 1/√spp.
     pub spacing: f32,
-    /// Which of the pixel's samples in its pass this is, from 0.
+    /// Index of the sample among those of the pixel in its pass, from 0.
     pub sample: u32,
 }
 
@@ -32,7 +32,7 @@ pub struct Pass {
     pub seed: u64,
     /// The replicate that the pass belongs to.
     pub replicate: u32,
-    /// Which pass of the replicate this is, from 0.
+    /// Index of the pass in its replicate, from 0.
     pub number: u32,
     /// Passes per replicate.
     pub count: u32,
@@ -63,7 +63,7 @@ pub struct SampleJob<S> {
 }
 
 impl<S> SampleJob<S> {
-    /// Where it lies on the film.
+    /// Its position on the film, with its weight.
     #[inline]
     pub fn placement(&self) -> FilmSample {
         FilmSample {

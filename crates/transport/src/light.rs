@@ -102,7 +102,7 @@ impl LightKind {
 pub struct Emission {
     /// The ray along which it leaves (its origin is off the light's surface).
     pub ray: Ray,
-    /// Where it begins; of lights without surface the normal is the ray's direction.
+    /// Its origin; for lights without surface the normal is the ray's direction.
     pub point: SurfacePoint,
     /// Emitted flux per lane over the probability of all choices made: Le·|cos θ| / (p_A·p_ω·p_light)
     /// for a surface, so that averaging `weight` over emissions gives the scene's power.

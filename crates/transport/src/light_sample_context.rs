@@ -7,7 +7,7 @@ use glam::Vec3;
 /// on it: the MIS weight of a direction found otherwise must use the same receiver.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct LightSampleContext {
-    /// Where (m, world).
+    /// Position (m, world).
     pub position: Vec3,
     /// Unit shading normal of the surface there, so that light from grazing directions is chosen
     /// less often; zero where there is no surface.

@@ -91,7 +91,7 @@ pub struct FreeFlight<P> {
     pub scattering: Option<Collision<P>>,
 }
 
-/// Where a flight ends in a medium.
+/// A real collision, where a flight ends in a medium.
 #[derive(Clone, Copy, Debug)]
 pub struct Collision<P> {
     /// Distance along the ray (m).
@@ -116,7 +116,7 @@ impl<P> FreeFlight<P> {
 /// A stretch of a ray, from the end of the one before.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct MajorantSegment {
-    /// Where it ends (m along the ray).
+    /// Its end (m along the ray).
     pub end: f32,
     /// σ̄ in it: not below the extinction of any lane (m⁻¹).
     pub majorant: f32,
@@ -143,7 +143,7 @@ pub enum Tracking {
 
 /// A participating medium at a path's wavelengths: plain data that knows neither volumes nor scene.
 pub trait Medium {
-    /// How a point of it scatters light.
+    /// The phase function at a point.
     type Phase: Phase + Copy;
 
     /// The stretches that cover `ray` up to `t_max`.
@@ -161,7 +161,7 @@ pub trait Medium {
         Vec4::ZERO
     }
 
-    /// How it is travelled through.
+    /// The method of tracking.
     #[inline]
     fn tracking(&self) -> Tracking {
         Tracking::Ratio

@@ -14,7 +14,7 @@ use glam::Vec3;
 pub struct Departure {
     /// The shape that is left.
     pub shape: ShapeId,
-    /// Which of its primitives.
+    /// Its primitive.
     pub primitive: u32,
     /// The parameter of the crossing, not above 0.
     pub t: f32,
@@ -32,7 +32,7 @@ impl Departure {
 /// A half-line or segment, with the time at which it travels.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Ray {
-    /// Where it starts (m).
+    /// Origin (m).
     pub origin: Vec3,
     /// Its unit direction.
     pub direction: Vec3,

@@ -17,9 +17,9 @@ pub enum TraceEvent {
     /// Photons are looked up around the current vertex. Calls to its BSDF up to [`TraceEvent::Gathered`] are for
     /// these photons.
     Gathering {
-        /// How far they may be (m).
+        /// The radius (m).
         radius: f32,
-        /// How many there are in the map.
+        /// Number of photons in the map.
         among: usize,
     },
     /// One of them counts.
@@ -56,14 +56,14 @@ pub enum ChainRemark {
     Uniform(u32),
     /// A chain begins; the path where it does follows.
     Begins {
-        /// Which of the replicate's chains.
+        /// Index of the chain in its replicate.
         number: usize,
         /// The uniform sample at which it begins.
         start: u32,
     },
     /// The path that a step of the chain proposes follows.
     Proposal {
-        /// Which step, from 0.
+        /// Index of the step, from 0.
         step: u32,
         /// Whether it is a large step: all numbers are drawn independently.
         large: bool,
@@ -86,9 +86,9 @@ pub enum ChainRemark {
 /// A photon that counts at a surface.
 #[derive(Clone, Copy, Debug)]
 pub struct MergedPhoton {
-    /// Where it arrived (m).
+    /// Its position (m).
     pub position: Vec3,
-    /// How far away from the surface's point that is (m).
+    /// Distance from the vertex (m).
     pub distance: f32,
     /// Unit direction to where it came from.
     pub from: Vec3,

@@ -1,4 +1,4 @@
-//! How likely a sampled event was: a density or a discrete probability.
+//! The density or discrete probability of a sampled event.
 
 use etalon_math::{DeltaProbability, Density, SolidAngle};
 use glam::Vec4;

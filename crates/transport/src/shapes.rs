@@ -13,7 +13,7 @@ pub struct SurfacePoint {
     pub error: Vec3,
     /// Unit geometric normal, on the side that the shape calls outside.
     pub normal: Vec3,
-    /// Where textures are looked up.
+    /// The point for texture look-up.
     pub texture: TexturePoint,
 }
 

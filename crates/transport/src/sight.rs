@@ -65,7 +65,7 @@ pub struct SceneCapabilities {
     pub classic: bool,
     /// Whether the film's filter is so narrow that splats find no pixel ([`crate::Film::light_paths`]).
     pub narrow_filter: bool,
-    /// What the camera sees first.
+    /// The first surfaces that the camera sees.
     pub view: CameraProbe,
 }
 
@@ -142,7 +142,7 @@ impl Incompatibility {
     }
 }
 
-/// What an integrator cannot do at all.
+/// A fatal incompatibility of the integrator.
 fn impossible(message: &str, help: &str) -> Incompatibility {
     Incompatibility::fatal(Subject::Integrator, message).help(help)
 }

@@ -7,7 +7,7 @@ use glam::{Vec2, Vec3, Vec4};
 
 /// Lights, each by itself.
 pub trait Lights: Sync {
-    /// How many there are. Their ids count from 0.
+    /// Number of lights. Ids count from 0.
     fn count(&self) -> u32;
 
     /// Whether the surface that was hit emits light at all.
