@@ -341,7 +341,7 @@ fn texel(rgb: [f32; 3]) -> Vec4 {
 struct Pixels {
     size: UVec2,
     rgb: Vec<[f32; 3]>,
-    /// How many had negative components (now zero).
+    /// Number of texels with negative components, which became zero.
     negative: usize,
     /// Remarks about the file.
     notes: Vec<String>,

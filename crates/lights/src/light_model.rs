@@ -96,7 +96,7 @@ pub(crate) trait LightModel {
         time: f32,
     ) -> EmissionPdf;
 
-    /// Where it is and whither it shines, without its power; `None` at infinity.
+    /// Bounds on position and directions, without its power; `None` at infinity.
     fn extent(&self, _: &impl Shapes) -> Option<LightExtent> {
         None
     }

@@ -43,7 +43,7 @@ impl LightSamplerKind {
     /// All of them.
     pub const ALL: [Self; 4] = [Self::Automatic, Self::Uniform, Self::Power, Self::Tree];
 
-    /// How many lights are few: a tree's choice among so many costs as much as it saves.
+    /// The largest number of lights for [`FewLights`]; beyond, a tree is cheaper.
     pub const FEW: usize = 8;
 
     /// Its name in scenes and on the command line.
@@ -69,7 +69,7 @@ pub struct Candidate {
     pub power: f64,
     /// Its `sampling_weight`.
     pub weight: f64,
-    /// Where it is; `None` at infinity.
+    /// Its bounds; `None` at infinity.
     pub extent: Option<LightExtent>,
     /// The facts of a light at infinity.
     pub far: Far,
@@ -87,7 +87,7 @@ pub struct Far {
 /// A distribution over lights.
 #[derive(Clone, Debug)]
 pub struct LightSampler {
-    /// By power; `None` if no light can be chosen.
+    /// Distribution by power; `None` if no light can be chosen.
     by_power: Option<AliasTable>,
     /// For points; `None` for the same.
     for_points: Option<ForPoints>,

@@ -95,12 +95,12 @@ impl LightSet {
         self.powers.iter().sum()
     }
 
-    /// Which light to ask.
+    /// The rule of light selection.
     pub fn selector(&self) -> &LightSampler {
         &self.selector
     }
 
-    /// How many of the lights that emit anything can be found in which way.
+    /// Numbers of the lights that emit, by the ways of finding them.
     pub fn count(&self) -> LightCount {
         let mut count = LightCount::default();
         for (index, light) in self.lights.iter().enumerate() {

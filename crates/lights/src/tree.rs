@@ -35,7 +35,7 @@ struct Trail(u64);
 #[derive(Clone, Debug)]
 pub struct LightTree {
     nodes: Vec<Node>,
-    /// By light; `None` if it is not in the tree.
+    /// Path from the root, by light; `None` if it is not in the tree.
     trails: Vec<Option<Trail>>,
 }
 
