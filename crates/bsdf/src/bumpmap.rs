@@ -43,7 +43,7 @@ impl Description {
         })
     }
 
-    /// What the nested material can do.
+    /// The flags of the nested material.
     pub fn traits(&self) -> MaterialFlags {
         self.tilted.traits()
     }

@@ -36,7 +36,7 @@ pub const EXEMPLARS: &[&str] = &[
 /// The probability of sampling the coat's own reflection: the same for every direction, since the way back must have it.
 const COAT_SHARE: f32 = 0.3;
 
-/// What may be coated.
+/// The materials that can be coated.
 const COATABLE: &str =
     "`diffuse`, `roughdiffuse`, `conductor`, `roughconductor`, `phong` and `ward`";
 
@@ -91,7 +91,7 @@ impl Description {
         })
     }
 
-    /// What the material can do.
+    /// The material's flags.
     pub fn traits(&self) -> MaterialFlags {
         MaterialFlags {
             lobes: 2,
@@ -198,7 +198,7 @@ fn refracted(v: Vec3, eta: f32) -> Option<Vec3> {
 #[derive(Clone, Copy, Debug)]
 pub struct Layer<'a> {
     eta: f32,
-    /// What a rough interface lets through.
+    /// Transmittance of a rough interface.
     rough: Option<&'a RoughFresnel>,
     /// Absorption times thickness, per lane.
     absorption: Vec4,

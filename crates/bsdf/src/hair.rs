@@ -35,7 +35,7 @@ pub const EXEMPLARS: &[&str] = &[
     "hair sigma_a=u:0 longitudinal_roughness=f:0.7",
 ];
 
-/// What pigments absorb per concentration, as colours.
+/// Absorption of the pigments per concentration, as colours.
 const EUMELANIN: [f32; 3] = [0.419, 0.697, 1.0];
 const PHEOMELANIN: [f32; 3] = [0.187, 0.4, 1.0];
 
@@ -57,7 +57,7 @@ enum Absorption {
     Pigment { eumelanin: f32, pheomelanin: f32 },
 }
 
-/// What does not depend on where the hair is hit.
+/// Quantities that do not depend on the point of the hair.
 #[derive(Clone, Copy, Debug)]
 struct Shape {
     eta: f32,
@@ -115,7 +115,7 @@ impl Description {
         })
     }
 
-    /// What the material can do.
+    /// The material's flags.
     pub fn flags(&self) -> MaterialFlags {
         MaterialFlags {
             transmission: true,
@@ -169,7 +169,7 @@ pub struct Hair {
     shape: Shape,
 }
 
-/// What follows from the known direction.
+/// Quantities that depend on the known direction only.
 struct Known {
     /// Sine and cosine of θo, tilted for each lobe.
     theta: [(f32, f32); LOBES],

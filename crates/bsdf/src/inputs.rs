@@ -91,7 +91,7 @@ macro_rules! inputs {
     };
 }
 
-/// What a kind of parameter is.
+/// The type of a kind of parameter.
 macro_rules! kind {
     (spectrum type) => {
         glam::Vec4

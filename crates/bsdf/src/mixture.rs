@@ -25,7 +25,7 @@ pub const EXEMPLARS: &[&str] = &[
 /// The parameters of the three shares.
 const SHARES: [&str; 3] = ["diffuse", "reflective", "refractive"];
 
-/// How far the sum of the shares may be from one by their rounding in the file.
+/// Tolerance on the sum of the shares, for rounding in the file.
 const ROUNDING: f64 = 1e-4;
 
 /// `mixture` in a scene file.
@@ -37,7 +37,7 @@ pub struct Description {
     diffuse: TextureId,
     /// ρs.
     reflective: TextureId,
-    /// Which of the lobes there are at all.
+    /// Whether each lobe is present.
     present: [bool; 3],
     dielectric: dielectric::Description,
 }
@@ -53,7 +53,7 @@ impl Description {
                 None => Some(0.0),
                 Some(Value::Float(number)) => Some(*number),
                 Some(Value::Integer(number)) => Some(*number as f64),
-                // What a texture says is known at a point.
+                // A texture is known only at a point.
                 Some(_) => None,
             };
             if let Some(number) = number.filter(|number| !(0.0..=1.0).contains(number)) {

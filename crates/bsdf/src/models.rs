@@ -69,7 +69,7 @@ macro_rules! models {
                 })
             }
 
-            /// What the material can do.
+            /// The material's flags.
             pub fn traits(&self) -> MaterialFlags {
                 match self {
                     $(Self::$plain(description) => $flags(description),)*

@@ -50,7 +50,7 @@ impl Description {
         Some(Self { normals, tilted })
     }
 
-    /// What the nested material can do.
+    /// The flags of the nested material.
     pub fn traits(&self) -> MaterialFlags {
         self.tilted.traits()
     }

@@ -78,7 +78,7 @@ pub struct Description {
     inputs: Inputs,
     eta: f32,
     transmits: bool,
-    /// How eagerly the base, the main interface and the clear coat are sampled.
+    /// Sampling rates of the base, the main interface and the clear coat.
     rates: Vec3,
 }
 
@@ -104,7 +104,7 @@ impl Description {
             let accepted = "a number from 0 to below 12.5";
             let fits = |s: f64| (0.0..12.5).contains(&s);
             let specular = params.float_where("specular", 0.5, accepted, fits);
-            // What lets light through must have an interface.
+            // A transmitting material needs an interface.
             let least = if transmits { 1e-3 } else { 0.0 };
             2.0 / (1.0 - (0.08 * specular.max(least)).sqrt()) - 1.0
         };
@@ -158,7 +158,7 @@ impl Description {
     }
 }
 
-/// How eagerly a lobe is sampled.
+/// The sampling rate of a lobe, relative to its energy.
 pub(crate) fn sampling_rate(params: &Params<'_>, name: &str) -> f32 {
     let accepted = "a finite number, 0 or more";
     params.float_where(name, 1.0, accepted, |rate| rate >= 0.0 && rate.is_finite()) as f32

@@ -67,7 +67,7 @@ impl Tilt {
         ]
     }
 
-    /// How much light from `light` counts with the model's frame `seen`.
+    /// Shadowing of light from `light`, with the model's frame `seen`.
     #[inline]
     pub fn shadowing(&self, seen: &Frame, light: Vec3) -> f32 {
         if !(light.z * light.dot(seen.n) > 0.0) {
@@ -109,7 +109,7 @@ impl Tilted {
         })
     }
 
-    /// What the nested material can do.
+    /// The flags of the nested material.
     pub(crate) fn traits(&self) -> MaterialFlags {
         MaterialFlags {
             tilted: true,

@@ -30,7 +30,7 @@ pub const EXEMPLARS: &[&str] = &[
     "ward variant=s:ward alpha_u=f:0.2 alpha_v=f:0.5 specular_reflectance=u:0.2",
 ];
 
-/// How the lobe is normalised.
+/// The normalisation of the lobe.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Variant {
     Ward,
