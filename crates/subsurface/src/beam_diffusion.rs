@@ -29,7 +29,7 @@ const DISTANCES: usize = 80;
 /// Depths along the beam.
 const DEPTHS: usize = 96;
 
-/// How the albedos crowd toward 1, where profiles change most.
+/// Concentration of the albedos toward 1, where profiles change most.
 const CROWDING: f64 = 8.0;
 
 /// Profiles by albedo, in mean free paths.
@@ -86,7 +86,7 @@ impl BeamDiffusion {
             let flat = || PiecewiseLinear::new(&[0.0, 1.0], &[1.0, 1.0]);
             match density {
                 Ok(density) => {
-                    // Of matter that hardly absorbs it gives back up to 1.04: what would feed on itself.
+                    // Up to 1.04 for nearly non-absorbing media, which would gain energy.
                     let total = density.integral().min(1.0);
                     Some((density, total))
                 }

@@ -84,7 +84,7 @@ impl Profile {
     /// Names of the profiles that are built.
     pub const BUILT: [&'static str; 3] = ["dipole", "beamdiffusion", "burley"];
 
-    /// By name, for matter with this mean cosine below this boundary.
+    /// A profile by name, for a medium with this mean cosine below this boundary.
     pub fn named(name: &str, g: f32, boundary: &Boundary) -> Option<Self> {
         match name {
             "dipole" => Some(Self::Dipole),

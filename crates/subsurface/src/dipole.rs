@@ -25,7 +25,7 @@ pub struct Dipole {
 }
 
 impl Dipole {
-    /// Of matter below a boundary with the reflectance `inside` for diffuse light from inside.
+    /// The profile of a medium below a boundary with the reflectance `inside` for diffuse light from inside.
     pub(crate) fn new(matter: &Matter, inside: f32) -> Self {
         let reduced = matter.reduced();
         let depth = 1.0 / reduced;

@@ -27,7 +27,7 @@ pub struct Heterogeneous {
     phase: PhaseFunction,
     emission: Option<TextureId>,
     tracking: Tracking,
-    /// Where it is and how dense at most, once the scene is built.
+    /// Bounds and majorants, once the scene is built.
     majorants: Option<Box<MajorantGrid>>,
     /// The largest extinction where there is no grid (m⁻¹).
     most: f32,

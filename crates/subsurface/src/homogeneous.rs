@@ -19,7 +19,7 @@ use etalon_transport::{
 };
 use glam::{Vec2, Vec3, Vec4};
 
-/// How the coefficients are given.
+/// The parametrisation of the coefficients.
 #[derive(Clone, Copy, Debug, PartialEq)]
 enum Given {
     Albedo {

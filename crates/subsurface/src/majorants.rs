@@ -126,7 +126,7 @@ impl MajorantGrid {
             .fold(0.0, |most, value| most.max(*value))
     }
 
-    /// Where the ray is within the grid, up to `t_max` (m along it).
+    /// The interval of the ray within the grid, up to `t_max` (m).
     fn crossing(&self, ray: &Ray, t_max: f32) -> Option<[f32; 2]> {
         let inverse = ray.direction.recip();
         let (a, b) = (
@@ -257,7 +257,7 @@ struct Walk {
     cell: IVec3,
     last: IVec3,
     step: IVec3,
-    /// Where the ray leaves the cell along each axis (m), and by how much that grows with each step.
+    /// Distance at which the ray leaves the cell along each axis (m), and its increment per step.
     leaves: Vec3,
     stride: Vec3,
     t: f32,

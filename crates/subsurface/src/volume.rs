@@ -1,4 +1,4 @@
-//! What varies in space, or does not: the volumes of a medium's parameters.
+//! Volumes: the parameters of a medium, constant or varying in space.
 
 use etalon_params::questions::Question;
 use etalon_params::{Params, Value};
@@ -36,7 +36,7 @@ pub(crate) fn constant(
     }
 }
 
-/// How a medium is travelled through: `tracking`, and `step` of ray marching; `usual` unless it says.
+/// Reads `tracking`, and `step` for ray marching; the default is `usual`.
 pub(crate) fn tracking(params: &Params<'_>, usual: Tracking) -> Tracking {
     // Only homogeneous media have a closed form.
     let all = ["closed", "ratio", "delta", "residual", "raymarch"];
