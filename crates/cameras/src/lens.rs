@@ -24,7 +24,7 @@ pub struct Lens {
     pub half_width: f64,
 }
 
-/// How far numbers that say the same may be apart, relative to them.
+/// Relative tolerance between redundant numbers.
 const SAME: f64 = 1e-3;
 
 /// The width of film where a focal length in metres is given, and neither `film_width` nor `fov` (m).
