@@ -28,21 +28,21 @@ use core::fmt;
 pub enum TableError {
     /// There are too few entries.
     TooShort {
-        /// How many there are.
+        /// Number of entries.
         entries: usize,
-        /// How many are needed at least.
+        /// The least number.
         needed: usize,
     },
     /// The number of entries is not what the shape of the table says.
     WrongShape {
-        /// How many there are.
+        /// Number of entries.
         entries: usize,
-        /// How many the shape needs.
+        /// The number that the shape needs.
         needed: usize,
     },
     /// An entry is negative, infinite or not a number.
     BadEntry {
-        /// Which one.
+        /// Its index.
         index: usize,
         /// Its value.
         value: f64,

@@ -8,12 +8,12 @@
 use crate::hash::{mix64, stream_key};
 use glam::Vec2;
 
-/// Which sample of an image this is.
+/// The address of a sample in an image.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct SampleId {
     /// The seed of the whole image.
     pub seed: u64,
-    /// Which independent replicate of the image.
+    /// Index of the independent replicate.
     pub replicate: u32,
     /// Column and row of the pixel.
     pub pixel: (u32, u32),

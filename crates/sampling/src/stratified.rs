@@ -24,7 +24,7 @@ pub struct Stratified {
     place: u32,
     count: u32,
     side: u32,
-    /// Which block, and of how many.
+    /// Index of the block, and number of blocks.
     block: u32,
     blocks: u32,
     jitter: bool,

@@ -21,10 +21,10 @@ struct Column {
     probability: f32,
 }
 
-/// What was chosen.
+/// The result of a choice.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Choice {
-    /// Which entry.
+    /// Index of the entry.
     pub index: usize,
     /// Its probability.
     pub probability: f32,
@@ -83,7 +83,7 @@ impl AliasTable {
         })
     }
 
-    /// How many entries there are.
+    /// Number of entries.
     #[inline]
     pub fn len(&self) -> usize {
         self.columns.len()

@@ -23,14 +23,14 @@ pub struct Quadtree {
 struct Node {
     /// The quadrants' shares of the node's mass.
     share: [f32; 4],
-    /// Where the quadrants' nodes are; [`LEAF`] if a quadrant is not divided.
+    /// Indices of the quadrants' nodes; [`LEAF`] if a quadrant is not divided.
     child: [u32; 4],
 }
 
 /// Marks a leaf instead of a child's index; the root is never a child.
 const LEAF: u32 = 0;
 
-/// How [`Quadtree::learned`] refines.
+/// The rule of refinement of [`Quadtree::learned`].
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Refinement {
     /// Squares with more than this share of all mass are divided.

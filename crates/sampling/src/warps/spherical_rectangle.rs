@@ -133,7 +133,7 @@ impl SphericalRectangle {
         1.0 / self.solid_angle as f32
     }
 
-    /// Where on the rectangle, uniform by solid angle: the fractions of the two edges, in [0, 1].
+    /// A point on the rectangle, uniform by solid angle: the fractions of the two edges, in [0, 1].
     #[inline]
     pub fn sample_position(&self, u: Vec2) -> Vec2 {
         let turns = u.x * (self.solid_angle * (0.5 / core::f64::consts::PI)) as f32;
