@@ -19,7 +19,7 @@ use crate::{LAMBDA_MAX, LAMBDA_MIN, Spectrum, SpectrumError};
 /// Most of the light that R(λ) gives back; k grows without bound toward 1.
 const MOST: f64 = 1.0 - 1e-6;
 
-/// How far from a metal's, relatively, a component may be.
+/// Relative tolerance of a component to match a metal.
 const NEAR: f64 = 0.01;
 
 /// A metal and the linear Rec. 709 triples of its η and k.

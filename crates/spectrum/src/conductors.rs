@@ -8,7 +8,7 @@
 use crate::tabulated::{Irregular, Outside};
 use crate::{Spectrum, SpectrumError};
 
-/// What `cargo xtask tables` wrote.
+/// The tables, written by `cargo xtask tables`.
 const TABLE: &str = include_str!("../data/conductors.txt");
 
 /// Names that mean another name's data: Palik's handbook quotes these pages.

@@ -125,7 +125,7 @@ impl Sensor {
         self.distribution.sample(u)
     }
 
-    /// What the channels make of the light at a path's wavelengths.
+    /// The channels' weights for the light at a path's wavelengths.
     #[inline]
     pub fn weights(&self, wavelengths: &Wavelengths) -> SensorWeights {
         SensorWeights::new(respond(&self.rows, wavelengths.lambda), wavelengths)
@@ -145,7 +145,7 @@ pub fn response(lambda: Vec4) -> [Vec4; 4] {
     respond(&RESPONSE, lambda)
 }
 
-/// What curves say at four wavelengths in nm.
+/// The curves at four wavelengths in nm.
 #[inline]
 fn respond(rows: &Rows, lambda: Vec4) -> [Vec4; 4] {
     let t = lambda - FIRST as f32;

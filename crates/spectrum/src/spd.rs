@@ -5,7 +5,7 @@
 use crate::{LAMBDA_MAX, LAMBDA_MIN};
 use std::ops::Range;
 
-/// What a spectrum file holds.
+/// The contents of a spectrum file.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct SpdTable {
     /// Ascending wavelengths (nm).
@@ -66,7 +66,7 @@ pub fn parse_spd(text: &str) -> Result<SpdTable, (usize, String)> {
     Ok(table)
 }
 
-/// What ends a line: files of old Macintoshes know no line feed.
+/// The line terminator: files of old Macintoshes have no line feed.
 fn line_end(text: &str) -> char {
     if text.contains('\n') { '\n' } else { '\r' }
 }

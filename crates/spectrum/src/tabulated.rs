@@ -4,7 +4,7 @@
 use crate::{SpectrumError, error};
 use glam::{IVec4, Vec4};
 
-/// What a tabulated spectrum is beyond its ends.
+/// A tabulated spectrum beyond its ends.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
 pub enum Outside {
     /// Zero, as emission and reflectance are.
