@@ -16,7 +16,7 @@
 
 use core::ops::{Add, Mul};
 
-/// How a value goes from key to key.
+/// The interpolation between keys.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 #[allow(missing_docs)]
 pub enum Interpolation {
@@ -61,7 +61,7 @@ impl Interpolation {
     }
 }
 
-/// What can be interpolated: a vector over the real numbers.
+/// A vector space over the real numbers, for interpolation.
 pub trait Interpolated: Copy + Add<Output = Self> + Mul<f64, Output = Self> {}
 
 impl<V: Copy + Add<Output = V> + Mul<f64, Output = V>> Interpolated for V {}
@@ -77,7 +77,7 @@ pub struct Key<V> {
     pub tangent: Option<V>,
 }
 
-/// What happens between two moments, over s from 0 to 1.
+/// The motion between two keys, for s from 0 to 1.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Piece<V> {
     /// Nothing.

@@ -85,7 +85,7 @@ impl Interval {
     }
 }
 
-/// What `libm` errs by at most, and more: relative to the value.
+/// A bound on the relative error of `libm`.
 const ELEMENTARY: f64 = 1e-15;
 
 impl Number for Interval {
@@ -144,7 +144,7 @@ impl Number for Interval {
             return Self::NONE;
         }
         if b.has_zero() {
-            // Of 0 itself, as a constant, the sign is known.
+            // The sign of the constant 0 is known.
             let is_zero = [b.low, b.high].iter().all(|end| end.to_bits() == 0);
             return match (is_zero, self) {
                 (true, a) if a.low > 0.0 => Self::constant(f64::INFINITY),

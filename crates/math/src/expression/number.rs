@@ -1,4 +1,4 @@
-//! What an expression can be computed in: numbers, intervals, and either with a derivative.
+//! Number types of expressions: numbers, intervals, and either with a derivative.
 
 use crate::float64;
 use crate::noise;

@@ -5,9 +5,9 @@ use super::{Function, MOST, Operation};
 /// A mistake in an expression.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct ExpressionError {
-    /// Where, in characters from 1.
+    /// Position, in characters from 1.
     pub character: usize,
-    /// What.
+    /// The message.
     pub message: String,
     /// A name that is not known, if that is what.
     pub unknown: Option<String>,
