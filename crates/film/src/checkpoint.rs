@@ -8,7 +8,7 @@
 use crate::{ExactFilm, Metadata, Part, RenderFacts};
 use serde::{Deserialize, Serialize};
 
-/// What only a checkpoint says.
+/// Metadata of checkpoints only.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct CheckpointFacts {
     /// Options that decided how much to render, and how; a render resumes only under the same.
@@ -22,7 +22,7 @@ pub struct CheckpointFacts {
 }
 
 impl ExactFilm {
-    /// What a file of the film, as it is now, says of itself.
+    /// The metadata of a file of the film in its current state.
     pub fn metadata(&self, facts: RenderFacts) -> Metadata {
         Metadata::new(self, facts)
     }

@@ -17,7 +17,7 @@ const ROUNDING: f64 = 1e-5;
 /// How far they may be apart besides: exact sums are multiples of 2⁻⁶⁴.
 const QUANTUM: f64 = 1e-18;
 
-/// What contradicts the statistics, if anything, in a sentence.
+/// The contradiction to the statistics, if any, as a sentence.
 pub(crate) fn contradiction(image: &Image, metadata: &Metadata) -> Option<String> {
     metadata.tile_means.iter().find_map(|means| {
         let channels = metadata.channels.iter().enumerate();

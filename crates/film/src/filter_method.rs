@@ -1,4 +1,4 @@
-//! How a film's samples make a filtered picture.
+//! Methods of reconstruction from a film's samples.
 
 use crate::Filter;
 use std::fmt;

@@ -25,7 +25,7 @@ struct Cell {
 #[derive(Clone, Debug)]
 pub(crate) struct FilterSampler1d {
     cells: Box<[Cell]>,
-    /// Where to begin the search for u ∈ [i / n, (i + 1) / n).
+    /// Start of the search for u ∈ [i / n, (i + 1) / n).
     guide: Box<[u32]>,
 }
 
@@ -149,7 +149,7 @@ fn integrate(f: &impl Fn(f64) -> f64, a: f64, b: f64) -> f64 {
     half * (5.0 * f(middle - node) + 8.0 * f(middle) + 5.0 * f(middle + node)) / 9.0
 }
 
-/// Where f changes its sign between `a` and `b`.
+/// The sign change of f between `a` and `b`.
 fn bisect(f: &impl Fn(f64) -> f64, mut a: f64, mut b: f64) -> f64 {
     let sign = f(a);
     for _ in 0..60 {

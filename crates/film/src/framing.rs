@@ -4,7 +4,7 @@ use crate::FilmSettings;
 use core::fmt::{Display, Formatter};
 use glam::UVec2;
 
-/// How large the film is.
+/// The size of the film.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum FilmSize {
     /// Width and height (pixels).

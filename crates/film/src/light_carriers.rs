@@ -21,10 +21,10 @@ pub const FEW: f64 = 4.0;
 /// The share of a picture's light (over all channels) in such pixels above which there is a warning.
 pub const TOLD: f64 = 0.05;
 
-/// Of a picture with standard errors.
+/// The effective number of replicates of a picture with standard errors.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct LightCarriers {
-    /// How many replicates there are.
+    /// Number of replicates.
     pub replicates: u32,
     /// The effective number below which they are few.
     pub few: f64,

@@ -1,4 +1,4 @@
-//! What parts must have in common to be merged.
+//! Conditions for merging parts.
 
 use crate::{Metadata, ReplicateSet};
 use std::fmt;

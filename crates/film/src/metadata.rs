@@ -1,4 +1,4 @@
-//! What a rendered file says of itself: JSON in the EXR attribute `etalon`.
+//! The metadata of a rendered file: JSON in the EXR attribute `etalon`.
 
 use crate::{
     CheckpointFacts, DealtFacts, FaultLog, FilmSettings, OutlierLog, PartFacts, PixelFormat,
@@ -8,7 +8,7 @@ use etalon_sampling::ReplicateKind;
 use serde::{Deserialize, Serialize};
 use std::time::Duration;
 
-/// What only the caller knows of a render.
+/// Facts of a render that only the caller knows.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct RenderFacts {
     /// The program's version.
@@ -21,11 +21,11 @@ pub struct RenderFacts {
     pub integrator: String,
     /// The sampler.
     pub sampler: String,
-    /// What replicates have to do with each other.
+    /// How replicates are related.
     pub replicate_kind: ReplicateKind,
     /// The seed.
     pub seed: u64,
-    /// How long rendering took (s); see [`recorded_seconds`].
+    /// Time of rendering (s); see [`recorded_seconds`].
     pub seconds: Option<f64>,
 }
 
@@ -51,7 +51,7 @@ pub struct FilmFacts {
     pub pixel_format: String,
     /// The reconstruction filter and its parameters.
     pub filter: String,
-    /// How it was applied; absent where no sample is shared between pixels.
+    /// The method of reconstruction; absent if pixels do not share samples.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub filter_method: Option<String>,
 }
@@ -87,7 +87,7 @@ pub struct Metadata {
     /// How they are related; independent if not stated. The standard errors of blocks are upper estimates.
     #[serde(default, skip_serializing_if = "ReplicateKind::is_independent")]
     pub replicate_kind: ReplicateKind,
-    /// Which replicates these are, if they are a part of a picture's.
+    /// The replicates of a part of a picture.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub part: Option<PartFacts>,
     /// The render that this is a checkpoint of, if it is one.
@@ -96,7 +96,7 @@ pub struct Metadata {
     /// The replicate that was being rendered when the render was interrupted, if the file has it.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub unfinished: Option<UnfinishedFacts>,
-    /// How the samples were dealt, if not evenly.
+    /// The distribution of samples, if uneven.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub adaptive: Option<DealtFacts>,
     /// The features for a denoiser, if there are any.
@@ -107,7 +107,7 @@ pub struct Metadata {
     pub denoised: Option<String>,
     /// The seed.
     pub seed: u64,
-    /// How long rendering took (s), unless the file was to be reproducible.
+    /// Time of rendering (s), unless the file is to be reproducible.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub seconds: Option<f64>,
     /// [`floating_point_fingerprint`].

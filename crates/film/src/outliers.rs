@@ -25,7 +25,7 @@ pub struct Outlier {
     pub sample: u32,
     /// Its value.
     pub value: f32,
-    /// By how much it lifts the pixel in its replicate's mean.
+    /// Its contribution to the pixel in its replicate's mean.
     pub lift: f32,
 }
 
@@ -50,7 +50,7 @@ pub struct OutlierLog {
 }
 
 impl OutlierLog {
-    /// How many are kept.
+    /// Number of outliers that are kept.
     pub const KEPT: usize = 8;
 
     /// Whether nothing stands out.
@@ -63,7 +63,7 @@ impl OutlierLog {
         &self.largest
     }
 
-    /// How many lift their pixel in its replicate by 2ᵉ at least.
+    /// Number of those that lift their pixel in its replicate by at least 2ᵉ.
     pub fn count_from(&self, exponent: i32) -> u64 {
         let beyond = self.counts.iter().filter(|(e, _)| *e >= exponent);
         beyond.map(|(_, count)| count).sum()
@@ -111,7 +111,7 @@ fn exponent(x: f32) -> i32 {
     ((x.to_bits() >> 23) & 0xff) as i32 - 127
 }
 
-/// What the samples of one pixel bring, one after the other.
+/// The sum and the largest of a pixel's samples.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(crate) struct DominantSample {
     total: f32,
@@ -136,7 +136,7 @@ impl DominantSample {
         [self.total.to_bits(), self.most.to_bits(), self.sample]
     }
 
-    /// Of words that were kept.
+    /// From its stored words.
     pub(crate) fn from_words([total, most, sample]: [u32; 3]) -> Self {
         Self {
             total: f32::from_bits(total),

@@ -1,9 +1,9 @@
-//! What the file of a part says of its place in the whole.
+//! The place of a part in the whole image.
 
 use crate::ReplicateSet;
 use serde::{Deserialize, Serialize};
 
-/// What a part's file says of its place in the whole.
+/// The place of a part in the whole image.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct PartFacts {
     /// Replicates of the whole picture.

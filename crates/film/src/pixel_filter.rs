@@ -89,7 +89,7 @@ impl PixelFilter {
         &self.filter
     }
 
-    /// Where it ends (pixels).
+    /// Radius (pixels).
     pub fn radius(&self) -> f32 {
         self.filter.radius() as f32
     }

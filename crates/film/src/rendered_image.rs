@@ -21,9 +21,9 @@ use std::path::{Path, PathBuf};
 pub struct RenderedImage {
     /// The channels, `standard_error.*` included.
     pub image: Image,
-    /// Where the image lies in the whole film.
+    /// The position of the image in the whole film.
     pub frame: Frame,
-    /// What the file says of itself; files of other programs say nothing.
+    /// The metadata; `None` for files of other programs.
     pub metadata: Option<Metadata>,
 }
 
@@ -36,7 +36,7 @@ pub enum ReadError {
     Metadata {
         /// The file.
         path: PathBuf,
-        /// What is wrong.
+        /// The mistake.
         reason: String,
     },
     /// It is no part of an image, or a damaged one.
@@ -277,7 +277,7 @@ pub(crate) fn of_document(
     })
 }
 
-/// What the text of a file says of an image of this size; nothing if there is none.
+/// The metadata from the text of a file with an image of this size; `None` without text.
 pub(crate) fn metadata_of(text: &str, size: [usize; 2]) -> Result<Option<Metadata>, String> {
     if text.is_empty() {
         return Ok(None);

@@ -18,20 +18,20 @@ use std::sync::{Mutex, OnceLock};
 #[derive(Debug)]
 pub(crate) struct Running {
     channels: usize,
-    /// What samples bring to their own pixels, by row, column and channel.
+    /// Sums of the samples of each pixel, by row, column and channel.
     own: Vec<AtomicFixed128>,
     /// What splats bring to the colours; made for the first of them.
     colours: usize,
     splats: OnceLock<Box<[AtomicFixed128]>>,
-    /// What samples count for each pixel, by row and column, if sums are divided by it; else empty.
+    /// Sums of the weights of each pixel, by row and column, if sums are divided by them; else empty.
     weights: Vec<AtomicFixed128>,
     /// By row and column.
     pixels: Vec<PixelProgress>,
-    /// What was refused in it.
+    /// Its refused values.
     faults: Mutex<FaultLog>,
 }
 
-/// How far a pixel is. Only the tile that has the pixel writes to it.
+/// The progress of a pixel. Only the tile that has the pixel writes to it.
 #[derive(Debug, Default)]
 struct PixelProgress {
     samples: AtomicU32,
@@ -71,7 +71,7 @@ impl Running {
         own.iter().chain(self.weights.get(pixel))
     }
 
-    /// How many of the channels are colours.
+    /// Number of colour channels.
     #[inline]
     pub(crate) fn colours(&self) -> usize {
         self.colours
@@ -106,7 +106,7 @@ impl Running {
         self.pixels[pixel].samples.load(Ordering::Relaxed)
     }
 
-    /// What a pixel's samples bring.
+    /// The dominant sample of a pixel.
     pub(crate) fn standing(&self, pixel: usize) -> DominantSample {
         let words = &self.pixels[pixel].standing;
         DominantSample::from_words(words.each_ref().map(|word| word.load(Ordering::Relaxed)))
@@ -247,7 +247,7 @@ impl Running {
         (0..channels).into_par_iter().map(plane).collect()
     }
 
-    /// What there is, if any sample is there.
+    /// A copy of the unfinished replicate, if it has any sample.
     pub(crate) fn snapshot(&mut self) -> Option<Unfinished> {
         let pixels = 0..self.pixels.len();
         let samples = self.all_samples();

@@ -44,7 +44,7 @@ pub struct FilmSettings {
     pub file_format: FileFormat,
     /// The reconstruction filter.
     pub filter: Filter,
-    /// How it is applied.
+    /// The method of reconstruction.
     pub filter_method: FilterMethod,
 }
 

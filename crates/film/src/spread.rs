@@ -25,14 +25,14 @@ pub(crate) struct Spread {
     channels: usize,
     /// By row, column and channel.
     sums: Vec<Fixed128>,
-    /// What the current sample counts, by row and column of its footprint.
+    /// Weights of the current sample, by row and column of its footprint.
     weights: Vec<i64>,
     columns: usize,
     /// The footprint's first number in `sums`.
     first: usize,
     /// The largest weight, in absolute value.
     most: f32,
-    /// What samples count along either axis; kept to be used again.
+    /// Weights along either axis; kept for reuse.
     across: Vec<f32>,
     down: Vec<f32>,
 }

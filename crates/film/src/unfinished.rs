@@ -25,7 +25,7 @@ use std::collections::HashMap;
 /// The plane with the numbers of samples.
 const COUNTS: &str = "exact.unfinished";
 
-/// What a file says of an unfinished replicate that it holds.
+/// Metadata of an unfinished replicate in a file.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct UnfinishedFacts {
     /// Samples per pixel that the replicate was to have.
@@ -62,17 +62,17 @@ pub(crate) struct Unfinished {
     pub(crate) own: Vec<Fixed128>,
     /// Sums of splats, by row, column and colour; empty if there are none.
     pub(crate) splats: Vec<Fixed128>,
-    /// What samples count for each pixel, by row and column; empty if pixels share none.
+    /// Sums of the weights of each pixel, by row and column; empty if pixels do not share samples.
     pub(crate) weights: Vec<Fixed128>,
     /// Samples of each pixel, and what stands out among them.
     pub(crate) samples: Vec<u32>,
     pub(crate) standing: Vec<DominantSample>,
-    /// What was refused.
+    /// Refused values.
     pub(crate) faults: FaultLog,
 }
 
 impl Unfinished {
-    /// What a file says of it.
+    /// Its metadata.
     pub(crate) fn facts(&self, samples_per_replicate: u32) -> UnfinishedFacts {
         UnfinishedFacts {
             samples_per_replicate,

@@ -20,7 +20,7 @@ pub struct Mitchell {
 impl Mitchell {
     /// The authors' recommendation, and Mitsuba's default, for both parameters.
     pub const DEFAULT: f64 = 1.0 / 3.0;
-    /// Where it ends (pixels).
+    /// Radius (pixels).
     pub const RADIUS: f64 = 2.0;
 
     /// The filter with parameters `b` and `c`, if they are finite and its lobes are.
