@@ -39,9 +39,9 @@ const MOST: usize = 16;
 pub(crate) struct Body {
     /// The higher, the stronger.
     pub(crate) priority: i64,
-    /// Of its surface.
+    /// The material of its surface.
     pub(crate) material: MaterialId,
-    /// What fills it.
+    /// The medium inside.
     pub(crate) medium: MediumId,
 }
 
@@ -68,7 +68,7 @@ impl Body {
     }
 }
 
-/// Where a body is.
+/// The bounds of a body.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Extent {
     /// The corners of its box.
@@ -93,7 +93,7 @@ struct Set {
     bodies: Vec<usize>,
 }
 
-/// What fills a point.
+/// The body and the medium at a point.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct Filling {
     /// The body, unless none is there.
@@ -114,11 +114,11 @@ pub(crate) struct Bodies {
     sets: HashMap<Set, usize>,
     /// The places of the media with no body in them; empty space is the last.
     plain: Vec<Option<usize>>,
-    /// How many bodies of each kind may overlap, and how many of all.
+    /// The largest number of overlapping bodies of each kind, and in total.
     most: (Vec<usize>, usize),
-    /// What fills the points of each set.
+    /// Body and medium for each set.
     fillings: Vec<Filling>,
-    /// By set and kind: with one more, with one less.
+    /// The sets with one more and one less, by set and kind.
     moves: Vec<[MediumId; 2]>,
 }
 
@@ -146,7 +146,7 @@ impl Bodies {
                 return None;
             }
         }
-        // Of equal ones the first counts.
+        // Among equal priorities the first counts.
         kinds.sort_by_key(|body| core::cmp::Reverse(body.priority));
         let most = shapes
             .iter()
@@ -233,7 +233,7 @@ impl Bodies {
         self.plain[set.0.min(self.media) as usize]
     }
 
-    /// What fills the points of a set.
+    /// Body and medium for a set.
     #[inline]
     pub(crate) fn filling(&self, set: MediumId) -> Filling {
         match self.index(set).and_then(|index| self.fillings.get(index)) {

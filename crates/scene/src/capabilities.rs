@@ -8,7 +8,7 @@ use etalon_subsurface::{Homogeneous, MediumAtWavelengths};
 use etalon_transport::{Camera, Lights, Media, Medium, SceneCapabilities, Sensor, World};
 use glam::{UVec2, Vec3};
 
-/// How much there is in a scene.
+/// Counts of a scene's contents.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Contents {
     /// Shapes, triangles, instances, nodes of accelerators, and their memory.
@@ -26,7 +26,7 @@ pub struct Contents {
 }
 
 impl Scene {
-    /// How much there is.
+    /// Counts of the contents.
     pub fn contents(&self) -> Contents {
         let (pictures, picture_bytes) = self.parts.space.lookup.textures.pictures();
         Contents {

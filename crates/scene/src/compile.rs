@@ -39,7 +39,7 @@ pub struct Compiled {
     pub classic: Option<Span>,
     /// The integrator's description, if the scene has one.
     pub integrator: Option<Arc<Node>>,
-    /// What its things are called.
+    /// The names of its objects.
     pub names: Names,
     /// Time spent building the accelerator.
     pub build_time: Duration,
@@ -51,16 +51,16 @@ pub fn compile(root: &Node, assets: &dyn Assets, diagnostics: &Diagnostics) -> O
     compile_with(root, assets, diagnostics, &CompileOptions::default())
 }
 
-/// What a description leaves open, or is overruled in.
+/// Options that complete or override the description.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct CompileOptions {
-    /// Which sensor is rendered, if not the first.
+    /// The rendered sensor, if not the first.
     pub sensor: Option<SensorChoice>,
-    /// What replaces the size of its film, and the part that is rendered.
+    /// Replacements for the size of its film and the crop window.
     pub framing: Framing,
     /// The kind of all accelerators.
     pub accelerator: AcceleratorKind,
-    /// How points choose the light that they ask, if not as the scene says.
+    /// The rule of light selection, if not the scene's.
     pub light_chooser: Option<LightSamplerKind>,
 }
 
@@ -245,7 +245,7 @@ struct DescribedSensor {
     film: FilmSettings,
     sampler: SamplerSettings,
     shutter: Shutter,
-    /// What the film's channels respond to, three to each.
+    /// Response curves of the film's channels, three each.
     responses: Vec<Sensor>,
 }
 

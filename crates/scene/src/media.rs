@@ -19,7 +19,7 @@ use std::sync::Arc;
 /// The most cells along the longest side of a medium's box that are bounded apart.
 const MOST_CELLS: u32 = 128;
 
-/// How many of a grid's values are bounded together, along each axis.
+/// Values of a grid per majorant cell, along each axis.
 const VALUES_PER_CELL: u32 = 4;
 
 /// Makes media ready that vary in space: where they end, and how dense they are at most. `None` after a mistake.
@@ -233,7 +233,7 @@ impl Surfaces {
 #[derive(Debug)]
 pub struct SceneMedia {
     pub(crate) media: Vec<MediumDescription>,
-    /// By shape, as far as any shape has media.
+    /// By shape; empty beyond the last shape with media.
     interfaces: Vec<Option<MediumInterface>>,
     /// That of the camera.
     pub camera: MediumId,
@@ -247,7 +247,7 @@ pub struct SceneMedia {
     bodies: Option<Bodies>,
 }
 
-/// What a scene says of the medium around a light.
+/// The medium around a light, as the scene names it.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct LightMedium {
     /// The shape that the light is on.
@@ -347,7 +347,7 @@ impl SceneMedia {
         })
     }
 
-    /// How many emit light.
+    /// Number of emitting media.
     pub fn emitting(&self) -> u32 {
         self.media.iter().filter(|medium| medium.emits()).count() as u32
     }

@@ -54,7 +54,7 @@ struct Region {
 pub(crate) struct MediumLights {
     regions: Vec<Region>,
     cells: AliasTable,
-    /// How often they are chosen in place of other lights.
+    /// Probability of choosing one of them instead of another light.
     pub(crate) share: f32,
 }
 
@@ -107,7 +107,7 @@ pub(crate) enum LightChoice<'a> {
 }
 
 impl<'a> LightChoice<'a> {
-    /// By `u` in [0, 1).
+    /// Chooses by `u` in [0, 1).
     #[inline]
     pub(crate) fn new(media: Option<&'a MediumLights>, u: f32) -> Self {
         let Some(lights) = media else {

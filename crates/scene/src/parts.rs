@@ -14,7 +14,7 @@ use etalon_spectrum::Sensor;
 use etalon_transport::{EmissionPdf, MediumId};
 use std::sync::Arc;
 
-/// What scenes share that differ in their sensors.
+/// The parts that scenes with different sensors share.
 pub struct Parts {
     pub(crate) camera: AnyCamera,
     pub(crate) space: Space,
