@@ -26,7 +26,7 @@ use linear::Linear;
 use visits::Counter;
 use wide::Wide;
 
-/// Which accelerator to build.
+/// The kind of accelerator.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum AcceleratorKind {
     /// Every ray is tested against everything: slow, and obviously right.
@@ -150,7 +150,7 @@ impl Bounds {
     }
 }
 
-/// What an accelerator is built from: primitives numbered from 0, triangles and others.
+/// The input of an accelerator: primitives numbered from 0, triangles and others.
 pub(crate) trait Primitives: Sync {
     /// Number of primitives.
     fn len(&self) -> usize;
@@ -189,11 +189,11 @@ pub(crate) fn has_area(corners: &[Vec3; 3]) -> bool {
 #[derive(Debug)]
 pub(crate) struct Accelerator {
     index: Index,
-    /// What has no end, and so no place in a tree: every ray is tested against it.
+    /// Unbounded primitives, which have no place in a tree: every ray is tested against them.
     endless: Vec<u32>,
 }
 
-/// Where primitives are looked up.
+/// The tree or list of an accelerator.
 #[derive(Debug)]
 enum Index {
     Linear(Linear),

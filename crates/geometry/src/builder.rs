@@ -33,7 +33,7 @@ pub struct GeometryBuilder {
     placements: u32,
 }
 
-/// What belongs to a group.
+/// The members of a group.
 #[derive(Debug, Default)]
 struct Members {
     shapes: Vec<ShapeId>,

@@ -24,7 +24,7 @@ pub(crate) struct ClosestHit {
     /// Which of the accelerator's placements of groups it lies in, if `primitive` is an instance, see
     /// [`Group`](crate::geometry::Group).
     pub(crate) path: u32,
-    /// Where the accelerator keeps the triangle: its block times their size, plus its lane.
+    /// Index of the triangle in the accelerator: its block times their size, plus its lane.
     pub(crate) slot: u32,
     /// Barycentric coordinates on a triangle.
     pub(crate) parameters: Vec2,
@@ -55,7 +55,7 @@ impl ClosestHit {
         }
     }
 
-    /// What may still win inside of an instance that is primitive `instance`.
+    /// The nearest hit as a bound for the inside of the instance that is primitive `instance`.
     #[inline]
     pub(crate) fn inside(&self, instance: u32) -> Self {
         let ties_win = self.found && instance < self.primitive;

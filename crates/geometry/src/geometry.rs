@@ -14,7 +14,7 @@ use core::cell::Cell;
 use etalon_transport::{Hit, InstanceId, LightId, MaterialId, Ray, ShapeId, SurfaceInteraction};
 use glam::{Vec2, Vec3};
 
-/// What belongs to a shape but is not geometry.
+/// Properties of a shape other than its geometry.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct ShapeBinding {
     pub(crate) material: MaterialId,
@@ -23,7 +23,7 @@ pub(crate) struct ShapeBinding {
     pub(crate) carrier: InstanceId,
     /// Whether light is refracted into it.
     pub(crate) refractive: bool,
-    /// Where the materials of its faces begin in [`Geometry::face_materials`], if they have their own.
+    /// Index of the first of its faces' materials in [`Geometry::face_materials`], if they have their own.
     pub(crate) faces: Option<u32>,
 }
 
@@ -47,7 +47,7 @@ struct Found {
     parameters: Vec2,
 }
 
-/// How much geometry there is.
+/// Counts of the geometry.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct GeometryStatistics {
     /// Triangles stored.
@@ -76,7 +76,7 @@ impl Geometry {
         }
     }
 
-    /// What accelerators ask of the world.
+    /// The primitives of the world that are not triangles, for accelerators.
     #[inline(always)]
     fn others<'a, C>(&'a self, counter: &'a C) -> WorldOthers<'a, C> {
         WorldOthers {
@@ -287,7 +287,7 @@ impl Geometry {
         &self.shapes[shape.0 as usize]
     }
 
-    /// How much there is.
+    /// Counts of the geometry.
     pub fn statistics(&self) -> GeometryStatistics {
         let triangles = |shape: &Shape| shape.mesh().map_or(0, |m| m.triangle_count());
         let accelerators = || {

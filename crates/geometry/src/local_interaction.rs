@@ -15,7 +15,7 @@ pub(crate) struct LocalInteraction {
     pub(crate) position: Vec3,
     /// Bound on the absolute error of each coordinate of `position`.
     pub(crate) error: Vec3,
-    /// How far along `normal` from `position` the surface is; NaN if not known, see [`SurfaceInteraction`].
+    /// Offset of the surface from `position` along `normal`; NaN if not known, see [`SurfaceInteraction`].
     pub(crate) depth: f32,
     /// Unit geometric normal, outside.
     pub(crate) normal: Vec3,

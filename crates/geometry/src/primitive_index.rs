@@ -18,7 +18,7 @@ struct PrimitiveRange {
     thing: PrimitiveOwner,
 }
 
-/// What primitives may be.
+/// The owner of a range of primitives.
 #[derive(Clone, Copy, Debug)]
 pub(crate) enum PrimitiveOwner {
     /// A shape: its triangles, or one primitive if it is in one piece.
@@ -237,7 +237,7 @@ pub(crate) fn is_in_front(t: f64) -> bool {
     (t as f32) > 0.0
 }
 
-/// Which of two smooth shapes a ray crosses first, where distances do not tell.
+/// The order in which a ray crosses two smooth shapes whose distances are too close.
 pub(crate) trait Order {
     /// A parameter below that of every crossing that is ahead of the ray.
     fn earliest(&self, probe: &TraversalRay) -> f64;

@@ -135,7 +135,7 @@ shapes! {
         "quadric" => |params, _| Quadric::from_params(params),
         "ellipsoid" => |params, _| Quadric::ellipsoid(params),
     }
-    /// Where a function vanishes, in a box.
+    /// The zero set of a function, in a box.
     Implicit(Placed<Implicit>) {
         "implicit" => |params, _| Implicit::from_params(params),
         "superellipsoid" => |params, _| Implicit::of(params, Field::superellipsoid(params)),
@@ -197,7 +197,7 @@ impl Shape {
         self.triangles().is_none()
     }
 
-    /// How many primitives it is: triangles, or pieces.
+    /// Number of primitives: triangles, or pieces.
     pub(crate) fn primitives(&self) -> u32 {
         match self.triangles() {
             Some(mesh) => mesh.triangle_count() as u32,

@@ -113,7 +113,7 @@ impl BinaryTree {
         self.nodes.len()
     }
 
-    /// What a node is.
+    /// A node by its index.
     #[inline]
     pub(super) fn node(&self, index: u32) -> Binary<'_> {
         let node = &self.nodes[index as usize];

@@ -14,7 +14,7 @@ pub(super) struct Part {
     pub(super) bounds: Bounds,
     /// Its primitives.
     pub(super) items: Vec<u32>,
-    /// How often each of those may still be repeated by parts of this one, on the average; for builders that repeat.
+    /// How often each may still be duplicated in parts of this one, on average; for builders that duplicate.
     pub(super) credit: f32,
 }
 
@@ -292,7 +292,7 @@ fn span([first, count]: [u32; 2]) -> core::ops::Range<usize> {
     first as usize..(first + count) as usize
 }
 
-/// Where a ray enters a box, if it does before `t_max`; conservative, as the wide tree's nodes are.
+/// The entry of a ray into a box, if before `t_max`; conservative, as in the wide tree.
 #[inline]
 fn entered(bounds: &Bounds, probe: &TraversalRay, t_max: f32) -> Option<f32> {
     const OUTWARD: f32 = 1.0 + 4.0 * f32::EPSILON;

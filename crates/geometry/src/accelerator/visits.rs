@@ -1,8 +1,8 @@
-//! How much of an accelerator a ray looks at, for those who compare accelerators.
+//! Counts of visited nodes and primitives, for comparing accelerators.
 
 use core::cell::Cell;
 
-/// What a ray looked at before it was answered, in the accelerators of all groups that it entered.
+/// The visits of a ray, in the accelerators of all groups that it entered.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Visits {
     /// Nodes.

@@ -53,7 +53,7 @@ fn cubic(values: [f64; GAUSS.len()]) -> [f64; GAUSS.len()] {
     })
 }
 
-/// Where in [0, 1] the integral from 0 of a cubic that is positive is `target`.
+/// The point in [0, 1] up to which the integral of a positive cubic is `target`.
 fn inverse(target: f64, [c0, c1, c2, c3]: [f64; GAUSS.len()]) -> f64 {
     let [mut low, mut high] = [0.0, 1.0];
     let mut x = 0.5;
@@ -100,7 +100,7 @@ struct Row {
     upto: [f64; CELLS],
 }
 
-/// Where node `index` is.
+/// The position of node `index`.
 fn node(index: usize) -> f64 {
     ((index / GAUSS.len()) as f64 + GAUSS[index % GAUSS.len()].0) / CELLS as f64
 }
@@ -147,7 +147,7 @@ impl Chart {
         let (cell, x) = placed(&self.upto, numbers.x, |cell, i| {
             rows(cell)[i].upto[CELLS - 1]
         });
-        // What a row has at u, by those around.
+        // The rows at u, interpolated.
         let rows = rows(cell);
         let [a, b, c, d] = BASIS.map(|[c0, c1, c2, c3]| ((c3 * x + c2) * x + c1) * x + c0);
         let at_u = |of: &dyn Fn(&Row) -> f64| {

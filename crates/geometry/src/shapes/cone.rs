@@ -75,7 +75,7 @@ impl Cone {
         self.bottom + self.slope * z
     }
 
-    /// Where a line is inside: parameters and faces.
+    /// The interval of a line inside: parameters and faces.
     fn interval(&self, line: &Line) -> Option<[(f64, u32); 2]> {
         let Line {
             origin: o,

@@ -13,7 +13,7 @@ use glam::{DVec3, Vec2, Vec3};
 /// The most triangles for which this is worth while.
 const MOST: usize = 64;
 
-/// Where a line meets a triangle.
+/// The intersection of a line with a triangle.
 fn meet(corners: [DVec3; 3], origin: DVec3, direction: DVec3) -> Option<f64> {
     let [a, b, c] = corners.map(|p| p - origin);
     // A neighbour has exactly the opposite number at a common edge.

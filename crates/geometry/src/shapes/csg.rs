@@ -149,7 +149,7 @@ impl Tree {
                             ahead[i] = operands[i].next(line, met.t);
                             last = Some(met);
                         }
-                        // Of coincident faces, the first operand's.
+                        // Among coincident faces, the first operand's.
                         if inside[i] != was && changed.is_none() {
                             changed = last;
                         }

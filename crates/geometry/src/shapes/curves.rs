@@ -25,13 +25,13 @@ pub struct CurvePoint {
     pub normal: DVec3,
     /// The unit vector along the axis.
     pub tangent: DVec3,
-    /// How the surface moves with the parameter.
+    /// Derivative of the surface by the parameter.
     pub along: DVec3,
 }
 
 /// A piece of a curve.
 pub trait Segment: Sized {
-    /// How many control points make one.
+    /// Number of control points of a segment.
     const POINTS: usize;
 
     /// The segment of so many control points, one after another.

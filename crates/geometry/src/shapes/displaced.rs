@@ -259,7 +259,7 @@ fn original(data: &MeshData, vertex: usize) -> usize {
     (vertex.checked_sub(originals)).map_or(vertex, |copy| data.copies[copy] as usize)
 }
 
-/// Where the vertices go.
+/// The displaced positions of the vertices.
 fn moved(data: &MeshData, height: impl Fn(Vec3, Vec2) -> f32) -> Vec<Vec3> {
     let originals = data.positions.len() - data.copies.len();
     let original = |vertex: usize| original(data, vertex);

@@ -28,16 +28,16 @@ use etalon_math::expression::Number;
 use etalon_params::Params;
 use glam::DVec3;
 
-/// How crossings are found.
+/// The method of finding crossings.
 #[derive(Clone, Copy, Debug, PartialEq)]
 enum Method {
-    /// By intervals, down to this length (m, in the shape's own space).
+    /// Interval arithmetic, down to this length (m, in the shape's own space).
     Certified(f64),
     /// In steps of this length.
     March(f64),
 }
 
-/// Where a function vanishes.
+/// The zero set of a function.
 #[derive(Clone, Debug)]
 pub struct Implicit {
     field: Field,

@@ -46,7 +46,7 @@ impl Lengths {
         lengths
     }
 
-    /// Of all.
+    /// The total.
     pub(crate) fn total(&self) -> f64 {
         self.upto[self.upto.len() - 1]
     }

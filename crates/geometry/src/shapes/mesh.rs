@@ -21,10 +21,10 @@ use etalon_transport::{Attribute, MeshData};
 use glam::{DVec3, Vec2, Vec3};
 use std::sync::OnceLock;
 
-/// How a mesh is read.
+/// The options of a mesh.
 #[derive(Clone, Copy, Debug)]
 pub struct MeshOptions {
-    /// Where it stands.
+    /// Its placement.
     pub placement: Placement,
     /// Shade with the triangles' own normals.
     pub face_normals: bool,
@@ -162,7 +162,7 @@ impl Mesh {
         self.at_corners(&self.positions, primitive)
     }
 
-    /// What `of` has for the corners of a triangle.
+    /// The elements of `of` for the corners of a triangle.
     #[inline(always)] // One by one: `map` over arrays is not reliably inlined.
     fn at_corners<T: Copy>(&self, of: &[T], primitive: u32) -> [T; 3] {
         let [a, b, c] = self.triangles[primitive as usize];
@@ -345,7 +345,7 @@ fn place_normals(normals: &mut [Vec3], data: &MeshData, placement: &Placement) {
     }
 }
 
-/// What no surface can have.
+/// An error for invalid data.
 fn check(data: &MeshData) -> Result<(), String> {
     let count = data.positions.len();
     if let Some(i) = data.positions.iter().position(|p| !p.is_finite()) {

@@ -65,7 +65,7 @@ pub trait OwnShape {
         false
     }
 
-    /// How many charts cover the whole surface once, each without kinks; 0 if points of it are not known by charts.
+    /// Number of smooth charts that cover the surface once; 0 if it has none.
     fn charts(&self) -> usize {
         0
     }
@@ -94,7 +94,7 @@ pub struct Placed<S> {
     inward: bool,
     /// The uniform scale of the map, if it has one.
     scale: Option<f64>,
-    /// What a crossing found in double precision errs by (m), where a coordinate is near 0.
+    /// Error of a crossing in double precision (m), where a coordinate is near 0.
     rounding: f32,
     /// Charts for sampling in world space if the shape's own sampling does not apply; built at first use.
     charts: OnceLock<Box<[Chart]>>,

@@ -10,7 +10,7 @@ use etalon_math::Dual;
 use etalon_params::Params;
 use glam::DVec2;
 
-/// How far the pieces are from a curve of expressions, in parts of its size.
+/// Tolerance of the pieces to a curve of expressions, relative to its size.
 const CLOSE: f64 = 1e-7;
 
 /// The most pieces of a curve of expressions: halvings of each of the first eight.

@@ -68,7 +68,7 @@ impl Turned {
         self.b * self.b - self.a * (self.c - r * r)
     }
 
-    /// Where the line meets a circle that it does meet.
+    /// The parameter of the line at a circle that it meets.
     fn t(&self, circle: DVec2) -> f64 {
         let steep = (circle.y - self.o.z) / self.d.z;
         let root = self.beyond(circle.x).max(0.0).sqrt();

@@ -248,7 +248,7 @@ impl OwnShape for SdfGrid {
             direction: line.direction * resolution,
         };
         let (o, d) = (line.origin, line.direction);
-        // Where the line is in the grid.
+        // The interval of the line in the grid.
         let (mut t, mut end) = (f64::NEG_INFINITY, f64::INFINITY);
         let mut entered = None;
         for axis in 0..3 {

@@ -148,7 +148,7 @@ impl ShapeModel for Sphere {
         Some(self.surface(normal).whole())
     }
 
-    /// By solid angle from outside, by area from inside.
+    /// Samples by solid angle from outside, by area from inside.
     fn sample_toward(&self, from: &LightSampleContext, u: Vec2) -> Option<SampledPoint> {
         let Some(cone) = self.cone(from.position) else {
             let point = self.sample_area(u)?;

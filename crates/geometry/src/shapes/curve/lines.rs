@@ -236,7 +236,7 @@ fn parametric(params: &Params<'_>, fineness: Fineness) -> Option<Vec<Strand>> {
         params.error_at("x", message);
         return None;
     }
-    // What rounding left open is closed.
+    // Close gaps left by rounding.
     let size = joints
         .iter()
         .map(|joint| joint.position.distance(joints[0].position));
