@@ -27,7 +27,7 @@ const PLACE: [&str; 5] = ["x", "y", "z", "u", "v"];
 /// The most inputs.
 const MOST_INPUTS: usize = 11;
 
-/// How many cells along a medium may be bounded apart, in units of [`TextureModel::cells`].
+/// Number of cells along a medium with bounds of their own, see [`TextureModel::cells`].
 const CELLS: u32 = 256;
 
 /// Values of the variables.
@@ -121,7 +121,7 @@ impl Computed {
         }
         let range = |formula: &Expression| {
             let Interval { low, high } = formula.eval(&variables);
-            // Of no number at all: 0.
+            // Undefined: 0.
             [low, high].map(|end| {
                 if end.is_nan() {
                     0.0
@@ -342,7 +342,7 @@ mod tests {
     }
 
     proptest! {
-        /// Of a turned and stretched place, with waves, poles, roots of what may be negative, and noise.
+        /// With a rotated and stretched position, waves, poles, roots of possibly negative terms, and noise.
         #[test]
         fn nothing_in_a_box_is_beyond_its_bounds(
             low in prop::array::uniform3(-3.0_f32..3.0),

@@ -1,8 +1,8 @@
-//! Which texels of an image a lookup touches, and with which weights.
+//! The texels of an image that a look-up reads, and their weights.
 
 use glam::{UVec2, Vec2};
 
-/// What an image is beyond its borders.
+/// The extension of an image beyond its borders.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Wrap {
     /// The image again.
@@ -13,7 +13,7 @@ pub enum Wrap {
     Clamp,
 }
 
-/// What an image is between the centres of its texels.
+/// The interpolation between the centres of texels.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Filter {
     /// Interpolated between the four nearest centres.

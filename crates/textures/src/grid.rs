@@ -61,7 +61,7 @@ impl Grid {
         plane(0) * (1.0 - part.z) + plane(1) * part.z
     }
 
-    /// Where the value of a cell is that may be beyond the grid.
+    /// Index of the value of a cell, which may be beyond the grid.
     #[inline]
     fn index(&self, cell: IVec3) -> usize {
         let size = self.size;

@@ -18,7 +18,7 @@ static WHITE: LazyLock<etalon_spectrum::Regular> =
 /// A texture times D65.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct TimesD65 {
-    /// What varies over the surface.
+    /// The texture that is multiplied.
     pub inner: TextureId,
     /// A factor.
     pub scale: f32,

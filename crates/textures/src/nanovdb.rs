@@ -36,7 +36,7 @@ const LOWER: Level = Level {
     table: 1088,
 };
 
-/// Where a leaf has its values.
+/// Offset of the values in a leaf.
 const LEAF_VALUES: usize = 96;
 
 /// Lengths of what precedes the tree and the root's table, and of an entry of that (bytes).
@@ -107,7 +107,7 @@ impl<'a> Bytes<'a> {
     }
 }
 
-/// What a file says of a grid, and the grid as it is stored.
+/// The header of a grid, and its stored bytes.
 struct Stored<'a> {
     name: String,
     kind: u32,
@@ -123,7 +123,7 @@ pub fn is_nanovdb(bytes: &[u8]) -> bool {
     bytes.starts_with(b"NanoVDB")
 }
 
-/// What a grid holds, by the number that files have for it.
+/// The value type of a grid, by its number in files.
 fn kind(number: u32) -> String {
     let known = match number {
         1 => "32-bit floats",

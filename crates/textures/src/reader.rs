@@ -21,11 +21,11 @@ use std::sync::Arc;
 
 /// Reads textures into a set. Mistakes go to the diagnostics, and a constant texture replaces the faulty one.
 pub struct TextureReader<'a> {
-    /// Where the textures go.
+    /// The table of textures.
     pub set: &'a mut TextureTable,
     /// The scene's files.
     pub assets: &'a dyn Assets,
-    /// Where mistakes go.
+    /// The diagnostics.
     pub diagnostics: &'a Diagnostics,
 }
 

@@ -82,7 +82,7 @@ pub(crate) trait TextureModel {
         None
     }
 
-    /// How many parts of its extent, along the longest side, may differ; 1 if nothing is known.
+    /// Resolution along the longest side of its extent; 1 if nothing is known.
     fn cells(&self, set: &TextureTable) -> u32 {
         let nested = self.nested().iter().map(|&id| set.get(id).cells(set));
         nested.max().unwrap_or(1)
@@ -270,7 +270,7 @@ impl Texture {
         ask!(self, texture => texture.extent(set))
     }
 
-    /// How many parts of its extent, along the longest side, may differ; 1 if nothing is known.
+    /// Resolution along the longest side of its extent; 1 if nothing is known.
     pub fn cells(&self, set: &TextureTable) -> u32 {
         ask!(self, texture => texture.cells(set))
     }

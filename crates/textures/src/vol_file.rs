@@ -4,12 +4,12 @@ use crate::pixels::Values;
 use etalon_images::Volume;
 use glam::{DAffine3, UVec3, Vec3};
 
-/// What a file holds.
+/// The contents of a file.
 #[derive(Debug)]
 pub(crate) struct VolFile {
     /// Values along x, y and z.
     pub(crate) size: UVec3,
-    /// Where its box is: what the unit cube becomes. Some files name none that has a volume.
+    /// The map from the unit cube to its box; `None` if the file's box has no volume.
     pub(crate) place: Option<DAffine3>,
     /// By z, y and x.
     pub(crate) values: Values,
@@ -78,7 +78,7 @@ impl VolFile {
     }
 }
 
-/// What to say of bytes behind the data of a file.
+/// A note on bytes after the data of a file.
 pub(crate) fn behind(count: usize) -> String {
     let (bytes, are) = match count {
         1 => ("byte", "is"),
