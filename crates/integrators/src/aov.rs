@@ -120,7 +120,7 @@ impl Aov {
         })
     }
 
-    /// What a denoiser looks at: `albedo`, `normal` and `depth` of the first surface, and no picture.
+    /// The features of a denoiser: `albedo`, `normal` and `depth` of the first surface, without a picture.
     pub fn features() -> Self {
         let named = [
             ("albedo", "albedo"),

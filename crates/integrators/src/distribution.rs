@@ -91,7 +91,7 @@ struct Branch {
     straight: bool,
 }
 
-/// What a branch found.
+/// The contributions of a branch.
 #[derive(Clone, Copy, Default)]
 struct Found {
     /// Per lane, over the sum of all densities' ratios (see [`PathThroughput::contribution`]).
@@ -260,7 +260,7 @@ impl<W: World, S: Sampler> Tree<'_, W, S> {
     }
 }
 
-/// What comes after a surface.
+/// The continuation after a surface.
 enum Next {
     Absorbed,
     Ended { straight: bool },

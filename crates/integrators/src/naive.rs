@@ -42,7 +42,7 @@ use etalon_transport::{
 };
 use glam::{Vec2, Vec3, Vec4};
 
-/// Where continuous directions come from.
+/// The density of continuous directions.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Directions {
     /// The scattering model's importance sampling.
@@ -59,14 +59,14 @@ pub enum Directions {
 pub struct Naive {
     /// Limits of the path.
     pub settings: PathSettings,
-    /// Where directions come from.
+    /// The density of continuous directions.
     pub directions: Directions,
 }
 
 /// A direction in which a path continues.
 struct Step {
     wi: Vec3,
-    /// What [`PathThroughput::scatter`] takes.
+    /// The factor for [`PathThroughput::scatter`].
     value: Vec4,
     chance: Vec4,
     eta: f32,
@@ -119,7 +119,7 @@ impl Naive {
                 is_null: true,
             });
         }
-        // What remains of the random number is as good as new.
+        // The random number rescaled for reuse.
         let rest = (event.lobe - pass.x) / (1.0 - pass.x);
         let by_model = if bsdf.has_discrete() { 0.5 } else { 0.0 };
         if rest < by_model {

@@ -24,7 +24,7 @@ pub(crate) struct LightPath<'a> {
     wavelengths: &'a Wavelengths,
     /// Its flux over its density, per lane, and how likely each lane's choices were.
     pub(crate) prefix: PathThroughput,
-    /// Where it goes.
+    /// Its ray.
     pub(crate) ray: Ray,
     /// Number of segments, that of `ray` included.
     pub(crate) depth: u32,
@@ -72,7 +72,7 @@ impl<'a> LightPath<'a> {
         Some((start, particle))
     }
 
-    /// Where it is scattered next; `None` if it leaves the scene.
+    /// The next scattering vertex; `None` if it leaves the scene.
     #[inline]
     pub(crate) fn next<'w, W: World>(
         &mut self,

@@ -77,21 +77,21 @@ pub struct PhotonMapper {
     pub sets: u32,
     /// Whether light that is neither direct nor a caustic is gathered one bounce away.
     pub final_gather: bool,
-    /// How the global map is looked up.
+    /// Density estimation in the global map.
     pub global: Estimate,
-    /// How the caustic map is looked up.
+    /// Density estimation in the caustic map.
     pub caustic: Estimate,
     /// The cone's k; a box if there is none.
     pub cone: Option<f32>,
 }
 
-/// How a map is looked up.
+/// The parameters of density estimation.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Estimate {
     /// The radius, or the largest if the nearest photons are looked for (m); `None` for the width
     /// of some pixels or less, or as large as need be.
     pub radius: Option<f32>,
-    /// How many photons are looked for; all within the radius if zero.
+    /// Number of nearest photons; all within the radius if zero.
     pub nearest: usize,
 }
 

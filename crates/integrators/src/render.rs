@@ -23,13 +23,13 @@ pub const TILE: u32 = 16;
 /// A small picture has smaller tiles, so that each thread has this many to even out its load.
 const TILES_PER_THREAD: u32 = 8;
 
-/// How many samples are handed to the integrator at once.
+/// Number of samples in a batch.
 pub const BATCH_SIZE: usize = 16;
 
 /// Columns and rows from one pixel of the first round to the next.
 const COARSE: u32 = 8;
 
-/// What happened.
+/// Statistics of a render.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct RenderStatistics {
     /// Replicates finished; fewer than planned if the render was cancelled.
@@ -38,7 +38,7 @@ pub struct RenderStatistics {
     pub samples: u64,
     /// Rays traced.
     pub rays: u64,
-    /// What the estimator remarked when it first prepared, see [`Integrator::remarks`].
+    /// Remarks of the estimator on its first preparation, see [`Integrator::remarks`].
     pub remarks: Vec<String>,
 }
 
@@ -107,7 +107,7 @@ pub fn render<W: World, I: Integrator, F: Film>(
     }
 }
 
-/// What does not change while an image is rendered.
+/// The constants of a render.
 struct Run<'a, W, I> {
     worlds: &'a [W],
     integrator: &'a I,
@@ -119,7 +119,7 @@ struct Run<'a, W, I> {
     samples: AtomicU64,
     pace: Pace,
     batches: Batches,
-    /// What the integrator remarked when it first prepared.
+    /// Remarks of the integrator on its first preparation.
     remarks: Option<Vec<String>>,
 }
 
@@ -164,7 +164,7 @@ impl<W: World, I: Integrator> Run<'_, W, I> {
             let first = states.iter().take(1);
             self.remarks
                 .get_or_insert_with(|| first.flat_map(|s| self.integrator.remarks(s)).collect());
-            // What was left half done is of no use.
+            // An unfinished preparation is not used.
             let until = done.saturating_sub(begin);
             if self.progress.cancelled() || !self.pass(film, &pass, [begin, until], &states) {
                 return false;
@@ -255,7 +255,7 @@ impl<W: World, I: Integrator> Run<'_, W, I> {
     }
 }
 
-/// How many of a replicate's samples every pixel has at least, where all are dealt this many.
+/// The least number of finished samples of a pixel in the replicate, of `samples`.
 fn done<F: Film>(film: &F, samples: u32) -> u32 {
     let (origin, size) = (film.origin(), film.size());
     let pixels = (0..size.y).flat_map(|y| (0..size.x).map(move |x| origin + UVec2::new(x, y)));
@@ -275,7 +275,7 @@ struct Round<'a, 'r, W: World, I: Integrator, F: Film> {
     pass: &'a Pass,
     begin: u32,
     until: u32,
-    /// Of how many columns and rows there is one in this round.
+    /// The round covers every `stride`-th column and row.
     stride: u32,
 }
 
@@ -373,7 +373,7 @@ impl<W: World, I: Integrator, F: Film> Round<'_, '_, W, I, F> {
         }
     }
 
-    /// How many samples of the replicate a pixel has after this round, of those that it is dealt.
+    /// Number of finished samples of a pixel after this round, of the `dealt` ones.
     fn target(&self, dealt: u32) -> u32 {
         // Only where a replicate is one pass may pixels differ; they come along alike.
         if self.pass.count > 1 {

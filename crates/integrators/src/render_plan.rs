@@ -6,7 +6,7 @@ use etalon_sampling::{ReplicateKind, SampleId, SamplerKind};
 use etalon_transport::Integrator;
 use glam::UVec2;
 
-/// How much to render.
+/// The plan of a render.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct RenderPlan {
     /// The seed of the image.

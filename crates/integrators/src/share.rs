@@ -5,7 +5,7 @@
 pub struct ReplicateRange {
     /// The first.
     pub first: u32,
-    /// How many.
+    /// Their number.
     pub count: u32,
 }
 

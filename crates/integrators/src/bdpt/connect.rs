@@ -28,7 +28,7 @@ pub(super) struct Arrival {
     pub(super) passed: Vec4,
 }
 
-/// What would have made the last vertex of a path that ran into a light from the light's side.
+/// Densities of the last vertex, for a path that hit a light, if generated from the light.
 struct AlternativePdfs {
     /// Density of light sampling, in the measure of the arrival.
     sampled: Vec4,
@@ -55,7 +55,7 @@ pub(super) struct Connector<'a, 'w, W: World> {
     pub(super) camera_connects: bool,
     /// The photons to merge with, if any.
     pub(super) merging: Option<&'a Merging>,
-    /// What was found at the pixel, per lane.
+    /// Radiance at the pixel, per lane.
     pub(super) radiance: Vec4,
 }
 

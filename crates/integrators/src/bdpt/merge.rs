@@ -25,7 +25,7 @@ const FACING: f32 = 0.7;
 /// A corner of a walk from the light, without its scattering model.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Photon {
-    /// Where (m).
+    /// Position (m).
     position: Vec3,
     /// Unit geometric normal there.
     normal: Vec3,

@@ -94,7 +94,7 @@ impl Bidirectional {
         }
     }
 
-    /// What a sample starts with.
+    /// The start of a sample.
     fn start<W: World>(
         &self,
         world: &W,
@@ -113,7 +113,7 @@ impl Bidirectional {
     }
 }
 
-/// What a sample starts with.
+/// The start of a sample.
 pub(crate) struct Start<'a> {
     pub(crate) settings: &'a PathSettings,
     /// The only technique to evaluate, if not all.

@@ -44,7 +44,7 @@ impl AlternativePdfs {
     }
 }
 
-/// By how much each fraction is better than the least.
+/// The gain of each fraction over the least.
 #[derive(Debug, Default)]
 pub(crate) struct FractionOptimizer([AtomicI64; STEPS]);
 
@@ -84,7 +84,7 @@ mod tests {
 
     const LEAST: f32 = 0.3;
 
-    /// What comes of light on a line of density (k + 1)·xᵏ, where the model's own is 5x⁴ and the learned one even.
+    /// The result for light of density (k + 1)·xᵏ on a line, with the model's density 5x⁴ and a uniform learned one.
     fn best(k: i32) -> f32 {
         let scores = FractionOptimizer::default();
         let n: u16 = 1000;

@@ -1,4 +1,4 @@
-//! What goes along with every path of `guided`: it steers, and decides how long paths live.
+//! The hooks of `guided` into paths: guiding and Russian roulette.
 
 use super::field::SdTree;
 use super::steering::GuidedBsdf;

@@ -32,7 +32,7 @@ use glam::{UVec2, Vec3, Vec4};
 use rayon::prelude::*;
 use std::sync::atomic::{AtomicU64, Ordering};
 
-/// How a field is learned.
+/// The settings of training.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Trainer {
     pub(crate) settings: PathSettings,
@@ -56,14 +56,14 @@ const UNITS: f64 = (1 << 20) as f64;
 /// The largest record (units).
 const LARGEST: f64 = (1_u64 << 40) as f64;
 
-/// Where there is something to learn.
+/// The context of training.
 struct TrainingContext<'a, W, P> {
     world: &'a W,
     placing: &'a P,
     pass: &'a Pass,
 }
 
-/// How many paths of each pixel a round follows.
+/// A round of training: its paths per pixel.
 #[derive(Clone, Copy)]
 struct Iteration {
     number: u32,
@@ -100,7 +100,7 @@ impl Iteration {
         self.streams * self.each
     }
 
-    /// Where the numbers of a sample come from.
+    /// The address of a sample's random numbers.
     fn address(self, seed: u64, pixel: UVec2, sample: u32) -> SampleId {
         SampleId {
             seed: mix64(mix64(seed ^ TRAINING).wrapping_add(self.number.into())),
@@ -153,12 +153,12 @@ impl TrainingStatistics {
 /// Sums of one round: a mass for every slot of every quadtree.
 struct Sums<'f> {
     field: &'f SdTree,
-    /// Where the slots of each region's faces begin.
+    /// Index of the first slot of each region's faces.
     first: Vec<[usize; FACES]>,
     masses: Vec<AtomicU64>,
     /// The records of each region's faces.
     records: Vec<[AtomicU64; FACES]>,
-    /// How the scattering model's own choice did.
+    /// The optimisers of α.
     scores: Vec<[FractionOptimizer; FACES]>,
     /// The least probability of following it.
     own: f32,
@@ -263,7 +263,7 @@ impl Trainer {
             placing,
             pass,
         };
-        // Where paths go, and how bright it is there, so far.
+        // Extent and brightness of the scene, from the first paths.
         let nothing = SdTree::new(Vec3::ZERO, Vec3::ONE, self.own);
         let first = self.round(&class, &nothing, Iteration::alone(0, 1), None, None);
         if first.records == 0 {

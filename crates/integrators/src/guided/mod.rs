@@ -129,11 +129,11 @@ impl Guided {
     }
 }
 
-/// What was learned for an image.
+/// The result of training for an image.
 #[derive(Clone, Debug)]
 pub struct Learned {
     field: SdTree,
-    /// What was seen meanwhile.
+    /// The pictures of the training.
     pictures: Option<TrainingImages>,
     /// The replicate that is being rendered.
     replicate: u32,

@@ -15,7 +15,7 @@
 use etalon_transport::{FilmSample, Pass, Placing, Sink, TileSink};
 use glam::{UVec2, Vec2, Vec4};
 
-/// Where pictures would take more memory than this (bytes), there are none.
+/// The most memory for pictures (bytes); beyond, there are none.
 const MOST: u64 = 1 << 30;
 
 /// Pictures by samples of training, one for each replicate.

@@ -107,7 +107,7 @@ impl<B: Bsdf> Bsdf for GuidedBsdf<'_, B> {
     ) -> (Vec4, Density<SolidAngle>) {
         let (value, own) = self.bsdf.eval_and_density(wo, wi, mode);
         match self.lobe {
-            // What does not scatter needs no density.
+            // Without scattering there is no density.
             Some((lobe, share)) if value != Vec4::ZERO => {
                 let learned = field::density(lobe, wi);
                 let density = self.mix(share, own, learned);

@@ -1,4 +1,4 @@
-//! What a replicate begins with: brightness, seeds, and what was learned of path kinds.
+//! The bootstrap of a replicate: brightness, seeds, and probabilities of path kinds.
 
 use super::found::{Contribution, Contributions, FilmRegion};
 use super::importance_map::ImportanceMap;
@@ -12,7 +12,7 @@ use rayon::prelude::*;
 /// Fewest and most uniform samples of the pilot; a quarter of a replicate's lies between.
 const PILOT: [u64; 2] = [1 << 11, 1 << 15];
 
-/// How many samples a task of the pilot or of a bootstrap draws: it decides no bits.
+/// Samples per task of the pilot or a bootstrap; it decides no bits.
 const TASK: u32 = 512;
 
 /// Streams of random numbers of a replicate.
@@ -82,7 +82,7 @@ pub(super) struct Pilot {
     pub(super) brightness: f64,
 }
 
-/// What a replicate of a Metropolis integrator begins with.
+/// The bootstrap of a replicate.
 #[derive(Clone, Debug)]
 pub struct State {
     pub(super) pilot: Pilot,
@@ -102,12 +102,12 @@ pub struct State {
     /// What a contribution of one step is multiplied by, for a film that divides by the samples of
     /// a pixel.
     pub(super) scale: f64,
-    /// What the bootstrap samples themselves contribute, each with its sample's index.
+    /// The contributions of the bootstrap samples, each with its sample's index.
     pub(super) contributions: Vec<(u32, Contribution)>,
 }
 
 impl State {
-    /// How much a visit of a chain counts.
+    /// The weight of a visit of a chain.
     pub(super) fn chain_weight(&self, brightness: f64) -> f64 {
         if self.brightness > 0.0 {
             self.brightness * self.scale / (brightness + self.uniform)
@@ -116,7 +116,7 @@ impl State {
         }
     }
 
-    /// How much a uniform sample counts.
+    /// The weight of a uniform sample.
     pub(super) fn uniform_weight(&self, brightness: f64) -> f64 {
         let assumed = self.pilot.brightness;
         if assumed > 0.0 {

@@ -44,7 +44,7 @@ impl State {
         }
     }
 
-    /// Which of so many things a sample hosts: they are dealt evenly.
+    /// The range of `count` items that a sample hosts, evenly distributed.
     fn share(&self, site: &PixelSample, count: usize) -> Range<usize> {
         // Pixels around the film host none.
         let place = site.pixel.wrapping_sub(self.field.origin());
@@ -97,7 +97,7 @@ impl State {
             start,
         });
         let mut here = find(&mut sample, &mut current);
-        // How much the current sample counts.
+        // The weight of the current sample.
         let mut weight = 0.0;
         for step in 0..self.length {
             let large = sample.propose();

@@ -1,4 +1,4 @@
-//! What a primary sample contributes, and where.
+//! The contributions of a primary sample, and their places.
 
 use super::importance_map::ImportanceMap;
 use etalon_transport::{Pass, PixelSample};
@@ -7,7 +7,7 @@ use glam::{UVec2, Vec2, Vec3};
 /// A contribution to the film.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Contribution {
-    /// Where (pixels of the whole film).
+    /// Film position (pixels of the whole film).
     pub(crate) raster: Vec2,
     /// Its colour: the integral over the primary samples of colour times a pixel's filter is the
     /// pixel.
@@ -110,7 +110,7 @@ impl FilmRegion {
         self.origin
     }
 
-    /// How many pixels the film has in a row and in a column.
+    /// Size of the film (pixels).
     pub(crate) fn pixels(&self) -> UVec2 {
         self.size - 2 * self.margin
     }

@@ -10,7 +10,7 @@ use etalon_transport::{
 
 /// Turns primary samples into paths.
 pub(crate) trait PathSampler: Sync {
-    /// Which lights its paths find.
+    /// The way in which its paths find lights.
     const LIGHT_SEARCH: LightSearch;
     /// See [`Integrator::FOLLOWS_LIGHT`].
     const FOLLOWS_LIGHT: bool;
@@ -38,7 +38,7 @@ pub(crate) trait PathSampler: Sync {
 pub struct Metropolis<P> {
     /// Limits of the path.
     pub settings: PathSettings,
-    /// How chains are run.
+    /// The settings of chains.
     pub chains: ChainSettings,
     /// The mapping from primary samples to paths.
     pub paths: P,

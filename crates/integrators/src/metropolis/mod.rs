@@ -88,7 +88,7 @@ pub(crate) trait Integrand: Sync {
     fn record(&self, remark: impl FnOnce() -> TraceEvent) -> bool;
 }
 
-/// How chains are run.
+/// The settings of chains.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ChainSettings {
     /// The probability of a large step.

@@ -22,7 +22,7 @@ use etalon_sampling::Sampler;
 use etalon_sampling::hash::{GOLDEN, derived_key, mix64, random_float};
 use glam::Vec2;
 
-/// How far a small step moves a number.
+/// The distribution of a small step.
 pub(crate) trait SmallStep {
     /// The distance around the circle of 2³² places that the number with this index moves, from 64
     /// random bits. A distance and its opposite must be equally likely.

@@ -21,7 +21,7 @@ pub(crate) struct CameraVertex {
     chance: f32,
 }
 
-/// What kind of interaction that was.
+/// The kind of interaction.
 #[derive(Clone, Copy, Debug, PartialEq)]
 enum ScatterKind {
     Passing,

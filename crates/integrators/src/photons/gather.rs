@@ -27,11 +27,11 @@ use glam::{Vec3, Vec4};
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Layer<'a> {
     pub(crate) map: &'a PhotonMap,
-    /// How it is looked up on surfaces, …
+    /// The look-up on surfaces, …
     pub(crate) lookup: KernelLookup,
     /// … and in media.
     pub(crate) in_space: KernelLookup,
-    /// How many photons were shot.
+    /// Number of photons shot.
     pub(crate) shot: u32,
     /// Whether these photons count where the walk has only followed sharp directions, …
     pub(crate) first: fn(Kind) -> bool,
@@ -39,7 +39,7 @@ pub(crate) struct Layer<'a> {
     pub(crate) second: fn(Kind) -> bool,
 }
 
-/// What a walk needs to know.
+/// The configuration of a camera path.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct GatherConfig<'a> {
     pub(crate) settings: &'a PathSettings,
@@ -84,7 +84,7 @@ struct GatherPath<'a, 'w, W: World> {
     second: bool,
     light_mis: LightMis,
     depth: u32,
-    /// What was found at the walk's own wavelengths, per lane, …
+    /// Radiance at the path's own wavelengths, per lane, …
     radiance: Vec4,
     /// … and at those of photons.
     rgb: Vec3,
@@ -160,7 +160,7 @@ impl<'w, W: World> GatherPath<'_, 'w, W> {
             let direction = ray.direction;
             let hidden = settings.hide_emitters && self.depth == 1;
             let mut hit = steps::next_hit(world, &mut ray, hidden);
-            // What gathers photons in a medium counts without σs, which photons have.
+            // Gathering in a medium excludes σs, which photons include.
             let mut gathering = self.prefix;
             let mut met = None;
             if ray.medium.is_some() {
@@ -352,7 +352,7 @@ impl<'w, W: World> GatherPath<'_, 'w, W> {
                     }
                 });
                 let value = match model.is_in_space() {
-                    // Of flakes only the way of the light counts.
+                    // For flakes, only the direction of the light matters.
                     true => model.eval(photon.from, wo, TransportMode::Radiance),
                     false => model.eval(wo, photon.from, TransportMode::Radiance),
                 };

@@ -80,7 +80,7 @@ impl WavelengthSets {
         }
     }
 
-    /// How many there are.
+    /// Number of sets.
     #[inline]
     pub(crate) fn len(&self) -> usize {
         self.sets.len()

@@ -16,7 +16,7 @@ use etalon_transport::{Bsdf, LightKind, MediumId, Pass, Placing, SamplePdf, Worl
 use glam::{Vec3, Vec4};
 use rayon::prelude::*;
 
-/// What a photon went through.
+/// The kind of a photon's path.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Kind {
     /// It comes straight from a light.
@@ -30,7 +30,7 @@ pub(crate) enum Kind {
 /// A photon at a surface, or at a point of a medium.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Photon {
-    /// Where (m).
+    /// Position (m).
     pub(crate) position: Vec3,
     /// Unit geometric normal there; zero in a medium.
     pub(crate) normal: Vec3,
@@ -63,7 +63,7 @@ pub(crate) const MOST_VISITED: usize = 1024;
 /// The least cosine of the angle between the normals of surfaces that share photons.
 pub(crate) const FACING: f32 = 0.7;
 
-/// Of so many photons a thinned map keeps one.
+/// A thinned map keeps one photon of this many.
 const THINNED: u64 = 4;
 
 impl PlacedPhotons {
@@ -142,7 +142,7 @@ pub(crate) fn moment(pass: &Pass) -> f32 {
     (bits >> 8) as f32 / (1 << 24) as f32
 }
 
-/// How many photons a thread traces at once.
+/// Photons per task.
 const CHUNK: u32 = 256;
 
 /// The random numbers of photon `index` of `count`.

@@ -1,4 +1,4 @@
-//! What arrives straight from the lights.
+//! Direct light.
 
 use super::shading::{Surface, SurfaceBySet};
 use super::tree::{Packet, SETS};

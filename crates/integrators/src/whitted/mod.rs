@@ -56,7 +56,7 @@ use std::sync::OnceLock;
 pub use tree::{Continuation, onward};
 use tree::{Packet, Tree};
 
-/// How the light of lamps without extent fades with distance.
+/// The fall-off of lights without extent.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Falloff {
     /// Not at all.
@@ -72,7 +72,7 @@ pub struct Whitted {
     pub max_depth: u32,
     /// Whether lights are invisible to the camera.
     pub hide_emitters: bool,
-    /// How the light of lamps fades.
+    /// The fall-off of lights.
     pub falloff: Falloff,
     /// The strength of ambient light, which is white.
     pub ambient: f32,
@@ -80,7 +80,7 @@ pub struct Whitted {
     pub light_points: PointSet,
     /// The points of a lens that are looked through.
     pub lens_points: PointSet,
-    /// How caustics are made.
+    /// The settings of caustics.
     pub caustics: CausticSettings,
     /// Number of wavelengths, a multiple of four.
     pub wavelengths: u32,

@@ -39,7 +39,7 @@ pub(super) fn spread(
     material.diffuse * (cos * (1.0 - material.transparency) * material.opacity)
 }
 
-/// What the surface itself shows of a lamp in direction `wi`, per unit of irradiance.
+/// The surface's shading by a lamp in direction `wi`, per unit of irradiance.
 pub(super) fn shade(
     material: &LegacyPhong,
     vertex: &SurfaceInteraction,

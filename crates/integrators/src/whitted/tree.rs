@@ -24,9 +24,9 @@ pub(super) const SETS: usize = super::MOST_WAVELENGTHS as usize / 4;
 pub(super) struct Packet {
     pub(super) wavelengths: Wavelengths,
     pub(super) response: SensorWeights,
-    /// What radiance counts, per lane.
+    /// The weight of radiance, per lane.
     pub(super) weight: Vec4,
-    /// Which of the integrator's packets it is, and which of its lanes stands first.
+    /// Index of the packet, and its first lane.
     pub(super) lanes: WavelengthChoice,
 }
 
@@ -74,7 +74,7 @@ pub(super) fn packets<W: World>(world: &W, count: u32) -> Vec<Packet> {
 pub struct Continuation {
     /// Its direction.
     pub wi: Vec3,
-    /// What the radiance along it counts, per lane; zero for lanes that go elsewhere than lane 0.
+    /// The weight of the radiance along it, per lane; zero for lanes with another direction than lane 0.
     pub value: Vec4,
     /// Zero for lanes that go elsewhere, or nowhere.
     pub together: Vec4,
@@ -82,7 +82,7 @@ pub struct Continuation {
     pub is_straight: bool,
 }
 
-/// What a tree of rays grows in.
+/// The environment of a tree of rays.
 pub(super) struct Tree<'a, W> {
     pub(super) world: &'a W,
     pub(super) caustics: Option<&'a Caustics>,
@@ -115,7 +115,7 @@ impl Whitted {
         sum / self.lens_points.count() as f32
     }
 
-    /// What arrives along a ray, the last of `depth` segments.
+    /// The radiance along a ray, the last of `depth` segments.
     fn follow<W: World>(
         &self,
         tree: &Tree<'_, W>,
@@ -152,7 +152,7 @@ impl Whitted {
         sum + self.branch(tree, &vertex, wo, packets, depth + 1, sampler)
     }
 
-    /// What a surface, `depth` segments from the camera, shows of the lamps: straight, and by caustics.
+    /// Direct light and caustics at a surface `depth` segments from the camera.
     #[inline(never)] // Its tables need not stay on the stack while rays go on.
     fn lit<W: World>(
         &self,
@@ -175,7 +175,7 @@ impl Whitted {
         straight + caustics.unwrap_or(Vec3::ZERO)
     }
 
-    /// What arrives from the directions that a smooth surface singles out.
+    /// The radiance from the discrete directions of a smooth surface.
     fn branch<W: World>(
         &self,
         tree: &Tree<'_, W>,
