@@ -40,7 +40,7 @@ pub(crate) struct Wanted<'a> {
 }
 
 impl<'a> BatchCache<'a> {
-    /// Nothing yet, but for what is on disk.
+    /// Empty, except for the batches on disk.
     pub(crate) fn new(state: Option<&'a State>) -> Self {
         Self {
             state,
