@@ -1,5 +1,5 @@
 //! Embree 4 as an opponent, loaded at run time: Intel's ray tracing kernels, by their C interface
-//! (<https://github.com/RenderKit/embree>, `include/embree4`). Nothing is linked; without the library nobody misses it.
+//! (<https://github.com/RenderKit/embree>, `include/embree4`). Nothing is linked; without the library its rows are left out.
 //!
 //! The device is asked for AVX2, which is what Etalon is compiled for; scenes are `ROBUST` (edges are watertight), the
 //! build's quality is `MEDIUM`, its default. Rays are traced one by one with `rtcIntersect1` and `rtcOccluded1`.
@@ -36,7 +36,7 @@ const RTC_FORMAT_FLOAT4X4_COLUMN_MAJOR: c_int = 0x9244;
 const RTC_SCENE_FLAG_ROBUST: c_int = 4;
 const RTC_INVALID_GEOMETRY_ID: c_uint = c_uint::MAX;
 
-/// `RTCRay`, then `RTCHit` with room for whatever fields this version's has at its end.
+/// `RTCRay`, then `RTCHit` with room for further fields of other versions at its end.
 #[repr(C, align(16))]
 struct RayHit {
     origin: [f32; 3],
@@ -355,7 +355,7 @@ impl<'a> Prepared<'a> {
 impl Drop for Prepared<'_> {
     fn drop(&mut self) {
         for part in self.parts.iter().chain([&self.scene]) {
-            // SAFETY: this was the only holder of the scene but for scenes that place it.
+            // SAFETY: this was the only holder of the scene except for scenes that place it.
             unsafe { (self.device.functions.rtcReleaseScene)(*part) }
         }
     }

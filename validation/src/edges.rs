@@ -200,7 +200,7 @@ fn passed(scene: &Scene, mut ray: Ray, wavelengths: &Wavelengths) -> Option<Vec<
     Some(objects)
 }
 
-/// An instance is one object, whatever shapes it has.
+/// An instance is one object, with all of its shapes.
 fn object(hit: &Hit) -> (u32, u32) {
     if hit.instance.is_some() {
         (u32::MAX, hit.instance.0)

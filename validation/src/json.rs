@@ -89,7 +89,7 @@ pub fn of(rows: &[Row<'_>], provenance: &Provenance) -> Value {
     })
 }
 
-/// How a claim's reference was made, whoever rendered it.
+/// How a claim's reference was made, by either program.
 pub(crate) fn reference(claim: &Claim) -> Option<Value> {
     match claim.oracle {
         Oracle::Reference { .. } => reference::provenance(&claim.name).ok().map(|p| json!(p)),

@@ -1,10 +1,9 @@
-//! What is not rendered twice.
+//! A cache of rendered batches.
 //!
-//! The estimators of a claim are held against one oracle, rendered with one seed: its batches are the
-//! same for all of them, and are kept in memory until the next claim's turn. So are pictures that a
-//! planted fault of what is reported spoils: the sound comparison has rendered them already. Comparisons
-//! depend on each other so; no correction of this crate assumes otherwise. A full
-//! run keeps all batches on disk, too ([`crate::state`]).
+//! The estimators of a claim are compared with one oracle, rendered with one seed: its batches are shared by all of
+//! them and kept in memory until the next claim. So are pictures for planted faults of the report, which the sound
+//! comparison has rendered already. Comparisons are therefore dependent; no correction in this crate assumes
+//! independence. A full run keeps all batches on disk as well ([`crate::state`]).
 
 use crate::state::State;
 use etalon_film::RenderedImage;
@@ -41,7 +40,7 @@ pub(crate) struct Wanted<'a> {
 }
 
 impl<'a> BatchCache<'a> {
-    /// Nothing yet, but for what is on disk.
+    /// Empty, except for the batches on disk.
     pub(crate) fn new(state: Option<&'a State>) -> Self {
         Self {
             state,

@@ -30,7 +30,7 @@ pub struct Provenance {
     pub twin_hash: String,
     /// POV-Ray's version.
     pub povray: String,
-    /// Its command-line options, but for the names of files.
+    /// Its command-line options, without the names of files.
     pub options: Vec<String>,
     /// Width and height of the picture (pixels).
     pub size: [u32; 2],

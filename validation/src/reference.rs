@@ -179,7 +179,7 @@ fn maker(mitsuba: &str, variant: &str) -> String {
 fn missing(metadata: &Metadata) -> Option<String> {
     let channel = |name: &&str| metadata.channel_index(name).is_none();
     let channel = ["R", "G", "B"].into_iter().find(channel);
-    // Every film of ours has them, whatever its size.
+    // Our films of all sizes have them.
     let means = [None, Some(16), Some(64)];
     let means = means
         .into_iter()

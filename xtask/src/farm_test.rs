@@ -62,7 +62,7 @@ const REPLICATES: &str = "32";
 /// No engine may take longer.
 const PATIENCE: Duration = Duration::from_secs(900);
 
-/// What there is to render, and by what program.
+/// The scene to render, and the program.
 struct Workshop {
     program: PathBuf,
     scene: PathBuf,

@@ -37,7 +37,7 @@ impl Description {
         })
     }
 
-    /// What either can do, with the lobes of both.
+    /// The union of both materials' flags.
     pub fn traits(&self) -> MaterialFlags {
         self.nested[0].traits().with(self.nested[1].traits())
     }

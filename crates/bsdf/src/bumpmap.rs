@@ -43,12 +43,12 @@ impl Description {
         })
     }
 
-    /// What the nested material can do.
+    /// The flags of the nested material.
     pub fn traits(&self) -> MaterialFlags {
         self.tilted.traits()
     }
 
-    /// What is tilted.
+    /// The nested material with its tilt.
     pub(crate) fn tilted(&self) -> &Tilted {
         &self.tilted
     }
@@ -57,7 +57,7 @@ impl Description {
     fn normal<T: Textures>(&self, site: &ShadingContext<'_, T>, frame: Frame) -> Vec3 {
         let moved = [site.dp_du, site.dp_dv];
         let slope = site.textures.gradient(self.heights, &site.at, moved) * self.scale;
-        // Heights rise outward, whichever side is seen.
+        // Heights rise outward, seen from either side.
         let side = 1.0_f32.copysign(frame.n.dot(site.shading_normal));
         let n = frame.n * side;
         let u = site.dp_du + n * (slope.x - n.dot(site.dp_du));

@@ -5,9 +5,9 @@
 //! ```
 //!
 //! Phong (1975), *Illumination for Computer Generated Pictures*; Whitted (1980), *An Improved
-//! Illumination Model for Shaded Display*. Nothing scatters here: this file reads the parameters
-//! and looks their textures up, and who can show them asks for them ([`Material::legacy_phong`]). To
-//! everybody else such a surface would be black, so the scene is refused before it comes to that.
+//! Illumination Model for Shaded Display*. This file only reads the parameters and looks up their
+//! textures, for integrators that evaluate the model ([`Material::legacy_phong`]). As a BSDF it is
+//! black, so other integrators refuse the scene.
 //!
 //! [`Material::legacy_phong`]: crate::Material::legacy_phong
 
@@ -38,7 +38,7 @@ impl Description {
     /// Reads `ambient` (0), `diffuse` (0.5), `specular` (0), `global` (0), `exponent` (30),
     /// `transparency` (0), `int_ior` (bk7) and `ext_ior` (air).
     pub fn from_params(params: &Params<'_>, build: &mut dyn Build) -> Option<Self> {
-        // Ambient light is white: colours are what it shows, so they are those of emitted light.
+        // The ambient term is white light times this colour, so it is read as an emission spectrum.
         let ambient = build.texture(params, "ambient", Some(0.0), SpectrumKind::Emission);
         let mut factor =
             |name, default| build.texture(params, name, Some(default), SpectrumKind::Reflectance);

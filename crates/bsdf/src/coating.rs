@@ -36,7 +36,7 @@ pub const EXEMPLARS: &[&str] = &[
 /// The probability of sampling the coat's own reflection: the same for every direction, since the way back must have it.
 const COAT_SHARE: f32 = 0.3;
 
-/// What may be coated.
+/// The materials that can be coated.
 const COATABLE: &str =
     "`diffuse`, `roughdiffuse`, `conductor`, `roughconductor`, `phong` and `ward`";
 
@@ -91,7 +91,7 @@ impl Description {
         })
     }
 
-    /// What the material can do.
+    /// The material's flags.
     pub fn traits(&self) -> MaterialFlags {
         MaterialFlags {
             lobes: 2,
@@ -186,7 +186,7 @@ fn coatable(base: &Material) -> bool {
     )
 }
 
-/// A direction above the interface as it goes on below, still counted from the point; `None` under total reflection.
+/// Refracts a direction that leaves the point through the interface; `None` under total internal reflection.
 #[inline]
 fn refracted(v: Vec3, eta: f32) -> Option<Vec3> {
     let across = v.truncate() / eta;
@@ -198,7 +198,7 @@ fn refracted(v: Vec3, eta: f32) -> Option<Vec3> {
 #[derive(Clone, Copy, Debug)]
 pub struct Layer<'a> {
     eta: f32,
-    /// What a rough interface lets through.
+    /// Transmittance of a rough interface.
     rough: Option<&'a RoughFresnel>,
     /// Absorption times thickness, per lane.
     absorption: Vec4,
@@ -214,7 +214,7 @@ impl Layer<'_> {
         }
     }
 
-    /// What is left of light on its way in and out.
+    /// Transmittance of the coating on the way in and out: Fresnel or rough transmittance, and absorption.
     #[inline]
     fn both_ways(&self, wo: Vec3, inner_o: Vec3, wi: Vec3, inner_i: Vec3) -> Vec4 {
         let way = -(1.0 / inner_o.z + 1.0 / inner_i.z);
@@ -223,7 +223,7 @@ impl Layer<'_> {
     }
 }
 
-/// What is under the coat.
+/// The material under the coating.
 #[derive(Clone, Copy, Debug)]
 #[allow(missing_docs)]
 pub enum Base {
@@ -235,7 +235,7 @@ pub enum Base {
     Ward(Ward),
 }
 
-/// Asks the base, whichever it is.
+/// Dispatches to the base.
 macro_rules! ask {
     ($base:expr, $it:ident => $answer:expr) => {
         match $base {

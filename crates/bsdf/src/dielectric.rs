@@ -70,7 +70,7 @@ pub struct Dielectric {
     pub reflectance: Vec4,
     /// Factor of the refracted light, per lane.
     pub transmittance: Vec4,
-    /// The share of light that is mirrored whatever Fresnel's equations say of it; 0 but in [`crate::mixture`].
+    /// Share of light that is mirrored independently of Fresnel's equations; nonzero only in [`crate::mixture`].
     pub mirrored: f32,
 }
 

@@ -38,7 +38,7 @@ pub fn conductor(cos: f32, eta: Vec4, k: Vec4) -> Vec4 {
     0.5 * (s + p)
 }
 
-/// a / b for a ≥ 0 but for rounding, and 1 where both vanish (an index-matched lane seen edge-on).
+/// a / b, with a clamped to ≥ 0 against rounding; 1 where both vanish (an index-matched lane at grazing incidence).
 #[inline]
 fn quotient(a: Vec4, b: Vec4) -> Vec4 {
     Vec4::select(b.cmpgt(Vec4::ZERO), a.max(Vec4::ZERO) / b, Vec4::ONE)

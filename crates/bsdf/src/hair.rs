@@ -35,7 +35,7 @@ pub const EXEMPLARS: &[&str] = &[
     "hair sigma_a=u:0 longitudinal_roughness=f:0.7",
 ];
 
-/// What pigments absorb per concentration, as colours.
+/// Absorption of the pigments per concentration, as colours.
 const EUMELANIN: [f32; 3] = [0.419, 0.697, 1.0];
 const PHEOMELANIN: [f32; 3] = [0.187, 0.4, 1.0];
 
@@ -57,7 +57,7 @@ enum Absorption {
     Pigment { eumelanin: f32, pheomelanin: f32 },
 }
 
-/// What does not depend on where the hair is hit.
+/// Quantities that do not depend on the point of the hair.
 #[derive(Clone, Copy, Debug)]
 struct Shape {
     eta: f32,
@@ -65,7 +65,7 @@ struct Shape {
     variance: [f32; LOBES],
     /// s.
     spread: f32,
-    /// Sine and cosine by which scales tilt each lobe.
+    /// Sine and cosine of each lobe's tilt by the cuticle scales.
     tilt: [(f32, f32); LOBES],
 }
 
@@ -115,7 +115,7 @@ impl Description {
         })
     }
 
-    /// What the material can do.
+    /// The material's flags.
     pub fn flags(&self) -> MaterialFlags {
         MaterialFlags {
             transmission: true,
@@ -169,7 +169,7 @@ pub struct Hair {
     shape: Shape,
 }
 
-/// What follows from the known direction.
+/// Quantities that depend on the known direction only.
 struct Known {
     /// Sine and cosine of θo, tilted for each lobe.
     theta: [(f32, f32); LOBES],
@@ -235,7 +235,7 @@ impl Hair {
         }
     }
 
-    /// Value and density toward `wi`, for what is known of `wo`.
+    /// Value and density toward `wi`, with the quantities that depend on `wo` only.
     fn sum(&self, known: &Known, wi: Vec3) -> (Vec4, Vec4) {
         let (sin, cos) = (wi.y.clamp(-1.0, 1.0), Vec2::new(wi.x, wi.z).length());
         let phi = float::atan2(wi.x, wi.z) - known.phi;

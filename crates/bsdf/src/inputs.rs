@@ -24,13 +24,13 @@ pub(crate) fn non_negative(
     Some(build.texture(params, name, default, SpectrumKind::Unbounded))
 }
 
-/// Declares a model's textured parameters and what they are at a point.
+/// Declares a model's textured parameters and their values at a point.
 ///
 /// ```ignore
 /// inputs! {
-///     /// What the scene says.
+///     /// The textures.
 ///     Inputs;
-///     /// What that is at a point.
+///     /// Their values at a point.
 ///     Values {
 ///         /// The colour.
 ///         colour: spectrum = 0.5,
@@ -41,8 +41,7 @@ pub(crate) fn non_negative(
 /// ```
 ///
 /// makes `Inputs`, with a texture for each, `Inputs::from_params`, and `Inputs::at`, which gives `Values`. A
-/// `spectrum` is a reflectance for each lane; a `share` a number brought into [0, 1]; an `amount` a number brought
-/// to 0 or above.
+/// `spectrum` is a reflectance for each lane; a `share` is clamped to [0, 1]; an `amount` is clamped to ≥ 0.
 macro_rules! inputs {
     (
         $(#[doc = $inputs_doc:literal])* $inputs:ident;
@@ -78,7 +77,7 @@ macro_rules! inputs {
                 }
             }
 
-            /// What they are at a point.
+            /// Their values at a point.
             #[inline]
             pub fn at<T: etalon_transport::Textures>(
                 &self,
@@ -92,7 +91,7 @@ macro_rules! inputs {
     };
 }
 
-/// What a kind of parameter is.
+/// The type of a kind of parameter.
 macro_rules! kind {
     (spectrum type) => {
         glam::Vec4

@@ -85,7 +85,7 @@ impl RelativeIndex {
     }
 }
 
-/// What a property gave.
+/// The value of a property.
 enum Given {
     Number(f64),
     Index(Index),

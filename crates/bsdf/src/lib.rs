@@ -1,18 +1,17 @@
 //! Scattering models, one file each, and their resolution at a hit.
 //!
-//! A [`Material`] is what a scene file said: a model's parameters with textures. At a hit it
-//! *resolves* ([`Material::resolve`]) into a [`BsdfAtPoint`]: a small `Copy` value that knows neither
-//! textures nor scene and implements [`etalon_transport::Bsdf`]. `twosided` vanishes there;
-//! `mask` and `blendbsdf` flatten into at most [`MAX_LOBES`] weighted lobes plus the light that
-//! passes straight on.
+//! A [`Material`] is the description from the scene file: a model's parameters with textures. At a
+//! hit it *resolves* ([`Material::resolve`]) into a [`BsdfAtPoint`]: a small `Copy` value that knows
+//! neither textures nor scene and implements [`etalon_transport::Bsdf`]. `twosided` disappears there;
+//! `mask` and `blendbsdf` flatten into at most [`MAX_LOBES`] weighted lobes plus a null lobe.
 //!
 //! Each model is one file: its equation and source, its textured description, its plain
-//! [`Bxdf`] in a local frame whose z is the shading normal, and its exemplars, by which the test
-//! harness holds it to account. The list of all of them is in [`models`].
+//! [`Bxdf`] in a local frame whose z is the shading normal, and its exemplars, the materials that
+//! the tests run on. The list of all of them is in [`models`].
 //!
 //! Everywhere `wo` is the known direction, `wi` the sampled one, both leave the point, and values
-//! include |cos θi|. A model's density is per wavelength lane: what it would have been had that
-//! lane been the one that chose.
+//! include |cos θi|. A model's density has a value per wavelength lane: the density had that lane
+//! been the one that chose.
 
 pub mod lobe;
 pub mod lobe_list;

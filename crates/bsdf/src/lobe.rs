@@ -156,7 +156,7 @@ impl Lobe<'_> {
         let mut share = 1.0;
         let is_delta = |sample: &BsdfSample| sample.chance.is_delta();
         if mode == TransportMode::Importance && tilt.flips && local.as_ref().is_none_or(is_delta) {
-            // Either frame may be that of the viewer whom its mirror finds, or both.
+            // The frame depends on the viewer `wi`: keep the discrete samples that are consistent with their own frame.
             let found = tilt.both().map(|frame| {
                 let sample = sample(frame.to_local(o))?;
                 let viewer = frame.to_world(sample.wi);

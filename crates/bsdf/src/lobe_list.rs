@@ -1,4 +1,4 @@
-//! How a material with textures becomes lobes at a point.
+//! Flattening of a material with textures into lobes at a point.
 
 use crate::tilt::Tilt;
 use crate::{AnyBxdf, BsdfAtPoint, Bxdf, Lobe, MAX_LOBES};
@@ -7,7 +7,7 @@ use etalon_spectrum::Wavelengths;
 use etalon_transport::{SurfaceInteraction, TextureId, TexturePoint, Textures};
 use glam::{Vec3, Vec4};
 
-/// Where a material is resolved: its textures at that point, for the path's wavelengths.
+/// The context in which a material is resolved: point, textures and wavelengths.
 #[derive(Clone, Copy, Debug)]
 pub struct ShadingContext<'t, T> {
     /// The textures of the scene.
@@ -121,7 +121,7 @@ impl<'a> LobeList<'a> {
         self.null_probability += probability;
     }
 
-    /// What was collected.
+    /// The collected lobes.
     pub fn resolved(&self, normal: Vec3) -> BsdfAtPoint<'a> {
         let several = |lobes: &[Lobe<'a>]| {
             BsdfAtPoint::several(normal, self.null, self.null_probability, lobes)

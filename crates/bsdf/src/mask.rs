@@ -36,7 +36,7 @@ impl Description {
         })
     }
 
-    /// What the nested material can do, and passing.
+    /// The flags of the nested material, plus the null interaction.
     pub fn traits(&self) -> MaterialFlags {
         MaterialFlags {
             null: true,

@@ -53,13 +53,13 @@ impl Description {
     }
 }
 
-/// As much may be the noise of a measurement, or of these few samples; more is told.
+/// Albedo up to which energy gain is taken for noise of the measurement or of the estimate; above, there is a note.
 const GAIN: f32 = 1.1;
 
 /// Strata of each random number in [`most_reflected`].
 const STRATA: u32 = 16;
 
-/// The most of the light from some directions that a table gives back at some wavelengths, about.
+/// An estimate of the table's largest albedo over some directions and wavelengths.
 fn most_reflected(table: &BrdfTable) -> f32 {
     let at = table.at(Vec4::new(450.0, 520.0, 590.0, 650.0));
     let albedo = |cos: f32| {

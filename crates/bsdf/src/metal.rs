@@ -44,7 +44,7 @@ impl Metal {
             params.ignore(&["eta", "k"]);
             return None;
         }
-        // Whoever provides files for a name means them, even where data for it come with us.
+        // Files in the search path take precedence over built-in data of the same name.
         let provided = build.assets().bytes(&file(name, "eta")).is_ok();
         let (eta, k) = match conductors::lookup(name) {
             Some(found) if !provided => found,
@@ -99,7 +99,7 @@ fn of_colours(params: &Params<'_>) -> Option<(Spectrum, Spectrum)> {
                 .push(Diagnostic::note(span, message).help(help));
             conductors::lookup(name)?
         }
-        // Whoever reads them one by one says which of them is wrong.
+        // The error is reported where the two are read individually.
         None => conductor_colour::smooth(eta, k).ok()?,
     };
     given.into_iter().flatten().for_each(Property::mark_used);

@@ -1,5 +1,5 @@
-//! A perfect mirror on both sides, times a factor: what is left of models whose refraction
-//! passes straight on.
+//! A perfect mirror on both sides, times a factor: the reflection of models whose refraction is a null
+//! interaction.
 
 use crate::Bxdf;
 use crate::refraction::reflect;

@@ -1,4 +1,4 @@
-//! The die: of the light that meets a surface, shares are scattered diffusely, mirrored and refracted.
+//! `mixture`: a stochastic mixture of diffuse scattering, perfect reflection and refraction.
 //!
 //! ```text
 //! f(wo, wi) = d · ρd / π  +  r · ρs δ(wi = mirror of wo) / |cos θi|  +  t · f_dielectric(wo, wi)       d + r + t = 1
@@ -22,10 +22,10 @@ pub const EXEMPLARS: &[&str] = &[
     "mixture diffuse=f:0.25 refractive=f:0.75 int_ior=s:cauchy:1.5,0.01 specular_transmittance=u:0.7",
 ];
 
-/// The shares, in the order of the die's faces.
+/// The parameters of the three shares.
 const SHARES: [&str; 3] = ["diffuse", "reflective", "refractive"];
 
-/// How far the sum of the shares may be from one by their rounding in the file.
+/// Tolerance on the sum of the shares, for rounding in the file.
 const ROUNDING: f64 = 1e-4;
 
 /// `mixture` in a scene file.
@@ -37,7 +37,7 @@ pub struct Description {
     diffuse: TextureId,
     /// ρs.
     reflective: TextureId,
-    /// Which of the lobes there are at all.
+    /// Whether each lobe is present.
     present: [bool; 3],
     dielectric: dielectric::Description,
 }
@@ -53,7 +53,7 @@ impl Description {
                 None => Some(0.0),
                 Some(Value::Float(number)) => Some(*number),
                 Some(Value::Integer(number)) => Some(*number as f64),
-                // What a texture says is known at a point.
+                // A texture is known only at a point.
                 Some(_) => None,
             };
             if let Some(number) = number.filter(|number| !(0.0..=1.0).contains(number)) {
@@ -94,7 +94,7 @@ impl Description {
         }
     }
 
-    /// The faces of the die. Textures whose shares do not add up to one are taken in proportion.
+    /// The three shares at a point. Textures whose shares do not add up to one are normalised.
     pub fn flatten<'a, T: Textures>(
         &'a self,
         site: &ShadingContext<'_, T>,

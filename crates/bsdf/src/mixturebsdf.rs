@@ -19,7 +19,7 @@ pub const EXEMPLARS: &[&str] = &[
     "mixturebsdf weights=s:0.5,0.2,0.1 ( diffuse ) ( plastic ) ( roughdielectric alpha=f:0.4 )",
 ];
 
-/// How far the weights may be above one by their rounding in the file.
+/// Tolerance on the sum of the weights, for rounding in the file.
 const ROUNDING: f32 = 1e-4;
 
 /// `mixturebsdf` in a scene file.
@@ -72,7 +72,7 @@ impl Description {
         })
     }
 
-    /// What any of them can do, with the lobes of all.
+    /// The union of all flags.
     pub fn traits(&self) -> MaterialFlags {
         (self.parts.iter()).fold(MaterialFlags::default(), |all, (_, material)| {
             all.with(material.traits())

@@ -1,4 +1,4 @@
-//! What every scattering model must do, in its local frame.
+//! The contract of scattering models, in their local frame.
 
 use etalon_math::Density;
 use etalon_transport::{BsdfSample, SamplePdf, TransportMode};

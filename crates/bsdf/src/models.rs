@@ -45,7 +45,7 @@ macro_rules! models {
             [$($plain_name,)* $($composed_name,)*].into_iter()
         }
 
-        /// Materials by which the tests hold every model to account, in a one-line notation:
+        /// The materials that the tests of all models run on, in a one-line notation:
         /// `plugin key=kind:value … ( nested ) …`, with the kinds `f` number, `s` string, `b`
         /// boolean, `u` uniform and `t` tabulated spectrum.
         pub fn test_materials() -> impl Iterator<Item = &'static str> {
@@ -69,7 +69,7 @@ macro_rules! models {
                 })
             }
 
-            /// What the material can do.
+            /// The material's flags.
             pub fn traits(&self) -> MaterialFlags {
                 match self {
                     $(Self::$plain(description) => $flags(description),)*

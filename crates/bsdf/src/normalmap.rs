@@ -50,12 +50,12 @@ impl Description {
         Some(Self { normals, tilted })
     }
 
-    /// What the nested material can do.
+    /// The flags of the nested material.
     pub fn traits(&self) -> MaterialFlags {
         self.tilted.traits()
     }
 
-    /// What is tilted.
+    /// The nested material with its tilt.
     pub(crate) fn tilted(&self) -> &Tilted {
         &self.tilted
     }

@@ -45,9 +45,9 @@ pub const EXEMPLARS: &[&str] = &[
 inputs! {
     /// Parameters, each of which may be a texture.
     Inputs;
-    /// What they are at a point.
+    /// Their values at a point.
     Values {
-        /// The colour of the base, of metals, and squared of what is let through.
+        /// Colour of the base and of metals; squared, the colour of transmission.
         base_color: spectrum = 0.5,
         /// Roughness; α is its square.
         roughness: share = 0.5,
@@ -55,7 +55,7 @@ inputs! {
         anisotropic: share = 0.0,
         /// The share of metal.
         metallic: share = 0.0,
-        /// The share of what is not metal that lets light through.
+        /// Transmitting share of the non-metal.
         spec_trans: share = 0.0,
         /// How much the base's colour tints the reflection.
         spec_tint: share = 0.0,
@@ -78,7 +78,7 @@ pub struct Description {
     inputs: Inputs,
     eta: f32,
     transmits: bool,
-    /// How eagerly the base, the main interface and the clear coat are sampled.
+    /// Sampling rates of the base, the main interface and the clear coat.
     rates: Vec3,
 }
 
@@ -104,7 +104,7 @@ impl Description {
             let accepted = "a number from 0 to below 12.5";
             let fits = |s: f64| (0.0..12.5).contains(&s);
             let specular = params.float_where("specular", 0.5, accepted, fits);
-            // What lets light through must have an interface.
+            // A transmitting material needs an interface.
             let least = if transmits { 1e-3 } else { 0.0 };
             2.0 / (1.0 - (0.08 * specular.max(least)).sqrt()) - 1.0
         };
@@ -120,7 +120,7 @@ impl Description {
         })
     }
 
-    /// What it can do.
+    /// Its flags.
     pub fn flags(&self) -> MaterialFlags {
         match self.transmits {
             true => MaterialFlags::refracting(self),
@@ -158,7 +158,7 @@ impl Description {
     }
 }
 
-/// How eagerly a lobe is sampled.
+/// The sampling rate of a lobe, relative to its energy.
 pub(crate) fn sampling_rate(params: &Params<'_>, name: &str) -> f32 {
     let accepted = "a finite number, 0 or more";
     params.float_where(name, 1.0, accepted, |rate| rate >= 0.0 && rate.is_finite()) as f32
@@ -208,7 +208,7 @@ impl Principled {
         Microfacet::new(Kind::Ggx, self.alpha, true)
     }
 
-    /// The base, of which sheen is left where all lets light through.
+    /// The base; of a fully transmitting material only its sheen remains.
     #[inline]
     fn base(&self) -> Base {
         Base {

@@ -35,7 +35,7 @@ pub const EXEMPLARS: &[&str] = &[
 inputs! {
     /// Parameters, each of which may be a texture.
     Inputs;
-    /// What they are at a point.
+    /// Their values at a point.
     Values {
         /// The colour.
         base_color: spectrum = 0.5,
@@ -65,7 +65,7 @@ inputs! {
 pub struct Description {
     inputs: Inputs,
     transmits: bool,
-    /// How eagerly diffuse and glossy reflection, glossy and diffuse transmission are sampled.
+    /// Sampling rates of diffuse and glossy reflection, glossy and diffuse transmission.
     rates: Vec4,
 }
 
@@ -86,7 +86,7 @@ impl Description {
         })
     }
 
-    /// What it can do.
+    /// Its flags.
     pub fn flags(&self) -> MaterialFlags {
         MaterialFlags {
             transmission: self.transmits,
@@ -198,7 +198,7 @@ impl PrincipledThin {
         {
             let microfacet = self.passing();
             let d = microfacet.d(m);
-            // What arrives on a microfacet's wrong side is dropped, which is not the same both ways.
+            // Light on the back of a microfacet is dropped, which is not reciprocal.
             let arriving = match mode {
                 TransportMode::Radiance => wi,
                 TransportMode::Importance => Vec3::new(wo.x, wo.y, -wo.z),

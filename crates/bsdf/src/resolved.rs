@@ -292,7 +292,7 @@ impl Bsdf for BsdfAtPoint<'_> {
 mod tests {
     use super::*;
 
-    /// What a path copies at every vertex. A model that outgrows it keeps its tables in its description.
+    /// The size that a path copies at every vertex. Larger models keep their tables in their descriptions.
     #[test]
     fn a_material_at_a_point_stays_within_its_budget() {
         let sizes = [

@@ -21,7 +21,7 @@ pub const COSINES: usize = 64;
 /// Quadrature nodes across the square; half as many along the dimension that is symmetric.
 const NODES: usize = 48;
 
-/// What `roughplastic` must know of its coat.
+/// The quantities of its coating that `roughplastic` needs.
 #[derive(Clone, Debug)]
 pub struct RoughFresnel {
     transmittance: [f32; COSINES],

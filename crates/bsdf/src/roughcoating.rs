@@ -23,7 +23,7 @@ impl Description {
         coating::Description::rough(params, build).map(Self)
     }
 
-    /// What the material can do.
+    /// The material's flags.
     pub fn traits(&self) -> MaterialFlags {
         self.0.traits()
     }

@@ -209,7 +209,7 @@ mod tests {
     use super::*;
     use core::f32::consts::TAU;
 
-    /// What a white surface reflects of light from `wo`, by the midpoint rule.
+    /// The albedo of a white surface for `wo`, by the midpoint rule.
     fn albedo_of(equation: Equation, alpha: f32, wo: Vec3) -> f32 {
         let white = RoughDiffuse {
             reflectance: Vec4::ONE,

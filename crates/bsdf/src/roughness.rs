@@ -7,7 +7,7 @@ use etalon_params::Params;
 use etalon_transport::{Build, TextureId, Textures};
 use glam::Vec2;
 
-/// What to say when a number is refused.
+/// The accepted values, for messages.
 const ACCEPTED: &str = "0 or more (a roughness below 0.0001 acts as 0.0001)";
 
 /// A textured roughness: `distribution` (beckmann), `alpha` (0.1) or `alpha_u` and `alpha_v`, and

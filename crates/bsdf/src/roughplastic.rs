@@ -64,7 +64,7 @@ pub struct RoughPlastic<'a> {
     pub coat: Coat,
     /// The coat's distribution of normals.
     pub microfacet: Microfacet,
-    /// What the rough coat lets in.
+    /// Transmittance of the rough coating.
     pub interface: &'a RoughFresnel,
 }
 

@@ -10,10 +10,11 @@
 //! which takes the hard edge from its terminator (A. Conty Estevez, P. Lecocq, C. Stein, A microfacet-based shadowing
 //! function to solve the bump terminator problem, Ray Tracing Gems, 2019). A normal that the viewer sees from
 //! behind is turned about the surface's, n → (−x, −y, z) (V. Schüssler et al., Microfacet-based normal mapping, 2017, as
-//! Mitsuba has it; here not that of a `plastic`, which is smooth and not smooth at once). Both tell light and viewer apart, so that importance is scattered by the adjoint.
+//! Mitsuba has it; not for `plastic`, which has both a discrete and a continuous lobe). Both rules distinguish light from
+//! viewer, so importance is scattered by the adjoint.
 //!
-//! A relief is one thing with two sides, whatever is nested in it: what lies behind n is seen with the normal −n. So is the back of
-//! `twosided` within a map; around one, its back is the mirror image of the front.
+//! A relief has two sides, for any nested material: the side behind n has the normal −n, and so has the back of `twosided`
+//! inside a map. Around a map, the back of `twosided` is the mirror image of the front.
 
 use crate::{LobeList, Material, MaterialFlags, ShadingContext};
 use etalon_math::Frame;
@@ -66,7 +67,7 @@ impl Tilt {
         ]
     }
 
-    /// How much light from `light` counts with the model's frame `seen`.
+    /// Shadowing of light from `light`, with the model's frame `seen`.
     #[inline]
     pub fn shadowing(&self, seen: &Frame, light: Vec3) -> f32 {
         if !(light.z * light.dot(seen.n) > 0.0) {
@@ -108,7 +109,7 @@ impl Tilted {
         })
     }
 
-    /// What the nested material can do.
+    /// The flags of the nested material.
     pub(crate) fn traits(&self) -> MaterialFlags {
         MaterialFlags {
             tilted: true,

@@ -1,25 +1,24 @@
-//! What can be said of a material when it is loaded.
+//! Properties of a material that are known when it is loaded.
 
-/// What a material can do, known when it is loaded.
+/// Properties of a material that are known when it is loaded.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct MaterialFlags {
-    /// The most lobes it resolves into.
+    /// The largest number of lobes that it resolves into.
     pub lobes: usize,
-    /// Whether light may go straight on (`null`, `mask`, `thindielectric`).
+    /// Whether it has a null interaction (`null`, `mask`, `thindielectric`).
     pub null: bool,
-    /// Whether light may reach the other side at all.
+    /// Whether light may be transmitted.
     pub transmission: bool,
-    /// Whether light may be bent on its way to the other side, as by an interface of dielectrics.
+    /// Whether transmitted light may be refracted, as at a dielectric interface.
     pub refraction: bool,
     /// Whether a texture tilts its normals.
     pub tilted: bool,
-    /// Whether light leaves elsewhere than it came, which the model puts where the viewer looks: paths from the lights
-    /// cannot have it.
+    /// Non-reciprocal: valid for camera paths only (hair, where light leaves at another point than it enters).
     pub one_way: bool,
 }
 
 impl MaterialFlags {
-    /// One lobe that reflects, whatever its parameters.
+    /// One lobe that only reflects.
     pub(crate) fn reflecting<T>(_: &T) -> Self {
         Self {
             lobes: 1,
@@ -27,7 +26,7 @@ impl MaterialFlags {
         }
     }
 
-    /// What a material can do that is this one or another from point to point, or both at once with all their lobes.
+    /// The union of two materials' flags.
     pub(crate) fn with(self, other: Self) -> Self {
         Self {
             lobes: self.lobes + other.lobes,
@@ -39,7 +38,7 @@ impl MaterialFlags {
         }
     }
 
-    /// One lobe that also refracts, whatever its parameters.
+    /// One lobe that reflects and refracts.
     pub(crate) fn refracting<T>(model: &T) -> Self {
         Self {
             transmission: true,

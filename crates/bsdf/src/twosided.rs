@@ -59,7 +59,7 @@ impl Description {
         Some(description)
     }
 
-    /// What either side can do.
+    /// The union of both sides' flags.
     pub fn traits(&self) -> MaterialFlags {
         let a = self.front.traits();
         let b = self.back.as_ref().map_or(a, |back| back.traits());

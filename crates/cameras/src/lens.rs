@@ -4,16 +4,16 @@
 //! 1/f = 1/z₀ + 1/z₁        R = f / (2 N)        tan(φ/2) = w / (2 z₁)
 //! ```
 //!
-//! Of what is at the distance z₀ before a lens of focal length f there is an image at z₁ behind it (Gauss 1840, Dioptrische
-//! Untersuchungen); the f-number N is the focal length over the diameter of the aperture; and a film of width w at z₁ sees the
+//! A lens of focal length f images an object at the distance z₀ before it at z₁ behind it (Gauss 1840, Dioptrische
+//! Untersuchungen). The f-number N is the focal length over the diameter of the aperture. A film of width w at z₁ sees the
 //! horizontal field of view φ. All lengths are metres.
 //!
-//! What is not given follows from the rest, and what is given twice must agree.
+//! Quantities that are not given follow from the others; those that are given redundantly must agree.
 
 use etalon_params::{Params, Value};
 use etalon_transport::{half_width_from_params, half_width_of_fov};
 
-/// What a camera takes of a lens.
+/// The quantities of a lens that a camera needs.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Lens {
     /// R (m).
@@ -24,7 +24,7 @@ pub struct Lens {
     pub half_width: f64,
 }
 
-/// How far numbers that say the same may be apart, relative to them.
+/// Relative tolerance between redundant numbers.
 const SAME: f64 = 1e-3;
 
 /// The width of film where a focal length in metres is given, and neither `film_width` nor `fov` (m).
@@ -52,7 +52,7 @@ fn agree(a: f64, b: f64) -> bool {
     (a - b).abs() <= SAME * b.abs()
 }
 
-/// What the lens equation says of the distances of what is in focus and of its image; `far` is where it is focused if nothing is said.
+/// Distances of the plane in focus and of its image by the lens equation; `far` is the default of the former.
 fn distances(params: &Params<'_>, far: f64) -> Option<[Option<f64>; 3]> {
     let f = match is_in_metres(params) {
         true => Some(positive(params, "focal_length", LENGTH)?),
@@ -61,7 +61,7 @@ fn distances(params: &Params<'_>, far: f64) -> Option<[Option<f64>; 3]> {
     let given = |name| params.has(name).then(|| positive(params, name, LENGTH));
     let z0 = given("focus_distance");
     let z1 = given("image_distance");
-    // What was refused is not used.
+    // A refused distance ends here.
     let z0 = z0.map_or(Some(None), |z| z.map(Some))?;
     let z1 = z1.map_or(Some(None), |z| z.map(Some))?;
     let other = |f: f64, z: f64| 1.0 / (1.0 / f - 1.0 / z);

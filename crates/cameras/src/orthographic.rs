@@ -2,8 +2,8 @@
 //!
 //! The film spans x ∈ [−1, 1] of camera space and, pixels being square, y ∈ [−h/w, h/w]; scale in
 //! the pose M resizes it. All rays run along d = M·ẑ/|M·ẑ|. A pixel of camera-space area a
-//! is a beam of cross-section a·|det M|/|M·ẑ|, so a connection weighs |M·ẑ|/(a·|det M|),
-//! whatever the distance.
+//! is a beam of cross-section a·|det M|/|M·ẑ|, so a connection weighs |M·ẑ|/(a·|det M|)
+//! at any distance.
 //!
 //! As in Mitsuba, rays start at the image of the near plane and end `far_clip − near_clip`
 //! farther in *world* units, also if the pose scales z.

@@ -15,7 +15,7 @@ use std::sync::Arc;
 /// The most messages that are shown; the others are counted.
 const MOST_SHOWN: usize = 50;
 
-/// Columns at which messages are wrapped, whatever the terminal: output does not depend on it.
+/// Columns at which messages are wrapped, independent of the terminal.
 const WIDTH: usize = 100;
 
 /// Lines of more bytes than this are not shown whole.
@@ -37,7 +37,7 @@ impl fmt::Debug for Shown<'_> {
 }
 
 impl fmt::Display for Shown<'_> {
-    /// Nothing: the message stands in the first line.
+    /// Nothing: the message is in the first line.
     fn fmt(&self, _: &mut fmt::Formatter<'_>) -> fmt::Result {
         Ok(())
     }

@@ -1,7 +1,7 @@
-//! The files that hand a render to an engine that a cluster has already: nothing here starts a daemon or opens a socket.
+//! Job files for the existing engine of a cluster: nothing here starts a daemon or opens a socket.
 //!
-//! A task is one command, `sh task.sh N`: it renders a part of the replicates, or a frame, with `--resume`, so that it may be started again
-//! at any time, by whatever engine. `sh merge.sh` puts the parts together, and `sh submit.sh` hands both to the engine.
+//! A task is one command, `sh task.sh N`: it renders a part of the replicates, or a frame, with `--resume`, so that any
+//! engine may start it again at any time. `sh merge.sh` merges the parts, and `sh submit.sh` submits both to the engine.
 
 use crate::quoting;
 use std::collections::HashSet;
@@ -81,7 +81,7 @@ impl Job {
         quoted(&self.folder.join(name))
     }
 
-    /// The folder that the pieces go to, and their names, where `number` stands for the piece.
+    /// The folder of the pieces, and the name of the piece `number`.
     fn pieces(&self, number: &str) -> (&'static str, String) {
         match self.work {
             Work::Parts(_) => ("parts", format!("part-{number}.exr")),

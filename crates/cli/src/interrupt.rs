@@ -1,7 +1,7 @@
-//! Signals that ask to stop: Ctrl-C, and what queues and closed terminals send.
+//! Signals to stop: Ctrl-C, and those of queues and closed terminals.
 //!
-//! The first of them sets a flag, which everybody who works for long looks at; a second one, of
-//! whatever kind, ends the process at once.
+//! The first signal sets a flag, which long-running work checks; a second one, of any kind, ends the
+//! process at once.
 
 use signal_hook::consts::{SIGINT, SIGTERM};
 use signal_hook::flag;
@@ -23,10 +23,10 @@ pub fn asked() -> bool {
     ASKED.load(Ordering::Relaxed)
 }
 
-/// From now on the first signal sets the flag, rather than end the process.
+/// From now on the first signal sets the flag instead of ending the process.
 ///
 /// # Errors
-/// If the system refuses; signals end the process then, as if nobody listened.
+/// If the system refuses; signals end the process then.
 pub fn listen() -> std::io::Result<()> {
     let mut signals = vec![SIGINT, SIGTERM];
     #[cfg(unix)]
@@ -52,7 +52,7 @@ pub fn outlive_too_large_files() -> std::io::Result<()> {
     Ok(())
 }
 
-/// Whether whoever started the process wants it to outlive its terminal, as `nohup` does.
+/// Whether the process was started to outlive its terminal, as by `nohup`.
 #[cfg(unix)]
 fn hangups_are_ignored() -> bool {
     let status = std::fs::read_to_string("/proc/self/status").unwrap_or_default();

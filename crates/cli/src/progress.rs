@@ -1,4 +1,4 @@
-//! A progress bar with the time that remains; silent when nobody is looking.
+//! A progress bar with the remaining time; silent without a terminal.
 
 use crate::preview::Onlookers;
 use etalon_integrators::Progress;

@@ -16,7 +16,7 @@ pub fn result(text: &str) -> Result<(), String> {
     }
 }
 
-/// Writes a remark to standard error. If nobody can hear it, the work goes on.
+/// Writes a remark to standard error. A write error is ignored.
 pub fn remark(text: &str) {
     let _ = stderr().lock().write_all(text.as_bytes());
 }

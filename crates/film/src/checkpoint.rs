@@ -8,10 +8,10 @@
 use crate::{ExactFilm, Metadata, Part, RenderFacts};
 use serde::{Deserialize, Serialize};
 
-/// What only a checkpoint says.
+/// Metadata of checkpoints only.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct CheckpointFacts {
-    /// Options that decided how much to render, and how; a checkpoint goes on only under the same.
+    /// Options that decided how much to render, and how; a render resumes only under the same.
     pub asked: String,
     /// Samples per pixel of the pilot that fixed the number of samples.
     #[serde(default, skip_serializing_if = "Option::is_none")]
@@ -22,7 +22,7 @@ pub struct CheckpointFacts {
 }
 
 impl ExactFilm {
-    /// What a file of the film, as it is now, says of itself.
+    /// The metadata of a file of the film in its current state.
     pub fn metadata(&self, facts: RenderFacts) -> Metadata {
         Metadata::new(self, facts)
     }
@@ -50,7 +50,7 @@ impl ExactFilm {
         Some(value)
     }
 
-    /// Goes on after the replicates of a checkpoint. The film is new, and of the same first
+    /// Continues after the replicates of a checkpoint. The film is new and has the same first
     /// replicate.
     ///
     /// # Errors

@@ -1,11 +1,11 @@
-//! Whether a picture's pixels are those that its statistics were made of.
+//! Whether a picture's pixels agree with its statistics.
 //!
 //! ```text
 //! mean over a tile of the pixels = mean over the replicates of the tile's means
 //! ```
 //!
-//! for every channel and tile, but for rounding. Verdicts are made of tile means; without this a file whose
-//! pixels were changed afterwards, and not its metadata, would be judged by what it no longer shows.
+//! for every channel and tile, up to rounding. Verdicts use tile means, so without this check a file whose
+//! pixels were edited afterwards would be judged by its old picture.
 
 use crate::{Metadata, TileMeans};
 use etalon_images::Image;
@@ -17,7 +17,7 @@ const ROUNDING: f64 = 1e-5;
 /// How far they may be apart besides: exact sums are multiples of 2⁻⁶⁴.
 const QUANTUM: f64 = 1e-18;
 
-/// What contradicts the statistics, if anything, in a sentence.
+/// The contradiction to the statistics, if any, as a sentence.
 pub(crate) fn contradiction(image: &Image, metadata: &Metadata) -> Option<String> {
     metadata.tile_means.iter().find_map(|means| {
         let channels = metadata.channels.iter().enumerate();

@@ -25,7 +25,7 @@ use etalon_statistics::{Fixed128, InvalidValue};
 use etalon_transport::Channel;
 use glam::{IVec2, UVec2};
 
-/// What the name of a channel with standard errors begins with.
+/// Prefix of the names of channels with standard errors.
 pub const STANDARD_ERROR: &str = "standard_error.";
 
 /// A film that accumulates exactly.
@@ -33,7 +33,7 @@ pub const STANDARD_ERROR: &str = "standard_error.";
 pub struct ExactFilm {
     settings: FilmSettings,
     filter: PixelFilter,
-    /// What a sample counts around it, if its pixel is not the only one.
+    /// Weights of a sample on the pixels around it, if pixels share samples.
     footprint: Option<Footprint>,
     /// All channels: colours, alpha, then the integrator's.
     channels: Vec<String>,
@@ -158,7 +158,7 @@ impl ExactFilm {
         &self.filter
     }
 
-    /// How many colour channels there are; they come first.
+    /// Number of colour channels; they come first.
     #[inline]
     pub(crate) fn colours(&self) -> usize {
         self.running.colours()
@@ -179,12 +179,12 @@ impl ExactFilm {
         self.samples
     }
 
-    /// What was refused in finished replicates.
+    /// Refused values of finished replicates.
     pub fn faults(&self) -> FaultLog {
         self.faults.clone()
     }
 
-    /// What stood out in finished replicates.
+    /// Outliers of finished replicates.
     pub fn outliers(&self) -> OutlierLog {
         self.outliers.clone()
     }
@@ -248,7 +248,7 @@ impl ExactFilm {
         self.moments = sums.into_moments();
     }
 
-    /// Makes it go on after the finished replicates that these are the facts of.
+    /// Continues after the finished replicates of this metadata.
     pub(crate) fn go_on_after(&mut self, metadata: Metadata) -> Result<(), String> {
         self.tiles = (metadata.tile_means.try_into())
             .map_err(|_| "its tile means are not those of a film".to_owned())?;
@@ -293,18 +293,18 @@ impl ExactFilm {
         Some((means, samples))
     }
 
-    /// Makes it go on with a replicate that is not finished, of as many pixels and channels.
+    /// Continues an unfinished replicate, of as many pixels and channels.
     pub(crate) fn go_on_with(&mut self, unfinished: Unfinished) {
         self.running.restore(unfinished);
     }
 
-    /// The samples that a pixel of the whole film has in this replicate, and what they bring.
+    /// The number of samples of a pixel of the whole film in this replicate, and the dominant one.
     pub(crate) fn progress(&self, pixel: UVec2) -> (u32, DominantSample) {
         let index = self.index(pixel - self.settings.crop_offset);
         (self.running.samples(index), self.running.standing(index))
     }
 
-    /// Notes how many samples a pixel of the whole film has, and what they bring.
+    /// Stores the number of samples of a pixel of the whole film, and the dominant one.
     pub(crate) fn advance(&self, pixel: UVec2, samples: u32, standing: &DominantSample) {
         let index = self.index(pixel - self.settings.crop_offset);
         self.running.advance(index, samples, standing);
@@ -344,12 +344,12 @@ impl ExactFilm {
         self.running.splat(self.index(pixel), colours, first)
     }
 
-    /// What a sample counts around it, if its pixel is not the only one.
+    /// Weights of a sample on the pixels around it, if pixels share samples.
     pub(crate) fn footprint(&self) -> Option<&Footprint> {
         self.footprint.as_ref()
     }
 
-    /// How many sums a pixel has: its channels', and that of the weights if they are divided by it.
+    /// Number of sums per pixel: one per channel, and that of the weights if the sums are divided by it.
     pub(crate) fn sums_per_pixel(&self) -> usize {
         self.channels.len() + usize::from(self.running.is_weighted())
     }

@@ -10,7 +10,7 @@ use etalon_images::exr::IntegerPlane;
 use etalon_statistics::InvalidValue;
 use std::collections::HashMap;
 
-/// What the names of planes with exact sums begin with.
+/// Prefix of the names of planes with exact sums.
 pub const EXACT: &str = "exact.";
 
 /// Exact sums over replicates, by row, column and channel.

@@ -25,7 +25,7 @@ impl From<InvalidValue> for InvalidKind {
     }
 }
 
-/// Where a refused number came from: enough to compute the very sample again.
+/// The address of a refused number: enough to compute the sample again.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct InvalidSample {
     /// The replicate.
@@ -38,7 +38,7 @@ pub struct InvalidSample {
     pub sample: Option<u32>,
     /// `radiance`, `splat` or the name of a channel.
     pub source: String,
-    /// What was wrong with it.
+    /// The kind of fault.
     pub kind: InvalidKind,
 }
 
@@ -72,7 +72,7 @@ pub struct FaultLog {
 }
 
 impl FaultLog {
-    /// How many offences are kept.
+    /// Number of faults that are kept.
     pub const KEPT: usize = 8;
 
     /// All kinds together.

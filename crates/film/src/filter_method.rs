@@ -1,11 +1,11 @@
-//! How a film's samples make a filtered picture.
+//! Methods of reconstruction from a film's samples.
 
 use crate::Filter;
 use std::fmt;
 
 /// How the reconstruction filter is applied to camera samples.
 ///
-/// With x the position of a sample, v what it found, cₚ the centre of pixel p and f the filter:
+/// With x the position of a sample, v its value, cₚ the centre of pixel p and f the filter:
 ///
 /// | method | positions | pixel p |
 /// |---|---|---|
@@ -13,8 +13,8 @@ use std::fmt;
 /// | weighted mean | evenly in each pixel | Σ v f(cₚ − x) / Σ f(cₚ − x), over the same |
 /// | importance sampling | by \|f\|, see [`crate::pixel_filter`] | the mean over the pixel's own samples |
 ///
-/// f is the product over both axes; n is the number of samples of a pixel. The weighted mean is what Mitsuba does; it is
-/// biased, the less the more samples there are.
+/// f is the product over both axes; n is the number of samples of a pixel. The weighted mean is Mitsuba's; it is biased,
+/// but consistent.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub enum FilterMethod {
     /// A sample counts for every pixel under the filter, divided by the filter's integral: unbiased.

@@ -25,7 +25,7 @@ struct Cell {
 #[derive(Clone, Debug)]
 pub(crate) struct FilterSampler1d {
     cells: Box<[Cell]>,
-    /// Where to begin the search for u ∈ [i / n, (i + 1) / n).
+    /// Start of the search for u ∈ [i / n, (i + 1) / n).
     guide: Box<[u32]>,
 }
 
@@ -46,7 +46,7 @@ struct Piece {
     integral: f64,
 }
 
-/// Cuts [0, radius] into at least `count` pieces and tells positive from negative ones.
+/// Cuts [0, radius] into at least `count` pieces, separated into positive and negative ones.
 pub(crate) fn part(f: impl Fn(f64) -> f64, radius: f64, count: u32) -> Parts {
     // At the end itself a filter is zero by definition; what counts is the limit from inside.
     let inside = radius * (1.0 - 1e-12);
@@ -149,7 +149,7 @@ fn integrate(f: &impl Fn(f64) -> f64, a: f64, b: f64) -> f64 {
     half * (5.0 * f(middle - node) + 8.0 * f(middle) + 5.0 * f(middle + node)) / 9.0
 }
 
-/// Where f changes its sign between `a` and `b`.
+/// The sign change of f between `a` and `b`.
 fn bisect(f: &impl Fn(f64) -> f64, mut a: f64, mut b: f64) -> f64 {
     let sign = f(a);
     for _ in 0..60 {

@@ -42,7 +42,7 @@ impl Footprint {
         }
     }
 
-    /// How many pixels away from its own a sample may count.
+    /// Reach of a sample beyond its own pixel (pixels).
     pub(crate) fn reach(&self) -> u32 {
         self.reach
     }

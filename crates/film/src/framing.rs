@@ -4,7 +4,7 @@ use crate::FilmSettings;
 use core::fmt::{Display, Formatter};
 use glam::UVec2;
 
-/// How large the film is.
+/// The size of the film.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum FilmSize {
     /// Width and height (pixels).
@@ -13,8 +13,8 @@ pub enum FilmSize {
     Share(f64),
 }
 
-/// What replaces a film's size and the part of it that is rendered. What is `None` stays the scene's; a part that the scene
-/// asks for is scaled with the film.
+/// Replacements for a film's size and crop window. `None` keeps the scene's value; a crop window of the scene is scaled
+/// with the film.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Framing {
     /// The size of the whole film.
@@ -70,7 +70,7 @@ impl Framing {
     }
 }
 
-/// As the command line has it: nothing of what stays the scene's.
+/// As on the command line, without what is kept from the scene.
 impl Display for Framing {
     fn fmt(&self, f: &mut Formatter<'_>) -> core::fmt::Result {
         let size = self.size.map(|size| match size {

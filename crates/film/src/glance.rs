@@ -1,13 +1,13 @@
-//! The picture so far, for whoever looks on while it is rendered.
+//! The picture so far, for previews.
 //!
-//! The running replicate counts by how far it is. With R finished replicates of mean m and the fraction f of another one, whose
-//! samples so far have the mean x, a pixel is shown as
+//! The running replicate is weighted by its finished fraction. With R finished replicates of mean m and the fraction f of
+//! another one, whose samples so far have the mean x, a pixel is shown as
 //!
 //! ```text
 //! (R m + f x) / (R + f)
 //! ```
 //!
-//! These are means for eyes; files and verdicts are of finished replicates only, and so are the standard errors here.
+//! These means are for display only: files, verdicts and the standard errors here use finished replicates.
 
 use crate::ExactFilm;
 use crate::rendered_image::image_of;

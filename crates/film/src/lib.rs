@@ -1,8 +1,8 @@
 //! Films: reconstruction filters, exact accumulation per pixel, replicates and tile means.
 //!
 //! [`ExactFilm`] implements [`etalon_transport::Film`]. Rendering fills it replicate by
-//! replicate; [`ExactFilm::develop`] turns what it holds into a [`RenderedImage`] picture, which
-//! knows its own error and can be written to, and read from, an EXR file;
+//! replicate; [`ExactFilm::develop`] computes a [`RenderedImage`], which has standard errors and can
+//! be written to, and read from, an EXR file;
 //! [`ExactFilm::into_part`] gives a [`Part`], which can be merged with others.
 
 mod consistency;

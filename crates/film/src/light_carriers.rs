@@ -1,33 +1,32 @@
-//! Whether a picture's light is carried by few of its samples, whose spread says little then.
+//! Whether few of a picture's replicates carry its light, so that their spread is not informative.
 //!
-//! Of R replicates x with mean m, whose standard error is s, as many carry a pixel as would with equal shares (L. Kish, Survey
-//! Sampling, 1965, section 11.7):
+//! The effective number of R replicates x with mean m and standard error s (L. Kish, Survey Sampling, 1965, section 11.7):
 //!
 //! ```text
 //! N = (Σ x)² / Σ x² = R / (1 + (R − 1) (s/m)²)
 //! ```
 //!
-//! N is R for equal replicates and 1 where one alone found light. Below four, intervals of the usual width hold far
-//! less often than they say: who has not found the rare and bright thing does not know how bright it is. Where replicates are
-//! exponentially distributed, N falls below 4 of 32 in none of 10⁵ pixels, and below 2 of 8 in 0.2 % of them.
+//! N is R for equal replicates and 1 if only one found light. Below four, intervals cover far less often than their nominal
+//! level, as the brightness of rare bright events is unknown. With exponentially distributed replicates, N falls below 4 of
+//! 32 in none of 10⁵ pixels, and below 2 of 8 in 0.2 % of them.
 //!
-//! What not one replicate has found leaves no trace in their spread, and is not seen by this.
+//! Light that no replicate has found leaves no trace in their spread, and is not detected.
 
 use crate::RenderedImage;
 use etalon_images::Image;
 
-/// Fewer than so many say little of how bright it is what they found.
+/// Effective number of replicates below which a pixel counts as carried by few.
 pub const FEW: f64 = 4.0;
 
-/// The share of a picture's light (of all channels) that is told.
+/// The share of a picture's light (over all channels) in such pixels above which there is a warning.
 pub const TOLD: f64 = 0.05;
 
-/// Of a picture with standard errors.
+/// The effective number of replicates of a picture with standard errors.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct LightCarriers {
-    /// How many replicates there are.
+    /// Number of replicates.
     pub replicates: u32,
-    /// Fewer than so many are few.
+    /// The effective number below which they are few.
     pub few: f64,
     /// The share of the light that is in pixels which few replicates carry.
     pub share: f64,
@@ -63,7 +62,7 @@ impl LightCarriers {
         })
     }
 
-    /// What is to be said of them.
+    /// A warning, if there is reason for one.
     pub fn warning(self) -> Option<String> {
         let Self {
             replicates,
@@ -125,7 +124,7 @@ mod tests {
         }
     }
 
-    /// The stated rate of false alarms, and that what it is for is seen: light that one of 30 replicates finds.
+    /// The stated rate of false alarms, and detection of light that one of 30 replicates finds.
     #[test]
     fn noise_alone_is_not_told() {
         let mut drawn = 0;

@@ -1,4 +1,4 @@
-//! What parts must have in common to be merged.
+//! Conditions for merging parts.
 
 use crate::{Metadata, ReplicateSet};
 use std::fmt;
@@ -26,11 +26,11 @@ impl std::error::Error for Conflict {}
 /// Something in which two parts differ and must not.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Disagreement {
-    /// What it is.
+    /// Its name.
     pub what: &'static str,
-    /// What the first says.
+    /// The first part's value.
     pub first: String,
-    /// What the second says.
+    /// The second part's value.
     pub second: String,
 }
 

@@ -1,4 +1,4 @@
-//! What a rendered file says of itself: JSON in the EXR attribute `etalon`.
+//! The metadata of a rendered file: JSON in the EXR attribute `etalon`.
 
 use crate::{
     CheckpointFacts, DealtFacts, FaultLog, FilmSettings, OutlierLog, PartFacts, PixelFormat,
@@ -8,7 +8,7 @@ use etalon_sampling::ReplicateKind;
 use serde::{Deserialize, Serialize};
 use std::time::Duration;
 
-/// What only the caller knows of a render.
+/// Facts of a render that only the caller knows.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct RenderFacts {
     /// The program's version.
@@ -21,16 +21,16 @@ pub struct RenderFacts {
     pub integrator: String,
     /// The sampler.
     pub sampler: String,
-    /// What replicates have to do with each other.
+    /// How replicates are related.
     pub replicate_kind: ReplicateKind,
     /// The seed.
     pub seed: u64,
-    /// How long rendering took (s); see [`recorded_seconds`].
+    /// Time of rendering (s); see [`recorded_seconds`].
     pub seconds: Option<f64>,
 }
 
-/// Seconds as they may be written into a file: none if `SOURCE_DATE_EPOCH` is set in the
-/// environment, which asks for output that depends on the input alone
+/// Seconds to be written into a file: none if `SOURCE_DATE_EPOCH` is set in the environment, which
+/// requests output that depends on the input alone
 /// (reproducible-builds.org).
 pub fn recorded_seconds(elapsed: Duration) -> Option<f64> {
     std::env::var_os("SOURCE_DATE_EPOCH")
@@ -47,11 +47,11 @@ pub struct FilmFacts {
     pub crop_offset: [u32; 2],
     /// Width and height of the part that was rendered.
     pub crop_size: [u32; 2],
-    /// What is stored of a colour.
+    /// The stored components of a colour.
     pub pixel_format: String,
     /// The reconstruction filter and its parameters.
     pub filter: String,
-    /// How it was applied; absent where no sample is shared between pixels.
+    /// The method of reconstruction; absent if pixels do not share samples.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub filter_method: Option<String>,
 }
@@ -81,35 +81,33 @@ pub struct Metadata {
     /// Samples per pixel, all replicates together; where they are dealt unevenly, as many as they
     /// would be evenly.
     pub spp: u64,
-    /// Replicates that are finished. With one, there are no standard errors; with none,
-    /// the picture is of what there is of the first.
+    /// Finished replicates. With one, there are no standard errors; with none, the picture is that of
+    /// the samples of the first so far.
     pub replicates: u32,
-    /// What they have to do with each other; independent if not stated. The standard errors of blocks are
-    /// upper estimates.
+    /// How they are related; independent if not stated. The standard errors of blocks are upper estimates.
     #[serde(default, skip_serializing_if = "ReplicateKind::is_independent")]
     pub replicate_kind: ReplicateKind,
-    /// Which replicates these are, if they are a part of a picture's.
+    /// The replicates of a part of a picture.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub part: Option<PartFacts>,
-    /// Of what render this is a checkpoint, if it is one.
+    /// The render that this is a checkpoint of, if it is one.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub checkpoint: Option<CheckpointFacts>,
     /// The replicate that was being rendered when the render was interrupted, if the file has it.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub unfinished: Option<UnfinishedFacts>,
-    /// How the samples were dealt, if not evenly.
+    /// The distribution of samples, if uneven.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub adaptive: Option<DealtFacts>,
-    /// What the file has for a denoiser, if it was asked for.
+    /// The features for a denoiser, if there are any.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub features: Option<FeatureFacts>,
-    /// By what the picture was denoised, if it was: standard errors are what the denoiser estimates then, and there are no
-    /// replicates to judge by.
+    /// The denoiser that was applied, if any: standard errors are then its estimates, and there are no replicates to judge by.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub denoised: Option<String>,
     /// The seed.
     pub seed: u64,
-    /// How long rendering took (s), unless the file was to be reproducible.
+    /// Time of rendering (s), unless the file is to be reproducible.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub seconds: Option<f64>,
     /// [`floating_point_fingerprint`].

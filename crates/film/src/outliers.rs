@@ -1,9 +1,9 @@
 //! Samples that stand out: how many there were, how large, and where the largest came from.
 //!
 //! A sample *stands out* if it brings more than all the others of its pixel and replicate together.
-//! Of fewer than [`FEWEST`] nobody can tell. What it brings is the largest component (linear Rec.
-//! 709) of what it delivered to its pixel or anywhere on the film. It *lifts* the pixel, in the
-//! mean of its replicate, by that over the pixel's number of samples.
+//! With fewer than [`FEWEST`] samples this is not decided. Its value is the largest component (linear
+//! Rec. 709) of its contributions to its pixel and by splats. It *lifts* the pixel, in the mean of its
+//! replicate, by that value over the pixel's number of samples.
 //!
 //! A *firefly* is a sample that stands out and lifts its pixel in the finished picture by more than
 //! the picture's mean. The mean is known only at the end, so samples that stand out are counted by
@@ -23,9 +23,9 @@ pub struct Outlier {
     pub pixel: [u32; 2],
     /// Its number within pixel and replicate.
     pub sample: u32,
-    /// What it brings.
+    /// Its value.
     pub value: f32,
-    /// By how much it lifts the pixel in its replicate's mean.
+    /// Its contribution to the pixel in its replicate's mean.
     pub lift: f32,
 }
 
@@ -50,7 +50,7 @@ pub struct OutlierLog {
 }
 
 impl OutlierLog {
-    /// How many are kept.
+    /// Number of outliers that are kept.
     pub const KEPT: usize = 8;
 
     /// Whether nothing stands out.
@@ -63,7 +63,7 @@ impl OutlierLog {
         &self.largest
     }
 
-    /// How many lift their pixel in its replicate by 2ᵉ at least.
+    /// Number of those that lift their pixel in its replicate by at least 2ᵉ.
     pub fn count_from(&self, exponent: i32) -> u64 {
         let beyond = self.counts.iter().filter(|(e, _)| *e >= exponent);
         beyond.map(|(_, count)| count).sum()
@@ -111,7 +111,7 @@ fn exponent(x: f32) -> i32 {
     ((x.to_bits() >> 23) & 0xff) as i32 - 127
 }
 
-/// What the samples of one pixel bring, one after the other.
+/// The sum and the largest of a pixel's samples.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(crate) struct DominantSample {
     total: f32,
@@ -136,7 +136,7 @@ impl DominantSample {
         [self.total.to_bits(), self.most.to_bits(), self.sample]
     }
 
-    /// Of words that were kept.
+    /// From its stored words.
     pub(crate) fn from_words([total, most, sample]: [u32; 3]) -> Self {
         Self {
             total: f32::from_bits(total),
@@ -145,7 +145,7 @@ impl DominantSample {
         }
     }
 
-    /// The sample that stands out of so many, and what it brings.
+    /// The sample that stands out among so many, and its value.
     pub(crate) fn outstanding(&self, samples: u32) -> Option<(u32, f32)> {
         let alone = samples >= FEWEST && 2.0 * self.most > self.total && self.most.is_finite();
         alone.then_some((self.sample, self.most))

@@ -30,7 +30,7 @@ pub struct Part {
     facts: PartFacts,
     sums: ExactSums,
     counts: Option<SampleCounts>,
-    /// Of a checkpoint: the replicate that was being rendered.
+    /// The unfinished replicate of a checkpoint.
     unfinished: Option<Unfinished>,
 }
 
@@ -69,13 +69,13 @@ impl ExactFilm {
 }
 
 impl Part {
-    /// Which replicates it has.
+    /// Its replicates.
     #[must_use]
     pub fn replicates(&self) -> &ReplicateSet {
         &self.facts.replicates
     }
 
-    /// Which replicates of the whole it lacks.
+    /// The replicates of the whole that it lacks.
     #[must_use]
     pub fn missing(&self) -> ReplicateSet {
         self.facts.replicates.missing(self.facts.of)
@@ -87,7 +87,7 @@ impl Part {
         self.counts.as_ref()
     }
 
-    /// What its file says of it.
+    /// The metadata of its file.
     #[must_use]
     pub fn metadata(&self) -> Metadata {
         self.described()
@@ -110,7 +110,7 @@ impl Part {
         (self.unfinished, self.metadata.unfinished) = (unfinished, facts);
     }
 
-    /// What it says of itself, the exact sums, and those of the replicate that was being rendered.
+    /// Its metadata, its exact sums, and those of the unfinished replicate.
     pub(crate) fn into_parts(self) -> (Metadata, ExactSums, Option<Unfinished>) {
         (self.metadata, self.sums, self.unfinished)
     }

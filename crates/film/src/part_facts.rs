@@ -1,9 +1,9 @@
-//! What the file of a part says of its place in the whole.
+//! The place of a part in the whole image.
 
 use crate::ReplicateSet;
 use serde::{Deserialize, Serialize};
 
-/// What a part's file says of its place in the whole.
+/// The place of a part in the whole image.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct PartFacts {
     /// Replicates of the whole picture.
@@ -19,8 +19,7 @@ impl PartFacts {
     /// The most replicates whose exact sums cannot leave their range.
     pub const MOST: u32 = 1 << 15;
 
-    /// What is wrong with them beside a picture of `count` replicates, if anything. There may be
-    /// none if one was begun.
+    /// Checks them against a picture of `count` replicates. There may be none if one was begun.
     pub(crate) fn check(&self, count: u32, spp: u64, begun: bool) -> Result<(), String> {
         let sound = self.of <= Self::MOST
             && self.replicates.end() <= self.of

@@ -1,7 +1,7 @@
 //! A filter made ready for a film: drawing positions from it, and spreading splats with it.
 //!
-//! Camera samples are placed with the density |f(x) f(y)| / (∫|f|)², so that every sample counts
-//! the same but for its sign,
+//! Camera samples are placed with the density |f(x) f(y)| / (∫|f|)², so that all samples have the
+//! same weight up to its sign,
 //!
 //! ```text
 //! weight = sign f(x) · sign f(y) · (∫|f| / ∫f)²,
@@ -89,15 +89,15 @@ impl PixelFilter {
         &self.filter
     }
 
-    /// Where it ends (pixels).
+    /// Radius (pixels).
     pub fn radius(&self) -> f32 {
         self.filter.radius() as f32
     }
 
     /// Whether splats find pixels often enough to make a picture.
     ///
-    /// A splat counts for the pixels whose centres are within the radius. Below half a pixel some splats
-    /// are lost, which is made up for by what the others count; of few it is made up for by hardly any.
+    /// A splat counts for the pixels whose centres are within the radius. With a radius below half a pixel
+    /// some splats reach no pixel and the others weigh more; with a very small one hardly any remain.
     pub fn catches_splats(&self) -> bool {
         self.radius() >= NARROWEST
     }

@@ -26,7 +26,7 @@ pub enum PixelFormat {
 }
 
 impl PixelFormat {
-    /// What a pixel can be stored as in an `hdrfilm`, by the names that scenes use.
+    /// The pixel formats of `hdrfilm`, by their names in scenes.
     pub const ALL: [(&'static str, Self); 6] = [
         ("luminance", Self::Luminance),
         ("luminance_alpha", Self::LuminanceAlpha),
@@ -36,7 +36,7 @@ impl PixelFormat {
         ("xyza", Self::Xyza),
     ];
 
-    /// What files call [`PixelFormat::Bands`].
+    /// The name of [`PixelFormat::Bands`] in files.
     pub const BANDS: &str = "bands";
 
     /// Its name in scenes.

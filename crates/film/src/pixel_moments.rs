@@ -8,7 +8,7 @@ use etalon_statistics::{Fixed128, InvalidValue, Moments, U256};
 /// 32-bit words of both sums.
 pub(crate) const WORDS: usize = 12;
 
-/// Exact sums; the number of replicates is known to whoever holds them.
+/// Exact sums; the owner knows the number of replicates.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub(crate) struct PixelMoments {
     sum: Fixed128,

@@ -16,14 +16,14 @@ use etalon_images::{Error, Frame, Image, exr};
 use rayon::prelude::*;
 use std::path::{Path, PathBuf};
 
-/// A picture with what is known of it.
+/// A picture with its metadata and statistics.
 #[derive(Clone, Debug, PartialEq)]
 pub struct RenderedImage {
     /// The channels, `standard_error.*` included.
     pub image: Image,
-    /// Where the image lies in the whole film.
+    /// The position of the image in the whole film.
     pub frame: Frame,
-    /// What the file says of itself; files of other programs say nothing.
+    /// The metadata; `None` for files of other programs.
     pub metadata: Option<Metadata>,
 }
 
@@ -32,18 +32,18 @@ pub struct RenderedImage {
 pub enum ReadError {
     /// The file could not be read as an image.
     Image(Error),
-    /// The image could be read, but what it says of itself is wrong.
+    /// The image could be read, but its metadata are invalid.
     Metadata {
         /// The file.
         path: PathBuf,
-        /// What is wrong.
+        /// The mistake.
         reason: String,
     },
     /// It is no part of an image, or a damaged one.
     Part {
         /// The file.
         path: PathBuf,
-        /// What it is, and what would be accepted.
+        /// The mistake, and what would be accepted.
         reason: String,
     },
 }
@@ -235,7 +235,7 @@ impl RenderedImage {
     }
 }
 
-/// Reads an EXR file, whoever wrote it.
+/// Reads an EXR file, ours or of another program.
 ///
 /// # Errors
 /// If it is not an EXR file that can be read, or if it has metadata of ours that contradict
@@ -277,7 +277,7 @@ pub(crate) fn of_document(
     })
 }
 
-/// What the text of a file says of an image of this size; nothing if there is none.
+/// The metadata from the text of a file with an image of this size; `None` without text.
 pub(crate) fn metadata_of(text: &str, size: [usize; 2]) -> Result<Option<Metadata>, String> {
     if text.is_empty() {
         return Ok(None);

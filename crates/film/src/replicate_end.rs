@@ -1,4 +1,4 @@
-//! What happens when a replicate ends: its means join the statistics, and its tiles are summed.
+//! The end of a replicate: its means join the statistics, and its tiles are summed.
 
 use crate::faults::{FaultLog, InvalidSample};
 use crate::pixel_moments::PixelMoments;
@@ -12,10 +12,10 @@ pub(crate) const TILES: [Option<u32>; 3] = [Some(SIDE), Some(SIDE * FACTOR), Non
 
 /// Side of the smallest tiles.
 const SIDE: u32 = 16;
-/// How many of these make a side of the next.
+/// Ratio of the sides of successive tile sizes.
 const FACTOR: u32 = 4;
 
-/// What the sums of a replicate are divided by.
+/// The divisor of a replicate's sums.
 #[derive(Clone, Copy)]
 pub(crate) enum Divisor<'f> {
     /// The same number in all pixels.
@@ -35,7 +35,7 @@ impl Divisor<'_> {
     }
 }
 
-/// Where the numbers of a film belong.
+/// The layout of a film's numbers.
 pub(crate) struct Layout<'f> {
     pub(crate) channels: &'f [String],
     pub(crate) origin: UVec2,

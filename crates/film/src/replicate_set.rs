@@ -18,7 +18,7 @@ impl ReplicateSet {
         Self((!range.is_empty()).then_some(range).into_iter().collect())
     }
 
-    /// How many there are.
+    /// Number of replicates.
     #[must_use]
     pub fn count(&self) -> u32 {
         self.0.iter().map(|range| range.end - range.start).sum()

@@ -18,20 +18,20 @@ use std::sync::{Mutex, OnceLock};
 #[derive(Debug)]
 pub(crate) struct Running {
     channels: usize,
-    /// What samples bring to their own pixels, by row, column and channel.
+    /// Sums of the samples of each pixel, by row, column and channel.
     own: Vec<AtomicFixed128>,
     /// What splats bring to the colours; made for the first of them.
     colours: usize,
     splats: OnceLock<Box<[AtomicFixed128]>>,
-    /// What samples count for each pixel, by row and column, if sums are divided by it; else empty.
+    /// Sums of the weights of each pixel, by row and column, if sums are divided by them; else empty.
     weights: Vec<AtomicFixed128>,
     /// By row and column.
     pixels: Vec<PixelProgress>,
-    /// What was refused in it.
+    /// Its refused values.
     faults: Mutex<FaultLog>,
 }
 
-/// How far a pixel is. Only the tile that has the pixel writes to it.
+/// The progress of a pixel. Only the tile that has the pixel writes to it.
 #[derive(Debug, Default)]
 struct PixelProgress {
     samples: AtomicU32,
@@ -65,19 +65,19 @@ impl Running {
         })
     }
 
-    /// The sums of a pixel's samples, and that of what they count if sums are divided by it.
+    /// The sums of a pixel's samples, and of their weights if the sums are divided by these.
     pub(crate) fn of_pixel(&self, pixel: usize) -> impl Iterator<Item = &AtomicFixed128> {
         let own = &self.own[pixel * self.channels..][..self.channels];
         own.iter().chain(self.weights.get(pixel))
     }
 
-    /// How many of the channels are colours.
+    /// Number of colour channels.
     #[inline]
     pub(crate) fn colours(&self) -> usize {
         self.colours
     }
 
-    /// Whether sums are divided by what samples count.
+    /// Whether sums are divided by the sum of the weights.
     pub(crate) fn is_weighted(&self) -> bool {
         !self.weights.is_empty()
     }
@@ -106,7 +106,7 @@ impl Running {
         self.pixels[pixel].samples.load(Ordering::Relaxed)
     }
 
-    /// What a pixel's samples bring.
+    /// The dominant sample of a pixel.
     pub(crate) fn standing(&self, pixel: usize) -> DominantSample {
         let words = &self.pixels[pixel].standing;
         DominantSample::from_words(words.each_ref().map(|word| word.load(Ordering::Relaxed)))
@@ -150,9 +150,8 @@ impl Running {
         log
     }
 
-    /// Adds the splats to the sums of the pixels, and gives these, to be emptied. Sums that are divided by what samples
-    /// count become means, and splats are divided by `samples` then. `refuse` hears of
-    /// sums that leave their range, by pixel and channel.
+    /// Adds the splats to the sums of the pixels and returns these, to be emptied. Weighted sums become means, and splats
+    /// are divided by `samples` then. `refuse` is called for sums that are out of range, by pixel and channel.
     pub(crate) fn whole(
         &mut self,
         samples: u64,
@@ -185,7 +184,7 @@ impl Running {
         &mut self.own
     }
 
-    /// Begins anew, after the sums have been emptied; gives what was refused.
+    /// Starts a new replicate, after the sums have been emptied; returns the faults of the last one.
     pub(crate) fn begin(&mut self) -> FaultLog {
         self.pixels.fill_with(PixelProgress::default);
         std::mem::take(self.faults.get_mut().unwrap_or_else(|e| e.into_inner()))
@@ -198,14 +197,14 @@ impl Running {
             .collect()
     }
 
-    /// The means of what there is, plane by plane, of pixels with so many samples each: over what these count by themselves, else
-    /// over these weights, else over their number. Splats are divided by the mean number. For eyes: to the precision of a
-    /// float, quickly.
+    /// Means of the samples so far, plane by plane, for pixels with `samples` samples each: sums over their own weights if there
+    /// are any, else over `weights`, else over their number. Splats are divided by the mean number. In single precision, for
+    /// display.
     pub(crate) fn means(&mut self, samples: &[u32], weights: Option<&[f64]>) -> Vec<Vec<f32>> {
         let total: u64 = samples.iter().map(|&count| u64::from(count)).sum();
         let per_splat = samples.len() as f64 / total.max(1) as f64;
         let (channels, colours) = (self.channels, self.colours);
-        // What the sums of each pixel are multiplied by.
+        // Factors on the sums of each pixel.
         let inverse = |x: f64| if x > 0.0 { 1.0 / x } else { 0.0 };
         let factors: Vec<f64> = match (weights, self.weights.is_empty()) {
             (_, false) => self
@@ -248,7 +247,7 @@ impl Running {
         (0..channels).into_par_iter().map(plane).collect()
     }
 
-    /// What there is, if any sample is there.
+    /// A copy of the unfinished replicate, if it has any sample.
     pub(crate) fn snapshot(&mut self) -> Option<Unfinished> {
         let pixels = 0..self.pixels.len();
         let samples = self.all_samples();
@@ -271,7 +270,7 @@ impl Running {
         })
     }
 
-    /// Goes on from what there was, of as many pixels and channels.
+    /// Continues an unfinished replicate, of as many pixels and channels.
     pub(crate) fn restore(&mut self, unfinished: Unfinished) {
         let made = |sums: Vec<Fixed128>| sums.into_iter().map(AtomicFixed128::from_fixed);
         let pixels = unfinished.samples.iter().zip(&unfinished.standing);

@@ -46,7 +46,7 @@ impl SampleCounts {
         ((self.total() + pixels / 2) / pixels).max(1) as u32
     }
 
-    /// What a file says of them.
+    /// Their metadata.
     pub fn facts(&self) -> DealtFacts {
         let mut hasher = blake3::Hasher::new();
         for count in &self.of_pixel {
@@ -62,7 +62,7 @@ impl SampleCounts {
     }
 }
 
-/// What a file says of samples that were dealt unevenly.
+/// Metadata of an uneven distribution of samples.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct DealtFacts {
     /// Samples per pixel of the pilot that decided.

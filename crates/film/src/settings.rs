@@ -36,15 +36,15 @@ pub struct FilmSettings {
     pub crop_offset: UVec2,
     /// Width and height of the part that is rendered.
     pub crop_size: UVec2,
-    /// What is stored of a colour.
+    /// The stored components of a colour.
     pub pixel_format: PixelFormat,
     /// The names of the bands of a spectral film ([`PixelFormat::Bands`]), one channel each.
     pub bands: Vec<String>,
-    /// What a file should be where nobody names one.
+    /// The kind of file, if the command line does not decide it.
     pub file_format: FileFormat,
     /// The reconstruction filter.
     pub filter: Filter,
-    /// How it is applied.
+    /// The method of reconstruction.
     pub filter_method: FilterMethod,
 }
 
@@ -150,7 +150,7 @@ impl FilmSettings {
     }
 }
 
-/// What is stored of a colour, and what a file should be.
+/// Reads the stored components of a colour, and the kind of file.
 fn formats(params: &Params<'_>) -> (PixelFormat, FileFormat) {
     let mut names: Vec<_> = PixelFormat::ALL.iter().map(|(name, _)| *name).collect();
     // As Mitsuba 0.6 spells it.

@@ -16,7 +16,7 @@ pub(crate) struct Taps {
 }
 
 impl Taps {
-    /// Adds the splat to the film's colours from `first` on, but for what falls outside its crop.
+    /// Adds the splat to the film's colours from `first` on, within the crop window.
     pub(crate) fn spread(
         &mut self,
         film: &ExactFilm,

@@ -25,14 +25,14 @@ pub(crate) struct Spread {
     channels: usize,
     /// By row, column and channel.
     sums: Vec<Fixed128>,
-    /// What the current sample counts, by row and column of its footprint.
+    /// Weights of the current sample, by row and column of its footprint.
     weights: Vec<i64>,
     columns: usize,
     /// The footprint's first number in `sums`.
     first: usize,
     /// The largest weight, in absolute value.
     most: f32,
-    /// What samples count along either axis; kept to be used again.
+    /// Weights along either axis; kept for reuse.
     across: Vec<f32>,
     down: Vec<f32>,
 }
@@ -59,7 +59,7 @@ impl Term {
         let shift = exponent - 110;
         Ok(match shift {
             0..=38 => Self::Quick(mantissa << shift),
-            // Zero, and what is smaller than the unit.
+            // Zero, and numbers below the unit.
             _ if exponent == 0 => Self::Quick(0),
             _ => {
                 Fixed128::from_f32(x)?;
@@ -165,8 +165,8 @@ impl Spread {
         } else {
             self.each(channel, |sums: &mut [Fixed128; N], weight| {
                 for (sum, term) in sums.iter_mut().zip(terms) {
-                    // A tile's samples are too few to leave the range of 2⁶³ with sound values; where they do, the film
-                    // refuses what is left at the end.
+                    // Sound values cannot leave the range of 2⁶³ in one tile; if others do, the film refuses the
+                    // saturated sum in the end.
                     *sum = Fixed128::from_bits(sum.to_bits().saturating_add(term.times(weight)));
                 }
             });

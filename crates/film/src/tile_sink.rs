@@ -15,7 +15,7 @@ pub struct ExactTile<'f> {
     alone: bool,
     /// The pixel's sums: colours, alpha, the integrator's channels, and what samples count if the film divides by it.
     sums: Vec<Fixed128>,
-    /// Where samples count that pixels share, and whether the current one is one of them.
+    /// The footprint of samples if pixels share them.
     spread: Option<Box<Spread>>,
     spreading: bool,
     /// The film's first colour channel that samples bring now, and how many they bring.
@@ -29,10 +29,10 @@ pub struct ExactTile<'f> {
     /// Samples begun in this pixel, and the number of the first of them in the replicate.
     samples: u32,
     first: u32,
-    /// What all of the pixel's samples so far bring.
+    /// The dominant sample of the pixel so far.
     standing: DominantSample,
     weight: f32,
-    /// What samples of this pixel count besides.
+    /// Factor on the weights of this pixel's samples, for uneven numbers.
     dealt: f32,
     taps: Taps,
     faults: FaultLog,
@@ -315,7 +315,7 @@ fn fixed(colours: &[f32], weight: f32) -> Result<[Fixed128; 3], InvalidValue> {
     Ok(terms)
 }
 
-/// What is wrong with a colour before it was converted, which may turn one fault into another.
+/// The fault of a colour before its conversion, which may turn one fault into another.
 fn cause(rgb: [f32; 3]) -> Option<InvalidValue> {
     let sum: f32 = rgb.iter().map(|x| x * 0.0).sum();
     if sum == 0.0 {

@@ -1,11 +1,9 @@
-//! A replicate that was interrupted: what a checkpoint keeps of it, and the picture that it makes
-//! if nothing else is there.
+//! An interrupted replicate: its data in a checkpoint, and its picture if no replicate is finished.
 //!
-//! The picture divides every pixel by its own number of samples; where pixels share samples, by what those that
-//! are there count for it: their weights' sum with `weighted_mean`, and with `splatting` that sum's expectation
-//! for the numbers of samples around it. Splats come from the samples of
-//! all pixels, so theirs are divided by the mean number. It has no standard error: there is
-//! nothing whose spread could tell it.
+//! The picture divides every pixel by its own number of samples. Where pixels share samples, it divides by the sum of
+//! their weights with `weighted_mean`, and by the expectation of that sum, for the numbers of samples around the
+//! pixel, with `splatting`. Splats come from the samples of all pixels and are divided by the mean number. There is no
+//! standard error, as there is only one replicate.
 //!
 //! In a file a channel `NAME` takes four planes of 32-bit words `exact.NAME.unfinished.0` to `.3`,
 //! the sum over a pixel's samples, and as many of its splats, `exact.NAME.splats.0` to `.3`, both
@@ -27,7 +25,7 @@ use std::collections::HashMap;
 /// The plane with the numbers of samples.
 const COUNTS: &str = "exact.unfinished";
 
-/// What a file says of an unfinished replicate that it holds.
+/// Metadata of an unfinished replicate in a file.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct UnfinishedFacts {
     /// Samples per pixel that the replicate was to have.
@@ -64,17 +62,17 @@ pub(crate) struct Unfinished {
     pub(crate) own: Vec<Fixed128>,
     /// Sums of splats, by row, column and colour; empty if there are none.
     pub(crate) splats: Vec<Fixed128>,
-    /// What samples count for each pixel, by row and column; empty if pixels share none.
+    /// Sums of the weights of each pixel, by row and column; empty if pixels do not share samples.
     pub(crate) weights: Vec<Fixed128>,
     /// Samples of each pixel, and what stands out among them.
     pub(crate) samples: Vec<u32>,
     pub(crate) standing: Vec<DominantSample>,
-    /// What was refused.
+    /// Refused values.
     pub(crate) faults: FaultLog,
 }
 
 impl Unfinished {
-    /// What a file says of it.
+    /// Its metadata.
     pub(crate) fn facts(&self, samples_per_replicate: u32) -> UnfinishedFacts {
         UnfinishedFacts {
             samples_per_replicate,
@@ -169,7 +167,7 @@ impl Unfinished {
         planes
     }
 
-    /// What the planes of a file of so many pixels hold of it.
+    /// Reads it from the planes of a file of so many pixels.
     ///
     /// # Errors
     /// Says what is missing.
@@ -244,7 +242,7 @@ impl Unfinished {
     }
 }
 
-/// Of what a plane holds sums.
+/// The kind of sums that a plane holds.
 #[derive(Clone, Copy)]
 enum Kind {
     Own,

@@ -56,7 +56,7 @@ impl FileAssets {
         &self.search
     }
 
-    /// The files that were found and asked for so far, sorted.
+    /// The files that were found and read so far, sorted.
     pub fn used(&self) -> Vec<PathBuf> {
         self.state().used.iter().cloned().collect()
     }

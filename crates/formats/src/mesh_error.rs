@@ -1,4 +1,4 @@
-//! What is wrong with a mesh file, and where in it.
+//! A mistake in a mesh file, with its place.
 
 use std::fmt;
 
@@ -18,7 +18,7 @@ pub enum Place {
 pub struct MeshError {
     /// Where in the file.
     pub place: Place,
-    /// What is wrong, with the offending value.
+    /// The mistake, with the offending value.
     pub message: String,
 }
 

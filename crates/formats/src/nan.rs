@@ -1,6 +1,6 @@
 //! The many spellings of "not a number" in text files.
 
-/// Whether a word stands for a number that is none: `nan`, `-nan(ind)`, `1.#QNAN`, `-1.#IND00`.
+/// Whether a word means NaN: `nan`, `-nan(ind)`, `1.#QNAN`, `-1.#IND00`.
 pub(crate) fn is_nan(word: &[u8]) -> bool {
     let word = word.strip_prefix(b"-").unwrap_or(word);
     let word = word.strip_prefix(b"+").unwrap_or(word);

@@ -6,8 +6,7 @@
 
 use glam::{DVec2, DVec3, Vec3};
 
-/// Polygons of more corners than this are cut as fans whatever their form: ears cost quadratic
-/// time.
+/// Polygons of more corners than this are always cut as fans: ears cost quadratic time.
 const MOST_CORNERS_FOR_EARS: usize = 1024;
 
 /// Cuts the polygon of these corners and gives the triangles, as corner numbers within the

@@ -34,8 +34,8 @@ impl SearchPath {
         &self.folders
     }
 
-    /// The first file or folder that `name` leads to. An absolute name stands for itself; a
-    /// name with backslashes that leads nowhere is tried with slashes.
+    /// The first file or folder for `name`. An absolute name is used as it is; a name with backslashes
+    /// that is not found is tried with slashes.
     pub fn find(&self, name: &str) -> Option<PathBuf> {
         if name.is_empty() || name.contains('\0') {
             return None;
@@ -57,7 +57,7 @@ impl SearchPath {
             .find(|path| path.exists())
     }
 
-    /// Why `name` leads nowhere: a file is called so but for its case, or where was looked.
+    /// Why `name` was not found: a file whose name differs in case, or the folders that were searched.
     pub fn why_not(&self, name: &str) -> String {
         match self.called_so_but_for_case(name) {
             Some(other) => format!(

@@ -26,7 +26,7 @@ use linear::Linear;
 use visits::Counter;
 use wide::Wide;
 
-/// Which accelerator to build.
+/// The kind of accelerator.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum AcceleratorKind {
     /// Every ray is tested against everything: slow, and obviously right.
@@ -52,7 +52,7 @@ impl AcceleratorKind {
         Self::Wide,
     ];
 
-    /// What it is called on the command line.
+    /// Its name on the command line.
     pub fn name(self) -> &'static str {
         match self {
             Self::Linear => "linear",
@@ -150,7 +150,7 @@ impl Bounds {
     }
 }
 
-/// What an accelerator is built from: primitives numbered from 0, triangles and others.
+/// The input of an accelerator: primitives numbered from 0, triangles and others.
 pub(crate) trait Primitives: Sync {
     /// Number of primitives.
     fn len(&self) -> usize;
@@ -166,13 +166,13 @@ pub(crate) trait Primitives: Sync {
     }
 }
 
-/// How an accelerator intersects what is not a triangle.
+/// Intersection of primitives that are not triangles, for accelerators.
 pub(crate) trait CustomPrimitives {
-    /// Notes the nearest hit of `primitive`, if it wins over what is known.
+    /// Updates `nearest` with the nearest hit of `primitive`.
     fn intersect(&self, primitive: u32, probe: &TraversalRay, nearest: &mut ClosestHit);
     /// Whether the ray hits `primitive` before `t_max`.
     fn occludes(&self, primitive: u32, probe: &TraversalRay, t_max: f32) -> bool;
-    /// Who is told what a ray looks at.
+    /// The counter of visited nodes and primitives.
     fn counter(&self) -> &impl Counter;
 }
 
@@ -189,11 +189,11 @@ pub(crate) fn has_area(corners: &[Vec3; 3]) -> bool {
 #[derive(Debug)]
 pub(crate) struct Accelerator {
     index: Index,
-    /// What has no end, and so no place in a tree: every ray is tested against it.
+    /// Unbounded primitives, which have no place in a tree: every ray is tested against them.
     endless: Vec<u32>,
 }
 
-/// Where primitives are looked up.
+/// The tree or list of an accelerator.
 #[derive(Debug)]
 enum Index {
     Linear(Linear),
@@ -222,7 +222,7 @@ impl Accelerator {
         }
     }
 
-    /// Notes the nearest hit, if it wins over what is known.
+    /// Updates the nearest hit.
     #[inline(always)]
     pub(crate) fn intersect(
         &self,

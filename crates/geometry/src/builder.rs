@@ -33,7 +33,7 @@ pub struct GeometryBuilder {
     placements: u32,
 }
 
-/// What belongs to a group.
+/// The members of a group.
 #[derive(Debug, Default)]
 struct Members {
     shapes: Vec<ShapeId>,
@@ -76,8 +76,8 @@ impl GeometryBuilder {
         self.attachments[shape.0 as usize].light = light;
     }
 
-    /// Says that a member of a group may be a light, carried by the only placement of that group: `depth` only
-    /// instances within an instance of the world, all of which keep angles.
+    /// Declares that a member of a group may be a light, carried by the only placement of that group: `depth` nested
+    /// instances within an instance of the world, all of which preserve angles.
     pub fn set_carrier(&mut self, shape: ShapeId, outermost: InstanceId, depth: u32) {
         let placement = self.instances[outermost.0 as usize].first + depth;
         self.attachments[shape.0 as usize].carrier = InstanceId(placement);

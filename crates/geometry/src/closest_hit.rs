@@ -1,7 +1,7 @@
-//! The nearest hit so far, and which of two hits at the same distance wins.
+//! The nearest hit so far, and the order of hits at the same distance.
 //!
-//! Two smooth shapes may lie closer than single precision tells, as water in a glass does. Which of
-//! them is met first is decided in double precision.
+//! Two smooth shapes may be closer than single precision resolves, as water in a glass. Their order is
+//! decided in double precision.
 
 use glam::Vec2;
 
@@ -24,7 +24,7 @@ pub(crate) struct ClosestHit {
     /// Which of the accelerator's placements of groups it lies in, if `primitive` is an instance, see
     /// [`Group`](crate::geometry::Group).
     pub(crate) path: u32,
-    /// Where the accelerator keeps the triangle: its block times their size, plus its lane.
+    /// Index of the triangle in the accelerator: its block times their size, plus its lane.
     pub(crate) slot: u32,
     /// Barycentric coordinates on a triangle.
     pub(crate) parameters: Vec2,
@@ -55,7 +55,7 @@ impl ClosestHit {
         }
     }
 
-    /// What may still win inside of an instance that is primitive `instance`.
+    /// The nearest hit as a bound for the inside of the instance that is primitive `instance`.
     #[inline]
     pub(crate) fn inside(&self, instance: u32) -> Self {
         let ties_win = self.found && instance < self.primitive;
@@ -91,9 +91,9 @@ impl ClosestHit {
         t < self.t || (t == self.t && primitive < self.primitive)
     }
 
-    /// Whether a hit of a smooth shape would win. Against another smooth shape it counts to
-    /// double precision; within `tolerance` they are at the same place, and `precedes` tells whether
-    /// the new one is before the primitive that was nearest.
+    /// Whether a hit of a smooth shape would win. Two smooth shapes are compared in double precision;
+    /// within `tolerance` they coincide, and `precedes` decides whether the new one is before the
+    /// nearest so far.
     #[inline]
     pub(crate) fn loses_to_smooth(
         &self,

@@ -1,4 +1,4 @@
-//! All surfaces of a scene: what a ray hits, and what is known of the point it hits.
+//! All surfaces of a scene: intersection, and the vertex at a hit.
 
 use crate::accelerator::visits::{Counter, Uncounted, Visits};
 use crate::accelerator::{Accelerator, Bounds};
@@ -14,7 +14,7 @@ use core::cell::Cell;
 use etalon_transport::{Hit, InstanceId, LightId, MaterialId, Ray, ShapeId, SurfaceInteraction};
 use glam::{Vec2, Vec3};
 
-/// What belongs to a shape but is not geometry.
+/// Properties of a shape other than its geometry.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct ShapeBinding {
     pub(crate) material: MaterialId,
@@ -23,7 +23,7 @@ pub(crate) struct ShapeBinding {
     pub(crate) carrier: InstanceId,
     /// Whether light is refracted into it.
     pub(crate) refractive: bool,
-    /// Where the materials of its faces begin in [`Geometry::face_materials`], if they have their own.
+    /// Index of the first of its faces' materials in [`Geometry::face_materials`], if they have their own.
     pub(crate) faces: Option<u32>,
 }
 
@@ -47,7 +47,7 @@ struct Found {
     parameters: Vec2,
 }
 
-/// How much geometry there is.
+/// Counts of the geometry.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct GeometryStatistics {
     /// Triangles stored.
@@ -76,7 +76,7 @@ impl Geometry {
         }
     }
 
-    /// What accelerators ask of the world.
+    /// The primitives of the world that are not triangles, for accelerators.
     #[inline(always)]
     fn others<'a, C>(&'a self, counter: &'a C) -> WorldOthers<'a, C> {
         WorldOthers {
@@ -201,7 +201,7 @@ impl Geometry {
         let (instance, rest) = self.enter(group, path);
         let inner = &self.groups[instance.group.0 as usize];
         instance.placement.at(ray.time, |placement| {
-            // Of triangles no more than the time and the hit is asked.
+            // Triangles need only the time and the hit.
             let mut local = *ray;
             if rest > 0 || self.shapes[hit.shape.0 as usize].is_analytic() {
                 (local.origin, local.direction) = placement.local_ray(ray.origin, ray.direction);
@@ -287,7 +287,7 @@ impl Geometry {
         &self.shapes[shape.0 as usize]
     }
 
-    /// How much there is.
+    /// Counts of the geometry.
     pub fn statistics(&self) -> GeometryStatistics {
         let triangles = |shape: &Shape| shape.mesh().map_or(0, |m| m.triangle_count());
         let accelerators = || {

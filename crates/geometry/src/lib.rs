@@ -1,10 +1,9 @@
 //! Shapes, instances and accelerators.
 //!
 //! A [`Shape`] is made from its description ([`Shape::from_params`]); a [`GeometryBuilder`]
-//! collects shapes, groups and instances; a [`Geometry`] answers what a ray hits
-//! ([`Geometry::intersect`], [`Geometry::occluded`]), what is known of that point
-//! ([`Geometry::vertex`]), and how points on lights are chosen
-//! ([`Shapes`](etalon_transport::Shapes)).
+//! collects shapes, groups and instances; a [`Geometry`] intersects rays
+//! ([`Geometry::intersect`], [`Geometry::occluded`]), computes the vertex at a hit
+//! ([`Geometry::vertex`]), and samples points on lights ([`Shapes`](etalon_transport::Shapes)).
 //!
 //! Accelerators hold triangles of all shapes in one tree; a group has a tree of its own that all
 //! its instances share.

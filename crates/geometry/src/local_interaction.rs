@@ -15,7 +15,7 @@ pub(crate) struct LocalInteraction {
     pub(crate) position: Vec3,
     /// Bound on the absolute error of each coordinate of `position`.
     pub(crate) error: Vec3,
-    /// How far along `normal` from `position` the surface is; NaN if not known, see [`SurfaceInteraction`].
+    /// Offset of the surface from `position` along `normal`; NaN if not known, see [`SurfaceInteraction`].
     pub(crate) depth: f32,
     /// Unit geometric normal, outside.
     pub(crate) normal: Vec3,
@@ -27,7 +27,7 @@ pub(crate) struct LocalInteraction {
     pub(crate) dp_du: Vec3,
     /// ∂p/∂v.
     pub(crate) dp_dv: Vec3,
-    /// Which of the faces that the shape tells apart.
+    /// The face of the shape, for materials by face.
     pub(crate) face: u32,
 }
 
@@ -70,7 +70,7 @@ impl LocalInteraction {
         }
     }
 
-    /// [`LocalInteraction::placed`], but for a placement that changes nothing, and so loses nothing.
+    /// [`LocalInteraction::placed`], skipped for the identity, without loss of precision.
     pub(crate) fn placed_if(self, placement: &Placement) -> Self {
         if *placement == Placement::IDENTITY {
             self

@@ -34,8 +34,8 @@ impl Placement {
         (invertible && placement.inverse.is_finite()).then_some(placement)
     }
 
-    /// Reads the parameter `to_world` (default: the identity). What is animated stays in its own space: an
-    /// instance moves it. After a mistake, which has been recorded, `None`.
+    /// Reads the parameter `to_world` (default: the identity). An animated shape stays in its own space, as an
+    /// instance moves it. `None` after a mistake, which has been recorded.
     pub fn from_params(params: &Params<'_>) -> Option<Self> {
         if params.is_animated("to_world") {
             return Some(Self::IDENTITY);

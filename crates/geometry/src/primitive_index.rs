@@ -18,7 +18,7 @@ struct PrimitiveRange {
     thing: PrimitiveOwner,
 }
 
-/// What primitives may be.
+/// The owner of a range of primitives.
 #[derive(Clone, Copy, Debug)]
 pub(crate) enum PrimitiveOwner {
     /// A shape: its triangles, or one primitive if it is in one piece.
@@ -47,7 +47,7 @@ impl Default for Bounds {
 }
 
 impl PrimitiveIndex {
-    /// Adds a thing of so many primitives.
+    /// Adds an owner of so many primitives.
     pub(crate) fn add(&mut self, thing: PrimitiveOwner, primitives: u32, bounds: Bounds) {
         if primitives == 0 {
             return;
@@ -149,7 +149,7 @@ impl Primitives for Contents<'_> {
     }
 }
 
-/// Intersects what is not a triangle of a group: its smooth shapes and its instances.
+/// Intersects the smooth shapes and instances of a group.
 pub(crate) struct GroupOthers<'a, C> {
     pub(crate) geometry: &'a Geometry,
     pub(crate) group: &'a Group,
@@ -237,7 +237,7 @@ pub(crate) fn is_in_front(t: f64) -> bool {
     (t as f32) > 0.0
 }
 
-/// Which of two smooth shapes a ray crosses first, where distances do not tell.
+/// The order in which a ray crosses two smooth shapes whose distances are too close.
 pub(crate) trait Order {
     /// A parameter below that of every crossing that is ahead of the ray.
     fn earliest(&self, probe: &TraversalRay) -> f64;

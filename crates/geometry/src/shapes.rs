@@ -93,7 +93,7 @@ macro_rules! shapes {
             }
         }
 
-        /// Asks the shape, whichever it is.
+        /// Dispatches to the shape.
         macro_rules! ask {
             ($shape:expr, $it:ident => $answer:expr) => {
                 match $shape {
@@ -135,7 +135,7 @@ shapes! {
         "quadric" => |params, _| Quadric::from_params(params),
         "ellipsoid" => |params, _| Quadric::ellipsoid(params),
     }
-    /// Where a function vanishes, in a box.
+    /// The zero set of a function, in a box.
     Implicit(Placed<Implicit>) {
         "implicit" => |params, _| Implicit::from_params(params),
         "superellipsoid" => |params, _| Implicit::of(params, Field::superellipsoid(params)),
@@ -197,7 +197,7 @@ impl Shape {
         self.triangles().is_none()
     }
 
-    /// How many primitives it is: triangles, or pieces.
+    /// Number of primitives: triangles, or pieces.
     pub(crate) fn primitives(&self) -> u32 {
         match self.triangles() {
             Some(mesh) => mesh.triangle_count() as u32,
@@ -205,12 +205,12 @@ impl Shape {
         }
     }
 
-    /// How many pieces it is where it is intersected by a formula, whatever an accelerator does with it.
+    /// Number of pieces that are intersected by a formula, independent of the accelerator.
     pub(crate) fn primitives_analytic(&self) -> u32 {
         ask!(self, shape => shape.pieces())
     }
 
-    /// How many faces it tells apart, each of which may have a material of its own.
+    /// Number of faces, each of which may have its own material.
     pub fn faces(&self) -> u32 {
         ask!(self, shape => shape.faces())
     }
@@ -293,7 +293,7 @@ impl Shape {
         self.mesh().is_some() || self.parametric(DVec2::splat(0.5)).is_some()
     }
 
-    /// See [`ShapeModel::is_convex`]; a mesh is asked itself.
+    /// See [`ShapeModel::is_convex`]; a mesh is examined itself.
     pub(crate) fn is_convex(&self) -> bool {
         match self.mesh() {
             Some(mesh) => mesh.is_small_and_convex(),
@@ -338,7 +338,7 @@ impl Shape {
         ask!(self, shape => shape.normals())
     }
 
-    /// Makes now what sampling would make when first asked.
+    /// Builds the tables for sampling now instead of at first use.
     pub(crate) fn prepare_sampling(&self) {
         ask!(self, shape => shape.prepare_sampling());
     }

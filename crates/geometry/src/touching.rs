@@ -1,4 +1,4 @@
-//! Which shapes nearly touch, so that single precision cannot tell their surfaces apart.
+//! Shapes that nearly touch, closer than single precision resolves.
 
 use crate::shapes::Shape;
 use crate::shapes::crossing::Line;
@@ -35,7 +35,7 @@ fn comes_near(a: &Shape, b: &Shape, near: f64) -> bool {
     })
 }
 
-/// Of `shapes` among `all`, those that nearly touch another of them.
+/// Those of `shapes`, indices of `all`, that nearly touch another of them.
 pub(crate) fn touching(all: &[Shape], shapes: &[usize]) -> Vec<usize> {
     let candidates: Vec<_> = shapes
         .iter()

@@ -6,12 +6,12 @@ use glam::{Vec3, Vec3A};
 /// Rays and geometry are nearer than this (m) to the origin of space, or not met.
 const FARTHEST: f32 = 1e30;
 
-/// A ray with all that the intersection tests derive from it, in the space of one accelerator.
+/// A ray with the quantities that intersection tests derive from it, in the space of one accelerator.
 ///
 /// **Triangles** (Woop, Benthin & Wald 2013, "Watertight Ray/Triangle Intersection", JCGT 2(1)):
 /// the largest component of the direction is the axis `k[2]`; shearing by `shear` along it takes
-/// the ray to the axis itself. Every corner is sheared in the same way whatever triangle asks, so
-/// that triangles which share an edge agree on which side of it the ray passes.
+/// the ray to the axis itself. The sheared position of a corner does not depend on the triangle, so
+/// triangles with a common edge agree on which side of it the ray passes.
 ///
 /// **Boxes**: `t = plane · inverse − scaled_origin`, where both are conservative, see
 /// [`TraversalRay::new`].
@@ -45,10 +45,10 @@ impl TraversalRay {
     /// Prepares a ray for geometry whose coordinates are all at most `extent` in magnitude.
     ///
     /// The triangle test errs by at most 2ε|p − o| in each coordinate of a corner. Every box is
-    /// therefore widened by e = 4ε(extent + max|o|), which also covers the rounding of the box
-    /// test itself but for the relative error of 1/d, which the caller adds to the far side. A
+    /// therefore widened by e = 4ε(extent + max|o|), which also covers the rounding of the box test
+    /// itself. The relative error of 1/d is not included: the caller adds it to the far side. A
     /// component of the direction is never so small that t could overflow: e/d stays far beyond
-    /// any scene, so a ray in the plane of a box's face is inside of it.
+    /// any scene, so a ray in the plane of a box's face is inside the box.
     #[inline(always)]
     pub(crate) fn new(origin: Vec3, direction: Vec3, extent: f32) -> Self {
         let d = direction.to_array();

@@ -1,4 +1,4 @@
-//! What is not a triangle of the world: smooth shapes, where two of them touch too, and instances.
+//! Primitives of the world that are not triangles: smooth shapes, also touching ones, and instances.
 
 use crate::accelerator::CustomPrimitives;
 use crate::accelerator::visits::Counter;
@@ -18,7 +18,7 @@ fn line_of(probe: &TraversalRay) -> Line {
     }
 }
 
-/// Intersects what is not a triangle of the world: smooth shapes and instances.
+/// Intersects the smooth shapes and instances of the world.
 pub(crate) struct WorldOthers<'a, C> {
     pub(crate) geometry: &'a Geometry,
     pub(crate) counter: &'a C,

@@ -16,7 +16,7 @@ use std::path::{Path, PathBuf};
 /// written directly.
 ///
 /// # Errors
-/// Whatever `write` or the operating system report.
+/// Those of `write` and of the operating system.
 pub fn write_atomically<T>(
     path: &Path,
     write: impl FnOnce(&mut BufWriter<File>) -> io::Result<T>,
@@ -75,7 +75,7 @@ pub fn target(path: &Path) -> io::Result<PathBuf> {
     ))
 }
 
-/// A new file in the folder of `path` that nobody else has open.
+/// A new file in the folder of `path`, created exclusively.
 fn create_beside(path: &Path) -> io::Result<(PathBuf, File)> {
     let Some(name) = path.file_name() else {
         return Err(io::Error::new(

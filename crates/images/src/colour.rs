@@ -32,11 +32,11 @@ pub struct Colour<'a> {
     pub alpha: Option<&'a [f32]>,
     /// Whether there is a luminance only.
     pub grey: bool,
-    /// What whoever gave the file should know, as whole sentences.
+    /// Remarks about the file, as whole sentences.
     pub notes: Vec<String>,
 }
 
-/// How three channels stand for a colour.
+/// The colour model of three channels.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 enum Model {
     Rgb,
@@ -46,7 +46,7 @@ enum Model {
     Luminance,
 }
 
-/// Channels of one layer that stand for a colour.
+/// The channels of one layer that form a colour.
 struct Layer<'a> {
     name: &'a str,
     kind: Kind,
@@ -88,7 +88,7 @@ impl Layer<'_> {
     }
 }
 
-/// The channels of a layer by what they are called after the last dot.
+/// The channels of a layer by the part of their names after the last dot.
 struct Letters<'a>(Vec<(&'a str, &'a Channel)>);
 
 impl<'a> Letters<'a> {

@@ -26,7 +26,7 @@ pub enum Error {
     Invalid {
         /// The file.
         path: PathBuf,
-        /// What is wrong with it.
+        /// The mistake.
         reason: String,
     },
     /// The file is, or may be, valid, but uses something that is not supported.
@@ -34,7 +34,7 @@ pub enum Error {
     Unsupported {
         /// The file.
         path: PathBuf,
-        /// What it uses, and what would be accepted.
+        /// The unsupported feature, and what would be accepted.
         reason: String,
     },
     /// The file declares more pixels than is reasonable for its length.
@@ -42,7 +42,7 @@ pub enum Error {
     TooLarge {
         /// The file.
         path: PathBuf,
-        /// What it asks for, and the limit.
+        /// Its size, and the limit.
         reason: String,
     },
 }

@@ -1,4 +1,4 @@
-//! The kinds of picture files, told apart by their content.
+//! The kinds of picture files, recognised by their content.
 
 /// The kind of file.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]

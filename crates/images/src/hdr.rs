@@ -1,7 +1,7 @@
 //! Radiance pictures: RGBE, one shared exponent per pixel (Ward 1991), run-length encoded.
 //!
-//! A pixel (r, g, b, e) with e > 0 stands for (r, g, b) · 2^(e − 136), about 1 % of the brightest
-//! channel in the worst case.
+//! A pixel (r, g, b, e) with e > 0 is (r, g, b) · 2^(e − 136), with an error of at most about 1 % of
+//! the brightest channel.
 
 use crate::losses::Losses;
 use crate::{Error, Image, write_atomically};
@@ -37,7 +37,7 @@ fn encode(file: &mut impl Write, image: &Image, [r, g, b]: [&[f32]; 3]) -> io::R
         for pixel in y * width..(y + 1) * width {
             row.push(rgbe([r[pixel], g[pixel], b[pixel]], &mut losses));
         }
-        // Rows of other lengths cannot be told from old-style runs.
+        // Rows of other lengths cannot be distinguished from old-style runs.
         if (8..0x8000).contains(&width) {
             file.write_all(&[2, 2, (width >> 8) as u8, width as u8])?;
             for component in 0..4 {

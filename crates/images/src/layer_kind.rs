@@ -9,7 +9,7 @@ pub(crate) enum Kind {
     Other,
     /// Colours that are a part of the picture, or of the scene.
     Pass,
-    /// Vectors and statistics: no colours, whatever the channels' names.
+    /// Vectors and statistics: no colours, even if the channels are named so.
     Data,
 }
 

@@ -10,9 +10,9 @@ use std::path::Path;
 
 /// Writes the colour of an image, developed and encoded as sRGB, with its alpha if it has any.
 ///
-/// What is above 1 or below 0 is clipped, and what is not finite is painted magenta; the result
-/// counts both. Colour is taken to be premultiplied by alpha, as EXR has it, and PNG is not, so it
-/// is divided by alpha.
+/// Values above 1 or below 0 are clipped, and pixels that are not finite are painted magenta; the
+/// result counts both. Colour is premultiplied by alpha, as in EXR; PNG is not, so it is divided by
+/// alpha.
 ///
 /// # Errors
 /// [`Error::Unsupported`] for an image without colour, [`Error::Write`] where the operating

@@ -1,6 +1,6 @@
-//! What a PNG file says of the encoding of its samples, where that is not sRGB.
+//! The encoding of a PNG file's samples by its metadata, if it is not sRGB.
 //!
-//! They are decoded as sRGB whatever it says, as Mitsuba does. By the PNG specification (third
+//! Samples are always decoded as sRGB, as in Mitsuba. By the PNG specification (third
 //! edition, 4.3) the chunk cICP goes before iCCP, that before sRGB, and that before gAMA with cHRM.
 
 /// A sentence about a file that says that its samples are not sRGB.

@@ -1,6 +1,6 @@
-//! Pictures with the samples they were stored with: what textures are made of.
+//! Pictures with their samples as stored, for textures.
 //!
-//! The formats are told apart by the files' content, never by their names.
+//! Formats are recognised by the files' content, never by their names.
 
 use crate::{Error, Format, Frame, Image, exr, foreign, lfs_pointer, pfm, srgb};
 use std::path::Path;
@@ -8,9 +8,9 @@ use std::path::Path;
 /// Samples, pixel after pixel, row after row from the top.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Samples {
-    /// 8-bit integers; 255 stands for 1.
+    /// 8-bit integers; 255 is 1.
     U8(Vec<u8>),
-    /// 16-bit integers; 65,535 stands for 1.
+    /// 16-bit integers; 65,535 is 1.
     U16(Vec<u16>),
     /// Floats.
     F32(Vec<f32>),
@@ -68,8 +68,8 @@ impl Raster {
         self
     }
 
-    /// What whoever gave the file should know, each a sentence about "it". What concerns the
-    /// encoding of integers is left out if these are used as they are (`raw`).
+    /// Remarks about the file, each a sentence about "it". Those on the encoding of integers are left
+    /// out if these are used as they are (`raw`).
     pub fn notes(&self, raw: bool) -> impl Iterator<Item = &str> {
         let encoding = self.encoding.as_deref().filter(|_| !raw);
         self.notes.iter().map(String::as_str).chain(encoding)
@@ -331,7 +331,7 @@ fn from_exr(bytes: &[u8], path: &Path) -> Result<Raster, Error> {
     let count = if colour.grey { 1 } else { 3 };
     let planes = colour.planes.iter().take(count).map(|plane| &**plane);
     let planes: Vec<&[f32]> = planes.chain(colour.alpha).collect();
-    // In our own files the picture has no layer, and what else there is was asked for.
+    // In our own files the picture has no layer, and other channels are intended.
     let notes = if ours { Vec::new() } else { colour.notes };
     Ok(raster(&planes, notes))
 }

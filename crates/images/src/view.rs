@@ -14,7 +14,7 @@ use crate::png::gain;
 /// A way to show linear colours.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum View {
-    /// As they are; what is above 1 is clipped.
+    /// Unchanged; values above 1 are clipped.
     #[default]
     Srgb,
     /// With highlights that roll off.
@@ -31,7 +31,7 @@ impl View {
     /// All of them.
     pub const ALL: [Self; 2] = [Self::Srgb, Self::Filmic];
 
-    /// The name by which it is asked for.
+    /// Its name on the command line.
     #[must_use]
     pub fn name(self) -> &'static str {
         match self {
@@ -62,7 +62,7 @@ impl View {
 /// How a picture is made of an image.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Development {
-    /// Stops by which it is brightened, a factor of 2 each.
+    /// Exposure in stops, a factor of 2 each.
     pub exposure: f32,
     /// How it is shown then.
     pub view: View,

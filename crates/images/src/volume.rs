@@ -14,7 +14,7 @@ pub struct Volume {
     pub bounds: [[f32; 3]; 2],
     /// All numbers.
     pub samples: Vec<f32>,
-    /// Bytes behind the numbers, of which the header says nothing.
+    /// Bytes after the numbers that the header does not account for.
     pub behind: usize,
 }
 
@@ -24,7 +24,7 @@ fn is_openvdb(bytes: &[u8]) -> bool {
 }
 
 impl Volume {
-    /// Reads a volume, or says what is wrong with it. Memory is taken for what is there, whatever the header says.
+    /// Reads a volume, or reports a mistake. Memory is allocated in proportion to the data, not by the header.
     pub fn decode(bytes: &[u8]) -> Result<Self, String> {
         let broken = |reason: String| Err(reason);
         if is_openvdb(bytes) {

@@ -4,13 +4,12 @@
 //! AO(x) = 1/π ∫ V(x, ω)·cos θ dω  over the hemisphere that faces the camera
 //! ```
 //!
-//! where V is 1 if nothing stands within `distance` of x along ω, else 0 (Zhukov, Iones, Kronin
-//! 1998, with a step for the fall-off): the light that a white surface reflects under a white sky
-//! of radiance 1, near things apart. The picture is grey, whatever materials and lights there are;
-//! light passes `mask` and `null` as it should. `sampling` says how directions are drawn: `cosine`
-//! in proportion to cos θ, which needs no weight; `uniform`, weighted by 2 cos θ, is there to be
-//! compared. The hemisphere is that about the shading normal; of its directions those below the
-//! surface itself see nothing.
+//! where V is 1 if nothing is within `distance` of x along ω, else 0 (Zhukov, Iones, Kronin 1998, with
+//! a step for the fall-off): the radiance of a white surface under a white sky of radiance 1, occluded
+//! by near objects only. The picture is grey and independent of materials and lights, except that light
+//! passes `mask` and `null`. `sampling` selects the density of directions: `cosine`, proportional to
+//! cos θ, needs no weight; `uniform`, weighted by 2 cos θ, is for comparison. The hemisphere is that
+//! about the shading normal; its directions below the geometric surface are occluded.
 
 use crate::steps::camera_ray::camera_ray;
 use crate::steps::dimensions::BounceSamples;
@@ -27,7 +26,7 @@ use glam::Vec3;
 /// The ambient occlusion integrator.
 #[derive(Clone, Debug)]
 pub struct AmbientOcclusion {
-    /// What is farther away does not occlude (m).
+    /// The distance beyond which nothing occludes (m).
     pub distance: f32,
     /// Whether directions are drawn in proportion to the cosine.
     pub cosine: bool,
@@ -131,7 +130,7 @@ impl Integrator for AmbientOcclusion {
         ReplicateKind::Blocks
     }
 
-    /// It asks for no light.
+    /// It needs no light.
     fn incompatibilities(&self, _: &SceneCapabilities) -> Vec<Incompatibility> {
         Vec::new()
     }

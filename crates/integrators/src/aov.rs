@@ -7,13 +7,13 @@
 //! C = 1/n Σᵢ wᵢ v(xᵢ),   v = 0 where no surface is hit
 //! ```
 //!
-//! over the n samples of a pixel, which its filter places and weighs by wᵢ (1 without negative lobes):
-//! the geometric buffers of Saito & Takahashi 1990 ("Comprehensible Rendering of 3-D Shapes"), with
-//! antialiasing. All variables are numbers but the albedo ρ, a spectrum, whose channels are its colour under daylight D
-//! ([`QuadratureNode`] with 36 wavelengths), so that what is grey is grey:
+//! over the n samples of a pixel, placed by its filter with weights wᵢ (1 without negative lobes): the
+//! geometric buffers of Saito & Takahashi 1990 ("Comprehensible Rendering of 3-D Shapes"), with
+//! antialiasing. Except for the albedo ρ, all variables are numbers. The channels of ρ, a spectrum, are its colour under
+//! daylight D ([`QuadratureNode`] with 36 wavelengths), so that a grey albedo has a grey colour:
 //!
 //! ```text
-//! v = ∫ ρ(x, λ) D(λ) s(λ) dλ,   held to [0, 1], as ρ(x, λ) is
+//! v = ∫ ρ(x, λ) D(λ) s(λ) dλ,   clamped to [0, 1], as ρ(x, λ) is
 //! ```
 //!
 //! Channels, named as Mitsuba names them: for each nested integrator `NAME` its `NAME.R`,
@@ -63,7 +63,7 @@ pub enum Variable {
     ShapeIndex,
 }
 
-/// Fourths of the wavelengths at which an albedo is asked for.
+/// A fourth of the number of wavelengths at which an albedo is evaluated.
 const NODES: u32 = 9;
 
 /// These wavelengths.
@@ -120,7 +120,7 @@ impl Aov {
         })
     }
 
-    /// What a denoiser looks at: `albedo`, `normal` and `depth` of the first surface, and no picture.
+    /// The features of a denoiser: `albedo`, `normal` and `depth` of the first surface, without a picture.
     pub fn features() -> Self {
         let named = [
             ("albedo", "albedo"),
@@ -164,7 +164,7 @@ impl Aov {
 }
 
 impl Integrator for Aov {
-    /// Its nested integrators are asked.
+    /// Its nested integrators decide.
     const MEDIA: bool = true;
     const DIFFUSION: bool = true;
 

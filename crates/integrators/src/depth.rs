@@ -27,7 +27,7 @@ impl Integrator for Depth {
         ReplicateKind::Blocks
     }
 
-    /// It asks for no light.
+    /// It needs no light.
     fn incompatibilities(&self, _: &SceneCapabilities) -> Vec<Incompatibility> {
         Vec::new()
     }

@@ -35,7 +35,7 @@ use glam::{Vec3, Vec4};
 pub struct Direct {
     /// Directions sampled from the lights.
     pub emitter_samples: u32,
-    /// How many light samples compete for each of the shadow rays.
+    /// Number of light samples that are resampled for each shadow ray.
     pub light_candidates: LightCandidates,
     /// Directions sampled from the scattering model.
     pub bsdf_samples: u32,

@@ -4,16 +4,15 @@
 //! ⟨L⟩ = Lₑ + 1/N Σⱼ [ w_l f |cos θⱼ| Lₑ(ωⱼ) / p_l(ωⱼ) + f |cos θ'ⱼ| ⟨L(y, −ω'ⱼ)⟩ / p(ω'ⱼ) ]
 //! ```
 //!
-//! Where `path` goes on with one direction, this follows N of them from every surface that scatters
-//! into a continuum, and asks for N points of lights; y is what is seen along ω'ⱼ, and where it
-//! shines, that counts with the weight 1 − w_l. So penumbrae and glossy reflections become smooth
-//! at the price of a tree. Lens and shutter are sampled once for each tree. Smooth surfaces send
-//! one ray on, chosen at random.
+//! Where `path` continues in one direction, this follows N directions from every surface with a
+//! continuous lobe, and takes N light samples; y is the surface seen along ω'ⱼ, whose emission has the
+//! MIS weight 1 − w_l. So penumbrae and glossy reflections become smooth, at the cost of a tree. Lens
+//! and shutter are sampled once for each tree. Smooth surfaces continue one ray, chosen at random.
 //!
-//! Weights are those of `path` ([`crate::steps::path_throughput`]): they depend on a path alone and sum to one over
-//! techniques and lanes, so that any N is unbiased; with N = 1 it *is* `path`, but for the order of
-//! sums. The N directions at a point are stratified in one coordinate. Rays of later bounces matter
-//! less, so that N is divided at each.
+//! MIS weights are those of `path` ([`crate::steps::path_throughput`]): they depend on the path alone and sum to one over
+//! techniques and lanes, so the estimate is unbiased for any N. With N = 1 it is `path`, up to the order
+//! of sums. The N directions at a point are stratified in one coordinate. Later bounces contribute less,
+//! so N is divided by `decay` at each.
 
 use crate::steps::arrival::{Arrival, Arriving, next_hit, opacity};
 use crate::steps::camera_ray::camera_ray;
@@ -39,7 +38,7 @@ pub struct Distribution {
     pub settings: PathSettings,
     /// N at the first surface that scatters into a continuum.
     pub samples: u32,
-    /// By what N is divided at each such surface, down to 1.
+    /// The divisor of N at each such surface, down to N = 1.
     pub decay: u32,
 }
 
@@ -92,7 +91,7 @@ struct Branch {
     straight: bool,
 }
 
-/// What a branch found.
+/// The contributions of a branch.
 #[derive(Clone, Copy, Default)]
 struct Found {
     /// Per lane, over the sum of all densities' ratios (see [`PathThroughput::contribution`]).
@@ -266,7 +265,7 @@ impl<W: World, S: Sampler> Tree<'_, W, S> {
     }
 }
 
-/// What comes after a surface.
+/// The continuation after a surface.
 enum Next {
     Absorbed,
     Ended { straight: bool },

@@ -1,23 +1,22 @@
 //! `forward`: light particles that bounce until, by chance, they hit the camera's aperture.
 //!
-//! The simplest complete algorithm, and the world's own: a particle of flux Φ = Le·|cos θ| / p
-//! leaves a light, scatters like light, and whatever arrives on the aperture is counted where the
-//! lens focuses it,
+//! The simplest complete algorithm, and nature's own: a particle of flux Φ = Le·|cos θ| / p leaves a
+//! light and scatters; if it hits the aperture, it contributes where the lens focuses it,
 //!
 //! ```text
 //! splat = Φ · Π f·|cos θ| / p · dx/dω / (A·cos θ)
 //! ```
 //!
 //! with A the aperture's area, θ the angle of arrival, and dx/dω the film's area per solid angle
-//! through that point of the lens ([`etalon_transport::ApertureHit`]). It is `ptracer` without the
-//! connections, and as slow as one would think: of the particles in a room of surface S a share of
-//! about A/S arrives per bounce. What it has over `ptracer` is that it sees through mirrors and
-//! glass. A pinhole is never hit; asked to render through one, it refuses.
+//! through that point of the lens ([`etalon_transport::ApertureHit`]). It is `ptracer` without
+//! connections, and slow: of the particles in a room of surface S a share of about A/S arrives per
+//! bounce. Its advantage over `ptracer` is that it sees by way of mirrors and glass. A pinhole is never
+//! hit, so it refuses one.
 //!
-//! Particles start anywhere in the scene but for those from the sky, which start above it and would
-//! miss a camera outside: the sky behind everything (paths of one segment) is found by a camera
-//! ray per sample, which also tells alpha. Lights without extent are not seen themselves, as by
-//! any other estimator. With `hide_emitters` the camera looks through lights, as that of `path`.
+//! Particles from the sky start on a disk outside the scene and would miss a camera outside it, so the
+//! visible sky (paths of one segment) is found by a camera ray per sample, which also gives alpha.
+//! Lights without extent are invisible, as for every estimator. With `hide_emitters` the camera sees
+//! through lights, as that of `path` does.
 
 use crate::steps::arrival;
 use crate::steps::camera_ray::camera_ray;
@@ -87,7 +86,7 @@ impl Forward {
         (Vec4::ZERO, 1.0 - 0.25 * through.element_sum())
     }
 
-    /// How much arrives of what travels along a segment to the camera; `None` if a surface stands in the way.
+    /// Transmittance of a segment to the camera; `None` if a surface occludes it.
     fn arrives<W: World>(
         &self,
         world: &W,

@@ -1,8 +1,7 @@
 //! Estimators of light transport, one file each, and the loop that runs them.
 //!
-//! Nothing concrete is named here: no material, shape, light or film. What an estimator needs
-//! of a scene it asks through [`etalon_transport::World`], so every estimator can be tested in a
-//! world without geometry.
+//! Nothing concrete is named here: no material, shape, light or film. Estimators know a scene only as
+//! a [`etalon_transport::World`], so each can be tested in a world without geometry.
 //!
 //! The files and folders here are estimators, but for three: [`steps`] are what they share, [`render`] is the loop, and [`replay`]
 //! tells how a sample came about. Adding an estimator: its file, its module below, and one line in [`list`].

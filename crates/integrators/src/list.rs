@@ -83,7 +83,7 @@ macro_rules! integrators {
                 }
             }
 
-            /// What its replicates may have to do with each other.
+            /// How its replicates are related.
             pub fn replicate_kind(&self) -> ReplicateKind {
                 match self {
                     $(Self::$variant(integrator) => integrator.replicate_kind(),)*
@@ -98,7 +98,7 @@ macro_rules! integrators {
                 }
             }
 
-            /// What it objects to in a scene.
+            /// The reasons why it cannot render a scene, or not all of its light.
             pub fn incompatibilities(&self, sight: &SceneCapabilities) -> Vec<Incompatibility> {
                 fn all<I: Integrator>(
                     integrator: &I,
@@ -205,12 +205,12 @@ pub(crate) struct Nested {
     pub(crate) name: String,
     /// The integrator.
     pub(crate) integrator: AnyIntegrator,
-    /// How many channels it writes beside the colour.
+    /// Number of channels beside the colour.
     pub(crate) channels: usize,
 }
 
 impl Nested {
-    /// What nested integrators object to.
+    /// The incompatibilities of nested integrators.
     pub(crate) fn incompatibilities(
         nested: &[Self],
         sight: &SceneCapabilities,

@@ -47,7 +47,7 @@ impl Moment {
 }
 
 impl Integrator for Moment {
-    /// Its nested integrators are asked.
+    /// Its nested integrators decide.
     const MEDIA: bool = true;
     const DIFFUSION: bool = true;
 

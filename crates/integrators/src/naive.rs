@@ -1,28 +1,27 @@
 //! `naive`: path tracing that runs into lights by chance.
 //!
-//! The rendering equation, estimated as it stands: directions are drawn from a density p, and what
-//! is emitted counts where a path arrives (Kajiya 1986, without his light sampling),
+//! The rendering equation, estimated directly: directions are drawn from a density p, and emission
+//! counts where a path hits it (Kajiya 1986, without his light sampling),
 //!
 //! ```text
 //! L(x, ωo) ≈ Le(x, ωo) + f(ωo, ωi)·|cos θi| / p(ωi) · L(y, −ωi),   ωi ~ p,   y seen from x along ωi
 //! ```
 //!
-//! It is the simplest estimator of all, slow wherever lights are small, and blind to those without
-//! extent. `directions` says where p comes from:
+//! It is the simplest estimator, slow if lights are small, and blind to lights without extent.
+//! `directions` selects p:
 //!
 //! - `bsdf`: the scattering model's own importance sampling;
 //! - `cosine`: p = |cos θi| / π about the shading normal;
 //! - `uniform`: p = 1 / 2π.
 //!
-//! The latter two know nothing of the model but whether it sends light through the surface: then
-//! they draw from the whole sphere, with half the density.
+//! The latter two depend on the model only in whether it transmits light: then they draw from the
+//! whole sphere, with half the density.
 //!
-//! No such density finds a direction that has a probability of its own. So at a surface that may
-//! let light pass straight on (`mask`, `null`) the path passes with the model's probability; where
-//! any other lobe may be discrete, one half of the rest lets the model sample and keeps discrete
-//! directions only, and the other half draws from p; where nothing is continuous the model samples
-//! always. The density of a uniform or cosine direction is the same for every wavelength, that of
-//! a discrete one is not; the house's estimator ([`crate::steps::path_throughput`]) takes one like the other.
+//! Such a density never finds discrete directions. So a surface with a null interaction (`mask`,
+//! `null`) is passed with the model's probability. If another lobe may be discrete, one half of the
+//! remaining samples come from the model, of which only discrete directions are kept, and the other
+//! half from p. If no lobe is continuous, all come from the model. A uniform or cosine direction has
+//! the same density in every lane, a discrete one has not; [`crate::steps::path_throughput`] handles both.
 
 use crate::steps::arrival::{Arrival, Arriving, next_hit, opacity};
 use crate::steps::camera_ray::camera_ray;
@@ -43,7 +42,7 @@ use etalon_transport::{
 };
 use glam::{Vec2, Vec3, Vec4};
 
-/// Where continuous directions come from.
+/// The density of continuous directions.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Directions {
     /// The scattering model's importance sampling.
@@ -60,14 +59,14 @@ pub enum Directions {
 pub struct Naive {
     /// Limits of the path.
     pub settings: PathSettings,
-    /// Where directions come from.
+    /// The density of continuous directions.
     pub directions: Directions,
 }
 
-/// A direction in which a path goes on.
+/// A direction in which a path continues.
 struct Step {
     wi: Vec3,
-    /// What [`PathThroughput::scatter`] takes.
+    /// The factor for [`PathThroughput::scatter`].
     value: Vec4,
     chance: Vec4,
     eta: f32,
@@ -120,7 +119,7 @@ impl Naive {
                 is_null: true,
             });
         }
-        // What remains of the random number is as good as new.
+        // The random number rescaled for reuse.
         let rest = (event.lobe - pass.x) / (1.0 - pass.x);
         let by_model = if bsdf.has_discrete() { 0.5 } else { 0.0 };
         if rest < by_model {

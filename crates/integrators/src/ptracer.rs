@@ -8,12 +8,12 @@
 //! splat = β · f(yₖ₋₁→yₖ→camera)·|cos θ| · V · Wₑ
 //! ```
 //!
-//! which lands on whatever pixel the camera sees yₖ in. The lights themselves (paths of one
-//! segment) are found by a camera ray per sample, since a connection from a point on a light to
-//! the camera would only repeat it with more noise. Nothing is found that reaches the camera off
-//! a smooth surface. Particles are scattered by media as well, and media dim connections. Splats have no alpha: what counts is how much of the camera ray's light is
-//! stopped, the background included. With `hide_emitters` the camera looks through lights, as that of
-//! `path`. (Mitsuba's lights then still stand in the way of what is behind them.)
+//! at the pixel in which the camera sees yₖ. The lights themselves (paths of one segment) are found by
+//! a camera ray per sample, since a connection from a point on a light to the camera has more noise.
+//! Light that reaches the camera from a smooth surface is not found. Media scatter particles and
+//! attenuate connections. Splats have no alpha: it is the opacity along the camera ray, with the
+//! background opaque. With `hide_emitters` the camera sees through lights, as that of `path` does.
+//! (Mitsuba's lights then still occlude the surfaces behind them.)
 
 use crate::steps::arrival::{self, Arriving};
 use crate::steps::camera_ray::camera_ray;

@@ -82,7 +82,7 @@ impl ConnectionMerging {
         }
     }
 
-    /// What a sample starts with.
+    /// The start of a sample.
     fn start<'a, W: World>(
         &'a self,
         world: &W,

@@ -5,8 +5,8 @@
 //! Φ = π ∫ L dA
 //! ```
 //!
-//! A light that moves shines as bright all along its way; its power is that at the start of the interval, which only
-//! the choice among lights asks for.
+//! A moving light has the same radiance at all times. Its power, which is used for light selection only, is that at
+//! the start of the shutter interval.
 //!
 //! Points toward an observer are chosen by the shape; emitted particles start uniformly over the
 //! area, with directions in proportion to cos θ.

@@ -9,8 +9,8 @@
 //! in space:     1/4π
 //! ```
 //!
-//! The first is in proportion to the irradiance. The second has a part without cosine: what receives light
-//! on both sides may scatter it by lobes with normals of their own, whose cosines do not vanish with n·ω.
+//! The first is proportional to the irradiance. The second has a uniform part: a receiver with two sides may
+//! have lobes with other normals, whose cosines do not vanish with n·ω.
 
 use crate::light::anywhere;
 use crate::light_model::LightModel;
@@ -57,7 +57,7 @@ impl LightModel for ConstantLight {
 
     #[inline]
     fn is_even(&self, from: &LightSampleContext) -> bool {
-        // Of what receives on both sides it is a part, and the best there is.
+        // On both sides the density is only partly proportional to the cosine; no better one is known.
         from.normal != Vec3::ZERO
     }
 

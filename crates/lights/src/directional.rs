@@ -18,7 +18,7 @@ use glam::{Vec2, Vec3, Vec4};
 /// Parallel light.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct DirectionalLight {
-    /// Where the light goes (unit).
+    /// The direction of the light (unit).
     pub direction: Vec3,
     /// Irradiance on a surface perpendicular to it (W·m⁻²·nm⁻¹).
     pub irradiance: TextureId,

@@ -4,11 +4,11 @@
 //! Φ = ∫ E(x, λ) dA
 //! ```
 //!
-//! with E the `radiance` of the scene file: all of it goes in one direction, so that it is the irradiance (W·m⁻²·nm⁻¹) of a
-//! flat light upon what it faces.
+//! with E the `radiance` of the scene file: all of it goes in one direction, so that it is the irradiance (W·m⁻²·nm⁻¹)
+//! on a surface that a flat light faces.
 //!
-//! Only particles that start there find its light: no ray sees it but from exactly ahead, and no point can be connected
-//! with it.
+//! Only particles emitted there find its light: the probability that a ray hits it along a normal is zero, as is that of
+//! a connection.
 
 use crate::light::extent_of_shape;
 use crate::light_model::LightModel;

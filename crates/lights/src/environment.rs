@@ -73,10 +73,10 @@ pub struct EnvironmentMap {
 /// Distributions of directions over the moved unit square; `None` if the image is black.
 #[derive(Clone, Debug)]
 struct Tables {
-    /// For directions toward the sky where scattering finds what compensation leaves out.
+    /// MIS-compensated, for estimators that combine it with BSDF sampling.
     combined: Option<Arc<Bilinear>>,
-    /// For directions and particles of which every one must be possible, since no other
-    /// technique makes up for what is left out.
+    /// Without compensation, for particles and for estimators that have no other technique: every
+    /// direction must have a density.
     alone: Option<Arc<Bilinear>>,
 }
 
@@ -224,7 +224,7 @@ impl EnvironmentMap {
         WHITE.eval(wavelengths.lambda) * spectrum * self.scale
     }
 
-    /// The distribution of directions from which `from` asks.
+    /// The distribution of directions for the receiver `from`.
     #[inline]
     fn toward(&self, from: &LightSampleContext) -> Option<&Bilinear> {
         let Tables { combined, alone } = &self.tables;
@@ -341,9 +341,9 @@ fn texel(rgb: [f32; 3]) -> Vec4 {
 struct Pixels {
     size: UVec2,
     rgb: Vec<[f32; 3]>,
-    /// How many had negative components (now zero).
+    /// Number of texels with negative components, which became zero.
     negative: usize,
-    /// What whoever gave the file should know.
+    /// Remarks about the file.
     notes: Vec<String>,
 }
 

@@ -1,8 +1,8 @@
-//! Where a light is and whither it shines, and how much of it a point may expect.
+//! Bounds on position and direction of lights, and their importance at a receiver.
 //!
-//! A cluster of lights of power Φ inside of a sphere of radius r around c, whose normals are within an
-//! angle θₒ of an axis a and which shine up to θₑ from their normals, promises a point x with the
-//! unit normal n
+//! A cluster of lights of power Φ inside a sphere of radius r around c, whose normals are within an
+//! angle θₒ of an axis a and which shine up to θₑ from their normals, has the importance, at a point x
+//! with the unit normal n,
 //!
 //! ```text
 //! I(x, n) = Φ · cos θ′ · |cos θᵢ′| / max(d², r²),    0 if θ′ ≥ θₑ,
@@ -19,7 +19,7 @@ use etalon_math::DirectionCone;
 use etalon_transport::LightSampleContext;
 use glam::{DVec3, Vec3};
 
-/// What encloses lights, in double precision, for building.
+/// Bounds of lights, in double precision, for building.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct LightExtent {
     /// Lower corner of the box around them (m).
@@ -35,7 +35,7 @@ pub struct LightExtent {
 }
 
 impl LightExtent {
-    /// What encloses both.
+    /// Bounds of both.
     #[must_use]
     pub fn union(self, other: Self) -> Self {
         Self {
@@ -98,7 +98,7 @@ fn sine(cosine: f32) -> f32 {
 }
 
 impl LightBounds {
-    /// What lights within `extent`, taken `weight` times, promise.
+    /// The bounds of lights within `extent`.
     pub fn new(extent: &LightExtent) -> Self {
         let half = 0.5 * (extent.high - extent.low);
         let centre = extent.centre();

@@ -1,4 +1,4 @@
-//! The choice among few lights, by what each is expected to bring to the receiver.
+//! Selection among few lights, by the expected irradiance of each at the receiver.
 //!
 //! Light i of sampling weight wᵢ is chosen with the probability
 //!
@@ -6,11 +6,10 @@
 //! pᵢ = ½ wᵢ Eᵢ / Σⱼ wⱼ Eⱼ  +  ½ wᵢ [Eᵢ > 0] / Σⱼ wⱼ [Eⱼ > 0]
 //! ```
 //!
-//! where Eᵢ estimates the irradiance at the receiver if nothing is in the way: I(x, n) of
-//! [`crate::extent`] over the solid angles that the light shines into, and for a light at infinity that of a
-//! parallel light or of the mean of a sky. It is zero only where nothing of the light arrives. The
-//! second half is for what the estimate does not know: what is in the way, and where a sky is bright. No light
-//! that reaches the receiver is chosen much less often than among equals.
+//! where Eᵢ estimates the unoccluded irradiance at the receiver: I(x, n) of [`crate::extent`] over the solid
+//! angles that the light shines into, or the irradiance of a parallel light or of the mean of a sky. It is zero
+//! only if no light arrives. The uniform half makes up for occlusion and the unknown brightness of a sky: no
+//! light that reaches the receiver has less than half of its uniform probability.
 
 use crate::extent::{LightBounds, LightExtent};
 use crate::light_sampler::{Candidate, LightChoice, LightSamplerKind};
@@ -35,7 +34,7 @@ struct One {
     expected: Expected,
 }
 
-/// What may be expected of a light.
+/// The expected irradiance of a light.
 #[derive(Clone, Copy, Debug)]
 enum Expected {
     Near(LightBounds),

@@ -44,7 +44,7 @@ macro_rules! lights {
             }
         }
 
-        /// Asks the light, whichever it is.
+        /// Dispatches to the model.
         macro_rules! ask {
             ($light:expr, $it:ident => $answer:expr) => {
                 match $light {
@@ -82,7 +82,7 @@ lights! {
 pub struct LightDescription {
     /// The light.
     pub light: Light,
-    /// How often it is chosen, relative to its power.
+    /// Factor on its power in light selection.
     pub sampling_weight: f64,
 }
 
@@ -247,7 +247,7 @@ impl Light {
         ask!(self, light => light.emit(scene, bounds, wavelengths, u_position, u_direction, time))
     }
 
-    /// Where it is and whither it shines, without its power; `None` for a light at infinity.
+    /// Bounds on position and directions, without its power; `None` for a light at infinity.
     pub fn extent(&self, shapes: &impl Shapes) -> Option<LightExtent> {
         ask!(self, light => light.extent(shapes))
     }
@@ -257,14 +257,14 @@ impl Light {
         ask!(self, light => light.toward())
     }
 
-    /// Emitted power (lights at infinity: what enters the scene), averaged over the wavelengths
-    /// (W·nm⁻¹). Exact unless a texture's mean stands for the texture.
+    /// Emitted power (for lights at infinity, the power that enters the scene), averaged over the wavelengths
+    /// (W·nm⁻¹). Exact except that a texture's mean replaces the texture.
     pub fn power(&self, scene: &(impl Textures + Shapes), bounds: &BoundingSphere) -> f64 {
         ask!(self, light => light.power(scene, bounds))
     }
 }
 
-/// Where lights without surface are: in a point.
+/// The extent of a point light.
 pub(crate) fn extent_of_point(position: Vec3, shines: DirectionCone, cos_edge: f64) -> LightExtent {
     LightExtent {
         low: position.as_dvec3(),
@@ -275,7 +275,7 @@ pub(crate) fn extent_of_point(position: Vec3, shines: DirectionCone, cos_edge: f
     }
 }
 
-/// Where a shape is whose light leaves within an angle of this cosine around its normals.
+/// The extent of a shape that emits within an angle of this cosine around its normals.
 pub(crate) fn extent_of_shape(shapes: &impl Shapes, shape: ShapeId, cos_edge: f64) -> LightExtent {
     let [low, high] = shapes.bounds(shape).map(|corner| corner.as_dvec3());
     LightExtent {

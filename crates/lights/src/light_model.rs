@@ -1,4 +1,4 @@
-//! What a light is asked, with the answers that most of them share.
+//! The methods of a light, with defaults that most of them share.
 
 use crate::{BoundingSphere, LightExtent};
 use etalon_math::{Density, SolidAngle};
@@ -96,7 +96,7 @@ pub(crate) trait LightModel {
         time: f32,
     ) -> EmissionPdf;
 
-    /// Where it is and whither it shines, without its power; `None` at infinity.
+    /// Bounds on position and directions, without its power; `None` at infinity.
     fn extent(&self, _: &impl Shapes) -> Option<LightExtent> {
         None
     }
@@ -106,7 +106,7 @@ pub(crate) trait LightModel {
         None
     }
 
-    /// Emitted power (lights at infinity: what enters the scene), averaged over the wavelengths
-    /// (W·nm⁻¹). Exact unless a texture's mean stands for the texture.
+    /// Emitted power (for lights at infinity, the power that enters the scene), averaged over the wavelengths
+    /// (W·nm⁻¹). Exact except that a texture's mean replaces the texture.
     fn power(&self, scene: &(impl Textures + Shapes), bounds: &BoundingSphere) -> f64;
 }

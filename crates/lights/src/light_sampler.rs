@@ -1,12 +1,11 @@
-//! Which light to ask, and which to emit.
+//! Light selection, for receivers and for particles.
 //!
-//! A particle's light is chosen in proportion to its power times its `sampling_weight`. The light that a
-//! point asks is chosen so, too, or by another rule ([`LightSamplerKind`]): all alike, or by what the point
-//! may expect of it ([`FewLights`], [`LightTree`]).
+//! Particles choose a light in proportion to power times `sampling_weight`. For a receiver, the rule is
+//! [`LightSamplerKind`]: uniform, by power, or by the expected irradiance ([`FewLights`], [`LightTree`]).
 //!
-//! The power of a light at infinity is what enters the scene's bounding sphere, which says little of what
-//! arrives where the eye looks (one large ground plane makes it huge). So, where there are lights
-//! of both kinds, each kind is given half of the choices by power and by the tree.
+//! The power of a light at infinity is that which enters the scene's bounding sphere. A large ground plane
+//! makes it huge, and it says little about the visible part of the scene. So, if a scene has lights of both
+//! kinds, each kind gets half of the probability in the selection by power and by the tree.
 
 use crate::extent::LightExtent;
 use crate::few::FewLights;
@@ -22,21 +21,20 @@ pub struct LightChoice {
     pub light: LightId,
     /// The probability of having chosen it; above zero.
     pub probability: f32,
-    /// What is left of the random number: uniform in [0, 1) again.
+    /// The random number rescaled for reuse: uniform in [0, 1).
     pub rest: f32,
 }
 
-/// How the light is chosen that a point asks.
+/// How a light is selected for a receiver.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub enum LightSamplerKind {
-    /// All alike, but for their `sampling_weight`.
+    /// Uniformly, times `sampling_weight`.
     Uniform,
     /// By power.
     Power,
-    /// By what the point may expect of it: power, distance, and which way both face.
+    /// By a tree over the lights, by power, distance and orientation.
     Tree,
-    /// By what the point may expect of each among few lights, with a tree among many
-    /// ([`LightSamplerKind::FEW`]).
+    /// By the expected irradiance of each light if there are at most [`LightSamplerKind::FEW`], else by a tree.
     #[default]
     Automatic,
 }
@@ -45,7 +43,7 @@ impl LightSamplerKind {
     /// All of them.
     pub const ALL: [Self; 4] = [Self::Automatic, Self::Uniform, Self::Power, Self::Tree];
 
-    /// How many lights are few: a tree's choice among so many costs as much as it saves.
+    /// The largest number of lights for [`FewLights`]; beyond, a tree is cheaper.
     pub const FEW: usize = 8;
 
     /// Its name in scenes and on the command line.
@@ -64,20 +62,20 @@ impl LightSamplerKind {
     }
 }
 
-/// What the selector knows of a light.
+/// The facts of a light that selection depends on.
 #[derive(Clone, Copy, Debug)]
 pub struct Candidate {
     /// Emitted power (W·nm⁻¹).
     pub power: f64,
     /// Its `sampling_weight`.
     pub weight: f64,
-    /// Where it is; `None` at infinity.
+    /// Its bounds; `None` at infinity.
     pub extent: Option<LightExtent>,
-    /// What is known of it at infinity.
+    /// The facts of a light at infinity.
     pub far: Far,
 }
 
-/// What the selector knows of a light at infinity.
+/// The facts of a light at infinity that selection depends on.
 #[derive(Clone, Copy, Debug)]
 pub struct Far {
     /// The area across which its power enters the scene (m²).
@@ -89,7 +87,7 @@ pub struct Far {
 /// A distribution over lights.
 #[derive(Clone, Debug)]
 pub struct LightSampler {
-    /// By power; `None` if no light can be chosen.
+    /// Distribution by power; `None` if no light can be chosen.
     by_power: Option<AliasTable>,
     /// For points; `None` for the same.
     for_points: Option<ForPoints>,
@@ -171,7 +169,7 @@ impl LightSampler {
         LightTree::new(placed.collect(), lights.len())
     }
 
-    /// Chooses a light to ask for what arrives at `from`. `None` if there is none that sends
+    /// Selects a light for the receiver `from`. `None` if there is none that sends
     /// anything there.
     #[inline]
     pub fn choose(&self, from: &LightSampleContext, u: f32) -> Option<LightChoice> {

@@ -19,7 +19,7 @@ use etalon_transport::{
 };
 use glam::{DAffine3, Vec2, Vec3, Vec4};
 
-/// Where it is (m).
+/// Position (m).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Position(pub Vec3);
 
@@ -32,7 +32,7 @@ impl FromAffine for Position {
 /// A light without extent.
 #[derive(Clone, Debug, PartialEq)]
 pub struct PointLight {
-    /// Where it is (m).
+    /// Position (m).
     pub position: Animated<Position>,
     /// Its intensity (W·sr⁻¹·nm⁻¹).
     pub intensity: TextureId,

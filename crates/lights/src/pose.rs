@@ -13,7 +13,7 @@ use glam::{DAffine3, DVec3, Vec3, Vec4};
 /// without extent, and is left out.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Pose {
-    /// Where the light's origin is (m).
+    /// Position of the light's origin (m).
     pub position: Vec3,
     transform: Transform,
 }

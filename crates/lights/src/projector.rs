@@ -51,7 +51,7 @@ impl Projector {
         })
     }
 
-    /// Where a unit direction of the light's space meets the plane z = 1, if within the picture.
+    /// Intersection of a unit direction of the light's space with the plane z = 1, if within the picture.
     #[inline]
     fn on_plane(&self, local: Vec3) -> Option<Vec2> {
         let at = local.truncate() / local.z;
@@ -69,7 +69,7 @@ impl Projector {
         picture * (PI * self.scale / local.z.powi(3))
     }
 
-    /// Of directions chosen uniformly on the plane (sr⁻¹).
+    /// Density of directions that are uniform on the plane (sr⁻¹).
     #[inline]
     fn density(&self, local: Vec3) -> f32 {
         let area = 4.0 * self.half.x * self.half.y;

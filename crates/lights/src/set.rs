@@ -11,8 +11,8 @@ use etalon_transport::{
 };
 use glam::{Vec2, Vec3, Vec4};
 
-/// Lights by id, made ready for a scene. The methods answer the questions of the same names that
-/// [`etalon_transport::World`] asks; densities and weights include the choice of the light.
+/// The lights of a scene, by id. Methods implement those of [`etalon_transport::World`] of the same name;
+/// densities and weights include the choice of the light.
 #[derive(Clone, Debug)]
 pub struct LightSet {
     lights: Vec<Light>,
@@ -26,8 +26,8 @@ pub struct LightSet {
 }
 
 impl LightSet {
-    /// Lights in the order of their ids, for a scene within `bounds`; `kind` says which one a point
-    /// asks.
+    /// Lights in the order of their ids, for a scene within `bounds`; `kind` is the rule of selection for
+    /// receivers.
     pub fn new(
         descriptions: Vec<LightDescription>,
         scene: &(impl Textures + Shapes),
@@ -95,12 +95,12 @@ impl LightSet {
         self.powers.iter().sum()
     }
 
-    /// Which light to ask.
+    /// The rule of light selection.
     pub fn selector(&self) -> &LightSampler {
         &self.selector
     }
 
-    /// How many of the lights that emit anything can be found in which way.
+    /// Numbers of the lights that emit, by the ways of finding them.
     pub fn count(&self) -> LightCount {
         let mut count = LightCount::default();
         for (index, light) in self.lights.iter().enumerate() {
@@ -188,7 +188,7 @@ impl LightSet {
         Some(sample)
     }
 
-    /// In what samples of [`LightSet::sample`] from `from` may differ.
+    /// How samples of [`LightSet::sample`] from `from` vary.
     #[inline]
     pub fn light_variety(&self, from: &LightSampleContext) -> LightVariety {
         match self.lone.map(|light| self.get(light)) {

@@ -1,4 +1,4 @@
-//! What skies share: their samples and their particles; and models of the clear sky.
+//! Samples and particles of skies; models of the clear sky.
 
 pub(crate) mod hosek_wilkie;
 pub(crate) mod sun_position;

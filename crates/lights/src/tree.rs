@@ -1,10 +1,10 @@
-//! A tree over the lights that have a place, for choosing one by what a point may expect of it.
+//! A tree over the lights at finite positions, for selection by importance.
 //!
-//! From the root down, one of two children is taken with a probability proportional to what it promises
-//! the point ([`LightBounds`]), so a light of a thousand costs ten choices, and near lights that face the
-//! point come first. Clusters are split where the sum of power × extent × spread of the two halves is
+//! From the root down, one of two children is taken with a probability proportional to its importance at
+//! the receiver ([`LightBounds`]): one light of a thousand costs ten choices, and near lights that face the
+//! receiver are likely. Clusters are split where the sum of power × extent × spread of the two halves is
 //! least (A. Conty Estevez and C. Kulla, Importance sampling of many lights with adaptive tree
-//! splitting, 2018, section 4.3; the traversal that keeps one light is theirs without splitting).
+//! splitting, 2018, section 4.3; the traversal is theirs without splitting).
 
 use crate::extent::{LightBounds, LightExtent};
 use crate::light_sampler::LightChoice;
@@ -12,7 +12,7 @@ use etalon_math::float::ONE_MINUS_EPSILON;
 use etalon_transport::{LightId, LightSampleContext};
 use glam::DVec3;
 
-/// What is below a node.
+/// The child of a node.
 #[derive(Clone, Copy, Debug, PartialEq)]
 enum Below {
     /// One light.
@@ -35,7 +35,7 @@ struct Trail(u64);
 #[derive(Clone, Debug)]
 pub struct LightTree {
     nodes: Vec<Node>,
-    /// By light; `None` if it is not in the tree.
+    /// Path from the root, by light; `None` if it is not in the tree.
     trails: Vec<Option<Trail>>,
 }
 
@@ -172,7 +172,7 @@ impl Cut {
     }
 }
 
-/// Moves what is held to the front; how many there are.
+/// Moves the lights for which `held` is true to the front; their number.
 fn partition(lights: &mut [(LightId, LightExtent)], held: impl Fn(&LightExtent) -> bool) -> usize {
     lights.sort_by_key(|(_, extent)| !held(extent));
     lights.partition_point(|(_, extent)| held(extent))

@@ -4,7 +4,7 @@ use crate::Motion;
 use glam::DAffine3;
 use std::sync::Arc;
 
-/// What a map is turned into where it is used: a placement, a pose.
+/// Types that are made from an affine map: a placement, a pose.
 pub trait FromAffine {
     /// That of this invertible map.
     fn from_affine(map: &DAffine3) -> Self;
@@ -27,7 +27,7 @@ impl<T> From<T> for Animated<T> {
 }
 
 impl<T: FromAffine> Animated<T> {
-    /// What `motion` makes of it, in units of the shutter interval, see [`Motion::within`].
+    /// Its motion, in units of the shutter interval, see [`Motion::within`].
     pub fn new(motion: Motion) -> Self {
         let still = T::from_affine(&motion.at(0.0));
         Self {
@@ -36,7 +36,7 @@ impl<T: FromAffine> Animated<T> {
         }
     }
 
-    /// Gives what it is at `time`, from 0 (the shutter opens) to 1, to `ask`.
+    /// Calls `ask` with its value at `time`, from 0 (the shutter opens) to 1.
     #[inline]
     pub fn at<R>(&self, time: f32, ask: impl FnOnce(&T) -> R) -> R {
         match &self.motion {
@@ -45,13 +45,13 @@ impl<T: FromAffine> Animated<T> {
         }
     }
 
-    /// What it is when the shutter opens.
+    /// Its value when the shutter opens.
     #[inline]
     pub fn start(&self) -> &T {
         &self.still
     }
 
-    /// How it moves, if it does.
+    /// Its motion, if it moves.
     pub fn motion(&self) -> Option<&Motion> {
         self.motion.as_deref()
     }

@@ -20,7 +20,7 @@ const fn binomial(n: usize, i: usize) -> f64 {
     result
 }
 
-/// What the products of coefficients count for in a product: C(m, i) C(n, j) / C(m + n, i + j).
+/// Weights of the products of coefficients in a product: C(m, i) C(n, j) / C(m + n, i + j).
 struct Weights<const M: usize, const N: usize>;
 
 impl<const M: usize, const N: usize> Weights<M, N> {
@@ -136,7 +136,7 @@ fn refine<const N: usize>(b: &[f64; N]) -> f64 {
     let c: [f64; N] = core::array::from_fn(|i| scaled[if first_half { i } else { N - 1 - i }]);
     let negative = c[0] < 0.0;
     let (mut low, mut high) = (0.0, 1.0);
-    // Where a straight line between the ends has its zero.
+    // The zero of the chord between the ends.
     let (mut x, mut last_step) = (c[0] / (c[0] - middle), 1.0);
     for _ in 0..80 {
         let (mut value, mut slope) = (0.0_f64, 0.0_f64);

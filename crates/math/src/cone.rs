@@ -32,7 +32,7 @@ impl DirectionCone {
         crate::float64::acos(self.cos.clamp(-1.0, 1.0))
     }
 
-    /// A cone that holds both, the smallest but for rounding.
+    /// The smallest cone that contains both, up to rounding.
     ///
     /// ```
     /// use etalon_math::{DVec3, DirectionCone};
@@ -61,7 +61,7 @@ impl DirectionCone {
                     cos: crate::float64::cos(half),
                 }
             }
-            // The same axis, but for rounding.
+            // The same axis, up to rounding.
             None if wide.axis.dot(narrow.axis) > 0.0 => wide,
             _ => Self::ALL,
         }

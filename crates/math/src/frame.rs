@@ -49,7 +49,7 @@ impl Frame {
         }
         let mut s = projected / length_squared.sqrt();
         if length_squared < 0.1 * tangent.length_squared() {
-            // What cancelled above left a remainder along n: take it out as well.
+            // Cancellation above left a remainder along n; remove it.
             s = (s - n * n.dot(s)).normalize();
         }
         Self {

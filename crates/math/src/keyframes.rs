@@ -16,7 +16,7 @@
 
 use core::ops::{Add, Mul};
 
-/// How a value goes from key to key.
+/// The interpolation between keys.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 #[allow(missing_docs)]
 pub enum Interpolation {
@@ -61,7 +61,7 @@ impl Interpolation {
     }
 }
 
-/// What can be interpolated: a vector over the real numbers.
+/// A vector space over the real numbers, for interpolation.
 pub trait Interpolated: Copy + Add<Output = Self> + Mul<f64, Output = Self> {}
 
 impl<V: Copy + Add<Output = V> + Mul<f64, Output = V>> Interpolated for V {}
@@ -77,7 +77,7 @@ pub struct Key<V> {
     pub tangent: Option<V>,
 }
 
-/// What happens between two moments, over s from 0 to 1.
+/// The motion between two keys, for s from 0 to 1.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Piece<V> {
     /// Nothing.
@@ -257,8 +257,8 @@ mod tests {
     }
 
     proptest! {
-        /// Hermite's and the cubic reproduce every cubic polynomial, whatever the times; Catmull–Rom every
-        /// quadratic between inner, evenly spaced keys; the line every line, and the step what was.
+        /// Hermite and cubic reproduce every cubic polynomial for any key times; Catmull–Rom every quadratic
+        /// between inner, evenly spaced keys; linear every line; step the previous key.
         #[test]
         fn polynomials_are_reproduced(
             c in prop::array::uniform4(-3.0..3.0f64), gaps in prop::array::uniform3(0.1..2.0f64),

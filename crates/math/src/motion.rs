@@ -161,7 +161,7 @@ impl Motion {
         earlier
     }
 
-    /// The same motion of what has been mapped by `first` before.
+    /// The motion composed with `first`, which is applied before it.
     #[must_use]
     pub fn after(&self, first: DMat3) -> Self {
         let mut after = self.clone();

@@ -153,7 +153,7 @@ fn curved(
     let is_hull = weights.iter().all(|weight| *weight > 1e-3);
     for c in corners {
         if !is_hull {
-            // The quaternion comes near zero: whatever the rotation, the point is this far from T.
+            // The quaternion comes near zero: for any rotation the point is at most this far from T.
             let reach = piece.map(|parts| (parts.stretch * *c).length());
             let reach = reach.into_iter().fold(0.0, f64::max);
             for parts in piece {

@@ -270,8 +270,8 @@ pub fn list() -> impl Iterator<Item = &'static Ignored> {
     OF_MITSUBA_3.iter().chain(mitsuba06::LIST)
 }
 
-/// Whether an entry of a list is about a parameter. No plugins are all of the class, and a name that ends with `[` stands for
-/// those that begin so.
+/// Whether an entry of a list is about a parameter. An empty list of plugins means all of the class; a name that ends with `[`
+/// is a prefix.
 pub(crate) fn names(
     class: Class,
     plugins: &[&str],
@@ -283,7 +283,7 @@ pub(crate) fn names(
     class == of && (plugins.is_empty() || plugins.contains(&plugin)) && names.iter().any(is_called)
 }
 
-/// The entry of a plugin's parameter, whatever its value.
+/// The entry of a plugin's parameter, for any value.
 pub fn entry(class: Class, plugin: &str, name: &str) -> Option<&'static Ignored> {
     list().find(|entry| {
         names(
@@ -295,7 +295,7 @@ pub fn entry(class: Class, plugin: &str, name: &str) -> Option<&'static Ignored>
     })
 }
 
-/// Whether a parameter of a plugin with this value stands in the list.
+/// Whether the list contains a parameter of a plugin with this value.
 pub fn is_ignored(class: Class, plugin: &str, name: &str, value: &Value) -> bool {
     entry(class, plugin, name)
         .is_some_and(|entry| entry.only.is_none_or(|only| (only.holds)(value)))

@@ -1,10 +1,10 @@
-//! The description tree: what a scene file said, before anything is known of light.
+//! The description tree: the contents of a scene file, independent of their meaning.
 //!
 //! A [`Node`] is one object (`<bsdf type="diffuse">`), with typed [`Property`] values. Every node,
 //! name and value keeps its [`Span`] in the [`Sources`], so that a mistake found much later can
 //! still be shown with its file, line, column and a caret. A plugin reads its node through
-//! [`Params`], which records every mistake in [`Diagnostics`] and knows which properties nobody
-//! asked for.
+//! [`Params`], which records every mistake in [`Diagnostics`] and marks the properties that were
+//! read.
 
 pub mod diagnostic;
 mod expression;

@@ -21,7 +21,7 @@ pub enum Class {
     Sampler,
     Sensor,
     Shape,
-    /// What is below a surface.
+    /// Subsurface scattering.
     Subsurface,
     /// A texture or a spectrum: one family, as in Mitsuba.
     Texture,
@@ -91,7 +91,7 @@ pub enum Value {
     Animation {
         /// How it moves, with time counted as the shutter does.
         motion: Arc<Motion>,
-        /// What it is in the middle of the shutter's interval.
+        /// Its value in the middle of the shutter interval.
         middle: DMat4,
     },
     /// A nested object or a reference to one; a shared object is one `Arc`.
@@ -134,7 +134,7 @@ pub struct Property {
 }
 
 impl Property {
-    /// A property nobody has asked for yet.
+    /// An unused property.
     pub fn new(name: impl Into<String>, name_span: Span, value: Value, span: Span) -> Self {
         Self {
             name: name.into(),
@@ -145,12 +145,12 @@ impl Property {
         }
     }
 
-    /// Notes that somebody asked for it.
+    /// Marks it as used.
     pub fn mark_used(&self) {
         self.used.store(true, Ordering::Relaxed);
     }
 
-    /// Whether anybody asked for it.
+    /// Whether it is used.
     pub fn is_used(&self) -> bool {
         self.used.load(Ordering::Relaxed)
     }

@@ -1,14 +1,14 @@
 //! The names of Mitsuba 3's plugins, so that "not built yet" can be told from "misspelt".
 //!
-//! The tables follow Mitsuba 3.9. What is built here is decided by whoever builds it; this
-//! module only finds the right words for what is not.
+//! The tables follow Mitsuba 3.9. The crates of the plugins decide what is built; this module only
+//! makes the messages for other names.
 
 mod mitsuba06;
 mod other_names;
 
 use crate::{Class, Diagnostic, Node, suggest};
 
-/// What is known about a plugin's name.
+/// The status of a plugin's name.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Status {
     /// Mitsuba 3 has it in this class.
@@ -177,7 +177,7 @@ const CLASSES: [Class; 14] = [
     Class::Volume,
 ];
 
-/// What is known about the plugin `name` of a class.
+/// The status of the plugin `name` of a class.
 pub fn status(class: Class, name: &str) -> Status {
     if names(class).contains(&name) {
         return Status::Mitsuba3;
@@ -191,7 +191,7 @@ pub fn status(class: Class, name: &str) -> Status {
         .map_or(Status::Unknown, Status::OtherClass)
 }
 
-/// The plugin that other programs call `name`, in whatever class.
+/// The plugin that other programs call `name`, of any class.
 pub fn called_otherwise(name: &str) -> Option<&'static str> {
     CLASSES
         .into_iter()

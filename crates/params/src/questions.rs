@@ -8,16 +8,16 @@ use std::collections::BTreeMap;
 use std::sync::Mutex;
 use std::sync::atomic::{AtomicBool, Ordering};
 
-/// What is known of a parameter.
+/// The documentation of a parameter, as recorded.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Question {
     /// What its value must be, such as "a number".
     pub kind: String,
-    /// What it is if it is not given; empty if that is no single value.
+    /// Its default; empty if that is not a single value.
     pub default: String,
     /// Which values of that kind are accepted; empty for all.
     pub accepted: String,
-    /// Whether it was asked for in vain, and missed.
+    /// Whether it was missing and required.
     pub required: bool,
 }
 
@@ -27,7 +27,7 @@ pub type Questions = BTreeMap<(Class, String, String), Question>;
 static RECORDING: AtomicBool = AtomicBool::new(false);
 static NOTED: Mutex<Questions> = Mutex::new(BTreeMap::new());
 
-/// Runs `read`, and says what was asked meanwhile by whatever plugin in whatever thread.
+/// Runs `read`, and returns the parameters read meanwhile by any plugin in any thread.
 pub fn record<T>(read: impl FnOnce() -> T) -> (T, Questions) {
     RECORDING.store(true, Ordering::SeqCst);
     let result = read();
@@ -41,7 +41,7 @@ pub(crate) fn is_recording() -> bool {
     RECORDING.load(Ordering::Relaxed)
 }
 
-/// Notes a question; what is empty adds nothing to what is known of the parameter.
+/// Records a parameter; empty fields add nothing to what is already recorded.
 pub(crate) fn note(class: Class, plugin: &str, name: &str, question: impl FnOnce() -> Question) {
     if !is_recording() {
         return;

@@ -1,9 +1,9 @@
 //! Reading a node's properties, the one way every plugin does it.
 //!
 //! Each getter marks the property as used, checks its type and, on a mistake, records a
-//! diagnostic and returns a harmless value so that reading can go on and find further mistakes.
-//! The caller refuses the scene if [`Diagnostics::has_errors`]. [`Params::finish`] reports what
-//! nobody asked for.
+//! diagnostic and returns a harmless value, so that reading continues and finds further mistakes.
+//! The caller refuses the scene if [`Diagnostics::has_errors`]. [`Params::finish`] reports unused
+//! properties.
 
 use crate::questions::{self, Question};
 use crate::unused::Unused;
@@ -33,7 +33,7 @@ impl<'a> Params<'a> {
         }
     }
 
-    /// Notes what is asked for, for the documentation of scenes.
+    /// Records a parameter for the documentation of scenes.
     pub fn note(&self, name: &str, question: impl FnOnce() -> Question) {
         questions::note(self.node.class, &self.node.plugin.value, name, question);
     }
@@ -154,7 +154,7 @@ impl<'a> Params<'a> {
         self.float(name).unwrap_or(default)
     }
 
-    /// A number for which `accept` holds, or its default; `what` says what is accepted.
+    /// A number for which `accept` holds, or its default; `what` describes the accepted values.
     pub fn float_where(
         &self,
         name: &str,
@@ -175,7 +175,7 @@ impl<'a> Params<'a> {
         }
     }
 
-    /// Records that a value is outside of what is accepted.
+    /// Records that a value is not accepted.
     pub fn refuse(&self, name: &str, value: impl Display, what: &str) {
         let property = self.node.properties.iter().find(|p| p.name == name);
         let span = property.map_or(self.node.plugin.span, |p| p.span);
@@ -347,21 +347,21 @@ impl<'a> Params<'a> {
         children.first().map(|(_, node)| *node)
     }
 
-    /// Marks properties that need no judgement, since a mistake about them has been reported. What is
-    /// accepted and changes nothing stands in the list of [`crate::ignored`] instead.
+    /// Marks properties as used without reading them, since a mistake about them has been reported.
+    /// Parameters without effect belong to the list of [`crate::ignored`] instead.
     pub fn ignore(&self, names: &[&str]) {
         for name in names {
             self.property(name);
         }
     }
 
-    /// Reports every property that nobody asked for, with the nearest name that was.
+    /// Reports every unused property, with the nearest name that exists.
     pub fn finish(&self) {
         self.finish_after(true);
     }
 
-    /// The same after an attempt to read the plugin. One that has given up, for a mistake that has been recorded, need not have
-    /// asked for all that it knows: what is left is then called unknown only if it is near to something that it missed.
+    /// The same after an attempt to read the plugin. If it was given up after a mistake, which has been recorded, not all of its
+    /// parameters were read: an unused one is then called unknown only if its name is close to one that was missing.
     pub fn finish_after(&self, is_read: bool) {
         let known = self.known.borrow();
         let known = || known.iter().map(String::as_str);

@@ -24,7 +24,7 @@ pub struct Sources {
 }
 
 impl Sources {
-    /// Adds a file under the name by which messages call it.
+    /// Adds a file under its name in messages.
     pub fn add(&mut self, name: impl Into<String>, text: impl Into<Arc<str>>) -> FileId {
         self.files.push((name.into(), text.into()));
         FileId(self.files.len() as u32 - 1)

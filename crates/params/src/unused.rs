@@ -1,4 +1,4 @@
-//! What to say of a parameter that no plugin asked for.
+//! Messages about unused parameters.
 
 use crate::{Class, Diagnostic, Span, Value, ignored, unbuilt};
 

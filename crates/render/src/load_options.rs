@@ -1,4 +1,4 @@
-//! How to read a scene, and what of it is overruled.
+//! Options for loading a scene, and overrides of its settings.
 
 use etalon_film::Framing;
 use etalon_scene::{AcceleratorKind, LightSamplerKind, SensorChoice};

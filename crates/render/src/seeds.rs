@@ -1,8 +1,8 @@
-//! Pictures of one scene with different seeds, by whatever program, as one image with standard errors.
+//! Pictures of one scene with different seeds, by any program, as one image with standard errors.
 //!
-//! A picture per seed is a replicate: their mean is the image, their scatter its standard error, and
-//! the means of their tiles are what [`crate::judge`] decides by. Nothing is asked of the program but that
-//! its seeds are independent.
+//! The picture of a seed is a replicate: their mean is the image, their spread its standard error, and
+//! [`crate::judge`] uses the means of their tiles. The only requirement is that the program's seeds are
+//! independent.
 
 use etalon_film::{BoxFilter, ExactFilm, FilmSettings, Filter, RenderFacts, RenderedImage};
 use etalon_images::Image;

@@ -1,7 +1,7 @@
-//! Looking on while a picture is rendered.
+//! Previews while a picture is rendered.
 //!
-//! The film is shown between rounds over it, when nobody adds to it, and no more often than that looking costs a tenth of
-//! the time. What is seen decides no bit of the picture.
+//! The film is shown between rounds, when no tile is open, and at most so often that previews cost a tenth of the time.
+//! They change no bit of the picture.
 
 use etalon_film::{ExactFilm, Glance};
 use std::fmt::Debug;
@@ -17,7 +17,7 @@ pub trait Watcher: Send + Sync + Debug {
 /// The least time between two looks.
 const PATIENCE: Duration = Duration::from_millis(200);
 
-/// Time between looks, in units of what one takes.
+/// Time between previews, in units of the time that one takes.
 const SHARE: u32 = 9;
 
 /// Shows a film to a watcher.

@@ -32,7 +32,7 @@ impl WriteGuard {
     /// A file that the command will write.
     ///
     /// # Errors
-    /// One sentence, if there is no place for it, or if it is read from or written to otherwise, under whatever name.
+    /// One sentence, if it cannot be created, or if the command already reads or writes it, under any name.
     pub fn claim(&mut self, path: &Path) -> Result<Destination, String> {
         check_place(path)?;
         if self.claimed.iter().any(|other| same(other, path)) {

@@ -2,8 +2,8 @@
 //! between the entries of a table.
 //!
 //! Tables are in double precision, so that a sum over millions of texels is as exact as one
-//! over three. Every table can tell the density (or probability) of what it returns, and
-//! turn it back into the number it came from.
+//! over three. Every table has the density (or probability) of its samples, and the inverse of
+//! its map.
 
 mod alias;
 mod bilinear;
@@ -28,21 +28,21 @@ use core::fmt;
 pub enum TableError {
     /// There are too few entries.
     TooShort {
-        /// How many there are.
+        /// Number of entries.
         entries: usize,
-        /// How many are needed at least.
+        /// The least number.
         needed: usize,
     },
     /// The number of entries is not what the shape of the table says.
     WrongShape {
-        /// How many there are.
+        /// Number of entries.
         entries: usize,
-        /// How many the shape needs.
+        /// The number that the shape needs.
         needed: usize,
     },
     /// An entry is negative, infinite or not a number.
     BadEntry {
-        /// Which one.
+        /// Its index.
         index: usize,
         /// Its value.
         value: f64,

@@ -1,8 +1,8 @@
 //! Mixing functions: from structured integers (seeds, pixels, dimensions) to random-looking
 //! bits, and from those to floats and permutations.
 //!
-//! None of this is cryptography. What is asked of it, and tested, is that neighbouring
-//! arguments give results without any correlation that an image could show.
+//! None of this is cryptography. The requirement, which is tested, is that neighbouring arguments
+//! give results without any correlation visible in an image.
 
 /// 2⁶⁴ divided by the golden ratio, made odd: successive multiples are spread evenly.
 pub const GOLDEN: u64 = 0x9e37_79b9_7f4a_7c15;

@@ -1,4 +1,4 @@
-//! What a scene asks for: the kind of sampler, chosen once per image.
+//! The kind of sampler, chosen once per image.
 
 use crate::sampler::{SampleId, Sampler};
 use crate::stratified::ceil_sqrt;

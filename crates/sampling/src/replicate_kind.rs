@@ -1,4 +1,4 @@
-//! What the replicates of an image have to do with each other.
+//! How the replicates of an image are related.
 
 use crate::sampler::SampleId;
 use serde::{Deserialize, Serialize};
@@ -48,7 +48,7 @@ impl ReplicateKind {
                 let before = u64::from(of.replicate) * u64::from(of.samples_per_replicate);
                 let index = before + u64::from(of.sample);
                 SampleId {
-                    // A sequence has 2³² points; whoever takes more begins another one.
+                    // A sequence has 2³² points; more samples begin another one.
                     replicate: (index >> 32) as u32,
                     sample: index as u32,
                     blocks: replicates,

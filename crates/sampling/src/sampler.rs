@@ -8,12 +8,12 @@
 use crate::hash::{mix64, stream_key};
 use glam::Vec2;
 
-/// Which sample of an image this is.
+/// The address of a sample in an image.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct SampleId {
     /// The seed of the whole image.
     pub seed: u64,
-    /// Which independent replicate of the image.
+    /// Index of the independent replicate.
     pub replicate: u32,
     /// Column and row of the pixel.
     pub pixel: (u32, u32),
@@ -60,7 +60,7 @@ pub trait Sampler {
     fn skip_to(&mut self, dimension: u32);
 }
 
-/// A borrowed sampler is one, too: whoever owns a sampler may also be given one that others go on with.
+/// A borrowed sampler is a sampler too, for callers that use it afterwards.
 impl<S: Sampler + ?Sized> Sampler for &mut S {
     #[inline]
     fn next_1d(&mut self) -> f32 {

@@ -3,7 +3,7 @@
 //! With a = a₀ + 2a₁ + 4a₂ + … the (shuffled) index of the sample, the first two Sobol'
 //! coordinates are, digit by digit, x = (a₀ a₁ a₂ …)₂ and y = P·a over GF(2), with Pascal's
 //! matrix Pᵢⱼ = C(j, i) mod 2 (Sobol' 1967). They are a (0,2)-sequence: of any aligned 2ᵏ
-//! successive points, each dyadic rectangle of area 2⁻ᵏ, of whatever shape, holds exactly one.
+//! successive points, each dyadic rectangle of area 2⁻ᵏ holds exactly one.
 //!
 //! The next two dimensions are the same pair taken at the index F·a, where F is Pascal's
 //! matrix over GF(4) with parameter ω: Fᵢⱼ = C(j, i) ω^(j−i) on base-4 digits (Faure 1982;
@@ -14,7 +14,7 @@
 //! since F is unit upper triangular. (Compare the "SZ sequences" of Ahmed and others, 2024; the
 //! tests check both properties on every box.)
 //!
-//! Further groups of four are the same points in another order, scrambled anew (Burley 2020,
+//! Further groups of four are the same points in another order with another scrambling (Burley 2020,
 //! "Practical Hash-based Owen Scrambling", §3: padding by shuffling). Shuffling the index by a
 //! nested uniform scrambling of its digits keeps every aligned block of 2ᵏ samples together,
 //! so all of the above holds for every prefix of 2ᵏ samples.
@@ -192,11 +192,11 @@ fn reverse_bits(mut a: u32x8) -> u32x8 {
 /// digit is flipped or not, at random, depending on all digits before it. Keys come in two
 /// halves, lower first.
 ///
-/// Additions, odd multiplications and x ^= x·(even) carry information only upwards, which is
-/// all that nesting asks (Laine & Karras 2011; Burley 2020). Published forms multiply by
-/// constants, which leaves the first digits few random bits to depend on; here the multipliers
-/// are parts of the key, and any two flips of the first six digits are independent to within
-/// what a million keys can tell. Pairs are what the variance of a scrambled net depends on.
+/// Additions, odd multiplications and x ^= x·(even) carry information only upwards, as nesting
+/// requires (Laine & Karras 2011; Burley 2020). Published forms multiply by constants, so the first
+/// digits depend on few random bits. Here the multipliers are parts of the key, and any two flips of
+/// the first six digits are independent as far as a million keys can show. The variance of a
+/// scrambled net depends on pairs only.
 #[inline]
 fn nested_uniform_scramble(mut x: u32x8, [low, high]: [u32x8; 2]) -> u32x8 {
     let one = u32x8::splat(1);

@@ -6,9 +6,8 @@
 //! the cell. Another n works too: then a pair uses the cells of ⌊√n⌋² or more (the smallest grid
 //! that holds n), some of which stay empty, at random.
 //!
-//! Where replicates are blocks of one sequence, each block is such a set of n samples, and each of its
-//! strata is divided into R, of which every block takes another one: together they are n·R samples,
-//! each in its own part.
+//! Where replicates are blocks of one sequence, each block is such a set of n samples. Each stratum is
+//! divided into R parts, one for every block, so that together they are n·R samples, each in its own part.
 
 use crate::hash::{derived_key, mix64, permute, random_float};
 use crate::sampler::{SampleId, Sampler};
@@ -25,7 +24,7 @@ pub struct Stratified {
     place: u32,
     count: u32,
     side: u32,
-    /// Which block, and of how many.
+    /// Index of the block, and number of blocks.
     block: u32,
     blocks: u32,
     jitter: bool,
@@ -73,7 +72,7 @@ impl Stratified {
         }
     }
 
-    /// The key by which this block shuffles its strata.
+    /// The key for shuffling the strata of this block.
     #[inline]
     fn shuffle(&self, key: u64) -> u64 {
         match self.block {

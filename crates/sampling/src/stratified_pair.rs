@@ -1,4 +1,4 @@
-//! Two stratified numbers for every sample of a pixel, whatever its sampler.
+//! Two stratified numbers for every sample of a pixel, independent of the sampler.
 //!
 //! They are the first two Sobol' coordinates, a (0,2)-sequence in base 2, scrambled as in [`crate::sobol`]: of any
 //! aligned 2ᵏ successive samples each dyadic rectangle of area 2⁻ᵏ holds exactly one.
@@ -7,7 +7,7 @@ use crate::hash::{derived_key, fold_multiply, random_float};
 use crate::sampler::SampleId;
 use glam::Vec2;
 
-/// What is different from the keys of any sampler.
+/// Key that differs from those of all samplers.
 const STREAM: u32 = 0x9d2c_5681;
 
 /// The numbers of a sample, each in [0, 1).

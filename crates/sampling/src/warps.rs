@@ -5,14 +5,14 @@
 //!
 //! * the map, `square_to_…` or `interval_to_…`;
 //! * its inverse, `…_to_square` or `…_to_interval`;
-//! * the density of what it returns, `…_density`, equal to one over the Jacobian of the map:
-//!   per unit of area, solid angle (sr) or length, as each says.
+//! * the density of its results, `…_density`, equal to one over the Jacobian of the map: per unit
+//!   of area, solid angle (sr) or length, as each says.
 //!
 //! Domains that depend on more than a number or two are types ([`SphericalTriangle`],
 //! [`SphericalRectangle`], [`RectangleView`], [`SphereCone`]) with methods `sample`, `invert` and `density`.
 //! Their constructors return `None` where sampling by solid angle would be ill-conditioned;
 //! the condition depends on the geometry alone, so that `sample` and `density` of one light
-//! always agree on which technique is in force.
+//! always use the same technique.
 //!
 //! Directions are in a local frame with the axis along +z.
 

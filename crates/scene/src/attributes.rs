@@ -10,7 +10,7 @@ use std::sync::Arc;
 /// The most attributes that a message lists.
 const MOST_LISTED: usize = 16;
 
-/// What textures ask of shapes.
+/// The mesh attributes that textures need.
 #[derive(Default)]
 pub(crate) struct Asked {
     attributes: Vec<AskedAttribute>,
@@ -20,7 +20,7 @@ pub(crate) struct Asked {
 struct AskedAttribute {
     texture: Arc<Node>,
     name: String,
-    /// Where its name stands.
+    /// The source position of its name.
     span: Span,
     least: f32,
     greatest: f32,
@@ -102,7 +102,7 @@ impl Asked {
         }
     }
 
-    /// Tells of attributes whose values are held to what their use allows; to be called when all
+    /// Notes attributes whose values are clamped to the range of their use; to be called when all
     /// textures have been read.
     pub(crate) fn note_ranges(&self, textures: &TextureTable, diagnostics: &Diagnostics) {
         for asked in &self.attributes {
@@ -117,7 +117,7 @@ impl Asked {
 
 impl AskedAttribute {
     fn note_range(&self, scale: f32, [low, high]: [f32; 2], diagnostics: &Diagnostics) {
-        // What a rounded `scale` leaves over is nothing to talk about.
+        // An excess by rounding of `scale` is not reported.
         if low <= self.least && f64::from(self.greatest) <= f64::from(high) * (1.0 + 1e-6) {
             return;
         }

@@ -1,4 +1,4 @@
-//! Overlapping bodies: which of those that a point is in fills it, by `priority`.
+//! Overlapping bodies: `priority` decides which of the bodies at a point fills it.
 //!
 //! Liquid in a glass is described by two closed shapes that overlap a little. Where they do, the one of higher `priority`
 //! counts (C. M. Schmidt, B. Budge, Simple nested dielectrics in ray traced images, 2002): a surface is there only if
@@ -8,8 +8,8 @@
 //! η = η(inside) / η(outside)
 //! ```
 //!
-//! A ray carries which bodies it is in. All sets of bodies that may overlap are listed beforehand and named by numbers after those of
-//! the media, so that to carry one is to carry a [`MediumId`].
+//! A ray carries the set of bodies that it is in. All sets that may occur are enumerated when the scene is compiled and
+//! numbered after the media, so that a set is a [`MediumId`].
 
 use crate::parts::Parts;
 use etalon_bsdf::BsdfAtPoint;
@@ -22,10 +22,10 @@ use std::collections::HashMap;
 /// The most sets of bodies.
 const MOST_SETS: u64 = 1 << 16;
 
-/// How many bodies may overlap of which it is not known where they are.
+/// The most overlapping bodies if their positions are unknown.
 const DEPTH_UNKNOWN: usize = 16;
 
-/// How often a point may be in one body that may cut itself.
+/// The most times that a point may be in one body that intersects itself.
 const ITSELF: usize = 4;
 
 /// The most bodies whose boxes are compared.
@@ -39,9 +39,9 @@ const MOST: usize = 16;
 pub(crate) struct Body {
     /// The higher, the stronger.
     pub(crate) priority: i64,
-    /// Of its surface.
+    /// The material of its surface.
     pub(crate) material: MaterialId,
-    /// What fills it.
+    /// The medium inside.
     pub(crate) medium: MediumId,
 }
 
@@ -68,7 +68,7 @@ impl Body {
     }
 }
 
-/// Where a body is.
+/// The bounds of a body.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Extent {
     /// The corners of its box.
@@ -93,7 +93,7 @@ struct Set {
     bodies: Vec<usize>,
 }
 
-/// What fills a point.
+/// The body and the medium at a point.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct Filling {
     /// The body, unless none is there.
@@ -109,23 +109,23 @@ pub(crate) struct Bodies {
     kinds: Vec<Body>,
     /// The kind of each shape.
     of_shape: Vec<Option<usize>>,
-    /// How many media there are: sets are numbered from here.
+    /// Number of media: sets are numbered from here.
     media: u32,
     sets: HashMap<Set, usize>,
     /// The places of the media with no body in them; empty space is the last.
     plain: Vec<Option<usize>>,
-    /// How many bodies of each kind may overlap, and how many of all.
+    /// The largest number of overlapping bodies of each kind, and in total.
     most: (Vec<usize>, usize),
-    /// What fills the points of each set.
+    /// Body and medium for each set.
     fillings: Vec<Filling>,
-    /// By set and kind: with one more, with one less.
+    /// The sets with one more and one less, by set and kind.
     moves: Vec<[MediumId; 2]>,
 }
 
 impl Bodies {
-    /// Of shapes, in a scene with so many media, of which those at other shapes (`bounded`) and the camera's are what bodies
-    /// may be put into. `extent` is where a shape is, if that is known. `None` without any, or after a mistake, which has been
-    /// recorded.
+    /// The bodies of `shapes`, in a scene with so many media. The media around them may be those of other shapes (`bounded`)
+    /// and of the camera. `extent` is the bounding box of a shape, if known. `None` if there are no bodies, or after a
+    /// mistake, which has been recorded.
     pub(crate) fn new(
         shapes: &[(ShapeId, Body, Span)],
         media: usize,
@@ -146,7 +146,7 @@ impl Bodies {
                 return None;
             }
         }
-        // Of equal ones the first counts.
+        // Among equal priorities the first counts.
         kinds.sort_by_key(|body| core::cmp::Reverse(body.priority));
         let most = shapes
             .iter()
@@ -233,7 +233,7 @@ impl Bodies {
         self.plain[set.0.min(self.media) as usize]
     }
 
-    /// What fills the points of a set.
+    /// Body and medium for a set.
     #[inline]
     pub(crate) fn filling(&self, set: MediumId) -> Filling {
         match self.index(set).and_then(|index| self.fillings.get(index)) {
@@ -273,9 +273,9 @@ impl Bodies {
     }
 }
 
-/// How many bodies of each kind may overlap at a point, and how many of all, by their boxes. What may cut itself, as no simple solid does,
-/// is entered up to [`ITSELF`] times, or as often as sets can be listed. Where even so there are too many, fewer of all are told
-/// apart, which is said.
+/// The largest number of overlapping bodies of each kind and in total, by their boxes. A shape that may intersect itself
+/// counts up to [`ITSELF`] times, or as often as the number of sets allows. If there are still too many sets, the total is
+/// reduced, with a note.
 fn most_overlapping(
     shapes: &[(ShapeId, Body, Span)],
     kinds: &[Body],
@@ -296,7 +296,7 @@ fn most_overlapping(
     let placed: Vec<(usize, Extent)> = (shapes.iter().zip(extents))
         .filter_map(|((_, body, _), extent)| Some((kind_of(body)?, extent)))
         .collect();
-    // Whatever overlaps at a point has boxes that overlap that of any of it.
+    // Bodies that overlap at a point have boxes that pairwise overlap.
     let deepest = |itself: usize| {
         let (mut of_kinds, mut of_all) = (vec![0; kinds.len()], 0);
         for (_, own) in &placed {

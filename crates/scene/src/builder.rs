@@ -10,7 +10,7 @@ use std::sync::Arc;
 pub struct Builder<'a> {
     /// The files of the scene.
     pub assets: &'a dyn Assets,
-    /// Where mistakes go.
+    /// The diagnostics.
     pub diagnostics: &'a Diagnostics,
     /// The textures read so far.
     pub textures: TextureTable,

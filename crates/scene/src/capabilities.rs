@@ -1,4 +1,4 @@
-//! What a scene has, for people and for estimators.
+//! The facts of a scene that decide which estimators can render it, and those shown to users.
 
 use crate::scene::Scene;
 use crate::{rays, view};
@@ -8,7 +8,7 @@ use etalon_subsurface::{Homogeneous, MediumAtWavelengths};
 use etalon_transport::{Camera, Lights, Media, Medium, SceneCapabilities, Sensor, World};
 use glam::{UVec2, Vec3};
 
-/// How much there is in a scene.
+/// Counts of a scene's contents.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Contents {
     /// Shapes, triangles, instances, nodes of accelerators, and their memory.
@@ -26,7 +26,7 @@ pub struct Contents {
 }
 
 impl Scene {
-    /// How much there is.
+    /// Counts of the contents.
     pub fn contents(&self) -> Contents {
         let (pictures, picture_bytes) = self.parts.space.lookup.textures.pictures();
         Contents {
@@ -39,7 +39,7 @@ impl Scene {
         }
     }
 
-    /// Whether what is beyond everything is a medium without end that light does not come through.
+    /// Whether the outermost medium is unbounded and absorbs all light from infinity.
     fn is_swallowed(&self) -> bool {
         let (media, outermost) = (&self.parts.space.media, self.outermost());
         let is_there = |medium: MediumAtWavelengths<'_, _>| {
@@ -55,7 +55,7 @@ impl Scene {
     /// What an estimator can see of it, through the film's window of `size` pixels from `origin`.
     pub fn sight(&self, origin: UVec2, size: UVec2) -> SceneCapabilities {
         let view = view::look(self, origin, size);
-        // Nobody asked for these rays.
+        // These rays do not count in the statistics.
         rays::take();
         // Paths run into matter that shines.
         let mut lights = self.parts.lights.count();

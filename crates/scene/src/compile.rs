@@ -39,7 +39,7 @@ pub struct Compiled {
     pub classic: Option<Span>,
     /// The integrator's description, if the scene has one.
     pub integrator: Option<Arc<Node>>,
-    /// What its things are called.
+    /// The names of its objects.
     pub names: Names,
     /// Time spent building the accelerator.
     pub build_time: Duration,
@@ -51,16 +51,16 @@ pub fn compile(root: &Node, assets: &dyn Assets, diagnostics: &Diagnostics) -> O
     compile_with(root, assets, diagnostics, &CompileOptions::default())
 }
 
-/// What a description leaves open, or is overruled in.
+/// Options that complete or override the description.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct CompileOptions {
-    /// Which sensor is rendered, if not the first.
+    /// The rendered sensor, if not the first.
     pub sensor: Option<SensorChoice>,
-    /// What replaces the size of its film, and the part that is rendered.
+    /// Replacements for the size of its film and the crop window.
     pub framing: Framing,
     /// The kind of all accelerators.
     pub accelerator: AcceleratorKind,
-    /// How points choose the light that they ask, if not as the scene says.
+    /// The rule of light selection, if not the scene's.
     pub light_chooser: Option<LightSamplerKind>,
 }
 
@@ -239,13 +239,13 @@ fn medium_of(
     Some(surfaces.medium(medium, builder))
 }
 
-/// A sensor and what it holds.
+/// A sensor with its film, filter and sampler.
 struct DescribedSensor {
     camera: AnyCamera,
     film: FilmSettings,
     sampler: SamplerSettings,
     shutter: Shutter,
-    /// What the film's channels respond to, three to each.
+    /// Response curves of the film's channels, three each.
     responses: Vec<Sensor>,
 }
 
@@ -343,8 +343,8 @@ fn read_film(node: &Node, builder: &mut Builder<'_>) -> Option<(FilmSettings, Re
     Some((film, response?))
 }
 
-/// Films, filters and samplers at the top of a scene are definitions for others to refer to.
-/// All are read, so that mistakes in those that nobody refers to are found.
+/// Reads films, filters and samplers at the top of a scene, which others may refer to, so that mistakes in
+/// unused ones are found.
 fn read_definitions(params: &Params<'_>, builder: &mut Builder<'_>) {
     let diagnostics = builder.diagnostics;
     for (_, node) in params.children(Class::Film) {
@@ -358,8 +358,8 @@ fn read_definitions(params: &Params<'_>, builder: &mut Builder<'_>) {
     }
 }
 
-/// Textures, volumes, phase functions and what is below surfaces are at the top of a scene definitions for others to refer to. Those
-/// that nobody refers to are read all the same, so that mistakes in them are found; textures as emission, which takes any colour.
+/// Reads unused textures, volumes, phase functions and subsurface descriptions at the top of a scene, so that mistakes in them
+/// are found. Textures are read as emission, which accepts any colour.
 fn read_unused(params: &Params<'_>, builder: &mut Builder<'_>) {
     let unused = |class| {
         let children = params.children(class).into_iter().map(|(_, node)| node);

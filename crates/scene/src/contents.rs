@@ -1,4 +1,4 @@
-//! What a file holds that a scene may name: volumes, measured materials, curves.
+//! Summaries of files that a scene may name: volumes, measured materials, curves.
 
 use etalon_geometry::control_points;
 use etalon_images::Volume;

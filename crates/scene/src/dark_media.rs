@@ -1,7 +1,7 @@
-//! Media that no light enters straight, so that sampling lights there finds nothing.
+//! Media that no light enters through null surfaces, where light sampling is futile.
 //!
-//! Random walks below a surface are the case: their boundary scatters or refracts whatever passes it, and every shadow ray
-//! from inside ends there. A medium counts as dark only where that is certain.
+//! Typically random walks below a surface: the boundary scatters or refracts all light, so every shadow ray from inside ends
+//! there. A medium counts as dark only if that is certain.
 
 use crate::lookup::SceneTables;
 use crate::media::SceneMedia;
@@ -12,8 +12,8 @@ use etalon_transport::{MediumId, MediumInterface, ShapeId};
 use glam::Vec3;
 
 impl SceneMedia {
-    /// Finds the media that closed shapes hold, without a surface that light passes straight and without lights in their
-    /// boxes. `bounded` are the shapes with their media.
+    /// Finds the media inside closed shapes without a null interaction and without lights in their boxes. `bounded` are the
+    /// shapes with their media.
     pub(crate) fn find_dark(
         &mut self,
         bounded: &[(ShapeId, MediumInterface)],

@@ -8,7 +8,7 @@ use etalon_params::{Class, Diagnostic, Params, plugins};
 use etalon_transport::{Build, SpectrumKind, TexturePoint};
 use glam::{Vec2, Vec3};
 
-/// What it is called in a scene file.
+/// Its name in a scene file.
 pub(crate) const NAME: &str = "displacement";
 
 /// Reads a shape's own parameters. `None` if there is no such plugin; a shape unless there was a mistake.
@@ -84,7 +84,7 @@ fn displaced(params: &Params<'_>, builder: &mut Builder<'_>) -> Option<Shape> {
     if diagnostics.has_errors() {
         return None;
     }
-    // A texture that asks no shape is given none.
+    // These textures do not look up shapes.
     let nothing = GeometryBuilder::new().build();
     let height = |position: Vec3, uv: Vec2| {
         let at = TexturePoint {

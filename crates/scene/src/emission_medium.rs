@@ -1,7 +1,7 @@
 //! The medium that a particle travels in when it leaves a light.
 //!
-//! A shape with media of its own says it, and so may a light. Otherwise it is that on this side of the first
-//! boundary on the particle's way: it is travelled in up to there.
+//! It is given by the media of the light's shape, or named by the light. Otherwise it is the medium on this side
+//! of the first boundary along the particle's ray.
 
 use crate::space::Space;
 use etalon_transport::{Camera, Emission, MediumId, Ray};
@@ -75,7 +75,7 @@ impl Space {
             return named;
         }
         let start = camera.ray(Vec2::splat(0.5), Vec2::splat(0.5), 0.0);
-        // A medium that fills the camera's body says nothing of what is around all bodies.
+        // A medium that fills the camera's body is not the medium around all bodies.
         let body = self.body_filled_with(named, start.ray, MediumId::NONE);
         body.unwrap_or_else(|| self.medium_along(start.ray, named))
     }

@@ -1,9 +1,9 @@
 //! Groups of shapes, and their instances.
 //!
-//! An accelerator keeps the shapes of a group once, however often they are placed. A lamp has a light of its own wherever
-//! it is placed: it is read anew for each place, as a shape of the world, its `to_world` after those of the instances
-//! around it. So points of it are chosen uniformly even where an instance stretches it. What moves carries it, from the
-//! outermost motion to the innermost; all that stands still within that is part of the shape's own `to_world`.
+//! An accelerator stores the shapes of a group once for all its instances. An emitter is an exception: each instance of
+//! it is a light and a shape of the world, read again with the `to_world` of the enclosing instances composed with its own,
+//! so that its points are sampled uniformly even if an instance stretches it. Moving instances carry it, from the
+//! outermost motion to the innermost; static transforms inside these are part of the shape's own `to_world`.
 
 use crate::builder::Builder;
 use crate::merge;

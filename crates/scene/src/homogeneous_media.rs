@@ -1,4 +1,4 @@
-//! What homogeneous media alone have: coefficients that are all to know of them, and diffusion profiles.
+//! Homogeneous media: coefficients at the point of entry, and diffusion profiles.
 
 use crate::media::SceneMedia;
 use etalon_subsurface::{Homogeneous, MediumAtWavelengths, MediumDescription, ProfileAt};

@@ -1,4 +1,4 @@
-//! The scene's textures and shapes, as materials and lights see them.
+//! The scene's textures and shapes, for look-up by materials and lights.
 
 use etalon_geometry::Geometry;
 use etalon_math::DirectionCone;
@@ -9,7 +9,7 @@ use etalon_transport::{
 };
 use glam::{Vec2, Vec3, Vec4};
 
-/// Lookup by id of what materials and lights refer to.
+/// Textures and shapes by id, as materials and lights refer to them.
 #[derive(Debug)]
 pub struct SceneTables {
     /// All shapes and their accelerators.

@@ -19,7 +19,7 @@ use std::sync::Arc;
 /// The most cells along the longest side of a medium's box that are bounded apart.
 const MOST_CELLS: u32 = 128;
 
-/// How many of a grid's values are bounded together, along each axis.
+/// Values of a grid per majorant cell, along each axis.
 const VALUES_PER_CELL: u32 = 4;
 
 /// Makes media ready that vary in space: where they end, and how dense they are at most. `None` after a mistake.
@@ -68,8 +68,8 @@ pub(crate) fn prepared(
     Some(prepared)
 }
 
-/// Refuses coefficients that vary over a surface in a scene whose shapes overlap: where a walk passes a body that is not there, it would
-/// take that one's surface for its own.
+/// Refuses coefficients that vary over a surface in a scene with overlapping bodies: a walk that crosses the suppressed
+/// surface of another body would take its coefficients from that surface.
 pub(crate) fn refuse_varying_bodies(
     media: &[(MediumDescription, Span)],
     diagnostics: &Diagnostics,
@@ -83,7 +83,7 @@ pub(crate) fn refuse_varying_bodies(
     }
 }
 
-/// Says by how much ray marching is wrong, on the way from side to side of a medium's box.
+/// Notes the bias of ray marching, estimated along random segments through a medium's box.
 fn note_bias(
     medium: &MediumDescription,
     lookup: &SceneTables,
@@ -119,7 +119,7 @@ fn note_bias(
     diagnostics.push(Diagnostic::note(span, message).help(help));
 }
 
-/// Wavelengths (nm) at which biases are told.
+/// Wavelengths (nm) at which biases are evaluated.
 const LAMBDA: Vec4 = Vec4::new(450.0, 520.0, 590.0, 660.0);
 
 /// Says by how much a diffusion profile is wrong about a flat surface.
@@ -233,7 +233,7 @@ impl Surfaces {
 #[derive(Debug)]
 pub struct SceneMedia {
     pub(crate) media: Vec<MediumDescription>,
-    /// By shape, as far as any shape has media.
+    /// By shape; empty beyond the last shape with media.
     interfaces: Vec<Option<MediumInterface>>,
     /// That of the camera.
     pub camera: MediumId,
@@ -247,7 +247,7 @@ pub struct SceneMedia {
     bodies: Option<Bodies>,
 }
 
-/// What a scene says of the medium around a light.
+/// The medium around a light, as the scene names it.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct LightMedium {
     /// The shape that the light is on.
@@ -347,12 +347,12 @@ impl SceneMedia {
         })
     }
 
-    /// How many emit light.
+    /// Number of emitting media.
     pub fn emitting(&self) -> u32 {
         self.media.iter().filter(|medium| medium.emits()).count() as u32
     }
 
-    /// Whether rays must know what they are in.
+    /// Whether rays must track their medium.
     pub fn exist(&self) -> bool {
         !self.interfaces.is_empty() || self.camera.is_some() || self.bodies.is_some()
     }

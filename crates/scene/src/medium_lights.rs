@@ -6,8 +6,8 @@
 //! Φ = 4π ∫ σa Lₑ dV
 //! ```
 //!
-//! as some points of a cell tell; a point of it is then chosen evenly (C. Villemin, C. Hery, Practical illumination from
-//! flames, 2013). Every cell has some probability, so that no light is ever missed.
+//! estimated from some points of each cell; a point in the chosen cell is uniform (C. Villemin, C. Hery, Practical
+//! illumination from flames, 2013). Every cell has some probability, so that no emission is missed.
 
 use crate::scene::Scene;
 use crate::space::Space;
@@ -28,13 +28,13 @@ use glam::{UVec3, Vec2, Vec3, Vec4};
 /// Cells along the longest side of a box.
 const ALONG: f32 = 24.0;
 
-/// Points of a cell that are asked for what it emits.
+/// Points at which the emission of a cell is estimated.
 const ASKED: u32 = 4;
 
-/// The share of choices that are even over a box, whatever its cells emit.
+/// The probability of a uniform choice over the box, independent of emission.
 const EVEN: f64 = 0.05;
 
-/// Wavelengths (nm) that stand for all.
+/// Wavelengths (nm) that represent the spectrum.
 const LAMBDA: Vec4 = Vec4::new(450.0, 520.0, 590.0, 660.0);
 
 /// The box of a medium that emits.
@@ -54,7 +54,7 @@ struct Region {
 pub(crate) struct MediumLights {
     regions: Vec<Region>,
     cells: AliasTable,
-    /// How often they are chosen in place of other lights.
+    /// Probability of choosing one of them instead of another light.
     pub(crate) share: f32,
 }
 
@@ -100,14 +100,14 @@ impl Region {
     }
 }
 
-/// What emits the light that is asked for, with what is left of the number that chose it.
+/// The chosen kind of light, with the random number rescaled for reuse.
 pub(crate) enum LightChoice<'a> {
     Medium(&'a MediumLights, f32),
     Other(f32),
 }
 
 impl<'a> LightChoice<'a> {
-    /// By `u` in [0, 1).
+    /// Chooses by `u` in [0, 1).
     #[inline]
     pub(crate) fn new(media: Option<&'a MediumLights>, u: f32) -> Self {
         let Some(lights) = media else {

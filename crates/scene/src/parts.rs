@@ -1,4 +1,4 @@
-//! What a scene is made of: the tables that all its clones share, and what is asked of its surfaces, lights and media.
+//! The parts of a scene, which all its clones share, as surfaces, lights and media.
 
 mod lights;
 mod media;
@@ -14,21 +14,21 @@ use etalon_spectrum::Sensor;
 use etalon_transport::{EmissionPdf, MediumId};
 use std::sync::Arc;
 
-/// What scenes share that differ in their sensors.
+/// The parts that scenes with different sensors share.
 pub struct Parts {
     pub(crate) camera: AnyCamera,
     pub(crate) space: Space,
     pub(crate) materials: Vec<Material>,
     pub(crate) lights: LightSet,
-    /// Whether any material lets light pass straight, so that shadow rays must ask.
+    /// Whether any material has a null interaction, so that shadow rays must evaluate materials.
     pub(crate) has_null: bool,
     /// The medium that the camera is in, with the bodies that it is in.
     pub(crate) camera_medium: MediumId,
-    /// The medium beyond everything.
+    /// The outermost medium.
     pub(crate) outermost: MediumId,
     /// Media that are lights.
     pub(crate) shining: Option<MediumLights>,
-    /// How often any other light is chosen, and by what its densities are multiplied therefore.
+    /// Probability of choosing a light that is not a medium: the factor on the densities of those.
     pub(crate) of_others: f32,
 }
 
@@ -42,7 +42,7 @@ impl Scene {
         sensors.into_iter().map(with).collect()
     }
 
-    /// The medium beyond everything.
+    /// The outermost medium.
     pub(crate) fn outermost(&self) -> MediumId {
         self.parts.outermost
     }

@@ -1,4 +1,4 @@
-//! Straight travel past what lets light pass.
+//! Transmittance through null surfaces and media.
 
 use crate::rays;
 use crate::scene::Scene;
@@ -31,7 +31,7 @@ impl Scene {
         (passage.transmittance != Vec4::ZERO).then_some(passage)
     }
 
-    /// Goes on through the medium that a ray is in, up to `t_max`.
+    /// Multiplies by the transmittance of the ray's medium up to `t_max`.
     #[inline]
     fn fill(&self, passage: &mut Transmission, ray: &Ray, t_max: f32, wavelengths: &Wavelengths) {
         if ray.medium.is_some()
@@ -41,7 +41,7 @@ impl Scene {
         }
     }
 
-    /// A segment through surfaces that let light pass: each is met in turn and asked how much.
+    /// A segment through null surfaces, intersected one after the other.
     pub(crate) fn passage_through(
         &self,
         segment: Ray,

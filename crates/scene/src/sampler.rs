@@ -3,7 +3,7 @@
 use etalon_params::{Class, Diagnostic, Diagnostics, Node, Params, plugins};
 use etalon_sampling::SamplerKind;
 
-/// Samplers of Mitsuba that are known but not built yet; `sobol` stands in for them.
+/// Samplers of Mitsuba that are not built; `sobol` replaces them.
 const REPLACED: [&str; 7] = [
     "multijitter",
     "orthogonal",
@@ -17,7 +17,7 @@ const REPLACED: [&str; 7] = [
 /// Samplers that are built.
 const BUILT: [&str; 3] = ["independent", "stratified", "sobol"];
 
-/// What a scene asks of sampling.
+/// The settings of a scene's sampler.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct SamplerSettings {
     /// The kind of sampler.

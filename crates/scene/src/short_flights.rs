@@ -1,9 +1,10 @@
-//! Flights that are too short for the coordinates of where they are.
+//! Mean free paths that are too short for the precision of coordinates.
 //!
-//! Coordinates are rounded to ulps of 2⁻²³ of their size, and a ray starts some of them beside the surface that it leaves. A walk whose
-//! mean free path is not long against that begins too deep, and loses light: with a surface of albedo ½ some .4 % at [`ULPS`]
-//! and 14 % at 8 of them. A thick body looks the same however short the flights in it are, but for a blur over some of them; so a mean
-//! free path counts as [`ULPS`] of the coordinates or as [`SHARE`] of the body's size, whichever is less, if it is shorter than that.
+//! Coordinates are rounded to ulps of 2⁻²³ of their magnitude, and rays start a few ulps off the surface that they leave.
+//! A random walk with a mean free path comparable to that starts too deep and loses light: with a surface of albedo ½
+//! about 0.4 % at [`ULPS`] ulps, and 14 % at 8. A thick body has the same appearance for any short mean free path, up to a
+//! blur of a few of them. So the mean free path is clamped from below to the lesser of [`ULPS`] ulps and [`SHARE`] of the
+//! body's size.
 
 use crate::lookup::SceneTables;
 use etalon_params::{Diagnostic, Diagnostics, Span};
@@ -11,16 +12,16 @@ use etalon_subsurface::{Homogeneous, MediumDescription};
 use etalon_transport::{MediumId, MediumInterface, ShapeId, Shapes};
 use glam::Vec4;
 
-/// So many ulps are long against rounding.
+/// Mean free path, in ulps of the coordinates, at which rounding is negligible.
 const ULPS: f32 = 256.0;
 
-/// So much of half a body's smallest extent is short against it.
+/// Mean free path, as a share of half the body's smallest extent, at which the blur is negligible.
 const SHARE: f32 = 3e-3;
 
-/// Wavelengths (nm) at which coefficients are looked at.
+/// Wavelengths (nm) at which coefficients are examined.
 const LAMBDA: Vec4 = Vec4::new(450.0, 520.0, 590.0, 660.0);
 
-/// Holds the mean free paths of homogeneous media to what the coordinates of their shapes tell apart, and says so.
+/// Clamps the mean free paths of homogeneous media to the precision of their shapes' coordinates, with a note.
 pub(crate) fn hold(
     media: &mut [(MediumDescription, Span)],
     bounded: &[(ShapeId, MediumInterface)],

@@ -20,7 +20,7 @@ impl Surfaces {
         let params = Params::new(node, diagnostics);
         let placement = Placement::from_params(&params);
         let flip = params.boolean_or("flip_normals", false);
-        // As in POV-Ray: what is carved looks like what it is carved from.
+        // As in POV-Ray: a cut surface has the material of the minuend.
         let cutaway =
             operation == Operation::Difference && params.boolean_or("cutaway_textures", false);
         let emitter = params.child(Class::Emitter).cloned();

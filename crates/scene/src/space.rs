@@ -9,7 +9,7 @@ use etalon_transport::{Hit, Ray, SurfaceInteraction};
 pub(crate) struct Space {
     pub(crate) lookup: SceneTables,
     pub(crate) media: SceneMedia,
-    /// Whether there are media, so that rays must know what they are in.
+    /// Whether there are media, so that rays must track theirs.
     pub(crate) has_media: bool,
 }
 

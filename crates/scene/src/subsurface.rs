@@ -20,7 +20,7 @@ use etalon_subsurface::{Boundary, Homogeneous, MediumDescription, Profile};
 use etalon_transport::MediumId;
 use std::sync::Arc;
 
-/// Names of what may be below a surface.
+/// Names of the subsurface plugins.
 fn built() -> impl Iterator<Item = &'static str> + Clone {
     ["randomwalk"].into_iter().chain(Profile::BUILT)
 }

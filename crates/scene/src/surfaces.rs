@@ -37,7 +37,7 @@ pub struct Names {
     pub materials: Vec<String>,
 }
 
-/// What people call a thing.
+/// The name of an object in messages.
 pub(crate) fn name(node: &Node) -> String {
     let plugin = &node.plugin.value;
     match &node.id {
@@ -169,7 +169,7 @@ impl Surfaces {
         known.any(|material| material.traits().refraction)
     }
 
-    /// Notes what a shape carries that an accelerator need not know.
+    /// Stores the properties of a shape that an accelerator does not need.
     pub(crate) fn carry(&mut self, shape: ShapeId, carried: &ShapeExtras) {
         if !carried.faces.is_empty() {
             self.geometry.set_face_materials(shape, &carried.faces);

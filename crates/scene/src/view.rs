@@ -1,7 +1,7 @@
-//! What the camera sees first: whether what leaves a light can be connected with it.
+//! The first surfaces that the camera sees: whether light can be connected to the camera.
 //!
-//! A lattice of rays through the film, each with a lens position of its own, goes straight on
-//! through whatever lets light pass. Something small may slip through; what is found is there.
+//! A lattice of rays through the film, each with its own lens position, continues through null
+//! surfaces. Small objects may be missed; everything found exists.
 
 use etalon_transport::{
     Bsdf, Camera, CameraProbe, LightSampleContext, Lights, Media, Ray, SamplePdf, Sensor,
@@ -12,10 +12,10 @@ use glam::{UVec2, Vec2, Vec3, Vec4};
 /// Rays along each side of the film.
 const LATTICE: u32 = 48;
 
-/// The most surfaces that a ray passes straight.
+/// The most null surfaces that a ray crosses.
 const PASSED: u32 = 64;
 
-/// Directions in which light may be scattered that are tried.
+/// Number of scattering directions that are tried.
 const TRIED: u32 = 16;
 
 /// Multiples of this spread evenly over a square, modulo one: powers of the inverse of the plastic
@@ -57,8 +57,8 @@ enum Reached {
     Surface(SurfaceInteraction, Vec3),
 }
 
-/// Follows a ray that mirrors and glass send on to a light, or to something that scatters light.
-/// Where it may go on in several directions, the ray's number chooses.
+/// Follows a ray by way of mirrors and glass to a light, or to a surface that scatters light.
+/// Among several discrete directions the ray's number chooses.
 fn reach<W: World>(world: &W, mut ray: Ray, number: u32) -> Option<Reached> {
     let wavelengths = world.sensor().wavelengths(0.5);
     for bounce in 0..PASSED {

@@ -1,7 +1,7 @@
-//! η and k of a metal of which only two colours are known: η and k as linear Rec. 709 triples.
+//! Spectra η and k of a metal from linear Rec. 709 triples of η and k.
 //!
-//! Triples that a measured metal has, to 1 % in each component, stand for its curves. Otherwise the reflectance at normal
-//! incidence is kept, since it is what one sees. With c over the channels and F Fresnel's equation,
+//! Triples of a measured metal, to 1 % in each component, are replaced by its curves. Otherwise the reflectance at normal
+//! incidence is preserved, as it decides the appearance. With c over the channels and F Fresnel's equation,
 //!
 //! ```text
 //! F(η, k) = ((η − 1)² + k²) / ((η + 1)² + k²)
@@ -10,8 +10,8 @@
 //! k(λ)² = (R (η + 1)² − (η − 1)²) / (1 − R)
 //! ```
 //!
-//! so that F(η(λ), k(λ)) = R(λ): lit by D65 the metal has the colour that a renderer of three channels gives it. (Beyond m
-//! no k has that reflectance.) Spectra of η and k made each for itself miss it by up to 0.07, for gold.
+//! so that F(η(λ), k(λ)) = R(λ): under D65 the metal has the colour that an RGB renderer gives it. (No k has that
+//! reflectance for η > m.) Upsampling η and k independently misses it by up to 0.07, for gold.
 
 use crate::conductors::{held, lookup, names};
 use crate::{LAMBDA_MAX, LAMBDA_MIN, Spectrum, SpectrumError};
@@ -19,7 +19,7 @@ use crate::{LAMBDA_MAX, LAMBDA_MIN, Spectrum, SpectrumError};
 /// Most of the light that R(λ) gives back; k grows without bound toward 1.
 const MOST: f64 = 1.0 - 1e-6;
 
-/// How far from a metal's, relatively, a component may be.
+/// Relative tolerance of a component to match a metal.
 const NEAR: f64 = 0.01;
 
 /// A metal and the linear Rec. 709 triples of its η and k.
@@ -79,7 +79,7 @@ static PUBLISHED: &[Published] = &[
     ),
 ];
 
-/// The name of the metal that the triples of `eta` and `k` were computed from, by which [`lookup`] knows it.
+/// The name, for [`lookup`], of the metal that the triples of `eta` and `k` were computed from.
 pub fn metal(eta: [f64; 3], k: [f64; 3]) -> Option<&'static str> {
     let is = |known: [[f64; 3]; 2]| {
         let pairs = known

@@ -8,14 +8,14 @@
 use crate::tabulated::{Irregular, Outside};
 use crate::{Spectrum, SpectrumError};
 
-/// What `cargo xtask tables` wrote.
+/// The tables, written by `cargo xtask tables`.
 const TABLE: &str = include_str!("../data/conductors.txt");
 
 /// Names that mean another name's data: Palik's handbook quotes these pages.
 const SAME: &[(&str, &str)] = &[("Cu_palik", "Cu"), ("d-C_palik", "d-C"), ("Hg_palik", "Hg")];
 
 /// η and k of the conductor `name`, held constant beyond 360 and 830 nm; `None` without data.
-/// Letters count as written, like the file names they stand for in Mitsuba.
+/// Names are case-sensitive, as they are file names in Mitsuba.
 pub fn lookup(name: &str) -> Option<(Spectrum, Spectrum)> {
     let name = SAME
         .iter()

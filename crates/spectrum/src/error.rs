@@ -8,14 +8,14 @@ use std::fmt;
 pub enum SpectrumError {
     /// A number is not finite.
     NotFinite {
-        /// What the number stands for.
+        /// The meaning of the number.
         what: &'static str,
         /// The offending number.
         value: f64,
     },
     /// A number lies outside the accepted interval.
     OutOfRange {
-        /// What the number stands for.
+        /// The meaning of the number.
         what: &'static str,
         /// The offending number.
         value: f64,
@@ -24,16 +24,16 @@ pub enum SpectrumError {
     },
     /// Fewer values than an interpolated table needs.
     TooFewValues {
-        /// How many were given.
+        /// The given number.
         given: usize,
-        /// How many are needed at least.
+        /// The least number.
         needed: usize,
     },
     /// The numbers of wavelengths and of values differ.
     LengthMismatch {
-        /// How many wavelengths were given.
+        /// Number of wavelengths.
         wavelengths: usize,
-        /// How many values were given.
+        /// Number of values.
         values: usize,
     },
     /// Wavelengths do not increase strictly.

@@ -8,10 +8,10 @@ use crate::tables::illuminants::{D65, FLUORESCENT};
 use crate::{Regular, SpectrumError};
 use etalon_math::float64;
 
-/// Where the table of D65 begins and ends, nm; the spectrum is zero outside.
+/// Range of the table of D65, nm; the spectrum is zero outside.
 pub const D65_RANGE: [f64; 2] = [360.0, 830.0];
 
-/// Where the tables of F1–F12 begin and end, nm; the spectra are zero outside.
+/// Range of the tables of F1–F12, nm; the spectra are zero outside.
 pub const FLUORESCENT_RANGE: [f64; 2] = [380.0, 780.0];
 
 /// Steps of the tables, nm.

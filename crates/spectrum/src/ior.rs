@@ -8,8 +8,7 @@ use glam::Vec4;
 /// The wavelengths (nm) beyond which the eye sees next to nothing: what a table leaves out there is not worth a word.
 const SEEN: [f64; 2] = [400.0, 700.0];
 
-/// A table of a part of an index (n, η or k), which beyond its ends stays what it is there, and what is to be said of that
-/// where it can be seen.
+/// A table of n, η or k that is constant beyond its ends, and a note if that affects visible wavelengths.
 ///
 /// # Errors
 /// Wavelengths (nm) that do not increase, or too few.

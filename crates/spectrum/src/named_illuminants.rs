@@ -14,10 +14,10 @@ use crate::illuminants::{self, FLUORESCENT_RANGE, tabulated};
 use crate::tables::lamps::{DAYLIGHT, LEDS, OLD_DAYLIGHT};
 use crate::{LAMBDA_MAX, LAMBDA_MIN, Regular};
 
-/// By how much the second radiation constant has grown since the daylights were named.
+/// Ratio of the second radiation constant today to that when the daylights were named.
 const RENAMED: f64 = 1.4388 / 1.4380;
 
-/// What names there are, for messages.
+/// The names, for messages.
 pub const NAMES: &str = "`A`, `B`, `C`, `D50`, `D65` and so on, `D` and a temperature from 4000 to 25000, `E`, `F1` to `F12`, \
                          `LED-B1` to `LED-B5`, `LED-BH1`, `LED-RGB1`, `LED-V1`, `LED-V2`";
 

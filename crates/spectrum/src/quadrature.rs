@@ -1,7 +1,7 @@
 //! Integrals over wavelengths from few of them, without random numbers.
 //!
-//! The range is divided into n strata Sₖ of equal probability. One wavelength of each, the mean of its own by their weight
-//! for the sensor, stands for all of them, as if all light were daylight D (CIE D65) on something that is even over a stratum:
+//! The range is divided into n strata Sₖ of equal probability. Each is represented by one wavelength, its mean weighted by the
+//! sensor's response, assuming daylight D (CIE D65) on a reflectance that is constant over a stratum:
 //!
 //! ```text
 //! ∫ L(λ) s(λ) dλ ≈ 1/n Σₖ L(λₖ) rₖ,   rₖ = n/D(λₖ) ∫_Sₖ D(λ) s(λ) dλ,   λₖ = ∫_Sₖ λ D |s| dλ / ∫_Sₖ D |s| dλ
@@ -17,12 +17,12 @@ use glam::{DVec4, Vec4};
 /// Points of each stratum at which the integrals over it are taken: a multiple of the cells of equal probability.
 const POINTS: u32 = 1024;
 
-/// Four wavelengths that stand for four strata.
+/// Four wavelengths that represent four strata.
 #[derive(Clone, Copy, Debug)]
 pub struct QuadratureNode {
     /// λₖ.
     pub wavelengths: Wavelengths,
-    /// rₖ for each channel, in place of s/p: what radiance at λₖ counts, of which the mean over all strata is taken.
+    /// rₖ for each channel, instead of s/p: the weight of radiance at λₖ in the mean over all strata.
     pub response: SensorWeights,
     /// D(λₖ).
     pub daylight: Vec4,

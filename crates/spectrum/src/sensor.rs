@@ -1,4 +1,4 @@
-//! A sensor: what it makes of the light that arrives, in up to three channels.
+//! A sensor: the response of up to three channels to incident light.
 //!
 //! A path's result is one value per lane, already divided by the sum over the lanes of its
 //! rescaled path densities:
@@ -9,8 +9,8 @@
 //! notation of ARCHITECTURE.md, "Wavelengths"). For a path whose densities are equal in all lanes Lⱼ = fⱼ/(4 p(x)): the
 //! sum over k already holds the division by four, so none follows here.
 //!
-//! The standard sensor is the CIE 1931 observer, seen in linear Rec. 709. Any other has curves of its own
-//! ([`Sensor::new`]), of which p follows.
+//! The standard sensor is the CIE 1931 observer in linear Rec. 709. Others have their own curves
+//! ([`Sensor::new`]), which determine p.
 
 use crate::cie::{self, COUNT, FIRST};
 use crate::colour_space::{XYZ_TO_RGB, apply};
@@ -125,7 +125,7 @@ impl Sensor {
         self.distribution.sample(u)
     }
 
-    /// What the channels make of the light at a path's wavelengths.
+    /// The channels' weights for the light at a path's wavelengths.
     #[inline]
     pub fn weights(&self, wavelengths: &Wavelengths) -> SensorWeights {
         SensorWeights::new(respond(&self.rows, wavelengths.lambda), wavelengths)
@@ -145,12 +145,12 @@ pub fn response(lambda: Vec4) -> [Vec4; 4] {
     respond(&RESPONSE, lambda)
 }
 
-/// What curves say at four wavelengths in nm.
+/// The curves at four wavelengths in nm.
 #[inline]
 fn respond(rows: &Rows, lambda: Vec4) -> [Vec4; 4] {
     let t = lambda - FIRST as f32;
     let inside = t.cmpge(Vec4::ZERO) & t.cmple(Vec4::splat((COUNT - 1) as f32));
-    // A wavelength outside saturates to some row; `inside` discards what it finds.
+    // A wavelength outside saturates to some row, which `inside` discards.
     let at = |t| row(rows, t);
     let lanes = Mat4::from_cols(at(t.x), at(t.y), at(t.z), at(t.w)).transpose();
     [lanes.x_axis, lanes.y_axis, lanes.z_axis, lanes.w_axis]

@@ -1,11 +1,11 @@
 //! Spectra in text files, by custom named `.spd`.
 //!
-//! Mitsuba 3.9 reads every spectrum file as this text whatever its name, `.spb` included.
+//! Mitsuba 3.9 reads every spectrum file as this text, also one named `.spb`.
 
 use crate::{LAMBDA_MAX, LAMBDA_MIN};
 use std::ops::Range;
 
-/// What a spectrum file holds.
+/// The contents of a spectrum file.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct SpdTable {
     /// Ascending wavelengths (nm).
@@ -66,7 +66,7 @@ pub fn parse_spd(text: &str) -> Result<SpdTable, (usize, String)> {
     Ok(table)
 }
 
-/// What ends a line: files of old Macintoshes know no line feed.
+/// The line terminator: files of old Macintoshes have no line feed.
 fn line_end(text: &str) -> char {
     if text.contains('\n') { '\n' } else { '\r' }
 }
@@ -83,8 +83,8 @@ pub fn line_range(text: &str, line: usize) -> Range<usize> {
     text.len()..text.len()
 }
 
-/// Whether ascending wavelengths can be meant in nanometres: a table that holds none which an eye or a camera sees is given
-/// in another unit, or of no use.
+/// Checks that ascending wavelengths are plausible in nanometres: a table without any visible wavelength is in another unit,
+/// or useless.
 ///
 /// # Errors
 /// What is wrong with them, and the unit that they seem to be given in.
@@ -129,7 +129,7 @@ fn parse(word: &str) -> Result<f64, String> {
     }
 }
 
-/// Appends one sample if its wavelength goes on in the direction of those before.
+/// Appends one sample if its wavelength continues the order of those before.
 fn push(
     table: &mut SpdTable,
     wavelength: Result<f64, String>,

@@ -4,7 +4,7 @@
 use crate::{SpectrumError, error};
 use glam::{IVec4, Vec4};
 
-/// What a tabulated spectrum is beyond its ends.
+/// A tabulated spectrum beyond its ends.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
 pub enum Outside {
     /// Zero, as emission and reflectance are.
@@ -51,7 +51,7 @@ impl Regular {
     pub fn eval(&self, lambda: Vec4) -> Vec4 {
         let inside = lambda.cmpge(Vec4::splat(self.min)) & lambda.cmple(Vec4::splat(self.max));
         let t = (lambda - self.min) * self.rate;
-        // A wavelength outside saturates to some entry; `inside` discards what it finds.
+        // A wavelength outside saturates to some entry, which `inside` discards.
         let last = self.values.len() as i32 - 2;
         let index = t.as_ivec4().clamp(IVec4::ZERO, IVec4::splat(last));
         let fraction = t - index.as_vec4();

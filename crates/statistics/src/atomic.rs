@@ -20,9 +20,9 @@ use std::sync::atomic::{AtomicU64, Ordering};
 
 /// A sum to which any number of threads may add at once.
 ///
-/// Range and resolution are those of [`Fixed128`], but for the sum, which must stay within
-/// ±2⁶²: every addition that leaves it beyond is reported as [`InvalidValue::OutOfRange`] (and kept,
-/// since the other word is already written; 2¹⁴ further additions could still not wrap it).
+/// Range and resolution are those of [`Fixed128`], except that the sum must stay within ±2⁶²: every
+/// addition that leaves it beyond is reported as [`InvalidValue::OutOfRange`] (and kept, since the
+/// other word is already written; 2¹⁴ further additions could still not wrap it).
 #[derive(Debug, Default)]
 pub struct AtomicFixed128 {
     low: AtomicU64,
@@ -88,9 +88,9 @@ impl AtomicFixed128 {
         }
     }
 
-    /// [`AtomicFixed128::merge`] for a caller who knows that nobody else adds to this sum at the
-    /// same time: plain reads and writes instead of atomic additions, which cost a multiple. (Were
-    /// the caller wrong, terms would be lost, nothing worse.)
+    /// [`AtomicFixed128::merge`] without concurrent writers to this sum: plain reads and writes instead
+    /// of atomic additions, which cost a multiple. (With concurrent writers, terms would be lost,
+    /// nothing worse.)
     ///
     /// # Errors
     /// As [`AtomicFixed128::merge`].
@@ -124,7 +124,7 @@ impl AtomicFixed128 {
         value(self.low.into_inner(), self.high.into_inner())
     }
 
-    /// The sum so far, after which it starts anew from zero.
+    /// Returns the sum so far and resets it to zero.
     #[must_use]
     pub fn take(&mut self) -> Fixed128 {
         let sum = self.load();

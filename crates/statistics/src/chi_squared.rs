@@ -1,8 +1,8 @@
 //! Pearson's χ² test of counts against expected counts, with pooled cells.
 //!
 //! χ² = Σ (oᵢ − eᵢ)² / eᵢ is χ²-distributed with (cells − 1) degrees of freedom where every eᵢ is
-//! large enough; Cochran's rule, eᵢ ≥ 5, is met by pooling the smallest cells, chosen by what was
-//! expected and never by what was observed.
+//! large enough; Cochran's rule, eᵢ ≥ 5, is met by pooling the smallest cells, chosen by expected
+//! and never by observed counts.
 
 use statrs::distribution::{ChiSquared, ContinuousCDF};
 
@@ -64,7 +64,7 @@ pub enum CountsError {
     TooMuchExpected {
         /// Observations.
         observed: f64,
-        /// The sum of what was expected.
+        /// The sum of the expected counts.
         expected: f64,
     },
     /// Fewer than two cells are left after pooling: there are too few observations, or no choice.

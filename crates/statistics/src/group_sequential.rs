@@ -177,8 +177,8 @@ impl Recursion {
         }
     }
 
-    /// Goes on to the next look: the density of this one, cut at its critical value, is laid on
-    /// panels that are fine enough for the step that follows.
+    /// Advances to the next look: the density of this one, cut at its critical value, is put on
+    /// panels that are fine enough for the next step.
     fn advance(&mut self, next: f64) {
         if self.now > 0.0 {
             let mean = self.drift * self.now.sqrt();

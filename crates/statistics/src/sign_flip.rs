@@ -133,8 +133,8 @@ fn random_subset_mean(sample: &[f64], random: &mut SplitMix64) -> f64 {
     }
 }
 
-/// How many of all choices of signs are extreme. Successive choices of a Gray code differ in one
-/// sign; the sum is started anew every 1,024 to keep its rounding error far below a tie.
+/// Number of extreme choices among all choices of signs. Successive choices of a Gray code differ in
+/// one sign; the sum is recomputed every 1,024 to keep its rounding error far below a tie.
 fn enumerate(sample: &[f64], extreme: impl Fn(f64) -> bool) -> u32 {
     let mut count = 0;
     let mut sum = 0.0;

@@ -22,8 +22,8 @@ pub enum Spending {
 }
 
 impl Spending {
-    /// What of `alpha` (two-sided) is spent once the share `information` ∈ [0, 1] is seen; more
-    /// than 1 spends all, less than 0 nothing.
+    /// The part of `alpha` (two-sided) that is spent at the share `information` ∈ [0, 1]; more than 1
+    /// spends all, less than 0 nothing.
     #[must_use]
     pub fn spent(self, alpha: f64, information: f64) -> f64 {
         if information >= 1.0 {

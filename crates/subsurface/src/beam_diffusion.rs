@@ -10,8 +10,8 @@
 //! and κ = 1 − e^(−2σ't (d + z)) dampens what is too near the surface for diffusion. R₁ is the light that is scattered once, integrated
 //! along the beam as it leaves through the boundary (ibid., eq. 15).
 //!
-//! All depends on the albedo, the mean cosine and the index alone if lengths are counted in mean free paths: a table of profiles
-//! for 64 albedos is made when a scene is read.
+//! In units of the mean free path the profile depends on the albedo, the mean cosine and the index only: a table of profiles
+//! for 64 albedos is computed when a scene is read.
 
 use crate::HenyeyGreenstein;
 use crate::diffusion::{Matter, Radial};
@@ -29,7 +29,7 @@ const DISTANCES: usize = 80;
 /// Depths along the beam.
 const DEPTHS: usize = 96;
 
-/// How the albedos crowd toward 1, where profiles change most.
+/// Concentration of the albedos toward 1, where profiles change most.
 const CROWDING: f64 = 8.0;
 
 /// Profiles by albedo, in mean free paths.
@@ -49,7 +49,7 @@ pub struct Beam<'a> {
     extinction: f64,
 }
 
-/// What of light inside the boundary is reflected: 2∫F μ dμ and 3∫F μ² dμ.
+/// Moments of internal Fresnel reflection: 2∫F μ dμ and 3∫F μ² dμ.
 fn moments(eta: f32) -> [f64; 2] {
     let count = 4096;
     let mut sums = [0.0; 2];
@@ -86,7 +86,7 @@ impl BeamDiffusion {
             let flat = || PiecewiseLinear::new(&[0.0, 1.0], &[1.0, 1.0]);
             match density {
                 Ok(density) => {
-                    // Of matter that hardly absorbs it gives back up to 1.04: what would feed on itself.
+                    // Up to 1.04 for nearly non-absorbing media, which would gain energy.
                     let total = density.integral().min(1.0);
                     Some((density, total))
                 }

@@ -1,6 +1,6 @@
-//! Diffusion profiles: light that walks about below a surface, as a function of the distance at which it leaves.
+//! Diffusion profiles: subsurface scattering as a function of the distance between entry and exit.
 //!
-//! They take the surface to be flat and the matter to go on forever below it: fast, and biased. The contract is
+//! They assume a flat surface of a half-space of homogeneous matter: fast, but biased. The contract is
 //! [`etalon_transport::DiffusionProfile`].
 
 use crate::HenyeyGreenstein;
@@ -17,7 +17,7 @@ use std::sync::Arc;
 /// The share of the light beyond [`DiffusionProfile::reach`].
 const BEYOND: f32 = 1e-4;
 
-/// What scatters light below a surface, at one wavelength.
+/// Coefficients of a medium below a surface, at one wavelength.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Matter {
     /// σa (m⁻¹).
@@ -84,7 +84,7 @@ impl Profile {
     /// Names of the profiles that are built.
     pub const BUILT: [&'static str; 3] = ["dipole", "beamdiffusion", "burley"];
 
-    /// By name, for matter with this mean cosine below this boundary.
+    /// A profile by name, for a medium with this mean cosine below this boundary.
     pub fn named(name: &str, g: f32, boundary: &Boundary) -> Option<Self> {
         match name {
             "dipole" => Some(Self::Dipole),
@@ -129,8 +129,7 @@ impl Profile {
         }
     }
 
-    /// By how much the light that leaves is wrong, of matter with these coefficients, per lane: that of this profile, and what
-    /// the albedo of a half-space lets leave.
+    /// Total exitant flux by this profile, and by the exact albedo of a half-space, per lane: the difference is the bias.
     pub fn bias(&self, coefficients: &Coefficients, g: f32, boundary: Boundary) -> [Vec4; 2] {
         let exact = |i: usize| {
             let matter = Matter {

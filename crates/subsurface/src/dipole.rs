@@ -25,7 +25,7 @@ pub struct Dipole {
 }
 
 impl Dipole {
-    /// Of matter below a boundary with the reflectance `inside` for diffuse light from inside.
+    /// The profile of a medium below a boundary with the reflectance `inside` for diffuse light from inside.
     pub(crate) fn new(matter: &Matter, inside: f32) -> Self {
         let reduced = matter.reduced();
         let depth = 1.0 / reduced;
@@ -42,7 +42,7 @@ impl Dipole {
         self.depths.map(|z| float::exp(-self.transport * z))
     }
 
-    /// The d beyond which the share `u` of what the source at `z` sends out leaves: with y = ln(d/z), σtr z eʸ + y = σtr z − ln u.
+    /// The d beyond which the share `u` of the flux from the source at `z` leaves: with y = ln(d/z), σtr z eʸ + y = σtr z − ln u.
     fn beyond(&self, z: f32, u: f32) -> f32 {
         let (depth, falls) = (self.transport * z, -float::ln(u));
         let target = depth + falls;

@@ -4,9 +4,9 @@
 //! σs(x) = α(x) σt(x),   σa(x) = (1 − α(x)) σt(x)        (m⁻¹, times `scale`)
 //! ```
 //!
-//! and emits σa Lₑ(x) per metre (`emission`). `sigma_t`, `albedo` and `emission` may be anything that has a value at a point of space: a grid, a computed pattern, a product of
-//! such. A medium ends where the grid of its `sigma_t` does, whatever the shape that holds it. A `homogeneous` medium whose albedo or
-//! emission varies is one of these whose `sigma_t` does not.
+//! and emits σa Lₑ(x) per metre (`emission`). `sigma_t`, `albedo` and `emission` are textures that have values in space: a
+//! grid, a pattern, a product of such. A medium ends where the grid of its `sigma_t` ends, even inside its shape. A
+//! `homogeneous` medium whose albedo or emission varies is one of these with a constant `sigma_t`.
 
 use crate::majorants::{MajorantGrid, Segments};
 use crate::phases::{PhaseAt, PhaseFunction};
@@ -27,7 +27,7 @@ pub struct Heterogeneous {
     phase: PhaseFunction,
     emission: Option<TextureId>,
     tracking: Tracking,
-    /// Where it is and how dense at most, once the scene is built.
+    /// Bounds and majorants, once the scene is built.
     majorants: Option<Box<MajorantGrid>>,
     /// The largest extinction where there is no grid (m⁻¹).
     most: f32,
@@ -276,10 +276,9 @@ mod tests {
         medium
     }
 
-    /// Flights and estimates of transmittance through the ramp have the means of Beer and Lambert's law in every lane,
-    /// whichever chooses, however finely the density is bounded and however it is tracked (|z| < 4.5, α = 10⁻⁵ each; steps are
-    /// exact on a ramp). The mutant whose bound is half of what it must be is off by 20 standard errors, that whose control
-    /// is left out of the closed form by more.
+    /// Flights and estimates of transmittance through the ramp have the means of the Beer–Lambert law in every lane, for any
+    /// choosing lane, majorant grid and tracking (|z| < 4.5, α = 10⁻⁵ each; ray marching is exact on a ramp). A mutant with half
+    /// the majorant is off by 20 standard errors, one without the control's closed form by more.
     #[test]
     fn light_is_attenuated_by_the_optical_depth() {
         let world = Ramp {

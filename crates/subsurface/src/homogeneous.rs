@@ -19,7 +19,7 @@ use etalon_transport::{
 };
 use glam::{Vec2, Vec3, Vec4};
 
-/// How the coefficients are given.
+/// The parametrisation of the coefficients.
 #[derive(Clone, Copy, Debug, PartialEq)]
 enum Given {
     Albedo {
@@ -30,7 +30,7 @@ enum Given {
         sigma_a: TextureId,
         sigma_s: TextureId,
     },
-    /// By what is seen of a thick piece of it.
+    /// By the albedo of a half-space of it, and the mean free path.
     Surface {
         albedo: TextureId,
         mean_free_path: TextureId,
@@ -39,7 +39,7 @@ enum Given {
     },
 }
 
-/// A medium that is the same everywhere.
+/// A homogeneous medium. Below a textured surface the coefficients vary over that surface, not in space.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Homogeneous {
     given: Given,
@@ -47,15 +47,15 @@ pub struct Homogeneous {
     phase: PhaseFunction,
     emission: Option<TextureId>,
     tracking: Tracking,
-    /// Whether the coefficients vary over the surface, so that a walk has those of where it entered.
+    /// Whether the coefficients vary over the surface: a walk keeps those of its point of entry.
     varies: bool,
-    /// What is taken in place of walks below a surface.
+    /// The diffusion profile that replaces walks below a surface.
     surface: Option<Surface>,
-    /// Its extinction is held to this (m⁻¹), with the same albedo.
+    /// Its extinction is clamped to this (m⁻¹), at the same albedo.
     densest: f32,
 }
 
-/// A diffusion profile, with what it needs besides coefficients.
+/// A diffusion profile with its parameters other than the coefficients.
 #[derive(Clone, Debug, PartialEq)]
 struct Surface {
     profile: Profile,
@@ -143,7 +143,7 @@ impl Homogeneous {
         self.emission.is_some()
     }
 
-    /// It fills whatever it is in.
+    /// `None`: it has no bounds of its own.
     pub fn bounds(&self) -> Option<[Vec3; 2]> {
         None
     }
@@ -169,7 +169,7 @@ impl Homogeneous {
                 );
                 return None;
             };
-            // It is told the coefficients where it is entered anyway.
+            // A profile takes the coefficients at the point of entry anyway.
             medium.varies = false;
             medium.surface = Some(Surface {
                 profile: Profile::named(name, g, &boundary)?,
@@ -266,17 +266,17 @@ impl Homogeneous {
         Some(profile.at(&coefficients, *g, *boundary))
     }
 
-    /// Whether walks have the coefficients of the surface point where they enter.
+    /// Whether walks keep the coefficients of the surface point where they enter.
     pub fn varies(&self) -> bool {
         self.varies
     }
 
-    /// Whether a diffusion profile stands for walks in it.
+    /// Whether a diffusion profile replaces walks in it.
     pub fn diffuses(&self) -> bool {
         self.surface.is_some()
     }
 
-    /// What leaves by the diffusion profile and by the albedo of a half-space, of light that has entered, per lane.
+    /// Exitant over entering flux, by the diffusion profile and by the albedo of a half-space, per lane.
     pub fn bias(&self, textures: &impl Textures, lambda: Vec4) -> Option<[Vec4; 2]> {
         let surface = self.surface.as_ref()?;
         let coefficients = self.coefficients(textures, &TexturePoint::at_uv(Vec2::ZERO), lambda);

@@ -102,7 +102,7 @@ impl MajorantGrid {
                 place / count.x / count.y,
             );
             let corner = self.low + side * cell.as_vec3();
-            // Below the upper bound, whatever rounding does.
+            // Not above the upper bound, in spite of rounding.
             let most = self.cells.at(cell.as_ivec3());
             least(corner, corner + side).clamp(0.0, 0.999 * most)
         };
@@ -126,7 +126,7 @@ impl MajorantGrid {
             .fold(0.0, |most, value| most.max(*value))
     }
 
-    /// Where the ray is within the grid, up to `t_max` (m along it).
+    /// The interval of the ray within the grid, up to `t_max` (m).
     fn crossing(&self, ray: &Ray, t_max: f32) -> Option<[f32; 2]> {
         let inverse = ray.direction.recip();
         let (a, b) = (
@@ -193,7 +193,7 @@ impl Iterator for Segments<'_> {
 pub struct GridSegments<'a> {
     grid: &'a MajorantGrid,
     ray: Ray,
-    /// Where the ray enters the grid, until that is told.
+    /// Where the ray enters the grid, until that segment has been returned.
     before: Option<f32>,
     blocks: Walk,
     cells: Option<Walk>,
@@ -257,7 +257,7 @@ struct Walk {
     cell: IVec3,
     last: IVec3,
     step: IVec3,
-    /// Where the ray leaves the cell along each axis (m), and by how much that grows with each step.
+    /// Distance at which the ray leaves the cell along each axis (m), and its increment per step.
     leaves: Vec3,
     stride: Vec3,
     t: f32,

@@ -1,7 +1,7 @@
 //! Measured coefficients of matter, by name.
 //!
-//! σs′ = (1 − g) σs and σa at red, green and blue, mm⁻¹: with an isotropic phase function they stand for the matter, whatever its
-//! own (H. W. Jensen et al. 2001, "A Practical Model for Subsurface Light Transport", figure 5; S. G. Narasimhan et al. 2006,
+//! σs′ = (1 − g) σs and σa at red, green and blue, mm⁻¹. By similarity they are used with an isotropic phase function
+//! (H. W. Jensen et al. 2001, "A Practical Model for Subsurface Light Transport", figure 5; S. G. Narasimhan et al. 2006,
 //! "Acquiring Scattering Properties of Participating Media by Dilution", table 1, undiluted).
 
 /// Name, σs′, σa.
@@ -46,7 +46,7 @@ const MATERIALS: [(&str, [f64; 3], [f64; 3]); 37] = [
     ("strawberry shampoo", [0.00015671, 0.00015947, 1.518e-5], [0.01449, 0.05796, 0.075823]),
 ];
 
-/// [σa, σs′] (mm⁻¹, linear Rec. 709) of a material, in whatever letters it is written.
+/// [σa, σs′] (mm⁻¹, linear Rec. 709) of a material, case-insensitively.
 pub fn named(name: &str) -> Option<[[f64; 3]; 2]> {
     let plain = name.to_lowercase();
     let found = MATERIALS.iter().find(|(known, ..)| *known == plain);

@@ -37,7 +37,7 @@ macro_rules! media {
                 match self { $(Self::$kind(medium) => medium.emits(),)* }
             }
 
-            /// The corners of the box that holds all of it; `None` if it fills whatever it is in.
+            /// The corners of its bounding box; `None` if it fills its shape.
             pub fn bounds(&self) -> Option<[Vec3; 2]> {
                 match self { $(Self::$kind(medium) => medium.bounds(),)* }
             }

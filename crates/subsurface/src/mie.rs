@@ -25,7 +25,7 @@ pub struct Sphere {
 }
 
 impl Sphere {
-    /// Of size x (above 0), with the index m relative to what is around; an absorbing one has a positive imaginary part.
+    /// A sphere of size parameter x > 0 with the index m relative to its surroundings; Im m > 0 if it absorbs.
     pub fn new(size: f64, index: Complex64) -> Self {
         // W. Wiscombe 1980: enough terms for any sphere.
         let terms = (size + 4.0 * float64::cbrt(size) + 2.0).ceil() as usize;
@@ -69,7 +69,7 @@ impl Sphere {
             .map(|(i, ab)| ((i + 1) as f64, ab))
     }
 
-    /// Q_sca: what it scatters, over the light that falls on its cross-section.
+    /// Q_sca: scattering efficiency, the scattering cross-section over the geometric one.
     pub fn scattering(&self) -> f64 {
         let sum: f64 = self
             .terms()
@@ -78,7 +78,7 @@ impl Sphere {
         2.0 / (self.size * self.size) * sum
     }
 
-    /// Q_ext: what it scatters or absorbs.
+    /// Q_ext: extinction efficiency.
     pub fn extinction(&self) -> f64 {
         let sum: f64 = self
             .terms()

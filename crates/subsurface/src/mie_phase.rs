@@ -37,7 +37,7 @@ const RADII: i32 = 8;
 pub struct Mie {
     /// Densities of μ, by wavelength.
     tables: Arc<[PiecewiseLinear]>,
-    /// All that tells them from others.
+    /// The parameters, for comparison.
     given: [f64; 5],
 }
 
@@ -195,7 +195,7 @@ mod tests {
         assert!(mie.value(1.0, Vec4::splat(550.0)).x > 100.0);
     }
 
-    /// What is far smaller than the wavelength scatters as Rayleigh's, 3/(16π) (1 + μ²).
+    /// Spheres far smaller than the wavelength scatter as Rayleigh's, 3/(16π) (1 + μ²).
     #[test]
     fn small_spheres_scatter_as_molecules() {
         let mie = Mie::new(0.005, 0.0, 1.5, 0.0, 1.0).expect("sound");

@@ -6,10 +6,10 @@ use etalon_params::{Class, Params, plugins};
 use etalon_transport::{Build, Phase, PhaseSample, Textures};
 use glam::{Vec2, Vec3, Vec4};
 
-/// Where a phase function is asked.
+/// The point and wavelengths at which a phase function is evaluated.
 #[derive(Debug)]
 pub struct PhasePoint<'a, T> {
-    /// What varies in space.
+    /// Textures, for parameters that vary in space.
     pub textures: &'a T,
     /// The point (m, world).
     pub position: Vec3,
@@ -26,7 +26,7 @@ impl<T> Clone for PhasePoint<'_, T> {
 
 impl<T> Copy for PhasePoint<'_, T> {}
 
-/// What a phase function is asked, as [`Phase`] at a point.
+/// The methods of [`Phase`] before a point is fixed.
 pub(crate) trait PhaseModel {
     /// p(wo, wi) in sr⁻¹, per lane.
     fn eval(&self, at: &PhasePoint<'_, impl Textures>, wo: Vec3, wi: Vec3) -> Vec4;

@@ -18,7 +18,7 @@ use etalon_transport::{Build, PhaseSample, SpectrumKind, TextureId, TexturePoint
 use glam::{Mat3, Vec2, Vec3, Vec4};
 use std::f32::consts::{PI, TAU};
 
-/// What is added to the diagonal of S, so that its inverse exists.
+/// Added to the diagonal of S, so that its inverse exists.
 const LEAST: f32 = 1e-6;
 
 /// The phase function of flakes.
@@ -40,7 +40,7 @@ fn symmetric(diagonal: Vec3, beside: Vec3) -> Mat3 {
     )
 }
 
-/// |S| S⁻¹, which exists whatever |S| is.
+/// |S| S⁻¹, which exists even if |S| = 0.
 fn adjugate(s: &Mat3) -> Mat3 {
     Mat3::from_cols(
         s.y_axis.cross(s.z_axis),

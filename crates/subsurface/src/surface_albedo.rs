@@ -48,8 +48,8 @@ pub fn inside_boundary(albedo: f32, inside: f32) -> f32 {
     (1.0 - inside) * albedo / (1.0 - inside * albedo)
 }
 
-/// A of what is seen through a dielectric boundary of the relative index `eta`, which reflects the part `inside` of
-/// diffuse light from inside.
+/// A, from the albedo seen through a dielectric boundary of the relative index `eta` that reflects the share `inside`
+/// of diffuse light from inside.
 #[inline]
 pub fn below(seen: Vec4, eta: f32, inside: f32) -> Vec4 {
     let passing = (1.0 - inside) * eta * eta;

@@ -1,4 +1,4 @@
-//! What varies in space, or does not: the volumes of a medium's parameters.
+//! Volumes: the parameters of a medium, constant or varying in space.
 
 use etalon_params::questions::Question;
 use etalon_params::{Params, Value};
@@ -15,7 +15,7 @@ pub(crate) fn constant(
 ) -> TextureId {
     let property = params.node.properties.iter().find(|p| p.name == name);
     match property.map(|p| &p.value) {
-        // As in Mitsuba, whatever the colour is of; one beyond 1 has no such spectrum.
+        // As in Mitsuba, a reflectance spectrum for any quantity; none exists for a colour above 1.
         Some(Value::Rgb(rgb)) if rgb.max_element() <= 1.0 => {
             build.texture(params, name, Some(default), SpectrumKind::Reflectance)
         }
@@ -36,9 +36,9 @@ pub(crate) fn constant(
     }
 }
 
-/// How a medium is travelled through: `tracking`, and `step` of ray marching; `usual` unless it says.
+/// Reads `tracking`, and `step` for ray marching; the default is `usual`.
 pub(crate) fn tracking(params: &Params<'_>, usual: Tracking) -> Tracking {
-    // Only what is the same everywhere has a closed form.
+    // Only homogeneous media have a closed form.
     let all = ["closed", "ratio", "delta", "residual", "raymarch"];
     let accepted = &all[usize::from(usual != Tracking::Closed)..];
     let chosen = params.choice("tracking", accepted[0], accepted);

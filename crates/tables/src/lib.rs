@@ -18,7 +18,7 @@ pub mod warp;
 
 pub use table::{BrdfAtWavelengths, BrdfTable};
 
-/// What is wrong with a file: one sentence.
+/// A mistake in a file: one sentence.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[error("{message}")]
 pub struct BrdfTableError {

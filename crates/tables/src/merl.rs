@@ -98,7 +98,7 @@ impl Merl {
         })
     }
 
-    /// By what it is sampled.
+    /// The distribution of half vectors for sampling.
     #[inline]
     pub fn half_vectors(&self) -> &HalfVectors {
         &self.half_vectors

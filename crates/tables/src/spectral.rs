@@ -22,10 +22,10 @@ use core::f32::consts::{FRAC_PI_2, PI};
 use etalon_math::float;
 use glam::{Vec3, Vec4};
 
-/// The field that tells this format from RGL's.
+/// The field that distinguishes this format from RGL's.
 pub const FIELD: &str = "brdf";
 
-/// What stands in a table, or is to be written.
+/// The contents of a table.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Grid {
     /// Elevations of `wo`, rad.
@@ -114,7 +114,7 @@ impl SpectralTable {
         interpolated(&self.grid, &self.brdf, wo, wi, lambda)
     }
 
-    /// By what it is sampled.
+    /// The distribution of half vectors for sampling.
     #[inline]
     pub fn half_vectors(&self) -> &HalfVectors {
         &self.half_vectors

@@ -56,7 +56,7 @@ impl BrdfTable {
         }
     }
 
-    /// What it is, in words.
+    /// Its kind, for messages.
     pub fn kind(&self) -> &'static str {
         match self {
             Self::Merl(_) => "a BRDF of the MERL database",
@@ -78,7 +78,7 @@ impl BrdfTable {
         }
     }
 
-    /// By what it is sampled, if by half vectors.
+    /// The distribution of half vectors for sampling, if it is sampled by them.
     fn half_vectors(&self) -> Option<&HalfVectors> {
         match self {
             Self::Merl(table) => Some(table.half_vectors()),

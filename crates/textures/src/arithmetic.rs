@@ -14,7 +14,7 @@ use etalon_params::{Class, Params};
 use etalon_transport::{Shapes, SpectrumKind, TextureId, TexturePoint};
 use glam::{Vec3, Vec4};
 
-/// What is computed.
+/// The operation.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Operation {
     Multiply,
@@ -51,7 +51,7 @@ impl Arithmetic {
         set.number(self.parts[2], shapes, at).clamp(0.0, 1.0)
     }
 
-    /// Bounds of what comes out in a box.
+    /// Bounds of the result in a box.
     fn range_within(&self, set: &TextureTable, low: Vec3, high: Vec3) -> [f32; 2] {
         let [a, b] = [0, 1].map(|part| {
             let part = set.get(self.parts[part]);
@@ -62,7 +62,7 @@ impl Arithmetic {
         });
         let range = match self.operation {
             Operation::Multiply => {
-                // What is nowhere is not, however much of it there might be.
+                // 0 · ∞ = 0: an unbounded factor of nothing is nothing.
                 let product = |x: f32, y: f32| if x == 0.0 || y == 0.0 { 0.0 } else { x * y };
                 let ends = a.map(|x| b.map(|y| product(x, y)));
                 (ends.as_flattened().iter())
@@ -158,7 +158,7 @@ pub(crate) fn read(
     Use { role, .. }: Use,
 ) -> Option<Texture> {
     let nested = Use { role, nested: true };
-    // A factor may exceed 1 where what it scales may not.
+    // A factor may exceed 1, even if the scaled texture may not.
     let factor = Use {
         role: match role {
             SpectrumKind::Reflectance => SpectrumKind::Unbounded,

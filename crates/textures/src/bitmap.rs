@@ -66,7 +66,7 @@ impl Bitmap {
                 let [a, b, c, scale] = texels[i];
                 RgbCoefficients([a, b, c]).eval(lambda) * scale
             }),
-            // Not asked for by scenes that Mitsuba accepts; the channels name a colour then.
+            // Does not occur in scenes that Mitsuba accepts; the channels are taken for a colour.
             Texels::Raw(texels) => {
                 let rgb = self.average(uv, |i| Vec3::from_array(texels[i]));
                 RgbCoefficients::from_rgb(rgb.to_array()).eval(lambda)

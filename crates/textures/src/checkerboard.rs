@@ -1,8 +1,8 @@
 //! `checkerboard`: two textures in alternate squares of side ½.
 //!
 //! With (u, v) after `to_uv`, colour 0 fills the squares in which u − ⌊u⌋ > ½ and v − ⌊v⌋ > ½
-//! agree. Where a *number* is asked for (opacity, roughness), Mitsuba 3.9.1 exchanges the two;
-//! scenes made for it rely on the picture it gives, so this does the same.
+//! agree. Evaluated as a *number* (opacity, roughness), Mitsuba 3.9.1 exchanges the two colours;
+//! this does the same, as scenes rely on it.
 
 use crate::UvTransform;
 use crate::reader::Use;
@@ -24,7 +24,7 @@ pub struct Checkerboard {
 }
 
 impl Checkerboard {
-    /// 0 or 1: the texture seen at `uv` when a spectrum or colour is asked for.
+    /// 0 or 1: the texture at `uv` for spectra and colours.
     #[inline]
     fn square(&self, uv: Vec2) -> usize {
         let uv = self.to_uv.apply(uv);

@@ -4,12 +4,12 @@
 //! value = f(x, y, z, u, v, inputs)        or one formula for each of red, green, blue
 //! ```
 //!
-//! x, y and z are the place in the world, taken back by `to_world`; u and v the place on a surface; inputs are nested textures and
-//! numbers by their names, of which numbers are taken. What has no value (a root of a negative number) counts as 0, what is below 0 as 0, and
-//! shares as 1 at most.
+//! x, y and z are the world position mapped by the inverse of `to_world`; u and v texture coordinates; inputs are nested textures
+//! and numbers by name, evaluated as numbers. Undefined values (a root of a negative number) and negative ones count as 0;
+//! reflectances are clamped to 1.
 //!
-//! In a box of the world the formula is evaluated in intervals ([`etalon_math::expression::Interval`]), which hold all that it may be
-//! there: tracking through a density by a formula stays unbiased.
+//! Bounds in a box come from interval arithmetic ([`etalon_math::expression::Interval`]), so that tracking through a density
+//! by a formula stays unbiased.
 
 use crate::reader::Use;
 use crate::recovered::{luminance, spectrum_of};
@@ -27,7 +27,7 @@ const PLACE: [&str; 5] = ["x", "y", "z", "u", "v"];
 /// The most inputs.
 const MOST_INPUTS: usize = 11;
 
-/// How many cells along a medium may be bounded apart, in units of [`TextureModel::cells`].
+/// Number of cells along a medium with bounds of their own, see [`TextureModel::cells`].
 const CELLS: u32 = 256;
 
 /// Values of the variables.
@@ -77,7 +77,7 @@ impl Computed {
     }
 
     fn held(&self, value: f64) -> f32 {
-        // Neither is what is no number above 0.
+        // False for NaN, too.
         if value > 0.0 {
             value.min(self.most()) as f32
         } else {
@@ -121,7 +121,7 @@ impl Computed {
         }
         let range = |formula: &Expression| {
             let Interval { low, high } = formula.eval(&variables);
-            // Of no number at all: 0.
+            // Undefined: 0.
             [low, high].map(|end| {
                 if end.is_nan() {
                     0.0
@@ -214,7 +214,7 @@ impl TextureModel for Computed {
     }
 }
 
-/// The properties of an input: whatever is none of the plugin's own.
+/// The inputs: all properties that are not the plugin's own.
 fn inputs<'p>(params: &Params<'p>) -> Vec<&'p Property> {
     let own = ["value", "red", "green", "blue", "to_world"];
     let given = params.node.properties.iter();
@@ -228,7 +228,7 @@ fn inputs<'p>(params: &Params<'p>) -> Vec<&'p Property> {
         .collect()
 }
 
-/// Whether a name can stand in a formula, and means nothing else there.
+/// Whether a name is valid in a formula and has no other meaning there.
 fn is_free(name: &str) -> bool {
     let mut letters = name.chars();
     letters
@@ -342,7 +342,7 @@ mod tests {
     }
 
     proptest! {
-        /// Of a turned and stretched place, with waves, poles, roots of what may be negative, and noise.
+        /// With a rotated and stretched position, waves, poles, roots of possibly negative terms, and noise.
         #[test]
         fn nothing_in_a_box_is_beyond_its_bounds(
             low in prop::array::uniform3(-3.0_f32..3.0),

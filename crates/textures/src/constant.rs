@@ -14,8 +14,8 @@ use glam::{DVec3, Vec4};
 pub struct Constant {
     /// The spectrum.
     pub spectrum: Spectrum,
-    /// What it is as a number: itself if uniform, its mean over the wavelengths if it came from
-    /// a colour (as Mitsuba has it), its luminance as a reflectance under D65 otherwise.
+    /// Its value as a number: itself if uniform, the mean over the wavelengths if it came from a
+    /// colour (as in Mitsuba), otherwise the luminance of that reflectance under D65.
     pub number: f32,
     /// Mean over 360–830 nm.
     pub mean: f32,

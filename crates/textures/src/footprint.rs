@@ -1,8 +1,8 @@
-//! Which texels of an image a lookup touches, and with which weights.
+//! The texels of an image that a look-up reads, and their weights.
 
 use glam::{UVec2, Vec2};
 
-/// What an image is beyond its borders.
+/// The extension of an image beyond its borders.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Wrap {
     /// The image again.
@@ -13,7 +13,7 @@ pub enum Wrap {
     Clamp,
 }
 
-/// What an image is between the centres of its texels.
+/// The interpolation between the centres of texels.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Filter {
     /// Interpolated between the four nearest centres.
@@ -23,7 +23,7 @@ pub enum Filter {
 }
 
 impl Wrap {
-    /// The texel in 0..n that stands for texel `i` of the endless image.
+    /// The texel in 0..n for texel `i` of the unbounded image, by the wrap mode.
     #[inline]
     pub(crate) fn texel(self, i: i64, n: u32) -> usize {
         let n = i64::from(n);

@@ -3,8 +3,8 @@
 //! The grid fills the unit cube, which `to_world` places (with `use_grid_bbox`, first the file's box or, of a NanoVDB file,
 //! where that puts it); the value i of n along
 //! an axis is at (i + ½)/n, and values between are interpolated (`trilinear`), or those of the `nearest`. Beyond the
-//! cube the grid goes on as `wrap_mode` says. Three channels are colours, interpolated as spectra; those of a
-//! share of light are held to 1. Six are symmetric matrices (xx, yy, zz, xy, xz, yz).
+//! cube the grid is extended by `wrap_mode`. Three channels are colours, interpolated as spectra; those of reflectances
+//! are clamped to 1. Six are symmetric matrices (xx, yy, zz, xy, xz, yz).
 
 use crate::nanovdb;
 use crate::pixels::{Image, Pixels, Texels, Values};
@@ -27,7 +27,7 @@ pub struct Grid {
     size: UVec3,
     /// By z, y and x.
     values: Arc<Image>,
-    /// Of symmetric matrices what is beside the diagonal, which are the values then.
+    /// Off-diagonal elements of symmetric matrices, whose diagonals are the values.
     beside: Option<Arc<[[f32; 3]]>>,
     /// From the world to the grid, in which values are 1 apart.
     to_grid: Affine3A,
@@ -61,7 +61,7 @@ impl Grid {
         plane(0) * (1.0 - part.z) + plane(1) * part.z
     }
 
-    /// Where the value of a cell is that may be beyond the grid.
+    /// Index of the value of a cell, which may be beyond the grid.
     #[inline]
     fn index(&self, cell: IVec3) -> usize {
         let size = self.size;

@@ -18,7 +18,7 @@ static WHITE: LazyLock<etalon_spectrum::Regular> =
 /// A texture times D65.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct TimesD65 {
-    /// What varies over the surface.
+    /// The texture that is multiplied.
     pub inner: TextureId,
     /// A factor.
     pub scale: f32,
@@ -71,7 +71,7 @@ impl TextureModel for TimesD65 {
     }
 }
 
-/// A colour becomes one spectrum, a texture is multiplied where it is asked.
+/// A colour becomes one spectrum; a texture is multiplied at look-up.
 pub(crate) fn read(
     reader: &mut TextureReader<'_>,
     params: &Params<'_>,

@@ -1,9 +1,9 @@
 //! Spectra and images that vary over surfaces.
 //!
-//! A [`Texture`] answers three questions at a point: which spectrum, which number, which raw
-//! colour. A scene keeps its textures in a [`TextureTable`] and refers to them by
-//! [`etalon_transport::TextureId`]; [`TextureReader`] makes them from a scene description with
-//! Mitsuba's rules (which plugin a number, an `rgb` or a `spectrum` property stands for).
+//! A [`Texture`] has three kinds of value at a point: a spectrum, a number, a raw colour. A scene keeps
+//! its textures in a [`TextureTable`] and refers to them by [`etalon_transport::TextureId`];
+//! [`TextureReader`] makes them from a scene description by Mitsuba's rules (which plugin a number, an
+//! `rgb` or a `spectrum` property is short for).
 //!
 //! Texture coordinates follow Mitsuba: (0, 0) is the upper left corner of an image's first row,
 //! v grows with the rows, and the centre of texel (i, j) of a w × h image is at

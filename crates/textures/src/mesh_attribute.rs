@@ -23,12 +23,12 @@ pub struct MeshAttribute {
     pub name: String,
     /// A factor, not below 0.
     pub scale: f32,
-    /// What the quantity is.
+    /// The role of the quantity.
     pub role: SpectrumKind,
 }
 
 impl MeshAttribute {
-    /// What a stored number, not yet scaled, is held to.
+    /// The range to which a stored number is clamped before scaling.
     #[inline]
     pub fn range(&self) -> [f32; 2] {
         match self.role {

@@ -4,9 +4,9 @@
 //! A file has one header or more, each followed by 176 bytes and a name for every grid, then the grids. A grid is an image
 //! of memory: 672 bytes about it, 64 about its tree, and nodes that refer to each other by offsets in bytes. The root has a table
 //! of tiles of 4096³ values, an upper node one of 32³ tiles of 128³, a lower node one of 16³ tiles of 8³, and a leaf 8³ values. A
-//! tile is a value for all of it, or a node. What is read is made dense: all values of the box of those in use.
+//! tile is a constant value, or a node. The result is dense: all values in the box of the active ones.
 //!
-//! Every offset is checked, and memory is taken in proportion to what is there.
+//! Every offset is checked, and memory is allocated in proportion to the data.
 
 use crate::pixels::Values;
 use crate::vol_file::{self, VolFile, refuse_bad};
@@ -36,7 +36,7 @@ const LOWER: Level = Level {
     table: 1088,
 };
 
-/// Where a leaf has its values.
+/// Offset of the values in a leaf.
 const LEAF_VALUES: usize = 96;
 
 /// Lengths of what precedes the tree and the root's table, and of an entry of that (bytes).
@@ -107,7 +107,7 @@ impl<'a> Bytes<'a> {
     }
 }
 
-/// What a file says of a grid, and the grid as it is stored.
+/// The header of a grid, and its stored bytes.
 struct Stored<'a> {
     name: String,
     kind: u32,
@@ -123,7 +123,7 @@ pub fn is_nanovdb(bytes: &[u8]) -> bool {
     bytes.starts_with(b"NanoVDB")
 }
 
-/// What a grid holds, by the number that files have for it.
+/// The value type of a grid, by its number in files.
 fn kind(number: u32) -> String {
     let known = match number {
         1 => "32-bit floats",
@@ -139,7 +139,7 @@ fn kind(number: u32) -> String {
     known.to_owned()
 }
 
-/// What a file holds, a line for each grid.
+/// A summary of a file, one line for each grid.
 ///
 /// # Errors
 /// What is wrong with it.
@@ -248,7 +248,7 @@ fn stored<'a>(bytes: &Bytes<'a>) -> Result<(Vec<Stored<'a>>, usize), String> {
             at += 176 + name.len();
         }
         for (grid, size) in grids[first..].iter_mut().zip(sizes) {
-            // Programs differ in whether the 8 bytes count that tell the length of what is compressed.
+            // Programs differ in whether the 8 bytes with the compressed length are included.
             let size = match grid.codec {
                 1 => {
                     at += 8;
@@ -324,7 +324,7 @@ fn dense(grid: &Bytes<'_>) -> Result<VolFile, String> {
     }
     let mut values = Values::One(values);
     let notes = refuse_bad(&mut values, size)?.into_iter().collect();
-    // Rows of the matrix in double precision, and what is added.
+    // Rows of the matrix in double precision, and the translation.
     let map = 296 + 88;
     let rows = [
         grid.point(map)?,

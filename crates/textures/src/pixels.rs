@@ -36,7 +36,7 @@ pub enum Texels {
     Bright(Vec<[f32; 4]>),
 }
 
-/// Texels of an image, with what is known of the whole of it.
+/// Texels of an image, with statistics of the whole image.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Image {
     /// Columns and rows.
@@ -60,9 +60,9 @@ impl Image {
         }
     }
 
-    /// Prepares pixels for lookup. With `raw`, three channels stay what they are. Numbers and
-    /// colours beyond 1 are kept if `role` allows them, colours with a spectrum as for a bright
-    /// `rgb` value; negative colours never.
+    /// Prepares pixels for look-up. With `raw`, three channels are not converted to spectra. Numbers and
+    /// colours above 1 are kept if `role` allows them, colours with a spectrum as for a bright `rgb`
+    /// value; negative colours never are.
     ///
     /// With `bright`, all colours have a spectrum as for a bright `rgb` value, as those of Mitsuba's volumes do.
     pub fn new(pixels: Pixels, raw: bool, role: SpectrumKind, bright: bool) -> Self {

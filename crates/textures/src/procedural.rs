@@ -26,7 +26,7 @@ use etalon_params::Params;
 use etalon_transport::{Shapes, TextureId, TexturePoint};
 use glam::{DAffine3, DMat3, DVec3, Vec3, Vec4};
 
-/// How many cells along a medium may be bounded apart, in units of [`TextureModel::cells`].
+/// Number of cells along a medium with bounds of their own, see [`TextureModel::cells`].
 const CELLS: u32 = 256;
 
 /// A kind of pattern.
@@ -313,7 +313,7 @@ mod tests {
     use proptest::prelude::*;
 
     proptest! {
-        /// Of a turned and stretched pattern, in boxes smaller and larger than its features.
+        /// With a rotated and stretched pattern, in boxes smaller and larger than its features.
         #[test]
         fn no_share_in_a_box_is_beyond_its_bounds(
             low in prop::array::uniform3(-5.0_f32..5.0),
@@ -342,7 +342,7 @@ mod tests {
         }
     }
 
-    /// The bounds of a small box are near what is in it.
+    /// The bounds in a small box are tight.
     #[test]
     fn bounds_of_a_small_box_are_tight() {
         let pattern = Procedural {

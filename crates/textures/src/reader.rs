@@ -1,4 +1,4 @@
-//! From a scene description to textures: what a property that takes a texture may be.
+//! From a scene description to textures: the forms of a property that takes a texture.
 //!
 //! | written | reflectance | emission | unbounded |
 //! |---|---|---|---|
@@ -7,9 +7,9 @@
 //! | `spectrum` as text | as written | as written | as written |
 //! | nested object | what the plugin says | likewise | likewise |
 //!
-//! These are Mitsuba's rules in spectral mode, which however holds the last of them to [0, 1]. In particular an image is *not* multiplied by D65
-//! when it emits, unless it is wrapped in a `d65` object. Values inside of nested textures follow
-//! the first column, whatever the outermost property is for.
+//! These are Mitsuba's rules in spectral mode, which however clamps the last column to [0, 1]. In particular an
+//! emitting image is *not* multiplied by D65 unless it is wrapped in a `d65` object. Values inside nested
+//! textures follow the first column for every outermost property.
 
 use crate::{Constant, Texture, TextureTable};
 use etalon_params::questions::Question;
@@ -19,13 +19,13 @@ use etalon_spectrum::{Spectrum, SpectrumError, ior};
 use etalon_transport::{Assets, SpectrumKind, TextureId};
 use std::sync::Arc;
 
-/// Reads textures into a set. Mistakes go to the diagnostics; a harmless texture stands in.
+/// Reads textures into a set. Mistakes go to the diagnostics, and a constant texture replaces the faulty one.
 pub struct TextureReader<'a> {
-    /// Where the textures go.
+    /// The table of textures.
     pub set: &'a mut TextureTable,
     /// The scene's files.
     pub assets: &'a dyn Assets,
-    /// Where mistakes go.
+    /// The diagnostics.
     pub diagnostics: &'a Diagnostics,
 }
 
@@ -53,7 +53,7 @@ impl TextureReader<'_> {
         self.parameter_in(params, name, default, top)
     }
 
-    /// The same where it is asked at points of space, which are on no surface: what has values on surfaces only is refused.
+    /// The same for look-up at points in space: textures that have values on surfaces only are refused.
     pub fn parameter_in_space(
         &mut self,
         params: &Params<'_>,
@@ -111,7 +111,7 @@ impl TextureReader<'_> {
         }
     }
 
-    /// The texture that a property's value stands for.
+    /// The texture of a property's value.
     pub fn property(&mut self, property: &Property, role: SpectrumKind) -> TextureId {
         let top = Use {
             role,
@@ -232,7 +232,7 @@ impl TextureReader<'_> {
         self.admitted(spectrum, purpose, span)
     }
 
-    /// A table of `values` at `wavelengths` (nm): beyond its ends zero, but an index goes on, with a note.
+    /// A table of `values` at `wavelengths` (nm): zero beyond its ends, except that an index is constant there, with a note.
     pub(crate) fn table(
         &self,
         wavelengths: &[f64],
@@ -291,7 +291,7 @@ impl TextureReader<'_> {
         }
     }
 
-    /// After a mistake: something to go on with, so that further mistakes are found.
+    /// A constant texture after a mistake, so that further mistakes are found.
     fn stand_in(&mut self) -> TextureId {
         self.set.add(Texture::Constant(Constant::uniform(0.5)))
     }

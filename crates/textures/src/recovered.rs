@@ -1,8 +1,8 @@
 //! Back from spectrum to colour: linear Rec.709 of a reflectance s(λ) lit by D65.
 //!
-//! Images of colours are kept as spectra only. Where such an image is asked for a number or a
-//! raw colour after all (a roughness map without `raw`, say), the colour is recovered by
-//! quadrature over the wavelengths,
+//! Images of colours are stored as spectra only. If such an image is evaluated as a number or a raw
+//! colour (a roughness map without `raw`, say), the colour is recovered by quadrature over the
+//! wavelengths,
 //!
 //! ```text
 //! (R, G, B) = ∫ s(λ) D65(λ) (r̄, ḡ, b̄)(λ) dλ / N
@@ -58,8 +58,8 @@ pub fn colour(reflectance: impl Fn(Vec4) -> Vec4) -> Vec3 {
     })
 }
 
-/// The spectrum at four wavelengths (nm) of a colour that is computed where it is looked up, `scale` times `value`, both 0 or more: what is of
-/// the role stays within it.
+/// The spectrum at four wavelengths (nm) of the colour `scale` times `value`, both ≥ 0, computed at look-up and clamped to the
+/// range of the role.
 #[inline]
 pub(crate) fn spectrum_of(value: Vec3, scale: f32, role: SpectrumKind, lambda: Vec4) -> Vec4 {
     if value.x == value.y && value.y == value.z {

@@ -18,7 +18,7 @@ use std::sync::Arc;
 pub struct TextureTable {
     textures: Vec<Texture>,
     attributes: Vec<(TextureId, Span)>,
-    /// By address of the node.
+    /// Textures already read, by address of the node.
     pub(crate) read: HashMap<(usize, SpectrumKind), TextureId>,
     /// Keeps the nodes in `read` alive, so that no address is used twice.
     pub(crate) nodes: Vec<Arc<Node>>,
@@ -50,7 +50,7 @@ impl TextureTable {
         id
     }
 
-    /// How many there are.
+    /// Number of textures.
     pub fn len(&self) -> usize {
         self.textures.len()
     }
@@ -60,7 +60,7 @@ impl TextureTable {
         self.textures.is_empty()
     }
 
-    /// How many pictures are held, and the memory that their pixels take (bytes).
+    /// Number of images, and the memory of their pixels (bytes).
     pub fn pictures(&self) -> (usize, usize) {
         let bytes = self.images.values().map(|image| image.bytes()).sum();
         (self.images.len(), bytes)
@@ -71,7 +71,7 @@ impl TextureTable {
         self.add(Texture::Constant(Constant::new(spectrum)))
     }
 
-    /// Notes where a mesh attribute was asked for.
+    /// Stores the source position of a mesh attribute.
     pub(crate) fn note_attribute(&mut self, texture: TextureId, span: Span) {
         self.attributes.push((texture, span));
     }

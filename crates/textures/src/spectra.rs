@@ -89,7 +89,7 @@ fn spectrum(reader: &TextureReader<'_>, params: &Params<'_>, purpose: Use) -> Op
                 return None;
             };
             if !unbounded {
-                // As in Mitsuba: who asks for this plugin gets no other colour.
+                // As in Mitsuba, this plugin takes reflectances only.
                 return reader.checked(Spectrum::reflectance(rgb.to_array()), property.span);
             }
             let purpose = Use {

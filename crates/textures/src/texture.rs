@@ -15,7 +15,7 @@ use etalon_params::{Class, Params, plugins};
 use etalon_transport::{Shapes, TextureId, TexturePoint, gradient_by_differences};
 use glam::{Vec2, Vec3, Vec4};
 
-/// What a texture is asked at a point. `set` holds the textures that it refers to.
+/// The methods of a texture. `set` holds the textures that it refers to.
 pub(crate) trait TextureModel {
     /// The spectrum, for the wavelengths `lambda` (nm).
     fn spectrum(
@@ -63,8 +63,7 @@ pub(crate) trait TextureModel {
         &[]
     }
 
-    /// What helps where it is asked at a point of space: `None` if it has a value there, as far as what it refers to has, and
-    /// not on surfaces only.
+    /// Advice for the user if it has values on surfaces only; `None` if it has values in space, provided that its inputs have.
     fn instead_in_space(&self) -> Option<&'static str>;
 
     /// Not less than its value at any wavelength and anywhere in the world's box from `low` to `high`; infinite if nothing
@@ -83,7 +82,7 @@ pub(crate) trait TextureModel {
         None
     }
 
-    /// How many parts of its extent, along the longest side, may differ; 1 if nothing is known.
+    /// Resolution along the longest side of its extent; 1 if nothing is known.
     fn cells(&self, set: &TextureTable) -> u32 {
         let nested = self.nested().iter().map(|&id| set.get(id).cells(set));
         nested.max().unwrap_or(1)
@@ -134,7 +133,7 @@ macro_rules! textures {
             }
         }
 
-        /// Asks the texture, whichever it is.
+        /// Dispatches to the texture.
         macro_rules! ask {
             ($texture:expr, $it:ident => $answer:expr) => {
                 match $texture {
@@ -238,7 +237,7 @@ impl Texture {
         ask!(self, texture => TextureModel::colour(texture, set, shapes, at))
     }
 
-    /// A symmetric matrix at a point: its diagonal, and what is beside it.
+    /// A symmetric matrix at a point: its diagonal, and xy, xz, yz.
     pub fn tensor(&self, set: &TextureTable, shapes: &impl Shapes, at: &TexturePoint) -> [Vec3; 2] {
         ask!(self, texture => TextureModel::tensor(texture, set, shapes, at))
     }
@@ -271,12 +270,12 @@ impl Texture {
         ask!(self, texture => texture.extent(set))
     }
 
-    /// How many parts of its extent, along the longest side, may differ; 1 if nothing is known.
+    /// Resolution along the longest side of its extent; 1 if nothing is known.
     pub fn cells(&self, set: &TextureTable) -> u32 {
         ask!(self, texture => texture.cells(set))
     }
 
-    /// What helps where it is asked at a point of space, if it has a value on surfaces only.
+    /// Advice for the user if it has values on surfaces only.
     pub fn instead_in_space(&self) -> Option<&'static str> {
         ask!(self, texture => texture.instead_in_space())
     }

@@ -30,7 +30,7 @@ impl UvTransform {
         })
     }
 
-    /// The gradient by texture coordinates of what has the gradient `image` by the image's.
+    /// The gradient by the surface's texture coordinates, from the gradient `image` by the image's.
     pub fn gradient(&self, image: Vec2) -> Vec2 {
         self.0.matrix2.transpose() * image
     }

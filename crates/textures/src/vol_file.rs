@@ -4,18 +4,18 @@ use crate::pixels::Values;
 use etalon_images::Volume;
 use glam::{DAffine3, UVec3, Vec3};
 
-/// What a file holds.
+/// The contents of a file.
 #[derive(Debug)]
 pub(crate) struct VolFile {
     /// Values along x, y and z.
     pub(crate) size: UVec3,
-    /// Where its box is: what the unit cube becomes. Some files name none that has a volume.
+    /// The map from the unit cube to its box; `None` if the file's box has no volume.
     pub(crate) place: Option<DAffine3>,
     /// By z, y and x.
     pub(crate) values: Values,
-    /// Of six channels the last three: of symmetric matrices what is beside the diagonal.
+    /// The last three of six channels: off-diagonal elements of symmetric matrices.
     pub(crate) beside: Option<Vec<[f32; 3]>>,
-    /// What whoever gave the file should know of it.
+    /// Remarks about the file.
     pub(crate) notes: Vec<String>,
 }
 
@@ -78,7 +78,7 @@ impl VolFile {
     }
 }
 
-/// What to say of bytes behind the data of a file.
+/// A note on bytes after the data of a file.
 pub(crate) fn behind(count: usize) -> String {
     let (bytes, are) = match count {
         1 => ("byte", "is"),
@@ -90,7 +90,7 @@ pub(crate) fn behind(count: usize) -> String {
 /// Values so little below 0, as a share of the largest, are what compression leaves of 0.
 const ROUNDING: f32 = 1e-5;
 
-/// Refuses values that no density, albedo or emission has. Those that rounding has moved below 0 become 0, of which a note is made.
+/// Refuses values that no density, albedo or emission has. Values slightly below 0, by rounding, become 0, with a note.
 pub(crate) fn refuse_bad(values: &mut Values, size: UVec3) -> Result<Option<String>, String> {
     let (values, channels) = match values {
         Values::One(values) => (values.as_mut_slice(), 1),

@@ -7,9 +7,9 @@ use std::sync::Arc;
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[error("{message}")]
 pub struct AssetError {
-    /// What went wrong.
+    /// The mistake.
     pub message: String,
-    /// What may help.
+    /// Advice.
     pub help: Option<String>,
 }
 
@@ -22,7 +22,7 @@ pub enum MeshFormat {
     Ply,
     /// One mesh of those in a `.serialized` file of Mitsuba's.
     Serialized {
-        /// Which one, counted from 0.
+        /// Index of the mesh in its file, from 0.
         shape_index: u32,
     },
 }

@@ -4,9 +4,9 @@ use crate::{Mixture, SamplePdf};
 use etalon_math::{Density, Frame, SolidAngle};
 use glam::{Vec2, Vec3, Vec4};
 
-/// What is being transported: radiance (paths from the camera) or importance (paths from the
-/// lights). Only refraction tells them apart: radiance is compressed by η² (Veach 1997,
-/// section 5.2), and so does a shading normal (ibid. 5.3).
+/// The transported quantity: radiance (paths from the camera) or importance (paths from the
+/// lights). They differ under refraction, where radiance scales by η² (Veach 1997, section 5.2),
+/// and with shading normals (ibid. 5.3).
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum TransportMode {
     /// `wi` points to where light comes from.
@@ -28,13 +28,13 @@ pub struct BsdfSample {
     pub chance: SamplePdf,
     /// η of the medium entered over that of the medium left (1 for reflection).
     pub eta: f32,
-    /// Whether the ray goes straight on as if the surface were not there (`null`, `mask`).
+    /// Whether the surface is passed as if it were not there (`null`, `mask`).
     pub is_null: bool,
 }
 
 /// A scattering model at a point: plain data that knows neither textures nor scene.
 ///
-/// Directions are in world space. Evaluation cannot fail. No question has a default answer, so that a model that wraps another
+/// Directions are in world space. Evaluation cannot fail. No method has a default body, so that a model that wraps another
 /// cannot forget one.
 pub trait Bsdf {
     /// f(wo, wi)·|cos θi| of the continuous lobes (sr⁻¹), per lane.
@@ -52,32 +52,32 @@ pub trait Bsdf {
         mode: TransportMode,
     ) -> (Vec4, Density<SolidAngle>);
 
-    /// Samples a direction; `None` if the light is absorbed. Lane 0 of the wavelengths for
-    /// which the model was made chooses; `u_lobe` and `u` are uniform in [0, 1). Light passes straight on
-    /// if `u_lobe` is below the chooser's [`Bsdf::null_probability`], and only then.
+    /// Samples a direction; `None` if the light is absorbed. Lane 0 of the model's wavelengths
+    /// chooses; `u_lobe` and `u` are uniform in [0, 1). The result is the null interaction if and only if
+    /// `u_lobe` is below lane 0 of [`Bsdf::null_probability`].
     fn sample(&self, wo: Vec3, u_lobe: f32, u: Vec2, mode: TransportMode) -> Option<BsdfSample>;
 
-    /// The discrete direction number `index`, as [`Bsdf::sample`] would sample it (what passes
-    /// straight on counts too); `None` beyond the last. There are as many whichever lane chooses:
-    /// one that lane 0 does not have has value and probability zero. For estimators that follow
-    /// every direction instead of choosing.
+    /// The discrete direction number `index` as [`Bsdf::sample`] would return it, the null interaction
+    /// included; `None` beyond the last. The count does not depend on the choosing lane: a direction
+    /// that lane 0 lacks has value and probability zero. For estimators that follow every direction
+    /// instead of choosing one.
     fn discrete(&self, wo: Vec3, index: u32, mode: TransportMode) -> Option<BsdfSample>;
 
     /// Whether any lobe is continuous, i.e. whether light sampling can help.
     fn has_continuous(&self) -> bool;
 
-    /// Whether any lobe may be discrete, passing straight on aside. `true` is always right, for
-    /// those who need to know which directions [`Bsdf::eval`] cannot speak of.
+    /// Whether any lobe other than the null interaction may be discrete, so that [`Bsdf::eval`] misses
+    /// part of the scattering. `true` is a safe answer.
     fn has_discrete(&self) -> bool;
 
     /// The frame about whose normal all continuous directions `wi` lie on the same side as `wo`;
-    /// `None`, which is always right, if they may be anywhere.
+    /// `None` if they may be anywhere, which is a safe answer.
     fn hemisphere(&self) -> Option<Frame>;
 
-    /// The fraction of light that goes straight on as if the surface were not there.
+    /// The fraction of light that passes as if the surface were not there, per lane.
     fn null_transmittance(&self) -> Vec4;
 
-    /// The probability with which [`Bsdf::sample`] passes straight on, per lane.
+    /// The probability of the null interaction in [`Bsdf::sample`], per lane.
     fn null_probability(&self) -> Vec4;
 
     /// Directional albedo or an approximation of it: for the `albedo` channel, and for choices that no
@@ -88,7 +88,7 @@ pub trait Bsdf {
     /// surfaces.
     fn projected_area(&self, direction: Vec3) -> f32;
 
-    /// Tells a replay of a sample that what the model was asked last was for a mixture of its own
-    /// density with another; see [`crate::World::record`].
+    /// Records for a replay that the last call to the model served a mixture of its own density with
+    /// another; see [`crate::World::record`].
     fn mixed(&self, mixture: impl FnOnce() -> Mixture);
 }

@@ -1,10 +1,10 @@
-//! What a plugin may ask for while it is built from its description.
+//! Services for plugins while they are built from their descriptions.
 
 use crate::{Assets, Shutter, TextureId};
 use etalon_params::{Node, Params};
 use std::sync::Arc;
 
-/// How a colour is to be understood (Mitsuba's property rules in spectral mode).
+/// The role of a colour (Mitsuba's property rules in spectral mode).
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum SpectrumKind {
     /// A reflectance or other quantity in [0, 1]: RGB is upsampled as is.
@@ -13,8 +13,7 @@ pub enum SpectrumKind {
     Emission,
     /// A quantity without upper bound: RGB is upsampled with a scale.
     Unbounded,
-    /// A refractive index or an extinction coefficient (η, k): without upper bound, and a table goes on beyond its ends as
-    /// it is there.
+    /// A refractive index or an extinction coefficient (η, k): without upper bound; a table is constant beyond its ends.
     Index,
     /// Six numbers that are no colour: a symmetric matrix ([`crate::Textures::tensor`]).
     Tensor,

@@ -15,7 +15,7 @@ pub struct CameraRay {
 /// A connection of a scene point with the camera.
 #[derive(Clone, Copy, Debug)]
 pub struct CameraSample {
-    /// Where on the film (pixels; (0, 0) is the upper left corner of the whole, uncropped film).
+    /// Film position (pixels; (0, 0) is the upper left corner of the whole, uncropped film).
     pub raster: Vec2,
     /// Unit direction from the point to the camera.
     pub direction: Vec3,
@@ -30,10 +30,10 @@ pub struct CameraSample {
 /// A ray's arrival on the camera's aperture.
 #[derive(Clone, Copy, Debug)]
 pub struct ApertureHit {
-    /// Where on the film (pixels of the whole film).
+    /// Film position (pixels of the whole film).
     pub raster: Vec2,
-    /// How far along the ray the camera begins (m): at the near clipping plane. Nothing may stand
-    /// before that; what is nearer to the aperture the camera does not see.
+    /// Distance along the ray to the near clipping plane (m). The ray must be unoccluded up to there;
+    /// the camera sees nothing between that plane and the aperture.
     pub t: f32,
     /// Pixels² per unit of flux (px²·m⁻²·sr⁻¹): dx/dω over the aperture's area and the cosine of
     /// arrival. A splat of Φ·`weight` with a filter that integrates to one estimates the pixel,

@@ -1,4 +1,4 @@
-//! `fov` and `focal_length` of whatever looks or shines through a rectangle: cameras, projectors.
+//! `fov` and `focal_length` of cameras and projectors.
 
 use etalon_math::float64::tan;
 use etalon_params::{Diagnostic, Params};

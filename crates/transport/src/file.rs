@@ -3,7 +3,7 @@
 use crate::{AssetError, Build};
 use etalon_params::{Diagnostic, Params, Span};
 
-/// Where a plugin's file is named.
+/// The source position of a plugin's file name.
 pub fn span_of_filename(params: &Params<'_>) -> Span {
     params
         .property("filename")

@@ -1,4 +1,4 @@
-//! Where results go.
+//! Films and sinks: the destination of samples.
 
 use glam::{UVec2, Vec2};
 
@@ -11,11 +11,11 @@ pub struct Channel(pub String);
 pub struct FilmSample {
     /// Pixels of the whole film.
     pub raster: Vec2,
-    /// What the sample counts: 1, or ±(∫|f|) for filters with negative lobes.
+    /// Weight of the sample: 1, or ±(∫|f|) for filters with negative lobes.
     pub weight: f32,
 }
 
-/// Takes what one sample found out.
+/// Receives the contributions of one sample.
 ///
 /// Colours are linear Rec.709 on Mitsuba's scale. The sink applies the sample's weight, counts
 /// non-finite values instead of swallowing them, and normalises by the number of samples.
@@ -34,41 +34,37 @@ pub trait Sink {
 
 /// A sink for the pixels of one tile.
 pub trait TileSink: Sink {
-    /// What follows is found by a sample of `pixel` (of the whole film) that counts `weight` (see
-    /// [`FilmSample`]). The samples of a pixel come one after the other.
-    ///
-    /// It counts for this pixel alone.
+    /// Begins a sample of `pixel` (of the whole film) with the weight `weight` (see [`FilmSample`]),
+    /// which contributes to this pixel only. The samples of a pixel come one after the other.
     fn begin_sample(&mut self, pixel: UVec2, weight: f32);
 
-    /// What follows is found by a sample of `pixel` at this place: it counts for all pixels under the filter if
-    /// pixels share samples (see [`Placing::shares_samples`]). The samples of pixels around the film come after one of
-    /// the pixel next to them.
+    /// Begins a sample of `pixel` at this place. It contributes to all pixels under the filter if pixels share samples
+    /// (see [`Placing::shares_samples`]). Samples of pixels around the film come after one of the nearest pixel on it.
     #[inline]
     fn begin_placed(&mut self, pixel: UVec2, placement: &FilmSample) {
         self.begin_sample(pixel, placement.weight);
     }
 
-    /// What follows belongs to these three of the film's bands: those from 3 × `group` on. Films of a colour have one
-    /// group.
+    /// Selects the bands 3 × `group` to 3 × `group` + 2 for what is added next. A colour film has one group.
     #[inline]
     fn select_group(&mut self, _group: usize) {}
 
-    /// Adds radiance and alpha, as a part of what the current sample found, to its pixel alone: what counts for that
-    /// pixel by the filter already. Not for samples of pixels around the film.
+    /// Adds radiance and alpha of the current sample to its own pixel only, without the filter. Not for samples of
+    /// pixels around the film.
     #[inline]
     fn radiance_alone(&mut self, rgb: [f32; 3], alpha: f32) {
         self.radiance(rgb, alpha);
     }
 }
 
-/// Where samples go.
+/// Positions of samples on the film, and their number.
 pub trait Placing: Sync {
     /// Draws a position for a sample of `pixel`: from the reconstruction filter, or evenly in the pixel if pixels share
     /// samples. Pixels left of the film or above it have negative coordinates, modulo 2³².
     fn place(&self, pixel: UVec2, u: Vec2) -> FilmSample;
 
-    /// Draws a position for a sample of `pixel` from the reconstruction filter, whoever shares samples: one that
-    /// counts for this pixel alone.
+    /// Draws a position for a sample of `pixel` from the reconstruction filter, even if pixels share samples: the sample
+    /// contributes to this pixel only.
     #[inline]
     fn place_alone(&self, pixel: UVec2, u: Vec2) -> FilmSample {
         self.place(pixel, u)
@@ -81,16 +77,15 @@ pub trait Placing: Sync {
         false
     }
 
-    /// How many samples of a replicate a pixel of the whole film gets, where all would get `even`
-    /// if they were dealt evenly. Only films for estimators that neither splat nor pass several
-    /// times deal otherwise.
+    /// Number of samples of a pixel of the whole film in a replicate; `even` if they are distributed
+    /// evenly. Only estimators that neither splat nor take several passes may have another distribution.
     #[inline]
     fn dealt(&self, _pixel: UVec2, even: u32) -> u32 {
         even
     }
 
-    /// Whether the render was asked to stop. Whatever is prepared for it will not be used then, and
-    /// may be left half done; whoever prepares for long asks now and then.
+    /// Whether the render was asked to stop. The result of a preparation is then not used and may be
+    /// incomplete; long preparations check this regularly.
     #[inline]
     fn stopped(&self) -> bool {
         false
@@ -118,10 +113,10 @@ pub trait Film: Placing {
     fn origin(&self) -> UVec2;
     /// Size of the cropped region (pixels).
     fn size(&self) -> UVec2;
-    /// How far (pixels) beyond the film a splat can still matter.
+    /// Distance (pixels) beyond the film up to which splats contribute.
     fn margin(&self) -> f32;
-    /// How many pixels beyond its border take samples, too: these count for the pixels within. They have as many as the
-    /// pixel next to them, one after each of its.
+    /// Width (pixels) of the border around the film that is sampled too, for the pixels within. A border pixel has as
+    /// many samples as the nearest pixel of the film, one after each of that pixel's.
     fn rim(&self) -> u32 {
         0
     }
@@ -131,8 +126,8 @@ pub trait Film: Placing {
     /// A sink for the pixels in [`from`, `to`) of the whole film; it delivers on drop. `alone`
     /// promises that meanwhile nothing else adds to these pixels, no other tile and no splat.
     fn tile(&self, from: UVec2, to: UVec2, alone: bool) -> Self::Tile<'_>;
-    /// How many samples a pixel of the whole film has in the replicate that is being rendered: its
-    /// first ones. A render that was interrupted goes on after them.
+    /// Number of samples that a pixel of the whole film already has in the current replicate. A resumed
+    /// render continues after them.
     fn done(&self, _pixel: UVec2) -> u32 {
         0
     }

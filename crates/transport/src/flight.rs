@@ -1,10 +1,10 @@
-//! Ways through a medium: tentative collisions, closed forms, fixed steps.
+//! Free flight and transmittance: tentative collisions, closed forms, ray marching.
 
 use crate::{Coefficients, Collision, FreeFlight, MajorantSegment, Medium, Ray};
 use etalon_math::float;
 use glam::Vec4;
 
-/// No flight makes more tentative collisions, or steps: one in a medium without end has to end.
+/// Limit on tentative collisions or steps of one flight, for media without bounds.
 const MOST_COLLISIONS: u32 = 1 << 20;
 
 /// Tentative collisions along a ray, whose optical depth by the majorants is exponentially distributed.
@@ -12,15 +12,15 @@ pub(crate) struct Collisions<I> {
     segments: I,
     segment: MajorantSegment,
     t_max: f32,
-    /// Whether they come with what exceeds the control only.
+    /// Whether the rate of collisions is σ̄ − μ̄ (residual tracking) instead of σ̄.
     residual: bool,
-    /// Where the last one was (m).
+    /// Position of the last one (m).
     t: f32,
     /// The optical depth to the next one.
     depth: f32,
     /// The optical depth of the control up to there.
     pub(crate) controlled: f32,
-    /// How many more there may be.
+    /// Remaining number of collisions.
     left: u32,
 }
 
@@ -50,7 +50,7 @@ impl<I: Iterator<Item = MajorantSegment>> Collisions<I> {
         self.depth = -float::ln(1.0 - u);
     }
 
-    /// Goes on to `t`.
+    /// Advances to `t`, through a stretch with this control density.
     #[inline]
     fn advance(&mut self, t: f32, control: f32) {
         if control > 0.0 {
@@ -93,14 +93,14 @@ impl<I: Iterator<Item = MajorantSegment>> Collisions<I> {
     }
 }
 
-/// What a null collision leaves of the light, per lane.
+/// Weight of a null collision, per lane: (σ̄ − σt) / (σ̄ − μ̄).
 #[inline]
 pub(crate) fn ratio(extinction: Vec4, majorant: f32, control: f32) -> Vec4 {
     let beyond = extinction - Vec4::splat(control);
     (Vec4::ONE - beyond / (majorant - control)).max(Vec4::ZERO)
 }
 
-/// What the control leaves of the light.
+/// Transmittance of the control, of this optical depth.
 #[inline]
 pub(crate) fn passing_control(depth: f32) -> f32 {
     if depth > 0.0 { float::exp(-depth) } else { 1.0 }
@@ -115,11 +115,11 @@ fn attenuated(depth: Vec4) -> Vec4 {
 /// T over a distance, per lane.
 #[inline]
 pub(crate) fn passing(extinction: Vec4, t: f32) -> Vec4 {
-    // An endless way through nothing is free.
+    // 0 · ∞ is no attenuation.
     attenuated(extinction * t.min(f32::MAX))
 }
 
-/// A flight to `end`: where light is scattered by the coefficients at hand, or where the ray ends.
+/// A flight to `end`, where light is scattered with the given coefficients, or where the ray ends.
 #[inline]
 fn flown<M: Medium + ?Sized>(
     medium: &M,
@@ -147,7 +147,7 @@ fn flown<M: Medium + ?Sized>(
     }
 }
 
-/// How far lane 0 flies in closed form if nothing ends the ray before.
+/// Length of lane 0's free flight in closed form, along an unbounded ray.
 #[inline]
 pub(crate) fn reach(extinction: Vec4, u: f32) -> f32 {
     -float::ln(1.0 - u) / extinction.x
@@ -179,7 +179,7 @@ fn steps<M: Medium + ?Sized>(
     step: f32,
     depth: f32,
 ) -> (Vec4, Option<(f32, Coefficients)>) {
-    // From where there is something to where there is nothing more.
+    // From the first stretch with a density to the last.
     let (mut t, mut from, mut to) = (0.0_f32, f32::INFINITY, 0.0);
     for segment in medium.majorants(ray, t_max) {
         if segment.majorant > 0.0 {
@@ -190,7 +190,7 @@ fn steps<M: Medium + ?Sized>(
     }
     let (mut begin, mut passed, mut left) = (from, Vec4::ZERO, depth);
     for _ in 0..MOST_COLLISIONS {
-        // The light of a beam that has come to this depth is not to be seen.
+        // Light attenuated this much is invisible.
         if !(begin < to) || passed.min_element() > 80.0 {
             break;
         }

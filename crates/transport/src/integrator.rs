@@ -15,14 +15,14 @@ pub struct PixelSample {
     pub pixel: UVec2,
     /// The film position drawn from the reconstruction filter (pixels).
     pub raster: Vec2,
-    /// How far beyond the film a splat can still matter (pixels), see [`crate::Film::margin`].
+    /// Distance beyond the film up to which splats contribute (pixels), see [`crate::Film::margin`].
     pub margin: f32,
     /// Number of light paths traced per sample index over the whole film: one for each pixel (see
     /// [`crate::Film::light_paths`]). Each splat is divided by it. 0 disables splatting.
     pub pixels: u32,
     /// Mean distance between the samples of a pixel (pixels): 1/√spp.
     pub spacing: f32,
-    /// Which of the pixel's samples in its pass this is, from 0.
+    /// Index of the sample among those of the pixel in its pass, from 0.
     pub sample: u32,
 }
 
@@ -33,15 +33,15 @@ pub struct Pass {
     pub seed: u64,
     /// The replicate that the pass belongs to.
     pub replicate: u32,
-    /// Which pass of the replicate this is, from 0.
+    /// Index of the pass in its replicate, from 0.
     pub number: u32,
-    /// How many there are in a replicate.
+    /// Passes per replicate.
     pub count: u32,
     /// Samples per pixel in this pass.
     pub samples: u32,
-    /// Replicates of the whole image, whoever renders them.
+    /// Replicates of the whole image, including those rendered elsewhere.
     pub replicates: u32,
-    /// Samples per pixel in the whole image: all passes of all replicates, whoever renders them.
+    /// Samples per pixel in the whole image: all passes of all replicates, including those rendered elsewhere.
     pub image_samples: u32,
     /// The first pixel of the cropped film.
     pub origin: UVec2,
@@ -57,14 +57,14 @@ pub struct Pass {
 pub struct SampleJob<S> {
     /// For which place.
     pub site: PixelSample,
-    /// What it counts there, see [`crate::FilmSample::weight`].
+    /// Its weight there, see [`crate::FilmSample::weight`].
     pub weight: f32,
     /// Its random numbers; those of the film position are used up.
     pub sampler: S,
 }
 
 impl<S> SampleJob<S> {
-    /// Where it lies on the film.
+    /// Its position on the film, with its weight.
     #[inline]
     pub fn placement(&self) -> FilmSample {
         FilmSample {
@@ -76,28 +76,26 @@ impl<S> SampleJob<S> {
 
 /// An estimator: prepares before every pass, then turns random numbers into contributions.
 ///
-/// A replicate is one pass, unless the estimator asks for more of them: whatever becomes less biased
-/// as it goes on (progressive photon mapping) passes many times, and a replicate is a whole
-/// progression.
+/// A replicate is one pass unless the estimator asks for more. A progressive estimator, whose bias
+/// falls from pass to pass (photon mapping), takes many: a replicate is then a whole progression.
 ///
 /// A sample is a pure function of the sampler's numbers; the estimator of an image is the mean
 /// over its replicates (ARCHITECTURE.md, "Replicates").
 pub trait Integrator: Sync {
-    /// What is learned before sampling starts (photon maps, guiding trees); `()` for a path
-    /// tracer.
+    /// The result of preparation (photon maps, guiding trees); `()` for a path tracer.
     type State: Send + Sync + 'static;
 
-    /// Whether it estimates the radiance of all light paths that it does not object to
-    /// ([`Integrator::incompatibilities`]) without bias, so that it must agree with any other that does.
+    /// Whether its estimate of radiance is unbiased in every scene that it accepts
+    /// ([`Integrator::incompatibilities`]), so that it must agree with every other such integrator.
     const UNBIASED: bool = false;
 
-    /// Whether it sees participating media; if not, it refuses scenes that have them.
+    /// Whether it supports participating media; if not, it refuses scenes that have them.
     const MEDIA: bool = false;
 
-    /// Whether it sees what lies below surfaces by diffusion profiles; if not, it refuses scenes that have any.
+    /// Whether it supports diffusion profiles; if not, it refuses scenes that have any.
     const DIFFUSION: bool = false;
 
-    /// Whether it follows light from its sources; if so, it refuses scenes where it cannot be sent everywhere.
+    /// Whether it traces particles from the lights; if so, it refuses scenes where these cannot reach every surface.
     const FOLLOWS_LIGHT: bool = false;
 
     /// The channels it writes beside the colour, in the order of [`Sink::channel`]'s index.
@@ -110,15 +108,15 @@ pub trait Integrator: Sync {
         false
     }
 
-    /// What it objects to in a scene, asked before anything is rendered. By default that of an
-    /// estimator whose paths from the camera can both run into lights and choose them.
+    /// The reasons why it cannot render a scene, or not all of its light. By default those of an
+    /// estimator whose camera paths both hit lights and sample them.
     fn incompatibilities(&self, sight: &SceneCapabilities) -> Vec<Incompatibility> {
         sight.incompatibilities(LightSearch::FromCamera)
     }
 
-    /// What its replicates may have to do with each other: [`ReplicateKind::Blocks`] if every sample is an
-    /// unbiased estimate that depends on nothing but the sampler's numbers, so that any block of them is a
-    /// replicate. Not so where a replicate has a preparation, a progression or a chain of its own.
+    /// How its replicates are related: [`ReplicateKind::Blocks`] if every sample is an unbiased estimate that
+    /// depends on the sampler's numbers only, so that any block of samples is a replicate. Independent where a
+    /// replicate has its own preparation, progression or Markov chains.
     fn replicate_kind(&self) -> ReplicateKind {
         ReplicateKind::Independent
     }
@@ -128,10 +126,9 @@ pub trait Integrator: Sync {
         None
     }
 
-    /// Prepares a pass. `placing` places samples on the film, if preparing takes some. `before` is the state of the
-    /// previous pass, if this process rendered it: it may be reused, updated, or only give its allocations. The
-    /// result depends on the world, the film, the pass and the estimator alone, never on whether there was a pass
-    /// before, the number of threads, or time.
+    /// Prepares a pass. `placing` places samples on the film, for preparations that draw some. `before` is the state of
+    /// the previous pass, if this process rendered it, for reuse of its allocations. The result is a function of the
+    /// world, the film, the pass and the estimator; it must not depend on `before`, the number of threads, or time.
     fn prepare<W: World>(
         &self,
         world: &W,
@@ -140,7 +137,7 @@ pub trait Integrator: Sync {
         before: Option<Self::State>,
     ) -> Self::State;
 
-    /// What the user should know of a preparation, one sentence each.
+    /// Remarks for the user about a preparation, one sentence each.
     fn remarks(&self, _state: &Self::State) -> Vec<String> {
         Vec::new()
     }
@@ -155,8 +152,8 @@ pub trait Integrator: Sync {
         sink: &mut K,
     );
 
-    /// Draws several samples, in any order or all at once, and delivers them in the order given.
-    /// To follow several paths together keeps a processor busy that would wait for one.
+    /// Draws several samples, in any order or together, and delivers them in the order given.
+    /// Following several paths together hides the latency of memory.
     #[inline]
     fn sample_batch<W: World, S: Sampler, K: TileSink>(
         &self,

@@ -1,11 +1,10 @@
-//! The classic Phong material: what it is at a point, as plain data.
+//! The classic Phong material at a point, as plain data.
 //!
-//! The model of Phong (1975) with the reflected and refracted light of Whitted (1980) is no BSDF:
-//! its ambient term shines without light, its highlight is neither reciprocal nor bounded in
-//! energy, and its light may refuse to fade with distance. It has a meaning to recursive ray
-//! tracing only, so it is no [`crate::Bsdf`] but these numbers, which [`crate::Surfaces::legacy_phong`]
-//! tells whoever can use them. The equation stands where it is evaluated, at the head of the
-//! integrator `whitted`.
+//! The model of Phong (1975) with the reflected and refracted light of Whitted (1980) is not a BSDF:
+//! its ambient term needs no light, its highlight is neither reciprocal nor energy-conserving, and
+//! its lights may lack the inverse-square law. It is defined for recursive ray tracing only, so it is
+//! not a [`crate::Bsdf`] but the parameters returned by [`crate::Surfaces::legacy_phong`]. The
+//! equation is in the documentation of the integrator `whitted`, which evaluates it.
 
 use glam::{Vec3, Vec4};
 
@@ -14,7 +13,7 @@ use glam::{Vec3, Vec4};
 pub struct LegacyPhong {
     /// Radiance that is there without light, kₐ times the ambient light (W·sr⁻¹·m⁻²·nm⁻¹).
     pub ambient: Vec4,
-    /// k_d: what a surface that faces a lamp shows of its light.
+    /// k_d: diffuse coefficient.
     pub diffuse: Vec4,
     /// kₛ: the same for the middle of the highlight.
     pub specular: Vec4,
@@ -26,7 +25,7 @@ pub struct LegacyPhong {
     pub transparency: f32,
     /// Index of refraction of the side away from the normal over that of the other.
     pub eta: Vec4,
-    /// Unit normal by which light and reflections go, outside: the shading normal, or what a map has made of it.
+    /// Unit shading normal on the outside, after normal and bump maps.
     pub normal: Vec3,
     /// The share of the surface that is there; the rest lets light pass straight on.
     pub opacity: f32,

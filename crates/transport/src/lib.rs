@@ -1,12 +1,12 @@
-//! The nouns and contracts of light transport; no implementation.
+//! The types and contracts of light transport.
 //!
-//! A shape, a scattering model, a light, a camera and an estimator meet only through what is
-//! defined here: an integrator never names a concrete material, a light never names a concrete
-//! shape. Read this crate first; it takes twenty minutes.
+//! Shapes, scattering models, lights, cameras and estimators depend on each other only through the
+//! traits of this crate: an integrator never names a concrete material, a light never names a
+//! concrete shape. Read this crate first, beginning with [`World`], [`Bsdf`] and [`Integrator`].
 //!
 //! Conventions: lengths in metres, wavelengths in nanometres, radiance in W·sr⁻¹·m⁻²·nm⁻¹.
 //! `wo` is the known direction and `wi` the sampled one; both leave the point. A `Vec4` holds one
-//! value per wavelength lane; lane 0 is the lane that chooses.
+//! value per wavelength lane; lane 0 is the hero, which makes all random choices.
 
 pub mod assets;
 pub mod bsdf;

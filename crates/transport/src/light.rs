@@ -1,4 +1,4 @@
-//! What lights give to integrators.
+//! Light samples, and particles that leave lights.
 
 use crate::{LightId, Ray, SamplePdf, SurfacePoint, TexturePoint};
 use glam::{Vec2, Vec3, Vec4};
@@ -8,8 +8,8 @@ use glam::{Vec2, Vec3, Vec4};
 pub struct LightSample {
     /// Unit direction from the point to the light.
     pub direction: Vec3,
-    /// Where the light's point is, already moved off its surface toward the observer, for the
-    /// shadow ray; `None` for a light at infinity.
+    /// The end of the shadow ray: the light's point, offset from its surface toward the observer;
+    /// `None` for a light at infinity.
     pub target: Option<Vec3>,
     /// Incident radiance per lane; for a discrete light, incident irradiance on a surface
     /// perpendicular to `direction` (a point light's I/r²).
@@ -20,19 +20,19 @@ pub struct LightSample {
     /// Cosine of the angle between the light's surface normal and the way to the observer; 1
     /// where it has no surface.
     pub cos: f32,
-    /// What it is a sample of.
+    /// The kind of light.
     pub origin: LightKind,
-    /// σt of a point of a medium (m⁻¹), per lane: with what density per length a flight through it ends there. 1 of all
-    /// other lights.
+    /// σt at a point of an emitting medium (m⁻¹), per lane: the density per length with which a free flight ends there. 1
+    /// for all other lights.
     pub extinction: Vec4,
     /// The light; any of them for a sky that is the sum of several.
     pub light: LightId,
 }
 
-/// In what light samples at one point may differ if nothing is in the way.
+/// How much unoccluded light samples at one point vary.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum LightVariety {
-    /// In nothing that a diffuse surface would show: all bring the same irradiance.
+    /// Not at all for a diffuse surface: all bring the same irradiance.
     Even,
     /// All are of one light.
     Single,
@@ -40,12 +40,12 @@ pub enum LightVariety {
     Several,
 }
 
-/// How likely a particle's start is, by the two choices that make it.
+/// The densities of the two choices that start a particle: its origin and its ray.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct EmissionPdf {
-    /// Of its origin, the choice of the light included: per unit area of an emitting surface
-    /// (m⁻²); per unit solid angle of a direction to the sky (sr⁻¹); the probability of a light
-    /// that is but a point or a direction; per unit volume of a medium (m⁻³).
+    /// Of its origin, including the choice of the light: per unit area of an emitting surface (m⁻²);
+    /// per unit solid angle of a direction to the sky (sr⁻¹); a probability for point and directional
+    /// lights; per unit volume of a medium (m⁻³).
     pub origin: f32,
     /// Of its ray, given the origin: per unit solid angle (sr⁻¹), or per unit cross-section of
     /// the scene for a light at infinity (m⁻²).
@@ -53,14 +53,14 @@ pub struct EmissionPdf {
 }
 
 impl EmissionPdf {
-    /// Of what is never emitted.
+    /// Never emitted.
     pub const ZERO: Self = Self {
         origin: 0.0,
         ray: 0.0,
     };
 }
 
-/// Where a particle comes from.
+/// The kind of light that a sample or a particle comes from.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum LightKind {
     /// A point of an emitting surface.
@@ -84,13 +84,13 @@ impl LightKind {
         matches!(self, Self::Sky | Self::Parallel)
     }
 
-    /// Whether its particles, once they have a direction, arrive as densely far away as near.
+    /// Whether its particles of one direction are parallel, so that their density does not fall with distance.
     #[inline]
     pub fn is_parallel(self) -> bool {
         self.is_infinite() || self == Self::Beam
     }
 
-    /// Whether a path can run into it.
+    /// Whether a path can hit it by chance.
     #[inline]
     pub fn can_be_hit(self) -> bool {
         matches!(self, Self::Surface | Self::Sky | Self::Medium)
@@ -102,14 +102,14 @@ impl LightKind {
 pub struct Emission {
     /// The ray along which it leaves (its origin is off the light's surface).
     pub ray: Ray,
-    /// Where it begins; of lights without surface the normal is the ray's direction.
+    /// Its origin; for lights without surface the normal is the ray's direction.
     pub point: SurfacePoint,
     /// Emitted flux per lane over the probability of all choices made: Le·|cos θ| / (p_A·p_ω·p_light)
     /// for a surface, so that averaging `weight` over emissions gives the scene's power.
     pub weight: Vec4,
     /// The densities of those choices.
     pub density: EmissionPdf,
-    /// What it comes from.
+    /// The kind of light.
     pub origin: LightKind,
     /// See [`LightSample::extinction`].
     pub extinction: Vec4,

@@ -1,13 +1,13 @@
-//! A point that receives light: what the choice of a light and of a direction toward it may know.
+//! The point that light is sampled for.
 
 use crate::{Bsdf, SurfaceInteraction};
 use glam::Vec3;
 
-/// A point at which light is to arrive. Densities of light sampling are those for a receiver: whoever
-/// weighs a direction found otherwise must ask with the same receiver.
+/// The receiver for which a light and a direction toward it are chosen. Densities of light sampling depend
+/// on it: the MIS weight of a direction found otherwise must use the same receiver.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct LightSampleContext {
-    /// Where (m, world).
+    /// Position (m, world).
     pub position: Vec3,
     /// Unit shading normal of the surface there, so that light from grazing directions is chosen
     /// less often; zero where there is no surface.
@@ -16,9 +16,8 @@ pub struct LightSampleContext {
     pub one_sided: bool,
     /// The moment within the shutter interval.
     pub time: f32,
-    /// Whether what light sampling leaves out is found by scattering, weighted by both densities
-    /// (multiple importance sampling). If not, every direction from which light may come must be
-    /// possible.
+    /// Whether light sampling is combined with BSDF sampling by MIS, so that it may leave out some
+    /// directions. If not, every direction from which light may come must have a density.
     pub combined: bool,
 }
 
@@ -61,9 +60,8 @@ impl LightSampleContext {
         Self { time, ..self }
     }
 
-    /// What the cosine `cos` with the normal counts in a choice that must not leave out what may
-    /// arrive: not less than that of a grazing direction, within rounding of which it is taken to be zero only
-    /// beyond the horizon.
+    /// The cosine `cos` with the normal as an importance: at least that of a grazing direction, and zero only
+    /// if it is below the horizon by more than rounding, so that no contributing light is left out.
     #[inline]
     pub fn counted(cos: f32) -> f32 {
         const GRAZING: f32 = 1e-4;

@@ -21,9 +21,9 @@ use glam::{Vec3, Vec4};
 /// The media on both sides of a surface.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct MediumInterface {
-    /// Where the geometric normal does not point.
+    /// The side away from the geometric normal.
     pub inside: MediumId,
-    /// Where it points.
+    /// The side of the geometric normal.
     pub outside: MediumId,
 }
 
@@ -46,7 +46,7 @@ impl MediumInterface {
     }
 }
 
-/// What a medium does to light per unit of length (m⁻¹), per lane.
+/// Absorption and scattering coefficients of a medium (m⁻¹), per lane.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Coefficients {
     /// σa.
@@ -81,20 +81,20 @@ impl Coefficients {
 /// collisions on the way.
 #[derive(Clone, Copy, Debug)]
 pub struct FreeFlight<P> {
-    /// What the flight does to the light, per lane: transmittance, and σs where it is scattered.
+    /// Throughput of the flight, per lane: transmittance, times σs if it ends by scattering.
     pub factor: Vec4,
-    /// The same with what the medium emits where the flight ends in place of σs: zero where it emits nothing.
+    /// The same with the emission at its end instead of σs; zero if the medium does not emit there.
     pub emitted: Vec4,
-    /// The density of passing what lies in between, for each lane had it been the one that chose.
+    /// Probability of no real collision before its end, for each lane had it been the one that chose.
     pub passed: Vec4,
-    /// Where and by what light is scattered, if it is.
+    /// The real collision at its end; `None` if the flight reached the end of the ray.
     pub scattering: Option<Collision<P>>,
 }
 
-/// Where a flight ends in a medium.
+/// A real collision, where a flight ends in a medium.
 #[derive(Clone, Copy, Debug)]
 pub struct Collision<P> {
-    /// How far (m).
+    /// Distance along the ray (m).
     pub t: f32,
     /// σt there (m⁻¹): the density of ending there, for each lane.
     pub extinction: Vec4,
@@ -116,7 +116,7 @@ impl<P> FreeFlight<P> {
 /// A stretch of a ray, from the end of the one before.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct MajorantSegment {
-    /// Where it ends (m along the ray).
+    /// Its end (m along the ray).
     pub end: f32,
     /// σ̄ in it: not below the extinction of any lane (m⁻¹).
     pub majorant: f32,
@@ -124,26 +124,26 @@ pub struct MajorantSegment {
     pub control: f32,
 }
 
-/// How a medium is travelled through.
+/// How free flights and transmittance are estimated.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub enum Tracking {
-    /// In closed form: it is the same everywhere.
+    /// In closed form, for homogeneous media.
     Closed,
-    /// By tentative collisions with all of the majorant: delta tracking, and ratio tracking of transmittance.
+    /// Delta tracking for flights, ratio tracking for transmittance: tentative collisions at the rate σ̄.
     #[default]
     Ratio,
-    /// The same, where transmittance is all or nothing: a tentative collision that is real for every lane ends the way (Woodcock et al. 1965).
+    /// Delta tracking for both: transmittance is all or nothing (Woodcock et al. 1965).
     Delta,
-    /// The same, where transmittance follows from tentative collisions with what exceeds a control density, and from that itself
-    /// in closed form (residual ratio tracking, Novák et al. 2014).
+    /// Residual ratio tracking for transmittance (Novák et al. 2014): a control density μ̄ in closed form, and tentative
+    /// collisions at the rate σ̄ − μ̄.
     Residual,
-    /// In fixed steps (m), each as dense as its middle: biased.
+    /// Ray marching in steps of this length (m), with the coefficients at their midpoints: biased.
     RayMarching(f32),
 }
 
 /// A participating medium at a path's wavelengths: plain data that knows neither volumes nor scene.
 pub trait Medium {
-    /// How a point of it scatters light.
+    /// The phase function at a point.
     type Phase: Phase + Copy;
 
     /// The stretches that cover `ray` up to `t_max`.
@@ -161,7 +161,7 @@ pub trait Medium {
         Vec4::ZERO
     }
 
-    /// How it is travelled through.
+    /// The method of tracking.
     #[inline]
     fn tracking(&self) -> Tracking {
         Tracking::Ratio
@@ -221,8 +221,8 @@ pub trait Medium {
         flight
     }
 
-    /// How far a flight along `ray` with the number `u` goes if nothing ends the ray before: no surface beyond matters to it.
-    /// `None` if that is not known before it has been flown.
+    /// Length of the free flight along an unbounded `ray` for the number `u`: no surface beyond needs to be intersected.
+    /// `None` if it is known only by tracking.
     #[inline]
     fn reach(&self, ray: &Ray, u: f32) -> Option<f32> {
         (self.tracking() == Tracking::Closed).then(|| {
@@ -231,7 +231,7 @@ pub trait Medium {
         })
     }
 
-    /// An estimate of the light that arrives at `t_max`.
+    /// An estimate of the transmittance up to `t_max`.
     fn transmittance(&self, ray: &Ray, t_max: f32, stream: &mut impl Sampler) -> Transmission {
         let closed = match self.tracking() {
             Tracking::Closed => {
@@ -249,7 +249,7 @@ pub trait Medium {
         }
         let all_or_nothing = self.tracking() == Tracking::Delta;
         let mut ratio = Vec4::ONE;
-        // What passes in the mean of those that go on.
+        // Probability of having survived the all-or-nothing choices.
         let mut kept = 1.0;
         let majorants = self.majorants(ray, t_max);
         let mut collisions = Collisions::new(majorants, t_max, stream.next_1d(), true);

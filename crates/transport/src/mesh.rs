@@ -31,6 +31,6 @@ pub struct MeshData {
     pub copies: Vec<u32>,
     /// Whether the file itself asks for the triangles' own normals.
     pub face_normals: bool,
-    /// What is odd about the file, though it could be read: a sentence each, without its name.
+    /// Oddities of the file that did not prevent reading it: one sentence each, without the file's name.
     pub notes: Vec<String>,
 }

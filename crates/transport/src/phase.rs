@@ -27,8 +27,8 @@ pub trait Phase {
     /// Samples a direction with `u` uniform in [0, 1)².
     fn sample(&self, wo: Vec3, u: Vec2) -> PhaseSample;
 
-    /// By what the medium is denser for light along `direction` than its coefficients say; 1 but of flakes, which show more area to
-    /// some directions than to others. The medium counts it ([`crate::Medium::coefficients`]).
+    /// Factor on the extinction for light along `direction`: the projected area of oriented flakes (SGGX), else 1.
+    /// [`crate::Medium::coefficients`] include it.
     #[inline]
     fn projected_area(&self, _direction: Vec3) -> f32 {
         1.0

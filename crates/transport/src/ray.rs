@@ -7,14 +7,14 @@ use glam::Vec3;
 
 /// Where a ray crosses the surface that it leaves, behind its origin.
 ///
-/// Rays start a little off their surface, so that they do not meet it again. A second surface may
-/// lie in between, closer than single precision tells: what a ray crosses after `t` counts as
-/// ahead of it, if it belongs to another shape.
+/// Rays start a little off their surface, so that they do not hit it again. A second surface may
+/// lie in between, closer than single precision resolves: a crossing after `t` counts as ahead of
+/// the ray if it belongs to another shape.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Departure {
     /// The shape that is left.
     pub shape: ShapeId,
-    /// Which of its primitives.
+    /// Its primitive.
     pub primitive: u32,
     /// The parameter of the crossing, not above 0.
     pub t: f32,
@@ -32,7 +32,7 @@ impl Departure {
 /// A half-line or segment, with the time at which it travels.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Ray {
-    /// Where it starts (m).
+    /// Origin (m).
     pub origin: Vec3,
     /// Its unit direction.
     pub direction: Vec3,
@@ -76,7 +76,7 @@ impl Ray {
         })
     }
 
-    /// Random numbers for what it meets on its way, as random as the ray itself and `u` are.
+    /// A stream of random numbers for tracking along the ray, seeded by the bits of the ray and `u`.
     pub fn stream(&self, u: f32) -> Independent {
         let numbers = (self.origin.to_array().into_iter()).chain(self.direction.to_array());
         let key = |key, x: f32| mix64(key ^ u64::from(x.to_bits()));

@@ -1,33 +1,32 @@
-//! What an estimator says of itself when one of its samples is drawn again.
+//! Events that an estimator records when one of its samples is replayed.
 //!
-//! Most of a sample can be told from what its estimator asks of the world and is told. What it does by
-//! itself, and what it asks for the sake of something else, it remarks ([`crate::World::record`],
-//! [`crate::Bsdf::mixed`]). A world that renders does not listen: there a remark is a closure that nobody
-//! calls, and costs nothing.
+//! Most of a sample follows from the calls to the world and their results. Decisions of the estimator
+//! itself, and the purpose of a call, it records by [`crate::World::record`] and [`crate::Bsdf::mixed`].
+//! A world that renders never calls the closure, so an event costs nothing there.
 
 use crate::{BsdfSample, SamplePdf};
 use etalon_math::{Density, SolidAngle};
 use etalon_spectrum::Wavelengths;
 use glam::{Vec3, Vec4};
 
-/// A remark about what was done, or is done next.
+/// An event.
 #[derive(Clone, Copy, Debug)]
 pub enum TraceEvent {
-    /// The path has these wavelengths, whatever was drawn.
+    /// The path has these wavelengths, not those drawn before.
     Wavelengths(Wavelengths),
-    /// Photons are looked up around the surface at hand. What is asked of scattering models before
-    /// [`TraceEvent::Gathered`] is asked for their sake.
+    /// Photons are looked up around the current vertex. Calls to its BSDF up to [`TraceEvent::Gathered`] are for
+    /// these photons.
     Gathering {
-        /// How far they may be (m).
+        /// The radius (m).
         radius: f32,
-        /// How many there are in the map.
+        /// Number of photons in the map.
         among: usize,
     },
     /// One of them counts.
     Photon(MergedPhoton),
     /// All of them have been counted.
     Gathered,
-    /// Of all techniques of bidirectional path tracing, this one makes the path.
+    /// The technique of bidirectional path tracing that generates the path.
     Technique {
         /// Vertices made from the light.
         light: usize,
@@ -57,16 +56,16 @@ pub enum ChainRemark {
     Uniform(u32),
     /// A chain begins; the path where it does follows.
     Begins {
-        /// Which of the replicate's chains.
+        /// Index of the chain in its replicate.
         number: usize,
         /// The uniform sample at which it begins.
         start: u32,
     },
     /// The path that a step of the chain proposes follows.
     Proposal {
-        /// Which step, from 0.
+        /// Index of the step, from 0.
         step: u32,
-        /// Whether all of its numbers are drawn anew.
+        /// Whether it is a large step: all numbers are drawn independently.
         large: bool,
     },
     /// The chain goes there, or not. Which of the two it does not stay at contributes now.
@@ -87,9 +86,9 @@ pub enum ChainRemark {
 /// A photon that counts at a surface.
 #[derive(Clone, Copy, Debug)]
 pub struct MergedPhoton {
-    /// Where it arrived (m).
+    /// Its position (m).
     pub position: Vec3,
-    /// How far away from the surface's point that is (m).
+    /// Distance from the vertex (m).
     pub distance: f32,
     /// Unit direction to where it came from.
     pub from: Vec3,
@@ -99,7 +98,7 @@ pub struct MergedPhoton {
     pub wavelengths: Wavelengths,
     /// f·|cos θ| of the surface for its direction.
     pub scattering: Vec4,
-    /// What it adds to the pixel's radiance over the density of its wavelengths, the camera's weight apart.
+    /// Its contribution to the pixel's radiance, over the density of its wavelengths, without the camera's weight.
     pub estimate: Vec4,
 }
 
@@ -116,11 +115,11 @@ pub struct Mixture {
     pub other: Density<SolidAngle>,
     /// The weight of the model's density; that of the other is one minus this.
     pub share: f32,
-    /// What it was for.
+    /// Its purpose.
     pub mixed: Mixed,
 }
 
-/// What a mixture was asked for.
+/// The purpose of a mixture.
 #[derive(Clone, Copy, Debug)]
 pub enum Mixed {
     /// To weigh a given direction, which has this density in the mixture.
@@ -129,7 +128,7 @@ pub enum Mixed {
     Sampled {
         /// Whether the model chose it, or the other density.
         by_model: bool,
-        /// What became of it, with its density in the mixture; `None` if the surface does not scatter there.
+        /// The result, with its density in the mixture; `None` if the surface does not scatter there.
         sample: Option<BsdfSample>,
     },
 }

@@ -1,4 +1,4 @@
-//! How likely a sampled event was: a density or a discrete probability.
+//! The density or discrete probability of a sampled event.
 
 use etalon_math::{DeltaProbability, Density, SolidAngle};
 use glam::Vec4;
@@ -13,8 +13,8 @@ pub enum SamplePdf {
 }
 
 impl SamplePdf {
-    /// The per-lane values, whatever their measure. Ratios between lanes are meaningful for
-    /// both kinds; comparisons between kinds are not.
+    /// The per-lane values without their measure. Ratios between lanes are meaningful for both kinds;
+    /// comparisons between kinds are not.
     #[inline]
     pub fn lanes(self) -> Vec4 {
         match self {
@@ -23,7 +23,7 @@ impl SamplePdf {
         }
     }
 
-    /// The same of what is chosen with this probability beforehand.
+    /// The density times the probability of an earlier choice.
     #[inline]
     #[must_use]
     pub fn scaled(self, probability: f32) -> Self {

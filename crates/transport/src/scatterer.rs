@@ -1,29 +1,29 @@
-//! What scatters light at a vertex of a path: a surface, or a medium.
+//! Scattering at a vertex of a path: by a surface's BSDF or a medium's phase function.
 //!
-//! Paths that are built from both ends, and particles, do the same at either: evaluate, ask for a density, sample. A phase
-//! function has no cosine and no discrete direction, and light never passes it by.
+//! Bidirectional paths and particles treat both alike: evaluate, density, sample. A phase function has no cosine, no
+//! discrete directions and no null interaction.
 
 use crate::{Bsdf, BsdfOf, BsdfSample, Medium, MediumOf, Mixture, Phase, SamplePdf, TransportMode};
 use etalon_math::{Density, Frame, SolidAngle};
 use glam::{Vec2, Vec3, Vec4};
 
-/// A scattering model, or a phase function in the place of one.
+/// A BSDF, or a phase function that is used as one.
 #[derive(Clone, Copy, Debug)]
 pub enum Scatterer<B, P> {
-    /// Of a surface.
+    /// The BSDF of a surface.
     Surface(B),
-    /// Of a point of space.
+    /// The phase function at a point of a medium.
     Space(P),
 }
 
 /// The phase functions of a world.
 pub type PhaseOf<'w, W> = <MediumOf<'w, W> as Medium>::Phase;
 
-/// What scatters in a world.
+/// The scatterers of a world.
 pub type ScattererOf<'w, W> = Scatterer<BsdfOf<'w, W>, PhaseOf<'w, W>>;
 
 impl<B, P> Scatterer<B, P> {
-    /// Whether it is a point of space.
+    /// Whether it is a point of a medium.
     #[inline]
     pub fn is_in_space(&self) -> bool {
         matches!(self, Self::Space(_))

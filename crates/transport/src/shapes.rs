@@ -1,4 +1,4 @@
-//! What others may ask of shapes.
+//! The contract of shapes as lights use them.
 
 use crate::{LightSampleContext, ShapeId, SurfaceInteraction, TexturePoint};
 use etalon_math::{DirectionCone, offset_origin};
@@ -13,7 +13,7 @@ pub struct SurfacePoint {
     pub error: Vec3,
     /// Unit geometric normal, on the side that the shape calls outside.
     pub normal: Vec3,
-    /// Where textures are looked up.
+    /// The point for texture look-up.
     pub texture: TexturePoint,
 }
 
@@ -58,7 +58,7 @@ pub trait Shapes {
     /// Surface area (m²) at the moment `time` of the shutter interval.
     fn area(&self, shape: ShapeId, time: f32) -> f32;
 
-    /// The lower and upper corner of a box around it and its way (m, world).
+    /// The lower and upper corner of its bounding box over the shutter interval (m, world).
     fn bounds(&self, shape: ShapeId) -> [Vec3; 2];
 
     /// A cone that holds its normals, on the side that the shape calls outside.
@@ -67,9 +67,9 @@ pub trait Shapes {
     /// A point chosen uniformly by area, at the moment `time` of the shutter interval.
     fn sample_area(&self, shape: ShapeId, u: Vec2, time: f32) -> SampledPoint;
 
-    /// A point of the shape chosen for the light that it sends to `from`, as well as the shape
-    /// knows how (the density is per solid angle in any case). `None` if the method finds nothing
-    /// to see. Both sides of a surface count as visible.
+    /// A point chosen for the light that the shape sends to `from`, by the shape's best method; the
+    /// density is per solid angle. `None` if the method finds no visible point. Both sides of a surface
+    /// count as visible.
     fn sample_toward(
         &self,
         shape: ShapeId,

@@ -1,5 +1,5 @@
-//! What an estimator can see of a scene, settled before anything is rendered: an estimator that
-//! cannot find any of the light objects, and no picture is black without a word.
+//! Which scenes an estimator can render, decided before rendering: an estimator that cannot find any
+//! of a scene's light refuses it, so that no picture is black without an explanation.
 
 /// How many lights there are, by the ways in which a path can find them. Lights that emit nothing
 /// do not count.
@@ -18,8 +18,8 @@ pub struct LightCount {
     pub beams: u32,
 }
 
-/// What the camera sees first, by a number of rays; one may see several of these, through surfaces
-/// that light passes straight.
+/// First surfaces seen by a lattice of camera rays. A ray may count in several fields, as it
+/// continues through null surfaces.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct CameraProbe {
     /// All of them.
@@ -48,29 +48,28 @@ pub struct SceneCapabilities {
     pub aperture: bool,
     /// Whether there is light at infinity that a ray can hit.
     pub sky: bool,
-    /// Whether light at infinity is behind a medium without end, through which none of it comes.
+    /// Whether an unbounded medium absorbs all light from infinity.
     pub swallowed: bool,
     /// Whether there are participating media.
     pub media: bool,
-    /// Whether a diffusion profile stands for walks in any of them.
+    /// Whether any of them has a diffusion profile.
     pub diffusion: bool,
-    /// Whether a walk in any of them has the coefficients of where it entered.
+    /// Whether coefficients in any of them are those of the surface point where a walk entered.
     pub textured_walk: bool,
-    /// Whether light at infinity falls on surfaces without end, which particles cannot be sent to.
+    /// Whether light at infinity reaches unbounded surfaces, over which particles cannot be distributed.
     pub endless: bool,
-    /// Whether a surface scatters light that leaves elsewhere than it came (hair), which paths from the lights cannot
-    /// follow.
+    /// Whether a surface has a model that is valid for camera paths only (hair).
     pub one_way: bool,
     /// Whether a surface has a classic Phong material, which says nothing of how it scatters light
     /// ([`crate::Surfaces::legacy_phong`]).
     pub classic: bool,
     /// Whether the film's filter is so narrow that splats find no pixel ([`crate::Film::light_paths`]).
     pub narrow_filter: bool,
-    /// What the camera sees first.
+    /// The first surfaces that the camera sees.
     pub view: CameraProbe,
 }
 
-/// How an estimator comes by light.
+/// How an estimator finds light.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum LightSearch {
     /// Rays run into lights by chance.
@@ -86,7 +85,7 @@ pub enum LightSearch {
     FromCamera,
 }
 
-/// What an objection is about, for the place that the message shows.
+/// The subject of an incompatibility, which decides the source position of its message.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Subject {
     /// The estimator as a whole.
@@ -101,16 +100,16 @@ pub enum Subject {
     Scene,
 }
 
-/// Why an estimator cannot do what is asked of it in a scene, or not all of it.
+/// Why an estimator cannot render a scene, or not all of its light.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Incompatibility {
-    /// Whether nothing can come of it, so that rendering is refused; otherwise it is a remark.
+    /// Whether rendering is refused; otherwise it is a remark.
     pub fatal: bool,
-    /// What it is about.
+    /// Its subject.
     pub subject: Subject,
     /// One sentence.
     pub message: String,
-    /// What to do about it.
+    /// Advice.
     pub help: Option<String>,
 }
 
@@ -133,7 +132,7 @@ impl Incompatibility {
         }
     }
 
-    /// Adds what to do about it.
+    /// Adds advice.
     #[must_use]
     pub fn help(self, help: impl Into<String>) -> Self {
         Self {
@@ -143,7 +142,7 @@ impl Incompatibility {
     }
 }
 
-/// What an integrator cannot do at all.
+/// A fatal incompatibility of the integrator.
 fn impossible(message: &str, help: &str) -> Incompatibility {
     Incompatibility::fatal(Subject::Integrator, message).help(help)
 }
@@ -306,7 +305,7 @@ impl SceneCapabilities {
         })
     }
 
-    /// What is missing of the light for an estimator that finds it in one way.
+    /// The light that an estimator with this way of finding it misses.
     fn missing(&self, finding: LightSearch) -> Vec<Incompatibility> {
         let LightCount {
             all,

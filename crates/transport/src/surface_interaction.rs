@@ -1,10 +1,10 @@
-//! Where a ray met a surface, or was scattered before it did.
+//! Vertices of paths: points of surfaces, and scattering points in media.
 
 use crate::{Departure, InstanceId, LightId, MaterialId, MediumInterface, Ray, ShapeId};
 use etalon_math::{Frame, offset_origin};
 use glam::{Vec2, Vec3};
 
-/// What an accelerator knows of a hit: just enough to find everything else.
+/// The result of intersection, from which the vertex is computed.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Hit {
     /// Distance along the ray (m).
@@ -18,8 +18,7 @@ pub struct Hit {
     pub primitive: u32,
     /// The instance through which the shape was reached.
     pub instance: InstanceId,
-    /// Where the accelerator keeps the primitive, whose corners are at hand there; it alone
-    /// knows what this means.
+    /// Index of the primitive in the accelerator's own storage; meaningful to it only.
     pub slot: u32,
 }
 
@@ -64,8 +63,7 @@ pub struct SurfaceInteraction {
 }
 
 impl SurfaceInteraction {
-    /// A point of a medium, where a path goes on as it does from a surface: it has no normal, no shape, and the same
-    /// medium around it.
+    /// A point of a medium as a vertex: it has no normal and no shape, and the ray's medium on all sides.
     #[inline]
     pub fn in_space(ray: &Ray, t: f32) -> Self {
         let none = Frame {
@@ -94,8 +92,7 @@ impl SurfaceInteraction {
         }
     }
 
-    /// The cosine of the angle between the surface's normal and the unit vector `direction`, without its sign: what an
-    /// area counts seen from there. 1 at a point of space.
+    /// |cos θ| between the surface's normal and the unit vector `direction`; 1 at a point of a medium.
     #[inline]
     pub fn area_cos(&self, direction: Vec3) -> f32 {
         if self.normal == Vec3::ZERO {
@@ -116,7 +113,7 @@ impl SurfaceInteraction {
         }
     }
 
-    /// What is left of a straight segment beyond this surface, which it crosses here; `None` if nothing is.
+    /// The remainder of `segment` beyond this surface, which it crosses here; `None` if it ends here.
     #[inline]
     pub fn rest_of(&self, segment: &Ray) -> Option<Ray> {
         let next = self.spawn(segment.direction);
@@ -156,8 +153,8 @@ impl SurfaceInteraction {
         )
     }
 
-    /// The ray toward a light's `target`, or toward infinity in `direction` where a light has none;
-    /// nothing where the target is as near as rounding lets one tell.
+    /// The shadow ray toward a light's `target`, or toward infinity in `direction` if it is `None`.
+    /// `None` if the target is closer than rounding resolves.
     #[inline]
     pub fn shadow_ray(&self, direction: Vec3, target: Option<Vec3>) -> Option<Ray> {
         match target {

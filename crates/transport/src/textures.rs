@@ -1,9 +1,9 @@
-//! What others may ask of textures.
+//! The contract of textures.
 
 use crate::{ShapeId, SurfaceInteraction, TextureId};
 use glam::{Vec2, Vec3, Vec4};
 
-/// Where a texture is looked up.
+/// The point for texture look-up.
 #[derive(Clone, Copy, Debug)]
 pub struct TexturePoint {
     /// Position in the world (m).

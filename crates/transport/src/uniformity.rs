@@ -27,7 +27,7 @@ pub fn refuse_varying(params: &Params<'_>, name: &str) {
     }
 }
 
-/// Textures that vary whatever is in them.
+/// Textures that vary even if their inputs are constant.
 const VARYING: [&str; 13] = [
     "bitmap",
     "bricks",

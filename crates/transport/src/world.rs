@@ -1,10 +1,10 @@
-//! The contract of a scene: all that an integrator may ask.
+//! The contract of a scene, as integrators see it.
 //!
-//! A scene has parts, each with a contract of its own: [`Surfaces`], [`Lights`], [`Media`], the [`Camera`] and the [`Sensor`].
-//! What needs several of them is asked of the [`World`]: light on its way between surfaces and through media, and the choice among
-//! lights, to which media that emit light belong.
+//! A scene has five parts, each with a contract of its own: [`Surfaces`], [`Lights`], [`Media`], [`Camera`] and [`Sensor`].
+//! Methods that need several parts belong to the [`World`]: transmittance, and light sampling over surfaces and emitting
+//! media.
 //!
-//! No question has a default answer: an implementation that wraps another and forgets one does not compile.
+//! No method has a default body: an implementation that wraps another and forgets one does not compile.
 
 mod lights;
 mod media;
@@ -24,13 +24,13 @@ use etalon_math::{Density, SolidAngle};
 use etalon_spectrum::Wavelengths;
 use glam::{Vec2, Vec3, Vec4};
 
-/// Straight travel along a segment.
+/// Transmission along a straight segment.
 #[derive(Clone, Copy, Debug)]
 pub struct Transmission {
     /// The fraction of light that arrives, per lane.
     pub transmittance: Vec4,
-    /// The probability with which scattering would have chosen to pass every surface on the
-    /// way, per lane: what a path found by scattering pays for the same journey.
+    /// The probability with which BSDF sampling would have passed all null surfaces and media on the
+    /// way, per lane, for MIS.
     pub probability: Vec4,
 }
 
@@ -41,7 +41,7 @@ impl Transmission {
         probability: Vec4::ONE,
     };
 
-    /// Goes on through what lets light pass in these shares, and would be passed with these probabilities.
+    /// Appends another segment.
     #[inline]
     pub fn then(&mut self, next: &Self) {
         self.transmittance *= next.transmittance;
@@ -49,14 +49,14 @@ impl Transmission {
     }
 }
 
-/// What [`World::transmittance`] is asked, for many at once.
+/// A segment for [`World::transmittance_batch`].
 #[derive(Clone, Copy, Debug)]
 pub struct ShadowQuery {
     /// The segment.
     pub ray: Ray,
     /// The wavelengths of its path.
     pub wavelengths: Wavelengths,
-    /// How many surfaces may let it pass.
+    /// The most null surfaces that it may cross.
     pub crossings: u32,
 }
 
@@ -88,8 +88,8 @@ pub trait World: Sync {
     /// The sensor.
     fn sensor(&self) -> &Self::Sensor;
 
-    /// How light travels straight along a segment, through at most `crossings` surfaces that
-    /// let it pass (`mask`, `null`) and what fills the space between; `None` if it does not arrive at all.
+    /// The transmission along a segment, through at most `crossings` null surfaces (`mask`, `null`)
+    /// and the media between; `None` if it is occluded.
     fn transmittance(
         &self,
         ray: &Ray,
@@ -114,8 +114,8 @@ pub trait World: Sync {
         u: Vec2,
     ) -> Option<LightSample>;
 
-    /// In what samples of [`World::sample_light`] from `from` may differ: whether anything can be gained by
-    /// choosing among several of them. Any answer is right, as long as it is always the same.
+    /// How samples of [`World::sample_light`] from `from` vary: whether resampling several of them can reduce
+    /// noise. Any deterministic answer is correct.
     fn light_variety(&self, from: &LightSampleContext) -> LightVariety;
 
     /// The density with which [`World::sample_light`] from `from` would have chosen the emitting
@@ -158,8 +158,8 @@ pub trait World: Sync {
     /// `at` of a medium that emits light; zero if they never do. Particles leave it evenly in all directions.
     fn medium_light_density(&self, medium: MediumId, at: Vec3) -> f32;
 
-    /// Tells a replay of a sample what cannot be seen from what was asked, and says whether
-    /// anybody listens: if so, more may be asked only to be told. A world that renders never makes the remark.
+    /// Records an event of the estimator for a replay. Returns whether this world records, so that a caller may
+    /// compute more for the record. A world that renders never calls `remark`.
     fn record(&self, remark: impl FnOnce() -> TraceEvent) -> bool;
 }
 

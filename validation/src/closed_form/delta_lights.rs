@@ -15,7 +15,7 @@ use etalon_math::float64::acos;
 use etalon_render::judge::ExactImage;
 use std::f64::consts::PI;
 
-/// Half the width of what the camera sees (m).
+/// Half the width of the camera's view (m).
 const HALF_WIDTH: f64 = 2.0;
 /// Parts of a pixel to either side, for the edges of the spot light's cone.
 const CELLS: u32 = 8;

@@ -108,7 +108,7 @@ mod tests {
 
     #[test]
     fn parallel_rectangles_are_the_catalogues() {
-        // Howell's configuration C-11 by mpmath; the cube's 0.1998 stands in every textbook.
+        // Howell's configuration C-11 by mpmath; the cube's 0.1998 is in every textbook.
         let cases = [
             ([1.0, 1.0], 0.199_824_895_698_387_38),
             ([1.5, 1.0], 0.252_257_540_865_884_5),

@@ -20,7 +20,7 @@ use etalon_math::float64::{acos, atan, cos, sin};
 use etalon_render::judge::ExactImage;
 use std::f64::consts::PI;
 
-/// Half the width of what the camera sees (m).
+/// Half the width of the camera's view (m).
 const HALF_WIDTH: f64 = 2.0;
 
 /// E/L at a point, as a function of the claim's numbers.

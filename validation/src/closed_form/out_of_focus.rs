@@ -72,7 +72,7 @@ mod tests {
         assert!((common_area(1.0, 1.0, 1.0) - expected).abs() < 1e-14);
         assert_eq!(common_area(2.0, 1.0, 0.5), 0.0);
         assert!((common_area(0.2, 1.0, 0.5) - 0.25 * PI).abs() < 1e-15);
-        // Continuous where they begin to touch, but for the roundings of acos near its ends.
+        // Continuous where they begin to touch, up to the rounding of acos near its ends.
         assert!(common_area(1.5 - 1e-9, 1.0, 0.5) < 1e-10);
         assert!((common_area(0.5 + 1e-9, 1.0, 0.5) - 0.25 * PI).abs() < 1e-10);
     }

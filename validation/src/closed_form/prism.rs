@@ -11,7 +11,7 @@ use etalon_math::float64::{cos, sin};
 use etalon_render::judge::ExactImage;
 use etalon_spectrum::{cie, colour_space};
 
-/// Half the width of what the camera sees (m).
+/// Half the width of the camera's view (m).
 const HALF_WIDTH: f64 = 0.75;
 /// Tilt of each face against the camera's film: half the prism's angle (degrees).
 const TILT: f64 = 20.0;

@@ -119,7 +119,7 @@ impl Layer {
     }
 }
 
-/// The picture from above, at 90°, of what shines in proportion to `factor` of μ.
+/// The picture from above, at 90°, of radiance in proportion to `factor` of μ.
 fn seen(claim: &Claim, size: [u32; 2], factor: impl Fn(f64) -> f64) -> Result<ExactImage, String> {
     let scale = claim.number("albedo")? * IRRADIANCE / (4.0 * PI);
     let into = -claim.number("down")?;

@@ -1,7 +1,7 @@
 //! A grey image on four strips of a plane under an even sky of radiance L, far beyond its borders.
 //!
-//! Texel i of n stands for i mod n where the image is repeated, for the nearer end where it is held,
-//! and where it is mirrored for j or 2n − 1 − j with j = i mod 2n. Between the centres of texels,
+//! Texel i of n is i mod n where the image is repeated, the nearer end where it is clamped, and j or
+//! 2n − 1 − j with j = i mod 2n where it is mirrored. Between the centres of texels,
 //! which are at (i + ½)/n, the reflectance is bilinear, or that of the texel around the point. Rows
 //! begin at v = 0. (Mitsuba 3's documentation of `bitmap`.) The bytes of the file are decoded as sRGB.
 //!
@@ -22,7 +22,7 @@ const COPIES: [f64; 2] = [3.0, 2.0];
 /// Texture coordinates of a strip's lower left corner.
 const FIRST: [f64; 2] = [-1.0, -0.5];
 
-/// The texel in 0..n that stands for texel `i` of the endless image.
+/// The texel in 0..n for texel `i` of the unbounded image.
 type Wrap = fn(i64, i64) -> i64;
 
 fn repeat(i: i64, n: i64) -> i64 {

@@ -9,7 +9,7 @@ use glam::{Vec3, Vec4};
 /// A medium whose emission is multiplied.
 pub struct FaultyMedium<M> {
     pub(super) medium: M,
-    /// The factor of what it emits.
+    /// The factor on its emission.
     pub(super) energy: f32,
 }
 

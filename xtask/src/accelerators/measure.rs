@@ -48,9 +48,9 @@ pub(super) struct Rays {
 /// The name of Embree's rows.
 pub(super) const EMBREE: &str = "Embree 4";
 
-/// Whoever needs longer (s) for all rays of a kind gets some of them only, from all over the picture.
+/// Time (s) for all rays of a kind above which an accelerator traces only some of them, from all over the picture.
 const PATIENCE: f64 = 1.0;
-/// Rays that tell how long it takes.
+/// Number of rays for estimating that time.
 const PILOT: usize = 64;
 
 /// An accelerator that takes part.

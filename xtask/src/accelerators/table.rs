@@ -1,4 +1,4 @@
-//! The table of what was measured, in Markdown: a line for each accelerator of a scene, and one of ratios to Embree.
+//! The table of measurements, in Markdown: a line for each accelerator of a scene, and one of ratios to Embree.
 
 use super::measure::{EMBREE, Rays, Row};
 use etalon_benches::rays::Kind;

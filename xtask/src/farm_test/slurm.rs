@@ -1,6 +1,6 @@
 //! A Slurm cluster of two nodes on one machine, for as long as a test lasts.
 //!
-//! It has a key, a socket, ports and folders of its own, and runs as whoever starts it: nothing of the machine is changed.
+//! It has its own key, socket, ports and folders, and runs as the current user: nothing of the machine is changed.
 
 use super::find;
 use crate::bits::succeed;

@@ -12,7 +12,7 @@ use glam::DVec3;
 /// Values along each side.
 const SIDE: usize = 32;
 
-/// A `.vol` file, version 3, of what a function says at the middle of each cell of the unit cube.
+/// A `.vol` file, version 3, of a function's values at the centres of the cells of the unit cube.
 fn file(channels: usize, value: impl Fn(DVec3) -> Vec<f64>) -> Vec<u8> {
     let mut bytes = b"VOL\x03".to_vec();
     for integer in [1, SIDE, SIDE, SIDE, channels] {

@@ -93,7 +93,7 @@ impl Opponent {
         Ok((pixels, seconds))
     }
 
-    /// A line of what it says; what its libraries say among it is not for us.
+    /// A line of its output, without those of its libraries.
     fn answer(&mut self) -> Result<String, String> {
         loop {
             let mut line = String::new();

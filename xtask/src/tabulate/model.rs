@@ -43,7 +43,7 @@ pub(super) fn rgb_weights(count: usize) -> (Vec<f32>, Vec<[f64; 3]>) {
             XYZ_TO_RGB.map(|row| power * (row[0] * xyz[0] + row[1] * xyz[1] + row[2] * xyz[2]))
         })
         .collect();
-    // A white reflectance is white, whatever the sum leaves out.
+    // A white reflectance is white, in spite of the sum's error.
     let totals: [f64; 3] = std::array::from_fn(|c| rows.iter().map(|row| row[c]).sum());
     let weights = rows
         .into_iter()

@@ -91,7 +91,7 @@ fn visible_slope(cos: f32, sin: f32, u: f32) -> f32 {
         let newton = error / (cos - sin * x);
         let step = newton / (1.0 + 0.5 * newton * sin * slope / (cos - sin * x));
         if step.abs() <= 2e-3 * c {
-            // What is left is the third power of that: two terms of Taylor's series will do.
+            // The remainder is of third order: two terms of the Taylor series suffice.
             let dx = -step * slope;
             return x + dx * (1.0 + x * dx);
         }

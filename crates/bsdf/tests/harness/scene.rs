@@ -189,7 +189,7 @@ impl Sample {
             .resolve(&self.scene, &vertex(shading), wo, wavelengths)
     }
 
-    /// What the material can do.
+    /// The material's flags.
     pub(crate) fn material(&self) -> &Material {
         &self.material
     }

@@ -43,7 +43,7 @@ mod tests {
     use clap::Parser;
     use etalon_sampling::{ReplicateKind, SamplerKind};
 
-    /// Whoever copies the command draws the very sample, whatever defaults the scene has.
+    /// The command draws the same sample for any defaults of the scene.
     #[test]
     fn the_command_says_all_that_decides_the_sample() {
         let said = "etalon render scene.xml -o a.exr --integrator path --light-chooser tree \

@@ -35,7 +35,7 @@ fn compare(args: &CompareArgs, report: Option<&Destination>) -> ExitCode {
         Ok(image) => image,
         Err(error) => return fail(error),
     };
-    // Images of different sizes are bad input, whatever they carry.
+    // Images of different sizes are bad input in any case.
     let size = |image: &RenderedImage| (image.image.width(), image.image.height());
     let ((width, height), (other_width, other_height)) = (size(&first), size(&second));
     if (width, height) != (other_width, other_height) {

@@ -82,7 +82,7 @@ fn extension(path: &Path) -> String {
         .unwrap_or_default()
 }
 
-/// The image in a file, what whoever gave it should know, and what the file says of itself: nothing if it is not our own.
+/// The image in a file, remarks about it, and its metadata, which are empty if it is not our own.
 pub(crate) fn read(path: &Path) -> Result<(Image, Vec<String>, String), String> {
     let read = || {
         let bytes = std::fs::read(path).map_err(|source| Error::Read {

@@ -124,7 +124,7 @@ fn write_picture(args: &RenderArgs, path: &Path, developed: &RenderedImage) -> R
     Ok(())
 }
 
-/// Says of what samples an image is without any finished replicate.
+/// Describes the samples of an image without any finished replicate.
 fn unfinished_in_words(args: &RenderArgs, facts: &UnfinishedFacts) -> String {
     let image = args.output().display();
     let each = match (facts.least, facts.most) {

@@ -160,7 +160,7 @@ fn write(args: &FarmArgs, work: Work, inputs: &[PathBuf]) -> Result<Job, String>
     Ok(job)
 }
 
-/// Says which pictures in a job's folder are not of this job, and are left out of what it makes.
+/// Names the pictures in a job's folder that are not of this job, which the job leaves out.
 fn tell_stale(job: &Job, here: &Path) {
     let folder = here.join(job.pieces_folder());
     let entries = fs::read_dir(&folder).into_iter().flatten().flatten();

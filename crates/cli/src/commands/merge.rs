@@ -18,7 +18,7 @@ pub fn run(args: &MergeArgs) -> ExitCode {
         Ok(output) => output,
         Err(message) => return fail(message),
     };
-    // What the files say of themselves is judged before any pixels are read.
+    // Metadata are checked before any pixels are read.
     let problems = problems(args);
     if !problems.is_empty() {
         for problem in problems {
@@ -32,8 +32,7 @@ pub fn run(args: &MergeArgs) -> ExitCode {
     }
 }
 
-/// The same with the images of a folder in its place, in the order of their names; the output, where it lies among them, is none
-/// of them.
+/// Replaces each folder by its images in the order of their names, without the output if it is among them.
 fn with_folders(args: &MergeArgs) -> Result<MergeArgs, String> {
     let mut parts = Vec::new();
     for path in &args.parts {

@@ -4,7 +4,7 @@ use crate::args::RenderArgs;
 use crate::quoting;
 use etalon_scene::SensorChoice;
 
-/// What decides the picture, but for scene, seed, frames and amount.
+/// The options that decide the picture, except scene, seed, frames and number of samples.
 pub(super) fn of_the_picture(args: &RenderArgs) -> Vec<String> {
     let mut words = Vec::new();
     if let Some(integrator) = &args.integrator {

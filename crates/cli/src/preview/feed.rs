@@ -31,7 +31,7 @@ pub struct Feed {
     fetched: AtomicU64,
 }
 
-/// A render that goes on.
+/// A running render.
 #[derive(Clone, Debug)]
 struct Run {
     /// What stands before it, such as the number of a frame.

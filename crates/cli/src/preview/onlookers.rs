@@ -1,4 +1,4 @@
-//! Who looks on while `render` works: the page, `tev`, both or nobody.
+//! The viewers of a running `render`: the page, `tev`, both or none.
 
 use super::feed::Feed;
 use super::tev::Tev;
@@ -44,7 +44,7 @@ impl Onlookers {
         Ok(onlookers)
     }
 
-    /// The same for the film; nobody if nobody looks on.
+    /// The watcher of the film; `None` without viewers.
     pub fn watcher(&self) -> Option<Arc<dyn Watcher>> {
         let anybody = self.feed.is_some() || self.tev.is_some();
         anybody.then(|| Arc::new(self.clone()) as Arc<dyn Watcher>)

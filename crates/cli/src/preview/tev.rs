@@ -43,7 +43,7 @@ impl Tev {
     /// Connects to the viewer at `address`, for an image of this name.
     ///
     /// # Errors
-    /// One sentence, if nobody listens there.
+    /// One sentence, if there is no listener.
     pub fn connect(address: &str, name: String, failed: fn(&str)) -> Result<Self, String> {
         let socket = TcpStream::connect(address).map_err(|error| {
             format!("no `tev` listens at {address}: {error}; start it first, or name its address with `--tev HOST:PORT`")

@@ -12,7 +12,7 @@
 pub struct CatmullRom;
 
 impl CatmullRom {
-    /// Where it ends (pixels).
+    /// Radius (pixels).
     pub const RADIUS: f64 = 2.0;
 
     /// The value at `x` pixels from the centre.

@@ -35,7 +35,7 @@ impl Gaussian {
         self.deviation
     }
 
-    /// Where it ends (pixels).
+    /// Radius (pixels).
     pub fn radius(self) -> f64 {
         Self::CUT * self.deviation
     }

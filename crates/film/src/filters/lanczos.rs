@@ -31,7 +31,7 @@ impl Lanczos {
         self.lobes
     }
 
-    /// Where it ends (pixels).
+    /// Radius (pixels).
     pub fn radius(self) -> f64 {
         f64::from(self.lobes)
     }

@@ -6,7 +6,7 @@
 //!          ⎩ 0                                                                         else
 //! ```
 //!
-//! It integrates to one whatever B and C are. With C > 0 it has negative lobes.
+//! It integrates to one for any B and C. With C > 0 it has negative lobes.
 
 /// A cubic filter with blur B and ringing C.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -20,7 +20,7 @@ pub struct Mitchell {
 impl Mitchell {
     /// The authors' recommendation, and Mitsuba's default, for both parameters.
     pub const DEFAULT: f64 = 1.0 / 3.0;
-    /// Where it ends (pixels).
+    /// Radius (pixels).
     pub const RADIUS: f64 = 2.0;
 
     /// The filter with parameters `b` and `c`, if they are finite and its lobes are.

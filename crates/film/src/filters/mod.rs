@@ -178,7 +178,7 @@ impl Default for Filter {
     }
 }
 
-/// Reports a refused value and goes on with the default.
+/// Reports a refused value and returns the default.
 fn refused(params: &Params<'_>, name: &str, value: impl std::fmt::Display, what: &str) -> Filter {
     params.refuse(name, value, what);
     Filter::default()

@@ -19,7 +19,7 @@ impl Tent {
         (radius > 0.0 && radius.is_finite()).then_some(Self { radius })
     }
 
-    /// Where it ends (pixels).
+    /// Radius (pixels).
     pub fn radius(self) -> f64 {
         self.radius
     }

@@ -1,8 +1,7 @@
-//! `<animation name="…" interpolation="…">`: a parameter's values at moments of scene time.
+//! `<animation name="…" interpolation="…">`: a parameter's values at times of the scene.
 //!
-//! Its children are properties with a `time` in place of a name, all with one tag. A transform stays in motion while
-//! the shutter is open; any other value is what it is in the middle of the interval, so that plugins never see it
-//! change.
+//! Its children are properties with a `time` instead of a name, all with one tag. A transform moves while the shutter
+//! is open; any other parameter has its value in the middle of the interval, so that plugins never see it change.
 
 use super::attribute::{Attributes, tag_span};
 use super::draft::{Draft, DraftValue};

@@ -48,6 +48,6 @@ pub(crate) struct Draft {
     pub(crate) objects: Vec<DraftObject>,
     /// The object of each `id`, and where the `id` stands.
     pub(crate) ids: HashMap<String, (ObjectId, Span)>,
-    /// `<alias>`es: new name, where it stands, and the name it stands for.
+    /// `<alias>`es: the new name and the name of its source, each with its position.
     pub(crate) aliases: Vec<(Spanned<String>, Spanned<String>)>,
 }

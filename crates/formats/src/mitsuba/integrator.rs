@@ -20,7 +20,7 @@ const KEPT: [&str; 3] = ["max_depth", "rr_depth", "hide_emitters"];
 /// What survives of `ppm` beside them, whose photons are those of `sppm`.
 const PHOTONS: [&str; 3] = ["photons", "radius", "alpha"];
 
-/// What stands in for integrators that are not built, and in what they agree.
+/// Replacements of integrators that are not built, and what they have in common.
 const STAND_INS: [(&str, &str, &str); 16] = [
     ("volpath_simple", "volpath", SAME_PICTURE),
     ("prbvolpath", "volpath", SAME_WITHOUT_DERIVATIVES),
@@ -47,10 +47,10 @@ const SAME_METHOD: &str = "it is the same method, with parameters of its own";
 /// The `max_depth` of Mitsuba's differentiable path integrators where the scene names none.
 const DIFFERENTIABLE_DEPTH: i64 = 6;
 
-/// Integrators of Mitsuba 0.6 that distribute the samples of another one, which stands in.
+/// Integrators of Mitsuba 0.6 that distribute the samples of another one, which replaces them.
 const WRAPPERS: [&str; 2] = ["adaptive", "irrcache"];
 
-/// Replaces integrators that are not built by those that stand in for them.
+/// Replaces integrators that are not built.
 pub(crate) fn stand_in(reader: &mut Reader<'_>) {
     for id in 0..reader.draft.objects.len() {
         let object = &mut reader.draft.objects[id];
@@ -102,8 +102,8 @@ pub(crate) fn stand_in(reader: &mut Reader<'_>) {
     }
 }
 
-/// Judges the parameters of an integrator that another one stands in for, which has no use for them. What is unknown of one that
-/// no Mitsuba has is returned.
+/// Checks the parameters of a replaced integrator, which its replacement does not use. Returns unknown ones of an integrator
+/// that no Mitsuba has.
 fn judge(reader: &mut Reader<'_>, plugin: &str, dropped: &[DraftProperty]) -> Vec<String> {
     let is_mitsubas = plugins::status(Class::Integrator, plugin) != plugins::Status::Unknown;
     let mut unknown = Vec::new();

@@ -1,7 +1,7 @@
-//! What Mitsuba 0.6 called otherwise, and its defaults where today's are others.
+//! Other names and defaults of Mitsuba 0.6.
 //!
-//! Names here are underscored already. What stays as it is needs no word; what changes nothing stands in
-//! [`etalon_params::ignored`], and what is refused in [`etalon_params::unbuilt`].
+//! Names here are underscored already. Unchanged parameters are not listed; those without effect are in
+//! [`etalon_params::ignored`], and refused ones in [`etalon_params::unbuilt`].
 
 use super::draft::{DraftObject, DraftProperty, DraftValue};
 use super::reader::Reader;

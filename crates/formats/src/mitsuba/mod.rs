@@ -52,7 +52,7 @@ pub struct ReadOptions {
 pub struct SourceFile {
     /// Where it was found.
     pub path: PathBuf,
-    /// What it contained.
+    /// Its contents.
     pub bytes: Arc<Vec<u8>>,
 }
 
@@ -79,9 +79,8 @@ pub struct ReadOutcome {
     /// The scene. After mistakes it may still be there, with harmless values in place of the
     /// broken ones, so that further mistakes can be looked for in it; it must not be rendered.
     pub document: Option<Document>,
-    /// Where such harmless values stand, and the plugins of objects whose children are missing:
-    /// whatever else is found there has no meaning (see
-    /// [`etalon_params::Diagnostics::silent_about`]).
+    /// The positions of such harmless values, and of plugins whose children are missing: further
+    /// mistakes there are not reported (see [`etalon_params::Diagnostics::silent_about`]).
     pub stand_ins: Vec<Span>,
 }
 

@@ -23,7 +23,7 @@ pub(crate) enum NotANumber {
 }
 
 impl NotANumber {
-    /// What is wrong with `text`, as a sentence; `wanted` is `a number` or the like.
+    /// The mistake in `text`, as a sentence; `wanted` is `a number` or the like.
     pub(crate) fn message(self, text: &str, wanted: &str) -> String {
         let text = excerpt(text);
         match self {

@@ -1,4 +1,4 @@
-//! Objects and what may stand in them.
+//! Objects and their children.
 
 use super::attribute::{Attributes, tag_span};
 use super::draft::{DraftObject, DraftProperty, DraftValue, ObjectId};
@@ -91,7 +91,7 @@ pub(crate) fn object(
     sound.then_some((this, property))
 }
 
-/// Notes that `id` stands for an object.
+/// Registers the `id` of an object.
 fn register(reader: &mut Reader<'_>, id: &str, span: Span, object: ObjectId) {
     if let Some(&(_, first)) = reader.draft.ids.get(id) {
         reader.report(
@@ -153,7 +153,7 @@ fn duplicates(properties: &[DraftProperty]) -> Vec<(usize, usize)> {
         .collect()
 }
 
-/// Reads everything that stands in an object.
+/// Reads the children of an object.
 fn children(
     reader: &mut Reader<'_>,
     file: &mut File,
@@ -194,7 +194,7 @@ fn children(
     }
 }
 
-/// Reads one element that stands in an object.
+/// Reads one child of an object.
 fn element(
     reader: &mut Reader<'_>,
     file: &mut File,
@@ -212,7 +212,7 @@ fn element(
             let span = tag_span(file.id, node);
             let unknown = Diagnostic::error(span, format!("unknown element `<{name}>`"));
             reader.report(unknown.suggest(name, TAGS.iter().map(|(known, _)| *known)));
-            // What stands in it is read all the same: its ids may be referred to.
+            // Its children are read all the same: their ids may be referred to.
             let aside = reader.draft.objects.len();
             let span = tag_span(file.id, node);
             reader.draft.objects.push(DraftObject {
@@ -289,7 +289,7 @@ fn default(reader: &mut Reader<'_>, file: &File, node: Node<'_, '_>) {
     no_children(reader, file, node);
     let accepted = Tag::Default.attributes();
     let Some(attributes) = Attributes::read(reader, file.id, node, accepted) else {
-        // Whoever uses the name is not to be blamed.
+        // References to the name are not reported as mistakes.
         if let Some(name) = node.attribute("name").filter(|name| !name.is_empty()) {
             let span = tag_span(file.id, node);
             reader.parameters.add_default(name, None, span);

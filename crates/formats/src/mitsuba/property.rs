@@ -309,7 +309,7 @@ fn operation(reader: &mut Reader<'_>, file: &File, node: Node<'_, '_>) -> Option
     }
 }
 
-/// The matrix of 16 numbers, whose last row must be that of an affine map but for a factor, or of 9.
+/// The matrix of 16 numbers, whose last row must be a multiple of 0 0 0 1, or of 9.
 ///
 /// Points are homogeneous: M and M/w map them alike.
 fn matrix(reader: &mut Reader<'_>, attributes: &Attributes<'_>) -> Option<DMat4> {

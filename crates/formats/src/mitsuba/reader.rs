@@ -32,12 +32,12 @@ pub(crate) struct Reader<'o> {
     pub(crate) included_folders: Vec<PathBuf>,
     /// Files of a version before 2.0.
     pub(crate) old_files: Vec<FileId>,
-    /// Where harmless values stand in place of broken ones.
+    /// The positions of harmless values that replace broken ones.
     pub(crate) stand_ins: Vec<Span>,
     errors: usize,
 }
 
-/// The file that an element stands in.
+/// The file of an element.
 pub(crate) struct File {
     pub(crate) id: FileId,
     pub(crate) version: Version,

@@ -66,8 +66,8 @@ fn look_up(reader: &mut Reader<'_>, id: &str, span: Span) -> Option<ObjectId> {
     None
 }
 
-/// Gives each alias the object of its source. An alias may stand before its source and may
-/// stand for another alias.
+/// Gives each alias the object of its source. An alias may precede its source, and its source may be
+/// another alias.
 fn resolve_aliases(reader: &mut Reader<'_>) {
     let mut open = std::mem::take(&mut reader.draft.aliases);
     loop {
@@ -172,7 +172,7 @@ fn report_circle(
     reader.report(diagnostic);
 }
 
-/// Refuses trees so deep or, with sharing undone, so large that nobody could walk them.
+/// Refuses trees that are too deep to traverse or, with sharing undone, too large.
 fn check_size(reader: &mut Reader<'_>, order: &[ObjectId]) -> bool {
     let mut depth = vec![0usize; reader.draft.objects.len()];
     let mut uses = vec![1u64; reader.draft.objects.len()];

@@ -10,7 +10,7 @@
 
 use etalon_params::Span;
 
-/// How long a value can become by what is inserted into it (bytes).
+/// The longest value after substitution (bytes).
 pub(crate) const LONGEST_VALUE: usize = 1 << 16;
 
 /// How much can be inserted into all values of a scene together (bytes).
@@ -48,7 +48,7 @@ pub(crate) struct Parameters {
 pub(crate) struct Substituted {
     /// The text.
     pub(crate) text: String,
-    /// Where the inserted values stand in the scene.
+    /// The positions of the inserted values in the scene.
     pub(crate) defaults: Vec<Span>,
 }
 
@@ -59,14 +59,14 @@ pub(crate) struct Irreplaceable {
     pub(crate) name: String,
     /// Byte offset of the `$` in the text.
     pub(crate) offset: usize,
-    /// What is wrong with it.
+    /// The mistake.
     pub(crate) trouble: Trouble,
 }
 
 /// Why a `$name` cannot be replaced.
 #[derive(Debug, PartialEq)]
 pub(crate) enum Trouble {
-    /// Nobody has defined it.
+    /// It is not defined.
     Undefined,
     /// There is a mistake in its `<default>`, which has been reported.
     Broken,
@@ -185,7 +185,7 @@ impl Parameters {
         self.mentioned.iter().filter_map(value).collect()
     }
 
-    /// The names of the command line that the scene never asked for.
+    /// The names of the command line that the scene does not use.
     pub(crate) fn unused(&self) -> impl Iterator<Item = &str> {
         self.list
             .iter()

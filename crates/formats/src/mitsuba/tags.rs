@@ -43,7 +43,7 @@ pub(crate) enum Tag {
     Path,
 }
 
-/// Every tag that may stand in an object.
+/// Every tag that an object may contain.
 pub(crate) const TAGS: [(&str, Tag); 31] = [
     ("scene", Tag::Object(Class::Scene)),
     ("bsdf", Tag::Object(Class::Bsdf)),

@@ -10,9 +10,9 @@ use glam::DVec4;
 /// Rotation by `degrees` about `axis`, counter-clockwise seen against it.
 ///
 /// R = cos θ · 1 + (1 − cos θ) · a aᵀ + sin θ · [a]×, which is a rotation only for |a| = 1.
-/// Mitsuba 3 applies the formula to the axis as written, so a longer one shears; this is kept,
-/// and [`is_unit`] tells when to say so (Mitsuba 0.x divided by the length first). Axes that are of unit length but for their rounding in
-/// the file are normalised.
+/// Mitsuba 3 applies the formula to the axis as written, so a longer one shears; this is kept, with
+/// a note if it is not [`is_unit`] (Mitsuba 0.x divided by the length first). Axes of unit length up
+/// to their rounding in the file are normalised.
 pub(crate) fn rotate(axis: DVec3, degrees: f64) -> DMat4 {
     let a = if is_unit(axis) {
         axis.normalize()

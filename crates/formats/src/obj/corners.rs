@@ -14,7 +14,7 @@ pub(super) struct Corner {
 }
 
 impl Corner {
-    /// The index that stands for "not given".
+    /// The index for "not given".
     pub(super) const NONE: u32 = u32::MAX;
 }
 

@@ -1,7 +1,7 @@
-//! What is wrong with a line of an OBJ file, in words.
+//! Messages about mistakes in a line of an OBJ file.
 //!
-//! The parser says only what kind of mistake stopped it. This reads a line again, keeps nothing
-//! of it, and names the offending word.
+//! The parser returns only the kind of mistake that stopped it. This reads a line again, without
+//! keeping anything of it, and names the offending word.
 
 use super::lines::{Line, Lines};
 use crate::mesh_error::MeshError;
@@ -22,7 +22,7 @@ pub(super) fn list_of(keyword: &[u8]) -> Option<usize> {
     }
 }
 
-/// The first mistake in a file, if it has one that stands in a line.
+/// The first mistake in a file that belongs to a line, if there is one.
 pub(super) fn first(bytes: &[u8]) -> Result<(), MeshError> {
     let mut all = Counts::default();
     each_line(bytes, |line, _| {
@@ -32,7 +32,7 @@ pub(super) fn first(bytes: &[u8]) -> Result<(), MeshError> {
     each_line(bytes, |line, given| check(line, given, all))
 }
 
-/// Visits all lines, each with the counts of what stands before it.
+/// Visits all lines, each with the counts of elements before it.
 fn each_line(
     bytes: &[u8],
     mut visit: impl FnMut(&Line<'_>, Counts) -> Result<(), MeshError>,

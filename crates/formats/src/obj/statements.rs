@@ -33,7 +33,7 @@ pub(super) struct Statements<'a> {
     ready: Vec<u8>,
     taken: usize,
     given: Counts,
-    /// Whether vertices keep their colours; the first vertex decides if nobody has.
+    /// Whether vertices keep their colours; if `None`, the first vertex decides.
     colours: Option<bool>,
     /// Whether reading stopped because vertices with and without colours were found.
     pub(super) mixed_colours: bool,
@@ -119,7 +119,7 @@ impl<'a> Statements<'a> {
         if plain { Ok(()) } else { self.check(line) }
     }
 
-    /// Refuses what is wrong whatever follows; an index may refer forward.
+    /// Refuses mistakes that do not depend on later lines; an index may refer forward.
     fn check(&self, line: &Line<'_>) -> Result<()> {
         check(line, self.given, [u32::MAX as usize; 3]).map_err(|_| refused())
     }

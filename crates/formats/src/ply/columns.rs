@@ -12,7 +12,7 @@ pub(super) struct Columns<'a> {
 }
 
 enum Data<'a> {
-    /// Rows as they stand in a binary file.
+    /// Rows of a binary file.
     Rows {
         bytes: &'a [u8],
         /// Where they begin in the file.
@@ -33,14 +33,14 @@ enum Data<'a> {
     },
 }
 
-/// Where the elements of one kind stand in the file.
+/// The positions of the elements of one kind in the file.
 #[derive(Clone, Copy)]
 pub(super) enum Places {
     /// As rows of bytes.
     Rows { start: usize, stride: usize },
     /// In lines from this one.
     Lines(usize),
-    /// Nobody kept track.
+    /// Not recorded.
     Unknown,
 }
 

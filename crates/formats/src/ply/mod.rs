@@ -90,7 +90,7 @@ fn triangles(
     }
 }
 
-/// Drops attributes of faces that strips have not, and says what is not followed.
+/// Drops attributes of faces that strips lack, and notes what is not supported.
 fn tidy_attributes(mesh: &mut MeshData) {
     let triangles = mesh.triangles.len();
     let notes = &mut mesh.notes;
@@ -115,7 +115,7 @@ fn tidy_attributes(mesh: &mut MeshData) {
     }
 }
 
-/// Reads past an element that nobody needs.
+/// Skips an element that is not needed.
 fn skip(element: &Element, source: &mut Source<'_>) -> Result<(), MeshError> {
     if let Some(stride) = element.stride().filter(|_| source.is_binary()) {
         source.rows(element, stride)?;

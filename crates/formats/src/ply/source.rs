@@ -1,4 +1,4 @@
-//! Numbers out of the data section, whatever its format.
+//! Numbers of the data section, in any of its formats.
 
 use super::header::{Element, Format, Header, Number};
 use crate::mesh_error::{MeshError, Place};

@@ -31,9 +31,9 @@ pub(super) enum Binary<'a> {
     Gathered(&'a [u32]),
 }
 
-/// PLOC's search radius and the number of passes before which it is 1; the share of nodes that
-/// each reinsertion pass looks at. Wider searches and more reinsertion take up to half as much time again and make no
-/// better trees, since the lowest levels are divided anew ([`Bunch`](super::bunch::Bunch)).
+/// PLOC's search radius and the number of passes before which it is 1; the share of nodes in each reinsertion pass. Wider
+/// searches and more reinsertion take up to half as much time again without better trees, as the lowest levels are
+/// rebuilt ([`Bunch`](super::bunch::Bunch)).
 const SEARCH: usize = 4;
 const NARROW_PASSES: usize = 3;
 const REINSERTED: f32 = 0.02;
@@ -113,7 +113,7 @@ impl BinaryTree {
         self.nodes.len()
     }
 
-    /// What a node is.
+    /// A node by its index.
     #[inline]
     pub(super) fn node(&self, index: u32) -> Binary<'_> {
         let node = &self.nodes[index as usize];

@@ -118,7 +118,7 @@ impl Block {
         let edge = u.simd_eq(zero) | v.simd_eq(zero) | w.simd_eq(zero);
         if edge.any() {
             let sheared = [[ax, ay], [bx, by], [cx, cy]];
-            // Only those lanes: what is found must not depend on a triangle's neighbours.
+            // Only those lanes: the result must not depend on a triangle's neighbours in the block.
             let exact = exact_edges(edge.to_bitmask(), &sheared);
             u = edge.select(exact[0], u);
             v = edge.select(exact[1], v);
@@ -150,7 +150,7 @@ impl Block {
         let scale = probe.shear[2];
         let depth =
             |corner: usize| (self.corners[corner][kz].as_array()[lane] - probe.permuted[2]) * scale;
-        // t is a mean of the corners' depths, whatever the error of its weights.
+        // t is a weighted mean of the corners' depths, with inexact weights.
         depth(0).min(depth(1)).min(depth(2)) > probe.near
             || self.is_far_enough(probe, lane, candidates)
     }
@@ -185,8 +185,7 @@ impl Block {
         candidates.t.as_array()[lane] > 3.0 * delta * (probe.shear[2] / det).abs()
     }
 
-    /// Notes the nearest triangle that the ray hits, if it wins over what is known; this is block
-    /// number `index`.
+    /// Updates `nearest` with the nearest triangle that the ray hits; this is block number `index`.
     #[inline(always)]
     pub(crate) fn intersect(&self, index: usize, probe: &TraversalRay, nearest: &mut ClosestHit) {
         let Some(candidates) = self.candidates(probe, nearest.t) else {

@@ -1,7 +1,7 @@
-//! Trees of boxes that are tested one at a time: what the plain binary tree and the octree are made of.
+//! Trees of boxes that are tested one at a time, for the binary BVH and the octree.
 //!
-//! A builder says how a part of space with what is in it is divided; a leaf keeps its triangles in blocks. Nodes are
-//! visited from the nearest box to the farthest, and not at all beyond what has been hit.
+//! A builder decides how a region with its primitives is divided; a leaf stores its triangles in blocks. Nodes are
+//! visited from the nearest box to the farthest, and not beyond the nearest hit.
 
 use super::block::{Block, LANES};
 use super::visits::Counter;
@@ -12,9 +12,9 @@ use crate::traversal_ray::TraversalRay;
 /// A part of space.
 pub(super) struct Part {
     pub(super) bounds: Bounds,
-    /// What is in it.
+    /// Its primitives.
     pub(super) items: Vec<u32>,
-    /// How often each of those may still be repeated by parts of this one, on the average; for builders that repeat.
+    /// How often each may still be duplicated in parts of this one, on average; for builders that duplicate.
     pub(super) credit: f32,
 }
 
@@ -24,7 +24,7 @@ pub(super) const DEEPEST: usize = 60;
 /// Boxes that wait: seven for each of at most [`DEEPEST`]/2 levels of an octree, or one for each of a binary tree.
 const STACK: usize = 256;
 
-/// A box, and what is in it: other boxes, or triangles and whatever else.
+/// A box with its children, or with its triangles and other primitives.
 #[derive(Clone, Copy, Debug)]
 struct BoxNode {
     bounds: Bounds,
@@ -54,7 +54,7 @@ pub(crate) struct BoxTree {
     others: Vec<u32>,
 }
 
-/// What is known of the primitives while a tree is built.
+/// The primitives while a tree is built.
 struct Items<'a, P> {
     primitives: &'a P,
     /// The box of each item, …
@@ -64,8 +64,8 @@ struct Items<'a, P> {
 }
 
 impl BoxTree {
-    /// The tree of all primitives but triangles without area, and what has no end. `divide` is asked, with all boxes, a
-    /// part and its level, for the parts that it is divided into: none for a leaf.
+    /// The tree of all primitives except degenerate triangles and unbounded shapes. `divide` maps all boxes, a part and
+    /// its level to the parts that it is divided into: none for a leaf.
     pub(super) fn build(
         primitives: &impl Primitives,
         divide: impl Fn(&[Bounds], &Part, usize) -> Vec<Part>,
@@ -155,7 +155,7 @@ impl BoxTree {
         node.others = span(first_other, self.others.len());
     }
 
-    /// Notes the nearest hit, if it wins over what is known.
+    /// Updates the nearest hit.
     #[inline]
     pub(crate) fn intersect(
         &self,
@@ -292,7 +292,7 @@ fn span([first, count]: [u32; 2]) -> core::ops::Range<usize> {
     first as usize..(first + count) as usize
 }
 
-/// Where a ray enters a box, if it does before `t_max`; conservative, as the wide tree's nodes are.
+/// The entry of a ray into a box, if before `t_max`; conservative, as in the wide tree.
 #[inline]
 fn entered(bounds: &Bounds, probe: &TraversalRay, t_max: f32) -> Option<f32> {
     const OUTWARD: f32 = 1.0 + 4.0 * f32::EPSILON;

@@ -1,8 +1,8 @@
 //! The lowest nodes of the wide tree: up to 64 triangles, in blocks that are as full as can be.
 //!
-//! A binary tree over single triangles is cut where at most eight are left, and that is five on the average. So the
-//! triangles below its lowest nodes are divided anew, by the surface area heuristic over blocks (Wald, Benthin & Boulos
-//! 2008, "Getting Rid of Packets", section 3.2): halves are whole blocks, and only the last is not full.
+//! A binary tree over single triangles is cut where at most eight are left, which is five on average. So the triangles
+//! below its lowest nodes are divided again, by the surface area heuristic over blocks (Wald, Benthin & Boulos 2008,
+//! "Getting Rid of Packets", section 3.2): halves are whole blocks, and only the last is not full.
 
 use super::Bounds;
 use super::binary::{Binary, BinaryTree};
@@ -28,7 +28,7 @@ pub(super) struct Bunch {
 }
 
 impl Bunch {
-    /// Those below `node`, of which there are no more than [`MOST`].
+    /// The triangles below `node`, at most [`MOST`].
     pub(super) fn below(tree: &BinaryTree, node: u32) -> Self {
         let nothing = Item {
             min: Vec3A::ZERO,

@@ -89,7 +89,7 @@ fn bin(centers: &Bounds, axis: usize, bounds: &Bounds) -> usize {
     ((place * BINS as f32) as usize).min(BINS - 1)
 }
 
-/// The parts of what is left and what is not; none, and so a leaf, if they are one.
+/// The two parts by `left`; none, for a leaf, if one of them is empty.
 fn parts(boxes: &[Bounds], part: &Part, left: impl Fn(u32) -> bool) -> Vec<Part> {
     let (a, b): (Vec<u32>, Vec<u32>) = part.items.iter().partition(|&&item| left(item));
     if a.is_empty() || b.is_empty() {

@@ -11,8 +11,8 @@
 //! D(n, i) = min over 0 < k < i of C(left, k) + C(right, i − k)
 //! ```
 //!
-//! A leaf of up to eight triangles is one block and costs A(n)·c_block, however full it is. The largest subtrees of up to
-//! 64 triangles may also become a node over blocks that are divided anew, if that costs less: a [`Bunch`].
+//! A leaf of up to eight triangles is one block and costs A(n)·c_block, full or not. The largest subtrees of up to 64
+//! triangles may also become a node over rebuilt blocks, if that costs less: a [`Bunch`].
 
 use super::Primitives;
 use super::binary::{Binary, BinaryTree};
@@ -78,13 +78,13 @@ impl Choices {
         (!visit.too_deep.into_inner()).then_some(choices)
     }
 
-    /// Whether a node that stands for itself (one tree) is a leaf.
+    /// Whether a node that is one tree of the forest is a leaf.
     #[inline]
     pub(super) fn is_leaf(&self, node: u32) -> bool {
         self.packed[node as usize].load(Ordering::Relaxed) & LEAF != 0
     }
 
-    /// The number of blocks of a node that stands for itself and has only such, if it is one.
+    /// The number of blocks of a node that is one tree of the forest and has blocks only, if it is such a node.
     #[inline]
     pub(super) fn bunch(&self, node: u32) -> Option<usize> {
         let packed = self.packed[node as usize].load(Ordering::Relaxed);

@@ -5,7 +5,7 @@ use super::collapse::WIDTH;
 use crate::traversal_ray::TraversalRay;
 use wide::f32x8;
 
-/// What a node points to, in 32 bits.
+/// The link to a child, in 32 bits.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) struct Link(pub(super) u32);
 

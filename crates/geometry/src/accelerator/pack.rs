@@ -62,7 +62,7 @@ pub(super) fn pack(tree: &BinaryTree, choices: &Choices, primitives: &impl Primi
     }
 }
 
-/// Where a leaf's triangles come from.
+/// The source of a leaf's triangles.
 enum Leaf {
     /// All below a node of the binary tree.
     Below(u32),
@@ -155,7 +155,7 @@ impl<P: Primitives> Packer<'_, P> {
     }
 }
 
-/// What some leaves become.
+/// The result of packing some leaves.
 #[derive(Default)]
 struct Part {
     nodes: Vec<(u32, Node)>,

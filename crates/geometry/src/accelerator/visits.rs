@@ -1,8 +1,8 @@
-//! How much of an accelerator a ray looks at, for those who compare accelerators.
+//! Counts of visited nodes and primitives, for comparing accelerators.
 
 use core::cell::Cell;
 
-/// What a ray looked at before it was answered, in the accelerators of all groups that it entered.
+/// The visits of a ray, in the accelerators of all groups that it entered.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Visits {
     /// Nodes.
@@ -11,11 +11,11 @@ pub struct Visits {
     pub primitives: u64,
 }
 
-/// Is told of every node and primitive that a ray looks at.
+/// Counts the nodes and primitives that a ray visits.
 pub(crate) trait Counter {
     /// A node.
     fn node(&self);
-    /// Primitives; how many is only asked by one who counts.
+    /// Counts primitives; their number is evaluated only by counters that need it.
     fn primitives(&self, how_many: impl FnOnce() -> usize);
 }
 

@@ -36,7 +36,7 @@ macro_rules! with_stack {
     };
 }
 
-/// A wide tree is not deeper than the binary one, but for primitives with equal boxes, of which
+/// A wide tree is not deeper than the binary one, except below primitives with equal boxes, of which
 /// there are fewer than 8¹¹.
 const MAX_DEPTH: usize = collapse::MAX_DEPTH as usize + 12;
 
@@ -56,7 +56,7 @@ impl Wide {
         Self(packed)
     }
 
-    /// Notes the nearest hit, if it wins over what is known.
+    /// Updates the nearest hit.
     #[inline]
     pub(crate) fn intersect(
         &self,

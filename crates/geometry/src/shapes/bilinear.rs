@@ -42,7 +42,7 @@ impl Bilinear {
             first: p01 - p00,
             turn: (p11 - p10) - (p01 - p00),
         };
-        // Of a patch with any area a corner spans a plane, or the middle does.
+        // A patch with area has a normal at a corner or in the middle.
         let spans = |u: f64, v: f64| patch.point(DVec2::new(u, v)).normal != DVec3::ZERO;
         let corners = [p00, p10, p01, p11];
         let any = spans(0.5, 0.5) || spans(0.0, 0.0) || spans(1.0, 0.0) || spans(0.0, 1.0);

@@ -28,7 +28,7 @@ pub struct RoundSpline {
 /// Lines whose d·c′ is below this part of |d| |c′| lie across the curve.
 const ACROSS: f64 = 1e-7;
 
-/// Zeros are told apart down to this part of a piece.
+/// Resolution of zeros, as a share of a piece.
 const SMALLEST: f64 = 1e-8;
 
 /// The Bézier form of a cubic B-spline's piece.
@@ -126,7 +126,7 @@ impl Segment for RoundSpline {
             let (c, .., r, _) = self.at(u);
             let from = o - c;
             let constant = from.length_squared() - r * r;
-            // Both, of which the surface's is the one across the curve.
+            // Of both roots, that of the surface is the one across the curve.
             let Some((near, far)) = quadratic(d.length_squared(), 2.0 * from.dot(d), constant)
             else {
                 return;

@@ -1,12 +1,12 @@
-//! Points chosen uniformly by area on a surface that a chart covers once.
+//! Uniform sampling by area on a surface that a chart covers once.
 //!
 //! ```text
 //! A = ∫₀¹ ∫₀¹ J du dv,   J(u, v) = |∂p/∂u × ∂p/∂v|
 //! ```
 //!
-//! u is chosen with the density m(u) = ∫ J dv, v with J(u, v) / m(u), both by inverting their integrals, so that the
-//! density per area is the same everywhere, whatever map has deformed the surface. In each of [`CELLS`]² cells J is a
-//! polynomial, cubic in u and in v, through its values at Gauss's points, which also give its integrals.
+//! u is sampled with the density m(u) = ∫ J dv, v with J(u, v) / m(u), both by inverting their integrals, so that the
+//! density per area is constant under any map of the surface. In each of [`CELLS`]² cells J is a polynomial, cubic in u
+//! and in v, through its values at Gauss points, which also give its integrals.
 
 use glam::DVec2;
 
@@ -53,7 +53,7 @@ fn cubic(values: [f64; GAUSS.len()]) -> [f64; GAUSS.len()] {
     })
 }
 
-/// Where in [0, 1] the integral from 0 of a cubic that is positive is `target`.
+/// The point in [0, 1] up to which the integral of a positive cubic is `target`.
 fn inverse(target: f64, [c0, c1, c2, c3]: [f64; GAUSS.len()]) -> f64 {
     let [mut low, mut high] = [0.0, 1.0];
     let mut x = 0.5;
@@ -100,12 +100,12 @@ struct Row {
     upto: [f64; CELLS],
 }
 
-/// Where node `index` is.
+/// The position of node `index`.
 fn node(index: usize) -> f64 {
     ((index / GAUSS.len()) as f64 + GAUSS[index % GAUSS.len()].0) / CELLS as f64
 }
 
-/// Integrals up to the end of each cell of what has these values at the nodes.
+/// Integrals, up to the end of each cell, of the function with these values at the nodes.
 fn integrals(values: &[f64; NODES]) -> [f64; CELLS] {
     let mut sum = 0.0;
     core::array::from_fn(|cell| {
@@ -147,7 +147,7 @@ impl Chart {
         let (cell, x) = placed(&self.upto, numbers.x, |cell, i| {
             rows(cell)[i].upto[CELLS - 1]
         });
-        // What a row has at u, by those around.
+        // The rows at u, interpolated.
         let rows = rows(cell);
         let [a, b, c, d] = BASIS.map(|[c0, c1, c2, c3]| ((c3 * x + c2) * x + c1) * x + c0);
         let at_u = |of: &dyn Fn(&Row) -> f64| {

@@ -10,7 +10,7 @@ use glam::{DVec2, DVec3};
 /// The face of the surface in the box; those of the box follow: low x, high x, low y, ….
 pub(crate) const CURVED: u32 = 0;
 
-/// How many faces that makes.
+/// The number of faces.
 pub(crate) const FACES: u32 = 7;
 
 /// A box.
@@ -41,7 +41,7 @@ impl ClipBox {
         Some(Self { low, high })
     }
 
-    /// Where a line enters and leaves the box, with the faces.
+    /// The entry and exit of a line, with the faces.
     pub(crate) fn cut(&self, line: &Line) -> Option<[(f64, u32); 2]> {
         let (mut first, mut last) = ((f64::NEG_INFINITY, 0), (f64::INFINITY, 0));
         for axis in 0..3 {

@@ -75,7 +75,7 @@ impl Cone {
         self.bottom + self.slope * z
     }
 
-    /// Where a line is inside: parameters and faces.
+    /// The interval of a line inside: parameters and faces.
     fn interval(&self, line: &Line) -> Option<[(f64, u32); 2]> {
         let Line {
             origin: o,
@@ -114,7 +114,7 @@ impl Cone {
                     last = (t1, SIDE);
                 }
             }
-            // … or what is outside of them, of which one part lies in the slab; a linear equation has one root.
+            // … or outside of them, of which one part lies in the slab; a linear equation has one root.
             Some((t0, t1)) => {
                 let in_slab = |t: f64| t > first.0 && t < last.0;
                 let linear = a == 0.0;

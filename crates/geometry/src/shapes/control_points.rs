@@ -16,7 +16,7 @@ pub struct ControlPoint {
 /// The points of a curve, and the number of the line that ends it.
 pub(crate) type Strand = (Vec<ControlPoint>, usize);
 
-/// What a file holds.
+/// The contents of a file.
 pub(crate) struct ControlPoints {
     /// The curves: none is empty.
     pub(crate) strands: Vec<Strand>,
@@ -24,7 +24,7 @@ pub(crate) struct ControlPoints {
     pub(crate) header: Option<String>,
 }
 
-/// Reads a file, or says what is wrong with it, and in which line.
+/// Reads a file; the error names the line.
 pub(crate) fn parse(bytes: &[u8]) -> Result<ControlPoints, String> {
     let text = String::from_utf8_lossy(bytes);
     let text = text.strip_prefix('\u{feff}').unwrap_or(&text);
@@ -75,7 +75,7 @@ pub(crate) fn fits(number: f64) -> bool {
     (number as f32).is_finite()
 }
 
-/// What a file holds, in words; `None` if it is no file of control points.
+/// A summary of a file; `None` if it is not a file of control points.
 pub fn summary(bytes: &[u8]) -> Option<String> {
     let file = parse(bytes).ok()?;
     let points = || file.strands.iter().flat_map(|(points, _)| points);

@@ -1,7 +1,7 @@
 //! Small convex meshes (boxes, panes) in double precision, for media that touch.
 //!
-//! The surfaces of two dielectrics may lie closer than the accelerator's single precision tells: water
-//! in a box of glass, panes that are cemented. Such meshes are intersected triangle by triangle with
+//! The surfaces of two dielectrics may be closer than the accelerator's single precision resolves: water
+//! in a box of glass, cemented panes. Such meshes are intersected triangle by triangle with
 //! the same watertight test (Woop, Benthin & Wald 2013), in double precision. A line crosses a
 //! convex mesh twice at most.
 
@@ -13,7 +13,7 @@ use glam::{DVec3, Vec2, Vec3};
 /// The most triangles for which this is worth while.
 const MOST: usize = 64;
 
-/// Where a line meets a triangle.
+/// The intersection of a line with a triangle.
 fn meet(corners: [DVec3; 3], origin: DVec3, direction: DVec3) -> Option<f64> {
     let [a, b, c] = corners.map(|p| p - origin);
     // A neighbour has exactly the opposite number at a common edge.

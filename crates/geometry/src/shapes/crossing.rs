@@ -1,4 +1,4 @@
-//! Where a line crosses the surface of a shape that intersects rays by a formula of its own.
+//! Crossings of a line with the surface of a shape that is intersected by a formula.
 
 use glam::{DVec2, DVec3};
 
@@ -39,12 +39,12 @@ impl Line {
 /// A crossing.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Crossing {
-    /// Where on the line.
+    /// The parameter on the line.
     pub t: f64,
     /// Whether the line goes into the volume that the surface bounds; of a surface that bounds none, whether it
     /// goes against the normal.
     pub enters: bool,
-    /// Which of the faces that the shape tells apart.
+    /// The face of the shape, for materials by face.
     pub face: u32,
     /// Whether the face's own surface is crossed the other way: it has been carved out of a solid.
     pub carved: bool,
@@ -65,7 +65,7 @@ impl Crossing {
         }
     }
 
-    /// Of two crossings of a convex solid in ascending order, NaN where there is none, the first beyond `after`.
+    /// The first beyond `after` of two crossings of a convex solid in ascending order, NaN if there is none.
     #[inline]
     pub(crate) fn of_convex([a, b]: [f64; 2], after: f64) -> Option<Self> {
         if a > after {

@@ -1,16 +1,16 @@
 //! `union`, `intersection`, `difference`: constructive solid geometry (A. Requicha, Representations for rigid solids,
 //! 1980; S. Roth, Ray casting for modeling solids, 1982).
 //!
-//! A line is inside of a closed operand on intervals; whether it is inside of the whole follows from the states of
-//! the operands. Walking from crossing to crossing of either operand, the whole is crossed where its state changes:
+//! A line is inside a closed operand on intervals; whether it is inside the whole follows from the states of the
+//! operands. Walking from crossing to crossing of either operand, the whole is crossed where its state changes:
 //!
 //! ```text
 //! union: a ∨ b        intersection: a ∧ b        difference: a ∧ ¬b
 //! ```
 //!
-//! Crossings that lie closer than rounding tells are passed together, so that coincident faces of touching operands
-//! vanish. Nothing is kept between crossings: the state after a place is told by the next crossing, which leaves what
-//! one is inside of.
+//! Crossings closer than rounding resolves are passed together, so that coincident faces of touching operands vanish. No
+//! state is kept between crossings: whether a point is inside an operand follows from its next crossing, which leaves
+//! the operand if so.
 //!
 //! As a light, points are chosen uniformly over the area ΣA of all operands; one that is not on the boundary of the
 //! whole counts as zero, so that the density on the boundary is exactly 1/ΣA.
@@ -23,14 +23,14 @@ use crate::shapes::model::ShapeModel;
 use etalon_transport::SurfacePoint;
 use glam::{DVec3, Vec2};
 
-/// What is made of two solids.
+/// The operation on two solids.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Operation {
-    /// What is in one of them.
+    /// Points in either.
     Union,
-    /// What is in both.
+    /// Points in both.
     Intersection,
-    /// What is in the first and not in the second.
+    /// Points in the first and not in the second.
     Difference,
 }
 
@@ -149,7 +149,7 @@ impl Tree {
                             ahead[i] = operands[i].next(line, met.t);
                             last = Some(met);
                         }
-                        // Of coincident faces, the first operand's.
+                        // Among coincident faces, the first operand's.
                         if inside[i] != was && changed.is_none() {
                             changed = last;
                         }

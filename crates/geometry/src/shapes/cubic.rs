@@ -7,7 +7,7 @@
 use core::ops::{Add, Mul, Sub};
 use glam::DVec2;
 
-/// What a curve goes through: points of a plane or of space, numbers.
+/// The values of a curve: points of a plane or of space, numbers.
 pub(crate) trait Vector:
     Copy + Default + PartialEq + Add<Output = Self> + Sub<Output = Self> + Mul<f64, Output = Self>
 {
@@ -97,7 +97,7 @@ impl Profile {
         &self.pieces
     }
 
-    /// Where it begins and ends.
+    /// Its end points.
     pub(crate) fn ends(&self) -> [DVec2; 2] {
         [self.pieces[0].0[0], self.pieces[self.pieces.len() - 1].0[3]]
     }
@@ -113,7 +113,7 @@ impl Profile {
         self.boxes[0]
     }
 
-    /// How far along the whole is the place `s` of a piece, from 0 to 1.
+    /// The parameter along the whole, from 0 to 1, of the place `s` of a piece.
     pub(crate) fn part(&self, index: usize, s: f64) -> f64 {
         (index as f64 + s) / self.pieces.len() as f64
     }

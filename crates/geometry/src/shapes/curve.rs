@@ -29,7 +29,7 @@ use etalon_params::Params;
 use etalon_transport::MeshData;
 use glam::{DVec2, DVec3};
 
-/// How finely a curve is followed.
+/// The resolution of a curve.
 #[derive(Clone, Copy, Debug)]
 struct Fineness {
     /// Facets around.
@@ -37,21 +37,21 @@ struct Fineness {
 }
 
 impl Fineness {
-    /// How far a chord may be from the curve, in parts of the width.
+    /// The largest distance of a chord from the curve, as a share of the width.
     fn off(self) -> f64 {
         0.5 * (1.0 - cos(PI / self.sides as f64))
     }
 
-    /// How far the tangent may turn from one joint to the next (radians).
+    /// The largest turn of the tangent from one joint to the next (radians).
     fn turn(self) -> f64 {
         2.0 * PI / self.sides as f64
     }
 }
 
-/// How an open curve ends.
+/// The caps of an open curve.
 #[derive(Clone, Copy, Debug, PartialEq)]
 enum Ends {
-    /// Where the points end.
+    /// Flat caps at the end points.
     Flat,
     /// Half a ball, or half a disk, beyond.
     Round,

@@ -1,8 +1,7 @@
-//! Curves from files, as hair is made of: what `linearcurve` and `bsplinecurve` share.
+//! Curves from files, such as hair: the common part of `linearcurve` and `bsplinecurve`.
 //!
-//! Points are placed by `to_world`,
-//! radii are lengths in the world whatever it scales. Each segment is a primitive of its own. Curves are seen from
-//! outside only, as in Mitsuba, and are no lights.
+//! `to_world` maps points; radii are world lengths and not scaled. Each segment is a primitive. Curves are seen from
+//! outside only, as in Mitsuba, and cannot be lights.
 
 use crate::local_interaction::LocalInteraction;
 use crate::placement::Placement;
@@ -26,13 +25,13 @@ pub struct CurvePoint {
     pub normal: DVec3,
     /// The unit vector along the axis.
     pub tangent: DVec3,
-    /// How the surface moves with the parameter.
+    /// Derivative of the surface by the parameter.
     pub along: DVec3,
 }
 
 /// A piece of a curve.
 pub trait Segment: Sized {
-    /// How many control points make one.
+    /// Number of control points of a segment.
     const POINTS: usize;
 
     /// The segment of so many control points, one after another.
@@ -74,7 +73,7 @@ impl<S: Segment> Curves<S> {
         Self::new(&file, &placement?).map_err(refuse).ok()
     }
 
-    /// Curves through control points, or what is wrong with these, and in which line.
+    /// Curves through control points; the error names the line.
     fn new(file: &ControlPoints, placement: &Placement) -> Result<Self, String> {
         let mut segments = Vec::new();
         for (points, end) in &file.strands {

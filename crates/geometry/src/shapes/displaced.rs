@@ -4,10 +4,9 @@
 //! p'(u, v) = p(u, v) + h(u, v) n(u, v)
 //! ```
 //!
-//! Cook (1984), *Shade Trees*: unlike a bump or normal map it moves the outline, too. A shape that knows its points by (u, v)
-//! becomes a net, a mesh has its edges halved, until no edge is longer than asked; halving an edge depends on
-//! the edge alone, so that neighbours stay joined. Vertices at one place, as along the seam of a sphere, move together,
-//! by the mean of what they are asked to.
+//! Cook (1984), *Shade Trees*: unlike a bump or normal map it changes the outline. A shape with a parametrisation becomes a
+//! net; a mesh has its edges bisected until none is longer than `edge_length`. Bisection depends on the edge alone, so that
+//! neighbours stay joined. Coincident vertices, as along the seam of a sphere, move together, by their mean displacement.
 
 use crate::shapes::Shape;
 use crate::shapes::mesh::{Mesh, MeshOptions, computed_normals};
@@ -260,7 +259,7 @@ fn original(data: &MeshData, vertex: usize) -> usize {
     (vertex.checked_sub(originals)).map_or(vertex, |copy| data.copies[copy] as usize)
 }
 
-/// Where the vertices go.
+/// The displaced positions of the vertices.
 fn moved(data: &MeshData, height: impl Fn(Vec3, Vec2) -> f32) -> Vec<Vec3> {
     let originals = data.positions.len() - data.copies.len();
     let original = |vertex: usize| original(data, vertex);

@@ -1,9 +1,8 @@
 //! `extrusion`: a curve (x(s), y(s)) along the z axis, from 0 to the height h, with flat ends if it is closed.
 //!
 //! The line o + t·d lies in the upright plane n·(p − o) = 0, n = (−dy, dx, 0), which the curve meets where the cubic
-//! n·(c(s) − o) = 0; there t = ((c(s) − o)·(dx, dy)) / (dx² + dy²). Changes of sign are isolated in Bernstein form. An end
-//! is part of the solid where the line has met the curve an odd number of times before it. A curve that crosses itself
-//! bounds what it goes around an odd number of times.
+//! n·(c(s) − o) = 0; there t = ((c(s) − o)·(dx, dy)) / (dx² + dy²). Changes of sign are isolated in Bernstein form. A point
+//! of an end is part of the solid by the even-odd rule, which also applies to curves that cross themselves.
 
 use crate::shapes::crossing::{Crossing, Line};
 use crate::shapes::cubic::Profile;

@@ -17,17 +17,17 @@ use glam::DVec3;
 /// A function of a point.
 #[derive(Clone, Debug)]
 pub(crate) enum Field {
-    /// Of x, y and z.
+    /// A function of x, y and z.
     Space(Expression),
-    /// Of x and y, whatever z.
+    /// A function of x and y, constant in z.
     Extrusion(Expression),
-    /// Of the distance from the z axis, x, and z, called y.
+    /// A function of the distance from the z axis, called x, and z, called y.
     Revolution(Expression),
     /// With the exponents e and n.
     Superellipsoid(f64, f64),
-    /// Of a threshold.
+    /// A threshold, and balls.
     Blob(f64, Vec<Ball>),
-    /// Of c, w and n.
+    /// c, w and n.
     Julia([f64; 4], f64, u32),
 }
 
@@ -93,7 +93,7 @@ impl Field {
         }
     }
 
-    /// Reads the `function` of an `implicit`, and what it is of: `profile` (`none`, `revolution` or `extrusion`).
+    /// Reads the `function` of an `implicit`, and its variables: `profile` (`none`, `revolution` or `extrusion`).
     pub(crate) fn expression(params: &Params<'_>) -> Option<Self> {
         if !params.has("function") {
             params.missing("function", "an expression of x, y and z");

@@ -74,7 +74,7 @@ fn read(
     }
 }
 
-/// What to say of a file that can be used.
+/// Notes on a file that can be used.
 fn notes(data: &MeshData, face_normals: bool) -> Vec<String> {
     let mut notes = data.notes.clone();
     if data.triangles.is_empty() {

@@ -7,15 +7,15 @@
 //! F = f(o + [a, b]·d) ∩ (f(m) + F′·([a, b] − m)),   F′ ∋ d/dt f on [a, b],   m the middle
 //! ```
 //!
-//! and passed over if F has no zero. If F′ has none, there is one crossing where the signs at a and b differ, and none
-//! where they agree; it is found to the last digits. Otherwise the piece is halved, until it is shorter than
-//! `feature`: then the signs decide. Nothing is missed but what a line is in for less than `feature`. Poles, and
-//! where f is not defined (outside), widen the interval to everything.
+//! and skipped if F has no zero. If F′ has none, there is one crossing if the signs at a and b differ, and none if they
+//! agree; it is found to the last digits. Otherwise the piece is halved, until it is shorter than `feature`: then the
+//! signs decide. Only parts that a line crosses within less than `feature` can be missed. Poles, and points where f is
+//! not defined (outside), widen the interval to everything.
 //!
-//! **`march`**: f is looked at every `step`, and a crossing is where its sign has changed. What a line is in for less
-//! than a step may be missed: thin parts fray, and outlines shrink by about step²/8 times the curvature.
+//! **`march`**: f is evaluated every `step`, and a crossing is where its sign has changed. Parts that a line crosses
+//! within less than a step may be missed: thin parts fray, and outlines shrink by about step²/8 times the curvature.
 //!
-//! Both cut the same line in the same way whatever else is asked, so that crossings alternate between in and out.
+//! Both cut a line in the same way for every query, so that crossings alternate between in and out.
 
 use crate::shapes::clip_box::{CURVED, ClipBox, FACES};
 use crate::shapes::crossing::{Crossing, Line};
@@ -28,16 +28,16 @@ use etalon_math::expression::Number;
 use etalon_params::Params;
 use glam::DVec3;
 
-/// How crossings are found.
+/// The method of finding crossings.
 #[derive(Clone, Copy, Debug, PartialEq)]
 enum Method {
-    /// By intervals, down to this length (m, in the shape's own space).
+    /// Interval arithmetic, down to this length (m, in the shape's own space).
     Certified(f64),
     /// In steps of this length.
     March(f64),
 }
 
-/// Where a function vanishes.
+/// The zero set of a function.
 #[derive(Clone, Debug)]
 pub struct Implicit {
     field: Field,

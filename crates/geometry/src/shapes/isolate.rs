@@ -12,18 +12,18 @@ pub(crate) trait OneParameter {
     /// Its value in any arithmetic.
     fn eval<N: Number>(&self, s: N) -> N;
 
-    /// Whether s lies inside; what is not defined is outside.
+    /// Whether s lies inside; an undefined value is outside.
     #[inline]
     fn is_inside(&self, s: f64) -> bool {
         self.eval(s) < 0.0
     }
 }
 
-/// Calls `visit` with every s in [`first`, `last`] where `f` changes its sign, in ascending order, and with whether
-/// it is negative before; until told to break. Pieces that `skip` names are passed over. Changes in a piece shorter
-/// than `smallest` that undo each other are missed, and nothing else.
+/// Calls `visit` with every s in [`first`, `last`] where `f` changes its sign, in ascending order, and with whether `f`
+/// is negative before, until `visit` breaks. Pieces for which `skip` is true are skipped. Only pairs of changes in a
+/// piece shorter than `smallest` are missed.
 ///
-/// Pieces are cut in the same way whatever is skipped, so that the same change has always the same bits.
+/// The subdivision does not depend on `skip`, so that a change always has the same bits.
 pub(crate) fn sign_changes<F: OneParameter, R>(
     f: &F,
     (first, last): (f64, f64),
@@ -115,7 +115,7 @@ mod tests {
     use super::*;
     use core::cell::Cell;
 
-    /// √(s − ¾) − ¼, which is defined from ¾ on, and vanishes at 13/16; and how often it is asked.
+    /// √(s − ¾) − ¼, which is defined from ¾ on and vanishes at 13/16; counts its evaluations.
     struct Root(Cell<u32>);
 
     impl OneParameter for Root {
@@ -125,7 +125,7 @@ mod tests {
         }
     }
 
-    /// What is undefined is one piece, not as many as are short enough.
+    /// An undefined interval is one piece; it is not subdivided down to the shortest.
     #[test]
     fn a_piece_that_is_undefined_everywhere_is_passed_over() {
         let root = Root(Cell::new(0));

@@ -59,7 +59,7 @@ impl Segment for RoundCone {
         let start = (middle - line.origin).dot(d) / d.length_squared();
         let o = line.at(start);
         let (a, b, slant) = (self.axis(), self.growth(), self.squared_slant());
-        // Where a ball is entered.
+        // The entry into a ball.
         let ball = |end: &ControlPoint| {
             let from = o - end.position;
             let c = from.length_squared() - end.radius * end.radius;

@@ -1,4 +1,4 @@
-//! Lengths along a curve, weighted by what it is swept along, and points chosen uniformly by them.
+//! Weighted arc length of a curve, and uniform sampling by it, for surfaces swept from the curve.
 //!
 //! ```text
 //! A = ∫ w(c(s)) |c′(s)| ds
@@ -46,7 +46,7 @@ impl Lengths {
         lengths
     }
 
-    /// Of all.
+    /// The total.
     pub(crate) fn total(&self) -> f64 {
         self.upto[self.upto.len() - 1]
     }

@@ -21,10 +21,10 @@ use etalon_transport::{Attribute, MeshData};
 use glam::{DVec3, Vec2, Vec3};
 use std::sync::OnceLock;
 
-/// How a mesh is read.
+/// The options of a mesh.
 #[derive(Clone, Copy, Debug)]
 pub struct MeshOptions {
-    /// Where it stands.
+    /// Its placement.
     pub placement: Placement,
     /// Shade with the triangles' own normals.
     pub face_normals: bool,
@@ -63,7 +63,7 @@ pub struct Mesh {
 }
 
 impl Mesh {
-    /// Places a mesh; says what is wrong with data that no surface can have.
+    /// Places a mesh; an error for invalid data.
     pub fn new(mut data: MeshData, options: &MeshOptions) -> Result<Self, String> {
         check(&data)?;
         for uv in data.uvs.iter_mut().filter(|uv| !uv.is_finite()) {
@@ -110,7 +110,7 @@ impl Mesh {
         self
     }
 
-    /// The mesh as it stands in the world, wound so that corners turn counter-clockwise as seen from outside.
+    /// The mesh in world space, wound counter-clockwise as seen from outside.
     pub(crate) fn data(&self) -> MeshData {
         let mut triangles = self.triangles.clone();
         for (primitive, triangle) in (0..).zip(&mut triangles) {
@@ -162,7 +162,7 @@ impl Mesh {
         self.at_corners(&self.positions, primitive)
     }
 
-    /// What `of` has for the corners of a triangle.
+    /// The elements of `of` for the corners of a triangle.
     #[inline(always)] // One by one: `map` over arrays is not reliably inlined.
     fn at_corners<T: Copy>(&self, of: &[T], primitive: u32) -> [T; 3] {
         let [a, b, c] = self.triangles[primitive as usize];
@@ -179,7 +179,7 @@ impl Mesh {
         self.by_area().map_or(0.0, AliasTable::total)
     }
 
-    /// The triangles weighted by area; `None` if there is no area. Made when first asked for.
+    /// The distribution of triangles by area, built at first use; `None` if there is no area.
     pub(crate) fn by_area(&self) -> Option<&AliasTable> {
         self.by_area
             .get_or_init(|| {
@@ -294,7 +294,7 @@ impl Mesh {
         Some(a0 * (1.0 - b.x - b.y) + a1 * b.x + a2 * b.y)
     }
 
-    /// What is stored on its vertices and faces.
+    /// The attributes of its vertices and faces.
     pub fn attributes(&self) -> &[Attribute] {
         &self.attributes
     }
@@ -345,7 +345,7 @@ fn place_normals(normals: &mut [Vec3], data: &MeshData, placement: &Placement) {
     }
 }
 
-/// What no surface can have.
+/// An error for invalid data.
 fn check(data: &MeshData) -> Result<(), String> {
     let count = data.positions.len();
     if let Some(i) = data.positions.iter().position(|p| !p.is_finite()) {

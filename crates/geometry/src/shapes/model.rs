@@ -1,4 +1,4 @@
-//! What a shape is asked, with the answers that most of them share.
+//! The methods of a shape, with defaults that most of them share.
 
 use crate::local_interaction::LocalInteraction;
 use crate::shapes::crossing::{Crossing, Line};
@@ -22,8 +22,7 @@ pub(crate) trait ShapeModel {
         None
     }
 
-    /// The number of its pieces, each of which an accelerator keeps in a box of its own, if they are intersected by
-    /// a formula.
+    /// Number of pieces with a bounding box each, if they are intersected by a formula.
     fn pieces(&self) -> u32 {
         1
     }
@@ -67,7 +66,7 @@ pub(crate) trait ShapeModel {
         false
     }
 
-    /// How many faces it tells apart, see [`Crossing::face`].
+    /// Number of faces, see [`Crossing::face`].
     fn faces(&self) -> u32 {
         1
     }
@@ -94,7 +93,7 @@ pub(crate) trait ShapeModel {
         DirectionCone::ALL
     }
 
-    /// Makes now what sampling would make when first asked.
+    /// Builds the tables for sampling now instead of at first use.
     fn prepare_sampling(&self) {}
 
     /// Whether it may be a light: whether points of it can be sampled.

@@ -65,7 +65,7 @@ pub trait OwnShape {
         false
     }
 
-    /// How many charts cover the whole surface once, each without kinks; 0 if points of it are not known by charts.
+    /// Number of smooth charts that cover the surface once; 0 if it has none.
     fn charts(&self) -> usize {
         0
     }
@@ -92,11 +92,11 @@ pub struct Placed<S> {
     placement: Placement,
     shape: S,
     inward: bool,
-    /// The factor by which the map scales all lengths, if there is one.
+    /// The uniform scale of the map, if it has one.
     scale: Option<f64>,
-    /// What a crossing found in double precision errs by (m), where a coordinate is near 0.
+    /// Error of a crossing in double precision (m), where a coordinate is near 0.
     rounding: f32,
-    /// How points are chosen in the world where the shape's own way does not do; made when first asked for.
+    /// Charts for sampling in world space if the shape's own sampling does not apply; built at first use.
     charts: OnceLock<Box<[Chart]>>,
 }
 

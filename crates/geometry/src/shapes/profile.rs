@@ -10,13 +10,13 @@ use etalon_math::Dual;
 use etalon_params::Params;
 use glam::DVec2;
 
-/// How far the pieces are from a curve of expressions, in parts of its size.
+/// Tolerance of the pieces to a curve of expressions, relative to its size.
 const CLOSE: f64 = 1e-7;
 
 /// The most pieces of a curve of expressions: halvings of each of the first eight.
 const DEEPEST: u32 = 10;
 
-/// Reads `curve` (`linear`, `bezier`, `catmullrom` or `parametric`) and what it is made of.
+/// Reads `curve` (`linear`, `bezier`, `catmullrom` or `parametric`) and its points or formulas.
 pub(crate) fn from_params(params: &Params<'_>) -> Option<Profile> {
     let curves = ["linear", "bezier", "catmullrom", "parametric"];
     match params.choice("curve", "linear", &curves) {

@@ -20,7 +20,7 @@ use glam::{DMat3, DVec2, DVec3};
 /// A quadric in a box.
 #[derive(Clone, Copy, Debug)]
 pub struct Quadric {
-    /// Of second degree: the symmetric matrix.
+    /// The symmetric matrix of the second-degree terms.
     matrix: DMat3,
     linear: DVec3,
     constant: f64,

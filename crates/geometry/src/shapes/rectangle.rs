@@ -37,7 +37,7 @@ pub struct Rectangle {
     right_angled: bool,
 }
 
-/// How a receiver sees the rectangle.
+/// The receiver's view of the rectangle.
 enum View {
     Far(RectangleView),
     Near(SphericalRectangle),
@@ -116,7 +116,7 @@ impl Rectangle {
     /// The point with texture coordinates `uv`.
     #[inline]
     pub(crate) fn at(&self, uv: Vec2) -> SurfacePoint {
-        // Where it falls cannot be foreseen, so a branch would cost more.
+        // The branch would be unpredictable.
         let first = BVec2::splat(uv.x + uv.y <= 1.0);
         let position = self.corner + self.edges[0] * uv.x + self.edges[1] * uv.y;
         SurfacePoint {

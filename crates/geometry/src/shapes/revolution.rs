@@ -47,7 +47,7 @@ pub struct Revolution {
 /// No t is larger, so that its products with zero are zero.
 const MOST: f64 = 1e300;
 
-/// The shortest part of a piece in which zeros are told apart.
+/// Resolution of zeros, as a share of a piece.
 const SMALLEST: f64 = 1e-9;
 
 /// Lines with dz² below this part of A lie across the axis.
@@ -68,7 +68,7 @@ impl Turned {
         self.b * self.b - self.a * (self.c - r * r)
     }
 
-    /// Where the line meets a circle that it does meet.
+    /// The parameter of the line at a circle that it meets.
     fn t(&self, circle: DVec2) -> f64 {
         let steep = (circle.y - self.o.z) / self.d.z;
         let root = self.beyond(circle.x).max(0.0).sqrt();

@@ -1,4 +1,4 @@
-//! `sdfgrid`: where numbers on a grid, interpolated, are 0; the solid is where they are negative.
+//! `sdfgrid`: the zero set of a trilinearly interpolated grid; the solid is where it is negative.
 //!
 //! Between the eight corners of a cell the function is trilinear. Along a line from p to q in a cell it is a cubic,
 //! whose Bernstein coefficients are means of its values at points with coordinates of p and q mixed,
@@ -248,7 +248,7 @@ impl OwnShape for SdfGrid {
             direction: line.direction * resolution,
         };
         let (o, d) = (line.origin, line.direction);
-        // Where the line is in the grid.
+        // The interval of the line in the grid.
         let (mut t, mut end) = (f64::NEG_INFINITY, f64::INFINITY);
         let mut entered = None;
         for axis in 0..3 {

@@ -148,7 +148,7 @@ impl ShapeModel for Sphere {
         Some(self.surface(normal).whole())
     }
 
-    /// By solid angle from outside, by area from inside.
+    /// Samples by solid angle from outside, by area from inside.
     fn sample_toward(&self, from: &LightSampleContext, u: Vec2) -> Option<SampledPoint> {
         let Some(cone) = self.cone(from.position) else {
             let point = self.sample_area(u)?;
@@ -163,8 +163,8 @@ impl ShapeModel for Sphere {
 
     fn density_toward(&self, from: &LightSampleContext, at: &SurfacePoint) -> f32 {
         match self.cone(from.position) {
-            // From outside, only the near side is ever chosen. The normal tells it even where the
-            // position is rounded by more than the radius.
+            // From outside, only the near side is sampled. The normal identifies it even if the position is
+            // rounded by more than the radius.
             Some(cone) => {
                 let outward = if self.inward { -at.normal } else { at.normal };
                 let near = outward.dot(from.position - at.position) >= 0.0;

@@ -69,7 +69,7 @@ impl Torus {
         let radius = self.major + self.minor * cos_v;
         let normal = DVec3::new(cos_v * cos_u, cos_v * sin_u, sin_v);
         let turns = |angle: f64| (angle / TAU).rem_euclid(1.0);
-        // How much of the circle around the tube there is.
+        // The existing share of the circle around the tube.
         let share = self.widest / PI;
         OwnPoint {
             position: DVec3::new(self.major * cos_u, self.major * sin_u, 0.0) + normal * self.minor,

@@ -9,8 +9,8 @@ use rayon::prelude::*;
 /// Triangles whose angles are taken at once, on all threads.
 const AT_ONCE: usize = 1 << 16;
 
-/// One unit normal per position; zero where no triangle has area. Sums are taken in the order of
-/// the triangles, whatever the number of threads.
+/// One unit normal per position; zero where no triangle has area. Sums are in the order of the
+/// triangles for any number of threads.
 pub(crate) fn vertex_normals(positions: &[Vec3], triangles: &[[u32; 3]]) -> Vec<Vec3> {
     let mut sums = vec![DVec3::ZERO; positions.len()];
     for triangles in triangles.chunks(AT_ONCE) {

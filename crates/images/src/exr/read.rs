@@ -149,7 +149,7 @@ fn decompress(
             .collect();
         drop(sender);
         let inserted = receiver.into_iter().try_for_each(|block| insert(block?));
-        // Each must be joined: a panic nobody has looked at would go on beyond the scope.
+        // Join each: the panic of a thread that is not joined would propagate from the scope.
         let panics = workers
             .into_iter()
             .filter_map(|worker| worker.join().err())

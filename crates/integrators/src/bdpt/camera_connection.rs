@@ -48,7 +48,7 @@ impl<W: World> Connector<'_, '_, W> {
             self.world
                 .transmittance(&ray, self.wavelengths, crossings)?
         };
-        // The camera's weight is per area across the ray, whatever the distance.
+        // The camera's weight is per area across the ray, at any distance.
         let ends = EndPdfs {
             here: passage.probability * connection.weight * light.per_area(direction, 1.0),
             before: self.behind(start, light, direction),

@@ -1,4 +1,4 @@
-//! The techniques: what each adds, and what it is weighed against.
+//! The techniques: their contributions and their MIS weights.
 
 use super::from_light::FromLight;
 use super::merge::Merging;
@@ -33,7 +33,7 @@ pub(super) struct Connector<'a, 'w, W: World> {
     pub(super) world: &'w W,
     pub(super) wavelengths: &'a Wavelengths,
     pub(super) settings: &'a PathSettings,
-    /// The only technique that is asked for, if not all are.
+    /// The only technique to evaluate, if not all.
     pub(super) only: Option<Technique>,
     pub(super) site: &'a PixelSample,
     /// The aperture position of the camera's walk.
@@ -45,20 +45,20 @@ pub(super) struct Connector<'a, 'w, W: World> {
     pub(super) camera_connects: bool,
     /// The photons to merge with, if any.
     pub(super) merging: Option<&'a Merging>,
-    /// What was found at the pixel, per lane.
+    /// Radiance at the pixel, per lane.
     pub(super) radiance: Vec4,
 }
 
 impl<'w, W: World> Connector<'_, 'w, W> {
-    /// Density per area, across the ray, of what the camera sees at `point`; zero if a light path
-    /// that arrives there could not be connected to it.
+    /// Density of camera rays at `point` per area across the ray; zero if a light path there cannot be
+    /// connected to the camera.
     pub(super) fn camera_density(&self, point: &SurfaceInteraction) -> f32 {
         let camera = self.world.camera();
         let seen = camera.connect(point.position, self.lens, point.time, self.site.margin);
         seen.map_or(0.0, |connection| connection.weight)
     }
 
-    /// Whether a technique is to be weighed against the others; `None` if it is not asked for.
+    /// Whether a technique has an MIS weight; `None` if it is not evaluated.
     pub(super) fn wanted(&self, light: usize, camera: usize) -> Option<bool> {
         match self.only {
             None => Some(true),
@@ -66,7 +66,7 @@ impl<'w, W: World> Connector<'_, 'w, W> {
         }
     }
 
-    /// Vertices of the light's walk up to a corner, the light included.
+    /// Number of vertices of the light subpath up to this one, including the light.
     pub(super) fn vertices(&self, index: usize) -> usize {
         let parents = |corner: &usize| self.light[*corner].parent;
         1 + core::iter::successors(Some(index), parents).count()

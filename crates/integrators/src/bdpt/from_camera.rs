@@ -68,7 +68,7 @@ impl FromCamera {
         }
     }
 
-    /// Goes on to the next surface; whether there is more.
+    /// Advances to the next vertex; whether the subpath continues.
     pub(super) fn advance<'w, W: World>(
         &mut self,
         world: &'w W,

@@ -13,7 +13,7 @@ use glam::{Vec3, Vec4};
 
 /// A particle's start, and what its first corner's neighbours say of it.
 pub(super) struct FromLight {
-    /// What was emitted.
+    /// The emission.
     pub(super) emission: Emission,
     /// Density with which a walk from the camera arrives at the light from the first corner, per lane; known
     /// once the particle has left that.

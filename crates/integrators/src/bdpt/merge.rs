@@ -24,7 +24,7 @@ pub(super) const FACING: f32 = 0.7;
 /// A corner of a walk from the light, without its scattering model.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Photon {
-    /// Where (m).
+    /// Position (m).
     pub(super) position: Vec3,
     /// Unit geometric normal there.
     pub(super) normal: Vec3,
@@ -46,16 +46,16 @@ pub(crate) struct Photon {
     pub(super) segments: u32,
 }
 
-/// What is merged.
+/// The parameters of merging.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Terms {
     /// r, within which photons are merged (m).
     pub(crate) radius: f32,
-    /// n, the walks from lights.
+    /// n, the number of light subpaths.
     pub(crate) count: u32,
-    /// Whether there are connections, too, and lights run into where merging could find them.
+    /// Whether there are connections as well, and light hits where merging could find the same paths.
     pub(crate) connections: bool,
-    /// The moment of all walks.
+    /// The time of all subpaths.
     pub(crate) time: f32,
 }
 

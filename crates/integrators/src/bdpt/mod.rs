@@ -86,7 +86,7 @@ impl Bidirectional {
         }
     }
 
-    /// What a sample starts with.
+    /// The start of a sample.
     fn start<W: World>(
         &self,
         world: &W,
@@ -105,20 +105,20 @@ impl Bidirectional {
     }
 }
 
-/// What a sample starts with.
+/// The start of a sample.
 pub(crate) struct Start<'a> {
     pub(crate) settings: &'a PathSettings,
-    /// The only technique that is asked for, if not all are.
+    /// The only technique to evaluate, if not all.
     pub(crate) only: Option<Technique>,
     pub(crate) wavelengths: Wavelengths,
-    /// The camera's ray, and what it counts.
+    /// The camera's ray; `weight` is its weight.
     pub(crate) ray: Ray,
     pub(crate) weight: f32,
     /// The photons to merge with, if any.
     pub(crate) merging: Option<&'a Merging>,
 }
 
-/// One sample; the lists are only lent, so that they need not be made anew.
+/// Draws one sample; the lists are lent for reuse of their memory.
 pub(crate) fn estimate<'w, W: World, S: Sampler, K: Sink>(
     world: &'w W,
     begin: &Start<'_>,

@@ -77,8 +77,8 @@ impl<B> PathVertex<B> {
         LightSampleContext::new(&self.vertex, self.wo, &self.bsdf).combined()
     }
 
-    /// What makes of a density per solid angle, seen from `distance_squared` away along `direction`, the density of
-    /// arriving here if nothing is in between, per lane: per area of a surface, per volume of a medium.
+    /// The factor from a density per solid angle, at the squared distance `distance_squared` along `direction`, to the density
+    /// of arriving here unoccluded, per lane: per area of a surface, per volume of a medium.
     #[inline]
     pub(super) fn per_area(&self, direction: Vec3, distance_squared: f32) -> Vec4
     where
@@ -95,15 +95,14 @@ impl<B> PathVertex<B> {
     }
 }
 
-/// What makes of the probability of a discrete direction `wi`, seen from `wo` with `eta` the index
-/// entered over the index left, a density along it, and of the same probability one along the way back: two
-/// numbers whose quotient, η² cos θᵢ / cos θₒ, is that of the two Dirac functions, each per unit solid
-/// angle, see [`crate::bdpt`]. They stand in every density of a path once, so that nothing else matters
-/// of them.
+/// Pseudo-densities of the discrete direction `wi` seen from `wo`, forward and back, as factors on its
+/// probability; `eta` is the index entered over the index left. Each occurs once in every density of a
+/// path, so only their quotient η² cos θᵢ / cos θₒ matters: that of the two Dirac functions per unit
+/// solid angle, see [`crate::bdpt`].
 ///
-/// The cosines are those about the normal that turned the direction, ωₒ + η ωᵢ. That of the surface is
-/// another where normals are interpolated or mapped; with it a technique that finds a path with little
-/// density would pass for a good one, and leave single samples as bright as it can make them.
+/// The cosines are those about the normal that refracted the direction, ωₒ + η ωᵢ. The surface normal
+/// differs from it where normals are interpolated or mapped; its cosines would give a technique of low
+/// density a large MIS weight, and leave fireflies.
 #[inline]
 fn discrete(wo: Vec3, wi: Vec3, eta: f32) -> [f32; 2] {
     // Reflected or passed straight: solid angles are kept.

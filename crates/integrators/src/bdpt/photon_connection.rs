@@ -13,12 +13,12 @@ impl<'w, W: World> Connector<'_, 'w, W> {
         self.merging.map_or(0.0, |merging| merging.terms.area())
     }
 
-    /// One if there are techniques that connect, and zero if merging is asked for alone.
+    /// 1 if there are techniques that connect, 0 if there is only merging.
     pub(super) fn connections(&self) -> f32 {
         (self.merging).map_or(1.0, |merging| merging.terms.connections())
     }
 
-    /// Merges the camera walk's corner with the photons around it.
+    /// Merges the camera subpath's vertex with the photons around it.
     pub(super) fn merge(&mut self, corner: &Corner<'w, W>, eye: &[Corner<'w, W>]) {
         let Some(merging) = self.merging.filter(|_| corner.merges()) else {
             return;

@@ -31,7 +31,7 @@ impl<B> Default for Lists<B> {
     }
 }
 
-/// Samples a technique; `found` is told where its contributions land, and their colours.
+/// Samples a technique; `found` receives the positions and colours of its contributions.
 pub(crate) fn sample<'w, W: World, S: Sampler>(
     world: &'w W,
     settings: &PathSettings,

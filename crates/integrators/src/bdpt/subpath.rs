@@ -1,4 +1,4 @@
-//! What walks from the camera and from a light share: the state between corners, and how the next one is found.
+//! The common part of subpaths from camera and light: the state between vertices, and the next vertex.
 
 use super::path_vertex::{Corner, PathVertex};
 use crate::steps::arrival;
@@ -19,7 +19,7 @@ pub(super) fn light_event(index: u32) -> u32 {
     2 * index + 1
 }
 
-/// What a walk carries from one corner to the next.
+/// The state of a subpath from one vertex to the next.
 pub(super) struct SubpathState {
     pub(super) ray: Ray,
     pub(super) prefix: PathThroughput,
@@ -31,7 +31,7 @@ pub(super) struct SubpathState {
     pub(super) segments: u32,
 }
 
-/// What a walk comes to.
+/// The next vertex of a subpath.
 pub(super) struct Met<'w, W: World + 'w> {
     pub(super) vertex: SurfaceInteraction,
     pub(super) bsdf: ScattererOf<'w, W>,

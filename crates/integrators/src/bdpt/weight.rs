@@ -16,7 +16,7 @@
 use super::path_vertex::PathVertex;
 use glam::Vec4;
 
-/// What the end of a walk from the light knows of the techniques.
+/// The densities at the end of a light subpath that its techniques need.
 #[derive(Clone, Copy)]
 pub(super) struct EndPdfs {
     /// Density of the other walk arriving at this end.
@@ -100,7 +100,7 @@ pub(super) fn fewer<B>(
 pub(super) struct CameraEnd {
     /// Whether the camera walk's first corner can be connected to the camera.
     pub(super) connects: bool,
-    /// How many samples can make a connection with the camera.
+    /// Number of samples that can connect to the camera.
     pub(super) samples: f32,
     /// Whether techniques without merging take part, as a number: one, or zero.
     pub(super) connections: f32,

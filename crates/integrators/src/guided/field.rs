@@ -43,7 +43,7 @@ pub(crate) fn face(normal: Vec3) -> usize {
     2 * axis + usize::from(normal[axis] < 0.0)
 }
 
-/// Where light comes from, for surfaces that look to each side; `None` where nothing was learned.
+/// Incident radiance by the side that a surface faces; `None` if nothing was learned.
 pub(crate) type Lobes = [Option<Quadtree>; FACES];
 
 /// A leaf of the spatial tree.
@@ -70,7 +70,7 @@ impl SpatialLeaf {
 /// No region is halved more often than this: in each dimension 16 times.
 const DEEPEST: u32 = 48;
 
-/// What was learned of a region in one round.
+/// The update of a region by one round.
 pub(crate) struct RegionUpdate {
     /// The new densities of directions.
     pub(crate) lobes: Lobes,
@@ -78,12 +78,12 @@ pub(crate) struct RegionUpdate {
     pub(crate) irradiance: [f32; FACES],
     /// The new fractions α.
     pub(crate) own: [f32; FACES],
-    /// How many directions it was learned from.
+    /// Number of recorded directions.
     pub(crate) records: u64,
 }
 
 impl SdTree {
-    /// One region, of which nothing is known, that holds the box between two points; `own` is the least α.
+    /// One region with a uniform density, for the box between two points; `own` is the least α.
     pub(crate) fn new(from: Vec3, to: Vec3, own: f32) -> Self {
         // A little larger, and never empty.
         let side = (to - from).max_element().max(f32::MIN_POSITIVE.sqrt()) * 1.001;
@@ -234,13 +234,13 @@ pub(crate) fn sample(lobe: &Quadtree, u: Vec2) -> (Vec3, Density<SolidAngle>) {
     )
 }
 
-/// Where in the square a direction lies.
+/// The point of the square for a direction.
 #[inline]
 pub(crate) fn place_of(direction: Vec3) -> Vec2 {
     uniform_sphere_to_square(direction).clamp(Vec2::ZERO, Vec2::splat(ONE_MINUS_EPSILON))
 }
 
-/// How finely directions are told apart, if squares with this share of the light are divided.
+/// The resolution of directions, if squares with more than this share of the light are divided.
 pub(crate) fn refinement(share: f64) -> Refinement {
     Refinement { share, depth: 20 }
 }

@@ -1,18 +1,18 @@
-//! How often a path follows the scattering model's own choice, learned side by side with the light.
+//! α, the probability of BSDF sampling instead of guiding, learned together with the radiance.
 //!
 //! ```text
 //! α = argmax E[f·L·|cos θ|/p · ln(α·p_f + (1 − α)·p_g)]     over the directions taken,
 //! ```
 //!
-//! which brings the mixture as near as it can come, by the Kullback-Leibler divergence, to the density that
-//! leaves no noise, f·L·|cos θ| (Müller 2019, "Practical Path Guiding in Production", in the course notes "Path
-//! Guiding in Production"). There α follows a gradient, one record after another; here a few are compared, whose
-//! sums do not depend on the order in which threads add.
+//! which minimises the Kullback–Leibler divergence of the mixture from the zero-variance density f·L·|cos θ|
+//! (Müller 2019, "Practical Path Guiding in Production", in the course notes "Path Guiding in Production"). There
+//! α follows a stochastic gradient, record by record; here a few values are compared, whose sums do not depend on
+//! the order in which threads add.
 //!
-//! Where one fixed α serves all surfaces, a glossy one inside an object multiplies weights by up to 1/α at every
-//! corner: p_g, which does not know the lobe, is next to nothing where p_f is large. Through frosted glass
-//! ten such corners make one path as bright as the rest of the picture. There α comes out near one. It is never
-//! less than the stated one, whatever the records say: so weights keep their bound.
+//! With one fixed α for all surfaces, glossy scattering inside an object multiplies weights by up to 1/α at every
+//! vertex: p_g, which does not know the lobe, nearly vanishes where p_f is large. Through frosted glass ten such
+//! vertices make one path as bright as the rest of the picture. There the learned α is near one. It is never less
+//! than the given minimum, so weights stay bounded.
 
 use etalon_math::float::ln;
 use std::sync::atomic::{AtomicI64, Ordering};
@@ -20,7 +20,7 @@ use std::sync::atomic::{AtomicI64, Ordering};
 /// Fractions that are tried beside the least.
 const STEPS: usize = 7;
 
-/// The largest that is tried: what is learned is never quite left.
+/// The largest α that is tried, so that guiding always has some probability.
 const MOST: f32 = 0.95;
 
 /// The most that a record counts (units), so that the sums of 2²⁴ records fit.
@@ -29,7 +29,7 @@ const LARGEST: f64 = (1_u64 << 37) as f64;
 /// Fewer records do not decide.
 const ENOUGH: u64 = 100;
 
-/// What is known of a direction that was taken.
+/// The densities of a direction that was taken.
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct AlternativePdfs {
     /// p_f: how likely the scattering model takes it; 1 for a discrete direction.
@@ -44,7 +44,7 @@ impl AlternativePdfs {
     }
 }
 
-/// By how much each fraction is better than the least.
+/// The gain of each fraction over the least.
 #[derive(Debug, Default)]
 pub(crate) struct FractionOptimizer([AtomicI64; STEPS]);
 
@@ -84,7 +84,7 @@ mod tests {
 
     const LEAST: f32 = 0.3;
 
-    /// What comes of light on a line of density (k + 1)·xᵏ, where the model's own is 5x⁴ and the learned one even.
+    /// The result for light of density (k + 1)·xᵏ on a line, with the model's density 5x⁴ and a uniform learned one.
     fn best(k: i32) -> f32 {
         let scores = FractionOptimizer::default();
         let n: u16 = 1000;

@@ -1,4 +1,4 @@
-//! What goes along with every path of `guided`: it steers, and decides how long paths live.
+//! The hooks of `guided` into paths: guiding and Russian roulette.
 
 use super::field::SdTree;
 use super::steering::GuidedBsdf;
@@ -9,10 +9,9 @@ use glam::Vec3;
 
 /// Steers a path.
 ///
-/// Where a path follows what was learned its throughput f/p is small just where it matters: p is large
-/// toward the light. Russian roulette by throughput would end such paths. So a path lives as long as what
-/// surfaces reflect, whatever the direction, would let it: the product of their albedos. One of
-/// larger throughput, which went where little was expected, is not made heavier still.
+/// A guided path has a small throughput f/p where it matters, as p is large toward the light. Russian roulette by
+/// throughput would end such paths. So the survival probability is the product of the surfaces' albedos. Paths of
+/// larger throughput, in directions where little was expected, do not gain more weight.
 #[derive(Clone, Copy)]
 pub(crate) struct GuidedHooks<'f> {
     pub(crate) field: &'f SdTree,

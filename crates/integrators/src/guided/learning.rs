@@ -1,21 +1,21 @@
-//! Learning where light comes from: rounds of paths, each guided by what the round before has found.
+//! Training: rounds of paths, each guided by the field of the round before.
 //!
 //! ```text
 //! mass of a leaf = Σ L·|cos θ|/p     over the directions taken into it,     E[mass] = n ∫ L·|cos θ| dω
 //! ```
 //!
-//! L is what came from the direction that a path took ([`super::training_path`]), p the density of that direction, θ
-//! its angle with the surface's normal: what is learned is what a diffuse surface would like to know. Light
-//! samples weigh in as everywhere: what they find well, L leaves to them, and the field learns the rest.
+//! L is the radiance from the direction that a path took ([`super::training_path`]), p the density of that direction, θ
+//! its angle with the surface's normal: the field learns irradiance, the optimum for a diffuse surface. L has the MIS
+//! weights of BSDF sampling: light that light sampling finds well is left to it.
 //!
-//! Rounds take 1, 2, 4, … samples per pixel, the last what is left, and each starts its sums anew (Müller,
-//! Gross & Novák 2017, §4): half of all training or more goes into the field that is used. Records move at
-//! random within a box as large as their region, and their directions are spread over a square as large as
-//! their leaf (Müller 2019, §10.5.1).
+//! Rounds take 1, 2, 4, … samples per pixel, the last one the remainder, and each resets the sums (Müller, Gross &
+//! Novák 2017, §4): half of all training or more goes into the final field. Positions of records are jittered within a
+//! box as large as their region, and directions are spread over a square as large as their leaf (Müller 2019,
+//! §10.5.1).
 //!
-//! Sums are integers: they do not depend on the order in which threads add. A record counts in units of 2⁻²⁰
-//! of the mean of the round before, and no more than 2²⁰ of that mean, so that one mad path cannot
-//! take a leaf for itself, and 2²⁴ such records fit.
+//! Sums are integers, so they do not depend on the order in which threads add. A record counts in units of 2⁻²⁰ of the
+//! mean of the round before, and at most 2²⁰ times that mean, so that one firefly cannot dominate a leaf, and 2²⁴
+//! such records fit.
 
 use super::field::{FACES, RegionUpdate, SdTree, SpatialLeaf, face, place_of, refinement};
 use super::fraction::FractionOptimizer;
@@ -32,7 +32,7 @@ use glam::{UVec2, Vec3, Vec4};
 use rayon::prelude::*;
 use std::sync::atomic::{AtomicU64, Ordering};
 
-/// How a field is learned.
+/// The settings of training.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Trainer {
     pub(crate) settings: PathSettings,
@@ -56,14 +56,14 @@ const UNITS: f64 = (1 << 20) as f64;
 /// The largest record (units).
 const LARGEST: f64 = (1_u64 << 40) as f64;
 
-/// Where there is something to learn.
+/// The context of training.
 struct TrainingContext<'a, W, P> {
     world: &'a W,
     placing: &'a P,
     pass: &'a Pass,
 }
 
-/// How many paths of each pixel a round follows.
+/// A round of training: its paths per pixel.
 #[derive(Clone, Copy)]
 struct Iteration {
     number: u32,
@@ -100,7 +100,7 @@ impl Iteration {
         self.streams * self.each
     }
 
-    /// Where the numbers of a sample come from.
+    /// The address of a sample's random numbers.
     fn address(self, seed: u64, pixel: UVec2, sample: u32) -> SampleId {
         SampleId {
             seed: mix64(mix64(seed ^ TRAINING).wrapping_add(self.number.into())),
@@ -113,7 +113,7 @@ impl Iteration {
     }
 }
 
-/// What is known of all records of a round, or of some.
+/// Statistics of the records of a round, or of some of them.
 #[derive(Clone, Copy)]
 struct TrainingStatistics {
     from: Vec3,
@@ -153,12 +153,12 @@ impl TrainingStatistics {
 /// Sums of one round: a mass for every slot of every quadtree.
 struct Sums<'f> {
     field: &'f SdTree,
-    /// Where the slots of each region's faces begin.
+    /// Index of the first slot of each region's faces.
     first: Vec<[usize; FACES]>,
     masses: Vec<AtomicU64>,
     /// The records of each region's faces.
     records: Vec<[AtomicU64; FACES]>,
-    /// How the scattering model's own choice did.
+    /// The optimisers of α.
     scores: Vec<[FractionOptimizer; FACES]>,
     /// The least probability of following it.
     own: f32,
@@ -216,7 +216,7 @@ impl<'f> Sums<'f> {
         });
     }
 
-    /// What each region has learned. A region that found no light keeps what it knew.
+    /// The update of each region. A region that found no light keeps its density.
     fn lessons(&self, share: f64) -> Vec<RegionUpdate> {
         let load = |sum: &AtomicU64| sum.load(Ordering::Relaxed);
         let regions = self.field.regions().par_iter().enumerate();
@@ -250,8 +250,8 @@ impl<'f> Sums<'f> {
 }
 
 impl Trainer {
-    /// Learns the field of an image, and what is seen meanwhile. A pure function of the world, the image's
-    /// seed, its film and its number of samples.
+    /// Learns the field of an image, and returns the pictures of its training. A pure function of the world, the
+    /// image's seed, its film and its number of samples.
     pub(crate) fn learn<W: World>(
         &self,
         world: &W,
@@ -263,7 +263,7 @@ impl Trainer {
             placing,
             pass,
         };
-        // Where paths go, and how bright it is there, so far.
+        // Extent and brightness of the scene, from the first paths.
         let nothing = SdTree::new(Vec3::ZERO, Vec3::ONE, self.own);
         let first = self.round(&class, &nothing, Iteration::alone(0, 1), None, None);
         if first.records == 0 {
@@ -273,7 +273,7 @@ impl Trainer {
         let mut tally = first;
         let (mut number, mut samples, mut left) = (1, 1, self.samples.max(1));
         loop {
-            // The last round takes what is left.
+            // The last round takes the remaining samples.
             let last = left / 3 < samples;
             let (round, mut pictures) = if last {
                 let pictures = TrainingImages::black(placing, pass, left / pass.replicates.max(1));
@@ -361,8 +361,8 @@ impl Trainer {
             .fold(TrainingStatistics::NOTHING, TrainingStatistics::join)
     }
 
-    /// Follows one path with a pupil, and gives what it brings to its pixel: colour and alpha, by what it
-    /// counts on the film.
+    /// Follows one path and records it in `pupil`; its contribution to the pixel, colour and alpha, times its weight
+    /// on the film.
     fn path<'f, W: World, P: Placing>(
         &self,
         class: &TrainingContext<'_, W, P>,

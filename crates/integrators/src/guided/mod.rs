@@ -1,35 +1,34 @@
-//! `guided`: path tracing that has learned where light comes from.
+//! `guided`: path tracing guided by a learned distribution of incident radiance.
 //!
 //! ```text
 //! C = Σₙ ∫ Le(xₙ→xₙ₋₁) · Π_{0<i<n} fᵢ·|cos θᵢ| dω₁…dωₙ₋₁,      ωᵢ ~ α·p_f(ω) + (1 − α)·p_g(ω | xᵢ)
 //! ```
 //!
-//! The integral and all else are `path`'s ([`crate::path`]): its light samples, its balance over techniques and
-//! wavelengths. But directions are sampled from a mixture of the scattering model's density p_f
-//! and a learned one p_g, piecewise constant in space and direction, that is proportional to the radiance
-//! expected from each direction (Müller, Gross & Novák 2017, "Practical Path Guiding for Efficient
-//! Light-Transport Simulation"; Müller 2019, its chapter in "Path Guiding in Production"). The mixture is one
-//! technique with one density (single-sample balance); p_g is the same for all four wavelengths. How often each
-//! is followed, α, is learned as well, region by region (`fraction.rs`).
+//! The integral, light sampling and MIS over techniques and wavelengths are those of [`crate::path`]. But directions
+//! are sampled from a mixture of the BSDF's density p_f and a learned one p_g, piecewise constant in space and
+//! direction, that is proportional to the expected incident radiance (Müller, Gross & Novák 2017, "Practical Path
+//! Guiding for Efficient Light-Transport Simulation"; Müller 2019, its chapter in "Path Guiding in Production"). The
+//! mixture is one technique with one density (one-sample MIS); p_g is the same for all four wavelengths. The mixing
+//! probability α is learned as well, region by region (`fraction.rs`).
 //!
-//! **What is learned, when.** Once for an image, before its first sample: rounds of 1, 2, 4, … samples per
-//! pixel from a random stream of their own, together at most `training` times the image's samples (but at
-//! least one), and one sample per pixel to learn how large and how bright the scene is. Then the field is
-//! frozen. The first rounds' paths are thrown away. Those of the last round, half of all or more, are dealt to the
-//! replicates and join their pictures (`pictures.rs`), if there is one of each pixel for every replicate.
+//! **Training** happens once per image, before its first sample: one sample per pixel for the size and brightness of
+//! the scene, then rounds of 1, 2, 4, … samples per pixel from their own random stream, in total at most `training`
+//! times the image's samples, but at least one. Then the field is frozen. The paths of all rounds but the last are
+//! discarded. Those of the last, half of all or more, are distributed over the replicates and join their pictures
+//! (`pictures.rs`), if there is one per pixel for every replicate.
 //!
 //! **Why the standard error is right.** Let F be the field, T_r the last round's mean for replicate r, and X_r that of
-//! its own samples. Given the field that guides it, the T_r are independent estimates of the picture I: p_f alone finds
-//! all light, whatever guides it. Given F, which depends on nothing drawn later, so are the X_r. So for different
+//! its own samples. Given the field that guides them, the T_r are independent estimates of the picture I: p_f alone
+//! finds all light, under any guiding. Given F, which depends on nothing drawn later, so are the X_r. So for different
 //! replicates r ≠ s
 //!
 //! ```text
 //! Cov(T_r, T_s) = 0,      Cov(X_r, X_s) = E[Cov(X_r, X_s | F)] + Cov(I, I) = 0,      Cov(T_r, X_s) = Cov(T_r, E[X_s | training]) = Cov(T_r, I) = 0
 //! ```
 //!
-//! and the replicates (1 − w)·X_r + w·T_r are uncorrelated. As each has one and the same distribution, their s²/R
-//! has the expectation Var(C̄), though all have learned together. The field depends on the scene, the
-//! seed, the film and the number of samples of the whole image, so any share of the replicates learns the same.
+//! and the replicates (1 − w)·X_r + w·T_r are uncorrelated. As they are identically distributed, their s²/R has the
+//! expectation Var(C̄), though all share the training. The field depends on the scene, the seed, the film and the
+//! number of samples of the whole image, so that every part of a split render learns the same.
 
 mod field;
 mod fraction;
@@ -130,11 +129,11 @@ impl Guided {
     }
 }
 
-/// What was learned for an image.
+/// The result of training for an image.
 #[derive(Clone, Debug)]
 pub struct Learned {
     field: SdTree,
-    /// What was seen meanwhile.
+    /// The pictures of the training.
     pictures: Option<TrainingImages>,
     /// The replicate that is being rendered.
     replicate: u32,
@@ -168,7 +167,7 @@ impl Integrator for Guided {
         }
     }
 
-    /// A sample of its own: only several together are joined by what training saw of their pixel.
+    /// A single sample, without the pictures of the training, which join batches only.
     fn sample<W: World, S: Sampler, K: Sink>(
         &self,
         world: &W,

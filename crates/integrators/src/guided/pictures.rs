@@ -1,4 +1,4 @@
-//! What paths in training saw, and how it joins the picture.
+//! The pictures of the training's last round, and how they join the replicates.
 //!
 //! ```text
 //! C_r = (1 − w)·F_r + w·T_r,      w = k/(n + k)
@@ -9,13 +9,13 @@
 //! §10.5.3), the inverse variances of the rounds, are estimated from the samples that they weigh, and
 //! so bias the picture; these are fixed beforehand.
 //!
-//! Where a path in training found what is no finite number, neither is T_r: that pixel's samples go without it, but for
-//! the first in the replicate, which the film refuses, counts and tells the place of.
+//! If T_r is not finite, that pixel's samples do without it, except the first in the replicate, which the film refuses,
+//! counts and reports with its address.
 
 use etalon_transport::{FilmSample, Pass, Placing, Sink, TileSink};
 use glam::{UVec2, Vec2, Vec4};
 
-/// Where pictures would take more memory than this (bytes), there are none.
+/// The most memory for pictures (bytes); beyond, there are none.
 const MOST: u64 = 1 << 30;
 
 /// Pictures by samples of training, one for each replicate.
@@ -84,21 +84,21 @@ impl TrainingImages {
     }
 }
 
-/// Passes a replicate's samples on, joined by what training has seen of their pixels.
+/// A sink that adds the training's pictures to a replicate's samples.
 pub(crate) struct Joined<'a, K> {
     sink: &'a mut K,
     pictures: &'a TrainingImages,
     replicate: u32,
     /// 1 − w
     own: f32,
-    /// w·T_r, over what a sample counts on the film, so that the film's mean over samples is that of T_r.
+    /// w·T_r over the sample's weight on the film, so that the film's mean over samples is that of T_r.
     training: Vec4,
     /// Whether each of the samples to come is its pixel's first in the replicate.
     first: std::vec::IntoIter<bool>,
 }
 
 impl<'a, K> Joined<'a, K> {
-    /// Of a replicate, for samples of which these are their pixels' first.
+    /// For a replicate; `first` marks the samples that are their pixels' first.
     pub(crate) fn new(
         sink: &'a mut K,
         pictures: &'a TrainingImages,
@@ -115,7 +115,7 @@ impl<'a, K> Joined<'a, K> {
         }
     }
 
-    /// Joins a pixel's first sample with what is no number, and leaves the others alone.
+    /// Adds the non-finite value to a pixel's first sample only.
     #[cold]
     fn spoil(&mut self, first: bool, mean: Vec4) {
         (self.own, self.training) = (1.0, if first { mean } else { Vec4::ZERO });

@@ -44,7 +44,7 @@ impl<B: Bsdf> GuidedBsdf<'_, B> {
         Density::per_lane(own.lanes() * share + scattered * (1.0 - share))
     }
 
-    /// The probability of a discrete direction, which the model alone finds: it is asked with this probability.
+    /// The probability of a discrete direction: only the model samples it, with the probability `share`.
     #[inline]
     fn by_model(own: DeltaProbability, share: f32) -> SamplePdf {
         SamplePdf::Discrete(DeltaProbability(own.0 * share))
@@ -107,7 +107,7 @@ impl<B: Bsdf> Bsdf for GuidedBsdf<'_, B> {
     ) -> (Vec4, Density<SolidAngle>) {
         let (value, own) = self.bsdf.eval_and_density(wo, wi, mode);
         match self.lobe {
-            // What does not scatter needs no density.
+            // Without scattering there is no density.
             Some((lobe, share)) if value != Vec4::ZERO => {
                 let learned = field::density(lobe, wi);
                 let density = self.mix(share, own, learned);
@@ -129,7 +129,7 @@ impl<B: Bsdf> Bsdf for GuidedBsdf<'_, B> {
         let Some((lobe, share)) = self.lobe else {
             return self.bsdf.sample(wo, u_lobe, u, mode);
         };
-        // The lowest numbers pass straight on; the rest are divided anew.
+        // The lowest numbers are the null interaction; the rest are divided between model and guiding.
         let passing = self.bsdf.null_probability().x;
         if u_lobe < passing {
             return self.bsdf.sample(wo, u_lobe, u, mode);

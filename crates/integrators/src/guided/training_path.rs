@@ -31,12 +31,12 @@ struct PathVertex {
     /// The shading normal on the side from which the path came.
     normal: Vec3,
     direction: Vec3,
-    /// What the surface scatters there: f·|cos θ|, or the share of a discrete direction.
+    /// f·|cos θ|, or the share of a discrete direction.
     value: Vec4,
     /// The density of the direction, the mean over the lanes (sr⁻¹), or the probability of a discrete one.
     density: f32,
     discrete: bool,
-    /// How it might have been found, where something is known of where light comes from.
+    /// The densities of its alternatives, if the field has learned anything here.
     rivals: Option<AlternativePdfs>,
     /// The path that leaves the corner.
     prefix: PathThroughput,
@@ -70,7 +70,7 @@ pub(crate) struct TrainingPath<'f> {
     before_light: (usize, usize),
 }
 
-/// How much more light a surface may scatter into a direction than a diffuse one of its albedo, to pass for one.
+/// Range of f over that of a diffuse surface of the same albedo, within which a surface counts as diffuse.
 const DIFFUSE: RangeInclusive<f32> = 0.7..=1.4;
 
 impl<'f> TrainingPath<'f> {
@@ -93,7 +93,7 @@ impl<'f> TrainingPath<'f> {
         self.guide.reflected = 1.0;
     }
 
-    /// What was found, corner by corner.
+    /// The records of each vertex.
     pub(crate) fn records(&self) -> impl Iterator<Item = Record> {
         self.corners.iter().map(|corner| {
             let cos = corner.normal.dot(corner.direction).abs();

@@ -1,4 +1,4 @@
-//! What a replicate begins with: brightness, seeds, and what was learned of path kinds.
+//! The bootstrap of a replicate: brightness, seeds, and probabilities of path kinds.
 
 use super::found::{Contribution, Contributions, FilmRegion};
 use super::importance_map::ImportanceMap;
@@ -12,7 +12,7 @@ use rayon::prelude::*;
 /// Fewest and most uniform samples of the pilot; a quarter of a replicate's lies between.
 const PILOT: [u64; 2] = [1 << 11, 1 << 15];
 
-/// How many samples a task of the pilot or of a bootstrap draws: it decides no bits.
+/// Samples per task of the pilot or a bootstrap; it decides no bits.
 const TASK: u32 = 512;
 
 /// Streams of random numbers of a replicate.
@@ -29,8 +29,7 @@ impl Stream {
     }
 }
 
-/// How often each kind of path is tried: in proportion to the light that it brings, but for a
-/// quarter of all that go to all alike.
+/// Probability of each kind of path: three quarters in proportion to its light, one quarter uniform.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct PathLengthPdf {
     /// The sums of the probabilities up to and with each.
@@ -73,7 +72,7 @@ impl PathLengthPdf {
     }
 }
 
-/// What is learned once per image.
+/// The result of the pilot, once per image.
 #[derive(Clone, Debug)]
 pub(super) struct Pilot {
     seed: u64,
@@ -83,7 +82,7 @@ pub(super) struct Pilot {
     pub(super) brightness: f64,
 }
 
-/// What a replicate of a Metropolis integrator begins with.
+/// The bootstrap of a replicate.
 #[derive(Clone, Debug)]
 pub struct State {
     pub(super) pilot: Pilot,
@@ -103,12 +102,12 @@ pub struct State {
     /// What a contribution of one step is multiplied by, for a film that divides by the samples of
     /// a pixel.
     pub(super) scale: f64,
-    /// What the bootstrap samples themselves contribute, each with its sample's index.
+    /// The contributions of the bootstrap samples, each with its sample's index.
     pub(super) contributions: Vec<(u32, Contribution)>,
 }
 
 impl State {
-    /// How much a visit of a chain counts.
+    /// The weight of a visit of a chain.
     pub(super) fn chain_weight(&self, brightness: f64) -> f64 {
         if self.brightness > 0.0 {
             self.brightness * self.scale / (brightness + self.uniform)
@@ -117,7 +116,7 @@ impl State {
         }
     }
 
-    /// How much a uniform sample counts.
+    /// The weight of a uniform sample.
     pub(super) fn uniform_weight(&self, brightness: f64) -> f64 {
         let assumed = self.pilot.brightness;
         if assumed > 0.0 {
@@ -211,7 +210,7 @@ impl State {
             self.starts = vec![0; chains as usize];
             return;
         }
-        // Systematic sampling: each start is picked as often as it should be, but for rounding.
+        // Systematic sampling: each start is picked in proportion, up to rounding.
         let offset = mix64(Stream::Choice.key(self.seed, self.replicate));
         let offset = f64::from(random_float((offset >> 32) as u32));
         let mut sum = 0.0;
@@ -283,8 +282,8 @@ pub(super) fn start_key(key: u64, index: u32) -> u64 {
     derived_key(key, index)
 }
 
-/// Draws `count` uniform samples, fewer if the film is told to stop, and notes what they found, some
-/// to a task, in order.
+/// Draws `count` uniform samples, fewer if the render is stopped, several per task, and returns their
+/// results in order.
 fn draw<T: Integrand, N: Default + Send>(
     (integrand, placing): (&T, &impl Placing),
     settings: &ChainSettings,

@@ -9,9 +9,9 @@ use etalon_sampling::hash::derived_key;
 use etalon_transport::{ChainRemark, PixelSample, Sink, TraceEvent};
 
 impl State {
-    /// Does the share of a sample: its chains, and what it delivers of the bootstrap samples. They
-    /// are spread evenly over the samples of all pixels, so that none takes long, and a replicate
-    /// that is cut short has as large a share of chains as of samples.
+    /// Runs the chains that a sample hosts, and delivers its share of the bootstrap samples. Both are
+    /// spread evenly over the samples of all pixels, so that no sample takes long, and an interrupted
+    /// replicate has as large a share of chains as of samples.
     pub(crate) fn host<T: Integrand, K: Sink>(
         &self,
         integrand: &T,
@@ -32,7 +32,7 @@ impl State {
         });
         for (index, contribution) in &self.contributions[contributions] {
             if tell(integrand, || ChainRemark::Uniform(*index)) {
-                // Whoever listens wants to know how it came about.
+                // A replay follows the path again, to record it.
                 let mut sample = self.uniform_sample(settings, *index, 0);
                 let (lists, found) = (&mut T::Lists::default(), &mut Contributions::default());
                 integrand.find(&self.field, &self.pilot.kinds, &mut sample, lists, found);
@@ -44,7 +44,7 @@ impl State {
         }
     }
 
-    /// Which of so many things a sample hosts: they are dealt evenly.
+    /// The range of `count` items that a sample hosts, evenly distributed.
     fn share(&self, site: &PixelSample, count: usize) -> Range<usize> {
         // Pixels around the film host none.
         let place = site.pixel.wrapping_sub(self.field.origin());
@@ -97,7 +97,7 @@ impl State {
             start,
         });
         let mut here = find(&mut sample, &mut current);
-        // How much the current sample counts.
+        // The weight of the current sample.
         let mut weight = 0.0;
         for step in 0..self.length {
             let large = sample.propose();

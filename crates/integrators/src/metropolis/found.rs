@@ -1,4 +1,4 @@
-//! What a primary sample contributes, and where.
+//! The contributions of a primary sample, and their places.
 
 use super::importance_map::ImportanceMap;
 use etalon_transport::{Pass, PixelSample};
@@ -7,7 +7,7 @@ use glam::{UVec2, Vec2, Vec3};
 /// A contribution to the film.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Contribution {
-    /// Where (pixels of the whole film).
+    /// Film position (pixels of the whole film).
     pub(crate) raster: Vec2,
     /// Its colour: the integral over the primary samples of colour times a pixel's filter is the
     /// pixel.
@@ -26,7 +26,7 @@ impl Contribution {
 pub(crate) struct Contributions {
     contributions: Vec<Contribution>,
     brightness: f32,
-    /// The kind of its path, counted from 0 among those that the integrand tells apart.
+    /// The kind of its path, from 0, as the integrand defines them.
     pub(crate) kind: usize,
 }
 
@@ -72,8 +72,7 @@ impl Contributions {
         self.brightness.is_finite()
     }
 
-    /// The contributions, each counted `weight` times; what is not finite is given as it is, to be
-    /// reported.
+    /// The contributions times `weight`; non-finite ones are returned unchanged, to be reported.
     pub(crate) fn weighted(&self, weight: f64) -> impl Iterator<Item = Contribution> + '_ {
         let weight = if self.is_sound() { weight } else { 1.0 };
         let kept = if weight > 0.0 {
@@ -111,7 +110,7 @@ impl FilmRegion {
         self.origin
     }
 
-    /// How many pixels the film has in a row and in a column.
+    /// Size of the film (pixels).
     pub(crate) fn pixels(&self) -> UVec2 {
         self.size - 2 * self.margin
     }
@@ -131,8 +130,7 @@ impl FilmRegion {
         self.size.x as f32 * self.size.y as f32
     }
 
-    /// The site of a sample that goes through the place that `u` chooses. One sample stands for the
-    /// whole field.
+    /// The site of a sample at the place that `u` chooses. One sample covers the whole field.
     pub(crate) fn site(&self, u: Vec2) -> PixelSample {
         PixelSample {
             pixel: UVec2::ZERO,

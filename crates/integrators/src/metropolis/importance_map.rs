@@ -1,10 +1,10 @@
-//! Which parts of the picture chains visit how often.
+//! How often chains visit each part of the picture.
 //!
-//! Chains that follow brightness alone crowd where the picture is bright, and leave its dark
-//! parts to noise. So the brightness of a contribution is divided by that of its neighbourhood,
-//! as far as the pilot knows it: every part of the film is then visited about alike, and its
-//! *relative* error is about the same (the two stages of Veach 1997, section 11.5.2). Whatever
-//! the factors are, as long as they are positive, the estimate stays unbiased.
+//! Chains that follow brightness alone crowd in bright parts and leave dark ones noisy. So the
+//! brightness of a contribution is divided by that of its neighbourhood, as estimated by the pilot:
+//! every part of the film is then visited about equally often, and has about the same *relative*
+//! error (the two stages of Veach 1997, section 11.5.2). The estimate is unbiased for any positive
+//! factors.
 
 use super::found::FilmRegion;
 use glam::{UVec2, Vec2};
@@ -32,7 +32,7 @@ impl ImportanceMap {
         }
     }
 
-    /// Factors for a picture of which these contributions are known: place and brightness.
+    /// Factors from the places and brightnesses of these contributions.
     pub(super) fn of(field: &FilmRegion, found: impl Iterator<Item = (Vec2, f64)>) -> Self {
         let cells = (field.size() / 4).clamp(UVec2::ONE, UVec2::splat(CELLS));
         let mut sums = vec![0.0; (cells.x * cells.y) as usize];

@@ -1,4 +1,4 @@
-//! The integrator that runs chains, whatever paths its primary samples stand for.
+//! The integrator that runs chains, generic over the paths of its primary samples.
 
 use super::{ChainSettings, Contributions, FilmRegion, Integrand, PathLengthPdf, State};
 use crate::steps::settings::PathSettings;
@@ -10,7 +10,7 @@ use etalon_transport::{
 
 /// Turns primary samples into paths.
 pub(crate) trait PathSampler: Sync {
-    /// Which lights its paths find.
+    /// The way in which its paths find lights.
     const LIGHT_SEARCH: LightSearch;
     /// See [`Integrator::FOLLOWS_LIGHT`].
     const FOLLOWS_LIGHT: bool;
@@ -18,7 +18,7 @@ pub(crate) trait PathSampler: Sync {
     /// Memory that one path lends to the next.
     type Lists<'w, W: World + 'w>: Default;
 
-    /// How many kinds of paths it tells apart; none if there is nothing to find.
+    /// Number of kinds of paths; 0 if there is nothing to find.
     fn kinds(&self, settings: &PathSettings, chains: &ChainSettings) -> usize;
 
     /// Turns a primary sample into contributions to the film.
@@ -38,9 +38,9 @@ pub(crate) trait PathSampler: Sync {
 pub struct Metropolis<P> {
     /// Limits of the path.
     pub settings: PathSettings,
-    /// How chains are run.
+    /// The settings of chains.
     pub chains: ChainSettings,
-    /// What primary samples stand for.
+    /// The mapping from primary samples to paths.
     pub paths: P,
 }
 

@@ -1,24 +1,23 @@
 //! `mmlt`: multiplexed Metropolis light transport (Hachisuka, Kaplanyan, Dachsbacher 2014).
 //!
-//! A primary sample stands for *one* technique of bidirectional path tracing, weighed against all
-//! others (see [`crate::bdpt`]). Two of its numbers choose k, the corners of the path, with
-//! probability q(k), and which of the k + 2 techniques (s, t) with s + t = k + 2 makes them; the
-//! others walk. With A the film's area,
+//! A primary sample is a path by *one* technique of bidirectional path tracing, with its MIS weight
+//! against all others (see [`crate::bdpt`]). Two of its numbers choose k, the number of scattering
+//! vertices, with probability q(k), and one of the k + 2 techniques (s, t) with s + t = k + 2; the
+//! others generate the subpaths. With A the film's area,
 //!
 //! ```text
 //! F(u) = A · (k + 2)/q(k) · Σⱼ [ fⱼ(x) / p(λⱼ) ] / Σ_σ Σₖ n_σ p_σ,ₖ(x)
 //! ```
 //!
-//! Since the sum over techniques of what each finds is the pixel, so is the mean of F; where
-//! chains spend their steps is decided by the weights: a technique that is bad at a path hardly
-//! ever has I > 0 there. One camera walk stands for the whole film and so does one light walk,
-//! hence n_σ = A for t = 1 and 1 per pixel² for the others, as in an image of bidirectional path
-//! tracing with one sample per pixel.
+//! The weighted contributions of all techniques sum to the pixel, so the mean of F is the pixel. The
+//! weights decide where chains spend their steps: a technique that is bad at a path hardly ever has
+//! I > 0 there. One camera subpath covers the whole film, and so does one light subpath, hence n_σ = A
+//! for t = 1 and 1 per pixel² for the others, as in bidirectional path tracing with one sample per
+//! pixel.
 //!
-//! Hachisuka et al. run separate chains for each k, as many as the light that it brings; here
-//! q(k) follows the light that a pilot found, and a chain changes k like any other number. Few
-//! chains then serve many lengths. See [`crate::metropolis`] for how chains estimate the integral
-//! without bias.
+//! Hachisuka et al. run separate chains for each k, in proportion to its light. Here q(k) follows the
+//! light that a pilot found, and a chain changes k like any other number, so that few chains serve many
+//! lengths. See [`crate::metropolis`] for how chains estimate the integral without bias.
 
 use crate::bdpt::Technique;
 use crate::bdpt::single::{Lists, sample};
@@ -35,7 +34,7 @@ use etalon_transport::{LightSearch, ScattererOf, TraceEvent, World};
 /// scattering event, which nothing else needs.
 const CHOICE: u32 = dim::TIME + 1;
 
-/// The longest path that may be asked for (segments).
+/// The largest allowed path length (segments).
 const LONGEST: u32 = 256;
 
 /// Multiplexed Metropolis light transport; the length of its paths must have a limit.

@@ -1,4 +1,4 @@
-//! Metropolis light transport in primary sample space, whatever a primary sample stands for.
+//! Metropolis light transport in primary sample space, for any mapping from primary samples to paths.
 //!
 //! A primary sample u ∈ [0, 1)^∞ is turned into a path whose estimate F(u) lands somewhere on the
 //! film, so that a pixel with filter h is C = ∫ h·F du. A Markov chain visits samples in
@@ -20,28 +20,27 @@
 //! for an assumed ∫ I du = c.
 //!
 //! **Unbiased.** A replicate begins with M uniform samples uᵢ. Their mean brightness is b̂ = Σ
-//! I(uᵢ)/M, and chains start at samples picked from them with probabilities I(uᵢ) / Σ I. For
-//! whatever a chain of some length makes of its start, g,
+//! I(uᵢ)/M, and chains start at samples picked from them with probabilities I(uᵢ) / Σ I. For any
+//! function g of the start, such as the expected result of a chain,
 //!
 //! ```text
 //! E[ b̂·g(start) ] = E[ 1/M · Σᵢ I(uᵢ)·g(uᵢ) ] = ∫ I(u)·g(u) du
 //! ```
 //!
 //! so that a chain weighted by b̂ is distributed like I du after any number of steps (Veach 1997,
-//! section 11.3.1): there is no start-up bias, however short the chains. Uniform samples are
-//! ordinary Monte Carlo integration. What is left is w, which must depend on nothing that the
-//! replicate has drawn: c comes from a pilot that is a function of the image's seed, as does
-//! whatever F itself has learned. For any c the expectation is C, so replicates are independent
-//! given c, and the standard error over them is valid. A poor c only costs efficiency; with c =
-//! 0, when the pilot finds nothing, the chains are left alone with the image.
+//! section 11.3.1): there is no start-up bias for chains of any length. Uniform samples are ordinary
+//! Monte Carlo integration. It remains that w must not depend on the replicate's own samples: c, like
+//! everything that F has learned, comes from a pilot that is a function of the image's seed. For any c
+//! the expectation is C, so replicates are independent given c, and the standard error over them is
+//! valid. A poor c only costs efficiency; with c = 0, if the pilot finds nothing, only the chains
+//! contribute.
 //!
-//! F is the estimate of `path_throughput.rs` and the wavelength draw one of the numbers of u, so that a path
-//! keeps its four wavelengths, and dispersion needs no care of its own.
+//! F is the estimate of `path_throughput.rs`, and the wavelengths are drawn by one of the numbers of u, so
+//! that a path keeps its four wavelengths, and dispersion needs no special case.
 //!
-//! As many steps are made as there are samples in the replicate, cut into chains of equal length;
-//! chains are hosted by samples spread evenly over the film and the replicate. Light with few corners
-//! (`separate_direct`) is found by the ordinary samples of the path tracer, which also give
-//! alpha.
+//! There are as many steps as samples in the replicate, in chains of equal length, which are hosted by
+//! samples spread evenly over the film and the replicate. Light with few scattering events
+//! (`separate_direct`) is found by ordinary samples of the path tracer, which also give alpha.
 
 mod bootstrap;
 mod chain;
@@ -69,12 +68,12 @@ use etalon_sampling::Sampler;
 use etalon_transport::{PixelSample, Sink, TraceEvent, World};
 use primary::LogarithmicStep;
 
-/// What a primary sample stands for.
+/// The mapping from a primary sample to a path and its contributions.
 pub(crate) trait Integrand: Sync {
     /// Memory that one evaluation lends to the next.
     type Lists: Default;
 
-    /// How many kinds of paths it tells apart, for [`PathLengthPdf`]; none if there is nothing to find.
+    /// Number of kinds of paths, for [`PathLengthPdf`]; 0 if there is nothing to find.
     fn kinds(&self) -> usize;
 
     /// Turns a primary sample into contributions to the film.
@@ -91,12 +90,12 @@ pub(crate) trait Integrand: Sync {
     fn record(&self, remark: impl FnOnce() -> TraceEvent) -> bool;
 }
 
-/// How chains are run.
+/// The settings of chains.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ChainSettings {
     /// The probability of a large step.
     pub large_step: f32,
-    /// s₁: the smallest distance by which a small step moves a number.
+    /// s₁: the smallest distance of a small step in one number.
     pub smallest_step: f32,
     /// s₂: the largest.
     pub largest_step: f32,
@@ -112,12 +111,12 @@ pub struct ChainSettings {
 }
 
 impl Default for ChainSettings {
-    /// Steps as Kelemen et al. 2002 have them, but for the smallest (theirs is 1/1024): the
-    /// longer a path, the smaller a step must be to be accepted.
+    /// Steps as in Kelemen et al. 2002 except for the smallest (theirs is 1/1024): the longer a path,
+    /// the smaller a step must be to be accepted.
     ///
     /// Chains are short and start at many different samples (as in Cline et al. 2005, "Energy
-    /// redistribution path tracing"). They need no time to settle, as they start where they belong,
-    /// and of a few long ones each has a say in the brightness of the whole picture.
+    /// redistribution path tracing"). They need no burn-in, as they start in the stationary
+    /// distribution, while a few long chains would each affect the brightness of the whole picture.
     fn default() -> Self {
         Self {
             large_step: 0.3,

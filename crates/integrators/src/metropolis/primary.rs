@@ -2,7 +2,7 @@
 //!
 //! A path is a function of uniform numbers u₀, u₁, …, its *primary sample* (Kelemen, Szirmay-Kalos,
 //! Antal, Csonka 2002, "A Simple and Robust Mutation Strategy for the Metropolis Light Transport
-//! Algorithm"). A *large step* draws all of them anew. A *small step* moves each around the circle
+//! Algorithm"). A *large step* draws all of them again. A *small step* moves each around the circle
 //! [0, 1) by
 //!
 //! ```text
@@ -12,9 +12,9 @@
 //! so that distances between s₁ and s₂ are equally likely on a logarithmic scale (ibid., section
 //! 3).
 //!
-//! Numbers are kept as 32 bits with the circle's own arithmetic: a step and its reverse are
-//! equally likely to the last bit. They are made and moved only when they are asked for: a number
-//! that several accepted steps did not ask for catches up with all of them then.
+//! Numbers are 32-bit integers with wrapping arithmetic: a step and its reverse are equally likely to
+//! the last bit. They are created and moved lazily: a number that several accepted steps did not use
+//! catches up with all of them when it is used.
 
 use crate::steps::dimensions as dim;
 use etalon_math::float;
@@ -22,7 +22,7 @@ use etalon_sampling::Sampler;
 use etalon_sampling::hash::{GOLDEN, derived_key, mix64, random_float};
 use glam::Vec2;
 
-/// How far a small step moves a number.
+/// The distribution of a small step.
 pub(crate) trait SmallStep {
     /// The distance around the circle of 2³² places that the number with this index moves, from 64
     /// random bits. A distance and its opposite must be equally likely.
@@ -103,7 +103,7 @@ impl SmallStep for LogarithmicStep {
     }
 }
 
-/// One number, and what it was before the step at hand.
+/// One number, and its value before the current step.
 #[derive(Clone, Copy, Debug)]
 struct Number {
     bits: u32,
@@ -126,7 +126,7 @@ pub(crate) struct PrimarySample<M> {
     drawn: (u32, u64),
     /// The key of the large step that is being tried, if it is one.
     fresh: Option<u64>,
-    /// Numbers from this index on have not been asked for in the step at hand.
+    /// Numbers from this index on have not been used in the current step.
     reach: usize,
     dimension: u32,
     /// The state of the stream that decides the chain's course.

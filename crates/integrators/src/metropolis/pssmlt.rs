@@ -1,20 +1,20 @@
 //! `pssmlt`: primary sample space Metropolis light transport over the path tracer.
 //!
-//! A primary sample u is what one sample of [`crate::path`] draws: film position, aperture,
-//! wavelengths, moment, and the numbers of every scattering event. With A the film's area and C(u) that
-//! sample's estimate, light sampling and the weights over techniques and wavelengths included, chains of
-//! N steps in all give the pixel j of filter hⱼ
+//! A primary sample u is the random numbers of one sample of [`crate::path`]: film position, aperture,
+//! wavelengths, time, and those of every scattering event. With A the film's area and C(u) that
+//! sample's estimate, including light sampling and the weights over techniques and wavelengths, chains of
+//! N steps in total estimate the pixel j with the filter hⱼ by
 //!
 //! ```text
 //! Ĉⱼ = b̂/N · Σₙ [ (1 − aₙ) w(xₙ) hⱼ(xₙ) F(xₙ)/I(xₙ) + aₙ w(yₙ) hⱼ(yₙ) F(yₙ)/I(yₙ) ]
 //!    + 1/N · Σᵤ (1 − w(u))/ρ · hⱼ(u) F(u),        F(u) = A·C(u)
 //! ```
 //!
-//! (Kelemen, Szirmay-Kalos, Antal, Csonka 2002). xₙ is where a chain stands, yₙ the step that it tries
-//! and aₙ = min(1, I(yₙ)/I(xₙ)): both ends are credited with their expected share, whichever is taken. u
-//! are the uniform samples, ρ of them per step, w weighs chains against them, and b̂ estimates ∫ I du;
-//! see [`crate::metropolis`] for each and for why there is no bias. Light that was scattered at most
-//! once (`separate_direct`; else what is seen of lights) is no part of F but is added by ordinary
+//! (Kelemen, Szirmay-Kalos, Antal, Csonka 2002). xₙ is the state of a chain, yₙ its proposal, and
+//! aₙ = min(1, I(yₙ)/I(xₙ)): both contribute by their expected share. u are the uniform samples, ρ of
+//! them per step, w is the MIS weight of chains against them, and b̂ estimates ∫ I du; see
+//! [`crate::metropolis`] for each and for why there is no bias. Light that was scattered at most once
+//! (with `separate_direct`; else directly visible lights) is not part of F but added by ordinary
 //! samples.
 
 use crate::metropolis::{

@@ -1,8 +1,7 @@
-//! Evaluates a camera path anew at other wavelengths.
+//! Evaluates a camera path at other wavelengths.
 //!
-//! Continuous lobes are evaluated. Delta lobes have no value but of a sample: the BSDF at the other wavelengths is
-//! sampled with the same random numbers, and, if the choice of a lobe depends on wavelength and takes another,
-//! with further ones.
+//! Continuous lobes are evaluated. Delta lobes have values for samples only: the BSDF at the other wavelengths is
+//! sampled with the same random numbers, and with further ones if it chooses another lobe.
 
 use super::sets::{WavelengthChoice, WavelengthSets};
 use crate::steps::path_throughput::PathThroughput;
@@ -22,7 +21,7 @@ pub(crate) struct CameraVertex {
     chance: f32,
 }
 
-/// What kind of interaction that was.
+/// The kind of interaction.
 #[derive(Clone, Copy, Debug, PartialEq)]
 enum ScatterKind {
     Passing,
@@ -102,8 +101,8 @@ impl CameraPath<'_> {
         }
     }
 
-    /// What f/p₀ is multiplied by for f over all densities that it could have been made with. With one
-    /// wavelength left only photons of its own set count, which must stand for those of all.
+    /// 1 / Σₖ pₖ/p₀, from f/p₀ to f over the sum of the lanes' densities; times the number of sets if
+    /// dispersion has left one lane, since then only photons of the path's own set contribute.
     pub(crate) fn scale(&self) -> f32 {
         let ways = if self.alone {
             self.sets.len() as f32
@@ -113,7 +112,7 @@ impl CameraPath<'_> {
         ways / self.prefix.r_u.element_sum()
     }
 
-    /// `rgb`, and what photons brought, a sum for each set, carried to the camera.
+    /// `rgb` plus the photons' contributions, a sum for each set, carried to the camera.
     pub(crate) fn carried<W: World>(
         &self,
         world: &W,

@@ -1,7 +1,8 @@
-//! The camera's walk, which gathers photons where it meets surfaces that scatter.
+//! The camera path, which gathers photons at scattering surfaces.
 //!
-//! It follows sharp directions to their end, as `path` does, light sampling included; in all others it leaves light that is not
-//! direct to photons, and ends. With a final gather it goes on once in such a direction, and leaves to photons what it meets there.
+//! It follows sharp directions to their end, as `path` does, including light sampling. At other surfaces indirect light
+//! comes from photons, and the path ends. With a final gather it continues once in such a direction, and gathers photons
+//! at the next surface.
 
 use super::elsewhere::{CameraPath, CameraVertex};
 use super::sets::{WavelengthChoice, WavelengthSets};
@@ -23,15 +24,15 @@ use etalon_transport::{
 use glam::{Vec3, Vec4};
 use std::vec::Drain;
 
-/// A map, how to look it up, and what of it counts.
+/// A photon map, its kernel, and the photons of it that count.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Layer<'a> {
     pub(crate) map: &'a PhotonMap,
-    /// How it is looked up on surfaces, …
+    /// The look-up on surfaces, …
     pub(crate) lookup: KernelLookup,
     /// … and in media.
     pub(crate) in_space: KernelLookup,
-    /// How many photons were shot.
+    /// Number of photons shot.
     pub(crate) shot: u32,
     /// Whether these photons count where the walk has only followed sharp directions, …
     pub(crate) first: fn(Kind) -> bool,
@@ -39,7 +40,7 @@ pub(crate) struct Layer<'a> {
     pub(crate) second: fn(Kind) -> bool,
 }
 
-/// What a walk needs to know.
+/// The configuration of a camera path.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct GatherConfig<'a> {
     pub(crate) settings: &'a PathSettings,
@@ -84,7 +85,7 @@ struct GatherPath<'a, 'w, W: World> {
     second: bool,
     light_mis: LightMis,
     depth: u32,
-    /// What was found at the walk's own wavelengths, per lane, …
+    /// Radiance at the path's own wavelengths, per lane, …
     radiance: Vec4,
     /// … and at those of photons.
     rgb: Vec3,
@@ -159,7 +160,7 @@ impl<'w, W: World> GatherPath<'_, 'w, W> {
         while self.depth <= settings.max_depth && self.prefix.beta != Vec4::ZERO {
             let hidden = settings.hide_emitters && self.depth == 1;
             let hit = arrival::next_hit(world, &mut ray, hidden);
-            // What gathers photons in a medium counts without σs, which photons have.
+            // Gathering in a medium excludes σs, which photons include.
             let mut gathering = self.prefix;
             let mut met = None;
             if ray.medium.is_some() {
@@ -357,7 +358,7 @@ impl<'w, W: World> GatherPath<'_, 'w, W> {
                     }
                 });
                 let value = match model.is_in_space() {
-                    // Of flakes only the way of the light counts.
+                    // For flakes, only the direction of the light matters.
                     true => model.eval(photon.from, wo, TransportMode::Radiance),
                     false => model.eval(wo, photon.from, TransportMode::Radiance),
                 };

@@ -16,7 +16,7 @@ const ALONE: usize = 4096;
 #[derive(Clone, Debug, Default)]
 pub struct KdTree {
     points: Vec<Vec3>,
-    /// The coordinate by which each point parts its range.
+    /// The axis of each node's split.
     axes: Vec<u8>,
 }
 
@@ -48,7 +48,7 @@ impl KdTree {
         (Self { points, axes }, order)
     }
 
-    /// How many points there are.
+    /// Number of points.
     pub fn len(&self) -> usize {
         self.points.len()
     }
@@ -204,7 +204,7 @@ mod tests {
         proptest::collection::vec(point, 0..300)
     }
 
-    /// What a linear scan finds: numbers and squared distances, nearest first.
+    /// The result of a linear scan: indices and squared distances, nearest first.
     fn scan(points: &[Vec3], centre: Vec3, radius_squared: f32) -> Vec<(f32, u32)> {
         let mut found: Vec<(f32, u32)> = (points.iter().zip(0..))
             .map(|(point, number)| (point.distance_squared(centre), number))
@@ -247,7 +247,7 @@ mod tests {
             prop_assert_eq!(&limited, &found[..found.len().min(count + 1)]);
             found.sort_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
             prop_assert_eq!(&found, &expected);
-            // Of points at the same distance any may be the last of the nearest.
+            // Among points at the same distance, any may be the last of the nearest.
             let mut nearest = Vec::new();
             tree.nearest(centre, count, radius * radius, &mut nearest);
             let distances: Vec<f32> = nearest.iter().map(|n| n.distance_squared).collect();

@@ -5,7 +5,7 @@ use super::shoot::{Photon, PlacedPhotons};
 use core::f32::consts::PI;
 use glam::Vec3;
 
-/// What is looked up in a photon map.
+/// The parameters of a look-up in a photon map.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct KernelLookup {
     /// Radius (m).
@@ -18,7 +18,8 @@ pub(crate) struct KernelLookup {
 }
 
 impl KernelLookup {
-    /// Visits the photons around a point, each with its kernel (m⁻², in a medium m⁻³), after `begin` was told the squared radius.
+    /// Calls `begin` with the squared radius, then visits the photons around a point, each with its kernel (m⁻², in a medium
+    /// m⁻³).
     pub(crate) fn visit(
         &self,
         placed: &PlacedPhotons,
@@ -39,7 +40,7 @@ impl KernelLookup {
             return;
         }
         (placed.tree).nearest(centre, self.nearest, radius_squared, found);
-        // The farthest only tells how far they reach.
+        // The farthest defines the radius only.
         let Some((last, inside)) = found.split_last() else {
             return;
         };

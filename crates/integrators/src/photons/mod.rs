@@ -1,4 +1,4 @@
-//! What the estimators that merge paths with photons share.
+//! Photon maps, the common part of the estimators that merge paths with photons.
 //!
 //! Light that is scattered at x toward ωₒ is an integral over the light arriving there. Let photons
 //! arrive at yᵢ along −ωᵢ with the flux Φᵢ; with a kernel K that integrates to one over a disc,
@@ -15,15 +15,14 @@
 //! C = 1/M Σᵢ ¼ Σⱼ s(λᵢⱼ)/p(λᵢⱼ) · fⱼ(z) / (¼ Σₖ pₖ(z)) · K f(x, ωᵢ, ωₒ)ⱼ · Φᵢⱼ
 //! ```
 //!
-//! The camera path has wavelengths of its own, by which its density p(z) goes; its value fⱼ(z) is
-//! evaluated anew at those of the photon (`elsewhere`). Through a smooth dispersive interface a
-//! path exists at the one wavelength only that bent it. Therefore every camera path takes its
-//! wavelengths from the pass's sets: there are photons with the same, on average M over the number
-//! of sets, and such a path merges with these alone.
+//! The camera path has its own wavelengths, which define its density p(z); its value fⱼ(z) is evaluated
+//! again at those of the photon (`elsewhere`). Beyond a smooth dispersive interface a path exists at one
+//! wavelength only. Therefore every camera path takes its wavelengths from the pass's sets: some photons
+//! have the same, on average M over the number of sets, and such a path merges with these alone.
 //!
-//! Not all light is left to photons. Directions from x in which the density of scattering is above
-//! `SHARP` are followed by the camera path, as are mirrors and glass: there few photons would
-//! count. Direct light is sampled, unless `sppm` is told to leave it to photons.
+//! Photons are not used for all light. Directions from x in which the density of scattering is above
+//! `SHARP` are followed by the camera path, as are mirrors and glass, since few photons would contribute
+//! there. Direct light is sampled, unless `sppm` is configured to use photons for it.
 
 pub(crate) mod elsewhere;
 pub(crate) mod gather;

@@ -1,17 +1,16 @@
 //! `photonmap`: photon mapping in two passes.
 //!
-//! First photons are shot and kept in two maps (Jensen 1996): the *caustic* map holds those that
-//! were scattered in sharp directions only, the *global* map those and all others. Then paths from
-//! the camera gather them ([`crate::photons`]); at the first surface x that scatters otherwise,
+//! First, photons are shot and stored in two maps (Jensen 1996): the *caustic* map holds those that
+//! were scattered in sharp directions only, the *global* map all. Then paths from the camera gather
+//! them ([`crate::photons`]); at the first surface x that is not sharp,
 //!
 //! ```text
 //! L = L_direct (sampled) + L_sharp (followed) + L_caustic (caustic map) + L_indirect
 //! ```
 //!
-//! L_indirect comes from the photons of the global map that belong to neither of the others, or
-//! with `final_gather` from the next surface y that a path from x meets in a direction that is not
-//! sharp, where the whole global map is looked up, and what it meets in sharp directions from
-//! there.
+//! L_indirect comes from the photons of the global map that belong to neither of the other terms. With
+//! `final_gather` it comes from the whole global map at the next surface y along a non-sharp direction
+//! from x, and at those that follow y in sharp directions.
 //!
 //! With M photons shot, of which the i-th in the map, of flux Φᵢ, arrives along ωᵢ at the distance dᵢ
 //! from x, a map adds
@@ -24,13 +23,13 @@
 //!
 //! (Jensen 1996; 2001, *Realistic Image Synthesis Using Photon Mapping*, chapter 7). Either kernel has
 //! the integral one over the disc of radius r. Distances are those in space. Photons on surfaces that face
-//! elsewhere, that arrive from directions which are followed, or whose path would be too long count
-//! nothing. Every photon counts at its own wavelengths, as [`crate::photons`] has it.
+//! elsewhere, that arrive from directions which are followed, or whose path would be too long are
+//! ignored. Every photon contributes at its own wavelengths, see [`crate::photons`].
 //!
-//! r is given, or the distance d₍ₖ₎ of the k-th nearest photon of the map if that is less. Then this
-//! photon only tells the radius, and the sum is over the k − 1 nearer ones: given d₍ₖ₎ these lie in the
-//! disc as independent photons within a fixed radius do, so that under even light the expectation is
-//! right,
+//! r is given, or the distance d₍ₖ₎ of the k-th nearest photon of the map if that is less. That photon
+//! then defines the radius only, and the sum is over the k − 1 nearer ones: given d₍ₖ₎, these are
+//! distributed like independent photons within a fixed radius, so that the expectation is correct under
+//! uniform light,
 //!
 //! ```text
 //! E[ (k − 1) / (π d₍ₖ₎²) ] = photons per area
@@ -42,11 +41,11 @@
 //! Without a radius and a number of nearest photons, r is the width of two pixels, or less where the map
 //! is so dense that a look-up would find more than 32 photons on average ([`crate::photons::radius`]).
 //!
-//! Where more than 1024 photons are within r, one of 4, 16, … of them is visited, chosen at random beforehand, and counts for as many
-//! (`photons.rs`): the expectation is the same, and a look-up takes no longer where a narrow beam leaves all photons.
+//! If more than 1024 photons are within r, one in 4, 16, … of them, chosen at random beforehand, is visited with that weight:
+//! the expectation is the same, and the time of a look-up stays bounded under a narrow beam.
 //!
-//! In a medium photons are kept where they are scattered, and K is one over a ball: the box 1/(4/3 π r³), the cone with
-//! 3/(4c) in place of 2/(3c). Free flight brings the camera's path to a point, where the photons around are gathered
+//! In a medium, photons are stored where they are scattered, and K is normalised over a ball: the box 1/(4/3 π r³), the cone
+//! with 3/(4c) instead of 2/(3c). Photons are gathered around the end of a free flight of the camera's path
 //! (Jensen & Christensen 1998, "Efficient Simulation of Light Transport in Scenes with Participating Media using
 //! Photon Maps"). Without a radius and a number the 32 nearest are looked for.
 //!
@@ -79,21 +78,21 @@ pub struct PhotonMapper {
     pub sets: u32,
     /// Whether light that is neither direct nor a caustic is gathered one bounce away.
     pub final_gather: bool,
-    /// How the global map is looked up.
+    /// Density estimation in the global map.
     pub global: Estimate,
-    /// How the caustic map is looked up.
+    /// Density estimation in the caustic map.
     pub caustic: Estimate,
     /// The cone's k; a box if there is none.
     pub cone: Option<f32>,
 }
 
-/// How a map is looked up.
+/// The parameters of density estimation.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Estimate {
     /// The radius, or the largest if the nearest photons are looked for (m); `None` for the width
     /// of some pixels or less, or as large as need be.
     pub radius: Option<f32>,
-    /// How many photons are looked for; all within the radius if zero.
+    /// Number of nearest photons; all within the radius if zero.
     pub nearest: usize,
 }
 
@@ -169,7 +168,7 @@ impl PhotonMapper {
             let among = |placed: &PlacedPhotons, nearest: usize, radius| KernelLookup {
                 radius,
                 nearest: match estimate.radius {
-                    // With fewer photons than are looked for, the farthest of them tells the radius.
+                    // With fewer photons than k, the farthest of them defines the radius.
                     None if nearest > 0 => nearest.min(placed.photons.len().max(1)),
                     _ => nearest,
                 },
@@ -241,7 +240,7 @@ impl Integrator for PhotonMapper {
         let caustic = photons.iter().filter(|p| p.kind == Kind::Caustic);
         let caustic = PhotonMap::new(caustic.copied().collect());
         if !self.final_gather {
-            // Nobody asks the global map for others.
+            // Other photons of the global map are needed for final gathering only.
             photons.retain(|photon| photon.kind == Kind::Indirect);
         }
         let global = PhotonMap::new(photons);

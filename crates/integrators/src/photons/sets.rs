@@ -19,7 +19,7 @@ use glam::Vec4;
 /// The fractional part of the golden ratio: its multiples are spread evenly (mod 1).
 const GOLDEN: f64 = 0.618_033_988_749_894_8;
 
-/// What tells this random number from the others of a replicate.
+/// Key of this random number among those of a replicate.
 const SHIFT: u32 = 0x7761_7665;
 
 /// The same of the lane that chooses in the first pass.
@@ -80,7 +80,7 @@ impl WavelengthSets {
         }
     }
 
-    /// How many there are.
+    /// Number of sets.
     #[inline]
     pub(crate) fn len(&self) -> usize {
         self.sets.len()

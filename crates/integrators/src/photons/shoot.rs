@@ -1,10 +1,9 @@
-//! Photons: particles from the lights, noted wherever they meet a surface that scatters, or are scattered by a medium.
+//! Photons: particles from the lights, stored where they hit a scattering surface or are scattered by a medium.
 //!
-//! A photon of flux Φ that arrives at y stands for the part Φ of the flux that arrives there. Its
-//! value per lane is f/p of its path, with p the mean density over the lanes that could have
-//! chosen (see [`crate::steps::path_throughput`]), over the cosine of its arrival: the sum of the values of photons
-//! per unit area of a surface estimates the integral of radiance over directions; that per unit volume of a medium σs
-//! times it.
+//! The value of a photon per lane is f/p of its path, with p the mean density over the lanes that could have chosen
+//! (see [`crate::steps::path_throughput`]), over the cosine of its arrival. The sum of the photons' values per unit area of a
+//! surface estimates the integral of radiance over directions; that per unit volume of a medium, σs times the
+//! integral.
 
 use super::is_sharp;
 use super::kdtree::{Found, KdTree};
@@ -17,7 +16,7 @@ use etalon_transport::{Bsdf, LightKind, MediumId, Pass, Placing, SamplePdf, Worl
 use glam::{Vec3, Vec4};
 use rayon::prelude::*;
 
-/// What a photon went through.
+/// The kind of a photon's path.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Kind {
     /// It comes straight from a light.
@@ -31,7 +30,7 @@ pub(crate) enum Kind {
 /// A photon at a surface, or at a point of a medium.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Photon {
-    /// Where (m).
+    /// Position (m).
     pub(crate) position: Vec3,
     /// Unit geometric normal there; zero in a medium.
     pub(crate) normal: Vec3,
@@ -43,7 +42,7 @@ pub(crate) struct Photon {
     pub(crate) set: u32,
     /// Segments behind it.
     pub(crate) segments: u32,
-    /// What it went through.
+    /// The kind of its path.
     pub(crate) kind: Kind,
     /// The medium that scatters it, if it is not on a surface.
     pub(crate) medium: MediumId,
@@ -64,7 +63,7 @@ pub(crate) const MOST_VISITED: usize = 1024;
 /// The least cosine of the angle between the normals of surfaces that share photons.
 pub(crate) const FACING: f32 = 0.7;
 
-/// Of so many photons a thinned map keeps one.
+/// A thinned map keeps one photon of this many.
 const THINNED: u64 = 4;
 
 impl PlacedPhotons {
@@ -87,9 +86,9 @@ impl PlacedPhotons {
         }
     }
 
-    /// The photons not farther than the root of `radius_squared`, in `found`: of how many each of them is one, and the map that they
-    /// are places of. Where more than [`MOST_VISITED`] are, those of a thinned map stand for them: whether a photon stays does not
-    /// depend on where it is, so that whatever is summed over them has the same expectation.
+    /// Collects in `found` the photons within the root of `radius_squared`; returns the weight of each, and the map of
+    /// which these are indices. If there are more than [`MOST_VISITED`], a thinned map is used: a photon stays in it
+    /// independently of its position, so that sums have the same expectation.
     pub(crate) fn around(
         &self,
         centre: Vec3,
@@ -143,7 +142,7 @@ pub(crate) fn moment(pass: &Pass) -> f32 {
     (bits >> 8) as f32 / (1 << 24) as f32
 }
 
-/// How many photons a thread traces at once.
+/// Photons per task.
 const CHUNK: u32 = 256;
 
 /// The random numbers of photon `index` of `count`.
@@ -158,8 +157,8 @@ pub(crate) fn numbers(pass: &Pass, index: u32, count: u32) -> Sobol {
     })
 }
 
-/// Everything that `trace` finds for the numbers below `count`, in their order whatever the number
-/// of threads; less if `placing` says to stop.
+/// The results of `trace` for the numbers below `count`, in order for any number of threads; fewer if
+/// `placing` is stopped.
 pub(crate) fn in_order<T: Send>(
     count: u32,
     placing: &impl Placing,
@@ -280,9 +279,9 @@ fn trace<W: World>(
 mod tests {
     use super::*;
 
-    /// In a spot that a look-up covers there may be any number of photons: it visits a bounded number of each of the nested maps, and the
-    /// mean of what it finds is all that there is, over maps of different photons (|z| < 4.5, α = 10⁻⁵; the mutant whose thinned
-    /// photons count for one less is off by 30 standard errors). Where few are, it finds these.
+    /// A look-up visits a bounded number of photons of each of the nested maps, and the mean of its sum over maps of different
+    /// photons is that of all photons (|z| < 4.5, α = 10⁻⁵; a mutant whose thinned photons have a weight that is too small by one
+    /// is off by 30 standard errors). Few photons are all found.
     #[test]
     fn a_look_up_visits_a_bounded_number_of_photons_that_stand_for_all() {
         let mut found = Vec::new();

@@ -11,8 +11,8 @@
 //! sample is a pass, and a replicate a whole progression: more samples per replicate reduce its
 //! bias, more replicates do not.
 //!
-//! Direct light is sampled and not left to photons, unless that is asked for. What photons bring is
-//! biased, the more so where illumination bends within the radius or near edges.
+//! Direct light is sampled instead of estimated from photons, unless the scene asks for the latter. The photon
+//! estimate is biased, most near edges and where illumination is curved within the radius.
 
 use crate::photons::gather::{GatherConfig, Layer, follow_all, follow_one};
 use crate::photons::kernel::{Kernel, KernelLookup};

@@ -1,11 +1,11 @@
 //! The render loop: replicates × passes × tiles × pixels × samples.
 //!
-//! A replicate is an estimate of the whole image, independent of the others or a block of the sequence that
-//! they make up together ([`etalon_sampling::ReplicateKind`]), made in one pass or in as many as the integrator asks for. Tiles of a pass run in parallel, and a long pass goes over all of them in
-//! several rounds, so that a picture that is interrupted has some samples everywhere. The first round of all is of every
-//! eighth pixel of every eighth row, the second four times as fine, for those who look on. Since a
-//! sample is a pure function of its address and the film accumulates exactly, neither the number of
-//! threads nor the order of tiles nor the rounds change a bit, and a render goes on from any sample.
+//! A replicate is an estimate of the whole image, independent of the others or a block of one sequence
+//! ([`etalon_sampling::ReplicateKind`]), rendered in one pass or as many as the integrator needs. Tiles of a pass run in
+//! parallel. A long pass goes over all tiles in several rounds, so that an interrupted picture has samples everywhere. For
+//! previews, the first round covers every eighth pixel of every eighth row, and the second is four times as dense. A
+//! sample is a pure function of its address, and the film accumulates exactly: the number of threads, the order of tiles
+//! and the rounds change no bit, and a render can resume at any sample.
 
 pub(crate) mod positions;
 mod render_plan;
@@ -31,13 +31,13 @@ pub const TILE: u32 = 16;
 /// A small picture has smaller tiles, so that each thread has this many to even out its load.
 const TILES_PER_THREAD: u32 = 8;
 
-/// How many samples are handed to the integrator at once.
+/// Number of samples in a batch.
 pub const BATCH_SIZE: usize = 16;
 
 /// Columns and rows from one pixel of the first round to the next.
 const COARSE: u32 = 8;
 
-/// What happened.
+/// Statistics of a render.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct RenderStatistics {
     /// Replicates finished; fewer than planned if the render was cancelled.
@@ -46,7 +46,7 @@ pub struct RenderStatistics {
     pub samples: u64,
     /// Rays traced.
     pub rays: u64,
-    /// What the estimator remarked when it first prepared, see [`Integrator::remarks`].
+    /// Remarks of the estimator on its first preparation, see [`Integrator::remarks`].
     pub remarks: Vec<String>,
 }
 
@@ -77,8 +77,8 @@ fn tile_side(size: UVec2, threads: usize) -> u32 {
     side
 }
 
-/// Renders replicates into `film` on the current thread pool, and goes on where the film has some samples of the first
-/// of them already. If it is cancelled, the film keeps the replicate that was being rendered.
+/// Renders replicates into `film` on the current thread pool, and continues after the samples that the film already has of
+/// the first of them. If it is cancelled, the film keeps the unfinished replicate.
 ///
 /// A world's sensor has three channels. A film of more has several worlds, which differ in their sensors: every sample is
 /// drawn in each, with the same numbers, and goes to its group of the film's bands ([`TileSink::select_group`]).
@@ -115,7 +115,7 @@ pub fn render<W: World, I: Integrator, F: Film>(
     }
 }
 
-/// What does not change while an image is rendered.
+/// The constants of a render.
 struct Run<'a, W, I> {
     worlds: &'a [W],
     integrator: &'a I,
@@ -127,7 +127,7 @@ struct Run<'a, W, I> {
     samples: AtomicU64,
     pace: Pace,
     batches: Batches,
-    /// What the integrator remarked when it first prepared.
+    /// Remarks of the integrator on its first preparation.
     remarks: Option<Vec<String>>,
 }
 
@@ -172,7 +172,7 @@ impl<W: World, I: Integrator> Run<'_, W, I> {
             let first = states.iter().take(1);
             self.remarks
                 .get_or_insert_with(|| first.flat_map(|s| self.integrator.remarks(s)).collect());
-            // What was left half done is of no use.
+            // An unfinished preparation is not used.
             let until = done.saturating_sub(begin);
             if self.progress.cancelled() || !self.pass(film, &pass, [begin, until], &states) {
                 return false;
@@ -263,7 +263,7 @@ impl<W: World, I: Integrator> Run<'_, W, I> {
     }
 }
 
-/// How many of a replicate's samples every pixel has at least, where all are dealt this many.
+/// The least number of finished samples of a pixel in the replicate, of `samples`.
 fn done<F: Film>(film: &F, samples: u32) -> u32 {
     let (origin, size) = (film.origin(), film.size());
     let pixels = (0..size.y).flat_map(|y| (0..size.x).map(move |x| origin + UVec2::new(x, y)));
@@ -283,7 +283,7 @@ struct Round<'a, 'r, W: World, I: Integrator, F: Film> {
     pass: &'a Pass,
     begin: u32,
     until: u32,
-    /// Of how many columns and rows there is one in this round.
+    /// The round covers every `stride`-th column and row.
     stride: u32,
 }
 
@@ -325,7 +325,7 @@ impl<W: World, I: Integrator, F: Film> Round<'_, '_, W, I, F> {
                 }
                 let dealt = self.film.dealt(pixel, samples);
                 for sample in self.film.done(pixel).max(self.begin)..self.target(dealt) {
-                    // Asked while no job waits, so that what was begun is finished.
+                    // Checked while no sample is pending, so that every sample begun is finished.
                     if jobs.is_empty() && progress.cancelled() {
                         return (drawn, false);
                     }
@@ -380,7 +380,7 @@ impl<W: World, I: Integrator, F: Film> Round<'_, '_, W, I, F> {
         }
     }
 
-    /// How many samples of the replicate a pixel has after this round, of those that it is dealt.
+    /// Number of finished samples of a pixel after this round, of the `dealt` ones.
     fn target(&self, dealt: u32) -> u32 {
         // Only where a replicate is one pass may pixels differ; they come along alike.
         if self.pass.count > 1 {

@@ -1,11 +1,11 @@
-//! Where samples lie on a film, for whoever draws them: the film's answers, stratified positions, and the pixels around it.
+//! Positions of samples on the film, also for preparations: stratification, and the border pixels around the film.
 
 use crate::render::Progress;
 use etalon_sampling::{SampleId, SamplerKind, stratified_pair};
 use etalon_transport::{Film, FilmSample, Pass, Placing};
 use glam::{UVec2, Vec2};
 
-/// What is asked before a pass, with somebody who may say stop.
+/// A film and the progress that may cancel a preparation, as [`Placing`].
 pub(crate) struct Asked<'a, F> {
     pub(crate) film: &'a F,
     pub(crate) progress: &'a dyn Progress,
@@ -33,8 +33,8 @@ impl<F: Film> Placing for Asked<'_, F> {
     }
 }
 
-/// The numbers that place a sample on the film, of which its sampler has drawn `numbers`: where pixels share samples,
-/// positions are stratified whatever the sampler, else even a constant would be noisy.
+/// The numbers that place a sample on the film, from `numbers` of its sampler. If pixels share samples, positions are
+/// stratified even for `independent`; otherwise a constant picture would be noisy.
 #[inline]
 pub(crate) fn position<P: Placing>(
     film: &P,

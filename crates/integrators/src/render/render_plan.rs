@@ -1,4 +1,4 @@
-//! What is rendered: how many replicates of how many samples, and where their numbers are drawn from.
+//! The plan of a render: number of replicates, samples per replicate, and the source of random numbers.
 
 use crate::render::ReplicateRange;
 use etalon_sampling::{ReplicateKind, SampleId, SamplerKind};
@@ -6,15 +6,14 @@ use etalon_sampling::{ReplicateKind, SampleId, SamplerKind};
 use etalon_transport::Integrator;
 use glam::UVec2;
 
-/// How much to render.
+/// The plan of a render.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct RenderPlan {
     /// The seed of the image.
     pub seed: u64,
     /// Replicates of the image.
     pub replicates: u32,
-    /// What they have to do with each other. Blocks are for integrators that declare them
-    /// ([`Integrator::replicate_kind`]).
+    /// How they are related. Blocks are for integrators that declare them ([`Integrator::replicate_kind`]).
     pub replicate_kind: ReplicateKind,
     /// The replicates that are rendered here; `None` for all of them.
     pub share: Option<ReplicateRange>,

@@ -1,11 +1,11 @@
 //! Shares of an image's replicates, as parts of a render are dealt them.
 
-/// Some of an image's replicates, each what it would be in a render of all of them.
+/// A range of an image's replicates, each with the bits that it has in a render of all of them.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct ReplicateRange {
     /// The first.
     pub first: u32,
-    /// How many.
+    /// Their number.
     pub count: u32,
 }
 

@@ -14,10 +14,10 @@ const SHARE: f64 = 0.25;
 /// Between two looks at who may say stop there should be no more than this.
 const PATIENCE: Duration = Duration::from_millis(50);
 
-/// How many samples make a round.
+/// The number of samples in a round.
 #[derive(Debug, Default)]
 pub(crate) struct Pace {
-    /// What a sample takes (s), all threads together, as far as it is known.
+    /// Time per sample (s), of all threads together, once known.
     per_sample: Option<f64>,
     pass: Option<Instant>,
     round: Option<Instant>,
@@ -52,7 +52,7 @@ impl Pace {
     }
 }
 
-/// How many samples are handed to an integrator at once: fewer where each takes long.
+/// The size of batches: smaller if samples are slow.
 #[derive(Debug)]
 pub(crate) struct Batches {
     most: usize,
@@ -68,7 +68,7 @@ impl Batches {
         }
     }
 
-    /// How many, now.
+    /// The current size.
     #[inline]
     pub(crate) fn size(&self) -> usize {
         self.size.load(Ordering::Relaxed)

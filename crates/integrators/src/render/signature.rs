@@ -60,7 +60,7 @@ impl Integrator for Signature {
         ReplicateKind::Blocks
     }
 
-    /// It asks for no light.
+    /// It needs no light.
     fn incompatibilities(&self, _: &SceneCapabilities) -> Vec<Incompatibility> {
         Vec::new()
     }

@@ -6,7 +6,7 @@ use etalon_spectrum::Wavelengths;
 use etalon_transport::{Camera, Media, PixelSample, Ray, Sensor, World};
 use glam::Vec2;
 
-/// What the lens, the wavelengths and the moment of a sample are chosen with.
+/// The random numbers of a sample's lens point, wavelengths and time.
 #[inline]
 pub(crate) fn draw_lens(sampler: &mut impl Sampler) -> (Vec2, f32, f32) {
     sampler.skip_to(dim::LENS);

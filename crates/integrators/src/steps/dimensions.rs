@@ -35,9 +35,9 @@ pub struct BounceSamples {
     pub light: Vec2,
     /// The scattered direction.
     pub direction: Vec2,
-    /// Which light.
+    /// Selection of the light.
     pub light_choice: f32,
-    /// Which lobe.
+    /// Selection of the lobe.
     pub lobe: f32,
     /// Russian roulette.
     pub roulette: f32,
@@ -58,7 +58,7 @@ impl BounceSamples {
     }
 }
 
-/// How far a medium lets light fly on its way to the event with index `index`: the last of its dimensions.
+/// The number for the free flight before the event `index`: the last of its dimensions.
 #[inline]
 pub fn draw_flight<S: Sampler>(sampler: &mut S, index: u32) -> f32 {
     let next = index.wrapping_add(1).wrapping_mul(PER_SCATTERING);

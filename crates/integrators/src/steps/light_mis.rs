@@ -5,7 +5,7 @@ use crate::steps::path_throughput::PathThroughput;
 use etalon_transport::{BsdfSample, LightSampleContext, MediumId, SurfaceInteraction, World};
 use glam::{Vec3, Vec4};
 
-/// What light sampling at the last vertex that is no null interaction could have found.
+/// The density of light sampling at the last vertex that is not a null interaction.
 #[derive(Clone, Copy)]
 pub(crate) struct LightMis {
     /// That vertex, as light sampling saw it.

@@ -1,7 +1,7 @@
-//! One particle from a light, from one point that scatters it to the next.
+//! A particle from a light, from one scattering vertex to the next.
 //!
-//! What `ptracer` connects with the camera, `forward` waits for, and photon maps keep: they differ
-//! in what they do with a particle, not in how it goes.
+//! `ptracer`, `forward` and photon maps use the same particles: the first connects them with the
+//! camera, the second waits until they hit the aperture, the third stores them.
 
 use crate::steps::arrival::{free_flight, next_hit};
 use crate::steps::dimensions::{self as dim, BounceSamples, draw_flight};
@@ -24,7 +24,7 @@ pub(crate) struct LightPath<'a> {
     wavelengths: &'a Wavelengths,
     /// Its flux over its density, per lane, and how likely each lane's choices were.
     pub(crate) prefix: PathThroughput,
-    /// Where it goes.
+    /// Its ray.
     pub(crate) ray: Ray,
     /// Number of segments, that of `ray` included.
     pub(crate) depth: u32,
@@ -72,7 +72,7 @@ impl<'a> LightPath<'a> {
         Some((start, particle))
     }
 
-    /// Where it is scattered next; `None` if it leaves the scene.
+    /// The next scattering vertex; `None` if it leaves the scene.
     #[inline]
     pub(crate) fn next<'w, W: World>(
         &mut self,

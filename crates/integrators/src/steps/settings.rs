@@ -41,11 +41,11 @@ impl PathSettings {
     }
 }
 
-/// How paths are traced. It is the same for all of them.
+/// The configuration of path tracing, the same for all paths.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct PathConfig {
     pub(crate) limits: PathSettings,
-    /// How many light samples compete for a shadow ray where the path is not yet scattered at random.
+    /// Number of light samples that are resampled for a shadow ray, before the path has scattered at random.
     pub(crate) candidates: LightCandidates,
     /// Whether passing straight through a surface makes a path longer: so count Mitsuba's `path`, and not its
     /// `volpath`.
@@ -71,7 +71,7 @@ impl PathConfig {
         (self.limits.max_depth > 0).then_some(camera_ray)
     }
 
-    /// How many surfaces a shadow ray may pass straight that leaves a path of `depth` segments.
+    /// The most null surfaces that a shadow ray may cross from a path of `depth` segments.
     #[inline]
     pub(crate) fn null_crossings(&self, depth: u32) -> u32 {
         if self.counts_null {
@@ -82,7 +82,7 @@ impl PathConfig {
     }
 }
 
-/// How many light samples compete for a shadow ray; `None` leaves it to the lights.
+/// Number of light samples that are resampled for a shadow ray; `None` lets the lights decide.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct LightCandidates(pub Option<NonZeroU32>);
 

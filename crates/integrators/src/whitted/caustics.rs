@@ -29,14 +29,14 @@ use etalon_transport::{
 };
 use glam::{Vec3, Vec4};
 
-/// How caustics are made.
+/// The settings of caustics.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct CausticSettings {
-    /// How many photons are sent; none for no caustics.
+    /// Number of photons; 0 for no caustics.
     pub photons: u32,
     /// Within what distance they count (m); `None` for the width of two pixels, or all that is needed for the nearest.
     pub radius: Option<f32>,
-    /// How many of the nearest are looked for; 0 for all within the radius.
+    /// Number of nearest photons; 0 for all within the radius.
     pub nearest: usize,
 }
 
@@ -99,7 +99,7 @@ impl Caustics {
         })
     }
 
-    /// What a surface shows of them, `depth` segments from the camera.
+    /// Their radiance at a surface `depth` segments from the camera.
     pub(super) fn seen<W: World>(
         &self,
         vertex: &SurfaceInteraction,

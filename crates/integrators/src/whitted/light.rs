@@ -1,4 +1,4 @@
-//! What arrives straight from the lights.
+//! Direct light.
 
 use super::shading::{Surface, SurfaceBySet};
 use super::tree::{Packet, SETS};
@@ -94,7 +94,7 @@ impl Whitted {
     ) -> Option<[Vec4; SETS]> {
         let mut ray = segment;
         let mut fractions = [Vec4::ONE; SETS];
-        // Photons bring what is refracted to where it arrives in truth.
+        // With photons, refracted light is accounted for where it really arrives.
         let passes = |material: &LegacyPhong| match self.caustics.photons {
             0 => material.transparency,
             _ => 0.0,

@@ -1,14 +1,13 @@
-//! `whitted`: recursive ray tracing (Whitted 1980), without random numbers unless they are asked for.
+//! `whitted`: recursive ray tracing (Whitted 1980), deterministic by default.
 //!
 //! ```text
 //! L(x, ω) = Lₑ + Σ_lights Σ_points V f |cos θ| E + Σ_directions w · L(next surface)
 //! ```
 //!
-//! Of the integral over all directions two parts are kept: what arrives straight from the lights,
-//! every light being asked at N points ([`PointSet`]), and what arrives from the few directions that smooth
-//! surfaces single out (mirrors, refraction, total reflection), each of which is followed. Light
-//! that reaches a surface in any other way is missing, which is what makes this no estimator of the
-//! rendering equation; but wherever there is no such light it is exact, with hard shadows.
+//! Of the integral over all directions two parts are evaluated: direct light, from N points of every
+//! light ([`PointSet`]), and light from the discrete directions of smooth surfaces (mirrors, refraction,
+//! total reflection), each of which is followed. All other light is missing, so this is not an
+//! estimator of the rendering equation; without such light it is exact, with hard shadows.
 //!
 //! Classic Phong materials ([`LegacyPhong`]) fill the gap with an ambient term:
 //!
@@ -16,18 +15,18 @@
 //! L = (1 − α) (kₐ Lₐ + Σ V E (k_d cos θ + kₛ max(0, cos ρ)ⁿ) + k_g L_mirror + k_d E_caustic) + α L_refracted
 //! ```
 //!
-//! θ is the angle of the light with the normal on the viewer's side, ρ that with the mirrored
-//! view (Phong 1975); lights behind the surface count nothing. E is the irradiance of a lamp of
-//! intensity I, I/r² or, if light does not fall off, I. Under total reflection L_refracted is
-//! L_mirror. Light passes transparent classic surfaces straight on its way from a lamp, dimmed by α
-//! at each; other interfaces cast black shadows unless light passes them straight (`mask`, …). With `photons` it is a photon map
-//! instead that tells where light arrives by way of mirrors and glass, E_caustic (`caustics.rs`), and transparent surfaces cast
-//! black shadows, too. θ, ρ and the ways onward go by the normal that `normalmap` and `bumpmap` give.
+//! θ is the angle between the light and the normal on the viewer's side, ρ that between the light and the
+//! mirrored view (Phong 1975); lights behind the surface do not contribute. E is the irradiance of a lamp of
+//! intensity I: I/r², or I without fall-off. Under total reflection L_refracted is L_mirror. Shadow rays pass
+//! transparent classic surfaces unrefracted, attenuated by α at each; other surfaces cast black shadows unless
+//! they have a null interaction (`mask`, …). With `photons`, a photon map (`caustics.rs`) gives E_caustic, the light by way
+//! of mirrors and glass, and transparent surfaces cast black shadows too. θ, ρ and secondary rays use the normal after
+//! `normalmap` and `bumpmap`.
 //!
-//! Wavelengths are those of a rule for integrals ([`QuadratureNode`]) in strata that paths draw theirs from with equal
-//! probability, so pictures are without noise as long as no point is random; smooth dispersion sends each its own way. Every pixel is the
-//! mean of a grid of points over its square, refined where neighbours differ. What is random is drawn for each sample of a pixel,
-//! and photons for each replicate.
+//! Wavelengths are nodes of a quadrature ([`QuadratureNode`]) in strata of equal probability, so pictures have no noise as
+//! long as no point is random. Smooth dispersion refracts each wavelength separately. A pixel is the mean over a grid of
+//! points, refined where neighbours differ. Random points are drawn for each sample of a pixel, photons for each
+//! replicate.
 //!
 //! [`LegacyPhong`]: etalon_transport::LegacyPhong
 //! [`QuadratureNode`]: etalon_spectrum::QuadratureNode
@@ -58,7 +57,7 @@ use std::vec::Drain;
 pub use tree::{Continuation, onward};
 use tree::{Packet, Tree};
 
-/// How the light of lamps without extent fades with distance.
+/// The fall-off of lights without extent.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Falloff {
     /// Not at all.
@@ -74,15 +73,15 @@ pub struct Whitted {
     pub max_depth: u32,
     /// Whether lights are invisible to the camera.
     pub hide_emitters: bool,
-    /// How the light of lamps fades.
+    /// The fall-off of lights.
     pub falloff: Falloff,
     /// The strength of ambient light, which is white.
     pub ambient: f32,
-    /// The points at which lights with an extent are asked.
+    /// The points at which lights with an extent are sampled.
     pub light_points: PointSet,
     /// The points of a lens that are looked through.
     pub lens_points: PointSet,
-    /// How caustics are made.
+    /// The settings of caustics.
     pub caustics: CausticSettings,
     /// Number of wavelengths, a multiple of four.
     pub wavelengths: u32,
@@ -184,8 +183,8 @@ impl Whitted {
     }
 }
 
-/// The pixels of a pass seen so far, and its photons. Where nothing is random each pixel is looked at once, however many samples are asked
-/// for; without photons, in all replicates together.
+/// The finished pixels of a pass, and its photons. If nothing is random, each pixel is evaluated once for all its
+/// samples; without photons, once for all replicates.
 pub struct Picture {
     origin: UVec2,
     width: u32,
@@ -226,7 +225,7 @@ impl Picture {
 impl Integrator for Whitted {
     type State = Picture;
 
-    /// It asks all lights, and shows classic materials; a sky has no point to ask.
+    /// It samples all lights and renders classic materials; a sky has no points to sample.
     fn incompatibilities(&self, sight: &SceneCapabilities) -> Vec<Incompatibility> {
         let message = "`whitted` asks every light at fixed points, and this scene has a sky, which \
                        shines from everywhere";
@@ -284,7 +283,7 @@ impl Integrator for Whitted {
         sink.radiance(seen.truncate().to_array(), seen.w);
     }
 
-    /// The film's filter places no sample, so that what it makes them count is left aside, too.
+    /// The film's filter does not place its samples, so the filter's weights are ignored, too.
     fn sample_batch<W: World, S: Sampler, K: TileSink>(
         &self,
         world: &W,

@@ -1,4 +1,4 @@
-//! The classic Phong material: what it shows of a lamp, and where it sends rays.
+//! The classic Phong material: shading by a lamp, and secondary rays.
 
 use super::tree::Continuation;
 use etalon_math::float;
@@ -11,7 +11,7 @@ fn facing(material: &LegacyPhong, wo: Vec3) -> Vec3 {
     if n.dot(wo) < 0.0 { -n } else { n }
 }
 
-/// Whether two directions are on one side of the surface, whatever a map has made of its normal.
+/// Whether two directions are on one side of the surface, by the shading normal before normal and bump maps.
 fn on_one_side(vertex: &SurfaceInteraction, wo: Vec3, wi: Vec3) -> bool {
     vertex.shading.n.dot(wo) * vertex.shading.n.dot(wi) > 0.0
 }
@@ -39,7 +39,7 @@ pub(super) fn spread(
     material.diffuse * (cos * (1.0 - material.transparency) * material.opacity)
 }
 
-/// What the surface itself shows of a lamp in direction `wi`, per unit of irradiance.
+/// The surface's shading by a lamp in direction `wi`, per unit of irradiance.
 pub(super) fn shade(
     material: &LegacyPhong,
     vertex: &SurfaceInteraction,
@@ -198,7 +198,7 @@ mod tests {
         assert!(into.wi.z < 0.0 && close(into.value, 0.0));
     }
 
-    /// What is not there lets light pass straight, and has no part in the rest.
+    /// The transparent share of a mask lets light pass, and does not shade.
     #[test]
     fn a_mask_leaves_a_share() {
         let masked = LegacyPhong {

@@ -15,7 +15,7 @@ pub(super) const MOST: u32 = 32;
 pub struct Grid {
     /// Squares along each side, at most 32.
     pub side: u32,
-    /// How often a square whose corners differ may be cut into four.
+    /// The most subdivisions of a square whose corners differ.
     pub levels: u32,
     /// The difference of colours, or of alpha, from which on corners differ.
     pub contrast: f32,

@@ -11,7 +11,7 @@ use etalon_params::Params;
 use etalon_sampling::Sampler;
 use glam::Vec2;
 
-/// How points are placed.
+/// The placement of points.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Placement {
     /// In the middles of the cells.
@@ -27,7 +27,7 @@ pub enum Placement {
 pub struct PointSet {
     /// n.
     pub side: u32,
-    /// Where they are.
+    /// Their placement.
     pub placement: Placement,
 }
 
@@ -42,7 +42,7 @@ impl PointSet {
         Self { side, placement }
     }
 
-    /// How many there are.
+    /// Number of points.
     pub(super) fn count(self) -> u32 {
         self.side * self.side
     }

@@ -1,4 +1,4 @@
-//! What lies at a surface: a classic Phong material, or a scattering model.
+//! The material at a surface: classic Phong, or a BSDF.
 
 use super::phong;
 use super::tree::{Packet, SETS};
@@ -7,7 +7,7 @@ use etalon_transport::{
 };
 use glam::{Vec3, Vec4};
 
-/// What lies at a surface, for one packet.
+/// The material at a surface, for one packet.
 pub(super) enum Surface<B> {
     Classic(LegacyPhong),
     Scattering(B),
@@ -16,7 +16,7 @@ pub(super) enum Surface<B> {
 /// The same for each packet.
 pub(super) type SurfaceBySet<'w, W> = [Option<Surface<BsdfOf<'w, W>>>; SETS];
 
-/// What lies at `vertex`, seen from `wo`, for each packet.
+/// The material at `vertex`, seen from `wo`, for each packet.
 pub(super) fn at<'w, W: World>(
     world: &'w W,
     vertex: &SurfaceInteraction,
@@ -35,7 +35,7 @@ pub(super) fn at<'w, W: World>(
 }
 
 impl<B: Bsdf> Surface<B> {
-    /// What it shows of a lamp, per unit of irradiance.
+    /// The radiance toward the viewer per unit of a lamp's irradiance.
     pub(super) fn shade(&self, vertex: &SurfaceInteraction, wo: Vec3, wi: Vec3) -> Vec4 {
         match self {
             Self::Classic(material) => phong::shade(material, vertex, wo, wi),

@@ -1,7 +1,7 @@
 //! The tree of rays that starts with one through a point of the film.
 //!
-//! A ray carries all wavelengths at once, four to a packet, as long as they go the same way. Where
-//! a dispersive interface parts them, every wavelength goes on alone.
+//! A ray carries all wavelengths, in packets of four, until a dispersive interface separates them;
+//! then every wavelength continues alone.
 
 use super::caustics::Caustics;
 use super::{Whitted, phong, shading};
@@ -24,9 +24,9 @@ pub(super) const SETS: usize = super::MOST_WAVELENGTHS as usize / 4;
 pub(super) struct Packet {
     pub(super) wavelengths: Wavelengths,
     pub(super) response: SensorWeights,
-    /// What radiance counts, per lane.
+    /// The weight of radiance, per lane.
     pub(super) weight: Vec4,
-    /// Which of the integrator's packets it is, and which of its lanes stands first.
+    /// Index of the packet, and its first lane.
     pub(super) lanes: WavelengthChoice,
 }
 
@@ -74,15 +74,15 @@ pub(super) fn packets<W: World>(world: &W, count: u32) -> Vec<Packet> {
 pub struct Continuation {
     /// Its direction.
     pub wi: Vec3,
-    /// What the radiance along it counts, per lane; zero for lanes that go elsewhere than lane 0.
+    /// The weight of the radiance along it, per lane; zero for lanes with another direction than lane 0.
     pub value: Vec4,
     /// Zero for lanes that go elsewhere, or nowhere.
     pub together: Vec4,
-    /// Whether it goes on as if the surface were not there.
+    /// Whether it is the null interaction.
     pub is_straight: bool,
 }
 
-/// What a tree of rays grows in.
+/// The environment of a tree of rays.
 pub(super) struct Tree<'a, W> {
     pub(super) world: &'a W,
     pub(super) caustics: Option<&'a Caustics>,
@@ -115,7 +115,7 @@ impl Whitted {
         sum / self.lens_points.count() as f32
     }
 
-    /// What arrives along a ray, the last of `depth` segments.
+    /// The radiance along a ray, the last of `depth` segments.
     fn follow<W: World>(
         &self,
         tree: &Tree<'_, W>,
@@ -152,7 +152,7 @@ impl Whitted {
         sum + self.branch(tree, &vertex, wo, packets, depth + 1, sampler)
     }
 
-    /// What a surface, `depth` segments from the camera, shows of the lamps: straight, and by caustics.
+    /// Direct light and caustics at a surface `depth` segments from the camera.
     #[inline(never)] // Its tables need not stay on the stack while rays go on.
     fn lit<W: World>(
         &self,
@@ -175,7 +175,7 @@ impl Whitted {
         straight + caustics.unwrap_or(Vec3::ZERO)
     }
 
-    /// What arrives from the directions that a smooth surface singles out.
+    /// The radiance from the discrete directions of a smooth surface.
     fn branch<W: World>(
         &self,
         tree: &Tree<'_, W>,
@@ -211,7 +211,7 @@ impl Whitted {
                     group[count] = Packet { weight, ..*packet };
                     count += 1;
                 }
-                // Lane 0 chose; others that go elsewhere are asked one by one.
+                // Lane 0 chose; lanes with another direction are evaluated one by one.
                 for lane in (1..4).filter(|&k| packet.weight[k] != 0.0 && whole.together[k] == 0.0)
                 {
                     let alone = packet.alone(lane);
@@ -233,7 +233,7 @@ impl Whitted {
         sum
     }
 
-    /// The share of what a ray meets that it does not pass straight on.
+    /// Opacity along a ray, through null interactions.
     fn alpha<W: World>(&self, world: &W, mut ray: Ray, wavelengths: &Wavelengths) -> f32 {
         let mut open = 1.0;
         let mut segment = 1;
@@ -260,8 +260,8 @@ impl Whitted {
     }
 }
 
-/// The ray number `index` that leaves a surface, whatever it is made of; `None` beyond the last. `mode` says whether it brings light, or
-/// is followed by it.
+/// The secondary ray number `index` of a surface of any material; `None` beyond the last. `mode` is the transported quantity:
+/// radiance along view rays, importance along photons.
 pub fn onward<W: World>(
     world: &W,
     vertex: &SurfaceInteraction,

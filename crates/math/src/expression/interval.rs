@@ -1,9 +1,9 @@
 //! Interval arithmetic: every operation encloses all values that its operands may give (R. Moore 1966, *Interval
 //! Analysis*).
 //!
-//! Ends are rounded outward: by a neighbouring number for what IEEE 754 rounds correctly, by a few for the elementary
-//! functions. What may be undefined (a pole, a root of what may be negative) is everything, what certainly is undefined (the root of a
-//! negative number) is an interval of no number, which has no zero, and so is all that is computed of it.
+//! Ends are rounded outward: by one ulp for correctly rounded operations of IEEE 754, by a few for the elementary functions.
+//! A result that may be undefined (a pole, a root of an interval with negative numbers) is [`Interval::ALL`]. One that is
+//! certainly undefined (the root of a negative interval) is [`Interval::NONE`], which contains no zero; it propagates.
 
 use super::number::Number;
 use crate::noise::{self, LARGEST_CURVATURE, LARGEST_SLOPE};
@@ -20,13 +20,13 @@ pub struct Interval {
 }
 
 impl Interval {
-    /// Every number, and what is none.
+    /// All numbers, and undefined.
     pub const ALL: Self = Self {
         low: f64::NEG_INFINITY,
         high: f64::INFINITY,
     };
 
-    /// What is no number.
+    /// The empty interval: undefined.
     pub const NONE: Self = Self {
         low: f64::NAN,
         high: f64::NAN,
@@ -61,7 +61,7 @@ impl Interval {
         self.low <= 0.0 && self.high >= 0.0
     }
 
-    /// What is in both, if they have a number in common.
+    /// The intersection, which must not be empty.
     #[inline]
     pub fn meet(self, other: Self) -> Self {
         Self {
@@ -85,7 +85,7 @@ impl Interval {
     }
 }
 
-/// What `libm` errs by at most, and more: relative to the value.
+/// A bound on the relative error of `libm`.
 const ELEMENTARY: f64 = 1e-15;
 
 impl Number for Interval {
@@ -144,7 +144,7 @@ impl Number for Interval {
             return Self::NONE;
         }
         if b.has_zero() {
-            // Of 0 itself, as a constant, the sign is known.
+            // The sign of the constant 0 is known.
             let is_zero = [b.low, b.high].iter().all(|end| end.to_bits() == 0);
             return match (is_zero, self) {
                 (true, a) if a.low > 0.0 => Self::constant(f64::INFINITY),
@@ -246,7 +246,7 @@ impl Number for Interval {
         Self::wide(end(self.low), end(self.high), ELEMENTARY).meet(Self::around(-PI, PI))
     }
     fn max_with(a: Self, b: Self, da: Self, db: Self) -> (Self, Self) {
-        // As of numbers: what is not the greater is left out, and what is no number is never the greater.
+        // As of numbers: NaN is never the greater.
         if a.is_none() || b.is_none() {
             return (b, db);
         }

@@ -76,7 +76,7 @@ impl Expression {
 
     /// Its value.
     pub fn eval<N: Number>(&self, variables: &[N]) -> N {
-        // A short one does not pay for what it does not use.
+        // A small stack for short expressions: initialising a large one would dominate.
         if self.operations.len() <= 32 {
             self.eval_within::<N, 32>(variables)
         } else {

@@ -1,4 +1,4 @@
-//! What an expression can be computed in: numbers, intervals, and either with a derivative.
+//! Number types of expressions: numbers, intervals, and either with a derivative.
 
 use crate::float64;
 use crate::noise;
@@ -190,7 +190,7 @@ impl<N: Number> Number for Dual<N> {
         };
         (Self { value, slope }, derivative)
     }
-    /// The gradient comes without its derivative, which nothing asks for.
+    /// The gradient has no derivative of its own; nothing needs it.
     fn noise(p: [Self; 3]) -> (Self, [Self; 3]) {
         let (value, gradient) = N::noise(p.map(|x| x.value));
         let terms = [0, 1, 2].map(|i| gradient[i].mul(p[i].slope));

@@ -2,12 +2,12 @@
 
 use super::{Function, MOST, Operation};
 
-/// What is wrong with an expression.
+/// A mistake in an expression.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct ExpressionError {
-    /// Where, in characters from 1.
+    /// Position, in characters from 1.
     pub character: usize,
-    /// What.
+    /// The message.
     pub message: String,
     /// A name that is not known, if that is what.
     pub unknown: Option<String>,
@@ -23,7 +23,7 @@ const DEEPEST: usize = 64;
 
 struct Parser<'a> {
     text: &'a str,
-    /// Where reading goes on (bytes).
+    /// The position of the parser (bytes).
     at: usize,
     variables: &'a [&'a str],
     operations: Vec<Operation>,

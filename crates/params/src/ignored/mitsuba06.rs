@@ -21,7 +21,7 @@ const fn of(
 }
 
 impl Ignored {
-    /// The same, of which a note is made.
+    /// The same with a note.
     const fn said(mut self) -> Self {
         self.said = true;
         self

@@ -2,7 +2,7 @@
 
 use crate::Class;
 
-/// Name and class, and what can be used instead; empty where that is said by the list of what is built.
+/// Class, name and replacement; the latter is empty where the list of built plugins gives it.
 pub(super) const PLUGINS: &[(Class, &str, &str)] = &[
     (Class::Bsdf, "coating", ""),
     (Class::Bsdf, "difftrans", ""),

@@ -65,7 +65,7 @@ pub struct Stage {
     pub alpha: f64,
     /// The level at which it may show a failure.
     pub alarm: f64,
-    /// The level of what is said of the row by itself ([`STATED`]).
+    /// The level of statements on the row by itself ([`STATED`]).
     pub stated: f64,
 }
 

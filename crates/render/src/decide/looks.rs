@@ -1,4 +1,4 @@
-//! How often a comparison may be looked at again, and what of its level each look may spend.
+//! The number of looks of a comparison, and the part of its level that each may spend.
 //!
 //! Every comparison is looked at once with its budget. Those that are undecided get half as many
 //! replicates again, and more, until they are decided or the plan ends: a group-sequential test

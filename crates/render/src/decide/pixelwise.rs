@@ -67,12 +67,12 @@ impl Count {
     }
 }
 
-/// The greatest difference of a pixel's channels in units of what is tolerated.
+/// The greatest difference of a pixel's channels in units of the tolerance.
 struct Pixel {
     value: f64,
     least: f64,
     most: f64,
-    /// The p-value of "no channel differs by more than is tolerated", but for Bonferroni.
+    /// The p-value of "no channel differs by more than the tolerance", before Bonferroni's correction.
     p: f64,
 }
 

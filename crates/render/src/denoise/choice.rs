@@ -100,7 +100,7 @@ fn untouched(halves: &Halves, scale: &Plane) -> Candidate {
     }
 }
 
-/// What a filter makes of the picture, by the mean of what it makes of either half.
+/// The filtered picture: the mean of both filtered halves.
 fn candidate(halves: &Halves, [first, second]: &Filtered, scale: &Plane) -> Candidate {
     let [a, b] = &halves.halves;
     let pixels = 0..halves.whole.len();

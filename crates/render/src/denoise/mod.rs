@@ -1,7 +1,7 @@
 //! Denoising by a filter that knows its error.
 //!
-//! A picture of independent replicates is two independent pictures, A and B, the means of either half. Whatever a filter f makes
-//! of A alone, B tells its error without bias, pixel by pixel, as the noise of B has nothing to do with f(A):
+//! A picture of independent replicates is two independent pictures, A and B, the means of either half. For any filter f of A
+//! alone, B estimates the error without bias, pixel by pixel, as the noise of B is independent of f(A):
 //!
 //! ```text
 //! E (f(A) − B)² = E (f(A) − t)² + Var B                    t: the truth

@@ -1,5 +1,5 @@
 //! Intel's Open Image Denoise as a filter, loaded at run time by its C interface
-//! (<https://github.com/RenderKit/oidn>, `include/OpenImageDenoise/oidn.h`). Nothing is linked; without the library nobody misses it.
+//! (<https://github.com/RenderKit/oidn>, `include/OpenImageDenoise/oidn.h`). Nothing is linked, and the library is optional.
 //!
 //! A network is given either half of the picture, with albedo and normal, so that the other half tells its error as that of any
 //! filter. On the processor, whose results do not depend on a driver.

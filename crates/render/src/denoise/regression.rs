@@ -1,4 +1,4 @@
-//! Local regressions of first order on features, weighed by patches of colour that are alike but for noise.
+//! Local regressions of first order on features, weighted by patches of colour that are equal up to noise.
 //!
 //! Around a pixel p, in a window of pixels q, the colour is c(q) = β₀ + β · (f(q) − f(p)) with f the features, fitted by least
 //! squares with weights

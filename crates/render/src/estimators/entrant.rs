@@ -31,7 +31,7 @@ pub struct EstimatorConfig {
     pub film: FilmSettings,
 }
 
-/// What takes part; an empty list stands for the scene's own.
+/// The compared settings; an empty list means the scene's own.
 #[derive(Clone, Copy, Debug)]
 pub struct Lists<'a> {
     /// Names of integrators.
@@ -44,7 +44,7 @@ pub struct Lists<'a> {
     pub light_choosers: &'a [LightSamplerKind],
 }
 
-/// Reads the scene, and makes every combination of what is listed.
+/// Reads the scene, and makes every combination of the lists.
 ///
 /// # Errors
 /// What is wrong with the scene or the lists, as for [`pipeline::load`].

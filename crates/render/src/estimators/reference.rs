@@ -200,7 +200,7 @@ impl Reference {
     }
 
     /// The mean over pixels and channels of ½ (a − b)² / (r² + ε): for independent and identically
-    /// distributed a and b an estimate of their relative variance, whatever their bias.
+    /// distributed a and b an estimate of their relative variance, independent of their bias.
     pub fn half_difference(&self, a: &[f32], b: &[f32]) -> f64 {
         let pairs = a.iter().zip(b).zip(&self.weights);
         let sum: f64 = pairs

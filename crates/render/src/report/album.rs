@@ -13,7 +13,7 @@ use maud::{Markup, PreEscaped, html};
 use std::borrow::Cow;
 use std::collections::BTreeMap;
 
-/// Pictures by the hash of what they hold.
+/// Pictures by the hash of their contents.
 #[derive(Default)]
 pub struct Album {
     stored: BTreeMap<String, Stored>,

@@ -27,7 +27,7 @@ pub fn figure(album: &mut Album, image: &Image, caption: &str) -> Markup {
     still(image, caption, name.as_deref())
 }
 
-/// An image at exposure 0; of a picture of the album with this name the script draws it anew.
+/// An image at exposure 0; if the album has a picture of this name, the script can redraw it.
 fn still(image: &Image, caption: &str, name: Option<&str>) -> Markup {
     let picture = png::develop(image, 0.0)
         .and_then(|(bytes, _)| encode(&opaque(&bytes, image), image.width(), image.height()));

@@ -2,7 +2,7 @@
 
 use maud::{Markup, html};
 
-/// Half the width of what is accepted, and the ends of the drawing (its units).
+/// Half the width of the accepted range, and the ends of the drawing (its units).
 const HALF: f64 = 36.0;
 const MIDDLE: f64 = 60.0;
 const ENDS: [f64; 2] = [4.0, 116.0];

@@ -164,7 +164,7 @@ mod tests {
         let p: Vec<f32> = (0..100).map(|i| (i as f32 + 0.5) / 100.0).collect();
         let html = histogram(&p).into_string();
         assert_eq!(html.matches("class=\"bar\"").count(), BARS);
-        // Ten in each: all bars end at the line of what is expected.
+        // Ten in each: all bars end at the line of the expected count.
         let line = html.split("class=\"expected\"").nth(1).expect("a line");
         let y = line.split("y1=\"").nth(1).expect("y").split('"').next();
         let tops = format!("y=\"{}\"", y.expect("a number"));

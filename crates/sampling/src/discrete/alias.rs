@@ -21,14 +21,14 @@ struct Column {
     probability: f32,
 }
 
-/// What was chosen.
+/// The result of a choice.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Choice {
-    /// Which entry.
+    /// Index of the entry.
     pub index: usize,
     /// Its probability.
     pub probability: f32,
-    /// What is left of the random number: uniform in [0, 1) and independent of the choice.
+    /// The random number rescaled for reuse: uniform in [0, 1) and independent of the choice.
     pub rest: f32,
 }
 
@@ -83,7 +83,7 @@ impl AliasTable {
         })
     }
 
-    /// How many entries there are.
+    /// Number of entries.
     #[inline]
     pub fn len(&self) -> usize {
         self.columns.len()

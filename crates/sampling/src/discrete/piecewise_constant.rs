@@ -27,7 +27,7 @@ impl PiecewiseConstant {
         Ok(Self { sums, total })
     }
 
-    /// How many cells there are.
+    /// Number of cells.
     #[inline]
     pub fn len(&self) -> usize {
         self.sums.len() - 1

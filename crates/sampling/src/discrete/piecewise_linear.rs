@@ -96,7 +96,7 @@ impl PiecewiseLinear {
         cell_of(&self.abscissae, x)
     }
 
-    /// Where cell `index` begins, and how wide it is.
+    /// Start and width of the cell `index`.
     #[inline]
     fn cell(&self, index: usize) -> (f64, f64) {
         let start = self.abscissae[index];

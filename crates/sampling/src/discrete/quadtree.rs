@@ -1,13 +1,13 @@
-//! A density on the unit square that is constant in each leaf of a quadtree, and learns where to be
-//! fine (Müller, Gross & Novák 2017, "Practical Path Guiding", §3.2).
+//! A density on the unit square that is constant in each leaf of an adaptive quadtree
+//! (Müller, Gross & Novák 2017, "Practical Path Guiding", §3.2).
 //!
 //! ```text
 //! p(x) = Π 4·sᵢ        over the nodes i from the root to the leaf of x
 //! ```
 //!
-//! with sᵢ the share of its quadrant in the mass of node i. What is learned is a mass for every leaf,
-//! summed outside (by any number of threads, see [`Quadtree::spread`]); then
-//! [`Quadtree::learned`] divides the leaves that have much of it and merges those that have little.
+//! with sᵢ the share of its quadrant in the mass of node i. The mass of every leaf is summed outside
+//! (by any number of threads, see [`Quadtree::spread`]); then [`Quadtree::learned`] divides the leaves
+//! of large mass and merges those of small mass.
 
 use etalon_math::float::ONE_MINUS_EPSILON;
 use glam::Vec2;
@@ -23,14 +23,14 @@ pub struct Quadtree {
 struct Node {
     /// The quadrants' shares of the node's mass.
     share: [f32; 4],
-    /// Where the quadrants' nodes are; [`LEAF`] if a quadrant is not divided.
+    /// Indices of the quadrants' nodes; [`LEAF`] if a quadrant is not divided.
     child: [u32; 4],
 }
 
-/// In place of a child: the root is nobody's.
+/// Marks a leaf instead of a child's index; the root is never a child.
 const LEAF: u32 = 0;
 
-/// How [`Quadtree::learned`] refines.
+/// The rule of refinement of [`Quadtree::learned`].
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Refinement {
     /// Squares with more than this share of all mass are divided.
@@ -65,7 +65,7 @@ impl Quadtree {
         Self { nodes: vec![root] }
     }
 
-    /// How many slots there are: numbers by which leaves are known, some of them of no leaf.
+    /// Number of slots, the indices of leaves; some are unused.
     #[inline]
     pub fn slots(&self) -> usize {
         4 * self.nodes.len()
@@ -187,7 +187,7 @@ impl Quadtree {
         Some(learned)
     }
 
-    /// Adds a node of the given mass, after the old one if there was one, and what is below it.
+    /// Adds a node of the given mass with its descendants, modelled on the old node if there was one.
     fn divide(
         &self,
         old: Option<usize>,
@@ -218,8 +218,8 @@ impl Quadtree {
     }
 }
 
-/// Chooses between two masses by `u`, of which it leaves what was not needed: whether the second. What has
-/// no mass is never chosen.
+/// Chooses between two masses by `u`, which it rescales for reuse: `true` for the second. A zero mass is never
+/// chosen.
 #[inline]
 fn choose(u: &mut f32, first: f32, second: f32) -> bool {
     let first = first / (first + second);

@@ -20,7 +20,7 @@ pub struct SignedPiecewiseLinear {
 /// A point at which the function was sampled.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SignedSample {
-    /// Where.
+    /// Position.
     pub x: f64,
     /// The sign of the function there, 1 or −1.
     pub sign: f64,

@@ -45,8 +45,8 @@ pub fn concentric_disk_to_square(point: Vec2) -> Vec2 {
     polar_to_square(point.length(), point)
 }
 
-/// As [`concentric_disk_to_square`], where the distance from the centre is known better than
-/// `point` tells: of `point` only its direction counts.
+/// As [`concentric_disk_to_square`], with a distance from the centre that is more precise than that
+/// of `point`, of which only the direction is used.
 #[inline]
 pub(super) fn polar_to_square(radius: f32, point: Vec2) -> Vec2 {
     let wide = point.x.abs() > point.y.abs();

@@ -5,10 +5,10 @@ use super::disk::{polar_to_square, square_to_polar};
 use core::f32::consts::FRAC_1_PI;
 use glam::{Vec2, Vec3};
 
-/// The least cosine that [`square_to_cosine_hemisphere`] returns, 2⁻¹². The rim of the disk,
-/// at the resolution of its 24-bit radius, stands for cosines up to 5·10⁻⁴; without the
-/// bound it would be 0, and with it the density of a direction that was in fact sampled.
-/// The direction's length changes by less than one rounding.
+/// The least cosine that [`square_to_cosine_hemisphere`] returns, 2⁻¹². The rim of the disk, at
+/// the resolution of its 24-bit radius, covers cosines up to 5·10⁻⁴. Without the bound the
+/// cosine would be 0, and so would the density of a sampled direction. The direction's length
+/// changes by less than one rounding.
 const LEAST_COSINE: f32 = 1.0 / 4096.0;
 
 /// A unit direction with density cos θ / π; its z is always positive.

@@ -27,8 +27,8 @@ pub fn tent_density(x: f32) -> f32 {
 /// A number in [0, 1] with density proportional to a line that is `a` at 0 and `b` at 1
 /// (neither negative, nor both zero).
 ///
-/// The root of (b − a)x²/2 + ax = u(a + b)/2, written so that nothing cancels and that
-/// a = b needs no case of its own.
+/// The root of (b − a)x²/2 + ax = u(a + b)/2, in a form without cancellation that includes
+/// a = b.
 #[inline]
 pub fn interval_to_linear(u: f32, a: f32, b: f32) -> f32 {
     let root = (a * a + u * (b - a) * (b + a)).max(0.0).sqrt();

@@ -133,13 +133,13 @@ impl SphericalRectangle {
         1.0 / self.solid_angle as f32
     }
 
-    /// Where on the rectangle, uniform by solid angle: the fractions of the two edges, in [0, 1].
+    /// A point on the rectangle, uniform by solid angle: the fractions of the two edges, in [0, 1].
     #[inline]
     pub fn sample_position(&self, u: Vec2) -> Vec2 {
         let turns = u.x * (self.solid_angle * (0.5 / core::f64::consts::PI)) as f32;
         let (sin, cos) = sin_cos_turns(turns);
         let swept = DVec2::new(cos.into(), sin.into());
-        // One Newton step: the length is 1 but for the rounding of single precision.
+        // One Newton step: the length is 1 up to single-precision rounding.
         let swept = swept * (1.5 - 0.5 * swept.length_squared());
         let angle = swept.rotate(self.k);
         let f = (angle.x * self.b.x - self.b.y) / angle.y;

@@ -4,11 +4,10 @@
 //! (r, g, b) = (exp q_r, 1, exp q_b) / (exp q_r + 1 + exp q_b)      q(t) = c₀ + c₁ t + c₂ t²,  t = (λ − 595)/235
 //! ```
 //!
-//! lie in [0, 1] and sum to one whatever the q are; the six coefficients are the ones for which each of the three, lit
-//! by D65, has the colour of its primary, so that white stays white and the sum has the colour (R, G, B). The idea of
-//! such a basis is that of Mallett and Yuksel (2019), *Spectral Primary Decomposition for Rendering with sRGB
-//! Reflectance*, who tabulate theirs. Unlike [`super::RgbCoefficients`] it is linear, as tables that are interpolated
-//! and sums of lobes need it.
+//! lie in [0, 1] and sum to one for any q. The six coefficients are chosen such that each of the three, lit by D65, has the
+//! colour of its primary, so that white stays white and the sum has the colour (R, G, B). The idea is that of Mallett and
+//! Yuksel (2019), *Spectral Primary Decomposition for Rendering with sRGB Reflectance*, whose basis is tabulated. Unlike
+//! [`super::RgbCoefficients`] it is linear, as interpolated tables and sums of lobes require.
 
 use super::{CENTRE, HALF_RANGE};
 use etalon_math::float;

@@ -19,7 +19,7 @@ pub struct Fit {
     pub difference: f64,
 }
 
-/// Where fits stop: a thousandth of a millionth of a just noticeable difference.
+/// Tolerance of the fits: 10⁻⁹ of a just noticeable difference.
 const CONVERGED: f64 = 1e-9;
 /// Most steps of the minimiser.
 const MAX_STEPS: usize = 200;

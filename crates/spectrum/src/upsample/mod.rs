@@ -44,9 +44,9 @@ impl RgbCoefficients {
         Self([0.0, 0.0, argument])
     }
 
-    /// The spectrum of the linear Rec. 709 colour `rgb`, components in [0, 1]; those outside count
-    /// as the nearer end (NaN as 0), since textures may hold them: whoever reads a number a person
-    /// wrote uses [`RgbSpectrum::bounded`], which refuses.
+    /// The spectrum of the linear Rec. 709 colour `rgb`. Components are clamped to [0, 1] (NaN to 0),
+    /// as textures may hold others. For numbers from scene files use [`RgbSpectrum::bounded`], which
+    /// refuses them.
     ///
     /// Greys have constant spectra, without error. For the others the round trip to RGB errs by
     /// less than 0.0016 in any component, and by less than 5·10⁻⁶ in nine colours of ten.

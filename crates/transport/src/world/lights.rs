@@ -7,7 +7,7 @@ use glam::{Vec2, Vec3, Vec4};
 
 /// Lights, each by itself.
 pub trait Lights: Sync {
-    /// How many there are. Their ids count from 0.
+    /// Number of lights. Ids count from 0.
     fn count(&self) -> u32;
 
     /// Whether the surface that was hit emits light at all.
@@ -22,7 +22,7 @@ pub trait Lights: Sync {
     /// Radiance of the lights at infinity seen along the unit vector `direction`.
     fn background(&self, direction: Vec3, wavelengths: &Wavelengths) -> Vec4;
 
-    /// A direction toward one light, as if it were the only one: without the probability of choosing it. For estimators that ask
+    /// A direction toward one light, with a density that excludes the choice of the light. For estimators that sample
     /// every light.
     fn sample_one(
         &self,

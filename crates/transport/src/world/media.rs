@@ -18,11 +18,12 @@ pub trait Media: Sync {
     /// A medium; `None` in empty space.
     fn medium(&self, medium: MediumId, wavelengths: &Wavelengths) -> Option<Self::Medium<'_>>;
 
-    /// Whether no light enters a medium straight, so that sampling lights there finds nothing. `false` is always right.
+    /// Whether no light enters a medium through null surfaces, so that light sampling in it is futile. `false` is a safe
+    /// answer.
     fn is_dark(&self, medium: MediumId) -> bool;
 
-    /// The coefficients of a medium for paths that enter it at the surface point `at`, if that is all to know of it: they need not
-    /// be asked for again, and may vary over its surface.
+    /// The coefficients of a homogeneous medium for a path that enters it at the surface point `at`; they may vary over
+    /// the surface. The path keeps them for [`Media::entered`]. `None` for other media.
     fn entry(
         &self,
         medium: MediumId,
@@ -30,7 +31,7 @@ pub trait Media: Sync {
         wavelengths: &Wavelengths,
     ) -> Option<Coefficients>;
 
-    /// A medium for a path that entered it where it has these coefficients ([`Media::entry`]).
+    /// The medium of a path that entered it with these coefficients ([`Media::entry`]).
     fn entered(
         &self,
         medium: MediumId,
@@ -38,7 +39,7 @@ pub trait Media: Sync {
         wavelengths: &Wavelengths,
     ) -> Option<Self::Medium<'_>>;
 
-    /// The diffusion profile that stands for walks in a medium below the surface point `at`, if it has one.
+    /// The diffusion profile that replaces random walks in a medium below the surface point `at`, if it has one.
     fn diffusion(
         &self,
         medium: MediumId,

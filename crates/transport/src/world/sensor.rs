@@ -1,4 +1,4 @@
-//! The sensor of a scene: which wavelengths a path has, and what they come to.
+//! The sensor of a scene: the distribution of wavelengths, and their weights for the film's channels.
 
 use etalon_spectrum::{SensorWeights, Wavelengths};
 
@@ -7,7 +7,7 @@ pub trait Sensor: Sync {
     /// Draws the wavelengths of a path.
     fn wavelengths(&self, u: f32) -> Wavelengths;
 
-    /// What the sensor makes of the light at these wavelengths.
+    /// The weights of light at these wavelengths for the film's channels.
     fn weights(&self, wavelengths: &Wavelengths) -> SensorWeights;
 }
 

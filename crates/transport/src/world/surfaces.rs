@@ -1,4 +1,4 @@
-//! The surfaces of a scene, and what they do to light.
+//! The surfaces of a scene and their scattering models.
 
 use crate::{Bsdf, Hit, LegacyPhong, Ray, SurfaceInteraction};
 use etalon_spectrum::Wavelengths;
@@ -28,7 +28,7 @@ pub trait Surfaces: Sync {
         wavelengths: &Wavelengths,
     ) -> Self::Bsdf<'_>;
 
-    /// The classic Phong material at a vertex, if it has one in place of a scattering model (its [`Surfaces::bsdf`] is black).
+    /// The classic Phong material at a vertex, if it has one instead of a BSDF ([`Surfaces::bsdf`] is black then).
     fn legacy_phong(
         &self,
         vertex: &SurfaceInteraction,
@@ -36,6 +36,6 @@ pub trait Surfaces: Sync {
         wavelengths: &Wavelengths,
     ) -> Option<LegacyPhong>;
 
-    /// How many rays the calling thread has traced since it last asked.
+    /// Rays traced by the calling thread since its last call.
     fn take_ray_count(&self) -> u64;
 }

@@ -22,7 +22,7 @@ pub(super) fn lines(f: &impl Fn(DVec2) -> f64, [low, high]: [DVec2; 2], n: usize
         .map(|at| f(corner(at)) < 0.0)
         .collect();
     let inside = |[i, j]: [usize; 2]| values[j * (n + 1) + i];
-    // Which two edges follow an edge, at most.
+    // The edges that follow an edge, at most two.
     let mut links: HashMap<Edge, Vec<Edge>> = HashMap::new();
     let mut order: Vec<Edge> = Vec::new();
     for (i, j) in (0..n).flat_map(|j| (0..n).map(move |i| (i, j))) {

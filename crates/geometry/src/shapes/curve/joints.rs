@@ -8,7 +8,7 @@ use glam::DVec3;
 /// A place on a curve.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Joint {
-    /// How far along, from 0 to 1.
+    /// The parameter along the curve, from 0 to 1.
     pub(super) u: f64,
     pub(super) position: DVec3,
     /// The direction onward, a unit vector.
@@ -32,7 +32,7 @@ fn angle(a: DVec3, b: DVec3) -> f64 {
     atan2(a.cross(b).length(), a.dot(b))
 }
 
-/// Adds the joints after `a` up to `b`, of which `between` gives one in the middle, or `None` if there is none to be found.
+/// Adds the joints after `a` up to `b`; `between` computes one in the middle, or `None` if there is none.
 pub(super) fn refine(
     [a, b]: [Joint; 2],
     fineness: Fineness,
@@ -81,7 +81,7 @@ pub(super) fn turned(joints: &[Joint], fineness: Fineness) -> Vec<Joint> {
                 continue;
             }
             let steps = (whole / fineness.turn()).ceil().max(1.0);
-            // Where it turns back, any way around will do.
+            // At a reversal the direction of the turn is arbitrary.
             let aside = joint.tangent - last.tangent * last.tangent.dot(joint.tangent);
             let aside = if whole > 0.999 * PI {
                 last.tangent.any_orthonormal_vector()

@@ -14,7 +14,7 @@ const PER_PIECE: usize = 4;
 /// The same of a curve of formulas.
 const PER_FORMULA: usize = 64;
 
-/// Reads `curve` (`linear`, `bezier`, `catmullrom`, `parametric` or `implicit`), what it is made of, and its width.
+/// Reads `curve` (`linear`, `bezier`, `catmullrom`, `parametric` or `implicit`), its points or formulas, and its width.
 pub(super) fn from_params(params: &Params<'_>, fineness: Fineness) -> Option<Vec<Strand>> {
     let curves = ["linear", "bezier", "catmullrom", "parametric", "implicit"];
     let curve = params.choice("curve", "linear", &curves);
@@ -64,7 +64,7 @@ impl Width {
             .map(Self::Formula)
     }
 
-    /// What is not a number counts as 0.
+    /// NaN counts as 0.
     fn at(&self, u: f64) -> f64 {
         let width = match self {
             Self::Formula(formula) => formula.eval(&[u]),
@@ -236,7 +236,7 @@ fn parametric(params: &Params<'_>, fineness: Fineness) -> Option<Vec<Strand>> {
         params.error_at("x", message);
         return None;
     }
-    // What rounding left open is closed.
+    // Close gaps left by rounding.
     let size = joints
         .iter()
         .map(|joint| joint.position.distance(joints[0].position));

@@ -1,4 +1,4 @@
-//! A flat stroke along a curve of the plane, each place of which it covers once.
+//! A flat stroke along a plane curve, without overlaps.
 
 use crate::shapes::curve::joints::{Joint, Strand};
 use crate::shapes::curve::uncovered::{Corner, Sheet};

@@ -9,7 +9,7 @@ use glam::{DVec2, DVec3};
 /// A ring in its plane.
 struct Ring {
     joint: Joint,
-    /// Where φ = 0 is, a unit vector.
+    /// The unit vector of φ = 0.
     start: DVec3,
     /// dw/2 to the length along the curve: normals lean back by as much.
     slope: f64,
@@ -52,7 +52,7 @@ fn rings(strand: &Strand) -> Vec<Ring> {
         });
     }
     if strand.closed {
-        // What it has turned about itself on the way around is taken back little by little.
+        // The accumulated twist of a closed curve is compensated evenly along it.
         let (first, about) = (rings[0].start, rings[0].joint.tangent);
         let twist = atan2(about.cross(first).dot(start), first.dot(start));
         let whole = lengths[lengths.len() - 1];
@@ -151,7 +151,7 @@ pub(super) fn add(strand: &Strand, ends: Ends, fineness: Fineness, net: &mut Net
     for (index, ring) in rings.iter().enumerate() {
         let first = corners(ring, sides, net);
         if strand.closed && index + 1 == rings.len() {
-            // Where it began, to the last bit.
+            // The start, to the last bit.
             for side in 0..=sides {
                 let (from, to) = (first_ring as usize + side, first as usize + side);
                 net.0.positions[to] = net.0.positions[from];

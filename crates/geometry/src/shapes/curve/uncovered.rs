@@ -1,5 +1,5 @@
-//! Triangles of a plane of which later ones keep what earlier ones have left uncovered, so that together they cover each
-//! place once: a light that overlapped itself would shine twice where it does.
+//! Plane triangles clipped against earlier ones, so that together they cover each point once: an overlapping light would
+//! emit twice there.
 
 use glam::DVec2;
 use std::collections::HashMap;
@@ -14,7 +14,7 @@ pub(super) struct Corner {
 /// Areas below this part of the smaller one count as touching only.
 const TOUCHING: f64 = 1e-7;
 
-/// What has been covered so far.
+/// The triangles so far.
 pub(super) struct Sheet {
     triangles: Vec<[Corner; 3]>,
     /// The triangles as they were added, against the clock, …
@@ -124,7 +124,7 @@ impl Sheet {
         self.covers.push(corners);
     }
 
-    /// What covers each place once.
+    /// Triangles that cover each point once.
     pub(super) fn triangles(&self) -> &[[Corner; 3]] {
         &self.triangles
     }
@@ -157,7 +157,7 @@ mod tests {
         (f64::from(index) * 0.618_033_988_749_894_9).fract()
     }
 
-    /// Of a heap of triangles every place that one of them covers is covered once, and no other.
+    /// The result covers exactly the union of random triangles, each point once.
     #[test]
     fn each_place_is_covered_once() {
         let corner = |index: u32| Corner {

@@ -1,0 +1,109 @@
+//! Next-event estimation: a vertex of a path connected to a point of a light, weighted by multiple importance sampling.
+
+use crate::steps::path_throughput::PathThroughput;
+use etalon_math::{Density, SolidAngle};
+use etalon_spectrum::Wavelengths;
+use etalon_transport::{
+    Bsdf, LightSample, SamplePdf, SurfaceInteraction, Transmission, TransportMode, World,
+};
+use glam::{Vec3, Vec4};
+
+/// A light sample before its shadow ray is traced.
+#[derive(Clone, Copy)]
+pub(crate) struct LightConnection {
+    /// Unit direction to the light.
+    pub(crate) direction: Vec3,
+    /// Where on the light, if it is not at infinity.
+    pub(crate) target: Option<Vec3>,
+    pub(crate) path: UnoccludedPath,
+}
+
+/// A path that ends at a light sample, before its shadow ray is traced.
+#[derive(Clone, Copy)]
+pub(crate) struct UnoccludedPath {
+    /// The throughput of the whole path, emission included; the transmittance of the shadow ray is not.
+    pub(crate) throughput: PathThroughput,
+    /// pₜ,ₖ / p₀ of finding the same path by scattering, without the probability of passing null surfaces on the way.
+    pdf_by_scattering: Vec4,
+}
+
+impl UnoccludedPath {
+    /// The contribution of the path where the shadow ray has this transmittance.
+    #[inline]
+    pub(crate) fn estimate(&self, transmission: &Transmission) -> Vec4 {
+        let by_scattering = self.pdf_by_scattering * transmission.probability;
+        (self.throughput).contribution(transmission.transmittance, by_scattering)
+    }
+}
+
+impl LightConnection {
+    /// The path `before` to a vertex, extended to `light`; `None` if it brings nothing. `lights` samples of
+    /// lights compete with `scattering` samples of `bsdf`.
+    #[inline]
+    pub(crate) fn new(
+        light: &LightSample,
+        before: &PathThroughput,
+        bsdf: &impl Bsdf,
+        wo: Vec3,
+        [lights, scattering]: [f32; 2],
+    ) -> Option<Self> {
+        let (value, density) = bsdf.eval_and_density(wo, light.direction, TransportMode::Radiance);
+        let contribution = value * light.radiance;
+        if contribution == Vec4::ZERO {
+            return None;
+        }
+        Some(Self::of(
+            light,
+            before,
+            before.r_u,
+            contribution,
+            density,
+            [lights, scattering],
+        ))
+    }
+
+    /// The same where the BSDF's value times the light's radiance (`contribution`) and its density are known; `scattered` is
+    /// pₖ / p₀ of a path that is scattered here.
+    #[inline]
+    pub(crate) fn of(
+        light: &LightSample,
+        before: &PathThroughput,
+        scattered: Vec4,
+        contribution: Vec4,
+        density: Density<SolidAngle>,
+        [lights, scattering]: [f32; 2],
+    ) -> Self {
+        let mut throughput = *before;
+        throughput.scatter(contribution, light.chance.lanes());
+        throughput.r_u *= lights;
+        let pdf_by_scattering = match light.chance {
+            // Scattering never finds a discrete light.
+            SamplePdf::Discrete(_) => Vec4::ZERO,
+            SamplePdf::Continuous(chosen) => {
+                scattered * density.lanes() * light.extinction * (scattering / chosen.hero())
+            }
+        };
+        Self {
+            direction: light.direction,
+            target: light.target,
+            path: UnoccludedPath {
+                throughput,
+                pdf_by_scattering,
+            },
+        }
+    }
+
+    /// Traces the shadow ray from `vertex`, past at most `crossings` null surfaces: the contribution of the path.
+    #[inline]
+    pub(crate) fn traced<W: World>(
+        &self,
+        world: &W,
+        vertex: &SurfaceInteraction,
+        wavelengths: &Wavelengths,
+        crossings: u32,
+    ) -> Vec4 {
+        (vertex.shadow_ray(self.direction, self.target))
+            .and_then(|ray| world.transmittance(&ray, wavelengths, crossings))
+            .map_or(Vec4::ZERO, |transmission| self.path.estimate(&transmission))
+    }
+}
