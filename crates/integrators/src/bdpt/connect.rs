@@ -18,7 +18,7 @@ use glam::{Vec2, Vec3, Vec4};
 /// The density of the directions in which particles leave a medium (sr⁻¹).
 const EVENLY: f32 = 0.25 * core::f32::consts::FRAC_1_PI;
 
-/// What would have made the last vertex of a path that ran into a light from the light's side.
+/// Densities of the last vertex, for a path that hit a light, if generated from the light.
 struct AlternativePdfs {
     /// Density of light sampling, in the measure of the arrival.
     sampled: Vec4,

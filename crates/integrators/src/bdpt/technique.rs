@@ -9,12 +9,12 @@ pub struct Technique {
     pub light: usize,
     /// t: vertices made from the camera, which is one of them.
     pub camera: usize,
-    /// Whether it is weighed against the others; if not, it estimates all paths of its length that
-    /// it can make.
+    /// Whether it has its MIS weight; if not, it estimates all paths of its length that it can
+    /// generate.
     pub weighted: bool,
 }
 
-/// The single technique that a description asks for.
+/// The single technique of the description, if it names one.
 pub(super) fn from_params(params: &Params<'_>) -> Option<Technique> {
     let count = |name: &str, least: i64| {
         let given = params.integer_or(name, least);
