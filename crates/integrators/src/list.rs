@@ -17,7 +17,7 @@ use crate::pssmlt::PrimarySpace;
 use crate::ptracer::ParticleTracer;
 use crate::render::{Progress, RenderStatistics, render};
 use crate::render_plan::RenderPlan;
-use crate::replay::{Address, Replay, replay};
+use crate::replay::{Address, Describe, Replay, replay};
 use crate::signature::Signature;
 use crate::sppm::Progressive;
 use crate::vcm::ConnectionMerging;
@@ -136,9 +136,10 @@ macro_rules! integrators {
                 film: &F,
                 plan: &RenderPlan,
                 addresses: &[Address],
+                describe: &Describe<'_>,
             ) -> Vec<Replay> {
                 match self {
-                    $(Self::$variant(integrator) => replay(world, integrator, film, plan, addresses),)*
+                    $(Self::$variant(integrator) => replay(world, integrator, film, plan, addresses, describe),)*
                 }
             }
 

@@ -18,7 +18,7 @@ pub use surfaces::Surfaces;
 
 use crate::{
     Camera, Emission, EmissionPdf, LightId, LightSample, LightSampleContext, LightVariety,
-    MediumId, Ray, SurfaceInteraction, TraceEvent,
+    MediumId, Ray, SurfaceInteraction,
 };
 use etalon_math::{Density, SolidAngle};
 use etalon_spectrum::Wavelengths;
@@ -155,10 +155,6 @@ pub trait World: Sync {
     /// The density per volume (m⁻³) with which [`World::sample_light`], from any point, and [`World::emit`] choose the point
     /// `at` of a medium that emits light; zero if they never do. Particles leave it evenly in all directions.
     fn medium_light_density(&self, medium: MediumId, at: Vec3) -> f32;
-
-    /// Tells a replay of a sample what cannot be seen from what was asked, and says whether
-    /// anybody listens: if so, more may be asked only to be told. A world that renders never makes the remark.
-    fn record(&self, remark: impl FnOnce() -> TraceEvent) -> bool;
 }
 
 /// The scattering models of a world.

@@ -64,7 +64,7 @@ use crate::settings::{PathConfig, PathSettings};
 use core::ops::Range;
 use etalon_params::Params;
 use etalon_sampling::Sampler;
-use etalon_transport::{PixelSample, Sink, TraceEvent, World};
+use etalon_transport::{PixelSample, Sink, World};
 use primary::LogarithmicStep;
 
 /// What a primary sample stands for.
@@ -84,9 +84,6 @@ pub(crate) trait Integrand: Sync {
         lists: &mut Self::Lists,
         found: &mut Contributions,
     );
-
-    /// Remarks something in the world of the paths, see [`World::record`].
-    fn record(&self, remark: impl FnOnce() -> TraceEvent) -> bool;
 }
 
 /// How chains are run.
