@@ -9,7 +9,6 @@
 pub mod accumulate;
 mod batches;
 pub mod budget;
-pub mod calibrate;
 pub mod claim;
 pub mod closed_form;
 pub mod convergence;
@@ -23,6 +22,7 @@ mod kept;
 pub mod look;
 pub mod matrix;
 pub mod noise;
+pub mod null_runs;
 pub mod oracle;
 pub mod outcome;
 pub mod pixelwise;
