@@ -9,7 +9,7 @@
 use crate::claim::Oracle;
 use crate::outcome::Outcome;
 use crate::rendering;
-use crate::run::Task;
+use crate::tasks::Task;
 use crate::tier::Tier;
 use etalon_film::{Metadata, RenderedImage, TileMeans};
 use etalon_images::{Frame, Image};
