@@ -5,7 +5,7 @@ use crate::claim::{Budget, Estimator, Oracle};
 use crate::fault::PlantedFault;
 use crate::kept::{BatchCache, Wanted};
 use crate::rendering;
-use crate::run::Task;
+use crate::tasks::Task;
 use etalon_film::RenderedImage;
 use etalon_integrators::RenderPlan;
 use etalon_render::decide::looks::Multiple;

@@ -1,41 +1,17 @@
 //! Renders what claims of convergence are decided by: batches of pictures up a ladder of samples.
 
-use crate::claim::{Budget, Claim, Estimator, Sampler};
+use crate::claim::{Budget, Claim, Estimator, Ladder, Sampler};
 use crate::closed_form;
 use crate::fault::PlantedFault;
 use crate::rendering;
 use etalon_render::decide::convergence::{self, Batches, Fall};
 use etalon_render::decide::measure::Measure;
 use etalon_render::pipeline::Loaded;
-use serde::Deserialize;
 
 /// Replicates of a batch: two, the fewest that have standard errors.
 const BATCH: u32 = 2;
 
-/// What is climbed while the error falls.
-#[derive(Clone, Debug, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct Ladder {
-    /// The closed form that tells the error.
-    pub formula: String,
-    /// Growing numbers: samples per replicate, powers of two for Sobol' points, or the values of a
-    /// parameter.
-    pub rungs: Vec<u32>,
-    /// The scene parameter that takes these values, if it is not the samples that grow: a replicate then has
-    /// as many on every rung, all of them together a budget's `spp`.
-    pub over: Option<String>,
-}
-
 impl Ladder {
-    /// # Errors
-    /// If it cannot be climbed.
-    pub(crate) fn check(&self) -> Result<(), String> {
-        if self.rungs.len() < 3 || self.rungs.windows(2).any(|pair| pair[0] >= pair[1]) {
-            return Err("`rungs` must be three or more growing numbers".to_owned());
-        }
-        Ok(())
-    }
-
     /// An estimator on a rung, and the samples of a replicate there.
     fn stand(&self, rung: u32, estimator: &Estimator, budget: Budget) -> (Estimator, u32) {
         let mut standing = estimator.clone();

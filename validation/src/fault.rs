@@ -14,7 +14,7 @@ use etalon_spectrum::{SensorWeights, Wavelengths};
 use etalon_transport::{
     BsdfOf, Coefficients, DiffusionProfile, Emission, EmissionPdf, Hit, LegacyPhong, LightId,
     LightSample, LightSampleContext, LightVariety, Lights, Media, MediumId, MediumOf, Ray,
-    SamplePdf, Sensor, ShadowQuery, SurfaceInteraction, Surfaces, TraceEvent, Transmission, World,
+    SamplePdf, Sensor, ShadowQuery, SurfaceInteraction, Surfaces, Transmission, World,
 };
 use glam::{Vec2, Vec3, Vec4};
 use medium::FaultyMedium;
@@ -386,9 +386,5 @@ impl<W: World> World for Faulty<'_, W> {
 
     fn medium_light_density(&self, medium: MediumId, at: Vec3) -> f32 {
         self.world.medium_light_density(medium, at)
-    }
-
-    fn record(&self, remark: impl FnOnce() -> TraceEvent) -> bool {
-        self.world.record(remark)
     }
 }

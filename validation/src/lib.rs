@@ -8,8 +8,6 @@
 
 pub mod accumulate;
 mod batches;
-pub mod budget;
-pub mod calibrate;
 pub mod claim;
 pub mod closed_form;
 pub mod convergence;
@@ -23,15 +21,15 @@ mod kept;
 pub mod look;
 pub mod matrix;
 pub mod noise;
-pub mod oracle;
+pub mod null_runs;
 pub mod outcome;
 pub mod pixelwise;
 pub mod povray;
 pub mod program;
+pub mod read;
 pub mod reference;
 pub mod rendering;
 pub mod run;
-mod sampler;
 pub mod state;
 pub mod table;
 pub mod tasks;

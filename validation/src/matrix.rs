@@ -18,34 +18,11 @@
 //! `full_only = true` leaves all rows of a matrix to the full run. Of what that run alone makes its own
 //! bound is asked; where it makes all rows, there is no `bound` to state.
 
-use crate::budget::Budget;
-use crate::claim::{Claim, Estimator, Oracle};
+use crate::claim::{Claim, Estimator, Matrix, Oracle, Place, SkippedIntegrator};
 use crate::rendering;
 use crate::tier::{FULL_BOUND, Tier};
 use etalon_integrators::list;
 use etalon_render::pipeline::Loaded;
-use serde::{Deserialize, Serialize};
-use std::collections::BTreeMap;
-
-/// How all unbiased integrators are held against a claim's oracle.
-#[derive(Clone, Debug, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct Matrix {
-    /// Work of the thorough run for each.
-    pub thorough: Budget,
-    /// Which bias of the image's mean the thorough run must exclude, relative to it; stated unless
-    /// the full run alone makes all rows.
-    pub bound: Option<f64>,
-    /// Whether only a full run makes these comparisons, with `thorough` for its first look.
-    #[serde(default)]
-    pub full_only: bool,
-    /// Integrators that cannot render the scene, though they do not object, and why.
-    #[serde(default)]
-    pub without: BTreeMap<String, String>,
-    /// Integrators that only a full run asks, and their work at its first look.
-    #[serde(default)]
-    pub later: BTreeMap<String, Budget>,
-}
 
 impl Matrix {
     /// Refuses a bound that is no share, or that is stated where a full run's holds.
@@ -75,25 +52,6 @@ impl Matrix {
 /// What to say of a bound that no row has.
 fn without_bound(why: &str) -> String {
     format!("`matrix`: {why} there is no `bound`: a full run's is {FULL_BOUND} for every row")
-}
-
-/// An unbiased integrator that has no row of its own in a claim's matrix.
-#[derive(Clone, Debug, PartialEq, Eq, Serialize)]
-pub struct SkippedIntegrator {
-    /// Its name.
-    pub integrator: String,
-    /// What it objects to in the scene, or what the claim says of it.
-    pub reason: String,
-}
-
-/// A row of the matrix.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Place {
-    /// Which bias of the image's mean the first run that makes the comparison must exclude, relative
-    /// to it.
-    pub bound: f64,
-    /// Whether only a full run makes the comparison.
-    pub later: bool,
 }
 
 impl Place {

@@ -6,8 +6,8 @@ use crate::folders;
 use etalon_film::{ExactFilm, RenderFacts, RenderedImage, SampleCounts};
 use etalon_integrators::RenderPlan;
 use etalon_render::adaptive;
+use etalon_render::pilot::Failure;
 use etalon_render::pipeline::{self, LoadOptions, Loaded, RenderControls, RenderOptions};
-use etalon_render::target::Failure;
 use etalon_sampling::SamplerKind;
 use etalon_scene::LightSamplerKind;
 

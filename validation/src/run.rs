@@ -4,9 +4,8 @@
 //! their own to those there are, and judges them all.
 
 use crate::batches::{Batches, Side};
-use crate::claim::{Budget, Oracle};
+use crate::claim::{Budget, Effort, Oracle};
 use crate::kept::BatchCache;
-use crate::noise::Effort;
 use crate::{closed_form, convergence, invariance, noise, pixelwise, reference, rendering};
 use etalon_film::RenderedImage;
 use etalon_images::{Frame, Image};
@@ -19,8 +18,9 @@ use etalon_render::decide::pixelwise::Limits;
 use etalon_render::judge::{ExactImage, ImageComparison};
 use etalon_statistics::Verdict;
 
+pub use crate::read::{named, unknown};
 pub use crate::rendering::{defines, load};
-pub use crate::tasks::{Options, RunPlan, Task, named, tasks, unknown};
+pub use crate::tasks::{Options, RunPlan, Task, tasks};
 
 /// What a comparison was decided by.
 pub enum Evidence {

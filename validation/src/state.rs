@@ -6,7 +6,7 @@
 //! they, too, are the same as without the interruption.
 
 use crate::program;
-use crate::run::Options;
+use crate::tasks::Options;
 use etalon_film::{RenderedImage, read_developed};
 use etalon_integrators::RenderPlan;
 use etalon_render::pipeline::Loaded;

@@ -1,7 +1,6 @@
 //! The table on standard output.
 
-use crate::claim::{Claim, Oracle};
-use crate::matrix::SkippedIntegrator;
+use crate::claim::{Claim, Oracle, SkippedIntegrator};
 use crate::outcome::{FALSE_POSITIVE_LEVEL, Outcome, Row, counts};
 use crate::run::{Compared, Evidence};
 use etalon_render::judge::ImageComparison;

@@ -2,8 +2,8 @@
 
 use crate::claim::{Budget, Claim, Estimator, Oracle};
 use crate::fault::PlantedFault;
+use crate::read::named;
 use crate::tier::Tier;
-use etalon_params::suggest::nearest;
 use etalon_render::decide::decision::Question;
 use etalon_render::judge::Tolerances;
 use etalon_render::part::PartOfMany;
@@ -107,26 +107,6 @@ impl Task<'_> {
         };
         spp * self.claim.pixels()
     }
-}
-
-/// The claim of this name, or, if there is none, those whose names contain it.
-pub fn named<'a>(claims: &'a [Claim], name: &str) -> Vec<&'a Claim> {
-    match claims.iter().find(|claim| claim.name == name) {
-        Some(claim) => vec![claim],
-        None => (claims.iter())
-            .filter(|claim| claim.name.contains(name))
-            .collect(),
-    }
-}
-
-/// What to tell somebody who asked for claims of this name, as there are none.
-pub fn unknown(claims: &[Claim], name: &str) -> String {
-    let names = claims.iter().map(|claim| claim.name.as_str());
-    let help = match nearest(name, names) {
-        Some(near) => format!("did you mean `{near}`?"),
-        None => "see `cargo xtask validate --list`".to_owned(),
-    };
-    format!("no claim has such a name as `{name}`: {help}")
 }
 
 /// The comparisons that a run consists of, those of its other parts included.

@@ -1,45 +1,41 @@
-//! `cargo xtask calibrate`: shows that the validation's error rates are what they are said to be.
+//! `cargo xtask calibrate`: shows by null runs that the validation's error rates are what they are
+//! said to be.
 
-use etalon_images::write_atomically;
-use etalon_validation::calibrate::null::{self, NullRuns};
-use etalon_validation::calibrate::pool::Pool;
-use etalon_validation::calibrate::single::{self, Single};
-use etalon_validation::calibrate::verdict::{self, Promise};
-use etalon_validation::calibrate::{CONFIDENCE, NULL_RUNS, REPETITIONS, page};
+use etalon_render::decide::decision::FALSE_POSITIVE_LEVEL;
+use etalon_statistics::proportion;
 use etalon_validation::claim::Claim;
 use etalon_validation::folders;
-use etalon_validation::run::{self, Options, Task};
-use etalon_validation::state::State;
+use etalon_validation::null_runs::{self, Deck, NullRun};
+use etalon_validation::outcome::Outcome;
+use etalon_validation::run::{self, Options};
 use etalon_validation::tier::Tier;
-use std::io::{IsTerminal, Write};
-use std::path::{Path, PathBuf};
 use std::process::ExitCode;
-use std::time::Instant;
+
+/// Levels at which rejections of single comparisons are counted.
+const LEVELS: [f64; 3] = [0.1, 0.01, 0.001];
+
+/// The confidence of the intervals of all counted rates together.
+const CONFIDENCE: f64 = 0.99;
+
+/// The greatest share of the null runs that may leave one comparison undecided: what is never decided is
+/// never rejected, and shows nothing.
+const MOST_UNDECIDED: f64 = 0.99;
 
 /// How much to calibrate.
 #[derive(Clone, Debug, clap::Args)]
 #[command(
-    after_help = "Exit code: 0 if every promise is kept, 1 if one is not, 2 if it could not be made.\n\nExamples:\n  cargo xtask calibrate\n  cargo xtask calibrate --small --runs 200 --repetitions 100"
+    after_help = "Exit code: 0 if every promise is kept, 1 if one is not, 2 if it could not be made.\n\nExamples:\n  cargo xtask calibrate\n  cargo xtask calibrate --only furnace --runs 200"
 )]
 pub(crate) struct Arguments {
-    /// The comparisons and budgets of the default run, not of the thorough run
-    #[arg(long)]
-    small: bool,
-    /// Only the claim of this name, or those whose names contain it, take part in the null runs
+    /// Only the claim of this name, or those whose names contain it
     #[arg(long, value_name = "NAME")]
     only: Option<String>,
     /// Null runs of the whole decision
-    #[arg(long, default_value_t = NULL_RUNS)]
+    #[arg(long, default_value_t = 1000)]
     runs: u32,
-    /// Repetitions of every single comparison between fresh renders
-    #[arg(long, default_value_t = REPETITIONS)]
-    repetitions: u32,
     /// The seed of everything
     #[arg(long, default_value_t = 1)]
     seed: u64,
-    /// Where to put the page and its JSON [default: target/calibration]
-    #[arg(long, value_name = "DIR")]
-    report: Option<PathBuf>,
 }
 
 /// Runs the calibration.
@@ -58,155 +54,60 @@ fn calibrate(arguments: &Arguments) -> Result<bool, String> {
     let claims = Claim::read_named(&folders::claims(), arguments.only.as_deref())?;
     let options = Options {
         only: arguments.only.clone(),
-        tier: if arguments.small {
-            Tier::Default
-        } else {
-            Tier::Thorough
-        },
+        tier: Tier::Default,
         seed: arguments.seed,
         part: None,
     };
-    let mut tasks = run::tasks(&claims, &options);
-    tasks.retain(|task| task.fault.is_none());
-    if tasks.is_empty() {
-        return Err("there is nothing to compare: every comparison has a planted fault".to_owned());
+    let decks = run::tasks(&claims, &options).into_iter();
+    let decks = decks.filter_map(|task| Deck::render(task, arguments.seed).transpose());
+    let decks = decks.collect::<Result<Vec<Deck<'_>>, String>>()?;
+    if decks.is_empty() || arguments.runs == 0 {
+        return Err("there is nothing to compare: no means of pictures, or no runs".to_owned());
     }
-    let folder = arguments.report.clone();
-    let folder = folder.unwrap_or_else(|| folders::root().join("target/calibration"));
-    let state = State::open(&folder.join(options.tier.name()), &options)?;
-    let start = Instant::now();
-    let pools = pools(&tasks, &options, &state)?;
-    progress_ends();
     println!(
-        "replicates of {} comparisons in {:.0} s",
-        tasks.len(),
-        start.elapsed().as_secs_f64()
-    );
-    let confidence = verdict::confidence_of_each(single::SETTINGS.len());
-    let start = Instant::now();
-    let runs = (arguments.runs, arguments.seed);
-    let null = null::run(&tasks, &pools, options.tier, runs, CONFIDENCE, |done| {
-        progress(
-            &format!("null run {done} of {}", arguments.runs),
-            start,
-            done,
-            arguments.runs,
-        );
-    })?;
-    progress_ends();
-    println!(
-        "{} null runs in {:.0} s",
+        "{} null runs of {} comparisons",
         arguments.runs,
-        start.elapsed().as_secs_f64()
+        decks.len()
     );
-    let mut singles = Vec::new();
-    for setting in &single::SETTINGS {
-        let start = Instant::now();
-        let repeated = (arguments.repetitions, arguments.seed);
-        singles.extend(single::repeat(
-            setting,
-            &claims,
-            repeated,
-            confidence,
-            |done| {
-                let name = format!("{}, {done} of {}", setting.claim, arguments.repetitions);
-                progress(&name, start, done, arguments.repetitions);
-            },
-        )?);
-        progress_ends();
-        println!(
-            "{} repetitions of {} in {:.0} s",
-            arguments.repetitions,
-            setting.claim,
-            start.elapsed().as_secs_f64()
-        );
-    }
-    let mut promises = verdict::of_null_runs(&null);
-    for single in &singles {
-        promises.extend(verdict::of_single(single, confidence));
-    }
-    tell(&tasks, &null, &singles, &promises);
-    let json = verdict::json(&tasks, &null, &singles, &promises);
-    write(&folder.join("calibration.json"), &format!("{json:#}\n"))?;
-    let html = folder.join("calibration.html");
-    write(&html, &page::page(&tasks, &null, &singles, &promises))?;
-    println!("report: {}", html.display());
-    Ok(promises.iter().all(|promise| promise.holds))
+    let runs = null_runs::run(&decks, arguments.runs, arguments.seed)?;
+    Ok(tell(&decks, &runs))
 }
 
-/// Renders the replicates that are dealt from, or takes up those of an earlier run of this build.
-fn pools(tasks: &[Task<'_>], options: &Options, state: &State) -> Result<Vec<Pool>, String> {
-    let start = Instant::now();
-    let total = tasks.len() as u32;
-    (tasks.iter().zip(0..))
-        .map(|(task, done)| {
-            let name = format!("{} {}", task.claim.name, task.label());
-            progress(&name, start, done, total);
-            Pool::render(*task, options.tier, options.seed, state)
-                .map_err(|message| format!("{name}: {message}"))
-        })
-        .collect()
-}
-
-fn tell(tasks: &[Task<'_>], null: &NullRuns, singles: &[Single], promises: &[Promise]) {
-    println!();
-    for promise in promises {
-        let kept = if promise.holds { "kept" } else { "BROKEN" };
-        println!("{kept:<7} {}: {}", promise.what, promise.seen);
-    }
-    println!(
-        "\nshare of p-values at most        1e-1      1e-2      1e-3      1e-4      1e-5   of"
-    );
-    let questions = null.p_values.iter();
-    let questions = questions.map(|(question, p)| (question.to_string(), p));
-    let fresh = singles.iter().map(|s| (s.name.clone(), &s.p_values));
-    for (name, p_values) in questions.chain(fresh) {
-        let rates = verdict::decades(p_values);
-        let rates = rates.iter().skip(1);
-        let shares: String = rates
-            .map(|rate| format!("{:>10.1e}", rate.observed()))
-            .collect();
-        println!("{name:<26}{shares}   {}", p_values.len());
-    }
-    println!("\n{} null runs left something undecided", null.undecided);
-    for (task, counts) in tasks.iter().zip(&null.comparisons) {
-        if counts.failed + counts.undecided + counts.broken > 0 {
-            println!(
-                "{:<26} {:<30} {} alarms, {} undecided, {} broken",
-                task.claim.name,
-                task.label(),
-                counts.failed,
-                counts.undecided,
-                counts.broken
-            );
-        }
-    }
-}
-
-/// Says how far the work is, on one line of a terminal.
-fn progress(what: &str, start: Instant, done: u32, total: u32) {
-    if !std::io::stderr().is_terminal() {
-        return;
-    }
-    let spent = start.elapsed().as_secs_f64();
-    let left = match done {
-        0 => String::new(),
-        done => {
-            let left = spent * f64::from(total - done) / f64::from(done);
-            format!(", about {left:.0} s left")
-        }
+/// Prints each promise and what was seen of it; whether all are kept.
+fn tell(decks: &[Deck<'_>], runs: &[NullRun]) -> bool {
+    let mut all = true;
+    let mut promise = |holds: bool, text: String| {
+        println!("{:<7} {text}", if holds { "kept" } else { "BROKEN" });
+        all &= holds;
     };
-    eprint!("\r\x1b[K{what} (after {spent:.0} s{left})\r");
-}
-
-/// Clears the line of progress.
-fn progress_ends() {
-    if std::io::stderr().is_terminal() {
-        eprint!("\r\x1b[K");
+    // A test may reject more rarely than its level, never more often.
+    let confidence = 1.0 - (1.0 - CONFIDENCE) / (LEVELS.len() + 1) as f64;
+    let mut rate = |what: &str, level: f64, count: usize, trials: usize| {
+        let seen = proportion::interval(count as u64, trials as u64, confidence);
+        let [low, high] = seen.map_or([0.0, 1.0], |seen| [seen.low, seen.high]);
+        let text = format!(
+            "{what}: {count} of {trials}, a rate of {low:.1e} to {high:.1e}; at most {level:.0e} is promised"
+        );
+        promise(low <= level, text);
+    };
+    let rejects = |run: &&NullRun| run.outcomes.contains(&Outcome::Failed);
+    let rejecting = runs.iter().filter(rejects).count();
+    let what = "runs with a rejection";
+    rate(what, FALSE_POSITIVE_LEVEL, rejecting, runs.len());
+    let p_values: Vec<f64> = runs.iter().flat_map(|r| r.p_values.clone()).collect();
+    for level in LEVELS {
+        let count = p_values.iter().filter(|p| **p <= level).count();
+        let what = format!("comparisons rejected at {level} at their first look");
+        rate(&what, level, count, p_values.len());
     }
-}
-
-fn write(path: &Path, text: &str) -> Result<(), String> {
-    write_atomically(path, |file| file.write_all(text.as_bytes()))
-        .map_err(|e| format!("{}: {e}", path.display()))
+    for (place, deck) in decks.iter().enumerate() {
+        let count = |outcome| runs.iter().filter(|r| r.outcomes[place] == outcome).count();
+        let (undecided, broken) = (count(Outcome::Undecided), count(Outcome::Broken));
+        if undecided as f64 > MOST_UNDECIDED * runs.len() as f64 || broken > 0 {
+            let name = deck.task().question(Tier::Default).name;
+            let text = format!("{name}: {undecided} times undecided, {broken} times broken");
+            promise(false, text);
+        }
+    }
+    all
 }

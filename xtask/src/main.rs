@@ -41,7 +41,7 @@ enum Task {
     References(references::Arguments),
     /// Plant physical faults in a copy of the workspace, and show that the claims find them
     Mutants(mutants::Arguments),
-    /// Show that the validation's error rates are what they are said to be (about an hour)
+    /// Show that the validation's error rates are what they are said to be
     Calibrate(calibrate::Arguments),
     /// Measure by how much estimators are better than others (`benches/efficiency.toml`)
     Efficiency(efficiency::Arguments),

@@ -1,4 +1,4 @@
-//! `cargo xtask mutants`: plants physical faults in a copy of the workspace, one at a time, and
+//! `cargo xtask mutants`: plants physical faults in a worktree of the last commit, one at a time, and
 //! shows that the claims of the validation find them.
 //!
 //! The list is `validation/mutants.toml`. Each mutant is built with the `fast` profile and put to
@@ -6,19 +6,18 @@
 //! that fails in the sound program, too, kills nobody.
 
 mod list;
-mod pattern;
 mod record;
 mod workspace;
 
 use etalon_images::write_atomically;
 use list::Mutant;
-use record::{Fate, Killer, Record, Records};
+use record::{Fate, Killer, Record, Records, Setup};
 use serde_json::{Value, json};
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 use std::io::Write;
 use std::process::ExitCode;
 use std::time::{Duration, Instant};
-use workspace::{Run, Workspace};
+use workspace::{Program, Run, Workspace};
 
 /// The share of all mutants that must be killed.
 const LEAST_SHARE: f64 = 0.95;
@@ -44,7 +43,7 @@ pub(crate) struct Arguments {
     /// The seed of all pictures
     #[arg(long, default_value_t = 1)]
     seed: u64,
-    /// Forget earlier results of these mutants, and begin with the last commit
+    /// Begin with the last commit, and run these mutants whether or not they have a result
     #[arg(long)]
     fresh: bool,
     /// Seconds after which a run of claims is given up
@@ -77,16 +76,7 @@ pub(crate) fn run(arguments: &Arguments) -> ExitCode {
 fn mutants(arguments: &Arguments) -> Result<bool, String> {
     let mut mutants = list::read()?;
     if arguments.check {
-        for mutant in &mutants {
-            let Ok(there) = mutant.applied(&etalon_validation::folders::root()) else {
-                continue;
-            };
-            if there.file != mutant.file || !there.renamed.is_empty() {
-                let (file, names) = (there.file.display(), there.renamed.join(", "));
-                println!("note: {}: found in {file} {names}", mutant.name);
-            }
-        }
-        let mistakes = list::mistakes(&mutants, &etalon_validation::folders::root())?;
+        let mistakes = list::mistakes(&mutants)?;
         for mistake in &mistakes {
             eprintln!("error: {mistake}");
         }
@@ -106,49 +96,47 @@ fn mutants(arguments: &Arguments) -> Result<bool, String> {
         }
         return Ok(true);
     }
-    let (records, commit) = put_to_the_claims(&mutants, arguments)?;
-    conclude(&mutants, &records, arguments, &commit)
-}
-
-/// Runs what has no record yet; the records of all, in the order of the list, and the commit that
-/// the copy of the workspace holds.
-fn put_to_the_claims(
-    mutants: &[Mutant],
-    arguments: &Arguments,
-) -> Result<(Vec<Record>, String), String> {
-    let (seed, named_only) = (arguments.seed, arguments.named_only);
     let limit = Duration::from_secs(arguments.timeout);
     let workspace = Workspace::open(arguments.fresh, limit)?;
-    let path = workspace::folder().join("results.jsonl");
-    let mut records = Records::open(&path);
-    if arguments.fresh {
-        records.forget(mutants)?;
-    }
-    let (known, waiting): (Vec<&Mutant>, Vec<&Mutant>) = mutants
-        .iter()
-        .partition(|mutant| records.of(mutant, seed, named_only).is_some());
+    let setup = Setup {
+        commit: workspace.commit.clone(),
+        seed: arguments.seed,
+        named_only: arguments.named_only,
+    };
+    let records = put_to_the_claims(workspace, &mutants, &setup, arguments.fresh)?;
+    conclude(&mutants, &records, arguments, &setup)
+}
+
+/// Runs what has no record yet, or all if `fresh`; the records of all, in the order of the list.
+fn put_to_the_claims(
+    workspace: Workspace,
+    mutants: &[Mutant],
+    setup: &Setup,
+    fresh: bool,
+) -> Result<Vec<Record>, String> {
+    let mut records = Records::open(&workspace::folder().join("results.jsonl"));
+    let waits = |mutant: &&Mutant| fresh || records.of(mutant, setup).is_none();
+    let waiting: Vec<&Mutant> = mutants.iter().filter(waits).collect();
+    let known = mutants.len() - waiting.len();
     eprintln!(
-        "commit {:.12}: {} mutants, {} of them already run",
-        workspace.commit,
-        mutants.len(),
-        known.len()
+        "commit {:.12}: {} mutants, {known} of them already run",
+        setup.commit,
+        mutants.len()
     );
-    let known = (known.iter()).filter_map(|mutant| records.of(mutant, seed, named_only));
-    let elsewhere = known
-        .filter(|record| !record.is_of(&workspace.commit))
-        .count();
-    if elsewhere > 0 {
-        eprintln!(
-            "{elsewhere} of those records are of another commit, or do not say of which: `--fresh` begins anew"
-        );
-    }
     if !waiting.is_empty() {
         eprintln!("the sound program first");
         workspace.build_sound()?;
     }
+    let mut examiner = Examiner {
+        workspace,
+        setup,
+        unsound: BTreeMap::new(),
+    };
     let start = Instant::now();
+    // What does not apply or build is told of, too, though it will be tried again.
+    let mut run = Vec::new();
     for (done, mutant) in waiting.iter().enumerate() {
-        let record = examine(&workspace, mutant, arguments)?;
+        let record = examiner.examine(mutant)?;
         let rate = start.elapsed().as_secs_f64() / (done + 1) as f64;
         let rest = rate * (waiting.len() - done - 1) as f64 / 60.0;
         eprintln!(
@@ -157,28 +145,18 @@ fn put_to_the_claims(
             waiting.len(),
             line(&record)
         );
+        run.push(record.clone());
         records.push(record)?;
     }
-    let told = |mutant| records.of(mutant, seed, named_only).cloned();
-    let told = mutants.iter().filter_map(told).collect();
-    Ok((told, workspace.commit))
+    let told = |mutant: &Mutant| {
+        let now = run.iter().find(|record| record.name == mutant.name);
+        now.or_else(|| records.of(mutant, setup)).cloned()
+    };
+    Ok(mutants.iter().filter_map(told).collect())
 }
 
 /// A comparison: claim, estimator, and the planted fault it looks for.
 type Comparison = [String; 3];
-
-/// Comparisons that fail in the sound program, too, among the claims whose names contain `only`.
-fn unsound(
-    workspace: &Workspace,
-    only: Option<&str>,
-    seed: u64,
-) -> Result<BTreeSet<Comparison>, String> {
-    match workspace.validate_sound(only, seed)? {
-        Run::Rows(rows) => Ok(rows.iter().filter(|r| fails(r)).map(comparison).collect()),
-        Run::TimedOut => Err("the sound program's claims do not end".to_owned()),
-        Run::Crashed(said) => Err(format!("the sound program: {said}")),
-    }
-}
 
 fn comparison(row: &Value) -> Comparison {
     ["claim", "estimator", "mutant"].map(|key| row[key].as_str().unwrap_or_default().to_owned())
@@ -200,93 +178,99 @@ fn killer(row: &Value) -> Killer {
     }
 }
 
-/// Plants, builds and validates one mutant.
-fn examine(
-    workspace: &Workspace,
-    mutant: &Mutant,
-    arguments: &Arguments,
-) -> Result<Record, String> {
-    let start = Instant::now();
-    let mut record = Record::new(
-        mutant,
-        arguments.seed,
-        arguments.named_only,
-        &workspace.commit,
-    );
-    match workspace.plant(mutant) {
-        Err(message) => {
-            record.fate = Fate::DoesNotApply;
-            record.message = Some(message);
-        }
-        Ok(_planted) => match workspace.build()? {
-            Err(message) => {
-                record.fate = Fate::DoesNotBuild;
-                record.message = Some(message);
-            }
-            Ok(()) => judge(workspace, mutant, arguments, &mut record)?,
-        },
-    }
-    record.seconds = start.elapsed().as_secs_f64();
-    Ok(record)
+/// Plants, builds and validates mutants.
+struct Examiner<'a> {
+    workspace: Workspace,
+    setup: &'a Setup,
+    /// Comparisons that fail in the sound program, too, for each choice of claims that was asked for.
+    unsound: BTreeMap<Option<String>, BTreeSet<Comparison>>,
 }
 
-/// Runs claims until one fails.
-fn judge(
-    workspace: &Workspace,
-    mutant: &Mutant,
-    arguments: &Arguments,
-    record: &mut Record,
-) -> Result<(), String> {
-    // The commit may be older than the list.
-    let there: Vec<&String> = (mutant.claims.iter())
-        .filter(|claim| workspace.has_claim(claim))
-        .collect();
-    if there.is_empty() && arguments.named_only {
-        record.fate = Fate::DoesNotApply;
-        record.message = Some("the commit has none of its claims: `--fresh` takes the last".into());
-        return Ok(());
+impl Examiner<'_> {
+    fn examine(&mut self, mutant: &Mutant) -> Result<Record, String> {
+        let start = Instant::now();
+        let mut record = Record::new(mutant, self.setup);
+        if let Err(message) = self.workspace.plant(mutant) {
+            record.fate = Fate::DoesNotApply;
+            record.message = Some(message);
+        } else if let Err(message) = self.workspace.build()? {
+            record.fate = Fate::DoesNotBuild;
+            record.message = Some(message);
+        } else {
+            self.judge(mutant, &mut record)?;
+        }
+        record.seconds = start.elapsed().as_secs_f64();
+        Ok(record)
     }
-    let named = there.iter().map(|claim| Some(claim.as_str()));
-    let suite = (!arguments.named_only).then_some(None);
-    for only in named.chain(suite) {
-        match workspace.validate(only, arguments.seed)? {
-            Run::Rows(rows) => {
-                let mut failing: Vec<&Value> = rows.iter().filter(|row| fails(row)).collect();
-                if !failing.is_empty() {
-                    let unsound = unsound(workspace, only, arguments.seed)?;
-                    failing.retain(|row| !unsound.contains(&comparison(row)));
+
+    /// Runs claims until one fails.
+    fn judge(&mut self, mutant: &Mutant, record: &mut Record) -> Result<(), String> {
+        // The commit may be older than the list.
+        let there = mutant.claims.iter();
+        let there = there.filter(|claim| self.workspace.has_claim(claim));
+        let mut choices: Vec<Option<&str>> = there.map(|claim| Some(claim.as_str())).collect();
+        if choices.is_empty() && self.setup.named_only {
+            record.fate = Fate::DoesNotApply;
+            record.message =
+                Some("the commit has none of its claims: `--fresh` takes the last".into());
+            return Ok(());
+        }
+        if !self.setup.named_only {
+            choices.push(None);
+        }
+        for only in choices {
+            let seed = self.setup.seed;
+            record.killer = match self.workspace.validate(Program::Mutated, only, seed)? {
+                Run::Rows(rows) => {
+                    let mut failing: Vec<&Value> = rows.iter().filter(|row| fails(row)).collect();
+                    if !failing.is_empty() {
+                        let unsound = self.unsound(only)?;
+                        failing.retain(|row| !unsound.contains(&comparison(row)));
+                    }
+                    // A comparison without a planted fault says most.
+                    let plain = failing.iter().find(|row| row["mutant"].is_null());
+                    plain.or(failing.first()).map(|row| killer(row))
                 }
-                // A comparison without a planted fault says most.
-                let plain = failing.iter().find(|row| row["mutant"].is_null());
-                if let Some(row) = plain.or(failing.first()) {
-                    record.fate = Fate::Killed;
-                    record.killer = Some(killer(row));
-                    record.as_named = only.is_some();
+                Run::TimedOut => {
+                    record.fate = Fate::TimedOut;
+                    record.message = Some(format!("{} did not end", only.unwrap_or("the suite")));
                     return Ok(());
                 }
-            }
-            Run::TimedOut => {
-                record.fate = Fate::TimedOut;
-                record.message = Some(format!("{} did not end", only.unwrap_or("the suite")));
-                return Ok(());
-            }
-            Run::Crashed(said) => {
-                // The sound program must not.
-                unsound(workspace, only, arguments.seed)?;
+                Run::Crashed(said) => {
+                    // The sound program must not.
+                    self.unsound(only)?;
+                    Some(Killer {
+                        claim: only.unwrap_or("the suite").to_owned(),
+                        estimator: String::new(),
+                        outcome: "crashed".to_owned(),
+                        verdict: Some(said),
+                        p: None,
+                    })
+                }
+            };
+            if record.killer.is_some() {
                 record.fate = Fate::Killed;
                 record.as_named = only.is_some();
-                record.killer = Some(Killer {
-                    claim: only.unwrap_or("the suite").to_owned(),
-                    estimator: String::new(),
-                    outcome: "crashed".to_owned(),
-                    verdict: Some(said),
-                    p: None,
-                });
                 return Ok(());
             }
         }
+        Ok(())
     }
-    Ok(())
+
+    /// Comparisons that fail in the sound program, too, among the claims that `only` means.
+    fn unsound(&mut self, only: Option<&str>) -> Result<&BTreeSet<Comparison>, String> {
+        let key = only.map(str::to_owned);
+        if !self.unsound.contains_key(&key) {
+            let seed = self.setup.seed;
+            let failing = match self.workspace.validate(Program::Sound, only, seed)? {
+                Run::Rows(rows) => rows.iter().filter(|r| fails(r)).map(comparison).collect(),
+                Run::TimedOut => return Err("the sound program's claims do not end".to_owned()),
+                Run::Crashed(said) => return Err(format!("the sound program: {said}")),
+            };
+            self.unsound.insert(key.clone(), failing);
+        }
+        Ok(&self.unsound[&key])
+    }
 }
 
 /// A record in a line.
@@ -313,7 +297,7 @@ fn conclude(
     mutants: &[Mutant],
     records: &[Record],
     arguments: &Arguments,
-    commit: &str,
+    setup: &Setup,
 ) -> Result<bool, String> {
     println!("{:<42} {:<14}", "mutant", "fate");
     for record in records {
@@ -339,10 +323,8 @@ fn conclude(
     let enough = all as f64 >= LEAST_SHARE * mutants.len() as f64;
     let passed = enough && of_energy == energy.len();
     let report = json!({
-        "commit": commit,
-        "records_of_other_commits": records.iter().filter(|r| !r.is_of(commit)).count(),
+        "setup": setup,
         "only": arguments.only,
-        "seed": arguments.seed,
         "passed": passed,
         "mutants": mutants.len(),
         "killed": all,

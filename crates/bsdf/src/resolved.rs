@@ -3,7 +3,7 @@
 use crate::{AnyBxdf, Bxdf, Lobe};
 use etalon_math::float::ONE_MINUS_EPSILON;
 use etalon_math::{DeltaProbability, Density, Frame, SolidAngle};
-use etalon_transport::{Bsdf, BsdfSample, Mixture, SamplePdf, TransportMode};
+use etalon_transport::{Bsdf, BsdfSample, SamplePdf, TransportMode};
 use glam::{Vec2, Vec3, Vec4};
 
 /// The most lobes a material may flatten into; a scene that needs more is refused when it loads.
@@ -283,9 +283,6 @@ impl Bsdf for BsdfAtPoint<'_> {
     fn projected_area(&self, _: Vec3) -> f32 {
         1.0
     }
-
-    #[inline]
-    fn mixed(&self, _: impl FnOnce() -> Mixture) {}
 }
 
 #[cfg(test)]

@@ -1,9 +1,12 @@
 //! Values on the command line: numbers within bounds, names of a list, addresses of samples.
 
-use crate::args::Port;
 use etalon_images::View;
 use etalon_scene::{AcceleratorKind, LightSamplerKind, SensorChoice};
 use glam::UVec2;
+
+/// A port of this machine, or any that is free.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Port(pub Option<u16>);
 
 /// A sample to be drawn again.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

@@ -11,7 +11,7 @@ pub use denoise::DenoiseArgs;
 pub use estimators::EstimatorsArgs;
 pub use farm::{FarmArgs, PathMap};
 pub use picture::{FramingArgs, ShownArgs};
-pub use preview::{Port, PreviewArgs, ViewArgs};
+pub use preview::{PreviewArgs, ViewArgs};
 pub use replicates::ReplicatesArgs;
 
 use crate::arg_values::{

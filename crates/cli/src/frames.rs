@@ -1,6 +1,5 @@
 //! The frames of an animation: which there are, what their files are called, and which seed each has.
 
-use crate::args::RenderArgs;
 use etalon_sampling::hash::derived_key;
 use std::path::{Path, PathBuf};
 
@@ -50,21 +49,10 @@ impl FrameRange {
 }
 
 impl Frame {
-    /// The arguments that render this frame alone.
-    pub fn arguments(&self, args: &RenderArgs) -> RenderArgs {
-        let numbered = |path: &Path| numbered(path, self.number);
-        RenderArgs {
-            output: Some(match &args.output {
-                Some(output) => numbered(output),
-                None => {
-                    let stem = args.scene.file_stem().unwrap_or("image".as_ref());
-                    numbered(Path::new(stem).with_extension("exr").as_path())
-                }
-            }),
-            stats: args.stats.as_deref().map(numbered),
-            frame: Some(*self),
-            ..args.clone()
-        }
+    /// What stands before its bar.
+    pub fn label(&self) -> String {
+        let place = self.number - self.of.first + 1;
+        format!("frame {place} of {}  ", self.of.count())
     }
 
     /// The seed of this frame, where `seed` is that of the scene: others for other frames.

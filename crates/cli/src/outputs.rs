@@ -4,8 +4,8 @@
 //! the image has the scene's name, in the current folder. A file that nobody named is overwritten
 //! only if Etalon has rendered it.
 
-use crate::args::RenderArgs;
 use etalon_images::exr;
+use etalon_render::part::PartOfMany;
 use etalon_render::write_guard::WriteGuard;
 use std::path::{Path, PathBuf};
 
@@ -24,15 +24,19 @@ pub struct Outputs {
 }
 
 impl Outputs {
-    /// Those that the command line asks for.
+    /// Those of a scene, or one part of it, where `-o` names `output`.
     ///
     /// # Errors
     /// One sentence, if a file of this name could not be written.
-    pub fn of(args: &RenderArgs) -> Result<Self, String> {
-        let Some(output) = &args.output else {
-            let stem = args.scene.file_stem().unwrap_or("image".as_ref());
+    pub fn of(
+        output: Option<&Path>,
+        scene: &Path,
+        part: Option<PartOfMany>,
+    ) -> Result<Self, String> {
+        let Some(output) = output else {
+            let stem = scene.file_stem().unwrap_or("image".as_ref());
             let mut name = stem.to_owned();
-            if let Some(part) = args.part {
+            if let Some(part) = part {
                 name.push(format!("-part-{}-of-{}", part.number, part.count));
             }
             name.push(".exr");
@@ -48,25 +52,25 @@ impl Outputs {
             return refuse("an image cannot go to standard output; give it a name");
         }
         if output.is_dir() || text.ends_with(std::path::is_separator) {
-            let example = output.join(args.scene.file_stem().unwrap_or("image".as_ref()));
+            let example = output.join(scene.file_stem().unwrap_or("image".as_ref()));
             return refuse(&format!(
                 "it is a folder; name a file in it, such as {}",
                 example.with_extension("exr").display()
             ));
         }
         let extension = extension(output);
-        if args.part.is_some() && !matches!(extension.as_str(), "exr" | "png") {
+        if part.is_some() && !matches!(extension.as_str(), "exr" | "png") {
             return refuse("only .exr can hold a part's exact sums");
         }
         match extension.as_str() {
             "exr" | "hdr" | "rgbe" | "pfm" => Ok(Self {
-                image: output.clone(),
+                image: output.to_owned(),
                 picture: None,
                 named: true,
             }),
             "png" => Ok(Self {
                 image: output.with_extension("exr"),
-                picture: Some(output.clone()),
+                picture: Some(output.to_owned()),
                 named: false,
             }),
             "" => refuse(&format!("{ACCEPTED}, such as {text}.exr")),
@@ -80,17 +84,18 @@ impl Outputs {
     ///
     /// # Errors
     /// One sentence.
-    pub fn claim(&self, args: &RenderArgs) -> Result<WriteGuard, String> {
-        let mut guard = WriteGuard::of([&args.scene]);
-        let files = [
-            Some(self.image.as_path()),
-            self.picture.as_deref(),
-            args.stats.as_deref(),
-        ];
+    pub fn claim(
+        &self,
+        scene: &Path,
+        stats: Option<&Path>,
+        resume: bool,
+    ) -> Result<WriteGuard, String> {
+        let mut guard = WriteGuard::of([scene]);
+        let files = [Some(self.image.as_path()), self.picture.as_deref(), stats];
         for path in files.into_iter().flatten() {
             guard.claim(path)?;
         }
-        if args.resume {
+        if resume {
             guard.claim(&self.checkpoint())?;
         }
         if !self.named && self.image.exists() && !is_ours(&self.image) {

@@ -19,7 +19,7 @@ use crate::ptracer::ParticleTracer;
 use crate::render::RenderPlan;
 use crate::render::signature::Signature;
 use crate::render::{Progress, RenderStatistics, render};
-use crate::replay::{Address, Replay, replay};
+use crate::replay::{Address, Describe, Replay, replay};
 use crate::vcm::ConnectionMerging;
 use crate::whitted::Whitted;
 use core::any::Any;
@@ -136,9 +136,10 @@ macro_rules! integrators {
                 film: &F,
                 plan: &RenderPlan,
                 addresses: &[Address],
+                describe: &Describe<'_>,
             ) -> Vec<Replay> {
                 match self {
-                    $(Self::$variant(integrator) => replay(world, integrator, film, plan, addresses),)*
+                    $(Self::$variant(integrator) => replay(world, integrator, film, plan, addresses, describe),)*
                 }
             }
 

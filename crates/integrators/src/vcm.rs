@@ -35,7 +35,7 @@ use etalon_sampling::Sampler;
 use etalon_spectrum::Wavelengths;
 use etalon_transport::{
     Incompatibility, Integrator, LightSearch, Pass, PixelSample, Placing, SampleJob,
-    SceneCapabilities, Sink, TileSink, TraceEvent, World,
+    SceneCapabilities, Sink, TileSink, World,
 };
 use std::vec::Drain;
 
@@ -92,7 +92,6 @@ impl ConnectionMerging {
     ) -> Start<'a> {
         let (lens, ..) = draw_lens(sampler);
         let (ray, weight) = ray_at(world, site, lens, state.merging.time());
-        world.record(|| TraceEvent::Wavelengths(state.wavelengths));
         Start {
             settings: &self.settings,
             only: None,

@@ -27,9 +27,9 @@
 //! every pixel, and replicates are independent: their mean is unbiased, and their spread is its
 //! standard error, as if the numbers had been read from a file.
 
-use crate::pipeline::Loaded;
+use crate::loaded::Loaded;
+use crate::pilot::{self, Failure, GROUPS};
 use crate::sizes::nearest;
-use crate::target::{self, Failure, GROUPS};
 use etalon_film::{RenderedImage, SampleCounts};
 use etalon_integrators::{Progress, RenderPlan};
 use etalon_params::Diagnostic;
@@ -98,7 +98,7 @@ pub fn pilot(
     let [width, height] = size.map(|n| n as usize);
     let mut noise = Noise::of_nothing(width * height);
     for index in FIRST..FIRST + GROUPS {
-        let (developed, _) = target::picture(loaded, plan, None, index, each, progress)?;
+        let (developed, _) = pilot::picture(loaded, plan, None, index, each, progress)?;
         noise.add(&developed)?;
     }
     Ok(Distribution::of(

@@ -6,7 +6,7 @@
 //! when the render is interrupted. It appears under its name only when it is complete, in place of
 //! the one before.
 
-use crate::features::FirstHalf;
+use crate::first_half::FirstHalf;
 use crate::watch::Show;
 use etalon_film::{CheckpointFacts, ExactFilm, ExactTile, Part, RenderFacts, recorded_seconds};
 use etalon_integrators::ReplicateRange;

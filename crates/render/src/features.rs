@@ -6,7 +6,8 @@
 //!   samples of their own: their noise has nothing to do with the picture's, and the picture's bits are those without them.
 
 use crate::checkpointing::CheckpointingFilm;
-use crate::pipeline::Loaded;
+use crate::first_half::FirstHalf;
+use crate::loaded::Loaded;
 use etalon_film::STANDARD_ERROR;
 use etalon_film::{ExactFilm, FeatureFacts, FilmSettings, PixelFormat, RenderFacts, RenderedImage};
 use etalon_images::Image;
@@ -57,30 +58,6 @@ pub(crate) fn check(loaded: &Loaded, plan: &RenderPlan) -> Result<(), Diagnostic
         return Err(Diagnostic::error_nowhere(message));
     }
     Ok(())
-}
-
-/// The image of the first half of the replicates, once they are finished.
-#[derive(Debug)]
-pub(crate) struct FirstHalf {
-    replicates: u32,
-    image: Option<Image>,
-}
-
-impl FirstHalf {
-    /// Of a render with so many replicates.
-    pub(crate) fn of(replicates: u32) -> Self {
-        Self {
-            replicates: replicates / 2,
-            image: None,
-        }
-    }
-
-    /// Looks at a film after each of its replicates.
-    pub(crate) fn see(&mut self, film: &ExactFilm) {
-        if film.replicates() == self.replicates {
-            self.image = Some(film.develop(RenderFacts::default()).image);
-        }
-    }
 }
 
 /// Renders the features of a picture and adds them to it, with its first half. A picture of a render that was ended early has neither.

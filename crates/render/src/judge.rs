@@ -11,35 +11,12 @@
 //! The error level α is shared equally (Bonferroni) by all of these questions.
 
 use crate::tolerance::Tolerance;
+pub use crate::tolerance::Tolerances;
 use etalon_film::{Metadata, RenderedImage, TileMeans};
 use etalon_statistics::{Replicates, TileDifferences, TilesError, Verdict};
 use serde::Serialize;
 
 pub use crate::exact_image::ExactImage;
-
-/// How large a bias matters, and how sure the verdict must be.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
-pub struct Tolerances {
-    /// Bias of an image's mean that matters, relative to the channel's mean.
-    pub image_bound: f64,
-    /// Bias of a tile that matters, relative to its own mean, plus `image_bound` of the image's.
-    pub tile_bound: f64,
-    /// Probability of calling equal images different, over everything that is asked.
-    pub alpha: f64,
-    /// What "no bias at all" leaves to rounding, relative to the mean; zero asks for equality.
-    pub rounding: f64,
-}
-
-impl Default for Tolerances {
-    fn default() -> Self {
-        Self {
-            image_bound: 0.005,
-            tile_bound: 0.03,
-            alpha: 1e-3,
-            rounding: 0.0,
-        }
-    }
-}
 
 /// What was found about one channel's mean.
 #[derive(Clone, Debug, Serialize)]

@@ -1,6 +1,6 @@
 //! Whether the memory holds a film: better refused than ended by the system.
 
-use crate::pipeline::Loaded;
+use crate::loaded::Loaded;
 use crate::resources;
 use etalon_params::Diagnostic;
 

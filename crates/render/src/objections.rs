@@ -1,6 +1,5 @@
 //! Where an estimator's objections to a scene are shown.
 
-use crate::pipeline::place;
 use etalon_params::{Class, Diagnostic, Node, Span, Value};
 use etalon_scene::Compiled;
 use etalon_transport::{Incompatibility, Subject};
@@ -29,6 +28,22 @@ pub(crate) fn diagnostic(
         help: objection.help,
         ..diagnostic
     }
+}
+
+/// Where the object at the end of a path of classes is named, or the last one that there is.
+pub(crate) fn place(root: &Node, classes: &[Class]) -> Span {
+    let mut node = root;
+    for class in classes {
+        let found = node.properties.iter().find_map(|p| match &p.value {
+            Value::Object(child) if child.class == *class => Some(child),
+            _ => None,
+        });
+        match found {
+            Some(child) => node = child,
+            None => break,
+        }
+    }
+    node.plugin.span
 }
 
 /// Where a parameter of the scene's integrator stands, or of one nested in it.

@@ -1,9 +1,10 @@
 //! From a scene file to an image: the way every command and every claim takes.
 
 use crate::checkpointing::{Checkpointing, CheckpointingFilm};
-use crate::features::FirstHalf;
+use crate::first_half::FirstHalf;
 pub use crate::load_options::LoadOptions;
 pub use crate::loaded::{Description, LoadError, Loaded};
+use crate::objections::place;
 use crate::scene_hash::scene_hash;
 use crate::watch::{Show, Watcher};
 use crate::{VERSION, features, memory, objections};
@@ -115,22 +116,6 @@ pub fn load(path: &Path, options: &LoadOptions) -> Result<Loaded, LoadError> {
         build_time,
         film_place,
     })
-}
-
-/// Where the object at the end of a path of classes is named, or the last one that there is.
-pub(crate) fn place(root: &Node, classes: &[Class]) -> Span {
-    let mut node = root;
-    for class in classes {
-        let found = node.properties.iter().find_map(|p| match &p.value {
-            Value::Object(child) if child.class == *class => Some(child),
-            _ => None,
-        });
-        match found {
-            Some(child) => node = child,
-            None => break,
-        }
-    }
-    node.plugin.span
 }
 
 /// Refuses an integrator that would give two channels of the image the same name.

@@ -1,6 +1,6 @@
 //! What tells one scene from another, as a hash.
 
-use crate::pipeline::LoadOptions;
+use crate::load_options::LoadOptions;
 use etalon_film::Framing;
 use etalon_formats::FileAssets;
 use etalon_formats::mitsuba::Document;

@@ -18,14 +18,13 @@
 //! The price: whether the target was reached is only known at the end, and is said.
 
 use crate::adaptive::Distribution;
-use crate::pipeline::{self, Loaded, RenderControls};
+use crate::loaded::Loaded;
+use crate::pilot::{Failure, GROUPS, picture};
 use crate::sizes::{MOST, sized};
-use etalon_film::RenderedImage;
+use etalon_film::{RenderedImage, SampleCounts};
 use etalon_integrators::{Progress, RenderPlan};
 use etalon_math::float64;
 use etalon_params::Diagnostic;
-use etalon_sampling::ReplicateKind;
-use etalon_sampling::hash::{derived_key, mix64};
 use etalon_statistics::{Summary, student_t};
 use std::time::Instant;
 
@@ -38,9 +37,6 @@ pub enum Target {
     Seconds(f64),
 }
 
-/// Pictures of a pilot that bounds an error.
-pub const GROUPS: u32 = 8;
-
 /// The confidence with which the error is reached.
 const CONFIDENCE: f64 = 0.95;
 
@@ -49,9 +45,6 @@ pub const PILOT: u32 = 64;
 
 /// Of a time, the share after which a pilot has seen enough.
 const PILOT_SHARE: f64 = 0.05;
-
-/// Sets the seeds of pilots apart from those of images.
-const SEEDS: u64 = 0x7069_6c6f_7400_0001;
 
 /// The noise of a picture.
 #[derive(Clone, Debug, PartialEq)]
@@ -99,21 +92,6 @@ pub struct Fixed {
     pub seconds: f64,
 }
 
-/// Why there is no plan.
-#[derive(Debug)]
-pub enum Failure {
-    /// One message.
-    Refused(Diagnostic),
-    /// Somebody asked to stop.
-    Cancelled,
-}
-
-impl From<Diagnostic> for Failure {
-    fn from(diagnostic: Diagnostic) -> Self {
-        Self::Refused(diagnostic)
-    }
-}
-
 /// Renders a pilot (of as many samples as a time allows, if that is aimed at) and fixes a plan like `plan`,
 /// but of as many samples as the target needs. `replicates` keeps their number.
 ///
@@ -150,6 +128,13 @@ pub struct Pilot<'a> {
     pub start: Instant,
 }
 
+impl Pilot<'_> {
+    /// How `each` samples per pixel are dealt, if not evenly.
+    fn counts(&self, plan: &RenderPlan, each: u32) -> Option<SampleCounts> {
+        self.distribution.map(|d| d.counts(plan.sampler, each))
+    }
+}
+
 /// The samples per pixel, 16 times a power of two or a little more and at most [`PILOT`], of a pilot that takes
 /// a tenth of a time (s), and never fewer than 16.
 ///
@@ -170,33 +155,6 @@ pub fn affordable(
     Ok(samples)
 }
 
-/// One picture of a pilot: two replicates, independent so that their spread is the noise of one.
-pub(crate) fn picture(
-    loaded: &Loaded,
-    plan: &RenderPlan,
-    distribution: Option<&Distribution>,
-    index: u32,
-    samples: u32,
-    progress: &dyn Progress,
-) -> Result<(RenderedImage, f64), Failure> {
-    let small = RenderPlan {
-        seed: derived_key(mix64(plan.seed ^ SEEDS), index),
-        replicates: 2,
-        replicate_kind: ReplicateKind::Independent,
-        samples_per_replicate: samples,
-        ..*plan
-    };
-    let manner = RenderControls {
-        counts: distribution.map(|d| d.counts(plan.sampler, samples)),
-        ..RenderControls::default()
-    };
-    let rendered = pipeline::render_as(loaded, &small, manner, progress)?;
-    if progress.cancelled() {
-        return Err(Failure::Cancelled);
-    }
-    Ok((rendered.developed, rendered.time.as_secs_f64()))
-}
-
 /// The samples per pixel that bring the relative standard error below `error`, and those of the pilot.
 fn error_pilot(
     loaded: &Loaded,
@@ -208,7 +166,14 @@ fn error_pilot(
     let each = plan.sampler.round_up(pilot.samples.div_ceil(2 * GROUPS));
     let mut found = Vec::new();
     for index in 0..GROUPS {
-        let (developed, _) = picture(loaded, plan, pilot.distribution, index, each, progress)?;
+        let (developed, _) = picture(
+            loaded,
+            plan,
+            pilot.counts(plan, each),
+            index,
+            each,
+            progress,
+        )?;
         found.push(Noise::of(&developed).ok_or_else(|| {
             Diagnostic::error_nowhere(
                 "an error cannot be aimed at: the film has no colours".to_owned(),
@@ -267,14 +232,10 @@ fn time_pilot(
     pilot: Pilot<'_>,
     progress: &dyn Progress,
 ) -> Result<(f64, u32), Failure> {
-    let Pilot {
-        distribution,
-        start,
-        ..
-    } = pilot;
+    let start = pilot.start;
     let before = start.elapsed().as_secs_f64();
     // The first picture finds cold caches; its time is spent, but does not count.
-    let (_, cold) = picture(loaded, plan, distribution, 0, 1, progress)?;
+    let (_, cold) = picture(loaded, plan, pilot.counts(plan, 1), 0, 1, progress)?;
     let (mut each, mut taken, mut pace) = (1, 2, cold / 2.0);
     for index in 1.. {
         // The largest so far says most: what is learned once weighs least in it.
@@ -282,7 +243,14 @@ fn time_pilot(
         if spent + 8.0 * pace * f64::from(each) > PILOT_SHARE * seconds {
             break;
         }
-        let (_, time) = picture(loaded, plan, distribution, index, each, progress)?;
+        let (_, time) = picture(
+            loaded,
+            plan,
+            pilot.counts(plan, each),
+            index,
+            each,
+            progress,
+        )?;
         pace = time / f64::from(2 * each);
         taken += 2 * each;
         each *= 4;
@@ -294,6 +262,7 @@ fn time_pilot(
 #[cfg(test)]
 mod tests {
     use super::*;
+    use etalon_sampling::hash::mix64;
 
     /// Pilots of noise that is known: the number of samples suffices in 95 % of them or more.
     #[test]

@@ -1,6 +1,30 @@
-//! How far a tile may be off.
+//! How far images and their tiles may be off.
 
-use crate::judge::Tolerances;
+use serde::Serialize;
+
+/// How large a bias matters, and how sure the verdict must be.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct Tolerances {
+    /// Bias of an image's mean that matters, relative to the channel's mean.
+    pub image_bound: f64,
+    /// Bias of a tile that matters, relative to its own mean, plus `image_bound` of the image's.
+    pub tile_bound: f64,
+    /// Probability of calling equal images different, over everything that is asked.
+    pub alpha: f64,
+    /// What "no bias at all" leaves to rounding, relative to the mean; zero asks for equality.
+    pub rounding: f64,
+}
+
+impl Default for Tolerances {
+    fn default() -> Self {
+        Self {
+            image_bound: 0.005,
+            tile_bound: 0.03,
+            alpha: 1e-3,
+            rounding: 0.0,
+        }
+    }
+}
 
 /// What a tile's mean may differ by: a share of the tile's own mean, and one of the image's.
 #[derive(Clone, Copy, Debug, PartialEq)]

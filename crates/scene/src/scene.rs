@@ -13,7 +13,7 @@ use etalon_math::{Density, SolidAngle};
 use etalon_spectrum::{Sensor, Wavelengths};
 use etalon_transport::{
     Emission, EmissionPdf, LightId, LightKind, LightSample, LightSampleContext, LightVariety,
-    MediumId, Ray, ShadowQuery, SurfaceInteraction, TraceEvent, Transmission, World,
+    MediumId, Ray, ShadowQuery, SurfaceInteraction, Transmission, World,
 };
 use glam::{Vec2, Vec3};
 use std::sync::Arc;
@@ -244,10 +244,5 @@ impl World for Scene {
         shining.map_or(0.0, |lights| {
             lights.density(self.parts.space.media.filling(medium), at)
         })
-    }
-
-    #[inline]
-    fn record(&self, _: impl FnOnce() -> TraceEvent) -> bool {
-        false
     }
 }

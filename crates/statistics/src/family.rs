@@ -2,14 +2,10 @@
 //!
 //! Of a thousand true hypotheses tested at 1 %, ten are rejected. A [`Family`] keeps the
 //! probability of *any* false rejection at α by Holm's procedure (1979), which needs no
-//! independence; other corrections are offered where their conditions hold ([`Correction`]).
+//! independence.
 //!
 //! A hypothesis may be declared before its test has run, so that tests which were never made, or
 //! which broke, still count: the size of a family is decided by the plan, not by the outcomes.
-
-pub use crate::multiplicity::{
-    Correction, benjamini_hochberg, holm, sidak, sidak_level, sidak_step_down,
-};
 
 /// A p-value must be in [0, 1]; this one is not.
 #[derive(Clone, Debug, PartialEq)]
@@ -137,14 +133,7 @@ impl Family {
     /// Decides every hypothesis by Holm's procedure, in the order they were added.
     #[must_use]
     pub fn decide(&self) -> Vec<Decision> {
-        self.decide_by(Correction::Holm)
-    }
-
-    /// Decides every hypothesis by a procedure whose conditions the caller vouches for.
-    #[must_use]
-    pub fn decide_by(&self, correction: Correction) -> Vec<Decision> {
-        correction
-            .adjust(&self.p_values)
+        holm(&self.p_values)
             .into_iter()
             .zip(self.names.iter().zip(&self.p_values))
             .map(|(adjusted, (name, &p_value))| Decision {
@@ -155,4 +144,20 @@ impl Family {
             })
             .collect()
     }
+}
+
+/// Holm's (1979) adjusted p-values, in the order given: for m hypotheses with sorted p₍₁₎ ≤ … ≤ p₍ₘ₎,
+/// maxⱼ≤ᵢ min(1, (m − j + 1) p₍ⱼ₎). Valid under any dependence.
+#[must_use]
+pub fn holm(p_values: &[f64]) -> Vec<f64> {
+    let mut order: Vec<_> = (0..p_values.len()).collect();
+    order.sort_by(|&a, &b| p_values[a].total_cmp(&p_values[b]));
+    let mut adjusted = vec![0.0; p_values.len()];
+    let mut greatest = 0.0_f64;
+    for (rank, &index) in order.iter().enumerate() {
+        let remaining = p_values.len() - rank;
+        greatest = greatest.max((remaining as f64 * p_values[index]).min(1.0));
+        adjusted[index] = greatest;
+    }
+    adjusted
 }

@@ -3,9 +3,6 @@
 //! - MSE = (1/3N) Σ (t − r)²;
 //! - relMSE = (1/3N) Σ (t − r)² / (r² + ε), ε = 10⁻² unless stated (Rousselle, Knaus & Zwicker
 //!   2011);
-//! - trimmed relMSE: the same without the share of *pixels* whose relative squared error, the mean
-//!   of their three channels', is greatest: 10⁻³ unless stated. It forgives fireflies, so it is
-//!   never evidence of agreement;
 //! - SMAPE = (1/3N) Σ |t − r| / (|t| + |r| + ε), ε = 10⁻² unless stated (Vogels et al. 2018).
 //!
 //! Sums are in double precision, in the order of the pixels. The squared error of a noisy image
@@ -16,9 +13,6 @@ use crate::picture::{Picture, PictureError};
 
 /// The ε of [`rel_mse`] and [`smape`] unless stated.
 pub const EPSILON: f64 = 1e-2;
-
-/// The share of the pixels that [`trimmed_rel_mse`] leaves out unless stated.
-pub const TRIM: f64 = 1e-3;
 
 /// The mean squared error.
 ///
@@ -39,32 +33,6 @@ pub fn rel_mse(
 ) -> Result<f64, PictureError> {
     positive(epsilon)?;
     mean(test, reference, |t, r| relative(t, r, epsilon))
-}
-
-/// As [`rel_mse`], without the ⌊`trim` · N⌋ pixels whose error is greatest.
-///
-/// # Errors
-/// [`PictureError::DifferentSizes`], or [`PictureError::BadOption`] unless `epsilon` > 0 and
-/// 0 ≤ `trim` < 1.
-pub fn trimmed_rel_mse(
-    test: &Picture<'_>,
-    reference: &Picture<'_>,
-    epsilon: f64,
-    trim: f64,
-) -> Result<f64, PictureError> {
-    positive(epsilon)?;
-    if !(0.0..1.0).contains(&trim) {
-        return Err(PictureError::BadOption { option: "trim" });
-    }
-    test.same_size(reference)?;
-    let mut errors: Vec<f64> = test
-        .pixels()
-        .zip(reference.pixels())
-        .map(|(t, r)| (0..3).map(|c| relative(t[c], r[c], epsilon)).sum::<f64>() / 3.0)
-        .collect();
-    errors.sort_by(f64::total_cmp);
-    let kept = errors.len() - (trim * errors.len() as f64) as usize;
-    Ok(errors[..kept].iter().sum::<f64>() / kept as f64)
 }
 
 /// The mean of |t − r| / (|t| + |r| + `epsilon`), in [0, 1].

@@ -1,10 +1,5 @@
-//! Ratios of two uncertain positive numbers, such as two estimators' costs or errors.
-//!
-//! - [`fieller`]: of two independent normal estimates, exactly (Fieller 1954). With t the quantile,
-//!   the ratios ρ with (a − ρb)² ≤ t² (sₐ² + ρ² s_b²) form an interval only while b is t standard
-//!   errors from zero; else there is none.
-//! - [`of`]: of any statistics of two independent samples, by bootstrap percentiles (both must
-//!   be positive; percentiles of a ratio and of its logarithm are the same).
+//! Ratios of two uncertain positive numbers, such as two estimators' costs or errors, by bootstrap
+//! percentiles (percentiles of a ratio and of its logarithm are the same).
 //!
 //! **Unstable denominators.** A variance or an error estimated from a heavy-tailed sample may be far
 //! too small, and a ratio to it far too great. The denominator counts as unstable if
@@ -15,11 +10,9 @@
 //! Then only a lower bound is given: the lower end of the numerator over the upper end of the
 //! denominator, each at half of 1 − confidence (Bonferroni).
 
-use crate::bootstrap::{FEWEST_BLOCKS, Resampling, draw, quantile, resampled};
-use crate::estimate::Estimate;
+use crate::bootstrap::{FEWEST, Resampling, draw, quantile};
 use crate::interval::Interval;
 use crate::random::SplitMix64;
-use crate::student_t;
 
 /// The greatest change of a stable denominator when one replicate is left out.
 pub const GREATEST_CHANGE: f64 = 0.5;
@@ -45,32 +38,6 @@ pub struct Ratio {
     pub known: Known,
 }
 
-/// The interval of a / b at this confidence, for independent normal estimates; `None` where b is
-/// not clear of zero, or where the degrees of freedom leave no quantile.
-///
-/// With estimated errors t has the smaller of the two degrees of freedom, which is conservative.
-#[must_use]
-pub fn fieller(a: &Estimate, b: &Estimate, confidence: f64) -> Option<Interval> {
-    let freedom = a.degrees_of_freedom().min(b.degrees_of_freedom());
-    let t = student_t::upper_quantile(0.5 * (1.0 - confidence), freedom);
-    let (va, vb) = (
-        t * t * a.standard_error() * a.standard_error(),
-        t * t * b.standard_error() * b.standard_error(),
-    );
-    // (b² − v_b) ρ² − 2ab ρ + (a² − v_a) ≤ 0.
-    let leading = b.value() * b.value() - vb;
-    if !(leading > 0.0) {
-        return None;
-    }
-    let middle = a.value() * b.value() / leading;
-    let (a2, b2) = (a.value() * a.value(), b.value() * b.value());
-    let reach = (a2 * vb + b2 * va - va * vb).max(0.0).sqrt() / leading;
-    Some(Interval {
-        low: middle - reach,
-        high: middle + reach,
-    })
-}
-
 /// The ratio of a statistic of `a` to that of `b`, two independent samples of independent
 /// replicates; `None` where either has fewer than eight, the statistics are not positive and
 /// finite, or the plan cannot resolve the confidence.
@@ -81,9 +48,9 @@ pub fn of<T: Copy>(
     confidence: f64,
     statistic: impl Fn(&[T]) -> f64,
 ) -> Option<Ratio> {
-    let few = a.len().min(b.len()) < FEWEST_BLOCKS;
+    let few = a.len().min(b.len()) < FEWEST;
     // Half of the tail for each end of the bound.
-    if few || plan.block != 1 || !plan.resolves(1.0 - 0.5 * (1.0 - confidence)) {
+    if few || !plan.resolves(1.0 - 0.5 * (1.0 - confidence)) {
         return None;
     }
     let (numerator, denominator) = (statistic(a), statistic(b));
@@ -96,7 +63,7 @@ pub fn of<T: Copy>(
     let (mut indices, mut drawn) = (Vec::new(), Vec::new());
     for _ in 0..plan.resamples {
         for (sample, values) in [(a, &mut up), (b, &mut down)] {
-            draw(sample.len(), 1, &mut random, &mut indices);
+            draw(sample.len(), &mut random, &mut indices);
             drawn.clear();
             drawn.extend(indices.iter().map(|&i| sample[i]));
             values.push(statistic(&drawn));
@@ -143,32 +110,4 @@ fn depends_on_one<T: Copy>(sample: &[T], whole: f64, statistic: impl Fn(&[T]) ->
         let change = (statistic(&rest) - whole).abs();
         !(change <= GREATEST_CHANGE * whole)
     })
-}
-
-/// As [`of`], for the two statistics of one sample of pairs (common random numbers): `statistic`
-/// gives numerator and denominator.
-pub fn paired<T: Copy>(
-    pairs: &[T],
-    plan: &Resampling,
-    confidence: f64,
-    statistic: impl Fn(&[T]) -> (f64, f64),
-) -> Option<Ratio> {
-    if pairs.len() < FEWEST_BLOCKS || !plan.resolves(1.0 - 0.5 * (1.0 - confidence)) {
-        return None;
-    }
-    let (numerator, denominator) = statistic(pairs);
-    let value = numerator / denominator;
-    if !(numerator > 0.0 && denominator > 0.0 && value > 0.0 && value.is_finite()) {
-        return None;
-    }
-    let (mut up, mut down) = (Vec::new(), Vec::new());
-    resampled(pairs.len(), plan, |indices| {
-        let drawn: Vec<T> = indices.iter().map(|&i| pairs[i]).collect();
-        let (a, b) = statistic(&drawn);
-        up.push(a);
-        down.push(b);
-        0.0
-    })?;
-    let fragile = depends_on_one(pairs, denominator, |rest| statistic(rest).1);
-    known(up, down, confidence, fragile).map(|known| Ratio { value, known })
 }

@@ -22,10 +22,8 @@ pub struct Line {
     pub intercept: Estimate,
     /// The standard deviation of ε, of a point of weight one.
     pub scatter: f64,
-    /// The weighted mean of x, where the line's height and slope do not depend on each other.
+    /// The weighted mean of x.
     centre: f64,
-    /// The line there.
-    height: Estimate,
 }
 
 /// A line through points of known errors.
@@ -78,36 +76,7 @@ impl Line {
             )?,
             scatter: variance.sqrt(),
             centre: mx,
-            height: Estimate::new(my, (variance / total).sqrt(), freedom)?,
         })
-    }
-
-    /// The height of the line at `x`: the mean of y there, not where a new point would fall.
-    /// `None` where that is not finite.
-    #[must_use]
-    pub fn at(&self, x: f64) -> Option<Estimate> {
-        let distance = x - self.centre;
-        let (height, tilt) = (
-            self.height.standard_error(),
-            distance * self.slope.standard_error(),
-        );
-        Estimate::new(
-            self.height.value() + distance * self.slope.value(),
-            (height * height + tilt * tilt).sqrt(),
-            self.height.degrees_of_freedom(),
-        )
-    }
-
-    /// Where a new point of weight one would fall at `x`: its interval is the prediction interval.
-    #[must_use]
-    pub fn new_point(&self, x: f64) -> Option<Estimate> {
-        let mean = self.at(x)?;
-        let error = mean.standard_error();
-        Estimate::new(
-            mean.value(),
-            (error * error + self.scatter * self.scatter).sqrt(),
-            mean.degrees_of_freedom(),
-        )
     }
 
     /// The line through points whose standard errors are known; `None` as for [`Line::fit`], or
@@ -128,7 +97,6 @@ impl Line {
         let line = Self {
             slope: known(line.slope.value(), (1.0 / spread).sqrt())?,
             intercept: known(line.intercept.value(), intercept.sqrt())?,
-            height: known(line.height.value(), (1.0 / total).sqrt())?,
             ..line
         };
         Some(LineWithErrors { line, p_straight })

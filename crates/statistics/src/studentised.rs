@@ -107,7 +107,7 @@ fn interval(
     confidence: f64,
     mut resample: impl FnMut() -> f64,
 ) -> Option<Interval> {
-    if plan.block != 1 || !plan.resolves(confidence) {
+    if !plan.resolves(confidence) {
         return None;
     }
     let tail = 0.5 * (1.0 - confidence);

@@ -1,6 +1,6 @@
 //! The contract of a scattering model at a point.
 
-use crate::{Mixture, SamplePdf};
+use crate::SamplePdf;
 use etalon_math::{Density, Frame, SolidAngle};
 use glam::{Vec2, Vec3, Vec4};
 
@@ -87,8 +87,4 @@ pub trait Bsdf {
     /// The factor on the extinction of oriented particles for light along `direction` (see [`crate::Phase::projected_area`]); 1 on
     /// surfaces.
     fn projected_area(&self, direction: Vec3) -> f32;
-
-    /// Records for a replay that the last call to the model served a mixture of its own density with
-    /// another; see [`crate::World::record`].
-    fn mixed(&self, mixture: impl FnOnce() -> Mixture);
 }

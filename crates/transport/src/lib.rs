@@ -26,7 +26,6 @@ pub mod medium;
 pub mod mesh;
 pub mod phase;
 pub mod ray;
-pub mod remark;
 pub mod sample_pdf;
 pub mod scatterer;
 pub mod shapes;
@@ -55,7 +54,6 @@ pub use medium::{
 pub use mesh::{Attribute, MeshData};
 pub use phase::{Phase, PhaseSample};
 pub use ray::{Departure, Ray};
-pub use remark::{ChainRemark, MergedPhoton, Mixed, Mixture, TraceEvent};
 pub use sample_pdf::SamplePdf;
 pub use scatterer::{PhaseOf, Scatterer, ScattererOf};
 pub use shapes::{SampledPoint, Shapes, SurfacePoint};

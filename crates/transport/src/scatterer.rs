@@ -3,7 +3,7 @@
 //! Bidirectional paths and particles treat both alike: evaluate, density, sample. A phase function has no cosine, no
 //! discrete directions and no null interaction.
 
-use crate::{Bsdf, BsdfOf, BsdfSample, Medium, MediumOf, Mixture, Phase, SamplePdf, TransportMode};
+use crate::{Bsdf, BsdfOf, BsdfSample, Medium, MediumOf, Phase, SamplePdf, TransportMode};
 use etalon_math::{Density, Frame, SolidAngle};
 use glam::{Vec2, Vec3, Vec4};
 
@@ -137,13 +137,6 @@ impl<B: Bsdf, P: Phase> Bsdf for Scatterer<B, P> {
         match self {
             Self::Surface(bsdf) => bsdf.albedo(wo),
             Self::Space(_) => Vec4::ONE,
-        }
-    }
-
-    #[inline]
-    fn mixed(&self, mixture: impl FnOnce() -> Mixture) {
-        if let Self::Surface(bsdf) = self {
-            bsdf.mixed(mixture);
         }
     }
 }

@@ -18,7 +18,7 @@ pub use surfaces::Surfaces;
 
 use crate::{
     Camera, Emission, EmissionPdf, LightId, LightSample, LightSampleContext, LightVariety,
-    MediumId, Ray, SurfaceInteraction, TraceEvent,
+    MediumId, Ray, SurfaceInteraction,
 };
 use etalon_math::{Density, SolidAngle};
 use etalon_spectrum::Wavelengths;
@@ -157,10 +157,6 @@ pub trait World: Sync {
     /// The density per volume (m⁻³) with which [`World::sample_light`], from any point, and [`World::emit`] choose the point
     /// `at` of a medium that emits light; zero if they never do. Particles leave it evenly in all directions.
     fn medium_light_density(&self, medium: MediumId, at: Vec3) -> f32;
-
-    /// Records an event of the estimator for a replay. Returns whether this world records, so that a caller may
-    /// compute more for the record. A world that renders never calls `remark`.
-    fn record(&self, remark: impl FnOnce() -> TraceEvent) -> bool;
 }
 
 /// The scattering models of a world.

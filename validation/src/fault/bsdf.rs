@@ -1,7 +1,7 @@
 //! A scattering model that may have lost its cosine.
 
 use etalon_math::{Density, Frame, SolidAngle};
-use etalon_transport::{Bsdf, BsdfSample, Mixture, TransportMode};
+use etalon_transport::{Bsdf, BsdfSample, TransportMode};
 use glam::{Vec2, Vec3, Vec4};
 
 /// A scattering model that may have lost its cosine.
@@ -81,9 +81,5 @@ impl<B: Bsdf> Bsdf for FaultyBsdf<B> {
 
     fn projected_area(&self, direction: Vec3) -> f32 {
         self.model.projected_area(direction)
-    }
-
-    fn mixed(&self, mixture: impl FnOnce() -> Mixture) {
-        self.model.mixed(mixture);
     }
 }

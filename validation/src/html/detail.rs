@@ -2,11 +2,9 @@
 
 use super::efficiency;
 use super::line;
-use crate::claim::Oracle;
-use crate::convergence::Ladder;
+use crate::claim::{Counting, Ladder, Oracle};
 use crate::json::{self, Provenance};
 use crate::look::Look;
-use crate::noise::Counting;
 use crate::outcome::Row;
 use crate::run::{Compared, Evidence};
 use crate::table;

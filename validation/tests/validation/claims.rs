@@ -1,9 +1,7 @@
 //! What every claim must be: readable, about a scene that is there, with a reference that belongs
 //! to the scene's present state, and a number of mutants over all of them.
 
-use etalon_validation::claim::{Claim, Oracle, Sampler};
-use etalon_validation::convergence::Ladder;
-use etalon_validation::noise::Counting;
+use etalon_validation::claim::{Claim, Counting, Ladder, Oracle, Sampler};
 use etalon_validation::tier::{FULL_BOUND, Tier};
 use etalon_validation::{closed_form, folders, povray, reference, run};
 use std::collections::BTreeSet;

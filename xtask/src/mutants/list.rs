@@ -1,22 +1,18 @@
 //! The list of mutants, `validation/mutants.toml`, and whether it still fits the sources.
 
-use super::pattern;
 use etalon_validation::claim::Claim;
 use etalon_validation::folders;
 use serde::Deserialize;
-use std::cell::OnceCell;
 use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 
-/// A physical fault, and the exact change to one file that commits it.
+/// A physical fault, and the exact change to the sources that commits it.
 #[derive(Clone, Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct Mutant {
     /// Its name, unique in the list.
     pub(crate) name: String,
-    /// The file, from the root of the workspace.
-    pub(crate) file: PathBuf,
-    /// What is replaced; it occurs exactly once, in whatever layout.
+    /// What is replaced; it occurs exactly once in the sources of all crates.
     pub(crate) text: String,
     /// What it becomes.
     pub(crate) replacement: String,
@@ -25,7 +21,12 @@ pub(crate) struct Mutant {
     /// Claims that must fail, the surest first.
     pub(crate) claims: Vec<String>,
     /// Whether the energy of some claim's scene changes by 1 % or more.
+    #[serde(default = "yes")]
     pub(crate) moves_energy: bool,
+}
+
+fn yes() -> bool {
+    true
 }
 
 #[derive(Deserialize)]
@@ -43,78 +44,11 @@ pub(crate) fn read() -> Result<Vec<Mutant>, String> {
     Ok(file.mutants)
 }
 
-/// A mutant's change to one file.
-pub(crate) struct Application {
-    /// The file, from the root of the workspace.
-    pub(crate) file: PathBuf,
-    /// The file's text with the fault in it.
-    pub(crate) mutated: String,
-    /// The identifiers that are called otherwise than in the list, as `old -> new`.
-    pub(crate) renamed: Vec<String>,
-}
+/// A source file and its text.
+pub(crate) type Source = (PathBuf, String);
 
-impl Mutant {
-    /// Where the fault goes among the sources below `root`: where its text stands in its file; failing
-    /// that in another file; failing that, in either, under other names. It must be one place.
-    pub(crate) fn applied(&self, root: &Path) -> Result<Application, String> {
-        if self.text == self.replacement {
-            return Err("its text and its replacement are the same".to_owned());
-        }
-        let own = [self.file.clone()];
-        let others = OnceCell::new();
-        for (renamed, moved) in [(false, false), (false, true), (true, false), (true, true)] {
-            let files: &[PathBuf] = if moved {
-                others.get_or_init(|| sources(root))
-            } else {
-                &own
-            };
-            if let Some(application) = self.applied_to(root, files, renamed)? {
-                return Ok(application);
-            }
-        }
-        let file = self.file.display();
-        Err(format!("its text occurs neither in {file} nor elsewhere"))
-    }
-
-    fn applied_to(
-        &self,
-        root: &Path,
-        files: &[PathBuf],
-        renamed: bool,
-    ) -> Result<Option<Application>, String> {
-        let mut applications = Vec::new();
-        for file in files {
-            let Ok(source) = std::fs::read_to_string(root.join(file)) else {
-                continue;
-            };
-            for found in pattern::find(&source, &self.text, renamed) {
-                let replacement = found.renamed(&self.replacement);
-                applications.push(Application {
-                    file: file.clone(),
-                    mutated: [
-                        &source[..found.place.start],
-                        &replacement,
-                        &source[found.place.end..],
-                    ]
-                    .concat(),
-                    renamed: found.changes(),
-                });
-            }
-        }
-        match applications.len() {
-            0 | 1 => Ok(applications.pop()),
-            count => {
-                let file = applications[0].file.display();
-                Err(format!(
-                    "its text occurs {count} times, not once: first in {file}"
-                ))
-            }
-        }
-    }
-}
-
-/// The sources of all crates, from `root`.
-fn sources(root: &Path) -> Vec<PathBuf> {
+/// The sources of all crates below `root`.
+pub(crate) fn sources(root: &Path) -> Vec<Source> {
     let mut files = Vec::new();
     let mut folders = vec![root.join("crates")];
     while let Some(folder) = folders.pop() {
@@ -124,22 +58,39 @@ fn sources(root: &Path) -> Vec<PathBuf> {
                 folders.push(path);
             } else if path.extension().is_some_and(|e| e == "rs")
                 && path.components().any(|part| part.as_os_str() == "src")
+                && let Ok(text) = std::fs::read_to_string(&path)
             {
-                files.extend(path.strip_prefix(root).map(Path::to_owned));
+                files.push((path, text));
             }
         }
     }
-    files.sort_unstable();
     files
 }
 
-/// What is wrong with the list; nothing if every entry applies to the sources below `root` and
+impl Mutant {
+    /// The file that the fault goes into, with the fault in it.
+    pub(crate) fn applied(&self, sources: &[Source]) -> Result<Source, String> {
+        if self.text.is_empty() || self.text == self.replacement {
+            return Err("its text is empty, or the same as its replacement".to_owned());
+        }
+        let count = |source: &Source| source.1.matches(&self.text).count();
+        match sources.iter().map(count).sum() {
+            1 => {}
+            0 => return Err("its text does not occur".to_owned()),
+            count => return Err(format!("its text occurs {count} times, not once")),
+        }
+        let found = sources.iter().find(|source| count(source) == 1);
+        let (path, text) = found.ok_or("its text does not occur")?;
+        Ok((path.clone(), text.replace(&self.text, &self.replacement)))
+    }
+}
+
+/// What is wrong with the list; nothing if every entry applies to the sources of the workspace and
 /// says what it must.
-pub(crate) fn mistakes(mutants: &[Mutant], root: &Path) -> Result<Vec<String>, String> {
-    let claims: BTreeSet<String> = Claim::read_all(&folders::claims())?
-        .into_iter()
-        .map(|claim| claim.name)
-        .collect();
+pub(crate) fn mistakes(mutants: &[Mutant]) -> Result<Vec<String>, String> {
+    let claims = Claim::read_all(&folders::claims())?;
+    let claims: BTreeSet<String> = claims.into_iter().map(|claim| claim.name).collect();
+    let sources = sources(&folders::root());
     let mut names = BTreeSet::new();
     let mut mistakes = Vec::new();
     for mutant in mutants {
@@ -147,11 +98,8 @@ pub(crate) fn mistakes(mutants: &[Mutant], root: &Path) -> Result<Vec<String>, S
         if !names.insert(&mutant.name) {
             complain("another mutant has this name".to_owned());
         }
-        if let Err(what) = mutant.applied(root) {
+        if let Err(what) = mutant.applied(&sources) {
             complain(what);
-        }
-        if mutant.file.extension().is_none_or(|e| e != "rs") {
-            complain("a fault is in a source file".to_owned());
         }
         for claim in mutant.claims.iter().filter(|c| !claims.contains(*c)) {
             complain(format!("there is no claim `{claim}`"));
@@ -170,33 +118,26 @@ mod tests {
     #[test]
     fn every_mutant_applies_exactly_once() {
         let mutants = read().expect("the list can be read");
-        assert!(mutants.len() >= 45, "only {} mutants", mutants.len());
-        let mistakes = mistakes(&mutants, &folders::root()).expect("the claims can be read");
+        assert!(mutants.len() >= 60, "only {} mutants", mutants.len());
+        let mistakes = mistakes(&mutants).expect("the claims can be read");
         assert!(mistakes.is_empty(), "{}", mistakes.join("\n"));
     }
 
     #[test]
     fn a_text_that_occurs_twice_or_never_does_not_apply() {
         let mut mutant = read().expect("the list can be read").swap_remove(0);
-        // Mutant rejected: a check that is content with one occurrence or more.
-        mutant.text = "self".to_owned();
-        let error = mutant.applied(&folders::root()).err().expect("many words");
-        assert!(error.contains("not once"), "{error}");
-        mutant.text = "no 1 such 2 text 3 in 4 any 5 of 6 ours".to_owned();
-        let error = mutant.applied(&folders::root()).err().expect("no text");
-        assert!(error.contains("neither in"), "{error}");
-    }
-
-    #[test]
-    fn a_mutant_outlives_a_move_and_a_renaming() {
-        let mut mutant = read().expect("the list can be read").swap_remove(0);
-        let root = folders::root();
-        let there = mutant.applied(&root).expect("applies");
-        mutant.file = "crates/integrators/src/gone.rs".into();
-        mutant.text = mutant.text.replace("r_u", "rescaled");
-        mutant.replacement = mutant.replacement.replace("r_u", "rescaled");
-        let again = mutant.applied(&root).expect("applies under other names");
-        assert_eq!((again.file, again.mutated), (there.file, there.mutated));
-        assert!(!again.renamed.is_empty());
+        let source = |text: &str| (PathBuf::from("a.rs"), text.to_owned());
+        mutant.text = "x * y".to_owned();
+        mutant.replacement = "x".to_owned();
+        let once = [source("x / y"), source("f(x * y)")];
+        assert_eq!(mutant.applied(&once), Ok(source("f(x)")));
+        // Mutants rejected: a check that is content with one occurrence or more, in one file or in two.
+        for sources in [
+            vec![source("x / y")],
+            vec![source("x * y + x * y")],
+            vec![source("x * y"), source("x * y")],
+        ] {
+            assert!(mutant.applied(&sources).is_err());
+        }
     }
 }

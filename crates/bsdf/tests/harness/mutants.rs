@@ -8,7 +8,7 @@ use crate::scene::Sample;
 use crate::statistical::{Integrals, chi_squared_p, quadrature_p};
 use etalon_bsdf::BsdfAtPoint;
 use etalon_math::{Density, Frame, SolidAngle};
-use etalon_transport::{Bsdf, BsdfSample, Mixture, SamplePdf, TransportMode};
+use etalon_transport::{Bsdf, BsdfSample, SamplePdf, TransportMode};
 use glam::{Vec2, Vec3, Vec4};
 
 /// A fault.
@@ -121,8 +121,6 @@ impl Bsdf for Wrong<'_> {
     fn projected_area(&self, direction: Vec3) -> f32 {
         self.right.projected_area(direction)
     }
-
-    fn mixed(&self, _: impl FnOnce() -> Mixture) {}
 }
 
 /// The least p-values of χ² and quadrature over the known directions.

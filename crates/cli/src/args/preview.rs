@@ -1,7 +1,7 @@
 //! Options for looking on while a picture renders, and for looking at pictures.
 
 use super::picture::ShownArgs;
-use crate::arg_values::{parse_port, parse_tev};
+use crate::arg_values::{Port, parse_port, parse_tev};
 use clap::Args;
 use std::path::PathBuf;
 
@@ -25,10 +25,6 @@ impl PreviewArgs {
         self.preview.is_some() || self.tev.is_some()
     }
 }
-
-/// A port of this machine, or any that is free.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Port(pub Option<u16>);
 
 /// Arguments of `view`.
 #[derive(Debug, Args, Clone)]

@@ -1,22 +1,19 @@
 //! `etalon render --frames`: one picture after another.
 
-use super::{fail, note, render};
+use super::{fail, note};
 use crate::args::RenderArgs;
-use crate::frames::{Frame, FrameRange};
+use crate::frames::{Frame, FrameRange, numbered};
 use crate::interrupt;
-use crate::preview::Onlookers;
+use std::path::Path;
 use std::process::ExitCode;
 use std::time::{Duration, Instant};
 
-/// What stands before the bar of a frame.
-pub(super) fn prefix(frame: Frame) -> String {
-    let FrameRange { first, .. } = frame.of;
-    let place = frame.number - first + 1;
-    format!("frame {place} of {}  ", frame.of.count())
-}
-
-/// Renders the frames of a range, until one fails or the user has had enough.
-pub(super) fn run(args: &RenderArgs, range: FrameRange, onlookers: &Onlookers) -> ExitCode {
+/// Renders the frames of a range with `render`, until one fails or the user has had enough.
+pub(super) fn run(
+    args: &RenderArgs,
+    range: FrameRange,
+    render: impl Fn(&RenderArgs) -> ExitCode,
+) -> ExitCode {
     if args.replay.is_some() && range.count() > 1 {
         return fail("`--replay` is about one frame: name it alone, such as `--frames 7`");
     }
@@ -27,7 +24,7 @@ pub(super) fn run(args: &RenderArgs, range: FrameRange, onlookers: &Onlookers) -
             of: range,
             time: f64::from(number) / args.fps,
         };
-        let code = render::run_here(&frame.arguments(args), onlookers);
+        let code = render(&arguments(frame, args));
         if code != ExitCode::SUCCESS || interrupt::asked() {
             return code;
         }
@@ -43,4 +40,21 @@ pub(super) fn run(args: &RenderArgs, range: FrameRange, onlookers: &Onlookers) -
         }
     }
     ExitCode::SUCCESS
+}
+
+/// The arguments that render a frame alone.
+fn arguments(frame: Frame, args: &RenderArgs) -> RenderArgs {
+    let numbered = |path: &Path| numbered(path, frame.number);
+    RenderArgs {
+        output: Some(match &args.output {
+            Some(output) => numbered(output),
+            None => {
+                let stem = args.scene.file_stem().unwrap_or("image".as_ref());
+                numbered(Path::new(stem).with_extension("exr").as_path())
+            }
+        }),
+        stats: args.stats.as_deref().map(numbered),
+        frame: Some(frame),
+        ..args.clone()
+    }
 }

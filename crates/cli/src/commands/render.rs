@@ -12,8 +12,8 @@ use etalon_integrators::ReplicateRange;
 use etalon_params::Diagnostic;
 use etalon_render::checkpointing::Checkpointing;
 use etalon_render::part::PartOfMany;
+use etalon_render::pilot::Failure;
 use etalon_render::pipeline::{self, LoadOptions, Loaded, RenderControls, Rendered};
-use etalon_render::target;
 use etalon_render::write_guard::WriteGuard;
 use std::fs;
 use std::io::ErrorKind;
@@ -35,7 +35,7 @@ pub fn run(args: &RenderArgs) -> ExitCode {
                 Err(message) => return fail(message),
             };
             let code = pool.install(|| match args.frames {
-                Some(range) => frames::run(args, range, &onlookers),
+                Some(range) => frames::run(args, range, |args| run_here(args, &onlookers)),
                 None => run_here(args, &onlookers),
             });
             onlookers.finish();
@@ -46,7 +46,7 @@ pub fn run(args: &RenderArgs) -> ExitCode {
 }
 
 /// Renders one picture on the current thread pool.
-pub(super) fn run_here(args: &RenderArgs, onlookers: &Onlookers) -> ExitCode {
+fn run_here(args: &RenderArgs, onlookers: &Onlookers) -> ExitCode {
     let (args, mut guard) = match with_outputs(args) {
         Ok(claimed) => claimed,
         Err(message) => return fail(message),
@@ -156,13 +156,13 @@ pub(super) fn run_here(args: &RenderArgs, onlookers: &Onlookers) -> ExitCode {
 }
 
 /// Says why nothing is rendered.
-fn give_up(failure: target::Failure, loaded: &Loaded) -> ExitCode {
+fn give_up(failure: Failure, loaded: &Loaded) -> ExitCode {
     match failure {
-        target::Failure::Cancelled => {
+        Failure::Cancelled => {
             say::remark("stopped during the pilot, without an image\n");
             ExitCode::from(interrupt::STOPPED)
         }
-        target::Failure::Refused(diagnostic) => {
+        Failure::Refused(diagnostic) => {
             diagnose::print(&[diagnostic], &loaded.sources);
             ExitCode::from(BAD_INPUT)
         }
@@ -187,12 +187,12 @@ fn with_outputs(args: &RenderArgs) -> Result<(RenderArgs, WriteGuard), String> {
     if args.replay.is_some() {
         return Ok((args, WriteGuard::default()));
     }
-    let outputs = Outputs::of(&args)?;
+    let outputs = Outputs::of(args.output.as_deref(), &args.scene, args.part)?;
     if !is_plain && outputs.picture.is_none() && args.preview.preview.is_none() {
         let message = "`--exposure` and `--view` are for pictures to look at: name one that ends in .png with `-o`";
         return Err(message.to_owned());
     }
-    let guard = outputs.claim(&args)?;
+    let guard = outputs.claim(&args.scene, args.stats.as_deref(), args.resume)?;
     if !args.quiet && !outputs.named {
         note(match &outputs.picture {
             Some(picture) => format!(
@@ -238,7 +238,7 @@ fn render(
     let samples = u64::from(here) * u64::from(plan.samples_per_replicate);
     let begun = keeping.as_ref().map_or(0, Checkpointing::samples_begun);
     let samples = (samples * u64::from(size.x) * u64::from(size.y)).saturating_sub(begun);
-    let name = args.frame.map_or_else(String::new, frames::prefix);
+    let name = args.frame.map_or_else(String::new, |frame| frame.label());
     onlookers.begin(&name, samples);
     let bar = Bar::new(samples, args.quiet, interrupt::flag()).named(name);
     let manner = RenderControls {

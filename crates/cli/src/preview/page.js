@@ -1,7 +1,5 @@
 // The page of `render --preview` and `etalon view`: asks what there is, and shows it. No library, no other host.
-'use strict';
 const $ = (id) => document.getElementById(id);
-const clamp = (x, low, high) => Math.min(high, Math.max(low, x));
 const canvas = $('canvas'), context = canvas.getContext('2d');
 
 // ---- What there is.
@@ -34,7 +32,6 @@ async function load(index) {
 const WEIGHTS = [0.2126, 0.7152, 0.0722]; // Of luminance, ITU-R BT.709.
 const STEEPNESS = (0.18 - 0.18 * 0.18 / 256) / 0.82 / 0.18, WHITE = 16 * STEEPNESS;
 const filmic = (x) => { const a = STEEPNESS * x; return a * (1 + a / (WHITE * WHITE)) / (1 + a); };
-const encoded = (x) => (x <= 0.0031308 ? 12.92 * x : 1.055 * Math.min(x, 1) ** (1 / 2.4) - 0.055);
 // One code for each of the 2^17 values that the upper bits of a float can have: eight bits of mantissa.
 const codes = new Uint8ClampedArray(1 << 17);
 let coded = '';
@@ -49,16 +46,7 @@ function code() {
     codes[i] = x > 0 ? 255 * encoded(view === 'filmic' ? filmic(Math.min(x, 1e30)) : x) : 0;
   }
 }
-const opaque = (r, g, b) => (0xff000000 | (b << 16) | (g << 8) | r) >>> 0;
-const MAGENTA = opaque(255, 0, 255); // What is not finite.
-const ramp = (stops) => stops.map((text) => [1, 3, 5].map((at) => parseInt(text.slice(at, at + 2), 16)));
 const SEQUENTIAL = ramp(['#0b0d12', '#2c1a5c', '#8a2267', '#dd4a49', '#fb9f3a', '#fcf3a8']);
-const DIVERGING = ramp(['#0a2f6b', '#2f6fb5', '#93bfe6', '#f5f5f5', '#f2b582', '#cf6a1c', '#7c2f00']);
-const along = (colours, share) => {
-  if (Number.isNaN(share)) return MAGENTA;
-  const at = clamp(share, 0, 1) * (colours.length - 1), low = Math.min(Math.floor(at), colours.length - 2), part = at - low;
-  return opaque(...[0, 1, 2].map((c) => Math.round(colours[low][c] + part * (colours[low + 1][c] - colours[low][c]))));
-};
 const luminance = ({ planes }, i) => WEIGHTS[0] * planes[0][i] + WEIGHTS[1] * planes[1][i] + WEIGHTS[2] * planes[2][i];
 const deviation = ({ errors }, i) => Math.hypot(...[0, 1, 2].map((c) => WEIGHTS[c] * errors[c][i]));
 // Keeps relative numbers finite where a picture is black: 5 % of its mean.
@@ -155,7 +143,6 @@ function magnify(factor, x = canvas.width / 2, y = canvas.height / 2) {
 }
 
 // ---- Reading a pixel.
-const shown = (x) => (x === 0 || (Math.abs(x) >= 1e-3 && Math.abs(x) < 1e5) ? x.toPrecision(4) : x.toExponential(2));
 function read() {
   if (!over) return;
   const told = state.pictures.map((about, index) => {

@@ -83,15 +83,12 @@ fn every_estimator_can_be_replayed() {
         ("ao", &["radiance ("]),
         ("depth", &["radiance ("]),
         ("distribution", &["light 0 sampled", "radiance ("]),
-        (
-            "vcm",
-            &["walk 2: ", "photons that count within", "radiance ("],
-        ),
-        ("sppm", &["photons that count within", "radiance ("]),
-        ("photonmap", &["photons that count within", "radiance ("]),
-        ("guided", &["the guide's density", "radiance ("]),
-        ("pssmlt", &["Markov chains"]),
-        ("mmlt", &["Markov chains"]),
+        ("vcm", &["walk 2: ", "toward (", "radiance ("]),
+        ("sppm", &["toward (", "radiance ("]),
+        ("photonmap", &["toward (", "radiance ("]),
+        ("guided", &["is known to it only", "radiance ("]),
+        ("pssmlt", &["radiance ("]),
+        ("mmlt", &["radiance ("]),
     ] {
         let arguments = [
             "render",
@@ -108,6 +105,28 @@ fn every_estimator_can_be_replayed() {
         {
             assert!(said.contains(word), "{integrator}: no `{word}` in\n{said}");
         }
+    }
+}
+
+/// A sample without a share of the chains delivers nothing, and one with a share tells path by path: walks are counted from
+/// each camera ray.
+#[test]
+fn chains_are_told_path_by_path() {
+    for integrator in ["pssmlt", "mmlt"] {
+        let workshop = Workshop::new();
+        let xml = format!(
+            "<integrator type=\"{integrator}\"><integer name=\"max_depth\" value=\"6\"/></integrator>"
+        );
+        workshop.write("a.xml", small_scene(&xml));
+        let replay = |address: &str| {
+            let ran = workshop.run(&["render", "a.xml", "--replay", address]);
+            ran.fine().stdout
+        };
+        let said = replay("0,0,0,0");
+        let paths = said.matches("camera ray at raster").count();
+        assert!(paths > 100 && said.contains("splat at raster"), "{said}");
+        assert!(!said.contains("walk 3: "), "{said}");
+        assert!(!replay("0,0,0,1").contains("splat"));
     }
 }
 
@@ -141,5 +160,27 @@ fn samples_that_are_not_there() {
     // Either a picture or a replay.
     let both = ["render", "a.xml", "-o", "a.exr", "--replay", "0,0,0,0"];
     workshop.run(&both).refused();
+    assert_eq!(workshop.files(), ["a.xml"]);
+}
+
+/// What a replay would ignore is refused.
+#[test]
+fn a_replay_measures_keeps_and_splits_nothing() {
+    let workshop = Workshop::new();
+    workshop.write("a.xml", small_scene(""));
+    for more in [
+        &["--stats", "a.json"][..],
+        &["--resume"],
+        &["--strategies", "folder"],
+        &["--part", "1/2"],
+        &["--error", "0.1"],
+        &["--time", "1"],
+        &["-o", "a.exr"],
+    ] {
+        let arguments = [&["render", "a.xml", "--replay", "0,0,0,0"][..], more].concat();
+        let ran = workshop.run(&arguments).refused();
+        let words = "cannot be used with";
+        assert!(ran.stderr.contains(words), "{more:?}: {}", ran.stderr);
+    }
     assert_eq!(workshop.files(), ["a.xml"]);
 }

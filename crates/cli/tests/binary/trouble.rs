@@ -124,3 +124,40 @@ fn refused_numbers_say_how_to_draw_them_again() {
     assert!(ran.stderr.contains(replay), "{}", ran.stderr);
     assert!(largest(&run_told(&workshop, &first["replay"])) > 1e14);
 }
+
+#[test]
+fn a_filter_that_splats_never_hit_takes_no_light_away() {
+    let mean = |integrator: &str, radius: f64| {
+        let workshop = Workshop::new();
+        let tent =
+            format!("<rfilter type=\"tent\"><float name=\"radius\" value=\"{radius}\"/></rfilter>");
+        let scene = small_scene(&format!("<integrator type=\"{integrator}\"/>"));
+        let width = "<integer name=\"width\"";
+        workshop.write("a.xml", scene.replace(width, &format!("{tent}{width}")));
+        let arguments = ["render", "a.xml", "-o", "a.exr", "--spp", "256"];
+        workshop.run(&arguments).fine();
+        let image = workshop.image("a.exr").image;
+        let green = image.channel("G").expect("G");
+        green.iter().sum::<f32>() / green.len() as f32
+    };
+    for integrator in ["bdpt", "vcm"] {
+        let [narrow, path] = [integrator, "path"].map(|name| mean(name, 1e-9));
+        // Mutant rejected: connections with the camera keep their share, and never arrive.
+        assert!(
+            (narrow / path - 1.0).abs() < 0.01,
+            "{integrator}: {narrow}, {path}"
+        );
+    }
+}
+
+#[test]
+fn what_turns_out_black_is_said() {
+    // Paths are too short to find what the sky shines on.
+    let short = "<integrator type=\"path\"><integer name=\"max_depth\" value=\"1\"/><boolean name=\"hide_emitters\" value=\"true\"/></integrator>";
+    let workshop = Workshop::new();
+    workshop.write("a.xml", small_scene(short));
+    let ran = workshop.run(&["render", "a.xml", "-o", "a.exr"]).fine();
+    let said = "warning: the picture is black";
+    assert!(ran.stderr.contains(said), "{}", ran.stderr);
+    assert!(!ran.stderr.contains("standard error"), "{}", ran.stderr);
+}

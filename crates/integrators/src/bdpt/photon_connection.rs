@@ -4,7 +4,7 @@ use super::connect::Connector;
 use super::merge::FACING;
 use super::path_vertex::Corner;
 use super::weight::{EndPdfs, more};
-use etalon_transport::{Bsdf, MergedPhoton, TraceEvent, TransportMode, World};
+use etalon_transport::{Bsdf, TransportMode, World};
 use glam::Vec4;
 
 impl<'w, W: World> Connector<'_, 'w, W> {
@@ -27,10 +27,6 @@ impl<'w, W: World> Connector<'_, 'w, W> {
         let (camera_end, theirs) = (self.camera_end(), corner.prefix.r_u);
         let mut radiance = Vec4::ZERO;
         let radius = merging.terms.radius;
-        self.world.record(|| TraceEvent::Gathering {
-            radius,
-            among: merging.photons.len(),
-        });
         merging.tree.within(place, radius * radius, |found| {
             let photon = &merging.photons[found.place];
             if corner.segments.saturating_add(photon.segments) > max_depth
@@ -40,7 +36,6 @@ impl<'w, W: World> Connector<'_, 'w, W> {
             }
             let (value, density) =
                 (corner.bsdf).eval_and_density(corner.wo, photon.from, TransportMode::Radiance);
-            let scattering = value;
             let value = photon.value * value * corner.prefix.beta;
             if value == Vec4::ZERO {
                 return;
@@ -55,19 +50,7 @@ impl<'w, W: World> Connector<'_, 'w, W> {
             };
             total += more(Some(corner), eye, Vec4::ONE, ends, true, camera_end);
             radiance += value * (photon.arrival / total);
-            self.world.record(|| {
-                TraceEvent::Photon(MergedPhoton {
-                    position: photon.position,
-                    distance: photon.position.distance(place),
-                    from: photon.from,
-                    segments: photon.segments,
-                    wavelengths: *self.wavelengths,
-                    scattering,
-                    estimate: value * (photon.arrival / total),
-                })
-            });
         });
-        self.world.record(|| TraceEvent::Gathered);
         self.radiance += radiance;
     }
 }

@@ -12,7 +12,7 @@ use super::field;
 use etalon_math::float::ONE_MINUS_EPSILON;
 use etalon_math::{DeltaProbability, Density, Frame, SolidAngle};
 use etalon_sampling::discrete::Quadtree;
-use etalon_transport::{Bsdf, BsdfSample, Mixed, Mixture, SamplePdf, TransportMode};
+use etalon_transport::{Bsdf, BsdfSample, SamplePdf, TransportMode};
 use glam::{Vec2, Vec3, Vec4};
 
 /// A scattering model, and where light comes from.
@@ -61,25 +61,14 @@ impl<B: Bsdf> GuidedBsdf<'_, B> {
     ) -> Option<BsdfSample> {
         let (wi, learned) = field::sample(lobe, u);
         let (value, own) = self.bsdf.eval_and_density(wo, wi, mode);
-        let sample = (value != Vec4::ZERO).then(|| BsdfSample {
+        (value != Vec4::ZERO).then(|| BsdfSample {
             wi,
             value,
             chance: SamplePdf::Continuous(self.mix(share, own, learned)),
             // Whichever side it is on; this only sways Russian roulette.
             eta: 1.0,
             is_null: false,
-        });
-        self.bsdf.mixed(|| Mixture {
-            wi,
-            own: SamplePdf::Continuous(own),
-            other: self.on_scatter(learned),
-            share,
-            mixed: Mixed::Sampled {
-                by_model: false,
-                sample,
-            },
-        });
-        sample
+        })
     }
 }
 
@@ -110,15 +99,7 @@ impl<B: Bsdf> Bsdf for GuidedBsdf<'_, B> {
             // Without scattering there is no density.
             Some((lobe, share)) if value != Vec4::ZERO => {
                 let learned = field::density(lobe, wi);
-                let density = self.mix(share, own, learned);
-                self.bsdf.mixed(|| Mixture {
-                    wi,
-                    own: SamplePdf::Continuous(own),
-                    other: self.on_scatter(learned),
-                    share,
-                    mixed: Mixed::Weighed(density),
-                });
-                (value, density)
+                (value, self.mix(share, own, learned))
             }
             _ => (value, own),
         }
@@ -142,28 +123,12 @@ impl<B: Bsdf> Bsdf for GuidedBsdf<'_, B> {
         let mut sample = self
             .bsdf
             .sample(wo, u_lobe.min(ONE_MINUS_EPSILON), u, mode)?;
-        let own = sample.chance;
-        let (chance, other) = match own {
+        sample.chance = match sample.chance {
             SamplePdf::Continuous(own) => {
-                let learned = field::density(lobe, sample.wi);
-                (
-                    SamplePdf::Continuous(self.mix(share, own, learned)),
-                    learned,
-                )
+                SamplePdf::Continuous(self.mix(share, own, field::density(lobe, sample.wi)))
             }
-            SamplePdf::Discrete(own) => (Self::by_model(own, share), Density::uniform(0.0)),
+            SamplePdf::Discrete(own) => Self::by_model(own, share),
         };
-        sample.chance = chance;
-        self.bsdf.mixed(|| Mixture {
-            wi: sample.wi,
-            own,
-            other: self.on_scatter(other),
-            share,
-            mixed: Mixed::Sampled {
-                by_model: true,
-                sample: Some(sample),
-            },
-        });
         Some(sample)
     }
 
@@ -210,10 +175,5 @@ impl<B: Bsdf> Bsdf for GuidedBsdf<'_, B> {
     #[inline]
     fn projected_area(&self, direction: Vec3) -> f32 {
         self.bsdf.projected_area(direction)
-    }
-
-    #[inline]
-    fn mixed(&self, mixture: impl FnOnce() -> Mixture) {
-        self.bsdf.mixed(mixture);
     }
 }

@@ -5,7 +5,7 @@ use super::steering::GuidedBsdf;
 use etalon_math::{DeltaProbability, Density, Frame, SolidAngle};
 use etalon_sampling::discrete::{Quadtree, Refinement};
 use etalon_sampling::{Independent, Sampler};
-use etalon_transport::{Bsdf, BsdfSample, Mixture, SamplePdf, TransportMode};
+use etalon_transport::{Bsdf, BsdfSample, SamplePdf, TransportMode};
 use glam::{Vec2, Vec3, Vec4};
 use std::f32::consts::PI;
 
@@ -173,7 +173,6 @@ impl Bsdf for Model {
     fn projected_area(&self, _: Vec3) -> f32 {
         1.0
     }
-    fn mixed(&self, _: impl FnOnce() -> Mixture) {}
 }
 
 /// The mean of what a model brings from a sky of brightness 1 + z, of the mirror's light and of the
@@ -304,18 +303,13 @@ impl Bsdf for Odd<'_> {
     fn projected_area(&self, direction: Vec3) -> f32 {
         2.0 + direction.z
     }
-    fn mixed(&self, _: impl FnOnce() -> Mixture) {
-        self.0.set(self.0.get() + 100);
-    }
 }
 
-/// Everything that a model can be asked, as text. `mixed` and `eval_and_density` count.
+/// Everything that a model can be asked, as text. `eval_and_density` counts.
 fn answers(model: &impl Bsdf, asked: &std::cell::Cell<u32>) -> Vec<String> {
     let (wo, wi) = (Vec3::new(0.0, 0.6, 0.8), Vec3::new(0.48, 0.64, 0.6));
     let mode = TransportMode::Importance;
     asked.set(0);
-    model.mixed(|| unreachable!("nobody listens"));
-    let mixed = asked.take();
     let mut all = vec![
         format!("eval {}", model.eval(wo, wi, mode)),
         format!(
@@ -330,7 +324,6 @@ fn answers(model: &impl Bsdf, asked: &std::cell::Cell<u32>) -> Vec<String> {
             model.albedo(wo),
             model.projected_area(wi)
         ),
-        format!("mixed {mixed}"),
         format!("passes {:?}", model.discrete(wo, 0, mode)),
         format!("end {:?}", model.discrete(wo, 2, mode)),
         format!("value {:?}", model.eval_and_density(wo, wi, mode).0),

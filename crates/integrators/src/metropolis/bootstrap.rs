@@ -102,8 +102,8 @@ pub struct State {
     /// What a contribution of one step is multiplied by, for a film that divides by the samples of
     /// a pixel.
     pub(super) scale: f64,
-    /// The contributions of the bootstrap samples, each with its sample's index.
-    pub(super) contributions: Vec<(u32, Contribution)>,
+    /// The contributions of the bootstrap samples.
+    pub(super) contributions: Vec<Contribution>,
 }
 
 impl State {
@@ -187,21 +187,17 @@ impl State {
             (kinds, emphasis),
             key,
             seeds,
-            |found, task: &mut (Vec<f64>, Vec<(u32, Contribution)>)| {
+            |found, task: &mut (Vec<f64>, Vec<Contribution>)| {
                 let brightness = found.brightness();
-                let place = task.0.len() as u32;
                 task.0.push(brightness);
-                let weighted = found.weighted(self.uniform_weight(brightness));
-                task.1.extend(weighted.map(|one| (place, one)));
+                task.1
+                    .extend(found.weighted(self.uniform_weight(brightness)));
             },
         );
         let mut brightness = Vec::with_capacity(seeds as usize);
         for (part, contributions) in drawn {
-            let before = brightness.len() as u32;
             brightness.extend(part);
-            let each = contributions.into_iter();
-            self.contributions
-                .extend(each.map(|(place, one)| (before + place, one)));
+            self.contributions.extend(contributions);
         }
         let total: f64 = brightness.iter().sum();
         self.brightness = total / f64::from(seeds);

@@ -6,7 +6,7 @@ use super::primary::{LogarithmicStep, PrimarySample};
 use super::{ChainSettings, Integrand};
 use core::ops::Range;
 use etalon_sampling::hash::derived_key;
-use etalon_transport::{ChainRemark, PixelSample, Sink, TraceEvent};
+use etalon_transport::{PixelSample, Sink};
 
 impl State {
     /// Runs the chains that a sample hosts, and delivers its share of the bootstrap samples. Both are
@@ -21,22 +21,7 @@ impl State {
     ) {
         let share = |count: usize| self.share(site, count);
         let (contributions, chains) = (share(self.contributions.len()), share(self.starts.len()));
-        if contributions.is_empty() && chains.is_empty() {
-            tell(integrand, || ChainRemark::HostsNone);
-            return;
-        }
-        tell(integrand, || ChainRemark::Hosts {
-            contributions: contributions.len(),
-            chains: chains.len(),
-            steps: self.length,
-        });
-        for (index, contribution) in &self.contributions[contributions] {
-            if tell(integrand, || ChainRemark::Uniform(*index)) {
-                // A replay follows the path again, to record it.
-                let mut sample = self.uniform_sample(settings, *index, 0);
-                let (lists, found) = (&mut T::Lists::default(), &mut Contributions::default());
-                integrand.find(&self.field, &self.pilot.kinds, &mut sample, lists, found);
-            }
+        for contribution in &self.contributions[contributions] {
             deliver(*contribution, sink);
         }
         for chain in chains {
@@ -92,16 +77,11 @@ impl State {
             found.measure(&self.field, &self.pilot.emphasis);
             found.brightness()
         };
-        tell(integrand, || ChainRemark::Begins {
-            number: chain,
-            start,
-        });
         let mut here = find(&mut sample, &mut current);
         // The weight of the current sample.
         let mut weight = 0.0;
-        for step in 0..self.length {
+        for _ in 0..self.length {
             let large = sample.propose();
-            tell(integrand, || ChainRemark::Proposal { step, large });
             let there = find(&mut sample, &mut proposed);
             let accepted = if there > 0.0 {
                 (there / here).min(1.0)
@@ -118,12 +98,6 @@ impl State {
                 other += self.uniform_weight(there);
             }
             let goes = f64::from(sample.decide()) < accepted;
-            tell(integrand, || ChainRemark::Decision {
-                from: here,
-                to: there,
-                acceptance: accepted,
-                accepted: goes,
-            });
             if goes {
                 sample.accept();
                 core::mem::swap(&mut current, &mut proposed);
@@ -135,17 +109,10 @@ impl State {
             // After the exchange, `proposed` is what the chain does not stay at.
             proposed.weighted(other).for_each(|one| deliver(one, sink));
         }
-        tell(integrand, || ChainRemark::Ends);
         current.weighted(weight).for_each(|one| deliver(one, sink));
     }
 }
 
 fn deliver<K: Sink>(contribution: Contribution, sink: &mut K) {
     sink.splat(contribution.raster, contribution.rgb.to_array());
-}
-
-/// Remarks something about chains; whether anybody listens.
-#[inline]
-fn tell<T: Integrand>(integrand: &T, remark: impl FnOnce() -> ChainRemark) -> bool {
-    integrand.record(|| TraceEvent::Chain(remark()))
 }

@@ -5,7 +5,7 @@ use crate::steps::settings::PathSettings;
 use etalon_sampling::Sampler;
 use etalon_transport::{
     Incompatibility, Integrator, LightSearch, Pass, PixelSample, Placing, SceneCapabilities, Sink,
-    TraceEvent, World,
+    World,
 };
 
 /// Turns primary samples into paths.
@@ -78,11 +78,6 @@ impl<'w, W: World, P: PathSampler> Integrand for InWorld<'w, W, P> {
         } = self.integrator;
         let place = (self.world, settings, chains);
         paths.find(place, field, kinds, sampler, lists, found);
-    }
-
-    #[inline]
-    fn record(&self, remark: impl FnOnce() -> TraceEvent) -> bool {
-        self.world.record(remark)
     }
 }
 

@@ -28,7 +28,7 @@ use crate::steps::dimensions as dim;
 use crate::steps::settings::PathSettings;
 use etalon_params::Params;
 use etalon_sampling::Sampler;
-use etalon_transport::{LightSearch, ScattererOf, TraceEvent, World};
+use etalon_transport::{LightSearch, ScattererOf, World};
 
 /// The numbers that choose the technique and the length: those between the moment and the first
 /// scattering event, which nothing else needs.
@@ -101,10 +101,6 @@ impl PathSampler for Techniques {
             camera: vertices - light,
             weighted: true,
         };
-        world.record(|| TraceEvent::Technique {
-            light: technique.light,
-            camera: technique.camera,
-        });
         sampler.skip_to(dim::FILM);
         let site = field.site(sampler.next_2d());
         let factor = field.area() * vertices as f32 / probability;

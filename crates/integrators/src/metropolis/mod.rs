@@ -65,7 +65,7 @@ use crate::steps::settings::{PathConfig, PathSettings};
 use core::ops::Range;
 use etalon_params::Params;
 use etalon_sampling::Sampler;
-use etalon_transport::{PixelSample, Sink, TraceEvent, World};
+use etalon_transport::{PixelSample, Sink, World};
 use primary::LogarithmicStep;
 
 /// The mapping from a primary sample to a path and its contributions.
@@ -85,9 +85,6 @@ pub(crate) trait Integrand: Sync {
         lists: &mut Self::Lists,
         found: &mut Contributions,
     );
-
-    /// Remarks something in the world of the paths, see [`World::record`].
-    fn record(&self, remark: impl FnOnce() -> TraceEvent) -> bool;
 }
 
 /// The settings of chains.

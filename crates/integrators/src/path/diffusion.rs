@@ -13,8 +13,8 @@ use etalon_math::{Density, Frame, SolidAngle, float};
 use etalon_sampling::Sampler;
 use etalon_sampling::warps::square_to_cosine_hemisphere;
 use etalon_transport::{
-    Bsdf, BsdfSample, DiffusionProfile, Media, MediumId, Mixture, Ray, SamplePdf,
-    SurfaceInteraction, Surfaces, TransportMode, World,
+    Bsdf, BsdfSample, DiffusionProfile, Media, MediumId, Ray, SamplePdf, SurfaceInteraction,
+    Surfaces, TransportMode, World,
 };
 use glam::{Vec2, Vec3, Vec4};
 
@@ -98,8 +98,6 @@ impl<P: DiffusionProfile> Bsdf for Leaving<'_, P> {
     fn projected_area(&self, _: Vec3) -> f32 {
         1.0
     }
-
-    fn mixed(&self, _: impl FnOnce() -> Mixture) {}
 }
 
 /// A point on the surface of `medium` that `line` crosses, each alike, and how many there are.

@@ -18,8 +18,8 @@ use crate::steps::settings::PathSettings;
 use etalon_sampling::Sampler;
 use etalon_spectrum::Wavelengths;
 use etalon_transport::{
-    Bsdf, LightSampleContext, MergedPhoton, PixelSample, Ray, SampleJob, SamplePdf, Scatterer,
-    ScattererOf, Sink, SurfaceInteraction, Surfaces, TileSink, TraceEvent, TransportMode, World,
+    Bsdf, LightSampleContext, PixelSample, Ray, SampleJob, SamplePdf, Scatterer, ScattererOf, Sink,
+    SurfaceInteraction, Surfaces, TileSink, TransportMode, World,
 };
 use glam::{Vec3, Vec4};
 use std::vec::Drain;
@@ -128,7 +128,6 @@ fn follow<'w, W: World>(
 ) {
     let (lens, u, _) = draw_lens(sampler);
     let lanes = plan.sets.choose(u);
-    world.record(|| TraceEvent::Wavelengths(plan.sets.of(lanes)));
     let (ray, weight) = ray_at(world, site, lens, plan.time);
     scratch.path.clear();
     let mut gatherer = GatherPath {
@@ -364,37 +363,18 @@ impl<'w, W: World> GatherPath<'_, 'w, W> {
                 };
                 *sum += value * photon.value * kernel;
                 any = true;
-                world.record(|| {
-                    let brought = value * photon.value * kernel;
-                    TraceEvent::Photon(MergedPhoton {
-                        position: photon.position,
-                        distance: photon.position.distance(vertex.position),
-                        from: photon.from,
-                        segments: photon.segments,
-                        wavelengths: *sets.get(set),
-                        scattering: value,
-                        estimate: brought * behind.value(world, set) * behind.scale(),
-                    })
-                });
             };
             let (lookup, placed) = match in_space {
                 false => (&layer.lookup, &layer.map.surfaces),
                 true => (&layer.in_space, &layer.map.space),
             };
             let scale = 1.0 / layer.shot as f32;
-            let begin = |radius_squared: f32| {
-                world.record(|| TraceEvent::Gathering {
-                    radius: radius_squared.sqrt(),
-                    among: placed.photons.len(),
-                });
-            };
             let (at, near) = (vertex.position, &mut scratch.nearest);
             let merge = |photon: &Photon, kernel: f32| merge(photon, kernel * scale);
-            lookup.visit(placed, at, in_space, near, begin, merge);
+            lookup.visit(placed, at, in_space, near, merge);
         }
         if any {
             self.rgb = behind.carried(world, at.iter().map(|(_, sum)| *sum), self.rgb);
         }
-        world.record(|| TraceEvent::Gathered);
     }
 }

@@ -18,20 +18,17 @@ pub(crate) struct KernelLookup {
 }
 
 impl KernelLookup {
-    /// Calls `begin` with the squared radius, then visits the photons around a point, each with its kernel (m⁻², in a medium
-    /// m⁻³).
+    /// Visits the photons around a point, each with its kernel (m⁻², in a medium m⁻³).
     pub(crate) fn visit(
         &self,
         placed: &PlacedPhotons,
         centre: Vec3,
         in_space: bool,
         found: &mut Vec<Found>,
-        begin: impl FnOnce(f32),
         mut visit: impl FnMut(&Photon, f32),
     ) {
         let radius_squared = self.radius * self.radius;
         if self.nearest == 0 {
-            begin(radius_squared);
             let (weight, among) = placed.around(centre, radius_squared, found);
             for found in found.iter() {
                 let kernel = (self.kernel).value(found.distance_squared, radius_squared, in_space);
@@ -50,7 +47,6 @@ impl KernelLookup {
         } else {
             (radius_squared, &found[..])
         };
-        begin(reach);
         for found in inside {
             let kernel = (self.kernel).value(found.distance_squared, reach, in_space);
             visit(&placed.photons[found.place], kernel);

@@ -2,27 +2,22 @@
 //!
 //! A sample is a pure function of its address, so that a number that was not finite, or a pixel far
 //! too bright, can be looked at: the estimator runs in a world that answers as the scene does
-//! and writes down the answers. It need not know; every estimator can be replayed. What an estimator
-//! does by itself, such as gathering photons, it remarks ([`etalon_transport::TraceEvent`]) in a way that
-//! costs nothing where nobody listens.
+//! and writes down the answers. It need not know; every estimator can be replayed.
 
 mod any_sampler;
-mod event;
-mod event_log;
+mod log;
 mod model;
 mod recorder;
-#[cfg(test)]
-mod tests;
 
-pub use event::{Event, Gathered};
+pub use log::Describe;
 
 use crate::render::RenderPlan;
 use crate::render::positions::position;
 use any_sampler::AnySampler;
 use etalon_sampling::Sampler;
-use etalon_transport::{Film, Integrator, Pass, PixelSample, Sink, World};
-use event_log::SharedEventLog;
+use etalon_transport::{Channel, Film, Integrator, Pass, PixelSample, Sink, World};
 use glam::{UVec2, Vec2};
+use log::SharedLog;
 use recorder::Recorder;
 
 /// Which sample.
@@ -41,20 +36,35 @@ pub struct Address {
 pub struct Replay {
     /// What its weight on the film is, see [`etalon_transport::FilmSample::weight`].
     pub weight: f32,
-    /// What happened.
-    pub events: Vec<Event>,
-    /// What the film is given of this sample when nobody listens: deliveries alone, the same as those among `events`.
-    pub unheard: Vec<Event>,
+    /// What happened, line by line.
+    pub text: String,
+    /// What the film was given meanwhile.
+    pub delivered: Vec<Delivered>,
+    /// The same of the sample drawn in the world itself.
+    pub unheard: Vec<Delivered>,
+}
+
+/// What an estimator gives a film.
+#[derive(Clone, Debug)]
+pub enum Delivered {
+    /// The pixel's radiance (linear Rec. 709) and alpha.
+    Radiance([f32; 3], f32),
+    /// A splat somewhere on the film (pixels).
+    Splat(Vec2, [f32; 3]),
+    /// A value of one of the estimator's channels.
+    Channel(usize, f32),
 }
 
 /// Draws samples again, exactly as [`crate::render()`] with this plan does, but for what an estimator makes of several
-/// samples together: `guided` lets those of its training join them on the way to the film.
+/// samples together: `guided` lets those of its training join them on the way to the film. `describe` says what a
+/// surface is called.
 pub fn replay<W: World, I: Integrator, F: Film>(
     world: &W,
     integrator: &I,
     film: &F,
     plan: &RenderPlan,
     addresses: &[Address],
+    describe: &Describe<'_>,
 ) -> Vec<Replay> {
     let mut prepared: Option<(Pass, I::State)> = None;
     let replays = addresses.iter().map(|address| {
@@ -64,7 +74,15 @@ pub fn replay<W: World, I: Integrator, F: Film>(
             // What is learned does not depend on the passes before.
             _ => prepared.insert((pass, integrator.prepare(world, film, &pass, None))),
         };
-        replay_one(world, (integrator, state), film, (plan, &pass), address)
+        let log = SharedLog::new(describe);
+        replay_one(
+            world,
+            (integrator, state),
+            film,
+            (plan, &pass),
+            address,
+            log,
+        )
     });
     replays.collect()
 }
@@ -96,13 +114,14 @@ fn pass_of<I: Integrator, F: Film>(
     }
 }
 
-/// Draws a sample again in a pass that has been prepared: once unheard, once with somebody who listens.
+/// Draws a sample again in a pass that has been prepared: once in the world itself, once in one that writes down.
 fn replay_one<W: World, I: Integrator, F: Film>(
     world: &W,
     (integrator, state): (&I, &I::State),
     film: &F,
     (plan, pass): (&RenderPlan, &Pass),
     address: &Address,
+    log: SharedLog<'_>,
 ) -> Replay {
     let samples = plan.samples_per_replicate;
     let length = integrator.samples_per_pass().map_or(samples, |l| l.max(1));
@@ -121,43 +140,59 @@ fn replay_one<W: World, I: Integrator, F: Film>(
         spacing: 1.0 / spp.sqrt(),
         sample: address.sample - pass.number * length,
     };
-    let unheard = SharedEventLog::default();
-    integrator.sample(
-        world,
-        state,
-        &site,
-        &mut sampler.clone(),
-        &mut Delivery(&unheard),
-    );
-    let notebook = SharedEventLog::default();
-    let recorder = Recorder::new(world, &notebook);
-    integrator.sample(
-        &recorder,
-        state,
-        &site,
-        &mut sampler,
-        &mut Delivery(&notebook),
-    );
+    let channels = integrator.channels();
+    let mut unheard = Delivery::to(None, &channels);
+    integrator.sample(world, state, &site, &mut sampler.clone(), &mut unheard);
+    let mut delivery = Delivery::to(Some(&log), &channels);
+    let recorder = Recorder::new(world, &log);
+    integrator.sample(&recorder, state, &site, &mut sampler, &mut delivery);
     Replay {
         weight: placement.weight,
-        events: notebook.take_events(),
-        unheard: unheard.take_events(),
+        delivered: delivery.delivered,
+        unheard: unheard.delivered,
+        text: log.into_text(),
     }
 }
 
-/// Notes what is delivered.
-struct Delivery<'a>(&'a SharedEventLog);
+/// Keeps what is delivered, and writes it down.
+struct Delivery<'a> {
+    log: Option<&'a SharedLog<'a>>,
+    channels: &'a [Channel],
+    delivered: Vec<Delivered>,
+}
+
+impl<'a> Delivery<'a> {
+    fn to(log: Option<&'a SharedLog<'a>>, channels: &'a [Channel]) -> Self {
+        Self {
+            log,
+            channels,
+            delivered: Vec::new(),
+        }
+    }
+
+    fn line(&self, line: String) {
+        if let Some(log) = self.log {
+            log.line(line);
+        }
+    }
+}
 
 impl Sink for Delivery<'_> {
     fn radiance(&mut self, rgb: [f32; 3], alpha: f32) {
-        self.0.note(Event::Radiance(rgb, alpha));
+        let [r, g, b] = rgb;
+        self.line(format!("radiance ({r}, {g}, {b}), alpha {alpha}"));
+        self.delivered.push(Delivered::Radiance(rgb, alpha));
     }
 
     fn splat(&mut self, raster: Vec2, rgb: [f32; 3]) {
-        self.0.note(Event::Splat(raster, rgb));
+        let (Vec2 { x, y }, [r, g, b]) = (raster, rgb);
+        self.line(format!("splat at raster ({x}, {y}): ({r}, {g}, {b})"));
+        self.delivered.push(Delivered::Splat(raster, rgb));
     }
 
     fn channel(&mut self, index: usize, value: f32) {
-        self.0.note(Event::Channel(index, value));
+        let name = self.channels.get(index).map_or("?", |channel| &channel.0);
+        self.line(format!("channel {name}: {value}"));
+        self.delivered.push(Delivered::Channel(index, value));
     }
 }

@@ -1,9 +1,8 @@
 //! A scattering model that answers as another does, and writes down what it said.
 
-use super::Event;
-use super::event_log::{Place, SharedEventLog};
+use super::log::{Place, SharedLog, chance, lanes, vector, walk};
 use etalon_math::{Density, Frame, SolidAngle};
-use etalon_transport::{Bsdf, BsdfSample, Mixture, TransportMode};
+use etalon_transport::{Bsdf, BsdfSample, TransportMode};
 use glam::{Vec2, Vec3, Vec4};
 
 /// A scattering model that writes down what it says.
@@ -11,30 +10,48 @@ use glam::{Vec2, Vec3, Vec4};
 pub(super) struct RecordingBsdf<'a, B> {
     pub(super) model: B,
     pub(super) place: Option<Place>,
-    pub(super) notebook: &'a SharedEventLog,
+    pub(super) log: &'a SharedLog<'a>,
 }
 
 impl<B> RecordingBsdf<'_, B> {
+    /// The model was asked for a direction, along which the estimator may go on by itself.
     fn evaluated(&self, wi: Vec3, value: Vec4, density: Option<Density<SolidAngle>>) {
-        let event = Event::Evaluated {
-            wi,
-            value,
-            density,
-            mixture: None,
-        };
-        self.notebook
-            .write(|notes| notes.ask(self.place, wi, event));
+        let density = density.map_or_else(String::new, |density| {
+            format!(", density {}", lanes(density.lanes()))
+        });
+        let mut log = self.log.write();
+        log.line(format!(
+            "    toward {}: value {}{density}",
+            vector(wi),
+            lanes(value)
+        ));
+        if let Some(place) = self.place {
+            log.may_go(place.after(None), wi);
+        }
     }
 
-    /// A direction was found that leads on from `place`.
-    fn scattered(&self, place: Option<Place>, sample: Option<BsdfSample>) {
-        let event = Event::Scattered {
-            walk: place.map(|place| place.walk),
-            sample,
-            prefix: place.and_then(|place| place.prefix),
-            mixture: None,
+    /// A direction was found that leads on to `place`.
+    fn scattered(&self, place: Option<Place>, sample: Option<&BsdfSample>) {
+        let mut log = self.log.write();
+        let walk = walk(place);
+        let Some(s) = sample else {
+            return log.line(format!("    {walk}scattering: absorbed"));
         };
-        self.notebook.write(|notes| notes.scatter(place, event));
+        let how = match s.is_null {
+            true => "passes straight",
+            false => "scatters",
+        };
+        log.line(format!(
+            "    {walk}{how} along {}, value {}, {}, eta {}",
+            vector(s.wi),
+            lanes(s.value),
+            chance(s.chance),
+            s.eta
+        ));
+        if let Some(place) = place {
+            log.line(format!("    then {}", place.carried()));
+            log.may_go(place, s.wi);
+        }
     }
 }
 
@@ -62,8 +79,8 @@ impl<B: Bsdf> Bsdf for RecordingBsdf<'_, B> {
 
     fn sample(&self, wo: Vec3, u_lobe: f32, u: Vec2, mode: TransportMode) -> Option<BsdfSample> {
         let sample = self.model.sample(wo, u_lobe, u, mode);
-        let place = self.place.map(|place| place.extended(sample.as_ref()));
-        self.scattered(place, sample);
+        let step = sample.as_ref().map(|s| (s.value, s.chance));
+        self.scattered(self.place.map(|place| place.after(step)), sample.as_ref());
         sample
     }
 
@@ -71,11 +88,8 @@ impl<B: Bsdf> Bsdf for RecordingBsdf<'_, B> {
         let sample = self.model.discrete(wo, index, mode);
         if sample.is_some() {
             // All are followed: none has a probability by which to divide.
-            let place = self.place.map(|place| Place {
-                prefix: None,
-                ..place
-            });
-            self.scattered(place, sample);
+            let place = self.place.map(|place| place.after(None));
+            self.scattered(place, sample.as_ref());
         }
         sample
     }
@@ -106,10 +120,5 @@ impl<B: Bsdf> Bsdf for RecordingBsdf<'_, B> {
 
     fn projected_area(&self, direction: Vec3) -> f32 {
         self.model.projected_area(direction)
-    }
-
-    fn mixed(&self, mixture: impl FnOnce() -> Mixture) {
-        let mixture = mixture();
-        self.notebook.write(|notes| notes.mix(self.place, mixture));
     }
 }

@@ -1,21 +1,20 @@
 //! A world that answers as another does, and writes down what it said.
 
-use super::Event;
-use super::event_log::SharedEventLog;
+use super::log::{SharedLog, chance, lanes, vector, walk};
 use super::model::RecordingBsdf;
 use etalon_math::{Density, SolidAngle};
 use etalon_spectrum::{SensorWeights, Wavelengths};
 use etalon_transport::{
     ApertureHit, Camera, CameraRay, CameraSample, Emission, EmissionPdf, Hit, LegacyPhong, LightId,
     LightSample, LightSampleContext, LightVariety, Lights, MediumId, Ray, Sensor, ShadowQuery,
-    SurfaceInteraction, Surfaces, TraceEvent, Transmission, World,
+    SurfaceInteraction, Surfaces, Transmission, World,
 };
 use glam::{Vec2, Vec3, Vec4};
 
 /// A part of a world that writes down what it says.
 pub(super) struct Recording<'a, T> {
     part: &'a T,
-    notebook: &'a SharedEventLog,
+    log: &'a SharedLog<'a>,
 }
 
 /// A world that writes down what it says; its media do not.
@@ -25,31 +24,31 @@ pub(super) struct Recorder<'a, W: World> {
     lights: Recording<'a, W::Lights>,
     camera: Recording<'a, W::Camera>,
     sensor: Recording<'a, W::Sensor>,
-    notebook: &'a SharedEventLog,
+    log: &'a SharedLog<'a>,
 }
 
 impl<'a, W: World> Recorder<'a, W> {
-    /// A world that writes into a notebook.
-    pub(super) fn new(world: &'a W, notebook: &'a SharedEventLog) -> Self {
+    /// A world that writes into a log.
+    pub(super) fn new(world: &'a W, log: &'a SharedLog<'a>) -> Self {
         Self {
             world,
             surfaces: Recording {
                 part: world.surfaces(),
-                notebook,
+                log,
             },
             lights: Recording {
                 part: world.lights(),
-                notebook,
+                log,
             },
             camera: Recording {
                 part: world.camera(),
-                notebook,
+                log,
             },
             sensor: Recording {
                 part: world.sensor(),
-                notebook,
+                log,
             },
-            notebook,
+            log,
         }
     }
 }
@@ -57,23 +56,41 @@ impl<'a, W: World> Recorder<'a, W> {
 impl<C: Camera> Camera for Recording<'_, C> {
     fn ray(&self, raster: Vec2, lens: Vec2, time: f32) -> CameraRay {
         let start = self.part.ray(raster, lens, time);
-        self.notebook.write(|notes| {
-            let walk = notes.begin_at_camera(start.weight, start.ray.direction);
-            let ray = start.ray;
-            notes.note(Event::CameraRay { walk, raster, ray });
-        });
+        let ray = &start.ray;
+        let mut log = self.log.write();
+        log.begin_path();
+        log.begin(Vec4::splat(start.weight), ray.direction);
+        log.line(format!(
+            "camera ray at raster ({}, {}), from {} along {}",
+            raster.x,
+            raster.y,
+            vector(ray.origin),
+            vector(ray.direction)
+        ));
         start
     }
 
     fn connect(&self, point: Vec3, lens: Vec2, time: f32, margin: f32) -> Option<CameraSample> {
         let connection = self.part.connect(point, lens, time, margin);
-        self.notebook.note(Event::CameraSample(connection));
+        self.log.line(match &connection {
+            None => "    the camera does not see it".to_owned(),
+            Some(c) => format!(
+                "    the camera sees it at raster ({}, {}), weight {}",
+                c.raster.x, c.raster.y, c.weight
+            ),
+        });
         connection
     }
 
     fn intersect_aperture(&self, ray: &Ray, margin: f32) -> Option<ApertureHit> {
         let reception = self.part.intersect_aperture(ray, margin)?;
-        self.notebook.note(Event::ApertureHit(reception));
+        let ApertureHit {
+            t, raster, weight, ..
+        } = &reception;
+        self.log.line(format!(
+            "    hits the aperture after {t}, seen at raster ({}, {}), weight {weight}",
+            raster.x, raster.y
+        ));
         Some(reception)
     }
 
@@ -89,7 +106,7 @@ impl<C: Camera> Camera for Recording<'_, C> {
 impl<S: Sensor> Sensor for Recording<'_, S> {
     fn wavelengths(&self, u: f32) -> Wavelengths {
         let wavelengths = self.part.wavelengths(u);
-        self.notebook.note(Event::Wavelengths(wavelengths));
+        self.log.write().wavelengths(&wavelengths);
         wavelengths
     }
 
@@ -106,14 +123,11 @@ impl<S: Surfaces> Surfaces for Recording<'_, S> {
 
     fn intersect(&self, ray: &Ray) -> Option<Hit> {
         let hit = self.part.intersect(ray);
-        self.notebook.write(|notes| {
-            let walk = notes.along(ray.direction).map(|place| place.walk);
-            let hit = hit.as_ref().map(|hit| hit.t);
-            notes.note(Event::Ray {
-                walk,
-                ray: *ray,
-                hit,
-            });
+        let mut log = self.log.write();
+        let walk = walk(log.along(ray.direction));
+        log.line(match &hit {
+            Some(hit) => format!("{walk}ray of length {}", hit.t),
+            None => format!("{walk}ray along {} meets nothing", vector(ray.direction)),
         });
         hit
     }
@@ -126,8 +140,8 @@ impl<S: Surfaces> Surfaces for Recording<'_, S> {
 
     fn vertex(&self, ray: &Ray, hit: &Hit) -> SurfaceInteraction {
         let vertex = self.part.vertex(ray, hit);
-        self.notebook
-            .write(|notes| notes.shade(&vertex, ray.direction));
+        let what = (self.log.describe)(&vertex);
+        self.log.write().meet(&vertex, &what, ray.direction);
         vertex
     }
 
@@ -137,11 +151,12 @@ impl<S: Surfaces> Surfaces for Recording<'_, S> {
         wo: Vec3,
         wavelengths: &Wavelengths,
     ) -> Self::Bsdf<'_> {
-        let place = self.notebook.write(|notes| notes.place(vertex));
+        let mut log = self.log.write();
+        log.wavelengths(wavelengths);
         RecordingBsdf {
             model: self.part.bsdf(vertex, wo, wavelengths),
-            place,
-            notebook: self.notebook,
+            place: log.place(vertex),
+            log: self.log,
         }
     }
 
@@ -170,7 +185,7 @@ impl<L: Lights> Lights for Recording<'_, L> {
 
     fn emitted(&self, vertex: &SurfaceInteraction, wo: Vec3, wavelengths: &Wavelengths) -> Vec4 {
         let radiance = self.part.emitted(vertex, wo, wavelengths);
-        self.notebook.note(Event::Emission(radiance));
+        self.log.line(format!("    emits {}", lanes(radiance)));
         radiance
     }
 
@@ -180,7 +195,11 @@ impl<L: Lights> Lights for Recording<'_, L> {
 
     fn background(&self, direction: Vec3, wavelengths: &Wavelengths) -> Vec4 {
         let radiance = self.part.background(direction, wavelengths);
-        self.notebook.note(Event::Background(direction, radiance));
+        self.log.line(format!(
+            "    sky along {}: {}",
+            vector(direction),
+            lanes(radiance)
+        ));
         radiance
     }
 
@@ -192,7 +211,7 @@ impl<L: Lights> Lights for Recording<'_, L> {
         u: Vec2,
     ) -> Option<LightSample> {
         let sample = self.part.sample_one(light, from, wavelengths, u);
-        self.notebook.note(Event::Light(sample));
+        self.log.line(sampled(sample.as_ref()));
         sample
     }
 }
@@ -231,7 +250,15 @@ impl<'a, W: World> World for Recorder<'a, W> {
         crossings: u32,
     ) -> Option<Transmission> {
         let passage = self.world.transmittance(ray, wavelengths, crossings);
-        self.notebook.note(Event::Transmission(*ray, passage));
+        let along = vector(ray.direction);
+        self.log.line(match &passage {
+            None => format!("    blocked along {along}"),
+            Some(p) => format!(
+                "    arrives along {along}: transmittance {}, probability {}",
+                lanes(p.transmittance),
+                lanes(p.probability)
+            ),
+        });
         passage
     }
 
@@ -253,7 +280,7 @@ impl<'a, W: World> World for Recorder<'a, W> {
         u: Vec2,
     ) -> Option<LightSample> {
         let sample = self.world.sample_light(from, wavelengths, u_light, u);
-        self.notebook.note(Event::Light(sample));
+        self.log.line(sampled(sample.as_ref()));
         sample
     }
 
@@ -289,12 +316,22 @@ impl<'a, W: World> World for Recorder<'a, W> {
         let emission = self
             .world
             .emit(wavelengths, u_light, u_position, u_direction, time);
-        self.notebook.write(|notes| {
-            let (value, direction) = emission
-                .as_ref()
-                .map_or((Vec4::ZERO, Vec3::ZERO), |e| (e.weight, e.ray.direction));
-            let walk = notes.begin(value, direction);
-            notes.note(Event::Emitted { walk, emission });
+        let mut log = self.log.write();
+        let begin = emission.as_ref().map(|e| (e.weight, e.ray.direction));
+        let (weight, direction) = begin.unwrap_or_default();
+        let walk = walk(Some(log.begin(weight, direction)));
+        log.line(match &emission {
+            None => format!("{walk}nothing is emitted"),
+            Some(e) => format!(
+                "{walk}light {} emits {:?} from {} along {}, flux/p {}, densities {} and {}",
+                e.light.0,
+                e.origin,
+                vector(e.ray.origin),
+                vector(e.ray.direction),
+                lanes(e.weight),
+                e.density.origin,
+                e.density.ray
+            ),
         });
         emission
     }
@@ -320,15 +357,18 @@ impl<'a, W: World> World for Recorder<'a, W> {
     fn medium_light_density(&self, medium: MediumId, at: Vec3) -> f32 {
         self.world.medium_light_density(medium, at)
     }
+}
 
-    fn record(&self, remark: impl FnOnce() -> TraceEvent) -> bool {
-        // It may itself ask the world.
-        let remark = remark();
-        self.notebook.write(|notes| {
-            notes.record(remark, |wavelengths| {
-                self.world.sensor().weights(wavelengths)
-            })
-        });
-        true
+/// A sampled light in words.
+fn sampled(sample: Option<&LightSample>) -> String {
+    match sample {
+        None => "    light sampling finds nothing".to_owned(),
+        Some(s) => format!(
+            "    light {} sampled along {}: {}, {}",
+            s.light.0,
+            vector(s.direction),
+            lanes(s.radiance),
+            chance(s.chance)
+        ),
     }
 }

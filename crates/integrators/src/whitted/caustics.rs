@@ -118,13 +118,8 @@ impl Caustics {
         let mut sums = [Vec4::ZERO; SETS];
         let side = vertex.normal.dot(wo);
         let (placed, centre) = (&self.placed, vertex.position);
-        self.lookup.visit(
-            placed,
-            centre,
-            false,
-            found,
-            |_| (),
-            |photon, kernel| {
+        self.lookup
+            .visit(placed, centre, false, found, |photon, kernel| {
                 let Some(index) = place[photon.set as usize] else {
                     return;
                 };
@@ -135,8 +130,7 @@ impl Caustics {
                     let value = packets[index].lanes.of_set(photon.value);
                     sums[index] += surface.spread(vertex, wo, photon.from) * value * kernel;
                 }
-            },
-        );
+            });
         let scale = 1.0 / self.share as f32;
         let shown = packets.iter().zip(sums);
         shown

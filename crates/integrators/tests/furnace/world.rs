@@ -155,7 +155,6 @@ impl Bsdf for Lambert {
     fn projected_area(&self, _: Vec3) -> f32 {
         1.0
     }
-    fn mixed(&self, _: impl FnOnce() -> Mixture) {}
 }
 
 fn on_sphere(u: Vec2) -> Vec3 {
@@ -414,8 +413,5 @@ impl World for Sphere {
     }
     fn medium_light_density(&self, _: MediumId, _: Vec3) -> f32 {
         0.0
-    }
-    fn record(&self, _: impl FnOnce() -> TraceEvent) -> bool {
-        false
     }
 }

@@ -134,7 +134,6 @@ impl Bsdf for Scatter {
     fn projected_area(&self, _: Vec3) -> f32 {
         1.0
     }
-    fn mixed(&self, _: impl FnOnce() -> Mixture) {}
 }
 
 /// Cosine of the discrete direction's angle with the normal, for a wavelength.

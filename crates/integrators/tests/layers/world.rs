@@ -417,7 +417,4 @@ impl World for Stack {
     fn medium_light_density(&self, _: MediumId, _: Vec3) -> f32 {
         0.0
     }
-    fn record(&self, _: impl FnOnce() -> TraceEvent) -> bool {
-        false
-    }
 }

@@ -11,20 +11,12 @@
 //! Two levels are asked at ([`super::decision`]): that of the intervals, and the much lower one at which
 //! a failure is shown. A distribution that t may be trusted with at one can be too skewed for the other.
 
+pub use super::samples::Against;
 use super::samples::{Samples, p_of};
-use crate::judge::{self, ExactImage, ImageComparison, TileRow, Tolerances};
+use crate::judge::{self, ImageComparison, TileRow, Tolerances};
 use crate::tolerance::Tolerance;
 use etalon_film::{Metadata, RenderedImage};
 use etalon_statistics::{Interval, Verdict};
-
-/// What a picture is held against.
-#[derive(Clone, Copy)]
-pub enum Against<'a> {
-    /// A formula.
-    ExactImage(&'a ExactImage),
-    /// Another picture with replicates.
-    Picture(&'a RenderedImage),
-}
 
 /// What is asked of a picture beyond its rules.
 #[derive(Clone, Copy, Debug)]

@@ -1,12 +1,20 @@
 //! The replicates of one mean and of what it is held against: what t makes of them, and when it may.
 
-use super::judged::Against;
-use crate::judge;
-use etalon_film::Metadata;
+use crate::judge::{self, ExactImage};
+use etalon_film::{Metadata, RenderedImage};
 use etalon_statistics::bootstrap::Resampling;
 use etalon_statistics::robust::{self, Method, Symmetry};
 use etalon_statistics::tails::Limits;
 use etalon_statistics::{Estimate, Interval, Replicates, Summary, Verdict};
+
+/// What a picture is held against.
+#[derive(Clone, Copy)]
+pub enum Against<'a> {
+    /// A formula.
+    ExactImage(&'a ExactImage),
+    /// Another picture with replicates.
+    Picture(&'a RenderedImage),
+}
 
 /// The most resamples of a bootstrap: enough for levels of 10⁻⁶, beyond which tails of 32 replicates are
 /// not to be believed.

@@ -17,8 +17,8 @@ use super::findings::{
     AtSize, Convergence, Difference, EntrantResult, Findings, Gains, Pictures, ReferenceFacts,
     Step, Uncertain,
 };
+use super::options::Options;
 use super::reference::Reference;
-use super::trial::Options;
 use super::{CONFIDENCE, remarks};
 use crate::VERSION;
 use crate::pipeline::{Loaded, sampler_name};

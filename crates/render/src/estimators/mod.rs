@@ -37,6 +37,7 @@ pub mod analysis;
 pub mod cell;
 pub mod entrant;
 pub mod findings;
+pub mod options;
 pub mod page;
 pub mod reference;
 pub mod remarks;
@@ -46,9 +47,10 @@ pub mod trial;
 
 pub use entrant::EstimatorConfig;
 pub use findings::{Findings, Row};
+pub use options::Options;
 pub use reference::Reference;
 pub use schedule::Schedule;
-pub use trial::{Failure, Options, Trial};
+pub use trial::{Failure, Trial};
 
 /// The confidence of every interval. Those of mean differences hold together, over all estimators
 /// and channels (Bonferroni); every other one by itself.

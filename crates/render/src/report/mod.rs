@@ -27,7 +27,7 @@ use maud::{DOCTYPE, Markup, PreEscaped, html};
 pub const STYLE: &str = include_str!("report.css");
 
 /// What all reports do.
-pub const SCRIPT: &str = include_str!("report.js");
+pub const SCRIPT: &str = concat!(include_str!("colours.js"), include_str!("report.js"));
 
 /// What a browser may load for a report: nothing.
 const POLICY: &str = "default-src 'none'; img-src data:; style-src 'unsafe-inline'; script-src 'unsafe-inline'; base-uri 'none'; form-action 'none'";

@@ -1,8 +1,6 @@
 // What a report does: its theme, its pictures, and the table of decisions. No library, no network.
 (() => {
-  'use strict';
   const all = (selector, root = document) => [...root.querySelectorAll(selector)];
-  const clamp = (x, low, high) => Math.min(high, Math.max(low, x));
 
   // ---- Theme: as the system, light, dark.
   const theme = document.querySelector('.theme');
@@ -59,34 +57,25 @@
     context.putImageData(image, 0, 0);
     return canvas;
   };
-  const MAGENTA = 0xffff00ff; // What is not finite.
-  const rgb = (r, g, b) => (0xff000000 | (b << 16) | (g << 8) | r) >>> 0;
 
-  // Linear numbers times 2^stops, as sRGB (IEC 61966-2-1); every one of 65536 numbers is encoded once.
+  // Linear numbers times 2^stops, as sRGB; every one of 65536 numbers is encoded once.
   const exposed = (source, stops) => {
     const gain = 2 ** (source.exponent + stops);
     const codes = new Uint8ClampedArray(65536);
     for (let bits = 0; bits < 65536; bits++) {
       const x = floats[bits] * gain;
-      codes[bits] = x > 0 ? 255 * (x <= 0.0031308 ? 12.92 * x : 1.055 * Math.min(x, 1) ** (1 / 2.4) - 0.055) : 0;
+      codes[bits] = x > 0 ? 255 * encoded(x) : 0;
     }
     const { bits, pixels } = source;
     return raster(source.width, source.height, (out) => {
       for (let i = 0; i < pixels; i++) {
         const [r, g, b] = [bits[i], bits[i + pixels], bits[i + 2 * pixels]];
         const finite = (r & 31744) !== 31744 && (g & 31744) !== 31744 && (b & 31744) !== 31744;
-        out[i] = finite ? rgb(codes[r], codes[g], codes[b]) : MAGENTA;
+        out[i] = finite ? opaque(codes[r], codes[g], codes[b]) : MAGENTA;
       }
     });
   };
-  // Blue, white, orange: the ramp of report.css.
-  const RAMP = [[10, 47, 107], [47, 111, 181], [147, 191, 230], [245, 245, 245], [242, 181, 130], [207, 106, 28], [124, 47, 0]];
-  const diverging = (x) => {
-    if (!Number.isFinite(x)) return MAGENTA;
-    const at = clamp((x + 1) / 2, 0, 1) * (RAMP.length - 1);
-    const low = Math.min(Math.floor(at), RAMP.length - 2), share = at - low;
-    return rgb(...[0, 1, 2].map((c) => Math.round(RAMP[low][c] + share * (RAMP[low + 1][c] - RAMP[low][c]))));
-  };
+  const diverging = (x) => (Number.isFinite(x) ? along(DIVERGING, (x + 1) / 2) : MAGENTA);
   const mapped = (source, full) => raster(source.width, source.height, (out) => {
     for (let i = 0; i < source.pixels; i++) out[i] = diverging(source.at(i) / full);
   });
@@ -104,7 +93,6 @@
     const most = sizes[Math.floor(0.95 * (sizes.length - 1))] || 0;
     return (scales.find(([x]) => x >= most) || scales[scales.length - 1])[0];
   };
-  const shown = (x) => (Number.isFinite(x) ? (Math.abs(x) >= 0.001 && Math.abs(x) < 1e5 || x === 0 ? x.toPrecision(4) : x.toExponential(2)) : String(x));
   const signed = (x, digits) => `${x < 0 ? '−' : '+'}${Math.abs(x).toFixed(digits)}`;
 
   const start = (viewer) => {

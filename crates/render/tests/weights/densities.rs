@@ -8,9 +8,8 @@ use crate::course::Course;
 use crate::scripted_bsdf::discrete;
 use etalon_spectrum::Wavelengths;
 use etalon_transport::{
-    Bsdf, Camera, LightKind, LightSampleContext, Lights, Surfaces, TransportMode, World,
+    Bsdf, Camera, LightKind, LightSampleContext, Surfaces, TransportMode, World,
 };
-use glam::Vec4;
 
 /// Wavelengths of a path.
 pub(crate) const LANES: usize = 4;
@@ -192,51 +191,4 @@ impl Densities {
     pub(crate) fn alone(&self) -> bool {
         self.chance.iter().sum::<f64>() == 1.0
     }
-}
-
-/// What the models and lights along a path say of all four lanes at once.
-pub(crate) fn of_lanes<W: World>(
-    world: &W,
-    course: &Course,
-    wavelengths: &Wavelengths,
-) -> Vec<(String, Vec4)> {
-    let mut found = Vec::new();
-    for node in 1..=course.surfaces.len() {
-        let vertex = &course.surfaces[node - 1];
-        for [from, to] in [[node - 1, node + 1], [node + 1, node - 1]] {
-            let (wo, wi) = (course.direction(node, from), course.direction(node, to));
-            let bsdf = world.surfaces().bsdf(vertex, wo, wavelengths);
-            found.push((format!("density at {node}"), bsdf.density(wo, wi).lanes()));
-            found.push((
-                format!("value at {node}"),
-                bsdf.eval(wo, wi, TransportMode::Radiance),
-            ));
-            found.push((
-                format!("flux at {node}"),
-                bsdf.eval(wo, wi, TransportMode::Importance),
-            ));
-            if course.sharp[node - 1]
-                && let Some(sample) = discrete(&bsdf, wo, wi, TransportMode::Radiance)
-            {
-                found.push((format!("chance at {node}"), sample.chance.lanes()));
-            }
-        }
-    }
-    let from = receiver(world, course, wavelengths);
-    let direction = course.direction(1, 0);
-    if let Some(lamp) = &course.lamp {
-        let density = world.light_density(&from, lamp, direction);
-        found.push(("light sampling".to_owned(), density.lanes()));
-        found.push((
-            "light".to_owned(),
-            world.lights().emitted(lamp, -direction, wavelengths),
-        ));
-    }
-    let density = world.background_density(&from, direction);
-    found.push(("sky sampling".to_owned(), density.lanes()));
-    found.push((
-        "sky".to_owned(),
-        world.lights().background(direction, wavelengths),
-    ));
-    found
 }

@@ -12,7 +12,7 @@ use etalon_transport::{
     ApertureHit, BsdfOf, Camera, CameraRay, CameraSample, Emission, EmissionPdf, Hit, InstanceId,
     LegacyPhong, LightId, LightKind, LightSample, LightSampleContext, LightVariety, Lights,
     MediumId, Ray, SamplePdf, Sensor, ShadowQuery, ShapeId, SurfaceInteraction, Surfaces,
-    TraceEvent, Transmission, World,
+    Transmission, World,
 };
 use glam::{Vec2, Vec3, Vec4};
 use std::sync::atomic::{AtomicUsize, Ordering};
@@ -380,8 +380,5 @@ impl<'s, W: World> World for Script<'s, W> {
     }
     fn medium_light_density(&self, medium: MediumId, at: Vec3) -> f32 {
         self.world.medium_light_density(medium, at)
-    }
-    fn record(&self, remark: impl FnOnce() -> TraceEvent) -> bool {
-        self.world.record(remark)
     }
 }

@@ -1,7 +1,7 @@
 //! A model that scatters as a script says: whatever is drawn, its direction is the next step of the path.
 
 use etalon_math::{Density, Frame, SolidAngle};
-use etalon_transport::{Bsdf, BsdfSample, Mixture, SamplePdf, TransportMode};
+use etalon_transport::{Bsdf, BsdfSample, SamplePdf, TransportMode};
 use glam::{Vec2, Vec3, Vec4};
 
 /// A model that scatters as the script says.
@@ -79,8 +79,5 @@ impl<B: Bsdf> Bsdf for Scripted<B> {
     }
     fn projected_area(&self, direction: Vec3) -> f32 {
         self.model.projected_area(direction)
-    }
-    fn mixed(&self, mixture: impl FnOnce() -> Mixture) {
-        self.model.mixed(mixture);
     }
 }

@@ -5,10 +5,8 @@
 
 use crate::checks::near;
 use etalon_statistics::chi_squared::{CountsError, goodness_of_fit};
-use etalon_statistics::family::{benjamini_hochberg, holm, sidak, sidak_level};
-use etalon_statistics::{
-    Correction, Estimate, Family, Interval, Line, Summary, Verdict, kolmogorov_smirnov, proportion,
-};
+use etalon_statistics::family::holm;
+use etalon_statistics::{Estimate, Family, Interval, Line, Summary, Verdict, proportion};
 
 /// The example of Wikipedia's article on Welch's t-test (t = −2.46, ν = 25.0, p = 0.021), here
 /// with 20 digits from mpmath.
@@ -151,47 +149,6 @@ fn declared_hypotheses_count() {
 }
 
 #[test]
-fn sidak_by_hand() {
-    // 1 − 0.995⁴, 1 − 0.99³, 1 − 0.97², 0.04 → 0.0591, exactly.
-    let mut family = Family::new(0.05).expect("a level");
-    for (name, p) in [("a", 0.01), ("b", 0.04), ("c", 0.03), ("d", 0.005)] {
-        family.push(name, p).expect("a probability");
-    }
-    let adjusted: Vec<_> = family
-        .decide_by(Correction::Sidak)
-        .into_iter()
-        .map(|d| d.adjusted)
-        .collect();
-    for (actual, expected) in adjusted
-        .iter()
-        .zip([0.029_701, 0.0591, 0.0591, 0.019_850_499_375])
-    {
-        near(*actual, expected, 1e-13);
-    }
-    let share = family.decide_by(Correction::BenjaminiHochberg);
-    assert!(share.iter().all(|d| d.rejected));
-    assert!(
-        share
-            .iter()
-            .zip(family.decide())
-            .all(|(b, h)| b.adjusted <= h.adjusted)
-    );
-    assert_eq!(Correction::Holm.adjust(&[0.5]), [0.5]);
-}
-
-#[test]
-fn other_corrections() {
-    // R: p.adjust(c(0.01, 0.02, 0.03, 0.005, 0.5), "BH").
-    let adjusted = benjamini_hochberg(&[0.01, 0.02, 0.03, 0.005, 0.5]);
-    for (actual, expected) in adjusted.iter().zip([0.025, 1.0 / 30.0, 0.0375, 0.025, 0.5]) {
-        near(*actual, expected, 1e-14);
-    }
-    near(sidak(1e-12, 1000), 1e-9, 1e-9);
-    near(sidak_level(0.05, 3), 0.016_952_427_508_441_503, 1e-13);
-    near(sidak(sidak_level(0.05, 3), 3), 0.05, 1e-14);
-}
-
-#[test]
 fn a_die() {
     // Sixty rolls; mpmath.
     let fit = goodness_of_fit(&[5, 8, 9, 8, 10, 20], &[10.0; 6]).expect("testable");
@@ -278,35 +235,6 @@ fn a_power_law() {
     near(line.slope.value(), -1.0, 1e-14);
     near(line.intercept.value(), 1.098_612_288_668_109_8, 1e-14);
     assert_eq!(Line::fit_power_law(&[1.0, 2.0, 0.0], &[1.0; 3]), None);
-}
-
-#[test]
-fn kolmogorov_smirnov_tails() {
-    // Rational arithmetic (n ≤ 50); SciPy's `kstwo` above.
-    for (distance, n, tail, error) in [
-        (0.7, 1, 0.6, 1e-12),
-        (0.5, 5, 0.112, 1e-12),
-        (0.274, 10, 0.371_520_384_543_495_73, 1e-12),
-        (0.3, 10, 0.270_535_574_8, 1e-12),
-        (0.15, 20, 0.704_467_154_944_287_1, 1e-12),
-        (0.4, 20, 0.002_118_922_182_037_364_4, 1e-12),
-        (0.1, 50, 0.662_311_270_465_818_5, 1e-12),
-        (0.2, 100, 0.000_555_192_732_798_877_5, 1e-6),
-        (0.03, 1000, 0.322_690_214_391_463_6, 1e-4),
-        (0.07, 1000, 0.000_104_942_062_858_795_89, 1e-6),
-        (0.008, 10_000, 0.541_443_224_152_109_3, 1e-4),
-        (0.0163, 10_000, 0.009_738_034_669_724_812, 1e-3),
-        (0.003, 100_000, 0.328_456_332_772_695_6, 1e-4),
-    ] {
-        near(kolmogorov_smirnov::sf(distance, n), tail, error);
-    }
-    assert_eq!(kolmogorov_smirnov::sf(0.0, 7), 1.0);
-    assert_eq!(kolmogorov_smirnov::sf(1.0, 7), 0.0);
-
-    let outcome = kolmogorov_smirnov::test_uniform(&[0.1, 0.2, 0.3, 0.9]).expect("in range");
-    near(outcome.distance, 0.45, 1e-13);
-    assert_eq!(kolmogorov_smirnov::test_uniform(&[]), None);
-    assert_eq!(kolmogorov_smirnov::test_uniform(&[0.5, f64::NAN]), None);
 }
 
 #[test]

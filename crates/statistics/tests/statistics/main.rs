@@ -6,7 +6,6 @@ mod calibration;
 mod checks;
 mod decisions;
 mod distributions;
-mod error_rates;
 mod exact;
 mod group_sequential;
 mod lowered;

@@ -4,9 +4,7 @@ use super::*;
 use crate::guided::field::{FACES, Lobes, RegionUpdate, SdTree};
 use etalon_math::{DeltaProbability, Density, Frame, SolidAngle};
 use etalon_sampling::discrete::{Quadtree, Refinement};
-use etalon_transport::{
-    InstanceId, LightId, MaterialId, Mixture, SamplePdf, ShapeId, TransportMode,
-};
+use etalon_transport::{InstanceId, LightId, MaterialId, SamplePdf, ShapeId, TransportMode};
 use glam::Vec2;
 
 const ALBEDO: f32 = 0.5;
@@ -60,7 +58,6 @@ impl Bsdf for Grey {
     fn projected_area(&self, _: Vec3) -> f32 {
         1.0
     }
-    fn mixed(&self, _: impl FnOnce() -> Mixture) {}
 }
 
 fn vertex() -> SurfaceInteraction {

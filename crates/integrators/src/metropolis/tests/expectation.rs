@@ -7,7 +7,7 @@
 use super::super::bootstrap::State;
 use super::super::{ChainSettings, Contributions, FilmRegion, Integrand, PathLengthPdf};
 use etalon_sampling::Sampler;
-use etalon_transport::{Pass, Sink, TraceEvent};
+use etalon_transport::{Pass, Sink};
 use glam::{UVec2, Vec2, Vec3};
 
 /// The problem.
@@ -42,10 +42,6 @@ impl Integrand for Peak {
             return;
         };
         found.add(site.raster, Vec3::splat(value * field.area() / probability));
-    }
-
-    fn record(&self, _: impl FnOnce() -> TraceEvent) -> bool {
-        false
     }
 }
 

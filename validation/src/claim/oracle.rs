@@ -1,9 +1,9 @@
 //! What the estimators of a claim are held against: a formula, another renderer's picture, another
 //! estimator of ours, or a property that their errors must have.
 
-use crate::claim::Estimator;
-use crate::convergence::Ladder;
-use crate::noise::Counting;
+use super::counting::Counting;
+use super::estimator::Estimator;
+use super::ladder::Ladder;
 use serde::Deserialize;
 
 /// What an estimator is held against.
@@ -39,7 +39,7 @@ pub enum Oracle {
         /// The name of the closed form.
         formula: String,
     },
-    /// What must not change when something else does: see [`crate::claim::Change`]. The null hypothesis is
+    /// What must not change when something else does: see [`super::Change`]. The null hypothesis is
     /// equality, of bits or of statistics.
     Invariance {
         /// The estimator without the change.

@@ -1,13 +1,4 @@
-//! `etalon render --replay`: one sample again, told vertex by vertex.
-//!
-//! Four numbers in brackets belong to the four wavelengths; lane 0, the first, chose. `f/p` is the
-//! contribution of the walk so far over the density p₀ of the lane that chose; `p/p₀` are the
-//! lanes' densities over the same (see [`etalon_integrators::path_throughput`]). Neither contains Russian
-//! roulette, which only the estimator knows of.
-
-mod photons;
-mod tell;
-mod words;
+//! `etalon render --replay`: one sample again, told vertex by vertex (see [`etalon_integrators::replay`]).
 
 use super::{answer, fail};
 use crate::arg_values::ReplayAddress;
@@ -15,11 +6,11 @@ use etalon_film::{ExactFilm, SampleCounts};
 use etalon_integrators::RenderPlan;
 use etalon_integrators::replay::Address;
 use etalon_render::pipeline::{self, Loaded};
-use etalon_transport::{Film, Placing};
+use etalon_scene::Names;
+use etalon_transport::{Film, Placing, SurfaceInteraction};
 use glam::IVec2;
+use std::fmt::Write;
 use std::process::ExitCode;
-use tell::tell;
-use words::line;
 
 /// Draws the sample again and says what happened.
 pub fn run(
@@ -81,10 +72,11 @@ fn told(
         replicate: asked.replicate,
         sample: asked.sample,
     };
-    let addresses = core::slice::from_ref(&address);
-    let replays = loaded
-        .integrator
-        .replay(&loaded.compiled.scene, &film, plan, addresses);
+    let names = &loaded.compiled.names;
+    let replays =
+        (loaded.integrator).replay(&loaded.compiled.scene, &film, plan, &[address], &|vertex| {
+            described(vertex, names)
+        });
     let mut text = format!(
         "{}: pixel ({}, {}), replicate {} of {}, sample {} of {}, seed {}, {} by {}\n",
         loaded.path.display(),
@@ -98,13 +90,44 @@ fn told(
         loaded.integrator_name,
         pipeline::sampler_name(plan.sampler),
     );
-    for replay in &replays {
+    if loaded.integrator.prepares() {
+        text += "what the estimator prepared is known to it only: f/p is by the densities of the scattering models\n";
+    }
+    for replay in replays {
         if replay.weight != 1.0 {
-            line(&mut text, format!("film weight {}", replay.weight));
+            // Writing to a string cannot fail.
+            let _ = writeln!(text, "film weight {}", replay.weight);
         }
-        for event in &replay.events {
-            tell(&mut text, event, &loaded.compiled.names, &channels);
+        text += &replay.text;
+        if replay.text.is_empty() {
+            text += "nothing is asked and delivered: what the estimator makes of many samples together, others deliver\n";
         }
     }
     Ok(text)
+}
+
+/// What a thing is called.
+fn named(names: &[String], index: u32) -> String {
+    let name = names.get(index as usize);
+    name.map_or_else(|| index.to_string(), |name| format!("{index} {name}"))
+}
+
+/// What a surface is called.
+fn described(vertex: &SurfaceInteraction, names: &Names) -> String {
+    let mut text = format!(
+        "shape {}, material {}",
+        named(&names.shapes, vertex.shape.0),
+        named(&names.materials, vertex.material.0)
+    );
+    // Writing to a string cannot fail.
+    if vertex.primitive > 0 {
+        let _ = write!(text, ", primitive {}", vertex.primitive);
+    }
+    if vertex.instance.is_some() {
+        let _ = write!(text, ", instance {}", vertex.instance.0);
+    }
+    if vertex.light.is_some() {
+        let _ = write!(text, ", light {}", vertex.light.0);
+    }
+    text
 }
