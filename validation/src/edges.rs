@@ -1,9 +1,9 @@
 //! Where two exact pictures may differ by rounding alone: pixels next to an edge.
 //!
-//! A picture made of one ray through each pixel's centre is continuous but for edges: where a ray
+//! A picture made of one ray through each pixel's centre is continuous except at edges: where a ray
 //! meets another object than its neighbour does, where a texture changes its colour, and where
-//! a shadow begins. There the last bit of an intersection may decide which side a pixel shows. What
-//! a pixel shows is therefore told by three things, its *sight*:
+//! a shadow begins. There the last bit of an intersection may decide which side a pixel shows. A pixel
+//! is therefore described by three things, its *sight*:
 //!
 //! - the object, as the integrator `signature` tells objects apart (shape, or instance);
 //! - the surface's albedo (of a classic material, all of its numbers) at four fixed wavelengths,
@@ -11,12 +11,12 @@
 //! - which lights light it: those from which light arrives, through which objects, and for which
 //!   the surface's scattering toward the camera is not zero;
 //!
-//! and by the same of whatever is seen in it as in a mirror or through it, as long as that counts
-//! for more than a thousandth.
+//! and by the same of everything seen by mirror reflection or transmission, if its weight is above a
+//! thousandth.
 //!
 //! An edge pixel is one whose 3 × 3 neighbourhood has more than one sight. Neither the edges of a
-//! box's faces nor those between triangles of a mesh are edges in this sense, but for where rays
-//! are mirrored or refracted in them: what is seen there jumps.
+//! box's faces nor those between triangles of a mesh are edges in this sense, unless rays are mirrored
+//! or refracted by them, where the view jumps.
 
 use etalon_integrators::whitted::onward;
 use etalon_scene::Scene;

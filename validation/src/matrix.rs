@@ -1,9 +1,9 @@
 //! The agreement matrix: every unbiased integrator against every oracle.
 //!
 //! A claim names the integrators that it is about. With a table `matrix` all others take part, too,
-//! each as one more comparison of the thorough and the full run, unless they object to the scene when
-//! they are asked ([`etalon_render::pipeline::Loaded::complete`]): then the report says so, and why. An
-//! integrator that is added to the house so stands in all these rows without a word.
+//! each as one more comparison of the thorough and the full run, unless they cannot render the
+//! scene ([`etalon_render::pipeline::Loaded::complete`]): then the report says so, and why. A new
+//! integrator is thus included in all these rows without further changes.
 //!
 //! ```toml
 //! [matrix]
@@ -15,8 +15,8 @@
 //! naive = { spp = 4096, replicates = 32 }
 //! ```
 //!
-//! `full_only = true` leaves all rows of a matrix to the full run. Of what that run alone makes its own
-//! bound is asked; where it makes all rows, there is no `bound` to state.
+//! `full_only = true` leaves all rows of a matrix to the full run. Rows of that run alone have its own
+//! bound; if it makes all rows, there is no `bound` to state.
 
 use crate::claim::{Claim, Estimator, Matrix, Oracle, Place, SkippedIntegrator};
 use crate::rendering;

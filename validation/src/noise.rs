@@ -3,7 +3,7 @@
 //! Two statements about a mean m of R independent replicates with the standard error s and the
 //! truth t, counted over many means of pictures with different seeds:
 //!
-//! - E (m − t)² = E s², whatever the distribution: the squared standard error is unbiased. Σ (m − t)²
+//! - E (m − t)² = E s², for any distribution: the squared standard error is unbiased. Σ (m − t)²
 //!   over Σ s² is a ratio of sums over independent trials; its error is that of the mean residual
 //!   (m − t)² − ratio · s² (the delta method).
 //! - If replicates are nearly normal, m ± t s covers the truth with the probability that Student's t
@@ -74,7 +74,7 @@ pub struct Counted {
     pub covered: [u64; LEVELS.len()],
     /// Means.
     pub trials: u64,
-    /// Σ a, Σ b, Σ a², Σ ab, Σ b² of the squared errors a and the squares b of what is reported.
+    /// Σ a, Σ b, Σ a², Σ ab, Σ b² of the squared errors a and the squares b of the reported errors.
     pub squares: [f64; 5],
 }
 

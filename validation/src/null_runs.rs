@@ -3,7 +3,7 @@
 //! For every comparison of pictures, the replicates of its own estimator are rendered once
 //! ([`Deck`]). Each null run shuffles them and deals them into two hands, as many replicates to each as
 //! the look asks for; a deck that runs out is shuffled again. The hands are exchangeable: equality
-//! holds whatever the replicates' distribution, and every rejection is a false positive. Looks,
+//! holds for any distribution of the replicates, and every rejection is a false positive. Looks,
 //! levels, families, Holm's procedure and the rules for heavy tails are those of the default run.
 
 use crate::claim::Oracle;

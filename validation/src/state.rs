@@ -1,8 +1,8 @@
-//! What a full run has rendered so far, so that it can go on where it was interrupted.
+//! The batches of a full run so far, so that it can resume after an interruption.
 //!
 //! Every batch of replicates is kept as an EXR file with its tile means, in a folder that belongs
 //! to one build of the program, one seed and one choice or part of claims. A batch is taken up again only if
-//! its scene, plan, seed and estimator are those asked for. The verdicts are computed anew from the batches:
+//! its scene, plan, seed and estimator are those asked for. The verdicts are recomputed from the batches:
 //! they, too, are the same as without the interruption.
 
 use crate::program;

@@ -154,7 +154,7 @@ pub fn tasks<'a>(claims: &'a [Claim], options: &Options) -> Vec<Task<'a>> {
 /// What a run asks, all of its parts together.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct RunPlan {
-    /// Comparisons that are declared, whoever makes them.
+    /// Number of declared comparisons, including those of other parts.
     pub hypotheses: usize,
     /// The beginning of a hash over all that they state. Parts belong together only if it is the same:
     /// the levels of each are those of its own plan, and claims are dealt by their places in it.

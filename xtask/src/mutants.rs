@@ -3,7 +3,7 @@
 //!
 //! The list is `validation/mutants.toml`. Each mutant is built with the `fast` profile and put to
 //! the claims that must fail, then to the whole default suite if those let it pass. A comparison
-//! that fails in the sound program, too, kills nobody.
+//! that also fails in the sound program kills no mutant.
 
 mod list;
 mod record;

@@ -1,8 +1,8 @@
-//! `cargo xtask scenes`: writes the generated files of `scenes/` anew: a sky, leaves, trees and
-//! where they stand, a thousand lamps, bumps, water, smoke, a gem.
+//! `cargo xtask scenes`: regenerates files of `scenes/`: a sky, leaves, trees and their places, a
+//! thousand lamps, bumps, water, smoke, a gem.
 //!
-//! Nothing here is random: whatever should look irregular follows [`sequence`], so that the files
-//! are the same on every machine.
+//! Nothing here is random: irregular things follow [`sequence`], so that the files are the same on
+//! every machine.
 
 mod brilliant;
 mod forest;

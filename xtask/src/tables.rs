@@ -1,4 +1,4 @@
-//! `cargo xtask tables`: writes the generated data of `crates/spectrum/data` and `crates/lights/data` anew.
+//! `cargo xtask tables`: regenerates the data of `crates/spectrum/data` and `crates/lights/data`.
 //!
 //! - `rgb2spec.bin`, the coefficients of smooth spectra for RGB colours, is fitted from nothing but
 //!   the tables of the CIE; the bytes are the same on every machine.

@@ -56,7 +56,7 @@ impl Arguments {
         self.json.as_deref() == Some(Path::new("-"))
     }
 
-    /// Tells people. Whoever reads may stop reading; the reports are written all the same.
+    /// Prints a line. A closed pipe is ignored; the reports are written all the same.
     fn say(&self, text: &str) {
         let _ = if self.json_to_stdout() {
             writeln!(std::io::stderr(), "{text}")
@@ -193,9 +193,8 @@ fn validate(arguments: &Arguments) -> Result<Conclusion, String> {
     Ok(Conclusion::of(&rows))
 }
 
-/// Forgets the batches of a run that has ended. What broke may be mended and made again without the
-/// rest being rendered anew, so a run with such a row keeps its batches. The verdicts are written: what
-/// cannot be removed changes nothing about them.
+/// Removes the batches of a finished run. A run with a broken row keeps them, so that after a repair only
+/// that row is rendered. The verdicts are written already: an error in removing does not affect them.
 fn end(state: State, mut outcomes: impl Iterator<Item = Outcome>) {
     if outcomes.any(|outcome| outcome == Outcome::Broken) {
         return;

@@ -1,7 +1,7 @@
-//! Where a render goes: the image, and the picture that may lie beside it.
+//! The outputs of a render: the image, and the picture that may be beside it.
 //!
 //! `-o x.png` writes the picture `x.png` and, for the statistics, the image `x.exr`. Without `-o`
-//! the image has the scene's name, in the current folder. A file that nobody named is overwritten
+//! the image has the scene's name, in the current folder. A file that was not named is overwritten
 //! only if Etalon has rendered it.
 
 use etalon_images::exr;

@@ -309,7 +309,7 @@ mod tests {
                 let each = f64::from(kind.round_up(each));
                 let mean = counts.facts().mean;
                 assert!(mean <= each, "{kind:?} {each}: {mean}");
-                // Whatever cannot be dealt is less than a block's step.
+                // The undistributed remainder is less than a block's step.
                 assert!(mean > 0.9 * each || each < 5.0, "{kind:?} {each}: {mean}");
                 let of = counts.of_pixels();
                 assert!(of.iter().all(|&n| kind.round_up(n) == n));

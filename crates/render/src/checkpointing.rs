@@ -15,7 +15,7 @@ use glam::{UVec2, Vec2};
 use std::path::PathBuf;
 use std::time::{Duration, Instant};
 
-/// Time between checkpoints, in units of what writing one takes.
+/// Time between checkpoints, in units of the time for writing one.
 const PATIENCE: u32 = 20;
 
 /// The least time between checkpoints within a replicate.
@@ -28,7 +28,7 @@ pub struct Checkpointing {
     pub path: PathBuf,
     /// What the checkpoint says beside what a part says.
     pub facts: CheckpointFacts,
-    /// A checkpoint to go on from.
+    /// A checkpoint to resume from.
     pub earlier: Option<Part>,
     /// Hears why no checkpoint could be written, the first time.
     pub failed: fn(&str),
@@ -88,7 +88,7 @@ impl CheckpointingFilm {
     /// replicates and samples per pixel of each in all.
     ///
     /// # Errors
-    /// If the checkpoint to go on from is of another film.
+    /// If the checkpoint to resume from is of another film.
     pub(crate) fn new(
         film: ExactFilm,
         keeping: Option<Checkpointing>,

@@ -338,7 +338,7 @@ fn metadata<'a>(image: &'a RenderedImage, which: &str) -> Result<&'a Metadata, S
     Ok(metadata)
 }
 
-/// The colour channels of an image, whatever its pixel format.
+/// The colour channels of an image of any pixel format.
 fn colours(metadata: &Metadata) -> Vec<String> {
     let names = metadata.colours().into_iter();
     names.map(str::to_owned).collect()

@@ -1,8 +1,8 @@
 //! Rendering as a library: from a scene file to an image, and from images to a verdict.
 //!
 //! [`pipeline`] is the way from a scene file to an image, [`judge`] decides whether two images agree, [`decide`] whether
-//! many comparisons hold together, [`estimators`] compares estimators, [`report`] makes pages. Nothing here prints or holds a global state: the binary, the validation and
-//! whoever binds to it are thin around it.
+//! many comparisons hold together, [`estimators`] compares estimators, [`report`] makes pages. Nothing here prints or holds
+//! global state: the binary, the validation and bindings are thin layers around it.
 
 pub mod adaptive;
 pub mod checkpointing;

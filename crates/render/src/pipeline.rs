@@ -280,7 +280,7 @@ pub struct RenderControls {
     pub features: bool,
 }
 
-/// What a file says of a render, but for its time.
+/// The metadata of a render, without its time.
 pub fn facts(loaded: &Loaded, plan: &RenderPlan) -> RenderFacts {
     RenderFacts {
         version: VERSION.to_owned(),
@@ -297,7 +297,7 @@ pub fn facts(loaded: &Loaded, plan: &RenderPlan) -> RenderFacts {
 /// As [`render`], in this manner.
 ///
 /// # Errors
-/// If there is no memory for the film, or the checkpoint to go on from is of another.
+/// If there is no memory for the film, or the checkpoint to resume from is of another film.
 pub fn render_as(
     loaded: &Loaded,
     plan: &RenderPlan,

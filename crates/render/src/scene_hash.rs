@@ -21,7 +21,7 @@ pub(crate) fn scene_hash(
         add(&file.bytes);
     }
     for path in assets.used() {
-        // Whatever cannot be read now could not be read before either.
+        // A file that cannot be read now could not be read before either.
         add(&std::fs::read(path).unwrap_or_default());
     }
     for (key, value) in &options.defines {

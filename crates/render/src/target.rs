@@ -9,13 +9,13 @@
 //!
 //! with ⟨s²⟩ the mean over pixels of the squared standard error, m the mean over pixels, and the sums over the
 //! colours. The pilot is [`GROUPS`] independent pictures of two replicates each. Each gives an unbiased estimate
-//! of V (but for m, which all of them give together); Student's t with one degree of freedom less
+//! of V (except for m, which is estimated from all of them); Student's t with one degree of freedom less
 //! than there are pictures bounds ln V from above with 95 % confidence, and N = V/e² follows.
 //!
 //! Nothing of the pilot goes into the image, and its samples have seeds of their own. So N is independent
-//! of the image's samples: they are as many as if somebody had asked for N, and the standard error
-//! is as valid. There is no look at the image before it is finished, and no stopping because it pleases.
-//! The price: whether the target was reached is only known at the end, and is said.
+//! of the image's samples: the image is that of a request for N samples, and its standard error is as
+//! valid. There is no look at the image before it is finished, and no optional stopping. The price:
+//! whether the target was reached is known only at the end, and is reported.
 
 use crate::adaptive::Distribution;
 use crate::loaded::Loaded;
@@ -40,7 +40,7 @@ pub enum Target {
 /// The confidence with which the error is reached.
 const CONFIDENCE: f64 = 0.95;
 
-/// Samples per pixel of a pilot, if nobody says otherwise.
+/// Samples per pixel of a pilot, by default.
 pub const PILOT: u32 = 64;
 
 /// Of a time, the share after which a pilot has seen enough.

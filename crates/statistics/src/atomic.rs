@@ -6,13 +6,13 @@
 //!
 //! **Why any interleaving gives the exact sum.** Each word is a sum modulo 2⁶⁴ of what was added
 //! to it, and such sums do not depend on order. The low word's additions happen in *some* total
-//! order (all modifications of one atomic do, whatever the memory ordering); along it the word
+//! order (all modifications of one atomic do, for any memory ordering); along it the word
 //! wraps exactly ⌊Σ low / 2⁶⁴⌋ times, and each wrap is seen by exactly one writer, who delivers
 //! it to the high word. Once all writers are done, the two words therefore hold Σ modulo 2¹²⁸,
 //! and the range check keeps Σ itself within ±2⁶³. Between the two additions the words do not
 //! belong together; that is why [`AtomicFixed128::into_fixed`] takes the accumulator by value
 //! and [`AtomicFixed128::load`] by unique reference: the borrow checker proves that no writer is
-//! left, and whatever joined the writers' threads makes their relaxed additions visible.
+//! left, and joining the writers' threads makes their relaxed additions visible.
 
 use crate::exact::Fixed128;
 use crate::fault::InvalidValue;

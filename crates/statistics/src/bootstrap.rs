@@ -1,7 +1,7 @@
 //! The bootstrap of independent numbers (Efron 1979), of anything that can be computed from them.
 //!
-//! Numbers are drawn anew from the sample, with replacement, and the statistic is computed of each of B such
-//! samples; its interval is between their percentiles. Means have a better one: [`crate::studentised`].
+//! Numbers are drawn from the sample with replacement, and the statistic is computed of each of B such samples; its
+//! interval is between their percentiles. Means have a better one: [`crate::studentised`].
 //!
 //! A bootstrap knows no tail that the sample does not show: below [`FEWEST`] numbers, or with
 //! fewer than ten resamples beyond each end, it is refused.

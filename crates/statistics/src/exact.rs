@@ -7,8 +7,8 @@
 //!
 //! **Range.** A term must satisfy |x| < 2⁴⁸ ≈ 2.8 · 10¹⁴ ([`LIMIT`]); a sum may reach
 //! ±2⁶³ ≈ 9.2 · 10¹⁸. Hence 2¹⁵ terms of the greatest size, or any number of terms whose
-//! magnitudes add up to less than 2⁶³, are summed exactly in any order. Whatever does not fit is
-//! refused with a [`InvalidValue`], which leaves the sum as it was; nothing wraps or saturates.
+//! magnitudes add up to less than 2⁶³, are summed exactly in any order. Other values are
+//! refused with an [`InvalidValue`], which leaves the sum as it was; nothing wraps or saturates.
 //!
 //! **Resolution.** An `f32` of magnitude at least 2⁻⁴¹ ≈ 4.5 · 10⁻¹³ and an `f64` of at least
 //! 2⁻¹² are held without any rounding.

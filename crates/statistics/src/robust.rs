@@ -1,4 +1,4 @@
-//! An interval for a mean that does not lean on normality where the sample speaks against it.
+//! An interval for a mean that does not assume normality if the sample contradicts it.
 //!
 //! A sample within the declared limits ([`crate::tails`]) is judged by Student's t. Beyond them an
 //! interval takes over that needs no normal approximation:
@@ -8,10 +8,10 @@
 //! - [`Symmetry::Unknown`] (differences from a known number, or of two unlike estimators): the
 //!   studentised bootstrap, for at least 20 replicates;
 //!
-//! Where that cannot reach the level, for lack of replicates or of resamples, Student's t is asked again
-//! at a level so much lower that skewness cannot lift it above the one asked for ([`crate::lowered`]). If
+//! Where that cannot reach the level, for lack of replicates or of resamples, Student's t is used
+//! at a level so much lower that skewness cannot raise it above the requested one ([`crate::lowered`]). If
 //! there is none, or a single replicate makes most of the mean, the verdict is *undecided*. A tail whose
-//! variance may not exist is undecided whatever the test.
+//! variance may not exist is undecided by any test.
 
 use crate::bootstrap::Resampling;
 use crate::estimate::Estimate;

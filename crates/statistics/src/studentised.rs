@@ -1,6 +1,6 @@
 //! The studentised bootstrap of a mean, and of the difference of two: intervals for skewed samples.
 //!
-//! The interval of a mean is x̄ − t*·s, with t* the percentiles of (x̄* − x̄)/s* over B samples drawn anew,
+//! The interval of a mean is x̄ − t*·s, with t* the percentiles of (x̄* − x̄)/s* over B samples drawn
 //! with replacement; it corrects for skewness to second order (Efron 1979; Hall 1992, section 3.5).
 //!
 //! Decisions that are corrected over a whole run ask for levels of 10⁻⁷, and so for 10⁸ resamples. They

@@ -70,7 +70,7 @@ pub struct Estimator {
     /// Faults that must be found.
     #[serde(default)]
     pub mutants: Vec<PlantedFault>,
-    /// Whether it stands in the matrix of integrators only.
+    /// Its place, if it is in the matrix of integrators only.
     #[serde(skip)]
     pub in_matrix: Option<Place>,
 }

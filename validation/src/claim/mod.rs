@@ -64,7 +64,7 @@ pub struct Claim {
     /// Those of them that do not take part.
     #[serde(skip)]
     pub absent: Vec<SkippedIntegrator>,
-    /// Bounds of what matters.
+    /// Bounds of the bias that matters.
     #[serde(default)]
     pub bounds: BiasBounds,
     /// Whether the full run alone decides it: its estimators are too noisy for the minutes of the

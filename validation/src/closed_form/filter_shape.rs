@@ -145,7 +145,7 @@ mod tests {
         assert!((share(&Shape::new(0.5, |_| 1.0), -0.25) - 0.25).abs() < 1e-14);
         // A triangle: (3/4)² / 2.
         assert!((share(&Shape::tent(1.0), -0.25) - 0.281_25).abs() < 1e-14);
-        // Φ(−½) = 0.30853754 but for the lowering: (Φ(−½) − Φ(−4) − 3.5 φ₄)/(1 − 2 Φ(−4) − 8 φ₄) with
+        // Φ(−½) = 0.30853754 without the lowering: (Φ(−½) − Φ(−4) − 3.5 φ₄)/(1 − 2 Φ(−4) − 8 φ₄) with
         // φ₄ = exp(−8)/√(2π).
         assert!((share(&Shape::gaussian(0.5), -0.25) - 0.308_387_168).abs() < 1e-8);
     }

@@ -2,7 +2,7 @@
 //! the ceiling also emits the radiance L.
 //!
 //! Upright walls turn a ray but not its angle of elevation, so floor and ceiling take turns. A ray
-//! that rises meets L, and f c of the same again after one round trip; a ray that falls sees f of what rises:
+//! that rises meets L, and f c of the same again after one round trip; a falling ray sees f times the rising radiance:
 //!
 //! L↑ = L (1 + f c + (f c)² + …) = L/(1 − f c),   L↓ = f L↑
 //!

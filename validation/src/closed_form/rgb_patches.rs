@@ -1,4 +1,4 @@
-//! Colours given as linear Rec. 709: whatever spectrum ρ stands for a colour c, M ∫ (x̄, ȳ, z̄) ρ S dλ / N = c
+//! Colours given as linear Rec. 709: for any spectrum ρ of a colour c, M ∫ (x̄, ȳ, z̄) ρ S dλ / N = c
 //! under S = D65 with Y = 1 (Jakob and Hanika, "A low-dimensional function space for efficient spectral
 //! upsampling", *Computer Graphics Forum* 38, 2019, whose spectra meet this to within a fitting error).
 //!

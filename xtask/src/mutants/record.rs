@@ -1,4 +1,4 @@
-//! What became of mutants: one line of JSON for each, so that an interrupted run can go on.
+//! The results of mutants: one line of JSON for each, so that an interrupted run can resume.
 
 use super::list::Mutant;
 use serde::{Deserialize, Serialize};

@@ -180,7 +180,7 @@ fn remove(checkpoint: &Path) {
     }
 }
 
-/// The arguments with the outputs that they stand for, which are claimed, unless a sample is replayed.
+/// The arguments with their outputs resolved and claimed, unless a sample is replayed.
 fn with_outputs(args: &RenderArgs) -> Result<(RenderArgs, WriteGuard), String> {
     let mut args = args.clone();
     let is_plain = args.shown.development()? == Development::default();

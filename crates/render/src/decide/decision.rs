@@ -253,9 +253,9 @@ impl Group {
     }
 }
 
-/// Decides all comparisons of a run together, but for those made elsewhere. Sound ones are looked at as
-/// `looks` says, mutants as [`MUTANT_LOOKS`] does. `make` makes a look, and
-/// returns `None` if that cannot be done.
+/// Decides all comparisons of a run together, except those made elsewhere. Sound ones have the looks of
+/// `looks`, mutants those of [`MUTANT_LOOKS`]. `make` makes a look, or returns `None` if that is
+/// impossible.
 ///
 /// # Errors
 /// If the plan of the run makes no sense.

@@ -129,8 +129,8 @@ pub struct RowClaim {
     /// The greatest relative bias of an image's mean that is not excluded: the upper bound of the
     /// greatest |bias| among the channels.
     pub bias: f64,
-    /// Whether equality may be believed, where it is claimed: every channel of which nobody could
-    /// ask it at the run's level has an interval here that does not exclude it.
+    /// Whether equality is plausible, where it is claimed: every channel that could not be tested for it
+    /// at the run's level has an interval here that does not exclude it.
     pub equal: bool,
 }
 
@@ -187,7 +187,7 @@ pub fn stated(
         let excluded = |i: Interval| i.verdict(rounding) == Verdict::Differs;
         stated.equal &= !(unasked && interval.is_none_or(excluded));
         let reach = interval.map_or(f64::INFINITY, |i| i.low.abs().max(i.high.abs()));
-        // Nothing at all is no bias, whatever it is relative to.
+        // Zero is no bias, relative to anything.
         let bias = if reach == 0.0 { 0.0 } else { reach / scale };
         stated.bias = stated.bias.max(bias);
     }

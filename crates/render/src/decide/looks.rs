@@ -3,11 +3,10 @@
 //! Every comparison is looked at once with its budget. Those that are undecided get half as many
 //! replicates again, and more, until they are decided or the plan ends: a group-sequential test
 //! whose levels are spent by Pocock's function over the planned replicates and never used twice.
-//! Steps of a half cost little of the level and spare what doubling would render in excess.
-//! Counts alone decide how much is done, never a clock: the same program and seed give the same
-//! verdicts and numbers on any machine, however busy it is.
-//! Each look is judged by what it alone is granted, so that nothing is assumed of how the looks
-//! depend on each other.
+//! Steps of a half cost little of the level and render less in excess than doubling. Only counts
+//! decide how much is done, never a clock: the same program and seed give the same verdicts and
+//! numbers on any machine under any load. Each look is decided at its own share of the level, so no
+//! assumption is made on the dependence of the looks.
 
 use etalon_statistics::{Boundaries, Spending};
 

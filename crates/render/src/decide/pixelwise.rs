@@ -7,8 +7,8 @@
 //! |ours − theirs| ≤ max(0.002, 2⁻¹⁰ · |theirs|)
 //! ```
 //!
-//! (their half floats are within 2⁻¹¹), but for pixels next to an edge (the caller's mask), where
-//! rounding may show the one side or the other. What that excuses is bounded twice: the share of
+//! (their half floats are within 2⁻¹¹), except for pixels next to an edge (the caller's mask), where
+//! rounding may show either side. This exception is bounded twice: the share of
 //! edge pixels, by the picture's design; and the share of pixels that differ at edges, by what
 //! rounding can do: an edge is on the wrong side of a pixel's centre only if it passes within rounding
 //! of it. The second bound finds what the first would let pass: in a picture shifted by a pixel,

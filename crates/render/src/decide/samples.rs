@@ -1,4 +1,4 @@
-//! The replicates of one mean and of what it is held against: what t makes of them, and when it may.
+//! The replicates of one mean and of its reference, and their comparison by Student's t where that is valid.
 
 use crate::judge::{self, ExactImage};
 use etalon_film::{Metadata, RenderedImage};
@@ -20,7 +20,7 @@ pub enum Against<'a> {
 /// not to be believed.
 const RESAMPLES: f64 = 2e7;
 
-/// The replicates of one mean, and of what it is held against.
+/// The replicates of one mean, and of its reference.
 pub(super) struct Samples {
     own: Vec<f64>,
     other: Other,
@@ -128,9 +128,9 @@ impl Samples {
     }
 }
 
-/// The p-value that an interval at `alpha` stands for: 1, or a hair below `alpha` if it rejects. The
-/// corrections divide and multiply it by shares and numbers of hypotheses, and what rounding does to
-/// `alpha` itself on that way would take some rejections back.
+/// The p-value of an interval at `alpha`: 1, or slightly below `alpha` if it rejects. Corrections divide
+/// and multiply it by shares and numbers of hypotheses, whose rounding could otherwise revert some
+/// rejections.
 pub(super) fn p_of(rejects: bool, alpha: f64) -> f64 {
     if rejects { alpha * (1.0 - 1e-12) } else { 1.0 }
 }

@@ -16,11 +16,11 @@
 //!
 //! in expectation (cross-validation on dual buffers: Rousselle, Knaus, Zwicker 2012, "Adaptive Rendering with Non-Local Means
 //! Filtering"). Several filters are tried (`regression.rs`), and where its smoothed error is least, each is taken; the picture
-//! as it came is one of them, and its error is the square of its standard error. What is said of the result's error is
-//! the same e, and no promise of the filter.
+//! itself is one of them, and its error is the square of its standard error. The stated error of the result is the same e,
+//! not a property of the filter.
 //!
-//! The filters are regressions of first order on albedo, normal and depth of the first surface, weighed by patches of colour that
-//! are alike but for noise (Bitterli et al. 2016, "Nonlinearly Weighted First-order Regression for Denoising Monte Carlo
+//! The filters are regressions of first order on albedo, normal and depth of the first surface, weighted by patches of colour that
+//! are equal up to noise (Bitterli et al. 2016, "Nonlinearly Weighted First-order Regression for Denoising Monte Carlo
 //! Renderings").
 //!
 //! A denoised picture is biased, has no replicates, and is marked: no verdict is made of it.

@@ -7,12 +7,12 @@
 //!
 //! efficiency = 1 / (relMSE · T),
 //!
-//! so bias counts as noise does: whoever is wrong is not efficient. Every estimator renders many
+//! so bias counts as noise does: a wrong estimator is not efficient. Every estimator renders many
 //! independent pictures, at sizes and in numbers that a short pilot fixes before the measured run
 //! ([`schedule`]): nothing is stopped, or continued, because of what was seen.
 //!
 //! - *Equal time*: every estimator takes the samples per pixel that its share of the time allows.
-//! - *Equal samples*: the largest number of samples per pixel on everybody's ladder.
+//! - *Equal samples*: the largest number of samples per pixel that all have in their ladders.
 //! - *Convergence*: a ladder of sizes, and the exponent of the squared error along it.
 //!
 //! Pictures of all estimators alternate, so that a machine which slows down slows all of them.

@@ -9,13 +9,13 @@ use std::path::PathBuf;
 pub struct Options {
     /// How to read the scene; its integrator is replaced by each of `integrators`.
     pub load: LoadOptions,
-    /// The integrators; none stands for the scene's own.
+    /// The integrators; empty for the scene's own.
     pub integrators: Vec<String>,
-    /// The samplers; none stands for the scene's own.
+    /// The samplers; empty for the scene's own.
     pub samplers: Vec<String>,
-    /// The reconstruction filters; none stands for the scene's own.
+    /// The reconstruction filters; empty for the scene's own.
     pub filters: Vec<String>,
-    /// Rules by which points choose the light that they ask; none stands for the scene's own.
+    /// Rules of light selection; empty for the scene's own.
     pub light_choosers: Vec<LightSamplerKind>,
     /// The time for all rendering together (s).
     pub seconds: f64,

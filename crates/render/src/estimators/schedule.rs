@@ -4,7 +4,7 @@
 //! equally among the estimators, and each one's part in two:
 //!
 //! - *equal time*, a share of [`EQUAL_TIME`]: about [`TARGET`] pictures, or as many as there is time for if their length is asked
-//!   for, that each take the same time whoever renders them, as nearly as a sampler's sizes allow; what rounding down leaves goes into
+//!   for, that take the same time by every estimator, as nearly as a sampler's sizes allow; the remainder of rounding down goes into
 //!   more pictures, up to [`MOST`];
 //! - *ladder*, the rest: [`LADDER`] pictures at each of 1, b, b², … samples per pixel, as far as that
 //!   allows. b is 2, or 4 if a stratified sampler takes part, whose sizes are squares.
@@ -95,7 +95,7 @@ impl Schedule {
         let slowest = paces.iter().map(|pace| pace.seconds).fold(0.0, f64::max);
         let (first, fewest) = (paces.first().map_or(0.0, |p| p.seconds), f64::from(FEWEST));
         let for_reference = |share: f64| f64::from(REFERENCE) * first / share;
-        // One estimator's part of what the reference leaves.
+        // One estimator's part of the time after the reference.
         let part = (1.0 - share.unwrap_or(0.0)) / paces.len() as f64;
         let smaller = part * EQUAL_TIME.min(1.0 - EQUAL_TIME);
         let pictures = fewest * picture.unwrap_or(0.0) / (part * EQUAL_TIME);

@@ -222,7 +222,7 @@ impl Trial {
             })
             .collect();
         for (entrant, cell, index) in order(&cells) {
-            // By the clock alone, whatever was seen. All cells are equally far, as the order spreads them.
+            // By the clock alone, not by results. All cells are equally far, as the order spreads them.
             let is_late = self.deadline.is_some_and(|end| Instant::now() > end);
             if is_late && may_be_left_out(&cells[entrant][cell], cell) {
                 continue;
