@@ -74,16 +74,16 @@ struct Keeper {
     failed: Option<fn(&str)>,
 }
 
-/// A film that is kept, and watched, if somebody asked for it.
+/// The film of a render: kept and shown while it is rendered, if that was asked for.
 #[derive(Debug)]
-pub(crate) struct CheckpointingFilm {
+pub(crate) struct RenderFilm {
     film: ExactFilm,
     keeper: Option<Keeper>,
     show: Option<Show>,
     half: Option<FirstHalf>,
 }
 
-impl CheckpointingFilm {
+impl RenderFilm {
     /// This film, kept as `keeping` says while the replicates of `share` are rendered, of `of`
     /// replicates and samples per pixel of each in all.
     ///
@@ -199,7 +199,7 @@ impl Keeper {
     }
 }
 
-impl Placing for CheckpointingFilm {
+impl Placing for RenderFilm {
     #[inline]
     fn place(&self, pixel: UVec2, u: Vec2) -> FilmSample {
         self.film.place(pixel, u)
@@ -221,7 +221,7 @@ impl Placing for CheckpointingFilm {
     }
 }
 
-impl Film for CheckpointingFilm {
+impl Film for RenderFilm {
     type Tile<'f> = ExactTile<'f>;
 
     fn origin(&self) -> UVec2 {

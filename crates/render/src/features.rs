@@ -5,7 +5,7 @@
 //! - [`FEATURES`]: albedo under daylight, shading normal and distance of the first surface, with standard errors, from
 //!   samples of their own: their noise has nothing to do with the picture's, and the picture's bits are those without them.
 
-use crate::checkpointing::CheckpointingFilm;
+use crate::checkpointing::RenderFilm;
 use crate::first_half::FirstHalf;
 use crate::loaded::Loaded;
 use etalon_film::STANDARD_ERROR;
@@ -121,7 +121,7 @@ fn render(
         samples_per_replicate: SAMPLES,
         sampler: SamplerKind::Sobol,
     };
-    let mut film = CheckpointingFilm::unkept(film);
+    let mut film = RenderFilm::unkept(film);
     integrator.render(
         &loaded.compiled.scenes,
         &mut film,

@@ -1,6 +1,6 @@
 //! From a scene file to an image: the way every command and every claim takes.
 
-use crate::checkpointing::{Checkpointing, CheckpointingFilm};
+use crate::checkpointing::{Checkpointing, RenderFilm};
 use crate::first_half::FirstHalf;
 pub use crate::load_options::LoadOptions;
 pub use crate::loaded::{Description, LoadError, Loaded};
@@ -262,7 +262,7 @@ pub fn render_into(
     plan: &RenderPlan,
     progress: &dyn Progress,
 ) -> ExactFilm {
-    let mut film = CheckpointingFilm::unkept(film);
+    let mut film = RenderFilm::unkept(film);
     integrator.render(std::slice::from_ref(scene), &mut film, plan, progress);
     film.finish()
 }
@@ -332,7 +332,7 @@ pub fn render_as(
     let facts = facts(loaded, plan);
     let of = (plan.replicates, plan.samples_per_replicate);
     let show = watcher.map(|watcher| Show::new(watcher, plan.samples_per_replicate));
-    let mut film = CheckpointingFilm::new(film, keeping, &facts, share, of)
+    let mut film = RenderFilm::new(film, keeping, &facts, share, of)
         .map_err(Diagnostic::error_nowhere)?
         .shown(show)
         .halved(features.then(|| FirstHalf::of(plan.replicates)));

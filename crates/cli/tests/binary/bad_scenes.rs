@@ -45,3 +45,17 @@ fn a_scene_with_very_many_mistakes_is_refused_as_fast() {
     );
     assert!(ran.stderr.ends_with("… and 29950 more messages\n"));
 }
+
+/// Only what renders it knows what is free.
+#[test]
+fn a_film_beyond_memory_is_refused() {
+    let workshop = Workshop::new();
+    let scene = "<scene version=\"3.0.0\">\n<sensor type=\"perspective\">\n<film type=\"hdrfilm\">\n\
+        <integer name=\"width\" value=\"65536\"/><integer name=\"height\" value=\"65536\"/></film></sensor></scene>";
+    workshop.write("a.xml", scene);
+    let ran = workshop.run(&["render", "a.xml", "-o", "x.exr"]).refused();
+    let said =
+        ran.stderr.contains("a.xml:3:13: error: ") && ran.stderr.contains("65536 × 65536 pixels");
+    assert!(said, "{}", ran.stderr);
+    assert_eq!(workshop.files(), ["a.xml"]);
+}

@@ -170,6 +170,13 @@ impl<'a> SharedLog<'a> {
         self.write().line(line);
     }
 
+    /// Adds a line whose lanes are of these wavelengths.
+    pub(super) fn line_at(&self, of: &Wavelengths, line: impl core::fmt::Display) {
+        let mut log = self.write();
+        log.wavelengths(of);
+        log.line(line);
+    }
+
     /// Everything that was written.
     pub(super) fn into_text(self) -> String {
         let log = self.log.into_inner();

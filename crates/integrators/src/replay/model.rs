@@ -2,6 +2,7 @@
 
 use super::log::{Place, SharedLog, chance, lanes, vector, walk};
 use etalon_math::{Density, Frame, SolidAngle};
+use etalon_spectrum::Wavelengths;
 use etalon_transport::{Bsdf, BsdfSample, TransportMode};
 use glam::{Vec2, Vec3, Vec4};
 
@@ -9,6 +10,7 @@ use glam::{Vec2, Vec3, Vec4};
 #[derive(Clone, Copy)]
 pub(super) struct RecordingBsdf<'a, B> {
     pub(super) model: B,
+    pub(super) wavelengths: Wavelengths,
     pub(super) place: Option<Place>,
     pub(super) log: &'a SharedLog<'a>,
 }
@@ -20,6 +22,7 @@ impl<B> RecordingBsdf<'_, B> {
             format!(", density {}", lanes(density.lanes()))
         });
         let mut log = self.log.write();
+        log.wavelengths(&self.wavelengths);
         log.line(format!(
             "    toward {}: value {}{density}",
             vector(wi),
@@ -33,6 +36,7 @@ impl<B> RecordingBsdf<'_, B> {
     /// A direction was found that leads on to `place`.
     fn scattered(&self, place: Option<Place>, sample: Option<&BsdfSample>) {
         let mut log = self.log.write();
+        log.wavelengths(&self.wavelengths);
         let walk = walk(place);
         let Some(s) = sample else {
             return log.line(format!("    {walk}scattering: absorbed"));

@@ -151,11 +151,10 @@ impl<S: Surfaces> Surfaces for Recording<'_, S> {
         wo: Vec3,
         wavelengths: &Wavelengths,
     ) -> Self::Bsdf<'_> {
-        let mut log = self.log.write();
-        log.wavelengths(wavelengths);
         RecordingBsdf {
             model: self.part.bsdf(vertex, wo, wavelengths),
-            place: log.place(vertex),
+            wavelengths: *wavelengths,
+            place: self.log.write().place(vertex),
             log: self.log,
         }
     }
@@ -185,7 +184,8 @@ impl<L: Lights> Lights for Recording<'_, L> {
 
     fn emitted(&self, vertex: &SurfaceInteraction, wo: Vec3, wavelengths: &Wavelengths) -> Vec4 {
         let radiance = self.part.emitted(vertex, wo, wavelengths);
-        self.log.line(format!("    emits {}", lanes(radiance)));
+        self.log
+            .line_at(wavelengths, format!("    emits {}", lanes(radiance)));
         radiance
     }
 
@@ -195,11 +195,9 @@ impl<L: Lights> Lights for Recording<'_, L> {
 
     fn background(&self, direction: Vec3, wavelengths: &Wavelengths) -> Vec4 {
         let radiance = self.part.background(direction, wavelengths);
-        self.log.line(format!(
-            "    sky along {}: {}",
-            vector(direction),
-            lanes(radiance)
-        ));
+        let (along, light) = (vector(direction), lanes(radiance));
+        self.log
+            .line_at(wavelengths, format!("    sky along {along}: {light}"));
         radiance
     }
 
@@ -211,7 +209,7 @@ impl<L: Lights> Lights for Recording<'_, L> {
         u: Vec2,
     ) -> Option<LightSample> {
         let sample = self.part.sample_one(light, from, wavelengths, u);
-        self.log.line(sampled(sample.as_ref()));
+        self.log.line_at(wavelengths, sampled(sample.as_ref()));
         sample
     }
 }
@@ -251,14 +249,15 @@ impl<'a, W: World> World for Recorder<'a, W> {
     ) -> Option<Transmission> {
         let passage = self.world.transmittance(ray, wavelengths, crossings);
         let along = vector(ray.direction);
-        self.log.line(match &passage {
+        let line = match &passage {
             None => format!("    blocked along {along}"),
             Some(p) => format!(
                 "    arrives along {along}: transmittance {}, probability {}",
                 lanes(p.transmittance),
                 lanes(p.probability)
             ),
-        });
+        };
+        self.log.line_at(wavelengths, line);
         passage
     }
 
@@ -280,7 +279,7 @@ impl<'a, W: World> World for Recorder<'a, W> {
         u: Vec2,
     ) -> Option<LightSample> {
         let sample = self.world.sample_light(from, wavelengths, u_light, u);
-        self.log.line(sampled(sample.as_ref()));
+        self.log.line_at(wavelengths, sampled(sample.as_ref()));
         sample
     }
 
@@ -319,6 +318,7 @@ impl<'a, W: World> World for Recorder<'a, W> {
         let mut log = self.log.write();
         let begin = emission.as_ref().map(|e| (e.weight, e.ray.direction));
         let (weight, direction) = begin.unwrap_or_default();
+        log.wavelengths(wavelengths);
         let walk = walk(Some(log.begin(weight, direction)));
         log.line(match &emission {
             None => format!("{walk}nothing is emitted"),

@@ -219,7 +219,7 @@ fn weights_over_techniques_and_lanes_sum_to_one() {
     for (seed, loaded) in (1..).zip(rooms::all()) {
         let world = &loaded.compiled.scene;
         let mut dice = Independent::from_key(seed);
-        for _ in 0..4000 {
+        for _ in 0..8000 {
             if let Some(course) = course::draw(world, &mut dice) {
                 bidirectional(world, &course, &mut seen);
                 merging(world, &course, seed);

@@ -23,8 +23,6 @@ const POINT: &str = r#"<emitter type="point">
 const PARALLEL: &str = r#"<emitter type="directional">
     <vector name="direction" x="0.3" y="-1" z="-0.4"/><rgb name="irradiance" value="1, 2, 1"/>
 </emitter>"#;
-const CONSTANT: &str =
-    r#"<emitter type="constant"><rgb name="radiance" value="1, 1.5, 2"/></emitter>"#;
 const SKY: &str = r#"<emitter type="envmap"><string name="filename" value="sky.exr"/></emitter>"#;
 
 const DIFFUSE: &str =
@@ -53,11 +51,7 @@ pub(crate) fn all() -> [Loaded; 3] {
             [DIFFUSE, PHONG, PRISM],
         ),
         room(&[SKY], LENS, [METAL, DIFFUSE, FROSTED]),
-        room(
-            &[BULB, PARALLEL, CONSTANT],
-            ORTHOGRAPHIC,
-            [PHONG, METAL, MIRROR],
-        ),
+        room(&[BULB, PARALLEL], ORTHOGRAPHIC, [PHONG, METAL, MIRROR]),
     ]
 }
 
