@@ -1,7 +1,7 @@
 //! Which shapes nearly touch, so that single precision cannot tell their surfaces apart.
 
 use crate::shapes::Shape;
-use crate::shapes::crossing::Line;
+use crate::shapes::analytic::crossing::Line;
 use glam::Vec2;
 
 /// Surfaces closer than this, relative to the largest coordinate, need double precision: some

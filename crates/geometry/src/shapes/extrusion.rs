@@ -5,11 +5,10 @@
 //! is part of the solid where the line has met the curve an odd number of times before it. A curve that crosses itself
 //! bounds what it goes around an odd number of times.
 
-use crate::shapes::crossing::{Crossing, Line};
-use crate::shapes::cubic::Profile;
-use crate::shapes::measure::Lengths;
-use crate::shapes::placed::{OwnPoint, OwnShape, Placed};
-use crate::shapes::profile;
+use crate::shapes::analytic::crossing::{Crossing, Line};
+use crate::shapes::analytic::placed::{OwnPoint, OwnShape, Placed};
+use crate::shapes::profile::lengths::Lengths;
+use crate::shapes::profile::{self, Profile};
 use core::ops::ControlFlow;
 use etalon_math::bernstein;
 use etalon_params::Params;

@@ -5,7 +5,7 @@ use crate::accelerator::visits::Counter;
 use crate::closest_hit::ClosestHit;
 use crate::geometry::Geometry;
 use crate::primitive_index::{Order, Piece, PrimitiveOwner, is_in_front, tolerance};
-use crate::shapes::crossing::Line;
+use crate::shapes::analytic::crossing::Line;
 use crate::traversal_ray::TraversalRay;
 use etalon_transport::ShapeId;
 

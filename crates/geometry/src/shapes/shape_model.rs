@@ -1,7 +1,7 @@
 //! What a shape is asked, with the answers that most of them share.
 
 use crate::local_interaction::LocalInteraction;
-use crate::shapes::crossing::{Crossing, Line};
+use crate::shapes::analytic::crossing::{Crossing, Line};
 use crate::shapes::mesh::Mesh;
 use etalon_math::DirectionCone;
 use etalon_params::Params;

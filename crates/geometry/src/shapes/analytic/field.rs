@@ -7,7 +7,7 @@
 //!                  from q = x + y i + z j + w k
 //! ```
 
-use crate::shapes::clip_box::ClipBox;
+use crate::shapes::analytic::clip_box::ClipBox;
 use crate::shapes::profile::numbers;
 use etalon_math::Expression;
 use etalon_math::expression::Number;

@@ -2,7 +2,7 @@
 //! solid angle of a triangle that is chosen by area.
 
 use crate::shapes::mesh::Mesh;
-use crate::shapes::model::ShapeModel;
+use crate::shapes::shape_model::ShapeModel;
 use etalon_math::DirectionCone;
 use etalon_sampling::warps::{SphericalTriangle, square_to_triangle};
 use etalon_transport::{LightSampleContext, SampledPoint, SurfacePoint};

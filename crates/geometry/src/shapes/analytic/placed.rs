@@ -5,9 +5,9 @@
 
 use crate::local_interaction::LocalInteraction;
 use crate::placement::{Placement, perpendicular};
-use crate::shapes::chart::Chart;
-use crate::shapes::crossing::{Crossing, Line};
-use crate::shapes::model::ShapeModel;
+use crate::shapes::analytic::chart::Chart;
+use crate::shapes::analytic::crossing::{Crossing, Line};
+use crate::shapes::shape_model::ShapeModel;
 use etalon_math::Frame;
 use etalon_params::Params;
 use etalon_transport::SurfacePoint;
@@ -125,7 +125,7 @@ impl<S: OwnShape> Placed<S> {
     /// Reads `to_world` and `flip_normals` of a shape that is read already.
     pub(crate) fn from_params(params: &Params<'_>, shape: Option<S>) -> Option<Self> {
         let placement = Placement::from_params(params);
-        let flip = super::model::read_flip(params);
+        let flip = crate::shapes::shape_model::read_flip(params);
         Some(Self::new(placement?, shape?, flip))
     }
 

@@ -2,7 +2,7 @@
 
 use crate::placement::Placement;
 use crate::shapes::mesh::{Mesh, MeshOptions};
-use crate::shapes::model::read_flip;
+use crate::shapes::shape_model::read_flip;
 use etalon_params::{Diagnostic, Params};
 use etalon_transport::file::{report, span_of_filename};
 use etalon_transport::{Build, MeshData, MeshFormat};

@@ -6,7 +6,7 @@
 //! convex mesh twice at most.
 
 use crate::local_interaction::LocalInteraction;
-use crate::shapes::crossing::Line;
+use crate::shapes::analytic::crossing::Line;
 use crate::shapes::mesh::Mesh;
 use glam::{DVec3, Vec2, Vec3};
 

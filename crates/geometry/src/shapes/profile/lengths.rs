@@ -6,7 +6,7 @@
 //!
 //! Each cubic piece is cut into [`CELLS`] cells, each integrated by Gauss's rule of five points.
 
-use crate::shapes::cubic::Cubic;
+use crate::shapes::profile::cubic::Cubic;
 use glam::DVec2;
 
 /// Cells of a piece.

@@ -1,7 +1,7 @@
 //! The axis-parallel box that cuts an endless surface, and whose faces close the solid that it bounds.
 
-use crate::shapes::crossing::Line;
-use crate::shapes::placed::OwnPoint;
+use crate::shapes::analytic::crossing::Line;
+use crate::shapes::analytic::placed::OwnPoint;
 use core::f64::consts::{PI, TAU};
 use etalon_math::float64::atan2;
 use etalon_params::Params;
