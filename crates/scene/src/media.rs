@@ -1,5 +1,13 @@
 //! The media of a scene, and which of them lie on the two sides of a surface.
 
+pub(crate) mod bodies;
+pub(crate) mod dark_media;
+pub(crate) mod emission_medium;
+pub(crate) mod homogeneous_media;
+pub(crate) mod medium_lights;
+pub(crate) mod short_flights;
+pub(crate) mod subsurface;
+
 use etalon_geometry::Shape;
 use etalon_params::{Class, Diagnostic, Diagnostics, Node, Params, Span};
 use etalon_sampling::{Independent, Sampler};
@@ -10,9 +18,9 @@ use etalon_transport::{
 };
 use glam::{Vec3, Vec4};
 
-use crate::bodies::Bodies;
 use crate::builder::Builder;
-use crate::lookup::SceneTables;
+use crate::media::bodies::Bodies;
+use crate::scene_tables::SceneTables;
 use crate::surfaces::Surfaces;
 use std::sync::Arc;
 

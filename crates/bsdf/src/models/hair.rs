@@ -18,8 +18,9 @@
 //! Where light leaves is taken to be where it came in. So a hair is seen from the side of the viewer, and integrators
 //! that follow light from the lamps cannot have it.
 
-use crate::ior::RelativeIndex;
-use crate::{Bxdf, MaterialFlags, ShadingContext, fresnel};
+use crate::interface::fresnel;
+use crate::interface::relative_index::RelativeIndex;
+use crate::{Bxdf, MaterialFlags, ShadingContext};
 use core::f32::consts::{FRAC_1_PI, PI, TAU};
 use etalon_math::float;
 use etalon_params::Params;

@@ -5,13 +5,15 @@
 //! ```
 //!
 //! from the front, with the rough interface's transmittance T and internal reflectance R in
-//! f_base (see [`crate::diffuse_base`] and [`crate::rough_fresnel`]). Mitsuba's plugin of that name.
+//! f_base (see [`crate::models::coat`] and [`crate::interface::rough_fresnel`]). Mitsuba's plugin of that name.
 
-use crate::diffuse_base::{Coat, Coating};
+use crate::interface::fresnel;
+use crate::interface::refraction::{half_way, reflect};
+use crate::interface::rough_fresnel::RoughFresnel;
 use crate::microfacet::Microfacet;
-use crate::refraction::{half_way, reflect};
-use crate::rough_fresnel::RoughFresnel;
-use crate::{Bxdf, ShadingContext, fresnel, roughness};
+use crate::microfacet::roughness;
+use crate::models::coat::{Coat, Coating};
+use crate::{Bxdf, ShadingContext};
 use core::f32::consts::FRAC_1_PI;
 use etalon_params::Params;
 use etalon_sampling::warps::square_to_cosine_hemisphere;

@@ -7,19 +7,21 @@
 //! w' is w refracted into the coat, T what the interface lets through, σ the coat's absorption times its thickness.
 //! The last factor is dω'/dω. Light that the base sends to the interface and that is reflected there is lost, as in
 //! Weidlich and Wilkie (2007), *Arbitrarily Layered Micro-Facet Surfaces*. A smooth coat reflects by Fresnel's
-//! equations, a rough one as facets do; its T is tabulated ([`crate::rough_fresnel`]).
+//! equations, a rough one as facets do; its T is tabulated ([`crate::interface::rough_fresnel`]).
 
-use crate::conductor::Conductor;
-use crate::diffuse::Diffuse;
-use crate::ior::RelativeIndex;
+use crate::interface::fresnel;
+use crate::interface::relative_index::RelativeIndex;
+use crate::interface::rough_fresnel::RoughFresnel;
 use crate::microfacet::Microfacet;
-use crate::mirror::Mirror;
-use crate::phong::Phong;
-use crate::rough_fresnel::RoughFresnel;
-use crate::roughconductor::RoughConductor;
-use crate::roughdiffuse::RoughDiffuse;
-use crate::ward::Ward;
-use crate::{AnyBxdf, Bxdf, LobeList, Material, MaterialFlags, ShadingContext, fresnel, roughness};
+use crate::microfacet::roughness;
+use crate::models::conductor::Conductor;
+use crate::models::diffuse::Diffuse;
+use crate::models::mirror::Mirror;
+use crate::models::phong::Phong;
+use crate::models::roughconductor::RoughConductor;
+use crate::models::roughdiffuse::RoughDiffuse;
+use crate::models::ward::Ward;
+use crate::{AnyBxdf, Bxdf, LobeList, Material, MaterialFlags, ShadingContext};
 use etalon_math::{Frame, float};
 use etalon_params::Params;
 use etalon_transport::{BsdfSample, Build, SpectrumKind, TextureId, Textures, TransportMode};

@@ -8,9 +8,10 @@
 //! Mitsuba's plugin of that name. The transmitted light passes straight on, so shadow rays
 //! see through the pane.
 
-use crate::ior::RelativeIndex;
-use crate::mirror::Mirror;
-use crate::{AnyBxdf, LobeList, MaterialFlags, ShadingContext, fresnel};
+use crate::interface::fresnel;
+use crate::interface::relative_index::RelativeIndex;
+use crate::models::mirror::Mirror;
+use crate::{AnyBxdf, LobeList, MaterialFlags, ShadingContext};
 use etalon_math::Frame;
 use etalon_params::Params;
 use etalon_transport::{Build, SpectrumKind, TextureId, Textures};

@@ -9,10 +9,10 @@
 //! Gauss–Legendre quadrature, over half of it by symmetry. Single scattering only, so R + T < 1
 //! for rough interfaces.
 
-use crate::fresnel;
+use crate::interface::fresnel;
+use crate::interface::refraction::{reflect, refract};
 use crate::microfacet::Microfacet;
 use crate::quadrature::gauss_legendre;
-use crate::refraction::{reflect, refract};
 use glam::{Vec2, Vec3};
 
 /// Number of cosines at which the transmittance is tabulated, equally spaced over [0, 1].

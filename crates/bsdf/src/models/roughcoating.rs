@@ -1,6 +1,7 @@
-//! A rough clear coat over another material: see [`crate::coating`].
+//! A rough clear coat over another material: see [`crate::models::coating`].
 
-use crate::{LobeList, MaterialFlags, ShadingContext, coating};
+use crate::models::coating;
+use crate::{LobeList, MaterialFlags, ShadingContext};
 use etalon_math::Frame;
 use etalon_params::Params;
 use etalon_transport::{Build, Textures};

@@ -13,7 +13,7 @@
 //! are reduced alike, as in Mitsuba 0.6's plugin of that name. Half vectors are sampled by Ward's formulas, with density
 //! exp(…) / (4π αu αv (h·wi) cos³θh).
 
-use crate::refraction::reflect;
+use crate::interface::refraction::reflect;
 use crate::{Bxdf, ShadingContext};
 use core::f32::consts::{FRAC_1_PI, PI, TAU};
 use etalon_math::float;

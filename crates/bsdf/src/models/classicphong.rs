@@ -12,7 +12,7 @@
 //! [`Material::legacy_phong`]: crate::Material::legacy_phong
 
 use crate::inputs::non_negative;
-use crate::ior::RelativeIndex;
+use crate::interface::relative_index::RelativeIndex;
 use crate::{LobeList, MaterialFlags, ShadingContext};
 use etalon_math::Frame;
 use etalon_params::Params;

@@ -3,8 +3,8 @@
 //! Random walks below a surface are the case: their boundary scatters or refracts whatever passes it, and every shadow ray
 //! from inside ends there. A medium counts as dark only where that is certain.
 
-use crate::lookup::SceneTables;
 use crate::media::SceneMedia;
+use crate::scene_tables::SceneTables;
 use etalon_bsdf::Material;
 use etalon_lights::LightDescription;
 use etalon_subsurface::Homogeneous;

@@ -6,7 +6,7 @@
 //! outermost motion to the innermost; all that stands still within that is part of the shape's own `to_world`.
 
 use crate::builder::Builder;
-use crate::merge;
+use crate::surfaces::merge;
 use crate::surfaces::{ShapeExtras, Surfaces, name};
 use etalon_geometry::{GroupId, Placement, Shape};
 use etalon_math::{Animated, Motion};

@@ -14,7 +14,7 @@
 
 use crate::builder::Builder;
 use crate::surfaces::Surfaces;
-use etalon_bsdf::{fresnel, ior::RelativeIndex};
+use etalon_bsdf::interface::{fresnel, relative_index::RelativeIndex};
 use etalon_params::{Class, Diagnostic, Node, Params, Property, Spanned, Value};
 use etalon_subsurface::{Boundary, Homogeneous, MediumDescription, Profile};
 use etalon_transport::MediumId;

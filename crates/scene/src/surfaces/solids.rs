@@ -1,7 +1,7 @@
 //! Solids made of solids: `union`, `intersection`, `difference` with the materials of their operands.
 
-use crate::bodies::Body;
 use crate::builder::Builder;
+use crate::media::bodies::Body;
 use crate::surfaces::{COMPOSED, ShapeExtras, Surfaces};
 use etalon_geometry::shapes::csg::{Csg, Operation};
 use etalon_geometry::{Placement, Shape};

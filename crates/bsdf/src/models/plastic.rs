@@ -4,13 +4,14 @@
 //! f(wo, wi) |cos θi| = ρs F(θo) δ(wi = mirror of wo) + f_base(wo, wi) cos θi
 //! ```
 //!
-//! from the front, with T = 1 − F in f_base (see [`crate::diffuse_base`]) and the internal
-//! reflectance of [`crate::fresnel::internal_diffuse_reflectance`]. Mitsuba's plugin of that
+//! from the front, with T = 1 − F in f_base (see [`crate::models::coat`]) and the internal
+//! reflectance of [`crate::interface::fresnel::internal_diffuse_reflectance`]. Mitsuba's plugin of that
 //! name.
 
-use crate::diffuse_base::{Coat, Coating};
-use crate::refraction::reflect;
-use crate::{Bxdf, ShadingContext, fresnel};
+use crate::interface::fresnel;
+use crate::interface::refraction::reflect;
+use crate::models::coat::{Coat, Coating};
+use crate::{Bxdf, ShadingContext};
 use core::f32::consts::FRAC_1_PI;
 use etalon_math::{DeltaProbability, Density};
 use etalon_params::Params;

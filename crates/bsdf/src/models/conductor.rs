@@ -4,11 +4,12 @@
 //! f(wo, wi) |cos θi| = ρ F(cos θo; η, k) δ(wi = mirror of wo)      from the front
 //! ```
 //!
-//! With F Fresnel's equations for a complex index (see [`crate::fresnel::conductor`]).
+//! With F Fresnel's equations for a complex index (see [`crate::interface::fresnel::conductor`]).
 
-use crate::metal::Metal;
-use crate::refraction::reflect;
-use crate::{Bxdf, ShadingContext, fresnel};
+use crate::interface::fresnel;
+use crate::interface::metal::Metal;
+use crate::interface::refraction::reflect;
+use crate::{Bxdf, ShadingContext};
 use etalon_math::DeltaProbability;
 use etalon_params::Params;
 use etalon_transport::{

@@ -7,11 +7,12 @@
 //! Torrance & Sparrow (1967), Cook & Torrance (1982); Walter, Marschner, Li & Torrance (2007),
 //! eq. 20. Sampled through the normals visible from `wo`: density visible(wo, m) / (4 wo·m).
 
-use crate::metal::Metal;
+use crate::interface::fresnel;
+use crate::interface::metal::Metal;
+use crate::interface::refraction::{half_way, reflect};
 use crate::microfacet::Microfacet;
-use crate::refraction::{half_way, reflect};
-use crate::roughness::Roughness;
-use crate::{Bxdf, ShadingContext, fresnel};
+use crate::microfacet::roughness::Roughness;
+use crate::{Bxdf, ShadingContext};
 use etalon_params::Params;
 use etalon_transport::{BsdfSample, Build, SpectrumKind, TextureId, Textures, TransportMode};
 use glam::{Vec2, Vec3, Vec4};

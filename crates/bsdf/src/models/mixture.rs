@@ -6,11 +6,13 @@
 //!
 //! Whitted (1980), *An Improved Illumination Model for Shaded Display*, with the choice by chance of Cook (1986),
 //! *Stochastic Sampling in Computer Graphics*: one of the three is chosen with its share as probability. Within the
-//! refractive share Fresnel's equations decide between reflection and refraction, as in [`crate::dielectric`].
+//! refractive share Fresnel's equations decide between reflection and refraction, as in [`crate::models::dielectric`].
 //! Diffuse light stays on the side that it came from, inside and outside.
 
-use crate::dielectric::{self, Dielectric};
-use crate::{AnyBxdf, LobeList, MaterialFlags, ShadingContext, diffuse, mirror};
+use crate::models::dielectric::{self, Dielectric};
+use crate::models::diffuse;
+use crate::models::mirror;
+use crate::{AnyBxdf, LobeList, MaterialFlags, ShadingContext};
 use etalon_math::Frame;
 use etalon_params::{Params, Value};
 use etalon_transport::{Build, SpectrumKind, TextureId, Textures};

@@ -8,11 +8,12 @@
 //! from the front. Baek, Jeon, Tong & Kim (2018), *Simultaneous Acquisition of Polarimetric SVBRDF and Normals*, eqs. 4 to 10, of
 //! which the first Stokes component is kept. Both terms are added as they are: light that is reflected back into the base is lost.
 
-use crate::ior::RelativeIndex;
+use crate::interface::fresnel;
+use crate::interface::refraction::{half_way, reflect};
+use crate::interface::relative_index::RelativeIndex;
 use crate::microfacet::Microfacet;
-use crate::refraction::{half_way, reflect};
-use crate::roughness::Roughness;
-use crate::{Bxdf, ShadingContext, fresnel};
+use crate::microfacet::roughness::Roughness;
+use crate::{Bxdf, ShadingContext};
 use core::f32::consts::FRAC_1_PI;
 use etalon_params::Params;
 use etalon_sampling::warps::square_to_cosine_hemisphere;

@@ -10,7 +10,7 @@
 //! Where the two given amount to more, both are reduced alike. The lobe is sampled with density
 //! (n + 1)/(2π) cosⁿα; of its directions those below the surface are lost.
 
-use crate::refraction::reflect;
+use crate::interface::refraction::reflect;
 use crate::{Bxdf, ShadingContext};
 use core::f32::consts::{FRAC_1_PI, TAU};
 use etalon_math::{Frame, float};

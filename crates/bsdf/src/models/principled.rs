@@ -1,13 +1,13 @@
-//! `principled`: Burley's material of artists' parameters (see [`crate::disney`]), as Mitsuba has it.
+//! `principled`: Burley's material of artists' parameters (see [`crate::models::disney`]), as Mitsuba has it.
 //!
 //! With m = metallic, t = spec_trans, b = (1 − m) t and GGX of α = roughness²:
 //!
 //! ```text
-//! base          (1 − m)(1 − t) · f of [`crate::disney`], with the sheen's factor (1 − m)
+//! base          (1 − m)(1 − t) · f of [`crate::models::disney`], with the sheen's factor (1 − m)
 //! reflected     F_p D G / (4 cos θo cos θi)
 //!   front:      F_p = (1 − m)(1 − spec_tint) F + m S(colour) + (1 − m) spec_tint S(R0 · tint)
 //!   back:       F_p = b F
-//! transmitted   b √colour · (1 − F) …, see [`crate::roughdielectric`]
+//! transmitted   b √colour · (1 − F) …, see [`crate::models::roughdielectric`]
 //! clear coat    ¼ clearcoat · S(0.04) · D₁ · G₁(α = ¼)
 //! S(R)          = R + (1 − R)(1 − cos θd)⁵
 //! D₁(m)         = (α² − 1) / (π ln α² (1 + (α² − 1) cos² θm)),   α = lerp(0.1, 0.001, clearcoat_gloss)
@@ -18,12 +18,13 @@
 //! interface is seen. Directions are chosen by the base, the clear coat, or a visible normal, where reflection has the
 //! probability 1 − b (1 − F).
 
-use crate::disney::{self, Base, schlick_entering};
 use crate::inputs::inputs;
+use crate::interface::fresnel;
+use crate::interface::refraction::{half_way, reflect, refract};
 use crate::microfacet::{Kind, Microfacet};
-use crate::refraction::{half_way, reflect, refract};
-use crate::roughdielectric::RoughDielectric;
-use crate::{Bxdf, MaterialFlags, ShadingContext, fresnel};
+use crate::models::disney::{self, Base, schlick_entering};
+use crate::models::roughdielectric::RoughDielectric;
+use crate::{Bxdf, MaterialFlags, ShadingContext};
 use core::f32::consts::FRAC_1_PI;
 use etalon_math::float;
 use etalon_params::{Params, Value};

@@ -2,7 +2,7 @@
 //! passes straight on.
 
 use crate::Bxdf;
-use crate::refraction::reflect;
+use crate::interface::refraction::reflect;
 use etalon_math::DeltaProbability;
 use etalon_transport::{BsdfSample, SamplePdf, TransportMode};
 use glam::{Vec2, Vec3, Vec4};

@@ -11,9 +11,10 @@
 //! that would have gone elsewhere have probability and value zero there, so that one
 //! wavelength survives. Reflection keeps all four.
 
-use crate::ior::RelativeIndex;
-use crate::refraction::reflect;
-use crate::{Bxdf, ShadingContext, fresnel};
+use crate::interface::fresnel;
+use crate::interface::refraction::reflect;
+use crate::interface::relative_index::RelativeIndex;
+use crate::{Bxdf, ShadingContext};
 use etalon_math::DeltaProbability;
 use etalon_params::Params;
 use etalon_transport::{
@@ -70,7 +71,7 @@ pub struct Dielectric {
     pub reflectance: Vec4,
     /// Factor of the refracted light, per lane.
     pub transmittance: Vec4,
-    /// The share of light that is mirrored whatever Fresnel's equations say of it; 0 but in [`crate::mixture`].
+    /// The share of light that is mirrored whatever Fresnel's equations say of it; 0 but in [`crate::models::mixture`].
     pub mirrored: f32,
 }
 

@@ -1,7 +1,7 @@
 //! Reading the complex refractive index of a conductor: by name, or as `eta` and `k`.
 
 use crate::ShadingContext;
-use crate::ior::{held_table, number_from_params};
+use crate::interface::relative_index::{held_table, number_from_params};
 use etalon_params::{Diagnostic, Params, Property, Value};
 use etalon_spectrum::{Spectrum, conductor_colour, conductors, parse_spd};
 use etalon_transport::{Build, SpectrumKind, TextureId, Textures};

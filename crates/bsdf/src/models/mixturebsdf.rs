@@ -7,7 +7,8 @@
 //! Mitsuba 0.6's plugin of that name (Mitsuba 3 has `blendbsdf` only). What the weights leave of
 //! one is absorbed: a black material has that share.
 
-use crate::{LobeList, Material, MaterialFlags, ShadingContext, diffuse};
+use crate::models::diffuse;
+use crate::{LobeList, Material, MaterialFlags, ShadingContext};
 use etalon_math::Frame;
 use etalon_params::Params;
 use etalon_spectrum::Spectrum;

@@ -17,7 +17,7 @@ use etalon_transport::{Build, SpectrumKind, TextureId, Textures};
 use glam::Vec4;
 
 use crate::ShadingContext;
-use crate::ior::RelativeIndex;
+use crate::interface::relative_index::RelativeIndex;
 
 /// Textures and numbers of a coated diffuse base.
 #[derive(Clone, Debug)]

@@ -13,11 +13,12 @@
 //! With dispersion each lane has its own η, hence its own normal m for a pair of directions, and
 //! its own density: all four lanes stay alive.
 
-use crate::ior::RelativeIndex;
+use crate::interface::fresnel;
+use crate::interface::refraction::{half_way, reflect, refract};
+use crate::interface::relative_index::RelativeIndex;
 use crate::microfacet::Microfacet;
-use crate::refraction::{half_way, reflect, refract};
-use crate::roughness::Roughness;
-use crate::{Bxdf, ShadingContext, fresnel};
+use crate::microfacet::roughness::Roughness;
+use crate::{Bxdf, ShadingContext};
 use etalon_math::Density;
 use etalon_params::Params;
 use etalon_transport::{

@@ -5,7 +5,7 @@
 //! and 14 % at 8 of them. A thick body looks the same however short the flights in it are, but for a blur over some of them; so a mean
 //! free path counts as [`ULPS`] of the coordinates or as [`SHARE`] of the body's size, whichever is less, if it is shorter than that.
 
-use crate::lookup::SceneTables;
+use crate::scene_tables::SceneTables;
 use etalon_params::{Diagnostic, Diagnostics, Span};
 use etalon_subsurface::{Homogeneous, MediumDescription};
 use etalon_transport::{MediumId, MediumInterface, ShapeId, Shapes};

@@ -1,9 +1,9 @@
-//! `principledthin`: Burley's material for thin sheets (see [`crate::disney`]), as Mitsuba has it.
+//! `principledthin`: Burley's material for thin sheets (see [`crate::models::disney`]), as Mitsuba has it.
 //!
 //! Both sides are alike. With t = spec_trans, d = diff_trans/2, and wi' = wi with |z|:
 //!
 //! ```text
-//! base             (1 − t)(1 − d) · f of [`crate::disney`]
+//! base             (1 − t)(1 − d) · f of [`crate::models::disney`]
 //! through, diffuse (1 − t) d · colour/π
 //! reflected        t F' D G / (4 cos θo cos θi),    F' = lerp(F, R0 tint + (1 − R0 tint)(1 − cos θd)⁵, spec_tint)
 //! through, glossy  t colour (1 − F) D' G' / (4 cos θo cos θi)  at wi', m ∥ wo + wi'
@@ -12,12 +12,13 @@
 //! where D' has the roughness (0.65 η − 0.35) · roughness (Burley 2015, section 5.2, figure 15). Light that arrives
 //! on the wrong side of m is dropped, as in Mitsuba, though not from the density.
 
-use crate::disney::{self, Base, schlick_entering};
 use crate::inputs::inputs;
+use crate::interface::fresnel;
+use crate::interface::refraction::{half_way, reflect};
 use crate::microfacet::Microfacet;
-use crate::principled::{is_used, sampling_rate};
-use crate::refraction::{half_way, reflect};
-use crate::{Bxdf, MaterialFlags, ShadingContext, fresnel};
+use crate::models::disney::{self, Base, schlick_entering};
+use crate::models::principled::{is_used, sampling_rate};
+use crate::{Bxdf, MaterialFlags, ShadingContext};
 use core::f32::consts::FRAC_1_PI;
 use etalon_params::Params;
 use etalon_sampling::warps::square_to_cosine_hemisphere;
