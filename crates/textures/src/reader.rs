@@ -15,7 +15,7 @@ use crate::{Constant, Texture, TextureTable};
 use etalon_params::questions::Question;
 use etalon_params::{Class, Diagnostic, Diagnostics, Node, Params, Property, Span, Value};
 use etalon_params::{DVec3, SpectrumText};
-use etalon_spectrum::{Spectrum, SpectrumError, ior};
+use etalon_spectrum::{Spectrum, SpectrumError, refractive_index};
 use etalon_transport::{Assets, SpectrumKind, TextureId};
 use std::sync::Arc;
 
@@ -243,7 +243,7 @@ impl TextureReader<'_> {
         if purpose.role != SpectrumKind::Index {
             return Spectrum::tabulated(wavelengths, values);
         }
-        let (table, note) = ior::held_table(wavelengths, values)?;
+        let (table, note) = refractive_index::held_table(wavelengths, values)?;
         if let Some(note) = note {
             self.diagnostics.push(Diagnostic::note(span, note));
         }

@@ -3,13 +3,13 @@
 //! To add a texture, write its file and add one line to the list.
 
 use crate::reader::Use;
+use crate::times_d65;
 use crate::{
     Arithmetic, Bitmap, Checkerboard, Computed, Constant, Grid, MeshAttribute, Procedural,
     TextureReader, TextureTable, TimesD65,
 };
 use crate::{
-    arithmetic, bitmap, checkerboard, computed, constant, grid, illuminated, mesh_attribute,
-    procedural, spectra,
+    arithmetic, bitmap, checkerboard, computed, constant, grid, mesh_attribute, procedural, spectra,
 };
 use etalon_params::{Class, Params, plugins};
 use etalon_transport::{Shapes, TextureId, TexturePoint, gradient_by_differences};
@@ -190,7 +190,7 @@ textures! {
         "volume" => grid::read_on_surface,
     }
     /// Another texture times D65.
-    TimesD65 { "d65" => illuminated::read, }
+    TimesD65 { "d65" => times_d65::read, }
 }
 
 impl Texture {

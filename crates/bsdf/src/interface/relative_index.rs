@@ -5,7 +5,9 @@
 //! string (an extension: see `docs/extensions.md`).
 
 use etalon_params::{Class, Diagnostic, Params, Property, Span, SpectrumText, Value};
-use etalon_spectrum::{LAMBDA_MAX, LAMBDA_MIN, RefractiveIndex, Spectrum, SpectrumError, ior};
+use etalon_spectrum::{
+    LAMBDA_MAX, LAMBDA_MIN, RefractiveIndex, Spectrum, SpectrumError, refractive_index,
+};
 use etalon_transport::{Build, SpectrumKind, TextureId, Textures};
 use glam::Vec4;
 
@@ -104,7 +106,7 @@ const ACCEPTED: &str = "a number above 0, the name of a dielectric, `cauchy: A B
                         `sellmeier: B1 B2 B3 C1 C2 C3` (µm) or `sellmeier: NAME`, or a spectrum";
 
 fn named(name: &str) -> Option<f64> {
-    ior::lookup(name.trim())
+    refractive_index::lookup(name.trim())
 }
 
 fn positive(params: &Params<'_>, name: &str, value: f64) -> Option<f64> {
@@ -120,13 +122,13 @@ fn unknown_name(params: &Params<'_>, property: &Property, word: &str) {
     let error = Diagnostic::error(property.span, message);
     // A glass of a catalogue, such as `sf11`, is known with its dispersion only.
     let asked = word.to_lowercase();
-    let glass = ior::dispersive_names()
+    let glass = refractive_index::dispersive_names()
         .find(|name| *name == asked || name.strip_prefix("n-") == Some(&asked));
     params.diagnostics.push(match glass {
         Some(glass) => error.help(format!(
             "it is known with its dispersion: `sellmeier: {glass}`"
         )),
-        None => error.suggest(word, ior::names()),
+        None => error.suggest(word, refractive_index::names()),
     });
 }
 
@@ -212,14 +214,14 @@ fn formula(params: &Params<'_>, property: &Property, text: &str) -> Option<Refra
     // Names hold letters that no list of numbers has (`1e-3` begins with a digit).
     let name = numbers.trim();
     if kind == "sellmeier" && name.starts_with(char::is_alphabetic) {
-        let index = ior::dispersive(name);
+        let index = refractive_index::dispersive(name);
         if index.is_none() {
             params.diagnostics.push(
                 Diagnostic::error(
                     property.span,
                     format!("no dispersion is known for `{name}`"),
                 )
-                .suggest(name, ior::dispersive_names()),
+                .suggest(name, refractive_index::dispersive_names()),
             );
         }
         return index;
@@ -282,7 +284,7 @@ pub(crate) fn held_table(
     samples: &[(f64, f64)],
 ) -> Option<Spectrum> {
     let (wavelengths, values): (Vec<f64>, Vec<f64>) = samples.iter().copied().unzip();
-    let held = ior::held_table(&wavelengths, &values);
+    let held = refractive_index::held_table(&wavelengths, &values);
     let held = held.map_err(|error| Diagnostic::error(span, error.to_string()));
     let (table, note) = params.diagnostics.keep(held)?;
     if let Some(note) = note {

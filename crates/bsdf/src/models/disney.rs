@@ -70,7 +70,7 @@ pub fn normal_reflectance(eta: f32) -> f32 {
 
 /// The diffuse base and its sheen.
 #[derive(Clone, Copy, Debug)]
-pub struct Base {
+pub struct DisneyBase {
     /// The colour with all factors, per lane.
     pub colour: Vec4,
     /// The sheen's colour with all factors, per lane.
@@ -81,7 +81,7 @@ pub struct Base {
     pub flatness: f32,
 }
 
-impl Base {
+impl DisneyBase {
     /// The sheen's colour, `amount` times white or a tint of luminance one.
     #[inline]
     pub fn sheen_colour(amount: f32, tinted: f32, tint: Vec4) -> Vec4 {

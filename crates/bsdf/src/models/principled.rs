@@ -22,7 +22,7 @@ use crate::inputs::inputs;
 use crate::interface::fresnel;
 use crate::interface::refraction::{half_way, reflect, refract};
 use crate::microfacet::{Kind, Microfacet};
-use crate::models::disney::{self, Base, schlick_entering};
+use crate::models::disney::{self, DisneyBase, schlick_entering};
 use crate::models::roughdielectric::RoughDielectric;
 use crate::{Bxdf, MaterialFlags, ShadingContext};
 use core::f32::consts::FRAC_1_PI;
@@ -211,10 +211,10 @@ impl Principled {
 
     /// The base, of which sheen is left where all lets light through.
     #[inline]
-    fn base(&self) -> Base {
-        Base {
+    fn base(&self) -> DisneyBase {
+        DisneyBase {
             colour: self.colour * (1.0 - self.metallic - self.through).max(0.0),
-            sheen: Base::sheen_colour(self.sheen, self.sheen_tint, self.tint),
+            sheen: DisneyBase::sheen_colour(self.sheen, self.sheen_tint, self.tint),
             roughness: self.roughness,
             flatness: self.flatness,
         }

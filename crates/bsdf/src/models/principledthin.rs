@@ -16,7 +16,7 @@ use crate::inputs::inputs;
 use crate::interface::fresnel;
 use crate::interface::refraction::{half_way, reflect};
 use crate::microfacet::Microfacet;
-use crate::models::disney::{self, Base, schlick_entering};
+use crate::models::disney::{self, DisneyBase, schlick_entering};
 use crate::models::principled::{is_used, sampling_rate};
 use crate::{Bxdf, MaterialFlags, ShadingContext};
 use core::f32::consts::FRAC_1_PI;
@@ -153,10 +153,10 @@ pub struct PrincipledThin {
 }
 
 impl PrincipledThin {
-    fn base(&self) -> Base {
-        Base {
+    fn base(&self) -> DisneyBase {
+        DisneyBase {
             colour: self.colour * self.base,
-            sheen: Base::sheen_colour(self.base * self.sheen, self.sheen_tint, self.tint),
+            sheen: DisneyBase::sheen_colour(self.base * self.sheen, self.sheen_tint, self.tint),
             roughness: self.roughness,
             flatness: self.flatness,
         }

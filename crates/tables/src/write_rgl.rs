@@ -64,7 +64,7 @@ fn nodes(width: usize, height: usize) -> impl Iterator<Item = Vec2> {
 ///
 /// # Errors
 /// If the material reflects nothing.
-pub fn write(
+pub fn write_rgl(
     resolution: &Resolution,
     spectrum: impl Fn(Vec3, Vec3) -> Vec<f32>,
     description: &str,
