@@ -11,10 +11,9 @@ pub(crate) mod subsurface;
 use etalon_geometry::Shape;
 use etalon_params::{Class, Diagnostic, Diagnostics, Node, Params, Span};
 use etalon_sampling::{Independent, Sampler};
-use etalon_subsurface::{MediumAtWavelengths, MediumDescription};
-use etalon_transport::flight::march;
+use etalon_subsurface::{MediumAtWavelengths, MediumDescription, Tracked, Tracking, march};
 use etalon_transport::{
-    LightId, Medium, MediumId, MediumInterface, Ray, ShapeId, Shapes, Textures, Tracking,
+    LightId, Medium, MediumId, MediumInterface, Ray, ShapeId, Shapes, Textures,
 };
 use glam::{Vec3, Vec4};
 

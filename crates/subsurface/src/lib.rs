@@ -24,6 +24,7 @@ pub mod sggx;
 pub mod sphere;
 pub mod surface_albedo;
 pub mod tabulated;
+pub mod tracking;
 mod volume;
 
 pub use blend::Blend;
@@ -39,3 +40,4 @@ pub use phases::{PhaseAt, PhaseFunction};
 pub use rayleigh::Rayleigh;
 pub use sggx::Sggx;
 pub use tabulated::Tabulated;
+pub use tracking::{Tracked, Tracking, march};

@@ -1,9 +1,10 @@
 //! What varies in space, or does not: the volumes of a medium's parameters.
 
+use crate::tracking::Tracking;
 use etalon_params::questions::Question;
 use etalon_params::{Params, Value};
 use etalon_spectrum::Spectrum;
-use etalon_transport::{Build, SpectrumKind, TextureId, Tracking, refuse_varying};
+use etalon_transport::{Build, SpectrumKind, TextureId, refuse_varying};
 
 /// The spectrum of the parameter `name`: a number, a colour, a spectrum, or a volume that is the same everywhere.
 pub(crate) fn constant(
