@@ -12,9 +12,7 @@ use etalon_geometry::Shape;
 use etalon_params::{Class, Diagnostic, Diagnostics, Node, Params, Span};
 use etalon_sampling::{Independent, Sampler};
 use etalon_subsurface::{MediumAtWavelengths, MediumDescription, Tracked, Tracking, march};
-use etalon_transport::{
-    LightId, Medium, MediumId, MediumInterface, Ray, ShapeId, Shapes, Textures,
-};
+use etalon_transport::{LightId, MediumId, MediumInterface, Ray, ShapeId, Shapes, Textures};
 use glam::{Vec3, Vec4};
 
 use crate::builder::Builder;

@@ -67,14 +67,14 @@ impl Heterogeneous {
     ) -> Option<Option<Self>> {
         let varies = ["albedo", "emission"]
             .iter()
-            .any(|name| is_varying(params, name));
+            .any(|name| is_varying(params, name, build));
         let by_others = ["material", "sigma_a", "sigma_s"]
             .iter()
             .any(|name| params.has(name));
         if params.node.plugin.value != "homogeneous" || !varies || by_others {
             return None;
         }
-        refuse_varying(params, "sigma_t");
+        refuse_varying(params, "sigma_t", build);
         Some(Self::from_params(params, build))
     }
 

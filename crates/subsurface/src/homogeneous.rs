@@ -117,7 +117,7 @@ impl Homogeneous {
                 phase
             },
             emission: {
-                refuse_varying(params, "emission");
+                refuse_varying(params, "emission", build);
                 volume::emission(params, build)
             },
             tracking: volume::tracking(params, Tracking::Closed),
@@ -186,7 +186,7 @@ impl Homogeneous {
     fn by_surface(params: &Params<'_>, boundary: Boundary, build: &mut dyn Build) -> Option<Self> {
         let albedo = build.texture(params, "albedo", Some(0.8), SpectrumKind::Reflectance);
         let name = "mean_free_path";
-        let length = match is_varying(params, name) {
+        let length = match is_varying(params, name, build) {
             true => build.texture(params, name, Some(1.0), SpectrumKind::Unbounded),
             false => volume::constant(params, name, 1.0, SpectrumKind::Unbounded, build),
         };
@@ -209,7 +209,9 @@ impl Homogeneous {
             phase,
             emission: None,
             tracking: Tracking::Closed,
-            varies: ["albedo", name].iter().any(|name| is_varying(params, name)),
+            varies: ["albedo", name]
+                .iter()
+                .any(|name| is_varying(params, name, build)),
             surface: None,
             densest: MOST,
         })

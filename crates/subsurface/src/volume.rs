@@ -31,7 +31,7 @@ pub(crate) fn constant(
             }
         }
         _ => {
-            refuse_varying(params, name);
+            refuse_varying(params, name, build);
             build.texture(params, name, Some(default), kind)
         }
     }

@@ -126,6 +126,8 @@ impl Bitmap {
 }
 
 impl TextureModel for Bitmap {
+    const VARIES: bool = true;
+
     #[inline]
     fn spectrum(&self, _: &TextureTable, _: &impl Shapes, at: &TexturePoint, lambda: Vec4) -> Vec4 {
         Self::spectrum(self, at.uv, lambda)

@@ -88,6 +88,8 @@ fn floor(place: Vec3) -> IVec3 {
 }
 
 impl TextureModel for Grid {
+    const VARIES: bool = true;
+
     #[inline]
     fn spectrum(&self, _: &TextureTable, _: &impl Shapes, at: &TexturePoint, lambda: Vec4) -> Vec4 {
         let value = match &self.values.texels {

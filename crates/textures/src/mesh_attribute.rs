@@ -78,6 +78,8 @@ impl MeshAttribute {
 }
 
 impl TextureModel for MeshAttribute {
+    const VARIES: bool = true;
+
     #[inline]
     fn spectrum(
         &self,

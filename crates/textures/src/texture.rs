@@ -17,6 +17,9 @@ use glam::{Vec2, Vec3, Vec4};
 
 /// What a texture is asked at a point. `set` holds the textures that it refers to.
 pub(crate) trait TextureModel {
+    /// Whether it varies in space, whatever the textures that it refers to do.
+    const VARIES: bool;
+
     /// The spectrum, for the wavelengths `lambda` (nm).
     fn spectrum(
         &self,
@@ -106,6 +109,14 @@ macro_rules! textures {
 
         /// Names of the textures and spectra that are built.
         pub const BUILT: &[&str] = &[$($($plugin,)*)*];
+
+        /// Whether textures of this plugin vary in space, whatever those do that they refer to.
+        pub fn varies(plugin: &str) -> bool {
+            match plugin {
+                $($($plugin => <$model as TextureModel>::VARIES,)*)*
+                _ => false,
+            }
+        }
 
         $(impl From<$model> for Texture {
             fn from(texture: $model) -> Self {

@@ -33,6 +33,8 @@ impl TimesD65 {
 }
 
 impl TextureModel for TimesD65 {
+    const VARIES: bool = false;
+
     #[inline]
     fn spectrum(
         &self,

@@ -55,6 +55,9 @@ pub trait Build {
     /// The texture described by a nested texture or spectrum object.
     fn nested_texture(&mut self, node: &Arc<Node>, role: SpectrumKind) -> TextureId;
 
+    /// Whether textures of this plugin vary in space, whatever is in them.
+    fn varies(&self, plugin: &str) -> bool;
+
     /// Pixels of a texture that is an image, width and height; 1 × 1 of anything else.
     fn resolution(&self, _texture: TextureId) -> [u32; 2] {
         [1; 2]
