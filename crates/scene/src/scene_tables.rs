@@ -38,12 +38,6 @@ impl Textures for SceneTables {
         self.textures.colour(texture, &self.geometry, at)
     }
 
-    fn tensor(&self, texture: TextureId, at: &TexturePoint) -> [Vec3; 2] {
-        self.textures
-            .get(texture)
-            .tensor(&self.textures, &self.geometry, at)
-    }
-
     fn mean(&self, texture: TextureId) -> f32 {
         self.textures.mean(texture)
     }

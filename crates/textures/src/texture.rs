@@ -46,11 +46,6 @@ pub(crate) trait TextureModel {
     /// Three raw channels.
     fn colour(&self, set: &TextureTable, shapes: &impl Shapes, at: &TexturePoint) -> Vec3;
 
-    /// See [`Texture::tensor`].
-    fn tensor(&self, set: &TextureTable, shapes: &impl Shapes, at: &TexturePoint) -> [Vec3; 2] {
-        [self.colour(set, shapes, at), Vec3::ZERO]
-    }
-
     /// The mean over the texture and the wavelengths, for choosing among lobes and lights only:
     /// images are averaged over their texels as if `to_uv` showed all of them alike, and a mesh
     /// attribute, whose values are not known here, counts as ½.
@@ -247,11 +242,6 @@ impl Texture {
     #[inline]
     pub fn colour(&self, set: &TextureTable, shapes: &impl Shapes, at: &TexturePoint) -> Vec3 {
         ask!(self, texture => TextureModel::colour(texture, set, shapes, at))
-    }
-
-    /// A symmetric matrix at a point: its diagonal, and what is beside it.
-    pub fn tensor(&self, set: &TextureTable, shapes: &impl Shapes, at: &TexturePoint) -> [Vec3; 2] {
-        ask!(self, texture => TextureModel::tensor(texture, set, shapes, at))
     }
 
     /// The mean over the texture and the wavelengths, for choosing among lobes and lights only:

@@ -95,7 +95,7 @@ impl TextureTable {
             SpectrumKind::Emission,
             SpectrumKind::Unbounded,
             SpectrumKind::Index,
-            SpectrumKind::Tensor,
+            SpectrumKind::Raw(0),
         ];
         roles
             .into_iter()

@@ -16,8 +16,9 @@ pub enum SpectrumKind {
     /// A refractive index or an extinction coefficient (η, k): without upper bound, and a table goes on beyond its ends as
     /// it is there.
     Index,
-    /// Six numbers that are no colour: a symmetric matrix ([`crate::Textures::tensor`]).
-    Tensor,
+    /// Numbers that are no colour, for [`crate::Textures::colour`]: three channels from this one on, zero where there
+    /// are none.
+    Raw(u8),
 }
 
 /// Services for plugins being built; implemented by the scene.
