@@ -146,7 +146,7 @@ fn integrators_name_nothing_concrete() {
 }
 
 #[test]
-fn files_are_short_and_say_what_they_define() {
+fn files_are_short_and_open_with_their_purpose() {
     for (path, text) in all_rust_files() {
         let shown = path.display();
         assert!(text.starts_with("//!"), "{shown} does not open with `//!`");
@@ -156,16 +156,105 @@ fn files_are_short_and_say_what_they_define() {
             lines <= LINES || is_table,
             "{shown} has {lines} lines, more than {LINES}: is it one concept?"
         );
-        let stem = path
-            .file_stem()
-            .expect("named")
-            .to_string_lossy()
-            .into_owned();
+    }
+}
+
+/// Files that define types and are named after none of their items. May only shrink.
+const MISNAMED: &str = include_str!("misnamed.txt");
+
+/// `FilterSampler1d` and `filter_samplers_1d` as `filter`, `sampler`, `1d`: words without a plural's s.
+fn words(name: &str) -> Vec<String> {
+    let mut words = vec![String::new()];
+    let mut before = '_';
+    for c in name.chars() {
+        let starts = matches!(c, '_' | '-')
+            || c.is_uppercase() && !before.is_uppercase()
+            || c.is_numeric() && !before.is_numeric();
+        if starts {
+            words.push(String::new());
+        }
+        if c.is_alphanumeric() {
+            words.last_mut().expect("one").extend(c.to_lowercase());
+        }
+        before = c;
+    }
+    words.retain(|word| !word.is_empty());
+    (words.iter())
+        .map(|word| match word.strip_suffix('s') {
+            Some(one) if one.len() > 1 => one.to_owned(),
+            _ => word.clone(),
+        })
+        .collect()
+}
+
+/// The items of a source file that can give it its name: what it defines, and the types and traits of its `impl` blocks.
+/// Whether any of its own types can be seen from outside.
+fn items(text: &str) -> (Vec<&str>, bool) {
+    let (mut names, mut types) = (Vec::new(), false);
+    let code = text.split("#[cfg(test)]").next().unwrap_or_default();
+    for line in code.lines() {
+        let bare = line.trim_start();
+        let public = bare.starts_with("pub");
+        let rest = match bare.strip_prefix("pub(") {
+            Some(scoped) => scoped.split_once(") ").map_or("", |(_, rest)| rest),
+            None => bare.strip_prefix("pub ").unwrap_or(bare),
+        };
+        let mut tokens = rest
+            .split(|c: char| !c.is_alphanumeric() && c != '_')
+            .filter(|token| !matches!(*token, "" | "const" | "static" | "unsafe" | "async"));
+        match tokens.next() {
+            Some("struct" | "enum" | "trait") => {
+                types |= public;
+                names.extend(tokens.next());
+            }
+            Some("fn" | "type" | "macro_rules") => names.extend(tokens.next()),
+            Some("impl") => names.extend(tokens),
+            _ => {}
+        }
+    }
+    (names, types)
+}
+
+/// A file with types is named after an item that it defines or implements, or after a plugin of its crate; its words may
+/// be part of the item's. A file of functions only, and one that has other files inside, may be named after its subject.
+#[test]
+fn files_are_named_after_what_they_define() {
+    let files = all_rust_files();
+    let mut misnamed = Vec::new();
+    for (path, text) in &files {
+        let shown = path.display().to_string();
+        let stem = path.file_stem().expect("named").to_string_lossy();
         assert!(
-            !["utils", "util", "common", "helpers", "misc"].contains(&stem.as_str()),
+            !["utils", "util", "common", "helpers", "misc"].contains(&&*stem),
             "{shown} is named after nothing it defines"
         );
+        let is_room = ["lib", "main", "mod"].contains(&&*stem)
+            || (text.lines()).any(|line| line.trim_start_matches("pub ").starts_with("mod "));
+        if is_room || path.components().any(|c| c.as_os_str() == "tests") || stem == "tests" {
+            continue;
+        }
+        let (names, types) = items(text);
+        let wanted = words(&stem);
+        let holds = |name: &&str| {
+            let words = words(name);
+            words.concat() == wanted.concat()
+                || words.windows(wanted.len()).any(|part| part == wanted)
+        };
+        let room: PathBuf = path.components().take(2).collect();
+        let plugin = format!("\"{}\"", stem.replace('_', ""));
+        let is_plugin = || {
+            (files.iter()).any(|(other, text)| other.starts_with(&room) && text.contains(&plugin))
+        };
+        if types && !names.iter().any(holds) && !is_plugin() {
+            misnamed.push(shown);
+        }
     }
+    misnamed.sort_unstable();
+    let known: Vec<&str> = MISNAMED.lines().collect();
+    assert_eq!(
+        misnamed, known,
+        "the list of misnamed files may only shrink"
+    );
 }
 
 #[test]

@@ -13,59 +13,21 @@
 //! include |cos θi|. A model's density has a value per wavelength lane: the density had that lane
 //! been the one that chose.
 
+mod bsdf_at_point;
+mod bxdf;
+mod inputs;
+pub mod interface;
 pub mod lobe;
 pub mod lobe_list;
-pub mod model;
-pub mod models;
-pub mod resolved;
-pub mod tilt;
-pub mod traits;
-
-pub mod diffuse_base;
-pub mod disney;
-pub mod fresnel;
-mod inputs;
-pub mod ior;
-pub mod metal;
+mod material_flags;
 pub mod microfacet;
+pub mod models;
 pub mod quadrature;
-pub mod refraction;
-pub mod rough_fresnel;
-pub mod roughness;
+pub mod tilt;
 
-pub mod blendbsdf;
-pub mod bumpmap;
-pub mod classicphong;
-pub mod coating;
-pub mod conductor;
-pub mod dielectric;
-pub mod difftrans;
-pub mod diffuse;
-pub mod hair;
-pub mod mask;
-pub mod measured;
-pub mod mirror;
-pub mod mixture;
-pub mod mixturebsdf;
-pub mod normalmap;
-pub mod null;
-pub mod phong;
-pub mod plastic;
-pub mod pplastic;
-pub mod principled;
-pub mod principledthin;
-pub mod roughcoating;
-pub mod roughconductor;
-pub mod roughdielectric;
-pub mod roughdiffuse;
-pub mod roughplastic;
-pub mod thindielectric;
-pub mod twosided;
-pub mod ward;
-
+pub use bsdf_at_point::{BsdfAtPoint, MAX_LOBES};
+pub use bxdf::Bxdf;
 pub use lobe::Lobe;
 pub use lobe_list::{LobeList, ShadingContext};
-pub use model::Bxdf;
+pub use material_flags::MaterialFlags;
 pub use models::{AnyBxdf, Material, plugin_names, test_materials};
-pub use resolved::{BsdfAtPoint, MAX_LOBES};
-pub use traits::MaterialFlags;

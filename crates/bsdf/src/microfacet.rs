@@ -11,6 +11,7 @@
 
 pub mod beckmann;
 pub mod ggx;
+pub mod roughness;
 
 use core::f32::consts::FRAC_1_PI;
 use etalon_math::float;

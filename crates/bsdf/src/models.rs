@@ -3,6 +3,38 @@
 //! To add a model, write its file and add one line to the list at the end of this one. The
 //! scene keyword, the documentation table and the whole test harness follow from it.
 
+pub mod blendbsdf;
+pub mod bumpmap;
+pub mod classicphong;
+pub mod coat;
+pub mod coating;
+pub mod conductor;
+pub mod dielectric;
+pub mod difftrans;
+pub mod diffuse;
+pub mod disney;
+pub mod hair;
+pub mod mask;
+pub mod measured;
+pub mod mirror;
+pub mod mixture;
+pub mod mixturebsdf;
+pub mod normalmap;
+pub mod null;
+pub mod phong;
+pub mod plastic;
+pub mod pplastic;
+pub mod principled;
+pub mod principledthin;
+pub mod roughcoating;
+pub mod roughconductor;
+pub mod roughdielectric;
+pub mod roughdiffuse;
+pub mod roughplastic;
+pub mod thindielectric;
+pub mod twosided;
+pub mod ward;
+
 use crate::{BsdfAtPoint, Bxdf, Lobe, LobeList, MAX_LOBES, MaterialFlags, ShadingContext};
 use etalon_math::Frame;
 use etalon_params::{Class, Diagnostic, Diagnostics, Node, Params, plugins};
@@ -26,18 +58,18 @@ macro_rules! models {
         #[derive(Clone, Debug)]
         pub enum Material {
             $(#[doc = concat!("`", $plain_name, "`.")]
-            $plain(crate::$plain_module::Description),)*
+            $plain($plain_module::Description),)*
             $(#[doc = concat!("`", $composed_name, "`.")]
-            $composed(crate::$composed_module::Description),)*
+            $composed($composed_module::Description),)*
         }
 
         /// A model with plain parameters.
         #[derive(Clone, Copy, Debug)]
         pub enum AnyBxdf<'a> {
-            $(#[doc = concat!("See [`crate::", stringify!($plain_module), "`].")]
-            $plain(crate::$plain_module::$plain $(<$life>)?),)*
-            $(#[doc = concat!("See [`crate::", stringify!($lobe_module), "`].")]
-            $lobe(crate::$lobe_module::$lobe $(<$lobe_life>)?),)*
+            $(#[doc = concat!("See [`", stringify!($plain_module), "`].")]
+            $plain($plain_module::$plain $(<$life>)?),)*
+            $(#[doc = concat!("See [`", stringify!($lobe_module), "`].")]
+            $lobe($lobe_module::$lobe $(<$lobe_life>)?),)*
         }
 
         /// The names of all BSDF plugins.
@@ -49,7 +81,7 @@ macro_rules! models {
         /// `plugin key=kind:value … ( nested ) …`, with the kinds `f` number, `s` string, `b`
         /// boolean, `u` uniform and `t` tabulated spectrum.
         pub fn test_materials() -> impl Iterator<Item = &'static str> {
-            [$(crate::$plain_module::EXEMPLARS,)* $(crate::$composed_module::EXEMPLARS,)*]
+            [$($plain_module::EXEMPLARS,)* $($composed_module::EXEMPLARS,)*]
                 .into_iter()
                 .flatten()
                 .copied()
@@ -61,9 +93,9 @@ macro_rules! models {
                 build: &mut dyn Build,
             ) -> Option<Option<Self>> {
                 Some(match params.node.plugin.value.as_str() {
-                    $($plain_name => crate::$plain_module::Description::from_params(params, build)
+                    $($plain_name => $plain_module::Description::from_params(params, build)
                         .map(Self::$plain),)*
-                    $($composed_name => crate::$composed_module::Description::from_params(params, build)
+                    $($composed_name => $composed_module::Description::from_params(params, build)
                         .map(Self::$composed),)*
                     _ => return None,
                 })
@@ -353,15 +385,15 @@ models! {
         "roughconductor" RoughConductor roughconductor (MaterialFlags::reflecting),
         "plastic" Plastic plastic (MaterialFlags::reflecting),
         "roughplastic" RoughPlastic roughplastic (MaterialFlags::reflecting) <'a>,
-        "principled" Principled principled (crate::principled::Description::flags),
-        "principledthin" PrincipledThin principledthin (crate::principledthin::Description::flags),
+        "principled" Principled principled (principled::Description::flags),
+        "principledthin" PrincipledThin principledthin (principledthin::Description::flags),
         "phong" Phong phong (MaterialFlags::reflecting),
         "pplastic" PolarizedPlastic pplastic (MaterialFlags::reflecting),
         "ward" Ward ward (MaterialFlags::reflecting),
         "roughdiffuse" RoughDiffuse roughdiffuse (MaterialFlags::reflecting),
         "measured" Measured measured (MaterialFlags::reflecting) <'a>,
-        "hair" Hair hair (crate::hair::Description::flags),
-        "difftrans" DiffuseTransmission difftrans (crate::difftrans::Description::flags),
+        "hair" Hair hair (hair::Description::flags),
+        "difftrans" DiffuseTransmission difftrans (difftrans::Description::flags),
     }
     composed {
         "thindielectric" ThinDielectric thindielectric,

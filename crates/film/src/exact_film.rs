@@ -12,9 +12,9 @@ use crate::exact_sums::{EXACT, ExactSums};
 use crate::faults::{FaultLog, InvalidSample};
 use crate::filter_method::FilterMethod;
 use crate::footprint::Footprint;
+use crate::layout::{self, Divisor};
 use crate::outliers::{DominantSample, OutlierLog};
 use crate::pixel_moments::PixelMoments;
-use crate::replicate_end::{self, Divisor};
 use crate::running::{Running, reserved};
 use crate::sample_counts::{SAMPLES, SampleCounts};
 use crate::tile_means::TileMeans;
@@ -107,7 +107,7 @@ impl ExactFilm {
             replicates: 0,
             samples: 0,
             counts: None,
-            tiles: replicate_end::TILES.map(means),
+            tiles: layout::TILES.map(means),
             faults: FaultLog::default(),
             outliers: OutlierLog::default(),
             channels,
@@ -199,7 +199,7 @@ impl ExactFilm {
     pub(crate) fn finish_replicate(&mut self, divisor: Divisor<'_>, samples: u64) {
         let (origin, size) = (self.settings.crop_offset, self.settings.crop_size);
         let replicate = self.replicate();
-        let layout = replicate_end::Layout {
+        let layout = layout::Layout {
             channels: &self.channels,
             origin,
             size,

@@ -2,7 +2,7 @@
 
 use crate::ExactFilm;
 use crate::faults::FaultLog;
-use crate::replicate_end::Divisor;
+use crate::layout::Divisor;
 use etalon_images::Image;
 use glam::UVec2;
 

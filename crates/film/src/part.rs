@@ -6,8 +6,8 @@
 //! standard errors are of its own replicates) with planes of the sums beside ([`EXACT`]) and a
 //! checksum over the sums and all the file says of itself.
 
+use crate::disagreement::{Conflict, disagreements};
 use crate::exact_sums::{EXACT, ExactSums};
-use crate::merge::{Conflict, disagreements};
 use crate::metadata::recorded_seconds;
 use crate::rendered_image::{self, ReadError, image_of, metadata_of};
 use crate::unfinished::Unfinished;

@@ -25,7 +25,7 @@
 //! single negative sample cancels the other. Filters with negative lobes want more samples per
 //! replicate rather than more replicates.
 
-use crate::filter_sampler::{FilterSampler1d, part};
+use crate::filter_sampler_1d::{FilterSampler1d, part};
 use crate::{BoxFilter, Filter};
 use glam::Vec2;
 

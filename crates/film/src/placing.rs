@@ -1,7 +1,7 @@
 //! The film as the renderer sees it: where samples lie, how many there are, and where they go.
 
 use crate::footprint::Footprint;
-use crate::replicate_end::Divisor;
+use crate::layout::Divisor;
 use crate::{ExactFilm, ExactTile};
 use etalon_transport::{Film, FilmSample, Placing};
 use glam::{UVec2, Vec2};

@@ -3,7 +3,8 @@
 
 use crate::outliers::DominantSample;
 use crate::spread::{Spread, Term};
-use crate::{ExactFilm, faults::FaultLog, splat::Taps};
+use crate::taps::Taps;
+use crate::{ExactFilm, faults::FaultLog};
 use etalon_statistics::{Fixed128, InvalidValue};
 use etalon_transport::{Film, FilmSample, Sink, TileSink};
 use glam::{IVec2, UVec2, Vec2};

@@ -6,10 +6,10 @@
 
 mod binary;
 pub(crate) mod block;
-mod boxes;
+mod box_tree;
 mod bunch;
 mod bvh;
-mod collapse;
+mod choices;
 mod linear;
 mod node;
 mod octree;
@@ -20,7 +20,7 @@ mod wide;
 use crate::closest_hit::ClosestHit;
 use crate::traversal_ray::TraversalRay;
 use block::Block;
-use boxes::BoxTree;
+use box_tree::BoxTree;
 use glam::Vec3;
 use linear::Linear;
 use visits::Counter;

@@ -7,12 +7,12 @@ use crate::instance::{Group, Instance};
 use crate::local_interaction::{LocalInteraction, Owner};
 use crate::primitive_index::PrimitiveOwner;
 use crate::shapes::Shape;
-use crate::shapes::crossing::Line;
+use crate::shapes::analytic::crossing::Line;
 use crate::traversal_ray::TraversalRay;
-use crate::world::WorldOthers;
+use crate::world_others::WorldOthers;
 use core::cell::Cell;
 use etalon_transport::{Hit, InstanceId, LightId, MaterialId, Ray, ShapeId, SurfaceInteraction};
-use glam::{Vec2, Vec3};
+use glam::Vec2;
 
 /// Properties of a shape other than its geometry.
 #[derive(Clone, Copy, Debug)]
@@ -268,18 +268,6 @@ impl Geometry {
     /// The box around everything that has an end; empty if there is nothing.
     pub fn bounds(&self) -> Bounds {
         self.world.scope.bounds
-    }
-
-    /// Centre and radius (m) of a sphere around everything, for lights at infinity; radius 0 if
-    /// there is nothing.
-    pub fn bounding_sphere(&self) -> (Vec3, f32) {
-        let bounds = self.bounds();
-        if bounds.is_empty() {
-            return (Vec3::ZERO, 0.0);
-        }
-        let center = bounds.center();
-        let radius = (bounds.max - center).max(center - bounds.min).length();
-        (center, radius * (1.0 + 4.0 * f32::EPSILON))
     }
 
     /// A shape.

@@ -20,7 +20,7 @@ mod primitive_index;
 pub mod shapes;
 mod touching;
 mod traversal_ray;
-mod world;
+mod world_others;
 
 pub use accelerator::visits::Visits;
 pub use accelerator::{AcceleratorKind, Bounds};
@@ -28,4 +28,4 @@ pub use builder::{GeometryBuilder, GroupId};
 pub use geometry::{Geometry, GeometryStatistics};
 pub use placement::Placement;
 pub use shapes::Shape;
-pub use shapes::control_points;
+pub use shapes::curves::control_points;

@@ -6,7 +6,7 @@ use crate::closest_hit::ClosestHit;
 use crate::geometry::Geometry;
 use crate::instance::Group;
 use crate::shapes::Shape;
-use crate::shapes::crossing::Line;
+use crate::shapes::analytic::crossing::Line;
 use crate::traversal_ray::TraversalRay;
 use etalon_transport::{InstanceId, ShapeId};
 use glam::Vec3;

@@ -2,50 +2,39 @@
 //!
 //! To add a shape, write its file and add one line to the list.
 
+pub(crate) mod analytic;
 pub mod bilinear;
 pub mod bspline_curve;
-mod chart;
-mod clip_box;
 pub mod cone;
-pub mod control_points;
-mod convex;
-pub(crate) mod crossing;
 pub mod csg;
 pub mod cube;
-mod cubic;
 mod curve;
 pub mod curves;
 pub mod cylinder;
 pub mod disk;
-mod displaced;
 pub mod extrusion;
-mod field;
-mod file_mesh;
 pub mod implicit;
-mod isolate;
 pub mod linear_curve;
-mod measure;
 pub mod mesh;
-mod mesh_sampling;
-mod model;
 mod net;
-pub(crate) mod placed;
 pub mod plane;
 mod profile;
 pub mod quadric;
 pub mod rectangle;
 pub mod revolution;
 pub mod sdf_grid;
+mod shape_model;
 pub mod sphere;
 pub mod torus;
-mod vertex_normals;
 
 use crate::accelerator::Bounds;
 use crate::local_interaction::LocalInteraction;
+use analytic::crossing::{Crossing, Line};
+use analytic::field::Field;
+use analytic::placed::Placed;
 use bilinear::Bilinear;
 use bspline_curve::RoundSpline;
 use cone::Cone;
-use crossing::{Crossing, Line};
 use csg::Csg;
 use curves::Curves;
 use cylinder::Cylinder;
@@ -54,21 +43,18 @@ use etalon_math::DirectionCone;
 use etalon_params::Params;
 use etalon_transport::{Build, LightSampleContext, SampledPoint, SurfacePoint};
 use extrusion::Extrusion;
-use field::Field;
 use glam::{DVec2, DVec3, Vec2, Vec3};
 use implicit::Implicit;
 use linear_curve::RoundCone;
-use mesh::Mesh;
-use model::ShapeModel;
-use placed::Placed;
+use mesh::{Mesh, file_mesh};
 use plane::Plane;
 use quadric::Quadric;
 use rectangle::Rectangle;
 use revolution::Revolution;
 use sdf_grid::SdfGrid;
+use shape_model::ShapeModel;
 use sphere::Sphere;
 use torus::Torus;
-use vertex_normals::vertex_normals;
 
 macro_rules! shapes {
     ($($(#[doc = $doc:literal])* $kind:ident($model:ty) { $($plugin:literal => $read:expr,)* })*) => {

@@ -1,7 +1,7 @@
 //! Shapes that nearly touch, closer than single precision resolves.
 
 use crate::shapes::Shape;
-use crate::shapes::crossing::Line;
+use crate::shapes::analytic::crossing::Line;
 use glam::Vec2;
 
 /// Surfaces closer than this, relative to the largest coordinate, need double precision: some

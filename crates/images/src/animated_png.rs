@@ -24,7 +24,7 @@ pub struct AnimationFormat {
 ///
 /// # Errors
 /// [`Error::Write`] where `frame` or the operating system refuses, or a frame has not as many bytes as the format says.
-pub fn write(
+pub fn write_animated_png(
     path: &Path,
     format: AnimationFormat,
     mut frame: impl FnMut(u32) -> io::Result<Vec<u8>>,
@@ -96,7 +96,7 @@ mod tests {
             rate: 24.0,
         };
         let bytes = |number: u32| vec![10 * number as u8 + 1; 18];
-        write(&path, format, |number| Ok(bytes(number))).expect("written");
+        write_animated_png(&path, format, |number| Ok(bytes(number))).expect("written");
         let file = std::io::BufReader::new(std::fs::File::open(&path).expect("it is there"));
         let mut reader = png::Decoder::new(file).read_info().expect("a PNG");
         let animation = reader.info().animation_control.expect("it is animated");
@@ -110,7 +110,7 @@ mod tests {
         }
         // A frame of another size leaves nothing behind.
         let other = folder.join("other.png");
-        assert!(write(&other, format, |_| Ok(vec![0; 17])).is_err());
+        assert!(write_animated_png(&other, format, |_| Ok(vec![0; 17])).is_err());
         assert!(!other.exists());
         std::fs::remove_dir_all(&folder).expect("removed");
     }

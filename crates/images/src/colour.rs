@@ -13,7 +13,7 @@
 //! Upper and lower case are the same.
 
 use crate::chromaticities::xyz_to_rec_709;
-use crate::layer_kind::Kind;
+use crate::layer_kind::LayerKind;
 use crate::{Channel, Error, Image};
 use glam::{DMat3, DVec3};
 use std::borrow::Cow;
@@ -49,7 +49,7 @@ enum Model {
 /// The channels of one layer that form a colour.
 struct Layer<'a> {
     name: &'a str,
-    kind: Kind,
+    kind: LayerKind,
     model: Model,
     colour: [&'a Channel; 3],
     alpha: Option<&'a Channel>,
@@ -59,16 +59,16 @@ impl Layer<'_> {
     /// The smaller, the likelier it is the picture.
     fn rank(&self) -> u8 {
         let group = match (self.model, self.kind) {
-            (Model::Rgb, Kind::Unnamed) => 0,
-            (Model::Rgb, Kind::Main) => 1,
-            (_, Kind::Unnamed) => 2,
-            (_, Kind::Main) => 3,
-            (Model::Rgb, Kind::Other) => 4,
-            (Model::Rgb, Kind::Pass) => 5,
-            (_, Kind::Other) => 6,
-            (_, Kind::Pass) => 7,
-            (Model::Rgb, Kind::Data) => 8,
-            (_, Kind::Data) => 9,
+            (Model::Rgb, LayerKind::Unnamed) => 0,
+            (Model::Rgb, LayerKind::Main) => 1,
+            (_, LayerKind::Unnamed) => 2,
+            (_, LayerKind::Main) => 3,
+            (Model::Rgb, LayerKind::Other) => 4,
+            (Model::Rgb, LayerKind::Pass) => 5,
+            (_, LayerKind::Other) => 6,
+            (_, LayerKind::Pass) => 7,
+            (Model::Rgb, LayerKind::Data) => 8,
+            (_, LayerKind::Data) => 9,
         };
         4 * group + self.model as u8
     }
@@ -103,7 +103,7 @@ impl<'a> Letters<'a> {
             .map(|(_, channel)| *channel)
     }
 
-    fn layer(&self, name: &'a str, kind: Kind) -> Option<Layer<'a>> {
+    fn layer(&self, name: &'a str, kind: LayerKind) -> Option<Layer<'a>> {
         let of = |letter| self.channel(letter, letter);
         let rgb = || {
             Some([
@@ -148,7 +148,7 @@ fn layers(image: &Image) -> Vec<Layer<'_>> {
             } else {
                 prefix
             };
-            letters.layer(name, Kind::of(name))
+            letters.layer(name, LayerKind::of(name))
         })
         .collect();
     layers.sort_by_key(Layer::rank);
@@ -168,7 +168,8 @@ impl Image {
         let layers = layers(self);
         let (taken, others) = layers.split_first()?;
         let mut notes = Vec::new();
-        let rival = |layer: &&Layer<'_>| layer.model <= taken.model && layer.kind != Kind::Data;
+        let rival =
+            |layer: &&Layer<'_>| layer.model <= taken.model && layer.kind != LayerKind::Data;
         let rivals: Vec<String> = others.iter().filter(rival).map(Layer::in_words).collect();
         if !rivals.is_empty() {
             notes.push(format!(
@@ -227,7 +228,7 @@ impl Image {
         };
         let planes = match layer.model {
             Model::Luminance => stored.map(Cow::Borrowed),
-            _ if layer.kind == Kind::Data => {
+            _ if layer.kind == LayerKind::Data => {
                 if layer.model != Model::Rgb {
                     notes.push(format!(
                         "by their name the channels {} are no colours; their numbers are taken \

@@ -2,7 +2,7 @@
 
 /// What the name of a layer says of it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
-pub(crate) enum Kind {
+pub(crate) enum LayerKind {
     Unnamed,
     /// Called as pictures are.
     Main,
@@ -92,7 +92,7 @@ const DATA: &[&str] = &[
     "z",
 ];
 
-impl Kind {
+impl LayerKind {
     pub(crate) fn of(layer: &str) -> Self {
         if layer.is_empty() {
             return Self::Unnamed;

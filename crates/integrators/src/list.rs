@@ -50,6 +50,18 @@ macro_rules! integrators {
             all.into_iter().filter_map(|(name, unbiased)| unbiased.then_some(name)).collect()
         }
 
+        /// The names of those that see participating media.
+        fn seeing_media() -> String {
+            let all = [$(($name, $variant::MEDIA)),*];
+            listed(all.into_iter())
+        }
+
+        /// The names of those that see diffusion profiles.
+        fn seeing_diffusion() -> String {
+            let all = [$(($name, $variant::DIFFUSION)),*];
+            listed(all.into_iter())
+        }
+
         impl AnyIntegrator {
             /// Reads an integrator from its description. `None` if there is no integrator of
             /// that name, or after a mistake, which has been recorded.
@@ -104,11 +116,12 @@ macro_rules! integrators {
                     integrator: &I,
                     sight: &SceneCapabilities,
                 ) -> Vec<Incompatibility> {
-                    let unseen = sight.media_unseen().filter(|_| !I::MEDIA);
-                    let diffusion = sight.diffusion_unseen().filter(|_| I::MEDIA && !I::DIFFUSION);
+                    let unseen = (!I::MEDIA).then(|| sight.media_unseen(&seeing_media()));
+                    let diffusion = (I::MEDIA && !I::DIFFUSION)
+                        .then(|| sight.diffusion_unseen(&seeing_diffusion()));
                     let endless = sight.endless_lit().filter(|_| I::FOLLOWS_LIGHT);
                     let one_way = sight.seen_one_way().filter(|_| I::FOLLOWS_LIGHT);
-                    let unseen = unseen.into_iter().chain(diffusion).chain(endless).chain(one_way);
+                    let unseen = unseen.into_iter().chain(diffusion).flatten().chain(endless).chain(one_way);
                     unseen.chain(integrator.incompatibilities(sight)).collect()
                 }
                 match self {
@@ -192,6 +205,14 @@ integrators! {
     "moment" => Moment: Moment::from_params;
     "distribution" => Distribution: |p| Some(Distribution::from_params(p));
     "whitted" => Whitted: |p| Some(Whitted::from_params(p));
+}
+
+/// Names of those that are so, for a message.
+fn listed<'n>(all: impl Iterator<Item = (&'n str, bool)>) -> String {
+    let able: Vec<String> = (all.filter(|(_, able)| *able))
+        .map(|(name, _)| format!("`{name}`"))
+        .collect();
+    able.join(", ")
 }
 
 /// The state of an integrator that learns nothing, `()`; `None` for others.

@@ -39,7 +39,7 @@ pub struct ConstantLight {
 impl ConstantLight {
     /// Reads `radiance`. `to_world` turns a uniform sky into itself.
     pub fn from_params(params: &Params<'_>, build: &mut dyn Build) -> Self {
-        refuse_varying(params, "radiance");
+        refuse_varying(params, "radiance", build);
         Self {
             radiance: build.texture(params, "radiance", Some(1.0), SpectrumKind::Emission),
         }

@@ -27,7 +27,7 @@ pub struct DirectionalLight {
 impl DirectionalLight {
     /// Reads `irradiance`, and `direction` or `to_world` (whose +z is where the light goes).
     pub fn from_params(params: &Params<'_>, build: &mut dyn Build) -> Option<Self> {
-        refuse_varying(params, "irradiance");
+        refuse_varying(params, "irradiance", build);
         let irradiance = build.texture(params, "irradiance", Some(1.0), SpectrumKind::Emission);
         let direction = match params.vector("direction") {
             Some(direction) => {

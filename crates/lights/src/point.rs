@@ -41,7 +41,7 @@ pub struct PointLight {
 impl PointLight {
     /// Reads `position` or `to_world`, and `intensity`.
     pub fn from_params(params: &Params<'_>, build: &mut dyn Build) -> Option<Self> {
-        refuse_varying(params, "intensity");
+        refuse_varying(params, "intensity", build);
         let intensity = build.texture(params, "intensity", Some(1.0), SpectrumKind::Emission);
         let keys = params.keyframes("to_world");
         let position = params.vector("position");

@@ -49,7 +49,7 @@ pub struct SpotLight {
 impl SpotLight {
     /// Reads `intensity`, `cutoff_angle`, `beam_width`, `texture` and `to_world`.
     pub fn from_params(params: &Params<'_>, build: &mut dyn Build) -> Option<Self> {
-        refuse_varying(params, "intensity");
+        refuse_varying(params, "intensity", build);
         let intensity = build.texture(params, "intensity", Some(1.0), SpectrumKind::Emission);
         // Mitsuba 0.6 takes one without a name as well.
         let nameless = params.node.properties.iter().find_map(|p| match &p.value {

@@ -81,7 +81,7 @@ impl SunSky {
         };
         let what = "a number from 1 to 10";
         let turbidity = params.float_where("turbidity", 3.0, what, |x| (1.0..=10.0).contains(&x));
-        refuse_varying(params, "albedo");
+        refuse_varying(params, "albedo", build);
         let albedo = build.texture(params, "albedo", Some(0.3), SpectrumKind::Reflectance);
         let what = "an angle above 0° and below 180°";
         let aperture = params.float_where("sun_aperture", 0.5358, what, |x| x > 0.0 && x < 180.0);

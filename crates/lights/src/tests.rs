@@ -112,6 +112,10 @@ impl Build for SmallWorld {
         TextureId::NONE
     }
 
+    fn varies(&self, _: &str) -> bool {
+        false
+    }
+
     fn spectrum(&mut self, spectrum: Spectrum) -> TextureId {
         self.patterns.push(Pattern::Plain(spectrum));
         TextureId(self.patterns.len() as u32 - 1)

@@ -270,8 +270,8 @@ pub fn list() -> impl Iterator<Item = &'static Ignored> {
     OF_MITSUBA_3.iter().chain(mitsuba06::LIST)
 }
 
-/// Whether an entry of a list is about a parameter. An empty list of plugins means all of the class; a name that ends with `[`
-/// is a prefix.
+/// Whether an entry of a list is about a parameter. No plugins are all of the class, and a name that ends with `[` stands for
+/// those that begin so.
 pub(crate) fn names(
     class: Class,
     plugins: &[&str],
@@ -283,7 +283,7 @@ pub(crate) fn names(
     class == of && (plugins.is_empty() || plugins.contains(&plugin)) && names.iter().any(is_called)
 }
 
-/// The entry of a plugin's parameter, for any value.
+/// The entry of a plugin's parameter, whatever its value.
 pub fn entry(class: Class, plugin: &str, name: &str) -> Option<&'static Ignored> {
     list().find(|entry| {
         names(
@@ -293,12 +293,6 @@ pub fn entry(class: Class, plugin: &str, name: &str) -> Option<&'static Ignored>
             (class, plugin, name),
         )
     })
-}
-
-/// Whether the list contains a parameter of a plugin with this value.
-pub fn is_ignored(class: Class, plugin: &str, name: &str, value: &Value) -> bool {
-    entry(class, plugin, name)
-        .is_some_and(|entry| entry.only.is_none_or(|only| (only.holds)(value)))
 }
 
 /// The list as Markdown.
@@ -341,12 +335,12 @@ mod tests {
 
     #[test]
     fn only_what_is_listed_is_ignored() {
-        let yes = Value::Boolean(true);
-        assert!(is_ignored(Class::Film, "hdrfilm", "banner", &yes));
-        assert!(!is_ignored(Class::Sensor, "perspective", "banner", &yes));
-        assert!(!is_ignored(Class::Texture, "checkerboard", "accel", &yes));
-        let timeout = |x| is_ignored(Class::Integrator, "path", "timeout", &Value::Float(x));
-        assert!(timeout(-1.0) && !timeout(3.0));
+        assert!(entry(Class::Film, "hdrfilm", "banner").is_some());
+        assert!(entry(Class::Sensor, "perspective", "banner").is_none());
+        assert!(entry(Class::Texture, "checkerboard", "accel").is_none());
+        let timeout = entry(Class::Integrator, "path", "timeout").and_then(|entry| entry.only);
+        let holds = timeout.expect("of some values only").holds;
+        assert!(holds(&Value::Float(-1.0)) && !holds(&Value::Float(3.0)));
         let focus = |plugin| entry(Class::Sensor, plugin, "focus_distance").is_some();
         assert!(focus("perspective") && !focus("thinlens"));
     }

@@ -72,6 +72,10 @@ impl Build for Builder<'_> {
         self.reader().node(node, role)
     }
 
+    fn varies(&self, plugin: &str) -> bool {
+        etalon_textures::texture::varies(plugin)
+    }
+
     fn resolution(&self, texture: TextureId) -> [u32; 2] {
         self.textures.get(texture).resolution()
     }

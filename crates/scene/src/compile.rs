@@ -1,15 +1,15 @@
 //! From a description to a scene.
 
-use crate::bodies::{Bodies, Extent};
 use crate::builder::Builder;
-use crate::lookup::SceneTables;
+use crate::media::bodies::{Bodies, Extent};
+use crate::media::short_flights;
+use crate::media::subsurface;
 use crate::media::{self, LightMedium, SceneMedia};
 use crate::sampler::SamplerSettings;
 use crate::scene::Scene;
+use crate::scene_tables::SceneTables;
 use crate::sensor::{Response, curve};
 use crate::sensor_choice::{self, SensorChoice};
-use crate::short_flights;
-use crate::subsurface;
 use crate::surfaces::{self, Emitting, Names, Surfaces};
 use etalon_cameras::{AnyCamera, FilmWindow};
 use etalon_film::{FilmSettings, Filter, Framing};

@@ -1,79 +1,88 @@
-//! Summaries of files that a scene may name: volumes, measured materials, curves.
+//! What a scene has, for people and for estimators.
 
-use etalon_geometry::control_points;
-use etalon_images::Volume;
-use etalon_tables::BrdfTable;
-use etalon_tables::tensor_file::{MAGIC, TensorFile};
-use etalon_textures::nanovdb;
+use crate::camera_probe;
+use crate::rays;
+use crate::scene::Scene;
+use etalon_bsdf::Material;
+use etalon_geometry::GeometryStatistics;
+use etalon_subsurface::{Homogeneous, MediumAtWavelengths};
+use etalon_transport::{Camera, Lights, Media, Medium, SceneCapabilities, Sensor, World};
+use glam::{UVec2, Vec3};
 
-/// Says what a file holds, by its beginning; `None` if it is of no kind known here.
-pub fn describe(bytes: &[u8]) -> Option<Result<String, String>> {
-    if bytes.starts_with(b"VOL") || bytes.starts_with(b" BDV") {
-        return Some(Volume::decode(bytes).map(|volume| of_volume(&volume)));
-    }
-    if nanovdb::is_nanovdb(bytes) {
-        return Some(nanovdb::summary(bytes));
-    }
-    if bytes.starts_with(MAGIC) {
-        let file = TensorFile::parse(bytes).map_err(|error| error.to_string());
-        let list = file.map(|file| format!("tensor file, with the fields\n{}", file.summary()));
-        return Some(list.and_then(|list| of_material(bytes).map(|kind| kind + &list)));
-    }
-    if let Ok(kind) = of_material(bytes) {
-        return Some(Ok(kind));
-    }
-    control_points::summary(bytes).map(Ok)
+/// How much there is in a scene.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Contents {
+    /// Shapes, triangles, instances, nodes of accelerators, and their memory.
+    pub geometry: GeometryStatistics,
+    /// Materials.
+    pub materials: usize,
+    /// Lights that are no media.
+    pub lights: usize,
+    /// Textures and spectra.
+    pub textures: usize,
+    /// Pictures that textures look up.
+    pub pictures: usize,
+    /// Memory of their pixels (bytes).
+    pub picture_bytes: usize,
 }
 
-fn of_volume(volume: &Volume) -> String {
-    let [x, y, z] = volume.size;
-    let (channels, [low, high]) = (volume.channels, volume.bounds);
-    let finite = || volume.samples.iter().copied().filter(|v| v.is_finite());
-    let (least, most) = finite().fold((f32::INFINITY, f32::NEG_INFINITY), |(low, high), v| {
-        (low.min(v), high.max(v))
-    });
-    let mut text = format!(
-        "volume       {x} × {y} × {z} values of {channels} channels, 32-bit floats\n\
-         box          {low:?} to {high:?}\n\
-         values       {least} to {most}\n"
-    );
-    let count = volume.samples.len() - finite().count();
-    if count > 0 {
-        text += &format!("not finite   {count} values\n");
-    }
-    if volume.behind > 0 {
-        text += &format!("behind       {} bytes after the values\n", volume.behind);
-    }
-    text
-}
-
-fn of_material(bytes: &[u8]) -> Result<String, String> {
-    let table = BrdfTable::parse(bytes).map_err(|error| error.to_string())?;
-    Ok(format!("material     {}\n", table.kind()))
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn files_are_told_by_their_beginning() {
-        let mut volume = b"VOL\x03".to_vec();
-        for word in [1, 2, 1, 1, 1] {
-            volume.extend(i32::to_le_bytes(word));
+impl Scene {
+    /// How much there is.
+    pub fn contents(&self) -> Contents {
+        let (pictures, picture_bytes) = self.parts.space.lookup.textures.pictures();
+        Contents {
+            geometry: self.parts.space.lookup.geometry.statistics(),
+            materials: self.parts.materials.len(),
+            lights: self.parts.lights.len(),
+            textures: self.parts.space.lookup.textures.len(),
+            pictures,
+            picture_bytes,
         }
-        for x in [0.0_f32, 0.0, 0.0, 1.0, 1.0, 1.0, 0.5, 2.0] {
-            volume.extend(x.to_le_bytes());
+    }
+
+    /// Whether what is beyond everything is a medium without end that light does not come through.
+    fn is_swallowed(&self) -> bool {
+        let (media, outermost) = (&self.parts.space.media, self.outermost());
+        let is_there = |medium: MediumAtWavelengths<'_, _>| {
+            let coefficients = medium.coefficients(Vec3::ZERO, Vec3::Z);
+            coefficients.extinction().min_element() > 0.0
+        };
+        let medium = self
+            .media()
+            .medium(outermost, &self.sensor().wavelengths(0.5));
+        media.is_endless(outermost) && medium.is_some_and(is_there)
+    }
+
+    /// What an estimator can see of it, through the film's window of `size` pixels from `origin`.
+    pub fn sight(&self, origin: UVec2, size: UVec2) -> SceneCapabilities {
+        let view = camera_probe::look(self, origin, size);
+        // Nobody asked for these rays.
+        rays::take();
+        // Paths run into matter that shines.
+        let mut lights = self.parts.lights.count();
+        let shining = self.parts.space.media.emitting();
+        for count in [&mut lights.all, &mut lights.hittable, &mut lights.either] {
+            *count += shining;
         }
-        let text = describe(&volume).expect("a volume").expect("sound");
-        assert!(text.contains("2 × 1 × 1 values of 1 channels"), "{text}");
-        assert!(text.contains("values       0.5 to 2"), "{text}");
-        assert!(describe(&volume[..50]).expect("a volume").is_err());
-        let text = describe(b"0 0 0 1\n1 0 0 .5\n\n0 0 0 1\n0 1 0 1\n").expect("curves");
-        assert!(
-            text.expect("sound")
-                .starts_with("curves       2 with 4 control points")
-        );
-        assert!(describe(b"hello world\n").is_none());
+        lights.chosen += self.parts.space.media.emitting_bounds().count() as u32;
+        SceneCapabilities {
+            view,
+            lights,
+            aperture: self.parts.camera.can_receive(),
+            sky: self.lights().has_background(),
+            swallowed: self.parts.lights.has_infinite() && self.is_swallowed(),
+            media: self.parts.space.media.any(),
+            diffusion: self
+                .parts
+                .space
+                .media
+                .any_homogeneous(Homogeneous::diffuses),
+            textured_walk: self.parts.space.media.any_homogeneous(Homogeneous::varies),
+            endless: self.parts.space.lookup.geometry.is_endless()
+                && self.parts.lights.has_infinite(),
+            narrow_filter: false,
+            one_way: self.parts.materials.iter().any(Material::is_one_way),
+            classic: self.parts.materials.iter().any(Material::is_classic),
+        }
     }
 }

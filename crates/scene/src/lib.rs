@@ -3,37 +3,26 @@
 //! [`compile()`] turns what a scene file said into a [`Compiled`]: the [`Scene`], which implements
 //! [`etalon_transport::World`] for the integrators, and what the caller needs to render it.
 
-mod attributes;
-mod bodies;
 pub mod builder;
-mod capabilities;
+mod camera_probe;
 pub mod compile;
-pub mod contents;
-mod dark_media;
-mod displacement;
-mod emission_medium;
-mod groups;
-mod homogeneous_media;
-pub mod lookup;
+mod contents;
+mod describe;
 mod media;
-mod medium_lights;
-mod merge;
 mod parts;
 mod passage;
 mod rays;
 pub mod sampler;
 pub mod scene;
+pub mod scene_tables;
 mod sensor;
 mod sensor_choice;
-mod short_flights;
-mod solids;
 mod space;
-mod subsurface;
 pub mod surfaces;
-mod view;
 
-pub use capabilities::Contents;
 pub use compile::{CompileOptions, Compiled, compile, compile_with};
+pub use contents::Contents;
+pub use describe::describe;
 pub use etalon_geometry::AcceleratorKind;
 pub use etalon_lights::LightSamplerKind;
 pub use sampler::SamplerSettings;

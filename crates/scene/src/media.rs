@@ -1,18 +1,23 @@
 //! The media of a scene, and which of them lie on the two sides of a surface.
 
+pub(crate) mod bodies;
+pub(crate) mod dark_media;
+pub(crate) mod emission_medium;
+pub(crate) mod homogeneous_media;
+pub(crate) mod medium_lights;
+pub(crate) mod short_flights;
+pub(crate) mod subsurface;
+
 use etalon_geometry::Shape;
 use etalon_params::{Class, Diagnostic, Diagnostics, Node, Params, Span};
 use etalon_sampling::{Independent, Sampler};
-use etalon_subsurface::{MediumAtWavelengths, MediumDescription};
-use etalon_transport::flight::march;
-use etalon_transport::{
-    LightId, Medium, MediumId, MediumInterface, Ray, ShapeId, Shapes, Textures, Tracking,
-};
+use etalon_subsurface::{MediumAtWavelengths, MediumDescription, Tracked, Tracking, march};
+use etalon_transport::{LightId, MediumId, MediumInterface, Ray, ShapeId, Shapes, Textures};
 use glam::{Vec3, Vec4};
 
-use crate::bodies::Bodies;
 use crate::builder::Builder;
-use crate::lookup::SceneTables;
+use crate::media::bodies::Bodies;
+use crate::scene_tables::SceneTables;
 use crate::surfaces::Surfaces;
 use std::sync::Arc;
 

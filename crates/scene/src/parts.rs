@@ -4,7 +4,7 @@ mod lights;
 mod media;
 mod surfaces;
 
-use crate::medium_lights::MediumLights;
+use crate::media::medium_lights::MediumLights;
 use crate::scene::Scene;
 use crate::space::Space;
 use etalon_bsdf::Material;

@@ -1,10 +1,10 @@
 //! The compiled scene: everything an integrator may ask, answered.
 
-use crate::lookup::SceneTables;
 use crate::media::SceneMedia;
-use crate::medium_lights::{LightChoice, MediumLights};
+use crate::media::medium_lights::{LightChoice, MediumLights};
 use crate::parts::Parts;
 use crate::rays;
+use crate::scene_tables::SceneTables;
 use crate::space::Space;
 use etalon_bsdf::Material;
 use etalon_cameras::AnyCamera;

@@ -1,8 +1,8 @@
 //! Shapes, and the media that fill the space between them.
 
-use crate::lookup::SceneTables;
 use crate::media::SceneMedia;
 use crate::rays;
+use crate::scene_tables::SceneTables;
 use etalon_transport::{Hit, Ray, SurfaceInteraction};
 
 /// Shapes with their tables, and the media that they bound.

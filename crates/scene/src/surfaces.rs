@@ -1,10 +1,15 @@
 //! Shapes, groups, instances and their materials.
 
-use crate::attributes::Asked;
-use crate::bodies::Body;
+pub(crate) mod attributes;
+pub(crate) mod displacement;
+pub(crate) mod groups;
+pub(crate) mod merge;
+pub(crate) mod solids;
+
 use crate::builder::Builder;
-use crate::groups::GroupedLamp;
-use crate::{displacement, merge};
+use crate::media::bodies::Body;
+use crate::surfaces::attributes::Asked;
+use crate::surfaces::groups::GroupedLamp;
 use etalon_bsdf::Material;
 use etalon_geometry::shapes::csg::Operation;
 use etalon_geometry::{GeometryBuilder, GroupId, Shape};
@@ -303,7 +308,7 @@ impl Surfaces {
 
 fn diffuse(builder: &mut Builder<'_>, reflectance: f32) -> Material {
     let constant = Texture::Constant(Constant::uniform(reflectance));
-    Material::Diffuse(etalon_bsdf::diffuse::Description::new(
+    Material::Diffuse(etalon_bsdf::models::diffuse::Description::new(
         builder.textures.add(constant),
     ))
 }

@@ -112,14 +112,6 @@ pub fn xyz_to_xyy(xyz: [f64; 3]) -> [f64; 3] {
     [xyz[0] / sum, xyz[1] / sum, xyz[1]]
 }
 
-/// Tristimulus value of (x, y, Y).
-pub fn xyy_to_xyz([x, y, luminance]: [f64; 3]) -> [f64; 3] {
-    if luminance == 0.0 {
-        return [0.0; 3];
-    }
-    [x / y * luminance, luminance, (1.0 - x - y) / y * luminance]
-}
-
 /// The linear value of an sRGB-encoded one, both nominally in [0, 1]; odd about zero.
 pub fn srgb_to_linear(encoded: f64) -> f64 {
     let magnitude = encoded.abs();

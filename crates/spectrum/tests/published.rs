@@ -150,13 +150,12 @@ fn matrices_are_those_of_the_standards() {
     for (i, primary) in colour_space::PRIMARIES.iter().enumerate() {
         let mut rgb = [0.0; 3];
         rgb[i] = 0.7;
-        let [x, y, luminance] = colour_space::xyz_to_xyy(colour_space::rgb_to_xyz(rgb));
+        let xyz = colour_space::rgb_to_xyz(rgb);
+        let [x, y, _] = colour_space::xyz_to_xyy(xyz);
         assert_near(&[x, y], primary, 1e-12);
-        let back = colour_space::xyz_to_rgb(colour_space::xyy_to_xyz([x, y, luminance]));
-        assert_near(&back, &rgb, 1e-12);
+        assert_near(&colour_space::xyz_to_rgb(xyz), &rgb, 1e-12);
     }
     assert_eq!(colour_space::xyz_to_xyy([0.0; 3])[2], 0.0);
-    assert_eq!(colour_space::xyy_to_xyz([0.3, 0.3, 0.0]), [0.0; 3]);
 }
 
 #[test]

@@ -8,13 +8,15 @@
 //! grid, a pattern, a product of such. A medium ends where the grid of its `sigma_t` ends, even inside its shape. A
 //! `homogeneous` medium whose albedo or emission varies is one of these with a constant `sigma_t`.
 
-use crate::majorants::{MajorantGrid, Segments};
+use crate::majorants::{MajorantGrid, MajorantSegment, Segments};
 use crate::phases::{PhaseAt, PhaseFunction};
+use crate::tracking::{self, Tracked, Tracking};
 use crate::volume;
 use etalon_params::Params;
+use etalon_sampling::Sampler;
 use etalon_transport::{
-    Build, Coefficients, MajorantSegment, Medium, Phase, Ray, SpectrumKind, TextureId,
-    TexturePoint, Textures, Tracking, is_varying, refuse_varying,
+    Build, Coefficients, FreeFlight, Medium, Phase, Ray, SpectrumKind, TextureId, TexturePoint,
+    Textures, Transmission, is_varying, refuse_varying,
 };
 use glam::{Vec3, Vec4};
 
@@ -65,14 +67,14 @@ impl Heterogeneous {
     ) -> Option<Option<Self>> {
         let varies = ["albedo", "emission"]
             .iter()
-            .any(|name| is_varying(params, name));
+            .any(|name| is_varying(params, name, build));
         let by_others = ["material", "sigma_a", "sigma_s"]
             .iter()
             .any(|name| params.has(name));
         if params.node.plugin.value != "homogeneous" || !varies || by_others {
             return None;
         }
-        refuse_varying(params, "sigma_t");
+        refuse_varying(params, "sigma_t", build);
         Some(Self::from_params(params, build))
     }
 
@@ -177,11 +179,6 @@ impl<'a, T: Textures> Medium for HeterogeneousAt<'a, T> {
     type Phase = PhaseAt<'a, T>;
 
     #[inline]
-    fn majorants(&self, ray: &Ray, t_max: f32) -> impl Iterator<Item = MajorantSegment> {
-        self.segments(ray, t_max)
-    }
-
-    #[inline]
     fn coefficients(&self, at: Vec3, direction: Vec3) -> Coefficients {
         let place = TexturePoint::in_space(at);
         let density = self
@@ -200,11 +197,6 @@ impl<'a, T: Textures> Medium for HeterogeneousAt<'a, T> {
     }
 
     #[inline]
-    fn tracking(&self) -> Tracking {
-        self.medium.tracking
-    }
-
-    #[inline]
     fn emission(&self, at: Vec3, direction: Vec3) -> Vec4 {
         let Some(emission) = self.medium.emission else {
             return Vec4::ZERO;
@@ -218,6 +210,39 @@ impl<'a, T: Textures> Medium for HeterogeneousAt<'a, T> {
     fn phase(&self, at: Vec3) -> PhaseAt<'a, T> {
         self.medium.phase.at(self.textures, at, self.lambda)
     }
+
+    #[inline]
+    fn free_flight(
+        &self,
+        ray: &Ray,
+        t_max: f32,
+        u: f32,
+        stream: &mut impl Sampler,
+    ) -> FreeFlight<Self::Phase> {
+        tracking::free_flight(self, ray, t_max, u, stream)
+    }
+
+    #[inline]
+    fn reach(&self, ray: &Ray, u: f32) -> Option<f32> {
+        tracking::reach(self, ray, u)
+    }
+
+    #[inline]
+    fn transmittance(&self, ray: &Ray, t_max: f32, stream: &mut impl Sampler) -> Transmission {
+        tracking::transmittance(self, ray, t_max, stream)
+    }
+}
+
+impl<T: Textures> Tracked for HeterogeneousAt<'_, T> {
+    #[inline]
+    fn majorants(&self, ray: &Ray, t_max: f32) -> impl Iterator<Item = MajorantSegment> {
+        self.segments(ray, t_max)
+    }
+
+    #[inline]
+    fn tracking(&self) -> Tracking {
+        self.medium.tracking
+    }
 }
 
 #[cfg(test)]
@@ -225,7 +250,7 @@ mod tests {
     use super::*;
     use crate::Isotropic;
     use etalon_math::float;
-    use etalon_sampling::{Independent, Sampler};
+    use etalon_sampling::Independent;
 
     /// A density that grows along x, up to `top` of each lane at x = 1.
     struct Ramp {

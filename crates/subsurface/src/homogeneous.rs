@@ -7,15 +7,17 @@
 //! and emits σa Lₑ per metre, with the radiance Lₑ (`emission`) that a thick piece would have if it scattered nothing;
 //! with the single-scattering albedo α (where that varies in space, `heterogeneous` reads it) and the extinction σt, or σa and σs themselves, or those of a `material`; all are spectra.
 
-use crate::majorants::Segments;
+use crate::majorants::{MajorantSegment, Segments};
 use crate::phases::{PhaseAt, PhaseFunction};
 use crate::surface_albedo::{below, single_scattering};
+use crate::tracking::{self, Tracked, Tracking};
 use crate::{Boundary, Profile, ProfileAt, materials, volume};
 use etalon_params::{Diagnostic, Params};
+use etalon_sampling::Sampler;
 use etalon_spectrum::Spectrum;
 use etalon_transport::{
-    Build, Coefficients, MajorantSegment, Medium, Phase, Ray, SpectrumKind, TextureId,
-    TexturePoint, Textures, Tracking, is_varying, refuse_varying,
+    Build, Coefficients, FreeFlight, Medium, Phase, Ray, SpectrumKind, TextureId, TexturePoint,
+    Textures, Transmission, is_varying, refuse_varying,
 };
 use glam::{Vec2, Vec3, Vec4};
 
@@ -115,7 +117,7 @@ impl Homogeneous {
                 phase
             },
             emission: {
-                refuse_varying(params, "emission");
+                refuse_varying(params, "emission", build);
                 volume::emission(params, build)
             },
             tracking: volume::tracking(params, Tracking::Closed),
@@ -184,7 +186,7 @@ impl Homogeneous {
     fn by_surface(params: &Params<'_>, boundary: Boundary, build: &mut dyn Build) -> Option<Self> {
         let albedo = build.texture(params, "albedo", Some(0.8), SpectrumKind::Reflectance);
         let name = "mean_free_path";
-        let length = match is_varying(params, name) {
+        let length = match is_varying(params, name, build) {
             true => build.texture(params, name, Some(1.0), SpectrumKind::Unbounded),
             false => volume::constant(params, name, 1.0, SpectrumKind::Unbounded, build),
         };
@@ -207,7 +209,9 @@ impl Homogeneous {
             phase,
             emission: None,
             tracking: Tracking::Closed,
-            varies: ["albedo", name].iter().any(|name| is_varying(params, name)),
+            varies: ["albedo", name]
+                .iter()
+                .any(|name| is_varying(params, name, build)),
             surface: None,
             densest: MOST,
         })
@@ -375,11 +379,6 @@ impl<'a, T: Textures> Medium for HomogeneousAt<'a, T> {
     type Phase = PhaseAt<'a, T>;
 
     #[inline]
-    fn majorants(&self, ray: &Ray, t_max: f32) -> impl Iterator<Item = MajorantSegment> {
-        self.segments(ray, t_max)
-    }
-
-    #[inline]
     fn coefficients(&self, at: Vec3, direction: Vec3) -> Coefficients {
         self.coefficients * self.phase(at).projected_area(direction)
     }
@@ -392,6 +391,34 @@ impl<'a, T: Textures> Medium for HomogeneousAt<'a, T> {
     #[inline]
     fn emission(&self, at: Vec3, direction: Vec3) -> Vec4 {
         self.emission * self.phase(at).projected_area(direction)
+    }
+
+    #[inline]
+    fn free_flight(
+        &self,
+        ray: &Ray,
+        t_max: f32,
+        u: f32,
+        stream: &mut impl Sampler,
+    ) -> FreeFlight<Self::Phase> {
+        tracking::free_flight(self, ray, t_max, u, stream)
+    }
+
+    #[inline]
+    fn reach(&self, ray: &Ray, u: f32) -> Option<f32> {
+        tracking::reach(self, ray, u)
+    }
+
+    #[inline]
+    fn transmittance(&self, ray: &Ray, t_max: f32, stream: &mut impl Sampler) -> Transmission {
+        tracking::transmittance(self, ray, t_max, stream)
+    }
+}
+
+impl<T: Textures> Tracked for HomogeneousAt<'_, T> {
+    #[inline]
+    fn majorants(&self, ray: &Ray, t_max: f32) -> impl Iterator<Item = MajorantSegment> {
+        self.segments(ray, t_max)
     }
 
     #[inline]

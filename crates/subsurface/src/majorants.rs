@@ -4,8 +4,19 @@
 //! from cell to cell only within blocks that are not empty (J. Amanatides & A. Woo 1987, "A Fast Voxel Traversal
 //! Algorithm for Ray Tracing"). Outside of the grid there is nothing.
 
-use etalon_transport::{MajorantSegment, Ray};
+use etalon_transport::Ray;
 use glam::{IVec3, UVec3, Vec3};
+
+/// A stretch of a ray, from the end of the one before.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct MajorantSegment {
+    /// Where it ends (m along the ray).
+    pub end: f32,
+    /// σ̄ in it: not below the extinction of any lane (m⁻¹).
+    pub majorant: f32,
+    /// A part of that, below σ̄, which residual tracking treats in closed form; zero for all others (m⁻¹).
+    pub control: f32,
+}
 
 /// Cells along each side of a block.
 const BLOCK: u32 = 8;

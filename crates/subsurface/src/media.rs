@@ -1,10 +1,12 @@
 //! The list of media, and how each is read.
 
-use crate::majorants::Segments;
+use crate::majorants::{MajorantSegment, Segments};
 use crate::phases::PhaseAt;
+use crate::tracking::{Tracked, Tracking};
 use crate::{Heterogeneous, HeterogeneousAt, Homogeneous, HomogeneousAt};
 use etalon_params::{Params, plugins};
-use etalon_transport::{Build, Coefficients, MajorantSegment, Medium, Ray, Textures, Tracking};
+use etalon_sampling::Sampler;
+use etalon_transport::{Build, Coefficients, FreeFlight, Medium, Ray, Textures, Transmission};
 use glam::{Vec3, Vec4};
 
 macro_rules! media {
@@ -61,14 +63,6 @@ macro_rules! media {
             type Phase = PhaseAt<'a, T>;
 
             #[inline]
-            fn majorants(&self, ray: &Ray, t_max: f32) -> impl Iterator<Item = MajorantSegment> {
-                let segments: Segments<'_> = match self {
-                    $(Self::$kind(medium) => medium.segments(ray, t_max),)*
-                };
-                segments
-            }
-
-            #[inline]
             fn coefficients(&self, at: Vec3, direction: Vec3) -> Coefficients {
                 match self { $(Self::$kind(medium) => medium.coefficients(at, direction),)* }
             }
@@ -81,6 +75,42 @@ macro_rules! media {
             #[inline]
             fn emission(&self, at: Vec3, direction: Vec3) -> Vec4 {
                 match self { $(Self::$kind(medium) => medium.emission(at, direction),)* }
+            }
+
+            #[inline]
+            fn free_flight(
+                &self,
+                ray: &Ray,
+                t_max: f32,
+                u: f32,
+                stream: &mut impl Sampler,
+            ) -> FreeFlight<PhaseAt<'a, T>> {
+                match self { $(Self::$kind(medium) => medium.free_flight(ray, t_max, u, stream),)* }
+            }
+
+            #[inline]
+            fn reach(&self, ray: &Ray, u: f32) -> Option<f32> {
+                match self { $(Self::$kind(medium) => medium.reach(ray, u),)* }
+            }
+
+            #[inline]
+            fn transmittance(
+                &self,
+                ray: &Ray,
+                t_max: f32,
+                stream: &mut impl Sampler,
+            ) -> Transmission {
+                match self { $(Self::$kind(medium) => medium.transmittance(ray, t_max, stream),)* }
+            }
+        }
+
+        impl<T: Textures> Tracked for MediumAtWavelengths<'_, T> {
+            #[inline]
+            fn majorants(&self, ray: &Ray, t_max: f32) -> impl Iterator<Item = MajorantSegment> {
+                let segments: Segments<'_> = match self {
+                    $(Self::$kind(medium) => medium.segments(ray, t_max),)*
+                };
+                segments
             }
 
             #[inline]

@@ -1,104 +1,163 @@
-//! Scattering by a homogeneous sphere (L. Lorenz 1890, G. Mie 1908; as in C. Bohren & D. Huffman, Absorption and Scattering of
-//! Light by Small Particles, 1983, chapter 4).
+//! `mie`: the phase function of spheres, such as droplets of a cloud, by [`Sphere`].
 //!
-//! With x = 2π r n/λ, the size of a sphere of radius r in a medium of index n, and m its index over that,
+//! Their radii r are spread such that ln r is normal about that of `radius` with the standard `deviation`; each sphere counts for
+//! the light that it scatters,
 //!
 //! ```text
-//! aₙ = ((Dₙ(mx)/m + n/x) ψₙ(x) − ψₙ₋₁(x)) / ((Dₙ(mx)/m + n/x) ξₙ(x) − ξₙ₋₁(x))            (4.88)
-//! bₙ = ((m Dₙ(mx) + n/x) ψₙ(x) − ψₙ₋₁(x)) / ((m Dₙ(mx) + n/x) ξₙ(x) − ξₙ₋₁(x))
-//! Q_sca = 2/x² Σ (2n+1) (|aₙ|² + |bₙ|²),   Q_ext = 2/x² Σ (2n+1) Re(aₙ + bₙ)              (4.61, 4.62)
-//! S₁ = Σ (2n+1)/(n(n+1)) (aₙ πₙ + bₙ τₙ),   S₂ = Σ (2n+1)/(n(n+1)) (aₙ τₙ + bₙ πₙ)        (4.74)
+//! p(μ) ∝ ∫ (|S₁|² + |S₂|²)(r, μ) dN(r)
 //! ```
 //!
-//! with ψ and ξ Riccati and Bessel's functions, D the logarithmic derivative of ψ, by downward recurrence (4.89), and πₙ and τₙ of
-//! the angle (4.47). Unpolarised light is scattered as (|S₁|² + |S₂|²)/2.
+//! at 24 wavelengths, of which the nearest counts: one table each over 1201 cosines, denser towards both ends, linear in
+//! between and scaled to 2π ∫ p dμ = 1. A path is scattered by the table of the wavelength that chooses.
 
-use etalon_math::float64;
+use crate::phases::{PhaseModel, PhasePoint};
+use crate::rotational::turned;
+use crate::sphere::Sphere;
+use core::f64::consts::{PI, TAU};
+use etalon_math::{Density, SolidAngle, float64};
+use etalon_params::Params;
+use etalon_sampling::discrete::PiecewiseLinear;
+use etalon_spectrum::{LAMBDA_MAX, LAMBDA_MIN};
+use etalon_transport::{PhaseSample, Textures};
+use glam::{Vec2, Vec3, Vec4};
 use num_complex::Complex64;
+use std::sync::Arc;
 
-/// A sphere with the coefficients of its series.
+/// Tables.
+const WAVELENGTHS: usize = 24;
+
+/// Cosines of a table, less one.
+const STEPS: usize = 1200;
+
+/// Radii on either side of the middle, to three deviations.
+const RADII: i32 = 8;
+
+/// The phase function of spheres.
 #[derive(Clone, Debug)]
-pub struct Sphere {
-    size: f64,
-    /// aₙ and bₙ from n = 1.
-    series: Vec<[Complex64; 2]>,
+pub struct Mie {
+    /// Densities of μ, by wavelength.
+    tables: Arc<[PiecewiseLinear]>,
+    /// All that tells them from others.
+    given: [f64; 5],
 }
 
-impl Sphere {
-    /// A sphere of size parameter x > 0 with the index m relative to its surroundings; Im m > 0 if it absorbs.
-    pub fn new(size: f64, index: Complex64) -> Self {
-        // W. Wiscombe 1980: enough terms for any sphere.
-        let terms = (size + 4.0 * float64::cbrt(size) + 2.0).ceil() as usize;
-        let inside = index * size;
-        let first = terms.max(inside.norm_sqr().sqrt() as usize) + 16;
-        let mut derivative = Complex64::ZERO;
-        let mut derivatives = vec![Complex64::ZERO; terms + 1];
-        for n in (1..=first).rev() {
-            if n <= terms {
-                derivatives[n] = derivative;
+impl PartialEq for Mie {
+    fn eq(&self, other: &Self) -> bool {
+        self.given == other.given
+    }
+}
+
+impl Mie {
+    /// Of spheres with radii about `radius` (µm), with a standard `deviation` of the logarithm, of index `inside` + i
+    /// `absorption` in a medium of index `outside`; `None` if the tables come to nothing.
+    fn new(
+        radius: f64,
+        deviation: f64,
+        inside: f64,
+        absorption: f64,
+        outside: f64,
+    ) -> Option<Self> {
+        // Denser in θ near 0 and π.
+        let cosines: Vec<f64> = (0..=STEPS)
+            .map(|i| {
+                let t = i as f64 / STEPS as f64;
+                -float64::cos(PI * t * t * (3.0 - 2.0 * t))
+            })
+            .collect();
+        let index = Complex64::new(inside, absorption) / outside;
+        let reach = if deviation > 0.0 { RADII } else { 0 };
+        let table = |i: usize| {
+            let range = LAMBDA_MAX - LAMBDA_MIN;
+            let lambda = LAMBDA_MIN + range * (i as f64 + 0.5) / WAVELENGTHS as f64;
+            let mut values = vec![0.0; cosines.len()];
+            for step in -reach..=reach {
+                let z = 3.0 * f64::from(step) / f64::from(RADII);
+                let radius = radius * float64::exp(z * deviation);
+                let sphere = Sphere::new(TAU * radius * outside * 1e3 / lambda, index);
+                let weight = float64::exp(-0.5 * z * z);
+                for (value, mu) in values.iter_mut().zip(&cosines) {
+                    *value += weight * sphere.intensity(*mu);
+                }
             }
-            let step = Complex64::from(n as f64) / inside;
-            derivative = step - (derivative + step).inv();
+            PiecewiseLinear::new(&cosines, &values).ok()
+        };
+        let tables: Option<Vec<PiecewiseLinear>> = (0..WAVELENGTHS).map(table).collect();
+        Some(Self {
+            tables: tables?.into(),
+            given: [radius, deviation, inside, absorption, outside],
+        })
+    }
+
+    /// Reads `radius`, `deviation`, `int_ior`, `ext_ior` and `absorption`.
+    pub(crate) fn from_params(params: &Params<'_>) -> Option<Self> {
+        let within = |low: f64, high: f64| move |x: f64| x > low && x <= high;
+        let radius = "a radius in µm, above 0 and at most 100";
+        let radius = params.float_where("radius", 5.0, radius, within(0.0, 100.0));
+        let deviation = "a number from 0 to 1";
+        let deviation =
+            params.float_where("deviation", 0.2, deviation, |x| (0.0..=1.0).contains(&x));
+        let index = "an index of refraction, above 0 and at most 10";
+        let inside = params.float_where("int_ior", 1.333, index, within(0.0, 10.0));
+        let outside = params.float_where("ext_ior", 1.0, index, within(0.0, 10.0));
+        let absorption = "the imaginary part of an index, from 0 to 10";
+        let absorption =
+            params.float_where("absorption", 0.0, absorption, |k| (0.0..=10.0).contains(&k));
+        if inside == outside && absorption == 0.0 {
+            params.error("spheres of the index of what is around them scatter nothing");
+            return None;
         }
-        // ψ₋₁, ψ₀, χ₋₁ and χ₀, with ξ = ψ − iχ.
-        let (sin, cos) = float64::sin_cos(size);
-        let [mut psi, mut chi] = [[cos, sin], [-sin, cos]];
-        let series = (1..=terms).map(|n| {
-            let factor = (2 * n - 1) as f64 / size;
-            for function in [&mut psi, &mut chi] {
-                let [before, here] = *function;
-                *function = [here, factor * here - before];
-            }
-            let [xi_before, xi] = [0, 1].map(|i| Complex64::new(psi[i], -chi[i]));
-            let term = |factor: Complex64| {
-                let factor = factor + n as f64 / size;
-                (factor * psi[1] - psi[0]) / (factor * xi - xi_before)
-            };
-            [term(derivatives[n] / index), term(derivatives[n] * index)]
-        });
-        Self {
-            size,
-            series: series.collect(),
+        let phase = Self::new(radius, deviation, inside, absorption, outside);
+        if phase.is_none() {
+            params.error("these spheres are too small to tell how they scatter");
         }
+        phase
     }
 
-    fn terms(&self) -> impl Iterator<Item = (f64, &[Complex64; 2])> {
-        self.series
-            .iter()
-            .enumerate()
-            .map(|(i, ab)| ((i + 1) as f64, ab))
+    fn table(&self, lambda: f32) -> &PiecewiseLinear {
+        let part = (f64::from(lambda) - LAMBDA_MIN) / (LAMBDA_MAX - LAMBDA_MIN);
+        let place = part * WAVELENGTHS as f64;
+        &self.tables[(place as usize).min(WAVELENGTHS - 1)]
     }
 
-    /// Q_sca: scattering efficiency, the scattering cross-section over the geometric one.
-    pub fn scattering(&self) -> f64 {
-        let sum: f64 = self
-            .terms()
-            .map(|(n, [a, b])| (2.0 * n + 1.0) * (a.norm_sqr() + b.norm_sqr()))
-            .sum();
-        2.0 / (self.size * self.size) * sum
+    /// p(μ) in sr⁻¹ at each wavelength.
+    fn value(&self, mu: f64, lambda: Vec4) -> Vec4 {
+        let mu = mu.clamp(-1.0, 1.0);
+        Vec4::from_array(
+            lambda
+                .to_array()
+                .map(|lambda| (self.table(lambda).density(mu) / TAU) as f32),
+        )
+    }
+}
+
+/// The cosine of the angle by which the direction of travel turns.
+fn turn(wo: Vec3, wi: Vec3) -> f64 {
+    -wo.as_dvec3().dot(wi.as_dvec3())
+}
+
+impl PhaseModel for Mie {
+    fn eval(&self, at: &PhasePoint<'_, impl Textures>, wo: Vec3, wi: Vec3) -> Vec4 {
+        self.value(turn(wo, wi), at.lambda)
     }
 
-    /// Q_ext: extinction efficiency.
-    pub fn extinction(&self) -> f64 {
-        let sum: f64 = self
-            .terms()
-            .map(|(n, [a, b])| (2.0 * n + 1.0) * (a + b).re)
-            .sum();
-        2.0 / (self.size * self.size) * sum
+    fn density(
+        &self,
+        at: &PhasePoint<'_, impl Textures>,
+        wo: Vec3,
+        wi: Vec3,
+    ) -> Density<SolidAngle> {
+        Density::per_lane(self.eval(at, wo, wi))
     }
 
-    /// (|S₁|² + |S₂|²)/2 where the direction of travel turns by an angle with the cosine `mu`.
-    pub fn intensity(&self, mu: f64) -> f64 {
-        let [mut s1, mut s2] = [Complex64::ZERO; 2];
-        let [mut before, mut pi] = [0.0, 1.0];
-        for (n, [a, b]) in self.terms() {
-            let tau = n * mu * pi - (n + 1.0) * before;
-            let weight = (2.0 * n + 1.0) / (n * (n + 1.0));
-            s1 += (a * pi + b * tau) * weight;
-            s2 += (a * tau + b * pi) * weight;
-            [before, pi] = [pi, ((2.0 * n + 1.0) * mu * pi - (n + 1.0) * before) / n];
+    fn sample(&self, at: &PhasePoint<'_, impl Textures>, wo: Vec3, u: Vec2) -> PhaseSample {
+        let mu = self.table(at.lambda.x).sample(f64::from(u.x));
+        let wi = turned(wo, mu.clamp(-1.0, 1.0) as f32, u.y);
+        let value = self.eval(at, wo, wi);
+        PhaseSample {
+            wi,
+            value,
+            density: Density::per_lane(value),
         }
-        0.5 * (s1.norm_sqr() + s2.norm_sqr())
     }
 }
 
@@ -106,56 +165,46 @@ impl Sphere {
 mod tests {
     use super::*;
 
-    /// The example of Bohren and Huffman's appendix A: a sphere of index 1.55 and radius 0.525 µm at 0.6328 µm, as printed
-    /// there.
+    /// 2π ∫ p dμ = 1 at every wavelength, and the μ below which a share of the light is scattered has that share below it. The
+    /// mutant whose tables are of θ in place of μ misses by far.
     #[test]
-    fn the_published_example_is_met() {
-        let size = 2.0 * core::f64::consts::PI * 0.525 / 0.6328;
-        let sphere = Sphere::new(size, Complex64::new(1.55, 0.0));
-        assert!((sphere.scattering() - 3.10543).abs() < 1e-5);
-        assert!((sphere.extinction() - 3.10543).abs() < 1e-5);
-        // Q_back = 4/x² |S₁(180°)|².
-        let back = 4.0 / (size * size) * sphere.intensity(-1.0);
-        assert!((back - 2.92534).abs() < 1e-5, "{back}");
-        // S₁₁ over that straight on.
-        for (degrees, expected) in [(18.0, 0.356897), (27.0, 0.0766119)] {
-            let mu = float64::cos(f64::to_radians(degrees));
-            let share = sphere.intensity(mu) / sphere.intensity(1.0);
-            assert!((share / expected - 1.0).abs() < 1e-5, "{degrees}: {share}");
+    fn is_a_phase_function_at_every_wavelength() {
+        let mie = Mie::new(5.0, 0.2, 1.333, 0.0, 1.0).expect("sound");
+        assert_eq!(mie.tables.len(), WAVELENGTHS);
+        for lambda in [360.0_f32, 500.0, 655.0, 830.0] {
+            let table = mie.table(lambda);
+            // In θ, where the peak is wide.
+            let count = 100_000;
+            let angle = |i: i32| PI * (f64::from(i) + 0.5) / f64::from(count);
+            let part = |i: i32| table.density(float64::cos(angle(i))) * float64::sin(angle(i));
+            let below = |share: f64| {
+                let mu = table.sample(share);
+                let beyond = (0..count).filter(|i| float64::cos(angle(*i)) < mu);
+                beyond.map(part).sum::<f64>() * PI / f64::from(count)
+            };
+            for share in [0.1, 0.5, 0.9, 0.999_999] {
+                assert!(
+                    (below(share) - share).abs() < 2e-3,
+                    "{lambda}, {share}: {}",
+                    below(share)
+                );
+            }
         }
+        // Droplets of a cloud send most light nearly straight on: half of it is diffraction.
+        assert!(mie.table(550.0).sample(0.5) > 0.99);
+        assert!(mie.value(1.0, Vec4::splat(550.0)).x > 100.0);
     }
 
-    /// Small ones scatter as Rayleigh's (5.8), large ones take twice their cross-section, and what does not absorb scatters all.
+    /// What is far smaller than the wavelength scatters as Rayleigh's, 3/(16π) (1 + μ²).
     #[test]
-    fn limits_are_met() {
-        let index = Complex64::new(1.33, 0.0);
-        let small = Sphere::new(0.01, index);
-        let square = index * index;
-        let share = (square - 1.0) / (square + 2.0);
-        let rayleigh = 8.0 / 3.0 * 1e-8 * share.norm_sqr();
-        assert!((small.scattering() / rayleigh - 1.0).abs() < 1e-3);
-        let large = Sphere::new(3000.0, Complex64::new(1.33, 0.01));
-        assert!(
-            (large.extinction() - 2.0).abs() < 0.02,
-            "{}",
-            large.extinction()
-        );
-        assert!(large.scattering() < large.extinction());
-        for size in [0.5, 3.0, 20.0, 400.0] {
-            let sphere = Sphere::new(size, index);
-            assert!((sphere.scattering() / sphere.extinction() - 1.0).abs() < 1e-9);
-            if size > 100.0 {
-                continue;
-            }
-            // 2π ∫ (|S₁|² + |S₂|²)/2 dμ = π x² Q_sca.
-            let count = 200_000;
-            let mean =
-                (0..count).map(|i| sphere.intensity(-1.0 + (2 * i + 1) as f64 / f64::from(count)));
-            let integral = mean.sum::<f64>() * 4.0 / f64::from(count);
-            let expected = size * size * sphere.scattering();
+    fn small_spheres_scatter_as_molecules() {
+        let mie = Mie::new(0.005, 0.0, 1.5, 0.0, 1.0).expect("sound");
+        for mu in [-0.9, -0.3, 0.0, 0.6, 0.99] {
+            let expected = 3.0 / (16.0 * PI) * (1.0 + mu * mu);
+            let found = f64::from(mie.value(mu, Vec4::splat(550.0)).y);
             assert!(
-                (integral / expected - 1.0).abs() < 1e-3,
-                "{size}: {integral} {expected}"
+                (found / expected - 1.0).abs() < 0.01,
+                "{mu}: {found} {expected}"
             );
         }
     }

@@ -26,8 +26,8 @@ const LEAST: f32 = 1e-6;
 pub enum Sggx {
     /// The same everywhere.
     Even(Mat3),
-    /// A volume of six channels.
-    Varying(TextureId),
+    /// A volume of six channels: xx, yy, zz, and xy, xz, yz.
+    Varying([TextureId; 2]),
 }
 
 /// S of its diagonal and of xy, xz, yz.
@@ -115,12 +115,8 @@ impl Sggx {
             }
             return sound.map(Self::Even);
         }
-        Some(Self::Varying(build.volume(
-            params,
-            "S",
-            None,
-            SpectrumKind::Tensor,
-        )))
+        let channels = |first| build.volume(params, "S", None, SpectrumKind::Raw(first));
+        Some(Self::Varying([0, 3].map(channels)))
     }
 
     /// Whether it is the same everywhere.
@@ -133,16 +129,16 @@ impl Sggx {
         match self {
             Self::Even(s) => float::safe_sqrt(s.x_axis.x + s.y_axis.y + s.z_axis.z),
             // Three times the largest number of the diagonal is not less than the trace.
-            Self::Varying(texture) => float::safe_sqrt(3.0 * (most(*texture) + LEAST)),
+            Self::Varying([diagonal, _]) => float::safe_sqrt(3.0 * (most(*diagonal) + LEAST)),
         }
     }
 
     fn at(&self, point: &PhasePoint<'_, impl Textures>) -> Mat3 {
         match self {
             Self::Even(s) => *s,
-            Self::Varying(texture) => {
+            Self::Varying(parts) => {
                 let place = TexturePoint::in_space(point.position);
-                let [diagonal, beside] = point.textures.tensor(*texture, &place);
+                let [diagonal, beside] = parts.map(|part| point.textures.colour(part, &place));
                 symmetric(diagonal, beside)
             }
         }

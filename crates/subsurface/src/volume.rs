@@ -1,9 +1,10 @@
 //! Volumes: the parameters of a medium, constant or varying in space.
 
+use crate::tracking::Tracking;
 use etalon_params::questions::Question;
 use etalon_params::{Params, Value};
 use etalon_spectrum::Spectrum;
-use etalon_transport::{Build, SpectrumKind, TextureId, Tracking, refuse_varying};
+use etalon_transport::{Build, SpectrumKind, TextureId, refuse_varying};
 
 /// The spectrum of the parameter `name`: a number, a colour, a spectrum, or a volume that is the same everywhere.
 pub(crate) fn constant(
@@ -30,7 +31,7 @@ pub(crate) fn constant(
             }
         }
         _ => {
-            refuse_varying(params, name);
+            refuse_varying(params, name, build);
             build.texture(params, name, Some(default), kind)
         }
     }

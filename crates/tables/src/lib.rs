@@ -10,11 +10,11 @@
 pub mod half_vector;
 pub mod merl;
 pub mod rgl;
-pub mod rgl_writer;
 pub mod spectral;
 pub mod table;
 pub mod tensor_file;
 pub mod warp;
+pub mod write_rgl;
 
 pub use table::{BrdfAtWavelengths, BrdfTable};
 

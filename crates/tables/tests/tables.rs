@@ -2,10 +2,10 @@
 
 use etalon_math::float;
 use etalon_tables::half_vector::{angles, directions};
-use etalon_tables::rgl_writer::{self, Resolution};
 use etalon_tables::spectral::{self, Grid};
 use etalon_tables::tensor_file::Tensor;
 use etalon_tables::warp::Warp;
+use etalon_tables::write_rgl::{Resolution, write_rgl};
 use etalon_tables::{BrdfTable, merl};
 use glam::{Vec2, Vec3, Vec4};
 use proptest::prelude::*;
@@ -35,7 +35,7 @@ fn rgl_file() -> Vec<u8> {
         let values = spectrum(wo, wi, &resolution.wavelengths);
         values.into_iter().map(|value| value * wi.z).collect()
     };
-    rgl_writer::write(&resolution, value, "a test").expect("it reflects something")
+    write_rgl(&resolution, value, "a test").expect("it reflects something")
 }
 
 fn spectral_file() -> Vec<u8> {

@@ -84,6 +84,8 @@ impl Arithmetic {
 }
 
 impl TextureModel for Arithmetic {
+    const VARIES: bool = false;
+
     #[inline]
     fn spectrum(
         &self,

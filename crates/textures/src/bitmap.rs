@@ -4,8 +4,8 @@
 //! point are evaluated and averaged with the bilinear weights, t(λ) = Σᵢ wᵢ S(cᵢ; λ). Averaging
 //! the coefficients cᵢ instead would give colours that are in none of the texels.
 
+use crate::bilinear_tap::BilinearTap;
 use crate::decode::ImageChannel;
-use crate::footprint::BilinearTap;
 use crate::pixels::{Image, Pixels, Texels, Values};
 use crate::reader::Use;
 use crate::recovered::{self, luminance};
@@ -126,6 +126,8 @@ impl Bitmap {
 }
 
 impl TextureModel for Bitmap {
+    const VARIES: bool = true;
+
     #[inline]
     fn spectrum(&self, _: &TextureTable, _: &impl Shapes, at: &TexturePoint, lambda: Vec4) -> Vec4 {
         Self::spectrum(self, at.uv, lambda)

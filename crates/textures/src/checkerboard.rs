@@ -46,6 +46,8 @@ impl Checkerboard {
 }
 
 impl TextureModel for Checkerboard {
+    const VARIES: bool = true;
+
     #[inline]
     fn spectrum(
         &self,

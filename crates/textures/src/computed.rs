@@ -147,6 +147,8 @@ impl Computed {
 }
 
 impl TextureModel for Computed {
+    const VARIES: bool = false;
+
     fn spectrum(
         &self,
         set: &TextureTable,

@@ -73,6 +73,8 @@ impl Constant {
 }
 
 impl TextureModel for Constant {
+    const VARIES: bool = false;
+
     #[inline]
     fn spectrum(&self, _: &TextureTable, _: &impl Shapes, _: &TexturePoint, lambda: Vec4) -> Vec4 {
         self.spectrum.eval(lambda)

@@ -3,8 +3,8 @@
 //! The grid fills the unit cube, which `to_world` places (with `use_grid_bbox`, first the file's box or, of a NanoVDB file,
 //! where that puts it); the value i of n along
 //! an axis is at (i + ½)/n, and values between are interpolated (`trilinear`), or those of the `nearest`. Beyond the
-//! cube the grid is extended by `wrap_mode`. Three channels are colours, interpolated as spectra; those of reflectances
-//! are clamped to 1. Six are symmetric matrices (xx, yy, zz, xy, xz, yz).
+//! cube the grid goes on as `wrap_mode` says. Three channels are colours, interpolated as spectra; those of a
+//! share of light are held to 1. Six are symmetric matrices (xx, yy, zz, xy, xz, yz).
 
 use crate::nanovdb;
 use crate::pixels::{Image, Pixels, Texels, Values};
@@ -27,8 +27,6 @@ pub struct Grid {
     size: UVec3,
     /// By z, y and x.
     values: Arc<Image>,
-    /// Off-diagonal elements of symmetric matrices, whose diagonals are the values.
-    beside: Option<Arc<[[f32; 3]]>>,
     /// From the world to the grid, in which values are 1 apart.
     to_grid: Affine3A,
     filter: Filter,
@@ -61,7 +59,7 @@ impl Grid {
         plane(0) * (1.0 - part.z) + plane(1) * part.z
     }
 
-    /// Index of the value of a cell, which may be beyond the grid.
+    /// Where the value of a cell is that may be beyond the grid.
     #[inline]
     fn index(&self, cell: IVec3) -> usize {
         let size = self.size;
@@ -88,6 +86,8 @@ fn floor(place: Vec3) -> IVec3 {
 }
 
 impl TextureModel for Grid {
+    const VARIES: bool = true;
+
     #[inline]
     fn spectrum(&self, _: &TextureTable, _: &impl Shapes, at: &TexturePoint, lambda: Vec4) -> Vec4 {
         let value = match &self.values.texels {
@@ -126,13 +126,6 @@ impl TextureModel for Grid {
             Texels::Raw(values) => self.interpolate(at.position, |i| Vec3::from_array(values[i])),
             _ => recovered::colour(|lambda| self.spectrum(set, shapes, at, lambda)),
         }
-    }
-
-    fn tensor(&self, set: &TextureTable, shapes: &impl Shapes, at: &TexturePoint) -> [Vec3; 2] {
-        let beside = self.beside.as_ref().map_or(Vec3::ZERO, |values| {
-            self.interpolate(at.position, |i| Vec3::from_array(values[i]))
-        });
-        [self.colour(set, shapes, at), beside]
     }
 
     fn mean(&self, _: &TextureTable) -> f32 {
@@ -249,9 +242,9 @@ pub(crate) fn read(
         .map_err(|reason| params.error_at("filename", format!("`{name}` cannot be used: {reason}")))
         .ok()?;
     let is_share = role == SpectrumKind::Reflectance;
-    let is_tensor = role == SpectrumKind::Tensor;
-    if is_tensor != volume.beside.is_some() {
-        let message = match is_tensor {
+    let is_matrix = matches!(role, SpectrumKind::Raw(_));
+    if is_matrix != volume.beside.is_some() {
+        let message = match is_matrix {
             true => "a volume of matrices has six channels",
             false => "a volume of six channels is one of matrices, for `S` of `sggx`",
         };
@@ -302,16 +295,28 @@ pub(crate) fn read(
     });
     let start = (Vec3::INFINITY, Vec3::NEG_INFINITY);
     let (low, high) = corners.fold(start, |(low, high), p| (low.min(p), high.max(p)));
-    Some(Texture::from(Grid {
+    let beside = volume.beside.map(|beside| Pixels {
+        size: pixels.size,
+        values: Values::Three(beside),
+    });
+    let grid = Grid {
         size: volume.size,
-        values: Arc::new(Image::new(pixels, raw || is_tensor, role, !is_share)),
-        beside: volume.beside.map(Arc::from),
+        values: Arc::new(Image::new(pixels, raw || is_matrix, role, !is_share)),
         to_grid: Affine3A::from_mat4(DMat4::from(to_grid).as_mat4()),
         filter,
         wrap,
         is_share,
         bounds: [low, high],
-    }))
+    };
+    if let Some(beside) = beside {
+        let beside = Grid {
+            values: Arc::new(Image::new(beside, true, role, true)),
+            ..grid.clone()
+        };
+        let rest = reader.set.add(beside.into());
+        reader.keep_rest(params.node, rest);
+    }
+    Some(grid.into())
 }
 
 /// `volume`: the surface shows the `volume` that it cuts through.
@@ -321,6 +326,11 @@ pub(crate) fn read_on_surface(
     purpose: Use,
 ) -> Option<Texture> {
     let id = reader.parameter_in(params, "volume", None, purpose);
+    if purpose.role == SpectrumKind::Raw(0) && params.has("volume") {
+        let role = SpectrumKind::Raw(3);
+        let rest = reader.parameter_in(params, "volume", None, Use { role, ..purpose });
+        reader.keep_rest(params.node, rest);
+    }
     Some(reader.set.get(id).clone())
 }
 
@@ -358,7 +368,6 @@ mod tests {
         Grid {
             size,
             values: Arc::new(Image::new(pixels, false, SpectrumKind::Unbounded, true)),
-            beside: None,
             to_grid,
             filter,
             wrap,

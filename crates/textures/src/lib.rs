@@ -10,40 +10,40 @@
 //! ((i + ½)/w, (j + ½)/h).
 
 pub mod arithmetic;
+pub mod bilinear_tap;
 mod bitmap;
 pub mod checkerboard;
 pub mod computed;
 pub mod constant;
 pub mod decode;
-pub mod footprint;
 pub mod grid;
-pub mod illuminated;
 pub mod mesh_attribute;
 pub mod nanovdb;
 pub mod pixels;
 pub mod procedural;
 pub mod reader;
 pub mod recovered;
-pub mod set;
 mod spectra;
 pub mod texture;
+pub mod texture_table;
+pub mod times_d65;
 pub mod uv_transform;
 mod vol_file;
 
 pub use arithmetic::Arithmetic;
+pub use bilinear_tap::{Filter, Wrap};
 pub use bitmap::Bitmap;
 pub use checkerboard::Checkerboard;
 pub use computed::Computed;
 pub use constant::Constant;
-pub use footprint::{Filter, Wrap};
 pub use grid::Grid;
-pub use illuminated::TimesD65;
 pub use mesh_attribute::MeshAttribute;
 pub use pixels::{Pixels, Texels};
 pub use procedural::Procedural;
 pub use reader::TextureReader;
-pub use set::TextureTable;
 pub use texture::Texture;
+pub use texture_table::TextureTable;
+pub use times_d65::TimesD65;
 pub use uv_transform::UvTransform;
 
 #[cfg(test)]

@@ -36,7 +36,7 @@ impl MeshAttribute {
             SpectrumKind::Emission
             | SpectrumKind::Unbounded
             | SpectrumKind::Index
-            | SpectrumKind::Tensor => [0.0, f32::MAX],
+            | SpectrumKind::Raw(_) => [0.0, f32::MAX],
         }
     }
 
@@ -78,6 +78,8 @@ impl MeshAttribute {
 }
 
 impl TextureModel for MeshAttribute {
+    const VARIES: bool = true;
+
     #[inline]
     fn spectrum(
         &self,

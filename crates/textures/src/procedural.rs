@@ -175,6 +175,8 @@ fn nearest_point(p: DVec3) -> f64 {
 }
 
 impl TextureModel for Procedural {
+    const VARIES: bool = true;
+
     fn spectrum(
         &self,
         set: &TextureTable,

@@ -15,7 +15,7 @@ use crate::{Constant, Texture, TextureTable};
 use etalon_params::questions::Question;
 use etalon_params::{Class, Diagnostic, Diagnostics, Node, Params, Property, Span, Value};
 use etalon_params::{DVec3, SpectrumText};
-use etalon_spectrum::{Spectrum, SpectrumError, ior};
+use etalon_spectrum::{Spectrum, SpectrumError, refractive_index};
 use etalon_transport::{Assets, SpectrumKind, TextureId};
 use std::sync::Arc;
 
@@ -123,6 +123,10 @@ impl TextureReader<'_> {
     pub(crate) fn value(&mut self, property: &Property, purpose: Use) -> TextureId {
         property.mark_used();
         let span = property.span;
+        let is_object = matches!(property.value, Value::Object(_));
+        if matches!(purpose.role, SpectrumKind::Raw(1..)) && !is_object {
+            return self.set.add(Texture::Constant(Constant::uniform(0.0)));
+        }
         let spectrum = match &property.value {
             Value::Float(x) => self.number(*x, purpose, span),
             Value::Integer(i) => self.number(*i as f64, purpose, span),
@@ -158,6 +162,10 @@ impl TextureReader<'_> {
         if let Some(&id) = self.set.read.get(&key) {
             return id;
         }
+        // What has more than three channels has been read with the first of them.
+        if matches!(purpose.role, SpectrumKind::Raw(1..)) {
+            return self.set.add(Texture::Constant(Constant::uniform(0.0)));
+        }
         let texture = self.plugin(&Params::new(node, self.diagnostics), purpose);
         let id = match texture {
             Some(texture) => self.set.add(texture),
@@ -169,6 +177,12 @@ impl TextureReader<'_> {
         self.set.nodes.push(Arc::clone(node));
         self.set.read.insert(key, id);
         id
+    }
+
+    /// Keeps the channels of an object that follow the first three ([`SpectrumKind::Raw`]).
+    pub(crate) fn keep_rest(&mut self, node: &Node, rest: TextureId) {
+        let key = (core::ptr::from_ref(node) as usize, SpectrumKind::Raw(3));
+        self.set.read.insert(key, rest);
     }
 
     fn number(&self, x: f64, purpose: Use, span: Span) -> Option<Spectrum> {
@@ -243,7 +257,7 @@ impl TextureReader<'_> {
         if purpose.role != SpectrumKind::Index {
             return Spectrum::tabulated(wavelengths, values);
         }
-        let (table, note) = ior::held_table(wavelengths, values)?;
+        let (table, note) = refractive_index::held_table(wavelengths, values)?;
         if let Some(note) = note {
             self.diagnostics.push(Diagnostic::note(span, note));
         }

@@ -3,20 +3,23 @@
 //! To add a texture, write its file and add one line to the list.
 
 use crate::reader::Use;
+use crate::times_d65;
 use crate::{
     Arithmetic, Bitmap, Checkerboard, Computed, Constant, Grid, MeshAttribute, Procedural,
     TextureReader, TextureTable, TimesD65,
 };
 use crate::{
-    arithmetic, bitmap, checkerboard, computed, constant, grid, illuminated, mesh_attribute,
-    procedural, spectra,
+    arithmetic, bitmap, checkerboard, computed, constant, grid, mesh_attribute, procedural, spectra,
 };
 use etalon_params::{Class, Params, plugins};
 use etalon_transport::{Shapes, TextureId, TexturePoint, gradient_by_differences};
 use glam::{Vec2, Vec3, Vec4};
 
-/// The methods of a texture. `set` holds the textures that it refers to.
+/// What a texture is asked at a point. `set` holds the textures that it refers to.
 pub(crate) trait TextureModel {
+    /// Whether it varies in space, whatever the textures that it refers to do.
+    const VARIES: bool;
+
     /// The spectrum, for the wavelengths `lambda` (nm).
     fn spectrum(
         &self,
@@ -43,11 +46,6 @@ pub(crate) trait TextureModel {
     /// Three raw channels.
     fn colour(&self, set: &TextureTable, shapes: &impl Shapes, at: &TexturePoint) -> Vec3;
 
-    /// See [`Texture::tensor`].
-    fn tensor(&self, set: &TextureTable, shapes: &impl Shapes, at: &TexturePoint) -> [Vec3; 2] {
-        [self.colour(set, shapes, at), Vec3::ZERO]
-    }
-
     /// The mean over the texture and the wavelengths, for choosing among lobes and lights only:
     /// images are averaged over their texels as if `to_uv` showed all of them alike, and a mesh
     /// attribute, whose values are not known here, counts as ½.
@@ -63,7 +61,8 @@ pub(crate) trait TextureModel {
         &[]
     }
 
-    /// Advice for the user if it has values on surfaces only; `None` if it has values in space, provided that its inputs have.
+    /// What helps where it is asked at a point of space: `None` if it has a value there, as far as what it refers to has, and
+    /// not on surfaces only.
     fn instead_in_space(&self) -> Option<&'static str>;
 
     /// Not less than its value at any wavelength and anywhere in the world's box from `low` to `high`; infinite if nothing
@@ -82,7 +81,7 @@ pub(crate) trait TextureModel {
         None
     }
 
-    /// Resolution along the longest side of its extent; 1 if nothing is known.
+    /// How many parts of its extent, along the longest side, may differ; 1 if nothing is known.
     fn cells(&self, set: &TextureTable) -> u32 {
         let nested = self.nested().iter().map(|&id| set.get(id).cells(set));
         nested.max().unwrap_or(1)
@@ -105,6 +104,14 @@ macro_rules! textures {
 
         /// Names of the textures and spectra that are built.
         pub const BUILT: &[&str] = &[$($($plugin,)*)*];
+
+        /// Whether textures of this plugin vary in space, whatever those do that they refer to.
+        pub fn varies(plugin: &str) -> bool {
+            match plugin {
+                $($($plugin => <$model as TextureModel>::VARIES,)*)*
+                _ => false,
+            }
+        }
 
         $(impl From<$model> for Texture {
             fn from(texture: $model) -> Self {
@@ -133,7 +140,7 @@ macro_rules! textures {
             }
         }
 
-        /// Dispatches to the texture.
+        /// Asks the texture, whichever it is.
         macro_rules! ask {
             ($texture:expr, $it:ident => $answer:expr) => {
                 match $texture {
@@ -189,7 +196,7 @@ textures! {
         "volume" => grid::read_on_surface,
     }
     /// Another texture times D65.
-    TimesD65 { "d65" => illuminated::read, }
+    TimesD65 { "d65" => times_d65::read, }
 }
 
 impl Texture {
@@ -237,11 +244,6 @@ impl Texture {
         ask!(self, texture => TextureModel::colour(texture, set, shapes, at))
     }
 
-    /// A symmetric matrix at a point: its diagonal, and xy, xz, yz.
-    pub fn tensor(&self, set: &TextureTable, shapes: &impl Shapes, at: &TexturePoint) -> [Vec3; 2] {
-        ask!(self, texture => TextureModel::tensor(texture, set, shapes, at))
-    }
-
     /// The mean over the texture and the wavelengths, for choosing among lobes and lights only:
     /// images are averaged over their texels as if `to_uv` showed all of them alike, and a mesh
     /// attribute, whose values are not known here, counts as ½.
@@ -270,12 +272,12 @@ impl Texture {
         ask!(self, texture => texture.extent(set))
     }
 
-    /// Resolution along the longest side of its extent; 1 if nothing is known.
+    /// How many parts of its extent, along the longest side, may differ; 1 if nothing is known.
     pub fn cells(&self, set: &TextureTable) -> u32 {
         ask!(self, texture => texture.cells(set))
     }
 
-    /// Advice for the user if it has values on surfaces only.
+    /// What helps where it is asked at a point of space, if it has a value on surfaces only.
     pub fn instead_in_space(&self) -> Option<&'static str> {
         ask!(self, texture => texture.instead_in_space())
     }

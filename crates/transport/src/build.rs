@@ -15,8 +15,9 @@ pub enum SpectrumKind {
     Unbounded,
     /// A refractive index or an extinction coefficient (η, k): without upper bound; a table is constant beyond its ends.
     Index,
-    /// Six numbers that are no colour: a symmetric matrix ([`crate::Textures::tensor`]).
-    Tensor,
+    /// Numbers that are no colour, for [`crate::Textures::colour`]: three channels from this one on, zero where there
+    /// are none.
+    Raw(u8),
 }
 
 /// Services for plugins being built; implemented by the scene.
@@ -53,6 +54,9 @@ pub trait Build {
 
     /// The texture described by a nested texture or spectrum object.
     fn nested_texture(&mut self, node: &Arc<Node>, role: SpectrumKind) -> TextureId;
+
+    /// Whether textures of this plugin vary in space, whatever is in them.
+    fn varies(&self, plugin: &str) -> bool;
 
     /// Pixels of a texture that is an image, width and height; 1 × 1 of anything else.
     fn resolution(&self, _texture: TextureId) -> [u32; 2] {

@@ -16,7 +16,6 @@ pub mod diffusion;
 pub mod field_of_view;
 pub mod file;
 pub mod film;
-pub mod flight;
 pub mod ids;
 pub mod integrator;
 pub mod legacy_phong;
@@ -48,9 +47,7 @@ pub use integrator::{Integrator, Pass, PixelSample, SampleJob};
 pub use legacy_phong::LegacyPhong;
 pub use light::{Emission, EmissionPdf, LightKind, LightSample, LightVariety};
 pub use light_sample_context::LightSampleContext;
-pub use medium::{
-    Coefficients, Collision, FreeFlight, MajorantSegment, Medium, MediumInterface, Tracking, Vacuum,
-};
+pub use medium::{Coefficients, Collision, FreeFlight, Medium, MediumInterface, Vacuum};
 pub use mesh::{Attribute, MeshData};
 pub use phase::{Phase, PhaseSample};
 pub use ray::{Departure, Ray};

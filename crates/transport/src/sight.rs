@@ -184,28 +184,29 @@ impl SceneCapabilities {
         self.one_way.then(|| impossible(message, help))
     }
 
-    /// The objection, if any, of an estimator that knows nothing of media.
-    pub fn media_unseen(&self) -> Option<Incompatibility> {
+    /// The objection, if any, of an estimator that knows nothing of media, with the names of those that do.
+    pub fn media_unseen(&self, able: &str) -> Option<Incompatibility> {
         let message = "this integrator sees surfaces only, and the scene has participating media";
-        let help = "integrators that see media: `volpath`, `path`, `guided`, `bdpt`, `ptracer`, `forward`, `photonmap`, \
-                    `sppm`, `vcm`, `pssmlt`, `mmlt`";
-        self.media.then(|| impossible(message, help))
+        (self.media).then(|| impossible(message, &format!("integrators that see media: {able}")))
     }
 
-    /// The objection, if any, of an estimator that knows nothing of diffusion profiles, and nothing of where a walk began.
-    pub fn diffusion_unseen(&self) -> Option<Incompatibility> {
+    /// The objection, if any, of an estimator that knows nothing of diffusion profiles, and nothing of where a walk began,
+    /// with the names of those that do.
+    pub fn diffusion_unseen(&self, able: &str) -> Option<Incompatibility> {
         let profile = || {
             let message = "this integrator cannot have the scene's diffusion profiles (`dipole`, `beamdiffusion`, `burley`)";
-            let help =
-                "`path` and `volpath` can; or let light walk: `<subsurface type=\"randomwalk\">`";
-            impossible(message, help)
+            let help = format!(
+                "integrators that can: {able}; or let light walk: `<subsurface type=\"randomwalk\">`"
+            );
+            impossible(message, &help)
         };
         let walk = || {
             let message = "this integrator cannot have a `randomwalk` whose coefficients vary over the surface: it follows walks both \
                            ways, and they have those of where they begin";
-            let help =
-                "`path` and `volpath` can; a `heterogeneous` medium varies in space and is for all";
-            impossible(message, help)
+            let help = format!(
+                "integrators that can: {able}; a `heterogeneous` medium varies in space and is for all"
+            );
+            impossible(message, &help)
         };
         (self.diffusion.then(profile)).or_else(|| self.textured_walk.then(walk))
     }

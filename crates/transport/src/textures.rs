@@ -72,11 +72,6 @@ pub trait Textures {
     /// Three raw channels at a point (normal maps, emission tables).
     fn colour(&self, texture: TextureId, at: &TexturePoint) -> Vec3;
 
-    /// A symmetric matrix at a point: its diagonal, and xy, xz, yz. Of all but what holds such, the diagonal is the raw channels.
-    fn tensor(&self, texture: TextureId, at: &TexturePoint) -> [Vec3; 2] {
-        [self.colour(texture, at), Vec3::ZERO]
-    }
-
     /// The mean over the texture, for choosing among lobes and lights.
     fn mean(&self, texture: TextureId) -> f32;
 

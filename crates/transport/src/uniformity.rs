@@ -1,16 +1,17 @@
 //! Lights without extent, skies of one colour and homogeneous media have nothing over which a texture could vary.
 
+use crate::Build;
 use etalon_params::{Class, Diagnostic, Node, Params, Value};
 
 /// Whether the value of `name` is a texture that varies in space.
-pub fn is_varying(params: &Params<'_>, name: &str) -> bool {
+pub fn is_varying(params: &Params<'_>, name: &str, build: &dyn Build) -> bool {
     let property = params.node.properties.iter().find(|p| p.name == name);
-    matches!(property.map(|p| &p.value), Some(Value::Object(node)) if varies(node))
+    matches!(property.map(|p| &p.value), Some(Value::Object(node)) if varies(node, build))
 }
 
 /// Refuses a texture that varies in space as the value of `name`.
-pub fn refuse_varying(params: &Params<'_>, name: &str) {
-    if is_varying(params, name) {
+pub fn refuse_varying(params: &Params<'_>, name: &str, build: &dyn Build) {
+    if is_varying(params, name, build) {
         let message = format!(
             "`{name}` of `{}` must be a spectrum or colour that does not vary in space",
             params.node.plugin.value
@@ -27,27 +28,10 @@ pub fn refuse_varying(params: &Params<'_>, name: &str) {
     }
 }
 
-/// Textures that vary even if their inputs are constant.
-const VARYING: [&str; 13] = [
-    "bitmap",
-    "bricks",
-    "checkerboard",
-    "fbm",
-    "gradient",
-    "gridvolume",
-    "marble",
-    "mesh_attribute",
-    "noise",
-    "turbulence",
-    "voronoi",
-    "volume",
-    "wood",
-];
-
 /// Whether a texture, or one inside of it, varies in space.
-fn varies(node: &Node) -> bool {
-    let inside = |value: &Value| matches!(value, Value::Object(inner) if varies(inner));
+fn varies(node: &Node, build: &dyn Build) -> bool {
+    let inside = |value: &Value| matches!(value, Value::Object(inner) if varies(inner, build));
     let name = node.plugin.value.as_str();
     matches!(node.class, Class::Texture | Class::Volume)
-        && (VARYING.contains(&name) || node.properties.iter().any(|p| inside(&p.value)))
+        && (build.varies(name) || node.properties.iter().any(|p| inside(&p.value)))
 }

@@ -1,9 +1,7 @@
 //! A medium that may emit too much, whether a path flies through it or asks what a point of it emits.
 
 use etalon_sampling::Sampler;
-use etalon_transport::{
-    Coefficients, FreeFlight, MajorantSegment, Medium, Ray, Tracking, Transmission,
-};
+use etalon_transport::{Coefficients, FreeFlight, Medium, Ray, Transmission};
 use glam::{Vec3, Vec4};
 
 /// A medium whose emission is multiplied.
@@ -16,10 +14,6 @@ pub struct FaultyMedium<M> {
 impl<M: Medium> Medium for FaultyMedium<M> {
     type Phase = M::Phase;
 
-    fn majorants(&self, ray: &Ray, t_max: f32) -> impl Iterator<Item = MajorantSegment> {
-        self.medium.majorants(ray, t_max)
-    }
-
     fn coefficients(&self, at: Vec3, direction: Vec3) -> Coefficients {
         self.medium.coefficients(at, direction)
     }
@@ -30,10 +24,6 @@ impl<M: Medium> Medium for FaultyMedium<M> {
 
     fn emission(&self, at: Vec3, direction: Vec3) -> Vec4 {
         self.energy * self.medium.emission(at, direction)
-    }
-
-    fn tracking(&self) -> Tracking {
-        self.medium.tracking()
     }
 
     fn free_flight(

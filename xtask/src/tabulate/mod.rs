@@ -4,8 +4,8 @@
 mod model;
 mod plot;
 
-use etalon_tables::rgl_writer::{self, Resolution};
 use etalon_tables::spectral::{self, Grid};
+use etalon_tables::write_rgl::{Resolution, write_rgl};
 use etalon_tables::{BrdfTable, merl};
 use glam::{Vec3, Vec4};
 use model::Model;
@@ -92,7 +92,7 @@ fn table(arguments: &Arguments, model: &Model, path: &Path) -> Result<Vec<u8>, S
                 wavelengths: Grid::new(2, 2, count).wavelengths,
             };
             let value = |wo: Vec3, wi: Vec3| model.value(wo, wi, &resolution.wavelengths);
-            rgl_writer::write(&resolution, value, &text).map_err(|e| e.to_string())
+            write_rgl(&resolution, value, &text).map_err(|e| e.to_string())
         }
         Some("binary") => {
             let (wavelengths, weights) = model::rgb_weights(48);

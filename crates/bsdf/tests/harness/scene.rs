@@ -116,6 +116,10 @@ impl Build for Scene {
         }
     }
 
+    fn varies(&self, _: &str) -> bool {
+        false
+    }
+
     fn spectrum(&mut self, spectrum: Spectrum) -> TextureId {
         self.spectra.push(spectrum);
         TextureId(self.spectra.len() as u32 - 1)

@@ -4,8 +4,8 @@ use crate::scene::Sample;
 use etalon_bsdf::BsdfAtPoint;
 use etalon_math::Frame;
 use etalon_spectrum::Wavelengths;
-use etalon_tables::rgl_writer::{self, Resolution};
 use etalon_tables::spectral::{self, Grid};
+use etalon_tables::write_rgl::{Resolution, write_rgl};
 use etalon_tables::{BrdfTable, merl};
 use etalon_transport::{Bsdf, TransportMode};
 use glam::{Vec3, Vec4};
@@ -50,7 +50,7 @@ fn rgl(material: &str, phi: usize) -> Vec<u8> {
         wavelengths: wavelengths(),
     };
     let f = |wo: Vec3, wi: Vec3| spectrum(&sample, wo, wi, &resolution.wavelengths);
-    rgl_writer::write(&resolution, f, material).expect("it reflects something")
+    write_rgl(&resolution, f, material).expect("it reflects something")
 }
 
 /// A file by its name.

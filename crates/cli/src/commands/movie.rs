@@ -4,7 +4,7 @@ use super::convert::{of_colour, read};
 use super::{fail, note};
 use crate::args::MovieArgs;
 use crate::frames::{FrameRange, lacking, numbered};
-use etalon_images::animated_png::{self, AnimationFormat};
+use etalon_images::animated_png::{AnimationFormat, write_animated_png};
 use etalon_images::png;
 use etalon_render::write_guard::{Destination, WriteGuard};
 use std::io::{ErrorKind, Write};
@@ -161,7 +161,7 @@ impl Film<'_> {
             rate: self.rate,
         };
         self.output.write_with(|path| {
-            animated_png::write(path, format, |number| {
+            write_animated_png(path, format, |number| {
                 let frame = frame(number as usize).map_err(std::io::Error::other)?;
                 Ok(frame.bytes)
             })

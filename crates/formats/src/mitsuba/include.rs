@@ -9,7 +9,7 @@ use super::number::excerpt;
 use super::object::object;
 use super::reader::{File, MOST_FILES, Reader};
 use super::tags::Tag;
-use super::{SourceFile, encoding, markup, syntax, upgrade};
+use super::{SourceFile, decoded, markup, syntax, upgrade};
 use crate::SearchPath;
 use etalon_params::{Class, Diagnostic, FileId, Span};
 use roxmltree::{Document, Node, ParsingOptions};
@@ -129,7 +129,7 @@ pub(crate) fn read(
             return None;
         }
     };
-    let decoded = encoding::decode(&bytes);
+    let decoded = decoded::decode(&bytes);
     let text: Arc<str> = decoded.text.into();
     let id = reader.sources.add(name, text.clone());
     reader.files.push(SourceFile {

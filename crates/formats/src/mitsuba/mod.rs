@@ -9,8 +9,8 @@
 mod animation;
 mod attribute;
 mod colour;
+mod decoded;
 mod draft;
-mod encoding;
 mod include;
 mod integrator;
 mod markup;

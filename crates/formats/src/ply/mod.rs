@@ -9,18 +9,18 @@
 //!
 //! Attributes are grouped and named as in Mitsuba 3: see `attributes.rs`.
 
-mod attributes;
 mod columns;
 mod faces;
+mod group;
 mod header;
 mod source;
 
 use crate::mesh_error::{MeshError, Place};
 use crate::unused;
-use attributes::groups;
 use columns::{Columns, Places};
 use etalon_transport::{Attribute, MeshData};
 use glam::Vec2;
+use group::groups;
 use header::{Element, Header, Kind, Property};
 use source::Source;
 

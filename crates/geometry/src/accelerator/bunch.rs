@@ -7,7 +7,7 @@
 use super::Bounds;
 use super::binary::{Binary, BinaryTree};
 use super::block::LANES;
-use super::collapse::WIDTH;
+use super::choices::WIDTH;
 use glam::Vec3A;
 
 /// Triangles of a bunch at most.

@@ -13,7 +13,7 @@
 //! a block of eight triangles costing as much as a node; or a leaf, if that costs less.
 
 use super::block::LANES;
-use super::boxes::{BoxTree, Part};
+use super::box_tree::{BoxTree, Part};
 use super::{Bounds, Primitives};
 
 /// Bins of an axis.

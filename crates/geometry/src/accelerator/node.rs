@@ -1,7 +1,7 @@
 //! A node of the wide tree: eight boxes, tested at once.
 
 use super::Bounds;
-use super::collapse::WIDTH;
+use super::choices::WIDTH;
 use crate::traversal_ray::TraversalRay;
 use wide::f32x8;
 

@@ -4,7 +4,7 @@
 //! fit a block, or division would only repeat them.
 
 use super::block::LANES;
-use super::boxes::{BoxTree, DEEPEST, Part};
+use super::box_tree::{BoxTree, DEEPEST, Part};
 use super::{Bounds, Primitives};
 use glam::Vec3;
 

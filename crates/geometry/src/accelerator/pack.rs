@@ -3,7 +3,7 @@
 use super::binary::{Binary, BinaryTree};
 use super::block::{Block, LANES};
 use super::bunch::Bunch;
-use super::collapse::{Choices, WIDTH};
+use super::choices::{Choices, WIDTH};
 use super::node::{Link, MAX_INDEX, Node};
 use super::{Bounds, Primitives};
 use rayon::prelude::*;

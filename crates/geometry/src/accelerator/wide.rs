@@ -5,7 +5,7 @@
 
 use super::binary::BinaryTree;
 use super::block::Block;
-use super::collapse::{self, Choices, WIDTH};
+use super::choices::{self, Choices, WIDTH};
 use super::node::{Link, Target};
 use super::pack::{Packed, pack};
 use super::visits::Counter;
@@ -38,7 +38,7 @@ macro_rules! with_stack {
 
 /// A wide tree is not deeper than the binary one, except below primitives with equal boxes, of which
 /// there are fewer than 8¹¹.
-const MAX_DEPTH: usize = collapse::MAX_DEPTH as usize + 12;
+const MAX_DEPTH: usize = choices::MAX_DEPTH as usize + 12;
 
 impl Wide {
     pub(crate) fn build(primitives: &impl Primitives) -> Self {

@@ -7,8 +7,8 @@
 //! A line o + t·d meets the ruling q(u) + v s(u) where (s(u) × d)·(q(u) − o) = 0, which is quadratic in u; v and t
 //! follow from (q(u) − o) + v s(u) = t d (A. Reshetov 2019, *Cool Patches*, in *Ray Tracing Gems*).
 
-use crate::shapes::crossing::{Crossing, Line};
-use crate::shapes::placed::{OwnPoint, OwnShape, Placed};
+use crate::shapes::analytic::crossing::{Crossing, Line};
+use crate::shapes::analytic::placed::{OwnPoint, OwnShape, Placed};
 use etalon_math::polynomial::quadratic;
 use etalon_params::Params;
 use glam::{DVec2, DVec3};

@@ -11,7 +11,7 @@
 //! d·c′ = 0; there u is the zero of q·c′, and t that of |o + t·d − c|² = r². The normal is
 //! (c′² − ρ·c″) ρ − r r′ c′, with ρ = p − c.
 
-use crate::shapes::crossing::Line;
+use crate::shapes::analytic::crossing::Line;
 use crate::shapes::curves::{ControlPoint, CurvePoint, Segment};
 use core::ops::ControlFlow;
 use etalon_math::bernstein;

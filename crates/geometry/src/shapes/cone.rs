@@ -8,8 +8,8 @@
 //! It is convex, so a line is inside of it on one interval: that of the slab, cut by the double cone's.
 
 use crate::placement::Placement;
-use crate::shapes::crossing::{Crossing, Line};
-use crate::shapes::placed::{OwnPoint, OwnShape, Placed};
+use crate::shapes::analytic::crossing::{Crossing, Line};
+use crate::shapes::analytic::placed::{OwnPoint, OwnShape, Placed};
 use core::f64::consts::{PI, TAU};
 use etalon_math::Frame;
 use etalon_math::float64::{atan2, sin_cos};
@@ -43,7 +43,7 @@ impl Cone {
             params.vector("p1").unwrap_or(DVec3::Z),
         ];
         let placement = Placement::from_params(params);
-        let flip = super::model::read_flip(params);
+        let flip = crate::shapes::shape_model::read_flip(params);
         let axis = ends[1] - ends[0];
         let Some(z) = axis.try_normalize() else {
             params.error_at("p1", "the ends `p0` and `p1` of a `cone` must differ");

@@ -18,8 +18,8 @@
 use crate::local_interaction::LocalInteraction;
 use crate::placement::{Placement, perpendicular};
 use crate::shapes::Shape;
-use crate::shapes::crossing::{Crossing, Line};
-use crate::shapes::model::ShapeModel;
+use crate::shapes::analytic::crossing::{Crossing, Line};
+use crate::shapes::shape_model::ShapeModel;
 use etalon_transport::SurfacePoint;
 use glam::{DVec3, Vec2};
 

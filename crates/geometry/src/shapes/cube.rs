@@ -3,7 +3,7 @@
 
 use crate::placement::Placement;
 use crate::shapes::mesh::{Mesh, MeshOptions};
-use crate::shapes::model::{read_face_normals, read_flip};
+use crate::shapes::shape_model::{read_face_normals, read_flip};
 use etalon_params::Params;
 use etalon_transport::MeshData;
 use glam::{Vec2, Vec3};

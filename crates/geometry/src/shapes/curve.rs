@@ -22,7 +22,7 @@ mod uncovered;
 
 use crate::placement::Placement;
 use crate::shapes::mesh::{Mesh, MeshOptions};
-use crate::shapes::model::read_flip;
+use crate::shapes::shape_model::read_flip;
 use core::f64::consts::PI;
 use etalon_math::float64::cos;
 use etalon_params::Params;

@@ -3,12 +3,14 @@
 //! `to_world` maps points; radii are world lengths and not scaled. Each segment is a primitive. Curves are seen from
 //! outside only, as in Mitsuba, and cannot be lights.
 
+pub mod control_points;
+
 use crate::local_interaction::LocalInteraction;
 use crate::placement::Placement;
-pub use crate::shapes::control_points::ControlPoint;
-use crate::shapes::control_points::{self, ControlPoints, fits};
-use crate::shapes::crossing::{Crossing, Line};
-use crate::shapes::model::ShapeModel;
+use crate::shapes::analytic::crossing::{Crossing, Line};
+pub use crate::shapes::curves::control_points::ControlPoint;
+use crate::shapes::curves::control_points::{ControlPoints, fits};
+use crate::shapes::shape_model::ShapeModel;
 use etalon_params::{Diagnostic, Params};
 use etalon_transport::file;
 use etalon_transport::{Build, SurfacePoint};

@@ -8,8 +8,8 @@
 
 use crate::local_interaction::LocalInteraction;
 use crate::placement::Placement;
-use crate::shapes::crossing::{Crossing, Line};
-use crate::shapes::model::{ShapeModel, read_flip};
+use crate::shapes::analytic::crossing::{Crossing, Line};
+use crate::shapes::shape_model::{ShapeModel, read_flip};
 
 use core::f64::consts::{PI, TAU};
 use etalon_math::{DirectionCone, float64};

@@ -4,11 +4,10 @@
 //! n·(c(s) − o) = 0; there t = ((c(s) − o)·(dx, dy)) / (dx² + dy²). Changes of sign are isolated in Bernstein form. A point
 //! of an end is part of the solid by the even-odd rule, which also applies to curves that cross themselves.
 
-use crate::shapes::crossing::{Crossing, Line};
-use crate::shapes::cubic::Profile;
-use crate::shapes::measure::Lengths;
-use crate::shapes::placed::{OwnPoint, OwnShape, Placed};
-use crate::shapes::profile;
+use crate::shapes::analytic::crossing::{Crossing, Line};
+use crate::shapes::analytic::placed::{OwnPoint, OwnShape, Placed};
+use crate::shapes::profile::lengths::Lengths;
+use crate::shapes::profile::{self, Profile};
 use core::ops::ControlFlow;
 use etalon_math::bernstein;
 use etalon_params::Params;

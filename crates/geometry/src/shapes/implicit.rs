@@ -1,4 +1,4 @@
-//! `implicit` and others: the surface f(x, y, z) = 0 of a function (`shapes/field.rs`), in a box; the solid is where f is negative.
+//! `implicit` and others: the surface f(x, y, z) = 0 of a function (`shapes/analytic/field.rs`), in a box; the solid is where f is negative.
 //!
 //! Two ways to find where a line o + t·d meets it. **`certified`** (the default; D. Mitchell 1990, *Robust ray
 //! intersection with interval arithmetic*): a piece [a, b] of the line is enclosed by interval arithmetic,
@@ -17,11 +17,11 @@
 //!
 //! Both cut a line in the same way for every query, so that crossings alternate between in and out.
 
-use crate::shapes::clip_box::{CURVED, ClipBox, FACES};
-use crate::shapes::crossing::{Crossing, Line};
-use crate::shapes::field::Field;
-use crate::shapes::isolate::{OneParameter, refine, sign_changes};
-use crate::shapes::placed::{OwnPoint, OwnShape, Placed};
+use crate::shapes::analytic::clip_box::{CURVED, ClipBox, FACES};
+use crate::shapes::analytic::crossing::{Crossing, Line};
+use crate::shapes::analytic::field::Field;
+use crate::shapes::analytic::placed::{OwnPoint, OwnShape, Placed};
+use crate::shapes::analytic::sign_changes::{OneParameter, refine, sign_changes};
 use core::ops::ControlFlow;
 use etalon_math::Dual;
 use etalon_math::expression::Number;

@@ -10,7 +10,7 @@
 //! a quadratic in t for p = o + t·d; where v is below 0 or above 1, the end's ball is the surface, and where a² ≤ b²
 //! one ball holds the other.
 
-use crate::shapes::crossing::Line;
+use crate::shapes::analytic::crossing::Line;
 use crate::shapes::curves::{ControlPoint, CurvePoint, Segment};
 use etalon_math::polynomial::quadratic;
 use glam::DVec3;

@@ -12,6 +12,12 @@
 //!
 //! Texture coordinates give ∂p/∂u and ∂p/∂v; without them (u, v) = (b₁, b₂).
 
+pub(crate) mod convex;
+pub(crate) mod displaced;
+pub(crate) mod file_mesh;
+mod shape_model;
+pub(crate) mod vertex_normals;
+
 use crate::accelerator::Bounds;
 use crate::local_interaction::LocalInteraction;
 use crate::placement::Placement;
@@ -308,7 +314,7 @@ impl Mesh {
 /// Vertex normals of positions in the world; copies of a vertex get one normal together.
 pub(crate) fn computed_normals(data: &MeshData) -> Vec<Vec3> {
     if data.copies.is_empty() {
-        return super::vertex_normals(&data.positions, &data.triangles);
+        return vertex_normals::vertex_normals(&data.positions, &data.triangles);
     }
     let first = data.positions.len() - data.copies.len();
     let original = |i: u32| match (i as usize).checked_sub(first) {
@@ -318,7 +324,7 @@ pub(crate) fn computed_normals(data: &MeshData) -> Vec<Vec3> {
     let joined: Vec<[u32; 3]> = (data.triangles.iter())
         .map(|triangle| triangle.map(original))
         .collect();
-    let mut normals = super::vertex_normals(&data.positions, &joined);
+    let mut normals = vertex_normals::vertex_normals(&data.positions, &joined);
     for (copy, &vertex) in data.copies.iter().enumerate() {
         normals[first + copy] = normals[vertex as usize];
     }

@@ -5,8 +5,8 @@
 
 use crate::placement::Placement;
 use crate::shapes::mesh::{Mesh, MeshOptions};
-use crate::shapes::model::read_flip;
 use crate::shapes::profile::numbers;
+use crate::shapes::shape_model::read_flip;
 use etalon_images::raster;
 use etalon_math::bernstein;
 use etalon_params::Params;

@@ -3,8 +3,8 @@
 //! A line o + t·d meets it at t = −oz/dz. So that a half-space is left as often as it is entered, a line that goes down
 //! leaves it at t = ∞.
 
-use crate::shapes::crossing::{Crossing, Line};
-use crate::shapes::placed::{OwnPoint, OwnShape, Placed};
+use crate::shapes::analytic::crossing::{Crossing, Line};
+use crate::shapes::analytic::placed::{OwnPoint, OwnShape, Placed};
 use etalon_params::Params;
 use glam::DVec3;
 

@@ -5,18 +5,122 @@
 //! the missing neighbour is the end. A curve (x(t), y(t)) of expressions is cut until the cubic with its ends and
 //! its derivatives there is within [`CLOSE`] of it.
 
-use crate::shapes::cubic::{Cubic, Profile, Vector};
+pub(crate) mod cubic;
+pub(crate) mod lengths;
+
+use cubic::{Cubic, Vector};
 use etalon_math::Dual;
 use etalon_params::Params;
 use glam::DVec2;
 
-/// Tolerance of the pieces to a curve of expressions, relative to its size.
+/// How far the pieces are from a curve of expressions, in parts of its size.
 const CLOSE: f64 = 1e-7;
 
 /// The most pieces of a curve of expressions: halvings of each of the first eight.
 const DEEPEST: u32 = 10;
 
-/// Reads `curve` (`linear`, `bezier`, `catmullrom` or `parametric`) and its points or formulas.
+/// Pieces, one after another.
+#[derive(Clone, Debug)]
+pub(crate) struct Profile {
+    pieces: Vec<Cubic>,
+    /// Boxes of the binary tree over the pieces: a node, then the nodes of its first half, then those of its second.
+    boxes: Vec<[DVec2; 2]>,
+}
+
+impl Profile {
+    /// A sequence of one piece or more.
+    pub(crate) fn new(pieces: Vec<Cubic>) -> Self {
+        let mut boxes = Vec::with_capacity(2 * pieces.len());
+        add_boxes(&pieces, &mut boxes);
+        Self { pieces, boxes }
+    }
+
+    /// The pieces.
+    pub(crate) fn pieces(&self) -> &[Cubic] {
+        &self.pieces
+    }
+
+    /// Where it begins and ends.
+    pub(crate) fn ends(&self) -> [DVec2; 2] {
+        [self.pieces[0].0[0], self.pieces[self.pieces.len() - 1].0[3]]
+    }
+
+    /// Whether it ends where it begins.
+    pub(crate) fn is_closed(&self) -> bool {
+        let [first, last] = self.ends();
+        first == last
+    }
+
+    /// A box that holds it.
+    pub(crate) fn bounds(&self) -> [DVec2; 2] {
+        self.boxes[0]
+    }
+
+    /// How far along the whole is the place `s` of a piece, from 0 to 1.
+    pub(crate) fn part(&self, index: usize, s: f64) -> f64 {
+        (index as f64 + s) / self.pieces.len() as f64
+    }
+
+    /// A place on it as a crossing keeps it: the piece's number from 1, negative if the normal is to be turned, and s.
+    pub(crate) fn kept((index, s): (usize, f64), turned: bool) -> DVec2 {
+        let number = index as f64 + 1.0;
+        DVec2::new(if turned { -number } else { number }, s)
+    }
+
+    /// The same again: piece, s, and −1 if the normal is to be turned.
+    pub(crate) fn place(&self, kept: DVec2) -> (usize, f64, f64) {
+        let number = kept.x.abs().clamp(1.0, self.pieces.len() as f64);
+        (number as usize - 1, kept.y, 1.0_f64.copysign(kept.x))
+    }
+
+    /// Points along it, `count` for each piece, and the last.
+    pub(crate) fn points(&self, count: u32) -> impl Iterator<Item = DVec2> + '_ {
+        let inner = move |piece: &'_ Cubic| {
+            let piece = *piece;
+            (0..count).map(move |k| piece.at(f64::from(k) / f64::from(count)))
+        };
+        self.pieces.iter().flat_map(inner).chain([self.ends()[1]])
+    }
+
+    /// Calls `visit` with the number of each piece in whose box, and in all above it, `meets` finds something.
+    #[inline]
+    pub(crate) fn search(&self, meets: impl Fn([DVec2; 2]) -> bool, mut visit: impl FnMut(usize)) {
+        // Halves still to be looked at: node, first piece, one past the last.
+        let mut waiting = [(0, 0, self.pieces.len()); 32];
+        let mut count = 1;
+        while count > 0 {
+            count -= 1;
+            let (node, first, end) = waiting[count];
+            if !meets(self.boxes[node]) {
+                continue;
+            }
+            if end - first == 1 {
+                visit(first);
+                continue;
+            }
+            let middle = first.midpoint(end);
+            waiting[count] = (node + 2 * (middle - first), middle, end);
+            waiting[count + 1] = (node + 1, first, middle);
+            count += 2;
+        }
+    }
+}
+
+fn add_boxes(pieces: &[Cubic], boxes: &mut Vec<[DVec2; 2]>) -> [DVec2; 2] {
+    let own = boxes.len();
+    boxes.push([DVec2::ZERO; 2]);
+    let bounds = if let [piece] = pieces {
+        piece.bounds()
+    } else {
+        let (first, second) = pieces.split_at(pieces.len() / 2);
+        let ([a, b], [c, d]) = (add_boxes(first, boxes), add_boxes(second, boxes));
+        [a.min(c), b.max(d)]
+    };
+    boxes[own] = bounds;
+    bounds
+}
+
+/// Reads `curve` (`linear`, `bezier`, `catmullrom` or `parametric`) and what it is made of.
 pub(crate) fn from_params(params: &Params<'_>) -> Option<Profile> {
     let curves = ["linear", "bezier", "catmullrom", "parametric"];
     match params.choice("curve", "linear", &curves) {

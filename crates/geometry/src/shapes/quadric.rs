@@ -8,9 +8,9 @@
 //! negative, cut by the box: the solid has the box's faces where it is cut. `ellipsoid` is the one with
 //! x² + y² + z² = 1, in its smallest box.
 
-use crate::shapes::clip_box::{CURVED, ClipBox, FACES};
-use crate::shapes::crossing::{Crossing, Line};
-use crate::shapes::placed::{OwnPoint, OwnShape, Placed};
+use crate::shapes::analytic::clip_box::{CURVED, ClipBox, FACES};
+use crate::shapes::analytic::crossing::{Crossing, Line};
+use crate::shapes::analytic::placed::{OwnPoint, OwnShape, Placed};
 use core::f64::consts::{PI, TAU};
 use etalon_math::float64::sin_cos;
 use etalon_math::polynomial::quadratic;

@@ -12,7 +12,7 @@
 use crate::local_interaction::LocalInteraction;
 use crate::placement::{Placement, perpendicular};
 use crate::shapes::mesh::{Mesh, MeshOptions};
-use crate::shapes::model::{ShapeModel, read_face_normals, read_flip};
+use crate::shapes::shape_model::{ShapeModel, read_face_normals, read_flip};
 use etalon_math::{DirectionCone, Frame, gamma};
 use etalon_params::Params;
 use etalon_sampling::warps::{RectangleSides, RectangleView, SphericalRectangle};
@@ -148,7 +148,13 @@ impl Rectangle {
     /// The density (sr⁻¹) of a point chosen with the density `density` on the unit square.
     #[inline]
     fn per_solid_angle(&self, density: f32, from: Vec3, position: Vec3) -> f32 {
-        density * super::model::area_density_toward(self.area, from, position, self.normal)
+        density
+            * crate::shapes::shape_model::area_density_toward(
+                self.area,
+                from,
+                position,
+                self.normal,
+            )
     }
 }
 

@@ -14,15 +14,15 @@
 //!
 //! whose changes of sign are isolated in Bernstein form. Its zeros come in pairs that fall together where a line lies
 //! across the axis, dz = 0. There t = (−B ± √(B² − A (C − r²)))/A is put into the first equation, once for each sign,
-//! and zeros are isolated by intervals (`shapes/isolate.rs`). A profile that is closed, or begins and ends on the
+//! and zeros are isolated by intervals (`shapes/analytic/sign_changes.rs`). A profile that is closed, or begins and ends on the
 //! axis, bounds a solid.
 
-use crate::shapes::crossing::{Crossing, Line};
-use crate::shapes::cubic::{Cubic, Profile};
-use crate::shapes::isolate::{OneParameter, sign_changes};
-use crate::shapes::measure::Lengths;
-use crate::shapes::placed::{OwnPoint, OwnShape, Placed};
-use crate::shapes::profile;
+use crate::shapes::analytic::crossing::{Crossing, Line};
+use crate::shapes::analytic::placed::{OwnPoint, OwnShape, Placed};
+use crate::shapes::analytic::sign_changes::{OneParameter, sign_changes};
+use crate::shapes::profile::cubic::Cubic;
+use crate::shapes::profile::lengths::Lengths;
+use crate::shapes::profile::{self, Profile};
 use core::f64::consts::TAU;
 use core::ops::ControlFlow;
 use etalon_math::bernstein;

@@ -13,8 +13,8 @@
 //! around the nearest grid point (H. Hansson-Söderlund, A. Evans, T. Akenine-Möller 2022, *Ray tracing of signed
 //! distance function grids*), for shading only.
 
-use crate::shapes::crossing::{Crossing, Line};
-use crate::shapes::placed::{OwnPoint, OwnShape, Placed};
+use crate::shapes::analytic::crossing::{Crossing, Line};
+use crate::shapes::analytic::placed::{OwnPoint, OwnShape, Placed};
 use core::ops::ControlFlow;
 use etalon_images::Volume;
 use etalon_math::bernstein;

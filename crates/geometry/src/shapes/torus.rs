@@ -13,8 +13,8 @@
 //! |2πv| ≤ ω = arccos(−R/r) around the tube (ω = π of a ring), on which v is spread evenly over all of [0, 1], and the area
 //! 4π r (R ω + r sin ω), which of a ring is 4π² R r.
 
-use crate::shapes::crossing::{Crossing, Line};
-use crate::shapes::placed::{OwnPoint, OwnShape, Placed};
+use crate::shapes::analytic::crossing::{Crossing, Line};
+use crate::shapes::analytic::placed::{OwnPoint, OwnShape, Placed};
 use core::f64::consts::{PI, TAU};
 use etalon_math::float64::{acos, atan2, sin, sin_cos};
 use etalon_math::polynomial::quartic_roots;

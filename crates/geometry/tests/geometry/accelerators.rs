@@ -325,7 +325,6 @@ fn nothing_is_hit_where_nothing_is() {
     let pair = every_of(Vec::new);
     assert!(!agree(&pair, &Ray::new(Vec3::ZERO, Vec3::X, 0.0)));
     assert!(pair[1].bounds().is_empty());
-    assert_eq!(pair[1].bounding_sphere(), (Vec3::ZERO, 0.0));
     let pair = every_of(|| vec![mesh_of(Vec::new(), Vec::new())]);
     assert!(!agree(&pair, &Ray::new(Vec3::ZERO, Vec3::X, 0.0)));
 }

@@ -131,6 +131,10 @@ impl Build for Scene {
     fn nested_texture(&mut self, _: &Arc<Node>, _: SpectrumKind) -> TextureId {
         TextureId::NONE
     }
+    fn varies(&self, _: &str) -> bool {
+        false
+    }
+
     fn spectrum(&mut self, _: etalon_spectrum::Spectrum) -> TextureId {
         TextureId::NONE
     }

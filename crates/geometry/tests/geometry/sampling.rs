@@ -84,7 +84,8 @@ struct Region {
 
 impl Region {
     fn of(geometry: &Geometry, from: Vec3) -> Self {
-        let (center, radius) = geometry.bounding_sphere();
+        let center = geometry.bounds().center();
+        let radius = 1.001 * (geometry.bounds().max - center).length();
         let to = center - from;
         let distance = to.length();
         // Off centre, lest a round outline run along the rows of cells; and wider by as much.

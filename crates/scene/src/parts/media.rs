@@ -1,7 +1,7 @@
 //! The media of a scene.
 
 use super::Parts;
-use crate::lookup::SceneTables;
+use crate::scene_tables::SceneTables;
 use crate::space::Space;
 use etalon_spectrum::Wavelengths;
 use etalon_subsurface::MediumAtWavelengths;

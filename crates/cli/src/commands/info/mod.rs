@@ -38,7 +38,7 @@ pub fn run(args: &InfoArgs) -> ExitCode {
 
 /// What a file other than a picture holds; `None` if it is none that scenes name, or cannot be read.
 fn contents(path: &Path) -> Option<Result<String, String>> {
-    etalon_scene::contents::describe(&std::fs::read(path).ok()?)
+    etalon_scene::describe(&std::fs::read(path).ok()?)
 }
 
 /// What a picture of any other format says of itself.

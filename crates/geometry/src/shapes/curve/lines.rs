@@ -1,8 +1,8 @@
 //! The line of a `curve`: through points, by formulas of t, or where a formula of x and y vanishes.
 
-use crate::shapes::cubic::Cubic;
 use crate::shapes::curve::joints::{Joint, Strand, refine, turned};
 use crate::shapes::curve::{Fineness, contour};
+use crate::shapes::profile::cubic::Cubic;
 use crate::shapes::profile::{numbers, pieces_of, points};
 use etalon_math::{Dual, Expression};
 use etalon_params::Params;

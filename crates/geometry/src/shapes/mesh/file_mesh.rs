@@ -1,0 +1,98 @@
+//! Meshes from files: the plugins `obj`, `ply` and `serialized`.
+
+use crate::placement::Placement;
+use crate::shapes::mesh::{Mesh, MeshOptions};
+use crate::shapes::shape_model::read_flip;
+use etalon_params::{Diagnostic, Params};
+use etalon_transport::file::{report, span_of_filename};
+use etalon_transport::{Build, MeshData, MeshFormat};
+
+/// Reads an `obj`; v is flipped unless the scene says otherwise, as in Mitsuba.
+pub(crate) fn obj(params: &Params<'_>, build: &mut dyn Build) -> Option<Mesh> {
+    read(params, build, Some(MeshFormat::Obj), Some(true))
+}
+
+/// Reads a `ply`.
+pub(crate) fn ply(params: &Params<'_>, build: &mut dyn Build) -> Option<Mesh> {
+    read(params, build, Some(MeshFormat::Ply), Some(false))
+}
+
+/// Reads a `serialized`; as in Mitsuba, its texture coordinates stand as they are.
+pub(crate) fn serialized(params: &Params<'_>, build: &mut dyn Build) -> Option<Mesh> {
+    let index = params.integer_or("shape_index", 0);
+    let shape_index = u32::try_from(index).ok();
+    if shape_index.is_none() {
+        params.refuse("shape_index", index, "an integer from 0 to 4294967295");
+    }
+    let format = shape_index.map(|shape_index| MeshFormat::Serialized { shape_index });
+    read(params, build, format, None)
+}
+
+/// Reads a mesh; without a format, only looks at the parameters.
+fn read(
+    params: &Params<'_>,
+    build: &mut dyn Build,
+    format: Option<MeshFormat>,
+    flip_tex_coords: Option<bool>,
+) -> Option<Mesh> {
+    let placement = Placement::from_params(params);
+    let face_normals = params.boolean_or("face_normals", false);
+    let flip_normals = read_flip(params);
+    let flip_tex_coords =
+        flip_tex_coords.is_some_and(|default| params.boolean_or("flip_tex_coords", default));
+    let Some(filename) = params.string("filename") else {
+        if !params.has("filename") {
+            params.missing("filename", "the mesh file");
+        }
+        return None;
+    };
+    let span = span_of_filename(params);
+    let data = match build.assets().mesh(format?, filename) {
+        Ok(data) => data,
+        Err(error) => {
+            report(params, error);
+            return None;
+        }
+    };
+    for note in notes(&data, face_normals || data.face_normals) {
+        let message = format!("`{filename}`: {note}");
+        params.diagnostics.push(Diagnostic::note(span, message));
+    }
+    let options = MeshOptions {
+        placement: placement?,
+        face_normals: face_normals || data.face_normals,
+        flip_normals,
+        flip_tex_coords,
+    };
+    match Mesh::new(data, &options) {
+        Ok(mesh) => Some(mesh),
+        Err(message) => {
+            let message = format!("`{filename}` cannot be used: {message}");
+            params.diagnostics.push(Diagnostic::error(span, message));
+            None
+        }
+    }
+}
+
+/// Notes on a file that can be used.
+fn notes(data: &MeshData, face_normals: bool) -> Vec<String> {
+    let mut notes = data.notes.clone();
+    if data.triangles.is_empty() {
+        notes.push("the mesh has no triangles: nothing will be seen of it".into());
+    }
+    let count = data.normals.iter().filter(|n| !n.is_finite()).count();
+    if count > 0 && !face_normals {
+        notes.push(format!(
+            "{count} of the {} normals are not finite; they are computed from the triangles instead",
+            data.normals.len()
+        ));
+    }
+    let count = data.uvs.iter().filter(|uv| !uv.is_finite()).count();
+    if count > 0 {
+        notes.push(format!(
+            "{count} of the {} texture coordinates are not finite; they count as 0, 0",
+            data.uvs.len()
+        ));
+    }
+    notes
+}
