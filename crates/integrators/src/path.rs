@@ -187,8 +187,7 @@ pub(crate) fn follow_jobs<W: World, S: Sampler, K: TileSink, C: PathHooks + Copy
         let mut places = ArrayVec::<_, BATCH_SIZE>::new();
         for job in jobs.by_ref().take(BATCH_SIZE) {
             places.push((job.site.pixel, job.placement()));
-            let (path, ray) = PathState::start(world, &job.site, job.sampler, hooks);
-            batch.push(path, config.first_segment(ray));
+            batch.push((world, config), &job.site, job.sampler, hooks);
         }
         follow(world, config, &mut batch);
         for (path, (pixel, placement)) in batch.paths.iter().zip(places) {

@@ -3,11 +3,12 @@
 
 use crate::path::hooks::PathHooks;
 use crate::path::state::{PathState, ShadowRay, Step};
+use crate::steps::camera_ray::camera_ray;
 use crate::steps::light_connection::UnoccludedPath;
 use crate::steps::settings::PathConfig;
 use arrayvec::ArrayVec;
 use etalon_sampling::Sampler;
-use etalon_transport::{Hit, Ray, ShadowQuery, Surfaces, Transmission, World};
+use etalon_transport::{Hit, PixelSample, Ray, ShadowQuery, Surfaces, Transmission, World};
 
 /// Up to `N` paths. Those that go on are kept together, so that no stage looks at the others.
 pub(crate) struct PathBatch<S, C, const N: usize> {
@@ -40,14 +41,22 @@ impl<S: Sampler, C: PathHooks, const N: usize> PathBatch<S, C, N> {
         }
     }
 
-    /// Adds a path that begins with `ray`, if it is to have a segment at all.
+    /// Adds the path of a sample.
     #[inline]
-    pub(crate) fn push(&mut self, path: PathState<S, C>, ray: Option<Ray>) {
-        if let Some(ray) = ray {
+    pub(crate) fn push<W: World>(
+        &mut self,
+        (world, config): (&W, &PathConfig),
+        site: &PixelSample,
+        mut sampler: S,
+        hooks: C,
+    ) {
+        let (wavelengths, ray, weight) = camera_ray(world, site, &mut sampler);
+        if config.limits.max_depth > 0 {
             self.active.push(self.paths.len());
             self.rays.push(ray);
         }
-        self.paths.push(path);
+        self.paths
+            .push(PathState::new(sampler, wavelengths, weight, hooks));
     }
 
     /// Whether any path goes on.

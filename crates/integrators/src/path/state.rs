@@ -112,16 +112,10 @@ impl<'a, B: Bsdf> ScatteringPoint<'a, B> {
 }
 
 impl<S: Sampler, C: PathHooks> PathState<S, C> {
-    /// The path of a sample, and the camera's ray that it begins with.
-    #[inline]
-    pub(crate) fn start<W: World>(
-        world: &W,
-        site: &PixelSample,
-        mut sampler: S,
-        hooks: C,
-    ) -> (Self, Ray) {
-        let (wavelengths, ray, weight) = camera_ray(world, site, &mut sampler);
-        let path = Self {
+    /// A path at the camera; what it finds is multiplied by `weight`.
+    #[inline(always)]
+    pub(crate) fn new(sampler: S, wavelengths: Wavelengths, weight: f32, hooks: C) -> Self {
+        Self {
             sampler,
             wavelengths,
             weight,
@@ -137,8 +131,19 @@ impl<S: Sampler, C: PathHooks> PathState<S, C> {
             radiance: Vec4::ZERO,
             alpha: 0.0,
             hooks,
-        };
-        (path, ray)
+        }
+    }
+
+    /// The path of a sample, and the camera's ray that it begins with.
+    #[inline]
+    pub(crate) fn start<W: World>(
+        world: &W,
+        site: &PixelSample,
+        mut sampler: S,
+        hooks: C,
+    ) -> (Self, Ray) {
+        let (wavelengths, ray, weight) = camera_ray(world, site, &mut sampler);
+        (Self::new(sampler, wavelengths, weight, hooks), ray)
     }
 
     /// The hooks, when the path has ended.
