@@ -1,6 +1,6 @@
 //! What each look at a comparison saw.
 
-use crate::run::Compared;
+use crate::run::{Compared, WorstNumber};
 use etalon_statistics::Verdict;
 use serde::Serialize;
 
@@ -35,16 +35,9 @@ fn as_text<S: serde::Serializer>(verdict: &Verdict, serializer: S) -> Result<S::
 impl Look {
     /// What was seen; `None` if there was nothing to see.
     pub fn of(compared: &Compared, level: f64, seconds: f64) -> Option<Self> {
-        let (of, value, interval) = match compared.judgement() {
-            Some(judgement) => {
-                let widest = judgement.widest()?;
-                (&widest.channel, widest.bias, widest.interval)
-            }
-            None => {
-                let measures = compared.measures().iter();
-                let worst = measures.min_by(|a, b| a.p.total_cmp(&b.p))?;
-                (&worst.name, worst.value, worst.interval)
-            }
+        let (of, value, interval) = match compared.worst()? {
+            WorstNumber::Channel(image) => (&image.channel, image.bias, image.interval),
+            WorstNumber::Measure(measure) => (&measure.name, measure.value, measure.interval),
         };
         Some(Self {
             spp: compared.spp,

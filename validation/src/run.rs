@@ -15,7 +15,7 @@ use etalon_render::decide::judged::{self, Against, Asked};
 use etalon_render::decide::looks::Multiple;
 use etalon_render::decide::measure::Measure;
 use etalon_render::decide::pixelwise::Limits;
-use etalon_render::judge::{ExactImage, ImageComparison};
+use etalon_render::judge::{ExactImage, ImageComparison, ImageRow};
 use etalon_statistics::Verdict;
 
 pub use crate::read::{named, unknown};
@@ -37,6 +37,14 @@ pub enum Evidence {
     },
     /// Numbers with intervals.
     Measures(Vec<Measure>),
+}
+
+/// The number that speaks for a comparison: it reaches farthest towards what is not accepted.
+pub enum WorstNumber<'a> {
+    /// The mean of this channel of the image.
+    Channel(&'a ImageRow),
+    /// The measure with the smallest p-value.
+    Measure(&'a Measure),
 }
 
 /// A comparison that was made.
@@ -68,6 +76,18 @@ impl Compared {
         match &self.evidence {
             Evidence::Pictures { judgement, .. } => Some(judgement),
             Evidence::Measures(_) => None,
+        }
+    }
+
+    /// The number that speaks for it; `None` if there is none at all.
+    pub fn worst(&self) -> Option<WorstNumber<'_>> {
+        match self.judgement() {
+            Some(judgement) => judgement.widest().map(WorstNumber::Channel),
+            None => {
+                let measures = self.measures().iter();
+                let worst = measures.min_by(|a, b| a.p.total_cmp(&b.p));
+                worst.map(WorstNumber::Measure)
+            }
         }
     }
 

@@ -2,8 +2,7 @@
 
 use crate::claim::{Claim, Oracle, SkippedIntegrator};
 use crate::outcome::{FALSE_POSITIVE_LEVEL, Outcome, Row, counts};
-use crate::run::{Compared, Evidence};
-use etalon_render::judge::ImageComparison;
+use crate::run::{Compared, Evidence, WorstNumber};
 
 /// The headings of the table.
 pub fn head() -> String {
@@ -64,21 +63,20 @@ pub(crate) fn percent(bound: f64) -> String {
 
 /// The interval that reaches farthest, and the smallest bias that could have been found.
 fn shown(compared: &Compared) -> (String, String) {
-    if let Some(channel) = compared.judgement().and_then(ImageComparison::widest) {
-        return (
-            format!(
-                "{} [{:+.4}, {:+.4}]",
-                channel.channel,
-                100.0 * channel.interval[0],
-                100.0 * channel.interval[1]
-            ),
-            format!("{:.4}", 100.0 * channel.smallest_detectable),
-        );
+    match compared.worst() {
+        Some(WorstNumber::Channel(image)) => {
+            let [low, high] = image.interval.map(|end| 100.0 * end);
+            (
+                format!("{} [{low:+.4}, {high:+.4}]", image.channel),
+                format!("{:.4}", 100.0 * image.smallest_detectable),
+            )
+        }
+        Some(WorstNumber::Measure(measure)) => {
+            let [low, high] = measure.interval;
+            (format!("  [{low:.4}, {high:.4}]"), String::new())
+        }
+        None => Default::default(),
     }
-    let measures = compared.measures();
-    let worst = measures.iter().min_by(|a, b| a.p.total_cmp(&b.p));
-    let text = worst.map(|m| format!("  [{:.4}, {:.4}]", m.interval[0], m.interval[1]));
-    (text.unwrap_or_default(), String::new())
 }
 
 /// Which tiles are off, where anything is.

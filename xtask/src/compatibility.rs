@@ -4,7 +4,7 @@
 //! `docs/mitsuba.txt` and `docs/mitsuba-0.6.txt` list them; every one is put into the smallest scene that can hold it.
 //! `cargo xtask plugins` writes the pages, and tests keep them true.
 
-use crate::plugins::{CLASSES, load_as, turn};
+use crate::load::{CLASSES, load_as, turn};
 use etalon_formats::mitsuba::underscored;
 use etalon_params::{Class, ignored};
 use etalon_validation::folders;

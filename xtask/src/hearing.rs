@@ -3,7 +3,7 @@
 //! Words, truth values and parameters that need not be there decide what else is asked. So an element is read again with
 //! each word of each choice, with both truth values, and with every parameter of which only the presence was asked.
 
-use crate::plugins::load;
+use crate::load::load;
 use etalon_params::Class;
 use etalon_params::questions::{self, Question, Questions};
 use std::collections::{BTreeMap, BTreeSet};

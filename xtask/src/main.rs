@@ -10,6 +10,7 @@ mod efficiency;
 mod farm_test;
 mod gallery;
 mod hearing;
+mod load;
 mod mutants;
 mod plugins;
 mod references;
@@ -18,6 +19,7 @@ mod speed;
 mod tables;
 mod tabulate;
 mod validate;
+mod words;
 
 use clap::{Parser, Subcommand};
 use std::process::ExitCode;

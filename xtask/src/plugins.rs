@@ -7,137 +7,14 @@
 use crate::compatibility::{self, MITSUBA_3, MITSUBA_06};
 use crate::gallery::stages::Stages;
 use crate::hearing::{Heard, Hearing};
-use etalon_params::{Class, Severity, ignored};
-use etalon_render::pipeline::{self, LoadOptions};
+use crate::load::{CLASSES, load, turn};
+use crate::words::{Plugin, Words};
+use etalon_params::{Class, ignored};
 use etalon_validation::folders;
-use serde::Deserialize;
 use std::collections::{BTreeMap, BTreeSet};
 use std::fmt::Write as _;
 use std::fs;
 use std::path::PathBuf;
-use std::sync::{Mutex, MutexGuard};
-
-/// `docs/plugins.toml`.
-#[derive(Deserialize)]
-#[serde(deny_unknown_fields)]
-pub(crate) struct Words {
-    /// What parameters of a name are, whatever the plugin.
-    parameters: BTreeMap<String, String>,
-    /// All plugins, in the order of the page.
-    pub(crate) plugin: Vec<Plugin>,
-}
-
-impl Words {
-    /// Reads the file.
-    pub(crate) fn read() -> Result<Self, String> {
-        let path = folders::root().join("docs/plugins.toml");
-        let words = fs::read_to_string(&path).map_err(|e| format!("{}: {e}", path.display()))?;
-        toml::from_str(&words).map_err(|e| format!("{}: {e}", path.display()))
-    }
-}
-
-#[derive(Deserialize)]
-#[serde(deny_unknown_fields)]
-pub(crate) struct Plugin {
-    pub(crate) class: String,
-    /// The name; several plugins with the same parameters share their words.
-    pub(crate) names: Vec<String>,
-    /// What it is.
-    is: String,
-    /// An element of a scene, which must load; `NAME` stands for the plugin's name.
-    pub(crate) example: String,
-    /// What the gallery shows, if not the example.
-    pub(crate) picture: Option<String>,
-    /// The class on whose stage it is shown, if not its own.
-    pub(crate) pictured_as: Option<String>,
-    /// How much brighter its picture is shown (stops).
-    pub(crate) exposure: Option<f32>,
-    /// Why there is no picture of it.
-    pub(crate) unpictured: Option<String>,
-    /// The scene around the example, where that of its class does not do.
-    scene: Option<String>,
-    /// Whether the example loads: not if it names a file that is not here.
-    #[serde(default = "yes")]
-    loads: bool,
-    /// Further elements, for parameters that are asked for in some circumstances only. They need not load.
-    #[serde(default)]
-    probes: Vec<String>,
-    /// Words for parameters, where those for all plugins do not fit.
-    #[serde(default)]
-    parameters: BTreeMap<String, String>,
-    /// What holds without a parameter, where that depends on others.
-    #[serde(default)]
-    defaults: BTreeMap<String, String>,
-}
-
-fn yes() -> bool {
-    true
-}
-
-/// The classes that have plugins, in the order of the page, with their titles and the scene around an element.
-pub(crate) const CLASSES: [(Class, &str, &str); 13] = [
-    (
-        Class::Integrator,
-        "Integrators",
-        "ELEMENT<sensor type='perspective'/>",
-    ),
-    (Class::Sensor, "Sensors", "ELEMENT"),
-    (
-        Class::Film,
-        "Films",
-        "<sensor type='perspective'>ELEMENT</sensor>",
-    ),
-    (
-        Class::ReconstructionFilter,
-        "Reconstruction filters",
-        "<sensor type='perspective'><film type='hdrfilm'>ELEMENT</film></sensor>",
-    ),
-    (
-        Class::Sampler,
-        "Samplers",
-        "<sensor type='perspective'>ELEMENT</sensor>",
-    ),
-    (
-        Class::Shape,
-        "Shapes",
-        "<sensor type='perspective'/>ELEMENT",
-    ),
-    (
-        Class::Bsdf,
-        "BSDFs",
-        "<sensor type='perspective'/><shape type='sphere'>ELEMENT</shape>",
-    ),
-    (
-        Class::Subsurface,
-        "Below surfaces",
-        "<sensor type='perspective'/><integrator type='volpath'/><shape type='sphere'>ELEMENT</shape>",
-    ),
-    (
-        Class::Emitter,
-        "Emitters",
-        "<sensor type='perspective'/><shape type='sphere'><transform name='to_world'><translate z='5'/></transform></shape>ELEMENT",
-    ),
-    (
-        Class::Texture,
-        "Textures and spectra",
-        "<sensor type='perspective'/><shape type='obj'><string name='filename' value='files/ball.obj'/><bsdf type='diffuse'>ELEMENT</bsdf></shape>",
-    ),
-    (
-        Class::Medium,
-        "Media",
-        "<sensor type='perspective'/><integrator type='volpath'/><shape type='sphere'><bsdf type='null'/>ELEMENT</shape>",
-    ),
-    (
-        Class::Phase,
-        "Phase functions",
-        "<sensor type='perspective'/><integrator type='volpath'/><shape type='sphere'><bsdf type='null'/><medium type='heterogeneous' name='interior'>ELEMENT</medium></shape>",
-    ),
-    (
-        Class::Volume,
-        "Volumes",
-        "<sensor type='perspective'/><integrator type='volpath'/><shape type='sphere'><bsdf type='null'/><medium type='heterogeneous' name='interior'>ELEMENT</medium></shape>",
-    ),
-];
 
 /// The page's place.
 pub(crate) fn page() -> PathBuf {
@@ -159,54 +36,6 @@ pub(crate) fn run() -> Result<(), String> {
     fs::write(&path, ignored::markdown()).map_err(|e| format!("{}: {e}", path.display()))?;
     println!("{}", path.display());
     Ok(())
-}
-
-/// What is asked is noted for the whole program, and scenes are loaded from one file: one page at a time.
-static TURN: Mutex<()> = Mutex::new(());
-
-/// Waits for the turn to make a page.
-pub(crate) fn turn() -> MutexGuard<'static, ()> {
-    TURN.lock().unwrap_or_else(|e| e.into_inner())
-}
-
-/// Loads a scene with an element in its place, and gives back what was wrong.
-pub(crate) fn load(surroundings: &str, element: &str) -> Vec<String> {
-    load_as("3.0.0", surroundings, element)
-}
-
-/// The same with a scene of this version.
-pub(crate) fn load_as(version: &str, surroundings: &str, element: &str) -> Vec<String> {
-    // Lights of shapes stand in one; a beam is seen by integrators that follow it.
-    let is = |name: &str| element.contains(&format!("type=\"{name}\""));
-    let surroundings = match surroundings {
-        _ if is("directionalarea") => {
-            "<integrator type='ptracer'/><sensor type='perspective'/><shape type='sphere'>ELEMENT</shape>"
-        }
-        _ if is("area") => "<sensor type='perspective'/><shape type='sphere'>ELEMENT</shape>",
-        surroundings => surroundings,
-    };
-    let scene = format!(
-        "<scene version=\"{version}\">{}</scene>",
-        surroundings.replace("ELEMENT", element)
-    );
-    let folder = std::env::temp_dir();
-    let path = folder.join(format!("etalon-plugins-{}.xml", std::process::id()));
-    if let Err(error) = fs::write(&path, scene) {
-        return vec![error.to_string()];
-    }
-    let options = LoadOptions {
-        data: vec![folders::scenes()],
-        ..LoadOptions::default()
-    };
-    let loaded = pipeline::load(&path, &options);
-    let _ = fs::remove_file(&path);
-    match loaded {
-        Ok(_) => Vec::new(),
-        Err(refusal) => (refusal.diagnostics.into_iter())
-            .filter(|d| d.severity == Severity::Error)
-            .map(|d| d.message + &d.help.map_or(String::new(), |help| format!(" ({help})")))
-            .collect(),
-    }
 }
 
 /// The plugins of a class, which the message about an unknown one lists.

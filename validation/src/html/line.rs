@@ -1,9 +1,8 @@
 //! One line of the table of decisions.
 
 use crate::outcome::{Outcome, Row};
+use crate::run::{Compared, WorstNumber};
 use crate::table;
-use etalon_render::decide::measure::Measure;
-use etalon_render::judge::{ImageComparison, ImageRow};
 use etalon_render::report::{self, interval, probability};
 use maud::{Markup, html};
 
@@ -27,35 +26,13 @@ fn rank(outcome: Outcome) -> (u8, &'static str) {
     }
 }
 
-/// The number that speaks for a row: it reaches farthest towards what is not accepted.
-enum Speaks<'a> {
-    /// Of this channel, with the bound, and how many tiles of all channels are shown to be off.
-    Bias(&'a ImageRow, f64, usize),
-    Measure(&'a Measure),
-    Nothing,
-}
-
-fn speaks<'a>(row: &'a Row<'_>) -> Speaks<'a> {
-    let Ok(compared) = &row.compared else {
-        return Speaks::Nothing;
-    };
-    if let Some(judgement) = compared.judgement() {
-        let bound = judgement.rules.image_bound;
-        let widest = ImageComparison::widest(judgement);
-        let off = judgement.tiles.iter().map(|tiles| tiles.differing).sum();
-        return widest.map_or(Speaks::Nothing, |image| Speaks::Bias(image, bound, off));
-    }
-    let measures = compared.measures().iter();
-    let worst = measures.min_by(|a, b| a.p.total_cmp(&b.p));
-    worst.map_or(Speaks::Nothing, Speaks::Measure)
-}
-
 /// The line.
 pub(super) fn line(index: usize, row: &Row<'_>) -> Markup {
     let claim = row.task.claim;
-    let spp = row.compared.as_ref().ok().map(|compared| compared.spp);
+    let compared = row.compared.as_ref().ok();
+    let spp = compared.map(|compared| compared.spp);
     let (rank, sign) = rank(row.outcome);
-    let speaks = speaks(row);
+    let worst = compared.and_then(Compared::worst);
     let kind = claim.oracle.kind();
     html! {
         tr role="row" class="line" {
@@ -73,8 +50,8 @@ pub(super) fn line(index: usize, row: &Row<'_>) -> Markup {
                 } @else { (row.task.estimator.label()) }
             }
             td role="cell" class="text kind" data-key="kind" data-value=(kind) { (kind.replace('_', " ")) }
-            (bias(&speaks, row.compared.as_ref().ok().and_then(|compared| compared.bias_bound)))
-            @let sees = match &speaks { Speaks::Bias(image, ..) => Some(image.smallest_detectable), _ => None };
+            (bias(compared))
+            @let sees = match worst { Some(WorstNumber::Channel(image)) => Some(image.smallest_detectable), _ => None };
             td role="cell" data-key="sees" data-label="could see" data-value=[sees] {
                 @if let Some(sees) = sees { (format!("{:.3} %", 100.0 * sees)) }
             }
@@ -96,27 +73,31 @@ pub(super) fn line(index: usize, row: &Row<'_>) -> Markup {
 }
 
 /// The number that speaks for a row, and the bound of the bias that is stated of it by itself.
-fn bias(speaks: &Speaks<'_>, stated: Option<f64>) -> Markup {
+fn bias(compared: Option<&Compared>) -> Markup {
     let class = "text wide";
-    match speaks {
-        Speaks::Bias(image, bound, off) => {
+    match compared.and_then(|compared| Some((compared, compared.worst()?))) {
+        Some((compared, WorstNumber::Channel(image))) => {
+            let judgement = compared.judgement();
+            let bound = judgement.map_or(f64::NAN, |judgement| judgement.rules.image_bound);
+            let tiles = judgement.into_iter().flat_map(|judgement| &judgement.tiles);
+            let off: usize = tiles.map(|tiles| tiles.differing).sum();
             let [low, high] = image.interval;
             let reach = low.abs().max(high.abs()) / bound;
             let label = format!("bias of {}", image.channel);
             html! {
                 td role="cell" class=(class) data-key="bias" data-label=(label) data-value=(sortable(reach)) {
-                    (interval::bar(image.bias, image.interval, [-bound, *bound], &image.verdict.to_string()))
+                    (interval::bar(image.bias, image.interval, [-bound, bound], &image.verdict.to_string()))
                     span class="numbers" { (image.channel) " " (format!("{:+.3} … {:+.3} %", 100.0 * low, 100.0 * high)) }
-                    @if let Some(stated) = stated {
+                    @if let Some(stated) = compared.bias_bound {
                         span class="numbers" { "bias < " (table::percent(stated)) " (99 %)" }
                     }
-                    @if *off > 0 {
-                        span class="numbers" { (off) @if *off == 1 { " tile" } @else { " tiles" } " off" }
+                    @if off > 0 {
+                        span class="numbers" { (off) @if off == 1 { " tile" } @else { " tiles" } " off" }
                     }
                 }
             }
         }
-        Speaks::Measure(measure) => {
+        Some((_, WorstNumber::Measure(measure))) => {
             let [low, high] = measure.interval;
             let [least, most] = measure.accepted;
             let (middle, half) = (0.5 * (least + most), 0.5 * (most - least));
@@ -133,7 +114,7 @@ fn bias(speaks: &Speaks<'_>, stated: Option<f64>) -> Markup {
                 }
             }
         }
-        Speaks::Nothing => html! { td role="cell" class=(class) data-key="bias" {} },
+        None => html! { td role="cell" class=(class) data-key="bias" {} },
     }
 }
 

@@ -1,6 +1,6 @@
 //! One picture for each plugin: what it is shown with, `docs/stages.toml`.
 
-use crate::plugins::{Plugin, Words};
+use crate::words::{Plugin, Words};
 use etalon_validation::folders;
 use serde::Deserialize;
 use std::collections::BTreeMap;
