@@ -11,7 +11,7 @@ pub(crate) mod subsurface;
 use etalon_geometry::Shape;
 use etalon_params::{Class, Diagnostic, Diagnostics, Node, Params, Span};
 use etalon_sampling::{Independent, Sampler};
-use etalon_subsurface::{MediumAtWavelengths, MediumDescription, Tracked, Tracking, march};
+use etalon_subsurface::{MediumAtWavelengths, MediumDescription, Tracking};
 use etalon_transport::{LightId, MediumId, MediumInterface, Ray, ShapeId, Shapes, Textures};
 use glam::{Vec3, Vec4};
 
@@ -109,7 +109,7 @@ fn note_bias(
             ..ray
         };
         let [coarse, fine] =
-            [step, step / 32.0].map(|step| march(&at, &ray, f32::INFINITY, step).element_sum());
+            [step, step / 32.0].map(|step| at.march(&ray, f32::INFINITY, step).element_sum());
         Some(0.25 * (coarse - fine).abs())
     });
     let errors: Vec<f32> = errors.collect();

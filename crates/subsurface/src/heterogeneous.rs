@@ -8,15 +8,14 @@
 //! grid, a pattern, a product of such. A medium ends where the grid of its `sigma_t` ends, even inside its shape. A
 //! `homogeneous` medium whose albedo or emission varies is one of these with a constant `sigma_t`.
 
-use crate::majorants::{MajorantGrid, MajorantSegment, Segments};
+use crate::majorants::{MajorantGrid, Segments};
 use crate::phases::{PhaseAt, PhaseFunction};
-use crate::tracking::{self, Tracked, Tracking};
+use crate::tracking::{Tracked, Tracking};
 use crate::volume;
 use etalon_params::Params;
-use etalon_sampling::Sampler;
 use etalon_transport::{
-    Build, Coefficients, FreeFlight, Medium, Phase, Ray, SpectrumKind, TextureId, TexturePoint,
-    Textures, Transmission, is_varying, refuse_varying,
+    Build, Coefficients, Phase, Ray, SpectrumKind, TextureId, TexturePoint, Textures, is_varying,
+    refuse_varying,
 };
 use glam::{Vec3, Vec4};
 
@@ -164,18 +163,7 @@ impl Heterogeneous {
     }
 }
 
-impl<T> HeterogeneousAt<'_, T> {
-    /// The stretches of a ray.
-    #[inline]
-    pub(crate) fn segments(&self, ray: &Ray, t_max: f32) -> Segments<'_> {
-        match &self.medium.majorants {
-            Some(grid) => Segments::through(grid, ray, t_max),
-            None => Segments::constant(self.medium.most, 0.0),
-        }
-    }
-}
-
-impl<'a, T: Textures> Medium for HeterogeneousAt<'a, T> {
+impl<'a, T: Textures> Tracked for HeterogeneousAt<'a, T> {
     type Phase = PhaseAt<'a, T>;
 
     #[inline]
@@ -212,31 +200,11 @@ impl<'a, T: Textures> Medium for HeterogeneousAt<'a, T> {
     }
 
     #[inline]
-    fn free_flight(
-        &self,
-        ray: &Ray,
-        t_max: f32,
-        u: f32,
-        stream: &mut impl Sampler,
-    ) -> FreeFlight<Self::Phase> {
-        tracking::free_flight(self, ray, t_max, u, stream)
-    }
-
-    #[inline]
-    fn reach(&self, ray: &Ray, u: f32) -> Option<f32> {
-        tracking::reach(self, ray, u)
-    }
-
-    #[inline]
-    fn transmittance(&self, ray: &Ray, t_max: f32, stream: &mut impl Sampler) -> Transmission {
-        tracking::transmittance(self, ray, t_max, stream)
-    }
-}
-
-impl<T: Textures> Tracked for HeterogeneousAt<'_, T> {
-    #[inline]
-    fn majorants(&self, ray: &Ray, t_max: f32) -> impl Iterator<Item = MajorantSegment> {
-        self.segments(ray, t_max)
+    fn majorants(&self, ray: &Ray, t_max: f32) -> Segments<'_> {
+        match &self.medium.majorants {
+            Some(grid) => Segments::through(grid, ray, t_max),
+            None => Segments::constant(self.medium.most, 0.0),
+        }
     }
 
     #[inline]
@@ -249,8 +217,9 @@ impl<T: Textures> Tracked for HeterogeneousAt<'_, T> {
 mod tests {
     use super::*;
     use crate::Isotropic;
+    use crate::tracking;
     use etalon_math::float;
-    use etalon_sampling::Independent;
+    use etalon_sampling::{Independent, Sampler};
 
     /// A density that grows along x, up to `top` of each lane at x = 1.
     struct Ramp {
@@ -328,7 +297,7 @@ mod tests {
             let mut sums = [[0.0_f64; 2]; 8];
             for _ in 0..count {
                 let u = stream.next_1d();
-                let flight = medium.free_flight(&ray, 5.0, u, &mut stream);
+                let flight = tracking::free_flight(&medium, &ray, 5.0, u, &mut stream);
                 let passed = match flight.scattering {
                     None => flight.factor / flight.passed.x,
                     Some(collision) => {
@@ -336,7 +305,8 @@ mod tests {
                         Vec4::ZERO
                     }
                 };
-                let estimate = medium.transmittance(&ray, 5.0, &mut stream).transmittance;
+                let estimate =
+                    tracking::transmittance(&medium, &ray, 5.0, &mut stream).transmittance;
                 let both = passed.to_array().into_iter().chain(estimate.to_array());
                 for (sum, value) in sums.iter_mut().zip(both) {
                     sum[0] += f64::from(value);

@@ -7,17 +7,16 @@
 //! and emits σa Lₑ per metre, with the radiance Lₑ (`emission`) that a thick piece would have if it scattered nothing;
 //! with the single-scattering albedo α (where that varies in space, `heterogeneous` reads it) and the extinction σt, or σa and σs themselves, or those of a `material`; all are spectra.
 
-use crate::majorants::{MajorantSegment, Segments};
+use crate::majorants::Segments;
 use crate::phases::{PhaseAt, PhaseFunction};
 use crate::surface_albedo::{below, single_scattering};
-use crate::tracking::{self, Tracked, Tracking};
+use crate::tracking::{Tracked, Tracking};
 use crate::{Boundary, Profile, ProfileAt, materials, volume};
 use etalon_params::{Diagnostic, Params};
-use etalon_sampling::Sampler;
 use etalon_spectrum::Spectrum;
 use etalon_transport::{
-    Build, Coefficients, FreeFlight, Medium, Phase, Ray, SpectrumKind, TextureId, TexturePoint,
-    Textures, Transmission, is_varying, refuse_varying,
+    Build, Coefficients, Phase, Ray, SpectrumKind, TextureId, TexturePoint, Textures, is_varying,
+    refuse_varying,
 };
 use glam::{Vec2, Vec3, Vec4};
 
@@ -359,23 +358,7 @@ fn by_name(params: &Params<'_>, build: &mut dyn Build) -> Option<Given> {
     })
 }
 
-impl<T> HomogeneousAt<'_, T> {
-    /// The stretches of a ray.
-    #[inline]
-    pub(crate) fn segments(&self, ray: &Ray, _: f32) -> Segments<'_>
-    where
-        T: Textures,
-    {
-        let extinction = self.coefficients(ray.origin, ray.direction).extinction();
-        let control = match self.tracking {
-            Tracking::Residual => 0.999 * extinction.min_element(),
-            _ => 0.0,
-        };
-        Segments::constant(extinction.max_element(), control)
-    }
-}
-
-impl<'a, T: Textures> Medium for HomogeneousAt<'a, T> {
+impl<'a, T: Textures> Tracked for HomogeneousAt<'a, T> {
     type Phase = PhaseAt<'a, T>;
 
     #[inline]
@@ -394,31 +377,13 @@ impl<'a, T: Textures> Medium for HomogeneousAt<'a, T> {
     }
 
     #[inline]
-    fn free_flight(
-        &self,
-        ray: &Ray,
-        t_max: f32,
-        u: f32,
-        stream: &mut impl Sampler,
-    ) -> FreeFlight<Self::Phase> {
-        tracking::free_flight(self, ray, t_max, u, stream)
-    }
-
-    #[inline]
-    fn reach(&self, ray: &Ray, u: f32) -> Option<f32> {
-        tracking::reach(self, ray, u)
-    }
-
-    #[inline]
-    fn transmittance(&self, ray: &Ray, t_max: f32, stream: &mut impl Sampler) -> Transmission {
-        tracking::transmittance(self, ray, t_max, stream)
-    }
-}
-
-impl<T: Textures> Tracked for HomogeneousAt<'_, T> {
-    #[inline]
-    fn majorants(&self, ray: &Ray, t_max: f32) -> impl Iterator<Item = MajorantSegment> {
-        self.segments(ray, t_max)
+    fn majorants(&self, ray: &Ray, _: f32) -> Segments<'_> {
+        let extinction = self.coefficients(ray.origin, ray.direction).extinction();
+        let control = match self.tracking {
+            Tracking::Residual => 0.999 * extinction.min_element(),
+            _ => 0.0,
+        };
+        Segments::constant(extinction.max_element(), control)
     }
 
     #[inline]

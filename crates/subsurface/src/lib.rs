@@ -40,4 +40,4 @@ pub use phases::{PhaseAt, PhaseFunction};
 pub use rayleigh::Rayleigh;
 pub use sggx::Sggx;
 pub use tabulated::Tabulated;
-pub use tracking::{Tracked, Tracking, march};
+pub use tracking::Tracking;

@@ -1,8 +1,7 @@
 //! The list of media, and how each is read.
 
-use crate::majorants::{MajorantSegment, Segments};
 use crate::phases::PhaseAt;
-use crate::tracking::{Tracked, Tracking};
+use crate::tracking::{self, Tracked, Tracking};
 use crate::{Heterogeneous, HeterogeneousAt, Homogeneous, HomogeneousAt};
 use etalon_params::{Params, plugins};
 use etalon_sampling::Sampler;
@@ -85,12 +84,12 @@ macro_rules! media {
                 u: f32,
                 stream: &mut impl Sampler,
             ) -> FreeFlight<PhaseAt<'a, T>> {
-                match self { $(Self::$kind(medium) => medium.free_flight(ray, t_max, u, stream),)* }
+                match self { $(Self::$kind(medium) => tracking::free_flight(medium, ray, t_max, u, stream),)* }
             }
 
             #[inline]
             fn reach(&self, ray: &Ray, u: f32) -> Option<f32> {
-                match self { $(Self::$kind(medium) => medium.reach(ray, u),)* }
+                match self { $(Self::$kind(medium) => tracking::reach(medium, ray, u),)* }
             }
 
             #[inline]
@@ -100,22 +99,19 @@ macro_rules! media {
                 t_max: f32,
                 stream: &mut impl Sampler,
             ) -> Transmission {
-                match self { $(Self::$kind(medium) => medium.transmittance(ray, t_max, stream),)* }
+                match self { $(Self::$kind(medium) => tracking::transmittance(medium, ray, t_max, stream),)* }
             }
         }
 
-        impl<T: Textures> Tracked for MediumAtWavelengths<'_, T> {
-            #[inline]
-            fn majorants(&self, ray: &Ray, t_max: f32) -> impl Iterator<Item = MajorantSegment> {
-                let segments: Segments<'_> = match self {
-                    $(Self::$kind(medium) => medium.segments(ray, t_max),)*
-                };
-                segments
+        impl<T: Textures> MediumAtWavelengths<'_, T> {
+            /// How it is travelled through.
+            pub fn tracking(&self) -> Tracking {
+                match self { $(Self::$kind(medium) => medium.tracking(),)* }
             }
 
-            #[inline]
-            fn tracking(&self) -> Tracking {
-                match self { $(Self::$kind(medium) => medium.tracking(),)* }
+            /// Transmittance in fixed steps (m), per lane.
+            pub fn march(&self, ray: &Ray, t_max: f32, step: f32) -> Vec4 {
+                match self { $(Self::$kind(medium) => tracking::march(medium, ray, t_max, step),)* }
             }
         }
     };

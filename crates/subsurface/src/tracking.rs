@@ -7,11 +7,11 @@
 //! tentative collisions, all of them null. Residual tracking leaves the density of a control μ̄ ≤ σt, or any other, to the closed
 //! form: collisions come with σ̄ − μ̄ in place of σ̄. See [`Tracking`].
 
-use crate::majorants::MajorantSegment;
+use crate::majorants::{MajorantSegment, Segments};
 use etalon_math::float;
 use etalon_sampling::Sampler;
-use etalon_transport::{Coefficients, Collision, FreeFlight, Medium, Ray, Transmission};
-use glam::Vec4;
+use etalon_transport::{Coefficients, Collision, FreeFlight, Phase, Ray, Transmission};
+use glam::{Vec3, Vec4};
 
 /// How a medium is travelled through.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -30,16 +30,24 @@ pub enum Tracking {
     RayMarching(f32),
 }
 
-/// A medium with what tracking needs.
-pub trait Tracked: Medium {
+/// A medium as tracking asks it; see [`etalon_transport::Medium`] for what is not told here.
+pub(crate) trait Tracked {
+    type Phase: Phase + Copy;
+
+    fn coefficients(&self, at: Vec3, direction: Vec3) -> Coefficients;
+
+    fn phase(&self, at: Vec3) -> Self::Phase;
+
+    fn emission(&self, at: Vec3, direction: Vec3) -> Vec4;
+
     /// The stretches that cover `ray` up to `t_max`.
-    fn majorants(&self, ray: &Ray, t_max: f32) -> impl Iterator<Item = MajorantSegment>;
+    fn majorants(&self, ray: &Ray, t_max: f32) -> Segments<'_>;
 
     /// How it is travelled through.
     fn tracking(&self) -> Tracking;
 }
 
-/// See [`Medium::free_flight`].
+/// See [`etalon_transport::Medium::free_flight`].
 pub(crate) fn free_flight<M: Tracked>(
     medium: &M,
     ray: &Ray,
@@ -92,7 +100,7 @@ pub(crate) fn free_flight<M: Tracked>(
     flight
 }
 
-/// See [`Medium::reach`].
+/// See [`etalon_transport::Medium::reach`].
 #[inline]
 pub(crate) fn reach(medium: &impl Tracked, ray: &Ray, u: f32) -> Option<f32> {
     (medium.tracking() == Tracking::Closed).then(|| {
@@ -101,7 +109,7 @@ pub(crate) fn reach(medium: &impl Tracked, ray: &Ray, u: f32) -> Option<f32> {
     })
 }
 
-/// See [`Medium::transmittance`].
+/// See [`etalon_transport::Medium::transmittance`].
 pub(crate) fn transmittance(
     medium: &impl Tracked,
     ray: &Ray,
@@ -372,6 +380,6 @@ fn marched<M: Tracked>(
 }
 
 /// Transmittance in fixed steps (m) through a medium, per lane.
-pub fn march<M: Tracked>(medium: &M, ray: &Ray, t_max: f32, step: f32) -> Vec4 {
+pub(crate) fn march<M: Tracked>(medium: &M, ray: &Ray, t_max: f32, step: f32) -> Vec4 {
     attenuated(steps(medium, ray, t_max, step, f32::INFINITY).0)
 }
