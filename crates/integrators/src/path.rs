@@ -125,8 +125,9 @@ fn extend<W: World, S: Sampler, C: PathHooks>(
         return Step::END;
     };
     let wo = -ray.direction;
-    let bsdf = world.surfaces().bsdf(&vertex, wo, &path.wavelengths);
-    let bsdf = path.hooks.wrap_bsdf(&vertex, wo, bsdf);
+    let bsdf = (path.hooks).wrap_bsdf(&vertex, wo, || {
+        world.surfaces().bsdf(&vertex, wo, &path.wavelengths)
+    });
     let passes = !config.counts_null && bsdf.null_probability() != Vec4::ZERO;
     if last && !passes {
         // No direction is sampled at the last vertex: its null probability alone estimates alpha.

@@ -41,8 +41,9 @@ impl<'f> PathHooks for GuidedHooks<'f> {
         &self,
         vertex: &SurfaceInteraction,
         wo: Vec3,
-        bsdf: B,
+        bsdf: impl FnOnce() -> B,
     ) -> GuidedBsdf<'f, B> {
+        let bsdf = bsdf();
         let lobe = if bsdf.has_continuous() {
             self.field.lobe(vertex.position, toward(vertex, wo))
         } else {

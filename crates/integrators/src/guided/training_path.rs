@@ -140,7 +140,7 @@ impl<'f> PathHooks for TrainingPath<'f> {
         &self,
         vertex: &SurfaceInteraction,
         wo: Vec3,
-        bsdf: B,
+        bsdf: impl FnOnce() -> B,
     ) -> GuidedBsdf<'f, B> {
         self.guide.wrap_bsdf(vertex, wo, bsdf)
     }

@@ -9,12 +9,13 @@ pub(crate) trait PathHooks {
     /// A scattering model that samples other directions than `B`, but scatters the same light.
     type GuidedBsdf<B: Bsdf + Copy>: Bsdf;
 
-    /// The BSDF at a vertex, possibly with another sampling density.
+    /// The BSDF at a vertex, possibly with another sampling density. `bsdf` makes the model, which is too large to be moved
+    /// needlessly.
     fn wrap_bsdf<B: Bsdf + Copy>(
         &self,
         vertex: &SurfaceInteraction,
         wo: Vec3,
-        bsdf: B,
+        bsdf: impl FnOnce() -> B,
     ) -> Self::GuidedBsdf<B>;
 
     /// After the BSDF was sampled; `prefix` is the throughput that now leaves the vertex.
@@ -60,7 +61,12 @@ impl PathHooks for () {
     type GuidedBsdf<B: Bsdf + Copy> = B;
 
     #[inline]
-    fn wrap_bsdf<B: Bsdf + Copy>(&self, _: &SurfaceInteraction, _: Vec3, bsdf: B) -> B {
-        bsdf
+    fn wrap_bsdf<B: Bsdf + Copy>(
+        &self,
+        _: &SurfaceInteraction,
+        _: Vec3,
+        bsdf: impl FnOnce() -> B,
+    ) -> B {
+        bsdf()
     }
 }

@@ -41,13 +41,12 @@ impl Surfaces for Parts {
         wo: Vec3,
         wavelengths: &Wavelengths,
     ) -> BsdfAtPoint<'_> {
-        let own = self
-            .material(vertex)
-            .resolve(&self.space.lookup, vertex, wo, wavelengths);
-        match self.space.media.bodies() {
-            None => own,
-            Some(bodies) => self.between_bodies(bodies, own, vertex, wo, wavelengths),
-        }
+        // Returned as it is made: a model is too large to be copied at every vertex.
+        let Some(bodies) = self.space.media.bodies() else {
+            return (self.material(vertex)).resolve(&self.space.lookup, vertex, wo, wavelengths);
+        };
+        let own = (self.material(vertex)).resolve(&self.space.lookup, vertex, wo, wavelengths);
+        self.between_bodies(bodies, own, vertex, wo, wavelengths)
     }
 
     fn legacy_phong(
