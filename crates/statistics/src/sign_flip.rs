@@ -37,7 +37,12 @@ pub enum Side {
 /// from `seed` where there are more than [`EXACT`] of them; `None` of an empty sample, of
 /// non-finite numbers or of no resamples.
 #[must_use]
-pub fn test(sample: &[f64], side: Side, resamples: u32, seed: u64) -> Option<ResamplingTest> {
+pub fn sign_flip_test(
+    sample: &[f64],
+    side: Side,
+    resamples: u32,
+    seed: u64,
+) -> Option<ResamplingTest> {
     let total: f64 = sample.iter().map(|x| x.abs()).sum();
     if sample.is_empty() || !total.is_finite() || resamples == 0 {
         return None;
