@@ -69,7 +69,7 @@ pub fn sign_flip_test(
 }
 
 /// The interval that encloses the point about which the numbers are symmetric, with probability
-/// `confidence` at least; `None` as for [`fn@test`], or where that confidence cannot be reached.
+/// `confidence` at least; `None` as for [`sign_flip_test`], or where that confidence cannot be reached.
 #[must_use]
 pub fn interval(sample: &[f64], confidence: f64, resamples: u32, seed: u64) -> Option<Interval> {
     let finite = sample.iter().all(|x| x.is_finite());
