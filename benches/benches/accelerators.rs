@@ -6,7 +6,7 @@
 use criterion::{BatchSize, Criterion, Throughput, criterion_group, criterion_main};
 use etalon_benches::contender::Contender;
 use etalon_benches::embree::{Device, Prepared};
-use etalon_benches::rays::{self, Kind};
+use etalon_benches::rays::{Kind, rays_of_every_kind};
 use etalon_benches::scenes::Scene;
 use etalon_geometry::AcceleratorKind;
 use etalon_transport::Ray;
@@ -48,7 +48,7 @@ fn accelerators(criterion: &mut Criterion) {
     let embree = Device::find(&workspace, rayon::current_num_threads());
     for name in Scene::NAMES {
         let scene = Scene::named(name).expect("one of them");
-        let rays = rays::all(&scene, &scene.build(AcceleratorKind::Wide));
+        let rays = rays_of_every_kind(&scene, &scene.build(AcceleratorKind::Wide));
         // Of a million primitives, the linear scan would take days.
         let scanned = scene.placed_primitives() <= 100_000;
         let kinds = AcceleratorKind::ALL.into_iter();

@@ -9,4 +9,4 @@ pub mod material;
 pub mod random;
 pub mod rays;
 pub mod scenes;
-pub mod timing;
+pub mod stopwatch;

@@ -39,7 +39,7 @@ impl Kind {
 }
 
 /// The rays of every kind, in the order of [`Kind::ALL`].
-pub fn all(scene: &Scene, geometry: &Geometry) -> [Vec<Ray>; 4] {
+pub fn rays_of_every_kind(scene: &Scene, geometry: &Geometry) -> [Vec<Ray>; 4] {
     let mut random = Random(1);
     let primary = primary(scene);
     let hits = primary.iter().filter_map(|ray| {

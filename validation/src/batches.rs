@@ -1,9 +1,9 @@
 //! The replicates that each look adds to those there are.
 
 use crate::accumulate;
+use crate::batch_cache::{BatchCache, Wanted};
 use crate::claim::{Budget, Estimator, Oracle};
 use crate::fault::PlantedFault;
-use crate::kept::{BatchCache, Wanted};
 use crate::rendering;
 use crate::tasks::Task;
 use etalon_film::RenderedImage;

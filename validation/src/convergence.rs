@@ -116,5 +116,5 @@ impl Climbed {
 /// If there are fewer than two batches, or nothing is accepted of this estimator.
 pub fn judge(exponents: &[f64], estimator: &Estimator, alpha: f64) -> Result<Measure, String> {
     let accepted = estimator.exponent.ok_or("there is no `exponent`")?;
-    convergence::judge(exponents, estimator.part, accepted, alpha)
+    convergence::judge_convergence(exponents, estimator.part, accepted, alpha)
 }

@@ -7,6 +7,7 @@
 //! [`fault`] plants faults to show that they are found.
 
 pub mod accumulate;
+mod batch_cache;
 mod batches;
 pub mod claim;
 pub mod closed_form;
@@ -17,7 +18,6 @@ pub mod folders;
 pub mod html;
 pub mod invariance;
 pub mod json;
-mod kept;
 pub mod look;
 pub mod matrix;
 pub mod noise;

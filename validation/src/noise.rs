@@ -20,11 +20,11 @@
 //! importance-sampled (checked). One channel is counted, as those of a pixel
 //! are not independent of each other. Errors are relative to the truth.
 
+use crate::batch_cache::BatchCache;
 use crate::batches;
 use crate::claim::{Budget, Claim, Counting, Effort, Estimator, Means};
 use crate::closed_form;
 use crate::fault::PlantedFault;
-use crate::kept::BatchCache;
 use crate::rendering;
 use crate::tier::Tier;
 use etalon_film::{Metadata, RenderedImage};

@@ -1,7 +1,7 @@
 //! What became of a run: every comparison rendered, looked at until it is decided, and judged
 //! together with all others ([`etalon_render::decide::decision`]).
 
-use crate::kept::BatchCache;
+use crate::batch_cache::BatchCache;
 use crate::look::Look;
 use crate::run::{Compared, Comparison, Options, Task};
 use crate::state::State;

@@ -1,17 +1,17 @@
 //! Renders a claim's scene without noise and holds it pixel by pixel against POV-Ray's picture of its twin.
 
+use crate::batch_cache::BatchCache;
 use crate::batches;
 use crate::claim::{Budget, Claim, Estimator};
 use crate::edges;
 use crate::fault::PlantedFault;
 use crate::folders;
-use crate::kept::BatchCache;
 use crate::povray;
 use crate::rendering;
 use etalon_film::RenderedImage;
 use etalon_images::Image;
 use etalon_render::decide::measure::Measure;
-use etalon_render::decide::pixelwise::{CHANNELS, Limits, measure};
+use etalon_render::decide::pixelwise::{CHANNELS, PixelwiseLimits, measure};
 
 /// Two pictures and what came of comparing them.
 pub struct Compared {
@@ -29,9 +29,9 @@ pub struct Compared {
 ///
 /// # Errors
 /// If the picture cannot be rendered or the reference cannot be used.
-pub(crate) fn compare(
+pub(crate) fn compare_pixelwise(
     claim: &Claim,
-    limits: Limits,
+    limits: PixelwiseLimits,
     estimator: &Estimator,
     fault: Option<PlantedFault>,
     budget: Budget,

@@ -3,9 +3,9 @@
 //! A [`Comparison`] is looked at once or several times; each look adds replicates with seeds of
 //! their own to those there are, and judges them all.
 
+use crate::batch_cache::BatchCache;
 use crate::batches::{Batches, Side};
 use crate::claim::{Budget, Effort, Oracle};
-use crate::kept::BatchCache;
 use crate::{closed_form, convergence, invariance, noise, pixelwise, reference, rendering};
 use etalon_film::RenderedImage;
 use etalon_images::{Frame, Image};
@@ -14,7 +14,7 @@ use etalon_render::decide::decision::Stage;
 use etalon_render::decide::judged::{self, Against, Asked};
 use etalon_render::decide::looks::Multiple;
 use etalon_render::decide::measure::Measure;
-use etalon_render::decide::pixelwise::Limits;
+use etalon_render::decide::pixelwise::PixelwiseLimits;
 use etalon_render::judge::{ExactImage, ImageComparison, ImageRow};
 use etalon_statistics::Verdict;
 
@@ -170,13 +170,14 @@ impl<'a> Comparison<'a> {
         let (mut shown, mut fall, mut replicates) = (None, None, budget.replicates);
         let (measures, spp) = match &claim.oracle {
             Oracle::Povray { edges, excused } => {
-                let limits = Limits {
+                let limits = PixelwiseLimits {
                     edges: *edges,
                     excused: *excused,
                 };
                 let seeded = (options.seed, alpha);
-                let made =
-                    pixelwise::compare(claim, limits, estimator, fault, budget, seeded, kept)?;
+                let made = pixelwise::compare_pixelwise(
+                    claim, limits, estimator, fault, budget, seeded, kept,
+                )?;
                 shown = Some(Box::new([made.picture, made.oracle]));
                 (made.measures, made.spp)
             }

@@ -30,7 +30,7 @@ const SIDE: usize = 16;
 
 /// The options of the command.
 #[derive(clap::Args)]
-pub(crate) struct Arguments {
+pub(crate) struct DenoiserArguments {
     /// Only scenes whose names contain this.
     #[arg(long, value_name = "NAME")]
     only: Option<String>,
@@ -102,7 +102,7 @@ impl Tally {
 ///
 /// # Errors
 /// If a scene cannot be rendered.
-pub(crate) fn run(arguments: &Arguments) -> Result<(), String> {
+pub(crate) fn run(arguments: &DenoiserArguments) -> Result<(), String> {
     let place = std::env::var_os("ETALON_OIDN").map(PathBuf::from);
     let library = OpenImageDenoise::find(place.as_deref());
     if let Err(reason) = &library {
@@ -124,7 +124,7 @@ pub(crate) fn run(arguments: &Arguments) -> Result<(), String> {
 fn measure(
     name: &str,
     size: [u32; 2],
-    arguments: &Arguments,
+    arguments: &DenoiserArguments,
     library: Option<&OpenImageDenoise>,
 ) -> Result<(), String> {
     let path: PathBuf = folders::scenes().join(name);

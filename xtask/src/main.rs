@@ -56,7 +56,7 @@ enum Task {
     /// Make a book of the pages of `docs/` (target/book), if mdBook is installed
     Book,
     /// Measure what `etalon denoise` takes away, what it leaves and what it says of it
-    Denoiser(denoiser::Arguments),
+    Denoiser(denoiser::DenoiserArguments),
     /// Render the pictures of the book (`docs/gallery`) that have changed
     Gallery(gallery::Arguments),
     /// Run the job files of `etalon farm` by the engines that are installed, one node killed on the way, and compare bits

@@ -10,7 +10,7 @@
 
 pub mod any;
 pub mod clip;
-pub mod field_of_view;
+pub mod image_plane;
 pub mod lens;
 pub mod orthographic;
 pub mod perspective;
@@ -20,7 +20,7 @@ pub mod window;
 
 pub use any::AnyCamera;
 pub use clip::ClipRange;
-pub use field_of_view::ImagePlane;
+pub use image_plane::ImagePlane;
 pub use lens::Lens;
 pub use orthographic::Orthographic;
 pub use perspective::Perspective;

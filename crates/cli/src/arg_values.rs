@@ -1,39 +1,8 @@
-//! Values on the command line: numbers within bounds, names of a list, addresses of samples.
+//! Values on the command line: numbers within bounds, names of a list.
 
 use etalon_images::View;
 use etalon_scene::{AcceleratorKind, LightSamplerKind, SensorChoice};
 use glam::UVec2;
-
-/// A port of this machine, or any that is free.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Port(pub Option<u16>);
-
-/// A sample to be drawn again.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct ReplayAddress {
-    /// Column and row of its pixel, which may lie around the film.
-    pub pixel: [i32; 2],
-    /// Its replicate.
-    pub replicate: u32,
-    /// Its number within pixel and replicate.
-    pub sample: u32,
-}
-
-/// The address of a sample.
-pub(crate) fn parse_replay(text: &str) -> Result<ReplayAddress, String> {
-    let address = || {
-        let mut words = text.split(',').map(str::trim);
-        let address = ReplayAddress {
-            pixel: [words.next()?.parse().ok()?, words.next()?.parse().ok()?],
-            replicate: words.next()?.parse().ok()?,
-            sample: words.next()?.parse().ok()?,
-        };
-        words.next().is_none().then_some(address)
-    };
-    address().ok_or_else(|| {
-        "expected four numbers, such as 12,7,0,3: column, row, replicate, sample".to_owned()
-    })
-}
 
 /// A whole number from `LOW` to `HIGH`.
 pub(crate) fn whole<const LOW: u32, const HIGH: u32>(text: &str) -> Result<u32, String> {
@@ -156,15 +125,6 @@ pub(crate) fn parse_view(text: &str) -> Result<View, String> {
         let names = View::ALL.map(View::name);
         format!("expected one of {}", names.join(", "))
     })
-}
-
-/// A port, or `any`.
-pub(crate) fn parse_port(text: &str) -> Result<Port, String> {
-    match text.parse() {
-        _ if text == "any" => Ok(Port(None)),
-        Ok(port) if port > 0 => Ok(Port(Some(port))),
-        _ => Err("expected the number of a port from 1 to 65535, such as 8750; other words go before the option".to_owned()),
-    }
 }
 
 /// `HOST:PORT`.

@@ -3,20 +3,26 @@
 mod denoise;
 mod estimators;
 mod farm;
-mod picture;
+mod framing;
+mod port;
 mod preview;
+mod replay_address;
 mod replicates;
 
 pub use denoise::DenoiseArgs;
 pub use estimators::EstimatorsArgs;
 pub use farm::{FarmArgs, PathMap};
-pub use picture::{FramingArgs, ShownArgs};
+pub use framing::{FramingArgs, ShownArgs};
+pub use port::Port;
 pub use preview::{PreviewArgs, ViewArgs};
+pub use replay_address::ReplayAddress;
 pub use replicates::ReplicatesArgs;
 
+use replay_address::parse_replay;
+
 use crate::arg_values::{
-    ReplayAddress, parse_accelerator, parse_define, parse_error, parse_light_chooser,
-    parse_probability, parse_range, parse_rate, parse_replay, parse_seconds, parse_seed, whole,
+    parse_accelerator, parse_define, parse_error, parse_light_chooser, parse_probability,
+    parse_range, parse_rate, parse_seconds, parse_seed, whole,
 };
 use crate::frames::{Frame, FrameRange};
 use crate::outputs::Outputs;

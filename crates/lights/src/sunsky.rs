@@ -100,7 +100,7 @@ impl SunSky {
                 pose?.to_local(unit?.as_vec3())
             }
             None => {
-                let [theta, phi] = Moment::from_params(params).sun();
+                let [theta, phi] = Moment::from_params(params).sun_position();
                 hosek_wilkie::direction(theta as f32, phi as f32)
             }
         };

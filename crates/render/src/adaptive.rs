@@ -28,7 +28,7 @@
 //! standard error, as if the numbers had been read from a file.
 
 use crate::loaded::Loaded;
-use crate::pilot::{self, Failure, GROUPS};
+use crate::pilot::{Failure, GROUPS, pilot_picture};
 use crate::sizes::nearest;
 use etalon_film::{RenderedImage, SampleCounts};
 use etalon_integrators::{Progress, RenderPlan};
@@ -98,7 +98,7 @@ pub fn pilot(
     let [width, height] = size.map(|n| n as usize);
     let mut noise = Noise::of_nothing(width * height);
     for index in FIRST..FIRST + GROUPS {
-        let (developed, _) = pilot::picture(loaded, plan, None, index, each, progress)?;
+        let (developed, _) = pilot_picture(loaded, plan, None, index, each, progress)?;
         noise.add(&developed)?;
     }
     Ok(Distribution::of(

@@ -7,7 +7,7 @@
 //! the one before.
 
 use crate::first_half::FirstHalf;
-use crate::watch::Show;
+use crate::watcher::Show;
 use etalon_film::{CheckpointFacts, ExactFilm, ExactTile, Part, RenderFacts, recorded_seconds};
 use etalon_integrators::ReplicateRange;
 use etalon_transport::{Film, FilmSample, Placing};

@@ -29,7 +29,7 @@ pub mod seeds;
 mod sizes;
 pub mod target;
 pub mod tolerance;
-pub mod watch;
+pub mod watcher;
 pub mod write_guard;
 
 /// The version of the program.

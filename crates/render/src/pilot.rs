@@ -30,7 +30,7 @@ impl From<Diagnostic> for Failure {
 }
 
 /// One picture of a pilot: two replicates, independent so that their spread is the noise of one.
-pub(crate) fn picture(
+pub(crate) fn pilot_picture(
     loaded: &Loaded,
     plan: &RenderPlan,
     counts: Option<SampleCounts>,

@@ -6,7 +6,7 @@ pub use crate::load_options::LoadOptions;
 pub use crate::loaded::{Description, LoadError, Loaded};
 use crate::objections::place;
 use crate::scene_hash::scene_hash;
-use crate::watch::{Show, Watcher};
+use crate::watcher::{Show, Watcher};
 use crate::{VERSION, features, memory, objections};
 use etalon_film::{
     ExactFilm, FilmSettings, Filter, Part, PixelFilter, RenderFacts, RenderedImage, SampleCounts,

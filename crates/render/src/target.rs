@@ -19,7 +19,7 @@
 
 use crate::adaptive::Distribution;
 use crate::loaded::Loaded;
-use crate::pilot::{Failure, GROUPS, picture};
+use crate::pilot::{Failure, GROUPS, pilot_picture};
 use crate::sizes::{MOST, sized};
 use etalon_film::{RenderedImage, SampleCounts};
 use etalon_integrators::{Progress, RenderPlan};
@@ -146,7 +146,7 @@ pub fn affordable(
     seconds: f64,
     progress: &dyn Progress,
 ) -> Result<u32, Failure> {
-    let (_, cold) = picture(loaded, plan, None, GROUPS, 1, progress)?;
+    let (_, cold) = pilot_picture(loaded, plan, None, GROUPS, 1, progress)?;
     let pace = cold / 2.0;
     let mut samples = 2 * GROUPS;
     while samples < PILOT && pace * f64::from(2 * samples) <= 2.0 * PILOT_SHARE * seconds {
@@ -166,7 +166,7 @@ fn error_pilot(
     let each = plan.sampler.round_up(pilot.samples.div_ceil(2 * GROUPS));
     let mut found = Vec::new();
     for index in 0..GROUPS {
-        let (developed, _) = picture(
+        let (developed, _) = pilot_picture(
             loaded,
             plan,
             pilot.counts(plan, each),
@@ -235,7 +235,7 @@ fn time_pilot(
     let start = pilot.start;
     let before = start.elapsed().as_secs_f64();
     // The first picture finds cold caches; its time is spent, but does not count.
-    let (_, cold) = picture(loaded, plan, pilot.counts(plan, 1), 0, 1, progress)?;
+    let (_, cold) = pilot_picture(loaded, plan, pilot.counts(plan, 1), 0, 1, progress)?;
     let (mut each, mut taken, mut pace) = (1, 2, cold / 2.0);
     for index in 1.. {
         // The largest so far says most: what is learned once weighs least in it.
@@ -243,7 +243,7 @@ fn time_pilot(
         if spent + 8.0 * pace * f64::from(each) > PILOT_SHARE * seconds {
             break;
         }
-        let (_, time) = picture(
+        let (_, time) = pilot_picture(
             loaded,
             plan,
             pilot.counts(plan, each),

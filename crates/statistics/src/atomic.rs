@@ -14,8 +14,8 @@
 //! and [`AtomicFixed128::load`] by unique reference: the borrow checker proves that no writer is
 //! left, and joining the writers' threads makes their relaxed additions visible.
 
-use crate::exact::Fixed128;
 use crate::fault::InvalidValue;
+use crate::fixed128::Fixed128;
 use std::sync::atomic::{AtomicU64, Ordering};
 
 /// A sum to which any number of threads may add at once.

@@ -62,7 +62,7 @@ pub(crate) fn quantile(ascending: &[f64], share: f64) -> f64 {
 ///
 /// The statistic is given the indices of the numbers drawn, so that it may be of anything indexed
 /// alike: pairs, triples, whole images.
-pub fn percentile(
+pub fn percentile_bootstrap(
     n: usize,
     plan: &Resampling,
     confidence: f64,

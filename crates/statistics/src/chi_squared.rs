@@ -31,7 +31,7 @@ pub fn sf(x: f64, degrees_of_freedom: f64) -> f64 {
 
 /// The outcome of [`goodness_of_fit`].
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct GoodnessOfFit {
+pub struct ChiSquaredTest {
     /// Pearson's statistic; infinite if something impossible was observed.
     pub statistic: f64,
     /// Cells after pooling, less one.
@@ -99,7 +99,7 @@ impl std::error::Error for CountsError {}
 ///
 /// # Errors
 /// [`CountsError`] where the counts cannot be tested.
-pub fn goodness_of_fit(observed: &[u64], expected: &[f64]) -> Result<GoodnessOfFit, CountsError> {
+pub fn goodness_of_fit(observed: &[u64], expected: &[f64]) -> Result<ChiSquaredTest, CountsError> {
     if observed.len() != expected.len() {
         return Err(CountsError::UnequalLengths {
             observed: observed.len(),
@@ -128,7 +128,7 @@ pub fn goodness_of_fit(observed: &[u64], expected: &[f64]) -> Result<GoodnessOfF
         .collect();
     cells.push((0.0, (trials - foreseen).max(0.0)));
     if cells.iter().any(|&(o, e)| e == 0.0 && o > 0.0) {
-        return Ok(GoodnessOfFit {
+        return Ok(ChiSquaredTest {
             statistic: f64::INFINITY,
             degrees_of_freedom: cells.len() as f64 - 1.0,
             cells: cells.len(),
@@ -141,7 +141,7 @@ pub fn goodness_of_fit(observed: &[u64], expected: &[f64]) -> Result<GoodnessOfF
     }
     let statistic = cells.iter().map(|(o, e)| (o - e) * (o - e) / e).sum();
     let degrees_of_freedom = cells.len() as f64 - 1.0;
-    Ok(GoodnessOfFit {
+    Ok(ChiSquaredTest {
         statistic,
         degrees_of_freedom,
         cells: cells.len(),

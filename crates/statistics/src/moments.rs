@@ -7,10 +7,10 @@
 //! suffer no cancellation, and merging is exact, commutative and associative: the moments of an
 //! image do not depend on the order in which its replicates were finished or its parts merged.
 
-use crate::exact::{EPSILON, Fixed128, LIMIT};
 use crate::fault::InvalidValue;
+use crate::fixed128::{EPSILON, Fixed128, LIMIT};
 use crate::summary::Summary;
-use crate::wide::U256;
+use crate::u256::U256;
 
 /// Number, sum and sum of squares of replicates; 64 bytes.
 ///

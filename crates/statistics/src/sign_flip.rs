@@ -37,7 +37,12 @@ pub enum Side {
 /// from `seed` where there are more than [`EXACT`] of them; `None` of an empty sample, of
 /// non-finite numbers or of no resamples.
 #[must_use]
-pub fn test(sample: &[f64], side: Side, resamples: u32, seed: u64) -> Option<ResamplingTest> {
+pub fn sign_flip_test(
+    sample: &[f64],
+    side: Side,
+    resamples: u32,
+    seed: u64,
+) -> Option<ResamplingTest> {
     let total: f64 = sample.iter().map(|x| x.abs()).sum();
     if sample.is_empty() || !total.is_finite() || resamples == 0 {
         return None;
@@ -64,7 +69,7 @@ pub fn test(sample: &[f64], side: Side, resamples: u32, seed: u64) -> Option<Res
 }
 
 /// The interval that encloses the point about which the numbers are symmetric, with probability
-/// `confidence` at least; `None` as for [`fn@test`], or where that confidence cannot be reached.
+/// `confidence` at least; `None` as for [`sign_flip_test`], or where that confidence cannot be reached.
 #[must_use]
 pub fn interval(sample: &[f64], confidence: f64, resamples: u32, seed: u64) -> Option<Interval> {
     let finite = sample.iter().all(|x| x.is_finite());

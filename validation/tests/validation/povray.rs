@@ -6,7 +6,7 @@ use etalon_film::{BoxFilter, ExactFilm, FilmSettings, Filter, RenderFacts, Rende
 use etalon_images::{Frame, Image, exr};
 use etalon_integrators::signature;
 use etalon_render::decide::measure::Measure;
-use etalon_render::decide::pixelwise::{self, Limits};
+use etalon_render::decide::pixelwise::{self, PixelwiseLimits};
 use etalon_statistics::Verdict;
 use etalon_validation::claim::{Claim, Oracle};
 use etalon_validation::outcome::{self, Conclusion, Outcome};
@@ -225,7 +225,7 @@ fn a_twin_without_its_reference_breaks_the_run() {
 
 const SIDE: usize = 40;
 
-const LIMITS: Limits = Limits {
+const LIMITS: PixelwiseLimits = PixelwiseLimits {
     edges: 0.11,
     excused: 0.002,
 };

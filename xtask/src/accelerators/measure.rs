@@ -1,9 +1,9 @@
 //! One scene with every accelerator and Embree: all are built, then traced by turns.
 
 use etalon_benches::embree::{Device, Embree, Prepared};
-use etalon_benches::rays::{self, Kind};
+use etalon_benches::rays::{Kind, rays_of_every_kind};
 use etalon_benches::scenes::Scene;
-use etalon_benches::timing::Stopwatch;
+use etalon_benches::stopwatch::Stopwatch;
 use etalon_geometry::{AcceleratorKind, Geometry};
 use etalon_transport::Ray;
 use serde::Serialize;
@@ -63,7 +63,7 @@ impl Plan<'_> {
     /// Measures a scene.
     pub(super) fn measure(&self, scene: &Scene) -> Vec<Row> {
         let guide = scene.build(AcceleratorKind::Wide);
-        let rays = rays::all(scene, &guide);
+        let rays = rays_of_every_kind(scene, &guide);
         drop(guide);
         let mut entrants: Vec<(Entrant<'_>, f64)> = Vec::new();
         for &kind in &self.kinds {

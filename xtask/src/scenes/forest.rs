@@ -20,10 +20,10 @@ pub(crate) fn files() -> Vec<(&'static str, Vec<u8>)> {
     let triangles = instanced * (fir.len() + needles.len() + oak.len() + leaves.len());
     println!("forest: {triangles} instanced triangles");
     vec![
-        ("fir-wood.ply", fir.to_bytes()),
-        ("fir-needles.ply", needles.to_bytes()),
-        ("oak-wood.ply", oak.to_bytes()),
-        ("oak-leaves.ply", leaves.to_bytes()),
+        ("fir-wood.ply", fir.to_ply()),
+        ("fir-needles.ply", needles.to_ply()),
+        ("oak-wood.ply", oak.to_ply()),
+        ("oak-leaves.ply", leaves.to_ply()),
         ("trees.xml", places().into_bytes()),
     ]
 }

@@ -51,7 +51,7 @@ impl Mesh {
     }
 
     /// The file.
-    pub(crate) fn to_bytes(&self) -> Vec<u8> {
+    pub(crate) fn to_ply(&self) -> Vec<u8> {
         let mut bytes = format!(
             "ply\nformat binary_little_endian 1.0\nelement vertex {}\nproperty float x\n\
              property float y\nproperty float z\nelement face {}\n\

@@ -21,7 +21,7 @@ use std::collections::BTreeMap;
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
-use table::Row;
+use table::TableRow;
 
 /// Which scenes, and how.
 #[derive(clap::Args)]
@@ -135,7 +135,7 @@ pub(crate) fn run(arguments: &Arguments) -> Result<(), String> {
     if python.is_none() {
         eprintln!("Mitsuba is not there: Etalon alone");
     }
-    let mut rows: Vec<Row> = Vec::new();
+    let mut rows: Vec<TableRow> = Vec::new();
     println!("{}", table::HEAD);
     for entry in &entries {
         match pool.install(|| measure(arguments, entry, python.as_deref())) {
@@ -199,7 +199,11 @@ fn entries(arguments: &Arguments) -> Result<Vec<Entry>, String> {
 }
 
 /// Renders a scene's pictures with both programs, in turn.
-fn measure(arguments: &Arguments, entry: &Entry, python: Option<&Path>) -> Result<Row, String> {
+fn measure(
+    arguments: &Arguments,
+    entry: &Entry,
+    python: Option<&Path>,
+) -> Result<TableRow, String> {
     let mut defines: Vec<(String, String)> = claim::pairs(&entry.defines).collect();
     for define in &arguments.defines {
         let (key, value) = define
@@ -237,7 +241,7 @@ fn measure(arguments: &Arguments, entry: &Entry, python: Option<&Path>) -> Resul
     }
     let theirs =
         opponent.map(|opponent| theirs.facts(opponent.pixels() * u64::from(arguments.spp)));
-    Ok(Row {
+    Ok(TableRow {
         scene: entry.name.clone(),
         etalon: ours.facts(samples),
         mitsuba: theirs,

@@ -6,7 +6,7 @@ use serde::Serialize;
 
 /// A scene.
 #[derive(Clone, Debug, Serialize)]
-pub(super) struct Row {
+pub(super) struct TableRow {
     pub(super) scene: String,
     pub(super) etalon: Facts,
     pub(super) mitsuba: Option<Facts>,
@@ -50,8 +50,8 @@ pub(super) const HEAD: &str = "\
 |---|---|---|---|---|---|---|";
 
 /// The line of a scene.
-pub(super) fn line(row: &Row) -> String {
-    let Row {
+pub(super) fn line(row: &TableRow) -> String {
+    let TableRow {
         scene,
         etalon,
         mitsuba,
@@ -74,7 +74,7 @@ pub(super) fn line(row: &Row) -> String {
 }
 
 /// The geometric means over all scenes that both programs rendered, if there are any.
-pub(super) fn mean_line(rows: &[Row]) -> Option<String> {
+pub(super) fn mean_line(rows: &[TableRow]) -> Option<String> {
     let both = rows
         .iter()
         .filter_map(|row| Some((&row.etalon, row.mitsuba.as_ref()?)));

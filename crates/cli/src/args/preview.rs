@@ -1,7 +1,8 @@
 //! Options for looking on while a picture renders, and for looking at pictures.
 
-use super::picture::ShownArgs;
-use crate::arg_values::{Port, parse_port, parse_tev};
+use super::framing::ShownArgs;
+use super::port::{Port, parse_port};
+use crate::arg_values::parse_tev;
 use clap::Args;
 use std::path::PathBuf;
 

@@ -1,8 +1,8 @@
 //! What `render` leaves behind: the image, the statistics, and a few lines on how it went.
 
 use super::convert::losses_in_words;
-use super::trouble::{Again, Fireflies, faults_to_json, fireflies_to_json};
-use super::{amount, note};
+use super::fireflies::{Again, Fireflies, faults_to_json, fireflies_to_json};
+use super::{note, sample_budget};
 use crate::args::RenderArgs;
 use crate::say;
 use etalon_film::{LightCarriers, Metadata, RenderedImage, UnfinishedFacts, light_carriers};
@@ -148,7 +148,7 @@ fn unfinished_in_words(args: &RenderArgs, facts: &UnfinishedFacts) -> String {
     if args.resume {
         text += &format!(
             "note: the same command goes on from {}\n",
-            amount::checkpoint(args).display()
+            sample_budget::checkpoint(args).display()
         );
     }
     text

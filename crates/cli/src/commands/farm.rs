@@ -1,6 +1,6 @@
 //! `etalon farm`.
 
-use super::{BAD_INPUT, amount, fail, note, options};
+use super::{BAD_INPUT, fail, note, options, sample_budget};
 use crate::args::{FarmArgs, RenderArgs};
 use crate::farm::{Engine, Job, Work};
 use crate::{diagnose, quoting, say};
@@ -37,7 +37,7 @@ pub fn run(args: &FarmArgs) -> ExitCode {
             return ExitCode::from(BAD_INPUT);
         }
     };
-    let replicates = amount::plan(render, &loaded).replicates;
+    let replicates = sample_budget::plan(render, &loaded).replicates;
     let work = match render.frames {
         Some(range) => Work::Frames {
             first: range.first,

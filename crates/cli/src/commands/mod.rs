@@ -1,13 +1,13 @@
 //! The commands of the binary.
 
 mod again;
-mod amount;
 pub mod compare;
 pub mod convert;
 mod delivery;
 pub mod denoise;
 pub mod estimators;
 pub mod farm;
+mod fireflies;
 mod frames;
 pub mod info;
 pub mod merge;
@@ -17,8 +17,8 @@ mod plugins;
 pub mod render;
 pub mod replay;
 pub mod replicates;
+mod sample_budget;
 pub mod strategies;
-mod trouble;
 pub mod view;
 
 use crate::args::Command;

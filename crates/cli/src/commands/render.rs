@@ -1,6 +1,6 @@
 //! `etalon render`.
 
-use super::amount::{self, SampleBudget};
+use super::sample_budget::{self, SampleBudget};
 use super::{BAD_INPUT, delivery, fail, frames, note, replay, strategies};
 use crate::args::RenderArgs;
 use crate::outputs::Outputs;
@@ -75,8 +75,8 @@ fn run_here(args: &RenderArgs, onlookers: &Onlookers) -> ExitCode {
         diagnose::print(&loaded.notes, &loaded.sources);
     }
     if let Some(address) = &args.replay {
-        let plan = amount::plan(args, &loaded);
-        return match amount::counts(args, &loaded, &plan) {
+        let plan = sample_budget::plan(args, &loaded);
+        return match sample_budget::counts(args, &loaded, &plan) {
             Ok(counts) => replay::run(&loaded, &plan, counts, address),
             Err(failure) => give_up(failure, &loaded),
         };
@@ -93,8 +93,8 @@ fn run_here(args: &RenderArgs, onlookers: &Onlookers) -> ExitCode {
         return fail(message);
     }
     if (args.frame.is_some() || args.part.is_some()) && args.resume {
-        let plan = amount::plan(args, &loaded);
-        match amount::is_finished(args, &loaded, &plan) {
+        let plan = sample_budget::plan(args, &loaded);
+        match sample_budget::is_finished(args, &loaded, &plan) {
             Ok(true) => {
                 if !args.quiet {
                     note(format!("{} is there already", args.output().display()));
@@ -110,7 +110,7 @@ fn run_here(args: &RenderArgs, onlookers: &Onlookers) -> ExitCode {
             "Ctrl-C will end the render without an image: {error}"
         ));
     }
-    let amount = match amount::decide(args, &loaded, interrupt::flag()) {
+    let amount = match sample_budget::decide(args, &loaded, interrupt::flag()) {
         Ok(amount) => amount,
         Err(failure) => return give_up(failure, &loaded),
     };
@@ -128,14 +128,14 @@ fn run_here(args: &RenderArgs, onlookers: &Onlookers) -> ExitCode {
         return fail(message);
     }
     if args.resume && rendered.outcome.replicates == rendered.replicates {
-        remove(&amount::checkpoint(args));
+        remove(&sample_budget::checkpoint(args));
     }
     if let Some((folder, integrator)) = techniques {
         let each = |loaded: &Loaded| {
             if interrupt::asked() {
                 return Ok(None);
             }
-            let amount = SampleBudget::plain(amount::plan(args, loaded));
+            let amount = SampleBudget::plain(sample_budget::plan(args, loaded));
             let rendered = render(args, loaded, amount, onlookers)?;
             let whole = rendered.outcome.replicates == rendered.replicates;
             Ok(whole.then_some(rendered.developed))
@@ -227,8 +227,8 @@ fn render(
         plan.share = Some(share(part, plan.replicates)?);
     }
     let keeping = args.resume.then(|| Checkpointing {
-        path: amount::checkpoint(args),
-        facts: amount::checkpoint_facts(args, amount.pilot),
+        path: sample_budget::checkpoint(args),
+        facts: sample_budget::checkpoint_facts(args, amount.pilot),
         earlier: amount.earlier,
         failed: |reason| say::remark(&format!("warning: there is no checkpoint: {reason}\n")),
     });

@@ -1,7 +1,7 @@
 //! `etalon render --replay`: one sample again, told vertex by vertex (see [`etalon_integrators::replay`]).
 
 use super::{answer, fail};
-use crate::arg_values::ReplayAddress;
+use crate::args::ReplayAddress;
 use etalon_film::{ExactFilm, SampleCounts};
 use etalon_integrators::RenderPlan;
 use etalon_integrators::replay::Address;

@@ -4,7 +4,7 @@ use super::layers::{self, Planes};
 use crate::interrupt;
 use etalon_film::{Glance, RenderedImage};
 use etalon_images::{Development, Image};
-use etalon_render::watch::Watcher;
+use etalon_render::watcher::Watcher;
 use serde_json::{Value, json};
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};

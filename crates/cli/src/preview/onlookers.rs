@@ -6,7 +6,7 @@ use crate::args::RenderArgs;
 use crate::say;
 use etalon_film::{Glance, RenderedImage};
 use etalon_images::Development;
-use etalon_render::watch::Watcher;
+use etalon_render::watcher::Watcher;
 use std::sync::Arc;
 
 /// Those who look on, for all frames of a render.

@@ -4,7 +4,7 @@
 
 use etalon_film::{Glance, SAMPLES};
 use etalon_images::Image;
-use etalon_render::watch::Watcher;
+use etalon_render::watcher::Watcher;
 use std::net::TcpStream;
 use std::sync::{Mutex, PoisonError};
 use tev_client::{PacketCreateImage, PacketUpdateImage, TevClient};

@@ -76,7 +76,7 @@ impl Moment {
     }
 
     /// Angle from the zenith and azimuth of the sun, rad. The azimuth is 0 in the south and grows toward the west.
-    pub(crate) fn sun(&self) -> [f64; 2] {
+    pub(crate) fn sun_position(&self) -> [f64; 2] {
         let (days, hours) = self.days();
         let node = 2.1429 - 0.001_039_459_4 * days;
         let mean = 4.895_063 + 0.017_202_791_698 * days;

@@ -117,7 +117,7 @@ impl Batches {
 ///
 /// # Errors
 /// If there are fewer than two batches.
-pub fn judge(
+pub fn judge_convergence(
     exponents: &[f64],
     part: Part,
     accepted: [f64; 2],

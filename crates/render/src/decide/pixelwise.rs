@@ -37,7 +37,7 @@ pub const CHANNELS: [&str; 3] = ["R", "G", "B"];
 
 /// What is accepted of edges.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Limits {
+pub struct PixelwiseLimits {
     /// The greatest share of pixels next to an edge.
     pub edges: f64,
     /// The greatest share of pixels (of all) that are next to an edge and differ.
@@ -84,7 +84,7 @@ pub fn measure(
     picture: &RenderedImage,
     oracle: &RenderedImage,
     edges: &[bool],
-    limits: Limits,
+    limits: PixelwiseLimits,
     alpha: f64,
 ) -> Result<Vec<Measure>, String> {
     let pixels = pixels(picture, oracle, alpha)?;

@@ -3,7 +3,7 @@
 use crate::judge::{self, ExactImage};
 use etalon_film::{Metadata, RenderedImage};
 use etalon_statistics::bootstrap::Resampling;
-use etalon_statistics::robust::{self, Method, Symmetry};
+use etalon_statistics::judgement::{self, Method, Symmetry};
 use etalon_statistics::tails::Limits;
 use etalon_statistics::{Estimate, Interval, Replicates, Summary, Verdict};
 
@@ -109,11 +109,16 @@ impl Samples {
         let judged = match &self.other {
             Other::ExactImage(known) => {
                 let excess: Vec<f64> = self.own.iter().map(|x| x - known).collect();
-                robust::judge(&excess, alpha, Symmetry::Unknown, limits, &plan)
+                judgement::judge(&excess, alpha, Symmetry::Unknown, limits, &plan)
             }
-            Other::Replicates(other) => {
-                robust::judge_difference(&self.own, other, alpha, Symmetry::Unknown, limits, &plan)
-            }
+            Other::Replicates(other) => judgement::judge_difference(
+                &self.own,
+                other,
+                alpha,
+                Symmetry::Unknown,
+                limits,
+                &plan,
+            ),
         }?;
         let refusal = judged.refusal?;
         let instead = match judged.method() {

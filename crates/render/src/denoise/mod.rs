@@ -27,11 +27,11 @@
 
 mod choice;
 mod halves;
-mod oidn;
+mod open_image_denoise;
 mod regression;
 mod smooth;
 
-pub use oidn::OpenImageDenoise;
+pub use open_image_denoise::OpenImageDenoise;
 
 use crate::VERSION;
 use etalon_film::{OutlierLog, RenderedImage, STANDARD_ERROR};

@@ -1,7 +1,7 @@
 //! From measured pictures to findings.
 //!
 //! - Means (time, relMSE, variance, squared bias) have Student's interval, or the studentised
-//!   bootstrap's where the tails forbid that, or none ([`etalon_statistics::robust`]).
+//!   bootstrap's where the tails forbid that, or none ([`etalon_statistics::judgement`]).
 //! - All pictures share one reference, whose noise is subtracted as it is on average. What it is in
 //!   this very reference does not show in the pictures' spread, so the squared bias's interval is
 //!   widened by that noise on either side: no bias is shown that a converged reference might deny.
@@ -12,7 +12,7 @@
 //!   that is not shown counts as none in the value, and as far as it may reach in the interval.
 
 use super::cell::{Cell, Measured as Picture, Pair};
-use super::entrant::EstimatorConfig;
+use super::estimator_config::EstimatorConfig;
 use super::findings::{
     AtSize, Convergence, Difference, EntrantResult, Findings, Gains, Pictures, ReferenceFacts,
     Step, Uncertain,
@@ -24,12 +24,12 @@ use crate::VERSION;
 use crate::pipeline::{Loaded, sampler_name};
 use etalon_math::float64;
 use etalon_spectrum::colour_space::luminance;
-use etalon_statistics::bootstrap::{self, Resampling};
+use etalon_statistics::bootstrap::{Resampling, percentile_bootstrap};
+use etalon_statistics::judgement::{Method, Symmetry, judge, judge_difference};
 use etalon_statistics::metrics::EPSILON;
 use etalon_statistics::ratio::{self, Known};
-use etalon_statistics::robust::{Method, Symmetry, judge, judge_difference};
 use etalon_statistics::tails::Limits;
-use etalon_statistics::{Estimate, LineWithErrors, Summary, regression};
+use etalon_statistics::{Estimate, Line, LineWithErrors, Summary};
 
 /// The relMSE of "one percent error".
 const ONE_PERCENT: f64 = 1e-4;
@@ -236,7 +236,7 @@ fn efficiency(cell: &Cell, plan: &Resampling) -> Uncertain {
         return Uncertain::default();
     }
     let mut drawn = Vec::new();
-    let interval = bootstrap::percentile(pictures.len(), plan, CONFIDENCE, |indices| {
+    let interval = percentile_bootstrap(pictures.len(), plan, CONFIDENCE, |indices| {
         drawn.clear();
         drawn.extend(indices.iter().map(|&i| pictures[i]));
         cost(&drawn)
@@ -354,7 +354,7 @@ fn fit(steps: &[Step]) -> Option<LineWithErrors> {
     let of = |number: fn(&Step) -> f64| -> Vec<f64> { steps.iter().map(number).collect() };
     let samples = of(|step| f64::from(step.samples_per_pixel));
     let (mse, errors) = (of(|step| step.mse), of(|step| step.standard_error));
-    regression::Line::fit_power_law_with_errors(&samples, &mse, &errors)
+    Line::fit_power_law_with_errors(&samples, &mse, &errors)
 }
 
 /// The slope with a t interval: the points' errors are estimated from [`super::schedule::LADDER`]

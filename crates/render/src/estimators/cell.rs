@@ -5,7 +5,7 @@
 //! ½ (a − b)² the variance, both without a bias of their own ([`Reference::product`],
 //! [`Reference::half_difference`]); pairs do not overlap, so these numbers are independent, too.
 
-use super::entrant::EstimatorConfig;
+use super::estimator_config::EstimatorConfig;
 use super::reference::{Reference, interleaved};
 use super::schedule::Size;
 use crate::pipeline::render_into;

@@ -35,7 +35,7 @@
 
 pub mod analysis;
 pub mod cell;
-pub mod entrant;
+pub mod estimator_config;
 pub mod findings;
 pub mod options;
 pub mod page;
@@ -45,7 +45,7 @@ pub mod schedule;
 pub mod table;
 pub mod trial;
 
-pub use entrant::EstimatorConfig;
+pub use estimator_config::EstimatorConfig;
 pub use findings::{Findings, Row};
 pub use options::Options;
 pub use reference::Reference;

@@ -10,7 +10,7 @@
 //! to second order makes all of it greater by a share of 3s²/r², and a bias b look like b² + 4bs²/r:
 //! little where the reference is converged, and a remark says where it is not.
 
-use super::entrant::EstimatorConfig;
+use super::estimator_config::EstimatorConfig;
 use super::schedule::Size;
 use crate::VERSION;
 use crate::pipeline::{render_into, sampler_name};

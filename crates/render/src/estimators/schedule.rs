@@ -20,7 +20,7 @@ pub const TARGET: u32 = 24;
 /// The most of them.
 pub const MOST: u32 = 64;
 
-/// The fewest of them: fewer are not resampled ([`etalon_statistics::bootstrap::FEWEST_BLOCKS`]).
+/// The fewest of them: fewer are not resampled ([`etalon_statistics::bootstrap::FEWEST`]).
 pub const FEWEST: u32 = 8;
 
 /// The pictures at each size of the ladder.

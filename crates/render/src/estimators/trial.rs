@@ -2,7 +2,7 @@
 
 use super::analysis;
 use super::cell::{self, Cell};
-use super::entrant::{self, EstimatorConfig, Lists};
+use super::estimator_config::{self, EstimatorConfig, Lists};
 use super::findings::Findings;
 use super::options::Options;
 use super::reference::Reference;
@@ -111,7 +111,7 @@ impl Trial {
             filters: &options.filters,
             light_choosers: &options.light_choosers,
         };
-        let (scene, entrants) = entrant::gather(path, &options.load, &lists)?;
+        let (scene, entrants) = estimator_config::gather(path, &options.load, &lists)?;
         if let [only] = entrants.as_slice() {
             return Err(format!(
                 "`{}` alone is no comparison: name two or more integrators, samplers or filters",

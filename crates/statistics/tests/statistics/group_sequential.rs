@@ -5,7 +5,7 @@
 #![allow(clippy::excessive_precision)]
 
 use crate::checks::{Random, near};
-use etalon_statistics::group_sequential::{Boundaries, LookError, stopping};
+use etalon_statistics::boundaries::{Boundaries, LookError, stopping};
 use etalon_statistics::{Estimate, Spending, Summary, normal, power, proportion, student_t};
 use proptest::prelude::*;
 

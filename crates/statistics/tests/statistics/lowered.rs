@@ -2,7 +2,7 @@
 
 use crate::checks::Random;
 use etalon_statistics::bootstrap::Resampling;
-use etalon_statistics::robust::{Method, Symmetry, judge};
+use etalon_statistics::judgement::{Method, Symmetry, judge};
 use etalon_statistics::tails::{Limits, Refusal};
 use etalon_statistics::{Summary, lowered, student_t};
 

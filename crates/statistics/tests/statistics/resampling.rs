@@ -4,9 +4,9 @@
 #![allow(clippy::excessive_precision)]
 
 use crate::checks::{Random, near};
-use etalon_statistics::bootstrap::{self, Resampling};
+use etalon_statistics::bootstrap::{Resampling, percentile_bootstrap};
 use etalon_statistics::ratio::{self, Known};
-use etalon_statistics::sign_flip::{self, Side};
+use etalon_statistics::sign_flip::{self, Side, sign_flip_test};
 use etalon_statistics::{Estimate, Interval, Summary, proportion, studentised};
 use proptest::prelude::*;
 
@@ -14,33 +14,33 @@ use proptest::prelude::*;
 fn sign_flips() {
     // 12 of 256 by enumeration (Python's itertools), and SciPy's `permutation_test`.
     let sample = [-0.3, 0.5, 0.9, 1.4, -0.2, 0.7, 1.1, 0.4];
-    let both = sign_flip::test(&sample, Side::Both, 1, 0).expect("finite");
+    let both = sign_flip_test(&sample, Side::Both, 1, 0).expect("finite");
     assert!(both.exact);
     near(both.p_value, 12.0 / 256.0, 1e-14);
     near(both.least, 2.0 / 256.0, 1e-14);
-    let greater = sign_flip::test(&sample, Side::Greater, 1, 0).expect("finite");
+    let greater = sign_flip_test(&sample, Side::Greater, 1, 0).expect("finite");
     near(greater.p_value, 6.0 / 256.0, 1e-14);
-    let less = sign_flip::test(&sample, Side::Less, 1, 0).expect("finite");
+    let less = sign_flip_test(&sample, Side::Less, 1, 0).expect("finite");
     assert!(less.p_value > 0.97);
     // Twenty-one numbers are too many to enumerate; 2⁻²⁰ of the choices are as extreme.
     let long = [1.0; 21];
-    let drawn = sign_flip::test(&long, Side::Both, 999, 7).expect("finite");
+    let drawn = sign_flip_test(&long, Side::Both, 999, 7).expect("finite");
     assert!(!drawn.exact);
     near(drawn.p_value, 1e-3, 1e-12);
     assert_eq!(
         drawn,
-        sign_flip::test(&long, Side::Both, 999, 7).expect("finite")
+        sign_flip_test(&long, Side::Both, 999, 7).expect("finite")
     );
-    let exact = sign_flip::test(&long[..20], Side::Both, 1, 7).expect("finite");
+    let exact = sign_flip_test(&long[..20], Side::Both, 1, 7).expect("finite");
     near(exact.p_value, 2.0 / 1_048_576.0, 1e-14);
     assert_eq!(
-        sign_flip::test(&[0.0; 4], Side::Both, 1, 0)
+        sign_flip_test(&[0.0; 4], Side::Both, 1, 0)
             .expect("finite")
             .p_value,
         1.0
     );
-    assert_eq!(sign_flip::test(&[], Side::Both, 9, 0), None);
-    assert_eq!(sign_flip::test(&[f64::NAN], Side::Both, 9, 0), None);
+    assert_eq!(sign_flip_test(&[], Side::Both, 9, 0), None);
+    assert_eq!(sign_flip_test(&[f64::NAN], Side::Both, 9, 0), None);
 }
 
 #[test]
@@ -123,16 +123,16 @@ fn correlation(indices: &[usize]) -> f64 {
 #[test]
 fn intervals_of_a_correlation() {
     let plan = Resampling::independent(20_000, 1);
-    let plain = bootstrap::percentile(15, &plan, 0.9, correlation).expect("resolved");
+    let plain = percentile_bootstrap(15, &plan, 0.9, correlation).expect("resolved");
     assert!((plain.low - 0.5221).abs() < 0.012, "{plain:?}");
     assert!((plain.high - 0.9475).abs() < 0.003, "{plain:?}");
 
     // Too few resamples for the confidence, too few numbers, a constant, a NaN.
-    assert_eq!(bootstrap::percentile(15, &plan, 0.9999, correlation), None);
-    assert_eq!(bootstrap::percentile(7, &plan, 0.9, |_| 0.0), None);
-    let constant = bootstrap::percentile(15, &plan, 0.9, |_| 0.5).expect("resolved");
+    assert_eq!(percentile_bootstrap(15, &plan, 0.9999, correlation), None);
+    assert_eq!(percentile_bootstrap(7, &plan, 0.9, |_| 0.0), None);
+    let constant = percentile_bootstrap(15, &plan, 0.9, |_| 0.5).expect("resolved");
     assert_eq!((constant.low, constant.high), (0.5, 0.5));
-    assert_eq!(bootstrap::percentile(15, &plan, 0.9, |_| f64::NAN), None);
+    assert_eq!(percentile_bootstrap(15, &plan, 0.9, |_| f64::NAN), None);
 }
 
 /// NumPy, a million resamples: (0.65258, 1.54672) at 95 % for 24 exponential quantiles.
@@ -241,7 +241,7 @@ proptest! {
         let interval = sign_flip::interval(&sample, 1.0 - 2.0 * level, 1, 0).expect("reachable");
         let rejects = |point: f64, side| {
             let shifted: Vec<f64> = sample.iter().map(|x| x - point).collect();
-            let tested = sign_flip::test(&shifted, side, 1, 0).expect("finite");
+            let tested = sign_flip_test(&shifted, side, 1, 0).expect("finite");
             tested.p_value <= level * (1.0 + 1e-12)
         };
         prop_assert!(rejects(interval.low - 1e-6, Side::Greater));
@@ -253,10 +253,10 @@ proptest! {
     /// The two one-sided p-values of an exact sign-flip test add up to one plus the ties'.
     #[test]
     fn sides_of_a_sign_flip(sample in prop::collection::vec(-3.0..3.0_f64, 1..10)) {
-        let p = |side| sign_flip::test(&sample, side, 1, 0).expect("finite").p_value;
+        let p = |side| sign_flip_test(&sample, side, 1, 0).expect("finite").p_value;
         prop_assert!(p(Side::Greater) + p(Side::Less) >= 1.0);
         let negated: Vec<f64> = sample.iter().map(|x| -x).collect();
-        let mirrored = sign_flip::test(&negated, Side::Less, 1, 0).expect("finite").p_value;
+        let mirrored = sign_flip_test(&negated, Side::Less, 1, 0).expect("finite").p_value;
         prop_assert_eq!(p(Side::Greater), mirrored);
         let both = p(Side::Both);
         prop_assert!((both - (2.0 * p(Side::Greater).min(p(Side::Less))).min(1.0)).abs() < 1e-12);

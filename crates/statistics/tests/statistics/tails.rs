@@ -6,7 +6,7 @@
 
 use crate::checks::{Random, near};
 use etalon_statistics::bootstrap::Resampling;
-use etalon_statistics::robust::{Method, Symmetry, judge, judge_difference};
+use etalon_statistics::judgement::{Method, Symmetry, judge, judge_difference};
 use etalon_statistics::tails::{self, Limits, Refusal, Tails};
 use etalon_statistics::{Estimate, Summary, Verdict, proportion};
 

@@ -2,7 +2,7 @@
 
 mod scene;
 
-use super::trouble::Fireflies;
+use super::fireflies::Fireflies;
 use super::{answer, fail, plugins};
 use crate::args::InfoArgs;
 use etalon_film::{InvalidKind, InvalidSample, LightCarriers, RenderedImage, read_developed};

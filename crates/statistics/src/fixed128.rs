@@ -14,7 +14,7 @@
 //! 2⁻¹² are held without any rounding.
 
 use crate::fault::InvalidValue;
-use crate::wide::U256;
+use crate::u256::U256;
 
 /// Terms must be smaller in magnitude than this: 2⁴⁸.
 pub const LIMIT: f64 = 281_474_976_710_656.0;
