@@ -2,7 +2,7 @@
 
 use super::connect::Connector;
 use super::from_light::FromLight;
-use super::weight::EndPdfs;
+use super::pdf_ratios::EndPdfs;
 use crate::steps::visibility::camera_visibility;
 use etalon_transport::{Bsdf, Camera, TransportMode, World};
 use glam::{Vec2, Vec4};

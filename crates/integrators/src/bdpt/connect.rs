@@ -3,9 +3,9 @@
 use super::from_light::FromLight;
 use super::merge::Merging;
 use super::path_vertex::Corner;
+use super::pdf_ratios::{CameraEnd, EndPdfs, LightEnd, fewer, more};
 use super::subpath::SubpathEnd;
 use super::technique::Technique;
-use super::weight::{CameraEnd, EndPdfs, LightEnd, fewer, more};
 use crate::steps::dimensions::BounceSamples;
 use crate::steps::settings::PathSettings;
 use etalon_spectrum::Wavelengths;

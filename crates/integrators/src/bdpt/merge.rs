@@ -4,13 +4,13 @@
 //! are merged where they are less than r apart, with n photons to choose from: technique i's
 //! density times aᵢ n π r² (Georgiev, Křivánek, Davidovič, Slusallek 2012). Against it stand all
 //! others that would have made the path: those with more vertices from the light are weighed when
-//! the photon is found ([`super::weight::more`]); those with fewer depend on the camera's walk by
+//! the photon is found ([`super::pdf_ratios::more`]); those with fewer depend on the camera's walk by
 //! its density at the photon's parent alone, in which they are linear. So a photon carries one
 //! factor per lane for them.
 
 use super::from_light::FromLight;
 use super::path_vertex::PathVertex;
-use super::weight::{EndPdfs, LightEnd, fewer};
+use super::pdf_ratios::{EndPdfs, LightEnd, fewer};
 use crate::photons::kdtree::KdTree;
 use crate::steps::settings::PathSettings;
 use etalon_sampling::Sampler;

@@ -42,11 +42,11 @@ mod from_camera;
 mod from_light;
 pub(crate) mod merge;
 mod path_vertex;
+mod pdf_ratios;
 mod photon_connection;
-pub(crate) mod single;
+pub(crate) mod single_technique;
 mod subpath;
 mod technique;
-mod weight;
 
 use crate::steps::camera_ray::camera_ray;
 use crate::steps::dimensions as dim;

@@ -3,7 +3,7 @@
 use super::connect::Connector;
 use super::merge::FACING;
 use super::path_vertex::Corner;
-use super::weight::{EndPdfs, more};
+use super::pdf_ratios::{EndPdfs, more};
 use etalon_transport::{Bsdf, TransportMode, World};
 use glam::Vec4;
 

@@ -20,7 +20,7 @@
 //! lengths. See [`crate::metropolis`] for how chains estimate the integral without bias.
 
 use crate::bdpt::Technique;
-use crate::bdpt::single::{Lists, sample};
+use crate::bdpt::single_technique::{Lists, sample};
 use crate::metropolis::{
     ChainSettings, Contributions, FilmRegion, Metropolis, PathLengthPdf, PathSampler,
 };
