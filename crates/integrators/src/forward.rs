@@ -60,8 +60,10 @@ impl Forward {
         let mut depth = 1;
         while depth <= self.settings.max_depth {
             let hit = arrival::next_hit(world, &mut ray, hide && depth == 1);
-            if let Some(passage) = arrival::transmittance(world, &ray, hit.as_ref(), wavelengths) {
-                through *= passage.transmittance;
+            if let Some(transmission) =
+                arrival::transmittance(world, &ray, hit.as_ref(), wavelengths)
+            {
+                through *= transmission.transmittance;
             }
             let Some(hit) = hit else {
                 if hide || !world.lights().has_background() {
@@ -97,8 +99,10 @@ impl Forward {
         let mut arriving = Vec4::ONE;
         loop {
             let hit = world.surfaces().intersect(&ray);
-            if let Some(passage) = arrival::transmittance(world, &ray, hit.as_ref(), wavelengths) {
-                arriving *= passage.transmittance;
+            if let Some(transmission) =
+                arrival::transmittance(world, &ray, hit.as_ref(), wavelengths)
+            {
+                arriving *= transmission.transmittance;
             }
             let Some(hit) = hit else { break };
             if !(self.settings.hide_emitters && world.lights().is_emitter(&hit)) {
@@ -147,7 +151,7 @@ impl Forward {
                     && let Some(arriving) = arriving(found.t)
                 {
                     let weight = arriving * found.weight;
-                    let value = particle.prefix.contribution(weight, Vec4::ZERO);
+                    let value = particle.throughput.contribution(weight, Vec4::ZERO);
                     let rgb = sensor.rgb(value) / site.pixels as f32;
                     sink.splat(found.raster, rgb.to_array());
                 }
@@ -155,14 +159,14 @@ impl Forward {
             if depth == max_depth {
                 return;
             }
-            let Some(met) = particle.next(world, sampler) else {
+            let Some(vertex) = particle.next(world, sampler) else {
                 return;
             };
-            let Some(sample) = particle.scatter(&met, rr_depth) else {
+            let Some(sample) = particle.scatter(&vertex, rr_depth) else {
                 return;
             };
             straight &= sample.is_null;
-            on_light = met.vertex.light.is_some();
+            on_light = vertex.point.light.is_some();
         }
     }
 }

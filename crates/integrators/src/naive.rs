@@ -168,7 +168,7 @@ impl Naive {
     }
 
     /// The radiance along a ray from the camera, per lane and over the sum of the densities'
-    /// ratios, and the alpha of what it met.
+    /// ratios, and the alpha of what it came to.
     fn incident<W: World, S: Sampler>(
         &self,
         world: &W,

@@ -69,8 +69,8 @@ impl<'f> PathHooks for GuidedHooks<'f> {
     }
 
     #[inline]
-    fn survival(&mut self, prefix: &PathThroughput, eta: f32) -> f32 {
-        let most = self.reflected.max(prefix.throughput());
+    fn survival(&mut self, throughput: &PathThroughput, eta: f32) -> f32 {
+        let most = self.reflected.max(throughput.magnitude());
         let survival = (most * eta * eta).clamp(LEAST_SURVIVAL, 0.95);
         self.reflected /= survival;
         survival

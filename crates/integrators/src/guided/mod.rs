@@ -111,7 +111,7 @@ impl Guided {
         }
     }
 
-    fn lessons(&self, pass: &Pass) -> Trainer {
+    fn trainer(&self, pass: &Pass) -> Trainer {
         Trainer {
             settings: self.settings,
             own: self.bsdf_sampling_fraction as f32,
@@ -154,7 +154,7 @@ impl Integrator for Guided {
     ) -> Learned {
         // Learned for the image: every pass finds the same.
         let learned = before.unwrap_or_else(|| {
-            let (field, pictures) = self.lessons(pass).learn(world, placing, pass);
+            let (field, pictures) = self.trainer(pass).learn(world, placing, pass);
             Learned {
                 field,
                 pictures,

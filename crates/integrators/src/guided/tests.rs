@@ -9,14 +9,14 @@ use etalon_transport::{Bsdf, BsdfSample, SamplePdf, TransportMode};
 use glam::{Vec2, Vec3, Vec4};
 use std::f32::consts::PI;
 
-fn lessons(field: &SdTree, records: u64) -> Vec<RegionUpdate> {
-    let lesson = |_: &field::SpatialLeaf| RegionUpdate {
+fn updates(field: &SdTree, records: u64) -> Vec<RegionUpdate> {
+    let update = |_: &field::SpatialLeaf| RegionUpdate {
         lobes: Lobes::default(),
         irradiance: [0.0; FACES],
         own: [0.5; FACES],
         records,
     };
-    field.regions().iter().map(lesson).collect()
+    field.regions().iter().map(update).collect()
 }
 
 #[test]
@@ -25,8 +25,8 @@ fn regions_are_halved_until_their_share_is_small() {
     assert_eq!(field.find(Vec3::splat(0.3)), 0);
     // Of 1000 records at most 130 in each: eight parts; then four times as many.
     for (records, parts) in [(1000, 8), (400, 32)] {
-        let lessons = lessons(&field, records);
-        field = field.learned(lessons, 130);
+        let updates = updates(&field, records);
+        field = field.learned(updates, 130);
         assert_eq!(field.regions().len(), parts);
     }
     let volume: f32 = (field.regions().iter())

@@ -5,7 +5,7 @@
 
 use super::caustics::Caustics;
 use super::{Whitted, phong, shading};
-use crate::photons::kdtree::Found;
+use crate::photons::kdtree::Neighbour;
 use crate::photons::sets::WavelengthChoice;
 use crate::steps::arrival::next_surface;
 use etalon_sampling::Sampler;
@@ -87,7 +87,7 @@ pub(super) struct Tree<'a, W> {
     pub(super) world: &'a W,
     pub(super) caustics: Option<&'a Caustics>,
     /// Room for the photons that a look-up finds.
-    pub(super) neighbours: &'a RefCell<Vec<Found>>,
+    pub(super) neighbours: &'a RefCell<Vec<Neighbour>>,
 }
 
 impl Whitted {
