@@ -104,7 +104,7 @@ impl FromCamera {
                         density,
                         passed: self.carried.passed,
                     };
-                    connector.meet_medium(&arrival, &interaction.point, medium, vertices);
+                    connector.hit_medium(&arrival, &interaction.point, medium, vertices);
                 }
                 if self.carried.segments == settings.max_depth {
                     return false;
@@ -119,7 +119,7 @@ impl FromCamera {
                 self.alpha = 1.0;
                 let density = self.carried.density * self.carried.passed.x;
                 let arrival = self.carried.arrival(density);
-                connector.meet_background(&arrival, direction, vertices);
+                connector.hit_background(&arrival, direction, vertices);
             }
             return false;
         };
@@ -129,7 +129,7 @@ impl FromCamera {
         let arrival = self.arrival(connector, &point, 1.0, vertices);
         if emits {
             let arrival = self.carried.arrival(arrival);
-            connector.meet_light(&arrival, &point, wo, vertices);
+            connector.hit_light(&arrival, &point, wo, vertices);
         }
         let interaction = Interaction::surface(world, point, wo, wavelengths);
         if self.carried.segments == settings.max_depth {

@@ -40,6 +40,7 @@ mod camera_connection;
 mod connect;
 mod from_camera;
 mod from_light;
+mod light_hit;
 pub(crate) mod merge;
 mod path_vertex;
 mod pdf_ratios;
