@@ -20,7 +20,7 @@
 
 use crate::steps::arrival;
 use crate::steps::camera_ray::camera_ray;
-use crate::steps::particle::LightPath;
+use crate::steps::light_path::LightPath;
 use crate::steps::path_throughput::PathThroughput;
 use crate::steps::settings::PathSettings;
 use etalon_params::Params;

@@ -19,7 +19,7 @@ use crate::steps::arrival::{self, Arriving};
 use crate::steps::camera_ray::camera_ray;
 use crate::steps::dimensions as dim;
 use crate::steps::light_mis::LightMis;
-use crate::steps::particle::{LightPath, LightVertex};
+use crate::steps::light_path::{LightPath, LightVertex};
 use crate::steps::path_throughput::PathThroughput;
 use crate::steps::settings::PathSettings;
 use crate::steps::visibility::camera_visibility;

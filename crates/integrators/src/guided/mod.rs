@@ -30,14 +30,14 @@
 //! expectation Var(C̄), though all share the training. The field depends on the scene, the seed, the film and the
 //! number of samples of the whole image, so that every part of a split render learns the same.
 
-mod field;
 mod fraction;
-mod guide;
-mod learning;
-mod pictures;
-mod steering;
+mod guided_bsdf;
+mod guided_hooks;
+mod sd_tree;
 #[cfg(test)]
 mod tests;
+mod trainer;
+mod training_images;
 mod training_path;
 
 use crate::path::{follow_alone, follow_jobs};
@@ -45,11 +45,11 @@ use crate::steps::settings::{PathConfig, PathSettings};
 use etalon_params::Params;
 use etalon_sampling::Sampler;
 use etalon_transport::{Integrator, Pass, PixelSample, Placing, SampleJob, Sink, TileSink, World};
-use field::SdTree;
-use guide::GuidedHooks;
-use learning::Trainer;
-use pictures::{Joined, TrainingImages};
+use guided_hooks::GuidedHooks;
+use sd_tree::SdTree;
 use std::vec::Drain;
+use trainer::Trainer;
+use training_images::{Joined, TrainingImages};
 
 /// The guided path tracer.
 #[derive(Clone, Debug)]

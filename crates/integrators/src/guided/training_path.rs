@@ -14,10 +14,10 @@
 //! That term is true of diffuse surfaces. Where a surface scatters otherwise, the path itself tells what comes
 //! from it, up to the next diffuse one.
 
-use super::field;
 use super::fraction::AlternativePdfs;
-use super::guide::{GuidedHooks, toward};
-use super::steering::GuidedBsdf;
+use super::guided_bsdf::GuidedBsdf;
+use super::guided_hooks::{GuidedHooks, toward};
+use super::sd_tree;
 use crate::path::hooks::PathHooks;
 use crate::steps::path_throughput::PathThroughput;
 use etalon_transport::{Bsdf, BsdfSample, SurfaceInteraction};
@@ -176,7 +176,7 @@ impl<'f> PathHooks for TrainingPath<'f> {
             },
             false => {
                 let scattered = 1.0 - 0.25 * bsdf.null_probability().element_sum();
-                let learned = scattered * field::density(lobe, sample.wi).hero();
+                let learned = scattered * sd_tree::density(lobe, sample.wi).hero();
                 let own = (density - (1.0 - share) * learned) / share;
                 AlternativePdfs {
                     own: own.max(0.0),

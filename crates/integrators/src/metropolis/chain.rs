@@ -1,7 +1,7 @@
 //! A Markov chain, and which pixel hosts it.
 
 use super::bootstrap::{State, Stream, start_key};
-use super::found::{Contribution, Contributions};
+use super::contributions::{Contribution, Contributions};
 use super::primary::{LogarithmicStep, PrimarySample};
 use super::{ChainSettings, Integrand};
 use core::ops::Range;

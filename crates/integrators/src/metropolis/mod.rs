@@ -44,7 +44,7 @@
 
 mod bootstrap;
 mod chain;
-mod found;
+mod contributions;
 mod importance_map;
 mod integrator;
 pub mod mmlt;
@@ -55,7 +55,7 @@ mod tests;
 
 pub(crate) use bootstrap::PathLengthPdf;
 pub use bootstrap::State;
-pub(crate) use found::{Contributions, FilmRegion};
+pub(crate) use contributions::{Contributions, FilmRegion};
 pub use integrator::Metropolis;
 pub(crate) use integrator::PathSampler;
 

@@ -4,7 +4,7 @@
 //! comes from photons, and the path ends. With a final gather it continues once in such a direction, and gathers photons
 //! at the next surface.
 
-use super::elsewhere::{CameraPath, CameraVertex};
+use super::camera_path::{CameraPath, CameraVertex};
 use super::sets::{WavelengthChoice, WavelengthSets};
 use super::shoot::{FACING, Kind, Photon, PhotonMap};
 use super::{is_sharp, kernel::KernelLookup};

@@ -8,7 +8,7 @@
 use super::is_sharp;
 use super::kdtree::{KdTree, Neighbour};
 use super::sets::{WavelengthChoice, WavelengthSets};
-use crate::steps::particle::{LightPath, LightVertex};
+use crate::steps::light_path::{LightPath, LightVertex};
 use crate::steps::settings::PathSettings;
 use etalon_sampling::hash::mix64;
 use etalon_sampling::{SampleId, Sobol};

@@ -6,8 +6,8 @@
 
 mod any_sampler;
 mod log;
-mod model;
 mod recorder;
+mod recording_bsdf;
 
 pub use log::Describe;
 

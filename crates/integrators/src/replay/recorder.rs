@@ -1,7 +1,7 @@
 //! A world that answers as another does, and writes down what it said.
 
 use super::log::{SharedLog, chance, lanes, vector, walk};
-use super::model::RecordingBsdf;
+use super::recording_bsdf::RecordingBsdf;
 use etalon_math::{Density, SolidAngle};
 use etalon_spectrum::{SensorWeights, Wavelengths};
 use etalon_transport::{

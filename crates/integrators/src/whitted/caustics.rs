@@ -14,7 +14,7 @@
 //! Photons share the wavelengths of the integrator, so that each packet of four has a part of them for itself. A photon goes every way that
 //! the recursion would go with the probability that it has as a share of the light there, and is absorbed with the rest.
 
-use super::shading::{Surface, SurfaceBySet};
+use super::surface::{Surface, SurfaceBySet};
 use super::tree::{Continuation, Packet, SETS, onward};
 use crate::photons::kdtree::Neighbour;
 use crate::photons::kernel::{Kernel, KernelLookup};
@@ -22,7 +22,7 @@ use crate::photons::radius::{ANYWHERE, from_pixels, held};
 use crate::photons::sets::WavelengthChoice;
 use crate::photons::shoot::{FACING, Kind, Photon, PlacedPhotons, in_order, moment, numbers};
 use crate::steps::arrival::next_surface;
-use crate::steps::particle::LightPath;
+use crate::steps::light_path::LightPath;
 use etalon_sampling::Sampler;
 use etalon_transport::{
     LightKind, MediumId, Pass, Placing, SurfaceInteraction, TransportMode, World,
@@ -165,7 +165,7 @@ fn trace<W: World>(
             wavelengths,
             ..packets[lanes.set]
         };
-        let surfaces = super::shading::at(world, &vertex, wo, &[lead]);
+        let surfaces = super::surface::at(world, &vertex, wo, &[lead]);
         let spreads = surfaces[0].as_ref().is_some_and(Surface::spreads);
         if is_caustic && spreads && cos > 0.0 {
             let value = throughput.beta * (4.0 / (throughput.r_u.element_sum() * cos));

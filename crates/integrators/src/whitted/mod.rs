@@ -36,7 +36,7 @@ mod light;
 mod phong;
 mod pixel;
 mod points;
-mod shading;
+mod surface;
 mod tree;
 
 use crate::photons::{radius, read_count, read_nearest};

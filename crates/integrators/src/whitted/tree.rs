@@ -4,7 +4,7 @@
 //! then every wavelength continues alone.
 
 use super::caustics::Caustics;
-use super::{Whitted, phong, shading};
+use super::{Whitted, phong, surface};
 use crate::photons::kdtree::Neighbour;
 use crate::photons::sets::WavelengthChoice;
 use crate::steps::arrival::next_surface;
@@ -163,7 +163,7 @@ impl Whitted {
         depth: u32,
         sampler: &mut impl Sampler,
     ) -> Vec3 {
-        let surfaces = shading::at(tree.world, vertex, wo, packets);
+        let surfaces = surface::at(tree.world, vertex, wo, packets);
         let lies = (packets, &surfaces);
         let crossings = self.max_depth - depth - 1;
         let straight = self.direct(tree.world, vertex, wo, lies, crossings, sampler);

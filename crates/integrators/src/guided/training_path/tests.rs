@@ -1,7 +1,7 @@
 //! What a training path tells: the record of a vertex, and what it scattered.
 
 use super::*;
-use crate::guided::field::{FACES, Lobes, RegionUpdate, SdTree};
+use crate::guided::sd_tree::{FACES, Lobes, RegionUpdate, SdTree};
 use etalon_math::{DeltaProbability, Density, Frame, SolidAngle};
 use etalon_sampling::discrete::{Quadtree, Refinement};
 use etalon_transport::{InstanceId, LightId, MaterialId, SamplePdf, ShapeId, TransportMode};

@@ -1,7 +1,7 @@
 //! The hooks of `guided` into paths: guiding and Russian roulette.
 
-use super::field::SdTree;
-use super::steering::GuidedBsdf;
+use super::guided_bsdf::GuidedBsdf;
+use super::sd_tree::SdTree;
 use crate::path::hooks::PathHooks;
 use crate::steps::path_throughput::PathThroughput;
 use etalon_transport::{Bsdf, BsdfSample, SurfaceInteraction};

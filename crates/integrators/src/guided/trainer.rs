@@ -17,10 +17,10 @@
 //! mean of the round before, and at most 2²⁰ times that mean, so that one firefly cannot dominate a leaf, and 2²⁴
 //! such records fit.
 
-use super::field::{FACES, RegionUpdate, SdTree, SpatialLeaf, face, place_of, refinement};
 use super::fraction::FractionOptimizer;
-use super::guide::GuidedHooks;
-use super::pictures::TrainingImages;
+use super::guided_hooks::GuidedHooks;
+use super::sd_tree::{FACES, RegionUpdate, SdTree, SpatialLeaf, face, place_of, refinement};
+use super::training_images::TrainingImages;
 use super::training_path::{Record, TrainingPath};
 use crate::path::follow_part;
 use crate::path::state::PathState;
