@@ -186,17 +186,17 @@ impl Integrator for Forward {
         true
     }
 
-    fn incompatibilities(&self, sight: &SceneCapabilities) -> Vec<Incompatibility> {
-        let mut objections = sight.incompatibilities(LightSearch::Choosing);
-        objections.extend(sight.unsplattable());
-        if !sight.aperture {
+    fn incompatibilities(&self, capabilities: &SceneCapabilities) -> Vec<Incompatibility> {
+        let mut incompatibilities = capabilities.incompatibilities(LightSearch::Choosing);
+        incompatibilities.extend(capabilities.unsplattable());
+        if !capabilities.aperture {
             let message = "`forward` waits for particles to hit the aperture of the camera, and \
                            this camera has none";
             let help = "use a `thinlens` with an `aperture_radius` above 0, or `ptracer`, which \
                         connects particles with any camera";
-            objections.push(Incompatibility::fatal(Subject::Camera, message).help(help));
+            incompatibilities.push(Incompatibility::fatal(Subject::Camera, message).help(help));
         }
-        objections
+        incompatibilities
     }
 
     fn prepare<W: World>(&self, _: &W, _: &impl Placing, _: &Pass, _: Option<()>) {}

@@ -193,11 +193,11 @@ impl Integrator for ParticleTracer {
         true
     }
 
-    fn incompatibilities(&self, sight: &SceneCapabilities) -> Vec<Incompatibility> {
-        let mut objections = sight.incompatibilities(LightSearch::Choosing);
-        objections.extend(sight.unsplattable());
-        objections.extend(sight.unconnected());
-        objections
+    fn incompatibilities(&self, capabilities: &SceneCapabilities) -> Vec<Incompatibility> {
+        let mut incompatibilities = capabilities.incompatibilities(LightSearch::Choosing);
+        incompatibilities.extend(capabilities.unsplattable());
+        incompatibilities.extend(capabilities.unconnected());
+        incompatibilities
     }
 
     fn prepare<W: World>(&self, _: &W, _: &impl Placing, _: &Pass, _: Option<()>) {}

@@ -112,8 +112,8 @@ impl Integrator for ConnectionMerging {
         self.connections
     }
 
-    fn incompatibilities(&self, sight: &SceneCapabilities) -> Vec<Incompatibility> {
-        sight.incompatibilities(if self.connections {
+    fn incompatibilities(&self, capabilities: &SceneCapabilities) -> Vec<Incompatibility> {
+        capabilities.incompatibilities(if self.connections {
             LightSearch::Either
         } else {
             LightSearch::Choosing

@@ -49,7 +49,7 @@ use guided_hooks::GuidedHooks;
 use sd_tree::SdTree;
 use std::vec::Drain;
 use trainer::Trainer;
-use training_images::{Joined, TrainingImages};
+use training_images::{TrainingImages, TrainingSink};
 
 /// The guided path tracer.
 #[derive(Clone, Debug)]
@@ -195,7 +195,7 @@ impl Integrator for Guided {
                 let first = (jobs.as_slice().iter())
                     .map(|job| job.site.sample == 0)
                     .collect();
-                let mut sink = Joined::new(sink, pictures, learned.replicate, first);
+                let mut sink = TrainingSink::new(sink, pictures, learned.replicate, first);
                 follow_jobs(world, &config, guide, jobs, &mut sink);
             }
             None => follow_jobs(world, &config, guide, jobs, sink),

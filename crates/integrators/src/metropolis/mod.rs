@@ -53,8 +53,8 @@ pub mod pssmlt;
 #[cfg(test)]
 mod tests;
 
+pub use bootstrap::BootstrapState;
 pub(crate) use bootstrap::PathLengthPdf;
-pub use bootstrap::State;
 pub(crate) use contributions::{Contributions, FilmRegion};
 pub use integrator::Metropolis;
 pub(crate) use integrator::PathSampler;

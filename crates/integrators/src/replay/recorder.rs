@@ -247,9 +247,9 @@ impl<'a, W: World> World for Recorder<'a, W> {
         wavelengths: &Wavelengths,
         crossings: u32,
     ) -> Option<Transmission> {
-        let passage = self.world.transmittance(ray, wavelengths, crossings);
+        let transmission = self.world.transmittance(ray, wavelengths, crossings);
         let along = vector(ray.direction);
-        let line = match &passage {
+        let line = match &transmission {
             None => format!("    blocked along {along}"),
             Some(p) => format!(
                 "    arrives along {along}: transmittance {}, probability {}",
@@ -258,7 +258,7 @@ impl<'a, W: World> World for Recorder<'a, W> {
             ),
         };
         self.log.line_at(wavelengths, line);
-        passage
+        transmission
     }
 
     fn transmittance_batch(
