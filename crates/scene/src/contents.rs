@@ -56,7 +56,7 @@ impl Scene {
     /// What an estimator can see of it, through the film's window of `size` pixels from `origin`.
     pub fn capabilities(&self, origin: UVec2, size: UVec2) -> SceneCapabilities {
         let view = camera_probe::look(self, origin, size);
-        // Nobody asked for these rays.
+        // The rays of the probe do not count.
         rays::take();
         // Paths run into matter that shines.
         let mut lights = self.parts.lights.count();

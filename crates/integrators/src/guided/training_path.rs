@@ -124,8 +124,8 @@ impl<'f> TrainingPath<'f> {
 
 impl PathVertex {
     /// An estimate of the radiance that comes from the vertex's direction, times `factor`, the mean over the lanes,
-    /// which are drawn as the eye is sensitive to them. Exact in expectation where later densities are the same in all lanes; but
-    /// for noise, nothing depends on it.
+    /// which are drawn as the eye is sensitive to them. Exact in expectation where later densities are the same in all lanes;
+    /// only noise depends on it.
     fn incident(&self, factor: Vec4) -> f32 {
         let value = self.throughput.beta;
         let seen = value.cmpgt(Vec4::ZERO);
