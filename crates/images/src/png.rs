@@ -76,13 +76,6 @@ fn develop_colour(colour: &Colour<'_>, development: Development) -> (Vec<u8>, Lo
     (bytes, losses)
 }
 
-/// The factor of so many stops: 2^`exposure`, held to what leaves 0 of every 32-bit float but 0
-/// and ∞, or ∞. It is finite, so that black stays black.
-#[must_use]
-pub fn gain(exposure: f32) -> f64 {
-    etalon_math::float64::pow(2.0, f64::from(exposure).clamp(-1000.0, 1000.0))
-}
-
 /// Encodes RGB bytes, three per pixel, as a PNG file in memory, for reports.
 ///
 /// # Errors

@@ -9,8 +9,6 @@
 //! images*, equation 4, for each of red, green and blue: it rolls highlights off, so that 16 becomes white and bright colours pale, as on
 //! film. k = 1.218657… is chosen such that a mid grey of 0.18 stays what it is. Both are encoded as sRGB afterwards.
 
-use crate::png::gain;
-
 /// A way to show linear colours.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum View {
@@ -83,6 +81,13 @@ impl Development {
     pub fn gain(self) -> f64 {
         gain(self.exposure)
     }
+}
+
+/// The factor of so many stops: 2^`exposure`, held to what leaves 0 of every 32-bit float but 0
+/// and ∞, or ∞. It is finite, so that black stays black.
+#[must_use]
+pub fn gain(exposure: f32) -> f64 {
+    etalon_math::float64::pow(2.0, f64::from(exposure).clamp(-1000.0, 1000.0))
 }
 
 #[cfg(test)]

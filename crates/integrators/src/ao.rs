@@ -115,8 +115,8 @@ impl AmbientOcclusion {
                 t_max: self.distance,
                 ..vertex.spawn(direction)
             };
-            if let Some(passage) = world.transmittance(&ray, wavelengths, u32::MAX) {
-                sum += weight * 0.25 * passage.transmittance.element_sum();
+            if let Some(transmission) = world.transmittance(&ray, wavelengths, u32::MAX) {
+                sum += weight * 0.25 * transmission.transmittance.element_sum();
             }
         }
         sum / self.shading_samples as f32

@@ -175,8 +175,8 @@ impl Integrator for Aov {
     }
 
     /// Those of the integrators inside.
-    fn incompatibilities(&self, sight: &SceneCapabilities) -> Vec<Incompatibility> {
-        Nested::incompatibilities(&self.nested, sight)
+    fn incompatibilities(&self, capabilities: &SceneCapabilities) -> Vec<Incompatibility> {
+        Nested::incompatibilities(&self.nested, capabilities)
     }
 
     fn channels(&self) -> Vec<Channel> {

@@ -213,8 +213,8 @@ impl Integrator for Direct {
         ReplicateKind::Blocks
     }
 
-    fn incompatibilities(&self, sight: &SceneCapabilities) -> Vec<Incompatibility> {
-        sight.incompatibilities(match (self.emitter_samples, self.bsdf_samples) {
+    fn incompatibilities(&self, capabilities: &SceneCapabilities) -> Vec<Incompatibility> {
+        capabilities.incompatibilities(match (self.emitter_samples, self.bsdf_samples) {
             (0, _) => LightSearch::Hitting,
             (_, 0) => LightSearch::Connecting,
             _ => LightSearch::FromCamera,

@@ -85,18 +85,18 @@ struct Branch {
     eta: f32,
     /// Number of segments, that of `ray` included.
     depth: u32,
-    /// Number of surfaces met that scatter into a continuum.
+    /// Number of surfaces so far that scatter into a continuum.
     bounces: u32,
     /// Whether it only went straight.
     straight: bool,
 }
 
-/// The contributions of a branch.
+/// The estimate of a branch.
 #[derive(Clone, Copy, Default)]
-struct Found {
+struct Estimate {
     /// Per lane, over the sum of all densities' ratios (see [`PathThroughput::contribution`]).
     radiance: Vec4,
-    /// 1 if it met anything that it did not pass straight, the background included.
+    /// 1 if it came to anything that it did not pass straight, the background included.
     alpha: f32,
 }
 
@@ -111,22 +111,22 @@ struct Tree<'a, W, S> {
 }
 
 impl<W: World, S: Sampler> Tree<'_, W, S> {
-    /// Everything that a branch finds. It is followed in a loop as long as one ray leaves each surface, so that a
+    /// The estimate of a branch and all that follow from it. It is followed in a loop as long as one ray leaves each surface, so that a
     /// path may be as long as it likes.
-    fn grow(&mut self, branch: Branch) -> Found {
-        let mut found = Found::default();
+    fn grow(&mut self, branch: Branch) -> Estimate {
+        let mut estimate = Estimate::default();
         let mut next = Some(branch);
         while let Some(branch) = next {
-            next = self.visit(branch, &mut found);
+            next = self.visit(branch, &mut estimate);
         }
-        found
+        estimate
     }
 
     /// What a branch finds at the next surface, and on the rays that leave it unless it is a single one,
     /// which is left to be followed.
-    fn visit(&mut self, mut branch: Branch, found: &mut Found) -> Option<Branch> {
+    fn visit(&mut self, mut branch: Branch, estimate: &mut Estimate) -> Option<Branch> {
         let (world, settings) = (self.world, self.integrator.settings);
-        found.alpha = found.alpha.max(f32::from(!branch.straight));
+        estimate.alpha = estimate.alpha.max(f32::from(!branch.straight));
         let hidden = settings.hide_emitters && branch.depth == 1;
         let hit = next_hit(world, &mut branch.ray, hidden);
         let arriving = Arriving {
@@ -138,12 +138,12 @@ impl<W: World, S: Sampler> Tree<'_, W, S> {
         let sees_background = !settings.hide_emitters || !branch.straight;
         let vertex = match arriving.at(world, &branch.ray, hit.as_ref(), sees_background) {
             Arrival::Surface(vertex, emission) => {
-                found.radiance += emission;
+                estimate.radiance += emission;
                 vertex
             }
             Arrival::Background(emission) => {
-                found.radiance += emission;
-                found.alpha = 1.0;
+                estimate.radiance += emission;
+                estimate.alpha = 1.0;
                 return None;
             }
             Arrival::Nothing => return None,
@@ -155,7 +155,7 @@ impl<W: World, S: Sampler> Tree<'_, W, S> {
         let wo = -branch.ray.direction;
         let bsdf = world.surfaces().bsdf(&vertex, wo, &self.wavelengths);
         if last {
-            found.alpha = found.alpha.max(opacity(&bsdf));
+            estimate.alpha = estimate.alpha.max(opacity(&bsdf));
             return None;
         }
         let continuous = bsdf.has_continuous();
@@ -170,7 +170,8 @@ impl<W: World, S: Sampler> Tree<'_, W, S> {
         for number in 0..count {
             let event = self.event(number, count);
             if continuous {
-                found.radiance += self.connect(&branch, &vertex, &from, &bsdf, wo, &event) * share;
+                estimate.radiance +=
+                    self.connect(&branch, &vertex, &from, &bsdf, wo, &event) * share;
             }
             alpha += share
                 * match self.scatter(&branch, &vertex, &from, &bsdf, wo, &event) {
@@ -179,12 +180,12 @@ impl<W: World, S: Sampler> Tree<'_, W, S> {
                     Next::Branch(next) if count == 1 => return Some(next),
                     Next::Branch(next) => {
                         let next = self.grow(next);
-                        found.radiance += next.radiance * share;
+                        estimate.radiance += next.radiance * share;
                         next.alpha
                     }
                 };
         }
-        found.alpha = found.alpha.max(alpha);
+        estimate.alpha = estimate.alpha.max(alpha);
         None
     }
 
@@ -299,7 +300,7 @@ impl Integrator for Distribution {
             sampler,
             events: 0,
         };
-        let found = if self.settings.max_depth > 0 {
+        let estimate = if self.settings.max_depth > 0 {
             tree.grow(Branch {
                 ray,
                 throughput: PathThroughput::START,
@@ -310,12 +311,12 @@ impl Integrator for Distribution {
                 straight: true,
             })
         } else {
-            Found::default()
+            Estimate::default()
         };
         let rgb = world
             .sensor()
             .weights(&wavelengths)
-            .rgb(found.radiance * weight);
-        sink.radiance(rgb.to_array(), found.alpha);
+            .rgb(estimate.radiance * weight);
+        sink.radiance(rgb.to_array(), estimate.alpha);
     }
 }

@@ -20,7 +20,7 @@
 
 use crate::steps::arrival;
 use crate::steps::camera_ray::camera_ray;
-use crate::steps::particle::LightPath;
+use crate::steps::light_path::LightPath;
 use crate::steps::path_throughput::PathThroughput;
 use crate::steps::settings::PathSettings;
 use etalon_params::Params;
@@ -60,8 +60,10 @@ impl Forward {
         let mut depth = 1;
         while depth <= self.settings.max_depth {
             let hit = arrival::next_hit(world, &mut ray, hide && depth == 1);
-            if let Some(passage) = arrival::transmittance(world, &ray, hit.as_ref(), wavelengths) {
-                through *= passage.transmittance;
+            if let Some(transmission) =
+                arrival::transmittance(world, &ray, hit.as_ref(), wavelengths)
+            {
+                through *= transmission.transmittance;
             }
             let Some(hit) = hit else {
                 if hide || !world.lights().has_background() {
@@ -97,8 +99,10 @@ impl Forward {
         let mut arriving = Vec4::ONE;
         loop {
             let hit = world.surfaces().intersect(&ray);
-            if let Some(passage) = arrival::transmittance(world, &ray, hit.as_ref(), wavelengths) {
-                arriving *= passage.transmittance;
+            if let Some(transmission) =
+                arrival::transmittance(world, &ray, hit.as_ref(), wavelengths)
+            {
+                arriving *= transmission.transmittance;
             }
             let Some(hit) = hit else { break };
             if !(self.settings.hide_emitters && world.lights().is_emitter(&hit)) {
@@ -147,7 +151,7 @@ impl Forward {
                     && let Some(arriving) = arriving(found.t)
                 {
                     let weight = arriving * found.weight;
-                    let value = particle.prefix.contribution(weight, Vec4::ZERO);
+                    let value = particle.throughput.contribution(weight, Vec4::ZERO);
                     let rgb = sensor.rgb(value) / site.pixels as f32;
                     sink.splat(found.raster, rgb.to_array());
                 }
@@ -155,14 +159,14 @@ impl Forward {
             if depth == max_depth {
                 return;
             }
-            let Some(met) = particle.next(world, sampler) else {
+            let Some(vertex) = particle.next(world, sampler) else {
                 return;
             };
-            let Some(sample) = particle.scatter(&met, rr_depth) else {
+            let Some(sample) = particle.scatter(&vertex, rr_depth) else {
                 return;
             };
             straight &= sample.is_null;
-            on_light = met.vertex.light.is_some();
+            on_light = vertex.point.light.is_some();
         }
     }
 }
@@ -182,17 +186,17 @@ impl Integrator for Forward {
         true
     }
 
-    fn incompatibilities(&self, sight: &SceneCapabilities) -> Vec<Incompatibility> {
-        let mut objections = sight.incompatibilities(LightSearch::Choosing);
-        objections.extend(sight.unsplattable());
-        if !sight.aperture {
+    fn incompatibilities(&self, capabilities: &SceneCapabilities) -> Vec<Incompatibility> {
+        let mut incompatibilities = capabilities.incompatibilities(LightSearch::Choosing);
+        incompatibilities.extend(capabilities.unsplattable());
+        if !capabilities.aperture {
             let message = "`forward` waits for particles to hit the aperture of the camera, and \
                            this camera has none";
             let help = "use a `thinlens` with an `aperture_radius` above 0, or `ptracer`, which \
                         connects particles with any camera";
-            objections.push(Incompatibility::fatal(Subject::Camera, message).help(help));
+            incompatibilities.push(Incompatibility::fatal(Subject::Camera, message).help(help));
         }
-        objections
+        incompatibilities
     }
 
     fn prepare<W: World>(&self, _: &W, _: &impl Placing, _: &Pass, _: Option<()>) {}

@@ -111,21 +111,21 @@ macro_rules! integrators {
             }
 
             /// The reasons why it cannot render a scene, or not all of its light.
-            pub fn incompatibilities(&self, sight: &SceneCapabilities) -> Vec<Incompatibility> {
+            pub fn incompatibilities(&self, capabilities: &SceneCapabilities) -> Vec<Incompatibility> {
                 fn all<I: Integrator>(
                     integrator: &I,
-                    sight: &SceneCapabilities,
+                    capabilities: &SceneCapabilities,
                 ) -> Vec<Incompatibility> {
-                    let unseen = (!I::MEDIA).then(|| sight.media_unseen(&seeing_media()));
+                    let unseen = (!I::MEDIA).then(|| capabilities.media_unseen(&seeing_media()));
                     let diffusion = (I::MEDIA && !I::DIFFUSION)
-                        .then(|| sight.diffusion_unseen(&seeing_diffusion()));
-                    let endless = sight.endless_lit().filter(|_| I::FOLLOWS_LIGHT);
-                    let one_way = sight.seen_one_way().filter(|_| I::FOLLOWS_LIGHT);
+                        .then(|| capabilities.diffusion_unseen(&seeing_diffusion()));
+                    let endless = capabilities.endless_lit().filter(|_| I::FOLLOWS_LIGHT);
+                    let one_way = capabilities.seen_one_way().filter(|_| I::FOLLOWS_LIGHT);
                     let unseen = unseen.into_iter().chain(diffusion).flatten().chain(endless).chain(one_way);
-                    unseen.chain(integrator.incompatibilities(sight)).collect()
+                    unseen.chain(integrator.incompatibilities(capabilities)).collect()
                 }
                 match self {
-                    $(Self::$variant(integrator) => all(integrator, sight),)*
+                    $(Self::$variant(integrator) => all(integrator, capabilities),)*
                 }
             }
 
@@ -165,7 +165,7 @@ macro_rules! integrators {
                 sampler: &mut S,
                 sink: &mut dyn Sink,
             ) {
-                let mut sink = Behind(sink);
+                let mut sink = DynSink(sink);
                 match self {
                     $(Self::$variant(integrator) => {
                         if let Some(state) = unprepared(integrator) {
@@ -235,9 +235,11 @@ impl Nested {
     /// The incompatibilities of nested integrators.
     pub(crate) fn incompatibilities(
         nested: &[Self],
-        sight: &SceneCapabilities,
+        capabilities: &SceneCapabilities,
     ) -> Vec<Incompatibility> {
-        let each = nested.iter().map(|n| n.integrator.incompatibilities(sight));
+        let each = nested
+            .iter()
+            .map(|n| n.integrator.incompatibilities(capabilities));
         each.flatten().collect()
     }
 
@@ -293,9 +295,9 @@ impl Nested {
 }
 
 /// A sink behind a pointer.
-struct Behind<'a>(&'a mut dyn Sink);
+struct DynSink<'a>(&'a mut dyn Sink);
 
-impl Sink for Behind<'_> {
+impl Sink for DynSink<'_> {
     fn radiance(&mut self, rgb: [f32; 3], alpha: f32) {
         self.0.radiance(rgb, alpha);
     }

@@ -58,8 +58,8 @@ impl Integrator for Moment {
     }
 
     /// Those of the integrators inside.
-    fn incompatibilities(&self, sight: &SceneCapabilities) -> Vec<Incompatibility> {
-        Nested::incompatibilities(&self.nested, sight)
+    fn incompatibilities(&self, capabilities: &SceneCapabilities) -> Vec<Incompatibility> {
+        Nested::incompatibilities(&self.nested, capabilities)
     }
 
     fn channels(&self) -> Vec<Channel> {

@@ -168,7 +168,7 @@ impl Naive {
     }
 
     /// The radiance along a ray from the camera, per lane and over the sum of the densities'
-    /// ratios, and the alpha of what it met.
+    /// ratios, and the alpha of what it came to.
     fn incident<W: World, S: Sampler>(
         &self,
         world: &W,
@@ -248,8 +248,8 @@ impl Integrator for Naive {
         ReplicateKind::Blocks
     }
 
-    fn incompatibilities(&self, sight: &SceneCapabilities) -> Vec<Incompatibility> {
-        sight.incompatibilities(LightSearch::Hitting)
+    fn incompatibilities(&self, capabilities: &SceneCapabilities) -> Vec<Incompatibility> {
+        capabilities.incompatibilities(LightSearch::Hitting)
     }
 
     fn prepare<W: World>(&self, _: &W, _: &impl Placing, _: &Pass, _: Option<()>) {}

@@ -19,7 +19,7 @@ use crate::steps::arrival::{self, Arriving};
 use crate::steps::camera_ray::camera_ray;
 use crate::steps::dimensions as dim;
 use crate::steps::light_mis::LightMis;
-use crate::steps::particle::{LightPath, LightVertex};
+use crate::steps::light_path::{LightPath, LightVertex};
 use crate::steps::path_throughput::PathThroughput;
 use crate::steps::settings::PathSettings;
 use crate::steps::visibility::camera_visibility;
@@ -57,30 +57,32 @@ impl ParticleTracer {
         sampler: &mut impl Sampler,
     ) -> (Vec4, f32) {
         let visible = !self.settings.hide_emitters;
-        let mut prefix = PathThroughput::START;
+        let mut throughput = PathThroughput::START;
         let mut radiance = Vec4::ZERO;
         let mut depth = 1;
         while depth <= self.settings.max_depth {
             let hidden = !visible && depth == 1;
             let hit = arrival::next_hit(world, &mut ray, hidden);
-            if let Some(passage) = arrival::transmittance(world, &ray, hit.as_ref(), wavelengths) {
+            if let Some(transmission) =
+                arrival::transmittance(world, &ray, hit.as_ref(), wavelengths)
+            {
                 // Matter that shines is seen where a flight ends.
                 let u = sampler.next_1d();
                 let flight = arrival::free_flight(world, &ray, hit.as_ref(), wavelengths, u);
                 let arriving = Arriving {
                     wavelengths,
-                    throughput: &prefix,
+                    throughput: &throughput,
                     light_mis: &LightMis::NONE,
                 };
                 radiance += flight.map_or(Vec4::ZERO, |flight| {
                     arriving.emitted_by_medium(world, &flight, &ray)
                 });
-                prefix.beta *= passage.transmittance;
+                throughput.beta *= transmission.transmittance;
             }
             let Some(hit) = hit else {
                 if visible && world.lights().has_background() {
                     let background = world.lights().background(ray.direction, wavelengths);
-                    radiance += prefix.contribution(background, Vec4::ZERO);
+                    radiance += throughput.contribution(background, Vec4::ZERO);
                     return (radiance, 1.0);
                 }
                 break;
@@ -89,7 +91,7 @@ impl ParticleTracer {
             let wo = -ray.direction;
             if world.lights().is_emitter(&hit) {
                 let emitted = world.lights().emitted(&vertex, wo, wavelengths);
-                radiance += prefix.contribution(emitted, Vec4::ZERO);
+                radiance += throughput.contribution(emitted, Vec4::ZERO);
             }
             let passing = world
                 .surfaces()
@@ -98,11 +100,11 @@ impl ParticleTracer {
             if passing == Vec4::ZERO {
                 return (radiance, 1.0);
             }
-            prefix.beta *= passing;
+            throughput.beta *= passing;
             ray = vertex.spawn(ray.direction);
             depth += 1;
         }
-        (radiance, 1.0 - 0.25 * prefix.beta.element_sum())
+        (radiance, 1.0 - 0.25 * throughput.beta.element_sum())
     }
 
     /// One particle, splatted wherever the camera sees it scatter.
@@ -127,50 +129,52 @@ impl ParticleTracer {
         };
         // As many segments as its depth lie behind once it has arrived.
         while particle.depth < max_depth {
-            let Some(met) = particle.next(world, sampler) else {
+            let Some(vertex) = particle.next(world, sampler) else {
                 return;
             };
-            if met.bsdf.has_continuous() {
+            if vertex.bsdf.has_continuous() {
                 let crossings = max_depth - particle.depth - 1;
-                let prefix = &particle.prefix;
-                let seen = self.connect(world, wavelengths, site, prefix, &met, crossings);
+                let throughput = &particle.throughput;
+                let seen = self.connect(world, wavelengths, site, throughput, &vertex, crossings);
                 if let Some((raster, value)) = seen {
                     let rgb = sensor.rgb(value) / site.pixels as f32;
                     sink.splat(raster, rgb.to_array());
                 }
             }
-            if particle.scatter(&met, rr_depth).is_none() {
+            if particle.scatter(&vertex, rr_depth).is_none() {
                 return;
             }
         }
     }
 
-    /// Connects the surface that a particle met with the camera: where it lands, and its value per lane.
+    /// Connects the surface that a particle arrives at with the camera: where it lands, and its value per lane.
     fn connect<W: World>(
         &self,
         world: &W,
         wavelengths: &Wavelengths,
         site: &PixelSample,
-        prefix: &PathThroughput,
-        met: &LightVertex<ScattererOf<'_, W>>,
+        throughput: &PathThroughput,
+        vertex: &LightVertex<ScattererOf<'_, W>>,
         crossings: u32,
     ) -> Option<(Vec2, Vec4)> {
-        let (vertex, lens) = (&met.vertex, met.event.light);
-        let connection =
-            (world.camera()).connect(vertex.position, lens, vertex.time, site.margin)?;
-        let value = (met.bsdf).eval(met.wo, connection.direction, TransportMode::Importance);
+        let (point, lens) = (&vertex.point, vertex.event.light);
+        let connection = (world.camera()).connect(point.position, lens, point.time, site.margin)?;
+        let value = (vertex.bsdf).eval(vertex.wo, connection.direction, TransportMode::Importance);
         if value == Vec4::ZERO {
             return None;
         }
-        let ray = vertex.shadow_ray(connection.direction, Some(connection.target))?;
-        let passage = if self.settings.hide_emitters {
-            let on_light = vertex.light.is_some();
-            camera_visibility(world, wavelengths, ray, on_light, crossings)?.passage
+        let ray = point.shadow_ray(connection.direction, Some(connection.target))?;
+        let transmission = if self.settings.hide_emitters {
+            let on_light = point.light.is_some();
+            camera_visibility(world, wavelengths, ray, on_light, crossings)?.transmission
         } else {
             world.transmittance(&ray, wavelengths, crossings)?
         };
-        let radiance = value * passage.transmittance * connection.weight;
-        Some((connection.raster, prefix.contribution(radiance, Vec4::ZERO)))
+        let radiance = value * transmission.transmittance * connection.weight;
+        Some((
+            connection.raster,
+            throughput.contribution(radiance, Vec4::ZERO),
+        ))
     }
 }
 
@@ -189,11 +193,11 @@ impl Integrator for ParticleTracer {
         true
     }
 
-    fn incompatibilities(&self, sight: &SceneCapabilities) -> Vec<Incompatibility> {
-        let mut objections = sight.incompatibilities(LightSearch::Choosing);
-        objections.extend(sight.unsplattable());
-        objections.extend(sight.unconnected());
-        objections
+    fn incompatibilities(&self, capabilities: &SceneCapabilities) -> Vec<Incompatibility> {
+        let mut incompatibilities = capabilities.incompatibilities(LightSearch::Choosing);
+        incompatibilities.extend(capabilities.unsplattable());
+        incompatibilities.extend(capabilities.unconnected());
+        incompatibilities
     }
 
     fn prepare<W: World>(&self, _: &W, _: &impl Placing, _: &Pass, _: Option<()>) {}

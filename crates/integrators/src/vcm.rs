@@ -1,7 +1,7 @@
 //! `vcm`: vertex connection and merging.
 //!
 //! All techniques of [`crate::bdpt`], and for every surface xᵢ of a path one more: a photon at xᵢ
-//! and the camera's walk at xᵢ, merged if they are less than r apart,
+//! and the camera subpath's vertex at xᵢ, merged if they are less than r apart,
 //!
 //! ```text
 //! pₘ,ᵢ = a₀ … aᵢ · bᵢ … · π r²,   n of them
@@ -10,19 +10,19 @@
 //!
 //! with σ and σ' over connections and mergings (Georgiev, Křivánek, Davidovič, Slusallek 2012,
 //! "Light Transport Simulation with Vertex Connection and Merging"; Hachisuka, Pantaleoni, Jensen
-//! 2012). A corner that scatters discretely is neither connected nor merged.
+//! 2012). A vertex that scatters discretely is neither connected nor merged.
 //!
 //! Without `connections` σ and σ' run over mergings alone: bidirectional photon mapping (Vorba 2011,
-//! "Bidirectional Photon Mapping"). Lights are then run into only along paths without any corner at which
+//! "Bidirectional Photon Mapping"). Lights are then run into only along paths without any vertex at which
 //! photons could be merged.
 //!
 //! A sample is a pass with photons of its own, n of them, and a replicate a progression whose
 //! radius shrinks as in [`crate::photons::radius`]. All paths of a pass have the same four
 //! wavelengths, so that all can be merged, dispersion or not; those of a progression lie evenly
-//! ([`crate::photons`]). Light walks that are connected and those that are merged are different
+//! ([`crate::photons`]). Light subpaths that are connected and those that are merged are different
 //! ones: weights only ask how many could have made a path.
 
-use crate::bdpt::merge::{self, Merging, Terms};
+use crate::bdpt::merging::{self, Merging, MergingParameters};
 use crate::bdpt::{Start, estimate};
 use crate::photons::radius::Radius;
 use crate::photons::sets::WavelengthSets;
@@ -112,8 +112,8 @@ impl Integrator for ConnectionMerging {
         self.connections
     }
 
-    fn incompatibilities(&self, sight: &SceneCapabilities) -> Vec<Incompatibility> {
-        sight.incompatibilities(if self.connections {
+    fn incompatibilities(&self, capabilities: &SceneCapabilities) -> Vec<Incompatibility> {
+        capabilities.incompatibilities(if self.connections {
             LightSearch::Either
         } else {
             LightSearch::Choosing
@@ -135,7 +135,7 @@ impl Integrator for ConnectionMerging {
         let radius = self.radius.of(world, pass);
         let pixels = pass.size.x.saturating_mul(pass.size.y);
         let count = rounded(self.photons.unwrap_or(pixels), 1);
-        let terms = Terms {
+        let parameters = MergingParameters {
             radius,
             count,
             connections: self.connections,
@@ -143,18 +143,18 @@ impl Integrator for ConnectionMerging {
         };
         let photons = in_order(count, placing, |index, found| {
             let mut sampler = numbers(pass, index, count);
-            merge::shoot(
+            merging::shoot(
                 world,
                 &wavelengths,
                 &self.settings,
-                &terms,
+                &parameters,
                 &mut sampler,
                 found,
             );
         });
         State {
             wavelengths,
-            merging: Merging::new(photons, terms),
+            merging: Merging::new(photons, parameters),
         }
     }
 
@@ -166,9 +166,9 @@ impl Integrator for ConnectionMerging {
         sampler: &mut S,
         sink: &mut K,
     ) {
-        let lists = [&mut Vec::new(), &mut Vec::new()];
+        let subpaths = [&mut Vec::new(), &mut Vec::new()];
         let start = self.start(world, state, site, sampler);
-        estimate(world, &start, site, sampler, sink, lists);
+        estimate(world, &start, site, sampler, sink, subpaths);
     }
 
     fn sample_batch<W: World, S: Sampler, K: TileSink>(
@@ -178,13 +178,13 @@ impl Integrator for ConnectionMerging {
         jobs: Drain<'_, SampleJob<S>>,
         sink: &mut K,
     ) {
-        let (mut eye, mut light) = (Vec::new(), Vec::new());
+        let (mut camera_subpath, mut light_subpath) = (Vec::new(), Vec::new());
         for mut job in jobs {
             sink.begin_placed(job.site.pixel, &job.placement());
-            let lists = [&mut eye, &mut light];
+            let subpaths = [&mut camera_subpath, &mut light_subpath];
             let start = self.start(world, state, &job.site, &mut job.sampler);
             let (site, sampler) = (&job.site, &mut job.sampler);
-            estimate(world, &start, site, sampler, sink, lists);
+            estimate(world, &start, site, sampler, sink, subpaths);
         }
     }
 }

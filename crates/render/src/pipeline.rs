@@ -63,13 +63,15 @@ pub fn load(path: &Path, options: &LoadOptions) -> Result<Loaded, LoadError> {
             let place = place(&document.root, &[Class::Integrator]);
             diagnostics.keep(check_channels(&compiled.film, integrator, place));
             let film = &compiled.film;
-            let mut sight = compiled.scene.sight(film.crop_offset, film.crop_size);
-            sight.narrow_filter = !PixelFilter::new(film.filter).catches_splats();
-            sight.classic = compiled.classic.is_some(); // One that no shape has does no harm.
-            for objection in integrator.incompatibilities(&sight) {
+            let mut capabilities = compiled
+                .scene
+                .capabilities(film.crop_offset, film.crop_size);
+            capabilities.narrow_filter = !PixelFilter::new(film.filter).catches_splats();
+            capabilities.classic = compiled.classic.is_some(); // One that no shape has does no harm.
+            for incompatibility in integrator.incompatibilities(&capabilities) {
                 complete = false;
                 let root = &document.root;
-                diagnostics.push(objections::diagnostic(objection, root, compiled));
+                diagnostics.push(objections::diagnostic(incompatibility, root, compiled));
             }
         }
         if sound && !diagnostics.has_errors() {

@@ -103,7 +103,9 @@ pub fn compile_with(
         responses,
         ..
     } = sensor?;
-    surfaces.asked.note_ranges(&builder.textures, diagnostics);
+    surfaces
+        .required_attributes
+        .note_ranges(&builder.textures, diagnostics);
     builder.textures.finish_reading();
     let start = Instant::now();
     let geometry = surfaces.geometry.build_with(options.accelerator);

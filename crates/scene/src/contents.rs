@@ -54,9 +54,9 @@ impl Scene {
     }
 
     /// What an estimator can see of it, through the film's window of `size` pixels from `origin`.
-    pub fn sight(&self, origin: UVec2, size: UVec2) -> SceneCapabilities {
+    pub fn capabilities(&self, origin: UVec2, size: UVec2) -> SceneCapabilities {
         let view = camera_probe::look(self, origin, size);
-        // Nobody asked for these rays.
+        // The rays of the probe do not count.
         rays::take();
         // Paths run into matter that shines.
         let mut lights = self.parts.lights.count();
@@ -77,7 +77,7 @@ impl Scene {
                 .space
                 .media
                 .any_homogeneous(Homogeneous::diffuses),
-            textured_walk: self.parts.space.media.any_homogeneous(Homogeneous::varies),
+            textured_random_walk: self.parts.space.media.any_homogeneous(Homogeneous::varies),
             endless: self.parts.space.lookup.geometry.is_endless()
                 && self.parts.lights.has_infinite(),
             narrow_filter: false,

@@ -10,7 +10,6 @@ mod contents;
 mod describe;
 mod media;
 mod parts;
-mod passage;
 mod rays;
 pub mod sampler;
 pub mod scene;
@@ -19,6 +18,7 @@ mod sensor;
 mod sensor_choice;
 mod space;
 pub mod surfaces;
+mod transmittance;
 
 pub use compile::{CompileOptions, Compiled, compile, compile_with};
 pub use contents::Contents;

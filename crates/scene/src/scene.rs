@@ -104,9 +104,9 @@ impl World for Scene {
         crossings: u32,
     ) -> Option<Transmission> {
         if !self.parts.has_null && self.parts.space.media.bodies().is_none() {
-            return self.clear_passage(ray, wavelengths);
+            return self.unoccluded_transmission(ray, wavelengths);
         }
-        self.passage_through(*ray, wavelengths, crossings)
+        self.transmission_past_null_surfaces(*ray, wavelengths, crossings)
     }
 
     #[inline]

@@ -8,7 +8,7 @@ pub(crate) mod solids;
 
 use crate::builder::Builder;
 use crate::media::bodies::Body;
-use crate::surfaces::attributes::Asked;
+use crate::surfaces::attributes::RequiredAttributes;
 use crate::surfaces::groups::GroupedLamp;
 use etalon_bsdf::Material;
 use etalon_geometry::shapes::csg::Operation;
@@ -65,7 +65,7 @@ pub struct Surfaces {
     /// Where the first classic Phong material is described, if a shape has one.
     pub classic: Option<Span>,
     /// What textures ask of the shapes.
-    pub(crate) asked: Asked,
+    pub(crate) required_attributes: RequiredAttributes,
     /// Media by id.
     pub media: Vec<(MediumDescription, Span)>,
     /// The media on both sides of shapes that have any.
@@ -206,7 +206,8 @@ impl Surfaces {
             let others = params.child(Class::Subsurface);
             for user in emitter.iter().chain(bsdf).chain(others) {
                 let place = node.plugin.span;
-                self.asked.by(user, shape, place, builder.diagnostics);
+                self.required_attributes
+                    .by(user, shape, place, builder.diagnostics);
             }
         }
         let material = self.material_or_default(bsdf, emitter.is_some(), builder);

@@ -55,7 +55,7 @@ pub trait Build {
     /// The texture described by a nested texture or spectrum object.
     fn nested_texture(&mut self, node: &Arc<Node>, role: SpectrumKind) -> TextureId;
 
-    /// Whether textures of this plugin vary in space, whatever is in them.
+    /// Whether textures of this plugin vary in space, regardless of their parameters.
     fn varies(&self, plugin: &str) -> bool;
 
     /// Pixels of a texture that is an image, width and height; 1 × 1 of anything else.

@@ -110,8 +110,8 @@ pub trait Integrator: Sync {
 
     /// The reasons why it cannot render a scene, or not all of its light. By default those of an
     /// estimator whose camera paths both hit lights and sample them.
-    fn incompatibilities(&self, sight: &SceneCapabilities) -> Vec<Incompatibility> {
-        sight.incompatibilities(LightSearch::FromCamera)
+    fn incompatibilities(&self, capabilities: &SceneCapabilities) -> Vec<Incompatibility> {
+        capabilities.incompatibilities(LightSearch::FromCamera)
     }
 
     /// How its replicates are related: [`ReplicateKind::Blocks`] if every sample is an unbiased estimate that

@@ -27,9 +27,9 @@ pub mod phase;
 pub mod ray;
 pub mod sample_pdf;
 pub mod scatterer;
+pub mod scene_capabilities;
 pub mod shapes;
 pub mod shutter;
-pub mod sight;
 pub mod surface_interaction;
 pub mod textures;
 pub mod uniformity;
@@ -53,11 +53,11 @@ pub use phase::{Phase, PhaseSample};
 pub use ray::{Departure, Ray};
 pub use sample_pdf::SamplePdf;
 pub use scatterer::{PhaseOf, Scatterer, ScattererOf};
-pub use shapes::{SampledPoint, Shapes, SurfacePoint};
-pub use shutter::Shutter;
-pub use sight::{
+pub use scene_capabilities::{
     CameraProbe, Incompatibility, LightCount, LightSearch, SceneCapabilities, Subject,
 };
+pub use shapes::{SampledPoint, Shapes, SurfacePoint};
+pub use shutter::Shutter;
 pub use surface_interaction::{Hit, SurfaceInteraction};
 pub use textures::{TexturePoint, Textures, gradient_by_differences};
 pub use uniformity::{is_varying, refuse_varying};

@@ -2,7 +2,9 @@
 
 use super::{fail, note};
 use crate::args::ConvertArgs;
-use etalon_images::{Colour, Error, Format, Image, Losses, View, exr, hdr, pfm, png, raster, srgb};
+use etalon_images::{
+    Colour, Error, Format, Image, Losses, View, exr, hdr, pfm, png, raster, srgb, view,
+};
 use etalon_render::write_guard::WriteGuard;
 use std::path::Path;
 use std::process::ExitCode;
@@ -162,7 +164,7 @@ fn ranged(mut image: Image, [a, b]: [f64; 2], is_png: bool) -> Image {
 }
 
 fn brightened(mut image: Image, exposure: f32, notes: &mut Vec<String>) -> Image {
-    let gain = png::gain(exposure);
+    let gain = view::gain(exposure);
     let mut infinite = 0;
     for name in ["R", "G", "B"] {
         let samples = image.channel_mut(name).into_iter().flatten();

@@ -7,7 +7,7 @@
 use super::Bounds;
 use super::binary::{Binary, BinaryTree};
 use super::block::LANES;
-use super::choices::WIDTH;
+use super::node::WIDTH;
 use glam::Vec3A;
 
 /// Triangles of a bunch at most.

@@ -18,10 +18,9 @@ use super::Primitives;
 use super::binary::{Binary, BinaryTree};
 use super::block::LANES;
 use super::bunch::{self, Bunch};
+use super::node::WIDTH;
 use core::sync::atomic::{AtomicBool, AtomicU32, Ordering};
 
-/// Children of a wide node.
-pub(super) const WIDTH: usize = 8;
 /// Cost of intersecting a block, relative to that of a node.
 const BLOCK_COST: f32 = 1.1;
 /// Cost of anything but a triangle.

@@ -1,9 +1,11 @@
 //! A node of the wide tree: eight boxes, tested at once.
 
 use super::Bounds;
-use super::choices::WIDTH;
 use crate::traversal_ray::TraversalRay;
 use wide::f32x8;
+
+/// Children of a wide node.
+pub(super) const WIDTH: usize = 8;
 
 /// The link to a child, in 32 bits.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -3,8 +3,8 @@
 use super::binary::{Binary, BinaryTree};
 use super::block::{Block, LANES};
 use super::bunch::Bunch;
-use super::choices::{Choices, WIDTH};
-use super::node::{Link, MAX_INDEX, Node};
+use super::choices::Choices;
+use super::node::{Link, MAX_INDEX, Node, WIDTH};
 use super::{Bounds, Primitives};
 use rayon::prelude::*;
 

@@ -5,8 +5,8 @@
 
 use super::binary::BinaryTree;
 use super::block::Block;
-use super::choices::{self, Choices, WIDTH};
-use super::node::{Link, Target};
+use super::choices::{self, Choices};
+use super::node::{Link, Target, WIDTH};
 use super::pack::{Packed, pack};
 use super::visits::Counter;
 use super::{CustomPrimitives, Primitives, block_bytes};

@@ -1,8 +1,8 @@
-//! The walk from the camera, and the corners it leaves behind.
+//! The subpath from the camera, and its vertices.
 
 use super::connect::Connector;
-use super::path_vertex::{Corner, PathVertex, counted};
-use super::subpath::{Met, SubpathEnd, SubpathState, camera_event};
+use super::path_vertex::{PathVertex, SubpathVertex, counted};
+use super::subpath::{Interaction, SubpathEnd, SubpathState, camera_event};
 use crate::steps::arrival;
 use crate::steps::dimensions::{BounceSamples, draw_flight};
 use crate::steps::path_throughput::PathThroughput;
@@ -12,7 +12,7 @@ use etalon_spectrum::Wavelengths;
 use etalon_transport::{Bsdf, Lights, Ray, SurfaceInteraction, Surfaces, TransportMode, World};
 use glam::Vec4;
 
-/// A walk from the camera.
+/// A subpath from the camera.
 pub(super) struct FromCamera {
     carried: SubpathState,
     /// The product of the indices of refraction passed.
@@ -20,18 +20,18 @@ pub(super) struct FromCamera {
     /// Whether it has looked through a hidden light.
     through_hidden: bool,
     goes_on: bool,
-    /// 1 if the walk met anything that it did not pass straight, the background included; where
+    /// 1 if the subpath met anything that it did not pass straight, the background included; where
     /// its length ends at a surface, the probability of that.
     pub(super) alpha: f32,
 }
 
 impl FromCamera {
-    /// A walk along the camera's ray.
+    /// A subpath along the camera's ray.
     pub(super) fn start(ray: Ray, settings: &PathSettings) -> Self {
         Self {
             carried: SubpathState {
                 ray,
-                prefix: PathThroughput::START,
+                throughput: PathThroughput::START,
                 density: 0.0,
                 passed: Vec4::ONE,
                 segments: 1,
@@ -47,22 +47,22 @@ impl FromCamera {
     fn arrival<W: World>(
         &self,
         connector: &mut Connector<'_, '_, W>,
-        vertex: &SurfaceInteraction,
+        point: &SurfaceInteraction,
         extinction: f32,
-        corners: &[Corner<'_, W>],
+        vertices: &[SubpathVertex<'_, W>],
     ) -> f32 {
         let carried = &self.carried;
-        let cos = vertex.area_cos(carried.ray.direction) * extinction;
-        match corners.last() {
+        let cos = point.area_cos(carried.ray.direction) * extinction;
+        match vertices.last() {
             None => {
                 // One sample per pixel makes one path per unit of the film.
-                let seen = connector.camera_density(vertex);
+                let seen = connector.camera_density(point);
                 let weight = if self.through_hidden { 0.0 } else { seen };
                 connector.camera_connects = weight > 0.0;
                 weight * cos * carried.passed.x
             }
             Some(last) => {
-                let distance_squared = vertex.position.distance_squared(last.vertex.position);
+                let distance_squared = point.position.distance_squared(last.point.position);
                 carried.density * cos / counted(distance_squared) * carried.passed.x
             }
         }
@@ -75,7 +75,7 @@ impl FromCamera {
         wavelengths: &Wavelengths,
         settings: &PathSettings,
         sampler: &mut impl Sampler,
-        corners: &mut Vec<Corner<'w, W>>,
+        vertices: &mut Vec<SubpathVertex<'w, W>>,
         connector: &mut Connector<'_, 'w, W>,
     ) -> bool {
         if !self.goes_on {
@@ -90,21 +90,26 @@ impl FromCamera {
         if self.carried.ray.medium.is_some() {
             let u = draw_flight(sampler, camera_event(self.carried.segments - 1));
             let medium = self.carried.ray.medium;
-            if let Some(met) = self.carried.fly(world, hit.as_ref(), wavelengths, u) {
+            if let Some(interaction) = self.carried.fly(world, hit.as_ref(), wavelengths, u) {
                 self.alpha = 1.0;
-                let density = self.arrival(connector, &met.vertex, met.extinction.x, corners);
-                if let Some(prefix) = met.shining {
+                let density = self.arrival(
+                    connector,
+                    &interaction.point,
+                    interaction.extinction.x,
+                    vertices,
+                );
+                if let Some(throughput) = interaction.emission {
                     let arrival = SubpathEnd {
-                        prefix,
+                        throughput,
                         density,
                         passed: self.carried.passed,
                     };
-                    connector.meet_medium(&arrival, &met.vertex, medium, corners);
+                    connector.hit_medium(&arrival, &interaction.point, medium, vertices);
                 }
                 if self.carried.segments == settings.max_depth {
                     return false;
                 }
-                return self.turn(met, density, settings, sampler, corners, connector);
+                return self.scatter(interaction, density, settings, sampler, vertices, connector);
             }
         }
         let Some(hit) = hit else {
@@ -114,44 +119,44 @@ impl FromCamera {
                 self.alpha = 1.0;
                 let density = self.carried.density * self.carried.passed.x;
                 let arrival = self.carried.arrival(density);
-                connector.meet_background(&arrival, direction, corners);
+                connector.hit_background(&arrival, direction, vertices);
             }
             return false;
         };
-        let vertex = world.surfaces().vertex(&self.carried.ray, &hit);
+        let point = world.surfaces().vertex(&self.carried.ray, &hit);
         let emits = world.lights().is_emitter(&hit);
         let wo = -direction;
-        let arrival = self.arrival(connector, &vertex, 1.0, corners);
+        let arrival = self.arrival(connector, &point, 1.0, vertices);
         if emits {
             let arrival = self.carried.arrival(arrival);
-            connector.meet_light(&arrival, &vertex, wo, corners);
+            connector.hit_light(&arrival, &point, wo, vertices);
         }
-        let met = Met::surface(world, vertex, wo, wavelengths);
+        let interaction = Interaction::surface(world, point, wo, wavelengths);
         if self.carried.segments == settings.max_depth {
-            self.alpha = self.alpha.max(arrival::opacity(&met.bsdf));
+            self.alpha = self.alpha.max(arrival::opacity(&interaction.bsdf));
             return false;
         }
-        self.turn(met, arrival, settings, sampler, corners, connector)
+        self.scatter(interaction, arrival, settings, sampler, vertices, connector)
     }
 
-    /// All that ends at the corner `met`, and the way on from there; whether there is more.
-    fn turn<'w, W: World>(
+    /// The techniques that end at the vertex of this interaction, and the direction sampled there; whether the subpath continues.
+    fn scatter<'w, W: World>(
         &mut self,
-        met: Met<'w, W>,
+        interaction: Interaction<'w, W>,
         arrival: f32,
         settings: &PathSettings,
         sampler: &mut impl Sampler,
-        corners: &mut Vec<Corner<'w, W>>,
+        vertices: &mut Vec<SubpathVertex<'w, W>>,
         connector: &mut Connector<'_, 'w, W>,
     ) -> bool {
         let event = BounceSamples::draw(sampler, camera_event(self.carried.segments - 1));
-        let mut corner = self.carried.corner(met, 1.0);
+        let mut vertex = self.carried.vertex(interaction, 1.0);
         let PathVertex {
-            vertex, bsdf, wo, ..
-        } = corner;
-        corner.arrival = arrival;
+            point, bsdf, wo, ..
+        } = vertex;
+        vertex.arrival = arrival;
         if bsdf.has_continuous() {
-            connector.connect(&corner, corners, &event);
+            connector.connect(&vertex, vertices, &event);
         }
         let Some(sample) = bsdf.sample(wo, event.lobe, event.direction, TransportMode::Radiance)
         else {
@@ -160,35 +165,37 @@ impl FromCamera {
         };
         if sample.is_null {
             self.carried
-                .pass(&vertex, sample.value, sample.chance.lanes());
-            self.goes_on = self.carried.prefix.beta != Vec4::ZERO;
+                .pass(&point, sample.value, sample.chance.lanes());
+            self.goes_on = self.carried.throughput.beta != Vec4::ZERO;
             return self.goes_on;
         }
         self.alpha = 1.0;
-        corner.is_delta = sample.chance.is_delta();
-        let [forward, back] = corner.both_densities(&sample);
-        if let Some(before) = corners.last_mut() {
-            let distance_squared = vertex.position.distance_squared(before.vertex.position);
-            before.pdf_rev = back * corner.passed * before.per_area(wo, distance_squared);
+        vertex.is_delta = sample.chance.is_delta();
+        let [forward, back] = vertex.both_densities(&sample);
+        if let Some(before) = vertices.last_mut() {
+            let distance_squared = point.position.distance_squared(before.point.position);
+            before.pdf_rev = back * vertex.passed * before.per_area(wo, distance_squared);
         }
         let carried = &mut self.carried;
-        carried.prefix.scatter(sample.value, sample.chance.lanes());
+        carried
+            .throughput
+            .scatter(sample.value, sample.chance.lanes());
         self.eta *= sample.eta;
         if carried.segments >= settings.rr_depth {
             let survival = match bsdf.is_in_space() {
-                true => carried.prefix.survival_in_medium(self.eta),
-                false => carried.prefix.survival(self.eta),
+                true => carried.throughput.survival_in_medium(self.eta),
+                false => carried.throughput.survival(self.eta),
             };
-            if !carried.prefix.survives(survival, event.roulette) {
+            if !carried.throughput.survives(survival, event.roulette) {
                 return false;
             }
         }
         carried.density = forward.x;
         carried.passed = Vec4::ONE;
-        carried.ray = vertex.spawn(sample.wi);
+        carried.ray = point.spawn(sample.wi);
         carried.segments += 1;
-        corners.push(corner);
-        self.goes_on = carried.prefix.beta != Vec4::ZERO;
+        vertices.push(vertex);
+        self.goes_on = carried.throughput.beta != Vec4::ZERO;
         self.goes_on
     }
 }

@@ -1,14 +1,14 @@
 //! `bdpt`: bidirectional path tracing.
 //!
-//! A path x₀x₁…xₙ from a light to the camera can be made in many ways: s of its vertices by a walk
-//! from the light, t = n + 1 − s by a walk from the camera, and the two connected. Each way is a
+//! A path x₀x₁…xₙ from a light to the camera can be made in many ways: s of its vertices by a subpath
+//! from the light, t = n + 1 − s by a subpath from the camera, and the two connected. Each way is a
 //! technique with a density of its own,
 //!
 //! ```text
 //! pₛ(x) = Π_{i<s} aᵢ · Π_{i≥s} bᵢ
 //! ```
 //!
-//! with aᵢ and bᵢ the densities per unit area with which a walk from the light, or from the camera,
+//! with aᵢ and bᵢ the densities per unit area with which a subpath from the light, or from the camera,
 //! arrives at xᵢ (Lafortune & Willems 1993; Veach & Guibas 1995; Veach 1997, chapter 10). All techniques *and all
 //! four wavelengths* are combined by one balance heuristic,
 //!
@@ -17,18 +17,18 @@
 //! ```
 //!
 //! with n_σ the number of samples that can make the very path: one for every pixel where the
-//! light's walk is connected to the camera itself (t = 1), else one. The techniques:
+//! light subpath is connected to the camera itself (t = 1), else one. The techniques:
 //!
-//! - s = 0: the camera's walk runs into a light;
-//! - s = 1: a light is sampled from the camera walk's corner, with a density of its own in place of a₀;
-//! - s ≥ 2, t ≥ 2: a corner of either walk, connected;
-//! - t = 1, s ≥ 2: the light's corner connected to the camera: a splat to wherever it is seen.
+//! - s = 0: the camera subpath runs into a light;
+//! - s = 1: a light is sampled from the camera subpath's vertex, with a density of its own in place of a₀;
+//! - s ≥ 2, t ≥ 2: a vertex of either subpath, connected;
+//! - t = 1, s ≥ 2: the light's vertex connected to the camera: a splat to wherever it is seen.
 //!
-//! A technique that would connect a corner that scattered discretely has density zero. Through such
-//! a corner both walks have densities with the same Dirac functions, and these cancel: per unit
+//! A technique that would connect a vertex that scattered discretely has density zero. Through such
+//! a vertex both subpaths have densities with the same Dirac functions, and these cancel: per unit
 //! *projected* solid angle, δ(ω_t − R(ω_i)) as a function of ω_t is η² times the same as a function
 //! of ω_i, with η the index on the side of ω_t over that on the side of ω_i (it follows from
-//! n² dσ⊥ being the same on both sides: Veach 1997, section 5.2). Each walk's density is given its own η,
+//! n² dσ⊥ being the same on both sides: Veach 1997, section 5.2). Each subpath's density is given its own η,
 //! entering over leaving; their quotient has the square. The projection is along the normal that
 //! turned the direction, which is not the surface's where normals are interpolated or mapped.
 //!
@@ -40,13 +40,14 @@ mod camera_connection;
 mod connect;
 mod from_camera;
 mod from_light;
-pub(crate) mod merge;
+mod light_hit;
+pub(crate) mod merging;
 mod path_vertex;
+mod pdf_ratios;
 mod photon_connection;
-pub(crate) mod single;
+pub(crate) mod single_technique;
 mod subpath;
 mod technique;
-mod weight;
 
 use crate::steps::camera_ray::camera_ray;
 use crate::steps::dimensions as dim;
@@ -62,8 +63,8 @@ use etalon_transport::{
 use from_camera::FromCamera;
 use from_light::FromLight;
 use glam::Vec4;
-use merge::Merging;
-use path_vertex::Corner;
+use merging::Merging;
+use path_vertex::SubpathVertex;
 use std::vec::Drain;
 pub use technique::Technique;
 
@@ -118,14 +119,14 @@ pub(crate) struct Start<'a> {
     pub(crate) merging: Option<&'a Merging>,
 }
 
-/// Draws one sample; the lists are lent for reuse of their memory.
+/// Draws one sample; the subpaths are lent for reuse of their memory.
 pub(crate) fn estimate<'w, W: World, S: Sampler, K: Sink>(
     world: &'w W,
     begin: &Start<'_>,
     site: &PixelSample,
     sampler: &mut S,
     sink: &mut K,
-    [eye, light]: [&mut Vec<Corner<'w, W>>; 2],
+    [camera_subpath, light_subpath]: [&mut Vec<SubpathVertex<'w, W>>; 2],
 ) {
     let Start {
         settings,
@@ -136,14 +137,21 @@ pub(crate) fn estimate<'w, W: World, S: Sampler, K: Sink>(
         merging,
     } = begin;
     let sensor = world.sensor().weights(wavelengths);
-    eye.clear();
-    light.clear();
+    camera_subpath.clear();
+    light_subpath.clear();
     let connects = merging.is_none_or(Merging::connects);
     let mut start = connects
         .then(|| FromLight::start(world, wavelengths, settings, sampler, ray.time))
         .flatten();
     if let Some(start) = &mut start {
-        start.walk(world, wavelengths, settings, sampler, light, usize::MAX);
+        start.trace(
+            world,
+            wavelengths,
+            settings,
+            sampler,
+            light_subpath,
+            usize::MAX,
+        );
     }
     sampler.skip_to(dim::LENS);
     let mut connector = Connector {
@@ -154,19 +162,26 @@ pub(crate) fn estimate<'w, W: World, S: Sampler, K: Sink>(
         site,
         lens: sampler.next_2d(),
         start: start.as_ref(),
-        light,
+        light_subpath,
         camera_connects: false,
         merging: *merging,
         radiance: Vec4::ZERO,
     };
-    let mut walk = FromCamera::start(*ray, settings);
-    while walk.advance(world, wavelengths, settings, sampler, eye, &mut connector) {}
-    connector.see_all(|raster, value| {
+    let mut subpath = FromCamera::start(*ray, settings);
+    while subpath.advance(
+        world,
+        wavelengths,
+        settings,
+        sampler,
+        camera_subpath,
+        &mut connector,
+    ) {}
+    connector.connect_to_camera(|raster, value| {
         sink.splat(raster, sensor.rgb(value).to_array());
     });
     sink.radiance(
         sensor.rgb(connector.radiance * *weight).to_array(),
-        walk.alpha,
+        subpath.alpha,
     );
 }
 
@@ -185,17 +200,17 @@ impl Integrator for Bidirectional {
         true
     }
 
-    fn incompatibilities(&self, sight: &SceneCapabilities) -> Vec<Incompatibility> {
+    fn incompatibilities(&self, capabilities: &SceneCapabilities) -> Vec<Incompatibility> {
         let Some(only) = self.only else {
-            return sight.incompatibilities(LightSearch::Either);
+            return capabilities.incompatibilities(LightSearch::Either);
         };
-        let mut objections = sight.incompatibilities(match only.light {
+        let mut incompatibilities = capabilities.incompatibilities(match only.light {
             0 => LightSearch::Hitting,
             _ => LightSearch::Choosing,
         });
         if only.camera == 1 {
-            objections.extend(sight.unconnected());
-            objections.extend(sight.unsplattable());
+            incompatibilities.extend(capabilities.unconnected());
+            incompatibilities.extend(capabilities.unsplattable());
         }
         let segments = only.light + only.camera - 1;
         let max_depth = self.settings.max_depth;
@@ -204,13 +219,14 @@ impl Integrator for Bidirectional {
                 "the technique s = {}, t = {} makes paths of {segments} segments, and `max_depth` is {max_depth}",
                 only.light, only.camera
             );
-            let objection = Incompatibility::fatal(Subject::Parameter("s"), message).help(format!(
-                "raise `max_depth` to {segments}, or ask for s + t of at most {}",
-                u64::from(max_depth) + 1
-            ));
-            objections.push(objection);
+            let incompatibility =
+                Incompatibility::fatal(Subject::Parameter("s"), message).help(format!(
+                    "raise `max_depth` to {segments}, or ask for s + t of at most {}",
+                    u64::from(max_depth) + 1
+                ));
+            incompatibilities.push(incompatibility);
         }
-        objections
+        incompatibilities
     }
 
     fn prepare<W: World>(&self, _: &W, _: &impl Placing, _: &Pass, _: Option<()>) {}
@@ -223,14 +239,14 @@ impl Integrator for Bidirectional {
         sampler: &mut S,
         sink: &mut K,
     ) {
-        let lists = [&mut Vec::new(), &mut Vec::new()];
+        let subpaths = [&mut Vec::new(), &mut Vec::new()];
         estimate(
             world,
             &self.start(world, site, sampler),
             site,
             sampler,
             sink,
-            lists,
+            subpaths,
         );
     }
 
@@ -241,12 +257,12 @@ impl Integrator for Bidirectional {
         jobs: Drain<'_, SampleJob<S>>,
         sink: &mut K,
     ) {
-        let (mut eye, mut light) = (Vec::new(), Vec::new());
+        let (mut camera_subpath, mut light_subpath) = (Vec::new(), Vec::new());
         for mut job in jobs {
             sink.begin_placed(job.site.pixel, &job.placement());
-            let lists = [&mut eye, &mut light];
+            let subpaths = [&mut camera_subpath, &mut light_subpath];
             let start = self.start(world, &job.site, &mut job.sampler);
-            estimate(world, &start, &job.site, &mut job.sampler, sink, lists);
+            estimate(world, &start, &job.site, &mut job.sampler, sink, subpaths);
         }
     }
 }

@@ -1,4 +1,4 @@
-//! A corner of a subpath, and how densities change from solid angle to area.
+//! A vertex of a subpath, and how densities change from solid angle to area.
 
 use crate::steps::path_throughput::PathThroughput;
 use etalon_transport::{
@@ -6,11 +6,11 @@ use etalon_transport::{
 };
 use glam::{Vec3, Vec4};
 
-/// A surface that a subpath met, or a point of a medium where it was scattered. What it scatters next is known to the corner after it.
+/// A surface that a subpath arrived at, or a point of a medium where it was scattered. What it scatters next is known to the vertex after it.
 #[derive(Clone, Copy)]
 pub(crate) struct PathVertex<B> {
     /// The surface, or the point.
-    pub(super) vertex: SurfaceInteraction,
+    pub(super) point: SurfaceInteraction,
     /// The scattering model there, for `wo`.
     pub(super) bsdf: B,
     /// σt at a point of a medium (m⁻¹), per lane, over the area that its matter shows: the density of stopping there; 1 at a surface.
@@ -18,22 +18,22 @@ pub(crate) struct PathVertex<B> {
     /// Unit direction back along the subpath.
     pub(super) wo: Vec3,
     /// The subpath up to its arrival here, before it scatters.
-    pub(super) prefix: PathThroughput,
-    /// Density of the arrival given the corner before, of the lane that chose: per unit area (m⁻²),
+    pub(super) throughput: PathThroughput,
+    /// Density of the arrival given the vertex before, of the lane that chose: per unit area (m⁻²),
     /// times the probability of passing what lies in between.
     pub(super) arrival: f32,
-    /// The same, for each lane, of a walk from the other end that comes from the next corner: its density
-    /// of arriving *here*. Known once the subpath has left the next corner.
+    /// The same, for each lane, of a subpath from the other end that comes from the next vertex: its density
+    /// of arriving *here*. Known once the subpath has left the next vertex.
     pub(super) pdf_rev: Vec4,
-    /// Probability of passing what lies between the corner before and this one, per lane.
+    /// Probability of passing what lies between the vertex before and this one, per lane.
     pub(super) passed: Vec4,
     /// Whether the subpath left in a discrete direction.
     pub(super) is_delta: bool,
     /// Segments from the subpath's beginning, those through passed surfaces included.
     pub(super) segments: u32,
-    /// The corner before this one on a walk from the light; `None` if that is the light.
+    /// The vertex before this one on a subpath from the light; `None` if that is the light.
     pub(super) parent: Option<usize>,
-    /// Density with which light sampling from a light walk's first corner would have chosen its
+    /// Density with which light sampling from a light subpath's first vertex would have chosen its
     /// start, in the measure of the emission's.
     pub(super) direct: f32,
 }
@@ -45,8 +45,8 @@ pub(super) fn counted(distance_squared: f32) -> f32 {
     distance_squared.max(1e-20)
 }
 
-/// A corner in a world.
-pub(crate) type Corner<'w, W> = PathVertex<ScattererOf<'w, W>>;
+/// A vertex of a subpath in a world.
+pub(crate) type SubpathVertex<'w, W> = PathVertex<ScattererOf<'w, W>>;
 
 impl<B> PathVertex<B> {
     /// The densities of a sampled direction, per lane, and of its reverse: of having come along it and
@@ -67,14 +67,14 @@ impl<B> PathVertex<B> {
         }
     }
 
-    /// The corner as light arrives at it that some technique is to find; on a light's walk, where what
+    /// The vertex as light arrives at it that some technique is to find; on a light subpath, where what
     /// scatters to one side only is lit from `wo`'s.
     #[inline]
     pub(super) fn receiver(&self) -> LightSampleContext
     where
         B: Bsdf,
     {
-        LightSampleContext::new(&self.vertex, self.wo, &self.bsdf).combined()
+        LightSampleContext::new(&self.point, self.wo, &self.bsdf).combined()
     }
 
     /// The factor from a density per solid angle, at the squared distance `distance_squared` along `direction`, to the density
@@ -84,14 +84,14 @@ impl<B> PathVertex<B> {
     where
         B: Bsdf,
     {
-        let area = self.vertex.area_cos(direction) * self.bsdf.projected_area(direction);
+        let area = self.point.area_cos(direction) * self.bsdf.projected_area(direction);
         self.extinction * (area / counted(distance_squared))
     }
 
     /// Whether it can be merged with a photon: one on a surface.
     #[inline]
     pub(super) fn merges(&self) -> bool {
-        self.vertex.normal != Vec3::ZERO
+        self.point.normal != Vec3::ZERO
     }
 }
 

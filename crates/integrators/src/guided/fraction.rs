@@ -55,14 +55,14 @@ fn fraction(least: f32, step: usize) -> f32 {
 
 impl FractionOptimizer {
     /// Adds a record of light, in some unit.
-    pub(crate) fn add(&self, least: f32, light: f64, rivals: AlternativePdfs) {
-        let base = rivals.mix(least);
+    pub(crate) fn add(&self, least: f32, light: f64, alternatives: AlternativePdfs) {
+        let base = alternatives.mix(least);
         if !(base > 0.0 && light > 0.0) {
             return;
         }
         let light = light.min(LARGEST);
         for (step, score) in self.0.iter().enumerate() {
-            let gain = ln(rivals.mix(fraction(least, step + 1)) / base);
+            let gain = ln(alternatives.mix(fraction(least, step + 1)) / base);
             score.fetch_add((light * f64::from(gain)) as i64, Ordering::Relaxed);
         }
     }
@@ -91,11 +91,11 @@ mod tests {
         for i in 0..n {
             let x = (f32::from(i) + 0.5) / f32::from(n);
             let density = |k: i32| (k + 1) as f32 * x.powi(k);
-            let rivals = AlternativePdfs {
+            let alternatives = AlternativePdfs {
                 own: density(4),
                 learned: 1.0,
             };
-            scores.add(LEAST, 1e6 * f64::from(density(k)), rivals);
+            scores.add(LEAST, 1e6 * f64::from(density(k)), alternatives);
         }
         scores.best(LEAST, n.into()).expect("records enough")
     }
@@ -111,20 +111,20 @@ mod tests {
     #[test]
     fn few_records_and_darkness_decide_nothing() {
         let scores = FractionOptimizer::default();
-        let rivals = AlternativePdfs {
+        let alternatives = AlternativePdfs {
             own: 9.0,
             learned: 1.0,
         };
         for light in [0.0, -1.0, f64::NAN] {
-            scores.add(LEAST, light, rivals);
+            scores.add(LEAST, light, alternatives);
         }
         scores.add(LEAST, 1.0, AlternativePdfs::default());
         assert_eq!(scores.best(LEAST, 1000), Some(LEAST));
-        scores.add(LEAST, f64::INFINITY, rivals);
+        scores.add(LEAST, f64::INFINITY, alternatives);
         assert_eq!(scores.best(LEAST, 1000), Some(MOST));
         assert_eq!(scores.best(LEAST, ENOUGH - 1), None);
         // One that follows the model alone stays so.
-        scores.add(1.0, 1.0, rivals);
+        scores.add(1.0, 1.0, alternatives);
         assert_eq!(fraction(1.0, STEPS), 1.0);
     }
 }

@@ -30,14 +30,14 @@
 //! expectation Var(C̄), though all share the training. The field depends on the scene, the seed, the film and the
 //! number of samples of the whole image, so that every part of a split render learns the same.
 
-mod field;
 mod fraction;
-mod guide;
-mod learning;
-mod pictures;
-mod steering;
+mod guided_bsdf;
+mod guided_hooks;
+mod sd_tree;
 #[cfg(test)]
 mod tests;
+mod trainer;
+mod training_images;
 mod training_path;
 
 use crate::path::{follow_alone, follow_jobs};
@@ -45,11 +45,11 @@ use crate::steps::settings::{PathConfig, PathSettings};
 use etalon_params::Params;
 use etalon_sampling::Sampler;
 use etalon_transport::{Integrator, Pass, PixelSample, Placing, SampleJob, Sink, TileSink, World};
-use field::SdTree;
-use guide::GuidedHooks;
-use learning::Trainer;
-use pictures::{Joined, TrainingImages};
+use guided_hooks::GuidedHooks;
+use sd_tree::SdTree;
 use std::vec::Drain;
+use trainer::Trainer;
+use training_images::{TrainingImages, TrainingSink};
 
 /// The guided path tracer.
 #[derive(Clone, Debug)]
@@ -111,7 +111,7 @@ impl Guided {
         }
     }
 
-    fn lessons(&self, pass: &Pass) -> Trainer {
+    fn trainer(&self, pass: &Pass) -> Trainer {
         Trainer {
             settings: self.settings,
             own: self.bsdf_sampling_fraction as f32,
@@ -154,7 +154,7 @@ impl Integrator for Guided {
     ) -> Learned {
         // Learned for the image: every pass finds the same.
         let learned = before.unwrap_or_else(|| {
-            let (field, pictures) = self.lessons(pass).learn(world, placing, pass);
+            let (field, pictures) = self.trainer(pass).learn(world, placing, pass);
             Learned {
                 field,
                 pictures,
@@ -195,7 +195,7 @@ impl Integrator for Guided {
                 let first = (jobs.as_slice().iter())
                     .map(|job| job.site.sample == 0)
                     .collect();
-                let mut sink = Joined::new(sink, pictures, learned.replicate, first);
+                let mut sink = TrainingSink::new(sink, pictures, learned.replicate, first);
                 follow_jobs(world, &config, guide, jobs, &mut sink);
             }
             None => follow_jobs(world, &config, guide, jobs, sink),

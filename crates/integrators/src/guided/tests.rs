@@ -1,7 +1,7 @@
 //! The parts of `guided`, one by one.
 
-use super::field::{self, FACES, Lobes, RegionUpdate, SdTree};
-use super::steering::GuidedBsdf;
+use super::guided_bsdf::GuidedBsdf;
+use super::sd_tree::{self, FACES, Lobes, RegionUpdate, SdTree};
 use etalon_math::{DeltaProbability, Density, Frame, SolidAngle};
 use etalon_sampling::discrete::{Quadtree, Refinement};
 use etalon_sampling::{Independent, Sampler};
@@ -9,14 +9,14 @@ use etalon_transport::{Bsdf, BsdfSample, SamplePdf, TransportMode};
 use glam::{Vec2, Vec3, Vec4};
 use std::f32::consts::PI;
 
-fn lessons(field: &SdTree, records: u64) -> Vec<RegionUpdate> {
-    let lesson = |_: &field::SpatialLeaf| RegionUpdate {
+fn updates(field: &SdTree, records: u64) -> Vec<RegionUpdate> {
+    let update = |_: &sd_tree::SpatialLeaf| RegionUpdate {
         lobes: Lobes::default(),
         irradiance: [0.0; FACES],
         own: [0.5; FACES],
         records,
     };
-    field.regions().iter().map(lesson).collect()
+    field.regions().iter().map(update).collect()
 }
 
 #[test]
@@ -25,8 +25,8 @@ fn regions_are_halved_until_their_share_is_small() {
     assert_eq!(field.find(Vec3::splat(0.3)), 0);
     // Of 1000 records at most 130 in each: eight parts; then four times as many.
     for (records, parts) in [(1000, 8), (400, 32)] {
-        let lessons = lessons(&field, records);
-        field = field.learned(lessons, 130);
+        let updates = updates(&field, records);
+        field = field.learned(updates, 130);
         assert_eq!(field.regions().len(), parts);
     }
     let volume: f32 = (field.regions().iter())
@@ -54,9 +54,9 @@ fn regions_are_halved_until_their_share_is_small() {
 #[test]
 fn faces_are_the_six_sides() {
     let sides = [Vec3::X, -Vec3::X, Vec3::Y, -Vec3::Y, Vec3::Z, -Vec3::Z];
-    assert_eq!(sides.map(field::face), [0, 1, 2, 3, 4, 5]);
+    assert_eq!(sides.map(sd_tree::face), [0, 1, 2, 3, 4, 5]);
     assert_eq!(sides.len(), FACES);
-    assert_eq!(field::face(Vec3::new(0.5, -0.7, 0.5)), 3);
+    assert_eq!(sd_tree::face(Vec3::new(0.5, -0.7, 0.5)), 3);
 }
 
 /// A lobe that prefers one corner of the square of directions, and leaves another out.
@@ -84,10 +84,10 @@ fn directions_follow_the_density_of_their_lobe() {
     let lobe = lobe();
     let mut numbers = Independent::from_key(9);
     for _ in 0..10_000 {
-        let (direction, chance) = field::sample(&lobe, numbers.next_2d());
-        let again = field::density(&lobe, direction);
+        let (direction, chance) = sd_tree::sample(&lobe, numbers.next_2d());
+        let again = sd_tree::density(&lobe, direction);
         // Directions within rounding of a leaf's border may come back as its neighbour's.
-        let place = field::place_of(direction) * 16.0;
+        let place = sd_tree::place_of(direction) * 16.0;
         let border = (place - place.round()).abs().min_element() < 1e-3;
         assert!(
             border || chance == again,
@@ -99,7 +99,7 @@ fn directions_follow_the_density_of_their_lobe() {
     let total: f32 = (0..n * n)
         .map(|i| (Vec2::new((i % n) as f32, (i / n) as f32) + 0.5) / n as f32)
         .map(etalon_sampling::warps::square_to_uniform_sphere)
-        .map(|direction| field::density(&lobe, direction).hero())
+        .map(|direction| sd_tree::density(&lobe, direction).hero())
         .sum();
     let integral = 4.0 * PI * total / (n * n) as f32;
     assert!((integral - 1.0).abs() < 1e-3, "{integral}");
@@ -231,7 +231,7 @@ fn a_steered_model_scatters_the_same_light() {
                 assert_eq!(value, sample.value);
                 assert_eq!(density, steered.density(Vec3::Z, sample.wi));
                 let off = (density.lanes() / stated.lanes() - 1.0).abs().max_element();
-                let place = field::place_of(sample.wi) * 16.0;
+                let place = sd_tree::place_of(sample.wi) * 16.0;
                 let border = (place - place.round()).abs().min_element() < 1e-3;
                 assert!(border || off < 1e-5, "{stated:?}, {density:?}");
             }

@@ -14,10 +14,10 @@
 //! That term is true of diffuse surfaces. Where a surface scatters otherwise, the path itself tells what comes
 //! from it, up to the next diffuse one.
 
-use super::field;
 use super::fraction::AlternativePdfs;
-use super::guide::{GuidedHooks, toward};
-use super::steering::GuidedBsdf;
+use super::guided_bsdf::GuidedBsdf;
+use super::guided_hooks::{GuidedHooks, toward};
+use super::sd_tree;
 use crate::path::hooks::PathHooks;
 use crate::steps::path_throughput::PathThroughput;
 use etalon_transport::{Bsdf, BsdfSample, SurfaceInteraction};
@@ -25,7 +25,7 @@ use glam::{Vec3, Vec4};
 use std::f32::consts::FRAC_1_PI;
 use std::ops::RangeInclusive;
 
-/// A corner of a path: the direction it took, and what it found that way.
+/// A vertex of a path: the direction it took, and what it found that way.
 struct PathVertex {
     position: Vec3,
     /// The shading normal on the side from which the path came.
@@ -37,9 +37,9 @@ struct PathVertex {
     density: f32,
     discrete: bool,
     /// The densities of its alternatives, if the field has learned anything here.
-    rivals: Option<AlternativePdfs>,
-    /// The path that leaves the corner.
-    prefix: PathThroughput,
+    alternatives: Option<AlternativePdfs>,
+    /// The path that leaves the vertex.
+    throughput: PathThroughput,
     found: Vec4,
 }
 
@@ -58,15 +58,15 @@ pub(crate) struct Record {
     pub(crate) scattered: Option<(f32, AlternativePdfs)>,
 }
 
-/// Steers a path in training and remembers what it finds at every corner.
+/// Steers a path in training and remembers what it finds at every vertex.
 pub(crate) struct TrainingPath<'f> {
     guide: GuidedHooks<'f>,
-    corners: Vec<PathVertex>,
+    vertices: Vec<PathVertex>,
     /// The path as it left the last surface.
     path: PathThroughput,
-    /// The first corner that still waits for what comes from its direction.
+    /// The first vertex that still waits for what comes from its direction.
     open: usize,
-    /// The corners that waited when the light sample was chosen.
+    /// The vertices that waited when the light sample was chosen.
     before_light: (usize, usize),
 }
 
@@ -77,7 +77,7 @@ impl<'f> TrainingPath<'f> {
     pub(crate) fn new(guide: GuidedHooks<'f>) -> Self {
         Self {
             guide,
-            corners: Vec::new(),
+            vertices: Vec::new(),
             path: PathThroughput::START,
             open: 0,
             before_light: (0, 0),
@@ -86,7 +86,7 @@ impl<'f> TrainingPath<'f> {
 
     /// Begins another path.
     pub(crate) fn begin(&mut self) {
-        self.corners.clear();
+        self.vertices.clear();
         self.path = PathThroughput::START;
         self.open = 0;
         self.before_light = (0, 0);
@@ -95,40 +95,41 @@ impl<'f> TrainingPath<'f> {
 
     /// The records of each vertex.
     pub(crate) fn records(&self) -> impl Iterator<Item = Record> {
-        self.corners.iter().map(|corner| {
-            let cos = corner.normal.dot(corner.direction).abs();
-            let weight = corner.incident(Vec4::ONE) * cos / corner.density;
-            let scattered = |rivals| (corner.incident(corner.value) / corner.density, rivals);
+        self.vertices.iter().map(|vertex| {
+            let cos = vertex.normal.dot(vertex.direction).abs();
+            let weight = vertex.incident(Vec4::ONE) * cos / vertex.density;
+            let scattered =
+                |alternatives| (vertex.incident(vertex.value) / vertex.density, alternatives);
             Record {
-                position: corner.position,
-                normal: corner.normal,
-                direction: corner.direction,
-                weight: (!corner.discrete).then_some(weight),
-                scattered: corner.rivals.map(scattered),
+                position: vertex.position,
+                normal: vertex.normal,
+                direction: vertex.direction,
+                weight: (!vertex.discrete).then_some(weight),
+                scattered: vertex.alternatives.map(scattered),
             }
         })
     }
 
-    /// Tells the corners that wait for it what a diffuse surface reflects; they wait no longer.
+    /// Tells the vertices that wait for it what a diffuse surface reflects; they wait no longer.
     fn reflect(&mut self, position: Vec3, normal: Vec3, albedo: Vec4) {
         let irradiance = self.guide.field.irradiance(position, normal);
         let radiance = albedo * (irradiance * FRAC_1_PI);
         let estimate = self.path.contribution(radiance, Vec4::ZERO);
-        for corner in &mut self.corners[self.open..] {
-            corner.found += estimate;
+        for vertex in &mut self.vertices[self.open..] {
+            vertex.found += estimate;
         }
-        self.open = self.corners.len();
+        self.open = self.vertices.len();
     }
 }
 
 impl PathVertex {
-    /// An estimate of the radiance that comes from the corner's direction, times `factor`, the mean over the lanes,
-    /// which are drawn as the eye sees. Exact in expectation where later densities are the same in all lanes; but
-    /// for noise, nothing depends on it.
+    /// An estimate of the radiance that comes from the vertex's direction, times `factor`, the mean over the lanes,
+    /// which are drawn as the eye is sensitive to them. Exact in expectation where later densities are the same in all lanes;
+    /// only noise depends on it.
     fn incident(&self, factor: Vec4) -> f32 {
-        let value = self.prefix.beta;
+        let value = self.throughput.beta;
         let seen = value.cmpgt(Vec4::ZERO);
-        let radiance = factor * self.found * self.prefix.r_u.element_sum() / value;
+        let radiance = factor * self.found * self.throughput.r_u.element_sum() / value;
         0.25 * Vec4::select(seen, radiance, Vec4::ZERO).element_sum()
     }
 }
@@ -151,9 +152,9 @@ impl<'f> PathHooks for TrainingPath<'f> {
         bsdf: &impl Bsdf,
         wo: Vec3,
         sample: &BsdfSample,
-        prefix: &PathThroughput,
+        throughput: &PathThroughput,
     ) {
-        self.guide.on_scatter(vertex, bsdf, wo, sample, prefix);
+        self.guide.on_scatter(vertex, bsdf, wo, sample, throughput);
         let normal = toward(vertex, wo);
         let discrete = sample.chance.is_delta();
         if !discrete {
@@ -168,14 +169,14 @@ impl<'f> PathHooks for TrainingPath<'f> {
             true => self.guide.field.lobe(vertex.position, normal),
             false => None,
         };
-        let rivals = lobe.map(|(lobe, share)| match discrete {
+        let alternatives = lobe.map(|(lobe, share)| match discrete {
             true => AlternativePdfs {
                 own: 1.0,
                 learned: 0.0,
             },
             false => {
                 let scattered = 1.0 - 0.25 * bsdf.null_probability().element_sum();
-                let learned = scattered * field::density(lobe, sample.wi).hero();
+                let learned = scattered * sd_tree::density(lobe, sample.wi).hero();
                 let own = (density - (1.0 - share) * learned) / share;
                 AlternativePdfs {
                     own: own.max(0.0),
@@ -183,24 +184,24 @@ impl<'f> PathHooks for TrainingPath<'f> {
                 }
             }
         });
-        if !discrete || rivals.is_some() {
-            self.corners.push(PathVertex {
+        if !discrete || alternatives.is_some() {
+            self.vertices.push(PathVertex {
                 position: vertex.position,
                 normal,
                 direction: sample.wi,
                 value: sample.value,
                 density,
                 discrete,
-                rivals,
-                prefix: *prefix,
+                alternatives,
+                throughput: *throughput,
                 found: Vec4::ZERO,
             });
         }
-        self.path = *prefix;
+        self.path = *throughput;
     }
 
-    fn on_medium(&mut self, prefix: &PathThroughput) {
-        self.path = *prefix;
+    fn on_medium(&mut self, throughput: &PathThroughput) {
+        self.path = *throughput;
     }
 
     fn on_roulette(&mut self, survival: f32) {
@@ -208,24 +209,24 @@ impl<'f> PathHooks for TrainingPath<'f> {
     }
 
     fn on_emission(&mut self, estimate: Vec4) {
-        for corner in &mut self.corners[self.open..] {
-            corner.found += estimate;
+        for vertex in &mut self.vertices[self.open..] {
+            vertex.found += estimate;
         }
     }
 
     fn on_light_sample(&mut self) {
-        self.before_light = (self.open, self.corners.len());
+        self.before_light = (self.open, self.vertices.len());
     }
 
     fn on_light_contribution(&mut self, estimate: Vec4) {
         let (open, end) = self.before_light;
-        for corner in &mut self.corners[open..end] {
-            corner.found += estimate;
+        for vertex in &mut self.vertices[open..end] {
+            vertex.found += estimate;
         }
     }
 
-    fn survival(&mut self, prefix: &PathThroughput, eta: f32) -> f32 {
-        let survival = self.guide.survival(prefix, eta);
+    fn survival(&mut self, throughput: &PathThroughput, eta: f32) -> f32 {
+        let survival = self.guide.survival(throughput, eta);
         self.path.roulette(survival);
         survival
     }

@@ -1,6 +1,6 @@
 //! The bootstrap of a replicate: brightness, seeds, and probabilities of path kinds.
 
-use super::found::{Contribution, Contributions, FilmRegion};
+use super::contributions::{Contribution, Contributions, FilmRegion};
 use super::importance_map::ImportanceMap;
 use super::primary::PrimarySample;
 use super::{ChainSettings, Integrand};
@@ -84,7 +84,7 @@ pub(super) struct Pilot {
 
 /// The bootstrap of a replicate.
 #[derive(Clone, Debug)]
-pub struct State {
+pub struct BootstrapState {
     pub(super) pilot: Pilot,
     pub(super) seed: u64,
     pub(super) replicate: u32,
@@ -106,7 +106,7 @@ pub struct State {
     pub(super) contributions: Vec<Contribution>,
 }
 
-impl State {
+impl BootstrapState {
     /// The weight of a visit of a chain.
     pub(super) fn chain_weight(&self, brightness: f64) -> f64 {
         if self.brightness > 0.0 {

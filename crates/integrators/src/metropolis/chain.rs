@@ -1,14 +1,14 @@
 //! A Markov chain, and which pixel hosts it.
 
-use super::bootstrap::{State, Stream, start_key};
-use super::found::{Contribution, Contributions};
+use super::bootstrap::{BootstrapState, Stream, start_key};
+use super::contributions::{Contribution, Contributions};
 use super::primary::{LogarithmicStep, PrimarySample};
 use super::{ChainSettings, Integrand};
 use core::ops::Range;
 use etalon_sampling::hash::derived_key;
 use etalon_transport::{PixelSample, Sink};
 
-impl State {
+impl BootstrapState {
     /// Runs the chains that a sample hosts, and delivers its share of the bootstrap samples. Both are
     /// spread evenly over the samples of all pixels, so that no sample takes long, and an interrupted
     /// replicate has as large a share of chains as of samples.

@@ -1,6 +1,6 @@
 //! The integrator that runs chains, generic over the paths of its primary samples.
 
-use super::{ChainSettings, Contributions, FilmRegion, Integrand, PathLengthPdf, State};
+use super::{BootstrapState, ChainSettings, Contributions, FilmRegion, Integrand, PathLengthPdf};
 use crate::steps::settings::PathSettings;
 use etalon_sampling::Sampler;
 use etalon_transport::{
@@ -86,16 +86,16 @@ impl<P: PathSampler> Integrator for Metropolis<P> {
     const UNBIASED: bool = true;
     const MEDIA: bool = true;
 
-    type State = State;
+    type State = BootstrapState;
 
     fn splats(&self) -> bool {
         true
     }
 
-    fn incompatibilities(&self, sight: &SceneCapabilities) -> Vec<Incompatibility> {
-        let mut objections = sight.incompatibilities(P::LIGHT_SEARCH);
-        objections.extend(sight.unsplattable());
-        objections
+    fn incompatibilities(&self, capabilities: &SceneCapabilities) -> Vec<Incompatibility> {
+        let mut incompatibilities = capabilities.incompatibilities(P::LIGHT_SEARCH);
+        incompatibilities.extend(capabilities.unsplattable());
+        incompatibilities
     }
 
     fn prepare<W: World>(
@@ -103,17 +103,17 @@ impl<P: PathSampler> Integrator for Metropolis<P> {
         world: &W,
         placing: &impl Placing,
         pass: &Pass,
-        before: Option<State>,
-    ) -> State {
+        before: Option<BootstrapState>,
+    ) -> BootstrapState {
         let integrator = self;
         let paths = InWorld { integrator, world };
-        State::prepare(&paths, &self.chains, placing, pass, before)
+        BootstrapState::prepare(&paths, &self.chains, placing, pass, before)
     }
 
     fn sample<W: World, S: Sampler, K: Sink>(
         &self,
         world: &W,
-        state: &State,
+        state: &BootstrapState,
         site: &PixelSample,
         sampler: &mut S,
         sink: &mut K,

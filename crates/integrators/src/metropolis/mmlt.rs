@@ -20,7 +20,7 @@
 //! lengths. See [`crate::metropolis`] for how chains estimate the integral without bias.
 
 use crate::bdpt::Technique;
-use crate::bdpt::single::{Lists, sample};
+use crate::bdpt::single_technique::{Subpaths, sample_single_technique};
 use crate::metropolis::{
     ChainSettings, Contributions, FilmRegion, Metropolis, PathLengthPdf, PathSampler,
 };
@@ -53,7 +53,7 @@ impl Multiplexed {
             params.refuse("max_depth", given, &accepted);
         }
         if !params.has("rr_depth") {
-            // The technique says where walks end.
+            // The technique says where subpaths end.
             settings.rr_depth = u32::MAX;
         }
         Self {
@@ -72,12 +72,12 @@ impl PathSampler for Techniques {
     const FOLLOWS_LIGHT: bool = true;
     const LIGHT_SEARCH: LightSearch = LightSearch::Either;
 
-    type Lists<'w, W: World + 'w> = Lists<ScattererOf<'w, W>>;
+    type Lists<'w, W: World + 'w> = Subpaths<ScattererOf<'w, W>>;
 
     fn kinds(&self, settings: &PathSettings, chains: &ChainSettings) -> usize {
-        // A path of n segments has at most n − 1 corners.
+        // A path of n segments has at most n − 1 vertices between its ends.
         let most = settings.max_depth.min(LONGEST);
-        most.saturating_sub(chains.least_corners()) as usize
+        most.saturating_sub(chains.least_scattering_vertices()) as usize
     }
 
     fn find<'w, W: World, S: Sampler>(
@@ -86,15 +86,15 @@ impl PathSampler for Techniques {
         field: &FilmRegion,
         kinds: &PathLengthPdf,
         sampler: &mut S,
-        lists: &mut Lists<ScattererOf<'w, W>>,
+        subpaths: &mut Subpaths<ScattererOf<'w, W>>,
         found: &mut Contributions,
     ) {
         sampler.skip_to(CHOICE);
         let choice = sampler.next_2d();
         let (kind, probability) = kinds.choose(choice.y);
         found.kind = kind;
-        // A kind of path is a number of corners.
-        let vertices = kind + chains.least_corners() as usize + 2;
+        // A kind of path is a number of scattering vertices.
+        let vertices = kind + chains.least_scattering_vertices() as usize + 2;
         let light = ((choice.x * vertices as f32) as usize).min(vertices - 1);
         let technique = Technique {
             light,
@@ -105,6 +105,6 @@ impl PathSampler for Techniques {
         let site = field.site(sampler.next_2d());
         let factor = field.area() * vertices as f32 / probability;
         let add = |raster, rgb: glam::Vec3| found.add(raster, rgb * factor);
-        sample(world, settings, technique, &site, sampler, lists, add);
+        sample_single_technique(world, settings, technique, &site, sampler, subpaths, add);
     }
 }

@@ -44,7 +44,7 @@
 
 mod bootstrap;
 mod chain;
-mod found;
+mod contributions;
 mod importance_map;
 mod integrator;
 pub mod mmlt;
@@ -53,9 +53,9 @@ pub mod pssmlt;
 #[cfg(test)]
 mod tests;
 
+pub use bootstrap::BootstrapState;
 pub(crate) use bootstrap::PathLengthPdf;
-pub use bootstrap::State;
-pub(crate) use found::{Contributions, FilmRegion};
+pub(crate) use contributions::{Contributions, FilmRegion};
 pub use integrator::Metropolis;
 pub(crate) use integrator::PathSampler;
 
@@ -171,8 +171,8 @@ impl ChainSettings {
         LogarithmicStep::new(self.smallest_step, self.largest_step).reaching_far()
     }
 
-    /// The least number of corners of a path that chains look for.
-    pub(crate) fn least_corners(&self) -> u32 {
+    /// The least number of scattering vertices of a path that chains look for.
+    pub(crate) fn least_scattering_vertices(&self) -> u32 {
         if self.separate_direct { 2 } else { 1 }
     }
 
@@ -187,7 +187,12 @@ impl ChainSettings {
     ) {
         let config = PathConfig::plain(*settings);
         let (mut path, ray) = PathState::start(world, site, sampler, ());
-        follow_part(world, &config, (&mut path, ray), &(0..self.least_corners()));
+        follow_part(
+            world,
+            &config,
+            (&mut path, ray),
+            &(0..self.least_scattering_vertices()),
+        );
         path.deliver(world, sink);
     }
 }

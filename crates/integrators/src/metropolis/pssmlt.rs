@@ -53,8 +53,8 @@ impl PathSampler for CameraPaths {
     type Lists<'w, W: World + 'w> = ();
 
     fn kinds(&self, settings: &PathSettings, chains: &ChainSettings) -> usize {
-        // All kinds together. A path has more segments than corners.
-        usize::from(settings.max_depth > chains.least_corners())
+        // All kinds together. A path has more segments than scattering vertices.
+        usize::from(settings.max_depth > chains.least_scattering_vertices())
     }
 
     fn find<W: World, S: Sampler>(
@@ -70,7 +70,7 @@ impl PathSampler for CameraPaths {
         let site = field.site(sampler.next_2d());
         let config = PathConfig::plain(*settings);
         let (mut path, ray) = PathState::start(world, &site, sampler, ());
-        let wanted = chains.least_corners()..u32::MAX;
+        let wanted = chains.least_scattering_vertices()..u32::MAX;
         follow_part(world, &config, (&mut path, ray), &wanted);
         found.add(site.raster, path.colour(world) * field.area());
     }

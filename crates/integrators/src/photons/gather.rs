@@ -4,7 +4,7 @@
 //! comes from photons, and the path ends. With a final gather it continues once in such a direction, and gathers photons
 //! at the next surface.
 
-use super::elsewhere::{CameraPath, CameraVertex};
+use super::camera_path::{CameraPath, CameraVertex};
 use super::sets::{WavelengthChoice, WavelengthSets};
 use super::shoot::{FACING, Kind, Photon, PhotonMap};
 use super::{is_sharp, kernel::KernelLookup};
@@ -34,7 +34,7 @@ pub(crate) struct Layer<'a> {
     pub(crate) in_space: KernelLookup,
     /// Number of photons shot.
     pub(crate) shot: u32,
-    /// Whether these photons count where the walk has only followed sharp directions, …
+    /// Whether these photons count where the path has only followed sharp directions, …
     pub(crate) first: fn(Kind) -> bool,
     /// … and where it has left in another one.
     pub(crate) second: fn(Kind) -> bool,
@@ -53,12 +53,12 @@ pub(crate) struct GatherConfig<'a> {
     pub(crate) sample_lights: bool,
 }
 
-/// Memory for walks.
+/// Buffers that paths reuse.
 struct Scratch<B> {
     path: Vec<CameraVertex>,
     /// The model of the surface at hand for each set, once needed, and what its photons add.
     at: Vec<(Option<B>, Vec4)>,
-    nearest: Vec<super::kdtree::Found>,
+    nearest: Vec<super::kdtree::Neighbour>,
 }
 
 impl<B> Default for Scratch<B> {
@@ -71,14 +71,14 @@ impl<B> Default for Scratch<B> {
     }
 }
 
-/// A walk.
+/// A path from the camera that gathers photons.
 struct GatherPath<'a, 'w, W: World> {
     world: &'w W,
     plan: &'a GatherConfig<'a>,
     lanes: WavelengthChoice,
     wavelengths: Wavelengths,
     scratch: &'a mut Scratch<ScattererOf<'w, W>>,
-    prefix: PathThroughput,
+    throughput: PathThroughput,
     /// Whether smooth dispersion has left one wavelength.
     alone: bool,
     /// Whether it has left in a direction that is not sharp.
@@ -130,13 +130,13 @@ fn follow<'w, W: World>(
     let lanes = plan.sets.choose(u);
     let (ray, weight) = ray_at(world, site, lens, plan.time);
     scratch.path.clear();
-    let mut gatherer = GatherPath {
+    let mut path = GatherPath {
         world,
         plan,
         lanes,
         wavelengths: plan.sets.of(lanes),
         scratch,
-        prefix: PathThroughput::START,
+        throughput: PathThroughput::START,
         alone: false,
         second: false,
         light_mis: LightMis::NONE,
@@ -144,24 +144,24 @@ fn follow<'w, W: World>(
         radiance: Vec4::ZERO,
         rgb: Vec3::ZERO,
     };
-    let alpha = gatherer.walk(ray, sampler);
-    let own = lanes.to_set(gatherer.radiance);
-    let rgb = plan.sets.sensor(lanes.set).rgb(own) + gatherer.rgb;
+    let alpha = path.trace(ray, sampler);
+    let own = lanes.to_set(path.radiance);
+    let rgb = plan.sets.sensor(lanes.set).rgb(own) + path.rgb;
     sink.radiance((rgb * weight).to_array(), alpha);
 }
 
 impl<'w, W: World> GatherPath<'_, 'w, W> {
-    /// Follows the walk; its alpha, as in `path`.
-    fn walk(&mut self, mut ray: Ray, sampler: &mut impl Sampler) -> f32 {
+    /// Follows the path; its alpha, as in `path`.
+    fn trace(&mut self, mut ray: Ray, sampler: &mut impl Sampler) -> f32 {
         let (world, settings) = (self.world, self.plan.settings);
         let mut alpha = 0.0_f32;
         let mut eta = 1.0;
-        while self.depth <= settings.max_depth && self.prefix.beta != Vec4::ZERO {
+        while self.depth <= settings.max_depth && self.throughput.beta != Vec4::ZERO {
             let hidden = settings.hide_emitters && self.depth == 1;
             let hit = arrival::next_hit(world, &mut ray, hidden);
             // Gathering in a medium excludes σs, which photons include.
-            let mut gathering = self.prefix;
-            let mut met = None;
+            let mut gathering = self.throughput;
+            let mut scattering = None;
             if ray.medium.is_some() {
                 let u = draw_flight(sampler, self.depth - 1);
                 let waves = &self.wavelengths;
@@ -173,18 +173,18 @@ impl<'w, W: World> GatherPath<'_, 'w, W> {
                     if !self.second {
                         self.radiance += self.arriving().emitted_by_medium(world, &flight, &ray);
                     }
-                    self.prefix.scatter(flight.factor, density);
+                    self.throughput.scatter(flight.factor, density);
                     gathering.scatter(flight.passed, density);
                     if let Some(collision) = flight.scattering {
                         alpha = 1.0;
                         let vertex = SurfaceInteraction::in_space(&ray, collision.t);
-                        met = Some((vertex, Scatterer::Space(collision.phase)));
+                        scattering = Some((vertex, Scatterer::Space(collision.phase)));
                     }
                 }
             }
             let wo = -ray.direction;
-            let (vertex, bsdf) = match met {
-                Some(met) => met,
+            let (vertex, bsdf) = match scattering {
+                Some(vertex) => vertex,
                 None => {
                     // A hidden sky stays hidden to rays that only went straight.
                     let sees_background = !settings.hide_emitters || alpha > 0.0;
@@ -203,7 +203,7 @@ impl<'w, W: World> GatherPath<'_, 'w, W> {
                         alpha = 1.0;
                         break;
                     };
-                    gathering = self.prefix;
+                    gathering = self.throughput;
                     let bsdf = world.surfaces().bsdf(&vertex, wo, &self.wavelengths);
                     (vertex, Scatterer::Surface(bsdf))
                 }
@@ -242,13 +242,13 @@ impl<'w, W: World> GatherPath<'_, 'w, W> {
                 _ => {}
             }
             let mut left = CameraVertex::new(vertex, wo, &sample, event.lobe, event.direction);
-            self.light_mis = self.light_mis.after(&self.prefix, &from, &sample);
-            self.prefix.scatter(sample.value, sample.chance.lanes());
+            self.light_mis = self.light_mis.after(&self.throughput, &from, &sample);
+            self.throughput.scatter(sample.value, sample.chance.lanes());
             eta *= sample.eta;
             ray = vertex.spawn(sample.wi);
             if self.depth >= settings.rr_depth {
-                let survival = self.prefix.survival(eta);
-                if !self.prefix.survives(survival, event.roulette) {
+                let survival = self.throughput.survival(eta);
+                if !self.throughput.survives(survival, event.roulette) {
                     break;
                 }
                 left.roulette(survival);
@@ -263,7 +263,7 @@ impl<'w, W: World> GatherPath<'_, 'w, W> {
     fn arriving(&self) -> Arriving<'_> {
         Arriving {
             wavelengths: &self.wavelengths,
-            throughput: &self.prefix,
+            throughput: &self.throughput,
             light_mis: &self.light_mis,
         }
     }
@@ -293,8 +293,8 @@ impl<'w, W: World> GatherPath<'_, 'w, W> {
         let counts = [1.0, f32::from(sharp)];
         let connection = LightConnection::of(
             &light,
-            &self.prefix,
-            self.prefix.r_u,
+            &self.throughput,
+            self.throughput.r_u,
             contribution,
             density,
             counts,
@@ -308,7 +308,7 @@ impl<'w, W: World> GatherPath<'_, 'w, W> {
         vertex: &SurfaceInteraction,
         own: &ScattererOf<'w, W>,
         wo: Vec3,
-        prefix: &PathThroughput,
+        throughput: &PathThroughput,
     ) {
         let GatherConfig { sets, layers, .. } = *self.plan;
         let scratch = &mut *self.scratch;
@@ -317,11 +317,11 @@ impl<'w, W: World> GatherPath<'_, 'w, W> {
         let at = &mut scratch.at;
         let (world, depth, alone) = (self.world, self.depth, self.alone);
         let (max_depth, lanes) = (self.plan.settings.max_depth, self.lanes);
-        let behind = CameraPath {
+        let camera_path = CameraPath {
             sets,
             lanes,
             alone,
-            prefix,
+            throughput,
             path: &scratch.path,
         };
         let in_space = own.is_in_space();
@@ -346,11 +346,11 @@ impl<'w, W: World> GatherPath<'_, 'w, W> {
                     return;
                 }
                 if is_sharp(own.density(wo, photon.from)) {
-                    return; // For the walk's own wavelengths.
+                    return; // For the path's own wavelengths.
                 }
                 let (model, sum) = &mut at[set];
                 let model = model.get_or_insert_with(|| match own {
-                    // Only the walk's own set is looked for.
+                    // Only the path's own set is looked for.
                     Scatterer::Space(_) => *own,
                     Scatterer::Surface(_) => {
                         Scatterer::Surface(world.surfaces().bsdf(vertex, wo, sets.get(set)))
@@ -374,7 +374,7 @@ impl<'w, W: World> GatherPath<'_, 'w, W> {
             lookup.visit(placed, at, in_space, near, merge);
         }
         if any {
-            self.rgb = behind.carried(world, at.iter().map(|(_, sum)| *sum), self.rgb);
+            self.rgb = camera_path.carried(world, at.iter().map(|(_, sum)| *sum), self.rgb);
         }
     }
 }

@@ -20,16 +20,16 @@ pub struct KdTree {
     axes: Vec<u8>,
 }
 
-/// A point found, by its place in the tree.
+/// A point that a query found, by its place in the tree.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Found {
+pub struct Neighbour {
     /// Squared distance (m²).
     pub distance_squared: f32,
     /// Place in the order that [`KdTree::new`] gave.
     pub place: usize,
 }
 
-impl Found {
+impl Neighbour {
     /// Nearer first, then the smaller place.
     fn order(&self, other: &Self) -> Ordering {
         let by_distance = self.distance_squared.total_cmp(&other.distance_squared);
@@ -60,7 +60,7 @@ impl KdTree {
 
     /// Visits all points not farther than the root of `radius_squared`, always in the same order.
     #[inline]
-    pub fn within(&self, centre: Vec3, radius_squared: f32, mut visit: impl FnMut(Found)) {
+    pub fn within(&self, centre: Vec3, radius_squared: f32, mut visit: impl FnMut(Neighbour)) {
         self.search(centre, radius_squared, |found, bound| {
             visit(found);
             bound
@@ -74,7 +74,7 @@ impl KdTree {
         centre: Vec3,
         radius_squared: f32,
         most: usize,
-        found: &mut Vec<Found>,
+        found: &mut Vec<Neighbour>,
     ) -> bool {
         found.clear();
         self.search(centre, radius_squared, |point, bound| {
@@ -92,7 +92,7 @@ impl KdTree {
         centre: Vec3,
         count: usize,
         radius_squared: f32,
-        nearest: &mut Vec<Found>,
+        nearest: &mut Vec<Neighbour>,
     ) {
         nearest.clear();
         if count == 0 {
@@ -116,7 +116,7 @@ impl KdTree {
 
     /// Visits points not farther than the root of a bound that each visit may lower.
     #[inline]
-    fn search(&self, centre: Vec3, mut bound: f32, mut visit: impl FnMut(Found, f32) -> f32) {
+    fn search(&self, centre: Vec3, mut bound: f32, mut visit: impl FnMut(Neighbour, f32) -> f32) {
         // Ranges still to be searched, and how far they are at least. A tree of 2³² points has 32
         // levels.
         let mut stack = [(0, 0, 0.0_f32); 40];
@@ -130,7 +130,7 @@ impl KdTree {
                 if distance_squared <= bound {
                     let place = middle;
                     bound = visit(
-                        Found {
+                        Neighbour {
                             distance_squared,
                             place,
                         },

@@ -1,6 +1,6 @@
 //! Kernels: how much a photon counts by its distance.
 
-use super::kdtree::Found;
+use super::kdtree::Neighbour;
 use super::shoot::{Photon, PlacedPhotons};
 use core::f32::consts::PI;
 use glam::Vec3;
@@ -24,7 +24,7 @@ impl KernelLookup {
         placed: &PlacedPhotons,
         centre: Vec3,
         in_space: bool,
-        found: &mut Vec<Found>,
+        found: &mut Vec<Neighbour>,
         mut visit: impl FnMut(&Photon, f32),
     ) {
         let radius_squared = self.radius * self.radius;

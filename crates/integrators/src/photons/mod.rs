@@ -24,7 +24,7 @@
 //! `SHARP` are followed by the camera path, as are mirrors and glass, since few photons would contribute
 //! there. Direct light is sampled, unless `sppm` is configured to use photons for it.
 
-pub(crate) mod elsewhere;
+pub(crate) mod camera_path;
 pub(crate) mod gather;
 pub mod kdtree;
 pub(crate) mod kernel;

@@ -223,8 +223,8 @@ impl Integrator for PhotonMapper {
 
     /// Photons come from lights that were chosen; one that can only be hit is seen itself, and nothing that it
     /// shines on.
-    fn incompatibilities(&self, sight: &SceneCapabilities) -> Vec<Incompatibility> {
-        sight.incompatibilities(LightSearch::Choosing)
+    fn incompatibilities(&self, capabilities: &SceneCapabilities) -> Vec<Incompatibility> {
+        capabilities.incompatibilities(LightSearch::Choosing)
     }
 
     fn prepare<W: World>(

@@ -6,9 +6,9 @@
 //! integral.
 
 use super::is_sharp;
-use super::kdtree::{Found, KdTree};
+use super::kdtree::{KdTree, Neighbour};
 use super::sets::{WavelengthChoice, WavelengthSets};
-use crate::steps::particle::{LightPath, LightVertex};
+use crate::steps::light_path::{LightPath, LightVertex};
 use crate::steps::settings::PathSettings;
 use etalon_sampling::hash::mix64;
 use etalon_sampling::{SampleId, Sobol};
@@ -93,7 +93,7 @@ impl PlacedPhotons {
         &self,
         centre: Vec3,
         radius_squared: f32,
-        found: &mut Vec<Found>,
+        found: &mut Vec<Neighbour>,
     ) -> (f32, &Self) {
         let (mut weight, mut map) = (1.0, self);
         while !(map.tree).within_at_most(centre, radius_squared, MOST_VISITED, found)
@@ -224,7 +224,7 @@ fn trace<W: World>(
     let Some((start, mut particle)) = LightPath::emit(world, &wavelengths, sampler, time) else {
         return;
     };
-    if particle.prefix.beta == Vec4::ZERO {
+    if particle.throughput.beta == Vec4::ZERO {
         return;
     }
     let mut kind = match start.origin {
@@ -234,31 +234,31 @@ fn trace<W: World>(
     };
     // As many segments as its depth lie behind once it has arrived; the camera adds one at least.
     while particle.depth < settings.max_depth {
-        let Some(met) = particle.next(world, sampler) else {
+        let Some(vertex) = particle.next(world, sampler) else {
             return;
         };
         let LightVertex {
-            vertex, wo, bsdf, ..
-        } = &met;
-        let cos = vertex.area_cos(*wo);
+            point, wo, bsdf, ..
+        } = &vertex;
+        let cos = point.area_cos(*wo);
         if bsdf.has_continuous() && cos > 0.0 {
-            let prefix = &particle.prefix;
-            let value = prefix.beta * (4.0 / (prefix.r_u.element_sum() * cos));
+            let throughput = &particle.throughput;
+            let value = throughput.beta * (4.0 / (throughput.r_u.element_sum() * cos));
             found.push(Photon {
-                position: vertex.position,
-                normal: vertex.normal,
+                position: point.position,
+                normal: point.normal,
                 from: *wo,
                 value: lanes.to_set(value),
                 set: lanes.set as u32,
                 segments: particle.depth,
                 kind,
                 medium: match bsdf.is_in_space() {
-                    true => vertex.media.outside,
+                    true => point.media.outside,
                     false => MediumId::NONE,
                 },
             });
         }
-        let Some(sample) = particle.scatter(&met, settings.rr_depth) else {
+        let Some(sample) = particle.scatter(&vertex, settings.rr_depth) else {
             return;
         };
         if !sample.is_null {

@@ -121,8 +121,8 @@ impl Integrator for Progressive {
 
     /// Photons come from lights that were chosen; one that can only be hit is seen itself, and nothing that it
     /// shines on.
-    fn incompatibilities(&self, sight: &SceneCapabilities) -> Vec<Incompatibility> {
-        sight.incompatibilities(LightSearch::Choosing)
+    fn incompatibilities(&self, capabilities: &SceneCapabilities) -> Vec<Incompatibility> {
+        capabilities.incompatibilities(LightSearch::Choosing)
     }
 
     fn samples_per_pass(&self) -> Option<u32> {

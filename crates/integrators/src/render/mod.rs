@@ -16,8 +16,8 @@ pub mod signature;
 pub use render_plan::RenderPlan;
 pub use replicate_range::ReplicateRange;
 
-use crate::render::positions::{Asked, around, position};
-use crate::render::rounds::{Batches, Pace};
+use crate::render::positions::{CancellablePlacing, around, position};
+use crate::render::rounds::{Batches, RoundSize};
 use etalon_sampling::{Independent, SampleId, Sampler, SamplerKind, Sobol, Stratified};
 use etalon_transport::{Film, Integrator, Pass, PixelSample, SampleJob, Surfaces, TileSink, World};
 use glam::UVec2;
@@ -98,7 +98,7 @@ pub fn render<W: World, I: Integrator, F: Film>(
         side,
         rays: AtomicU64::new(0),
         samples: AtomicU64::new(0),
-        pace: Pace::default(),
+        round_size: RoundSize::default(),
         batches: Batches::new(BATCH_SIZE),
         remarks: None,
     };
@@ -125,7 +125,7 @@ struct Run<'a, W, I> {
     side: u32,
     rays: AtomicU64,
     samples: AtomicU64,
-    pace: Pace,
+    round_size: RoundSize,
     batches: Batches,
     /// Remarks of the integrator on its first preparation.
     remarks: Option<Vec<String>>,
@@ -162,12 +162,13 @@ impl<W: World, I: Integrator> Run<'_, W, I> {
             if self.progress.cancelled() {
                 return false;
             }
-            let asked = Asked {
+            let placing = CancellablePlacing {
                 film: &*film,
                 progress: self.progress,
             };
             let mut before_it = std::mem::take(before).into_iter();
-            let prepare = |world| (self.integrator).prepare(world, &asked, &pass, before_it.next());
+            let prepare =
+                |world| (self.integrator).prepare(world, &placing, &pass, before_it.next());
             let states: Vec<I::State> = self.worlds.iter().map(prepare).collect();
             let first = states.iter().take(1);
             self.remarks
@@ -195,14 +196,14 @@ impl<W: World, I: Integrator> Run<'_, W, I> {
         let size = film.size();
         let pixels = u64::from(size.x) * u64::from(size.y);
         let tiles = UVec2::new(size.x.div_ceil(self.side), size.y.div_ceil(self.side));
-        self.pace.begin();
+        self.round_size.begin();
         let mut stride = match self.is_first(pass) && until == 0 {
             true => COARSE,
             false => 1,
         };
         while until < pass.samples {
             let target = match stride {
-                1 => until + self.pace.round(pixels).min(pass.samples - until),
+                1 => until + self.round_size.round(pixels).min(pass.samples - until),
                 _ => 1,
             };
             let (drawn, cut) = (AtomicU64::new(0), AtomicBool::new(false));
@@ -241,7 +242,7 @@ impl<W: World, I: Integrator> Run<'_, W, I> {
                 .for_each(tile);
             let drawn = drawn.into_inner();
             self.samples.fetch_add(drawn, Ordering::Relaxed);
-            self.pace.end_round(drawn);
+            self.round_size.end_round(drawn);
             if cut.into_inner() {
                 return false;
             }

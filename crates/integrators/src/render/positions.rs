@@ -6,12 +6,12 @@ use etalon_transport::{Film, FilmSample, Pass, Placing};
 use glam::{UVec2, Vec2};
 
 /// A film and the progress that may cancel a preparation, as [`Placing`].
-pub(crate) struct Asked<'a, F> {
+pub(crate) struct CancellablePlacing<'a, F> {
     pub(crate) film: &'a F,
     pub(crate) progress: &'a dyn Progress,
 }
 
-impl<F: Film> Placing for Asked<'_, F> {
+impl<F: Film> Placing for CancellablePlacing<'_, F> {
     fn place(&self, pixel: UVec2, u: Vec2) -> FilmSample {
         self.film.place(pixel, u)
     }

@@ -16,14 +16,14 @@ const PATIENCE: Duration = Duration::from_millis(50);
 
 /// The number of samples in a round.
 #[derive(Debug, Default)]
-pub(crate) struct Pace {
+pub(crate) struct RoundSize {
     /// Time per sample (s), of all threads together, once known.
     per_sample: Option<f64>,
     pass: Option<Instant>,
     round: Option<Instant>,
 }
 
-impl Pace {
+impl RoundSize {
     /// A pass begins.
     pub(crate) fn begin(&mut self) {
         self.pass = Some(Instant::now());
@@ -107,13 +107,13 @@ mod tests {
 
     #[test]
     fn rounds_are_long_enough() {
-        let mut pace = Pace::default();
-        pace.begin();
-        assert_eq!(pace.round(100), 1, "nothing is known yet");
-        pace.per_sample = Some(1e-3);
-        assert_eq!(pace.round(1), 496);
-        assert_eq!(pace.round(100), 5);
-        assert_eq!(pace.round(1 << 40), 1, "a round has a sample");
-        assert_eq!(pace.round(0), u32::MAX / 16 * 16);
+        let mut round_size = RoundSize::default();
+        round_size.begin();
+        assert_eq!(round_size.round(100), 1, "nothing is known yet");
+        round_size.per_sample = Some(1e-3);
+        assert_eq!(round_size.round(1), 496);
+        assert_eq!(round_size.round(100), 5);
+        assert_eq!(round_size.round(1 << 40), 1, "a round has a sample");
+        assert_eq!(round_size.round(0), u32::MAX / 16 * 16);
     }
 }

@@ -6,8 +6,8 @@
 
 mod any_sampler;
 mod log;
-mod model;
 mod recorder;
+mod recording_bsdf;
 
 pub use log::Describe;
 
@@ -55,7 +55,7 @@ pub enum Delivered {
     Channel(usize, f32),
 }
 
-/// Draws samples again, exactly as [`crate::render()`] with this plan does, but for what an estimator makes of several
+/// Draws samples again, exactly as [`crate::render()`] with this plan does, except for what an estimator makes of several
 /// samples together: `guided` lets those of its training join them on the way to the film. `describe` says what a
 /// surface is called.
 pub fn replay<W: World, I: Integrator, F: Film>(

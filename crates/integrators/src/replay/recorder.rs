@@ -1,7 +1,7 @@
 //! A world that answers as another does, and writes down what it said.
 
 use super::log::{SharedLog, chance, lanes, vector, walk};
-use super::model::RecordingBsdf;
+use super::recording_bsdf::RecordingBsdf;
 use etalon_math::{Density, SolidAngle};
 use etalon_spectrum::{SensorWeights, Wavelengths};
 use etalon_transport::{
@@ -247,9 +247,9 @@ impl<'a, W: World> World for Recorder<'a, W> {
         wavelengths: &Wavelengths,
         crossings: u32,
     ) -> Option<Transmission> {
-        let passage = self.world.transmittance(ray, wavelengths, crossings);
+        let transmission = self.world.transmittance(ray, wavelengths, crossings);
         let along = vector(ray.direction);
-        let line = match &passage {
+        let line = match &transmission {
             None => format!("    blocked along {along}"),
             Some(p) => format!(
                 "    arrives along {along}: transmittance {}, probability {}",
@@ -258,7 +258,7 @@ impl<'a, W: World> World for Recorder<'a, W> {
             ),
         };
         self.log.line_at(wavelengths, line);
-        passage
+        transmission
     }
 
     fn transmittance_batch(

@@ -6,7 +6,7 @@ pub(crate) mod candidates;
 pub mod dimensions;
 pub(crate) mod light_connection;
 pub(crate) mod light_mis;
-pub(crate) mod particle;
+pub(crate) mod light_path;
 pub mod path_throughput;
 pub mod settings;
 pub(crate) mod visibility;

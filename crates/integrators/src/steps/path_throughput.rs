@@ -68,14 +68,14 @@ impl PathThroughput {
     /// with the product `eta`.
     #[inline]
     pub fn survival(&self, eta: f32) -> f32 {
-        (self.throughput() * eta * eta).min(MOST)
+        (self.magnitude() * eta * eta).min(MOST)
     }
 
     /// The same between two points of a medium. A walk of many steps below a surface must not be ended by their number
     /// alone, as each makes the rest count more; but one without loss or end must end.
     #[inline]
     pub fn survival_in_medium(&self, eta: f32) -> f32 {
-        (self.throughput() * eta * eta).min(MOST_IN_MEDIUM)
+        (self.magnitude() * eta * eta).min(MOST_IN_MEDIUM)
     }
 
     /// The probability with which a path from a light survives, whose throughput was `before` when it left where it was
@@ -83,7 +83,7 @@ impl PathThroughput {
     #[inline]
     pub fn survival_of_flux(&self, before: f32, in_space: bool) -> f32 {
         let most = if in_space { MOST_IN_MEDIUM } else { MOST };
-        (self.throughput() / before).min(most)
+        (self.magnitude() / before).min(most)
     }
 
     /// Survives Russian roulette of probability `q`, a rule symmetric in the lanes: it scales
@@ -96,7 +96,7 @@ impl PathThroughput {
     /// What decides Russian roulette: the largest fⱼ over the mean of pₖ, symmetric in the lanes
     /// and equal to the throughput of an ordinary path tracer where lanes agree.
     #[inline]
-    pub fn throughput(&self) -> f32 {
+    pub fn magnitude(&self) -> f32 {
         4.0 * self.beta.max_element() / self.r_u.element_sum()
     }
 
@@ -114,9 +114,9 @@ mod tests {
 
     #[test]
     fn one_technique_with_equal_lanes_is_plain_monte_carlo() {
-        let mut prefix = PathThroughput::START;
-        prefix.scatter(Vec4::new(0.1, 0.2, 0.3, 0.4), Vec4::splat(0.5));
-        let estimate = prefix.contribution(Vec4::ONE, Vec4::ZERO);
+        let mut throughput = PathThroughput::START;
+        throughput.scatter(Vec4::new(0.1, 0.2, 0.3, 0.4), Vec4::splat(0.5));
+        let estimate = throughput.contribution(Vec4::ONE, Vec4::ZERO);
         // Each lane: f / p / 4.
         assert!(
             (estimate - Vec4::new(0.05, 0.1, 0.15, 0.2))
@@ -140,9 +140,9 @@ mod tests {
                 }
                 // Lane k chooses: rotate it to the front.
                 let rotate = |v: Vec4| Vec4::from_array([0, 1, 2, 3].map(|i| v[(i + k) % 4]));
-                let mut prefix = PathThroughput::START;
-                prefix.scatter(Vec4::ONE, rotate(own));
-                let estimate = prefix.contribution(Vec4::ONE, rotate(other) / own[k]);
+                let mut throughput = PathThroughput::START;
+                throughput.scatter(Vec4::ONE, rotate(own));
+                let estimate = throughput.contribution(Vec4::ONE, rotate(other) / own[k]);
                 let back = Vec4::from_array([0, 1, 2, 3].map(|i| estimate[(i + 4 - k) % 4]));
                 total += own[k] * back;
             }
@@ -152,8 +152,8 @@ mod tests {
 
     #[test]
     fn a_lane_that_could_not_have_chosen_leaves_the_sum() {
-        let mut prefix = PathThroughput::START;
-        prefix.scatter(Vec4::new(0.9, 0.0, 0.0, 0.0), Vec4::new(0.9, 0.0, 0.0, 0.0));
-        assert_eq!(prefix.contribution(Vec4::ONE, Vec4::ZERO), Vec4::X);
+        let mut throughput = PathThroughput::START;
+        throughput.scatter(Vec4::new(0.9, 0.0, 0.0, 0.0), Vec4::new(0.9, 0.0, 0.0, 0.0));
+        assert_eq!(throughput.contribution(Vec4::ONE, Vec4::ZERO), Vec4::X);
     }
 }

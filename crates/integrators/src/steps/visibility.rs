@@ -13,7 +13,7 @@ use glam::Vec4;
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct CameraVisibility {
     /// Straight travel past all surfaces that are not looked through.
-    pub(crate) passage: Transmission,
+    pub(crate) transmission: Transmission,
     /// Whether a light is looked through.
     pub(crate) through_emitter: bool,
 }
@@ -28,14 +28,14 @@ pub(crate) fn camera_visibility<W: World>(
     mut crossings: u32,
 ) -> Option<CameraVisibility> {
     let mut ray = segment;
-    let mut passage = Transmission::FREE;
+    let mut transmission = Transmission::FREE;
     // Lights that nothing follows so far, and whether the way starts on one of them.
     let (mut lights, mut past_lights) = (0, Transmission::FREE);
     let mut hidden = on_light;
     loop {
         let hit = world.surfaces().intersect(&ray);
         if let Some(stretch) = arrival::transmittance(world, &ray, hit.as_ref(), wavelengths) {
-            passage.then(&stretch);
+            transmission.then(&stretch);
         }
         let Some(hit) = hit else { break };
         let vertex = world.surfaces().vertex(&ray, &hit);
@@ -46,8 +46,8 @@ pub(crate) fn camera_visibility<W: World>(
         if !world.lights().is_emitter(&hit) {
             // The lights before this surface are in the way like itself.
             crossings = crossings.checked_sub(lights)?;
-            passage.then(&past_lights);
-            if passage.transmittance == Vec4::ZERO {
+            transmission.then(&past_lights);
+            if transmission.transmittance == Vec4::ZERO {
                 return None;
             }
             (lights, past_lights) = (0, Transmission::FREE);
@@ -59,7 +59,7 @@ pub(crate) fn camera_visibility<W: World>(
         ray = rest;
     }
     (!hidden).then_some(CameraVisibility {
-        passage,
+        transmission,
         through_emitter: lights > 0,
     })
 }

@@ -14,15 +14,15 @@
 //! Photons share the wavelengths of the integrator, so that each packet of four has a part of them for itself. A photon goes every way that
 //! the recursion would go with the probability that it has as a share of the light there, and is absorbed with the rest.
 
-use super::shading::{Surface, SurfaceBySet};
+use super::surface::{Surface, SurfaceBySet};
 use super::tree::{Continuation, Packet, SETS, onward};
-use crate::photons::kdtree::Found;
+use crate::photons::kdtree::Neighbour;
 use crate::photons::kernel::{Kernel, KernelLookup};
 use crate::photons::radius::{ANYWHERE, from_pixels, held};
 use crate::photons::sets::WavelengthChoice;
 use crate::photons::shoot::{FACING, Kind, Photon, PlacedPhotons, in_order, moment, numbers};
 use crate::steps::arrival::next_surface;
-use crate::steps::particle::LightPath;
+use crate::steps::light_path::LightPath;
 use etalon_sampling::Sampler;
 use etalon_transport::{
     LightKind, MediumId, Pass, Placing, SurfaceInteraction, TransportMode, World,
@@ -106,7 +106,7 @@ impl Caustics {
         wo: Vec3,
         (packets, surfaces): (&[Packet], &SurfaceBySet<'_, W>),
         [depth, max_depth]: [u32; 2],
-        found: &mut Vec<Found>,
+        found: &mut Vec<Neighbour>,
     ) -> Vec3 {
         if !surfaces.iter().flatten().any(Surface::spreads) {
             return Vec3::ZERO;
@@ -151,11 +151,11 @@ fn trace<W: World>(
     let Some((start, particle)) = LightPath::emit(world, &wavelengths, sampler, time) else {
         return;
     };
-    let (mut prefix, mut ray) = (particle.prefix, particle.ray);
+    let (mut throughput, mut ray) = (particle.throughput, particle.ray);
     // A beam is found by no shadow ray.
     let mut is_caustic = matches!(start.origin, LightKind::Beam);
     let mut segments = 1;
-    while segments < max_depth && prefix.beta != Vec4::ZERO {
+    while segments < max_depth && throughput.beta != Vec4::ZERO {
         let Some((_, vertex)) = next_surface(world, &mut ray, false) else {
             return;
         };
@@ -165,10 +165,10 @@ fn trace<W: World>(
             wavelengths,
             ..packets[lanes.set]
         };
-        let surfaces = super::shading::at(world, &vertex, wo, &[lead]);
+        let surfaces = super::surface::at(world, &vertex, wo, &[lead]);
         let spreads = surfaces[0].as_ref().is_some_and(Surface::spreads);
         if is_caustic && spreads && cos > 0.0 {
-            let value = prefix.beta * (4.0 / (prefix.r_u.element_sum() * cos));
+            let value = throughput.beta * (4.0 / (throughput.r_u.element_sum() * cos));
             found.push(Photon {
                 position: vertex.position,
                 normal: vertex.normal,
@@ -203,7 +203,7 @@ fn trace<W: World>(
         });
         let Some(chosen) = chosen else { return };
         let chance = chosen.value / whole;
-        prefix.scatter(chosen.value, chance);
+        throughput.scatter(chosen.value, chance);
         is_caustic |= !chosen.is_straight;
         ray = vertex.spawn(chosen.wi);
         segments += 1;

@@ -1,6 +1,6 @@
 //! Direct light.
 
-use super::shading::{Surface, SurfaceBySet};
+use super::surface::{Surface, SurfaceBySet};
 use super::tree::{Packet, SETS};
 use super::{Falloff, Whitted};
 use etalon_sampling::Sampler;

@@ -36,7 +36,7 @@ mod light;
 mod phong;
 mod pixel;
 mod points;
-mod shading;
+mod surface;
 mod tree;
 
 use crate::photons::{radius, read_count, read_nearest};
@@ -226,15 +226,15 @@ impl Integrator for Whitted {
     type State = Picture;
 
     /// It samples all lights and renders classic materials; a sky has no points to sample.
-    fn incompatibilities(&self, sight: &SceneCapabilities) -> Vec<Incompatibility> {
+    fn incompatibilities(&self, capabilities: &SceneCapabilities) -> Vec<Incompatibility> {
         let message = "`whitted` asks every light at fixed points, and this scene has a sky, which \
                        shines from everywhere";
-        let sky = sight
+        let sky = capabilities
             .sky
             .then(|| Incompatibility::fatal(Subject::Integrator, message));
-        let ambient = sight.classic && self.ambient > 0.0;
-        let unlit = sight.unlit().filter(|_| !ambient);
-        let lens = match (sight.aperture, self.lens_points.side) {
+        let ambient = capabilities.classic && self.ambient > 0.0;
+        let unlit = capabilities.unlit().filter(|_| !ambient);
+        let lens = match (capabilities.aperture, self.lens_points.side) {
             (true, 1) if !self.lens_points.is_random() => Some((
                 "`whitted` looks through the middle of the lens alone, so that all is in focus",
                 "`lens_samples` 8 looks through 8 × 8 points of it",

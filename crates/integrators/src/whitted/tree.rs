@@ -4,8 +4,8 @@
 //! then every wavelength continues alone.
 
 use super::caustics::Caustics;
-use super::{Whitted, phong, shading};
-use crate::photons::kdtree::Found;
+use super::{Whitted, phong, surface};
+use crate::photons::kdtree::Neighbour;
 use crate::photons::sets::WavelengthChoice;
 use crate::steps::arrival::next_surface;
 use etalon_sampling::Sampler;
@@ -87,7 +87,7 @@ pub(super) struct Tree<'a, W> {
     pub(super) world: &'a W,
     pub(super) caustics: Option<&'a Caustics>,
     /// Room for the photons that a look-up finds.
-    pub(super) neighbours: &'a RefCell<Vec<Found>>,
+    pub(super) neighbours: &'a RefCell<Vec<Neighbour>>,
 }
 
 impl Whitted {
@@ -163,7 +163,7 @@ impl Whitted {
         depth: u32,
         sampler: &mut impl Sampler,
     ) -> Vec3 {
-        let surfaces = shading::at(tree.world, vertex, wo, packets);
+        let surfaces = surface::at(tree.world, vertex, wo, packets);
         let lies = (packets, &surfaces);
         let crossings = self.max_depth - depth - 1;
         let straight = self.direct(tree.world, vertex, wo, lies, crossings, sampler);

@@ -311,23 +311,23 @@ impl World for Stack {
         wavelengths: &Wavelengths,
         crossings: u32,
     ) -> Option<Transmission> {
-        let mut passage = Transmission::FREE;
+        let mut transmission = Transmission::FREE;
         let between = |plane: &&Plane| {
             let t = (plane.height - ray.origin.z) / ray.direction.z;
             t > 1e-3 && t < ray.t_max * 0.999
         };
         for (count, plane) in self.planes.iter().filter(between).enumerate() {
             let passing = curve(plane.passing, wavelengths.lambda);
-            passage.transmittance *= passing;
-            passage.probability *= passing;
-            if count as u32 >= crossings || passage.transmittance == Vec4::ZERO {
+            transmission.transmittance *= passing;
+            transmission.probability *= passing;
+            if count as u32 >= crossings || transmission.transmittance == Vec4::ZERO {
                 return None;
             }
         }
         if self.fault == Fault::FreePassage {
-            passage.probability = Vec4::ONE;
+            transmission.probability = Vec4::ONE;
         }
-        Some(passage)
+        Some(transmission)
     }
     fn transmittance_batch(
         &self,

@@ -12,12 +12,12 @@ const MOST_LISTED: usize = 16;
 
 /// The mesh attributes that textures need.
 #[derive(Default)]
-pub(crate) struct Asked {
-    attributes: Vec<AskedAttribute>,
+pub(crate) struct RequiredAttributes {
+    attributes: Vec<RequiredAttribute>,
 }
 
 /// A `mesh_attribute` texture, and the values that it finds on its shapes.
-struct AskedAttribute {
+struct RequiredAttribute {
     texture: Arc<Node>,
     name: String,
     /// The source position of its name.
@@ -26,7 +26,7 @@ struct AskedAttribute {
     greatest: f32,
 }
 
-impl Asked {
+impl RequiredAttributes {
     /// Looks at every texture within `user`, a material or light of the shape that was described
     /// at `place`, and reports what the shape lacks.
     pub(crate) fn by(
@@ -92,7 +92,7 @@ impl Asked {
                 known.least = known.least.min(least);
                 known.greatest = known.greatest.max(greatest);
             }
-            None => self.attributes.push(AskedAttribute {
+            None => self.attributes.push(RequiredAttribute {
                 texture: Arc::clone(texture),
                 name: name.clone(),
                 span,
@@ -105,17 +105,17 @@ impl Asked {
     /// Notes attributes whose values are clamped to the range of their use; to be called when all
     /// textures have been read.
     pub(crate) fn note_ranges(&self, textures: &TextureTable, diagnostics: &Diagnostics) {
-        for asked in &self.attributes {
-            for id in textures.read_as(&asked.texture) {
+        for required in &self.attributes {
+            for id in textures.read_as(&required.texture) {
                 if let Texture::MeshAttribute(texture) = textures.get(id) {
-                    asked.note_range(texture.scale, texture.range(), diagnostics);
+                    required.note_range(texture.scale, texture.range(), diagnostics);
                 }
             }
         }
     }
 }
 
-impl AskedAttribute {
+impl RequiredAttribute {
     fn note_range(&self, scale: f32, [low, high]: [f32; 2], diagnostics: &Diagnostics) {
         // An excess by rounding of `scale` is not reported.
         if low <= self.least && f64::from(self.greatest) <= f64::from(high) * (1.0 + 1e-6) {

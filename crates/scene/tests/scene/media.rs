@@ -235,8 +235,8 @@ fn messages(read: &Read) -> Vec<String> {
 
 /// What a path tracer would be told of a scene.
 fn remarks(content: &str) -> Vec<String> {
-    let sight = scene(content).sight(UVec2::ZERO, UVec2::splat(64));
-    let remarks = sight.incompatibilities(LightSearch::FromCamera);
+    let capabilities = scene(content).capabilities(UVec2::ZERO, UVec2::splat(64));
+    let remarks = capabilities.incompatibilities(LightSearch::FromCamera);
     remarks.into_iter().map(|remark| remark.message).collect()
 }
 
@@ -286,7 +286,7 @@ fn endless_fog_before_a_sky_is_told() {
         let read = read_with(&text, &[]);
         assert_eq!(read.errors, Vec::<String>::new());
         let world = read.compiled.expect("a scene without mistakes").scene;
-        world.sight(UVec2::ZERO, UVec2::splat(64)).swallowed
+        world.capabilities(UVec2::ZERO, UVec2::splat(64)).swallowed
     };
     let (fog, sky) = ("<ref id=\"fog\"/>", "<emitter type=\"constant\"/>");
     assert!(scene_with(fog, "", sky));

@@ -1,7 +1,7 @@
-//! What a training path tells: the record of a corner, and what it scattered.
+//! What a training path tells: the record of a vertex, and what it scattered.
 
 use super::*;
-use crate::guided::field::{FACES, Lobes, RegionUpdate, SdTree};
+use crate::guided::sd_tree::{FACES, Lobes, RegionUpdate, SdTree};
 use etalon_math::{DeltaProbability, Density, Frame, SolidAngle};
 use etalon_sampling::discrete::{Quadtree, Refinement};
 use etalon_transport::{InstanceId, LightId, MaterialId, SamplePdf, ShapeId, TransportMode};
@@ -82,28 +82,28 @@ fn vertex() -> SurfaceInteraction {
     }
 }
 
-/// The record of the first corner of a path of three surfaces that emit radiance 2, 4, 8 and by light samples
+/// The record of the first vertex of a path of three surfaces that emit radiance 2, 4, 8 and by light samples
 /// send back 16, 32, 64. The second scatters `gain` times the light of a diffuse one.
 fn first_record(gain: f32) -> f32 {
-    let lesson = RegionUpdate {
+    let update = RegionUpdate {
         lobes: Lobes::default(),
         irradiance: [IRRADIANCE; FACES],
         own: [0.5; FACES],
         records: 1,
     };
-    let field = SdTree::new(Vec3::ZERO, Vec3::ONE, 0.5).learned(vec![lesson], 10);
-    let mut pupil = TrainingPath::new(GuidedHooks {
+    let field = SdTree::new(Vec3::ZERO, Vec3::ONE, 0.5).learned(vec![update], 10);
+    let mut training_path = TrainingPath::new(GuidedHooks {
         field: &field,
         reflected: 1.0,
     });
-    pupil.begin();
+    training_path.begin();
     let wi = Vec3::new(0.6, 0.0, COS);
     let mut path = PathThroughput::START;
     for (surface, gain) in [1.0, gain, 1.0].into_iter().enumerate() {
         let arriving = path;
         let radiance = |r: f32| arriving.contribution(Vec4::splat(r), Vec4::ZERO);
-        pupil.on_emission(radiance((2 << surface) as f32));
-        pupil.on_light_sample();
+        training_path.on_emission(radiance((2 << surface) as f32));
+        training_path.on_light_sample();
         let sample = BsdfSample {
             wi,
             value: Grey.eval(Vec3::Z, wi, TransportMode::Radiance) * gain,
@@ -112,24 +112,24 @@ fn first_record(gain: f32) -> f32 {
             is_null: false,
         };
         path.scatter(sample.value, sample.chance.lanes());
-        pupil.on_scatter(&vertex(), &Grey, Vec3::Z, &sample, &path);
+        training_path.on_scatter(&vertex(), &Grey, Vec3::Z, &sample, &path);
         // Roulette is no light: what survives counts for more, and here all does.
-        let survival = pupil.survival(&path, 1.0);
+        let survival = training_path.survival(&path, 1.0);
         path.roulette(survival);
-        pupil.on_light_contribution(radiance((16 << surface) as f32));
+        training_path.on_light_contribution(radiance((16 << surface) as f32));
     }
-    let first = pupil.records().next().expect("the first corner");
+    let first = training_path.records().next().expect("the first vertex");
     first.weight.expect("not discrete") * DENSITY / COS
 }
 
 #[test]
-fn a_corner_is_told_of_the_next_diffuse_surface_and_of_what_that_is_known_to_reflect() {
+fn a_vertex_is_told_of_the_next_diffuse_surface_and_of_what_that_is_known_to_reflect() {
     let reflected = ALBEDO * IRRADIANCE * FRAC_1_PI;
     let survival = 0.5;
     let expected = (4.0 + 32.0 + reflected) / survival;
     let found = first_record(1.0);
     assert!((found / expected - 1.0).abs() < 1e-5, "{found}, {expected}");
-    // Mutant: the light sample of the third surface would count as well, if the corner still waited: 64
+    // Mutant: the light sample of the third surface would count as well, if the vertex still waited: 64
     // times what the second scatters. A surface that scatters otherwise makes it wait.
     let gain = 3.0;
     let scattered = gain * ALBEDO * COS * FRAC_1_PI / DENSITY;
@@ -139,7 +139,7 @@ fn a_corner_is_told_of_the_next_diffuse_surface_and_of_what_that_is_known_to_ref
 }
 
 #[test]
-fn a_corner_tells_what_it_scattered_and_how_else_that_might_have_been_found() {
+fn a_vertex_tells_what_it_scattered_and_how_else_that_might_have_been_found() {
     const SHARE: f32 = 0.6;
     let even = Quadtree::uniform().learned(
         |_| 1.0,
@@ -148,20 +148,20 @@ fn a_corner_tells_what_it_scattered_and_how_else_that_might_have_been_found() {
             depth: 1,
         },
     );
-    let lesson = RegionUpdate {
+    let update = RegionUpdate {
         lobes: core::array::from_fn(|_| even.clone()),
         irradiance: [0.0; FACES],
         own: [SHARE; FACES],
         records: 1,
     };
-    let field = SdTree::new(Vec3::ZERO, Vec3::ONE, 0.3).learned(vec![lesson], 10);
+    let field = SdTree::new(Vec3::ZERO, Vec3::ONE, 0.3).learned(vec![update], 10);
     let wi = Vec3::new(0.6, 0.0, COS);
     let scattered = |chance: SamplePdf| {
-        let mut pupil = TrainingPath::new(GuidedHooks {
+        let mut training_path = TrainingPath::new(GuidedHooks {
             field: &field,
             reflected: 1.0,
         });
-        pupil.begin();
+        training_path.begin();
         let sample = BsdfSample {
             wi,
             value: Vec4::splat(ALBEDO),
@@ -171,27 +171,34 @@ fn a_corner_tells_what_it_scattered_and_how_else_that_might_have_been_found() {
         };
         let mut path = PathThroughput::START;
         path.scatter(sample.value, sample.chance.lanes());
-        pupil.on_scatter(&vertex(), &Grey, Vec3::Z, &sample, &path);
-        pupil.on_emission(path.contribution(Vec4::splat(2.0), Vec4::ZERO));
-        let record = pupil.records().next().expect("a corner");
-        let (light, rivals) = record.scattered.expect("rivals");
-        (record.weight.is_some(), light, rivals)
+        training_path.on_scatter(&vertex(), &Grey, Vec3::Z, &sample, &path);
+        training_path.on_emission(path.contribution(Vec4::splat(2.0), Vec4::ZERO));
+        let record = training_path.records().next().expect("a vertex");
+        let (light, alternatives) = record.scattered.expect("alternatives");
+        (record.weight.is_some(), light, alternatives)
     };
     let learned = 0.25 * FRAC_1_PI;
     let mixed = SHARE * DENSITY + (1.0 - SHARE) * learned;
-    let (continuous, light, rivals) = scattered(SamplePdf::Continuous(Density::uniform(mixed)));
+    let (continuous, light, alternatives) =
+        scattered(SamplePdf::Continuous(Density::uniform(mixed)));
     assert!(
         continuous && (light / (2.0 * ALBEDO / mixed) - 1.0).abs() < 1e-5,
         "{light}"
     );
-    assert!((rivals.own / DENSITY - 1.0).abs() < 1e-4, "{rivals:?}");
-    assert!((rivals.learned / learned - 1.0).abs() < 1e-5, "{rivals:?}");
+    assert!(
+        (alternatives.own / DENSITY - 1.0).abs() < 1e-4,
+        "{alternatives:?}"
+    );
+    assert!(
+        (alternatives.learned / learned - 1.0).abs() < 1e-5,
+        "{alternatives:?}"
+    );
     // Discrete directions are found by the model alone.
-    let (continuous, light, rivals) =
+    let (continuous, light, alternatives) =
         scattered(SamplePdf::Discrete(DeltaProbability(Vec4::splat(0.25))));
     assert!(
         !continuous && (light / (2.0 * ALBEDO / 0.25) - 1.0).abs() < 1e-5,
         "{light}"
     );
-    assert_eq!((rivals.own, rivals.learned), (1.0, 0.0));
+    assert_eq!((alternatives.own, alternatives.learned), (1.0, 0.0));
 }

@@ -4,7 +4,7 @@
 //! narrow peak that brings half of all light, so that a bootstrap of a few samples often misses
 //! it.
 
-use super::super::bootstrap::State;
+use super::super::bootstrap::BootstrapState;
 use super::super::{ChainSettings, Contributions, FilmRegion, Integrand, PathLengthPdf};
 use etalon_sampling::Sampler;
 use etalon_transport::{Pass, Sink};
@@ -85,7 +85,11 @@ enum Change {
 }
 
 /// One replicate's pixels, and its state before it was changed.
-fn replicate(number: u32, before: Option<State>, change: Change) -> ([f64; 2], State) {
+fn replicate(
+    number: u32,
+    before: Option<BootstrapState>,
+    change: Change,
+) -> ([f64; 2], BootstrapState) {
     let pass = Pass {
         seed: 3,
         replicate: number,
@@ -98,7 +102,7 @@ fn replicate(number: u32, before: Option<State>, change: Change) -> ([f64; 2], S
         size: UVec2::new(2, 1),
         margin: 1,
     };
-    let prepare = |before| State::prepare(&Peak, &settings(), &(), &pass, before);
+    let prepare = |before| BootstrapState::prepare(&Peak, &settings(), &(), &pass, before);
     let pristine = prepare(before);
     let mut state = pristine.clone();
     match change {

@@ -8,14 +8,14 @@ use etalon_statistics::chi_squared::goodness_of_fit;
 const CELLS: usize = 20;
 
 /// I, and the number that is looked at, if it was asked for.
-type Seen = (f64, Option<f32>);
+type Observation = (f64, Option<f32>);
 
 /// A scalar on primary samples of up to three numbers, and how often its chain should be seen in
 /// each cell of the number at hand.
 struct Landscape {
     name: &'static str,
     /// What is seen of a sample whose numbers the argument gives.
-    at: fn(&mut dyn FnMut() -> f32) -> Seen,
+    at: fn(&mut dyn FnMut() -> f32) -> Observation,
     /// ∫ I over a cell, times anything.
     share: fn(usize) -> f64,
 }

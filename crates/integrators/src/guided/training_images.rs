@@ -85,7 +85,7 @@ impl TrainingImages {
 }
 
 /// A sink that adds the training's pictures to a replicate's samples.
-pub(crate) struct Joined<'a, K> {
+pub(crate) struct TrainingSink<'a, K> {
     sink: &'a mut K,
     pictures: &'a TrainingImages,
     replicate: u32,
@@ -97,7 +97,7 @@ pub(crate) struct Joined<'a, K> {
     first: std::vec::IntoIter<bool>,
 }
 
-impl<'a, K> Joined<'a, K> {
+impl<'a, K> TrainingSink<'a, K> {
     /// For a replicate; `first` marks the samples that are their pixels' first.
     pub(crate) fn new(
         sink: &'a mut K,
@@ -122,7 +122,7 @@ impl<'a, K> Joined<'a, K> {
     }
 }
 
-impl<K: TileSink> Sink for Joined<'_, K> {
+impl<K: TileSink> Sink for TrainingSink<'_, K> {
     fn radiance(&mut self, [r, g, b]: [f32; 3], alpha: f32) {
         let mut joined = Vec4::new(r, g, b, alpha) * self.own;
         let training = self.training;
@@ -146,7 +146,7 @@ impl<K: TileSink> Sink for Joined<'_, K> {
     }
 }
 
-impl<K: TileSink> TileSink for Joined<'_, K> {
+impl<K: TileSink> TileSink for TrainingSink<'_, K> {
     fn begin_sample(&mut self, pixel: UVec2, weight: f32) {
         self.sink.begin_sample(pixel, weight);
         self.join(pixel, weight);
@@ -158,7 +158,7 @@ impl<K: TileSink> TileSink for Joined<'_, K> {
     }
 }
 
-impl<K> Joined<'_, K> {
+impl<K> TrainingSink<'_, K> {
     /// Finds what joins a sample of a pixel.
     fn join(&mut self, pixel: UVec2, weight: f32) {
         let (share, mean) = self.pictures.of(pixel, self.replicate);

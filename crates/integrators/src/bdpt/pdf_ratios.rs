@@ -7,7 +7,7 @@
 //! p_σ,ₖ / p_s,₀ = Π_{i<min} aᵢ,ₖ/aᵢ,₀ · Π_{i ≥ max} bᵢ,ₖ/bᵢ,₀ · Π_{σ≤i<s} bᵢ,ₖ/aᵢ,₀   (or, for σ > s, Π_{s≤i<σ} aᵢ,ₖ/bᵢ,₀)
 //! ```
 //!
-//! The first two products are the density ratios that prefixes carry; the third grows by a factor a
+//! The first two products are the density ratios that throughputs carry (`r_u`); the third grows by a factor a
 //! step. Only densities of lane 0, which really chose, are divided by.
 //!
 //! Merging at xᵢ (see [`crate::vcm`]) arrives there from both sides: its density is that of technique i
@@ -19,9 +19,9 @@ use glam::Vec4;
 /// The densities at the end of a light subpath that its techniques need.
 #[derive(Clone, Copy)]
 pub(super) struct EndPdfs {
-    /// Density of the other walk arriving at this end.
+    /// Density of the other subpath arriving at this end.
     pub(super) here: Vec4,
-    /// Density of the other walk arriving at the vertex before it.
+    /// Density of the other subpath arriving at the vertex before it.
     pub(super) before: Vec4,
 }
 
@@ -40,12 +40,12 @@ pub(super) struct LightEnd {
     pub(super) connections: f32,
 }
 
-/// Σ over techniques with fewer light vertices than a path whose last corner from the light is
-/// `corners[last]`. `rest` is the density ratio of the camera's part, `ends` the camera walk's densities at
-/// the last corner and the one before it, `pdf_rev` that at the light once it is farther away; `connects` says
-/// whether the last corner may be an end of a connection.
-pub(super) fn fewer<B>(
-    corners: &[PathVertex<B>],
+/// Sum of the pdf ratios of the techniques with fewer light vertices than a path whose last vertex from the light is
+/// `vertices[last]`. `rest` is the density ratio of the camera's part, `ends` the camera subpath's densities at
+/// the last vertex and the one before it, `pdf_rev` that at the light once it is farther away; `connects` says
+/// whether the last vertex may be an end of a connection.
+pub(super) fn pdf_ratios_fewer<B>(
+    vertices: &[PathVertex<B>],
     last: usize,
     rest: Vec4,
     ends: EndPdfs,
@@ -60,27 +60,28 @@ pub(super) fn fewer<B>(
         let Some(index) = at else {
             break;
         };
-        let corner = &corners[index];
+        let vertex = &vertices[index];
         let b = match step {
             0 => ends.here,
             1 => ends.before,
-            _ => corner.pdf_rev,
+            _ => vertex.pdf_rev,
         };
-        if connects && corner.merges() && light.merging > 0.0 {
-            sum += light.merging * (product * b * corner.prefix.r_u).element_sum();
+        if connects && vertex.merges() && light.merging > 0.0 {
+            sum += light.merging * (product * b * vertex.throughput.r_u).element_sum();
         }
-        product *= b / corner.arrival;
-        at = corner.parent;
+        product *= b / vertex.arrival;
+        at = vertex.parent;
         let here = connects;
         match at {
             Some(parent) => {
-                connects = !corners[parent].is_delta;
+                connects = !vertices[parent].is_delta;
                 if here && connects {
-                    sum += light.connections * (product * corners[parent].prefix.r_u).element_sum();
+                    sum += light.connections
+                        * (product * vertices[parent].throughput.r_u).element_sum();
                 }
             }
             None => {
-                // σ = 1: light sampling from the first corner.
+                // σ = 1: light sampling from the first vertex.
                 let product = product * light.connections;
                 if here {
                     sum += product.element_sum() * (light.sampled / light.emitted);
@@ -98,52 +99,52 @@ pub(super) fn fewer<B>(
 /// The camera's end of a path.
 #[derive(Clone, Copy)]
 pub(super) struct CameraEnd {
-    /// Whether the camera walk's first corner can be connected to the camera.
+    /// Whether the camera subpath's first vertex can be connected to the camera.
     pub(super) connects: bool,
     /// Number of samples that can connect to the camera.
     pub(super) samples: f32,
     /// Whether techniques without merging take part, as a number: one, or zero.
     pub(super) connections: f32,
     /// n π r², the area on which photons are merged times their number (m²): over the density per area
-    /// with which either walk arrives at a corner, what makes of a connection there a merging. Zero
+    /// with which either subpath arrives at a vertex, what makes of a connection there a merging. Zero
     /// if there is none, as in `bdpt`.
     pub(super) merging: f32,
 }
 
-/// Σ over techniques with more light vertices than a path whose last corner from the camera is the last of
-/// `corners`, or `end` where that is not among them. `product` is the density ratio of the light's part and
-/// all factors so far, `connects` whether the last corner may be an end of a connection.
-pub(super) fn more<'c, B: 'c>(
+/// Sum of the pdf ratios of the techniques with more light vertices than a path whose last vertex from the camera is the last of
+/// `vertices`, or `end` where that is not among them. `product` is the density ratio of the light's part and
+/// all factors so far, `connects` whether the last vertex may be an end of a connection.
+pub(super) fn pdf_ratios_more<'c, B: 'c>(
     end: Option<&'c PathVertex<B>>,
-    corners: &'c [PathVertex<B>],
+    vertices: &'c [PathVertex<B>],
     mut product: Vec4,
     ends: EndPdfs,
     mut connects: bool,
     camera: CameraEnd,
 ) -> f32 {
     let mut sum = 0.0;
-    let mut walk = end.into_iter().chain(corners.iter().rev()).peekable();
+    let mut remaining = end.into_iter().chain(vertices.iter().rev()).peekable();
     let mut step = 0;
-    while let Some(corner) = walk.next() {
-        let next = walk.peek();
+    while let Some(vertex) = remaining.next() {
+        let next = remaining.peek();
         let a = match step {
             0 => ends.here,
             1 => ends.before,
-            _ => corner.pdf_rev,
+            _ => vertex.pdf_rev,
         };
-        if connects && corner.merges() && camera.merging > 0.0 {
-            sum += camera.merging * (product * a * corner.prefix.r_u).element_sum();
+        if connects && vertex.merges() && camera.merging > 0.0 {
+            sum += camera.merging * (product * a * vertex.throughput.r_u).element_sum();
         }
         if next.is_none() && !camera.connects {
             break;
         }
-        product *= a / corner.arrival;
+        product *= a / vertex.arrival;
         let here = connects;
         match next {
             Some(next) => {
                 connects = !next.is_delta;
                 if here && connects {
-                    sum += camera.connections * (product * next.prefix.r_u).element_sum();
+                    sum += camera.connections * (product * next.throughput.r_u).element_sum();
                 }
             }
             None if here => sum += camera.connections * camera.samples * product.element_sum(),

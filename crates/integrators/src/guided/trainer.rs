@@ -17,10 +17,10 @@
 //! mean of the round before, and at most 2²⁰ times that mean, so that one firefly cannot dominate a leaf, and 2²⁴
 //! such records fit.
 
-use super::field::{FACES, RegionUpdate, SdTree, SpatialLeaf, face, place_of, refinement};
 use super::fraction::FractionOptimizer;
-use super::guide::GuidedHooks;
-use super::pictures::TrainingImages;
+use super::guided_hooks::GuidedHooks;
+use super::sd_tree::{FACES, RegionUpdate, SdTree, SpatialLeaf, face, place_of, refinement};
+use super::training_images::TrainingImages;
 use super::training_path::{Record, TrainingPath};
 use crate::path::follow_part;
 use crate::path::state::PathState;
@@ -83,9 +83,9 @@ impl Iteration {
         }
     }
 
-    /// The last one, of at most so many samples: as many for each replicate if they are `dealt`.
-    fn last(number: u32, samples: u32, replicates: u32, dealt: bool) -> Self {
-        match dealt {
+    /// The last one, of at most so many samples: as many for each replicate if `by_replicate`.
+    fn last(number: u32, samples: u32, replicates: u32, by_replicate: bool) -> Self {
+        match by_replicate {
             true => Self {
                 number,
                 streams: replicates,
@@ -197,8 +197,8 @@ impl<'f> Sums<'f> {
         let size = self.field.regions()[self.field.find(record.position)].size;
         let index = self.field.find(record.position + shift * size);
         let face = face(record.normal);
-        if let Some((light, rivals)) = record.scattered {
-            self.scores[index][face].add(self.own, f64::from(light) * self.scale, rivals);
+        if let Some((light, alternatives)) = record.scattered {
+            self.scores[index][face].add(self.own, f64::from(light) * self.scale, alternatives);
         }
         let Some(weight) = record.weight else {
             return;
@@ -217,10 +217,10 @@ impl<'f> Sums<'f> {
     }
 
     /// The update of each region. A region that found no light keeps its density.
-    fn lessons(&self, share: f64) -> Vec<RegionUpdate> {
+    fn updates(&self, share: f64) -> Vec<RegionUpdate> {
         let load = |sum: &AtomicU64| sum.load(Ordering::Relaxed);
         let regions = self.field.regions().par_iter().enumerate();
-        let lesson = |(index, region): (usize, &SpatialLeaf)| {
+        let update = |(index, region): (usize, &SpatialLeaf)| {
             let records = self.records[index].each_ref().map(load);
             let mut irradiance = region.irradiance;
             let own = core::array::from_fn(|face| {
@@ -245,7 +245,7 @@ impl<'f> Sums<'f> {
                 records: records.iter().sum(),
             }
         };
-        regions.map(lesson).collect()
+        regions.map(update).collect()
     }
 }
 
@@ -258,19 +258,19 @@ impl Trainer {
         placing: &impl Placing,
         pass: &Pass,
     ) -> (SdTree, Option<TrainingImages>) {
-        let class = TrainingContext {
+        let context = TrainingContext {
             world,
             placing,
             pass,
         };
         // Extent and brightness of the scene, from the first paths.
         let nothing = SdTree::new(Vec3::ZERO, Vec3::ONE, self.own);
-        let first = self.round(&class, &nothing, Iteration::alone(0, 1), None, None);
+        let first = self.round(&context, &nothing, Iteration::alone(0, 1), None, None);
         if first.records == 0 {
             return (nothing, None);
         }
         let mut field = SdTree::new(first.from, first.to, self.own);
-        let mut tally = first;
+        let mut statistics = first;
         let (mut number, mut samples, mut left) = (1, 1, self.samples.max(1));
         loop {
             // The last round takes the remaining samples.
@@ -284,13 +284,13 @@ impl Trainer {
             } else {
                 (Iteration::alone(number, samples), None)
             };
-            let mean = tally.weight / tally.records as f64;
+            let mean = statistics.weight / statistics.records as f64;
             let scale = if mean > 0.0 { UNITS / mean } else { UNITS };
             let sums = Sums::new(&field, self.own, scale);
-            let found = self.round(&class, &field, round, Some(&sums), pictures.as_mut());
-            let lessons = sums.lessons(self.share);
+            let found = self.round(&context, &field, round, Some(&sums), pictures.as_mut());
+            let updates = sums.updates(self.share);
             let most = self.records * f64::from(round.samples()).sqrt();
-            field = field.learned(lessons, most as u64);
+            field = field.learned(updates, most as u64);
             if placing.stopped() {
                 return (field, None);
             }
@@ -298,7 +298,7 @@ impl Trainer {
                 return (field, pictures);
             }
             if found.weight > 0.0 {
-                tally = found;
+                statistics = found;
             }
             left -= samples;
             (number, samples) = (number + 1, samples.saturating_mul(2));
@@ -308,38 +308,38 @@ impl Trainer {
     /// Follows the paths of a round for every pixel, which `pictures` shows if there are any.
     fn round<W: World, P: Placing>(
         &self,
-        class: &TrainingContext<'_, W, P>,
+        context: &TrainingContext<'_, W, P>,
         field: &SdTree,
         round: Iteration,
         sums: Option<&Sums<'_>>,
         pictures: Option<&mut TrainingImages>,
     ) -> TrainingStatistics {
-        let pass = class.pass;
+        let pass = context.pass;
         let guide = GuidedHooks {
             field,
             reflected: 1.0,
         };
         let row = |(row, mut seen): (u32, Option<&mut [Vec4]>)| {
-            let mut tally = TrainingStatistics::NOTHING;
-            let mut pupil = TrainingPath::new(guide);
+            let mut statistics = TrainingStatistics::NOTHING;
+            let mut training_path = TrainingPath::new(guide);
             for column in 0..pass.size.x {
                 let pixel = pass.origin + UVec2::new(column, row);
                 for sample in 0..round.samples() {
-                    if class.placing.stopped() {
-                        return tally;
+                    if context.placing.stopped() {
+                        return statistics;
                     }
                     let address = round.address(pass.seed, pixel, sample);
-                    pupil.begin();
+                    training_path.begin();
                     let found;
-                    (pupil, found) = self.path(class, &address, pupil);
+                    (training_path, found) = self.path(context, &address, training_path);
                     if let Some(seen) = &mut seen {
                         let picture = address.replicate + round.streams * column;
                         seen[picture as usize] += found;
                     }
                     let mut shifts =
                         Independent::from_key(derived_key(address.pixel_key() ^ TRAINING, sample));
-                    for record in pupil.records() {
-                        tally.add(&record);
+                    for record in training_path.records() {
+                        statistics.add(&record);
                         if let Some(sums) = sums {
                             let shift = [(); 3].map(|()| shifts.next_1d() - 0.5);
                             sums.add(&record, Vec3::from_array(shift));
@@ -347,7 +347,7 @@ impl Trainer {
                     }
                 }
             }
-            tally
+            statistics
         };
         // Rows are joined in order, so that the sums of floats are the same for any number of threads.
         let seen: Vec<Option<&mut [Vec4]>> = match pictures {
@@ -355,24 +355,24 @@ impl Trainer {
             None => (0..pass.size.y).map(|_| None).collect(),
         };
         let rows: Vec<_> = (0..pass.size.y).zip(seen).collect();
-        let tallies: Vec<TrainingStatistics> = rows.into_par_iter().map(row).collect();
-        tallies
+        let statistics: Vec<TrainingStatistics> = rows.into_par_iter().map(row).collect();
+        statistics
             .into_iter()
             .fold(TrainingStatistics::NOTHING, TrainingStatistics::join)
     }
 
-    /// Follows one path and records it in `pupil`; its contribution to the pixel, colour and alpha, times its weight
+    /// Follows one path and records it in `training_path`; its contribution to the pixel, colour and alpha, times its weight
     /// on the film.
     fn path<'f, W: World, P: Placing>(
         &self,
-        class: &TrainingContext<'_, W, P>,
+        context: &TrainingContext<'_, W, P>,
         address: &SampleId,
-        pupil: TrainingPath<'f>,
+        training_path: TrainingPath<'f>,
     ) -> (TrainingPath<'f>, Vec4) {
-        let TrainingContext { world, pass, .. } = *class;
+        let TrainingContext { world, pass, .. } = *context;
         let mut sampler = Sobol::start(address);
         let pixel = UVec2::from(address.pixel);
-        let placement = class.placing.place_alone(pixel, sampler.next_2d());
+        let placement = context.placing.place_alone(pixel, sampler.next_2d());
         let site = PixelSample {
             pixel,
             raster: placement.raster,
@@ -383,7 +383,7 @@ impl Trainer {
             sample: address.sample,
         };
         let config = PathConfig::plain(self.settings);
-        let (mut path, ray) = PathState::start(world, &site, &mut sampler, pupil);
+        let (mut path, ray) = PathState::start(world, &site, &mut sampler, training_path);
         follow_part(world, &config, (&mut path, ray), &(0..u32::MAX));
         let found = path.colour(world).extend(path.alpha()) * placement.weight;
         (path.into_hooks(), found)

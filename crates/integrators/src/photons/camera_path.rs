@@ -84,7 +84,7 @@ pub(crate) struct CameraPath<'a> {
     pub(crate) sets: &'a WavelengthSets,
     /// Its own wavelengths, and its value and densities at them.
     pub(crate) lanes: WavelengthChoice,
-    pub(crate) prefix: &'a PathThroughput,
+    pub(crate) throughput: &'a PathThroughput,
     /// Whether smooth dispersion has left one wavelength.
     pub(crate) alone: bool,
     /// The surfaces that it left.
@@ -95,7 +95,7 @@ impl CameraPath<'_> {
     /// f/p₀ at the wavelengths of a set.
     pub(crate) fn value<W: World>(&self, world: &W, set: usize) -> Vec4 {
         if set == self.lanes.set {
-            self.lanes.to_set(self.prefix.beta)
+            self.lanes.to_set(self.throughput.beta)
         } else {
             value(world, self.path, self.sets.get(set))
         }
@@ -109,7 +109,7 @@ impl CameraPath<'_> {
         } else {
             1.0
         };
-        ways / self.prefix.r_u.element_sum()
+        ways / self.throughput.r_u.element_sum()
     }
 
     /// `rgb` plus the photons' contributions, a sum for each set, carried to the camera.

@@ -2,7 +2,7 @@
 
 use super::*;
 
-fn sight(all: u32, hittable: u32, chosen: u32, either: u32) -> SceneCapabilities {
+fn capabilities(all: u32, hittable: u32, chosen: u32, either: u32) -> SceneCapabilities {
     SceneCapabilities {
         lights: LightCount {
             all,
@@ -15,28 +15,31 @@ fn sight(all: u32, hittable: u32, chosen: u32, either: u32) -> SceneCapabilities
     }
 }
 
-fn fatal(sight: SceneCapabilities, finding: LightSearch) -> Option<bool> {
-    sight.incompatibilities(finding).first().map(|o| o.fatal)
+fn fatal(capabilities: SceneCapabilities, finding: LightSearch) -> Option<bool> {
+    capabilities
+        .incompatibilities(finding)
+        .first()
+        .map(|o| o.fatal)
 }
 
 #[test]
 fn all_light_missing_is_fatal_and_some_a_remark() {
     // Two point lights, a sky, and a lamp that is never chosen.
-    let mixed = sight(4, 2, 3, 4);
+    let mixed = capabilities(4, 2, 3, 4);
     assert_eq!(fatal(mixed, LightSearch::Hitting), Some(false));
     assert_eq!(fatal(mixed, LightSearch::Choosing), Some(false));
     assert_eq!(fatal(mixed, LightSearch::Either), None);
-    let points = sight(2, 0, 2, 2);
+    let points = capabilities(2, 0, 2, 2);
     assert_eq!(fatal(points, LightSearch::Hitting), Some(true));
     assert_eq!(fatal(points, LightSearch::Choosing), None);
     // A lamp, and a laser.
-    let mut laser = sight(2, 1, 2, 2);
+    let mut laser = capabilities(2, 1, 2, 2);
     laser.lights.beams = 1;
     for finding in [LightSearch::Connecting, LightSearch::FromCamera] {
         assert_eq!(fatal(laser, finding), Some(false));
     }
     assert_eq!(fatal(laser, LightSearch::Choosing), None);
-    let unchosen_points = sight(2, 0, 0, 0);
+    let unchosen_points = capabilities(2, 0, 0, 0);
     assert_eq!(fatal(unchosen_points, LightSearch::Either), Some(true));
 }
 
@@ -51,11 +54,13 @@ fn smooth_surfaces_alone_in_view_are_fatal_and_among_others_a_remark() {
             reached: scattering.max(lights),
             ..CameraProbe::default()
         };
-        let sight = SceneCapabilities {
+        let capabilities = SceneCapabilities {
             view,
             ..SceneCapabilities::default()
         };
-        sight.unconnected().map(|objection| objection.fatal)
+        capabilities
+            .unconnected()
+            .map(|incompatibility| incompatibility.fatal)
     };
     assert_eq!(seen(10, 0, 0), None);
     assert_eq!(seen(0, 0, 10), None);
@@ -75,12 +80,15 @@ fn a_camera_that_sees_nothing_to_connect_with_is_remarked_upon() {
             reached,
             ..CameraProbe::default()
         };
-        let objections = SceneCapabilities {
+        let incompatibilities = SceneCapabilities {
             view,
-            ..sight(1, 0, 1, 1)
+            ..capabilities(1, 0, 1, 1)
         }
         .incompatibilities(LightSearch::Either);
-        objections.iter().map(|o| o.fatal).collect::<Vec<_>>()
+        incompatibilities
+            .iter()
+            .map(|o| o.fatal)
+            .collect::<Vec<_>>()
     };
     assert_eq!(seen(10, 0), [false]);
     assert!(seen(10, 1).is_empty());
@@ -97,12 +105,15 @@ fn light_behind_glass_is_missed_from_the_camera_alone() {
             veiled,
             ..CameraProbe::default()
         };
-        let sight = SceneCapabilities {
+        let capabilities = SceneCapabilities {
             view,
-            ..sight(1, 0, 1, 1)
+            ..capabilities(1, 0, 1, 1)
         };
-        let objections = sight.incompatibilities(finding);
-        objections.iter().map(|o| o.fatal).collect::<Vec<_>>()
+        let incompatibilities = capabilities.incompatibilities(finding);
+        incompatibilities
+            .iter()
+            .map(|o| o.fatal)
+            .collect::<Vec<_>>()
     };
     assert_eq!(remarks(1, LightSearch::FromCamera), [false]);
     assert!(remarks(0, LightSearch::FromCamera).is_empty());

@@ -19,11 +19,11 @@ const EMISSION_POSITION: u32 = dim::SCATTERING;
 const EMISSION_DIRECTION: u32 = dim::SCATTERING + 2;
 const EMISSION_LIGHT: u32 = dim::SCATTERING + 4;
 
-/// A particle on its way.
+/// A particle from a light, at one of its segments.
 pub(crate) struct LightPath<'a> {
     wavelengths: &'a Wavelengths,
     /// Its flux over its density, per lane, and how likely each lane's choices were.
-    pub(crate) prefix: PathThroughput,
+    pub(crate) throughput: PathThroughput,
     /// Its ray.
     pub(crate) ray: Ray,
     /// Number of segments, that of `ray` included.
@@ -32,13 +32,13 @@ pub(crate) struct LightPath<'a> {
     departed: f32,
 }
 
-/// A surface that a particle met, or a point of a medium that scatters it.
+/// A surface at which a particle arrives, or a point of a medium that scatters it.
 pub(crate) struct LightVertex<B> {
-    pub(crate) vertex: SurfaceInteraction,
+    pub(crate) point: SurfaceInteraction,
     /// Unit direction to where it came from.
     pub(crate) wo: Vec3,
     pub(crate) bsdf: B,
-    /// The numbers that decide what becomes of it here.
+    /// The random numbers of its scattering there.
     pub(crate) event: BounceSamples,
 }
 
@@ -58,16 +58,16 @@ impl<'a> LightPath<'a> {
         sampler.skip_to(EMISSION_LIGHT);
         let u_light = sampler.next_1d();
         let start = world.emit(wavelengths, u_light, u_position, u_direction, time)?;
-        let prefix = PathThroughput {
+        let throughput = PathThroughput {
             beta: start.weight,
             ..PathThroughput::START
         };
         let particle = Self {
             wavelengths,
-            prefix,
+            throughput,
             ray: start.ray,
             depth: 1,
-            departed: prefix.throughput(),
+            departed: throughput.magnitude(),
         };
         Some((start, particle))
     }
@@ -86,11 +86,11 @@ impl<'a> LightPath<'a> {
         {
             return Some(vertex);
         }
-        let vertex = world.surfaces().vertex(&self.ray, &hit?);
+        let point = world.surfaces().vertex(&self.ray, &hit?);
         Some(LightVertex {
-            vertex,
+            point,
             wo,
-            bsdf: Scatterer::Surface(world.surfaces().bsdf(&vertex, wo, self.wavelengths)),
+            bsdf: Scatterer::Surface(world.surfaces().bsdf(&point, wo, self.wavelengths)),
             event: BounceSamples::draw(sampler, self.depth),
         })
     }
@@ -106,22 +106,22 @@ impl<'a> LightPath<'a> {
     ) -> Option<LightVertex<ScattererOf<'w, W>>> {
         let u = draw_flight(sampler, self.depth);
         let flight = free_flight(world, &self.ray, hit, self.wavelengths, u)?;
-        self.prefix.scatter(flight.factor, flight.density());
+        self.throughput.scatter(flight.factor, flight.density());
         let collision = flight.scattering?;
         Some(LightVertex {
-            vertex: SurfaceInteraction::in_space(&self.ray, collision.t),
+            point: SurfaceInteraction::in_space(&self.ray, collision.t),
             wo: -self.ray.direction,
             bsdf: Scatterer::Space(collision.phase),
             event: BounceSamples::draw(sampler, self.depth),
         })
     }
 
-    /// Takes it around the corner; `None` if it ends there. From `rr_depth` segments on it survives
+    /// Scatters it at the vertex; `None` if it ends there. From `rr_depth` segments on it survives
     /// with a probability relative to its flux before: emitted flux has no natural scale.
     #[inline]
     pub(crate) fn scatter<B: Bsdf, P: Phase>(
         &mut self,
-        met: &LightVertex<Scatterer<B, P>>,
+        vertex: &LightVertex<Scatterer<B, P>>,
         rr_depth: u32,
     ) -> Option<BsdfSample> {
         let BounceSamples {
@@ -129,22 +129,22 @@ impl<'a> LightPath<'a> {
             direction,
             roulette,
             ..
-        } = met.event;
-        let sample = (met.bsdf).sample(met.wo, lobe, direction, TransportMode::Importance)?;
-        self.prefix.scatter(sample.value, sample.chance.lanes());
+        } = vertex.event;
+        let sample = (vertex.bsdf).sample(vertex.wo, lobe, direction, TransportMode::Importance)?;
+        self.throughput.scatter(sample.value, sample.chance.lanes());
         if self.depth >= rr_depth {
             let survival = self
-                .prefix
-                .survival_of_flux(self.departed, met.bsdf.is_in_space());
-            if !self.prefix.survives(survival, roulette) {
+                .throughput
+                .survival_of_flux(self.departed, vertex.bsdf.is_in_space());
+            if !self.throughput.survives(survival, roulette) {
                 return None;
             }
         }
-        if self.prefix.beta == Vec4::ZERO {
+        if self.throughput.beta == Vec4::ZERO {
             return None;
         }
-        self.departed = self.prefix.throughput();
-        self.ray = met.vertex.spawn(sample.wi);
+        self.departed = self.throughput.magnitude();
+        self.ray = vertex.point.spawn(sample.wi);
         self.depth += 1;
         Some(sample)
     }

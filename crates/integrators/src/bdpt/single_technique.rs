@@ -1,8 +1,8 @@
 //! One technique of bidirectional path tracing alone, weighed against the others.
 //!
-//! Both walks go as far as the technique needs, and no farther. The numbers that decide them are
+//! Both subpaths go as far as the technique needs, and no farther. The numbers that decide them are
 //! those of [`crate::bdpt`]: a technique that takes a vertex more from the camera and one less
-//! from the light finds the rest of either walk where it was.
+//! from the light finds the rest of either subpath where it was.
 
 use super::connect::Connector;
 use super::from_camera::FromCamera;
@@ -16,47 +16,46 @@ use etalon_sampling::Sampler;
 use etalon_transport::{PixelSample, ScattererOf, Sensor, World};
 use glam::{Vec2, Vec3, Vec4};
 
-/// The corners of both walks, lent from sample to sample.
-pub(crate) struct Lists<B> {
-    eye: Vec<PathVertex<B>>,
-    light: Vec<PathVertex<B>>,
+/// The vertices of both subpaths, lent from sample to sample.
+pub(crate) struct Subpaths<B> {
+    camera_subpath: Vec<PathVertex<B>>,
+    light_subpath: Vec<PathVertex<B>>,
 }
 
-impl<B> Default for Lists<B> {
+impl<B> Default for Subpaths<B> {
     fn default() -> Self {
         Self {
-            eye: Vec::new(),
-            light: Vec::new(),
+            camera_subpath: Vec::new(),
+            light_subpath: Vec::new(),
         }
     }
 }
 
-/// Samples a technique; `found` receives the positions and colours of its contributions.
-pub(crate) fn sample<'w, W: World, S: Sampler>(
+/// Samples a technique; `add` receives the positions and colours of its contributions.
+pub(crate) fn sample_single_technique<'w, W: World, S: Sampler>(
     world: &'w W,
     settings: &PathSettings,
     technique: Technique,
     site: &PixelSample,
     sampler: &mut S,
-    lists: &mut Lists<ScattererOf<'w, W>>,
-    mut found: impl FnMut(Vec2, Vec3),
+    subpaths: &mut Subpaths<ScattererOf<'w, W>>,
+    mut add: impl FnMut(Vec2, Vec3),
 ) {
     let (wavelengths, ray, weight) = camera_ray(world, site, sampler);
     let sensor = world.sensor().weights(&wavelengths);
-    let Lists { eye, light } = lists;
-    eye.clear();
-    light.clear();
+    let Subpaths {
+        camera_subpath,
+        light_subpath,
+    } = subpaths;
+    camera_subpath.clear();
+    light_subpath.clear();
     let mut start = None;
-    if let Some(corners) = technique
-        .light
-        .checked_sub(1)
-        .filter(|corners| *corners > 0)
-    {
+    if let Some(limit) = technique.light.checked_sub(1).filter(|limit| *limit > 0) {
         start = FromLight::start(world, &wavelengths, settings, sampler, ray.time);
         let Some(start) = &mut start else {
             return;
         };
-        start.walk(world, &wavelengths, settings, sampler, light, corners);
+        start.trace(world, &wavelengths, settings, sampler, light_subpath, limit);
     }
     sampler.skip_to(dim::LENS);
     let mut connector = Connector {
@@ -68,17 +67,24 @@ pub(crate) fn sample<'w, W: World, S: Sampler>(
         site,
         lens: sampler.next_2d(),
         start: start.as_ref(),
-        light,
+        light_subpath,
         camera_connects: false,
         radiance: Vec4::ZERO,
     };
     if technique.camera == 1 {
-        connector.see_all(|raster, value| found(raster, sensor.rgb(value)));
+        connector.connect_to_camera(|raster, value| add(raster, sensor.rgb(value)));
         return;
     }
-    let mut walk = FromCamera::start(ray, settings);
-    while eye.len() + 2 <= technique.camera
-        && walk.advance(world, &wavelengths, settings, sampler, eye, &mut connector)
+    let mut subpath = FromCamera::start(ray, settings);
+    while camera_subpath.len() + 2 <= technique.camera
+        && subpath.advance(
+            world,
+            &wavelengths,
+            settings,
+            sampler,
+            camera_subpath,
+            &mut connector,
+        )
     {}
-    found(site.raster, sensor.rgb(connector.radiance * weight));
+    add(site.raster, sensor.rgb(connector.radiance * weight));
 }

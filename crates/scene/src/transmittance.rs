@@ -17,7 +17,7 @@ impl Scene {
 
     /// A segment through what fills the space, past nothing: any surface is opaque.
     #[inline]
-    pub(crate) fn clear_passage(
+    pub(crate) fn unoccluded_transmission(
         &self,
         ray: &Ray,
         wavelengths: &Wavelengths,
@@ -26,49 +26,55 @@ impl Scene {
         if self.parts.space.lookup.geometry.occluded(ray) {
             return None;
         }
-        let mut passage = Transmission::FREE;
-        self.fill(&mut passage, ray, ray.t_max, wavelengths);
-        (passage.transmittance != Vec4::ZERO).then_some(passage)
+        let mut transmission = Transmission::FREE;
+        self.fill(&mut transmission, ray, ray.t_max, wavelengths);
+        (transmission.transmittance != Vec4::ZERO).then_some(transmission)
     }
 
     /// Multiplies by the transmittance of the ray's medium up to `t_max`.
     #[inline]
-    fn fill(&self, passage: &mut Transmission, ray: &Ray, t_max: f32, wavelengths: &Wavelengths) {
+    fn fill(
+        &self,
+        transmission: &mut Transmission,
+        ray: &Ray,
+        t_max: f32,
+        wavelengths: &Wavelengths,
+    ) {
         if ray.medium.is_some()
             && let Some(medium) = self.media().medium(ray.medium, wavelengths)
         {
-            passage.then(&medium.transmittance(ray, t_max, &mut ray.stream(0.0)));
+            transmission.then(&medium.transmittance(ray, t_max, &mut ray.stream(0.0)));
         }
     }
 
     /// A segment through null surfaces, intersected one after the other.
-    pub(crate) fn passage_through(
+    pub(crate) fn transmission_past_null_surfaces(
         &self,
         segment: Ray,
         wavelengths: &Wavelengths,
         mut crossings: u32,
     ) -> Option<Transmission> {
         let mut ray = segment;
-        let mut passage = Transmission::FREE;
+        let mut transmission = Transmission::FREE;
         loop {
             let hit = self.surfaces().intersect(&ray);
             if hit.is_some_and(|hit| crossings == 0 || self.is_opaque(&hit)) {
                 return None;
             }
             let t = hit.map_or(ray.t_max, |hit| hit.t);
-            self.fill(&mut passage, &ray, t, wavelengths);
-            if passage.transmittance == Vec4::ZERO {
+            self.fill(&mut transmission, &ray, t, wavelengths);
+            if transmission.transmittance == Vec4::ZERO {
                 return None;
             }
             let Some(hit) = hit else { break };
             crossings -= 1;
             let vertex = self.surfaces().vertex(&ray, &hit);
             let bsdf = self.surfaces().bsdf(&vertex, -ray.direction, wavelengths);
-            passage.then(&Transmission {
+            transmission.then(&Transmission {
                 transmittance: bsdf.null_transmittance(),
                 probability: bsdf.null_probability(),
             });
-            if passage.transmittance == Vec4::ZERO {
+            if transmission.transmittance == Vec4::ZERO {
                 return None;
             }
             let Some(rest) = vertex.rest_of(&segment) else {
@@ -76,6 +82,6 @@ impl Scene {
             };
             ray = rest;
         }
-        Some(passage)
+        Some(transmission)
     }
 }

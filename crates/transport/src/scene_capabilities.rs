@@ -54,8 +54,8 @@ pub struct SceneCapabilities {
     pub media: bool,
     /// Whether any of them has a diffusion profile.
     pub diffusion: bool,
-    /// Whether coefficients in any of them are those of the surface point where a walk entered.
-    pub textured_walk: bool,
+    /// Whether coefficients in any of them are those of the surface point where a random walk entered.
+    pub textured_random_walk: bool,
     /// Whether light at infinity reaches unbounded surfaces, over which particles cannot be distributed.
     pub endless: bool,
     /// Whether a surface has a model that is valid for camera paths only (hair).
@@ -148,35 +148,35 @@ fn impossible(message: &str, help: &str) -> Incompatibility {
 }
 
 impl SceneCapabilities {
-    /// The objections of an estimator that follows light and finds it in one way: a remark if there
+    /// The incompatibilities of an estimator that follows light and finds it in one way: a remark if there
     /// is no light at all, or if some of it will be missing; a refusal if all of it would, or if a
     /// material says nothing of how it scatters light.
     pub fn incompatibilities(&self, finding: LightSearch) -> Vec<Incompatibility> {
-        let mut objections = self.missing(finding);
-        objections.extend(self.unreached());
-        objections.extend(self.swallowed());
+        let mut incompatibilities = self.missing(finding);
+        incompatibilities.extend(self.unreached());
+        incompatibilities.extend(self.swallowed());
         if finding == LightSearch::FromCamera {
-            objections.extend(self.veiled());
+            incompatibilities.extend(self.veiled());
         }
         if self.classic {
             let message = "this integrator follows light, and this material says nothing of how it \
                            scatters light";
-            objections.push(Incompatibility::fatal(Subject::Classic, message).help(
+            incompatibilities.push(Incompatibility::fatal(Subject::Classic, message).help(
                 "the integrator `whitted` shows classic Phong materials; `phong` is a BSDF that \
                  every integrator shows",
             ));
         }
-        objections
+        incompatibilities
     }
 
-    /// The objection, if any, of an estimator that follows light from where it comes from.
+    /// The incompatibility, if any, of an estimator that follows light from where it comes from.
     pub fn endless_lit(&self) -> Option<Incompatibility> {
         let message = "this integrator sends light into the scene, and light at infinity falls on a `plane` that has no end";
         let help = "use a `rectangle` or a `disk` for a `plane`, or the integrator `path`";
         self.endless.then(|| impossible(message, help))
     }
 
-    /// The objection, if any, of an estimator that follows light, to materials that are made for the viewer.
+    /// The incompatibility, if any, of an estimator that follows light, to materials that are made for the viewer.
     pub fn seen_one_way(&self) -> Option<Incompatibility> {
         let message = "this integrator sends light into the scene, and light that enters a hair leaves it elsewhere, which \
                        the model `hair` knows for paths from the camera only";
@@ -184,13 +184,13 @@ impl SceneCapabilities {
         self.one_way.then(|| impossible(message, help))
     }
 
-    /// The objection, if any, of an estimator that knows nothing of media, with the names of those that do.
+    /// The incompatibility, if any, of an estimator that knows nothing of media, with the names of those that do.
     pub fn media_unseen(&self, able: &str) -> Option<Incompatibility> {
         let message = "this integrator sees surfaces only, and the scene has participating media";
         (self.media).then(|| impossible(message, &format!("integrators that see media: {able}")))
     }
 
-    /// The objection, if any, of an estimator that knows nothing of diffusion profiles, and nothing of where a walk began,
+    /// The incompatibility, if any, of an estimator that knows nothing of diffusion profiles, and nothing of where a random walk began,
     /// with the names of those that do.
     pub fn diffusion_unseen(&self, able: &str) -> Option<Incompatibility> {
         let profile = || {
@@ -200,7 +200,7 @@ impl SceneCapabilities {
             );
             impossible(message, &help)
         };
-        let walk = || {
+        let random_walk = || {
             let message = "this integrator cannot have a `randomwalk` whose coefficients vary over the surface: it follows walks both \
                            ways, and they have those of where they begin";
             let help = format!(
@@ -208,10 +208,10 @@ impl SceneCapabilities {
             );
             impossible(message, &help)
         };
-        (self.diffusion.then(profile)).or_else(|| self.textured_walk.then(walk))
+        (self.diffusion.then(profile)).or_else(|| self.textured_random_walk.then(random_walk))
     }
 
-    /// The objection, if any, of an estimator that finds light by connecting surfaces with the
+    /// The incompatibility, if any, of an estimator that finds light by connecting surfaces with the
     /// camera, and lights in plain view: what reaches the camera off a smooth surface is missing.
     pub fn unconnected(&self) -> Option<Incompatibility> {
         let CameraProbe {
@@ -227,7 +227,7 @@ impl SceneCapabilities {
         let help = "use an estimator that follows light from the camera, too (`path`, `bdpt`)";
         let why = "it connects surfaces with the camera, and one that is smooth sends light there \
                    from its own directions only";
-        let objection = if scattering == 0 && lights == 0 {
+        let incompatibility = if scattering == 0 && lights == 0 {
             let message =
                 format!("this integrator cannot see anything that the camera sees: {why}");
             Incompatibility::fatal(Subject::Integrator, message)
@@ -239,10 +239,10 @@ impl SceneCapabilities {
             );
             Incompatibility::remark(Subject::Integrator, message)
         };
-        Some(objection.help(help))
+        Some(incompatibility.help(help))
     }
 
-    /// The objection, if any, of an estimator that makes the picture, or all that is lit in it, of light that
+    /// The incompatibility, if any, of an estimator that makes the picture, or all that is lit in it, of light that
     /// lands anywhere on the film.
     pub fn unsplattable(&self) -> Option<Incompatibility> {
         self.narrow_filter.then(|| {
@@ -341,10 +341,10 @@ impl SceneCapabilities {
                 "give them a `sampling_weight` above 0",
             ),
         };
-        if let Some(objection) = self.unlit() {
-            return vec![objection];
+        if let Some(incompatibility) = self.unlit() {
+            return vec![incompatibility];
         }
-        let objection = match found {
+        let incompatibility = match found {
             0 => {
                 let message = format!("this integrator cannot see any light of the scene: {why}");
                 Incompatibility::fatal(Subject::Integrator, message).help(help)
@@ -358,7 +358,7 @@ impl SceneCapabilities {
             }
             _ => return Vec::new(),
         };
-        vec![objection]
+        vec![incompatibility]
     }
 }
 

@@ -8,7 +8,7 @@
 //! p₀ the probability of passing straight on, which is left as it is. Discrete directions are found by the
 //! model alone, with probability α·P. p₀, p_f and P may differ from lane to lane, α and p_g do not.
 
-use super::field;
+use super::sd_tree;
 use etalon_math::float::ONE_MINUS_EPSILON;
 use etalon_math::{DeltaProbability, Density, Frame, SolidAngle};
 use etalon_sampling::discrete::Quadtree;
@@ -59,7 +59,7 @@ impl<B: Bsdf> GuidedBsdf<'_, B> {
         u: Vec2,
         mode: TransportMode,
     ) -> Option<BsdfSample> {
-        let (wi, learned) = field::sample(lobe, u);
+        let (wi, learned) = sd_tree::sample(lobe, u);
         let (value, own) = self.bsdf.eval_and_density(wo, wi, mode);
         (value != Vec4::ZERO).then(|| BsdfSample {
             wi,
@@ -82,7 +82,7 @@ impl<B: Bsdf> Bsdf for GuidedBsdf<'_, B> {
     fn density(&self, wo: Vec3, wi: Vec3) -> Density<SolidAngle> {
         let own = self.bsdf.density(wo, wi);
         match self.lobe {
-            Some((lobe, share)) => self.mix(share, own, field::density(lobe, wi)),
+            Some((lobe, share)) => self.mix(share, own, sd_tree::density(lobe, wi)),
             None => own,
         }
     }
@@ -98,7 +98,7 @@ impl<B: Bsdf> Bsdf for GuidedBsdf<'_, B> {
         match self.lobe {
             // Without scattering there is no density.
             Some((lobe, share)) if value != Vec4::ZERO => {
-                let learned = field::density(lobe, wi);
+                let learned = sd_tree::density(lobe, wi);
                 (value, self.mix(share, own, learned))
             }
             _ => (value, own),
@@ -125,7 +125,7 @@ impl<B: Bsdf> Bsdf for GuidedBsdf<'_, B> {
             .sample(wo, u_lobe.min(ONE_MINUS_EPSILON), u, mode)?;
         sample.chance = match sample.chance {
             SamplePdf::Continuous(own) => {
-                SamplePdf::Continuous(self.mix(share, own, field::density(lobe, sample.wi)))
+                SamplePdf::Continuous(self.mix(share, own, sd_tree::density(lobe, sample.wi)))
             }
             SamplePdf::Discrete(own) => Self::by_model(own, share),
         };

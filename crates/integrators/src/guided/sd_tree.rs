@@ -141,7 +141,7 @@ impl SdTree {
 
     /// The field with what was learned of each region, in their order. Regions with more than `most`
     /// records are halved until their parts, if all had as many, have fewer.
-    pub(crate) fn learned(self, lessons: Vec<RegionUpdate>, most: u64) -> Self {
+    pub(crate) fn learned(self, updates: Vec<RegionUpdate>, most: u64) -> Self {
         let mut field = Self {
             branches: Vec::new(),
             regions: Vec::with_capacity(self.regions.len()),
@@ -150,7 +150,7 @@ impl SdTree {
         let old = Old {
             branches: &self.branches,
             regions: &self.regions,
-            lessons: &lessons,
+            updates: &updates,
         };
         let root = match self.branches.first() {
             Some(_) => Child::Branch(0),
@@ -172,8 +172,8 @@ impl SdTree {
             }
             Child::SpatialLeaf(index) => {
                 let size = old.regions[index as usize].size;
-                let lesson = &old.lessons[index as usize];
-                self.halve(size, lesson, lesson.records, depth, most)
+                let update = &old.updates[index as usize];
+                self.halve(size, update, update.records, depth, most)
             }
         }
     }
@@ -181,7 +181,7 @@ impl SdTree {
     fn halve(
         &mut self,
         size: Vec3,
-        lesson: &RegionUpdate,
+        update: &RegionUpdate,
         records: u64,
         depth: u32,
         most: u64,
@@ -189,17 +189,17 @@ impl SdTree {
         if records <= most || depth >= DEEPEST {
             self.regions.push(SpatialLeaf {
                 size,
-                lobes: lesson.lobes.clone(),
-                irradiance: lesson.irradiance,
-                own: lesson.own,
+                lobes: update.lobes.clone(),
+                irradiance: update.irradiance,
+                own: update.own,
             });
             return Child::SpatialLeaf(self.regions.len() as u32 - 1);
         }
         let mut half = size;
         half[(depth % 3) as usize] *= 0.5;
         let at = self.branch();
-        let below = self.halve(half, lesson, records / 2, depth + 1, most);
-        let above = self.halve(half, lesson, records / 2, depth + 1, most);
+        let below = self.halve(half, update, records / 2, depth + 1, most);
+        let above = self.halve(half, update, records / 2, depth + 1, most);
         self.branches[at] = [below, above];
         Child::Branch(at as u32)
     }
@@ -215,7 +215,7 @@ impl SdTree {
 struct Old<'a> {
     branches: &'a [[Child; 2]],
     regions: &'a [SpatialLeaf],
-    lessons: &'a [RegionUpdate],
+    updates: &'a [RegionUpdate],
 }
 
 /// The density with which a lobe finds a direction: alike in all lanes.

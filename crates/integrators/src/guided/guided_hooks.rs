@@ -1,7 +1,7 @@
 //! The hooks of `guided` into paths: guiding and Russian roulette.
 
-use super::field::SdTree;
-use super::steering::GuidedBsdf;
+use super::guided_bsdf::GuidedBsdf;
+use super::sd_tree::SdTree;
 use crate::path::hooks::PathHooks;
 use crate::steps::path_throughput::PathThroughput;
 use etalon_transport::{Bsdf, BsdfSample, SurfaceInteraction};
@@ -70,8 +70,8 @@ impl<'f> PathHooks for GuidedHooks<'f> {
     }
 
     #[inline]
-    fn survival(&mut self, prefix: &PathThroughput, eta: f32) -> f32 {
-        let most = self.reflected.max(prefix.throughput());
+    fn survival(&mut self, throughput: &PathThroughput, eta: f32) -> f32 {
+        let most = self.reflected.max(throughput.magnitude());
         let survival = (most * eta * eta).clamp(LEAST_SURVIVAL, 0.95);
         self.reflected /= survival;
         survival
