@@ -3,7 +3,7 @@
 //! Nothing concrete is named here: no material, shape, light or film. Estimators know a scene only as
 //! a [`etalon_transport::World`], so each can be tested in a world without geometry.
 //!
-//! The files and folders here are estimators, except for three: [`steps`] are what they share, [`render`] is the loop, and [`replay`]
+//! The files and folders here are estimators, except for three: `steps` are what they share, `render` is the loop, and [`replay`]
 //! tells how a sample came about. Adding an estimator: its file, its module below, and one line in [`list`].
 
 pub mod ao;

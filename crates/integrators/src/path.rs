@@ -15,7 +15,7 @@
 //! neither stop shadow rays nor end light sampling's claim on a path: the density with which the
 //! *last real vertex* would have sampled the light is carried across them.
 //!
-//! Several paths are followed in step, see [`crate::path::batch`].
+//! Several paths are followed in step, see `PathBatch`.
 
 pub(crate) mod batch;
 mod diffusion;

@@ -18,7 +18,7 @@ pub(crate) trait PathHooks {
         bsdf: impl FnOnce() -> B,
     ) -> Self::GuidedBsdf<B>;
 
-    /// After the BSDF was sampled; `prefix` is the throughput that now leaves the vertex.
+    /// After the BSDF was sampled; `throughput` leaves the vertex.
     #[inline]
     fn on_scatter(
         &mut self,
@@ -26,7 +26,7 @@ pub(crate) trait PathHooks {
         _bsdf: &impl Bsdf,
         _wo: Vec3,
         _sample: &BsdfSample,
-        _prefix: &PathThroughput,
+        _throughput: &PathThroughput,
     ) {
     }
 
@@ -34,9 +34,9 @@ pub(crate) trait PathHooks {
     #[inline]
     fn on_emission(&mut self, _estimate: Vec4) {}
 
-    /// The path flew through a medium, or was scattered in one: `prefix` is its throughput from then on.
+    /// The path flew through a medium, or was scattered in one: `throughput` is its throughput from then on.
     #[inline]
-    fn on_medium(&mut self, _prefix: &PathThroughput) {}
+    fn on_medium(&mut self, _throughput: &PathThroughput) {}
 
     /// Russian roulette is played in a medium, with this probability to survive.
     #[inline]
@@ -52,8 +52,8 @@ pub(crate) trait PathHooks {
 
     /// The probability with which the path survives Russian roulette; any positive number is right.
     #[inline]
-    fn survival(&mut self, prefix: &PathThroughput, eta: f32) -> f32 {
-        prefix.survival(eta)
+    fn survival(&mut self, throughput: &PathThroughput, eta: f32) -> f32 {
+        throughput.survival(eta)
     }
 }
 
