@@ -97,8 +97,7 @@ pub(crate) fn follow<W: World, S: Sampler, C: PathHooks, const N: usize>(
     }
 }
 
-/// What becomes of a path along `ray`, whose nearest surface is `hit`: it arrives, emission is added, a light sampled, and a
-/// direction.
+/// Extends a path along `ray`, whose nearest surface is `hit`, past its next vertex: arrive, add emission, sample a light, scatter.
 #[inline]
 fn extend<W: World, S: Sampler, C: PathHooks>(
     world: &W,
@@ -147,8 +146,8 @@ fn extend<W: World, S: Sampler, C: PathHooks>(
     step
 }
 
-/// Follows one path as long as it has scattered less than `wanted` ends at; of its contributions only those count whose number of
-/// scattering events is in `wanted`.
+/// Follows one path alone. Only contributions whose number of scattering events is in `wanted` count; the path ends where no more
+/// can follow.
 pub(crate) fn follow_part<W: World, S: Sampler, C: PathHooks>(
     world: &W,
     config: &PathConfig,
@@ -173,7 +172,7 @@ pub(crate) fn follow_part<W: World, S: Sampler, C: PathHooks>(
     }
 }
 
-/// Draws samples by paths that are followed in step, each with a copy of `hooks`.
+/// Draws samples by paths that are followed in batches, each with a copy of `hooks`.
 #[inline]
 pub(crate) fn follow_jobs<W: World, S: Sampler, K: TileSink, C: PathHooks + Copy>(
     world: &W,

@@ -1,5 +1,5 @@
-//! Paths that are followed in step: all of them look for their next surface, then all meet it, then all trace their
-//! shadow rays. What one path waits for, another has meanwhile.
+//! Paths that are followed in step: all find their next surface, then all are extended there, then all trace their shadow
+//! rays. So a processor that waits for the memory of one path works on another.
 
 use crate::path::hooks::PathHooks;
 use crate::path::state::{PathState, ShadowRay, Step};
@@ -10,20 +10,20 @@ use arrayvec::ArrayVec;
 use etalon_sampling::Sampler;
 use etalon_transport::{Hit, PixelSample, Ray, ShadowQuery, Surfaces, Transmission, World};
 
-/// Up to `N` paths. Those that go on are kept together, so that no stage looks at the others.
+/// Up to `N` paths. Those not yet ended are listed densely, so that no stage visits the others.
 pub(crate) struct PathBatch<S, C, const N: usize> {
     pub(crate) paths: ArrayVec<PathState<S, C>, N>,
-    /// The places in `paths` of those that go on.
+    /// Indices in `paths` of those not yet ended.
     active: ArrayVec<usize, N>,
     /// The next ray of each of these.
     rays: ArrayVec<Ray, N>,
     /// The nearest surface along it.
     hits: [Option<Hit>; N],
-    /// The places in `paths` of those that wait for a shadow ray, and the light samples that they belong to.
+    /// Indices in `paths` of those with a shadow ray, and their light samples.
     waiting: ArrayVec<(usize, UnoccludedPath), N>,
     /// The shadow rays.
     shadow_rays: ArrayVec<ShadowQuery, N>,
-    /// How light travels along them.
+    /// Their transmittance.
     transmissions: [Option<Transmission>; N],
 }
 
@@ -59,13 +59,13 @@ impl<S: Sampler, C: PathHooks, const N: usize> PathBatch<S, C, N> {
             .push(PathState::new(sampler, wavelengths, weight, hooks));
     }
 
-    /// Whether any path goes on.
+    /// Whether any path has not ended.
     #[inline]
     pub(crate) fn goes_on(&self) -> bool {
         !self.active.is_empty()
     }
 
-    /// Finds the next surface of every path that goes on.
+    /// Finds the next surface of every path.
     #[inline]
     pub(crate) fn intersect<W: World>(&mut self, world: &W, config: &PathConfig) {
         for (path, ray) in self.active.iter().zip(&mut self.rays) {
@@ -75,7 +75,7 @@ impl<S: Sampler, C: PathHooks, const N: usize> PathBatch<S, C, N> {
         world.surfaces().intersect_batch(&self.rays, hits);
     }
 
-    /// Takes every path that goes on past its next vertex.
+    /// Extends every path past its next vertex, and drops those that end there from the list.
     #[inline]
     pub(crate) fn advance(
         &mut self,
@@ -109,7 +109,7 @@ impl<S: Sampler, C: PathHooks, const N: usize> PathBatch<S, C, N> {
         self.rays.truncate(kept);
     }
 
-    /// Traces the shadow rays, and adds what light samples bring.
+    /// Traces the shadow rays, and adds the contributions of their light samples.
     #[inline]
     pub(crate) fn trace_shadows<W: World>(&mut self, world: &W) {
         let transmissions = &mut self.transmissions[..self.waiting.len()];

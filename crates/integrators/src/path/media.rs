@@ -18,7 +18,7 @@ use etalon_transport::{
 };
 use glam::{Vec3, Vec4};
 
-/// Where a path is scattered in a medium.
+/// A point of a medium where a path is scattered.
 struct MediumVertex<'p, P> {
     position: Vec3,
     phase: &'p P,
@@ -41,7 +41,7 @@ impl<S: Sampler, C: PathHooks> PathState<S, C> {
         }
     }
 
-    /// Decides how far the path flies through the medium that `ray` is in, if it is in one.
+    /// Draws the random number of the free flight through the medium of `ray`, if there is one.
     #[inline]
     pub(crate) fn plan_flight<W: World>(&mut self, world: &W, config: &PathConfig, ray: &mut Ray) {
         if ray.medium.is_some() {
@@ -49,7 +49,7 @@ impl<S: Sampler, C: PathHooks> PathState<S, C> {
         }
     }
 
-    /// Cuts the ray off where the path is scattered before, so that no surface beyond is looked for.
+    /// Ends the ray at the point where the path is scattered, if that is known, so that surfaces beyond are not searched.
     #[cold]
     #[inline(never)]
     fn shorten<W: World>(&mut self, world: &W, config: &PathConfig, ray: &mut Ray) {
@@ -65,7 +65,7 @@ impl<S: Sampler, C: PathHooks> PathState<S, C> {
         ray.t_max = ray.t_max.min(reach.map_or(f32::INFINITY, farther));
     }
 
-    /// Flies through the medium to the hit, or to where light is scattered before it: there it breaks off, with what comes of that.
+    /// Free flight through the medium to the hit. Breaks if the path is scattered before, with the step from there.
     #[cold]
     #[inline(never)]
     pub(crate) fn fly<W: World>(
@@ -199,7 +199,7 @@ impl<S: Sampler, C: PathHooks> PathState<S, C> {
         Step { shadow, ray: next }
     }
 
-    /// Next-event estimation at a point of the medium.
+    /// Next-event estimation at a point of a medium.
     fn light_in_medium<W: World, P: Phase>(
         &mut self,
         world: &W,

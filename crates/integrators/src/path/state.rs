@@ -1,4 +1,4 @@
-//! One path of the path tracer, from surface to surface.
+//! The state of one path of the path tracer, and its stages at a surface: arrive, light sample, scatter, roulette.
 
 use crate::path::hooks::PathHooks;
 use crate::steps::arrival::{Arrival, Arriving};
@@ -17,34 +17,33 @@ use etalon_transport::{
 };
 use glam::{Vec3, Vec4};
 
-/// A path being followed.
+/// A path from the camera, up to its last vertex.
 pub(crate) struct PathState<S, C = ()> {
     pub(crate) sampler: S,
     pub(crate) wavelengths: Wavelengths,
-    /// The factor by which what is found counts.
+    /// Factor on its radiance: the importance of the camera ray.
     weight: f32,
     pub(crate) throughput: PathThroughput,
     pub(crate) light_mis: LightMis,
     /// The product of the indices of refraction passed.
     pub(crate) eta: f32,
-    /// Number of segments, that included which the path goes on with.
+    /// Number of segments, including the next.
     pub(crate) depth: u32,
     /// Scattering events so far, null interactions not counted.
     pub(crate) scatter_count: u32,
-    /// The number that decides how far the path flies through the medium that it is in.
+    /// The random number of the next free flight.
     pub(crate) flight: f32,
-    /// The medium that the path entered last, with the coefficients where it did, if they are all to know of it.
+    /// The medium entered last, with its coefficients where the path entered it if it is homogeneous.
     pub(crate) entered: Option<(MediumId, Coefficients)>,
     /// Events so far for which random numbers were drawn.
     events: u32,
-    /// Whether a direction was sampled from a density. One light sample is left for a shadow ray from then on:
-    /// what is farther down the path adds less noise than the samples take time.
+    /// Whether a direction was sampled from a density. From then on one light sample is drawn for a shadow ray: later
+    /// vertices add less noise than further samples would take time.
     pub(crate) scattered: bool,
-    /// The radiance found, per lane, over the sum of all densities' ratios (see
-    /// [`PathThroughput::contribution`]).
+    /// Sum of the contributions, per lane (see [`PathThroughput::contribution`]).
     pub(crate) radiance: Vec4,
-    /// 1 if the path had an interaction that is not null, the background included; where the last segment
-    /// ends at a surface, the probability of that.
+    /// 1 after an interaction that is not null, including the background. If the path ends at a surface by its length, one
+    /// minus the null probability there.
     pub(crate) alpha: f32,
     pub(crate) hooks: C,
 }
@@ -52,27 +51,27 @@ pub(crate) struct PathState<S, C = ()> {
 /// A light sample before its shadow ray is traced.
 pub(crate) struct ShadowRay {
     pub(crate) ray: Ray,
-    /// How many surfaces may let it pass.
+    /// The most null surfaces that it may cross.
     pub(crate) crossings: u32,
     pub(crate) unoccluded: UnoccludedPath,
 }
 
-/// What a vertex makes of a path.
+/// What follows from a vertex.
 pub(crate) struct Step {
-    /// The light sample there, if one may bring anything.
+    /// The light sample there, if it may contribute.
     pub(crate) shadow: Option<ShadowRay>,
-    /// The ray that the path goes on with; `None` if it ends.
+    /// The next ray; `None` if the path ends.
     pub(crate) ray: Option<Ray>,
 }
 
 impl Step {
-    /// The path ends, with nothing left to do.
+    /// The path ends, without a light sample.
     pub(crate) const END: Self = Self {
         shadow: None,
         ray: None,
     };
 
-    /// The path goes on as if nothing were there.
+    /// The path continues along `ray` as if nothing were there.
     #[inline]
     pub(crate) fn straight(ray: Ray) -> Self {
         Self {
@@ -82,14 +81,14 @@ impl Step {
     }
 }
 
-/// A point of a surface where a path is scattered.
+/// A point of a surface where the path is scattered.
 pub(crate) struct ScatteringPoint<'a, B> {
     vertex: &'a SurfaceInteraction,
     bsdf: &'a B,
     wo: Vec3,
-    /// As light sampling sees it.
+    /// The same for light sampling.
     from: LightSampleContext,
-    /// The random numbers of what happens there.
+    /// The random numbers of the event.
     event: BounceSamples,
 }
 
@@ -112,7 +111,7 @@ impl<'a, B: Bsdf> ScatteringPoint<'a, B> {
 }
 
 impl<S: Sampler, C: PathHooks> PathState<S, C> {
-    /// A path at the camera; what it finds is multiplied by `weight`.
+    /// A path at the camera; its radiance is multiplied by `weight`.
     #[inline(always)]
     pub(crate) fn new(sampler: S, wavelengths: Wavelengths, weight: f32, hooks: C) -> Self {
         Self {
@@ -152,19 +151,19 @@ impl<S: Sampler, C: PathHooks> PathState<S, C> {
         self.hooks
     }
 
-    /// The opacity of what the path has hit.
+    /// Opacity of what the camera sees, 0 to 1.
     #[inline]
     pub(crate) fn alpha(&self) -> f32 {
         self.alpha
     }
 
-    /// Writes the result to a sink.
+    /// Writes colour and opacity to a sink.
     #[inline]
     pub(crate) fn deliver(&self, world: &impl World, sink: &mut impl Sink) {
         sink.radiance(self.colour(world).to_array(), self.alpha);
     }
 
-    /// The colour found.
+    /// The colour, in the channels of the sensor.
     #[inline]
     pub(crate) fn colour(&self, world: &impl World) -> Vec3 {
         world
@@ -173,13 +172,13 @@ impl<S: Sampler, C: PathHooks> PathState<S, C> {
             .rgb(self.radiance * self.weight)
     }
 
-    /// Whether the path looks through lights: the camera's ray, where they are hidden.
+    /// Whether lights are hidden from the next segment: `hide_emitters` hides them from the camera ray.
     #[inline]
     pub(crate) fn sees_through_lights(&self, config: &PathConfig) -> bool {
         config.limits.hide_emitters && self.depth == 1
     }
 
-    /// The path as it arrives somewhere.
+    /// The weights of emission where the path arrives.
     #[inline]
     pub(crate) fn arriving(&self) -> Arriving<'_> {
         Arriving {
@@ -189,8 +188,8 @@ impl<S: Sampler, C: PathHooks> PathState<S, C> {
         }
     }
 
-    /// Where it arrives along `ray`, whose nearest surface is `hit`: the surface there, if there is one. Its emission, or that of
-    /// the lights at infinity, is added.
+    /// Arrives at the end of `ray`, whose nearest surface is `hit`, and adds the emission there or of the background. The vertex;
+    /// `None` if there is no surface.
     #[inline]
     pub(crate) fn arrive<W: World>(
         &mut self,
@@ -199,7 +198,7 @@ impl<S: Sampler, C: PathHooks> PathState<S, C> {
         ray: &Ray,
         hit: Option<&Hit>,
     ) -> Option<SurfaceInteraction> {
-        // A hidden sky stays hidden to rays that only went straight.
+        // A hidden background stays hidden behind null surfaces.
         let sees_background = !config.limits.hide_emitters || self.alpha > 0.0;
         match self.arriving().at(world, ray, hit, sees_background) {
             Arrival::Surface(vertex, emission) => {
@@ -215,14 +214,14 @@ impl<S: Sampler, C: PathHooks> PathState<S, C> {
         }
     }
 
-    /// Adds what emission contributes that the path has hit.
+    /// Adds the contribution of emission that the path hit.
     #[inline]
     pub(crate) fn add(&mut self, estimate: Vec4) {
         self.radiance += estimate;
         self.hooks.on_emission(estimate);
     }
 
-    /// How many light samples compete for the next shadow ray.
+    /// The number of light samples for the next shadow ray.
     #[inline]
     pub(crate) fn candidates(&self, config: &PathConfig) -> LightCandidates {
         if self.scattered {
@@ -232,7 +231,7 @@ impl<S: Sampler, C: PathHooks> PathState<S, C> {
         }
     }
 
-    /// Next-event estimation: a light sample and its shadow ray, if light sampling can find anything.
+    /// Next-event estimation: a light sample and its shadow ray; `None` if it cannot contribute.
     #[inline]
     pub(crate) fn sample_light<W: World>(
         &mut self,
@@ -306,8 +305,8 @@ impl<S: Sampler, C: PathHooks> PathState<S, C> {
         (survives && self.throughput.beta != Vec4::ZERO).then_some(next)
     }
 
-    /// Where a path goes on that would go into a medium after `step`, at a surface that it reached in the medium `before`: matter
-    /// with a diffusion profile it leaves elsewhere.
+    /// Enters the medium of the next ray, at a surface that the path reached in the medium `before`. A medium with a diffusion profile
+    /// is left elsewhere on the surface.
     #[inline]
     pub(crate) fn enter<W: World>(
         &mut self,
@@ -325,7 +324,7 @@ impl<S: Sampler, C: PathHooks> PathState<S, C> {
         self.diffuse(world, config, vertex, medium, step)
     }
 
-    /// Plays Russian roulette, and counts one more segment if the path survives.
+    /// Russian roulette. Counts the next segment if the path survives.
     #[inline]
     pub(crate) fn survives(
         &mut self,
@@ -351,7 +350,7 @@ impl<S: Sampler, C: PathHooks> PathState<S, C> {
         event
     }
 
-    /// Traces the shadow ray of a light sample, and adds what it brings.
+    /// Traces a shadow ray, and adds the contribution of its light sample.
     #[inline]
     pub(crate) fn trace_shadow<W: World>(&mut self, world: &W, shadow: Option<ShadowRay>) {
         if let Some(ShadowRay {
@@ -365,7 +364,7 @@ impl<S: Sampler, C: PathHooks> PathState<S, C> {
         }
     }
 
-    /// Adds a light sample that arrives through what is in the way.
+    /// Adds the contribution of a light sample whose shadow ray has this transmittance.
     #[inline]
     pub(crate) fn add_light(&mut self, unoccluded: &UnoccludedPath, transmission: &Transmission) {
         let estimate = unoccluded.estimate(transmission);
