@@ -112,8 +112,8 @@ impl Build for SmallWorld {
         TextureId::NONE
     }
 
-    fn varies(&self, _: &str) -> bool {
-        false
+    fn varies(&self, plugin: &str) -> bool {
+        plugin == "checkerboard"
     }
 
     fn spectrum(&mut self, spectrum: Spectrum) -> TextureId {
