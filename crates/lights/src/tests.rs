@@ -113,7 +113,7 @@ impl Build for SmallWorld {
     }
 
     fn varies(&self, plugin: &str) -> bool {
-        plugin == "checkerboard"
+        matches!(plugin, "bitmap" | "checkerboard")
     }
 
     fn spectrum(&mut self, spectrum: Spectrum) -> TextureId {
