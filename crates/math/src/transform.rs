@@ -4,7 +4,7 @@
 //! rendered.
 
 use crate::FromAffine;
-use glam::{Affine3A, DAffine3, DMat4, Mat3A, Vec3};
+use glam::{Affine3A, DAffine3, DMat4, Vec3};
 
 /// An invertible affine map of space, with its inverse.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -83,18 +83,6 @@ impl Transform {
             n.dot(Vec3::from(m.y_axis)),
             n.dot(Vec3::from(m.z_axis)),
         )
-    }
-
-    /// A bound on the absolute rounding error of [`Transform::point`]`(p)` when each coordinate
-    /// of `p` is itself known to within ±`error` (Pharr, Jakob, Humphreys 2023, section 6.8).
-    #[inline]
-    pub fn point_error(&self, p: Vec3, error: Vec3) -> Vec3 {
-        let m = self.forward.matrix3;
-        let absolute = Mat3A::from_cols(m.x_axis.abs(), m.y_axis.abs(), m.z_axis.abs());
-        let spread = absolute * glam::Vec3A::from(error) * (1.0 + crate::gamma(4));
-        let rounding = (absolute * glam::Vec3A::from(p.abs()) + self.forward.translation.abs())
-            * crate::gamma(4);
-        (spread + rounding).into()
     }
 
     /// The linear part's determinant; negative if the transform mirrors.

@@ -19,9 +19,6 @@ use crate::u256::U256;
 /// Terms must be smaller in magnitude than this: 2⁴⁸.
 pub const LIMIT: f64 = 281_474_976_710_656.0;
 
-/// The number of fractional bits.
-pub const FRACTION_BITS: u32 = 64;
-
 /// An exact sum of floating-point numbers; see the [module](self) for range and resolution.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct Fixed128(i128);
@@ -90,15 +87,6 @@ impl Fixed128 {
     #[inline]
     pub fn add(&mut self, x: f32) -> Result<(), InvalidValue> {
         self.merge(Self::from_f32(x)?)
-    }
-
-    /// Adds one term in double precision.
-    ///
-    /// # Errors
-    /// As [`Fixed128::add`].
-    #[inline]
-    pub fn add_f64(&mut self, x: f64) -> Result<(), InvalidValue> {
-        self.merge(Self::from_f64(x)?)
     }
 
     /// Adds another sum.

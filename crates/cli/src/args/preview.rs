@@ -20,13 +20,6 @@ pub struct PreviewArgs {
     pub tev: Option<String>,
 }
 
-impl PreviewArgs {
-    /// Whether anybody looks on.
-    pub fn is_asked(&self) -> bool {
-        self.preview.is_some() || self.tev.is_some()
-    }
-}
-
 /// Arguments of `view`.
 #[derive(Debug, Args, Clone)]
 pub struct ViewArgs {

@@ -3,7 +3,6 @@
 
 use crate::path::hooks::PathHooks;
 use crate::path::state::{PathState, ShadowRay, Step};
-use crate::steps::camera_ray::camera_ray;
 use crate::steps::light_connection::UnoccludedPath;
 use crate::steps::settings::PathConfig;
 use arrayvec::ArrayVec;
@@ -47,16 +46,15 @@ impl<S: Sampler, C: PathHooks, const N: usize> PathBatch<S, C, N> {
         &mut self,
         (world, config): (&W, &PathConfig),
         site: &PixelSample,
-        mut sampler: S,
+        sampler: S,
         hooks: C,
     ) {
-        let (wavelengths, ray, weight) = camera_ray(world, site, &mut sampler);
-        if config.limits.max_depth > 0 {
+        let (path, ray) = PathState::start(world, site, sampler, hooks);
+        if let Some(ray) = config.first_segment(ray) {
             self.active.push(self.paths.len());
             self.rays.push(ray);
         }
-        self.paths
-            .push(PathState::new(sampler, wavelengths, weight, hooks));
+        self.paths.push(path);
     }
 
     /// Whether any path has not ended.

@@ -111,10 +111,16 @@ impl<'a, B: Bsdf> ScatteringPoint<'a, B> {
 }
 
 impl<S: Sampler, C: PathHooks> PathState<S, C> {
-    /// A path at the camera; its radiance is multiplied by `weight`.
-    #[inline(always)]
-    pub(crate) fn new(sampler: S, wavelengths: Wavelengths, weight: f32, hooks: C) -> Self {
-        Self {
+    /// The path of a sample, and the camera's ray that it begins with.
+    #[inline]
+    pub(crate) fn start<W: World>(
+        world: &W,
+        site: &PixelSample,
+        mut sampler: S,
+        hooks: C,
+    ) -> (Self, Ray) {
+        let (wavelengths, ray, weight) = camera_ray(world, site, &mut sampler);
+        let path = Self {
             sampler,
             wavelengths,
             weight,
@@ -130,19 +136,8 @@ impl<S: Sampler, C: PathHooks> PathState<S, C> {
             radiance: Vec4::ZERO,
             alpha: 0.0,
             hooks,
-        }
-    }
-
-    /// The path of a sample, and the camera's ray that it begins with.
-    #[inline]
-    pub(crate) fn start<W: World>(
-        world: &W,
-        site: &PixelSample,
-        mut sampler: S,
-        hooks: C,
-    ) -> (Self, Ray) {
-        let (wavelengths, ray, weight) = camera_ray(world, site, &mut sampler);
-        (Self::new(sampler, wavelengths, weight, hooks), ray)
+        };
+        (path, ray)
     }
 
     /// The hooks, when the path has ended.
