@@ -12,9 +12,9 @@ use bsdf::FaultyBsdf;
 use etalon_math::{Density, SolidAngle};
 use etalon_spectrum::{SensorWeights, Wavelengths};
 use etalon_transport::{
-    BsdfOf, Coefficients, DiffusionProfile, Emission, EmissionPdf, Hit, LegacyPhong, LightId,
-    LightSample, LightSampleContext, LightVariety, Lights, Media, MediumId, MediumOf, Ray,
-    SamplePdf, Sensor, ShadowQuery, SurfaceInteraction, Surfaces, Transmission, World,
+    BsdfOf, Emission, EmissionPdf, Hit, LegacyPhong, LightId, LightSample, LightSampleContext,
+    LightVariety, Lights, Media, MediumId, MediumOf, Ray, SamplePdf, Sensor, ShadowQuery,
+    SurfaceInteraction, Surfaces, Transmission, World,
 };
 use glam::{Vec2, Vec3, Vec4};
 use medium::FaultyMedium;
@@ -112,13 +112,6 @@ impl<'a, W: World> Faulty<'a, W> {
             Some(PlantedFault::Energy) => 1.02,
             Some(PlantedFault::GreatEnergy) => 1.2,
             _ => 1.0,
-        }
-    }
-
-    fn faulty_medium<M>(&self, medium: M) -> FaultyMedium<M> {
-        FaultyMedium {
-            medium,
-            energy: self.energy(),
         }
     }
 
@@ -222,44 +215,17 @@ impl<W: World> Media for Faulty<'_, W> {
         self.world.media().around_camera()
     }
 
-    fn medium(&self, medium: MediumId, wavelengths: &Wavelengths) -> Option<Self::Medium<'_>> {
-        let medium = self.world.media().medium(medium, wavelengths)?;
-        Some(self.faulty_medium(medium))
-    }
-
-    fn is_dark(&self, medium: MediumId) -> bool {
-        self.world.media().is_dark(medium)
-    }
-
-    fn entry(
+    fn enter(
         &self,
         medium: MediumId,
-        at: &SurfaceInteraction,
-        wavelengths: &Wavelengths,
-    ) -> Option<Coefficients> {
-        self.world.media().entry(medium, at, wavelengths)
-    }
-
-    fn entered(
-        &self,
-        medium: MediumId,
-        coefficients: Coefficients,
+        at: Option<&SurfaceInteraction>,
         wavelengths: &Wavelengths,
     ) -> Option<Self::Medium<'_>> {
-        let medium = self
-            .world
-            .media()
-            .entered(medium, coefficients, wavelengths)?;
-        Some(self.faulty_medium(medium))
-    }
-
-    fn diffusion(
-        &self,
-        medium: MediumId,
-        at: &SurfaceInteraction,
-        wavelengths: &Wavelengths,
-    ) -> Option<impl DiffusionProfile> {
-        self.world.media().diffusion(medium, at, wavelengths)
+        let medium = self.world.media().enter(medium, at, wavelengths)?;
+        Some(FaultyMedium {
+            medium,
+            energy: self.energy(),
+        })
     }
 }
 

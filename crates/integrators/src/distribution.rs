@@ -127,15 +127,14 @@ impl<W: World, S: Sampler> Tree<'_, W, S> {
     fn visit(&mut self, mut branch: Branch, estimate: &mut Estimate) -> Option<Branch> {
         let (world, settings) = (self.world, self.integrator.settings);
         estimate.alpha = estimate.alpha.max(f32::from(!branch.straight));
-        let hidden = settings.hide_emitters && branch.depth == 1;
+        let hidden = settings.sees_through_lights(branch.depth);
         let hit = next_hit(world, &mut branch.ray, hidden);
         let arriving = Arriving {
             wavelengths: &self.wavelengths,
             throughput: &branch.throughput,
             light_mis: &branch.light_mis,
         };
-        // A hidden sky stays hidden to rays that only went straight.
-        let sees_background = !settings.hide_emitters || !branch.straight;
+        let sees_background = settings.sees_background(f32::from(!branch.straight));
         let vertex = match arriving.at(world, &branch.ray, hit.as_ref(), sees_background) {
             Arrival::Surface(vertex, emission) => {
                 estimate.radiance += emission;

@@ -179,7 +179,7 @@ impl Naive {
         let PathSettings {
             max_depth,
             rr_depth,
-            hide_emitters,
+            ..
         } = self.settings;
         let mut throughput = PathThroughput::START;
         let mut radiance = Vec4::ZERO;
@@ -187,14 +187,13 @@ impl Naive {
         // Number of segments, that of `ray` included.
         let mut depth = 1;
         while depth <= max_depth {
-            let hit = next_hit(world, &mut ray, hide_emitters && depth == 1);
+            let hit = next_hit(world, &mut ray, self.settings.sees_through_lights(depth));
             let arriving = Arriving {
                 wavelengths,
                 throughput: &throughput,
                 light_mis: &LightMis::NONE,
             };
-            // A hidden sky stays hidden to rays that only went straight.
-            let sees_background = !hide_emitters || alpha > 0.0;
+            let sees_background = self.settings.sees_background(alpha);
             let vertex = match arriving.at(world, &ray, hit.as_ref(), sees_background) {
                 Arrival::Surface(vertex, emission) => {
                     radiance += emission;

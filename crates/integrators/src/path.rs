@@ -85,10 +85,10 @@ impl Path {
 
 /// Follows paths to their ends, in step.
 #[inline]
-pub(crate) fn follow<W: World, S: Sampler, C: PathHooks, const N: usize>(
-    world: &W,
+pub(crate) fn follow<'w, W: World, S: Sampler, C: PathHooks, const N: usize>(
+    world: &'w W,
     config: &PathConfig,
-    batch: &mut PathBatch<S, C, N>,
+    batch: &mut PathBatch<'w, W, S, C, N>,
 ) {
     while batch.goes_on() {
         batch.intersect(world, config);
@@ -99,10 +99,10 @@ pub(crate) fn follow<W: World, S: Sampler, C: PathHooks, const N: usize>(
 
 /// Extends a path along `ray`, whose nearest surface is `hit`, past its next vertex: arrive, add emission, sample a light, scatter.
 #[inline]
-fn extend<W: World, S: Sampler, C: PathHooks>(
-    world: &W,
+fn extend<'w, W: World, S: Sampler, C: PathHooks>(
+    world: &'w W,
     config: &PathConfig,
-    path: &mut PathState<S, C>,
+    path: &mut PathState<'w, W, S, C>,
     ray: &Ray,
     hit: Option<&Hit>,
 ) -> Step {
@@ -112,9 +112,13 @@ fn extend<W: World, S: Sampler, C: PathHooks>(
         return step;
     }
     let emits = |hit: &Hit| world.lights().is_emitter(hit);
-    if let Some(light) = hit.filter(|hit| path.sees_through_lights(config) && emits(hit)) {
+    if let Some(light) =
+        hit.filter(|hit| config.limits.sees_through_lights(path.depth) && emits(hit))
+    {
         let light = world.surfaces().vertex(ray, light);
-        return Step::straight(light.spawn(ray.direction));
+        let next = light.spawn(ray.direction);
+        path.enter(world, &light, [ray.medium, next.medium]);
+        return Step::straight(next);
     }
     let last = path.depth == config.limits.max_depth;
     if last && config.counts_null && path.alpha > 0.0 && hit.is_some_and(|hit| !emits(hit)) {
@@ -140,25 +144,26 @@ fn extend<W: World, S: Sampler, C: PathHooks>(
             .flatten(),
         ray: path.scatter(config, &at),
     };
-    if step.ray.is_some_and(|next| next.medium.is_some()) {
-        return path.enter(world, config, &vertex, ray.medium, step);
-    }
-    step
+    let Some(entered) = step.ray.map(|next| next.medium).filter(|id| id.is_some()) else {
+        return step;
+    };
+    path.enter(world, &vertex, [ray.medium, entered]);
+    path.diffuse(world, config, &vertex, entered, step)
 }
 
 /// Follows one path alone. Only contributions whose number of scattering events is in `wanted` count; the path ends where no more
 /// can follow.
-pub(crate) fn follow_part<W: World, S: Sampler, C: PathHooks>(
-    world: &W,
+pub(crate) fn follow_part<'w, W: World, S: Sampler, C: PathHooks>(
+    world: &'w W,
     config: &PathConfig,
-    (path, camera_ray): (&mut PathState<S, C>, Ray),
+    (path, camera_ray): (&mut PathState<'w, W, S, C>, Ray),
     wanted: &Range<u32>,
 ) {
     let mut next = config.first_segment(camera_ray);
     while path.scatter_count < wanted.end
         && let Some(mut ray) = next
     {
-        path.plan_flight(world, config, &mut ray);
+        path.plan_flight(config, &mut ray);
         let hit = world.surfaces().intersect(&ray);
         let (radiance, scatter_count) = (path.radiance, path.scatter_count);
         let step = extend(world, config, path, &ray, hit.as_ref());
@@ -183,7 +188,7 @@ pub(crate) fn follow_jobs<W: World, S: Sampler, K: TileSink, C: PathHooks + Copy
 ) {
     let mut jobs = jobs.peekable();
     while jobs.peek().is_some() {
-        let mut batch = PathBatch::<_, _, BATCH_SIZE>::new();
+        let mut batch = PathBatch::<_, _, _, BATCH_SIZE>::new();
         let mut places = ArrayVec::<_, BATCH_SIZE>::new();
         for job in jobs.by_ref().take(BATCH_SIZE) {
             places.push((job.site.pixel, job.placement()));

@@ -49,7 +49,7 @@ impl Scene {
         };
         let medium = self
             .media()
-            .medium(outermost, &self.sensor().wavelengths(0.5));
+            .enter(outermost, None, &self.sensor().wavelengths(0.5));
         media.is_endless(outermost) && medium.is_some_and(is_there)
     }
 

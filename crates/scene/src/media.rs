@@ -12,7 +12,9 @@ use etalon_geometry::Shape;
 use etalon_params::{Class, Diagnostic, Diagnostics, Node, Params, Span};
 use etalon_sampling::{Independent, Sampler};
 use etalon_subsurface::{MediumAtWavelengths, MediumDescription, Tracking};
-use etalon_transport::{LightId, MediumId, MediumInterface, Ray, ShapeId, Shapes, Textures};
+use etalon_transport::{
+    LightId, MediumId, MediumInterface, Ray, ShapeId, Shapes, SurfaceInteraction, Textures,
+};
 use glam::{Vec3, Vec4};
 
 use crate::builder::Builder;
@@ -96,7 +98,7 @@ fn note_bias(
     diagnostics: &Diagnostics,
 ) {
     const WAYS: u32 = 256;
-    let at = medium.resolve(lookup, LAMBDA);
+    let at = medium.enter(None, lookup, LAMBDA);
     let (Tracking::RayMarching(step), Some([low, high])) = (at.tracking(), medium.bounds()) else {
         return;
     };
@@ -244,8 +246,6 @@ pub struct SceneMedia {
     pub camera: MediumId,
     /// The boxes of the shapes that hold each.
     pub(crate) boxes: Vec<Option<[Vec3; 2]>>,
-    /// Whether no light enters each straight.
-    pub(crate) dark: Vec<bool>,
     /// Around each light, as far as the scene says.
     lights: Vec<Option<MediumInterface>>,
     /// Shapes that overlap, if any do.
@@ -300,7 +300,6 @@ impl SceneMedia {
             interfaces,
             camera,
             bodies,
-            dark: Vec::new(),
         }
     }
 
@@ -380,15 +379,16 @@ impl SceneMedia {
         own.unwrap_or(MediumInterface::within(arriving))
     }
 
-    /// A medium at four wavelengths (nm).
+    /// A medium at four wavelengths (nm), for a path that enters it at a surface point or is in it already.
     #[inline]
-    pub fn at<'a, T: Textures>(
+    pub fn enter<'a, T: Textures>(
         &'a self,
         medium: MediumId,
+        at: Option<&SurfaceInteraction>,
         textures: &'a T,
         lambda: Vec4,
     ) -> Option<MediumAtWavelengths<'a, T>> {
         let medium = self.media.get(self.filling(medium).0 as usize)?;
-        Some(medium.resolve(textures, lambda))
+        Some(medium.enter(at.map(Into::into), textures, lambda))
     }
 }

@@ -41,7 +41,7 @@ impl Scene {
         wavelengths: &Wavelengths,
     ) {
         if ray.medium.is_some()
-            && let Some(medium) = self.media().medium(ray.medium, wavelengths)
+            && let Some(medium) = self.media().enter(ray.medium, None, wavelengths)
         {
             transmission.then(&medium.transmittance(ray, t_max, &mut ray.stream(0.0)));
         }

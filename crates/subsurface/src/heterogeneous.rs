@@ -8,14 +8,15 @@
 //! grid, a pattern, a product of such. A medium ends where the grid of its `sigma_t` ends, even inside its shape. A
 //! `homogeneous` medium whose albedo or emission varies is one of these with a constant `sigma_t`.
 
+use crate::ProfileAt;
 use crate::majorants::{MajorantGrid, Segments};
 use crate::phases::{PhaseAt, PhaseFunction};
 use crate::tracking::{Tracked, Tracking};
 use crate::volume;
 use etalon_params::Params;
 use etalon_transport::{
-    Build, Coefficients, Phase, Ray, SpectrumKind, TextureId, TexturePoint, Textures, is_varying,
-    refuse_varying,
+    Build, Coefficients, Phase, Ray, SpectrumKind, SurfaceInteraction, TextureId, TexturePoint,
+    Textures, is_varying, refuse_varying,
 };
 use glam::{Vec3, Vec4};
 
@@ -32,6 +33,8 @@ pub struct Heterogeneous {
     majorants: Option<Box<MajorantGrid>>,
     /// The largest extinction where there is no grid (m⁻¹).
     most: f32,
+    /// Whether no light enters it through null surfaces.
+    pub(crate) is_dark: bool,
 }
 
 /// The same at the wavelengths of a path.
@@ -41,6 +44,15 @@ pub struct HeterogeneousAt<'a, T> {
     textures: &'a T,
     lambda: Vec4,
 }
+
+impl<T> Clone for HeterogeneousAt<'_, T> {
+    #[inline]
+    fn clone(&self) -> Self {
+        *self
+    }
+}
+
+impl<T> Copy for HeterogeneousAt<'_, T> {}
 
 impl Heterogeneous {
     /// Reads `albedo`, `sigma_t`, `scale` and the phase function.
@@ -56,6 +68,7 @@ impl Heterogeneous {
             tracking: volume::tracking(params, Tracking::Ratio),
             majorants: None,
             most: 0.0,
+            is_dark: false,
         })
     }
 
@@ -148,10 +161,11 @@ impl Heterogeneous {
         largest.is_finite()
     }
 
-    /// The medium at four wavelengths (nm).
+    /// The medium at four wavelengths (nm). It does not vary over its surface.
     #[inline]
-    pub fn resolve<'a, T: Textures>(
+    pub fn enter<'a, T: Textures>(
         &'a self,
+        _: Option<TexturePoint>,
         textures: &'a T,
         lambda: Vec4,
     ) -> HeterogeneousAt<'a, T> {
@@ -160,6 +174,18 @@ impl Heterogeneous {
             textures,
             lambda,
         }
+    }
+}
+
+impl<'a, T> HeterogeneousAt<'a, T> {
+    #[inline]
+    pub(crate) fn is_dark(&self) -> bool {
+        self.medium.is_dark
+    }
+
+    /// None: profiles are those of homogeneous media.
+    pub(crate) fn diffusion(&self, _: &SurfaceInteraction) -> Option<ProfileAt<'a>> {
+        None
     }
 }
 
@@ -259,6 +285,7 @@ mod tests {
             phase: PhaseFunction::Isotropic(Isotropic),
             emission: None,
             tracking,
+            is_dark: false,
             majorants: None,
             most: 0.0,
         };
@@ -290,7 +317,7 @@ mod tests {
         ];
         for (along, tracking) in trackings.into_iter().flat_map(|t| [(1, t), (40, t)]) {
             let medium = ramp(&world, along, tracking);
-            let medium = medium.resolve(&world, Vec4::ZERO);
+            let medium = medium.enter(None, &world, Vec4::ZERO);
             let ray = Ray::new(Vec3::new(0.2, 0.1, 0.5), direction, 0.0);
             let mut stream = Independent::from_key(u64::from(along));
             let count = 40_000;

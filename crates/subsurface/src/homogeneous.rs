@@ -15,8 +15,8 @@ use crate::{Boundary, Profile, ProfileAt, materials, volume};
 use etalon_params::{Diagnostic, Params};
 use etalon_spectrum::Spectrum;
 use etalon_transport::{
-    Build, Coefficients, Phase, Ray, SpectrumKind, TextureId, TexturePoint, Textures, is_varying,
-    refuse_varying,
+    Build, Coefficients, Phase, Ray, SpectrumKind, SurfaceInteraction, TextureId, TexturePoint,
+    Textures, is_varying, refuse_varying,
 };
 use glam::{Vec2, Vec3, Vec4};
 
@@ -54,6 +54,8 @@ pub struct Homogeneous {
     surface: Option<Surface>,
     /// Its extinction is clamped to this (m⁻¹), at the same albedo.
     densest: f32,
+    /// Whether no light enters it through null surfaces.
+    pub(crate) is_dark: bool,
 }
 
 /// A diffusion profile with its parameters other than the coefficients.
@@ -67,13 +69,21 @@ struct Surface {
 /// The same at the wavelengths of a path.
 #[derive(Debug)]
 pub struct HomogeneousAt<'a, T> {
+    medium: &'a Homogeneous,
     coefficients: Coefficients,
     emission: Vec4,
-    phase: &'a PhaseFunction,
     textures: &'a T,
     lambda: Vec4,
-    tracking: Tracking,
 }
+
+impl<T> Clone for HomogeneousAt<'_, T> {
+    #[inline]
+    fn clone(&self) -> Self {
+        *self
+    }
+}
+
+impl<T> Copy for HomogeneousAt<'_, T> {}
 
 /// Nothing absorbs or scatters more (m⁻¹), so that densities of paths stay numbers.
 const MOST: f32 = 1e12;
@@ -123,6 +133,7 @@ impl Homogeneous {
             varies: false,
             surface: None,
             densest: MOST,
+            is_dark: false,
         })
     }
 
@@ -213,60 +224,31 @@ impl Homogeneous {
                 .any(|name| is_varying(params, name, build)),
             surface: None,
             densest: MOST,
+            is_dark: false,
         })
     }
 
-    /// The medium at four wavelengths (nm).
+    /// The medium at four wavelengths (nm), for a path that enters it at a point of its surface or is in it already. Media that
+    /// emit do not vary over their surface.
     #[inline]
-    pub fn resolve<'a, T: Textures>(
+    pub fn enter<'a, T: Textures>(
         &'a self,
+        at: Option<TexturePoint>,
         textures: &'a T,
         lambda: Vec4,
     ) -> HomogeneousAt<'a, T> {
-        let at = TexturePoint::at_uv(Vec2::ZERO);
+        let at = (at.filter(|_| !self.emits())).unwrap_or(TexturePoint::at_uv(Vec2::ZERO));
         let coefficients = self.coefficients(textures, &at, lambda);
         let emission = (self.emission).map_or(Vec4::ZERO, |le| {
             coefficients.absorption * textures.spectrum(le, &at, lambda)
         });
         HomogeneousAt {
-            emission,
-            ..self.entered(coefficients, textures, lambda)
-        }
-    }
-
-    /// The same for a path that entered it where it has these coefficients; nothing is emitted.
-    #[inline]
-    pub fn entered<'a, T: Textures>(
-        &'a self,
-        coefficients: Coefficients,
-        textures: &'a T,
-        lambda: Vec4,
-    ) -> HomogeneousAt<'a, T> {
-        HomogeneousAt {
-            emission: Vec4::ZERO,
+            medium: self,
             coefficients,
-            phase: &self.phase,
+            emission,
             textures,
             lambda,
-            tracking: self.tracking,
         }
-    }
-
-    /// The diffusion profile at a point of the surface, if it has one.
-    pub fn profile(
-        &self,
-        textures: &impl Textures,
-        at: &TexturePoint,
-        lambda: Vec4,
-    ) -> Option<ProfileAt<'_>> {
-        let surface = self.surface.as_ref()?;
-        let coefficients = self.coefficients(textures, at, lambda);
-        let Surface {
-            profile,
-            g,
-            boundary,
-        } = surface;
-        Some(profile.at(&coefficients, *g, *boundary))
     }
 
     /// Whether walks keep the coefficients of the surface point where they enter.
@@ -358,6 +340,25 @@ fn by_name(params: &Params<'_>, build: &mut dyn Build) -> Option<Given> {
     })
 }
 
+impl<'a, T: Textures> HomogeneousAt<'a, T> {
+    #[inline]
+    pub(crate) fn is_dark(&self) -> bool {
+        self.medium.is_dark
+    }
+
+    /// The diffusion profile below a point of the surface, if it has one.
+    pub(crate) fn diffusion(&self, at: &SurfaceInteraction) -> Option<ProfileAt<'a>> {
+        let medium = self.medium;
+        let Surface {
+            profile,
+            g,
+            boundary,
+        } = medium.surface.as_ref()?;
+        let coefficients = medium.coefficients(self.textures, &at.into(), self.lambda);
+        Some(profile.at(&coefficients, *g, *boundary))
+    }
+}
+
 impl<'a, T: Textures> Tracked for HomogeneousAt<'a, T> {
     type Phase = PhaseAt<'a, T>;
 
@@ -368,7 +369,7 @@ impl<'a, T: Textures> Tracked for HomogeneousAt<'a, T> {
 
     #[inline]
     fn phase(&self, at: Vec3) -> PhaseAt<'a, T> {
-        self.phase.at(self.textures, at, self.lambda)
+        self.medium.phase.at(self.textures, at, self.lambda)
     }
 
     #[inline]
@@ -379,7 +380,7 @@ impl<'a, T: Textures> Tracked for HomogeneousAt<'a, T> {
     #[inline]
     fn majorants(&self, ray: &Ray, _: f32) -> Segments<'_> {
         let extinction = self.coefficients(ray.origin, ray.direction).extinction();
-        let control = match self.tracking {
+        let control = match self.medium.tracking {
             Tracking::Residual => 0.999 * extinction.min_element(),
             _ => 0.0,
         };
@@ -388,6 +389,6 @@ impl<'a, T: Textures> Tracked for HomogeneousAt<'a, T> {
 
     #[inline]
     fn tracking(&self) -> Tracking {
-        self.tracking
+        self.medium.tracking
     }
 }

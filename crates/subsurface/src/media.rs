@@ -1,11 +1,15 @@
 //! The list of media, and how each is read.
 
+use crate::diffusion::ProfileAt;
 use crate::phases::PhaseAt;
 use crate::tracking::{self, Tracked, Tracking};
 use crate::{Heterogeneous, HeterogeneousAt, Homogeneous, HomogeneousAt};
 use etalon_params::{Params, plugins};
 use etalon_sampling::Sampler;
-use etalon_transport::{Build, Coefficients, FreeFlight, Medium, Ray, Textures, Transmission};
+use etalon_transport::{
+    Build, Coefficients, FreeFlight, Medium, Ray, SurfaceInteraction, TexturePoint, Textures,
+    Transmission,
+};
 use glam::{Vec3, Vec4};
 
 macro_rules! media {
@@ -43,23 +47,39 @@ macro_rules! media {
                 match self { $(Self::$kind(medium) => medium.bounds(),)* }
             }
 
-            /// The medium at four wavelengths (nm).
+            /// Says that no light enters it through null surfaces.
+            pub fn darken(&mut self) {
+                match self { $(Self::$kind(medium) => medium.is_dark = true,)* }
+            }
+
+            /// The medium at four wavelengths (nm), for a path that enters it at a point of its surface or is in it already.
             #[inline]
-            pub fn resolve<'a, T: Textures>(
+            pub fn enter<'a, T: Textures>(
                 &'a self,
+                at: Option<TexturePoint>,
                 textures: &'a T,
                 lambda: Vec4,
             ) -> MediumAtWavelengths<'a, T> {
                 match self {
                     $(Self::$kind(medium) => {
-                        MediumAtWavelengths::$kind(medium.resolve(textures, lambda))
+                        MediumAtWavelengths::$kind(medium.enter(at, textures, lambda))
                     })*
                 }
             }
         }
 
+        impl<T> Clone for MediumAtWavelengths<'_, T> {
+            #[inline]
+            fn clone(&self) -> Self {
+                *self
+            }
+        }
+
+        impl<T> Copy for MediumAtWavelengths<'_, T> {}
+
         impl<'a, T: Textures> Medium for MediumAtWavelengths<'a, T> {
             type Phase = PhaseAt<'a, T>;
+            type Profile = ProfileAt<'a>;
 
             #[inline]
             fn coefficients(&self, at: Vec3, direction: Vec3) -> Coefficients {
@@ -100,6 +120,16 @@ macro_rules! media {
                 stream: &mut impl Sampler,
             ) -> Transmission {
                 match self { $(Self::$kind(medium) => tracking::transmittance(medium, ray, t_max, stream),)* }
+            }
+
+            #[inline]
+            fn is_dark(&self) -> bool {
+                match self { $(Self::$kind(medium) => medium.is_dark(),)* }
+            }
+
+            #[inline]
+            fn diffusion(&self, at: &SurfaceInteraction) -> Option<ProfileAt<'a>> {
+                match self { $(Self::$kind(medium) => medium.diffusion(at),)* }
             }
         }
 

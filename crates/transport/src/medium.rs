@@ -9,7 +9,7 @@
 //! over the lanes (B. Miller, I. Georgiev, W. Jarosz, A null-scattering path integral formulation of light transport,
 //! 2019, section 5).
 
-use crate::{MediumId, Phase, Ray, Transmission};
+use crate::{DiffusionProfile, MediumId, NoProfile, Phase, Ray, SurfaceInteraction, Transmission};
 use etalon_sampling::Sampler;
 use glam::{Vec3, Vec4};
 
@@ -109,9 +109,11 @@ impl<P> FreeFlight<P> {
 }
 
 /// A participating medium at a path's wavelengths: plain data that knows neither volumes nor scene.
-pub trait Medium {
+pub trait Medium: Copy {
     /// How a point of it scatters light.
     type Phase: Phase + Copy;
+    /// How light leaves near where it entered.
+    type Profile: DiffusionProfile;
 
     /// The coefficients at a point, for light along `direction` either way.
     fn coefficients(&self, at: Vec3, direction: Vec3) -> Coefficients;
@@ -138,6 +140,12 @@ pub trait Medium {
 
     /// An estimate of the light that arrives at `t_max`.
     fn transmittance(&self, ray: &Ray, t_max: f32, stream: &mut impl Sampler) -> Transmission;
+
+    /// Whether no light enters through null surfaces, so that light sampling in it is futile. `false` is a safe answer.
+    fn is_dark(&self) -> bool;
+
+    /// The diffusion profile that replaces random walks below the surface point `at`, if it has one.
+    fn diffusion(&self, at: &SurfaceInteraction) -> Option<Self::Profile>;
 }
 
 /// The medium of worlds that have none; there is no value of it.
@@ -146,6 +154,7 @@ pub enum Vacuum {}
 
 impl Medium for Vacuum {
     type Phase = Self;
+    type Profile = NoProfile;
 
     fn coefficients(&self, _: Vec3, _: Vec3) -> Coefficients {
         match *self {}
@@ -168,6 +177,14 @@ impl Medium for Vacuum {
     }
 
     fn transmittance(&self, _: &Ray, _: f32, _: &mut impl Sampler) -> Transmission {
+        match *self {}
+    }
+
+    fn is_dark(&self) -> bool {
+        match *self {}
+    }
+
+    fn diffusion(&self, _: &SurfaceInteraction) -> Option<NoProfile> {
         match *self {}
     }
 }

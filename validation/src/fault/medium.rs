@@ -1,10 +1,11 @@
 //! A medium that may emit too much, whether a path flies through it or asks what a point of it emits.
 
 use etalon_sampling::Sampler;
-use etalon_transport::{Coefficients, FreeFlight, Medium, Ray, Transmission};
+use etalon_transport::{Coefficients, FreeFlight, Medium, Ray, SurfaceInteraction, Transmission};
 use glam::{Vec3, Vec4};
 
 /// A medium whose emission is multiplied.
+#[derive(Clone, Copy)]
 pub struct FaultyMedium<M> {
     pub(super) medium: M,
     /// The factor on its emission.
@@ -13,6 +14,7 @@ pub struct FaultyMedium<M> {
 
 impl<M: Medium> Medium for FaultyMedium<M> {
     type Phase = M::Phase;
+    type Profile = M::Profile;
 
     fn coefficients(&self, at: Vec3, direction: Vec3) -> Coefficients {
         self.medium.coefficients(at, direction)
@@ -46,5 +48,13 @@ impl<M: Medium> Medium for FaultyMedium<M> {
 
     fn transmittance(&self, ray: &Ray, t_max: f32, stream: &mut impl Sampler) -> Transmission {
         self.medium.transmittance(ray, t_max, stream)
+    }
+
+    fn is_dark(&self) -> bool {
+        self.medium.is_dark()
+    }
+
+    fn diffusion(&self, at: &SurfaceInteraction) -> Option<Self::Profile> {
+        self.medium.diffusion(at)
     }
 }

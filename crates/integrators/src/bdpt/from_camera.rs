@@ -83,7 +83,7 @@ impl FromCamera {
         }
         self.goes_on = false;
         let direction = self.carried.ray.direction;
-        let hidden = settings.hide_emitters && self.carried.segments == 1;
+        let hidden = settings.sees_through_lights(self.carried.segments);
         let origin = self.carried.ray.origin;
         let hit = arrival::next_hit(world, &mut self.carried.ray, hidden);
         self.through_hidden |= self.carried.ray.origin != origin;
@@ -113,9 +113,7 @@ impl FromCamera {
             }
         }
         let Some(hit) = hit else {
-            // A hidden sky stays hidden to rays that only went straight.
-            let visible = !settings.hide_emitters || self.alpha > 0.0;
-            if visible && world.lights().has_background() {
+            if settings.sees_background(self.alpha) && world.lights().has_background() {
                 self.alpha = 1.0;
                 let density = self.carried.density * self.carried.passed.x;
                 let arrival = self.carried.arrival(density);

@@ -10,8 +10,8 @@ use etalon_sampling::Sampler;
 use etalon_transport::{Hit, PixelSample, Ray, ShadowQuery, Surfaces, Transmission, World};
 
 /// Up to `N` paths. Those not yet ended are listed densely, so that no stage visits the others.
-pub(crate) struct PathBatch<S, C, const N: usize> {
-    pub(crate) paths: ArrayVec<PathState<S, C>, N>,
+pub(crate) struct PathBatch<'w, W: World + 'w, S, C, const N: usize> {
+    pub(crate) paths: ArrayVec<PathState<'w, W, S, C>, N>,
     /// Indices in `paths` of those not yet ended.
     active: ArrayVec<usize, N>,
     /// The next ray of each of these.
@@ -26,7 +26,7 @@ pub(crate) struct PathBatch<S, C, const N: usize> {
     transmissions: [Option<Transmission>; N],
 }
 
-impl<S: Sampler, C: PathHooks, const N: usize> PathBatch<S, C, N> {
+impl<'w, W: World, S: Sampler, C: PathHooks, const N: usize> PathBatch<'w, W, S, C, N> {
     /// No paths.
     pub(crate) fn new() -> Self {
         Self {
@@ -42,9 +42,9 @@ impl<S: Sampler, C: PathHooks, const N: usize> PathBatch<S, C, N> {
 
     /// Adds the path of a sample.
     #[inline]
-    pub(crate) fn push<W: World>(
+    pub(crate) fn push(
         &mut self,
-        (world, config): (&W, &PathConfig),
+        (world, config): (&'w W, &PathConfig),
         site: &PixelSample,
         sampler: S,
         hooks: C,
@@ -65,9 +65,9 @@ impl<S: Sampler, C: PathHooks, const N: usize> PathBatch<S, C, N> {
 
     /// Finds the next surface of every path.
     #[inline]
-    pub(crate) fn intersect<W: World>(&mut self, world: &W, config: &PathConfig) {
+    pub(crate) fn intersect(&mut self, world: &W, config: &PathConfig) {
         for (path, ray) in self.active.iter().zip(&mut self.rays) {
-            self.paths[*path].plan_flight(world, config, ray);
+            self.paths[*path].plan_flight(config, ray);
         }
         let hits = &mut self.hits[..self.rays.len()];
         world.surfaces().intersect_batch(&self.rays, hits);
@@ -77,7 +77,7 @@ impl<S: Sampler, C: PathHooks, const N: usize> PathBatch<S, C, N> {
     #[inline]
     pub(crate) fn advance(
         &mut self,
-        mut extend: impl FnMut(&mut PathState<S, C>, &Ray, Option<&Hit>) -> Step,
+        mut extend: impl FnMut(&mut PathState<'w, W, S, C>, &Ray, Option<&Hit>) -> Step,
     ) {
         let mut kept = 0;
         for place in 0..self.active.len() {
@@ -109,7 +109,7 @@ impl<S: Sampler, C: PathHooks, const N: usize> PathBatch<S, C, N> {
 
     /// Traces the shadow rays, and adds the contributions of their light samples.
     #[inline]
-    pub(crate) fn trace_shadows<W: World>(&mut self, world: &W) {
+    pub(crate) fn trace_shadows(&mut self, world: &W) {
         let transmissions = &mut self.transmissions[..self.waiting.len()];
         world.transmittance_batch(&self.shadow_rays, transmissions);
         for ((path, unoccluded), transmission) in self.waiting.drain(..).zip(transmissions) {

@@ -13,7 +13,7 @@ use etalon_math::{Density, Frame, SolidAngle, float};
 use etalon_sampling::Sampler;
 use etalon_sampling::warps::square_to_cosine_hemisphere;
 use etalon_transport::{
-    Bsdf, BsdfSample, DiffusionProfile, Media, MediumId, Ray, SamplePdf, SurfaceInteraction,
+    Bsdf, BsdfSample, DiffusionProfile, Medium, MediumId, Ray, SamplePdf, SurfaceInteraction,
     Surfaces, TransportMode, World,
 };
 use glam::{Vec2, Vec3, Vec4};
@@ -130,21 +130,21 @@ fn crossed<W: World>(
     chosen.map(|vertex| (vertex, count))
 }
 
-impl<S: Sampler, C: PathHooks> PathState<S, C> {
-    /// Where a path goes on that would enter `medium` after `step` at the surface point `entered`: elsewhere on the surface, if a
-    /// diffusion profile says where it leaves.
+impl<'w, W: World, S: Sampler, C: PathHooks> PathState<'w, W, S, C> {
+    /// The step of a path that enters `medium`, which it keeps, at the surface point `entered`: `step`, or from elsewhere on the
+    /// surface if a diffusion profile says where it leaves.
     #[cold]
     #[inline(never)]
-    pub(crate) fn diffuse<W: World>(
+    pub(crate) fn diffuse(
         &mut self,
-        world: &W,
+        world: &'w W,
         config: &PathConfig,
         entered: &SurfaceInteraction,
         medium: MediumId,
         step: Step,
     ) -> Step {
-        let waves = self.wavelengths;
-        let Some(profile) = world.media().diffusion(medium, entered, &waves) else {
+        let Some(profile) = (self.medium.as_ref()).and_then(|medium| medium.diffusion(entered))
+        else {
             return step;
         };
         // What the boundary reflects.
@@ -174,13 +174,16 @@ impl<S: Sampler, C: PathHooks> PathState<S, C> {
         let at = ScatteringPoint::new(&vertex, &leaving, frame.n, self.draw_event());
         let shadow = self.sample_light(world, config, &at);
         let ray = self.scatter(config, &at);
+        if let Some(next) = ray {
+            self.enter(world, &vertex, [medium, next.medium]);
+        }
         Step { shadow, ray }
     }
 
     /// Where the path leaves.
-    fn leave<W: World>(
+    fn leave(
         &mut self,
-        world: &W,
+        world: &'w W,
         profile: &impl DiffusionProfile,
         entered: &SurfaceInteraction,
         medium: MediumId,

@@ -13,14 +13,16 @@ use crate::steps::settings::PathConfig;
 use core::ops::ControlFlow;
 use etalon_sampling::Sampler;
 use etalon_transport::{
-    Collision, Hit, LightSample, LightSampleContext, Media, Medium, MediumId, MediumOf, Phase, Ray,
-    Transmission, World,
+    Collision, Hit, LightSample, LightSampleContext, Medium, MediumOf, Phase, Ray, Transmission,
+    World,
 };
 use glam::{Vec3, Vec4};
 
 /// A point of a medium where a path is scattered.
 struct MediumVertex<'p, P> {
     position: Vec3,
+    /// Whether light sampling is futile there.
+    is_dark: bool,
     phase: &'p P,
     /// f / p₀ there, and pₖ / p₀ of all ways to sample a light there.
     throughput: PathThroughput,
@@ -28,37 +30,24 @@ struct MediumVertex<'p, P> {
     r_u_of_flight: Vec4,
 }
 
-impl<S: Sampler, C: PathHooks> PathState<S, C> {
-    /// The medium that the path is in.
-    #[inline]
-    fn medium<'w, W: World>(&self, world: &'w W, medium: MediumId) -> Option<MediumOf<'w, W>> {
-        let waves = &self.wavelengths;
-        match self.entered {
-            Some((entered, coefficients)) if entered == medium => {
-                world.media().entered(medium, coefficients, waves)
-            }
-            _ => world.media().medium(medium, waves),
-        }
-    }
-
+impl<'w, W: World, S: Sampler, C: PathHooks> PathState<'w, W, S, C> {
     /// Draws the random number of the free flight through the medium of `ray`, if there is one.
     #[inline]
-    pub(crate) fn plan_flight<W: World>(&mut self, world: &W, config: &PathConfig, ray: &mut Ray) {
+    pub(crate) fn plan_flight(&mut self, config: &PathConfig, ray: &mut Ray) {
         if ray.medium.is_some() {
-            self.shorten(world, config, ray);
+            self.shorten(config, ray);
         }
     }
 
     /// Ends the ray at the point where the path is scattered, if that is known, so that surfaces beyond are not searched.
     #[cold]
     #[inline(never)]
-    fn shorten<W: World>(&mut self, world: &W, config: &PathConfig, ray: &mut Ray) {
+    fn shorten(&mut self, config: &PathConfig, ray: &mut Ray) {
         self.flight = self.draw_event().lobe;
         if config.equiangular {
             return;
         }
-        let medium = self.medium(world, ray.medium);
-        let reach = medium.and_then(|medium| medium.reach(ray, self.flight));
+        let reach = (self.medium.as_ref()).and_then(|medium| medium.reach(ray, self.flight));
         // A little farther than where light is scattered, be it at once, so that it is a surface that ends the ray or nothing. NaN
         // changes nothing.
         let farther = |t| t * 1.01 + f32::MIN_POSITIVE;
@@ -68,21 +57,21 @@ impl<S: Sampler, C: PathHooks> PathState<S, C> {
     /// Free flight through the medium to the hit. Breaks if the path is scattered before, with the step from there.
     #[cold]
     #[inline(never)]
-    pub(crate) fn fly<W: World>(
+    pub(crate) fn fly(
         &mut self,
-        world: &W,
+        world: &'w W,
         config: &PathConfig,
         ray: &Ray,
         hit: Option<&Hit>,
     ) -> ControlFlow<Step> {
         let u = self.flight;
-        let scatters = self.depth < config.limits.max_depth;
-        let along = (config.equiangular && scatters && !world.media().is_dark(ray.medium))
-            .then(|| self.sample_equiangular(world, config, ray, hit))
-            .flatten();
-        let Some(medium) = self.medium(world, ray.medium) else {
+        let Some(medium) = self.medium else {
             return ControlFlow::Continue(());
         };
+        let scatters = self.depth < config.limits.max_depth;
+        let along = (config.equiangular && scatters && !medium.is_dark())
+            .then(|| self.sample_equiangular(world, config, &medium, (ray, hit)))
+            .flatten();
         let flight = arrival::flight_in(&medium, ray, hit, u);
         let density = flight.density();
         self.light_mis.r_l /= density.x;
@@ -102,6 +91,7 @@ impl<S: Sampler, C: PathHooks> PathState<S, C> {
         let PathThroughput { beta, r_u } = self.throughput;
         let vertex = MediumVertex {
             position: ray.at(t),
+            is_dark: medium.is_dark(),
             phase: &phase,
             throughput: PathThroughput {
                 beta,
@@ -115,14 +105,13 @@ impl<S: Sampler, C: PathHooks> PathState<S, C> {
     /// Looks for light along the ray: chooses a point of a light, a point of the ray by the angle seen from there, and
     /// a light sample at that; all but the first are combined with free flight by multiple importance sampling. Nothing, in a
     /// vacuum, or if the light chosen is at infinity.
-    fn sample_equiangular<W: World>(
+    fn sample_equiangular(
         &mut self,
-        world: &W,
+        world: &'w W,
         config: &PathConfig,
-        ray: &Ray,
-        hit: Option<&Hit>,
+        medium: &MediumOf<'w, W>,
+        (ray, hit): (&Ray, Option<&Hit>),
     ) -> Option<Equiangular> {
-        let medium = self.medium(world, ray.medium)?;
         let event = self.draw_event();
         let t_max = hit.map_or(ray.t_max, |hit| hit.t);
         let middle = if t_max.is_finite() { 0.5 * t_max } else { 0.0 };
@@ -151,6 +140,7 @@ impl<S: Sampler, C: PathHooks> PathState<S, C> {
             let event = self.draw_event();
             let vertex = MediumVertex {
                 position: at,
+                is_dark: false,
                 phase: &medium.phase(at),
                 throughput,
                 r_u_of_flight: r_u * r_u_of_flight,
@@ -162,16 +152,16 @@ impl<S: Sampler, C: PathHooks> PathState<S, C> {
     }
 
     /// A light sample and the next direction at a point of a medium.
-    fn scatter_in_medium<W: World, P: Phase>(
+    fn scatter_in_medium<P: Phase>(
         &mut self,
-        world: &W,
+        world: &'w W,
         config: &PathConfig,
         ray: &Ray,
         vertex: &MediumVertex<'_, P>,
     ) -> Step {
         let event = self.draw_event();
         let (mut from, mut shadow) = (None, None);
-        if !world.media().is_dark(ray.medium) {
+        if !vertex.is_dark {
             let (context, light) = self.light_in_medium(world, config, ray, vertex, &event);
             (from, shadow) = (Some(context), light);
             self.hooks.on_light_sample();
@@ -200,9 +190,9 @@ impl<S: Sampler, C: PathHooks> PathState<S, C> {
     }
 
     /// Next-event estimation at a point of a medium.
-    fn light_in_medium<W: World, P: Phase>(
+    fn light_in_medium<P: Phase>(
         &mut self,
-        world: &W,
+        world: &'w W,
         config: &PathConfig,
         ray: &Ray,
         vertex: &MediumVertex<'_, P>,
@@ -213,6 +203,7 @@ impl<S: Sampler, C: PathHooks> PathState<S, C> {
             phase,
             throughput,
             r_u_of_flight,
+            ..
         } = *vertex;
         let (wo, time, medium) = (-ray.direction, ray.time, ray.medium);
         let from = LightSampleContext::in_space(at).at(time).combined();

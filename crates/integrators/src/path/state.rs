@@ -12,13 +12,13 @@ use crate::steps::settings::{LightCandidates, PathConfig};
 use etalon_sampling::Sampler;
 use etalon_spectrum::Wavelengths;
 use etalon_transport::{
-    Bsdf, Coefficients, Hit, LightSample, LightSampleContext, Media, MediumId, PixelSample, Ray,
+    Bsdf, Hit, LightSample, LightSampleContext, Media, MediumId, MediumOf, PixelSample, Ray,
     Sensor, Sink, SurfaceInteraction, Transmission, TransportMode, World,
 };
 use glam::{Vec3, Vec4};
 
 /// A path from the camera, up to its last vertex.
-pub(crate) struct PathState<S, C = ()> {
+pub(crate) struct PathState<'w, W: World + 'w, S, C = ()> {
     pub(crate) sampler: S,
     pub(crate) wavelengths: Wavelengths,
     /// Factor on its radiance: the importance of the camera ray.
@@ -33,8 +33,8 @@ pub(crate) struct PathState<S, C = ()> {
     pub(crate) scatter_count: u32,
     /// The random number of the next free flight.
     pub(crate) flight: f32,
-    /// The medium entered last, with its coefficients where the path entered it if it is homogeneous.
-    pub(crate) entered: Option<(MediumId, Coefficients)>,
+    /// The medium entered last: that of the next ray, if it is in one.
+    pub(crate) medium: Option<MediumOf<'w, W>>,
     /// Events so far for which random numbers were drawn.
     events: u32,
     /// Whether a direction was sampled from a density. From then on one light sample is drawn for a shadow ray: later
@@ -110,16 +110,14 @@ impl<'a, B: Bsdf> ScatteringPoint<'a, B> {
     }
 }
 
-impl<S: Sampler, C: PathHooks> PathState<S, C> {
+impl<'w, W: World, S: Sampler, C: PathHooks> PathState<'w, W, S, C> {
     /// The path of a sample, and the camera's ray that it begins with.
     #[inline]
-    pub(crate) fn start<W: World>(
-        world: &W,
-        site: &PixelSample,
-        mut sampler: S,
-        hooks: C,
-    ) -> (Self, Ray) {
+    pub(crate) fn start(world: &'w W, site: &PixelSample, mut sampler: S, hooks: C) -> (Self, Ray) {
         let (wavelengths, ray, weight) = camera_ray(world, site, &mut sampler);
+        let medium = (ray.medium.is_some())
+            .then(|| world.media().enter(ray.medium, None, &wavelengths))
+            .flatten();
         let path = Self {
             sampler,
             wavelengths,
@@ -130,7 +128,7 @@ impl<S: Sampler, C: PathHooks> PathState<S, C> {
             depth: 1,
             scatter_count: 0,
             flight: 0.0,
-            entered: None,
+            medium,
             events: 0,
             scattered: false,
             radiance: Vec4::ZERO,
@@ -167,12 +165,6 @@ impl<S: Sampler, C: PathHooks> PathState<S, C> {
             .rgb(self.radiance * self.weight)
     }
 
-    /// Whether lights are hidden from the next segment: `hide_emitters` hides them from the camera ray.
-    #[inline]
-    pub(crate) fn sees_through_lights(&self, config: &PathConfig) -> bool {
-        config.limits.hide_emitters && self.depth == 1
-    }
-
     /// The weights of emission where the path arrives.
     #[inline]
     pub(crate) fn arriving(&self) -> Arriving<'_> {
@@ -186,15 +178,14 @@ impl<S: Sampler, C: PathHooks> PathState<S, C> {
     /// Arrives at the end of `ray`, whose nearest surface is `hit`, and adds the emission there or of the background. The vertex;
     /// `None` if there is no surface.
     #[inline]
-    pub(crate) fn arrive<W: World>(
+    pub(crate) fn arrive(
         &mut self,
-        world: &W,
+        world: &'w W,
         config: &PathConfig,
         ray: &Ray,
         hit: Option<&Hit>,
     ) -> Option<SurfaceInteraction> {
-        // A hidden background stays hidden behind null surfaces.
-        let sees_background = !config.limits.hide_emitters || self.alpha > 0.0;
+        let sees_background = config.limits.sees_background(self.alpha);
         match self.arriving().at(world, ray, hit, sees_background) {
             Arrival::Surface(vertex, emission) => {
                 self.add(emission);
@@ -228,9 +219,9 @@ impl<S: Sampler, C: PathHooks> PathState<S, C> {
 
     /// Next-event estimation: a light sample and its shadow ray; `None` if it cannot contribute.
     #[inline]
-    pub(crate) fn sample_light<W: World>(
+    pub(crate) fn sample_light(
         &mut self,
-        world: &W,
+        world: &'w W,
         config: &PathConfig,
         at: &ScatteringPoint<'_, impl Bsdf>,
     ) -> Option<ShadowRay> {
@@ -300,23 +291,17 @@ impl<S: Sampler, C: PathHooks> PathState<S, C> {
         (survives && self.throughput.beta != Vec4::ZERO).then_some(next)
     }
 
-    /// Enters the medium of the next ray, at a surface that the path reached in the medium `before`. A medium with a diffusion profile
-    /// is left elsewhere on the surface.
+    /// Keeps the medium of the next ray, `after`, at a surface point that the path reached in `before`.
     #[inline]
-    pub(crate) fn enter<W: World>(
+    pub(crate) fn enter(
         &mut self,
-        world: &W,
-        config: &PathConfig,
-        vertex: &SurfaceInteraction,
-        before: MediumId,
-        step: Step,
-    ) -> Step {
-        let medium = step.ray.map_or(MediumId::NONE, |ray| ray.medium);
-        if medium != before {
-            let entry = world.media().entry(medium, vertex, &self.wavelengths);
-            self.entered = entry.map(|coefficients| (medium, coefficients));
+        world: &'w W,
+        at: &SurfaceInteraction,
+        [before, after]: [MediumId; 2],
+    ) {
+        if after != before {
+            self.medium = world.media().enter(after, Some(at), &self.wavelengths);
         }
-        self.diffuse(world, config, vertex, medium, step)
     }
 
     /// Russian roulette. Counts the next segment if the path survives.
@@ -347,7 +332,7 @@ impl<S: Sampler, C: PathHooks> PathState<S, C> {
 
     /// Traces a shadow ray, and adds the contribution of its light sample.
     #[inline]
-    pub(crate) fn trace_shadow<W: World>(&mut self, world: &W, shadow: Option<ShadowRay>) {
+    pub(crate) fn trace_shadow(&mut self, world: &'w W, shadow: Option<ShadowRay>) {
         if let Some(ShadowRay {
             ray,
             crossings,

@@ -157,7 +157,7 @@ impl<'w, W: World> GatherPath<'_, 'w, W> {
         let mut alpha = 0.0_f32;
         let mut eta = 1.0;
         while self.depth <= settings.max_depth && self.throughput.beta != Vec4::ZERO {
-            let hidden = settings.hide_emitters && self.depth == 1;
+            let hidden = settings.sees_through_lights(self.depth);
             let hit = arrival::next_hit(world, &mut ray, hidden);
             // Gathering in a medium excludes σs, which photons include.
             let mut gathering = self.throughput;
@@ -186,8 +186,7 @@ impl<'w, W: World> GatherPath<'_, 'w, W> {
             let (vertex, bsdf) = match scattering {
                 Some(vertex) => vertex,
                 None => {
-                    // A hidden sky stays hidden to rays that only went straight.
-                    let sees_background = !settings.hide_emitters || alpha > 0.0;
+                    let sees_background = settings.sees_background(alpha);
                     let arrival = self
                         .arriving()
                         .at(world, &ray, hit.as_ref(), sees_background);

@@ -142,7 +142,7 @@ pub(crate) fn free_flight<'w, W: World>(
     if !ray.medium.is_some() {
         return None;
     }
-    let medium = world.media().medium(ray.medium, wavelengths)?;
+    let medium = world.media().enter(ray.medium, None, wavelengths)?;
     Some(flight_in(&medium, ray, hit, u))
 }
 
@@ -170,7 +170,7 @@ pub(crate) fn transmittance<W: World>(
     if !ray.medium.is_some() {
         return None;
     }
-    let medium = world.media().medium(ray.medium, wavelengths)?;
+    let medium = world.media().enter(ray.medium, None, wavelengths)?;
     let t_max = hit.map_or(ray.t_max, |hit| hit.t);
     Some(medium.transmittance(ray, t_max, &mut ray.stream(0.0)))
 }

@@ -39,6 +39,19 @@ impl PathSettings {
             hide_emitters: params.boolean_or("hide_emitters", false),
         }
     }
+
+    /// Whether lights are looked through along a path's segment number `depth`: they are hidden from the camera ray.
+    #[inline]
+    pub(crate) fn sees_through_lights(&self, depth: u32) -> bool {
+        depth == 1 && self.hide_emitters
+    }
+
+    /// Whether a path sees lights at infinity. Hidden ones stay hidden behind null surfaces, until something scatters the path or
+    /// is opaque to it (`alpha` > 0).
+    #[inline]
+    pub(crate) fn sees_background(&self, alpha: f32) -> bool {
+        !self.hide_emitters || alpha > 0.0
+    }
 }
 
 /// The configuration of path tracing, the same for all paths.

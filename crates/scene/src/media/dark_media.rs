@@ -48,14 +48,9 @@ impl SceneMedia {
                 .filter(|(_, interface)| interface.inside == within);
             holding.all(|(shape, _)| shuts(*shape)) && light_boxes.iter().all(beside)
         };
-        self.dark = self.boxes.iter().enumerate().map(is_dark).collect();
-    }
-
-    /// Whether no light enters a medium straight.
-    #[inline]
-    pub(crate) fn is_dark(&self, medium: MediumId) -> bool {
-        self.dark
-            .get(medium.0 as usize)
-            .is_some_and(|is_dark| *is_dark)
+        let dark: Vec<bool> = self.boxes.iter().enumerate().map(is_dark).collect();
+        for (medium, _) in self.media.iter_mut().zip(dark).filter(|(_, dark)| *dark) {
+            medium.darken();
+        }
     }
 }

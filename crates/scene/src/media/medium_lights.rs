@@ -186,7 +186,7 @@ impl MediumLights {
 impl Space {
     /// What a cell emits at some wavelengths, by an estimate (W·nm⁻¹).
     fn cell_power(&self, region: &Region, cell: usize, outermost: MediumId) -> f64 {
-        let Some(medium) = self.media.at(region.medium, &self.lookup, LAMBDA) else {
+        let Some(medium) = self.media.enter(region.medium, None, &self.lookup, LAMBDA) else {
             return 0.0;
         };
         let mut stream = Independent::from_key(mix64(cell as u64));
@@ -226,7 +226,7 @@ impl Scene {
         let (medium, at, density) = lights.point(u_light, u)?;
         let way = at - from.position;
         let distance_squared = way.length_squared();
-        let resolved = self.media().medium(medium, wavelengths)?;
+        let resolved = self.media().enter(medium, None, wavelengths)?;
         let direction = way / distance_squared.sqrt();
         let radiance = resolved.emission(at, direction);
         if radiance == Vec4::ZERO || !(distance_squared > 0.0) {
@@ -255,7 +255,7 @@ impl Scene {
         time: f32,
     ) -> Option<Emission> {
         let (medium, at, origin) = lights.point(u_light, u_position)?;
-        let resolved = self.media().medium(medium, wavelengths)?;
+        let resolved = self.media().enter(medium, None, wavelengths)?;
         let direction = square_to_uniform_sphere(u_direction);
         let radiance = resolved.emission(at, direction);
         if radiance == Vec4::ZERO {

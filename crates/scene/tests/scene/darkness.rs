@@ -1,16 +1,23 @@
 //! Media in which no light is sampled: only where none enters straight.
 
-use crate::reading::scene;
-use etalon_transport::{Media, MediumId, World};
+use crate::reading::{LANES, scene};
+use etalon_scene::Scene;
+use etalon_transport::{Media, Medium, MediumId, World};
 
 const SKY: &str = "<emitter type=\"constant\"/>";
 const WALK: &str = "<subsurface type=\"randomwalk\"/>";
 const MATTER: &str = "<medium type=\"homogeneous\" name=\"interior\"/>";
 
+/// Whether the first medium of a scene is dark.
+fn medium_is_dark(world: &Scene) -> bool {
+    let medium = world.media().enter(MediumId(0), None, &LANES);
+    medium.expect("a medium").is_dark()
+}
+
 /// Whether the medium of a ball of radius 1 is dark.
 fn is_dark(shape: &str, below: &str, further: &str) -> bool {
     let world = scene(&format!("<shape type=\"{shape}\">{below}</shape>{further}"));
-    world.media().is_dark(MediumId(0))
+    medium_is_dark(&world)
 }
 
 #[test]
@@ -53,8 +60,5 @@ fn what_light_may_enter_or_holds_a_lamp_is_not() {
     let ball =
         "<shape type=\"cube\"><bsdf type=\"dielectric\"/><ref id=\"m\" name=\"interior\"/></shape>";
     let world = scene(&format!("{shared}{ball}{beyond}{SKY}"));
-    assert!(
-        !world.media().is_dark(MediumId(0)),
-        "also outside of another shape"
-    );
+    assert!(!medium_is_dark(&world), "also outside of another shape");
 }

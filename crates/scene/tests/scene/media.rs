@@ -89,12 +89,15 @@ fn a_camera_in_a_body_may_name_its_medium() {
             ..Ray::new(Vec3::ZERO, Vec3::Z, 0.0)
         };
         assert!(
-            world.media().medium(inside.medium, &LANES).is_some(),
+            world.media().enter(inside.medium, None, &LANES).is_some(),
             "{named}"
         );
         let (_, boundary) = meet(&world, &inside).expect("a surface");
         let beyond = boundary.spawn(Vec3::Z).medium;
-        assert!(world.media().medium(beyond, &LANES).is_none(), "{named}");
+        assert!(
+            world.media().enter(beyond, None, &LANES).is_none(),
+            "{named}"
+        );
     }
 }
 
@@ -114,7 +117,7 @@ fn the_albedo_of_a_homogeneous_medium_may_vary_in_space() {
         let world = scene(&ball(0.5, &fog("name=\"interior\"", &albedo)));
         let medium = world
             .media()
-            .medium(inside(&world, 0.5), &LANES)
+            .enter(inside(&world, 0.5), None, &LANES)
             .expect("a medium");
         for x in [0.125, 0.5, 0.875] {
             let at = medium.coefficients(Vec3::new(x, 0.1, 0.2), Vec3::X);
@@ -309,7 +312,7 @@ fn light_walks_about_in_solids_of_solids() {
         let medium = |world: &Scene| {
             let medium = world
                 .media()
-                .medium(inside(world, 0.0), &LANES)
+                .enter(inside(world, 0.0), None, &LANES)
                 .expect("a medium");
             let at = medium.coefficients(Vec3::ZERO, Vec3::X);
             (at.scattering, at.absorption)
@@ -370,7 +373,7 @@ fn mean_free_paths_are_long_against_rounding() {
         let world = read.compiled.expect("a scene without mistakes").scene;
         let medium = world
             .media()
-            .medium(inside(&world, x), &LANES)
+            .enter(inside(&world, x), None, &LANES)
             .expect("a medium");
         let extinction = medium.coefficients(Vec3::ZERO, Vec3::X).extinction().x;
         assert!(
