@@ -35,8 +35,8 @@ use core::ops::{ControlFlow, Range};
 use etalon_params::Params;
 use etalon_sampling::{ReplicateKind, Sampler};
 use etalon_transport::{
-    Bsdf, Hit, Integrator, Lights, Pass, PixelSample, Placing, Ray, SampleJob, Sink, Surfaces,
-    TileSink, World,
+    Bsdf, Hit, Integrator, Lights, Pass, PixelSample, Placing, Ray, SampleJob, Sink,
+    SurfaceInteraction, Surfaces, TileSink, World,
 };
 use glam::Vec4;
 use std::vec::Drain;
@@ -92,52 +92,62 @@ pub(crate) fn follow<'w, W: World, S: Sampler, C: PathHooks, const N: usize>(
 ) {
     while batch.goes_on() {
         batch.intersect(world, config);
-        batch.advance(|path, ray, hit| extend(world, config, path, ray, hit));
+        batch.arrive(|path, ray, hit| arrive(world, config, path, (ray, hit)));
+        batch.scatter(|path, ray, vertex| scatter(world, config, path, (ray, vertex)));
         batch.trace_shadows(world);
     }
 }
 
-/// Extends a path along `ray`, whose nearest surface is `hit`, past its next vertex: arrive, add emission, sample a light, scatter.
+/// Brings a path along `ray`, whose nearest surface is `hit`, to its next vertex, and adds the emission there. Breaks if the path
+/// ends, is scattered in a medium, or passes a hidden light.
 #[inline]
-fn extend<'w, W: World, S: Sampler, C: PathHooks>(
+fn arrive<'w, W: World, S: Sampler, C: PathHooks>(
     world: &'w W,
     config: &PathConfig,
     path: &mut PathState<'w, W, S, C>,
-    ray: &Ray,
-    hit: Option<&Hit>,
-) -> Step {
-    if ray.medium.is_some()
-        && let ControlFlow::Break(step) = path.fly(world, config, ray, hit)
-    {
-        return step;
+    (ray, hit): (&Ray, Option<&Hit>),
+) -> ControlFlow<Step, SurfaceInteraction> {
+    if ray.medium.is_some() {
+        path.fly(world, config, ray, hit)?;
     }
     let emits = |hit: &Hit| world.lights().is_emitter(hit);
-    if let Some(light) =
-        hit.filter(|hit| config.limits.sees_through_lights(path.depth) && emits(hit))
-    {
+    let hides = config.limits.sees_through_lights(path.depth);
+    if let Some(light) = hit.filter(|hit| hides && emits(hit)) {
         let light = world.surfaces().vertex(ray, light);
         let next = light.spawn(ray.direction);
         path.enter(world, &light, [ray.medium, next.medium]);
-        return Step::straight(next);
+        return ControlFlow::Break(Step::straight(next));
     }
     let last = path.depth == config.limits.max_depth;
     if last && config.counts_null && path.alpha > 0.0 && hit.is_some_and(|hit| !emits(hit)) {
-        return Step::END;
+        return ControlFlow::Break(Step::END);
     }
-    let Some(vertex) = path.arrive(world, config, ray, hit) else {
-        return Step::END;
-    };
+    match path.arrive(world, config, ray, hit) {
+        Some(vertex) => ControlFlow::Continue(vertex),
+        None => ControlFlow::Break(Step::END),
+    }
+}
+
+/// Scatters a path at the surface point `vertex`, at the end of `ray`: samples a light and a direction.
+#[inline]
+fn scatter<'w, W: World, S: Sampler, C: PathHooks>(
+    world: &'w W,
+    config: &PathConfig,
+    path: &mut PathState<'w, W, S, C>,
+    (ray, vertex): (&Ray, &SurfaceInteraction),
+) -> Step {
     let wo = -ray.direction;
-    let bsdf = (path.hooks).wrap_bsdf(&vertex, wo, || {
-        world.surfaces().bsdf(&vertex, wo, &path.wavelengths)
+    let bsdf = (path.hooks).wrap_bsdf(vertex, wo, || {
+        world.surfaces().bsdf(vertex, wo, &path.wavelengths)
     });
+    let last = path.depth == config.limits.max_depth;
     let passes = !config.counts_null && bsdf.null_probability() != Vec4::ZERO;
     if last && !passes {
         // No direction is sampled at the last vertex: its null probability alone estimates alpha.
         path.alpha = path.alpha.max(arrival::opacity(&bsdf));
         return Step::END;
     }
-    let at = ScatteringPoint::new(&vertex, &bsdf, wo, path.draw_event());
+    let at = ScatteringPoint::new(vertex, &bsdf, wo, path.draw_event());
     let step = Step {
         shadow: (!last)
             .then(|| path.sample_light(world, config, &at))
@@ -147,8 +157,8 @@ fn extend<'w, W: World, S: Sampler, C: PathHooks>(
     let Some(entered) = step.ray.map(|next| next.medium).filter(|id| id.is_some()) else {
         return step;
     };
-    path.enter(world, &vertex, [ray.medium, entered]);
-    path.diffuse(world, config, &vertex, entered, step)
+    path.enter(world, vertex, [ray.medium, entered]);
+    path.diffuse(world, config, vertex, entered, step)
 }
 
 /// Follows one path alone. Only contributions whose number of scattering events is in `wanted` count; the path ends where no more
@@ -166,7 +176,10 @@ pub(crate) fn follow_part<'w, W: World, S: Sampler, C: PathHooks>(
         path.plan_flight(config, &mut ray);
         let hit = world.surfaces().intersect(&ray);
         let (radiance, scatter_count) = (path.radiance, path.scatter_count);
-        let step = extend(world, config, path, &ray, hit.as_ref());
+        let step = match arrive(world, config, path, (&ray, hit.as_ref())) {
+            ControlFlow::Break(step) => step,
+            ControlFlow::Continue(vertex) => scatter(world, config, path, (&ray, &vertex)),
+        };
         if scatter_count < wanted.start {
             path.radiance = radiance;
         }

@@ -1,13 +1,25 @@
-//! Paths that are followed in step: all find their next surface, then all are extended there, then all trace their shadow
-//! rays. So a processor that waits for the memory of one path works on another.
+//! Paths that are followed in step: all find their next surface, then all arrive there, then all are scattered, then all trace
+//! their shadow rays. So a processor that waits for the memory of one path works on another.
 
 use crate::path::hooks::PathHooks;
 use crate::path::state::{PathState, ShadowRay, Step};
 use crate::steps::light_connection::UnoccludedPath;
 use crate::steps::settings::PathConfig;
 use arrayvec::ArrayVec;
+use core::ops::ControlFlow;
 use etalon_sampling::Sampler;
-use etalon_transport::{Hit, PixelSample, Ray, ShadowQuery, Surfaces, Transmission, World};
+use etalon_transport::{
+    Hit, PixelSample, Ray, ShadowQuery, SurfaceInteraction, Surfaces, Transmission, World,
+};
+
+/// A path that has reached a surface.
+struct Arrived {
+    /// Its index.
+    path: usize,
+    /// The ray that led there.
+    ray: Ray,
+    vertex: SurfaceInteraction,
+}
 
 /// Up to `N` paths. Those not yet ended are listed densely, so that no stage visits the others.
 pub(crate) struct PathBatch<'w, W: World + 'w, S, C, const N: usize> {
@@ -18,6 +30,10 @@ pub(crate) struct PathBatch<'w, W: World + 'w, S, C, const N: usize> {
     rays: ArrayVec<Ray, N>,
     /// The nearest surface along it.
     hits: [Option<Hit>; N],
+    /// Those that have reached a surface.
+    arrived: ArrayVec<Arrived, N>,
+    /// Indices in `paths` of those that go on, and their next rays.
+    continued: ArrayVec<(usize, Ray), N>,
     /// Indices in `paths` of those with a shadow ray, and their light samples.
     waiting: ArrayVec<(usize, UnoccludedPath), N>,
     /// The shadow rays.
@@ -34,6 +50,8 @@ impl<'w, W: World, S: Sampler, C: PathHooks, const N: usize> PathBatch<'w, W, S,
             active: ArrayVec::new(),
             rays: ArrayVec::new(),
             hits: [None; N],
+            arrived: ArrayVec::new(),
+            continued: ArrayVec::new(),
             waiting: ArrayVec::new(),
             shadow_rays: ArrayVec::new(),
             transmissions: [None; N],
@@ -73,38 +91,66 @@ impl<'w, W: World, S: Sampler, C: PathHooks, const N: usize> PathBatch<'w, W, S,
         world.surfaces().intersect_batch(&self.rays, hits);
     }
 
-    /// Extends every path past its next vertex, and drops those that end there from the list.
+    /// Brings every path to its next vertex: to a surface, or past a point where it does not stop at one.
     #[inline]
-    pub(crate) fn advance(
+    pub(crate) fn arrive(
         &mut self,
-        mut extend: impl FnMut(&mut PathState<'w, W, S, C>, &Ray, Option<&Hit>) -> Step,
+        mut arrive: impl FnMut(
+            &mut PathState<'w, W, S, C>,
+            &Ray,
+            Option<&Hit>,
+        ) -> ControlFlow<Step, SurfaceInteraction>,
     ) {
-        let mut kept = 0;
         for place in 0..self.active.len() {
-            let index = self.active[place];
-            let path = &mut self.paths[index];
-            let step = extend(path, &self.rays[place], self.hits[place].as_ref());
-            if let Some(ShadowRay {
-                ray,
-                crossings,
-                unoccluded,
-            }) = step.shadow
-            {
-                self.waiting.push((index, unoccluded));
-                self.shadow_rays.push(ShadowQuery {
-                    ray,
-                    wavelengths: path.wavelengths,
-                    crossings,
-                });
-            }
-            if let Some(next) = step.ray {
-                self.active[kept] = index;
-                self.rays[kept] = next;
-                kept += 1;
+            let path = self.active[place];
+            let ray = self.rays[place];
+            match arrive(&mut self.paths[path], &ray, self.hits[place].as_ref()) {
+                ControlFlow::Continue(vertex) => self.arrived.push(Arrived { path, ray, vertex }),
+                ControlFlow::Break(step) => self.take(path, step),
             }
         }
-        self.active.truncate(kept);
-        self.rays.truncate(kept);
+    }
+
+    /// Scatters every path that has reached a surface.
+    #[inline]
+    pub(crate) fn scatter(
+        &mut self,
+        mut scatter: impl FnMut(&mut PathState<'w, W, S, C>, &Ray, &SurfaceInteraction) -> Step,
+    ) {
+        for place in 0..self.arrived.len() {
+            let Arrived { path, ray, vertex } = &self.arrived[place];
+            let path = *path;
+            let step = scatter(&mut self.paths[path], ray, vertex);
+            self.take(path, step);
+        }
+        self.arrived.clear();
+        self.active.clear();
+        self.rays.clear();
+        for (path, ray) in self.continued.drain(..) {
+            self.active.push(path);
+            self.rays.push(ray);
+        }
+    }
+
+    /// Queues the rays of a step of a path.
+    #[inline]
+    fn take(&mut self, path: usize, step: Step) {
+        if let Some(ShadowRay {
+            ray,
+            crossings,
+            unoccluded,
+        }) = step.shadow
+        {
+            self.waiting.push((path, unoccluded));
+            self.shadow_rays.push(ShadowQuery {
+                ray,
+                wavelengths: self.paths[path].wavelengths,
+                crossings,
+            });
+        }
+        if let Some(next) = step.ray {
+            self.continued.push((path, next));
+        }
     }
 
     /// Traces the shadow rays, and adds the contributions of their light samples.
