@@ -2,7 +2,7 @@
 
 use crate::accelerator::{AcceleratorKind, Bounds};
 use crate::geometry::{Geometry, ShapeBinding};
-use crate::instance::{Group, Instance};
+use crate::instance::{Group, GroupId, Instance};
 use crate::placement::Placement;
 use crate::primitive_index::{Contents, PrimitiveIndex, PrimitiveOwner};
 use crate::shapes::Shape;
@@ -11,10 +11,6 @@ use etalon_math::Animated;
 use etalon_transport::{InstanceId, LightId, MaterialId, ShapeId};
 use glam::DVec3;
 use rayon::prelude::*;
-
-/// A group of shapes that instances place.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub struct GroupId(pub u32);
 
 /// Collects shapes, groups and instances.
 ///

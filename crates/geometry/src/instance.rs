@@ -2,14 +2,18 @@
 
 use crate::accelerator::Accelerator;
 use crate::accelerator::visits::Counter;
-use crate::builder::GroupId;
 use crate::closest_hit::ClosestHit;
 use crate::geometry::Geometry;
+use crate::group_others::GroupOthers;
 use crate::placement::Placement;
-use crate::primitive_index::{GroupOthers, PrimitiveIndex};
+use crate::primitive_index::PrimitiveIndex;
 use crate::traversal_ray::TraversalRay;
 use etalon_math::Animated;
 use etalon_transport::InstanceId;
+
+/// A group of shapes that instances place.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub struct GroupId(pub u32);
 
 /// Shapes and placed groups with an accelerator of their own.
 ///

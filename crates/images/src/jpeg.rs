@@ -41,7 +41,7 @@ pub fn write(
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::raster;
+    use crate::raster_file;
 
     #[test]
     fn a_picture_is_read_back_but_for_the_losses_of_the_format() {
@@ -59,7 +59,7 @@ mod tests {
             .with("A", vec![1.0; 32 * 16]);
         // Mutants rejected: alpha among the colours; no exposure.
         write(&path, &image, 1.0, 95).expect("it is written");
-        let read = raster::read(&path)
+        let read = raster_file::read(&path)
             .expect("it is read")
             .to_linear()
             .to_vec();

@@ -3,7 +3,7 @@
 //!
 //! Renderings are [`Image`]s: named planes of 32-bit floats, read and written by [`exr`].
 //! Pictures for textures and screens are [`Raster`]s: interleaved pixels with the sample type
-//! they were stored in, read by [`raster`] and written by [`png`], [`hdr`] and [`pfm`].
+//! they were stored in, read by [`raster_file`] and written by [`png`], [`hdr`] and [`pfm`].
 //! Everything is written to a temporary name first ([`write_atomically`]), so no reader ever
 //! sees half a file.
 
@@ -24,6 +24,7 @@ pub mod pfm;
 pub mod png;
 mod png_encoding;
 pub mod raster;
+pub mod raster_file;
 pub mod srgb;
 pub mod view;
 pub mod volume;

@@ -2,7 +2,7 @@
 
 use ::exr::meta::attribute::Chromaticities;
 use ::exr::prelude::*;
-use etalon_images::{Error, exr as ours, raster};
+use etalon_images::{Error, exr as ours, raster_file};
 use proptest::prelude::{ProptestConfig, any, prop, proptest};
 use proptest::test_runner::RngSeed;
 use std::io::Cursor;
@@ -217,7 +217,7 @@ fn the_part_with_the_colour_is_the_picture() {
             .non_parallel()
             .to_buffered(&mut file)
             .expect("writes");
-        raster::decode(file.get_ref(), Path::new("parts.exr")).expect("a picture")
+        raster_file::decode(file.get_ref(), Path::new("parts.exr")).expect("a picture")
     };
     let (rgb, xyz) = (["R", "G", "B"], ["X", "Y", "Z"]);
     let normal = || part("Normal", (3, 3), xyz, 5.0);

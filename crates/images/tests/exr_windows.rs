@@ -2,7 +2,7 @@
 
 use ::exr::math::Vec2;
 use ::exr::prelude::*;
-use etalon_images::raster;
+use etalon_images::raster_file;
 use std::io::Cursor;
 use std::path::Path;
 
@@ -19,7 +19,7 @@ fn decoded(samples: FlatSamples, x: i32, y: i32) -> (Vec<f32>, Vec<String>) {
     let image = Image::from_layers(window, vec![layer]);
     let writing = image.write().non_parallel().to_buffered(&mut file);
     writing.expect("writes");
-    let raster = raster::decode(file.get_ref(), Path::new("part.exr")).expect("a picture");
+    let raster = raster_file::decode(file.get_ref(), Path::new("part.exr")).expect("a picture");
     assert_eq!([raster.width(), raster.height()], [3, 2]);
     let notes = raster.notes(false).map(str::to_owned).collect();
     (raster.to_floats(), notes)

@@ -1,7 +1,7 @@
 //! PNG, JPEG, BMP, HDR, PFM and EXR pictures: what comes back, and damaged files.
 
 use etalon_images::{Error, Format, Frame, Image, Losses, Raster, Samples};
-use etalon_images::{exr, hdr, pfm, png, raster};
+use etalon_images::{exr, hdr, pfm, png, raster_file};
 use image::{DynamicImage, ImageFormat};
 use proptest::prelude::*;
 use proptest::test_runner::RngSeed;
@@ -15,7 +15,7 @@ fn file(image: impl Into<DynamicImage>, format: ImageFormat) -> Vec<u8> {
 }
 
 fn decode(bytes: &[u8]) -> Raster {
-    raster::decode(bytes, Path::new("memory")).expect("a valid picture")
+    raster_file::decode(bytes, Path::new("memory")).expect("a valid picture")
 }
 
 /// Bytes that use every value.
@@ -45,7 +45,7 @@ fn png_keeps_depth_and_channels() {
             assert_eq!(picture.has_alpha(), $channels % 2 == 0);
             assert_eq!(picture.samples(), &Samples::$sample(samples));
             assert!(picture.is_encoded());
-            let header = raster::decode_header(&bytes, Path::new("memory")).expect("valid");
+            let header = raster_file::decode_header(&bytes, Path::new("memory")).expect("valid");
             assert_eq!(header.format, Format::Png);
             assert_eq!((header.channels, header.bits), ($channels, $bits));
         }};
@@ -110,7 +110,7 @@ fn a_short_jpeg_is_read_as_far_as_it_goes() {
     assert_eq!(whole.notes(false).count(), 0);
     let mut pictures = 0;
     for length in 0..bytes.len() - 1 {
-        let Ok(short) = raster::decode(&bytes[..length], Path::new("short")) else {
+        let Ok(short) = raster_file::decode(&bytes[..length], Path::new("short")) else {
             assert_eq!(pictures, 0, "a longer file is worse");
             continue;
         };
@@ -158,7 +158,7 @@ fn hdr_is_rounded_to_its_steps() {
         let image = float_image(width, height, scale);
         let losses = hdr::write(&path, &image).expect("writes");
         assert!(losses.is_empty());
-        let picture = raster::read(&path).expect("reads");
+        let picture = raster_file::read(&path).expect("reads");
         assert_eq!(picture.format(), Format::Hdr);
         assert!(!picture.is_encoded());
         assert_eq!((picture.width(), picture.height()), (width, height));
@@ -208,7 +208,7 @@ fn hdr_counts_what_it_cannot_hold() {
         }
     );
     let greatest = 255.0 * 2_f32.powi(119);
-    let back = raster::read(&path).expect("reads").to_linear();
+    let back = raster_file::read(&path).expect("reads").to_linear();
     let grey: Vec<f32> = back.chunks(3).map(|rgb| rgb[0]).collect();
     assert_eq!(grey, [0.0, 0.0, greatest, greatest, 0.0, 1.0, 0.0, 1.0]);
 }
@@ -219,7 +219,7 @@ fn pfm_comes_back_bit_by_bit() {
     let path = folder.path().join("a.pfm");
     let image = float_image(5, 3, -2.5);
     pfm::write(&path, &image).expect("writes");
-    let picture = raster::read(&path).expect("reads");
+    let picture = raster_file::read(&path).expect("reads");
     let colour = image.colour().expect("colour").planes;
     let pixel = |i: usize| colour.each_ref().map(|plane| plane[i]);
     let expected: Vec<f32> = (0..15).flat_map(pixel).collect();
@@ -237,7 +237,7 @@ fn pfm_comes_back_bit_by_bit() {
         b"Pf\n1",
         b"PF 1000000000 1000000000 1 ",
     ] {
-        let error = raster::decode(bad, Path::new("bad.pfm")).expect_err("damaged");
+        let error = raster_file::decode(bad, Path::new("bad.pfm")).expect_err("damaged");
         assert!(matches!(error, Error::Invalid { .. }), "{error}");
     }
 }
@@ -248,7 +248,7 @@ fn exr_becomes_a_picture() {
     let path = folder.path().join("a.exr");
     let write = |image: &Image| {
         exr::write(&path, image, Frame::whole(image), "").expect("writes");
-        raster::read(&path)
+        raster_file::read(&path)
     };
     let picture = write(&float_image(4, 4, 1.0).with("A", vec![0.5; 16])).expect("colour");
     assert_eq!((picture.channels(), picture.has_alpha()), (4, true));
@@ -285,14 +285,14 @@ fn png_for_people() {
     let path = folder.path().join("a.png");
     png::write(&path, &image, 0.0).expect("writes");
     assert_eq!(
-        raster::read(&path).expect("reads").samples(),
+        raster_file::read(&path).expect("reads").samples(),
         &Samples::U8(bytes)
     );
 
     // Alpha: colour is divided by it.
     let half = Image::new(1, 1).with("Y", vec![0.09]).with("A", vec![0.5]);
     png::write(&path, &half, 0.0).expect("writes");
-    let picture = raster::read(&path).expect("reads");
+    let picture = raster_file::read(&path).expect("reads");
     assert_eq!(picture.samples(), &Samples::U8(vec![118, 118, 118, 128]));
     assert!(png::encode_rgb(&[0; 5], 1, 1).is_err());
     assert_eq!(
@@ -305,16 +305,16 @@ fn png_for_people() {
 #[test]
 fn other_files_are_refused() {
     for bytes in [&b""[..], b"GIF89a", b"P", b"P8 ", b"#?R", &[0; 18]] {
-        let error = raster::decode(bytes, Path::new("what.png")).expect_err("not a picture");
+        let error = raster_file::decode(bytes, Path::new("what.png")).expect_err("not a picture");
         assert!(error.to_string().contains("what.png"), "{error}");
         assert!(matches!(error, Error::Unsupported { .. }));
     }
     // A PNG header that declares 2³⁰ × 2³⁰ pixels.
     let mut png = file(image::RgbImage::new(1, 1), ImageFormat::Png);
     png[16..24].copy_from_slice(&[0x40, 0, 0, 0, 0x40, 0, 0, 0]);
-    assert!(raster::decode(&png, Path::new("huge.png")).is_err());
+    assert!(raster_file::decode(&png, Path::new("huge.png")).is_err());
     let hdr = b"#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 1000000 +X 1000000\n\x02\x02";
-    assert!(raster::decode(hdr, Path::new("huge.hdr")).is_err());
+    assert!(raster_file::decode(hdr, Path::new("huge.hdr")).is_err());
 }
 
 /// One valid file of each format.
@@ -345,7 +345,7 @@ fn truncations_are_errors() {
         let format = Format::of(&bytes).expect("known");
         for length in 0..bytes.len() {
             // The last bytes of a PNG are a chunk without content.
-            let outcome = raster::decode(&bytes[..length], Path::new("short"));
+            let outcome = raster_file::decode(&bytes[..length], Path::new("short"));
             let complete = format == Format::Png && length + 12 >= bytes.len()
                 // Read as far as it goes.
                 || format == Format::Jpeg;
@@ -380,8 +380,8 @@ proptest! {
                 for (index, value) in &damage {
                     bytes[index.index(range)] = *value;
                 }
-                let _ = raster::decode(&bytes, Path::new("damaged"));
-                let _ = raster::decode_header(&bytes, Path::new("damaged"));
+                let _ = raster_file::decode(&bytes, Path::new("damaged"));
+                let _ = raster_file::decode_header(&bytes, Path::new("damaged"));
             }
         });
     }

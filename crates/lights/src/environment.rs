@@ -20,7 +20,7 @@ use crate::latitude_longitude as map;
 use crate::light_model::LightModel;
 use crate::pose::Pose;
 use crate::{BoundingSphere, latitude_longitude, sky};
-use etalon_images::raster;
+use etalon_images::raster_file;
 use etalon_math::{Density, SolidAngle, float64};
 use etalon_params::{Diagnostic, Params};
 use etalon_sampling::discrete::Bilinear;
@@ -348,7 +348,8 @@ struct Pixels {
 }
 
 fn decode(bytes: &[u8], raw: bool, filename: &str) -> Result<Pixels, String> {
-    let raster = raster::decode(bytes, Path::new(filename)).map_err(|error| error.to_string())?;
+    let raster =
+        raster_file::decode(bytes, Path::new(filename)).map_err(|error| error.to_string())?;
     let (width, height) = (raster.width(), raster.height());
     let channels = raster.channels();
     let values = match raw {

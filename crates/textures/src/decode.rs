@@ -1,7 +1,7 @@
 //! From the bytes of an image file to pixels.
 
 use crate::pixels::{Pixels, Values};
-use etalon_images::raster;
+use etalon_images::raster_file;
 use glam::UVec2;
 use std::path::Path;
 
@@ -25,7 +25,8 @@ impl Pixels {
         channel: Option<ImageChannel>,
         name: &str,
     ) -> Result<(Self, Vec<String>), String> {
-        let raster = raster::decode(bytes, Path::new(name)).map_err(|error| error.to_string())?;
+        let raster =
+            raster_file::decode(bytes, Path::new(name)).map_err(|error| error.to_string())?;
         let size = UVec2::new(raster.width() as u32, raster.height() as u32);
         let samples = if raw {
             raster.to_floats()

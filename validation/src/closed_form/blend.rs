@@ -52,7 +52,7 @@ mod tests {
     fn the_tint_is_the_file() {
         let path = folders::scenes().join("blend/tint.png");
         let bytes = std::fs::read(&path).expect("the bitmap of a claim");
-        let raster = etalon_images::raster::decode(&bytes, &path).expect("a picture");
+        let raster = etalon_images::raster_file::decode(&bytes, &path).expect("a picture");
         assert_eq!(raster.to_floats(), TINT.map(|byte| f32::from(byte) / 255.0));
         assert!((luminance([255; 3]) - 1.0).abs() < 1e-12);
     }

@@ -91,7 +91,7 @@ mod tests {
     fn the_table_is_the_file() {
         let path = folders::scenes().join("wrapped-bitmap/texels.png");
         let bytes = std::fs::read(&path).expect("the bitmap of a claim");
-        let raster = etalon_images::raster::decode(&bytes, &path).expect("a picture");
+        let raster = etalon_images::raster_file::decode(&bytes, &path).expect("a picture");
         let expected: Vec<f32> = TEXELS
             .iter()
             .flatten()

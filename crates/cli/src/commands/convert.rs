@@ -3,7 +3,7 @@
 use super::{fail, note};
 use crate::args::ConvertArgs;
 use etalon_images::{
-    Colour, Error, Format, Image, Losses, View, exr, hdr, pfm, png, raster, srgb, view,
+    Colour, Error, Format, Image, Losses, View, exr, hdr, pfm, png, raster_file, srgb, view,
 };
 use etalon_render::write_guard::WriteGuard;
 use std::path::Path;
@@ -96,7 +96,7 @@ pub(crate) fn read(path: &Path) -> Result<(Image, Vec<String>, String), String> 
             let text = document.text.clone();
             return Ok((document.flatten().0, Vec::new(), text));
         }
-        let raster = raster::decode(&bytes, path)?;
+        let raster = raster_file::decode(&bytes, path)?;
         let notes = raster.notes(false).map(str::to_owned).collect();
         Ok((raster.to_image(), notes, String::new()))
     };

@@ -1,7 +1,7 @@
 //! `etalon convert`: pictures to look at, and other formats.
 
 use crate::workshop::Workshop;
-use etalon_images::{Chromaticities, Frame, Image, exr, raster};
+use etalon_images::{Chromaticities, Frame, Image, exr, raster_file};
 
 fn one_image() -> Workshop {
     let workshop = Workshop::new();
@@ -11,7 +11,7 @@ fn one_image() -> Workshop {
 
 /// The linear values of a picture, three per pixel.
 fn values(workshop: &Workshop, name: &str) -> Vec<f32> {
-    let picture = raster::read(&workshop.path(name)).expect("readable");
+    let picture = raster_file::read(&workshop.path(name)).expect("readable");
     assert_eq!(
         (picture.width(), picture.height(), picture.channels()),
         (24, 20, 3)
@@ -109,7 +109,7 @@ fn write_pixel(workshop: &Workshop, name: &str, channels: &[(&str, f32)]) {
 }
 
 fn colour_of(workshop: &Workshop, name: &str) -> Vec<f32> {
-    raster::read(&workshop.path(name))
+    raster_file::read(&workshop.path(name))
         .expect("readable")
         .to_linear()
 }
@@ -276,7 +276,7 @@ fn a_range_is_shown_in_proportion() {
                 range,
             ])
             .fine();
-        let picture = raster::read(&workshop.path("r.png"))
+        let picture = raster_file::read(&workshop.path("r.png"))
             .expect("readable")
             .to_floats()
             .to_vec();

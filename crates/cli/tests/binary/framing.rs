@@ -1,7 +1,7 @@
 //! What everybody looks for first: a smaller picture, a part of it, another camera, a brighter PNG.
 
 use crate::workshop::Workshop;
-use etalon_images::{Image, raster};
+use etalon_images::{Image, raster_file};
 
 /// Two cameras over a lit floor, a film of 48 × 32, of which the second has a name.
 fn two_cameras() -> Workshop {
@@ -118,7 +118,7 @@ fn pictures_are_brightened_and_rolled_off() {
         let mut words = vec!["render", "scene.xml", "-q", "-o", "a.png", "--scale", "50%"];
         words.extend(options);
         workshop.run(&words).fine();
-        raster::read(&workshop.path("a.png"))
+        raster_file::read(&workshop.path("a.png"))
             .expect("readable")
             .to_linear()
             .to_vec()

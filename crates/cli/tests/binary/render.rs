@@ -157,7 +157,7 @@ fn simpler_formats_hold_the_colours() {
     assert!(workshop.read("a.hdr").starts_with(b"#?RADIANCE"));
     assert!(workshop.read("a.pfm").starts_with(b"PF\n24 20\n"));
     let exr = workshop.image("a.exr").image;
-    let pfm = etalon_images::raster::read(&workshop.path("a.pfm")).expect("readable");
+    let pfm = etalon_images::raster_file::read(&workshop.path("a.pfm")).expect("readable");
     let red: Vec<f32> = pfm.to_linear().iter().step_by(3).copied().collect();
     assert_eq!(exr.channel("R").expect("R"), red);
 }

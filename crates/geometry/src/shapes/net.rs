@@ -7,7 +7,7 @@ use crate::placement::Placement;
 use crate::shapes::mesh::{Mesh, MeshOptions};
 use crate::shapes::profile::numbers;
 use crate::shapes::shape_model::read_flip;
-use etalon_images::raster;
+use etalon_images::raster_file;
 use etalon_math::bernstein;
 use etalon_params::Params;
 use etalon_spectrum::colour_space::LUMINANCE_WEIGHTS;
@@ -117,7 +117,8 @@ pub(crate) fn heightfield(params: &Params<'_>, build: &mut dyn Build) -> Option<
     let what = "a picture of two pixels or more along each side";
     let picture = file::read(params, build, what, |bytes| {
         let name = params.string("filename").unwrap_or_default();
-        let picture = raster::decode(bytes, Path::new(name)).map_err(|error| error.to_string())?;
+        let picture =
+            raster_file::decode(bytes, Path::new(name)).map_err(|error| error.to_string())?;
         if picture.width() < 2 || picture.height() < 2 {
             return Err("it has less than two pixels along a side".into());
         }

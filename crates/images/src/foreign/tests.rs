@@ -1,10 +1,10 @@
 //! Files as other programs write them, byte by byte.
 
-use crate::{Error, Format, Raster, Samples, raster};
+use crate::{Error, Format, Raster, Samples, raster_file};
 use std::path::Path;
 
 fn decode(bytes: &[u8]) -> Raster {
-    raster::decode(bytes, Path::new("memory")).expect("a valid picture")
+    raster_file::decode(bytes, Path::new("memory")).expect("a valid picture")
 }
 
 /// A file of this text and these bytes.
@@ -78,7 +78,7 @@ fn maps_that_declare_more_than_they_have_are_refused() {
         "P5\n2 2\n0\nabcd",
         "P2\n1 1\n255\nx",
     ] {
-        let error = raster::decode(text.as_bytes(), Path::new("bad.ppm")).expect_err(text);
+        let error = raster_file::decode(text.as_bytes(), Path::new("bad.ppm")).expect_err(text);
         assert!(error.to_string().contains("bad.ppm"), "{error}");
     }
 }
@@ -167,18 +167,18 @@ fn tga_files() {
             (channels, &Samples::U8(samples)),
             "{bytes:?}"
         );
-        let short = raster::decode(&bytes[..bytes.len() - 1], Path::new("short.tga"));
+        let short = raster_file::decode(&bytes[..bytes.len() - 1], Path::new("short.tga"));
         assert!(short.is_err(), "{bytes:?}");
     }
     let huge = file_of(
         &tga(2, 0, [1, 1], 32, 0, &[])[..12],
         &[255, 255, 255, 255, 32, 0],
     );
-    let error = raster::decode(&huge, Path::new("huge.tga")).expect_err("too large");
+    let error = raster_file::decode(&huge, Path::new("huge.tga")).expect_err("too large");
     assert!(matches!(error, Error::TooLarge { .. }), "{error}");
     // An index without a colour.
     let lost = tga(1, 2, [1, 1], 8, TOP, &[3, 2, 1, 6, 5, 4, 2]);
-    assert!(raster::decode(&lost, Path::new("lost.tga")).is_err());
+    assert!(raster_file::decode(&lost, Path::new("lost.tga")).is_err());
 }
 
 const PIXELS: [u8; 8] = [128, 64, 0, 129, 255, 255, 255, 136];

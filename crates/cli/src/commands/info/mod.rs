@@ -6,7 +6,7 @@ use super::fireflies::Fireflies;
 use super::{answer, fail, plugins};
 use crate::args::InfoArgs;
 use etalon_film::{InvalidKind, InvalidSample, LightCarriers, RenderedImage, read_developed};
-use etalon_images::{Channel, Error, raster};
+use etalon_images::{Channel, Error, raster_file};
 use etalon_sampling::ReplicateKind;
 use std::path::Path;
 use std::process::ExitCode;
@@ -47,12 +47,12 @@ fn picture(path: &Path) -> Result<String, Error> {
         path: path.to_owned(),
         source,
     })?;
-    let header = raster::decode_header(&bytes, path)?;
+    let header = raster_file::decode_header(&bytes, path)?;
     let mut text = format!(
         "{} × {} pixels\n{}, {} channels of {} bits\n",
         header.width, header.height, header.format, header.channels, header.bits
     );
-    for note in raster::decode(&bytes, path)?.notes(false) {
+    for note in raster_file::decode(&bytes, path)?.notes(false) {
         text += &format!("note         {note}\n");
     }
     Ok(text)
